@@ -1,0 +1,16 @@
+# hapbeam_checks: the warnings and sanitizers of this project's own programs.  Never exported: a user's flags are
+# the user's.
+add_library(hapbeam_checks INTERFACE)
+
+if(MSVC)
+  target_compile_options(hapbeam_checks INTERFACE /W4 /permissive- $<$<BOOL:${HAPBEAM_WARNINGS_AS_ERRORS}>:/WX>)
+else()
+  target_compile_options(hapbeam_checks INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${HAPBEAM_WARNINGS_AS_ERRORS}>:-Werror>)
+endif()
+
+if(HAPBEAM_SANITIZE)
+  target_compile_options(hapbeam_checks INTERFACE
+    -fsanitize=${HAPBEAM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_libraries(hapbeam_checks INTERFACE -fsanitize=${HAPBEAM_SANITIZE})
+endif()

@@ -1,0 +1,56 @@
+# Each third party is found on the system first and fetched at a pinned release second.
+# Version ranges stand here and nowhere else; what each is for stands in the README.
+include_guard()
+include(FetchContent)
+
+# Eigen 3.4 or later.  Its version file accepts its own major version alone, hence one call for each.
+function(hapbeam_find_eigen)
+  if(TARGET Eigen3::Eigen)
+    return()
+  endif()
+  find_package(Eigen3 3.4 CONFIG QUIET)
+  if(NOT Eigen3_FOUND)
+    find_package(Eigen3 5 CONFIG QUIET)
+  endif()
+  if(Eigen3_FOUND)
+    # A project that adds this one as a folder links hapbeam from above, where a local target is unknown.
+    set_target_properties(Eigen3::Eigen PROPERTIES IMPORTED_GLOBAL TRUE)
+    return()
+  endif()
+  # SOURCE_SUBDIR names no folder of Eigen's, so that its own tests, documentation and BLAS are not added.
+  FetchContent_Declare(eigen
+    GIT_REPOSITORY https://gitlab.com/libeigen/eigen GIT_TAG 3.4.0 GIT_SHALLOW TRUE
+    SOURCE_SUBDIR headers-alone)
+  FetchContent_MakeAvailable(eigen)
+  if(NOT TARGET Eigen3::Eigen)
+    add_library(Eigen3::Eigen INTERFACE IMPORTED GLOBAL)
+    target_include_directories(Eigen3::Eigen INTERFACE ${eigen_SOURCE_DIR})
+  endif()
+endfunction()
+
+# Catch2 3 or 2.13.  A macro: include(Catch) after it needs the module path that find_package sets.
+macro(hapbeam_find_catch2)
+  find_package(Catch2 3 CONFIG QUIET)
+  if(NOT Catch2_FOUND)
+    find_package(Catch2 2.13 CONFIG QUIET)
+  endif()
+  if(NOT Catch2_FOUND)
+    FetchContent_Declare(catch2
+      GIT_REPOSITORY https://github.com/catchorg/Catch2 GIT_TAG v2.13.10 GIT_SHALLOW TRUE)
+    FetchContent_MakeAvailable(catch2)
+    list(APPEND CMAKE_MODULE_PATH ${catch2_SOURCE_DIR}/contrib)
+  endif()
+endmacro()
+
+# Google Benchmark 1.7 or later.
+function(hapbeam_find_benchmark)
+  find_package(benchmark 1.7 CONFIG QUIET)
+  if(NOT benchmark_FOUND)
+    set(BENCHMARK_ENABLE_TESTING OFF)
+    set(BENCHMARK_ENABLE_INSTALL OFF)
+    set(CMAKE_POLICY_DEFAULT_CMP0077 NEW)
+    FetchContent_Declare(benchmark
+      GIT_REPOSITORY https://github.com/google/benchmark GIT_TAG v1.7.1 GIT_SHALLOW TRUE)
+    FetchContent_MakeAvailable(benchmark)
+  endif()
+endfunction()
