@@ -1,0 +1,30 @@
+# cmake -D UNIT=x.cpp -D COMPILER=c++ -D INCLUDES=a;b -P must_not_compile.cmake
+# Succeeds if the compiler rejects the unit with a message that matches the regular expression in the unit's line
+#
+#   // expect: REGEX
+#
+# A unit can fail for another reason than the one it is about.  One that names HAPBEAM_REPAIRED must therefore compile
+# with that macro defined, so that what the macro repairs is its only fault.
+file(STRINGS ${UNIT} expect REGEX "^// expect: ")
+if(NOT expect)
+  message(FATAL_ERROR "${UNIT} has no line '// expect: REGEX'")
+endif()
+string(REPLACE "// expect: " "" expect "${expect}")
+list(TRANSFORM INCLUDES PREPEND -I)
+set(compile ${COMPILER} -std=c++17 -fsyntax-only -fmessage-length=0 ${INCLUDES} ${UNIT})
+
+file(STRINGS ${UNIT} repaired REGEX HAPBEAM_REPAIRED)
+if(repaired)
+  execute_process(COMMAND ${compile} -DHAPBEAM_REPAIRED RESULT_VARIABLE result ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "fails with HAPBEAM_REPAIRED too:\n${output}")
+  endif()
+endif()
+
+execute_process(COMMAND ${compile} RESULT_VARIABLE result ERROR_VARIABLE output)
+if(result EQUAL 0)
+  message(FATAL_ERROR "compiles, but must not")
+endif()
+if(NOT output MATCHES "${expect}")
+  message(FATAL_ERROR "no message matches '${expect}':\n${output}")
+endif()

@@ -1,0 +1,2 @@
+// expect: never printed by a compiler
+static_assert(false, "the wrong reason");
