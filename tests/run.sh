@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Builds and runs all tests, and installs what is missing for that (Debian; as root or with sudo).
+#
+#   bash tests/run.sh [--preset NAME]
+#
+#   --preset NAME   one of release (default), debug, asan-ubsan, tsan, strict-gcc, strict-clang; see CMakePresets.json
+#   --help          this text
+#
+# The last line is 'N passed, N failed', with ', N skipped' if there are any.  Exit status 0 only if nothing failed.
+set -u
+source "$(dirname "${BASH_SOURCE[0]}")/../cmake/steps.sh"
+
+usage() { sed -n '2,9s/^# \{0,1\}//p' "$0"; }
+wrong() { echo "tests/run.sh: $1" >&2; exit 2; }
+
+preset=release
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --help) usage; exit 0 ;;
+    --preset) preset=${2-}; shift 2 2>/dev/null || shift ;;
+    --preset=*) preset=${1#*=}; shift ;;
+    *) wrong "'$1': only --preset NAME and --help are allowed" ;;
+  esac
+done
+case $preset in
+  release | debug | asan-ubsan | tsan | strict-gcc | strict-clang) ;;
+  *) wrong "--preset '$preset': must be release, debug, asan-ubsan, tsan, strict-gcc or strict-clang" ;;
+esac
+
+run_tests() {
+  (cd "$top" && ctest --preset "$preset" --parallel "$(nproc)") | grep -vE '^ +Start +[0-9]+:| +Passed +[0-9.]+ sec$'
+  return "${PIPESTATUS[0]}"
+}
+
+build "$preset" hapbeam_tests hapbeam_examples || { echo '0 passed, 1 failed'; exit 1; }
+step "test" run_tests
+status=$?
+
+read -r failed total < <(sed -nE 's/^[0-9]+% tests passed, ([0-9]+) tests? failed out of ([0-9]+)$/\1 \2/p' "$log")
+skipped=$(grep -cE '^\s+[0-9]+ - .* \(Skipped\)$' "$log")
+if [[ -z ${total:-} ]]; then
+  echo '0 passed, 1 failed'
+  exit 1
+fi
+echo "$((total - failed - skipped)) passed, $failed failed$([[ $skipped == 0 ]] || echo ", $skipped skipped")"
+exit "$status"
