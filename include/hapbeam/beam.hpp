@@ -1,0 +1,175 @@
+// What is modelled: a straight slender beam, its section and material, its two ends and its dead loads.
+//
+// Plain values in SI, checked where they enter: every function here throws std::invalid_argument naming field,
+// value, unit and what is allowed.  Offline only; nothing here is called in a servo tick.
+// x runs along the beam from its left end, w across it (up), theta = -dw/dx.
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hapbeam {
+
+namespace detail {
+
+[[noreturn]] inline void reject(const char* field, double value, const char* unit, const char* allowed) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%g", value);
+  throw std::invalid_argument(std::string(field) + " = " + digits + (*unit ? " " : "") + unit + ": must be " + allowed);
+}
+
+inline double positive(const char* field, double value, const char* unit) {
+  if (!(std::isfinite(value) && value > 0)) reject(field, value, unit, "positive and finite");
+  return value;
+}
+
+inline double finite(const char* field, double value, const char* unit) {
+  if (!std::isfinite(value)) reject(field, value, unit, "finite");
+  return value;
+}
+
+}  // namespace detail
+
+/// Cross-section: area, second moment about the bending axis, and extent in the bending direction.
+struct Section {
+  double area;       ///< A [m²]
+  double inertia;    ///< I [m⁴]
+  double thickness;  ///< [m] across the beam, in the plane of bending; what an avatar touches
+
+  /// @param width [m] out of the plane of bending   @param height [m] in it
+  static Section rectangle(double width, double height) {
+    detail::positive("section width", width, "m");
+    detail::positive("section height", height, "m");
+    return {width * height, width * height * height * height / 12, height};
+  }
+  static Section circle(double diameter) {
+    const double r = detail::positive("section diameter", diameter, "m") / 2;
+    return {pi * r * r, pi * r * r * r * r / 4, diameter};
+  }
+  static Section tube(double outer_diameter, double inner_diameter) {
+    const Section full = circle(detail::positive("section outer_diameter", outer_diameter, "m"));
+    detail::positive("section inner_diameter", inner_diameter, "m");
+    if (!(inner_diameter < outer_diameter))
+      detail::reject("section inner_diameter", inner_diameter, "m", "less than outer_diameter");
+    const Section hole = circle(inner_diameter);
+    return {full.area - hole.area, full.inertia - hole.inertia, outer_diameter};
+  }
+
+ private:
+  static constexpr double pi = 3.141592653589793238462643;
+};
+
+/// Linear elastic material.
+struct Material {
+  double young;  ///< Young's modulus E [Pa]
+};
+
+/// How an end is held.  Each name says which of u, w, theta are zero there.
+enum class Support {
+  free,     ///< none
+  clamped,  ///< u, w, theta
+  pinned,   ///< u, w: a hinge that cannot move
+  roller,   ///< w: a hinge that slides along the beam's axis
+  guided,   ///< u, theta: a symmetry plane
+};
+
+constexpr bool fixes_u(Support s) noexcept {
+  return s == Support::clamped || s == Support::pinned || s == Support::guided;
+}
+constexpr bool fixes_w(Support s) noexcept {
+  return s == Support::clamped || s == Support::pinned || s == Support::roller;
+}
+constexpr bool fixes_theta(Support s) noexcept { return s == Support::clamped || s == Support::guided; }
+
+constexpr const char* name(Support support) noexcept {
+  switch (support) {
+    case Support::free: return "free";
+    case Support::clamped: return "clamped";
+    case Support::pinned: return "pinned";
+    case Support::roller: return "roller";
+    case Support::guided: return "guided";
+  }
+  return "unknown";
+}
+
+/// A dead force and moment at one point of the beam.
+struct PointLoad {
+  double s;               ///< [m] arc position
+  double axial = 0;       ///< [N] along x
+  double transverse = 0;  ///< [N] along w
+  double moment = 0;      ///< [N·m] does work on theta
+};
+
+/// A dead load per unit length, as a function of arc position s [m] -> [N/m].
+using DistributedLoad = std::function<double(double)>;
+
+/// A straight prismatic beam, its ends and its loads.  An immutable value but for the loads added to it.
+class Beam {
+ public:
+  /// @param length [m], positive
+  Beam(double length, const Section& section, const Material& material, Support left, Support right)
+      : Beam(length, detail::positive("young", material.young, "Pa") * detail::positive("area", section.area, "m²"),
+             material.young * detail::positive("inertia", section.inertia, "m⁴"), section.thickness, left, right) {}
+
+  /// For a section known by its stiffness.
+  /// @param length [m]   @param axial_stiffness EA [N]   @param bending_stiffness EI [N·m²]   @param thickness [m]
+  Beam(double length, double axial_stiffness, double bending_stiffness, double thickness, Support left, Support right)
+      : length_(detail::positive("length", length, "m")),
+        axial_stiffness_(detail::positive("axial_stiffness", axial_stiffness, "N")),
+        bending_stiffness_(detail::positive("bending_stiffness", bending_stiffness, "N·m²")),
+        thickness_(detail::positive("thickness", thickness, "m")),
+        left_(left),
+        right_(right) {
+    const int held_w = fixes_w(left) + fixes_w(right);
+    const bool held_theta = fixes_theta(left) || fixes_theta(right);
+    if (!fixes_u(left) && !fixes_u(right)) reject_mechanism("slides along its axis; hold u at one end");
+    if (held_w == 0) reject_mechanism("moves across its axis; hold w at one end");
+    if (held_w == 1 && !held_theta) reject_mechanism("turns about its only hinge; hold theta or the other end");
+  }
+
+  /// Adds a force and moment at one point.
+  Beam& add(const PointLoad& load) {
+    if (!(load.s >= 0 && load.s <= length_)) detail::reject("point load s", load.s, "m", "on the beam, 0 to its length");
+    detail::finite("point load axial", load.axial, "N");
+    detail::finite("point load transverse", load.transverse, "N");
+    detail::finite("point load moment", load.moment, "N·m");
+    point_loads_.push_back(load);
+    return *this;
+  }
+  /// Sets the distributed transverse load q [N/m], along w.  It must be finite on all of the beam.
+  Beam& transverse(DistributedLoad q) { return transverse_ = std::move(q), *this; }
+  Beam& transverse(double q) {
+    return detail::finite("transverse load", q, "N/m"), transverse([q](double) { return q; });
+  }
+  /// Sets the distributed axial load f [N/m], along x.
+  Beam& axial(DistributedLoad f) { return axial_ = std::move(f), *this; }
+  Beam& axial(double f) { return detail::finite("axial load", f, "N/m"), axial([f](double) { return f; }); }
+
+  double length() const noexcept { return length_; }                        ///< L [m]
+  double axial_stiffness() const noexcept { return axial_stiffness_; }      ///< EA [N]
+  double bending_stiffness() const noexcept { return bending_stiffness_; }  ///< EI [N·m²]
+  double thickness() const noexcept { return thickness_; }                  ///< [m]
+  Support left() const noexcept { return left_; }
+  Support right() const noexcept { return right_; }
+  const std::vector<PointLoad>& point_loads() const noexcept { return point_loads_; }
+  const DistributedLoad& transverse() const noexcept { return transverse_; }  ///< empty where there is none
+  const DistributedLoad& axial() const noexcept { return axial_; }            ///< empty where there is none
+
+ private:
+  [[noreturn]] void reject_mechanism(const char* why) const {
+    throw std::invalid_argument(std::string("supports = ") + name(left_) + ", " + name(right_) +
+                                ": the beam is a mechanism, it " + why);
+  }
+
+  double length_, axial_stiffness_, bending_stiffness_, thickness_;
+  Support left_, right_;
+  std::vector<PointLoad> point_loads_;
+  DistributedLoad transverse_, axial_;
+};
+
+}  // namespace hapbeam

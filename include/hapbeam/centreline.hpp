@@ -1,0 +1,94 @@
+// The deformed centreline of a beam, as the models hand it out: nodes joined by cubics.
+//
+// A view: it owns nothing and is valid until the model that gave it is called again.  Between two nodes u is
+// linear and w the cubic that takes both nodes' displacement and slope (thesis eq. 3.17), so each piece is a
+// plane cubic, and contact and drawing see exactly the curve that the elements compute with.
+// No allocation, noexcept, O(1) but for the search of the piece, which is O(log n).
+#pragma once
+
+#include <Eigen/Core>
+
+namespace hapbeam {
+
+template <typename Scalar>
+using Vector2 = Eigen::Matrix<Scalar, 2, 1>;
+
+/// One node: where it was and how it moved.  theta = -dw/dx.
+template <typename Scalar>
+struct CentrelineNode {
+  Scalar s;      ///< [m] arc position along the undeformed beam
+  Scalar u;      ///< [m] axial displacement
+  Scalar w;      ///< [m] transverse displacement
+  Scalar theta;  ///< [rad] rotation, -dw/dx
+};
+
+/// Control points of one piece, b0 … b3: the curve is sum of b_k B_k(t), t in [0, 1], in Bernstein form.
+template <typename Scalar>
+using CubicSegment = Eigen::Matrix<Scalar, 2, 4>;
+
+/// Displacements at one arc position.
+template <typename Scalar>
+struct Displacement {
+  Scalar u;      ///< [m]
+  Scalar w;      ///< [m]
+  Scalar theta;  ///< [rad]
+};
+
+template <typename Scalar>
+class Centreline {
+ public:
+  using Node = CentrelineNode<Scalar>;
+
+  Centreline(const Node* nodes, int size) noexcept : nodes_(nodes), size_(size) {}
+
+  int size() const noexcept { return size_; }
+  int segments() const noexcept { return size_ - 1; }
+  const Node& operator[](int i) const noexcept { return nodes_[i]; }
+  const Node* begin() const noexcept { return nodes_; }
+  const Node* end() const noexcept { return nodes_ + size_; }
+  Scalar length() const noexcept { return nodes_[size_ - 1].s; }
+
+  /// The deformed piece between nodes i and i + 1, in the plane (x along the beam, w across) [m].
+  CubicSegment<Scalar> segment(int i) const noexcept {
+    const Node& a = nodes_[i];
+    const Node& b = nodes_[i + 1];
+    const Scalar third = (b.s - a.s) / 3;
+    const Scalar x0 = a.s + a.u, x3 = b.s + b.u, dx = (x3 - x0) / 3;
+    CubicSegment<Scalar> control;
+    control << x0, x0 + dx, x3 - dx, x3,  //
+        a.w, a.w - third * a.theta, b.w + third * b.theta, b.w;
+    return control;
+  }
+
+  /// Index of the piece that holds arc position s; the first or last one where s lies off the beam.
+  int segment_at(Scalar s) const noexcept {
+    int low = 0, high = segments() - 1;
+    while (low < high) {
+      const int middle = (low + high + 1) / 2;
+      if (nodes_[middle].s <= s) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+
+  /// Displacements at arc position s [m].
+  Displacement<Scalar> at(Scalar s) const noexcept { return at(segment_at(s), s); }
+
+  /// The same, in a piece that is known to hold s.
+  Displacement<Scalar> at(int i, Scalar s) const noexcept {
+    const Node& a = nodes_[i];
+    const Node& b = nodes_[i + 1];
+    const Scalar h = b.s - a.s, t = (s - a.s) / h, r = 1 - t;
+    const Scalar rise = b.w - a.w;
+    // Hermite cubic about the chord, whose end slopes are -theta: exact at both nodes, little cancellation.
+    const Scalar p = h * a.theta + rise, q = h * b.theta + rise;
+    return {a.u + t * (b.u - a.u), a.w + t * rise - t * r * (r * p - t * q),
+            -(rise - (r * r - 2 * t * r) * p + (2 * t * r - t * t) * q) / h};
+  }
+
+ private:
+  const Node* nodes_;
+  int size_;
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,109 @@
+// What an element is to the rest of the library: strain energy V(d), residual and tangent of six degrees of freedom.
+//
+//   d = [u1, w1, θ1, u2, w2, θ2]  [m, m, rad, m, m, rad]   θ = -dw/dx
+//
+//   expression                 type     promise
+//   ------------------------   ------   -------------------------------------------------------
+//   E::energy(p, d)            S        V(d) [J]
+//   E::residual(p, d, r)       void     r = ∂V/∂d, overwritten [N, N, N·m, N, N, N·m]
+//   E::tangent(p, d, r, K)     void     r as above and K = ∂r/∂d, symmetric, both triangles, overwritten
+//   E::name()                  const char*
+//
+// with p an ElementProperties<S>.  An element is stateless: static functions, templated on the scalar S.
+// Real-time: no allocation, noexcept, O(1).
+#pragma once
+
+#include <type_traits>
+#include <utility>
+
+#include <Eigen/Core>
+
+namespace hapbeam {
+
+template <typename Scalar>
+using Vector6 = Eigen::Matrix<Scalar, 6, 1>;
+template <typename Scalar>
+using Matrix6 = Eigen::Matrix<Scalar, 6, 6>;
+
+/// What an element is made of.  The quotients are kept because a tick asks for them and divides slowly.
+template <typename Scalar>
+struct ElementProperties {
+  ElementProperties() = default;
+  /// @param element_length l [m]   @param EA [N]   @param EI [N·m²]
+  ElementProperties(Scalar element_length, Scalar EA, Scalar EI) noexcept
+      : length(element_length),
+        inverse_length(1 / element_length),
+        axial_stiffness(EA),
+        axial_per_length(EA * inverse_length),
+        bending_per_length3(EI * inverse_length * inverse_length * inverse_length) {}
+
+  Scalar length = 0;              ///< l [m]
+  Scalar inverse_length = 0;      ///< 1/l [1/m]
+  Scalar axial_stiffness = 0;     ///< EA [N]
+  Scalar axial_per_length = 0;    ///< EA/l [N/m]
+  Scalar bending_per_length3 = 0; ///< EI/l³ [N/m]
+};
+
+namespace detail {
+
+template <typename E, typename S, typename = void>
+struct IsElement : std::false_type {};
+
+template <typename E, typename S>
+struct IsElement<
+    E, S,
+    std::void_t<decltype(E::name()),
+                std::enable_if_t<noexcept(E::energy(std::declval<const ElementProperties<S>&>(),
+                                                    std::declval<const Vector6<S>&>())) &&
+                                 noexcept(E::residual(std::declval<const ElementProperties<S>&>(),
+                                                      std::declval<const Vector6<S>&>(),
+                                                      std::declval<Vector6<S>&>())) &&
+                                 noexcept(E::tangent(std::declval<const ElementProperties<S>&>(),
+                                                     std::declval<const Vector6<S>&>(),
+                                                     std::declval<Vector6<S>&>(), std::declval<Matrix6<S>&>()))>>>
+    : std::true_type {};
+
+/// Strains of one element in the coordinates that a rigid translation does not change.
+template <typename S>
+struct Deformation {
+  S stretch;  ///< u2 - u1 [m]
+  S rise;     ///< w2 - w1 [m]
+  S a;        ///< l θ1 + rise: minus the slope against the chord at node 1, times l [m]
+  S b;        ///< l θ2 + rise: the same at node 2 [m]
+
+  Deformation(const ElementProperties<S>& p, const Vector6<S>& d) noexcept
+      : stretch(d[3] - d[0]), rise(d[4] - d[1]), a(p.length * d[2] + rise), b(p.length * d[5] + rise) {}
+};
+
+/// Symmetric second derivatives in the coordinates (stretch, rise, lθ1, lθ2) [N/m].
+template <typename S>
+struct CoreTangent {
+  S ss, sr, s1, s2, rr, r1, r2, t11, t12, t22;
+};
+
+/// Residual from its core: ∂V/∂(stretch, rise, lθ1, lθ2) [N].
+template <typename S>
+inline void expand(const ElementProperties<S>& p, S s, S r, S t1, S t2, Vector6<S>& residual) noexcept {
+  residual << -s, -r, p.length * t1, s, r, p.length * t2;
+}
+
+/// Six by six from its core: node 1 enters stretch and rise with -1, node 2 with +1, rotations with l.
+template <typename S>
+inline void expand(const ElementProperties<S>& p, const CoreTangent<S>& c, Matrix6<S>& K) noexcept {
+  const S l = p.length, ll = l * l;
+  const S s1 = l * c.s1, s2 = l * c.s2, r1 = l * c.r1, r2 = l * c.r2;
+  K << c.ss, c.sr, -s1, -c.ss, -c.sr, -s2,         //
+      c.sr, c.rr, -r1, -c.sr, -c.rr, -r2,          //
+      -s1, -r1, ll * c.t11, s1, r1, ll * c.t12,    //
+      -c.ss, -c.sr, s1, c.ss, c.sr, s2,            //
+      -c.sr, -c.rr, r1, c.sr, c.rr, r2,            //
+      -s2, -r2, ll * c.t12, s2, r2, ll * c.t22;
+}
+
+}  // namespace detail
+
+/// True where E fulfils the contract above for scalar S, every noexcept included.
+template <typename E, typename S>
+inline constexpr bool is_element = detail::IsElement<E, S>::value;
+
+}  // namespace hapbeam

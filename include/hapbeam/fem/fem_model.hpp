@@ -1,0 +1,113 @@
+// The full model: a finite-element beam under a prescribed displacement, as a ForceModel.
+//
+//   FemModel<> model(beam, 8);
+//   const auto [force, status] = model.press({0.5 * beam.length(), -2e-3});
+//
+// press() moves the mesh so that a node lies at the contact, prescribes its transverse displacement, solves from
+// the last press by Newton–Raphson with the tangent as predictor, and returns the reaction (thesis eq. 3.40–3.42).
+// Composed of policies: Element × Assembler × Solver; sizes are fixed, dynamic with a maximum (both without any heap
+// but for the dead loads' list), or dynamic.
+// Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept and
+// allocation-free, and take at most solver.max_solves linear solves of O(elements).
+#pragma once
+
+#include <cmath>
+
+#include <hapbeam/element/von_karman.hpp>
+#include <hapbeam/fem/beam_system.hpp>
+#include <hapbeam/fem/contact_mesh.hpp>
+
+namespace hapbeam {
+
+/// @tparam Element    Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain>
+/// @tparam ScalarType double | float
+/// @tparam Elements   number of elements, or Eigen::Dynamic      @tparam MaxElements  largest number, or Eigen::Dynamic
+/// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates)   @tparam Solver  NewtonRaphson
+template <class Element = VonKarman<AssumedStrain>, typename ScalarType = double, int Elements = Eigen::Dynamic,
+          int MaxElements = Elements, template <typename, int, int> class Assembler = BlockTridiagonal,
+          class Solver = NewtonRaphson>
+class FemModel {
+ public:
+  using Scalar = ScalarType;
+  using ElementType = Element;
+
+  /// Builds the beam and finds its shape at rest, under its dead loads alone.  Look at rest() for how that went.
+  /// @param elements two or more   @throws std::invalid_argument naming field, value and what is allowed
+  FemModel(const Beam& beam, int elements, const Solver& solver = {})
+      : system_(beam, elements),
+        rest_nodes_(elements),
+        uniform_(elements, system_.length()),
+        solver_(solver),
+        thickness_(static_cast<Scalar>(beam.thickness())),
+        shortest_(uniform_.shortest(system_.length())),
+        left_yields_(!fixes_w(beam.left())),
+        right_yields_(!fixes_w(beam.right())) {
+    system_.set_goal(1, -1, 0);
+    do rest_ = solver_.solve(system_);
+    while (rest_.status == Status::iteration_limit && rest_.reached > 0 && (system_.set_goal(1, -1, 0), true));
+    for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
+  }
+
+  /// Prescribes the centreline's transverse displacement d [m] at arc position s [m] of the unloaded beam.
+  /// Within range() the answer is that of the request; else that of the nearest request in range.  An s closer to an
+  /// end that can move across than the shortest element is rounded to that end or to that distance.
+  /// @return force [N] and ok | out_of_range | invalid_request | iteration_limit | singular | non_finite
+  Response<Scalar> press(const Press<Scalar>& request) noexcept {
+    using std::isfinite;
+    report_ = {Status::invalid_request, 0, 0, 0, 0};
+    if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 || request.s > system_.length())
+      return {0, Status::invalid_request};
+    if (rest_.status != Status::ok) return {0, rest_.status};
+    const Press<Scalar> press = clamp(request, range());
+    const int contact = follow(press.s);
+    system_.set_goal(1, contact, press.d);
+    report_ = solver_.solve(system_);
+    const bool in_range = press.s == request.s && press.d == request.d;
+    const Status status = report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status;
+    const Scalar force = system_.reaction();
+    return isfinite(force) ? Response<Scalar>{force, status} : Response<Scalar>{0, Status::non_finite};
+  }
+
+  Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
+
+  /// Where press() answers with ok.  A support that holds w is rigid: the shortest element keeps its distance.  The depth,
+  /// a tenth of the length, is where moderate rotation ends, not where the solver does.
+  Range<Scalar> range() const noexcept {
+    const Scalar length = system_.length();
+    return {left_yields_ ? Scalar(0) : shortest_, right_yields_ ? length : length - shortest_, length / 10};
+  }
+
+  Scalar thickness() const noexcept { return thickness_; }
+
+  /// Back to rest().
+  void reset() noexcept { system_.set_state(uniform_, rest_nodes_.data()); }
+
+  /// How the search for the shape under the dead loads ended.
+  const SolveReport<Scalar>& rest() const noexcept { return rest_; }
+  /// How the last press ended: linear solves, load steps, estimated increment.
+  const SolveReport<Scalar>& report() const noexcept { return report_; }
+  /// Strain energy of the present shape [J].
+  Scalar strain_energy() const noexcept { return system_.strain_energy(); }
+  int elements() const noexcept { return system_.elements(); }
+
+ private:
+  /// Moves the mesh under the contact and carries the shape over.  @return the contact's node
+  int follow(Scalar s) noexcept {
+    const Scalar length = system_.length();
+    if (s < shortest_) s = s < shortest_ / 2 ? Scalar(0) : shortest_;
+    if (length - s < shortest_) s = length - s < shortest_ / 2 ? length : length - shortest_;
+    const ContactMesh<Scalar> mesh = uniform_.at(s);
+    system_.remesh(mesh);
+    return mesh.node();
+  }
+
+  BeamSystem<Element, Scalar, Elements, MaxElements, Assembler> system_;
+  detail::PerNode<CentrelineNode<Scalar>, Elements, MaxElements> rest_nodes_;
+  ContactMesh<Scalar> uniform_;
+  Solver solver_;
+  Scalar thickness_, shortest_;
+  bool left_yields_, right_yields_;
+  SolveReport<Scalar> rest_{}, report_{};
+};
+
+}  // namespace hapbeam

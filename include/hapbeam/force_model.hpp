@@ -1,0 +1,120 @@
+// The contract that every beam model fulfils, and the small types that cross it.
+//
+// A ForceModel answers the servo loop's question: the centreline is pressed by d at arc position s, what
+// force does that take and what shape results?  Contact, haptics, tests and charts are written against
+// this file alone and never against a particular model.
+//
+//   expression           type                   promise
+//   ------------------   --------------------   ---------------------------------------------------------
+//   typename M::Scalar   float or double
+//   m.press(p)           Response<Scalar>       noexcept, no allocation, bounded work, finite force
+//   m.shape()            Centreline<Scalar>     noexcept; view of the last press, valid until the next call
+//   m.range()            Range<Scalar>          noexcept; where press() answers with Status::ok
+//   m.thickness()        Scalar [m]             noexcept; what contact adds on either side of the centreline
+//   m.reset()            void                   noexcept; back to the shape that the beam has untouched
+//
+// No allocation, no exception, no dependency but the standard library.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include <hapbeam/centreline.hpp>
+
+namespace hapbeam {
+
+/// How a computation ended.  Negative: the answer is not the requested one and must not be trusted.
+/// Positive: the answer holds, for a request that was moved into the model's range.
+enum class Status : std::int8_t {
+  ok = 0,
+  /// The request lies outside range(); force and shape belong to the nearest request inside it.
+  out_of_range = 1,
+  /// s or d is not finite, or s lies off the beam (s < 0 or s > L): force 0, the state is kept.
+  invalid_request = -1,
+  /// The iteration budget ended with the estimated next increment above the tolerance.  In press(): force and
+  /// shape belong to the press reached on the way; the next call goes on from there.
+  iteration_limit = -2,
+  /// A pivot of the tangent is below round-off: |p| <= 4 eps max|p|.  The last good state is kept.
+  singular = -3,
+  /// A displacement or force is NaN or infinite.  The last good state is kept.
+  non_finite = -4,
+};
+
+/// True where force and shape may be used as what they claim to be.
+constexpr bool is_answer(Status status) noexcept { return static_cast<int>(status) >= 0; }
+
+/// Short lower-case name, for messages and reports.
+constexpr const char* name(Status status) noexcept {
+  switch (status) {
+    case Status::ok: return "ok";
+    case Status::out_of_range: return "out_of_range";
+    case Status::invalid_request: return "invalid_request";
+    case Status::iteration_limit: return "iteration_limit";
+    case Status::singular: return "singular";
+    case Status::non_finite: return "non_finite";
+  }
+  return "unknown";
+}
+
+/// A prescribed transverse displacement of the centreline.
+template <typename Scalar>
+struct Press {
+  Scalar s;  ///< [m] arc position along the undeformed beam, 0 at the left end
+  Scalar d;  ///< [m] displacement w(s), measured from the unloaded beam, either sign
+};
+
+/// What a press takes.
+template <typename Scalar>
+struct Response {
+  Scalar force;   ///< [N] transverse force on the beam that holds d; the hand feels -force.  Always finite.
+  Status status;  ///< whether force belongs to the request
+};
+
+/// Where a model answers with Status::ok: s_min <= s <= s_max and |d| <= depth.
+template <typename Scalar>
+struct Range {
+  Scalar s_min;  ///< [m]
+  Scalar s_max;  ///< [m]
+  Scalar depth;  ///< [m]
+};
+
+/// The nearest request inside a range.
+template <typename Scalar>
+Press<Scalar> clamp(const Press<Scalar>& press, const Range<Scalar>& range) noexcept {
+  const auto clamp_to = [](Scalar v, Scalar low, Scalar high) { return v < low ? low : v > high ? high : v; };
+  return {clamp_to(press.s, range.s_min, range.s_max), clamp_to(press.d, -range.depth, range.depth)};
+}
+
+namespace detail {
+
+template <typename M, typename = void>
+struct IsForceModel : std::false_type {};
+
+template <typename M>
+struct IsForceModel<M, std::void_t<typename M::Scalar>> {
+  using S = typename M::Scalar;
+  template <typename T>
+  static auto check(int)
+      -> std::bool_constant<
+          noexcept(std::declval<T&>().press(std::declval<const Press<S>&>())) &&
+          std::is_same_v<decltype(std::declval<T&>().press(std::declval<const Press<S>&>())), Response<S>> &&
+          noexcept(std::declval<const T&>().shape()) &&
+          std::is_same_v<decltype(std::declval<const T&>().shape()), Centreline<S>> &&
+          noexcept(std::declval<const T&>().range()) &&
+          std::is_same_v<decltype(std::declval<const T&>().range()), Range<S>> &&
+          noexcept(std::declval<const T&>().thickness()) &&
+          std::is_same_v<decltype(std::declval<const T&>().thickness()), S> &&
+          noexcept(std::declval<T&>().reset())>;
+  template <typename>
+  static std::false_type check(long);
+  static constexpr bool value = decltype(check<M>(0))::value;
+};
+
+}  // namespace detail
+
+/// True where M fulfils the contract above, every noexcept included.
+template <typename M>
+inline constexpr bool is_force_model = detail::IsForceModel<M>::value;
+
+}  // namespace hapbeam
