@@ -1,0 +1,164 @@
+// An axis-aligned bounding-volume hierarchy over the pieces of a centreline.
+//
+// An implicit complete binary tree in one array: node 1 is the root, 2i and 2i+1 are the children of i.  The
+// pieces are ordered along the beam, so neighbours share a parent and the tree never has to be rebuilt, only
+// its boxes refitted (each box holds the control points, hence the curve).
+// Allocates in its constructor only.  refit is O(n), the queries are O(log n) where the curve is not crowded
+// around the point and O(n) at worst; all noexcept.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include <hapbeam/contact/closest_point.hpp>
+#include <hapbeam/contact/crossing.hpp>
+
+namespace hapbeam {
+
+/// Nearest point of a whole centreline.
+template <typename Scalar>
+struct NearestPoint {
+  int segment = -1;  ///< -1: none, the query or the curve is not finite
+  ClosestPoint<Scalar> at{0, Vector2<Scalar>::Zero(), std::numeric_limits<Scalar>::infinity()};
+};
+
+template <typename Scalar>
+class BoundingVolumes {
+ public:
+  /// @param segments  how many pieces the centreline has.  More are taken too: a leaf then holds several.
+  /// Allocates.
+  explicit BoundingVolumes(int segments) {
+    while (capacity_ < segments) capacity_ *= 2;
+    boxes_.resize(2 * static_cast<std::size_t>(capacity_));
+  }
+
+  /// Takes the boxes from the present shape.  To be called whenever the centreline has changed.
+  /// Real-time: noexcept, no allocation, O(n).
+  void refit(const Centreline<Scalar>& centreline) noexcept {
+    segments_ = centreline.segments();
+    run_ = (segments_ + capacity_ - 1) / capacity_;
+    int used = (segments_ + run_ - 1) / run_;
+    for (leaves_ = 1; leaves_ < used;) leaves_ *= 2;
+    for (int leaf = 0; leaf < used; ++leaf) {
+      Box box;
+      for (int i = leaf * run_; i < std::min((leaf + 1) * run_, segments_); ++i)
+        box.include(centreline.segment(i));
+      boxes_[index(leaves_ + leaf)] = box;
+    }
+    for (int first = leaves_; first > 1; first /= 2) {
+      if (used % 2)
+        boxes_[index(first + used++)] = Box();  // the last one's missing sibling: empty, never entered
+      used /= 2;
+      for (int k = 0; k < used; ++k) {
+        Box& parent = boxes_[index(first / 2 + k)];
+        parent = boxes_[index(first + 2 * k)];
+        parent.include(boxes_[index(first + 2 * k + 1)]);
+      }
+    }
+  }
+
+  /// Square of the distance from q to the box around the whole centreline [m²]: a lower bound, in O(1).
+  [[nodiscard]] Scalar distance_squared(const Vector2<Scalar>& q) const noexcept {
+    return boxes_[1].distance_squared(q);
+  }
+
+  /// The nearest point of the centreline to q; among equals the one with the smallest index.
+  /// @param centreline  the one of the last refit     Real-time: noexcept, no allocation, bounded.
+  [[nodiscard]] NearestPoint<Scalar> nearest(const Centreline<Scalar>& centreline,
+                                             const Vector2<Scalar>& q) const noexcept {
+    // A box is skipped only if it is farther than round-off can explain, so that the answer is the same as
+    // without boxes.
+    constexpr Scalar slack = 1 + 16 * std::numeric_limits<Scalar>::epsilon();
+    struct Entry {
+      int node;
+      Scalar distance_squared;
+    };
+    Entry stack[max_depth];
+    int size = 0;
+    NearestPoint<Scalar> best;
+    if (segments_ > 0) stack[size++] = {1, 0};
+    while (size > 0) {
+      Entry entry = stack[--size];
+      if (entry.distance_squared > best.at.distance_squared * slack) continue;
+      while (entry.node < leaves_) {
+        const int left = 2 * entry.node;
+        Entry near{left, boxes_[index(left)].distance_squared(q)};
+        Entry far{left + 1, boxes_[index(left + 1)].distance_squared(q)};
+        if (far.distance_squared < near.distance_squared) std::swap(near, far);
+        if (far.distance_squared <= best.at.distance_squared * slack) stack[size++] = far;
+        entry = near;
+      }
+      const int begin = (entry.node - leaves_) * run_, end = std::min(begin + run_, segments_);
+      for (int i = begin; i < end; ++i) {
+        const ClosestPoint<Scalar> candidate = closest_point(centreline.segment(i), q);
+        const Scalar a = candidate.distance_squared, b = best.at.distance_squared;
+        if (a < b || (a == b && i < best.segment)) best = {i, candidate};
+      }
+    }
+    return best;
+  }
+
+  /// How often the straight path p0 -> p1 crosses the centreline.
+  /// @param centreline  the one of the last refit     Real-time: noexcept, no allocation, bounded.
+  [[nodiscard]] Crossings crossings(const Centreline<Scalar>& centreline, const Vector2<Scalar>& p0,
+                                    const Vector2<Scalar>& p1) const noexcept {
+    Box path;
+    path.include(p0.x(), p0.y());
+    path.include(p1.x(), p1.y());
+    Crossings total;
+    int stack[max_depth];
+    int size = 0;
+    if (segments_ > 0) stack[size++] = 1;
+    while (size > 0) {
+      const int node = stack[--size];
+      if (!boxes_[index(node)].overlaps(path)) continue;
+      if (node < leaves_) {
+        stack[size++] = 2 * node + 1;
+        stack[size++] = 2 * node;
+        continue;
+      }
+      const int begin = (node - leaves_) * run_, end = std::min(begin + run_, segments_);
+      for (int i = begin; i < end; ++i) total += hapbeam::crossings(centreline.segment(i), p0, p1);
+    }
+    return total;
+  }
+
+ private:
+  static constexpr int max_depth = 32;  // of the stacks: one entry a level, and an int has 31 levels
+
+  struct Box {
+    // Scalars: packets of two would be loaded right after their halves were stored, which stalls.
+    Scalar x_low = std::numeric_limits<Scalar>::infinity(), x_high = -x_low, y_low = x_low, y_high = -x_low;
+
+    void include(Scalar x, Scalar y) noexcept {
+      x_low = std::min(x_low, x), x_high = std::max(x_high, x);
+      y_low = std::min(y_low, y), y_high = std::max(y_high, y);
+    }
+    void include(const CubicSegment<Scalar>& b) noexcept {
+      for (int k = 0; k < 4; ++k) include(b(0, k), b(1, k));
+    }
+    void include(const Box& other) noexcept {
+      x_low = std::min(x_low, other.x_low), x_high = std::max(x_high, other.x_high);
+      y_low = std::min(y_low, other.y_low), y_high = std::max(y_high, other.y_high);
+    }
+    [[nodiscard]] Scalar distance_squared(const Vector2<Scalar>& q) const noexcept {
+      const Scalar x = std::max(std::max(x_low - q.x(), q.x() - x_high), Scalar(0));
+      const Scalar y = std::max(std::max(y_low - q.y(), q.y() - y_high), Scalar(0));
+      return x * x + y * y;
+    }
+    [[nodiscard]] bool overlaps(const Box& other) const noexcept {
+      return x_low <= other.x_high && other.x_low <= x_high && y_low <= other.y_high && other.y_low <= y_high;
+    }
+  };
+
+  static std::size_t index(int node) noexcept { return static_cast<std::size_t>(node); }
+
+  std::vector<Box> boxes_;
+  int capacity_ = 1;  // leaves at most, a power of two
+  int leaves_ = 1;    // leaves of the present tree, a power of two
+  int segments_ = 0;
+  int run_ = 1;  // pieces in a leaf
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,160 @@
+// Does the avatar touch the deformed beam: where, how deep, and from which side?
+//
+// The beam is the set of points within half its thickness of the centreline, so its ends are round.  Left of
+// the centreline's direction (above, where it runs along x) is side +1, right of it -1.  A beam is thin and a
+// hand is fast: the side from which the beam was touched is remembered, and a step that crossed the
+// centreline is contact however far it went.
+// No allocation, noexcept, bounded work.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <hapbeam/contact/avatar.hpp>
+#include <hapbeam/contact/bounding_volumes.hpp>
+
+namespace hapbeam {
+
+/// What the avatar and the beam have to do with each other.  Without contact it describes the nearest point.
+template <typename Scalar>
+struct Contact {
+  bool touching = false;
+  bool past_end = false;  ///< the avatar's centre lies beyond an end of the centreline
+  int side = 1;           ///< +1 or -1: where the beam is touched from
+  int segment = -1;       ///< piece of the centreline; -1: no answer, all else is zero
+  Scalar s = 0;           ///< [m] arc position of the foot point
+  Scalar depth = 0;       ///< [m] penetration; negative: the gap
+  Vector2<Scalar> foot = Vector2<Scalar>::Zero();    ///< [m] nearest point of the centreline
+  Vector2<Scalar> point = Vector2<Scalar>::Zero();   ///< [m] on the beam's surface, foot + normal thickness/2
+  Vector2<Scalar> normal = Vector2<Scalar>::Zero();  ///< unit, out of the beam on the touched side
+};
+
+/// What must be known of the tick before.  Starts empty.
+template <typename Scalar>
+struct ContactMemory {
+  Vector2<Scalar> position = Vector2<Scalar>::Zero();  ///< [m] where the avatar was
+  bool known = false;                                  ///< position is valid
+  bool touching = false;                               ///< the avatar touched the beam
+  bool through = false;                                ///< touching, its centre beyond the centreline
+  int side = 1;                                        ///< touching, from this side
+};
+
+namespace detail {
+
+/// The foot's neighbourhood: direction of the centreline there, and whether q lies beyond an end of it.
+template <typename Scalar>
+struct FootFrame {
+  Vector2<Scalar> direction;  // unit
+  bool at_node;               // the normal is not given by the direction
+  bool past_end;
+};
+
+template <typename Scalar>
+FootFrame<Scalar> foot_frame(const Centreline<Scalar>& centreline,
+                             const NearestPoint<Scalar>& nearest) noexcept {
+  const int i = nearest.segment, last = centreline.segments() - 1;
+  const Scalar t = nearest.at.t;
+  FootFrame<Scalar> frame{tangent(centreline.segment(i), t).normalized(), false, false};
+  if (t > 0 && t < 1) return frame;
+  frame.at_node = true;
+  const int other = t > 0 ? i + 1 : i - 1;
+  if (other >= 0 && other <= last) {
+    // u' jumps at a node, and the direction with it, a little.  A point whose foot is the node lies on the
+    // same side of both directions, and of their middle.
+    frame.direction += tangent(centreline.segment(other), 1 - t).normalized();
+    frame.direction.normalize();
+  } else {
+    const Scalar beyond = frame.direction.dot(nearest.at.offset);
+    frame.past_end = t > 0 ? beyond > 0 : beyond < 0;
+  }
+  return frame;
+}
+
+}  // namespace detail
+
+/// The avatar against the deformed beam.  Inside the beam's length
+///   depth = radius + thickness/2 - side * signed distance of the centre,
+/// hence more than radius + thickness/2 when the centre has passed through the centreline.  Past an end the
+/// distance has no sign.  While there is no contact the side follows the avatar; while there is, it stays,
+/// unless the avatar goes round an end.  Contact ends when depth <= 0.
+/// A position that is not finite, or too large to square, is answered with segment -1 and changes no memory.
+/// @param volumes    refitted to this centreline   @param thickness  [m] >= 0
+/// @param memory     of the same avatar and beam, in and out
+/// Real-time: noexcept, no allocation, bounded; mostly O(log n).
+template <typename Scalar>
+[[nodiscard]] Contact<Scalar> find_contact(const Avatar<Scalar>& avatar, const Centreline<Scalar>& centreline,
+                                           const BoundingVolumes<Scalar>& volumes, Scalar thickness,
+                                           ContactMemory<Scalar>& memory) noexcept {
+  const Vector2<Scalar>& q = avatar.position;
+  Contact<Scalar> contact;
+  if (!q.allFinite()) return contact;
+  const NearestPoint<Scalar> nearest = volumes.nearest(centreline, q);
+  if (nearest.segment < 0) return contact;
+
+  const detail::FootFrame<Scalar> frame = detail::foot_frame(centreline, nearest);
+  const Vector2<Scalar>& offset = nearest.at.offset;
+  contact.segment = nearest.segment;
+  contact.foot = q - offset;
+  contact.past_end = frame.past_end;
+  const auto &a = centreline[nearest.segment], &b = centreline[nearest.segment + 1];
+  contact.s = nearest.at.t < 1 ? std::min(a.s + nearest.at.t * (b.s - a.s), b.s) : b.s;
+
+  // A centre on the centreline is taken to be where it came from.
+  Scalar left = cross(frame.direction, offset);
+  if (left == 0 && memory.touching) left = static_cast<Scalar>(memory.side);
+  if (left == 0 && memory.known) left = cross<Scalar>(frame.direction, memory.position - contact.foot);
+  const int present_side = left < 0 ? -1 : 1;
+
+  contact.side = present_side;
+  if (memory.touching) {
+    const bool goes_round_end = frame.past_end && !memory.through;
+    if (!goes_round_end) contact.side = memory.side;
+  } else if (memory.known && !frame.past_end) {
+    // Only a step longer than the present distance can have crossed anything.
+    if ((q - memory.position).squaredNorm() >= nearest.at.distance_squared) {
+      const Crossings crossed = volumes.crossings(centreline, memory.position, q);
+      if (crossed.count % 2 != 0) contact.side = crossed.net > 0 ? 1 : -1;
+    }
+  }
+
+  const Scalar distance = std::sqrt(nearest.at.distance_squared), reach = avatar.radius + thickness / 2;
+  const bool through = contact.side != present_side;
+  const Scalar gap =
+      through && !frame.past_end ? -distance : distance;  // from the centreline, signed but past an end
+  contact.depth = reach - gap;
+  contact.touching = contact.depth > 0;
+  if (!contact.touching) contact.side = present_side;
+
+  // At a node the way to the centre is the normal, unless it is too short to have a direction.
+  if (frame.at_node && distance > std::sqrt(std::numeric_limits<Scalar>::epsilon()) * reach) {
+    contact.normal = offset / gap;
+  } else {
+    const Scalar side = static_cast<Scalar>(contact.side);
+    contact.normal << -side * frame.direction.y(), side * frame.direction.x();
+  }
+  contact.point = contact.foot + contact.normal * (thickness / 2);
+  memory = {q, true, contact.touching, contact.touching && through, contact.side};
+  return contact;
+}
+
+/// True where find_contact() would find none, because the avatar is farther from the box around the beam than
+/// its own size and its last step; then this takes its place, for the price of a box.  False says nothing, and
+/// changes nothing.
+/// Real-time: noexcept, no allocation, O(1).
+template <typename Scalar>
+[[nodiscard]] bool out_of_reach(const Avatar<Scalar>& avatar, const BoundingVolumes<Scalar>& volumes,
+                                Scalar thickness, ContactMemory<Scalar>& memory) noexcept {
+  if (memory.touching) return false;
+  const Scalar distance_squared = volumes.distance_squared(avatar.position),
+               reach = avatar.radius + thickness / 2;
+  const Scalar step_squared = memory.known ? (avatar.position - memory.position).squaredNorm() : Scalar(0);
+  if (!(distance_squared > reach * reach && distance_squared > step_squared &&
+        std::isfinite(distance_squared)))
+    return false;
+  memory.position = avatar.position;
+  memory.known = true;
+  return true;
+}
+
+}  // namespace hapbeam

@@ -1,0 +1,145 @@
+// Nearest point and crossings of one plane cubic: against sampling and against shapes that are known.
+#include <random>
+
+#include "../support/catch.hpp"
+#include <hapbeam/contact/closest_point.hpp>
+#include <hapbeam/contact/crossing.hpp>
+
+using hapbeam::CubicSegment;
+using Vector = hapbeam::Vector2<double>;
+
+namespace {
+
+Vector point_at(const CubicSegment<double>& b, double t) {
+  const double r = 1 - t;
+  return r * r * r * b.col(0) + 3 * r * r * t * b.col(1) + 3 * r * t * t * b.col(2) + t * t * t * b.col(3);
+}
+
+// Sampling, then golden sections around each sampled minimum.
+double sampled_distance(const CubicSegment<double>& b, const Vector& q) {
+  constexpr int samples = 400;
+  const auto distance = [&](double t) { return (point_at(b, t) - q).norm(); };
+  double d[samples + 1];
+  for (int i = 0; i <= samples; ++i) d[i] = distance(double(i) / samples);
+  double best = std::min(d[0], d[samples]);
+  for (int i = 0; i <= samples; ++i) {
+    if ((i > 0 && d[i - 1] < d[i]) || (i < samples && d[i + 1] < d[i])) continue;
+    double low = std::max(0, i - 1) / double(samples), high = std::min(samples, i + 1) / double(samples);
+    for (int k = 0; k < 80; ++k) {
+      const double a = low + 0.381966 * (high - low), c = high - 0.381966 * (high - low);
+      if (distance(a) < distance(c)) high = c;
+      else low = a;
+    }
+    best = std::min(best, distance((low + high) / 2));
+  }
+  return best;
+}
+
+CubicSegment<double> random_cubic(std::mt19937& random) {
+  std::uniform_real_distribution<double> both(-1, 1);
+  CubicSegment<double> b;
+  for (int k = 0; k < 8; ++k) b(k) = both(random);
+  return b;
+}
+
+}  // namespace
+
+TEST_CASE("closest_point is the global minimum, on cubics with loops, cusps and S-bends") {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> both(-1.5, 1.5);
+  double worst = 0;
+  for (int i = 0; i < 4000; ++i) {
+    CubicSegment<double> b = random_cubic(random);
+    if (i % 10 == 1) b.col(1) = b.col(0);                       // a cusp at the start
+    if (i % 10 == 2) b.col(2) = b.col(1) = b.col(0);            // and a sharper one
+    if (i % 10 == 3) b.col(2) = b.col(0), b.col(1) = b.col(3);  // there and back
+    if (i % 10 == 4) b.row(1).setZero();                        // flat, and folded back on itself
+    if (i % 10 == 5) b.colwise() = Vector(b.col(0));            // a point
+    for (int k = 0; k < 5; ++k) {
+      const Vector q(both(random), both(random));
+      const auto found = hapbeam::closest_point(b, q);
+      REQUIRE((found.t >= 0 && found.t <= 1));
+      REQUIRE((point_at(b, found.t) + found.offset - q).norm() < 1e-14);
+      worst = std::max(worst, std::abs(std::sqrt(found.distance_squared) - sampled_distance(b, q)));
+    }
+  }
+  CHECK(worst < 1e-9);
+}
+
+TEST_CASE("closest_point finds a point of the cubic itself at distance zero") {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const CubicSegment<double> b = random_cubic(random);
+    CHECK(std::sqrt(hapbeam::closest_point(b, point_at(b, unit(random))).distance_squared) < 1e-12);
+  }
+}
+
+TEST_CASE("closest_point at an end is exact, and prefers the start") {
+  CubicSegment<double> b;
+  b << 0, 1, 2, 3, 0, 0, 0, 0;
+  CHECK(hapbeam::closest_point(b, Vector(-1, 1)).t == 0);
+  CHECK(hapbeam::closest_point(b, Vector(0, 1)).t == 0);
+  CHECK(hapbeam::closest_point(b, Vector(4, 1)).t == 1);
+  CHECK(hapbeam::closest_point(b, Vector(3, 1)).t == 1);
+  CHECK(hapbeam::closest_point(b, Vector(1.2, 1)).t == Approx(0.4).epsilon(1e-15));
+  b << 0, 1, 1, 0, 0, 0, 1, 1;  // symmetric about y = 1/2
+  CHECK(hapbeam::closest_point(b, Vector(-5, 0.5)).t == 0);
+}
+
+TEST_CASE("closest_point where all points are about equally near: the centre of a circular arc") {
+  const double k = 4.0 / 3 * (std::sqrt(2.0) - 1);  // quarter circle, radius 1 + 2.7e-4 at most
+  CubicSegment<double> b;
+  b << 1, 1, k, 0, 0, k, 1, 1;
+  for (const double off : {0.0, 1e-16, 1e-12, 1e-8, 1e-4}) {
+    const Vector q(off, -off / 3);
+    CHECK(std::abs(std::sqrt(hapbeam::closest_point(b, q).distance_squared) - sampled_distance(b, q)) <
+          1e-12);
+  }
+}
+
+TEST_CASE("closest_point in float") {
+  std::mt19937 random(3);
+  double worst = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const CubicSegment<float> b = random_cubic(random).cast<float>();
+    const hapbeam::Vector2<float> q = Vector(random_cubic(random).col(0)).cast<float>();
+    const double reference = sampled_distance(b.cast<double>(), q.cast<double>());
+    worst = std::max(worst,
+                     std::abs(std::sqrt(double(hapbeam::closest_point(b, q).distance_squared)) - reference));
+  }
+  CHECK(worst < 2e-5);
+}
+
+TEST_CASE("a path crosses a cubic as often, and in the same sense, as its sampled polygon") {
+  std::mt19937 random(4);
+  int crossed = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const CubicSegment<double> b = random_cubic(random);
+    const Vector p0 = random_cubic(random).col(0), p1 = random_cubic(random).col(0), path = p1 - p0;
+    int count = 0, net = 0;
+    bool unclear = false;
+    Vector last = b.col(0);
+    constexpr int samples = 2000;
+    for (int k = 1; k <= samples; ++k) {
+      const Vector next = point_at(b, double(k) / samples);
+      const double a = hapbeam::cross<double>(path, last - p0), c = hapbeam::cross<double>(path, next - p0);
+      if ((a < 0) != (c < 0)) {
+        const double along = path.dot(Vector(last + (next - last) * (a / (a - c)) - p0)) / path.squaredNorm();
+        unclear |= std::abs(along) < 1e-3 || std::abs(along - 1) < 1e-3;
+        if (along >= 0 && along <= 1) {
+          ++count;
+          net += a < 0 ? 1 : -1;
+        }
+      }
+      unclear |= std::abs(c) < 1e-6;  // touches the line, perhaps
+      last = next;
+    }
+    if (unclear) continue;
+    const hapbeam::Crossings found = hapbeam::crossings(b, p0, p1);
+    REQUIRE(found.count == count);
+    REQUIRE(found.net == net);
+    crossed += count > 0;
+  }
+  CHECK(crossed > 500);
+}
