@@ -20,7 +20,8 @@ namespace detail {
 [[noreturn]] inline void reject(const char* field, double value, const char* unit, const char* allowed) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%g", value);
-  throw std::invalid_argument(std::string(field) + " = " + digits + (*unit ? " " : "") + unit + ": must be " + allowed);
+  throw std::invalid_argument(std::string(field) + " = " + digits + (*unit ? " " : "") + unit + ": must be " +
+                              allowed);
 }
 
 inline double positive(const char* field, double value, const char* unit) {
@@ -113,12 +114,15 @@ class Beam {
  public:
   /// @param length [m], positive
   Beam(double length, const Section& section, const Material& material, Support left, Support right)
-      : Beam(length, detail::positive("young", material.young, "Pa") * detail::positive("area", section.area, "m²"),
-             material.young * detail::positive("inertia", section.inertia, "m⁴"), section.thickness, left, right) {}
+      : Beam(length,
+             detail::positive("young", material.young, "Pa") * detail::positive("area", section.area, "m²"),
+             material.young * detail::positive("inertia", section.inertia, "m⁴"), section.thickness, left,
+             right) {}
 
   /// For a section known by its stiffness.
   /// @param length [m]   @param axial_stiffness EA [N]   @param bending_stiffness EI [N·m²]   @param thickness [m]
-  Beam(double length, double axial_stiffness, double bending_stiffness, double thickness, Support left, Support right)
+  Beam(double length, double axial_stiffness, double bending_stiffness, double thickness, Support left,
+       Support right)
       : length_(detail::positive("length", length, "m")),
         axial_stiffness_(detail::positive("axial_stiffness", axial_stiffness, "N")),
         bending_stiffness_(detail::positive("bending_stiffness", bending_stiffness, "N·m²")),
@@ -129,12 +133,14 @@ class Beam {
     const bool held_theta = fixes_theta(left) || fixes_theta(right);
     if (!fixes_u(left) && !fixes_u(right)) reject_mechanism("slides along its axis; hold u at one end");
     if (held_w == 0) reject_mechanism("moves across its axis; hold w at one end");
-    if (held_w == 1 && !held_theta) reject_mechanism("turns about its only hinge; hold theta or the other end");
+    if (held_w == 1 && !held_theta)
+      reject_mechanism("turns about its only hinge; hold theta or the other end");
   }
 
   /// Adds a force and moment at one point.
   Beam& add(const PointLoad& load) {
-    if (!(load.s >= 0 && load.s <= length_)) detail::reject("point load s", load.s, "m", "on the beam, 0 to its length");
+    if (!(load.s >= 0 && load.s <= length_))
+      detail::reject("point load s", load.s, "m", "on the beam, 0 to its length");
     detail::finite("point load axial", load.axial, "N");
     detail::finite("point load transverse", load.transverse, "N");
     detail::finite("point load moment", load.moment, "N·m");
@@ -148,7 +154,9 @@ class Beam {
   }
   /// Sets the distributed axial load f [N/m], along x.
   Beam& axial(DistributedLoad f) { return axial_ = std::move(f), *this; }
-  Beam& axial(double f) { return detail::finite("axial load", f, "N/m"), axial([f](double) { return f; }); }
+  Beam& axial(double f) {
+    return detail::finite("axial load", f, "N/m"), axial([f](double) { return f; });
+  }
 
   double length() const noexcept { return length_; }                        ///< L [m]
   double axial_stiffness() const noexcept { return axial_stiffness_; }      ///< EA [N]

@@ -16,6 +16,7 @@
 // No allocation, no exception, no dependency but the standard library.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
@@ -35,7 +36,7 @@ enum class Status : std::int8_t {
   /// The iteration budget ended with the estimated next increment above the tolerance.  In press(): force and
   /// shape belong to the press reached on the way; the next call goes on from there.
   iteration_limit = -2,
-  /// A pivot of the tangent is below round-off: |p| <= 4 eps max|p|.  The last good state is kept.
+  /// A pivot of the tangent is below round-off: |p| <= eps |k| with k its diagonal entry.  The last good state is kept.
   singular = -3,
   /// A displacement or force is NaN or infinite.  The last good state is kept.
   non_finite = -4,
@@ -71,20 +72,27 @@ struct Response {
   Status status;  ///< whether force belongs to the request
 };
 
-/// Where a model answers with Status::ok: s_min <= s <= s_max and |d| <= depth.
+/// Where a model answers with Status::ok: s_min <= s <= s_max and |d| <= depth_at(s).
 template <typename Scalar>
 struct Range {
-  Scalar s_min;  ///< [m]
-  Scalar s_max;  ///< [m]
-  Scalar depth;  ///< [m]
-};
+  Scalar s_min;          ///< [m]
+  Scalar s_max;          ///< [m]
+  Scalar depth;          ///< [m] largest |d| anywhere
+  Scalar slope;          ///< [-] largest |d| over the distance to a support that holds w
+  Scalar left_support;   ///< [m] arc position of that support, -infinity where the left end yields
+  Scalar right_support;  ///< [m] the same at the right, +infinity where it yields
 
-/// The nearest request inside a range.
-template <typename Scalar>
-Press<Scalar> clamp(const Press<Scalar>& press, const Range<Scalar>& range) noexcept {
-  const auto clamp_to = [](Scalar v, Scalar low, Scalar high) { return v < low ? low : v > high ? high : v; };
-  return {clamp_to(press.s, range.s_min, range.s_max), clamp_to(press.d, -range.depth, range.depth)};
-}
+  Scalar depth_at(Scalar s) const noexcept {
+    return std::min({depth, slope * (s - left_support), slope * (right_support - s)});
+  }
+
+  /// The nearest request inside: s first, then d.
+  Press<Scalar> nearest(const Press<Scalar>& press) const noexcept {
+    const Scalar s = press.s < s_min ? s_min : press.s > s_max ? s_max : press.s;
+    const Scalar limit = depth_at(s);
+    return {s, press.d < -limit ? -limit : press.d > limit ? limit : press.d};
+  }
+};
 
 namespace detail {
 
@@ -95,17 +103,16 @@ template <typename M>
 struct IsForceModel<M, std::void_t<typename M::Scalar>> {
   using S = typename M::Scalar;
   template <typename T>
-  static auto check(int)
-      -> std::bool_constant<
-          noexcept(std::declval<T&>().press(std::declval<const Press<S>&>())) &&
-          std::is_same_v<decltype(std::declval<T&>().press(std::declval<const Press<S>&>())), Response<S>> &&
-          noexcept(std::declval<const T&>().shape()) &&
-          std::is_same_v<decltype(std::declval<const T&>().shape()), Centreline<S>> &&
-          noexcept(std::declval<const T&>().range()) &&
-          std::is_same_v<decltype(std::declval<const T&>().range()), Range<S>> &&
-          noexcept(std::declval<const T&>().thickness()) &&
-          std::is_same_v<decltype(std::declval<const T&>().thickness()), S> &&
-          noexcept(std::declval<T&>().reset())>;
+  static auto check(int) -> std::bool_constant<
+      noexcept(std::declval<T&>().press(std::declval<const Press<S>&>())) &&
+      std::is_same_v<decltype(std::declval<T&>().press(std::declval<const Press<S>&>())),
+                     Response<S>>&& noexcept(std::declval<const T&>().shape()) &&
+      std::is_same_v<decltype(std::declval<const T&>().shape()), Centreline<S>>&& noexcept(
+          std::declval<const T&>().range()) &&
+      std::is_same_v<decltype(std::declval<const T&>().range()), Range<S>>&& noexcept(
+          std::declval<const T&>().thickness()) &&
+      std::is_same_v<decltype(std::declval<const T&>().thickness()), S>&& noexcept(
+          std::declval<T&>().reset())>;
   template <typename>
   static std::false_type check(long);
   static constexpr bool value = decltype(check<M>(0))::value;

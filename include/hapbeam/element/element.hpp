@@ -6,7 +6,7 @@
 //   ------------------------   ------   -------------------------------------------------------
 //   E::energy(p, d)            S        V(d) [J]
 //   E::residual(p, d, r)       void     r = ∂V/∂d, overwritten [N, N, N·m, N, N, N·m]
-//   E::tangent(p, d, r, K)     void     r as above and K = ∂r/∂d, symmetric, both triangles, overwritten
+//   E::tangent(p, d, r, K)     S        V, r as above and K = ∂r/∂d, symmetric, both triangles, overwritten
 //   E::name()                  const char*
 //
 // with p an ElementProperties<S>.  An element is stateless: static functions, templated on the scalar S.
@@ -37,11 +37,11 @@ struct ElementProperties {
         axial_per_length(EA * inverse_length),
         bending_per_length3(EI * inverse_length * inverse_length * inverse_length) {}
 
-  Scalar length = 0;              ///< l [m]
-  Scalar inverse_length = 0;      ///< 1/l [1/m]
-  Scalar axial_stiffness = 0;     ///< EA [N]
-  Scalar axial_per_length = 0;    ///< EA/l [N/m]
-  Scalar bending_per_length3 = 0; ///< EI/l³ [N/m]
+  Scalar length = 0;               ///< l [m]
+  Scalar inverse_length = 0;       ///< 1/l [1/m]
+  Scalar axial_stiffness = 0;      ///< EA [N]
+  Scalar axial_per_length = 0;     ///< EA/l [N/m]
+  Scalar bending_per_length3 = 0;  ///< EI/l³ [N/m]
 };
 
 namespace detail {
@@ -52,15 +52,24 @@ struct IsElement : std::false_type {};
 template <typename E, typename S>
 struct IsElement<
     E, S,
-    std::void_t<decltype(E::name()),
-                std::enable_if_t<noexcept(E::energy(std::declval<const ElementProperties<S>&>(),
-                                                    std::declval<const Vector6<S>&>())) &&
-                                 noexcept(E::residual(std::declval<const ElementProperties<S>&>(),
-                                                      std::declval<const Vector6<S>&>(),
-                                                      std::declval<Vector6<S>&>())) &&
-                                 noexcept(E::tangent(std::declval<const ElementProperties<S>&>(),
-                                                     std::declval<const Vector6<S>&>(),
-                                                     std::declval<Vector6<S>&>(), std::declval<Matrix6<S>&>()))>>>
+    std::void_t<
+        decltype(E::name()),
+        std::enable_if_t<noexcept(E::energy(
+            std::declval<const ElementProperties<S>&>(),
+            std::declval<const Vector6<
+                S>&>()))&& noexcept(E::
+                                        residual(
+                                            std::declval<const ElementProperties<S>&>(),
+                                            std::declval<const Vector6<S>&>(),
+                                            std::declval<Vector6<
+                                                S>&>()))&& noexcept(E::
+                                                                        tangent(
+                                                                            std::declval<
+                                                                                const ElementProperties<
+                                                                                    S>&>(),
+                                                                            std::declval<const Vector6<S>&>(),
+                                                                            std::declval<Vector6<S>&>(),
+                                                                            std::declval<Matrix6<S>&>()))>>>
     : std::true_type {};
 
 /// Strains of one element in the coordinates that a rigid translation does not change.
@@ -92,11 +101,11 @@ template <typename S>
 inline void expand(const ElementProperties<S>& p, const CoreTangent<S>& c, Matrix6<S>& K) noexcept {
   const S l = p.length, ll = l * l;
   const S s1 = l * c.s1, s2 = l * c.s2, r1 = l * c.r1, r2 = l * c.r2;
-  K << c.ss, c.sr, -s1, -c.ss, -c.sr, -s2,         //
-      c.sr, c.rr, -r1, -c.sr, -c.rr, -r2,          //
-      -s1, -r1, ll * c.t11, s1, r1, ll * c.t12,    //
-      -c.ss, -c.sr, s1, c.ss, c.sr, s2,            //
-      -c.sr, -c.rr, r1, c.sr, c.rr, r2,            //
+  K << c.ss, c.sr, -s1, -c.ss, -c.sr, -s2,       //
+      c.sr, c.rr, -r1, -c.sr, -c.rr, -r2,        //
+      -s1, -r1, ll * c.t11, s1, r1, ll * c.t12,  //
+      -c.ss, -c.sr, s1, c.ss, c.sr, s2,          //
+      -c.sr, -c.rr, r1, c.sr, c.rr, r2,          //
       -s2, -r2, ll * c.t12, s2, r2, ll * c.t22;
 }
 

@@ -8,9 +8,9 @@ namespace hapbeam {
 /// Values at t = (x - x1)/l of what a nodal displacement moves.  Real-time: noexcept, O(1).
 template <typename Scalar>
 struct ShapeFunctions {
-  Scalar u1, u2;                       ///< u(x) = u1 d[0] + u2 d[3]
-  Eigen::Matrix<Scalar, 4, 1> w;       ///< w(x) = w · (w1, θ1, w2, θ2)   [-, m, -, m]
-  Eigen::Matrix<Scalar, 4, 1> theta;   ///< θ(x) = theta · (w1, θ1, w2, θ2)   [1/m, -, 1/m, -]
+  Scalar u1, u2;                      ///< u(x) = u1 d[0] + u2 d[3]
+  Eigen::Matrix<Scalar, 4, 1> w;      ///< w(x) = w · (w1, θ1, w2, θ2)   [-, m, -, m]
+  Eigen::Matrix<Scalar, 4, 1> theta;  ///< θ(x) = theta · (w1, θ1, w2, θ2)   [1/m, -, 1/m, -]
 
   ShapeFunctions(Scalar t, Scalar length) noexcept : u1(1 - t), u2(t) {
     const Scalar r = 1 - t;

@@ -24,15 +24,18 @@ struct Linear {
   template <typename S>
   static void residual(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r) noexcept {
     const detail::Deformation<S> e(p, d);
-    const S m1 = p.bending_per_length3 * (4 * e.a + 2 * e.b), m2 = p.bending_per_length3 * (2 * e.a + 4 * e.b);
+    const S m1 = p.bending_per_length3 * (4 * e.a + 2 * e.b),
+            m2 = p.bending_per_length3 * (2 * e.a + 4 * e.b);
     detail::expand(p, p.axial_per_length * e.stretch, m1 + m2, m1, m2, r);
   }
 
   template <typename S>
-  static void tangent(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r, Matrix6<S>& K) noexcept {
+  static S tangent(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r,
+                   Matrix6<S>& K) noexcept {
     residual(p, d, r);
     const S k = p.bending_per_length3;
     detail::expand(p, {p.axial_per_length, 0, 0, 0, 12 * k, 6 * k, 6 * k, 4 * k, 2 * k, 4 * k}, K);
+    return energy(p, d);
   }
 };
 

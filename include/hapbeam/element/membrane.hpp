@@ -68,8 +68,10 @@ MembraneResponse<S> integrate_membrane(const ElementProperties<S>& p, const Defo
 struct FullIntegration {
   static constexpr const char* name() noexcept { return "full"; }
   template <typename S>
-  static detail::MembraneResponse<S> respond(const ElementProperties<S>& p, const detail::Deformation<S>& e) noexcept {
-    return detail::integrate_membrane<S, 2>(p, e, {0.21132486540518711775, 0.78867513459481288225}, {0.5, 0.5});
+  static detail::MembraneResponse<S> respond(const ElementProperties<S>& p,
+                                             const detail::Deformation<S>& e) noexcept {
+    return detail::integrate_membrane<S, 2>(p, e, {0.21132486540518711775, 0.78867513459481288225},
+                                            {0.5, 0.5});
   }
 };
 
@@ -77,7 +79,8 @@ struct FullIntegration {
 struct ReducedIntegration {
   static constexpr const char* name() noexcept { return "reduced"; }
   template <typename S>
-  static detail::MembraneResponse<S> respond(const ElementProperties<S>& p, const detail::Deformation<S>& e) noexcept {
+  static detail::MembraneResponse<S> respond(const ElementProperties<S>& p,
+                                             const detail::Deformation<S>& e) noexcept {
     return detail::integrate_membrane<S, 1>(p, e, {0.5}, {1.0});
   }
 };
@@ -86,7 +89,8 @@ struct ReducedIntegration {
 struct AssumedStrain {
   static constexpr const char* name() noexcept { return "assumed-strain"; }
   template <typename S>
-  static detail::MembraneResponse<S> respond(const ElementProperties<S>& p, const detail::Deformation<S>& e) noexcept {
+  static detail::MembraneResponse<S> respond(const ElementProperties<S>& p,
+                                             const detail::Deformation<S>& e) noexcept {
     const S i = p.inverse_length;
     // g = ½ ∂(l² mean w'²)/∂(rise, lθ1, lθ2)
     const S g1 = (4 * e.a - e.b) * S(1. / 30), g2 = (4 * e.b - e.a) * S(1. / 30), gr = e.rise + g1 + g2;
@@ -94,14 +98,15 @@ struct AssumedStrain {
     const S strain = (e.stretch + mean_square * i / 2) * i;
     const S normal = p.axial_stiffness * strain, n = normal * i;
     const S ks = p.axial_per_length, kg = ks * i, kgg = kg * i;
-    return {p.length * normal * strain / 2,
-            normal,
-            n * gr,
-            n * g1,
-            n * g2,
-            {ks, kg * gr, kg * g1, kg * g2,                       //
-             n * S(6. / 5) + kgg * gr * gr, n * S(.1) + kgg * gr * g1, n * S(.1) + kgg * gr * g2,  //
-             n * S(2. / 15) + kgg * g1 * g1, n * S(-1. / 30) + kgg * g1 * g2, n * S(2. / 15) + kgg * g2 * g2}};
+    return {
+        p.length * normal * strain / 2,
+        normal,
+        n * gr,
+        n * g1,
+        n * g2,
+        {ks, kg * gr, kg * g1, kg * g2,                                                        //
+         n * S(6. / 5) + kgg * gr * gr, n * S(.1) + kgg * gr * g1, n * S(.1) + kgg * gr * g2,  //
+         n * S(2. / 15) + kgg * g1 * g1, n * S(-1. / 30) + kgg * g1 * g2, n * S(2. / 15) + kgg * g2 * g2}};
   }
 };
 

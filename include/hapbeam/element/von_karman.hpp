@@ -19,7 +19,7 @@ struct VonKarman {
   template <typename S>
   static S energy(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
     const detail::Deformation<S> e(p, d);
-    return Membrane::respond(p, e).energy + 2 * p.bending_per_length3 * (e.a * e.a + e.a * e.b + e.b * e.b);
+    return Membrane::respond(p, e).energy + bending_energy(p, e);
   }
 
   template <typename S>
@@ -29,7 +29,8 @@ struct VonKarman {
   }
 
   template <typename S>
-  static void tangent(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r, Matrix6<S>& K) noexcept {
+  static S tangent(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r,
+                   Matrix6<S>& K) noexcept {
     const detail::Deformation<S> e(p, d);
     const auto m = Membrane::respond(p, e);
     residual(p, e, m, r);
@@ -38,13 +39,20 @@ struct VonKarman {
                    {m.k.ss, m.k.sr, m.k.s1, m.k.s2, m.k.rr + 12 * k, m.k.r1 + 6 * k, m.k.r2 + 6 * k,
                     m.k.t11 + 4 * k, m.k.t12 + 2 * k, m.k.t22 + 4 * k},
                    K);
+    return m.energy + bending_energy(p, e);
   }
 
  private:
   template <typename S>
+  static S bending_energy(const ElementProperties<S>& p, const detail::Deformation<S>& e) noexcept {
+    return 2 * p.bending_per_length3 * (e.a * e.a + e.a * e.b + e.b * e.b);
+  }
+
+  template <typename S>
   static void residual(const ElementProperties<S>& p, const detail::Deformation<S>& e,
                        const detail::MembraneResponse<S>& m, Vector6<S>& r) noexcept {
-    const S m1 = p.bending_per_length3 * (4 * e.a + 2 * e.b), m2 = p.bending_per_length3 * (2 * e.a + 4 * e.b);
+    const S m1 = p.bending_per_length3 * (4 * e.a + 2 * e.b),
+            m2 = p.bending_per_length3 * (2 * e.a + 4 * e.b);
     detail::expand(p, m.s, m.r + m1 + m2, m.t1 + m1, m.t2 + m2, r);
   }
 };

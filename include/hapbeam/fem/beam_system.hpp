@@ -8,7 +8,6 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -26,9 +25,10 @@ class BeamSystem {
  public:
   using Scalar = ScalarType;
   using Node = CentrelineNode<Scalar>;
-  static_assert(is_element<Element, Scalar>,
-                "an Element needs static noexcept energy(p, d), residual(p, d, r), tangent(p, d, r, K) and name(): "
-                "see hapbeam/element/element.hpp");
+  static_assert(
+      is_element<Element, Scalar>,
+      "an Element needs static noexcept energy(p, d), residual(p, d, r), tangent(p, d, r, K) and name(): "
+      "see hapbeam/element/element.hpp");
 
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or elements does not fit the type
   BeamSystem(const Beam& beam, int elements)
@@ -42,7 +42,8 @@ class BeamSystem {
         axial_stiffness_(static_cast<Scalar>(beam.axial_stiffness())),
         bending_stiffness_(static_cast<Scalar>(beam.bending_stiffness())),
         left_(beam.left()),
-        right_(beam.right()) {
+        right_(beam.right()),
+        unit_(std::sqrt(bending_stiffness_ / length_)) {
     for (int i = 0; i <= elements; ++i) nodes_[i] = {mesh_.position(i), 0, 0, 0};
     take(mesh_);
   }
@@ -90,18 +91,32 @@ class BeamSystem {
     load_ = saved_load_;
   }
   Scalar size() const noexcept { return size_; }
+  Scalar unit() const noexcept { return unit_; }
+
   Iteration<Scalar> iterate() noexcept {
+    using std::abs;
+    using std::sqrt;
     Matrix6<Scalar> K;
     Vector6<Scalar> r;
+    Scalar energy = 0;
     for (int e = 0; e < elements(); ++e) {
-      Element::tangent(properties_[e], displacements(e), r, K);
+      energy += Element::tangent(properties_[e], displacements(e), r, K);
       assembler_.add(e, K, r);
     }
+    size_ = sqrt(2 * energy);
     if (load_ != 0) add_loads();
     prescribe_supports();
     if (contact_ >= 0) assembler_.prescribe(contact_, 1, d_ - nodes_[contact_].w);
     const Status status = assembler_.solve();
-    return {status, status == Status::ok ? add_increment() : Scalar(0)};
+    if (status != Status::ok) return {status, 0};
+    for (int i = 0; i < nodes_.size(); ++i) {
+      const Vector3<Scalar>& x = assembler_.increment(i);
+      nodes_[i].u += x[0];
+      nodes_[i].w += x[1];
+      nodes_[i].theta += x[2];
+    }
+    if (contact_ >= 0) nodes_[contact_].w = d_;
+    return {status, sqrt(abs(assembler_.energy()))};
   }
 
   /// Transverse force that holds the contact at d, thesis eq. 3.42 [N].
@@ -117,9 +132,10 @@ class BeamSystem {
       force += r[4];
     }
     if (load_ != 0)
-      for (const PointForce<Scalar>& load : forces_) visit_nodal_forces(load, [&](int node, const Vector3<Scalar>& f) {
-        if (node == contact_) force -= load_ * f[1];
-      });
+      for (const PointForce<Scalar>& load : forces_)
+        visit_nodal_forces(load, [&](int node, const Vector3<Scalar>& f) {
+          if (node == contact_) force -= load_ * f[1];
+        });
     return force;
   }
 
@@ -153,15 +169,16 @@ class BeamSystem {
   void visit_nodal_forces(const PointForce<Scalar>& load, Visitor&& visit) const noexcept {
     const int e = centreline().segment_at(load.s);
     const Scalar h = properties_[e].length;
-    const Vector6<Scalar> f =
-        ShapeFunctions<Scalar>((load.s - nodes_[e].s) / h, h).nodal_forces(load.axial, load.transverse, load.moment);
+    const Vector6<Scalar> f = ShapeFunctions<Scalar>((load.s - nodes_[e].s) / h, h)
+                                  .nodal_forces(load.axial, load.transverse, load.moment);
     visit(e, Vector3<Scalar>(f.template head<3>()));
     visit(e + 1, Vector3<Scalar>(f.template tail<3>()));
   }
 
   void add_loads() noexcept {
     for (const PointForce<Scalar>& load : forces_)
-      visit_nodal_forces(load, [this](int node, const Vector3<Scalar>& f) { assembler_.add_force(node, load_ * f); });
+      visit_nodal_forces(
+          load, [this](int node, const Vector3<Scalar>& f) { assembler_.add_force(node, load_ * f); });
   }
 
   void prescribe_supports() noexcept {
@@ -172,24 +189,6 @@ class BeamSystem {
     };
     hold(0, left_);
     hold(elements(), right_);
-  }
-
-  /// Adds the increment to the state.  @return its size; NaN where a displacement is not finite
-  Scalar add_increment() noexcept {
-    using std::abs;
-    Scalar increment = 0, size = 0;
-    for (int i = 0; i < nodes_.size(); ++i) {
-      Node& node = nodes_[i];
-      const Vector3<Scalar>& x = assembler_.increment(i);
-      const Scalar turn = x[2] * properties_[i < elements() ? i : i - 1].length;
-      node.u += x[0];
-      node.w += x[1];
-      node.theta += x[2];
-      increment = std::max({increment, abs(x[0]), abs(x[1]), abs(turn)});
-      size = std::max({size, abs(node.u), abs(node.w)});
-    }
-    size_ = size;
-    return increment;
   }
 
   detail::PerNode<Node, Elements, MaxElements> nodes_, saved_;
@@ -203,7 +202,7 @@ class BeamSystem {
   int contact_ = -1;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0, goal_load_ = 0;
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;
-  Scalar size_ = 0;
+  Scalar size_ = 0, unit_;
 };
 
 }  // namespace hapbeam

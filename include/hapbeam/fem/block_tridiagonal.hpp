@@ -82,15 +82,16 @@ class BlockTridiagonal {
   /// Adds a force [N, N, N·m] to the right-hand side of one node.
   void add_force(int node, const Vector3<Scalar>& force) noexcept { rows_[node].x += force; }
 
-  /// Prescribes the increment of one degree of freedom (0: u, 1: w, 2: θ) of a node, after all elements are in.
+  /// Prescribes the increment of one degree of freedom (0: u, 1: w, 2: θ) of a node, after all elements are in: its
+  /// column goes to the right-hand side, its row answers 0.
   void prescribe(int node, int component, Scalar increment) noexcept {
     Row& row = rows_[node];
     const Scalar pivot = row.diagonal(component, component);
     row.x -= increment * row.diagonal.col(component);
+    row.x[component] = 0;
     row.diagonal.row(component).setZero();
     row.diagonal.col(component).setZero();
     row.diagonal(component, component) = pivot;
-    row.x[component] = increment * pivot;
     if (node > 0) {
       Row& before = rows_[node - 1];
       before.x -= increment * before.coupling.col(component);
@@ -105,32 +106,44 @@ class BlockTridiagonal {
   /// Factors and solves.  @return ok | singular | non_finite
   Status solve() noexcept {
     using std::abs;
+    constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
     const int last = rows_.size() - 1;
-    Scalar smallest = std::numeric_limits<Scalar>::max(), largest = 0;
+    Scalar lowest =
+        std::numeric_limits<Scalar>::max();  // |pivot| - eps |its diagonal entry before elimination|
+    Vector3<Scalar> assembled = rows_[0].diagonal.diagonal();
     negative_pivots_ = 0;
+    energy_ = 0;
     for (int i = 0;; ++i) {
       Row& row = rows_[i];
       const detail::Ldlt3<Scalar> factor(row.diagonal);
-      for (const Scalar pivot : {factor.p0, factor.p1, factor.p2}) {
-        negative_pivots_ += pivot < 0;
-        smallest = abs(pivot) < smallest ? abs(pivot) : smallest;
-        largest = abs(pivot) > largest ? abs(pivot) : largest;
+      const Scalar pivots[] = {factor.p0, factor.p1, factor.p2};
+      for (int k = 0; k < 3; ++k) {
+        negative_pivots_ += pivots[k] < 0;
+        const Scalar left = abs(pivots[k]) - epsilon * abs(assembled[k]);
+        lowest = left > lowest ? lowest : left;  // NaN is kept
       }
-      row.x = factor.solve(row.x);
+      const Vector3<Scalar> rhs = row.x;
+      row.x = factor.solve(rhs);
+      energy_ += rhs.dot(row.x);
       if (i == last) break;
       // coupling becomes D'⁻¹ C; the next row loses Cᵀ D'⁻¹ C and Cᵀ D'⁻¹ x.
       Row& next = rows_[i + 1];
+      assembled = next.diagonal.diagonal();
       const Matrix3<Scalar> c = row.coupling;
       for (int k = 0; k < 3; ++k) row.coupling.col(k) = factor.solve(c.col(k));
       next.diagonal.noalias() -= c.transpose().lazyProduct(row.coupling);
       next.x.noalias() -= c.transpose().lazyProduct(row.x);
     }
     for (int i = last - 1; i >= 0; --i) rows_[i].x.noalias() -= rows_[i].coupling.lazyProduct(rows_[i + 1].x);
-    if (!(largest <= std::numeric_limits<Scalar>::max())) return Status::non_finite;
-    return smallest > 4 * std::numeric_limits<Scalar>::epsilon() * largest ? Status::ok : Status::singular;
+    if (!(std::isfinite(lowest))) return Status::non_finite;
+    return lowest > 0 ? Status::ok : Status::singular;
   }
 
-  /// Increment of one node [m, m, rad], after solve().
+  /// xᵀKx of the last solve() [J]: the increment's length in the norm of the tangent, squared; negative where K is not
+  /// positive along it.
+  Scalar energy() const noexcept { return energy_; }
+
+  /// Increment of one node [m, m, rad], after solve(); 0 where it was prescribed.
   const Vector3<Scalar>& increment(int node) const noexcept { return rows_[node].x; }
 
   /// Number of negative pivots of the last solve(): the number of negative eigenvalues of the tangent.
@@ -144,6 +157,7 @@ class BlockTridiagonal {
 
   detail::PerNode<Row, Elements, MaxElements> rows_;
   int negative_pivots_ = 0;
+  Scalar energy_ = 0;
 };
 
 }  // namespace hapbeam

@@ -19,7 +19,10 @@ class ContactMesh {
  public:
   /// The uniform mesh of a beam.  @param elements two or more   @param length [m]
   ContactMesh(int elements, Scalar length) noexcept
-      : elements_(elements), node_(elements / 2), length_(length), s_(length * Scalar(node_) / Scalar(elements)) {}
+      : elements_(elements),
+        node_(elements / 2),
+        length_(length),
+        s_(length * Scalar(node_) / Scalar(elements)) {}
 
   /// The mesh with a node at s.  Node 0 or n is taken only where s is exactly that end.
   ContactMesh at(Scalar s) const noexcept {
@@ -63,7 +66,8 @@ class ContactMesh {
 
 /// Displacements of a centreline at new node positions.  @param target  out, mesh.elements() + 1 nodes
 template <typename Scalar>
-void transfer(const Centreline<Scalar>& from, const ContactMesh<Scalar>& mesh, CentrelineNode<Scalar>* target) noexcept {
+void transfer(const Centreline<Scalar>& from, const ContactMesh<Scalar>& mesh,
+              CentrelineNode<Scalar>* target) noexcept {
   int piece = 0;
   for (int i = 0; i <= mesh.elements(); ++i) {
     const Scalar s = mesh.position(i);

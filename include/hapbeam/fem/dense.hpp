@@ -4,7 +4,7 @@
 // an assembler or an element, never in a servo loop: it allocates.  Exceptions: only at construction.
 #pragma once
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/fem/block_tridiagonal.hpp>
@@ -29,32 +29,39 @@ class Dense {
     x_.template segment<6>(3 * e) -= r;
   }
 
-  void add_force(int node, const Vector3<Scalar>& force) noexcept { x_.template segment<3>(3 * node) += force; }
+  void add_force(int node, const Vector3<Scalar>& force) noexcept {
+    x_.template segment<3>(3 * node) += force;
+  }
 
   void prescribe(int node, int component, Scalar increment) noexcept {
     const int k = 3 * node + component;
     const Scalar pivot = K_(k, k);
     x_ -= increment * K_.col(k);
+    x_[k] = 0;
     K_.row(k).setZero();
     K_.col(k).setZero();
     K_(k, k) = pivot;
-    x_[k] = increment * pivot;
   }
 
   Status solve() {
-    const Eigen::PartialPivLU<Matrix> factor(K_);
-    const Scalar smallest = factor.matrixLU().diagonal().cwiseAbs().minCoeff();
-    const Scalar largest = factor.matrixLU().diagonal().cwiseAbs().maxCoeff();
-    if (!(largest <= std::numeric_limits<Scalar>::max())) return Status::non_finite;
-    x_ = factor.solve(x_).eval();
-    return smallest > 4 * std::numeric_limits<Scalar>::epsilon() * largest ? Status::ok : Status::singular;
+    const Vector assembled = K_.diagonal(), rhs = x_;
+    const Eigen::LDLT<Matrix> factor(K_);
+    if (factor.info() != Eigen::Success || !factor.vectorD().allFinite()) return Status::non_finite;
+    x_ = factor.solve(rhs);
+    energy_ = rhs.dot(x_);
+    const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+    const Vector unpermuted = factor.transpositionsP().transpose() * factor.vectorD();
+    return (unpermuted.array().abs() > epsilon * assembled.array().abs()).all() ? Status::ok
+                                                                                : Status::singular;
   }
 
+  Scalar energy() const noexcept { return energy_; }
   Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
 
  private:
   Matrix K_;
   Vector x_;
+  Scalar energy_ = 0;
 };
 
 }  // namespace hapbeam

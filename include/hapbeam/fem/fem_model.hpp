@@ -3,8 +3,8 @@
 //   FemModel<> model(beam, 8);
 //   const auto [force, status] = model.press({0.5 * beam.length(), -2e-3});
 //
-// press() moves the mesh so that a node lies at the contact, prescribes its transverse displacement, solves from
-// the last press by Newton–Raphson with the tangent as predictor, and returns the reaction (thesis eq. 3.40–3.42).
+// press() moves the mesh so that a node lies at the contact, prescribes its transverse displacement, solves by
+// Newton–Raphson with the tangent as predictor, from the last press or from rest, whichever is closer, and returns the reaction (thesis eq. 3.40–3.42).
 // Composed of policies: Element × Assembler × Solver; sizes are fixed, dynamic with a maximum (both without any heap
 // but for the dead loads' list), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept and
@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/beam_system.hpp>
@@ -23,9 +24,9 @@ namespace hapbeam {
 /// @tparam ScalarType double | float
 /// @tparam Elements   number of elements, or Eigen::Dynamic      @tparam MaxElements  largest number, or Eigen::Dynamic
 /// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates)   @tparam Solver  NewtonRaphson
-template <class Element = VonKarman<AssumedStrain>, typename ScalarType = double, int Elements = Eigen::Dynamic,
-          int MaxElements = Elements, template <typename, int, int> class Assembler = BlockTridiagonal,
-          class Solver = NewtonRaphson>
+template <class Element = VonKarman<AssumedStrain>, typename ScalarType = double,
+          int Elements = Eigen::Dynamic, int MaxElements = Elements,
+          template <typename, int, int> class Assembler = BlockTridiagonal, class Solver = NewtonRaphson>
 class FemModel {
  public:
   using Scalar = ScalarType;
@@ -44,7 +45,8 @@ class FemModel {
         right_yields_(!fixes_w(beam.right())) {
     system_.set_goal(1, -1, 0);
     do rest_ = solver_.solve(system_);
-    while (rest_.status == Status::iteration_limit && rest_.reached > 0 && (system_.set_goal(1, -1, 0), true));
+    while (rest_.status == Status::iteration_limit && rest_.reached > 0 &&
+           (system_.set_goal(1, -1, 0), true));
     for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
   }
 
@@ -53,12 +55,15 @@ class FemModel {
   /// end that can move across than the shortest element is rounded to that end or to that distance.
   /// @return force [N] and ok | out_of_range | invalid_request | iteration_limit | singular | non_finite
   Response<Scalar> press(const Press<Scalar>& request) noexcept {
+    using std::abs;
     using std::isfinite;
     report_ = {Status::invalid_request, 0, 0, 0, 0};
     if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 || request.s > system_.length())
       return {0, Status::invalid_request};
     if (rest_.status != Status::ok) return {0, rest_.status};
-    const Press<Scalar> press = clamp(request, range());
+    const Press<Scalar> press = range().nearest(request);
+    const Scalar jump = press.d - shape().at(press.s).w, from_rest = press.d - rest_shape().at(press.s).w;
+    if (abs(from_rest) < abs(jump)) reset();
     const int contact = follow(press.s);
     system_.set_goal(1, contact, press.d);
     report_ = solver_.solve(system_);
@@ -70,11 +75,17 @@ class FemModel {
 
   Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
 
-  /// Where press() answers with ok.  A support that holds w is rigid: the shortest element keeps its distance.  The depth,
-  /// a tenth of the length, is where moderate rotation ends, not where the solver does.
+  /// Where press() answers with ok.  A support that holds w is rigid: the shortest element keeps its distance from it.
+  /// A tenth of the length, and half of the distance to such a support, end moderate rotation by far, not the solver.
   Range<Scalar> range() const noexcept {
+    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
     const Scalar length = system_.length();
-    return {left_yields_ ? Scalar(0) : shortest_, right_yields_ ? length : length - shortest_, length / 10};
+    return {left_yields_ ? Scalar(0) : shortest_,
+            right_yields_ ? length : length - shortest_,
+            length / 10,
+            Scalar(0.5),
+            left_yields_ ? -infinity : Scalar(0),
+            right_yields_ ? infinity : length};
   }
 
   Scalar thickness() const noexcept { return thickness_; }
@@ -91,6 +102,8 @@ class FemModel {
   int elements() const noexcept { return system_.elements(); }
 
  private:
+  Centreline<Scalar> rest_shape() const noexcept { return {rest_nodes_.data(), rest_nodes_.size()}; }
+
   /// Moves the mesh under the contact and carries the shape over.  @return the contact's node
   int follow(Scalar s) noexcept {
     const Scalar length = system_.length();

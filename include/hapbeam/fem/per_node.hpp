@@ -19,12 +19,14 @@ class PerNode {
   static_assert(Elements == Eigen::Dynamic || Elements == MaxElements, "a fixed size is its own maximum");
   static_assert(MaxElements == Eigen::Dynamic || MaxElements >= 2, "a beam needs two elements or more");
   static constexpr bool is_inline = MaxElements != Eigen::Dynamic;
-  using Storage = std::conditional_t<is_inline, std::array<T, is_inline ? MaxElements + 1 : 1>, std::vector<T>>;
+  using Storage =
+      std::conditional_t<is_inline, std::array<T, is_inline ? MaxElements + 1 : 1>, std::vector<T>>;
 
  public:
   /// @throws std::invalid_argument where the number of elements does not fit the type.
   explicit PerNode(int elements) : size_(elements + 1) {
-    if (elements < 2 || (Elements != Eigen::Dynamic && elements != Elements) || (is_inline && elements > MaxElements))
+    if (elements < 2 || (Elements != Eigen::Dynamic && elements != Elements) ||
+        (is_inline && elements > MaxElements))
       throw std::invalid_argument("elements = " + std::to_string(elements) + ": must be " + allowed());
     if constexpr (!is_inline) storage_.resize(static_cast<std::size_t>(size_));
   }
