@@ -1,0 +1,140 @@
+// The contract between a haptic device and the computation that gives it force.
+//
+// A device owns the servo loop: once a period, on its own thread, it reads where the hand is, asks the servo
+// for a force and sends that.  A servo is a callable object of the caller, handed over by reference, so that
+// nothing is copied or allocated and a C callback with a void* can carry it; it must outlive the loop.
+//
+//   a servo S
+//   s(state)      Eigen::Vector3d   noexcept; the force on the hand [N], device axes; no allocation or waiting
+//
+//   a device D
+//   d.info()      DeviceInfo        (or a const reference) what the device can do
+//   d.start(s)    void              begins calling s each period; throws where the device runs or is broken
+//   d.stop()      void              noexcept; blocks until the last tick has returned: s is called no more,
+//                                   the force is zero.  Never from the servo.  Harmless where nothing runs
+//   d.running()   bool              noexcept, wait-free; false again when the device ended the loop by itself
+//   d.counts()    DeviceCounts      noexcept, wait-free, from any thread, while running and after
+//
+// A device sends no force that is not finite and none beyond its peak, whatever the servo says, and tells
+// the next tick so.  Axes: x right, y up, z toward the user, as OpenHaptics' HDAPI has them; SI here,
+// millimetres nowhere.
+// Real-time: no allocation, noexcept, O(1).
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include <Eigen/Core>
+
+namespace hapbeam {
+
+/// What a device did to the force that it was given.
+enum class ForceCut : std::uint8_t {
+  none,        ///< sent as it was
+  peak,        ///< |F| > peak: shortened to the peak, direction kept
+  not_finite,  ///< a component was NaN or infinite: zero was sent
+};
+
+/// What the servo learns at the beginning of a tick.
+struct DeviceState {
+  Eigen::Vector3d position;  ///< [m] as the encoders read it, in the device's axes
+  Eigen::Vector3d velocity;  ///< [m/s] as the device estimates it
+  double time;               ///< [s] since start
+  ForceCut cut;              ///< what became of the force of the tick before
+};
+
+/// What a device can do.
+struct DeviceInfo {
+  std::string name;
+  Eigen::Vector3d workspace;   ///< [m] width, height, depth, the origin in its middle
+  double peak_force;           ///< [N] for a moment
+  double continuous_force;     ///< [N] for as long as one likes
+  double max_stiffness;        ///< [N/m] the hardest wall that the maker names
+  double position_resolution;  ///< [m]
+  double friction;             ///< [N] to drive the arm back by hand
+  double period;               ///< [s] of the servo loop
+};
+
+/// What happened since start.
+struct DeviceCounts {
+  std::uint64_t ticks = 0;            ///< the servo was called
+  std::uint64_t missed_ticks = 0;     ///< deadlines that passed by a whole period before a tick began
+  std::uint64_t force_cut_ticks = 0;  ///< the servo's force was not sent as it was
+};
+
+/// The force that a device may send: finite and no longer than its peak.
+/// @param force  in: what the servo wants, out: what may be sent [N]   @param peak [N]
+/// Real-time: no allocation, noexcept, wait-free, O(1).
+[[nodiscard]] inline ForceCut limit_force(Eigen::Vector3d& force, double peak) noexcept {
+  if (!force.allFinite()) {
+    force.setZero();
+    return ForceCut::not_finite;
+  }
+  // In units of the largest component, whose square may overflow.
+  const double largest = force.cwiseAbs().maxCoeff();
+  if (largest == 0) return ForceCut::none;
+  const Eigen::Vector3d direction = force / largest;
+  const double allowed = peak / direction.norm();
+  if (!(largest > allowed)) return ForceCut::none;
+  force = direction * allowed;
+  return ForceCut::peak;
+}
+
+namespace detail {
+
+template <typename S, typename = void>
+struct IsServo : std::false_type {};
+template <typename S>
+struct IsServo<S, std::void_t<decltype(std::declval<S&>()(std::declval<const DeviceState&>()))>>
+    // Eigen::Vector3d itself: an Eigen expression would refer to what the servo has already left.
+    : std::bool_constant<
+          noexcept(std::declval<S&>()(std::declval<const DeviceState&>())) &&
+          std::is_same_v<decltype(std::declval<S&>()(std::declval<const DeviceState&>())), Eigen::Vector3d>> {
+};
+
+struct AnyServo {
+  Eigen::Vector3d operator()(const DeviceState&) noexcept;
+};
+
+template <typename D, typename = void>
+struct IsDevice : std::false_type {};
+template <typename D>
+struct IsDevice<
+    D, std::void_t<decltype(std::declval<D&>().start(std::declval<AnyServo&>())),
+                   decltype(std::declval<D&>().stop()), decltype(std::declval<const D&>().info()),
+                   decltype(std::declval<const D&>().running()), decltype(std::declval<const D&>().counts())>>
+    : std::bool_constant<
+          std::is_same_v<std::decay_t<decltype(std::declval<const D&>().info())>, DeviceInfo>&& noexcept(
+              std::declval<D&>().stop())&& noexcept(std::declval<const D&>().running()) &&
+          std::is_same_v<decltype(std::declval<const D&>().running()), bool>&& noexcept(
+              std::declval<const D&>().counts()) &&
+          std::is_same_v<decltype(std::declval<const D&>().counts()), DeviceCounts>> {};
+
+}  // namespace detail
+
+/// True where S can be called in a servo loop, noexcept included.
+template <typename S>
+inline constexpr bool is_servo = detail::IsServo<S>::value;
+
+/// True where D fulfils the contract above, every noexcept included.
+template <typename D>
+inline constexpr bool is_device = detail::IsDevice<D>::value;
+
+/// Stops compilation with the signature that is missing.
+template <typename S>
+constexpr void require_servo() noexcept {
+  static_assert(is_servo<S>, "a servo is called as: Eigen::Vector3d servo(const DeviceState&) noexcept");
+}
+
+/// Stops compilation with the contract that is not met.
+template <typename D>
+constexpr void require_device() noexcept {
+  static_assert(is_device<D>,
+                "a device has: info() const -> DeviceInfo; start(Servo&); stop() noexcept; "
+                "running() const noexcept -> bool; counts() const noexcept -> DeviceCounts");
+}
+
+}  // namespace hapbeam
