@@ -13,7 +13,8 @@ step() {
     printf '%d s\n' $((SECONDS - begin))
   else
     printf 'failed after %d s\n' $((SECONDS - begin))
-    # The first error explains the others; the end has the summary.
+    # Ninja's progress says nothing here.  The first error explains the others; the end has the summary.
+    sed -i -E '/^\[[0-9]+\/[0-9]+\] /d' "$log"
     if [[ $(wc -l <"$log") -le 300 ]]; then cat "$log"; else head -n 200 "$log" && echo '[...]' && tail -n 100 "$log"; fi
     return 1
   fi
