@@ -1,0 +1,77 @@
+// What a tick may cost: counted, never timed.
+#include <algorithm>
+#include <cmath>
+#include <realtime/heap_watch.hpp>
+#include <vector>
+
+#include "realtime/counting_element.hpp"
+#include "realtime/requests.hpp"
+#include "support/catch.hpp"
+#include <hapbeam/fem/fem_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+/// Beams that are hard to solve for: soft, stiffened a hundredfold by a press, buckled by their own loads.
+std::vector<Beam> beams() {
+  Beam buckled(1.0, 1e5, 0.1, 1e-3, Support::pinned, Support::roller);
+  buckled.add({1.0, -2.0, 0, 0}).transverse(0.01);
+  return {thesis_beam(Support::pinned, Support::pinned), loaded_beam(Support::clamped, Support::clamped),
+          thesis_beam(Support::clamped, Support::free),
+          Beam(1.0, 1e7, 1e-3, 1e-3, Support::pinned, Support::pinned), buckled};
+}
+
+template <typename Model>
+struct Work {
+  int most_solves = 0;
+  long most_tangents = 0, most_residuals = 0;
+
+  template <typename Element>
+  void press(Model& model, const Press<typename Model::Scalar>& request, CountingElement<Element>) {
+    CountingElement<Element>::tangents = CountingElement<Element>::residuals = 0;
+    model.press(request);
+    most_solves = std::max(most_solves, model.report().solves);
+    most_tangents = std::max(most_tangents, CountingElement<Element>::tangents);
+    most_residuals = std::max(most_residuals, CountingElement<Element>::residuals);
+  }
+};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("FemModel: no request takes more linear solves than the solver's limit", "", double,
+                   float) {
+  using Element = CountingElement<VonKarman<>>;
+  using Model = FemModel<Element, TestType>;
+  constexpr int elements = 6;
+  unsigned seed = 0;
+  for (const int limit : {1, 2, 5, 48}) {
+    NewtonRaphson solver;
+    solver.max_solves = limit;
+    int hardest = 0;
+    for (const Beam& beam : beams()) {
+      CAPTURE(limit, ++seed);
+      Model model(beam, elements, solver);
+      Work<Model> work;
+      for (const auto& request : requests(model.range(), model.shape().length(), seed))
+        work.press(model, request, Element());
+      CHECK(work.most_solves <= limit);
+      // All that a solve costs: each element once.  And once more for the two at the contact: the reaction.
+      CHECK(work.most_tangents <= long(limit) * elements);
+      CHECK(work.most_residuals <= 2);
+      hardest = std::max(hardest, work.most_solves);
+    }
+    CHECK(hardest == limit);  // the requests are mean enough to meet it
+  }
+}
+
+TEST_CASE("FemModel: an invalid request costs nothing") {
+  using Element = CountingElement<VonKarman<>>;
+  FemModel<Element> model(thesis_beam(Support::pinned, Support::pinned), 8);
+  Element::tangents = Element::residuals = 0;
+  CHECK(model.press({std::nan(""), 0.01}).status == Status::invalid_request);
+  CHECK(model.press({1.27, INFINITY}).status == Status::invalid_request);
+  CHECK(model.press({-1, 0.01}).status == Status::invalid_request);
+  CHECK(Element::tangents + Element::residuals == 0);
+}
