@@ -86,12 +86,11 @@ class BlockTridiagonal {
   /// column goes to the right-hand side, its row answers 0.
   void prescribe(int node, int component, Scalar increment) noexcept {
     Row& row = rows_[node];
-    const Scalar pivot = row.diagonal(component, component);
     row.x -= increment * row.diagonal.col(component);
     row.x[component] = 0;
     row.diagonal.row(component).setZero();
     row.diagonal.col(component).setZero();
-    row.diagonal(component, component) = pivot;
+    row.diagonal(component, component) = 1;  // not the old entry, whose sign would count as a pivot's
     if (node > 0) {
       Row& before = rows_[node - 1];
       before.x -= increment * before.coupling.col(component);
@@ -108,8 +107,8 @@ class BlockTridiagonal {
     using std::abs;
     constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
     const int last = rows_.size() - 1;
-    Scalar lowest =
-        std::numeric_limits<Scalar>::max();  // |pivot| - eps |its diagonal entry before elimination|
+    // |pivot| - eps |its diagonal entry before elimination|; the first that is not positive is kept, NaN too.
+    Scalar lowest = std::numeric_limits<Scalar>::max();
     Vector3<Scalar> assembled = rows_[0].diagonal.diagonal();
     negative_pivots_ = 0;
     energy_ = 0;
@@ -120,7 +119,7 @@ class BlockTridiagonal {
       for (int k = 0; k < 3; ++k) {
         negative_pivots_ += pivots[k] < 0;
         const Scalar left = abs(pivots[k]) - epsilon * abs(assembled[k]);
-        lowest = left > lowest ? lowest : left;  // NaN is kept
+        if (lowest > 0 && !(left >= lowest)) lowest = left;
       }
       const Vector3<Scalar> rhs = row.x;
       row.x = factor.solve(rhs);
@@ -135,8 +134,8 @@ class BlockTridiagonal {
       next.x.noalias() -= c.transpose().lazyProduct(row.x);
     }
     for (int i = last - 1; i >= 0; --i) rows_[i].x.noalias() -= rows_[i].coupling.lazyProduct(rows_[i + 1].x);
-    if (!(std::isfinite(lowest))) return Status::non_finite;
-    return lowest > 0 ? Status::ok : Status::singular;
+    if (lowest <= 0) return Status::singular;
+    return std::isfinite(lowest) && std::isfinite(energy_) ? Status::ok : Status::non_finite;
   }
 
   /// xᵀKx of the last solve() [J]: the increment's length in the norm of the tangent, squared; negative where K is not

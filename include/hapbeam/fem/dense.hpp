@@ -44,12 +44,14 @@ class Dense {
   }
 
   Status solve() {
+    if (!K_.allFinite() || !x_.allFinite()) return Status::non_finite;
     const Vector assembled = K_.diagonal(), rhs = x_;
     const Eigen::LDLT<Matrix> factor(K_);
-    if (factor.info() != Eigen::Success || !factor.vectorD().allFinite()) return Status::non_finite;
+    if (factor.info() != Eigen::Success) return Status::singular;  // a zero pivot
     x_ = factor.solve(rhs);
     energy_ = rhs.dot(x_);
-    const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+    // Its order of elimination is not the beam's, so a pivot that should be zero holds the round-off of all rows.
+    const Scalar epsilon = std::numeric_limits<Scalar>::epsilon() * static_cast<Scalar>(K_.rows());
     const Vector unpermuted = factor.transpositionsP().transpose() * factor.vectorD();
     return (unpermuted.array().abs() > epsilon * assembled.array().abs()).all() ? Status::ok
                                                                                 : Status::singular;

@@ -1,0 +1,14 @@
+// A solver so tight that what is left of an error belongs to the elements, or to round-off.
+#pragma once
+
+#include <hapbeam/fem/newton_raphson.hpp>
+
+namespace hapbeam::testing {
+
+inline NewtonRaphson tight_solver() {
+  NewtonRaphson solver;
+  solver.relative_tolerance = 1e-13;
+  return solver;
+}
+
+}  // namespace hapbeam::testing
