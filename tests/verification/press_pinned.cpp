@@ -1,0 +1,63 @@
+// The reaction of a prescribed displacement between immovable hinges against the closed form, at five positions and
+// seven depths up to twice the beam's thickness.
+#include "support/catch.hpp"
+#include "support/csv.hpp"
+#include "support/error.hpp"
+#include "support/thesis_beam.hpp"
+#include <hapbeam/fem/fem_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+/// Largest relative force error over the rows of von_karman_press_pinned.csv with a depth up to the given [mm], pressed
+/// from rest, both ways.
+template <typename Scalar>
+double worst_error(int elements, double deepest) {
+  const Csv table("von_karman_press_pinned.csv");
+  const Beam beam = thesis_beam(Support::pinned, Support::pinned);
+  FemModel<VonKarman<>, Scalar> model(beam, elements);
+  double worst = 0;
+  std::size_t rows = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double depth = table.number(row, "depth_mm"), force = table.number(row, "force_N");
+    if (depth > deepest) continue;
+    ++rows;
+    for (const double side : {1.0, -1.0}) {
+      const Press<Scalar> press{
+          static_cast<Scalar>(table.number(row, "position_over_length") * thesis_length),
+          static_cast<Scalar>(side * 1e-3 * depth)};
+      model.reset();
+      const Response<Scalar> response = model.press(press);
+      REQUIRE(response.status == Status::ok);
+      worst = std::max(worst, relative_error(static_cast<double>(response.force), side * force));
+    }
+  }
+  REQUIRE(rows == (deepest < 50 ? 20 : 35));
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("8 elements press to 5 mm within 3e-5 of the closed form", "[press]") {
+  CHECK(worst_error<double>(8, 5) <= 3e-5);
+}
+
+TEST_CASE("16 elements press to 50 mm within 1e-3 of the closed form", "[press]") {
+  CHECK(worst_error<double>(16, 50) <= 1e-3);
+}
+
+TEST_CASE("32 elements press to 50 mm within 1e-4 of the closed form", "[press]") {
+  CHECK(worst_error<double>(32, 50) <= 1e-4);
+}
+
+TEST_CASE("64 elements press to 50 mm within 1e-4 / 2⁴ · 1.2 of the closed form", "[press]") {
+  CHECK(worst_error<double>(64, 50) <= 1e-4 / 16 * 1.2);
+}
+
+// Round-off adds about eps n² L/l-like amplification, 1.2e-7 · 64 = 8e-6, to the 2.3e-5 of the elements.
+TEST_CASE("in float 8 elements press to 5 mm within 1e-3 of the closed form", "[press][float]") {
+  CHECK(worst_error<float>(8, 5) <= 1e-3);
+  CHECK(worst_error<float>(8, 5) <= 3e-5 + 64 * 1.2e-7);
+}
