@@ -87,6 +87,8 @@ struct NewtonRaphson {
     const S n = static_cast<S>(system.elements());
     const S relative = std::max(S(relative_tolerance), std::numeric_limits<S>::epsilon() * n * n);
     const S floor = S(absolute_tolerance) * system.unit();
+    // With C = 100/√(2V) an increment below this is followed by round-off, from which no C can be measured.
+    const S noise = std::sqrt(std::numeric_limits<S>::epsilon()) / 10;
     S before = 0, measured_before = 0;
     for (int k = 1; k <= max_iterations && report.solves < max_solves; ++k) {
       const Iteration<S> iteration = system.iterate();
@@ -99,7 +101,7 @@ struct NewtonRaphson {
       const S next = state > 0 ? curvature * iteration.size * iteration.size : iteration.size;
       report.error = state > 0 ? next / state : S(0);
       if (!std::isfinite(state)) return Status::non_finite;
-      if (next <= std::max(tolerance, floor)) return Status::ok;
+      if (next <= std::max(tolerance, floor) || iteration.size <= noise * state) return Status::ok;
       before = iteration.size;
       measured_before = measured;
     }

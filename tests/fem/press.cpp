@@ -1,0 +1,232 @@
+// FemModel under a hand: bounded work on any path, honest statuses, and the same force however a press was reached.
+#include <limits>
+
+#include "support/catch.hpp"
+#include "support/error.hpp"
+#include "support/random.hpp"
+#include "support/solver.hpp"
+#include "support/status.hpp"
+#include "support/thesis_beam.hpp"
+#include <hapbeam/element/linear.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The thesis beam on every pair of supports that holds it.
+std::vector<Beam> beams_on_all_supports() {
+  const Support all[] = {Support::free, Support::clamped, Support::pinned, Support::roller, Support::guided};
+  std::vector<Beam> beams;
+  for (const Support left : all)
+    for (const Support right : all) try {
+        beams.push_back(thesis_beam(left, right));
+      } catch (const std::invalid_argument&) {
+      }
+  return beams;
+}
+
+/// 0 → 50 → 0 → -50 → 0 mm in steps of 1 mm.  @return the most linear solves of one press
+template <class Model>
+int most_solves(Model& model, double s) {
+  using Scalar = typename Model::Scalar;
+  int most = 0;
+  for (int k = 0; k <= 200; ++k) {
+    const int phase = k <= 50 ? k : k <= 150 ? 100 - k : k - 200;
+    const Response<Scalar> response =
+        model.press({static_cast<Scalar>(s), static_cast<Scalar>(1e-3 * phase)});
+    REQUIRE(response.status == Status::ok);
+    most = std::max(most, model.report().solves);
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("a press path of 0 to 50 to -50 to 0 mm in 1 mm steps takes at most 6 solves a tick", "[press]") {
+  for (const Support end : {Support::pinned, Support::clamped, Support::roller})
+    for (const int elements : {4, 16, 64, 256, 1024})
+      for (const double position : {0.05, 0.1, 0.3, 0.5}) {
+        FemModel<> model(thesis_beam(Support::pinned, end), elements);
+        INFO(name(end) << ", " << elements << " elements at " << position);
+        CHECK(most_solves(model, position * thesis_length) <= 6);
+      }
+}
+
+TEST_CASE("the same path in float takes at most 6 solves a tick", "[press][float]") {
+  for (const int elements : {4, 16, 64})
+    for (const double position : {0.1, 0.3, 0.5}) {
+      FemModel<VonKarman<>, float> model(thesis_beam(Support::pinned, Support::pinned), elements);
+      INFO(elements << " elements at " << position);
+      CHECK(most_solves(model, position * thesis_length) <= 6);
+    }
+}
+
+// Rest is the hardest start: no membrane force yet, and the whole depth in one tick.
+TEMPLATE_TEST_CASE("from rest every press within range is answered in one tick", "[press]", FemModel<>,
+                   FemModel<VonKarman<ReducedIntegration>>, FemModel<VonKarman<FullIntegration>>,
+                   FemModel<Linear>, (FemModel<VonKarman<>, float>), (FemModel<Linear, float>)) {
+  using Scalar = typename TestType::Scalar;
+  int presses = 0;
+  for (const Beam& beam : beams_on_all_supports())
+    for (const int elements : {2, 4, 16}) {
+      TestType model(beam, elements);
+      const Range<Scalar> range = model.range();
+      for (const double position : {0.0, 0.001, 0.02, 0.1, 0.5, 0.77, 0.999, 1.0})
+        for (const double part : {0.1, 0.5, 1.0}) {
+          const Scalar s = static_cast<Scalar>(position * thesis_length);
+          if (s < range.s_min || s > range.s_max) continue;
+          const Press<Scalar> press{s, static_cast<Scalar>(part) * range.depth_at(s)};
+          model.reset();
+          const Response<Scalar> response = model.press(press);
+          INFO(name(beam.left()) << ", " << name(beam.right()) << ", " << elements << " elements, s "
+                                 << press.s << " m, d " << press.d << " m, " << model.report().solves
+                                 << " solves");
+          CHECK(response.status == Status::ok);
+          ++presses;
+        }
+    }
+  CHECK(presses > 500);
+}
+
+TEST_CASE("impossible requests are refused with force 0 and the shape kept", "[press]") {
+  FemModel<> model(thesis_beam(Support::pinned, Support::clamped), 8);
+  REQUIRE(model.press({1.0, 2e-3}).status == Status::ok);
+  const std::vector<CentrelineNode<double>> before(model.shape().begin(), model.shape().end());
+  for (const auto& request : std::vector<Press<double>>{{1.0, not_a_number},
+                                                        {not_a_number, 1e-3},
+                                                        {not_a_number, not_a_number},
+                                                        {1.0, infinity},
+                                                        {1.0, -infinity},
+                                                        {infinity, 0},
+                                                        {-1e-9, 1e-3},
+                                                        {thesis_length + 1e-9, 1e-3}}) {
+    const Response<double> response = model.press(request);
+    INFO("s " << request.s << " m, d " << request.d << " m");
+    CHECK(response.status == Status::invalid_request);
+    CHECK(response.force == 0);
+    for (int i = 0; i <= 8; ++i) REQUIRE(model.shape()[i].w == before[static_cast<std::size_t>(i)].w);
+  }
+}
+
+TEST_CASE("a request out of range gets the force of the nearest one in range, and says so", "[press]") {
+  const Beam beam = thesis_beam(Support::pinned, Support::clamped);
+  for (const auto& request : std::vector<Press<double>>{{1.0, 1e9},
+                                                        {1.0, -1e9},
+                                                        {1.0, 1e300},
+                                                        {0.0, 1e-4},
+                                                        {thesis_length, 1e-4},
+                                                        {1e-6, -1e-5},
+                                                        {thesis_length, -1e9}}) {
+    FemModel<> model(beam, 8), nearest(beam, 8);
+    const Response<double> response = model.press(request);
+    const Response<double> expected = nearest.press(nearest.range().nearest(request));
+    INFO("s " << request.s << " m, d " << request.d << " m");
+    CHECK(response.status == (is_answer(expected.status) ? Status::out_of_range : expected.status));
+    CHECK(std::isfinite(response.force));
+    CHECK(response.force == expected.force);
+  }
+}
+
+TEST_CASE("after any impossible request the next press equals that of a fresh model", "[press]") {
+  for (const Support end : {Support::pinned, Support::clamped})
+    for (const auto& request : std::vector<Press<double>>{{1.0, not_a_number},
+                                                          {not_a_number, 1e-3},
+                                                          {1.0, infinity},
+                                                          {1.0, 1e9},
+                                                          {1.0, -1e9},
+                                                          {-1.0, 1e-3},
+                                                          {3.0, 1e-3},
+                                                          {0.0, 1e9},
+                                                          {thesis_length, 1e-3}}) {
+      FemModel<> used(thesis_beam(end, end), 8, tight_solver()), fresh = used;
+      CHECK(std::isfinite(used.press(request).force));
+      const Response<double> response = used.press({0.7, 3e-3}), expected = fresh.press({0.7, 3e-3});
+      INFO(name(end) << ", after s " << request.s << " m, d " << request.d << " m");
+      CHECK(response.status == Status::ok);
+      CHECK(relative_error(response.force, expected.force) <= 1e-9);
+    }
+}
+
+TEST_CASE("random presses within range are answered, and their force does not know the way", "[press]") {
+  for (const Support end : {Support::pinned, Support::clamped, Support::free}) {
+    const Beam beam = thesis_beam(Support::clamped, end);
+    FemModel<> wandering(beam, 8, tight_solver()), fresh(beam, 8, tight_solver());
+    Random random(7);
+    double worst = 0;
+    int unanswered = 0;
+    for (int k = 0; k < 1000; ++k) {
+      const Range<double> range = wandering.range();
+      const double s = random(range.s_min, range.s_max), d = random(std::min(range.depth_at(s), 50e-3));
+      fresh.reset();
+      const Response<double> response = wandering.press({s, d}), expected = fresh.press({s, d});
+      if (response.status != Status::ok || expected.status != Status::ok) ++unanswered;
+      else worst = std::max(worst, relative_error(response.force, expected.force));
+    }
+    INFO(name(end));
+    CHECK(unanswered == 0);
+    CHECK(worst <= 1e-9);
+  }
+}
+
+// A budget must have room for a second and shorter step, and a step for as many iterations as that needs.
+TEST_CASE("with a budget too small for one tick the model catches up over the next ones", "[press]") {
+  const Beam beam = thesis_beam(Support::pinned, Support::pinned);
+  const Press<double> press{0.1 * thesis_length, 50e-3};
+  FemModel<> unhurried(beam, 16, tight_solver());
+  const Response<double> expected = unhurried.press(press);
+  REQUIRE(expected.status == Status::ok);
+  for (const int max_iterations : {5, 6}) {
+    NewtonRaphson hurried;
+    hurried.max_iterations = max_iterations;
+    hurried.max_solves = 2 * max_iterations;
+    FemModel<> model(beam, 16, hurried);
+    Response<double> response = model.press(press);
+    CHECK(response.status == Status::iteration_limit);
+    int ticks = 1;
+    for (double before = 0; response.status == Status::iteration_limit && ticks < 1000; ++ticks) {
+      CHECK((response.force >= before && response.force <= expected.force));
+      CHECK(model.report().solves <= hurried.max_solves);
+      before = response.force;
+      response = model.press(press);
+    }
+    INFO("at most " << hurried.max_solves << " solves: " << ticks << " ticks");
+    CHECK(response.status == Status::ok);
+    CHECK(relative_error(response.force, expected.force) <= hurried.relative_tolerance);
+  }
+}
+
+TEST_CASE("reset goes back to the shape at rest, exactly", "[press]") {
+  Beam beam = thesis_beam(Support::clamped, Support::pinned);
+  beam.transverse(-500);
+  FemModel<> model(beam, 8);
+  const FemModel<> rest = model;
+  REQUIRE(model.press({0.9, 10e-3}).status == Status::ok);
+  CHECK(model.shape()[4].w != rest.shape()[4].w);
+  model.reset();
+  for (int i = 0; i <= 8; ++i) {
+    CHECK(model.shape()[i].s == rest.shape()[i].s);
+    CHECK(model.shape()[i].u == rest.shape()[i].u);
+    CHECK(model.shape()[i].w == rest.shape()[i].w);
+    CHECK(model.shape()[i].theta == rest.shape()[i].theta);
+  }
+  CHECK(model.strain_energy() == rest.strain_energy());
+}
+
+// Where the beam already is, under its dead load, holding it takes no force.
+TEST_CASE("pressing the beam to where it rests takes no force", "[press]") {
+  Beam beam = thesis_beam(Support::clamped, Support::pinned);
+  beam.transverse(-500);
+  FemModel<> model(beam, 8, tight_solver());
+  for (int i = 1; i < 8; ++i) {
+    model.reset();
+    const auto node = model.shape()[i];
+    const Response<double> response = model.press({node.s, node.w});
+    CHECK(response.status == Status::ok);
+    CHECK(std::abs(response.force) <= 1e-9 * 500 * thesis_length);
+  }
+}
