@@ -1,0 +1,104 @@
+#include "report.hpp"
+
+#include <cstdio>
+
+#include "json.hpp"
+
+namespace phantom {
+
+namespace {
+
+std::string ends(const Options& options) {
+  return std::string(name(options.left)) + "-" + name(options.right);
+}
+
+unsigned long long number(std::uint64_t count) { return count; }
+
+}  // namespace
+
+void print_scene(const Options& o, const hapbeam::DeviceInfo& device) {
+  std::printf("device   %s, %.0f Hz, %s\n", device.name.c_str(), 1 / device.period,
+              o.lock_step ? "lock step with simulated time" : "real time");
+  std::printf("beam     %s: %g m, section %g x %g mm, E = %g GPa, %s\n", o.beam.c_str(), o.length,
+              o.width * 1e3, o.height * 1e3, o.young / 1e9, ends(o).c_str());
+  std::printf("model    finite elements, %s, %d elements\n", name(o.element), o.elements);
+  std::printf("hand     %s, at %g m, aims %g mm below the surface, %g s; avatar of radius %g mm\n",
+              name(o.script), o.place, o.depth * 1e3, o.duration, o.radius * 1e3);
+  std::printf("scale    %g m of the scene for 1 m of the device; forces 1 : 1\n", o.scale);
+  if (o.script == Script::slide)
+    std::printf(
+        "slide    %.4g m to either side in the scene, what the device's %g mm width leaves room for\n",
+        reach(o) * o.scale, device.workspace.x() * 1e3);
+  std::printf("\n%7s %9s %9s %9s %9s %8s %7s %7s %9s  %s\n", "time s", "hand x mm", "hand y mm", "press mm",
+              "force N", "ticks", "missed", "cut", "p99 us", "status");
+}
+
+void print_row(const Notes& n, const hapbeam::DeviceCounts& counts) {
+  std::printf("%7.2f %9.2f %9.2f %9.3f %9.2f %8llu %7llu %7llu %9.1f  %s\n", n.time.load(), n.x.load() * 1e3,
+              n.y.load() * 1e3, n.press.load() * 1e3, n.force.load(), number(counts.ticks),
+              number(counts.missed_ticks), number(counts.force_cut_ticks), n.times.quantile(0.99),
+              name(n.worst.load()));
+  std::fflush(stdout);
+}
+
+void print_summary(const Run& run) {
+  const Notes& n = run.notes;
+  const hapbeam::DeviceCounts& c = run.counts;
+  const double all = static_cast<double>(c.ticks > 0 ? c.ticks : 1);
+  std::printf("\n%s%llu ticks, %llu missed (began more than one period after their deadline)\n",
+              run.interrupted ? "interrupted after " : "", number(c.ticks), number(c.missed_ticks));
+  std::printf("tick     p50 %.2f us, p99 %.2f us, max %.1f us: contact, press and force\n",
+              n.times.quantile(0.5), n.times.quantile(0.99), n.times.longest());
+  std::printf(
+      "contact  in %llu ticks, begun %llu times; deepest press %.3f mm, largest force %.2f N; worst status "
+      "%s\n",
+      number(n.contact_ticks.load()), number(n.touches.load()), n.max_press.load() * 1e3, n.max_force.load(),
+      name(n.worst.load()));
+  if (c.force_cut_ticks == 0) {
+    std::printf("force    never cut: the device gives up to %g N\n", run.device.peak_force);
+  } else {
+    std::printf(
+        "force    CUT in %llu ticks (%.1f %%): the beam asked for up to %.1f N and the device gives %g N.\n"
+        "         There the hand did not feel the beam but the limit of the device.\n",
+        number(c.force_cut_ticks), 100 * static_cast<double>(c.force_cut_ticks) / all, n.max_force.load(),
+        run.device.peak_force);
+  }
+}
+
+std::string json(const Run& run) {
+  const Options& o = run.options;
+  const Notes& n = run.notes;
+  return JsonObject()
+      .add("device", run.device.name)
+      .add("peak_force_N", run.device.peak_force)
+      .add("period_s", run.device.period)
+      .add("real_time", !o.lock_step)
+      .add("beam", o.beam)
+      .add("length_m", o.length)
+      .add("width_m", o.width)
+      .add("height_m", o.height)
+      .add("young_Pa", o.young)
+      .add("ends", ends(o))
+      .add("model", "fem")
+      .add("element", name(o.element))
+      .add("elements", o.elements)
+      .add("script", name(o.script))
+      .add("place_m", o.place)
+      .add("scale", o.scale)
+      .add("duration_s", o.duration)
+      .add("interrupted", run.interrupted)
+      .add("ticks", run.counts.ticks)
+      .add("missed_ticks", run.counts.missed_ticks)
+      .add("contact_ticks", n.contact_ticks.load())
+      .add("touches", n.touches.load())
+      .add("tick_us_p50", n.times.quantile(0.5))
+      .add("tick_us_p99", n.times.quantile(0.99))
+      .add("tick_us_max", n.times.longest())
+      .add("max_press_mm", n.max_press.load() * 1e3)
+      .add("max_force_N", n.max_force.load())
+      .add("force_cut_ticks", run.counts.force_cut_ticks)
+      .add("max_status", name(n.worst.load()))
+      .text();
+}
+
+}  // namespace phantom
