@@ -1,0 +1,46 @@
+// FemModel as a ForceModel: each element, scalar, kind of size and assembler.
+#include <string>
+
+#include "conformance/force_model_suite.hpp"
+#include "support/thesis_beam.hpp"
+#include <hapbeam/element/linear.hpp>
+#include <hapbeam/fem/dense.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+constexpr int any = Eigen::Dynamic;
+
+using Default = FemModel<>;
+using Full = FemModel<VonKarman<FullIntegration>>;
+using Reduced = FemModel<VonKarman<ReducedIntegration>>;
+using LinearModel = FemModel<Linear>;
+using Float = FemModel<VonKarman<>, float>;
+using LinearFloat = FemModel<Linear, float>;
+using Fixed = FemModel<VonKarman<>, double, 8>;
+using Bounded = FemModel<VonKarman<>, double, any, 12>;
+using FixedFloat = FemModel<VonKarman<ReducedIntegration>, float, 8>;
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("FemModel keeps the contract of a ForceModel between hinges", "[contract]", Default, Full,
+                   Reduced, LinearModel, Float, LinearFloat, Fixed, Bounded, FixedFloat) {
+  check_force_model([] { return TestType(thesis_beam(Support::pinned, Support::pinned), 8); });
+}
+
+TEST_CASE("FemModel keeps the contract of a ForceModel on other supports", "[contract]") {
+  const auto [left, right] = GENERATE(table<Support, Support>({{Support::clamped, Support::clamped},
+                                                               {Support::clamped, Support::free},
+                                                               {Support::roller, Support::guided},
+                                                               {Support::guided, Support::pinned}}));
+  const Support one = left, other = right;
+  check_force_model([one, other] { return Default(thesis_beam(one, other), 8); });
+}
+
+TEST_CASE("FemModel on the dense assembler keeps the contract of a ForceModel", "[contract]") {
+  using Reference = FemModel<VonKarman<>, double, any, any, Dense>;
+  check_force_model([] { return Reference(thesis_beam(Support::pinned, Support::pinned), 6); });
+}
