@@ -1,0 +1,90 @@
+// Every invalid input throws std::invalid_argument that names field, value, unit and what is allowed.
+#include <functional>
+#include <limits>
+
+#include "support/catch.hpp"
+#include "support/thesis_beam.hpp"
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+/// What was thrown, or nothing.
+std::string rejection(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void check_rejection(const std::function<void()>& call, const std::string& field, double value,
+                     const std::string& unit, const std::string& allowed) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%g", value);
+  CHECK(rejection(call) == field + " = " + digits + " " + unit + ": must be " + allowed);
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+Beam hinged() { return thesis_beam(Support::pinned, Support::roller); }
+
+}  // namespace
+
+TEST_CASE("lengths, stiffnesses and sections must be positive and finite", "[beam]") {
+  const std::string positive = "positive and finite";
+  const Support p = Support::pinned;
+  for (const double bad : {0.0, -1.0, -0.0, infinity, -infinity, not_a_number}) {
+    check_rejection([=] { Beam(bad, 1e6, 1e3, 0.01, p, p); }, "length", bad, "m", positive);
+    check_rejection([=] { Beam(1, bad, 1e3, 0.01, p, p); }, "axial_stiffness", bad, "N", positive);
+    check_rejection([=] { Beam(1, 1e6, bad, 0.01, p, p); }, "bending_stiffness", bad, "N·m²", positive);
+    check_rejection([=] { Beam(1, 1e6, 1e3, bad, p, p); }, "thickness", bad, "m", positive);
+    check_rejection([=] { Beam(1, {1e-4, 1e-9, 0.01}, {bad}, p, p); }, "young", bad, "Pa", positive);
+    check_rejection([=] { Beam(1, {bad, 1e-9, 0.01}, {2e11}, p, p); }, "area", bad, "m²", positive);
+    check_rejection([=] { Beam(1, {1e-4, bad, 0.01}, {2e11}, p, p); }, "inertia", bad, "m⁴", positive);
+    check_rejection([=] { Beam(1, {1e-4, 1e-9, bad}, {2e11}, p, p); }, "thickness", bad, "m", positive);
+    check_rejection([=] { Section::rectangle(bad, 1); }, "section width", bad, "m", positive);
+    check_rejection([=] { Section::rectangle(1, bad); }, "section height", bad, "m", positive);
+    check_rejection([=] { Section::circle(bad); }, "section diameter", bad, "m", positive);
+    check_rejection([=] { Section::tube(bad, 1); }, "section outer_diameter", bad, "m", positive);
+    check_rejection([=] { Section::tube(1, bad); }, "section inner_diameter", bad, "m", positive);
+  }
+}
+
+TEST_CASE("a tube must be wider outside than inside", "[beam]") {
+  for (const double inner : {0.02, 0.03})
+    check_rejection([=] { Section::tube(0.02, inner); }, "section inner_diameter", inner, "m",
+                    "less than outer_diameter");
+}
+
+TEST_CASE("loads must be finite", "[beam]") {
+  for (const double bad : {infinity, -infinity, not_a_number}) {
+    check_rejection([=] { hinged().transverse(bad); }, "transverse load", bad, "N/m", "finite");
+    check_rejection([=] { hinged().axial(bad); }, "axial load", bad, "N/m", "finite");
+    check_rejection([=] { hinged().add({1, bad, 0, 0}); }, "point load axial", bad, "N", "finite");
+    check_rejection([=] { hinged().add({1, 0, bad, 0}); }, "point load transverse", bad, "N", "finite");
+    check_rejection([=] { hinged().add({1, 0, 0, bad}); }, "point load moment", bad, "N·m", "finite");
+  }
+}
+
+TEST_CASE("a point load must lie on the beam", "[beam]") {
+  for (const double s : {-1e-12, thesis_length + 1e-9, infinity, not_a_number})
+    check_rejection(
+        [=] {
+          hinged().add({s, 0, 1, 0});
+        },
+        "point load s", s, "m", "on the beam, 0 to its length");
+  CHECK(rejection([] { hinged().add({0, 0, 1, 0}).add({thesis_length, 0, 1, 0}); }).empty());
+}
+
+TEST_CASE("what was rejected leaves the beam as it was", "[beam]") {
+  Beam beam = hinged();
+  beam.transverse(3);
+  CHECK_FALSE(rejection([&] { beam.transverse(not_a_number); }).empty());
+  CHECK_FALSE(rejection([&] { beam.add({1, 0, not_a_number, 0}); }).empty());
+  CHECK(beam.transverse()(0.5) == 3);
+  CHECK(beam.point_loads().empty());
+}
