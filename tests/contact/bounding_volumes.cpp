@@ -91,6 +91,11 @@ TEST_CASE("the same volumes serve centrelines with fewer and with more pieces th
     volumes.refit(curve.line());
     for (int i = 0; i < 100; ++i) check_same<double>(volumes, curve.line(), {along(random), across(random)});
   }
+  // Nothing is left of a larger tree.
+  const auto straight = straight_curve<double>(3, 1);
+  volumes.refit(straight.line());
+  CHECK(volumes.distance_squared({0.5, 0.25}) == 0.0625);
+  CHECK(volumes.distance_squared({1.25, 0}) == 0.0625);
 }
 
 TEST_CASE("no piece is nearest to a query, or on a curve, that is not finite") {

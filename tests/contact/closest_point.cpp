@@ -60,6 +60,10 @@ TEST_CASE("closest_point is the global minimum, on cubics with loops, cusps and 
       const auto found = hapbeam::closest_point(b, q);
       REQUIRE((found.t >= 0 && found.t <= 1));
       REQUIRE((point_at(b, found.t) + found.offset - q).norm() < 1e-14);
+      if (i % 10 > 5 && found.t > 0 && found.t < 1) {
+        const Vector along = hapbeam::tangent(b, found.t);
+        REQUIRE(std::abs(found.offset.dot(along)) < 1e-10 * along.norm());
+      }
       worst = std::max(worst, std::abs(std::sqrt(found.distance_squared) - sampled_distance(b, q)));
     }
   }

@@ -30,7 +30,7 @@ Curve<Scalar> straight_curve(int segments, Scalar length) {
       segments, length, [](Scalar) { return Scalar(0); }, [](Scalar) { return Scalar(0); });
 }
 
-/// A random shape of length 1: mostly a graph over x, with nodes at uneven distances, stretched or compressed.
+/// A random shape of length 1: mostly a graph over x, with uneven nodes, stretched or compressed.
 enum class Shape { straight, nearly_straight, sagging, wavy, ragged };
 constexpr Shape all_shapes[] = {Shape::straight, Shape::nearly_straight, Shape::sagging, Shape::wavy,
                                 Shape::ragged};

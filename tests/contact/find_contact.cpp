@@ -288,6 +288,11 @@ TEST_CASE("an avatar that was deep and is barely past the end keeps its side") {
   const auto back = scene.move_to(0.99, -0.004);
   CHECK(back.side == 1);
   CHECK(back.depth == Approx(reach + 0.004));
+
+  scene.memory = {};
+  scene.move_to(0.99, 0.01);
+  CHECK(scene.move_to(1.0001, -0.004).touching);  // the same in one step
+  CHECK(scene.move_to(0.99, -0.004).side == 1);
 }
 
 TEST_CASE("an avatar on the centreline itself is on the side where it came from") {
@@ -302,6 +307,16 @@ TEST_CASE("an avatar on the centreline itself is on the side where it came from"
   }
   Scene<double> scene(straight_curve<double>(4, 1));
   CHECK(scene.move_to(0.5, 0).depth == reach);  // at a node, out of nowhere
+
+  std::mt19937 random(15);
+  std::uniform_real_distribution<double> across(0.01, 0.05), along(-0.001, 0.001);
+  for (int i = 0; i < 1000; ++i) {
+    Scene<double> bent(random_curve<double>(Shape::wavy, 8, random));
+    const auto& node = bent.curve.nodes[4];
+    const int side = i % 2 ? 1 : -1;
+    bent.move_to(node.s + node.u + along(random), node.w + side * across(random));
+    REQUIRE(bent.move_to(node.s + node.u, node.w).side == side);
+  }
 }
 
 TEST_CASE("an avatar that begins inside the beam is on the side where it is") {
@@ -325,6 +340,9 @@ TEST_CASE("a position that is not a number answers nothing and changes nothing")
     CHECK(scene.memory.position == Vector(0.4, 0.007));
     CHECK(scene.move_to(0.4, -0.1).depth ==
           Approx(0.1 + reach));  // the step is seen from the last good position
+    ContactMemory<double> nothing;
+    CHECK_FALSE(out_of_reach<double>({bad, radius}, scene.volumes, thickness, nothing));
+    CHECK_FALSE(nothing.known);
     CHECK_FALSE(scene.move_to(bad.x(), bad.y()).touching);
     CHECK(scene.move_to(0.4, -0.1).side == 1);  // and the touch is not forgotten
   }

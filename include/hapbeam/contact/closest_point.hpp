@@ -2,7 +2,7 @@
 //
 // With p(t) = C(t) - q the distance is stationary where g(t) = p . p' = 0, a polynomial of degree five.  Its
 // Bernstein coefficients are short sums of dot products of control points, and their signs isolate the
-// minima; nearly always there is none (an end point is nearest) or one.  The cubic may be any, loops included.
+// minima; nearly always there is none (an end is nearest) or one.  The cubic may be any, loops included.
 // No allocation, noexcept, bounded work.
 #pragma once
 

@@ -42,32 +42,23 @@ struct ContactMemory {
 
 namespace detail {
 
-/// The foot's neighbourhood: direction of the centreline there, and whether q lies beyond an end of it.
+/// The foot: direction of the centreline there, and whether q lies beyond an end of it.
 template <typename Scalar>
 struct FootFrame {
   Vector2<Scalar> direction;  // unit
-  bool at_node;               // the normal is not given by the direction
+  bool at_node;               // the way to q need not be square to the direction
   bool past_end;
 };
 
 template <typename Scalar>
 FootFrame<Scalar> foot_frame(const Centreline<Scalar>& centreline,
                              const NearestPoint<Scalar>& nearest) noexcept {
-  const int i = nearest.segment, last = centreline.segments() - 1;
+  const int i = nearest.segment;
   const Scalar t = nearest.at.t;
-  FootFrame<Scalar> frame{tangent(centreline.segment(i), t).normalized(), false, false};
-  if (t > 0 && t < 1) return frame;
-  frame.at_node = true;
-  const int other = t > 0 ? i + 1 : i - 1;
-  if (other >= 0 && other <= last) {
-    // u' jumps at a node, and the direction with it, a little.  A point whose foot is the node lies on the
-    // same side of both directions, and of their middle.
-    frame.direction += tangent(centreline.segment(other), 1 - t).normalized();
-    frame.direction.normalize();
-  } else {
-    const Scalar beyond = frame.direction.dot(nearest.at.offset);
-    frame.past_end = t > 0 ? beyond > 0 : beyond < 0;
-  }
+  FootFrame<Scalar> frame{tangent(centreline.segment(i), t).normalized(), t == 0 || t == 1, false};
+  const Scalar ahead = frame.direction.dot(nearest.at.offset);
+  if (i == 0 && t == 0) frame.past_end = ahead < 0;
+  if (i == centreline.segments() - 1 && t == 1) frame.past_end = ahead > 0;
   return frame;
 }
 
@@ -88,7 +79,6 @@ template <typename Scalar>
                                            ContactMemory<Scalar>& memory) noexcept {
   const Vector2<Scalar>& q = avatar.position;
   Contact<Scalar> contact;
-  if (!q.allFinite()) return contact;
   const NearestPoint<Scalar> nearest = volumes.nearest(centreline, q);
   if (nearest.segment < 0) return contact;
 
@@ -100,17 +90,14 @@ template <typename Scalar>
   const auto &a = centreline[nearest.segment], &b = centreline[nearest.segment + 1];
   contact.s = nearest.at.t < 1 ? std::min(a.s + nearest.at.t * (b.s - a.s), b.s) : b.s;
 
-  // A centre on the centreline is taken to be where it came from.
-  Scalar left = cross(frame.direction, offset);
-  if (left == 0 && memory.touching) left = static_cast<Scalar>(memory.side);
-  if (left == 0 && memory.known) left = cross<Scalar>(frame.direction, memory.position - contact.foot);
-  const int present_side = left < 0 ? -1 : 1;
+  // A step that ends on the centreline itself has crossed it, so the sign of zero does not matter below.
+  const int present_side = cross(frame.direction, offset) < 0 ? -1 : 1;
 
   contact.side = present_side;
   if (memory.touching) {
     const bool goes_round_end = frame.past_end && !memory.through;
     if (!goes_round_end) contact.side = memory.side;
-  } else if (memory.known && !frame.past_end) {
+  } else if (memory.known) {
     // Only a step longer than the present distance can have crossed anything.
     if ((q - memory.position).squaredNorm() >= nearest.at.distance_squared) {
       const Crossings crossed = volumes.crossings(centreline, memory.position, q);
@@ -120,8 +107,7 @@ template <typename Scalar>
 
   const Scalar distance = std::sqrt(nearest.at.distance_squared), reach = avatar.radius + thickness / 2;
   const bool through = contact.side != present_side;
-  const Scalar gap =
-      through && !frame.past_end ? -distance : distance;  // from the centreline, signed but past an end
+  const Scalar gap = through && !frame.past_end ? -distance : distance;
   contact.depth = reach - gap;
   contact.touching = contact.depth > 0;
   if (!contact.touching) contact.side = present_side;
@@ -139,15 +125,15 @@ template <typename Scalar>
 }
 
 /// True where find_contact() would find none, because the avatar is farther from the box around the beam than
-/// its own size and its last step; then this takes its place, for the price of a box.  False says nothing, and
+/// its own size and its last step; then this takes its place, for the price of a box.  False says nothing and
 /// changes nothing.
 /// Real-time: noexcept, no allocation, O(1).
 template <typename Scalar>
 [[nodiscard]] bool out_of_reach(const Avatar<Scalar>& avatar, const BoundingVolumes<Scalar>& volumes,
                                 Scalar thickness, ContactMemory<Scalar>& memory) noexcept {
   if (memory.touching) return false;
-  const Scalar distance_squared = volumes.distance_squared(avatar.position),
-               reach = avatar.radius + thickness / 2;
+  const Scalar distance_squared = volumes.distance_squared(avatar.position);
+  const Scalar reach = avatar.radius + thickness / 2;
   const Scalar step_squared = memory.known ? (avatar.position - memory.position).squaredNorm() : Scalar(0);
   if (!(distance_squared > reach * reach && distance_squared > step_squared &&
         std::isfinite(distance_squared)))
