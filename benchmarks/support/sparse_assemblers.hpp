@@ -1,0 +1,169 @@
+// What hapbeam's assembler is measured against: the same FemModel, the same Newton, mesh, elements and convergence
+// rule, over Eigen's general sparse solvers.
+//
+// Both fulfil the Assembler policy (compare hapbeam/fem/dense.hpp), so that the linear algebra is the only difference.
+// Written as well as one can from outside: SimplicialLdlt analyses its pattern once, refills the values in place
+// without searching, and allocates nothing of its own in a solve.  SparseLuFromTriplets is what one writes first.
+#pragma once
+
+#if defined(__GNUC__) && !defined(__clang__)
+// GCC 12 takes the undefined lanes of its own AVX-512 intrinsics for a mistake (GCC bug 105593).  The warning comes
+// from inlining, after any pop: it is off for the rest of the file.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
+
+#include <algorithm>
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
+
+#include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/block_tridiagonal.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::benchmarks {
+
+/// @tparam Ordering  Eigen::NaturalOrdering<int>: a chain fills in nothing, and with the upper triangle Eigen need not
+///                   copy the matrix first; Eigen::AMDOrdering<int>: Eigen's default
+template <typename Scalar, class Ordering>
+class SimplicialLdlt {
+  using Matrix = Eigen::SparseMatrix<Scalar>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+ public:
+  explicit SimplicialLdlt(int elements)
+      : K_(3 * (elements + 1), 3 * (elements + 1)), rhs_(K_.rows()), x_(K_.rows()) {
+    // The upper triangle, column by column: the coupling to the node before, then this node's own triangle.
+    std::vector<Eigen::Triplet<Scalar>> entries;
+    for (int column = 0; column < K_.cols(); ++column)
+      for (int row = std::max(0, column / 3 * 3 - 3); row <= column; ++row)
+        entries.emplace_back(row, column, 1);
+    K_.setFromTriplets(entries.begin(), entries.end());
+    solver_.analyzePattern(K_);
+  }
+
+  void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
+    if (e == 0) {
+      clear_own(0);
+      rhs_.template head<3>().setZero();
+    }
+    clear_own(e + 1);
+    for (int j = 0; j < 3; ++j) {
+      Scalar* a = own(e, j);
+      Scalar* b = own(e + 1, j);
+      for (int i = 0; i <= j; ++i) a[i] += K(i, j);
+      for (int i = 0; i < 3; ++i) b[i - 3] = K(i, j + 3);
+      for (int i = 0; i <= j; ++i) b[i] += K(i + 3, j + 3);
+    }
+    rhs_.template segment<3>(3 * e) -= r.template head<3>();
+    rhs_.template segment<3>(3 * e + 3) = -r.template tail<3>();
+  }
+
+  void add_force(int node, const Vector3<Scalar>& force) noexcept {
+    rhs_.template segment<3>(3 * node) += force;
+  }
+
+  void prescribe(int node, int component, Scalar increment) noexcept {
+    const auto take = [&](Scalar& entry, int row) {
+      rhs_[row] -= increment * entry;
+      entry = 0;
+    };
+    const int k = 3 * node + component;
+    Scalar* column = own(node, component);
+    if (node > 0)
+      for (int i = 0; i < 3; ++i) take(column[i - 3], 3 * node - 3 + i);
+    for (int i = 0; i < component; ++i) take(column[i], 3 * node + i);
+    for (int j = component + 1; j < 3; ++j) take(own(node, j)[component], 3 * node + j);
+    if (k + 3 < K_.cols())
+      for (int j = 0; j < 3; ++j) take(own(node + 1, j)[component - 3], 3 * node + 3 + j);
+    rhs_[k] = 0;
+  }
+
+  Status solve() {
+    solver_.factorize(K_);
+    if (solver_.info() != Eigen::Success) return Status::singular;
+    x_ = solver_.solve(rhs_);
+    return x_.allFinite() ? Status::ok : Status::non_finite;
+  }
+
+  Scalar energy() const noexcept { return rhs_.dot(x_); }
+  Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
+
+ private:
+  /// Entry (0, j) of a node's diagonal block; the entries above it are the coupling's.
+  Scalar* own(int node, int j) noexcept {
+    return K_.valuePtr() + K_.outerIndexPtr()[3 * node + j] + (node > 0 ? 3 : 0);
+  }
+  void clear_own(int node) noexcept {
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i <= j; ++i) own(node, j)[i] = 0;
+  }
+
+  Matrix K_;
+  Vector rhs_, x_;
+  Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Ordering> solver_;
+};
+
+template <typename Scalar, int, int>
+using SimplicialLdltNatural = SimplicialLdlt<Scalar, Eigen::NaturalOrdering<int>>;
+template <typename Scalar, int, int>
+using SimplicialLdltAmd = SimplicialLdlt<Scalar, Eigen::AMDOrdering<int>>;
+
+/// A list of triplets, a matrix of it, a new factorisation: everything anew in each iteration.
+template <typename Scalar, int, int>
+class SparseLuFromTriplets {
+  using Matrix = Eigen::SparseMatrix<Scalar>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+ public:
+  explicit SparseLuFromTriplets(int elements)
+      : K_(3 * (elements + 1), 3 * (elements + 1)),
+        rhs_(K_.rows()),
+        x_(K_.rows()),
+        fixed_(K_.rows()),
+        given_(K_.rows()) {}
+
+  void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) {
+    if (e == 0) {
+      triplets_.clear();
+      rhs_.setZero();
+      fixed_.setZero();
+    }
+    for (int j = 0; j < 6; ++j)
+      for (int i = 0; i < 6; ++i) triplets_.emplace_back(3 * e + i, 3 * e + j, K(i, j));
+    rhs_.template segment<6>(3 * e) -= r;
+  }
+
+  void add_force(int node, const Vector3<Scalar>& force) { rhs_.template segment<3>(3 * node) += force; }
+
+  void prescribe(int node, int component, Scalar increment) {
+    fixed_[3 * node + component] = 1;
+    given_[3 * node + component] = increment;
+  }
+
+  Status solve() {
+    for (auto& entry : triplets_) {
+      const bool row = fixed_[entry.row()] != 0, column = fixed_[entry.col()] != 0;
+      if (column) rhs_[entry.row()] -= given_[entry.col()] * entry.value();
+      if ((row || column) && entry.row() != entry.col()) entry = {entry.row(), entry.col(), 0};
+    }
+    rhs_ = (fixed_.array() != 0).select(0, rhs_);
+    K_.setFromTriplets(triplets_.begin(), triplets_.end());
+    Eigen::SparseLU<Matrix> solver(K_);
+    if (solver.info() != Eigen::Success) return Status::singular;
+    x_ = solver.solve(rhs_);
+    return x_.allFinite() ? Status::ok : Status::non_finite;
+  }
+
+  Scalar energy() const noexcept { return rhs_.dot(x_); }
+  Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
+
+ private:
+  std::vector<Eigen::Triplet<Scalar>> triplets_;
+  Matrix K_;
+  Vector rhs_, x_, fixed_, given_;
+};
+
+}  // namespace hapbeam::benchmarks
