@@ -8,7 +8,8 @@ using namespace hapbeam::testing;
 
 namespace {
 
-/// ∫ zᵏ b(z) dz over -h/2 … h/2 by z = h/2 sin t and the midpoint rule in t, which then converges faster than any power.
+/// ∫ zᵏ b(z) dz over -h/2 … h/2 by z = h/2 sin t and the midpoint rule in t, which then converges faster than
+/// any power.
 template <class Width>
 double moment(int k, double height, Width&& width) {
   constexpr int n = 64;

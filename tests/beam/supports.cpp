@@ -21,8 +21,8 @@ constexpr Held all[] = {{Support::free, false, false, false},
                         {Support::roller, false, true, false},
                         {Support::guided, true, false, true}};
 
-/// Smallest over largest eigenvalue of the free part of a beam of two linear elements with EA = EI = l = 1: 1e-3 or more
-/// where it is held, round-off where it is a mechanism.
+/// Smallest over largest eigenvalue of the free part of a beam of two linear elements with EA = EI = l = 1:
+/// 1e-3 or more where it is held, round-off where it is a mechanism.
 double definiteness(const Held& left, const Held& right) {
   Matrix6<double> element;
   Vector6<double> r;

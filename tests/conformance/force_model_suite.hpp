@@ -2,8 +2,8 @@
 //
 //   TEST_CASE("...") { check_force_model([] { return MyModel(...); }); }
 //
-// A model needs a copy constructor beyond the contract.  Laws that only some models have (energy, symmetry, accuracy)
-// belong to the tests of these models.
+// A model needs a copy constructor beyond the contract.  Laws that only some models have (energy, symmetry,
+// accuracy) belong to the tests of these models.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,8 @@
 
 namespace hapbeam::testing {
 
-/// How far two forces of the same press may be apart, relative to the larger: the solver's tolerance, or round-off.
+/// How far two forces of the same press may be apart, relative to the larger: ten times what a solver's tolerance
+/// is, or round-off of float near an end.
 template <typename Scalar>
 constexpr Scalar force_tolerance = std::is_same_v<Scalar, float> ? Scalar(1e-3) : Scalar(1e-7);
 
@@ -26,8 +27,8 @@ bool close(Scalar a, Scalar b) {
   return std::abs(a - b) <= force_tolerance<Scalar> * std::max(std::abs(a), std::abs(b));
 }
 
-/// Presses over the range, up to a depth that a hand reaches, in a fixed random order.  Within half a percent of the ends
-/// a model may round s, if it says so.
+/// Presses over the range, up to a depth that a hand reaches, in a fixed random order.  Within half a percent
+/// of the ends a model may round s, if it says so.
 template <class Model>
 std::vector<Press<typename Model::Scalar>> presses_in(const Model& model, int number) {
   using Scalar = typename Model::Scalar;

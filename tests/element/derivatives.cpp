@@ -1,8 +1,8 @@
 // Residual and tangent as derivatives of the energy, and what does no work: the laws of every element.
 //
-// V is a polynomial of degree four in the nodal displacements and the residual one of degree three, so the five-point rule
-// is exact with steps as large as the state and only round-off is left: eps times the largest term over the step, which
-// the membrane of a slender element makes EA/(EI/l²) <= 1e6 times the bending part.
+// V is a polynomial of degree four in the nodal displacements and the residual one of degree three, so the
+// five-point rule is exact with steps as large as the state and only round-off is left: eps times the largest
+// term over the step, which the membrane of a slender element makes EA/(EI/l²) <= 1e6 times the bending part.
 #include "element/elements.hpp"
 #include "support/catch.hpp"
 
@@ -61,8 +61,8 @@ TEMPLATE_TEST_CASE("the tangent is the gradient of the residual, and symmetric",
   CHECK(asymmetry <= 4 * 2.2e-16);
 }
 
-// The state is a float, so that both scalars see the same one; 6 eps bounds the differences of displacements that a
-// float must take, relative to the largest term.
+// The state is a float, so that both scalars see the same one; 6 eps bounds the differences of displacements
+// that a float must take, relative to the largest term.
 TEMPLATE_TEST_CASE("in float residual and tangent are those of double to round-off", "[element][float]",
                    Linear, Full, Reduced, Assumed) {
   Random random(23);
@@ -105,8 +105,8 @@ TEMPLATE_TEST_CASE("a rigid translation takes exactly no force and no energy", "
   }
 }
 
-// Turning the element by a small angle changes its strain by w' less the slope of its chord, whose mean is zero.  Sampled
-// in points it is not: full and reduced integration leave a moment.
+// Turning the element by a small angle changes its strain by w' less the slope of its chord, whose mean is
+// zero.  Sampled in points it is not: full and reduced integration leave a moment.
 TEMPLATE_TEST_CASE("forces and moments on an element are in balance", "[element]", Linear, Assumed) {
   Random random(25);
   for (int trial = 0; trial < 200; ++trial) {
@@ -116,8 +116,8 @@ TEMPLATE_TEST_CASE("forces and moments on an element are in balance", "[element]
     TestType::residual(p, d, r);
     REQUIRE(r[0] + r[3] == 0);
     REQUIRE(r[1] + r[4] == 0);
-    // About node 1: the transverse force at arm l, moments that work on theta = -w', and the axial force at arm w2 - w1.
-    // Linear balances on the undeformed element.
+    // About node 1: the transverse force at arm l, moments that work on theta = -w', and the axial force at
+    // arm w2 - w1. Linear balances on the undeformed element.
     const double axial = std::is_same_v<TestType, Linear> ? 0 : r[3] * (d[4] - d[1]);
     const double moment = r[4] * p.length - axial - r[2] - r[5];
     const double scale = std::abs(r[4] * p.length) + std::abs(axial) + std::abs(r[2]) + std::abs(r[5]);

@@ -18,7 +18,8 @@ inline ElementProperties<double> random_properties(Random& random) {
   return {length, EA, EA * radius_of_gyration * radius_of_gyration};
 }
 
-/// Rotations up to 0.3 rad, displacements up to 0.3 of the length, strains of the size of the slopes' squares.
+/// Rotations up to 0.3 rad, displacements up to 0.3 of the length, strains of the size of the slopes'
+/// squares.
 inline Vector6<double> random_state(Random& random, double length) {
   const double u = random(length), w = random(length);
   Vector6<double> d;
@@ -26,7 +27,8 @@ inline Vector6<double> random_state(Random& random, double length) {
   return d;
 }
 
-/// Steps that move each degree of freedom as much as the state: energies are polynomials, so differences need not be small.
+/// Steps that move each degree of freedom as much as the state: energies are polynomials, so differences need
+/// not be small.
 inline double step(int dof, double length) { return dof == 2 || dof == 5 ? 0.05 : 0.05 * length; }
 
 /// ∂f/∂d[i] by the five-point rule, exact for polynomials of degree four.

@@ -1,4 +1,5 @@
-// Which strain each element computes: exact integrals of its interpolation, and rotations that should not strain it.
+// Which strain each element computes: exact integrals of its interpolation, and rotations that should not
+// strain it.
 #include "element/elements.hpp"
 #include "support/catch.hpp"
 #include <hapbeam/element/hermite.hpp>

@@ -1,8 +1,8 @@
 // The block-tridiagonal assembler against dense linear algebra on random states of a beam.
 //
-// Bounds are measured in a scaled system, D K D with D = diag(K)^(-1/2), where metres and radians are alike: LDLᵀ without
-// pivoting of a positive definite matrix is as exact there as anywhere, |δx| <= c n eps κ |x| with κ the scaled condition
-// (Higham, Accuracy and Stability, 10.1).
+// Bounds are measured in a scaled system, D K D with D = diag(K)^(-1/2), where metres and radians are alike:
+// LDLᵀ without pivoting of a positive definite matrix is as exact there as anywhere, |δx| <= c n eps κ |x|
+// with κ the scaled condition (Higham, Accuracy and Stability, 10.1).
 #include <array>
 #include <limits>
 
@@ -59,7 +59,8 @@ struct Problem {
     return assembler.solve();
   }
 
-  /// Tangent and right-hand side of the free degrees of freedom, scaled to a unit diagonal, and which these are.
+  /// Tangent and right-hand side of the free degrees of freedom, scaled to a unit diagonal, and which these
+  /// are.
   struct Reduced {
     Eigen::MatrixXd K;
     Eigen::VectorXd rhs, scale;

@@ -35,7 +35,8 @@ TEST_CASE("a node lies at the contact and the others share both parts of the bea
       const double l = mesh.position(i + 1) - mesh.position(i);
       REQUIRE(std::abs(l - (i < mesh.node() ? left : right)) <= 4 * 2.2e-16 * length);
     }
-    // The nearest node moves by half an element at most, so no part is stretched by more than 3/2, ends apart.
+    // The nearest node moves by half an element at most, so no part is stretched by more than 3/2, ends
+    // apart.
     if (s > length / n && s < length - length / n) REQUIRE(std::max(left, right) <= 1.5 * length / n);
   }
 }
@@ -52,8 +53,8 @@ TEST_CASE("an end is a node, and only where the contact is exactly there", "[mes
   }
 }
 
-// u is linear and w a cubic on the beam, so that every mesh can hold them; values are of size 1, and theta = -w' of size
-// 1/L' with L' the shortest element, whose differences lose eps/L'.
+// u is linear and w a cubic on the beam, so that every mesh can hold them; values are of size 1, and theta =
+// -w' of size 1/L' with L' the shortest element, whose differences lose eps/L'.
 TEST_CASE("a shape that both meshes can hold is carried over unchanged", "[mesh]") {
   const double length = 2;
   const auto w = [](double s) { return 0.3 + s * (0.2 - s * (0.7 - 0.25 * s)); };

@@ -1,4 +1,5 @@
-// Distributed loads as forces at points: the same resultants, and the same work on every shape the elements can take.
+// Distributed loads as forces at points: the same resultants, and the same work on every shape the elements
+// can take.
 #include <limits>
 
 #include "support/catch.hpp"

@@ -1,4 +1,5 @@
-// FemModel under a hand: bounded work on any path, honest statuses, and the same force however a press was reached.
+// FemModel under a hand: bounded work on any path, honest statuses, and the same force however a press was
+// reached.
 #include <limits>
 
 #include "support/catch.hpp"

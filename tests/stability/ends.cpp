@@ -44,8 +44,8 @@ TEST_CASE("pressed at the shortest distance from a clamp the force is still 3EI 
   CHECK(error(FemModel<Linear, float>(beam, 8), 10) <= 1e-4);
 }
 
-// The short element beside a free end is far stiffer than the beam that it ends: 12EI/l³ against 3EI/L³, so that the
-// last place of w, eps, becomes 4 eps (L/l)³ of the force: 9e-7 in double, 1.2e-2 in float.
+// The short element beside a free end is far stiffer than the beam that it ends: 12EI/l³ against 3EI/L³, so
+// that the last place of w, eps, becomes 4 eps (L/l)³ of the force: 9e-7 in double, 1.2e-2 in float.
 TEST_CASE("beside a free end round-off of the force is at most 4 eps (L/l)³", "[ends]") {
   const Beam beam = thesis_beam(Support::clamped, Support::free);
   const auto worst = [&](auto model) {

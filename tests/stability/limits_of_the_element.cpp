@@ -31,7 +31,8 @@ TEST_CASE("full integration locks: 3.2051 in where the beam bends by 5.2083 in",
   const double load = 10 * lbf / inch;
   CHECK(std::abs(midspan_on_rollers<VonKarman<FullIntegration>>(load, 4) / inch - 3.2051) <= 0.5e-4);
   CHECK(std::abs(midspan_on_rollers<VonKarman<AssumedStrain>>(load, 4) / inch - 5.2083) <= 0.5e-4);
-  // Refinement is its only cure, and sets in late: order 2 once the strain that is left over is small against bending's.
+  // Refinement is its only cure, and sets in late: order 2 once the strain that is left over is small against
+  // bending's.
   std::vector<double> errors;
   for (const int elements : {4, 8, 16, 32, 64})
     errors.push_back(relative_error(midspan_on_rollers<VonKarman<FullIntegration>>(load, elements),
@@ -67,9 +68,9 @@ TEST_CASE("moderate rotation leaves the elastica: 0.2 % at 0.7 N/mm, 9 % at 4.7,
   CHECK(found == 4);
 }
 
-// w''' jumps under a point force and a cubic has no jump: inside an element the deflection there is short of that of the
-// element clamped at both ends, P l³ / 192 EI in its middle.  At a node nothing is missing.  That is why a node follows
-// the contact.
+// w''' jumps under a point force and a cubic has no jump: inside an element the deflection there is short of
+// that of the element clamped at both ends, P l³ / 192 EI in its middle.  At a node nothing is missing.  That
+// is why a node follows the contact.
 TEST_CASE("a point force inside an element costs P l³ / 192 EI of deflection, at a node nothing",
           "[point force]") {
   const double P = 100, L = thesis_length;

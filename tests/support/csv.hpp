@@ -1,4 +1,5 @@
-// A table of tests/data: comma-separated, one header line, columns found by name.  Lines that begin with # are remarks.
+// A table of tests/data: comma-separated, one header line, columns found by name.  Lines that begin with #
+// are remarks.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,8 @@ class Csv {
   using Row = std::vector<std::string>;
 
  public:
-  /// @throws std::runtime_error where the file cannot be read or a row has another number of fields than the header
+  /// @throws std::runtime_error where the file cannot be read or a row has another number of fields than the
+  /// header
   explicit Csv(const std::string& file) : file_(file) {
     std::ifstream in(std::string(HAPBEAM_TEST_DATA_DIR "/") + file);
     if (!in) throw std::runtime_error(file + ": cannot be read");

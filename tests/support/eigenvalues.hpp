@@ -1,5 +1,6 @@
-// Eigenvalues and inverse of a small symmetric matrix by cyclic Jacobi rotations: slow, accurate to a few eps of the
-// largest eigenvalue, and nothing that the library computes with.  Source: Golub and Van Loan, Matrix Computations, 8.5.
+// Eigenvalues and inverse of a small symmetric matrix by cyclic Jacobi rotations: slow, accurate to a few eps
+// of the largest eigenvalue, and nothing that the library computes with.  Source: Golub and Van Loan, Matrix
+// Computations, 8.5.
 #pragma once
 
 #include <cmath>

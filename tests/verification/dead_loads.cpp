@@ -1,6 +1,6 @@
-// Dead loads of the linear beam against closed forms.  Cubics are exact at their nodes for any load that is given as
-// consistent nodal forces, so every bound is round-off: eps = 2.2e-16, amplified by the condition of n elements in bending,
-// of which n² reaches the displacements.
+// Dead loads of the linear beam against closed forms.  Cubics are exact at their nodes for any load that is
+// given as consistent nodal forces, so every bound is round-off: eps = 2.2e-16, amplified by the condition of
+// n elements in bending, of which n² reaches the displacements.
 #include "support/catch.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/element/linear.hpp>
@@ -14,7 +14,8 @@ namespace {
 constexpr double L = thesis_length, EA = thesis_EA, EI = thesis_EI, pi = 3.14159265358979323846;
 constexpr double eps = 2.2e-16;
 
-/// Every node of the beam at rest against displacements as functions of x, relative to the largest of each on the beam.
+/// Every node of the beam at rest against displacements as functions of x, relative to the largest of each on
+/// the beam.
 template <class U, class W>
 void check_rest(const Beam& beam, U&& u, W&& w, double quadrature = 0) {
   for (const int elements : {2, 3, 8, 32}) {
@@ -93,8 +94,8 @@ TEST_CASE("a triangular load q = q0 x/L on a simply supported beam", "[load]") {
   });
 }
 
-// The five-point rule leaves 5!⁴/(11 · 10!³) = 4e-13 of the tenth derivative of sine times cubic; in two elements, κ = π/2,
-// that derivative is below κ^10 + 15κ^9 + 270κ^8 + 1440κ^7 = 4.5e4.
+// The five-point rule leaves 5!⁴/(11 · 10!³) = 4e-13 of the tenth derivative of sine times cubic; in two
+// elements, κ = π/2, that derivative is below κ^10 + 15κ^9 + 270κ^8 + 1440κ^7 = 4.5e4.
 TEST_CASE("a load of half a sine wave on a simply supported beam: w = q0 (L/π)⁴ sin(πx/L) / EI", "[load]") {
   const double q0 = 700, k = pi / L;
   Beam beam = thesis_beam(Support::pinned, Support::roller);
@@ -115,13 +116,15 @@ TEST_CASE("an axial point force inside an element stretches what lies between it
   const double F = 1e5, a = 0.3 * L;
   Beam beam = thesis_beam(Support::clamped, Support::free);
   beam.add({a, F, 0, 0});
-  // Inside the element that holds the force u is linear, so only its nodes are exact; that is what is compared.
+  // Inside the element that holds the force u is linear, so only its nodes are exact; that is what is
+  // compared.
   check_rest(
       beam, [&](double x) { return F * std::min(x, a) / EA; }, zero);
 }
 
-// The consistent loads of the uniform mesh stay where they are when the mesh follows the contact.  They are exact at
-// the uniform nodes; in between the beam of an element clamped at both ends is missing, q l⁴ / 384 EI at most.
+// The consistent loads of the uniform mesh stay where they are when the mesh follows the contact.  They are
+// exact at the uniform nodes; in between the beam of an element clamped at both ends is missing, q l⁴ / 384
+// EI at most.
 TEST_CASE("a press under a uniform load is their superposition, to q l⁴/384EI where the mesh has moved",
           "[load]") {
   const double q = -300;

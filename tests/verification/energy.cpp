@@ -1,4 +1,5 @@
-// What the hand puts in is what the beam stores: work, force as a derivative of energy, reciprocity, symmetry.
+// What the hand puts in is what the beam stores: work, force as a derivative of energy, reciprocity,
+// symmetry.
 #include <array>
 
 #include "support/catch.hpp"
@@ -13,8 +14,8 @@ using namespace hapbeam::testing;
 
 namespace {
 
-/// ∫F dd from the model's depth a to b in pieces, each by the five-point Gauss rule: exact to degree nine of F, which is
-/// nearly a cubic of d, so that ten pieces of 50 mm leave less than 1e-10.
+/// ∫F dd from the model's depth a to b in pieces, each by the five-point Gauss rule: exact to degree nine of
+/// F, which is nearly a cubic of d, so that ten pieces of 50 mm leave less than 1e-10.
 template <class Model>
 double work(Model& model, double s, double a, double b, int pieces) {
   double sum = 0;
@@ -48,8 +49,8 @@ TEST_CASE("pressing and letting go takes no energy: closed loop within 1e-6 of t
       }
 }
 
-// Five-point differences of a nearly quartic V: the rule's error is h⁴V⁽⁵⁾/30 < 1e-8 V' with h = d/50; a force converged
-// to 1e-8 leaves V converged to its square.
+// Five-point differences of a nearly quartic V: the rule's error is h⁴V⁽⁵⁾/30 < 1e-8 V' with h = d/50; a
+// force converged to 1e-8 leaves V converged to its square.
 TEST_CASE("the force is the derivative of the strain energy by the depth", "[energy]") {
   for (const double position : {0.1, 0.37, 0.5})
     for (const double depth : {1e-3, 10e-3, -40e-3}) {
@@ -89,8 +90,8 @@ TEST_CASE("pressed from the other side the force turns its sign, bit for bit", "
     }
 }
 
-// The mirrored problem is solved from the other end, with other round-off and another last iterate: 2 · 1e-8 is what the
-// solver's tolerance allows.
+// The mirrored problem is solved from the other end, with other round-off and another last iterate: 2 · 1e-8
+// is what the solver's tolerance allows.
 TEST_CASE("pressed at L - s the mirrored beam answers the same", "[symmetry]") {
   FemModel<> one(thesis_beam(Support::pinned, Support::clamped), 8);
   FemModel<> other(thesis_beam(Support::clamped, Support::pinned), 8);

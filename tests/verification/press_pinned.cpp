@@ -1,5 +1,5 @@
-// The reaction of a prescribed displacement between immovable hinges against the closed form, at five positions and
-// seven depths up to twice the beam's thickness.
+// The reaction of a prescribed displacement between immovable hinges against the closed form, at five
+// positions and seven depths up to twice the beam's thickness.
 #include "support/catch.hpp"
 #include "support/csv.hpp"
 #include "support/error.hpp"
@@ -11,8 +11,8 @@ using namespace hapbeam::testing;
 
 namespace {
 
-/// Largest relative force error over the rows of von_karman_press_pinned.csv with a depth up to the given [mm], pressed
-/// from rest, both ways.
+/// Largest relative force error over the rows of von_karman_press_pinned.csv with a depth up to the given
+/// [mm], pressed from rest, both ways.
 template <typename Scalar>
 double worst_error(int elements, double deepest) {
   const Csv table("von_karman_press_pinned.csv");
@@ -52,12 +52,14 @@ TEST_CASE("32 elements press to 50 mm within 1e-4 of the closed form", "[press]"
   CHECK(worst_error<double>(32, 50) <= 1e-4);
 }
 
-// At 50 mm the boundary layer, √(EI/N) = 0.15 m, is as long as two elements of 32: there the order begins to show.
+// At 50 mm the boundary layer, √(EI/N) = 0.15 m, is as long as two elements of 32: there the order begins to
+// show.
 TEST_CASE("the error of a press falls with the fourth power of the element", "[press]") {
   CHECK(observed_order(worst_error<double>(32, 50), worst_error<double>(64, 50)) >= 3.8);
 }
 
-// 3e-5 of the elements, and round-off of at most 4 eps (L/l)³ = 4.8e-4 where the shortest element is 0.1 L: less than 1e-3.
+// 3e-5 of the elements, and round-off of at most 4 eps (L/l)³ = 4.8e-4 where the shortest element is 0.1 L:
+// less than 1e-3.
 TEST_CASE("in float 8 elements press to 5 mm within 1e-3 of the closed form", "[press][float]") {
   CHECK(worst_error<float>(8, 5) <= 3e-5 + 4.8e-4);
 }

@@ -1,4 +1,5 @@
-// The hand slides along the beam: nodes follow it, the mesh changes every tick, and the force must not know how it came.
+// The hand slides along the beam: nodes follow it, the mesh changes every tick, and the force must not know
+// how it came.
 #include "support/catch.hpp"
 #include "support/error.hpp"
 #include "support/solver.hpp"
@@ -8,9 +9,9 @@
 using namespace hapbeam;
 using namespace hapbeam::testing;
 
-// At the same (s, d) the mesh is the same whatever came before, and so is the discrete beam: what is left is the solver's
-// tolerance, 1e-13 of the state, and round-off of n = 32 nodes, eps n² = 2e-13, both amplified by what a clamped end
-// concentrates, F / (dF/dx L) < 1e3.
+// At the same (s, d) the mesh is the same whatever came before, and so is the discrete beam: what is left is
+// the solver's tolerance, 1e-13 of the state, and round-off of n = 32 nodes, eps n² = 2e-13, both amplified
+// by what a clamped end concentrates, F / (dF/dx L) < 1e3.
 TEST_CASE("sliding or fresh the force at one place and depth is the same to 1e-9", "[sliding]") {
   for (const Support end : {Support::pinned, Support::clamped})
     for (const int elements : {4, 8, 32})
@@ -51,9 +52,9 @@ TEST_CASE("sliding at 250 mm/s takes at most 6 linear solves a tick", "[sliding]
       }
 }
 
-// Half-way between two nodes of the uniform mesh another node takes over, and the two meshes on either side have other
-// errors.  The bounds are those of the press against its closed form on either side: 2 · 3e-5 and 2 · 1e-3; the beam
-// itself changes by less than 4 · 2 nm / 0.1 L.
+// Half-way between two nodes of the uniform mesh another node takes over, and the two meshes on either side
+// have other errors.  The bounds are those of the press against its closed form on either side: 2 · 3e-5 and
+// 2 · 1e-3; the beam itself changes by less than 4 · 2 nm / 0.1 L.
 TEST_CASE("where another node takes over the force jumps by no more than the elements' error", "[sliding]") {
   const auto jump = [](int elements, double depth) {
     FemModel<> model(thesis_beam(Support::pinned, Support::pinned), elements, tight_solver());

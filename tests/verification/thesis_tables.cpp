@@ -1,6 +1,6 @@
 // The thesis' printed numbers: Tables 3.1 and 3.2, four elements on half of the beam, guided at mid-span.
-// A number agrees "to all printed digits" where it lies within half a unit of the last one; the round-off of a
-// solve (1e-10 relative) is added because some printed numbers, such as 0.73125, are ties.
+// A number agrees "to all printed digits" where it lies within half a unit of the last one; the round-off of
+// a solve (1e-10 relative) is added because some printed numbers, such as 0.73125, are ties.
 #include "support/catch.hpp"
 #include "support/csv.hpp"
 #include "support/thesis_beam.hpp"
@@ -50,9 +50,10 @@ TEST_CASE("the FEM columns of Table 3.2 are met in all printed digits", "[thesis
   }
 }
 
-// The printed axial displacements are 0.  That is the linear answer; the von Kármán beam slides over its roller by what
-// its slope takes up, ½∫w'² = (3/5) d²/L of the half beam with w the cubic 3ξ - ξ³ of a load at mid-span: 0.030 mm at
-// d = 8 mm.  Its membrane force is zero, which is why the other columns are those of the linear beam.
+// The printed axial displacements are 0.  That is the linear answer; the von Kármán beam slides over its
+// roller by what its slope takes up, ½∫w'² = (3/5) d²/L of the half beam with w the cubic 3ξ - ξ³ of a load
+// at mid-span: 0.030 mm at d = 8 mm.  Its membrane force is zero, which is why the other columns are those of
+// the linear beam.
 TEST_CASE("the axial displacements of Table 3.2 are zero in the linear beam and u' = -w'²/2 in von Kármán's",
           "[thesis]") {
   const Beam beam = thesis_half(Support::roller);

@@ -47,7 +47,6 @@ class Dense {
     if (!K_.allFinite() || !x_.allFinite()) return Status::non_finite;
     const Vector assembled = K_.diagonal(), rhs = x_;
     const Eigen::LDLT<Matrix> factor(K_);
-    if (factor.info() != Eigen::Success) return Status::singular;  // a zero pivot
     x_ = factor.solve(rhs);
     energy_ = rhs.dot(x_);
     // Its order of elimination is not the beam's, so a pivot that should be zero holds the round-off of all rows.
