@@ -44,9 +44,12 @@ class FemModel {
         left_yields_(!fixes_w(beam.left())),
         right_yields_(!fixes_w(beam.right())) {
     system_.set_goal(1, -1, 0);
-    do rest_ = solver_.solve(system_);
-    while (rest_.status == Status::iteration_limit && rest_.reached > 0 &&
-           (system_.set_goal(1, -1, 0), true));
+    rest_ = solver_.solve(system_);
+    while (rest_.status == Status::iteration_limit && rest_.step < 1) {
+      system_.set_goal(1, -1, 0);
+      rest_ = solver_.solve(system_, rest_.step);
+    }
+    report_ = rest_;
     for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
   }
 
@@ -57,7 +60,8 @@ class FemModel {
   Response<Scalar> press(const Press<Scalar>& request) noexcept {
     using std::abs;
     using std::isfinite;
-    report_ = {Status::invalid_request, 0, 0, 0, 0};
+    const Scalar first_step = report_.step;
+    report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
     if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 || request.s > system_.length())
       return {0, Status::invalid_request};
     if (rest_.status != Status::ok) return {0, rest_.status};
@@ -66,7 +70,7 @@ class FemModel {
     if (abs(from_rest) < abs(jump)) reset();
     const int contact = follow(press.s);
     system_.set_goal(1, contact, press.d);
-    report_ = solver_.solve(system_);
+    report_ = solver_.solve(system_, first_step);
     const bool in_range = press.s == request.s && press.d == request.d;
     const Status status = report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status;
     const Scalar force = system_.reaction();

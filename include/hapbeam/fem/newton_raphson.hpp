@@ -1,7 +1,8 @@
 // Newton–Raphson with load stepping (thesis eq. 3.34–3.37) for any system that can take one Newton step.
 //
 // The path to the wanted state is a number t in [0, 1] that scales loads and prescribed displacements together.
-// The first try goes all the way (t = 1); a step that does not converge is taken back and cut to a quarter.  The
+// The first try goes all the way (t = 1); a step that does not converge is taken back and cut to a quarter, and a
+// budget that ends before the way does leaves the size of the next step, so that any budget gets there in the end.  The
 // first iteration of a step carries the prescribed increment through the tangent, so it is also the predictor.
 //
 // Increments are measured in the norm of the tangent, |Δ|² = ΔᵀKΔ, where metres and radians, stretching and bending
@@ -48,23 +49,26 @@ struct SolveReport {
   int steps;       ///< load steps that converged
   Scalar reached;  ///< path position t that the state stands for, 1 where status is ok
   Scalar error;  ///< |Δ| of the increment that would come next, estimated, over √(2V): relative force error
+  Scalar step;   ///< of the path, to be tried first by whoever goes on from here
 };
 
 struct NewtonRaphson {
   double relative_tolerance = 1e-8;   ///< of the force
   double absolute_tolerance = 1e-12;  ///< [rad] a rotation that is nothing
   int max_iterations = 12;            ///< per load step
-  int max_solves = 48;                ///< in all: what bounds a tick
+  int max_solves = 48;                ///< in all, 3 or more: what bounds a tick
   double smallest_step = 1e-4;        ///< of the path
 
+  /// Goes the way to t = 1.  @param first_step  of the path: 1, or what the report of an unfinished solve says
   template <class System>
-  auto solve(System& system) const noexcept -> SolveReport<typename System::Scalar> {
+  auto solve(System& system, typename System::Scalar first_step = 1) const noexcept
+      -> SolveReport<typename System::Scalar> {
     using S = typename System::Scalar;
-    SolveReport<S> report{Status::ok, 0, 0, 0, 0};
-    S step = 1;
+    SolveReport<S> report{Status::ok, 0, 0, 0, 0, first_step};
+    S& step = report.step;
     system.save();
     while (report.reached < 1) {
-      const S t = report.reached + step < 1 ? report.reached + step : S(1);
+      const S t = std::min(report.reached + step, S(1));
       system.set_target(t);
       report.status = iterate(system, report);
       if (report.status == Status::ok) {
@@ -74,10 +78,13 @@ struct NewtonRaphson {
         step *= 2;
       } else {
         system.restore();
-        step /= 4;
-        if (step < S(smallest_step) || report.solves >= max_solves) break;
+        const bool out_of_budget = report.solves >= max_solves;
+        // A step that the budget cut short says nothing of its size, unless it had the budget for itself.
+        if (!out_of_budget || report.steps == 0) step /= 4;
+        if (step < S(smallest_step) || out_of_budget) break;
       }
     }
+    if (report.reached == 1 || step < S(smallest_step)) step = 1;
     return report;
   }
 
@@ -96,7 +103,7 @@ struct NewtonRaphson {
       if (iteration.status != Status::ok) return iteration.status;
       const S state = system.size(), tolerance = relative * state;
       // The first increment holds the jump of the contact, which the tangent's norm overstates: C is measured without it.
-      const S measured = k > 2 ? iteration.size / (before * before) : 100 / state;
+      const S measured = k > 2 ? iteration.size / (before * before) : state > 0 ? 100 / state : S(0);
       const S curvature = std::max(measured, measured_before);
       const S next = state > 0 ? curvature * iteration.size * iteration.size : iteration.size;
       report.error = state > 0 ? next / state : S(0);
