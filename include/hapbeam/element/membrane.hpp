@@ -26,9 +26,9 @@ struct MembraneResponse {
 
 /// Sum over Gauss points of ½ EA l ω ε², each with its own strain.
 template <typename S, std::size_t Points>
-MembraneResponse<S> integrate_membrane(const ElementProperties<S>& p, const Deformation<S>& e,
-                                       const std::array<double, Points>& points,
-                                       const std::array<double, Points>& weights) noexcept {
+inline MembraneResponse<S> integrate_membrane(const ElementProperties<S>& p, const Deformation<S>& e,
+                                              const std::array<double, Points>& points,
+                                              const std::array<double, Points>& weights) noexcept {
   MembraneResponse<S> m{};
   for (std::size_t i = 0; i < Points; ++i) {
     const S t = static_cast<S>(points[i]), weight = static_cast<S>(weights[i]), o = 1 - t;

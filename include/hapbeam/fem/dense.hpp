@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include <hapbeam/element/element.hpp>
-#include <hapbeam/fem/block_tridiagonal.hpp>
+#include <hapbeam/fem/ldlt3.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam {
