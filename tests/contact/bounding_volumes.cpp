@@ -41,7 +41,7 @@ TEMPLATE_TEST_CASE("nearest is that of the exhaustive search, bit by bit", "", d
       const auto curve = random_curve<Scalar>(shape, segments, random);
       const auto line = curve.line();
       volumes.refit(line);
-      for (int i = 0; i < (segments > 100 ? 40 : 400); ++i) {
+      for (int i = 0; i < (segments > 100 ? 10 : 200); ++i) {
         check_same(volumes, line, Vector2<Scalar>(Scalar(along(random)), Scalar(across(random))));
         const auto& node = curve.nodes[static_cast<std::size_t>(i % (segments + 1))];  // where pieces compete
         check_same(volumes, line, Vector2<Scalar>(node.s + node.u, node.w));

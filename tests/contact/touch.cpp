@@ -49,7 +49,7 @@ int law_over_random_paths(M& model, double length, unsigned seed) {
   std::uniform_real_distribution<double> unit(0, 1);
   int pressing = 0;
   Touch<M> touch(model, radius);
-  for (int path = 0; path < 60; ++path) {
+  for (int path = 0; path < 30; ++path) {
     const double a = unit(random), b = unit(random), c = unit(random), depth = 0.06 * length * unit(random);
     for (int k = 0; k < 500; ++k) {
       const double t = k / 1000.0;
@@ -133,7 +133,7 @@ TEST_CASE("no press, no reset and little work while the hand is free") {
 TEST_CASE("a beam never pulls, and is at rest where it does not push: closed forms") {
   for (const Ends ends : {Ends::simply_supported, Ends::cantilever}) {
     Model model(ends);
-    CHECK(law_over_random_paths(model, 1, 21) > 3000);
+    CHECK(law_over_random_paths(model, 1, 21) > 1500);
   }
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("a beam never pulls, and is at rest where it does not push: finite ele
   for (const Support right : {Support::pinned, Support::free}) {
     for (const int elements : {2, 8}) {
       FemModel<> model(thesis_beam(right), elements);
-      CHECK(law_over_random_paths(model, 2.54, 22) > 3000);
+      CHECK(law_over_random_paths(model, 2.54, 22) > 1500);
     }
   }
 }
