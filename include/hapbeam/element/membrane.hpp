@@ -4,11 +4,10 @@
 //
 // u' is constant over the element and w'² is not.  FullIntegration takes that difference for strain energy and
 // locks; ReducedIntegration looks at the middle alone; AssumedStrain takes the mean of ε over the element,
-// which is the constant membrane force that equilibrium asks for.  Each answers with
-// energy, first and second derivatives in the coordinates (stretch, rise, lθ1, lθ2).  Real-time: no allocation, noexcept, O(1).
+// which is the constant membrane force that equilibrium asks for.  Each answers with energy, first and second
+// derivatives in the coordinates (stretch, rise, lθ1, lθ2).
+// Real-time: no allocation, noexcept, O(1).
 #pragma once
-
-#include <array>
 
 #include <hapbeam/element/element.hpp>
 
@@ -22,43 +21,35 @@ struct MembraneResponse {
   S energy;          ///< [J]
   S s, r, t1, t2;    ///< [N]
   CoreTangent<S> k;  ///< [N/m]
+
+  friend MembraneResponse operator+(const MembraneResponse& a, const MembraneResponse& b) noexcept {
+    return {a.energy + b.energy,
+            a.s + b.s,
+            a.r + b.r,
+            a.t1 + b.t1,
+            a.t2 + b.t2,
+            {a.k.ss + b.k.ss, a.k.sr + b.k.sr, a.k.s1 + b.k.s1, a.k.s2 + b.k.s2, a.k.rr + b.k.rr,
+             a.k.r1 + b.k.r1, a.k.r2 + b.k.r2, a.k.t11 + b.k.t11, a.k.t12 + b.k.t12, a.k.t22 + b.k.t22}};
+  }
 };
 
-/// Sum over Gauss points of ½ EA l ω ε², each with its own strain.
-template <typename S, std::size_t Points>
-inline MembraneResponse<S> integrate_membrane(const ElementProperties<S>& p, const Deformation<S>& e,
-                                              const std::array<double, Points>& points,
-                                              const std::array<double, Points>& weights) noexcept {
-  MembraneResponse<S> m{};
-  for (std::size_t i = 0; i < Points; ++i) {
-    const S t = static_cast<S>(points[i]), weight = static_cast<S>(weights[i]), o = 1 - t;
-    // l w' = rise + a g1 + b g2: the Hermite cubic about its chord.  f, g1, g2: its derivatives by rise, lθ1, lθ2.
-    const S g1 = -o * (1 - 3 * t), g2 = t * (2 - 3 * t);
-    const S slope = (e.rise + e.a * g1 + e.b * g2) * p.inverse_length;
-    const S f = 1 + g1 + g2;
-    const S strain = e.stretch * p.inverse_length + slope * slope / 2;
-    const S normal = p.axial_stiffness * strain;
-    const S c = weight * normal * slope;
-    const S stretch_k = weight * p.axial_per_length;
-    const S slope_k = stretch_k * slope;
-    const S k = stretch_k * strain + slope_k * slope;
-    m.energy += weight * p.length * normal * strain / 2;
-    m.s += weight * normal;
-    m.r += c * f;
-    m.t1 += c * g1;
-    m.t2 += c * g2;
-    m.k.ss += stretch_k;
-    m.k.sr += slope_k * f;
-    m.k.s1 += slope_k * g1;
-    m.k.s2 += slope_k * g2;
-    m.k.rr += k * f * f;
-    m.k.r1 += k * f * g1;
-    m.k.r2 += k * f * g2;
-    m.k.t11 += k * g1 * g1;
-    m.k.t12 += k * g1 * g2;
-    m.k.t22 += k * g2 * g2;
-  }
-  return m;
+/// One Gauss point's part of ½ EA l ω ε².  @param t in [0, 1]   @param weight ω, all sum to 1
+template <typename S>
+inline MembraneResponse<S> at_gauss_point(const ElementProperties<S>& p, const Deformation<S>& e, S t,
+                                          S weight) noexcept {
+  // l w' = rise + a g1 + b g2: the Hermite cubic about its chord.  f, g1, g2: its derivatives by rise, lθ1, lθ2.
+  const S g1 = (t - 1) * (1 - 3 * t), g2 = t * (2 - 3 * t), f = 1 + g1 + g2;
+  const S slope = (e.rise + e.a * g1 + e.b * g2) * p.inverse_length;
+  const S strain = e.stretch * p.inverse_length + slope * slope / 2;
+  const S normal = weight * p.axial_stiffness * strain, c = normal * slope;
+  const S ks = weight * p.axial_per_length, kg = ks * slope, k = ks * strain + kg * slope;
+  const S kf = k * f, k1 = k * g1;
+  return {p.length * normal * strain / 2,
+          normal,
+          c * f,
+          c * g1,
+          c * g2,
+          {ks, kg * f, kg * g1, kg * g2, kf * f, kf * g1, kf * g2, k1 * g1, k1 * g2, k * g2 * g2}};
 }
 
 }  // namespace detail
@@ -70,8 +61,8 @@ struct FullIntegration {
   template <typename S>
   static detail::MembraneResponse<S> respond(const ElementProperties<S>& p,
                                              const detail::Deformation<S>& e) noexcept {
-    return detail::integrate_membrane<S, 2>(p, e, {0.21132486540518711775, 0.78867513459481288225},
-                                            {0.5, 0.5});
+    return detail::at_gauss_point(p, e, S(0.21132486540518711775), S(0.5)) +
+           detail::at_gauss_point(p, e, S(0.78867513459481288225), S(0.5));
   }
 };
 
@@ -81,7 +72,7 @@ struct ReducedIntegration {
   template <typename S>
   static detail::MembraneResponse<S> respond(const ElementProperties<S>& p,
                                              const detail::Deformation<S>& e) noexcept {
-    return detail::integrate_membrane<S, 1>(p, e, {0.5}, {1.0});
+    return detail::at_gauss_point(p, e, S(0.5), S(1));
   }
 };
 
