@@ -238,6 +238,35 @@ TEST_CASE("beyond the model's range the status says so and the force is that of 
   CHECK(touch.tick({0.5, -0.3}).contact.side == 1);
 }
 
+// The tip stops at a tenth of the length, and has drawn back along x by then: the hand passes below and beside it.
+TEST_CASE("a tip that has stopped at the end of its range is not let through, nor caught from below") {
+  const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{206.8427e9}, Support::clamped,
+                   Support::free);
+  FemModel<> model(ruler, 16);
+  Touch<FemModel<>> touch(model, radius);
+  const double low = -0.045, high = 0.010;
+  double before = 0;
+  bool held = false, stopped = false;
+  move(touch, {0.3, high}, {0.3, low}, 1000, [&](const Vector&, const Vector& at, const auto& r) {
+    INFO("y = " << at.y());
+    check_law(r, model, 0);
+    REQUIRE(r.pressing == (at.y() < radius + 0.0005));
+    REQUIRE(r.force.y() >= before * (1 - 1e-6));
+    before = r.force.y();
+    held = held || r.pressing;
+    stopped = stopped || r.status == Status::out_of_range;
+  });
+  CHECK((held && stopped));
+  move(touch, {0.3, low}, {0.3, high}, 1000, [&](const Vector&, const Vector& at, const auto& r) {
+    INFO("back, y = " << at.y());
+    check_law(r, model, 0);
+    REQUIRE(r.pressing == (at.y() < radius + 0.0005));
+    REQUIRE(r.force.y() <= before * (1 + 1e-6));
+    before = r.force.y();
+  });
+  CHECK(before == 0);
+}
+
 TEST_CASE("finite elements: a resting avatar is met, and the force comes to rest") {
   // Axial strain jumps at a node, so the beam has a small kink under the avatar: neither foot nor normal may
   // go to and fro between its flanks.

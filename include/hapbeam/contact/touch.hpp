@@ -24,9 +24,10 @@ template <typename Scalar>
 struct TouchResult {
   Vector2<Scalar> force = Vector2<Scalar>::Zero();  ///< [N] on the hand, (along x, along w); always finite
   Status status = Status::ok;  ///< of the press; invalid_request for a position that is not finite
-  bool pressing = false;       ///< the beam pushes the hand
-  Contact<Scalar> contact;     ///< on the shape before this tick's press; segment -1: out of reach
-  Press<Scalar> press{0, 0};   ///< what was asked of the model; zero where nothing was
+  bool pressing = false;       ///< the hand holds the beam; read this, not contact.touching
+  Contact<Scalar>
+      contact;  ///< on the shape before this tick's press; segment -1: out of reach, or not finite
+  Press<Scalar> press{0, 0};  ///< what was asked of the model; zero where nothing was
 };
 
 /// One avatar on one beam.  Between ticks the model may be read by others but pressed by nobody else.
@@ -70,6 +71,9 @@ class Touch {
     Contact<Scalar>& contact = result.contact;
     const Avatar<Scalar> avatar{position, avatar_radius_};
     if (!pressing_ && out_of_reach(avatar, volumes_, model_.thickness(), memory_)) return result;
+    // A pressed beam moves with the hand, which cannot have gone round its end.  Only a beam that has stopped at the
+    // end of its range can be passed, and that must not turn the press into one from the other side.
+    if (pressing_) memory_.touching = memory_.through = true, memory_.side = side_;
     contact = find_contact(avatar, model_.shape(), volumes_, model_.thickness(), memory_);
     if (contact.segment < 0) {
       result.status = Status::invalid_request;
@@ -80,6 +84,7 @@ class Touch {
     // A pressed beam follows a hand that draws back, until it would have to pull.
     if (!contact.touching && !pressing_) return result;
 
+    if (!pressing_) side_ = contact.side, up_ = contact.normal.y() < 0 ? Scalar(-1) : Scalar(1);
     Scalar rise;
     if (!rise_to_touch(contact, position, rise)) {
       release();
@@ -103,8 +108,6 @@ class Touch {
   }
 
   [[nodiscard]] bool pressing() const noexcept { return pressing_; }
-  [[nodiscard]] Scalar avatar_radius() const noexcept { return avatar_radius_; }
-  [[nodiscard]] const Model& model() const noexcept { return model_; }
 
  private:
   /// Axial strain is constant in each piece, so the centreline has a small kink at the pressed node, and a
@@ -131,18 +134,19 @@ class Touch {
     contact.touching = contact.depth > 0;
   }
 
-  /// How far the foot point has to move across the beam [m]; false where no transverse motion can touch.
-  bool rise_to_touch(const Contact<Scalar>& contact, const Vector2<Scalar>& position,
-                     Scalar& rise) const noexcept {
-    const Scalar up = contact.normal.y() < 0 ? Scalar(-1) : Scalar(1);
+  /// How far the foot point has to move across the beam [m]; false where no transverse motion can touch.  Past an end
+  /// it also turns the normal to where the end point will touch the disc.
+  bool rise_to_touch(Contact<Scalar>& contact, const Vector2<Scalar>& position, Scalar& rise) const noexcept {
     if (contact.past_end) {  // exactly: the end point moves onto the circle around the avatar's centre
       const Vector2<Scalar> offset = position - contact.foot;
       const Scalar reach = avatar_radius_ + model_.thickness() / 2;
       if (!(std::abs(offset.x()) < reach)) return false;
-      rise = offset.y() - up * std::sqrt((reach - offset.x()) * (reach + offset.x()));
+      const Scalar above = up_ * std::sqrt((reach - offset.x()) * (reach + offset.x()));
+      rise = offset.y() - above;
+      contact.normal << offset.x() / reach, above / reach;
       return true;
     }
-    rise = -up * contact.depth / std::max(std::abs(contact.normal.y()), least_normal);
+    rise = -up_ * contact.depth / std::max(std::abs(contact.normal.y()), least_normal);
     return true;
   }
 
@@ -158,6 +162,8 @@ class Touch {
   BoundingVolumes<Scalar> volumes_;
   ContactMemory<Scalar> memory_;
   bool pressing_ = false;
+  int side_ = 1;   // of the press, as Contact::side
+  Scalar up_ = 1;  // sign of w on that side
 };
 
 }  // namespace hapbeam
