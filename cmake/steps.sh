@@ -39,6 +39,7 @@ install_packages() {
 }
 
 # build PRESET TARGET...: installs what the build needs, configures and builds.
+# What tests and benchmarks need comes along: one build folder serves all three.
 build() {
   local preset=$1 compiler=g++
   shift

@@ -26,9 +26,8 @@ void print_scene(const Options& o, const hapbeam::DeviceInfo& device) {
               name(o.script), o.place, o.depth * 1e3, o.duration, o.radius * 1e3);
   std::printf("scale    %g m of the scene for 1 m of the device; forces 1 : 1\n", o.scale);
   if (o.script == Script::slide)
-    std::printf(
-        "slide    %.4g m to either side in the scene, what the device's %g mm width leaves room for\n",
-        reach(o) * o.scale, device.workspace.x() * 1e3);
+    std::printf("slide    %.4g m to either side in the scene, within the beam and the device's %g mm\n",
+                reach(o) * o.scale, device.workspace.x() * 1e3);
   std::printf("\n%7s %9s %9s %9s %9s %8s %7s %7s %9s  %s\n", "time s", "hand x mm", "hand y mm", "press mm",
               "force N", "ticks", "missed", "cut", "p99 us", "status");
 }
@@ -63,6 +62,18 @@ void print_summary(const Run& run) {
         number(c.force_cut_ticks), 100 * static_cast<double>(c.force_cut_ticks) / all, n.max_force.load(),
         run.device.peak_force);
   }
+  // A script touches the beam once or twice; a few more are the hand's tremor at first touch.
+  if (n.touches.load() > 20)
+    std::printf(
+        "bounce   contact began %llu times: the arm buzzes, because the beam is stiffer than a loop at %.0f "
+        "Hz\n"
+        "         with this arm's damping and friction can hold.\n",
+        number(n.touches.load()), 1 / run.device.period);
+  if (n.worst.load() == hapbeam::Status::out_of_range)
+    std::printf(
+        "range    some presses were out of range, too deep or too near to a support, and answered by the "
+        "nearest\n"
+        "         press in range.  A support is rigid: next to it forces grow without bound.\n");
 }
 
 std::string json(const Run& run) {
@@ -84,6 +95,8 @@ std::string json(const Run& run) {
       .add("elements", o.elements)
       .add("script", name(o.script))
       .add("place_m", o.place)
+      .add("depth_m", o.depth)
+      .add("radius_m", o.radius)
       .add("scale", o.scale)
       .add("duration_s", o.duration)
       .add("interrupted", run.interrupted)

@@ -1,4 +1,4 @@
-// Everything but the adapter to a vendor's device API.
+// The whole library.
 #pragma once
 
 #include <hapbeam/beam.hpp>

@@ -1,4 +1,4 @@
-// Near an end: the shortest element, what is rounded there, and what a rigid support refuses.
+// Near an end: the shortest element, the straight tip that stands for shorter ones, and what a rigid support refuses.
 #include <limits>
 
 #include "support/catch.hpp"
@@ -67,21 +67,44 @@ TEST_CASE("beside a free end round-off of the force is at most 4 eps (L/l)³", "
   CHECK(worst(FemModel<Linear, float>(beam, 8)) <= 1);
 }
 
-TEST_CASE("closer to a free end than the shortest element a press is rounded to it or to that distance",
-          "[ends]") {
-  const Beam beam = thesis_beam(Support::clamped, Support::free);
-  const double shortest = ContactMesh<double>::shortest(thesis_length), d = 10e-3;
-  FemModel<> model(beam, 8);
-  const auto force_at = [&](double from_end) {
-    const Response<double> response = model.press({thesis_length - from_end, d});
-    CHECK(response.status == Status::ok);
-    return response.force;
-  };
-  const double at_end = force_at(0), beside = force_at(shortest), round_off = 9e-7;
-  // A press is stiffer by 3 δs/s where it is nearer to the clamp, which tells the two places apart.
-  CHECK(std::abs(beside / at_end - 1 - 3 * shortest / thesis_length) <= 0.01 * 3 * shortest / thesis_length);
-  for (const double part : {0.1, 0.49}) CHECK(relative_error(force_at(part * shortest), at_end) <= round_off);
-  for (const double part : {0.51, 0.9}) CHECK(relative_error(force_at(part * shortest), beside) <= round_off);
+// A clamped beam pressed at s is 3EI/s³ stiff, however close s is to the free end; across the border between the two ways
+// of pressing there, too.  Linear, so that the closed form is exact; 4 eps (L/l)³ of round-off at the shortest element.
+TEMPLATE_TEST_CASE("beside a free end the force is that of the place pressed, without a step", "[ends]",
+                   double, float) {
+  const TestType length = TestType(thesis_length), shortest = ContactMesh<TestType>::shortest(length);
+  const TestType d = TestType(10e-3);
+  const Beam beam = thesis_beam(Support::clamped, Support::free),
+             mirrored = thesis_beam(Support::free, Support::clamped);
+  FemModel<Linear, TestType> model(beam, 8), mirror(mirrored, 8);
+  const double ratio = thesis_length / double(shortest);
+  const double round_off = 4 * double(std::numeric_limits<TestType>::epsilon()) * ratio * ratio * ratio;
+  const double straight_tip = 1 / (ratio * ratio * ratio);
+  for (const double part : {0.0, 0.1, 0.5, 0.9, 0.999, 1.001, 1.1, 2.0}) {
+    const TestType from_end = TestType(part) * shortest;
+    const Response<TestType> right = model.press({length - from_end, d}), left = mirror.press({from_end, d});
+    const double s = thesis_length - double(from_end);
+    const double expected = 3 * beam.bending_stiffness() * double(d) / (s * s * s);
+    INFO("at " << part << " of the shortest element from the end");
+    CHECK((right.status == Status::ok && left.status == Status::ok));
+    CHECK(relative_error(double(right.force), expected) <= round_off + straight_tip);
+    CHECK(relative_error(double(left.force), expected) <= round_off + straight_tip);
+  }
+}
+
+// Superposition: k = 3EI/s³ works on d less the sag, q s² (6L² - 4Ls + s²)/24EI.
+TEST_CASE("a dead load beside a pressed free end is felt in full", "[ends]") {
+  const double q = -200, d = 10e-3, length = thesis_length;
+  Beam beam = thesis_beam(Support::clamped, Support::free);
+  beam.transverse(q);
+  FemModel<Linear> model(beam, 8);
+  const double EI = beam.bending_stiffness(), shortest = ContactMesh<double>::shortest(length);
+  for (const double part : {0.0, 0.3, 0.9}) {
+    const double s = length - part * shortest, k = 3 * EI / (s * s * s);
+    const double sag = q * s * s * (6 * length * length - 4 * length * s + s * s) / (24 * EI);
+    const Response<double> response = model.press({s, d});
+    REQUIRE(response.status == Status::ok);
+    CHECK(relative_error(response.force, k * (d - sag)) <= 1e-8);  // (δ/L)³, and Newton's tolerance
+  }
 }
 
 TEST_CASE("at or beside a rigid support a press is moved into range, and says so", "[ends]") {

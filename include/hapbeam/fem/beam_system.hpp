@@ -3,8 +3,8 @@
 //   ∂V/∂x = λ f,   w(contact) = d        unknown x: u, w, θ of every node
 //
 // One Newton step assembles residual and tangent element by element, enters supports and contact as known
-// increments, solves and adds.  Nodes carry their arc positions, so a node that follows the contact changes
-// the mesh and nothing else.
+// increments, solves and adds.  Nodes carry their arc positions, so a mesh that follows the contact changes
+// element lengths and nothing else.
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
 #pragma once
 
@@ -67,12 +67,15 @@ class BeamSystem {
     take(mesh);
   }
 
-  /// Where the path ends.  @param load factor on all dead loads  @param contact node, -1 for none  @param d [m]
-  void set_goal(Scalar load, int contact, Scalar d) noexcept {
+  /// Where the path ends: d = w - lever θ at the contact's node, the displacement at a distance on a straight tip.
+  /// @param load factor on all dead loads   @param contact node, -1 for none   @param d [m]
+  /// @param lever [m] from the node to the contact, along x; other than 0 only at an end that yields
+  void set_goal(Scalar load, int contact, Scalar d, Scalar lever = 0) noexcept {
     start_load_ = load_;
     goal_load_ = load;
     contact_ = contact;
-    start_d_ = contact < 0 ? Scalar(0) : nodes_[contact].w;
+    lever_ = lever;
+    start_d_ = contact < 0 ? Scalar(0) : contact_displacement();
     goal_d_ = d;
   }
 
@@ -101,12 +104,13 @@ class BeamSystem {
     Scalar energy = 0;
     for (int e = 0; e < elements(); ++e) {
       energy += Element::tangent(properties_[e], displacements(e), r, K);
+      if (lever_ != 0) take_lever(e, r, K);
       assembler_.add(e, K, r);
     }
     size_ = sqrt(2 * energy);
     if (load_ != 0) add_loads();
     prescribe_supports();
-    if (contact_ >= 0) assembler_.prescribe(contact_, 1, d_ - nodes_[contact_].w);
+    if (contact_ >= 0) assembler_.prescribe(contact_, 1, d_ - contact_displacement());
     const Status status = assembler_.solve();
     if (status != Status::ok) return {status, 0};
     for (int i = 0; i < nodes_.size(); ++i) {
@@ -115,7 +119,7 @@ class BeamSystem {
       nodes_[i].w += x[1];
       nodes_[i].theta += x[2];
     }
-    if (contact_ >= 0) nodes_[contact_].w = d_;
+    if (contact_ >= 0) nodes_[contact_].w = d_ + lever_ * nodes_[contact_].theta;
     return {status, sqrt(abs(assembler_.energy()))};
   }
 
@@ -146,9 +150,20 @@ class BeamSystem {
     return energy;
   }
 
-  const Assembler<Scalar, Elements, MaxElements>& assembler() const noexcept { return assembler_; }
-
  private:
+  Scalar contact_displacement() const noexcept {
+    return nodes_[contact_].w - lever_ * nodes_[contact_].theta;
+  }
+
+  /// The contact's unknowns become u, w - lever θ, θ: what pairs with θ takes the lever times what pairs with w.
+  void take_lever(int e, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
+    if (e != contact_ && e + 1 != contact_) return;
+    const int w = e == contact_ ? 1 : 4, theta = w + 1;
+    r[theta] += lever_ * r[w];
+    K.col(theta) += lever_ * K.col(w);
+    K.row(theta) += lever_ * K.row(w);
+  }
+
   void take(const ContactMesh<Scalar>& mesh) noexcept {
     mesh_ = mesh;
     for (int e = 0; e < elements(); ++e) {
@@ -177,8 +192,10 @@ class BeamSystem {
 
   void add_loads() noexcept {
     for (const PointForce<Scalar>& load : forces_)
-      visit_nodal_forces(
-          load, [this](int node, const Vector3<Scalar>& f) { assembler_.add_force(node, load_ * f); });
+      visit_nodal_forces(load, [this](int node, Vector3<Scalar> f) {
+        if (node == contact_) f[2] += lever_ * f[1];
+        assembler_.add_force(node, load_ * f);
+      });
   }
 
   void prescribe_supports() noexcept {
@@ -200,6 +217,7 @@ class BeamSystem {
   Scalar axial_stiffness_, bending_stiffness_;
   Support left_, right_;
   int contact_ = -1;
+  Scalar lever_ = 0;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0, goal_load_ = 0;
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;
   Scalar size_ = 0, unit_;

@@ -4,6 +4,8 @@
 // an assembler or an element, never in a servo loop: it allocates.  Exceptions: only at construction.
 #pragma once
 
+#include <limits>
+
 #include <Eigen/Cholesky>
 
 #include <hapbeam/element/element.hpp>
@@ -20,6 +22,7 @@ class Dense {
  public:
   explicit Dense(int elements) : K_(3 * (elements + 1), 3 * (elements + 1)), x_(3 * (elements + 1)) {}
 
+  /// Members do what those of BlockTridiagonal of the same name do.
   void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
     if (e == 0) {
       K_.setZero();

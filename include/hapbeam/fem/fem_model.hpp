@@ -5,10 +5,10 @@
 //
 // press() moves the mesh so that a node lies at the contact, prescribes its transverse displacement, solves by
 // Newton–Raphson with the tangent as predictor, from the last press or from rest, whichever is closer, and returns the reaction (thesis eq. 3.40–3.42).
-// Composed of policies: Element × Assembler × Solver; sizes are fixed, dynamic with a maximum (both without any heap
-// but for the dead loads' list), or dynamic.
-// Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept and
-// allocation-free, and take at most solver.max_solves linear solves of O(elements).
+// Composed of policies: Element × Assembler × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
+// but for the list of dead loads), or dynamic.
+// Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
+// and allocation-free; a press takes at most solver.max_solves linear solves of O(elements).
 #pragma once
 
 #include <cmath>
@@ -54,8 +54,9 @@ class FemModel {
   }
 
   /// Prescribes the centreline's transverse displacement d [m] at arc position s [m] of the unloaded beam.
-  /// Within range() the answer is that of the request; else that of the nearest request in range.  An s closer to an
-  /// end that can move across than the shortest element is rounded to that end or to that distance.
+  /// Within range() the answer is that of the request; else, out_of_range, that of the nearest request in range.
+  /// Beside an end that yields, closer than a thousandth of the length (3 % in float), an element up to the contact
+  /// would lose the force to round-off; there the end's node is pressed through a straight tip, off by (δ/L)² at most.
   /// @return force [N] and ok | out_of_range | invalid_request | iteration_limit | singular | non_finite
   Response<Scalar> press(const Press<Scalar>& request) noexcept {
     using std::abs;
@@ -68,8 +69,9 @@ class FemModel {
     const Press<Scalar> press = range().nearest(request);
     const Scalar jump = press.d - shape().at(press.s).w, from_rest = press.d - rest_shape().at(press.s).w;
     if (abs(from_rest) < abs(jump)) reset();
-    const int contact = follow(press.s);
-    system_.set_goal(1, contact, press.d);
+    const ContactMesh<Scalar> mesh = uniform_.at(away_from_ends(press.s));
+    system_.remesh(mesh);
+    system_.set_goal(1, mesh.node(), press.d, press.s - mesh.s());
     report_ = solver_.solve(system_, first_step);
     const bool in_range = press.s == request.s && press.d == request.d;
     const Status status = report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status;
@@ -108,14 +110,10 @@ class FemModel {
  private:
   Centreline<Scalar> rest_shape() const noexcept { return {rest_nodes_.data(), rest_nodes_.size()}; }
 
-  /// Moves the mesh under the contact and carries the shape over.  @return the contact's node
-  int follow(Scalar s) noexcept {
+  /// Where the node of a contact at s goes: s, or the end beside which an element would be too short for round-off.
+  Scalar away_from_ends(Scalar s) const noexcept {
     const Scalar length = system_.length();
-    if (s < shortest_) s = s < shortest_ / 2 ? Scalar(0) : shortest_;
-    if (length - s < shortest_) s = length - s < shortest_ / 2 ? length : length - shortest_;
-    const ContactMesh<Scalar> mesh = uniform_.at(s);
-    system_.remesh(mesh);
-    return mesh.node();
+    return s < shortest_ && left_yields_ ? Scalar(0) : length - s < shortest_ && right_yields_ ? length : s;
   }
 
   BeamSystem<Element, Scalar, Elements, MaxElements, Assembler> system_;

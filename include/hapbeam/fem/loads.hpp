@@ -2,7 +2,7 @@
 //
 // A distributed load becomes the consistent nodal forces and moments of the uniform mesh (thesis eq. 3.31), once;
 // point loads stay where they are.  Each is then given to whichever element holds it.  On the uniform mesh that is the
-// consistent load itself; where a node has moved it is statically exact and off by O(l⁴) in the deflection.
+// consistent load itself; where the mesh has moved it is statically exact and off by O(l⁴) in the deflection.
 // Offline, may allocate and throw; the result is plain data.
 #pragma once
 

@@ -12,7 +12,8 @@
 // 100/√(2V) while there are none (0.1 to 40 is usual; in nearly inextensible beams increments can come in pairs, one
 // of u and one of w, which is why one measurement is not believed).  The tolerance
 // is max(relative, eps n²) √(2V), never below absolute √(EI/L): a relative criterion has no meaning at rest, and eps n²
-// is what round-off in the last place of n nodes costs (Σ 12EI/l³ (eps w)² against 48EI/L³ w²).
+// is what round-off in the last place of n nodes costs (Σ 12EI/l³ (eps w)² against 48EI/L³ w²).  An increment below
+// √eps/10 √(2V) also ends a step: with C = 100/√(2V) round-off would follow it, of which no C can be measured.
 //
 //   expression of a system       meaning
 //   --------------------------   -----------------------------------------------------------------------
