@@ -4,7 +4,8 @@
 //   const auto [force, status] = model.press({0.5 * beam.length(), -2e-3});
 //
 // press() moves the mesh so that a node lies at the contact, prescribes its transverse displacement, solves by
-// Newton–Raphson with the tangent as predictor, from the last press or from rest, whichever is closer, and returns the reaction (thesis eq. 3.40–3.42).
+// Newton–Raphson with the tangent as predictor, from the last press or from rest, whichever is closer, and returns
+// the reaction (thesis eq. 3.40–3.42).
 // Composed of policies: Element × Assembler × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
@@ -56,7 +57,8 @@ class FemModel {
   /// Prescribes the centreline's transverse displacement d [m] at arc position s [m] of the unloaded beam.
   /// Within range() the answer is that of the request; else, out_of_range, that of the nearest request in range.
   /// Beside an end that yields, closer than a thousandth of the length (3 % in float), an element up to the contact
-  /// would lose the force to round-off; there the end's node is pressed through a straight tip, off by (δ/L)² at most.
+  /// would lose the force to round-off; there the end's node is pressed through a straight tip, which is off by about
+  /// (δ/L)³ at a free end and (δ/L)² at a guided one.
   /// @return force [N] and ok | out_of_range | invalid_request | iteration_limit | singular | non_finite
   Response<Scalar> press(const Press<Scalar>& request) noexcept {
     using std::abs;
@@ -82,7 +84,8 @@ class FemModel {
   Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
 
   /// Where press() answers with ok.  A support that holds w is rigid: the shortest element keeps its distance from it.
-  /// A tenth of the length, and half of the distance to such a support, end moderate rotation by far, not the solver.
+  /// |d| is bounded by a tenth of the length and by half of the distance to such a support: there moderate rotation has
+  /// ended, though the solver has not.
   Range<Scalar> range() const noexcept {
     constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
     const Scalar length = system_.length();
