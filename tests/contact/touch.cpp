@@ -257,6 +257,13 @@ TEST_CASE("a tip that has stopped at the end of its range is not let through, no
     stopped = stopped || r.status == Status::out_of_range;
   });
   CHECK((held && stopped));
+  // Below the stopped beam and in from its tip: still the same press, from above.
+  for (const Vector& to : {Vector(0.27, low), Vector(0.3, low)})
+    move(touch, {0.57 - to.x(), low}, to, 200, [&](const Vector&, const Vector& at, const auto& r) {
+      INFO("x = " << at.x());
+      check_law(r, model, 0);
+      REQUIRE((r.pressing && r.force.y() > 0 && r.contact.normal.y() > 0));
+    });
   move(touch, {0.3, low}, {0.3, high}, 1000, [&](const Vector&, const Vector& at, const auto& r) {
     INFO("back, y = " << at.y());
     check_law(r, model, 0);
