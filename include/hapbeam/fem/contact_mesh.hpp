@@ -1,8 +1,8 @@
 // A mesh that follows the contact: the uniform mesh, stretched on either side so that one node lies at s.
 //
 // The node nearest to s moves there and the others share the two parts of the beam evenly.  A point load inside an
-// element costs two orders of accuracy, because the cubic cannot have the kink in w''' that the load makes; at a
-// node it costs nothing.  Against moving that one node alone, sharing evenly halves the largest element:
+// element leaves third order of the fourth, because the cubic cannot have the jump in w''' that the load makes; at a
+// node it costs nothing.  Moving that one node alone would leave longer elements beside it than sharing evenly does:
 // pinned beam, 8 elements, presses up to 50 mm: force error 9e-3 against 1.3e-2; 16 elements: 8e-4 against 2e-3.
 // Real-time: noexcept, no allocation.
 #pragma once
