@@ -1,0 +1,99 @@
+// Lagrange interpolation in barycentric form, over a policy for the nodes (thesis eq. 3.67).
+//
+//   p(x) = Σ l_k(x) f_k,    l_k(x) = (w_k/(x - x_k)) / Σ_j w_j/(x - x_j)
+//
+// The weights l_k depend on x alone: one set serves every quantity that is known at the same nodes, and on a grid the
+// products of two sets.  At a node l_k is 1 or 0 exactly and nothing is divided by zero.
+// ChebyshevNodes are the default.  With EquispacedNodes, the thesis', the largest Σ|l_k| grows as 2ⁿ/(e n ln n): with
+// 50 of them an error of 1e-10 in the values becomes 1e-2 between the outermost nodes.
+// Source: Berrut and Trefethen, Barycentric Lagrange interpolation, SIAM Review 46 (2004).
+// Real-time: weights() is noexcept, allocation-free and O(n); construction allocates and throws.
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace hapbeam {
+
+/// Chebyshev nodes of the first kind: none at the ends of the interval.
+struct ChebyshevNodes {
+  static constexpr const char* name() noexcept { return "chebyshev"; }
+  /// Node k of n in [-1, 1], ascending.
+  static double node(int k, int n) { return n == 2 * k + 1 ? 0 : -std::cos(angle(k, n)); }
+  static double weight(int k, int n) { return (k % 2 ? -1 : 1) * std::sin(angle(k, n)); }
+
+ private:
+  static double angle(int k, int n) { return 3.141592653589793238462643 * (2 * k + 1) / (2 * n); }
+};
+
+/// Equidistant nodes, the first and the last at the ends of the interval.
+struct EquispacedNodes {
+  static constexpr const char* name() noexcept { return "equispaced"; }
+  static double node(int k, int n) { return n == 1 ? 0 : 2.0 * k / (n - 1) - 1; }
+  /// Binomial coefficients with alternating signs, over the largest of them.
+  static double weight(int k, int n) {
+    const auto log_binomial = [n](int j) { return std::lgamma(n) - std::lgamma(j + 1) - std::lgamma(n - j); };
+    return (k % 2 ? -1 : 1) * std::exp(log_binomial(k) - log_binomial((n - 1) / 2));
+  }
+};
+
+/// @tparam Nodes   ChebyshevNodes | EquispacedNodes
+template <class Nodes = ChebyshevNodes, typename Scalar = double>
+class Lagrange {
+ public:
+  /// More are of no use to the first policy and poison to the second.
+  static constexpr int max_size = 64;
+
+  /// @param size 1 to max_size   @param low, high  ends of the interval; equal only where size is 1
+  /// @throws std::invalid_argument
+  Lagrange(int size, Scalar low, Scalar high) {
+    if (size < 1 || size > max_size)
+      throw std::invalid_argument("nodes = " + std::to_string(size) + ": must be 1 to " +
+                                  std::to_string(max_size));
+    if (!(std::isfinite(low) && std::isfinite(high) && (low < high || (low == high && size == 1))))
+      throw std::invalid_argument("interval = " + std::to_string(low) + " to " + std::to_string(high) +
+                                  ": must be finite and ascending");
+    const double middle = (double(low) + double(high)) / 2, half = (double(high) - double(low)) / 2;
+    for (int k = 0; k < size; ++k) {
+      nodes_.push_back(static_cast<Scalar>(middle + half * Nodes::node(k, size)));
+      weights_.push_back(static_cast<Scalar>(Nodes::weight(k, size)));
+    }
+  }
+
+  int size() const noexcept { return static_cast<int>(nodes_.size()); }
+  Scalar node(int k) const noexcept { return nodes_[static_cast<std::size_t>(k)]; }
+
+  /// l_k(x) for every k, whose sum is 1.  Outside the interval this extrapolates.   @param l  out, size() values
+  void weights(Scalar x, Scalar* l) const noexcept {
+    const int n = size();
+    const Scalar *nodes = nodes_.data(), *w = weights_.data();
+    int hit = n == 1 ? 0 : -1;
+    for (int k = 0; k < n; ++k)
+      if (x == nodes[k]) hit = k;
+    if (hit >= 0) {
+      for (int k = 0; k < n; ++k) l[k] = k == hit ? Scalar(1) : Scalar(0);
+      return;
+    }
+    Scalar sum = 0;
+    for (int k = 0; k < n; ++k) sum += l[k] = w[k] / (x - nodes[k]);
+    const Scalar inverse = 1 / sum;
+    for (int k = 0; k < n; ++k) l[k] *= inverse;
+  }
+
+  /// Derivative of l_j at node i.  The interpolant's derivative has degree n - 2: its values at the nodes define it.
+  Scalar derivative(int i, int j) const noexcept {
+    const auto at = [](int k) { return static_cast<std::size_t>(k); };
+    if (i != j) return weights_[at(j)] / weights_[at(i)] / (nodes_[at(i)] - nodes_[at(j)]);
+    Scalar sum = 0;  // rows sum to zero: the derivative of 1
+    for (int k = 0; k < size(); ++k)
+      if (k != i) sum -= derivative(i, k);
+    return sum;
+  }
+
+ private:
+  std::vector<Scalar> nodes_, weights_;
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,171 @@
+// A trained beam: force and shape by interpolation between presses of the full model, as a ForceModel.
+//
+// What is interpolated is the work V of a press, 2V/e² in the coordinates of coordinates.hpp, and the force is its
+// derivative, F = ∂V/∂d: no path of the contact that closes gains or loses energy, whatever the error.  The rotation at the
+// contact follows from the same V, ∂V/∂s = F θ, and the rest of the shape from POD modes (thesis eq. 3.54, 3.67).
+// The cost knows nothing of elements: positions × depths for the force, and points × modes more for the shape.
+// Outside range() nothing is extrapolated.  Deeper presses take the force at the end of the range and its tangent
+// stiffness there, held constant; s is that of the nearest press in range.
+// Offline: construction allocates and throws std::invalid_argument.  Servo: all else is noexcept and allocation-free.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <hapbeam/force_model.hpp>
+#include <hapbeam/rom/combine.hpp>
+#include <hapbeam/rom/lagrange.hpp>
+#include <hapbeam/rom/model_data.hpp>
+
+namespace hapbeam {
+
+/// @tparam ScalarType double | float      @tparam NodePolicy  ChebyshevNodes | EquispacedNodes, as it was trained
+template <typename ScalarType = double, class NodePolicy = ChebyshevNodes>
+class PodModel {
+ public:
+  using Scalar = ScalarType;
+  using Nodes = NodePolicy;
+  using Data = PodModelData<Scalar>;
+
+  /// @throws std::invalid_argument where the data do not make a model
+  explicit PodModel(const Data& data)
+      : data_(check(data)),
+        position_(data.beam),
+        depth_(data.beam, data.symmetric),
+        x_(data.positions, position_(data.s_min), position_(data.s_max)),
+        y_(data.depths, data.y_low, data.y_high),
+        shape_(data.beam, data.shape) {
+    const auto n = static_cast<std::size_t>(data.positions), m = static_cast<std::size_t>(data.depths);
+    by_depth_.resize(2 * n * m);
+    by_position_.resize(n * m);
+    rest_slope_.resize(n);
+    for (int i = 0; i < data.positions; ++i) {
+      for (int j = 0; j < data.depths; ++j) {
+        Scalar dx = 0, dy = 0;
+        for (int k = 0; k < data.positions && n > 1; ++k) dx += x_.derivative(i, k) * potential(k, j);
+        for (int k = 0; k < data.depths; ++k) dy += y_.derivative(j, k) * potential(i, k);
+        const std::size_t row = 2 * static_cast<std::size_t>(i) * m, at = static_cast<std::size_t>(j);
+        by_depth_[row + at] = potential(i, j);
+        by_depth_[row + m + at] = dy;
+        by_position_[row / 2 + at] = dx;
+      }
+      for (int k = 0; k < data.positions && n > 1; ++k)
+        rest_slope_[static_cast<std::size_t>(i)] +=
+            x_.derivative(i, k) * data.rest[static_cast<std::size_t>(k)];
+    }
+  }
+
+  /// The force alone; shape() stays.  @return as press()
+  [[nodiscard]] Response<Scalar> force(const Press<Scalar>& request) const noexcept {
+    Point at;
+    return respond(request, at);
+  }
+
+  /// Force and shape of a transverse displacement d [m] at arc position s [m] of the unloaded beam.
+  /// @return force [N] and ok | out_of_range | invalid_request | non_finite
+  Response<Scalar> press(const Press<Scalar>& request) noexcept {
+    Point at;
+    const Response<Scalar> response = respond(request, at);
+    if (!is_answer(response.status)) return response;
+    const Scalar unit = data_.symmetric ? at.press.d : data_.depth, theta = rotation(at);
+    shape_.evaluate(at.press.s, at.press.d, unit, data_.positions > 1 ? &theta : nullptr, at.lx,
+                    data_.positions, at.ly, data_.depths);
+    return response;
+  }
+
+  Centreline<Scalar> shape() const noexcept { return shape_.centreline(); }
+  /// Where it was trained.
+  Range<Scalar> range() const noexcept {
+    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+    return {data_.s_min, data_.s_max, data_.depth, Scalar(1), -infinity, infinity};
+  }
+  Scalar thickness() const noexcept { return data_.beam.thickness; }
+  void reset() noexcept { shape_.reset(); }
+
+  const Data& data() const noexcept { return data_; }
+  /// Of presses that it was not trained with.
+  const ErrorReport& errors() const noexcept { return data_.errors; }
+
+ private:
+  static constexpr int max_size = Lagrange<Nodes, Scalar>::max_size;
+
+  /// A press in range and what is interpolated there.
+  struct Point {
+    Press<Scalar> press;
+    Scalar e, y;                         // depth from rest [m], its coordinate
+    Scalar lx[max_size], ly[max_size];   // weights
+    Scalar work, work_by_y, half_slope;  // 2V/e² times scale, its derivative, ½ e dy/de
+    Scalar scale;
+
+    Scalar force() const noexcept { return e * (work + half_slope * work_by_y) / scale; }
+  };
+
+  Scalar potential(int i, int j) const noexcept {
+    return data_.potential[static_cast<std::size_t>(i) * static_cast<std::size_t>(data_.depths) +
+                           static_cast<std::size_t>(j)];
+  }
+
+  Response<Scalar> respond(const Press<Scalar>& request, Point& at) const noexcept {
+    using std::isfinite;
+    if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 || request.s > data_.beam.length)
+      return {0, Status::invalid_request};
+    at.press = range().nearest(request);
+    locate(at);
+    Scalar force = at.force();
+    if (at.press.d == request.d) return {force, at.press.s == request.s ? Status::ok : Status::out_of_range};
+    Point near = at;
+    const Scalar step = at.press.d / 256;
+    near.press.d = at.press.d + step, descend(near);
+    Scalar stiffness = near.force();
+    near.press.d = at.press.d - step, descend(near);
+    stiffness = std::max((stiffness - near.force()) / (2 * step), Scalar(0));
+    force += stiffness * (detail::bounded(request.d, data_.beam.length) - at.press.d);
+    if (!isfinite(force)) return {0, Status::non_finite};
+    return {force, Status::out_of_range};
+  }
+
+  void locate(Point& at) const noexcept {
+    x_.weights(data_.positions > 1 ? position_(at.press.s) : Scalar(0), at.lx);
+    at.scale = position_.scale(at.press.s);
+    descend(at);
+  }
+
+  /// The rest of locate(), for another depth at the same position.
+  void descend(Point& at) const noexcept {
+    const int n = data_.positions, m = data_.depths;
+    at.e = at.press.d;
+    if (!data_.symmetric) at.e -= detail::dot(at.lx, data_.rest.data(), n);
+    at.y = depth_(at.e);
+    at.half_slope = depth_.half_log_derivative(at.e, at.y);
+    y_.weights(at.y, at.ly);
+    Scalar column[2 * max_size];
+    detail::combine(by_depth_.data(), 2 * m, at.lx, n, column);
+    at.work = detail::dot(at.ly, column, m);
+    at.work_by_y = detail::dot(at.ly, column + m, m);
+  }
+
+  /// θ at the contact: (∂V/∂s at constant d)/F [rad].
+  Scalar rotation(const Point& at) const noexcept {
+    Scalar column[max_size];
+    detail::combine(by_position_.data(), data_.depths, at.lx, data_.positions, column);
+    const Scalar by_x = detail::dot(at.ly, column, data_.depths);
+    const Scalar rest_by_x = detail::dot(at.lx, rest_slope_.data(), data_.positions);
+    const Scalar s = at.press.s, x_by_s = position_.derivative(s);
+    return at.e / 2 * (by_x * x_by_s - at.work * position_.log_scale_derivative(s)) /
+               (at.work + at.half_slope * at.work_by_y) -
+           rest_by_x * x_by_s;
+  }
+
+  Data data_;
+  PositionCoordinate<Scalar> position_;
+  DepthCoordinate<Scalar> depth_;
+  Lagrange<Nodes, Scalar> x_, y_;
+  std::vector<Scalar> by_depth_;     // position by position: potential, then its derivative in y
+  std::vector<Scalar> by_position_;  // derivative of the potential in x
+  std::vector<Scalar> rest_slope_;   // derivative of rest in x
+  ShapeTable<Scalar> shape_;
+};
+
+}  // namespace hapbeam

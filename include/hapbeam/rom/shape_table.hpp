@@ -1,0 +1,144 @@
+// The deformed shape of a trained model: POD modes, and their coefficients on a grid of presses.
+//
+// A fixed mesh would be of little use.  At the contact w''' jumps, and the jump moves with the contact: shapes at fixed
+// places are not smooth in s, and interpolating them between 16 positions leaves slopes wrong by a fifth.  Snapshots are
+// therefore taken where the contact is always the same node, the others sharing both sides evenly, and freed of units:
+//
+//   w/d,   θ h/d,   u h/d²,    h the length of the node's side of the beam
+//
+// Real-time: noexcept, no allocation, O(modes (grid + nodes)).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/rom/combine.hpp>
+#include <hapbeam/rom/coordinates.hpp>
+
+namespace hapbeam {
+
+/// Nodes that move with the contact, and the lengths that free their displacements of units.
+template <typename Scalar>
+class ContactFrame {
+ public:
+  /// @param contact_node 0 to segments   @param segments one or more
+  ContactFrame(const BeamData<Scalar>& beam, int segments, int contact_node) noexcept
+      : segments_(segments),
+        contact_node_(contact_node),
+        length_(beam.length),
+        left_held_(fixes_w(beam.left)),
+        right_held_(fixes_w(beam.right)) {}
+
+  int segments() const noexcept { return segments_; }
+  int contact_node() const noexcept { return contact_node_; }
+
+  /// Where the contact's node is for a contact at s: there, or a thousandth of the length away from an end, unless it
+  /// is that end's node.
+  Scalar contact(Scalar s) const noexcept {
+    const Scalar least = length_ / 1000;
+    const Scalar low = contact_node_ == 0 ? Scalar(0) : least;
+    const Scalar high = contact_node_ == segments_ ? length_ : length_ - least;
+    return std::min(std::max(s, low), high);
+  }
+  /// Arc position of node i for a contact node at s [m].
+  Scalar position(int i, Scalar s) const noexcept {
+    if (i == contact_node_) return s;
+    if (i < contact_node_) return s * Scalar(i) / Scalar(contact_node_);
+    if (i == segments_) return length_;
+    return s + (length_ - s) * Scalar(i - contact_node_) / Scalar(segments_ - contact_node_);
+  }
+  /// h of node i [m]: the length of its side.  A side whose end yields bends no more sharply when it gets short.
+  Scalar side(int i, Scalar s) const noexcept {
+    const Scalar left = left_held_ && contact_node_ > 0 ? s : length_;
+    const Scalar right = right_held_ && contact_node_ < segments_ ? length_ - s : length_;
+    return i < contact_node_ ? left : i > contact_node_ ? right : left * right / length_;
+  }
+
+ private:
+  int segments_, contact_node_;
+  Scalar length_;
+  bool left_held_, right_held_;
+};
+
+/// What is stored of the shapes.
+template <typename Scalar>
+struct ShapeData {
+  int segments = 0;
+  int contact_node = 0;
+  int modes = 0;
+  std::vector<Scalar> basis;         ///< mode by mode, its (u, w, θ) node by node, freed of units
+  std::vector<Scalar> coefficients;  ///< grid point by grid point, its modes
+  std::vector<Scalar> rest;  ///< (u, w, θ) of the untouched beam at segments + 1 even nodes [m, m, rad]
+};
+
+template <typename Scalar>
+class ShapeTable {
+ public:
+  using Node = CentrelineNode<Scalar>;
+
+  /// Allocates.  @param data  sizes that fit each other, as check() in model_data.hpp sees to
+  ShapeTable(const BeamData<Scalar>& beam, const ShapeData<Scalar>& data)
+      : frame_(beam, data.segments, data.contact_node),
+        length_(beam.length),
+        basis_(data.basis),
+        coefficients_(data.coefficients),
+        rest_(data.rest),
+        weight_(data.coefficients.size() / static_cast<std::size_t>(data.modes)),
+        mode_(static_cast<std::size_t>(data.modes)),
+        row_(3 * (static_cast<std::size_t>(data.segments) + 1)),
+        nodes_(static_cast<std::size_t>(data.segments) + 1) {
+    reset();
+  }
+
+  Centreline<Scalar> centreline() const noexcept { return {nodes_.data(), static_cast<int>(nodes_.size())}; }
+
+  void reset() noexcept {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const Scalar s = i + 1 == nodes_.size() ? length_ : length_ * Scalar(i) / Scalar(nodes_.size() - 1);
+      nodes_[i] = {s, rest_[3 * i], rest_[3 * i + 1], rest_[3 * i + 2]};
+    }
+  }
+
+  /// The shape of a press by d at s.
+  /// @param lx, positions, ly, others  interpolation weights along both axes of the grid
+  /// @param unit [m]  what w is stored in units of   @param theta  rotation at the contact [rad], or null: by the modes
+  void evaluate(Scalar s, Scalar d, Scalar unit, const Scalar* theta, const Scalar* lx, int positions,
+                const Scalar* ly, int others) noexcept {
+    const int modes = static_cast<int>(mode_.size()), rows = static_cast<int>(row_.size());
+    for (int i = 0, k = 0; i < positions; ++i)
+      for (int j = 0; j < others; ++j, ++k) weight_[static_cast<std::size_t>(k)] = lx[i] * ly[j];
+    detail::combine(coefficients_.data(), modes, weight_.data(), positions * others, mode_.data());
+    detail::combine(basis_.data(), rows, mode_.data(), modes, row_.data());
+
+    const Scalar contact = frame_.contact(s);
+    for (int i = 0; i <= frame_.segments(); ++i) {
+      const std::size_t k = static_cast<std::size_t>(i);
+      const Scalar x = frame_.position(i, contact), per_side = unit / frame_.side(i, contact);
+      nodes_[k] = {x, row_[3 * k] * unit * per_side, row_[3 * k + 1] * unit, row_[3 * k + 2] * per_side};
+    }
+    // The contact itself is known better than its modes; where it is too near to an end for its node, the end is straight.
+    Node& node = nodes_[static_cast<std::size_t>(frame_.contact_node())];
+    if (theta) node.theta = *theta;
+    node.w = d - node.theta * (contact - s);
+    if (contact < s) straighten(frame_.contact_node() + 1, frame_.segments(), node);
+    if (contact > s) straighten(0, frame_.contact_node() - 1, node);
+  }
+
+ private:
+  void straighten(int first, int last, const Node& from) noexcept {
+    for (int i = first; i <= last; ++i) {
+      Node& node = nodes_[static_cast<std::size_t>(i)];
+      node = {node.s, from.u, from.w - from.theta * (node.s - from.s), from.theta};
+    }
+  }
+
+  ContactFrame<Scalar> frame_;
+  Scalar length_;
+  std::vector<Scalar> basis_, coefficients_, rest_;
+  std::vector<Scalar> weight_, mode_, row_;  // of the last shape: of each grid point, mode, and displacement
+  std::vector<Node> nodes_;
+};
+
+}  // namespace hapbeam

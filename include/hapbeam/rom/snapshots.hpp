@@ -1,0 +1,291 @@
+// Presses of a full model, taken for training: on a grid of depths, or of tensions.
+//
+// Positions are shared out to threads, each with its own copy of the model.  A press that the full model does not answer
+// with ok fails the training: none is left out, none is used with a doubt.
+// Offline: allocates; throws std::invalid_argument for a plan that cannot be carried out and TrainingError for a press.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <hapbeam/force_model.hpp>
+#include <hapbeam/rom/coordinates.hpp>
+#include <hapbeam/rom/lagrange.hpp>
+#include <hapbeam/rom/training_plan.hpp>
+
+namespace hapbeam {
+
+/// A press that the full model did not answer; what() says where and how.
+struct TrainingError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct TrainingOptions {
+  int threads = 0;  ///< 0: as many as the machine runs at once
+  /// Called after each press, by one thread at a time.
+  std::function<void(int done, int total)> progress;
+};
+
+/// One press of the full model.
+struct Snapshot {
+  double s;                                   ///< [m]
+  double d;                                   ///< [m]
+  double force;                               ///< [N]
+  double stiffness;                           ///< [N/m] F/(d - w), w of the untouched beam
+  std::vector<CentrelineNode<double>> nodes;  ///< the shape at the nodes of a ContactFrame
+};
+
+struct Snapshots {
+  BeamData<double> beam;
+  TrainingPlan plan;
+  int contact_node;
+  double y_low, y_high;            ///< of DepthCoordinate; 0 where tensions were trained
+  double tension;                  ///< [N] largest trained; 0 where depths were, or none arises
+  int columns;                     ///< depths or tensions at each position
+  std::vector<Snapshot> grid;      ///< position by position
+  std::vector<double> rest;        ///< w of the untouched beam by position [m]
+  std::vector<double> rest_shape;  ///< (u, w, θ) of the untouched beam at even nodes
+};
+
+namespace detail {
+
+inline std::string describe(double s, double d) {
+  return "s = " + std::to_string(s) + " m, d = " + std::to_string(d) + " m";
+}
+
+/// One press, or a TrainingError.
+template <class Model>
+double press_for_training(Model& model, double s, double d) {
+  using S = typename Model::Scalar;
+  const Response<S> response = model.press({static_cast<S>(s), static_cast<S>(d)});
+  if (response.status == Status::ok) return static_cast<double>(response.force);
+  const double limit = static_cast<double>(model.range().depth_at(static_cast<S>(s)));
+  throw TrainingError("the press at " + describe(s, d) + ": " + name(response.status) +
+                      (response.status == Status::out_of_range
+                           ? ", the full model answers up to " + std::to_string(limit) + " m there"
+                           : ""));
+}
+
+/// Runs work(model, i) for each position i on as many threads.  The first exception ends all and is thrown again.
+template <class Model, class Work>
+void for_each_position(const Model& full, int positions, int threads, const Work& work) {
+  std::atomic<int> next{0};
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto run = [&] {
+    try {
+      Model model(full);
+      for (int i = next++; i < positions; i = next++) work(model, i);
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(failure_mutex);
+      if (!failure) failure = std::current_exception();
+      next = positions;
+    }
+  };
+  const int wanted = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+  std::vector<std::thread> pool;
+  for (int t = 1; t < std::min(wanted, positions); ++t) pool.emplace_back(run);
+  run();
+  for (std::thread& thread : pool) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// The tension of the model's present press [N].  F d = 2V + N² L/EA, and V is what the model says.
+template <class Model>
+double tension_of(const Model& model, const BeamData<double>& beam, double force, double d) {
+  const double membrane = force * d - 2 * static_cast<double>(model.strain_energy());
+  // Round-off and the solver's tolerance leave this much where there is none.
+  if (!(membrane > 1e-9 * std::abs(force * d))) return 0;
+  return std::sqrt(membrane * beam.axial_stiffness / beam.length);
+}
+
+template <class Model>
+class SnapshotTaker {
+ public:
+  SnapshotTaker(const Beam& beam, const Model& full, const TrainingPlan& plan, const TrainingOptions& options)
+      : full_(full),
+        options_(options),
+        out_{BeamData<double>::of(beam),
+             plan.check(beam),
+             plan.contact_node(beam),
+             0,
+             0,
+             0,
+             plan.depths,
+             {},
+             {},
+             {}},
+        frame_(out_.beam, plan.segments, out_.contact_node),
+        x_(plan.positions, position(plan.s_min), position(plan.s_max)) {
+    static_assert(is_force_model<Model>, "a full model is a ForceModel: see hapbeam/force_model.hpp");
+    full_.reset();
+    const auto shape = full_.shape();
+    bool loaded = false;
+    for (int i = 0; i <= plan.segments; ++i) {
+      const auto at = shape.at(shape.length() * static_cast<S>(i) / static_cast<S>(plan.segments));
+      for (const S value : {at.u, at.w, at.theta}) {
+        out_.rest_shape.push_back(static_cast<double>(value));
+        loaded = loaded || value != 0;
+      }
+    }
+    if (loaded && plan.symmetric)
+      throw std::invalid_argument("symmetric = true: must be false for a beam under dead loads");
+    for (int i = 0; i < plan.positions; ++i)
+      out_.rest.push_back(static_cast<double>(shape.at(static_cast<S>(s(i))).w));
+  }
+
+  Snapshots by_depth() {
+    const TrainingPlan& plan = out_.plan;
+    const DepthCoordinate<double> coordinate(out_.beam, plan.symmetric);
+    out_.y_low = plan.symmetric ? 0 : coordinate(-plan.depth - highest(out_.rest, 1));
+    out_.y_high = coordinate(plan.depth + highest(out_.rest, -1));
+    const Lagrange<> y(plan.depths, out_.y_low, out_.y_high);
+    allocate();
+    for_each_position(full_, plan.positions, options_.threads, [&](Model& model, int i) {
+      const double rest = out_.rest[static_cast<std::size_t>(i)];
+      // From rest outward to either side, as a hand would.
+      int first = 0;
+      while (first < plan.depths - 1 && y.node(first) < 0) ++first;
+      model.reset();
+      for (int j = first; j < plan.depths; ++j) take(model, i, j, rest, coordinate.inverse(y.node(j)));
+      model.reset();
+      for (int j = first - 1; j >= 0; --j) take(model, i, j, rest, coordinate.inverse(y.node(j)));
+    });
+    return std::move(out_);
+  }
+
+  Snapshots by_tension() {
+    const TrainingPlan& plan = out_.plan;
+    if (!plan.symmetric)
+      throw std::invalid_argument("symmetric = false: must be true, a GalerkinModel takes no dead loads");
+    // The tensions of the plan and some way beyond, as far as the full model goes everywhere.
+    const double headroom = 1.6;
+    double reach = std::numeric_limits<double>::infinity();
+    for (int i = -2; i < plan.positions; ++i) {
+      const double at = i < 0 ? (i == -1 ? plan.s_min : plan.s_max) : s(i);
+      const double most = 0.999 * static_cast<double>(full_.range().depth_at(static_cast<S>(at)));
+      full_.reset();
+      reach = std::min(reach, tension_at(full_, at, most));
+      if (i < 0)
+        out_.tension = std::max(out_.tension, tension_at(full_, at, std::min(headroom * plan.depth, most)));
+    }
+    out_.tension = std::min(out_.tension, reach);
+    if (out_.tension == 0) out_.columns = 1;
+    const TensionCoordinate<double> coordinate(out_.beam);
+    const Lagrange<> z(out_.columns, 0, coordinate(out_.tension));
+    allocate();
+    for_each_position(full_, plan.positions, options_.threads, [&](Model& model, int i) {
+      model.reset();
+      double d = std::min(std::sqrt(out_.beam.bending_stiffness / out_.beam.axial_stiffness), plan.depth);
+      for (int j = 0; j < out_.columns; ++j) {
+        if (out_.tension > 0) d = depth_at_tension(model, s(i), coordinate.inverse(z.node(j)), d);
+        take(model, i, j, 0, d);
+      }
+    });
+    return std::move(out_);
+  }
+
+ private:
+  using S = typename Model::Scalar;
+
+  double position(double s) const {
+    return out_.plan.positions > 1 ? PositionCoordinate<double>(out_.beam)(s) : s;
+  }
+  double s(int i) const {
+    return out_.plan.positions > 1 ? PositionCoordinate<double>(out_.beam).inverse(x_.node(i))
+                                   : out_.plan.s_min;
+  }
+  static double highest(const std::vector<double>& values, double sign) {
+    double most = sign * values.front();
+    for (const double value : values) most = std::max(most, sign * value);
+    return most;
+  }
+
+  void allocate() {
+    out_.grid.resize(static_cast<std::size_t>(out_.plan.positions) * static_cast<std::size_t>(out_.columns));
+  }
+
+  double tension_at(Model& model, double s, double d) const {
+    return tension_of(model, out_.beam, press_for_training(model, s, d), d);
+  }
+
+  /// The depth whose tension is N, by secants of ln N over ln d.
+  double depth_at_tension(Model& model, double s, double N, double d) const {
+    const double most = 0.9999 * static_cast<double>(model.range().depth_at(static_cast<S>(s)));
+    const auto miss = [&](double depth) { return std::log(tension_at(model, s, depth) / N); };
+    double before = std::min(d, most), miss_before = miss(before);
+    double next = before * std::exp(-miss_before / 2);
+    for (int k = 0; k < 40; ++k) {
+      next = std::min(next, most);
+      const double now = miss(next);
+      if (std::abs(now) < 1e-7) return next;
+      if (now == miss_before || !std::isfinite(now)) break;
+      const double power = std::log(next / before) / (now - miss_before);
+      before = next, miss_before = now;
+      next *= std::exp(-now * power);
+    }
+    throw TrainingError("no press at s = " + std::to_string(s) + " m has a tension of " + std::to_string(N) +
+                        " N to 1e-7; the full model's solver may be too loose, or its range too small");
+  }
+
+  void take(Model& model, int i, int j, double rest, double e) {
+    const double s = this->s(i), d = e + rest;
+    const double force = press_for_training(model, s, d);
+    Snapshot& snapshot = out_.grid[static_cast<std::size_t>(i) * static_cast<std::size_t>(out_.columns) +
+                                   static_cast<std::size_t>(j)];
+    snapshot = {s, d, force, force / e, {}};
+    const double contact = frame_.contact(s);
+    for (int k = 0; k <= out_.plan.segments; ++k) {
+      const double x = frame_.position(k, contact);
+      const auto at = model.shape().at(static_cast<S>(x));
+      snapshot.nodes.push_back(
+          {x, static_cast<double>(at.u), static_cast<double>(at.w), static_cast<double>(at.theta)});
+    }
+    // At rest itself force over depth is the derivative there.
+    const double near = 3e-3 * std::sqrt(out_.beam.bending_stiffness / out_.beam.axial_stiffness);
+    if (std::abs(e) < near)
+      snapshot.stiffness =
+          (press_for_training(model, s, rest + near) - press_for_training(model, s, rest - near)) /
+          (2 * near);
+    if (!options_.progress) return;
+    const std::lock_guard<std::mutex> lock(progress_mutex_);
+    options_.progress(++done_, static_cast<int>(out_.grid.size()));
+  }
+
+  Model full_;
+  const TrainingOptions& options_;
+  Snapshots out_;
+  ContactFrame<double> frame_;
+  Lagrange<> x_;
+  std::mutex progress_mutex_;
+  int done_ = 0;
+};
+
+}  // namespace detail
+
+/// Snapshots for a PodModel.  @param full  a ForceModel that can be copied; its own state is not used
+template <class Model>
+Snapshots take_snapshots(const Beam& beam, const Model& full, const TrainingPlan& plan,
+                         const TrainingOptions& options = {}) {
+  return detail::SnapshotTaker<Model>(beam, full, plan, options).by_depth();
+}
+
+/// Snapshots for a GalerkinModel: at each position the depths whose tensions are the grid's.
+/// @param full  as above, with strain_energy() [J] and a solver tight enough for F d - 2V, 1e-12 or so
+template <class Model>
+Snapshots take_snapshots_at_tensions(const Beam& beam, const Model& full, const TrainingPlan& plan,
+                                     const TrainingOptions& options = {}) {
+  return detail::SnapshotTaker<Model>(beam, full, plan, options).by_tension();
+}
+
+}  // namespace hapbeam

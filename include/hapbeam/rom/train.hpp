@@ -1,0 +1,142 @@
+// From snapshots to the numbers of a model: POD of the shapes, and what is interpolated of the force.
+//
+//   #include <hapbeam/rom/pod_model.hpp>, <…/train.hpp>, <…/validate.hpp>
+//   const Beam beam(…);
+//   const auto full = full_model(beam);
+//   const auto plan = TrainingPlan::anywhere(beam, 0.05);
+//   PodModelData<double> data = train_pod(take_snapshots(beam, full, plan));
+//   data.errors = validate(PodModel<>(data), full);
+//
+// Offline: allocates; throws what the parts throw.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/rom/pod.hpp>
+#include <hapbeam/rom/snapshots.hpp>
+
+namespace hapbeam {
+
+/// The full model to train with: so many elements, so tight a solver, that what is left of an error is the reduction's.
+template <class Element = VonKarman<AssumedStrain>>
+FemModel<Element> full_model(const Beam& beam, int elements = 256) {
+  NewtonRaphson solver;
+  solver.relative_tolerance = 1e-13;
+  solver.max_solves = 200;
+  return FemModel<Element>(beam, elements, solver);
+}
+
+/// Snapshots as the columns of a matrix, their displacements freed of units as in ShapeTable: (u, w, θ) node by node.
+inline Eigen::MatrixXd snapshot_matrix(const Snapshots& snapshots) {
+  const ContactFrame<double> frame(snapshots.beam, snapshots.plan.segments, snapshots.contact_node);
+  Eigen::MatrixXd X(3 * (snapshots.plan.segments + 1), static_cast<Eigen::Index>(snapshots.grid.size()));
+  for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    const Snapshot& snapshot = snapshots.grid[static_cast<std::size_t>(k)];
+    const double unit = snapshots.plan.symmetric ? snapshot.d : snapshots.plan.depth;
+    const double s = frame.contact(snapshot.s);
+    for (int i = 0; i <= frame.segments(); ++i) {
+      const CentrelineNode<double>& node = snapshot.nodes[static_cast<std::size_t>(i)];
+      const double side = frame.side(i, s) / unit;
+      X.col(k).segment<3>(3 * i) << node.u * side / unit, node.w / unit, node.theta * side;
+    }
+  }
+  return X;
+}
+
+namespace detail {
+
+template <class Reducer, class InnerProduct>
+ShapeData<double> reduce_shapes(const Snapshots& snapshots, const Truncation& truncation,
+                                const InnerProduct& product) {
+  const Eigen::MatrixXd X = snapshot_matrix(snapshots);
+  const Pod<Reducer, InnerProduct> pod(X, truncation, product);
+  const Eigen::MatrixXd C = pod.coefficients(X);
+  ShapeData<double> shape{snapshots.plan.segments, snapshots.contact_node, pod.modes(), {}, {},
+                          snapshots.rest_shape};
+  shape.basis.assign(pod.basis().data(), pod.basis().data() + pod.basis().size());
+  shape.coefficients.assign(C.data(), C.data() + C.size());
+  return shape;
+}
+
+/// scale(s) · 2V/e² at one position from scale(s) · F/e at the same nodes:  2V/e² = 2 ∫₀¹ t K(y(t e)) dt.
+/// Panels shrink toward t = 0, where y(t e) bends on the length ρ/e.
+template <class Nodes>
+std::vector<double> potential(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coordinate,
+                              const std::vector<double>& K) {
+  std::vector<double> l(K.size()), work(K.size());
+  for (std::size_t j = 0; j < K.size(); ++j) {
+    const double e = coordinate.inverse(y.node(static_cast<int>(j)));
+    double high = 1;
+    for (int panel = 0; panel < 60; ++panel) {
+      const double low = panel == 59 ? 0 : high * 0.8;
+      for (std::size_t g = 0; g < gauss_points.size(); ++g) {
+        const double t = low + (high - low) * gauss_points[g];
+        y.weights(coordinate(t * e), l.data());
+        double sum = 0;
+        for (std::size_t k = 0; k < K.size(); ++k) sum += l[k] * K[k];
+        work[j] += 2 * (high - low) * gauss_weights[g] * t * sum;
+      }
+      high = low;
+    }
+  }
+  return work;
+}
+
+}  // namespace detail
+
+/// A PodModel's numbers.   @param truncation  of the shape's modes
+template <class Nodes = ChebyshevNodes, class Reducer = Svd, class InnerProduct = PlainInnerProduct>
+PodModelData<double> train_pod(const Snapshots& snapshots,
+                               const Truncation& truncation = Truncation::error(1e-4),
+                               const InnerProduct& product = {}) {
+  const TrainingPlan& plan = snapshots.plan;
+  const PositionCoordinate<double> position(snapshots.beam);
+  const DepthCoordinate<double> coordinate(snapshots.beam, plan.symmetric);
+  const Lagrange<Nodes> y(plan.depths, snapshots.y_low, snapshots.y_high);
+  PodModelData<double> data{snapshots.beam,
+                            plan.s_min,
+                            plan.s_max,
+                            plan.depth,
+                            plan.symmetric,
+                            plan.positions,
+                            plan.depths,
+                            snapshots.y_low,
+                            snapshots.y_high,
+                            {},
+                            snapshots.rest,
+                            detail::reduce_shapes<Reducer>(snapshots, truncation, product),
+                            {}};
+  std::vector<double> K(static_cast<std::size_t>(plan.depths));
+  for (auto snapshot = snapshots.grid.begin(); snapshot != snapshots.grid.end();) {
+    for (double& k : K) k = position.scale(snapshot->s) * snapshot->stiffness, ++snapshot;
+    const std::vector<double> row = detail::potential(y, coordinate, K);
+    data.potential.insert(data.potential.end(), row.begin(), row.end());
+  }
+  return data;
+}
+
+/// A GalerkinModel's numbers, from snapshots at tensions.   @param truncation  of the shape's modes
+template <class Nodes = ChebyshevNodes, class Reducer = Svd, class InnerProduct = PlainInnerProduct>
+GalerkinModelData<double> train_galerkin(const Snapshots& snapshots,
+                                         const Truncation& truncation = Truncation::error(1e-4),
+                                         const InnerProduct& product = {}) {
+  const TrainingPlan& plan = snapshots.plan;
+  const PositionCoordinate<double> position(snapshots.beam);
+  GalerkinModelData<double> data{snapshots.beam,
+                                 plan.s_min,
+                                 plan.s_max,
+                                 plan.depth,
+                                 plan.positions,
+                                 snapshots.columns,
+                                 snapshots.tension,
+                                 {},
+                                 detail::reduce_shapes<Reducer>(snapshots, truncation, product),
+                                 {}};
+  for (const Snapshot& snapshot : snapshots.grid)
+    data.log_stiffness.push_back(std::log(position.scale(snapshot.s) * snapshot.stiffness));
+  return data;
+}
+
+}  // namespace hapbeam

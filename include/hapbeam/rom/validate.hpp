@@ -1,0 +1,110 @@
+// How wrong is a trained model?  Measured on presses that it was not trained with, against a full one.
+//
+// Offline: allocates; throws TrainingError where the full model does not answer.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <hapbeam/force_model.hpp>
+#include <hapbeam/rom/error_report.hpp>
+#include <hapbeam/rom/snapshots.hpp>
+
+namespace hapbeam {
+
+struct ValidationOptions {
+  int presses = 500;       ///< drawn at random, even over the range, from 2 % of the depth up, both ways
+  std::uint64_t seed = 1;  ///< the same seed draws the same presses on every machine
+  int s_regions = 3;       ///< parts of the range along the beam
+  int depth_regions = 3;   ///< and in depth
+};
+
+namespace detail {
+
+struct PressError {
+  double s, depth, force, shape;
+};
+
+/// Value that a part of all do not exceed.
+inline double quantile(std::vector<double>& values, double part) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+inline ErrorSummary summarize(const std::vector<PressError>& errors) {
+  if (errors.empty()) return {};
+  std::vector<double> force, shape;
+  for (const PressError& error : errors) force.push_back(error.force), shape.push_back(error.shape);
+  return {static_cast<int>(errors.size()),
+          quantile(force, 0.5),
+          quantile(force, 0.95),
+          quantile(force, 1),
+          quantile(shape, 0.5),
+          quantile(shape, 1)};
+}
+
+}  // namespace detail
+
+/// Compares force and shape.   @param reference  what the full model is called in the report
+template <class Fast, class Full>
+ErrorReport validate(Fast fast, const Full& full, const ValidationOptions& options = {},
+                     const std::string& reference = "finite elements") {
+  using S = typename Fast::Scalar;
+  using F = typename Full::Scalar;
+  const Range<S> range = fast.range();
+  const double s_min = static_cast<double>(range.s_min), s_max = static_cast<double>(range.s_max);
+  const double depth = static_cast<double>(range.depth);
+
+  // The standard fixes the generator but not its distributions.
+  std::mt19937_64 generator(options.seed);
+  const auto random = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  std::vector<Press<S>> presses;
+  for (int k = 0; k < options.presses; ++k) {
+    const S s = std::min(static_cast<S>(s_min + (s_max - s_min) * random()), range.s_max);
+    const double size = depth * (0.02 + 0.98 * random());
+    presses.push_back({s, static_cast<S>(k % 2 ? -size : size)});
+  }
+
+  std::vector<detail::PressError> errors;
+  Full model(full);
+  for (const Press<S>& press : presses) {
+    model.reset();
+    const double wanted =
+        detail::press_for_training(model, static_cast<double>(press.s), static_cast<double>(press.d));
+    const double found = static_cast<double>(fast.press(press).force);
+    const double d = std::abs(static_cast<double>(press.d));
+    double shape = 0;
+    for (const CentrelineNode<S>& node : fast.shape())
+      shape = std::max(shape, std::abs(static_cast<double>(node.w) -
+                                       static_cast<double>(model.shape().at(static_cast<F>(node.s)).w)));
+    errors.push_back(
+        {static_cast<double>(press.s), d, std::abs(found - wanted) / std::abs(wanted), shape / d});
+  }
+
+  ErrorReport report{reference, detail::summarize(errors), {}};
+  for (int i = 0; i < options.s_regions; ++i)
+    for (int j = 0; j < options.depth_regions; ++j) {
+      const auto part = [](double low, double high, int k, int n) { return low + (high - low) * k / n; };
+      RegionError region{part(s_min, s_max, i, options.s_regions),
+                         part(s_min, s_max, i + 1, options.s_regions),
+                         part(0, depth, j, options.depth_regions),
+                         part(0, depth, j + 1, options.depth_regions),
+                         {}};
+      std::vector<detail::PressError> inside;
+      for (const detail::PressError& error : errors)
+        if (error.s >= region.s_min && (error.s < region.s_max || i + 1 == options.s_regions) &&
+            error.depth >= region.depth_min &&
+            (error.depth < region.depth_max || j + 1 == options.depth_regions))
+          inside.push_back(error);
+      region.errors = detail::summarize(inside);
+      report.regions.push_back(region);
+    }
+  return report;
+}
+
+}  // namespace hapbeam
