@@ -7,17 +7,22 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <thread>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "options.hpp"
 #include "report.hpp"
 #include "scene.hpp"
 #include "servo.hpp"
+#include "trained.hpp"
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/haptics/virtual_phantom.hpp>
+#include <hapbeam/rom/guarded.hpp>
 
 namespace {
 
@@ -56,18 +61,17 @@ void simulate(Device& device, Tick& servo, const Notes& notes, double duration) 
   }
 }
 
-template <typename Element>
-int run(const Options& options, std::ofstream& report) {
-  hapbeam::FemModel<Element> model(options.make_beam(), options.elements);
+template <typename Model>
+int run(Model model, const Trained* trained, const Options& options, std::ofstream& report) {
   Notes notes;
-  Servo<hapbeam::FemModel<Element>> servo(model, options, notes);
+  Servo<Model> servo(model, options, notes);
   hapbeam::VirtualPhantom<> device(make_path(options));
 
-  print_scene(options, device.info());
+  print_scene(options, trained, device.info());
   if (options.lock_step) simulate(device, servo, notes, options.duration);
   else watch(device, servo, notes, options.duration);
 
-  const Run result{options, device.info(), notes, device.counts(), interrupted != 0};
+  const Run result{options, trained, device.info(), notes, device.counts(), interrupted != 0};
   print_summary(result);
   if (options.report.empty()) return 0;
   if (report << json(result) << std::flush) return 0;
@@ -75,35 +79,54 @@ int run(const Options& options, std::ofstream& report) {
   return 1;
 }
 
-/// The element is chosen once, here; a tick calls nothing virtual.
-int run(const Options& options, std::ofstream& report) {
+template <typename Element>
+int run_full(const Options& options, std::ofstream& report) {
+  return run(hapbeam::FemModel<Element>(options.beam.make(), options.elements), nullptr, options, report);
+}
+
+/// The model is chosen once, here and below; a tick calls nothing virtual.
+int run_full(const Options& options, std::ofstream& report) {
   using namespace hapbeam;
   switch (options.element) {
-    case ElementChoice::linear: return run<Linear>(options, report);
-    case ElementChoice::full: return run<VonKarman<FullIntegration>>(options, report);
-    case ElementChoice::reduced: return run<VonKarman<ReducedIntegration>>(options, report);
+    case ElementChoice::linear: return run_full<Linear>(options, report);
+    case ElementChoice::full: return run_full<VonKarman<FullIntegration>>(options, report);
+    case ElementChoice::reduced: return run_full<VonKarman<ReducedIntegration>>(options, report);
     case ElementChoice::assumed_strain: break;
   }
-  return run<VonKarman<AssumedStrain>>(options, report);
+  return run_full<VonKarman<AssumedStrain>>(options, report);
+}
+
+int run_trained(const Trained& trained, const Options& options, std::ofstream& report) {
+  using Full = hapbeam::FemModel<>;
+  return std::visit(
+      [&](const auto& fast) {
+        using Fast = std::decay_t<decltype(fast)>;
+        if (!options.guarded) return run(fast, &trained, options, report);
+        const Full full(trained.make_beam(), options.elements);
+        return run(hapbeam::Guarded<Fast, Full>(fast, full), &trained, options, report);
+      },
+      trained.model);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (wants_help(arguments)) return std::fputs(help().c_str(), stdout) < 0;
+  if (cli::wants_help(arguments)) return std::fputs(help().c_str(), stdout) < 0;
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   try {
-    const Options options = parse(arguments);
+    Options options = parse(arguments);
+    std::optional<Trained> trained;
+    if (!options.model.empty()) trained = load(options);
     std::ofstream report;
     if (!options.report.empty()) report.open(options.report);
     if (!report) {
       std::fprintf(stderr, "phantom: %s: the report cannot be written\n", options.report.c_str());
       return 1;
     }
-    return run(options, report);
-  } catch (const UsageError& error) {
+    return trained ? run_trained(*trained, options, report) : run_full(options, report);
+  } catch (const cli::UsageError& error) {
     std::fprintf(stderr, "phantom: %s\n", error.what());
     return 2;
   } catch (const std::exception& error) {

@@ -1,158 +1,61 @@
 #include "options.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <functional>
 #include <limits>
 
 namespace phantom {
 
 namespace {
 
-using hapbeam::Support;
+using cli::count, cli::figure, cli::file, cli::flag, cli::one_of;
 
-struct NamedBeam {
-  const char* name;
-  double length, width, height, young;
-  Support left, right;
-};
-
-// thesis: the textbook beam of its chapter 3, 100 in long, 1 in square, E = 30e6 psi.
-// ruler: a steel ruler of 30 cm held at one end; soft enough for the device.
-constexpr NamedBeam beams[] = {
-    {"thesis", 2.54, 0.0254, 0.0254, 206.8427e9, Support::pinned, Support::pinned},
-    {"ruler", 0.3, 0.025, 0.001, 200e9, Support::clamped, Support::free},
-};
-constexpr Support supports[] = {Support::free, Support::clamped, Support::pinned, Support::roller,
-                                Support::guided};
 constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::full, ElementChoice::reduced,
                                       ElementChoice::assumed_strain};
 constexpr Script scripts[] = {Script::slide, Script::press, Script::tap};
 
-const char* name(const NamedBeam& beam) { return beam.name; }
-
-[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& allowed) {
-  throw UsageError(option + " " + value + ": must be " + allowed);
-}
-
-/// The one of a list that bears a name, or null.
-template <typename T, std::size_t N>
-const T* find(const T (&list)[N], const std::string& wanted) {
-  for (const T& candidate : list)
-    if (wanted == name(candidate)) return &candidate;
-  return nullptr;
-}
-
-template <typename T, std::size_t N>
-std::string names(const T (&list)[N]) {
-  std::string text;
-  for (const T& entry : list) text += (text.empty() ? "" : ", ") + std::string(name(entry));
-  return text;
-}
-
-template <typename T, std::size_t N>
-const T& one_of(const T (&list)[N], const std::string& option, const std::string& value) {
-  if (const T* found = find(list, value)) return *found;
-  refuse(option, value, "one of " + names(list));
-}
-
-std::string digits(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", x);
-  return text;
-}
-
-double number(const std::string& option, const std::string& value, double low, double high,
-              const std::string& unit) {
-  char* end = nullptr;
-  const double parsed = std::strtod(value.c_str(), &end);
-  // Not NaN either.
-  if (!value.empty() && *end == '\0' && parsed >= low && parsed <= high) return parsed;
-  refuse(option, value, digits(low) + " to " + digits(high) + (unit.empty() ? "" : " " + unit));
-}
-
-struct Entry {
-  const char* option;
-  const char* argument;  // empty: a flag
-  const char* text;
-  std::function<void(Options&, const std::string& value)> set;
-};
-
-void set_beam(Options& o, const NamedBeam& beam) {
-  o.beam = beam.name;
-  o.length = beam.length, o.width = beam.width, o.height = beam.height, o.young = beam.young;
-  o.left = beam.left, o.right = beam.right;
-}
-
-void set_ends(Options& o, const std::string& value) {
-  const std::size_t dash = value.find('-');
-  const Support* left = find(supports, value.substr(0, dash));
-  const Support* right = dash == std::string::npos ? nullptr : find(supports, value.substr(dash + 1));
-  if (!left || !right) refuse("--ends", value, "LEFT-RIGHT, each one of " + names(supports));
-  o.left = *left, o.right = *right;
-  o.beam = "custom";
-}
-
-std::function<void(Options&, const std::string&)> figure(const char* option, double Options::*field,
-                                                         double low, double high, const char* unit,
-                                                         bool of_beam) {
-  return [=](Options& o, const std::string& value) {
-    o.*field = number(option, value, low, high, unit);
-    if (of_beam) o.beam = "custom";
-  };
-}
-
-const std::vector<Entry>& entries() {
-  static const std::vector<Entry> list = {
-      {"--beam", "NAME",
-       "thesis (default): steel, 2.54 m, 25.4 mm square, pinned;  ruler: steel, 0.3 m x 25 mm x 1 mm, "
-       "clamped-free",
-       [](Options& o, const std::string& v) { set_beam(o, one_of(beams, "--beam", v)); }},
-      {"--length", "M", "length of the beam [m]", figure("--length", &Options::length, 1e-3, 100, "m", true)},
-      {"--width", "M", "width of its section, out of the plane [m]",
-       figure("--width", &Options::width, 1e-6, 10, "m", true)},
-      {"--height", "M", "height of its section, in the plane of bending [m]",
-       figure("--height", &Options::height, 1e-6, 10, "m", true)},
-      {"--young", "PA", "Young's modulus [Pa]", figure("--young", &Options::young, 1, 1e13, "Pa", true)},
-      {"--ends", "LEFT-RIGHT",
-       "how the ends are held: free, clamped, pinned, roller or guided, for example clamped-free", set_ends},
-      {"--elements", "N", "number of finite elements, 2 to 4096; 16 by default",
-       [](Options& o, const std::string& v) {
-         const double n = number("--elements", v, 2, 4096, "");
-         if (n != std::floor(n)) refuse("--elements", v, "a whole number, 2 to 4096");
-         o.elements = static_cast<int>(n);
-       }},
+cli::Entries entries(Options& o) {
+  cli::Entries list = cli::beam_entries(o.beam);
+  const cli::Entries own = {
+      count("--elements", "number of finite elements, 2 to 4096; 16 by default", o.elements, 2, 4096),
       {"--element", "KIND", "linear, or von Karman with a membrane: full, reduced, assumed-strain (default)",
-       [](Options& o, const std::string& v) { o.element = one_of(elements, "--element", v); }},
+       [&o](const std::string& v) { o.element = one_of(elements, "--element", v); }},
+      file("--model",
+           "a model that train has made takes the place of finite elements; the beam is the file's", o.model),
+      flag("--guarded", "with --model: finite elements answer what is out of the trained range", o.guarded),
       {"--script", "NAME",
        "what the hand does: slide (default): press, slide to and fro, let go;  press;  tap",
-       [](Options& o, const std::string& v) { o.script = one_of(scripts, "--script", v); }},
-      {"--place", "M", "where it presses, from the beam's left end [m]; the middle by default",
-       figure("--place", &Options::place, 0, 100, "m", false)},
-      {"--depth", "M", "how far below the beam's surface the hand aims [m], 0 to 0.1; 0.03 by default",
-       figure("--depth", &Options::depth, 0, 0.1, "m", false)},
-      {"--duration", "S", "of the whole script [s], 1 to 86400; 10 by default",
-       figure("--duration", &Options::duration, 1, 86400, "s", false)},
-      {"--radius", "M", "of the avatar [m]; 0.005 by default",
-       figure("--radius", &Options::radius, 0, 0.1, "m", false)},
-      {"--scale", "X",
-       "metres of the scene for one metre of the device; 1 by default.  Forces are never scaled",
-       figure("--scale", &Options::scale, 1e-3, 1e3, "", false)},
-      {"--lock-step", "",
-       "simulated time, as fast as the machine can and the same every time; else real time",
-       [](Options& o, const std::string&) { o.lock_step = true; }},
+       [&o](const std::string& v) { o.script = one_of(scripts, "--script", v); }},
+      figure("--place", "M",
+             "where it presses, from the beam's left end [m]; by default the middle of the beam, or of the "
+             "trained range",
+             o.place, 0, 100, "m"),
+      figure("--depth", "M", "how far below the beam's surface the hand aims [m], 0 to 0.1; 0.03 by default",
+             o.depth, 0, 0.1, "m"),
+      figure("--duration", "S", "of the whole script [s], 1 to 86400; 10 by default", o.duration, 1, 86400,
+             "s"),
+      figure("--radius", "M", "of the avatar [m]; 0.005 by default", o.radius, 0, 0.1, "m"),
+      figure("--scale", "X",
+             "metres of the scene for one metre of the device; 1 by default.  Forces are never scaled",
+             o.scale, 1e-3, 1e3, ""),
+      flag("--lock-step",
+           "simulated time, as fast as the machine can and the same every time; else real time", o.lock_step),
       {"--headless", "", "no window, a table row a second; this build has no window and is always so",
-       [](Options&, const std::string&) {}},
-      {"--report", "FILE", "writes the summary as JSON",
-       [](Options& o, const std::string& v) {
-         if (v.empty()) refuse("--report", "''", "the name of a file");
-         o.report = v;
-       }},
-      {"--help", "", "prints this", [](Options&, const std::string&) {}},
+       [](const std::string&) {}},
+      file("--report", "writes the summary as JSON", o.report),
+      {"--help", "", "prints this", [](const std::string&) {}},
   };
+  list.insert(list.end(), own.begin(), own.end());
   return list;
+}
+
+/// What a file decides cannot be chosen as well.
+void check_model(const Options& o, const std::vector<std::string>& given) {
+  cli::BeamOptions unused;
+  for (const cli::Entry& entry : cli::beam_entries(unused))
+    cli::exclude(given, entry.option, "--model", "whose file says which beam it is");
+  cli::exclude(given, "--element", "--model", "which was trained with one");
+  if (o.guarded) return;
+  cli::exclude(given, "--elements", "--model", "unless --guarded is given too");
 }
 
 }  // namespace
@@ -176,57 +79,31 @@ const char* name(Script script) {
   return "unknown";
 }
 
-hapbeam::Beam Options::make_beam() const {
-  return {length, hapbeam::Section::rectangle(width, height), hapbeam::Material{young}, left, right};
-}
-
-bool wants_help(const std::vector<std::string>& arguments) {
-  for (const std::string& argument : arguments)
-    if (argument == "--help" || argument == "-h") return true;
-  return false;
+void settle(Options& o, double from, double to) {
+  o.from = from, o.to = to;
+  if (std::isnan(o.place)) o.place = (from + to) / 2;
+  if (o.place > o.beam.length) cli::number("--place", cli::digits(o.place), 0, o.beam.length, "m");
 }
 
 Options parse(const std::vector<std::string>& arguments) {
   Options options;
-  set_beam(options, beams[0]);
   options.place = std::numeric_limits<double>::quiet_NaN();
-
-  // A named beam comes first, wherever it stands, so that other options change it.
-  for (const bool beam : {true, false})
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-      const Entry* entry = nullptr;
-      for (const Entry& candidate : entries())
-        if (arguments[i] == candidate.option) entry = &candidate;
-      if (!entry) throw UsageError(arguments[i] + ": no such option; --help lists them");
-      const bool flag = *entry->argument == '\0';
-      if (!flag && (i + 1 == arguments.size() || arguments[i + 1].rfind("--", 0) == 0))
-        throw UsageError(arguments[i] + ": must be followed by " + entry->argument + "; --help says more");
-      if (beam == (arguments[i] == "--beam")) entry->set(options, flag ? "" : arguments[i + 1]);
-      if (!flag) ++i;
-    }
-
-  try {
-    options.make_beam();
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--ends: ") + error.what());
-  }
-  if (std::isnan(options.place)) options.place = options.length / 2;
-  if (options.place > options.length) number("--place", digits(options.place), 0, options.length, "m");
+  const std::vector<std::string> given = cli::read(arguments, entries(options));
+  if (options.guarded && options.model.empty())
+    throw cli::UsageError("--guarded: must stand beside --model, whose range it guards");
+  check_model(options, given);
+  if (!options.model.empty()) return options;
+  options.beam.make();
+  settle(options, 0, options.beam.length);
   return options;
 }
 
 std::string help() {
-  std::string text =
-      "phantom: a hand presses a beam through a simulated haptic device, a thousand times a second\n\n";
-  for (const Entry& entry : entries()) {
-    std::string left = std::string("  ") + entry.option + " " + entry.argument;
-    left.resize(std::max<std::size_t>(left.size() + 2, 22), ' ');
-    text += left + entry.text + "\n";
-  }
-  return text +
-         "\nCtrl-C ends the run with its summary.  Exit status: 0, 1 where the report cannot be written, 2 "
-         "for a "
-         "wrong option.\n";
+  Options unused;
+  return "phantom: a hand presses a beam through a simulated haptic device, a thousand times a second\n\n" +
+         cli::describe(entries(unused)) +
+         "\nCtrl-C ends the run with its summary.  Exit status: 0, 1 where the model cannot be read or the "
+         "report cannot be written, 2 for a wrong option.\n";
 }
 
 }  // namespace phantom

@@ -1,51 +1,46 @@
-// The command line: what can be chosen, in which unit, and one line for whoever chose wrongly.
+// The command line: what can be chosen, in which unit.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <hapbeam/beam.hpp>
+#include "support/beam_options.hpp"
+#include "support/command_line.hpp"
 
 namespace phantom {
-
-/// A wrong command line; what() is one line that says what is allowed.
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 enum class ElementChoice { linear, full, reduced, assumed_strain };
 enum class Script { slide, press, tap };
 
 /// Everything in SI.
 struct Options {
-  std::string beam = "thesis";  ///< a name, or "custom" where a figure of it was changed
-  double length, width, height, young;
-  hapbeam::Support left, right;
+  cli::BeamOptions beam;
   ElementChoice element = ElementChoice::assumed_strain;
   int elements = 16;
+  std::string model;     ///< file of a trained model, or empty: finite elements
+  bool guarded = false;  ///< finite elements where the trained model ends
 
   Script script = Script::slide;
   double place;            ///< [m] from the left end
+  double from, to;         ///< [m] the hand slides in between
   double depth = 0.03;     ///< [m] that the hand aims below the beam's surface
   double duration = 10;    ///< [s]
   double radius = 0.005;   ///< [m] of the avatar
   double scale = 1;        ///< metres of the scene for one of the device
   bool lock_step = false;  ///< simulated time, as fast as the machine can
   std::string report;      ///< file, or empty
-
-  hapbeam::Beam make_beam() const;
 };
 
 /// Names as they are typed.
 const char* name(ElementChoice element);
 const char* name(Script script);
 
-/// @throws UsageError
-Options parse(const std::vector<std::string>& arguments);
+/// Lets the hand slide between two positions of the beam and, unless told otherwise, press midway.
+/// @throws cli::UsageError where it was told to press beside the beam
+void settle(Options& options, double from, double to);
 
-/// True where help is asked for, whatever else is.
-bool wants_help(const std::vector<std::string>& arguments);
+/// Settled on the whole beam, unless a file says which beam it is.   @throws cli::UsageError
+Options parse(const std::vector<std::string>& arguments);
 std::string help();
 
 }  // namespace phantom

@@ -19,7 +19,7 @@ namespace phantom {
 class Placement {
  public:
   explicit Placement(const Options& options) noexcept
-      : scale_(options.scale), origin_(options.place, options.height / 2 + options.radius) {}
+      : scale_(options.scale), origin_(options.place, options.beam.height / 2 + options.radius) {}
 
   hapbeam::Vector2<double> to_scene(const Eigen::Vector3d& device) const noexcept {
     return origin_ + scale_ * device.head<2>();
@@ -34,10 +34,10 @@ class Placement {
 };
 
 /// How far the hand slides to either side of the place [m, device]: 0.15 m of the half width of 0.19 m, or less
-/// where the beam is shorter.
+/// where there is less beam.
 inline double reach(const Options& options) {
-  const double to_end = std::min(options.place, options.length - options.place);
-  return std::min(0.15, 0.8 * to_end / options.scale);
+  const double to_end = std::min(options.place - options.from, options.to - options.place);
+  return std::min(0.15, 0.8 * std::max(to_end, 0.0) / options.scale);
 }
 
 /// The script in the device's axes; its parts take fixed fractions of the duration.

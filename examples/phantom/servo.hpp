@@ -11,6 +11,7 @@
 #include "tick_times.hpp"
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/haptics/device.hpp>
+#include <hapbeam/rom/guarded.hpp>
 
 namespace phantom {
 
@@ -30,16 +31,27 @@ struct Notes {
   std::atomic<double> max_press{0}, max_force{0};  ///< [m], [N] magnitudes
   std::atomic<hapbeam::Status> worst{hapbeam::Status::ok};  ///< so far
   std::atomic<std::uint64_t> contact_ticks{0};              ///< the beam pushed the hand
+  std::atomic<std::uint64_t> full_ticks{0};                 ///< of these, the full model of a guarded one
   std::atomic<std::uint64_t> touches{0};                    ///< contact began
   TickTimes times;
 };
+
+/// Whether the last press was answered by the full model behind a trained one.
+template <typename Model>
+bool full_answers(const Model&) noexcept {
+  return false;
+}
+template <typename Fast, typename Full>
+bool full_answers(const hapbeam::Guarded<Fast, Full>& model) noexcept {
+  return model.full_answers();
+}
 
 template <typename Model>
 class Servo {
  public:
   /// @param model, notes  kept by reference
   Servo(Model& model, const Options& options, Notes& notes)
-      : touch_(model, options.radius), placement_(options), notes_(notes) {}
+      : model_(model), touch_(model, options.radius), placement_(options), notes_(notes) {}
 
   Eigen::Vector3d operator()(const hapbeam::DeviceState& state) noexcept {
     const auto begin = Clock::now();
@@ -70,10 +82,12 @@ class Servo {
     raise(notes_.max_force, force);
     if (worse(result.status, notes_.worst.load(relaxed))) notes_.worst.store(result.status, relaxed);
     if (result.pressing) notes_.contact_ticks.fetch_add(1, relaxed);
+    if (result.pressing && full_answers(model_)) notes_.full_ticks.fetch_add(1, relaxed);
     if (result.pressing && !pressing_) notes_.touches.fetch_add(1, relaxed);
     pressing_ = result.pressing;
   }
 
+  const Model& model_;
   hapbeam::Touch<Model> touch_;
   Placement placement_;
   Notes& notes_;
