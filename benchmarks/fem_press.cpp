@@ -21,6 +21,8 @@
 #include <benchmark/benchmark.h>
 
 #include "support/sparse_assemblers.hpp"
+#include "support/statistics.hpp"
+#include "support/thesis_beam.hpp"
 #include <hapbeam/fem/fem_model.hpp>
 
 using namespace hapbeam;
@@ -28,29 +30,10 @@ using namespace hapbeam::benchmarks;
 
 namespace {
 
-constexpr double length = 2.54;                  // [m] 100 in
-constexpr double side = 0.0254;                  // [m] 1 in, square
-constexpr double young = 206842718795.3;         // [Pa] 30e6 psi
 constexpr double force_at_50_mm = 11105.121222;  // [N] closed form: tests/data/von_karman_press_pinned.csv
-constexpr int period = 1000;                     // [ticks]
-constexpr double turn = 6.283185307179586 / period;
-
-using Path = Press<double> (*)(int tick);
-
-/// 0 … 50 mm … 0 at mid-span.
-Press<double> press_path(int tick) { return {length / 2, 0.025 * (1 - std::cos(turn * tick))}; }
-/// From mid-span to 0.3 L, to 0.7 L and back, at 20 mm.
-Press<double> slide_path(int tick) { return {length * (0.5 - 0.2 * std::sin(turn * tick)), 0.02}; }
 
 template <class Membrane, template <typename, int, int> class Assembler>
 using Model = FemModel<VonKarman<Membrane>, double, Eigen::Dynamic, Eigen::Dynamic, Assembler>;
-
-/// The value below which a part of all lies.
-double quantile(std::vector<double>& values, double part) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// solve_ns of every run, by solver and number of elements.
 std::map<std::pair<std::string, int>, std::vector<double>> runs;
@@ -58,8 +41,7 @@ std::map<std::pair<std::string, int>, std::vector<double>> runs;
 template <class Model>
 void ticks(benchmark::State& state, const std::string& solver, Path path, int elements) {
   using Clock = std::chrono::steady_clock;
-  Model model(Beam(length, Section::rectangle(side, side), Material{young}, Support::pinned, Support::pinned),
-              elements);
+  Model model(thesis_beam(), elements);
   for (int mm = 5; mm < 50; mm += 5) model.press({length / 2, 1e-3 * mm});
   const double error = model.press({length / 2, 0.05}).force / force_at_50_mm - 1;
   model.reset();

@@ -1,0 +1,56 @@
+#if defined(__GNUC__) && !defined(__clang__)
+// GCC 12 takes the undefined lanes of its own AVX-512 intrinsics for a mistake (GCC bug 105593).  Without -march=native
+// it would not; but the same inline functions, compiled for two processors, must not meet in one program.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
+
+#include "training.hpp"
+
+#include <chrono>
+
+#include <hapbeam/rom/galerkin_model.hpp>
+#include <hapbeam/rom/pod_model.hpp>
+#include <hapbeam/rom/train.hpp>
+#include <hapbeam/rom/validate.hpp>
+
+namespace hapbeam::benchmarks {
+
+namespace {
+
+/// @param take, train  the two halves of the training
+template <class Model, class Take, class Train>
+Trained<typename Model::Data> timed(const Beam& beam, int elements, bool validated, const Take& take,
+                                    const Train& train) {
+  using Clock = std::chrono::steady_clock;
+  const auto ms = [](Clock::duration time) {
+    return std::chrono::duration<double, std::milli>(time).count();
+  };
+  const auto full = full_model(beam, elements);
+  const auto begin = Clock::now();
+  const Snapshots snapshots = take(full);
+  const auto between = Clock::now();
+  Trained<typename Model::Data> trained{train(snapshots), ms(between - begin), 0};
+  trained.pod_ms = ms(Clock::now() - between);
+  if (validated) trained.data.errors = validate(Model(trained.data), full);
+  return trained;
+}
+
+}  // namespace
+
+Trained<PodModelData<double>> time_pod_training(const Beam& beam, const TrainingPlan& plan, int elements,
+                                                bool validated) {
+  return timed<PodModel<>>(
+      beam, elements, validated, [&](const auto& full) { return take_snapshots(beam, full, plan); },
+      [](const Snapshots& snapshots) { return train_pod(snapshots); });
+}
+
+Trained<GalerkinModelData<double>> time_galerkin_training(const Beam& beam, const TrainingPlan& plan,
+                                                          int elements, bool validated) {
+  return timed<GalerkinModel<>>(
+      beam, elements, validated,
+      [&](const auto& full) { return take_snapshots_at_tensions(beam, full, plan); },
+      [](const Snapshots& snapshots) { return train_galerkin(snapshots); });
+}
+
+}  // namespace hapbeam::benchmarks
