@@ -23,11 +23,15 @@ struct ValidationOptions {
   int depth_regions = 3;   ///< and in depth
 };
 
-namespace detail {
-
+/// Of one press.
 struct PressError {
-  double s, depth, force, shape;
+  double s;      ///< [m]
+  double depth;  ///< [m] |d|
+  double force;  ///< relative
+  double shape;  ///< largest |Δw| along the beam over |d|
 };
+
+namespace detail {
 
 /// Value that a part of all do not exceed.
 inline double quantile(std::vector<double>& values, double part) {
@@ -50,10 +54,9 @@ inline ErrorSummary summarize(const std::vector<PressError>& errors) {
 
 }  // namespace detail
 
-/// Compares force and shape.   @param reference  what the full model is called in the report
+/// Compares force and shape, press by press.
 template <class Fast, class Full>
-ErrorReport validate(Fast fast, const Full& full, const ValidationOptions& options = {},
-                     const std::string& reference = "finite elements") {
+std::vector<PressError> press_errors(Fast fast, const Full& full, const ValidationOptions& options = {}) {
   using S = typename Fast::Scalar;
   using F = typename Full::Scalar;
   const Range<S> range = fast.range();
@@ -70,7 +73,7 @@ ErrorReport validate(Fast fast, const Full& full, const ValidationOptions& optio
     presses.push_back({s, static_cast<S>(k % 2 ? -size : size)});
   }
 
-  std::vector<detail::PressError> errors;
+  std::vector<PressError> errors;
   Full model(full);
   for (const Press<S>& press : presses) {
     model.reset();
@@ -85,7 +88,16 @@ ErrorReport validate(Fast fast, const Full& full, const ValidationOptions& optio
     errors.push_back(
         {static_cast<double>(press.s), d, std::abs(found - wanted) / std::abs(wanted), shape / d});
   }
+  return errors;
+}
 
+/// All of them in figures, and by regions of a range.   @param reference  what the full model is called in the report
+template <typename Scalar>
+ErrorReport report_errors(const std::vector<PressError>& errors, const Range<Scalar>& range,
+                          const ValidationOptions& options = {},
+                          const std::string& reference = "finite elements") {
+  const double s_min = static_cast<double>(range.s_min), s_max = static_cast<double>(range.s_max);
+  const double depth = static_cast<double>(range.depth);
   ErrorReport report{reference, detail::summarize(errors), {}};
   for (int i = 0; i < options.s_regions; ++i)
     for (int j = 0; j < options.depth_regions; ++j) {
@@ -95,8 +107,8 @@ ErrorReport validate(Fast fast, const Full& full, const ValidationOptions& optio
                          part(0, depth, j, options.depth_regions),
                          part(0, depth, j + 1, options.depth_regions),
                          {}};
-      std::vector<detail::PressError> inside;
-      for (const detail::PressError& error : errors)
+      std::vector<PressError> inside;
+      for (const PressError& error : errors)
         if (error.s >= region.s_min && (error.s < region.s_max || i + 1 == options.s_regions) &&
             error.depth >= region.depth_min &&
             (error.depth < region.depth_max || j + 1 == options.depth_regions))
@@ -105,6 +117,13 @@ ErrorReport validate(Fast fast, const Full& full, const ValidationOptions& optio
       report.regions.push_back(region);
     }
   return report;
+}
+
+/// Both: how wrong a model is.   @param reference  what the full model is called in the report
+template <class Fast, class Full>
+ErrorReport validate(const Fast& fast, const Full& full, const ValidationOptions& options = {},
+                     const std::string& reference = "finite elements") {
+  return report_errors(press_errors(fast, full, options), fast.range(), options, reference);
 }
 
 }  // namespace hapbeam
