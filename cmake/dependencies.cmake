@@ -2,6 +2,7 @@
 # Version ranges stand here and nowhere else; what each is for stands in the README.
 include_guard()
 include(FetchContent)
+include(${CMAKE_CURRENT_LIST_DIR}/jansson.cmake)
 
 # Eigen 3.4 or later.  Its version file accepts its own major version alone, hence one call for each.
 function(hapbeam_find_eigen)
@@ -25,6 +26,26 @@ function(hapbeam_find_eigen)
   if(NOT TARGET Eigen3::Eigen)
     add_library(Eigen3::Eigen INTERFACE IMPORTED GLOBAL)
     target_include_directories(Eigen3::Eigen INTERFACE ${eigen_SOURCE_DIR})
+  endif()
+endfunction()
+
+# jansson 2.8 or later, where it is installed or may be fetched; without it there is no hapbeam::model_file.
+function(hapbeam_find_or_fetch_jansson)
+  hapbeam_find_jansson()
+  if(TARGET jansson::jansson OR NOT HAPBEAM_FETCH_JANSSON)
+    return()
+  endif()
+  set(CMAKE_POLICY_DEFAULT_CMP0077 NEW)
+  set(JANSSON_BUILD_DOCS OFF)
+  set(JANSSON_BUILD_SHARED_LIBS OFF)
+  set(JANSSON_EXAMPLES OFF)
+  set(JANSSON_INSTALL OFF)
+  set(JANSSON_WITHOUT_TESTS ON)
+  FetchContent_Declare(jansson
+    GIT_REPOSITORY https://github.com/akheron/jansson GIT_TAG v2.14.1 GIT_SHALLOW TRUE)
+  FetchContent_MakeAvailable(jansson)
+  if(NOT TARGET jansson::jansson)
+    add_library(jansson::jansson ALIAS jansson)
   endif()
 endfunction()
 

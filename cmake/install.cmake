@@ -8,5 +8,6 @@ install(EXPORT hapbeam NAMESPACE hapbeam:: FILE hapbeamTargets.cmake DESTINATION
 configure_file(cmake/hapbeamConfig.cmake.in hapbeamConfig.cmake @ONLY)
 # Below 1.0 a minor version may break its users.
 write_basic_package_version_file(hapbeamConfigVersion.cmake COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
-install(FILES ${PROJECT_BINARY_DIR}/hapbeamConfig.cmake ${PROJECT_BINARY_DIR}/hapbeamConfigVersion.cmake
+install(FILES
+  ${PROJECT_BINARY_DIR}/hapbeamConfig.cmake ${PROJECT_BINARY_DIR}/hapbeamConfigVersion.cmake cmake/jansson.cmake
   DESTINATION share/cmake/hapbeam)

@@ -44,7 +44,7 @@ build() {
   local preset=$1 compiler=g++
   shift
   [[ $preset != *clang* ]] || compiler=clang
-  need "$compiler" cmake ninja-build libeigen3-dev catch2 libbenchmark-dev &&
+  need "$compiler" cmake ninja-build libeigen3-dev libjansson-dev catch2 libbenchmark-dev &&
     step "configure ($preset)" cmake -S "$top" --preset "$preset" &&
     step "build $*" cmake --build "$top/build/$preset" --parallel "$(nproc)" --target "$@"
 }
