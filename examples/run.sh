@@ -1,10 +1,21 @@
 #!/usr/bin/env bash
-# Builds and runs the example, and installs what is missing for that (Debian; as root or with sudo).
+# Builds and runs an example, and installs what is missing for that (Debian; as root or with sudo).
 #
-#   bash examples/run.sh [OPTION...]     the options are the example's own; --help lists them
+#   bash examples/run.sh [OPTION...]           a simulated Phantom presses a beam
+#   bash examples/run.sh train [OPTION...]     makes a model of a beam, for --model of the other
+#
+# The options are the program's own; --help lists them.
 set -u
 source "$(dirname "${BASH_SOURCE[0]}")/../cmake/steps.sh"
 
-build release phantom || exit 1
+program=phantom
+case ${1-} in
+  phantom | train) program=$1; shift ;;
+esac
+
+build release "$program" || exit 1
+for option in "$@"; do
+  [[ $option != --plot ]] || command -v gnuplot >/dev/null || need gnuplot-nox
+done
 rm -f "$log"
-exec "$top/build/release/examples/phantom" "$@"
+exec "$top/build/release/examples/$program" "$@"
