@@ -8,7 +8,7 @@
 
 namespace hapbeam {
 
-/// Errors over a set of presses.  The force's is relative; the shape's is the largest |Δw| along the beam over |d|.
+/// Errors over a set of presses.  The force's is relative; the shape's is the largest |Δw| over the largest |w| of the beam.
 struct ErrorSummary {
   int presses = 0;
   double force_median = 0;

@@ -55,7 +55,7 @@ Scalar bounded(Scalar d, Scalar length) noexcept {
 }
 
 [[noreturn]] inline void reject_data(const char* field, double value, const std::string& allowed) {
-  throw std::invalid_argument(std::string(field) + " = " + std::to_string(value) + ": must be " + allowed);
+  reject(field, value, "", allowed.c_str());
 }
 
 /// At most this many numbers in a table: 128 MB in double.

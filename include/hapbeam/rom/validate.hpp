@@ -17,7 +17,7 @@
 namespace hapbeam {
 
 struct ValidationOptions {
-  int presses = 500;       ///< drawn at random, even over the range, from 2 % of the depth up, both ways
+  int presses = 500;       ///< at random over the range and on its edges, from 2 % of the depth up, both ways
   std::uint64_t seed = 1;  ///< the same seed draws the same presses on every machine
   int s_regions = 3;       ///< parts of the range along the beam
   int depth_regions = 3;   ///< and in depth
@@ -28,7 +28,7 @@ struct PressError {
   double s;      ///< [m]
   double depth;  ///< [m] |d|
   double force;  ///< relative
-  double shape;  ///< largest |Δw| along the beam over |d|
+  double shape;  ///< largest |Δw| along the beam over the largest |w|
 };
 
 namespace detail {
@@ -68,9 +68,14 @@ std::vector<PressError> press_errors(Fast fast, const Full& full, const Validati
   const auto random = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
   std::vector<Press<S>> presses;
   for (int k = 0; k < options.presses; ++k) {
-    const S s = std::min(static_cast<S>(s_min + (s_max - s_min) * random()), range.s_max);
-    const double size = depth * (0.02 + 0.98 * random());
-    presses.push_back({s, static_cast<S>(k % 2 ? -size : size)});
+    // First the corners of the range, then one of ten on each of its edges: there a polynomial is at its worst.
+    double along = random(), deep = random();
+    if (k < 4) along = k / 2, deep = k % 2;
+    else if (k % 10 == 4 || k % 10 == 5) along = k % 10 - 4;
+    else if (k % 10 == 6) deep = 1;
+    const S s = along == 1 ? range.s_max : static_cast<S>(s_min + (s_max - s_min) * along);
+    const double size = deep == 1 ? depth : depth * (0.02 + 0.98 * deep);
+    presses.push_back({s, static_cast<S>(k / 2 % 2 ? -size : size)});
   }
 
   std::vector<PressError> errors;
@@ -81,12 +86,14 @@ std::vector<PressError> press_errors(Fast fast, const Full& full, const Validati
         detail::press_for_training(model, static_cast<double>(press.s), static_cast<double>(press.d));
     const double found = static_cast<double>(fast.press(press).force);
     const double d = std::abs(static_cast<double>(press.d));
-    double shape = 0;
-    for (const CentrelineNode<S>& node : fast.shape())
-      shape = std::max(shape, std::abs(static_cast<double>(node.w) -
-                                       static_cast<double>(model.shape().at(static_cast<F>(node.s)).w)));
+    double off = 0, size = d;
+    for (const CentrelineNode<S>& node : fast.shape()) {
+      const double w = static_cast<double>(model.shape().at(static_cast<F>(node.s)).w);
+      off = std::max(off, std::abs(static_cast<double>(node.w) - w));
+      size = std::max(size, std::abs(w));
+    }
     errors.push_back(
-        {static_cast<double>(press.s), d, std::abs(found - wanted) / std::abs(wanted), shape / d});
+        {static_cast<double>(press.s), d, std::abs(found - wanted) / std::abs(wanted), off / size});
   }
   return errors;
 }

@@ -1,0 +1,173 @@
+// GalerkinModel: one unknown, right inside the trained range and beyond it.
+#include "rom/press_errors.hpp"
+#include "rom/trained.hpp"
+#include "support/error.hpp"
+#include "support/solver.hpp"
+#include <hapbeam/element/linear.hpp>
+#include <hapbeam/rom/galerkin_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+constexpr double L = thesis_length;
+
+Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
+
+/// Force of the pinned beam in the space of its first modes, sin(nπx/L): each has its own buckling load, and the tension is
+/// found by bisection.
+double force_in_global_modes(int modes, double s, double d) {
+  const double pi = std::acos(-1.0);
+  const auto compliance = [&](double N) {
+    double sum = 0;
+    for (int n = 1; n <= modes; ++n) {
+      const double a = std::pow(n * pi / L, 2);
+      sum += 2 / L * std::pow(std::sin(n * pi * s / L), 2) / (a * (thesis_EI * a + N));
+    }
+    return sum;
+  };
+  const auto excess = [&](double N) {  // ½ d² k'(N) - N L/EA
+    const double h = 1e-4 * (N + 1);
+    return d * d / 2 * (1 / compliance(N + h) - 1 / compliance(N - h)) / (2 * h) - N * L / thesis_EA;
+  };
+  double low = 0, high = 1e8;
+  for (int k = 0; k < 200; ++k) (excess((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
+  return d / compliance(low);
+}
+
+}  // namespace
+
+TEST_CASE("one unknown gives the force of any press up to 50 mm within 3e-3, the median within 1e-5",
+          "[galerkin]") {
+  GalerkinModel<> model(trained_galerkin(pinned(), TrainingPlan::anywhere(pinned(), 0.05)));
+  const ForceErrors errors = force_errors(model, pinned_closed_form, 0, 0.05);
+  CHECK(errors.max() <= 3e-3);
+  CHECK(errors.median() <= 1e-5);
+}
+
+// 1.6 times as deep, at the same places: the tensions there are 2.6 times as large.
+TEST_CASE("beyond the trained depth it still solves the equation, within 2e-2", "[galerkin]") {
+  GalerkinModel<> model(trained_galerkin(pinned(), TrainingPlan::anywhere(pinned(), 0.05)));
+  CHECK(force_errors(model, pinned_closed_form, 0.0501, 0.08, 500, Status::out_of_range).max() <= 2e-2);
+  CHECK(force_errors(model, pinned_closed_form, 0.08, 0.08 + 1e-9, 500, Status::out_of_range).max() <= 2e-2);
+  // And where it was trained for a tenth of that.
+  GalerkinModel<> shallow(trained_galerkin(pinned(), TrainingPlan::anywhere(pinned(), 0.005)));
+  CHECK(force_errors(shallow, pinned_closed_form, 0.008, 0.008 + 1e-9, 500, Status::out_of_range).max() <=
+        2e-2);
+}
+
+// The polynomial of degree 49 through 50 equidistant forces, as the thesis extrapolates (eq. 3.67 at 8 of 5 mm).
+TEST_CASE("where the thesis' interpolation is off by more than 100 % at 1.6 times the depth",
+          "[galerkin][thesis]") {
+  const Lagrange<EquispacedNodes> axis(50, 1e-3, 50e-3);
+  std::vector<double> l(50);
+  axis.weights(0.08, l.data());
+  FemModel<> full(pinned(), 64);
+  double force = 0;
+  for (int k = 0; k < 50; ++k)
+    force += l[static_cast<std::size_t>(k)] * full.press({L / 2, axis.node(k)}).force;
+  CHECK(relative_error(force, pinned_closed_form(L / 2, 0.08)) > 1);
+}
+
+TEST_CASE("and so for other ends, against 64 elements", "[galerkin]") {
+  const auto [left, right] = GENERATE(table<Support, Support>({{Support::clamped, Support::clamped},
+                                                               {Support::clamped, Support::free},
+                                                               {Support::pinned, Support::clamped},
+                                                               {Support::roller, Support::pinned}}));
+  const Beam beam = thesis_beam(left, right);
+  GalerkinModel<> model(trained_galerkin(beam, TrainingPlan::anywhere(beam, 0.05)));
+  FemModel<> full(beam, 64, tight_solver());
+  const ForceErrors errors = force_errors(model, from_rest(full), 0, 0.05);
+  CHECK(errors.max() <= 3e-3);
+  // 64 elements themselves are off by 2e-6 on average at these depths.
+  CHECK(errors.median() <= 1e-5);
+}
+
+TEST_CASE("eight global modes leave ten thousand times the error of one that moves with the contact",
+          "[galerkin]") {
+  GalerkinModel<> model(trained_galerkin(pinned(), TrainingPlan::anywhere(pinned(), 0.05)));
+  double moving = 0, global = 0;
+  for (const double s : {0.06 * L, 0.1 * L, 0.3 * L}) {
+    const double wanted = pinned_closed_form(s, 0.04);
+    moving = std::max(moving, relative_error(model.press({s, 0.04}).force, wanted));
+    global = std::max(global, relative_error(force_in_global_modes(8, s, 0.04), wanted));
+  }
+  INFO("moving " << moving << ", global " << global);
+  CHECK(global >= 0.1);
+  CHECK(moving <= 1e-4 * global);
+  // The reference in modes is right: with many of them it is the closed form.
+  CHECK(relative_error(force_in_global_modes(2000, 0.3 * L, 0.04), pinned_closed_form(0.3 * L, 0.04)) <=
+        1e-6);
+}
+
+TEST_CASE("where no tension arises it has no unknown", "[galerkin]") {
+  SECTION("one end slides") {
+    const Beam beam = thesis_beam(Support::clamped, Support::free);
+    GalerkinModel<> model(trained_galerkin(beam, TrainingPlan::anywhere(beam, 0.05)));
+    CHECK(model.data().tensions == 1);
+    const double s = 0.7 * L;
+    CHECK(relative_error(model.press({s, 0.1}).force, 3 * thesis_EI * 0.1 / (s * s * s)) <= 1e-6);
+    CHECK(model.iterations() == 0);
+  }
+  SECTION("the element is linear") {
+    const FemModel<Linear> full(pinned(), 64, tight_solver());
+    GalerkinModel<> model(
+        trained_galerkin(take_snapshots_at_tensions(pinned(), full, TrainingPlan::anywhere(pinned(), 0.05))));
+    CHECK(model.data().tensions == 1);
+    const double s = 0.2 * L, b = 0.8 * L;
+    CHECK(relative_error(model.press({s, 0.03}).force, 3 * thesis_EI * L * 0.03 / (s * s * b * b)) <= 1e-6);
+  }
+}
+
+TEST_CASE("a moving hand takes three iterations, any jump no more than the limit", "[galerkin]") {
+  GalerkinModel<> model(trained_galerkin(pinned(), TrainingPlan::anywhere(pinned(), 0.05)));
+  int most = 0;
+  for (int tick = 0; tick <= 2000; ++tick) {  // 25 mm up and down, ±0.2 L to and fro, in two seconds
+    const double turn = 6.283185307179586 * tick / 1000;
+    model.press({L * (0.5 + 0.2 * std::sin(turn)), 0.025 * (1 - std::cos(turn))});
+    most = std::max(most, model.iterations());
+  }
+  CHECK(most <= 4);
+  Random random(3);
+  most = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const double d = std::pow(10, random(-9, 3)) * (k % 2 ? -1 : 1);
+    const Response<double> response = model.press({L * random(0, 1), d});
+    most = std::max(most, model.iterations());
+    REQUIRE(std::isfinite(response.force));
+    REQUIRE(response.force * d > 0);
+  }
+  INFO("most " << most);
+  CHECK(most < GalerkinModel<>::max_iterations);
+}
+
+TEST_CASE("the force grows with the depth, over the end of the trained tensions too", "[galerkin]") {
+  const double s = GENERATE(0.05, 0.2, 0.5) * L;
+  GalerkinModel<> model(trained_galerkin(pinned(), TrainingPlan::anywhere(pinned(), 0.01)));
+  double before = 0, stiffness_before = 0;
+  for (double d = 1e-3; d < 0.2; d += 1e-3) {
+    const double force = model.press({s, d}).force;
+    CHECK(force - before > stiffness_before);  // a beam that stretches stiffens
+    stiffness_before = (force - before) * (1 - 1e-5);
+    before = force;
+  }
+}
+
+TEST_CASE("in float the errors are the same", "[galerkin][float]") {
+  GalerkinModel<float> model(cast<float>(trained_galerkin(pinned(), TrainingPlan::anywhere(pinned(), 0.05))));
+  const ForceErrors errors = force_errors(model, pinned_closed_form, 0.001, 0.05);
+  CHECK(errors.max() <= 3e-3);
+  CHECK(errors.median() <= 1e-5);
+}
+
+TEST_CASE("dead loads are refused: under them the tension is not one number", "[galerkin]") {
+  Beam beam = pinned();
+  beam.transverse(-100);
+  TrainingPlan plan = TrainingPlan::anywhere(beam, 0.05);
+  CHECK_THROWS_WITH(trained_galerkin(beam, plan),
+                    "symmetric = true: must be false for a beam under dead loads");
+  plan.symmetric = false;
+  CHECK_THROWS_WITH(trained_galerkin(beam, plan),
+                    "symmetric = false: must be true, a GalerkinModel takes no dead loads");
+}

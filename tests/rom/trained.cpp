@@ -1,0 +1,17 @@
+#include "rom/trained.hpp"
+
+#include <hapbeam/rom/train.hpp>
+
+namespace hapbeam::testing {
+
+PodModelData<double> trained_pod(const Snapshots& snapshots) { return train_pod(snapshots); }
+GalerkinModelData<double> trained_galerkin(const Snapshots& snapshots) { return train_galerkin(snapshots); }
+
+PodModelData<double> trained_pod(const Beam& beam, const TrainingPlan& plan, int elements) {
+  return train_pod(take_snapshots(beam, full_model(beam, elements), plan));
+}
+GalerkinModelData<double> trained_galerkin(const Beam& beam, const TrainingPlan& plan, int elements) {
+  return train_galerkin(take_snapshots_at_tensions(beam, full_model(beam, elements), plan));
+}
+
+}  // namespace hapbeam::testing
