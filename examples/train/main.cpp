@@ -21,7 +21,11 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-extern "C" void interrupt(int) { interrupted = 1; }
+/// The first asks, at a place where nothing is half done; the second ends at once.
+extern "C" void interrupt(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
 
 /// Between two presses and between two stages; a file is written whole.
 void stop_if_interrupted() {

@@ -29,7 +29,9 @@ cli::Entry keep(Options& o, Keep way, cli::Entry entry) {
 cli::Entries entries(Options& o) {
   cli::Entries list = cli::beam_entries(o.beam);
   const cli::Entries own = {
-      {"--kind", "KIND", "pod (default): interpolates;  galerkin: solves for the tension, and may go deeper",
+      {"--kind", "KIND",
+       "pod (default): interpolates force and shape;  galerkin: interpolates stiffness and solves for the "
+       "tension",
        [&o](const std::string& v) { o.kind = one_of(kinds, "--kind", v); }},
       {"--scalar", "TYPE", "double (default) or float: what the model computes in; phantom takes double",
        [&o](const std::string& v) { o.scalar = one_of(scalars, "--scalar", v); }},
@@ -55,8 +57,10 @@ cli::Entries entries(Options& o) {
       keep(o, Keep::energy,
            figure("--energy", "X", "or the fewest that hold this part of its square, 0.5 to 1", o.energy, 0.5,
                   1, "")),
-      count("--elements", "finite elements of the full model, 2 to 4096; 256 by default", o.elements, 2,
-            4096),
+      count("--elements",
+            "finite elements of the full model, 2 to 4096; 256 by default, and twice as many to measure the "
+            "error",
+            o.elements, 2, 4096),
       count("--presses", "presses held out to measure the error, 10 to 100000; 500 by default", o.presses, 10,
             100000),
       count("--threads", "1 to 256; by default as many as the machine runs at once", o.threads, 1, 256),

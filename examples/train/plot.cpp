@@ -101,7 +101,8 @@ void plot(const Options& options, const Result& result) {
                              ": gnuplot is needed to draw it and cannot be run; the model was written");
   // gnuplot draws under another name, so that a picture is whole or not there.
   const std::string part = options.plot + ".part";
-  if (!std::ofstream(part)) throw std::runtime_error(options.plot + ": the picture cannot be written");
+  if (!std::ofstream(part))
+    throw std::runtime_error(options.plot + ": the picture cannot be written; the model was");
   std::signal(SIGPIPE, SIG_IGN);
   std::FILE* gnuplot = popen("gnuplot 2>/dev/null", "w");
   bool drawn = gnuplot && std::fputs(script_of(options, result, part).c_str(), gnuplot) >= 0;

@@ -1,6 +1,8 @@
 #include "training.hpp"
 
 #include <chrono>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <hapbeam/rom/train.hpp>
@@ -28,16 +30,32 @@ auto timed(std::vector<Stage>& stages, const char* name, const Work& work) {
   return result;
 }
 
-/// The error is that of the model as it will be used, in its own scalar, and stays with it.
+/// @throws TrainingError where interpolation makes something else than a beam of the numbers
 template <typename Model>
-Result measured(Model model, const FemModel<>& full, const Options& options, Result result) {
+Model make(const typename Model::Data& data) {
+  try {
+    return Model(data);
+  } catch (const std::invalid_argument& error) {
+    throw TrainingError(
+        std::string("the grid is too coarse for presses so deep, take more --depths or --positions (") +
+        error.what() + ")");
+  }
+}
+
+/// The error is that of the model as it will be used, in its own scalar, and stays with it.  The reference has twice
+/// the elements that trained, so that what those leave out is measured too.
+template <typename Model>
+Result measured(const typename Model::Data& trained, const Options& options, Result result) {
+  const Model model = make<Model>(trained);
+  const int elements = 2 * options.elements;
+  const FemModel<> full = full_model(options.beam.make(), elements);
   ValidationOptions validation;
   validation.presses = options.presses;
   if (options.single_place()) validation.s_regions = 1;
   result.presses = timed(result.stages, "validation", [&] { return press_errors(model, full, validation); });
-  typename Model::Data data = model.data();
-  data.errors = report_errors(result.presses, model.range(), validation,
-                              std::to_string(options.elements) + " finite elements");
+  typename Model::Data data = trained;
+  data.errors =
+      report_errors(result.presses, model.range(), validation, std::to_string(elements) + " finite elements");
   result.errors = data.errors;
   result.model.emplace(Model(data));
   return result;
@@ -67,12 +85,12 @@ Result run(const Options& options, const Progress& progress) {
   const Truncation kept = Truncation::count(result.modes);
   if (pod) {
     const auto data = timed(result.stages, "interpolation", [&] { return train_pod(snapshots, kept); });
-    if (in_float) return measured(PodModel<float>(cast<float>(data)), full, options, std::move(result));
-    return measured(PodModel<>(data), full, options, std::move(result));
+    if (in_float) return measured<PodModel<float>>(cast<float>(data), options, std::move(result));
+    return measured<PodModel<>>(data, options, std::move(result));
   }
   const auto data = timed(result.stages, "interpolation", [&] { return train_galerkin(snapshots, kept); });
-  if (in_float) return measured(GalerkinModel<float>(cast<float>(data)), full, options, std::move(result));
-  return measured(GalerkinModel<>(data), full, options, std::move(result));
+  if (in_float) return measured<GalerkinModel<float>>(cast<float>(data), options, std::move(result));
+  return measured<GalerkinModel<>>(data, options, std::move(result));
 }
 
 }  // namespace train

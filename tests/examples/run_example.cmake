@@ -1,0 +1,28 @@
+# cmake -D COMMAND=program;option;... -D STATUS=n -D OUTPUT=regex [-D REPORT=x.json -D FIELDS=name;...] [-D ABSENT=file]
+#       -P run_example.cmake
+# Succeeds if the command ends with the status, prints what matches (both streams, whole), its report has all fields, and
+# nothing stands where a file must be absent, not even a part of it.
+if(ABSENT)
+  file(REMOVE ${ABSENT})
+endif()
+execute_process(COMMAND ${COMMAND} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT status EQUAL STATUS)
+  message(FATAL_ERROR "exit status ${status}, not ${STATUS}:\n${output}")
+endif()
+if(NOT output MATCHES "${OUTPUT}")
+  message(FATAL_ERROR "the output does not match '${OUTPUT}':\n${output}")
+endif()
+if(REPORT)
+  file(READ ${REPORT} report)
+  foreach(field IN LISTS FIELDS)
+    if(NOT report MATCHES "\"${field}\": *(\"[^\"]+\"|[-+.e0-9]+|true|false)[,\n]")
+      message(FATAL_ERROR "the report has no ${field}:\n${report}")
+    endif()
+  endforeach()
+endif()
+if(ABSENT)
+  file(GLOB found ${ABSENT}*)
+  if(found)
+    message(FATAL_ERROR "is there and must not be: ${found}")
+  endif()
+endif()
