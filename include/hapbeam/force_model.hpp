@@ -26,10 +26,11 @@
 namespace hapbeam {
 
 /// How a computation ended.  Negative: the answer is not the requested one and must not be trusted.
-/// Positive: the answer holds, for a request that was moved into the model's range.
+/// Positive: the answer holds, for a request that was moved into the model's range or continued from there.
 enum class Status : std::int8_t {
   ok = 0,
-  /// The request lies outside range(); force and shape belong to the nearest request inside it.
+  /// The request lies outside range(); force and shape belong to the nearest request inside it, or go on from there as
+  /// the model says, pushing no less.
   out_of_range = 1,
   /// s or d is not finite, or s lies off the beam (s < 0 or s > L): force 0, the state is kept.
   invalid_request = -1,

@@ -222,20 +222,22 @@ class SnapshotTaker {
   /// The depth whose tension is N, by secants of ln N over ln d.
   double depth_at_tension(Model& model, double s, double N, double d) const {
     const double most = 0.9999 * static_cast<double>(model.range().depth_at(static_cast<S>(s)));
+    const double unit = TensionCoordinate<double>(out_.beam).unit();
     const auto miss = [&](double depth) { return std::log(tension_at(model, s, depth) / N); };
     double before = std::min(d, most), miss_before = miss(before);
     double next = before * std::exp(-miss_before / 2);
     for (int k = 0; k < 40; ++k) {
       next = std::min(next, most);
       const double now = miss(next);
-      if (std::abs(now) < 1e-7) return next;
+      // Below N0 a tension changes little, and round-off of the energies leaves it few digits.
+      if (std::abs(now) * N / (N + unit) < 1e-7) return next;
       if (now == miss_before || !std::isfinite(now)) break;
       const double power = std::log(next / before) / (now - miss_before);
       before = next, miss_before = now;
       next *= std::exp(-now * power);
     }
     throw TrainingError("no press at s = " + std::to_string(s) + " m has a tension of " + std::to_string(N) +
-                        " N to 1e-7; the full model's solver may be too loose, or its range too small");
+                        " N; the full model's solver may be too loose, or its range too small");
   }
 
   void take(Model& model, int i, int j, double rest, double e) {
