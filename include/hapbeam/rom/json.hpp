@@ -1,15 +1,17 @@
-// What reading and writing a model file share: the error, ownership of a JSON value, and the place of a field in it.
+// What reading and writing a model file share: the error, the ownership of a JSON value, and how a value looks in a message.
 //
-// Offline: allocates, throws.  Needs jansson.
+// Written for programs that only load a model: messages are put together by printf and names compared as C strings, since
+// optimising the arithmetic of strings would take the compiler longer than all of Eigen/Core.
+// Offline: allocates, throws.  Needs jansson 2.10 or later.
 #pragma once
 
+#include <cstdarg>
 #include <cstddef>
-#include <cstdlib>
+#include <cstdio>
 #include <jansson.h>
-#include <memory>
 #include <stdexcept>
 #include <string>
-#include <vector>
+#include <utility>
 
 namespace hapbeam {
 
@@ -20,63 +22,54 @@ struct ModelFileError : std::runtime_error {
 
 namespace detail {
 
-struct JsonRelease {
-  void operator()(json_t* value) const noexcept { json_decref(value); }
-};
-using Json = std::unique_ptr<json_t, JsonRelease>;
-
-inline std::string dump_json(const json_t* value, std::size_t flags) {
-  const std::unique_ptr<char, decltype(&std::free)> text(json_dumps(value, flags), &std::free);
-  if (!text) throw ModelFileError("JSON cannot be written: out of memory");
-  return text.get();
+/// @param format, ...  as printf's   @throws ModelFileError  "source: …"
+[[noreturn, gnu::cold, gnu::format(printf, 2, 3)]] inline void fail(const std::string& source,
+                                                                    const char* format, ...) {
+  char text[800];
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  std::string message = source;
+  message += ": ";
+  message += text;
+  throw ModelFileError(message);
 }
 
-/// A value for a message: as it stands in the file, if it is short.
-inline std::string show_json(const json_t* value) {
-  if (json_is_object(value)) return "an object";
-  if (json_is_array(value)) return "an array of " + std::to_string(json_array_size(value));
-  std::string text = dump_json(value, JSON_ENCODE_ANY | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(9));
-  if (text.size() > 60) text.replace(57, std::string::npos, "...");
-  return text;
-}
-
-/// Where a walk through the members is, for messages: beam.length, errors.regions[2].s_min.
-class JsonPath {
+/// Owns a JSON value.
+class Json {
  public:
-  explicit JsonPath(std::string source) : source_(std::move(source)) {}
+  explicit Json(json_t* value) noexcept : value_(value) {}
+  Json(Json&& other) noexcept : value_(other.value_) { other.value_ = nullptr; }
+  Json& operator=(Json&& other) noexcept {
+    std::swap(value_, other.value_);
+    return *this;
+  }
+  ~Json() { json_decref(value_); }
 
-  void enter(const std::string& name) {
-    ends_.push_back(path_.size());
-    path_ += name + ".";
-  }
-  void leave() {
-    path_.resize(ends_.back());
-    ends_.pop_back();
-  }
-  /// Without the index of a list's entry, as the units are named.
-  std::string unit_name(const char* name) const {
-    std::string plain;
-    bool index = false;
-    for (const char c : path_ + name) {
-      index = index || c == '[';
-      if (!index) plain += c;
-      if (c == ']') index = false;
-    }
-    return plain;
-  }
-
-  [[noreturn]] void reject(const std::string& name, const std::string& found, const char* unit,
-                           const std::string& allowed) const {
-    throw ModelFileError(source_ + ": " + path_ + name + " = " + found + (*unit ? " " : "") + unit +
-                         ": must be " + allowed);
-  }
-  [[noreturn]] void reject(const std::string& name, const std::string& fault) const {
-    throw ModelFileError(source_ + ": " + path_ + name + fault);
-  }
+  json_t* get() const noexcept { return value_; }
 
  private:
-  std::string source_, path_;
-  std::vector<std::size_t> ends_;
+  json_t* value_;
+};
+
+/// A value as it stands in the file, shortened, for a message.
+struct ShownJson {
+  char text[64];
+
+  explicit ShownJson(const json_t* value) {
+    if (json_is_object(value)) {
+      std::snprintf(text, sizeof text, "an object");
+    } else if (json_is_array(value)) {
+      std::snprintf(text, sizeof text, "an array of %lu", static_cast<unsigned long>(json_array_size(value)));
+    } else {
+      const std::size_t most = sizeof text - 1,
+                        flags = JSON_ENCODE_ANY | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(9);
+      const std::size_t size = json_dumpb(value, text, most, flags);
+      text[size < most ? size : most] = 0;
+      if (size > most) text[most - 1] = text[most - 2] = text[most - 3] = '.';
+    }
+  }
 };
 
 }  // namespace detail

@@ -1,14 +1,15 @@
 // Members of a JSON object, read by name and unit.
 //
-// JsonReader and JsonWriter offer the same functions, so that one list of a model's fields, visit() in model_file.hpp, serves
-// both.  The units stand in a member of their own, {"beam.length": "m", …}: one for each real number, "1" where it has none.
+// JsonReader and JsonWriter offer the same functions, so that one list of a model's fields, in model_fields.hpp, serves both.
+// A name says where the member is: "beam.length" is the member length of the object beam.  The units stand in a member of
+// their own, {"beam.length": "m", …}: one for each real number, "1" where it has none.
 // Nothing is skipped, guessed or converted: a member that is missing, of another type, in another unit, out of the scalar's
-// range, or one that nobody asked for, throws ModelFileError with its path, value, unit and what is allowed.
+// range, or one that nobody asked for, throws ModelFileError with its name, value, unit and what is allowed.
 // Offline: allocates, throws.
 #pragma once
 
 #include <cmath>
-#include <initializer_list>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -17,179 +18,196 @@
 
 namespace hapbeam::detail {
 
-/// Reads the members of an object.   @throws ModelFileError
+/// What has been read is taken out of the object: what is left at the end is what nobody asked for.
 class JsonReader {
  public:
-  /// @param root  an object, which outlives this   @param source  the file's name, for messages
-  JsonReader(const json_t* root, const std::string& source) : at_(source), levels_{{root, {}}} {
-    if (!json_is_object(root))
-      throw ModelFileError(source + ": is " + show_json(root) + ": must be an object");
+  /// @param root  emptied; outlives this   @param source  the file's name, for messages; outlives this
+  JsonReader(json_t* root, const std::string& source) : source_(source), root_(root) {
+    if (!json_is_object(root)) fail(source_, "is %s: must be an object", ShownJson(root).text);
   }
 
   /// Takes the member "units", which the reals that follow are compared with.
   void units() {
-    units_ = take("units");
-    if (!json_is_object(units_)) at_.reject("units", show_json(units_), "", "an object");
+    own_units_ = take("units");
+    units_ = own_units_.get();
+    if (!json_is_object(units_)) reject("units", units_, "", "an object");
   }
 
-  template <class Body>
-  void object(const char* name, Body&& body) {
-    const json_t* value = take(name);
-    if (!json_is_object(value)) at_.reject(name, show_json(value), "", "an object");
-    walk(name, value, body);
+  void real(const char* name, const char* unit, double& value) {
+    value = number(name, unit, std::numeric_limits<double>::max());
   }
-  /// A list of objects, each read by each(entry).
-  template <class Entry, class Each>
-  void list(const char* name, std::vector<Entry>& entries, Each&& each) {
-    const json_t* value = take(name);
-    if (!json_is_array(value)) at_.reject(name, show_json(value), "", "an array");
-    entries.clear();
-    for (std::size_t k = 0; k < json_array_size(value); ++k) {
-      const json_t* entry = json_array_get(value, k);
-      const std::string indexed = std::string(name) + "[" + std::to_string(k) + "]";
-      if (!json_is_object(entry)) at_.reject(indexed, show_json(entry), "", "an object");
-      entries.push_back({});
-      walk(indexed, entry, [&] { each(entries.back()); });
-    }
+  void real(const char* name, const char* unit, float& value) {
+    value = static_cast<float>(number(name, unit, std::numeric_limits<float>::max()));
   }
-
-  void real(const char* name, const char* unit, double& value) { value = number<double>(name, unit); }
-  void real(const char* name, const char* unit, float& value) { value = number<float>(name, unit); }
-  void table(const char* name, const char* unit, std::vector<double>& values) { numbers(name, unit, values); }
-  void table(const char* name, const char* unit, std::vector<float>& values) { numbers(name, unit, values); }
-
+  template <typename Scalar>
+  void table(const char* name, const char* unit, std::vector<Scalar>& values) {
+    const Json found = array(name, unit);
+    values.resize(json_array_size(found.get()));
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] = static_cast<Scalar>(entry(name, unit, found.get(), k, std::numeric_limits<Scalar>::max()));
+  }
   /// A whole number that is not negative.
   void count(const char* name, int& value) {
-    const json_t* found = take(name);
-    if (!json_is_integer(found) || json_integer_value(found) < 0 ||
-        json_integer_value(found) > std::numeric_limits<int>::max())
-      at_.reject(name, show_json(found), "", "a whole number from 0 to 2147483647");
-    value = static_cast<int>(json_integer_value(found));
+    const Json found = take(name);
+    const json_int_t number = json_integer_value(found.get());
+    if (!json_is_integer(found.get()) || number < 0 || number > std::numeric_limits<int>::max())
+      reject(name, found.get(), "", "a whole number from 0 to 2147483647");
+    value = static_cast<int>(number);
   }
   void flag(const char* name, bool& value) {
-    const json_t* found = take(name);
-    if (!json_is_boolean(found)) at_.reject(name, show_json(found), "", "true or false");
-    value = json_is_true(found);
+    const Json found = take(name);
+    if (!json_is_boolean(found.get())) reject(name, found.get(), "", "true or false");
+    value = json_is_true(found.get());
   }
-  void word(const char* name, std::string& value) {
-    const json_t* found = take(name);
-    if (!json_is_string(found)) at_.reject(name, show_json(found), "", "a string");
-    value = json_string_value(found);
-  }
+  void word(const char* name, std::string& value) { value = json_string_value(string(name).get()); }
   /// A word that is known beforehand.
-  void constant(const char* name, const std::string& wanted) {
-    std::string value;
-    word(name, value);
-    if (value != wanted) at_.reject(name, show_json(member(name)), "", '"' + wanted + '"');
+  void constant(const char* name, const char* wanted) {
+    const Json found = string(name);
+    char quoted[40];
+    std::snprintf(quoted, sizeof quoted, "\"%s\"", wanted);
+    if (std::strcmp(json_string_value(found.get()), wanted) != 0) reject(name, found.get(), "", quoted);
   }
-  /// One of several values, by the word that name(value) gives.
+  /// A value of an enumeration that runs from 0 to last, by its name(value).
   template <class Value>
-  void choice(const char* name_of_field, Value& value, std::initializer_list<Value> allowed) {
-    std::string found, words;
-    word(name_of_field, found);
-    for (const Value candidate : allowed) {
-      if (found == name(candidate)) return void(value = candidate);
-      words += (words.empty() ? "" : ", ") + std::string(name(candidate));
+  void choice(const char* field, Value& value, Value last) {
+    const Json found = string(field);
+    char words[200] = "one of";
+    for (int k = 0; k <= static_cast<int>(last); ++k) {
+      const char* const word = name(static_cast<Value>(k));
+      if (std::strcmp(json_string_value(found.get()), word) == 0) return void(value = static_cast<Value>(k));
+      const std::size_t size = std::strlen(words);
+      std::snprintf(words + size, sizeof words - size, "%s %s", k == 0 ? "" : ",", word);
     }
-    at_.reject(name_of_field, show_json(member(name_of_field)), "", "one of " + words);
+    reject(field, found.get(), "", words);
+  }
+
+  /// An object, read by each(reader, value).
+  template <class Value, class Each>
+  void object(const char* name, Value& value, Each each) {
+    const Json found = take(name);
+    JsonReader reader(*this, found.get(), name, name, true);
+    each(reader, value);
+    reader.finish();
+  }
+  /// A list of objects, each read by each(reader, entry).  Their units are compared once.
+  template <class Entry, class Each>
+  void list(const char* name, std::vector<Entry>& entries, Each each) {
+    const Json found = array(name, nullptr);
+    entries.resize(json_array_size(found.get()));
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      char path[64];
+      std::snprintf(path, sizeof path, "%s[%lu]", name, static_cast<unsigned long>(k));
+      JsonReader reader(*this, json_array_get(found.get(), k), path, name, k == 0);
+      each(reader, entries[k]);
+      reader.finish();
+    }
   }
 
   /// No member is left that has not been read, nor a unit of none.
   void finish() {
-    finish_object();
-    if (!units_) return;
-    at_.enter("units");
-    levels_.push_back({units_, std::move(units_read_)});
-    finish_object();
+    if (json_object_size(root_) > 0) reject_left(root_, "is no member of a file of this kind and version");
+    if (own_units_.get() && json_object_size(units_) > 0)
+      reject_left(units_, "has a unit, but is no real number of a file of this kind");
   }
 
  private:
-  struct Level {
-    const json_t* object;
-    std::vector<std::string> read;
-  };
+  /// For an object within another.
+  JsonReader(const JsonReader& parent, json_t* object, const char* path, const char* unit_path,
+             bool with_units)
+      : source_(parent.source_), root_(object), units_(with_units ? parent.units_ : nullptr) {
+    if (!json_is_object(root_)) reject(path, root_, "", "an object");
+    std::snprintf(path_, sizeof path_, "%s.", path);
+    std::snprintf(unit_path_, sizeof unit_path_, "%s.", unit_path);
+  }
 
-  const json_t* member(const char* name) const { return json_object_get(levels_.back().object, name); }
+  [[noreturn]] void reject(const char* name, const json_t* found, const char* unit,
+                           const char* allowed) const {
+    const bool bare = !*unit || std::strcmp(unit, "1") == 0;
+    fail(source_, "%s%s = %s%s%s: must be %s", path_, name, ShownJson(found).text, bare ? "" : " ",
+         bare ? "" : unit, allowed);
+  }
+  [[noreturn]] void reject_left(json_t* object, const char* why) const {
+    char name[160] = "";
+    const json_t* value = object;
+    while (json_object_size(value) > 0) {
+      const std::size_t size = std::strlen(name);
+      const char* const key = json_object_iter_key(json_object_iter(object));
+      std::snprintf(name + size, sizeof name - size, "%s%.60s", size > 0 ? "." : "", key);
+      value = object = json_object_get(object, key);
+    }
+    fail(source_, "%s%s = %s %s", path_, name, ShownJson(value).text, why);
+  }
 
-  const json_t* take(const char* name) {
-    const json_t* found = member(name);
-    if (!found) at_.reject(name, ": is missing");
-    levels_.back().read.push_back(name);
+  /// The member of that name, out of its object, and that out of its own if nothing else was in it.
+  Json take(const char* name) {
+    Json found = take(root_, name);
+    if (!found.get()) fail(source_, "%s%s is missing", path_, name);
+    return found;
+  }
+  static Json take(json_t* object, const char* name) {
+    char key[64];
+    const char* const dot = std::strchr(name, '.');
+    const std::size_t size = dot ? static_cast<std::size_t>(dot - name) : std::strlen(name);
+    std::snprintf(key, sizeof key, "%.*s", static_cast<int>(size), name);
+    json_t* const member = json_object_get(object, key);
+    Json found(dot ? nullptr : json_incref(member));
+    if (dot) found = take(member, dot + 1);
+    if (member && (!dot || json_object_size(member) == 0)) json_object_del(object, key);
     return found;
   }
 
-  template <class Body>
-  void walk(const std::string& name, const json_t* object, Body&& body) {
-    at_.enter(name);
-    levels_.push_back({object, {}});
-    body();
-    finish_object();
-    levels_.pop_back();
-    at_.leave();
-  }
-
-  static bool contains(const std::vector<std::string>& names, const std::string& name) {
-    for (const std::string& candidate : names)
-      if (candidate == name) return true;
-    return false;
-  }
-
-  void finish_object() {
-    const Level& level = levels_.back();
-    auto* object =
-        const_cast<json_t*>(level.object);  // the iterators of jansson 2.14 do not change it either
-    for (void* k = json_object_iter(object); k; k = json_object_iter_next(object, k)) {
-      const std::string name = json_object_iter_key(k);
-      if (!contains(level.read, name))
-        at_.reject(name, ": is no member of a model file of this kind and version");
-    }
-  }
-
   void check_unit(const char* name, const char* unit) {
-    const std::string full = at_.unit_name(name);
-    const json_t* found = json_object_get(units_, full.c_str());
-    const std::string quoted = '"' + std::string(unit) + '"';
-    if (!found) at_.reject(name, ": its unit is missing in units: must be " + quoted);
-    if (!json_is_string(found) || std::string(json_string_value(found)) != unit)
-      at_.reject(name, ": its unit is " + show_json(found) + ": must be " + quoted);
-    if (!contains(units_read_, full)) units_read_.push_back(full);
+    if (!units_) return;
+    char key[160];
+    std::snprintf(key, sizeof key, "%s%s", unit_path_, name);
+    const json_t* found = json_object_get(units_, key);
+    if (!found) fail(source_, "units has none for %s: must be \"%s\"", key, unit);
+    if (!json_is_string(found) || std::strcmp(json_string_value(found), unit) != 0)
+      fail(source_, "the unit of %s is %s: must be \"%s\"", key, ShownJson(found).text, unit);
+    json_object_del(units_, key);
   }
-
-  template <typename Scalar>
-  Scalar converted(const std::string& name, const char* unit, const json_t* found) const {
-    if (!json_is_number(found)) at_.reject(name, show_json(found), unit, "a number");
-    const double value = json_number_value(found);
-    const double most = static_cast<double>(std::numeric_limits<Scalar>::max());
-    if (!(std::abs(value) <= most)) at_.reject(name, show_json(found), unit, "in the range of the scalar");
-    return static_cast<Scalar>(value);
+  Json string(const char* name) {
+    Json found = take(name);
+    if (!json_is_string(found.get())) reject(name, found.get(), "", "a string");
+    return found;
   }
-  template <typename Scalar>
-  Scalar number(const char* name, const char* unit) {
+  Json array(const char* name, const char* unit) {
+    if (unit) check_unit(name, unit);
+    Json found = take(name);
+    if (!json_is_array(found.get())) reject(name, found.get(), "", "an array");
+    return found;
+  }
+  double number(const char* name, const char* unit, double most) {
     check_unit(name, unit);
-    return converted<Scalar>(name, unit, take(name));
+    const Json found = take(name);
+    if (!is_number(found.get(), most)) reject_number(name, found.get(), unit, most);
+    return json_number_value(found.get());
   }
-  template <typename Scalar>
-  void numbers(const char* name, const char* unit, std::vector<Scalar>& values) {
-    check_unit(name, unit);
-    const json_t* found = take(name);
-    if (!json_is_array(found)) at_.reject(name, show_json(found), "", "an array of numbers");
-    const std::size_t size = json_array_size(found);
-    values.clear();
-    values.reserve(size);
-    for (std::size_t k = 0; k < size; ++k) {
-      const json_t* entry = json_array_get(found, k);
-      // The name is put together only for a message.
-      if (!json_is_number(entry) ||
-          !(std::abs(json_number_value(entry)) <= double(std::numeric_limits<Scalar>::max())))
-        converted<Scalar>(std::string(name) + "[" + std::to_string(k) + "]", unit, entry);
-      values.push_back(static_cast<Scalar>(json_number_value(entry)));
+  double entry(const char* name, const char* unit, const json_t* array, std::size_t k, double most) const {
+    const json_t* const found = json_array_get(array, k);
+    if (!is_number(found, most)) {
+      char indexed[80];
+      std::snprintf(indexed, sizeof indexed, "%s[%lu]", name, static_cast<unsigned long>(k));
+      reject_number(indexed, found, unit, most);
     }
+    return json_number_value(found);
+  }
+  static bool is_number(const json_t* found, double most) {
+    return json_is_number(found) && std::abs(json_number_value(found)) <= most;
+  }
+  [[noreturn]] void reject_number(const char* name, const json_t* found, const char* unit,
+                                  double most) const {
+    char allowed[64];
+    std::snprintf(allowed, sizeof allowed, "a number from -%.3g to %.3g", most, most);
+    reject(name, found, unit, allowed);
   }
 
-  JsonPath at_;
-  std::vector<Level> levels_;
-  const json_t* units_ = nullptr;
-  std::vector<std::string> units_read_;
+  const std::string& source_;
+  json_t* root_;
+  Json own_units_{nullptr};
+  json_t* units_ = nullptr;
+  char path_[64] = "",
+       unit_path_[64] = "";  // of an object within another: errors.regions[2]. and errors.regions.
 };
 
 }  // namespace hapbeam::detail
