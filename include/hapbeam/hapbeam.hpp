@@ -1,4 +1,5 @@
-// The whole library.
+// All that a servo needs.  Training (rom/train.hpp, rom/validate.hpp) and model files (rom/model_file.hpp) are included
+// by name: they cost an SVD and one more library.
 #pragma once
 
 #include <hapbeam/beam.hpp>
@@ -10,3 +11,6 @@
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/haptics/virtual_phantom.hpp>
+#include <hapbeam/rom/galerkin_model.hpp>
+#include <hapbeam/rom/guarded.hpp>
+#include <hapbeam/rom/pod_model.hpp>

@@ -1,0 +1,15 @@
+// Forces and shapes of two scalars cannot be one model's.
+// expect: Guarded<Fast, Full>: both must have the same Scalar
+#include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/rom/guarded.hpp>
+#include <hapbeam/rom/pod_model.hpp>
+
+using namespace hapbeam;
+
+#ifdef HAPBEAM_REPAIRED
+using Model = Guarded<PodModel<float>, FemModel<VonKarman<>, float>>;
+#else
+using Model = Guarded<PodModel<float>, FemModel<>>;
+#endif
+
+int main() { return sizeof(Model) == 0; }
