@@ -82,7 +82,8 @@ const char* name(Script script) {
 void settle(Options& o, double from, double to) {
   o.from = from, o.to = to;
   if (std::isnan(o.place)) o.place = (from + to) / 2;
-  if (o.place > o.beam.length) cli::number("--place", cli::digits(o.place), 0, o.beam.length, "m");
+  if (o.place > o.beam.length)
+    cli::refuse("--place", cli::digits(o.place), "0 to " + cli::digits(o.beam.length) + " m");
 }
 
 Options parse(const std::vector<std::string>& arguments) {

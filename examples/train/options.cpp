@@ -1,5 +1,6 @@
 #include "options.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -82,7 +83,8 @@ void exclude_each_other(const std::vector<std::string>& given) {
 }
 
 void check_position(const char* option, double value, double low, double high) {
-  cli::number(option, cli::digits(value), low, high, "m");
+  if (value >= low && value <= high) return;
+  cli::refuse(option, cli::digits(value), cli::digits(low) + " to " + cli::digits(high) + " m");
 }
 
 /// Defaults that depend on the beam, and limits that do.
@@ -92,9 +94,14 @@ void settle(Options& o, bool single_place) {
   if (std::isnan(o.depth)) o.depth = L / 50;
   // A support is rigid: beside it there is no press.
   const double low = fixes_w(beam.left()) ? L / 1000 : 0, high = fixes_w(beam.right()) ? L - L / 1000 : L;
+  // Rounded to float, a position on a limit must still be within.
+  const double slack = o.scalar == Scalar::single_precision ? 1e-6 * L : 0;
+  const auto inward = [=](double s) {
+    return std::clamp(s, low > 0 ? low + slack : low, high < L ? high - slack : high);
+  };
   if (single_place) {
     check_position("--at", o.from, low, high);
-    o.to = o.from;
+    o.from = o.to = inward(o.from);
     o.positions = 1;
     return;
   }
@@ -103,6 +110,7 @@ void settle(Options& o, bool single_place) {
   if (std::isnan(o.to)) o.to = anywhere.s_max;
   check_position("--from", o.from, low, high);
   check_position("--to", o.to, low, high);
+  o.from = inward(o.from), o.to = inward(o.to);
   if (o.from >= o.to)
     cli::refuse("--from", cli::digits(o.from),
                 "less than --to, " + cli::digits(o.to) + " m; --at M trains one place");

@@ -98,7 +98,7 @@ void print_result(const Options& o, const Result& r) {
               r.errors.reference.c_str());
   std::printf("force    max %.1e, 95 %% %.1e, median %.1e of the force\n", e.force_max, e.force_p95,
               e.force_median);
-  std::printf("shape    max %.1e, median %.1e of the depth\n", e.shape_max, e.shape_median);
+  std::printf("shape    max %.1e, median %.1e of the largest deflection\n", e.shape_max, e.shape_median);
   print_regions(r.errors);
 }
 

@@ -37,7 +37,7 @@ Model make(const typename Model::Data& data) {
     return Model(data);
   } catch (const std::invalid_argument& error) {
     throw TrainingError(
-        std::string("the grid is too coarse for presses so deep, take more --depths or --positions (") +
+        std::string("these presses make no model, more --depths, more --positions or less --depth may (") +
         error.what() + ")");
   }
 }

@@ -60,6 +60,7 @@ std::vector<PressError> press_errors(Fast fast, const Full& full, const Validati
   using S = typename Fast::Scalar;
   using F = typename Full::Scalar;
   const Range<S> range = fast.range();
+  const Range<F> known = full.range();
   const double s_min = static_cast<double>(range.s_min), s_max = static_cast<double>(range.s_max);
   const double depth = static_cast<double>(range.depth);
 
@@ -73,9 +74,14 @@ std::vector<PressError> press_errors(Fast fast, const Full& full, const Validati
     if (k < 4) along = k / 2, deep = k % 2;
     else if (k % 10 == 4 || k % 10 == 5) along = k % 10 - 4;
     else if (k % 10 == 6) deep = 1;
-    const S s = along == 1 ? range.s_max : static_cast<S>(s_min + (s_max - s_min) * along);
-    const double size = deep == 1 ? depth : depth * (0.02 + 0.98 * deep);
-    presses.push_back({s, static_cast<S>(k / 2 % 2 ? -size : size)});
+    S s = along == 1 ? range.s_max : static_cast<S>(s_min + (s_max - s_min) * along);
+    S size = deep == 1 ? range.depth : static_cast<S>(depth * (0.02 + 0.98 * deep));
+    // In float an edge of the range may have been rounded to the number beyond the full model's.
+    if (static_cast<double>(s) > static_cast<double>(known.s_max)) s = std::nextafter(s, S(0));
+    if (static_cast<double>(s) < static_cast<double>(known.s_min)) s = std::nextafter(s, range.s_max + 1);
+    if (static_cast<double>(size) > static_cast<double>(known.depth_at(static_cast<F>(s))))
+      size = std::nextafter(size, S(0));
+    presses.push_back({s, k / 2 % 2 ? -size : size});
   }
 
   std::vector<PressError> errors;
