@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include <hapbeam/rom/coordinates.hpp>
@@ -77,11 +76,10 @@ inline std::size_t check_count(const char* field, int value, int low, int high) 
 
 template <typename Scalar>
 void check_range(const BeamData<Scalar>& beam, Scalar s_min, Scalar s_max, Scalar depth, int positions) {
-  for (const auto& [field, value, unit] :
-       {std::tuple{"length", beam.length, "m"}, std::tuple{"axial_stiffness", beam.axial_stiffness, "N"},
-        std::tuple{"bending_stiffness", beam.bending_stiffness, "N·m²"},
-        std::tuple{"thickness", beam.thickness, "m"}, std::tuple{"depth", depth, "m"}})
-    positive(field, static_cast<double>(value), unit);
+  Beam(static_cast<double>(beam.length), static_cast<double>(beam.axial_stiffness),
+       static_cast<double>(beam.bending_stiffness), static_cast<double>(beam.thickness), beam.left,
+       beam.right);
+  positive("depth", static_cast<double>(depth), "m");
   const Scalar low = fixes_w(beam.left) ? beam.length / 1000 : Scalar(0);
   const Scalar high = beam.length - (fixes_w(beam.right) ? beam.length / 1000 : Scalar(0));
   if (!(s_min >= low && s_min <= high))

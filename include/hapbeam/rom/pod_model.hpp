@@ -114,7 +114,10 @@ class PodModel {
     at.press = range().nearest(request);
     locate(at);
     Scalar force = at.force();
-    if (at.press.d == request.d) return {force, at.press.s == request.s ? Status::ok : Status::out_of_range};
+    if (at.press.d == request.d) {
+      if (!isfinite(force)) return {0, Status::non_finite};
+      return {force, at.press.s == request.s ? Status::ok : Status::out_of_range};
+    }
     Point near = at;
     const Scalar step = at.press.d / 256;
     near.press.d = at.press.d + step, descend(near);
