@@ -33,18 +33,16 @@ class JsonReader {
     if (!json_is_object(units_)) reject("units", units_, "", "an object");
   }
 
-  void real(const char* name, const char* unit, double& value) {
-    value = number(name, unit, std::numeric_limits<double>::max());
-  }
+  void real(const char* name, const char* unit, double& value) { value = number(name, unit, largest(value)); }
   void real(const char* name, const char* unit, float& value) {
-    value = static_cast<float>(number(name, unit, std::numeric_limits<float>::max()));
+    value = static_cast<float>(number(name, unit, largest(value)));
   }
   template <typename Scalar>
   void table(const char* name, const char* unit, std::vector<Scalar>& values) {
     const Json found = array(name, unit);
     values.resize(json_array_size(found.get()));
     for (std::size_t k = 0; k < values.size(); ++k)
-      values[k] = static_cast<Scalar>(entry(name, unit, found.get(), k, std::numeric_limits<Scalar>::max()));
+      values[k] = static_cast<Scalar>(entry(name, unit, found.get(), k, largest(Scalar())));
   }
   /// A whole number that is not negative.
   void count(const char* name, int& value) {
@@ -166,6 +164,10 @@ class JsonReader {
       fail(source_, "the unit of %s is %s: must be \"%s\"", key, ShownJson(found).text, unit);
     json_object_del(units_, key);
   }
+  /// What still rounds to a finite number of that type, when it is written with all its digits.
+  static double largest(double) noexcept { return std::numeric_limits<double>::max(); }
+  static double largest(float) noexcept { return 3.4028235e38; }
+
   Json string(const char* name) {
     Json found = take(name);
     if (!json_is_string(found.get())) reject(name, found.get(), "", "a string");
@@ -198,7 +200,7 @@ class JsonReader {
   [[noreturn]] void reject_number(const char* name, const json_t* found, const char* unit,
                                   double most) const {
     char allowed[64];
-    std::snprintf(allowed, sizeof allowed, "a number from -%.3g to %.3g", most, most);
+    std::snprintf(allowed, sizeof allowed, "a number from -%.8g to %.8g", most, most);
     reject(name, found, unit, allowed);
   }
 
@@ -206,8 +208,8 @@ class JsonReader {
   json_t* root_;
   Json own_units_{nullptr};
   json_t* units_ = nullptr;
-  char path_[64] = "",
-       unit_path_[64] = "";  // of an object within another: errors.regions[2]. and errors.regions.
+  // Of an object within another: "errors.regions[2]." and "errors.regions.".
+  char path_[96] = "", unit_path_[96] = "";
 };
 
 }  // namespace hapbeam::detail

@@ -104,7 +104,8 @@ class JsonWriter {
   }
   json_t* finite(const char* name, const char* unit, double value) const {
     if (!std::isfinite(value))
-      fail(source_, "%s%s = %g %s: must be finite", path_.c_str(), name, value, unit);
+      fail(source_, "%s%s = %g%s%s: must be finite", path_.c_str(), name, value, *unit == '1' ? "" : " ",
+           *unit == '1' ? "" : unit);
     return json_real(value);
   }
 
