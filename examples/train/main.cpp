@@ -1,6 +1,7 @@
 // Trains a model of a beam and writes it to a file.
 //
 // Offline from end to end: nothing here is called in a servo tick.
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -19,11 +20,13 @@
 
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+/// Set by whichever thread the signal finds, read by those that press.
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// The first asks, at a place where nothing is half done; the second ends at once.
 extern "C" void interrupt(int signal) {
-  interrupted = 1;
+  interrupted = true;
   std::signal(signal, SIG_DFL);
 }
 
