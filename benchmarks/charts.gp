@@ -48,7 +48,7 @@ plot data . '/3_8' using 1:2:3:4 with yerrorlines ls 1, \
      '' using 1:5 axes x1y2 with linespoints ls 3
 
 set output images . '/figure_3_9.svg'
-set title "Training takes milliseconds, once: the trained model is then\nas accurate as the elements that it was trained with"
+set title "Training takes milliseconds, once: the trained model then has\nthe error of the elements it was trained with, down to its own"
 set ylabel 'training with 14 snapshots, ms' textcolor rgb time
 set yrange [0.01:100]
 set ytics ('0.01' 0.01, '0.1' 0.1, '1' 1, '10' 10, '100' 100)
@@ -70,7 +70,7 @@ plot data . '/3_10_force' using 1:2:3:4 with yerrorlines ls 1, \
      data . '/3_10_force' using 1:5 axes x1y2 with linespoints ls 3
 
 set output images . '/figure_3_11.svg'
-set title "Some 14 to 20 snapshots are enough:\nmore of them make the trained model slower and no better"
+set title "Some 20 snapshots are enough:\nmore of them make the trained model slower and no better"
 set xlabel 'number of snapshots'
 set xtics ('3' 3, '4' 4, '6' 6, '8' 8, '10' 10, '14' 14, '20' 20, '28' 28, '40' 40, '64' 64)
 set xrange [2.75:70]
