@@ -94,3 +94,21 @@ TEST_CASE("a full model that does not answer fails the validation", "[validate]"
   const PodModel<> smaller(trained_pod(pinned(), TrainingPlan::anywhere(pinned(), 0.01, 4, 4)));
   CHECK_THROWS_AS(validate(model, smaller), TrainingError);
 }
+
+// Relative errors are of forces, and a beam under dead loads has places where it takes none to hold it.
+TEST_CASE("under dead loads depth counts from where the beam hangs", "[validate]") {
+  Beam beam = pinned();
+  beam.transverse(-40);
+  TrainingPlan plan = TrainingPlan::anywhere(beam, 0.02, 12, 16);
+  plan.symmetric = false;
+  const FemModel<> full(beam, 64);
+  const PodModel<> model(trained_pod(beam, plan));
+  const FemModel<> at_rest(beam, 64);
+  int held = 0;
+  for (const PressError& error : press_errors(model, full)) {
+    CHECK(error.force <= 1e-2);
+    // Cut at the depth of the range, where the beam hangs below it.
+    held += error.depth <= 0.02;
+  }
+  CHECK(held == 500);
+}

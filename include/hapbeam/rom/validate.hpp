@@ -67,6 +67,8 @@ std::vector<PressError> press_errors(Fast fast, const Full& full, const Validati
   // The standard fixes the generator but not its distributions.
   std::mt19937_64 generator(options.seed);
   const auto random = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  Full model(full);
+  model.reset();
   std::vector<Press<S>> presses;
   for (int k = 0; k < options.presses; ++k) {
     // First the corners of the range, then one of ten on each of its edges: there a polynomial is at its worst.
@@ -81,11 +83,13 @@ std::vector<PressError> press_errors(Fast fast, const Full& full, const Validati
     if (static_cast<double>(s) < static_cast<double>(known.s_min)) s = std::nextafter(s, range.s_max + 1);
     if (static_cast<double>(size) > static_cast<double>(known.depth_at(static_cast<F>(s))))
       size = std::nextafter(size, S(0));
-    presses.push_back({s, k / 2 % 2 ? -size : size});
+    // Depth counts from the untouched beam: where that hangs the force is zero, and has no relative error.
+    const S rest = static_cast<S>(model.shape().at(static_cast<F>(s)).w),
+            d = k / 2 % 2 ? rest - size : rest + size;
+    presses.push_back({s, std::min(std::max(d, -range.depth), range.depth)});
   }
 
   std::vector<PressError> errors;
-  Full model(full);
   for (const Press<S>& press : presses) {
     model.reset();
     const double wanted =
