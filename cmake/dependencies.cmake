@@ -29,7 +29,7 @@ function(hapbeam_find_eigen)
   endif()
 endfunction()
 
-# jansson 2.8 or later, where it is installed or may be fetched; without it there is no hapbeam::model_file.
+# jansson 2.10 or later, where it is installed or may be fetched; without it there is no hapbeam::model_file.
 function(hapbeam_find_or_fetch_jansson)
   hapbeam_find_jansson()
   if(TARGET jansson::jansson OR NOT HAPBEAM_FETCH_JANSSON)
@@ -42,7 +42,7 @@ function(hapbeam_find_or_fetch_jansson)
   set(JANSSON_INSTALL OFF)
   set(JANSSON_WITHOUT_TESTS ON)
   FetchContent_Declare(jansson
-    GIT_REPOSITORY https://github.com/akheron/jansson GIT_TAG v2.14.1 GIT_SHALLOW TRUE)
+    GIT_REPOSITORY https://github.com/akheron/jansson GIT_TAG v2.15.1 GIT_SHALLOW TRUE)
   FetchContent_MakeAvailable(jansson)
   if(NOT TARGET jansson::jansson)
     add_library(jansson::jansson ALIAS jansson)

@@ -1,11 +1,11 @@
-# hapbeam_find_jansson: the target jansson::jansson, if jansson 2.8 or later is installed.
+# hapbeam_find_jansson: the target jansson::jansson, if jansson 2.10 or later is installed.
 #
 # Shared by the build and by the installed package, which offers hapbeam::model_file where this finds it.
 # jansson's own package first; distributions that build it without CMake have none, so its header and library second.
 
 function(hapbeam_find_jansson)
   if(NOT TARGET jansson::jansson)
-    find_package(jansson 2.8 CONFIG QUIET)
+    find_package(jansson 2.10 CONFIG QUIET)
   endif()
   if(TARGET jansson::jansson)
     get_target_property(is_imported jansson::jansson IMPORTED)
@@ -25,7 +25,7 @@ function(hapbeam_find_jansson)
   endif()
   file(STRINGS ${header} version REGEX "^#define JANSSON_VERSION ")
   string(REGEX MATCH "[0-9]+[0-9.]*" version "${version}")
-  if(version VERSION_LESS 2.8)
+  if(version VERSION_LESS 2.10)
     return()
   endif()
   add_library(jansson::jansson UNKNOWN IMPORTED GLOBAL)

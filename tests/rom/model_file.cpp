@@ -235,6 +235,8 @@ TEST_CASE("Each wrong member is told by name, value, unit and what is allowed", 
        "the beam is a mechanism, it moves across"},
       {"\"s_min\":0.127", "\"s_min\":0", "s_min = 0 m: must be on the beam"},
       {"\"s_min\":0.127", "\"s_min\":2.5", "s_max = 2.413 m: must be s_min to the end"},
+      {"\"depth\":0.050000000000000003", "\"depth\":0.6",
+       "depth = 0.6 m: must be within the depths of the grid"},
       {"\"symmetric\":true", "\"symmetric\":1", "grid.symmetric = 1: must be true or false"},
       {"\"symmetric\":true", "\"symmetric\":\"true\"", "grid.symmetric = \"true\": must be true or false"},
       {"\"positions\":3", "\"positions\":1000000000", "positions = 1e+09: must be 1 to 64"},
@@ -320,7 +322,7 @@ TEST_CASE("What is no file is told, and a save that fails leaves what was there"
 
 TEST_CASE("A file beyond the limit is refused before it is understood", "[model_file]") {
   CHECK_THAT(message(std::string(detail::largest_model_file + 1, ' ')),
-             ContainsSubstring("size = 67108865 bytes: must be at most 67108864"));
+             ContainsSubstring("size = 33554433 bytes: must be at most 33554432"));
   CHECK_THAT(message_of([] { load_model<PodModel<>>("/dev/zero"); }),
-             ContainsSubstring("must be at most 67108864"));
+             ContainsSubstring("must be at most 33554432"));
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -119,6 +120,13 @@ const PodModelData<Scalar>& check(const PodModelData<Scalar>& data) {
   for (const Scalar value : data.potential)
     if (!(value > 0)) reject_data("potential", static_cast<double>(value), "positive");
   check_table("rest", data.rest, positions);
+  // A press in range must not be beyond the grid: there a polynomial grows without bound.
+  const DepthCoordinate<Scalar> y(data.beam, data.symmetric);
+  const Scalar rounding = std::sqrt(std::numeric_limits<Scalar>::epsilon()) * (data.y_high - data.y_low);
+  for (const Scalar rest : data.rest)
+    if (!(y(data.depth - rest) <= data.y_high + rounding &&
+          (data.symmetric || y(-data.depth - rest) >= data.y_low - rounding)))
+      reject("depth", static_cast<double>(data.depth), "m", "within the depths of the grid, y_low to y_high");
   check_shape(data.shape, positions * depths);
   return data;
 }

@@ -45,8 +45,8 @@ struct ModelFileInfo {
 namespace detail {
 
 inline constexpr int model_file_version = 1;
-/// A larger file is refused, unread.  Three million numbers: a servo loop has no time for more.
-inline constexpr std::size_t largest_model_file = std::size_t(1) << 26;
+/// A larger file is refused, unread.  A million numbers and more: a servo loop has no time for them.
+inline constexpr std::size_t largest_model_file = std::size_t(1) << 25;
 
 struct Checksum {
   char text[16];
