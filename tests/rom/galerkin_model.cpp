@@ -154,7 +154,7 @@ TEST_CASE("the force grows with the depth, over the end of the trained tensions 
   }
 }
 
-TEST_CASE("in float the errors are the same", "[galerkin][float]") {
+TEST_CASE("in float the tension is found as well", "[galerkin][float]") {
   GalerkinModel<float> model(cast<float>(trained_galerkin(pinned(), TrainingPlan::anywhere(pinned(), 0.05))));
   const ForceErrors errors = force_errors(model, pinned_closed_form, 0.001, 0.05);
   CHECK(errors.max() <= 3e-3);

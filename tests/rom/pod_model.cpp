@@ -56,7 +56,7 @@ TEST_CASE("16 x 12 snapshots serve clamped beams and cantilevers as well, agains
 }
 
 // 2V/e² keeps the digits of float: what is left of them is the error of the interpolation, and 1e-6 of round-off.
-TEST_CASE("in float the errors are the same", "[pod_model][float]") {
+TEST_CASE("in float the potential keeps its digits", "[pod_model][float]") {
   PodModel<float> model(cast<float>(trained_pod(pinned(), TrainingPlan::anywhere(pinned(), 0.05))));
   const ForceErrors errors = force_errors(model, pinned_closed_form, 0.001, 0.05);
   CHECK(errors.max() <= 1e-3);

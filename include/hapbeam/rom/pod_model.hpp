@@ -143,8 +143,9 @@ class PodModel {
     at.y = depth_(at.e);
     at.half_slope = depth_.half_log_derivative(at.e, at.y);
     y_.weights(at.y, at.ly);
-    Scalar column[2 * max_size];
-    detail::combine(by_depth_.data(), 2 * m, at.lx, n, column);
+    Scalar sum[2 * max_size];
+    if (n > 1) detail::combine(by_depth_.data(), 2 * m, at.lx, n, sum);
+    const Scalar* column = n > 1 ? sum : by_depth_.data();
     at.work = detail::dot(at.ly, column, m);
     at.work_by_y = detail::dot(at.ly, column + m, m);
   }

@@ -85,7 +85,7 @@ class ShapeTable {
         basis_(data.basis),
         coefficients_(data.coefficients),
         rest_(data.rest),
-        weight_(data.coefficients.size() / static_cast<std::size_t>(data.modes)),
+        column_(data.coefficients.size()),
         mode_(static_cast<std::size_t>(data.modes)),
         row_(3 * (static_cast<std::size_t>(data.segments) + 1)),
         nodes_(static_cast<std::size_t>(data.segments) + 1) {
@@ -107,17 +107,16 @@ class ShapeTable {
   void evaluate(Scalar s, Scalar d, Scalar unit, const Scalar* theta, const Scalar* lx, int positions,
                 const Scalar* ly, int others) noexcept {
     const int modes = static_cast<int>(mode_.size()), rows = static_cast<int>(row_.size());
-    for (int i = 0, k = 0; i < positions; ++i)
-      for (int j = 0; j < others; ++j, ++k) weight_[static_cast<std::size_t>(k)] = lx[i] * ly[j];
-    detail::combine(coefficients_.data(), modes, weight_.data(), positions * others, mode_.data());
+    detail::combine(coefficients_.data(), others * modes, lx, positions, column_.data());
+    detail::combine(column_.data(), modes, ly, others, mode_.data());
     detail::combine(basis_.data(), rows, mode_.data(), modes, row_.data());
 
     const Scalar contact = frame_.contact(s);
-    for (int i = 0; i <= frame_.segments(); ++i) {
-      const std::size_t k = static_cast<std::size_t>(i);
-      const Scalar x = frame_.position(i, contact), per_side = unit / frame_.side(i, contact);
-      nodes_[k] = {x, row_[3 * k] * unit * per_side, row_[3 * k + 1] * unit, row_[3 * k + 2] * per_side};
-    }
+    const int middle = frame_.contact_node();
+    place(0, middle, contact, unit);
+    place(middle, middle + 1, contact, unit);
+    place(middle + 1, frame_.segments() + 1, contact, unit);
+    nodes_.back().s = length_;
     // The contact itself is known better than its modes; where it is too near to an end for its node, the end is straight.
     Node& node = nodes_[static_cast<std::size_t>(frame_.contact_node())];
     if (theta) node.theta = *theta;
@@ -127,6 +126,16 @@ class ShapeTable {
   }
 
  private:
+  /// Nodes on one side of the contact, or its own: they share their h and are evenly spaced.
+  void place(int first, int end, Scalar contact, Scalar unit) noexcept {
+    if (first == end) return;
+    const Scalar per_side = unit / frame_.side(first, contact), start = frame_.position(first, contact);
+    const Scalar step = end - first > 1 ? frame_.position(first + 1, contact) - start : Scalar(0);
+    const Scalar* row = row_.data() + 3 * first;
+    Node* node = nodes_.data() + first;
+    for (int i = 0; i < end - first; ++i, row += 3)
+      node[i] = {start + step * Scalar(i), row[0] * unit * per_side, row[1] * unit, row[2] * per_side};
+  }
   void straighten(int first, int last, const Node& from) noexcept {
     for (int i = first; i <= last; ++i) {
       Node& node = nodes_[static_cast<std::size_t>(i)];
@@ -137,7 +146,7 @@ class ShapeTable {
   ContactFrame<Scalar> frame_;
   Scalar length_;
   std::vector<Scalar> basis_, coefficients_, rest_;
-  std::vector<Scalar> weight_, mode_, row_;  // of the last shape: of each grid point, mode, and displacement
+  std::vector<Scalar> column_, mode_, row_;  // of the last shape
   std::vector<Node> nodes_;
 };
 
