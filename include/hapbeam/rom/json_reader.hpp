@@ -22,44 +22,49 @@ namespace hapbeam::detail {
 class JsonReader {
  public:
   /// @param root  emptied; outlives this   @param source  the file's name, for messages; outlives this
-  JsonReader(json_t* root, const std::string& source) : source_(source), root_(root) {
+  [[gnu::cold, gnu::noinline]] JsonReader(json_t* root, const std::string& source)
+      : source_(source), root_(root) {
     if (!json_is_object(root)) fail(source_, "is %s: must be an object", ShownJson(root).text);
   }
 
   /// Takes the member "units", which the reals that follow are compared with.
-  void units() {
+  [[gnu::cold, gnu::noinline]] void units() {
     own_units_ = take("units");
     units_ = own_units_.get();
     if (!json_is_object(units_)) reject("units", units_, "", "an object");
   }
 
-  void real(const char* name, const char* unit, double& value) { value = number(name, unit, largest(value)); }
-  void real(const char* name, const char* unit, float& value) {
+  [[gnu::cold, gnu::noinline]] void real(const char* name, const char* unit, double& value) {
+    value = number(name, unit, largest(value));
+  }
+  [[gnu::cold, gnu::noinline]] void real(const char* name, const char* unit, float& value) {
     value = static_cast<float>(number(name, unit, largest(value)));
   }
   template <typename Scalar>
-  void table(const char* name, const char* unit, std::vector<Scalar>& values) {
+  [[gnu::cold, gnu::noinline]] void table(const char* name, const char* unit, std::vector<Scalar>& values) {
     const Json found = array(name, unit);
-    values.resize(json_array_size(found.get()));
+    values = std::vector<Scalar>(json_array_size(found.get()));
     for (std::size_t k = 0; k < values.size(); ++k)
       values[k] = static_cast<Scalar>(entry(name, unit, found.get(), k, largest(Scalar())));
   }
   /// A whole number that is not negative.
-  void count(const char* name, int& value) {
+  [[gnu::cold, gnu::noinline]] void count(const char* name, int& value) {
     const Json found = take(name);
     const json_int_t number = json_integer_value(found.get());
     if (!json_is_integer(found.get()) || number < 0 || number > std::numeric_limits<int>::max())
       reject(name, found.get(), "", "a whole number from 0 to 2147483647");
     value = static_cast<int>(number);
   }
-  void flag(const char* name, bool& value) {
+  [[gnu::cold, gnu::noinline]] void flag(const char* name, bool& value) {
     const Json found = take(name);
     if (!json_is_boolean(found.get())) reject(name, found.get(), "", "true or false");
     value = json_is_true(found.get());
   }
-  void word(const char* name, std::string& value) { value = json_string_value(string(name).get()); }
+  [[gnu::cold, gnu::noinline]] void word(const char* name, std::string& value) {
+    value = json_string_value(string(name).get());
+  }
   /// A word that is known beforehand.
-  void constant(const char* name, const char* wanted) {
+  [[gnu::cold, gnu::noinline]] void constant(const char* name, const char* wanted) {
     const Json found = string(name);
     char quoted[40];
     std::snprintf(quoted, sizeof quoted, "\"%s\"", wanted);
@@ -67,7 +72,7 @@ class JsonReader {
   }
   /// A value of an enumeration that runs from 0 to last, by its name(value).
   template <class Value>
-  void choice(const char* field, Value& value, Value last) {
+  [[gnu::cold, gnu::noinline]] void choice(const char* field, Value& value, Value last) {
     const Json found = string(field);
     char words[200] = "one of";
     for (int k = 0; k <= static_cast<int>(last); ++k) {
@@ -81,7 +86,7 @@ class JsonReader {
 
   /// An object, read by each(reader, value).
   template <class Value, class Each>
-  void object(const char* name, Value& value, Each each) {
+  [[gnu::cold, gnu::noinline]] void object(const char* name, Value& value, Each each) {
     const Json found = take(name);
     JsonReader reader(*this, found.get(), name, name, true);
     each(reader, value);
@@ -89,9 +94,9 @@ class JsonReader {
   }
   /// A list of objects, each read by each(reader, entry).  Their units are compared once.
   template <class Entry, class Each>
-  void list(const char* name, std::vector<Entry>& entries, Each each) {
+  [[gnu::cold, gnu::noinline]] void list(const char* name, std::vector<Entry>& entries, Each each) {
     const Json found = array(name, nullptr);
-    entries.resize(json_array_size(found.get()));
+    entries = std::vector<Entry>(json_array_size(found.get()));
     for (std::size_t k = 0; k < entries.size(); ++k) {
       char path[64];
       std::snprintf(path, sizeof path, "%s[%lu]", name, static_cast<unsigned long>(k));
@@ -102,7 +107,7 @@ class JsonReader {
   }
 
   /// No member is left that has not been read, nor a unit of none.
-  void finish() {
+  [[gnu::cold, gnu::noinline]] void finish() {
     if (json_object_size(root_) > 0) reject_left(root_, "is no member of a file of this kind and version");
     if (own_units_.get() && json_object_size(units_) > 0)
       reject_left(units_, "has a unit, but is no real number of a file of this kind");
@@ -110,21 +115,21 @@ class JsonReader {
 
  private:
   /// For an object within another.
-  JsonReader(const JsonReader& parent, json_t* object, const char* path, const char* unit_path,
-             bool with_units)
+  [[gnu::cold, gnu::noinline]] JsonReader(const JsonReader& parent, json_t* object, const char* path,
+                                          const char* unit_path, bool with_units)
       : source_(parent.source_), root_(object), units_(with_units ? parent.units_ : nullptr) {
     if (!json_is_object(root_)) reject(path, root_, "", "an object");
     std::snprintf(path_, sizeof path_, "%s.", path);
     std::snprintf(unit_path_, sizeof unit_path_, "%s.", unit_path);
   }
 
-  [[noreturn]] void reject(const char* name, const json_t* found, const char* unit,
-                           const char* allowed) const {
+  [[gnu::cold, gnu::noinline]] [[noreturn]] void reject(const char* name, const json_t* found,
+                                                        const char* unit, const char* allowed) const {
     const bool bare = !*unit || std::strcmp(unit, "1") == 0;
     fail(source_, "%s%s = %s%s%s: must be %s", path_, name, ShownJson(found).text, bare ? "" : " ",
          bare ? "" : unit, allowed);
   }
-  [[noreturn]] void reject_left(json_t* object, const char* why) const {
+  [[gnu::cold, gnu::noinline]] [[noreturn]] void reject_left(json_t* object, const char* why) const {
     char name[160] = "";
     const json_t* value = object;
     while (json_object_size(value) > 0) {
@@ -137,12 +142,12 @@ class JsonReader {
   }
 
   /// The member of that name, out of its object, and that out of its own if nothing else was in it.
-  Json take(const char* name) {
+  [[gnu::cold, gnu::noinline]] Json take(const char* name) {
     Json found = take(root_, name);
     if (!found.get()) fail(source_, "%s%s is missing", path_, name);
     return found;
   }
-  static Json take(json_t* object, const char* name) {
+  [[gnu::cold, gnu::noinline]] static Json take(json_t* object, const char* name) {
     char key[64];
     const char* const dot = std::strchr(name, '.');
     const std::size_t size = dot ? static_cast<std::size_t>(dot - name) : std::strlen(name);
@@ -154,7 +159,7 @@ class JsonReader {
     return found;
   }
 
-  void check_unit(const char* name, const char* unit) {
+  [[gnu::cold, gnu::noinline]] void check_unit(const char* name, const char* unit) {
     if (!units_) return;
     char key[160];
     std::snprintf(key, sizeof key, "%s%s", unit_path_, name);
@@ -168,24 +173,25 @@ class JsonReader {
   static double largest(double) noexcept { return std::numeric_limits<double>::max(); }
   static double largest(float) noexcept { return 3.4028235e38; }
 
-  Json string(const char* name) {
+  [[gnu::cold, gnu::noinline]] Json string(const char* name) {
     Json found = take(name);
     if (!json_is_string(found.get())) reject(name, found.get(), "", "a string");
     return found;
   }
-  Json array(const char* name, const char* unit) {
+  [[gnu::cold, gnu::noinline]] Json array(const char* name, const char* unit) {
     if (unit) check_unit(name, unit);
     Json found = take(name);
     if (!json_is_array(found.get())) reject(name, found.get(), "", "an array");
     return found;
   }
-  double number(const char* name, const char* unit, double most) {
+  [[gnu::cold, gnu::noinline]] double number(const char* name, const char* unit, double most) {
     check_unit(name, unit);
     const Json found = take(name);
     if (!is_number(found.get(), most)) reject_number(name, found.get(), unit, most);
     return json_number_value(found.get());
   }
-  double entry(const char* name, const char* unit, const json_t* array, std::size_t k, double most) const {
+  [[gnu::cold, gnu::noinline]] double entry(const char* name, const char* unit, const json_t* array,
+                                            std::size_t k, double most) const {
     const json_t* const found = json_array_get(array, k);
     if (!is_number(found, most)) {
       char indexed[80];
@@ -194,11 +200,11 @@ class JsonReader {
     }
     return json_number_value(found);
   }
-  static bool is_number(const json_t* found, double most) {
+  [[gnu::cold, gnu::noinline]] static bool is_number(const json_t* found, double most) {
     return json_is_number(found) && std::abs(json_number_value(found)) <= most;
   }
-  [[noreturn]] void reject_number(const char* name, const json_t* found, const char* unit,
-                                  double most) const {
+  [[gnu::cold, gnu::noinline]] [[noreturn]] void reject_number(const char* name, const json_t* found,
+                                                               const char* unit, double most) const {
     char allowed[64];
     std::snprintf(allowed, sizeof allowed, "a number from -%.8g to %.8g", most, most);
     reject(name, found, unit, allowed);

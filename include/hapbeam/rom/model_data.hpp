@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -54,29 +55,38 @@ Scalar bounded(Scalar d, Scalar length) noexcept {
   return d < -most ? -most : d > most ? most : d;
 }
 
-[[noreturn]] inline void reject_data(const char* field, double value, const std::string& allowed) {
-  reject(field, value, "", allowed.c_str());
+[[gnu::cold]] [[noreturn]] inline void reject_data(const char* field, double value, const char* allowed) {
+  reject(field, value, "", allowed);
 }
 
 /// At most this many numbers in a table: 128 MB in double.
 inline constexpr std::size_t largest_table = std::size_t(1) << 24;
 
+[[noreturn, gnu::cold]] inline void reject_size(const char* field, std::size_t size, std::size_t wanted) {
+  char allowed[40];
+  std::snprintf(allowed, sizeof allowed, "%lu numbers", static_cast<unsigned long>(wanted));
+  reject_data(field, static_cast<double>(size), allowed);
+}
+
 template <typename Scalar>
-void check_table(const char* field, const std::vector<Scalar>& values, std::size_t wanted) {
-  if (values.size() != wanted)
-    reject_data(field, static_cast<double>(values.size()), std::to_string(wanted) + " numbers");
+[[gnu::cold]] void check_table(const char* field, const std::vector<Scalar>& values, std::size_t wanted) {
+  if (values.size() != wanted) reject_size(field, values.size(), wanted);
   for (const Scalar value : values)
     if (!std::isfinite(value)) reject_data(field, static_cast<double>(value), "finite in every entry");
 }
 
-inline std::size_t check_count(const char* field, int value, int low, int high) {
-  if (value < low || value > high)
-    reject_data(field, value, std::to_string(low) + " to " + std::to_string(high));
+[[gnu::cold]] inline std::size_t check_count(const char* field, int value, int low, int high) {
+  if (value < low || value > high) {
+    char allowed[40];
+    std::snprintf(allowed, sizeof allowed, "%d to %d", low, high);
+    reject_data(field, value, allowed);
+  }
   return static_cast<std::size_t>(value);
 }
 
 template <typename Scalar>
-void check_range(const BeamData<Scalar>& beam, Scalar s_min, Scalar s_max, Scalar depth, int positions) {
+[[gnu::cold]] void check_range(const BeamData<Scalar>& beam, Scalar s_min, Scalar s_max, Scalar depth,
+                               int positions) {
   Beam(static_cast<double>(beam.length), static_cast<double>(beam.axial_stiffness),
        static_cast<double>(beam.bending_stiffness), static_cast<double>(beam.thickness), beam.left,
        beam.right);
@@ -93,7 +103,7 @@ void check_range(const BeamData<Scalar>& beam, Scalar s_min, Scalar s_max, Scala
 }
 
 template <typename Scalar>
-void check_shape(const ShapeData<Scalar>& shape, std::size_t grid) {
+[[gnu::cold]] void check_shape(const ShapeData<Scalar>& shape, std::size_t grid) {
   const std::size_t segments = check_count("segments", shape.segments, 1, 1 << 14),
                     modes = check_count("modes", shape.modes, 1, 1 << 10);
   check_count("contact_node", shape.contact_node, 0, shape.segments);
@@ -107,7 +117,7 @@ void check_shape(const ShapeData<Scalar>& shape, std::size_t grid) {
 
 /// @throws std::invalid_argument
 template <typename Scalar>
-const PodModelData<Scalar>& check(const PodModelData<Scalar>& data) {
+[[gnu::cold]] const PodModelData<Scalar>& check(const PodModelData<Scalar>& data) {
   using namespace detail;
   const std::size_t positions = check_count("positions", data.positions, 1, 64),
                     depths = check_count("depths", data.depths, 2, 64);
@@ -133,7 +143,7 @@ const PodModelData<Scalar>& check(const PodModelData<Scalar>& data) {
 
 /// @throws std::invalid_argument
 template <typename Scalar>
-const GalerkinModelData<Scalar>& check(const GalerkinModelData<Scalar>& data) {
+[[gnu::cold]] const GalerkinModelData<Scalar>& check(const GalerkinModelData<Scalar>& data) {
   using namespace detail;
   const std::size_t positions = check_count("positions", data.positions, 1, 64),
                     tensions = check_count("tensions", data.tensions, 1, 64);

@@ -26,7 +26,7 @@ constexpr const char* scalar_name() noexcept {
 }
 
 template <class Fields, class Data>
-void visit_beam_and_range(Fields& f, Data& data) {
+[[gnu::cold]] void visit_beam_and_range(Fields& f, Data& data) {
   f.real("beam.length", "m", data.beam.length);
   f.real("beam.axial_stiffness", "N", data.beam.axial_stiffness);
   f.real("beam.bending_stiffness", "N·m²", data.beam.bending_stiffness);
@@ -39,7 +39,7 @@ void visit_beam_and_range(Fields& f, Data& data) {
 }
 
 template <class Fields, typename Scalar>
-void visit_grid(Fields& f, PodModelData<Scalar>& data) {
+[[gnu::cold]] void visit_grid(Fields& f, PodModelData<Scalar>& data) {
   f.flag("grid.symmetric", data.symmetric);
   f.count("grid.positions", data.positions);
   f.count("grid.depths", data.depths);
@@ -50,7 +50,7 @@ void visit_grid(Fields& f, PodModelData<Scalar>& data) {
 }
 
 template <class Fields, typename Scalar>
-void visit_grid(Fields& f, GalerkinModelData<Scalar>& data) {
+[[gnu::cold]] void visit_grid(Fields& f, GalerkinModelData<Scalar>& data) {
   f.count("grid.positions", data.positions);
   f.count("grid.tensions", data.tensions);
   f.real("grid.tension", "N", data.tension);
@@ -58,7 +58,7 @@ void visit_grid(Fields& f, GalerkinModelData<Scalar>& data) {
 }
 
 template <class Fields, typename Scalar>
-void visit_shape(Fields& f, ShapeData<Scalar>& shape) {
+[[gnu::cold]] void visit_shape(Fields& f, ShapeData<Scalar>& shape) {
   f.count("shape.segments", shape.segments);
   f.count("shape.contact_node", shape.contact_node);
   f.count("shape.modes", shape.modes);
@@ -68,7 +68,7 @@ void visit_shape(Fields& f, ShapeData<Scalar>& shape) {
 }
 
 template <class Fields>
-void visit_errors(Fields& f, ErrorSummary& errors) {
+[[gnu::cold]] void visit_errors(Fields& f, ErrorSummary& errors) {
   f.count("presses", errors.presses);
   f.real("force_median", "1", errors.force_median);
   f.real("force_p95", "1", errors.force_p95);
@@ -78,7 +78,7 @@ void visit_errors(Fields& f, ErrorSummary& errors) {
 }
 
 template <class Fields>
-void visit_region(Fields& f, RegionError& region) {
+[[gnu::cold]] void visit_region(Fields& f, RegionError& region) {
   f.real("s_min", "m", region.s_min);
   f.real("s_max", "m", region.s_max);
   f.real("depth_min", "m", region.depth_min);
@@ -87,7 +87,7 @@ void visit_region(Fields& f, RegionError& region) {
 }
 
 template <class Fields, class Data>
-void visit_model(Fields& f, Data& data, const char* nodes) {
+[[gnu::cold]] void visit_model(Fields& f, Data& data, const char* nodes) {
   f.units();
   visit_beam_and_range(f, data);
   f.constant("nodes", nodes);

@@ -56,15 +56,15 @@ struct Checksum {
   }
 };
 
-inline void check_size(std::size_t size, const std::string& source) {
+[[gnu::cold]] inline void check_size(std::size_t size, const std::string& source) {
   if (size > largest_model_file)
     fail(source, "size = %lu bytes: must be at most %lu", static_cast<unsigned long>(size),
          static_cast<unsigned long>(largest_model_file));
 }
 
 /// Header and payload.   @param payload  with its line feed
-inline std::string model_file_text(const char* kind, const char* scalar, const std::string& payload,
-                                   const std::string& source) {
+[[gnu::cold]] inline std::string model_file_text(const char* kind, const char* scalar,
+                                                 const std::string& payload, const std::string& source) {
   JsonWriter f(source);
   f.constant("format", "hapbeam model");
   f.count("version", model_file_version);
@@ -76,7 +76,8 @@ inline std::string model_file_text(const char* kind, const char* scalar, const s
   return text;
 }
 
-inline Json parse_json(const char* text, std::size_t size, const std::string& source, int line) {
+[[gnu::cold]] inline Json parse_json(const char* text, std::size_t size, const std::string& source,
+                                     int line) {
   json_error_t error;
   Json root(json_loadb(text, size, JSON_REJECT_DUPLICATES, &error));
   if (!root.get())
@@ -85,7 +86,8 @@ inline Json parse_json(const char* text, std::size_t size, const std::string& so
 }
 
 /// The payload, parsed, of a text whose header is right.   @param info  out, of it the version, kind and scalar
-inline Json parse_model_file(const std::string& text, const std::string& source, ModelFileInfo& info) {
+[[gnu::cold]] inline Json parse_model_file(const std::string& text, const std::string& source,
+                                           ModelFileInfo& info) {
   check_size(text.size(), source);
   const std::size_t end = text.find('\n');
   if (end == std::string::npos) fail(source, "has one line: must be a header and a model, a line each");
@@ -112,17 +114,17 @@ inline Json parse_model_file(const std::string& text, const std::string& source,
 }
 
 /// The file is of another type than is asked for.
-inline void check_type(const char* field, const std::string& found, const char* wanted,
-                       const std::string& source) {
+[[gnu::cold]] inline void check_type(const char* field, const std::string& found, const char* wanted,
+                                     const std::string& source) {
   if (found != wanted)
     fail(source, "%s = \"%.20s\": must be \"%s\" for this type of model", field, found.c_str(), wanted);
 }
 
-[[noreturn]] inline void reject_file(const std::string& path, const char* what) {
+[[gnu::cold]] [[noreturn]] inline void reject_file(const std::string& path, const char* what) {
   fail(path, "%s: %s", what, errno ? std::strerror(errno) : "unknown reason");
 }
 
-inline std::string read_file(const std::string& path) {
+[[gnu::cold]] inline std::string read_file(const std::string& path) {
   errno = 0;
   std::FILE* const file = std::fopen(path.c_str(), "rb");
   if (!file) reject_file(path, "cannot be opened");
@@ -138,7 +140,7 @@ inline std::string read_file(const std::string& path) {
 }
 
 /// All of the text under that name, or nothing new: a file beside it takes its place when it is complete.
-inline void write_file(const std::string& path, const std::string& text) {
+[[gnu::cold]] inline void write_file(const std::string& path, const std::string& text) {
   errno = 0;
   // A name of its own where two programs save at once.
   std::string temporary;
@@ -167,7 +169,7 @@ inline void write_file(const std::string& path, const std::string& text) {
 /// The text of a model's file.
 /// @tparam Model  PodModel | GalerkinModel   @throws ModelFileError where an error of its report is not finite
 template <class Model>
-std::string write_model(const Model& model, const std::string& source = "model") {
+[[gnu::cold]] std::string write_model(const Model& model, const std::string& source = "model") {
   using Scalar = typename Model::Scalar;
   typename Model::Data data = model.data();
   detail::JsonWriter fields(source);
@@ -178,7 +180,7 @@ std::string write_model(const Model& model, const std::string& source = "model")
 
 /// The model in such a text.   @param source  what messages call it   @throws ModelFileError
 template <class Model>
-Model read_model(const std::string& text, const std::string& source = "model") {
+[[gnu::cold]] Model read_model(const std::string& text, const std::string& source = "model") {
   typename Model::Data data{};
   ModelFileInfo info{};
   const detail::Json payload = detail::parse_model_file(text, source, info);
@@ -196,19 +198,19 @@ Model read_model(const std::string& text, const std::string& source = "model") {
 /// Writes a model's file, or throws and leaves what was there before.
 /// @tparam Model  PodModel | GalerkinModel   @throws ModelFileError
 template <class Model>
-void save_model(const Model& model, const std::string& path) {
+[[gnu::cold]] void save_model(const Model& model, const std::string& path) {
   detail::write_file(path, write_model(model, path));
 }
 
 /// Reads a model's file.   @tparam Model  of the kind, scalar and nodes in the file   @throws ModelFileError
 template <class Model>
-Model load_model(const std::string& path) {
+[[gnu::cold]] Model load_model(const std::string& path) {
   return read_model<Model>(detail::read_file(path), path);
 }
 
 /// What is in a file.  Its checksum and the members that are returned have been checked; the others are when it is loaded.
 /// @throws ModelFileError
-inline ModelFileInfo describe_model_file(const std::string& path) {
+[[gnu::cold]] inline ModelFileInfo describe_model_file(const std::string& path) {
   ModelFileInfo info{};
   const detail::Json payload = detail::parse_model_file(detail::read_file(path), path, info);
   detail::JsonReader fields(payload.get(), path);
