@@ -17,19 +17,19 @@ namespace hapbeam {
 
 namespace detail {
 
-[[noreturn]] inline void reject(const char* field, double value, const char* unit, const char* allowed) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%g", value);
-  throw std::invalid_argument(std::string(field) + " = " + digits + (*unit ? " " : "") + unit + ": must be " +
-                              allowed);
+[[gnu::cold]] [[noreturn]] inline void reject(const char* field, double value, const char* unit,
+                                              const char* allowed) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%s = %g%s%s: must be %s", field, value, *unit ? " " : "", unit, allowed);
+  throw std::invalid_argument(text);
 }
 
-inline double positive(const char* field, double value, const char* unit) {
+[[gnu::cold]] inline double positive(const char* field, double value, const char* unit) {
   if (!(std::isfinite(value) && value > 0)) reject(field, value, unit, "positive and finite");
   return value;
 }
 
-inline double finite(const char* field, double value, const char* unit) {
+[[gnu::cold]] inline double finite(const char* field, double value, const char* unit) {
   if (!std::isfinite(value)) reject(field, value, unit, "finite");
   return value;
 }
@@ -98,6 +98,25 @@ constexpr const char* name(Support support) noexcept {
   return "unknown";
 }
 
+namespace detail {
+
+/// @throws std::invalid_argument where a beam with these ends is a mechanism
+[[gnu::cold]] inline void check_supports(Support left, Support right) {
+  const char* why = nullptr;
+  const int held_w = fixes_w(left) + fixes_w(right);
+  const bool held_theta = fixes_theta(left) || fixes_theta(right);
+  if (!fixes_u(left) && !fixes_u(right)) why = "slides along its axis; hold u at one end";
+  if (held_w == 0) why = "moves across its axis; hold w at one end";
+  if (held_w == 1 && !held_theta) why = "turns about its only hinge; hold theta or the other end";
+  if (!why) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "supports = %s, %s: the beam is a mechanism, it %s", name(left),
+                name(right), why);
+  throw std::invalid_argument(text);
+}
+
+}  // namespace detail
+
 /// A dead force and moment at one point of the beam.
 struct PointLoad {
   double s;               ///< [m] arc position
@@ -113,7 +132,8 @@ using DistributedLoad = std::function<double(double)>;
 class Beam {
  public:
   /// @param length [m], positive
-  Beam(double length, const Section& section, const Material& material, Support left, Support right)
+  [[gnu::cold]] Beam(double length, const Section& section, const Material& material, Support left,
+                     Support right)
       : Beam(length,
              detail::positive("young", material.young, "Pa") * detail::positive("area", section.area, "m²"),
              material.young * detail::positive("inertia", section.inertia, "m⁴"), section.thickness, left,
@@ -121,20 +141,15 @@ class Beam {
 
   /// For a section known by its stiffness.
   /// @param length [m]   @param axial_stiffness EA [N]   @param bending_stiffness EI [N·m²]   @param thickness [m]
-  Beam(double length, double axial_stiffness, double bending_stiffness, double thickness, Support left,
-       Support right)
+  [[gnu::cold]] Beam(double length, double axial_stiffness, double bending_stiffness, double thickness,
+                     Support left, Support right)
       : length_(detail::positive("length", length, "m")),
         axial_stiffness_(detail::positive("axial_stiffness", axial_stiffness, "N")),
         bending_stiffness_(detail::positive("bending_stiffness", bending_stiffness, "N·m²")),
         thickness_(detail::positive("thickness", thickness, "m")),
         left_(left),
         right_(right) {
-    const int held_w = fixes_w(left) + fixes_w(right);
-    const bool held_theta = fixes_theta(left) || fixes_theta(right);
-    if (!fixes_u(left) && !fixes_u(right)) reject_mechanism("slides along its axis; hold u at one end");
-    if (held_w == 0) reject_mechanism("moves across its axis; hold w at one end");
-    if (held_w == 1 && !held_theta)
-      reject_mechanism("turns about its only hinge; hold theta or the other end");
+    detail::check_supports(left, right);
   }
 
   /// Adds a force and moment at one point.
@@ -169,11 +184,6 @@ class Beam {
   const DistributedLoad& axial() const noexcept { return axial_; }            ///< empty where there is none
 
  private:
-  [[noreturn]] void reject_mechanism(const char* why) const {
-    throw std::invalid_argument(std::string("supports = ") + name(left_) + ", " + name(right_) +
-                                ": the beam is a mechanism, it " + why);
-  }
-
   double length_, axial_stiffness_, bending_stiffness_, thickness_;
   Support left_, right_;
   std::vector<PointLoad> point_loads_;

@@ -317,3 +317,31 @@ TEST_CASE("a tick cannot throw") {
   STATIC_REQUIRE(noexcept(std::declval<Touch<Model>&>().tick(std::declval<const Vector&>())));
   STATIC_REQUIRE(noexcept(std::declval<Touch<Model>&>().reset()));
 }
+
+namespace {
+
+/// A beam that pushes with nearly the largest number there is.
+struct Overwhelming : Model {
+  using Model::Model;
+  Response<double> press(const Press<double>& request) noexcept {
+    const Response<double> response = Model::press(request);
+    return {std::copysign(std::numeric_limits<double>::max(), response.force), response.status};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a force that the slope of the contact would make infinite is reported and not given") {
+  Overwhelming model(Ends::cantilever);
+  Touch<Overwhelming> touch(model, 5e-3);
+  int infinite = 0;
+  for (int tick = 0; tick <= 400; ++tick) {
+    const auto r = touch.tick({0.95, 0.02 - 1e-3 * tick});
+    REQUIRE(r.force.allFinite());
+    if (r.status == Status::non_finite) {
+      ++infinite;
+      REQUIRE(r.force.norm() == 0);
+    }
+  }
+  CHECK(infinite > 0);
+}

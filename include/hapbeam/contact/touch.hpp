@@ -103,7 +103,9 @@ class Touch {
     pressing_ = true;
     result.pressing = true;
     const Scalar steepness = std::max(std::abs(n_w), least_normal);
-    result.force = contact.normal * (std::abs(response.force) / steepness);
+    const Scalar force = std::abs(response.force) / steepness;
+    if (std::isfinite(force)) result.force = contact.normal * force;
+    else result.status = Status::non_finite;
     return result;
   }
 

@@ -3,18 +3,24 @@
 // Real-time: noexcept, no allocation, O(rows × columns).
 #pragma once
 
-#include <Eigen/Core>
+#include <cstddef>
 
 namespace hapbeam::detail {
 
-/// y = Σ_k x_k a_k with a_k the k-th run of `rows` numbers of A.   @param y  out, rows values
-/// Eigen's product, because it is vectorised at every optimisation level: a loop is not at -O2.
+/// y = Σ_k x_k a_k with a_k the k-th run of `rows` numbers of A.  Four columns at a time, so that y is read and written once
+/// for each four.  Eigen's product is as fast at -O3, and takes half as long to compile as all of Eigen/Core.
+/// @param y  out, rows values
 template <typename Scalar>
-void combine(const Scalar* A, int rows, const Scalar* x, int columns, Scalar* y) noexcept {
-  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-  Eigen::Map<Vector>(y, rows).noalias() =
-      Eigen::Map<const Matrix>(A, rows, columns) * Eigen::Map<const Vector>(x, columns);
+[[gnu::noinline]] void combine(const Scalar* A, int rows, const Scalar* x, int columns, Scalar* y) noexcept {
+  for (int r = 0; r < rows; ++r) y[r] = 0;
+  int k = 0;
+  for (; k + 4 <= columns; k += 4, A += 4 * static_cast<std::ptrdiff_t>(rows)) {
+    const Scalar *a = A, *b = a + rows, *c = b + rows, *d = c + rows;
+    const Scalar p = x[k], q = x[k + 1], s = x[k + 2], t = x[k + 3];
+    for (int r = 0; r < rows; ++r) y[r] += (p * a[r] + q * b[r]) + (s * c[r] + t * d[r]);
+  }
+  for (; k < columns; ++k, A += rows)
+    for (int r = 0; r < rows; ++r) y[r] += x[k] * A[r];
 }
 
 /// Σ x_k y_k

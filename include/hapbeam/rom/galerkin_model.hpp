@@ -88,8 +88,8 @@ class GalerkinModel {
     const Scalar by_x = detail::dot(at.lz, column, data_.tensions);
     // ∂V/∂s = F θ
     const Scalar theta = d / 2 * (by_x * position_.derivative(s) - position_.log_scale_derivative(s));
-    shape_.evaluate(s, d, d, data_.positions > 1 ? &theta : nullptr, at.lx, data_.positions, at.lz,
-                    data_.tensions);
+    shape_.evaluate(data_.shape, s, d, d, data_.positions > 1 ? &theta : nullptr, at.lx, data_.positions,
+                    at.lz, data_.tensions);
     return response;
   }
 
@@ -101,7 +101,7 @@ class GalerkinModel {
   }
   Scalar thickness() const noexcept { return data_.beam.thickness; }
   void reset() noexcept {
-    shape_.reset();
+    shape_.reset(data_.shape);
     last_ = 0;
   }
 

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -39,6 +40,19 @@ struct EquispacedNodes {
   }
 };
 
+namespace detail {
+[[noreturn, gnu::cold]] inline void reject_nodes(int size, int most) {
+  char text[80];
+  std::snprintf(text, sizeof text, "nodes = %d: must be 1 to %d", size, most);
+  throw std::invalid_argument(text);
+}
+[[noreturn, gnu::cold]] inline void reject_interval(double low, double high) {
+  char text[120];
+  std::snprintf(text, sizeof text, "interval = %g to %g: must be finite and ascending", low, high);
+  throw std::invalid_argument(text);
+}
+}  // namespace detail
+
 /// @tparam Nodes   ChebyshevNodes | EquispacedNodes
 template <class Nodes = ChebyshevNodes, typename Scalar = double>
 class Lagrange {
@@ -48,17 +62,15 @@ class Lagrange {
 
   /// @param size 1 to max_size   @param low, high  ends of the interval; equal only where size is 1
   /// @throws std::invalid_argument
-  Lagrange(int size, Scalar low, Scalar high) {
-    if (size < 1 || size > max_size)
-      throw std::invalid_argument("nodes = " + std::to_string(size) + ": must be 1 to " +
-                                  std::to_string(max_size));
+  [[gnu::cold]] Lagrange(int size, Scalar low, Scalar high)
+      : nodes_(static_cast<std::size_t>(size)), weights_(nodes_) {
+    if (size < 1 || size > max_size) detail::reject_nodes(size, max_size);
     if (!(std::isfinite(low) && std::isfinite(high) && (low < high || (low == high && size == 1))))
-      throw std::invalid_argument("interval = " + std::to_string(low) + " to " + std::to_string(high) +
-                                  ": must be finite and ascending");
+      detail::reject_interval(double(low), double(high));
     const double middle = (double(low) + double(high)) / 2, half = (double(high) - double(low)) / 2;
     for (int k = 0; k < size; ++k) {
-      nodes_.push_back(static_cast<Scalar>(middle + half * Nodes::node(k, size)));
-      weights_.push_back(static_cast<Scalar>(Nodes::weight(k, size)));
+      nodes_[static_cast<std::size_t>(k)] = static_cast<Scalar>(middle + half * Nodes::node(k, size));
+      weights_[static_cast<std::size_t>(k)] = static_cast<Scalar>(Nodes::weight(k, size));
     }
   }
 
@@ -83,7 +95,7 @@ class Lagrange {
   }
 
   /// Derivative of l_j at node i.  The interpolant's derivative has degree n - 2: its values at the nodes define it.
-  Scalar derivative(int i, int j) const noexcept {
+  [[gnu::cold]] Scalar derivative(int i, int j) const noexcept {
     const auto at = [](int k) { return static_cast<std::size_t>(k); };
     if (i != j) return weights_[at(j)] / weights_[at(i)] / (nodes_[at(i)] - nodes_[at(j)]);
     Scalar sum = 0;  // rows sum to zero: the derivative of 1

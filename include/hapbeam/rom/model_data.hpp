@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -87,9 +86,11 @@ template <typename Scalar>
 template <typename Scalar>
 [[gnu::cold]] void check_range(const BeamData<Scalar>& beam, Scalar s_min, Scalar s_max, Scalar depth,
                                int positions) {
-  Beam(static_cast<double>(beam.length), static_cast<double>(beam.axial_stiffness),
-       static_cast<double>(beam.bending_stiffness), static_cast<double>(beam.thickness), beam.left,
-       beam.right);
+  positive("length", static_cast<double>(beam.length), "m");
+  positive("axial_stiffness", static_cast<double>(beam.axial_stiffness), "N");
+  positive("bending_stiffness", static_cast<double>(beam.bending_stiffness), "N·m²");
+  positive("thickness", static_cast<double>(beam.thickness), "m");
+  check_supports(beam.left, beam.right);
   positive("depth", static_cast<double>(depth), "m");
   const Scalar low = fixes_w(beam.left) ? beam.length / 1000 : Scalar(0);
   const Scalar high = beam.length - (fixes_w(beam.right) ? beam.length / 1000 : Scalar(0));

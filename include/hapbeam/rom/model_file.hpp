@@ -189,7 +189,7 @@ template <class Model>
   detail::JsonReader fields(payload.get(), source);
   detail::visit_model(fields, data, Model::Nodes::name());
   try {
-    return Model(data);
+    return Model(std::move(data));
   } catch (const std::invalid_argument& error) {
     detail::fail(source, "%s", error.what());
   }

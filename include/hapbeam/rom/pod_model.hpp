@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <hapbeam/force_model.hpp>
@@ -30,30 +31,30 @@ class PodModel {
   using Data = PodModelData<Scalar>;
 
   /// @throws std::invalid_argument where the data do not make a model
-  explicit PodModel(const Data& data)
-      : data_(check(data)),
-        position_(data.beam),
-        depth_(data.beam, data.symmetric),
-        x_(data.positions, position_(data.s_min), position_(data.s_max)),
-        y_(data.depths, data.y_low, data.y_high),
-        shape_(data.beam, data.shape) {
-    const auto n = static_cast<std::size_t>(data.positions), m = static_cast<std::size_t>(data.depths);
-    by_depth_.resize(2 * n * m);
-    by_position_.resize(n * m);
-    rest_slope_.resize(n);
-    for (int i = 0; i < data.positions; ++i) {
-      for (int j = 0; j < data.depths; ++j) {
+  [[gnu::cold]] explicit PodModel(Data data)
+      : data_((check(data), std::move(data))),
+        position_(data_.beam),
+        depth_(data_.beam, data_.symmetric),
+        x_(data_.positions, position_(data_.s_min), position_(data_.s_max)),
+        y_(data_.depths, data_.y_low, data_.y_high),
+        shape_(data_.beam, data_.shape) {
+    const auto n = static_cast<std::size_t>(data_.positions), m = static_cast<std::size_t>(data_.depths);
+    by_depth_ = std::vector<Scalar>(2 * n * m);
+    by_position_ = std::vector<Scalar>(n * m);
+    rest_slope_ = std::vector<Scalar>(n);
+    for (int i = 0; i < data_.positions; ++i) {
+      for (int j = 0; j < data_.depths; ++j) {
         Scalar dx = 0, dy = 0;
-        for (int k = 0; k < data.positions && n > 1; ++k) dx += x_.derivative(i, k) * potential(k, j);
-        for (int k = 0; k < data.depths; ++k) dy += y_.derivative(j, k) * potential(i, k);
+        for (int k = 0; k < data_.positions && n > 1; ++k) dx += x_.derivative(i, k) * potential(k, j);
+        for (int k = 0; k < data_.depths; ++k) dy += y_.derivative(j, k) * potential(i, k);
         const std::size_t row = 2 * static_cast<std::size_t>(i) * m, at = static_cast<std::size_t>(j);
         by_depth_[row + at] = potential(i, j);
         by_depth_[row + m + at] = dy;
         by_position_[row / 2 + at] = dx;
       }
-      for (int k = 0; k < data.positions && n > 1; ++k)
+      for (int k = 0; k < data_.positions && n > 1; ++k)
         rest_slope_[static_cast<std::size_t>(i)] +=
-            x_.derivative(i, k) * data.rest[static_cast<std::size_t>(k)];
+            x_.derivative(i, k) * data_.rest[static_cast<std::size_t>(k)];
     }
   }
 
@@ -70,7 +71,7 @@ class PodModel {
     const Response<Scalar> response = respond(request, at);
     if (!is_answer(response.status)) return response;
     const Scalar unit = data_.symmetric ? at.press.d : data_.depth, theta = rotation(at);
-    shape_.evaluate(at.press.s, at.press.d, unit, data_.positions > 1 ? &theta : nullptr, at.lx,
+    shape_.evaluate(data_.shape, at.press.s, at.press.d, unit, data_.positions > 1 ? &theta : nullptr, at.lx,
                     data_.positions, at.ly, data_.depths);
     return response;
   }
@@ -82,7 +83,7 @@ class PodModel {
     return {data_.s_min, data_.s_max, data_.depth, Scalar(1), -infinity, infinity};
   }
   Scalar thickness() const noexcept { return data_.beam.thickness; }
-  void reset() noexcept { shape_.reset(); }
+  void reset() noexcept { shape_.reset(data_.shape); }
 
   const Data& data() const noexcept { return data_; }
   /// Of presses that it was not trained with.

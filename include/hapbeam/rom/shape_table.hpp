@@ -73,43 +73,42 @@ struct ShapeData {
   std::vector<Scalar> rest;  ///< (u, w, θ) of the untouched beam at segments + 1 even nodes [m, m, rad]
 };
 
+/// The shape of the last press.  What was trained stays with the model, which passes it in.
 template <typename Scalar>
 class ShapeTable {
  public:
   using Node = CentrelineNode<Scalar>;
 
   /// Allocates.  @param data  sizes that fit each other, as check() in model_data.hpp sees to
-  ShapeTable(const BeamData<Scalar>& beam, const ShapeData<Scalar>& data)
+  [[gnu::cold]] ShapeTable(const BeamData<Scalar>& beam, const ShapeData<Scalar>& data)
       : frame_(beam, data.segments, data.contact_node),
         length_(beam.length),
-        basis_(data.basis),
-        coefficients_(data.coefficients),
-        rest_(data.rest),
         column_(data.coefficients.size()),
         mode_(static_cast<std::size_t>(data.modes)),
-        row_(3 * (static_cast<std::size_t>(data.segments) + 1)),
+        row_(data.rest.size()),
         nodes_(static_cast<std::size_t>(data.segments) + 1) {
-    reset();
+    reset(data);
   }
 
   Centreline<Scalar> centreline() const noexcept { return {nodes_.data(), static_cast<int>(nodes_.size())}; }
 
-  void reset() noexcept {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const Scalar s = i + 1 == nodes_.size() ? length_ : length_ * Scalar(i) / Scalar(nodes_.size() - 1);
-      nodes_[i] = {s, rest_[3 * i], rest_[3 * i + 1], rest_[3 * i + 2]};
-    }
+  void reset(const ShapeData<Scalar>& data) noexcept {
+    const Scalar* rest = data.rest.data();
+    for (int i = 0; i <= data.segments; ++i, rest += 3)
+      nodes_[static_cast<std::size_t>(i)] = {length_ * Scalar(i) / Scalar(data.segments), rest[0], rest[1],
+                                             rest[2]};
+    nodes_.back().s = length_;
   }
 
   /// The shape of a press by d at s.
   /// @param lx, positions, ly, others  interpolation weights along both axes of the grid
   /// @param unit [m]  what w is stored in units of   @param theta  rotation at the contact [rad], or null: by the modes
-  void evaluate(Scalar s, Scalar d, Scalar unit, const Scalar* theta, const Scalar* lx, int positions,
-                const Scalar* ly, int others) noexcept {
-    const int modes = static_cast<int>(mode_.size()), rows = static_cast<int>(row_.size());
-    detail::combine(coefficients_.data(), others * modes, lx, positions, column_.data());
+  void evaluate(const ShapeData<Scalar>& data, Scalar s, Scalar d, Scalar unit, const Scalar* theta,
+                const Scalar* lx, int positions, const Scalar* ly, int others) noexcept {
+    const int modes = data.modes, rows = static_cast<int>(row_.size());
+    detail::combine(data.coefficients.data(), others * modes, lx, positions, column_.data());
     detail::combine(column_.data(), modes, ly, others, mode_.data());
-    detail::combine(basis_.data(), rows, mode_.data(), modes, row_.data());
+    detail::combine(data.basis.data(), rows, mode_.data(), modes, row_.data());
 
     const Scalar contact = frame_.contact(s);
     const int middle = frame_.contact_node();
@@ -145,8 +144,7 @@ class ShapeTable {
 
   ContactFrame<Scalar> frame_;
   Scalar length_;
-  std::vector<Scalar> basis_, coefficients_, rest_;
-  std::vector<Scalar> column_, mode_, row_;  // of the last shape
+  std::vector<Scalar> column_, mode_, row_;
   std::vector<Node> nodes_;
 };
 
