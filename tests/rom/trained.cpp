@@ -7,6 +7,13 @@ namespace hapbeam::testing {
 PodModelData<double> trained_pod(const Snapshots& snapshots) { return train_pod(snapshots); }
 GalerkinModelData<double> trained_galerkin(const Snapshots& snapshots) { return train_galerkin(snapshots); }
 
+PodModelData<double> trained_equispaced_pod(const Snapshots& snapshots) {
+  return train_pod<EquispacedNodes>(snapshots);
+}
+GalerkinModelData<double> trained_equispaced_galerkin(const Snapshots& snapshots) {
+  return train_galerkin<EquispacedNodes>(snapshots);
+}
+
 PodModelData<double> trained_pod(const Beam& beam, const TrainingPlan& plan, int elements) {
   return train_pod(take_snapshots(beam, full_model(beam, elements), plan));
 }

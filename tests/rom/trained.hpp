@@ -12,5 +12,8 @@ GalerkinModelData<double> trained_galerkin(const Beam& beam, const TrainingPlan&
 /// Of other elements and other snapshots.
 PodModelData<double> trained_pod(const Snapshots& snapshots);
 GalerkinModelData<double> trained_galerkin(const Snapshots& snapshots);
+/// For models with EquispacedNodes.
+PodModelData<double> trained_equispaced_pod(const Snapshots& snapshots);
+GalerkinModelData<double> trained_equispaced_galerkin(const Snapshots& snapshots);
 
 }  // namespace hapbeam::testing

@@ -64,13 +64,15 @@ TEST_CASE(
   const auto errors = press_errors(model, full);
   REQUIRE(errors.size() == 500);
   const Snapshots snapshots = take_snapshots(pinned(), full, TrainingPlan::anywhere(pinned(), 0.02, 6, 5));
-  int at_edges = 0;
+  int at_edges = 0, shallow = 0;
   for (const PressError& error : errors) {
     at_edges += error.s == model.range().s_min || error.s == model.range().s_max || error.depth == 0.02;
-    CHECK((error.depth >= 0.02 * 0.02 * (1 - 1e-12) && error.depth <= 0.02 * (1 + 1e-12)));
+    CHECK((error.depth > 0 && error.depth <= 0.02 * (1 + 1e-12)));
+    shallow += error.depth < 0.02 * 0.02;
     for (const Snapshot& snapshot : snapshots.grid)
       CHECK((error.s != snapshot.s || error.depth != snapshot.d));
   }
+  CHECK(shallow > 40);
   CHECK(at_edges == 154);  // four corners, and three of ten
   CHECK(validate(model, full).all.force_max == validate(model, full).all.force_max);
   ValidationOptions other;
@@ -98,17 +100,13 @@ TEST_CASE("a full model that does not answer fails the validation", "[validate]"
 // Relative errors are of forces, and a beam under dead loads has places where it takes none to hold it.
 TEST_CASE("under dead loads depth counts from where the beam hangs", "[validate]") {
   Beam beam = pinned();
-  beam.transverse(-40);
-  TrainingPlan plan = TrainingPlan::anywhere(beam, 0.02, 12, 16);
+  beam.transverse(-200);  // hangs 11 mm
+  TrainingPlan plan = TrainingPlan::anywhere(beam, 0.02, 16, 20);
   plan.symmetric = false;
   const FemModel<> full(beam, 64);
   const PodModel<> model(trained_pod(beam, plan));
-  const FemModel<> at_rest(beam, 64);
-  int held = 0;
   for (const PressError& error : press_errors(model, full)) {
-    CHECK(error.force <= 1e-2);
-    // Cut at the depth of the range, where the beam hangs below it.
-    held += error.depth <= 0.02;
+    CHECK(error.force <= 2e-2);
+    CHECK(error.depth <= 0.02);
   }
-  CHECK(held == 500);
 }

@@ -43,6 +43,7 @@ class Guarded {
   }
 
   Centreline<Scalar> shape() const noexcept { return full_answers_ ? full_.shape() : fast_.shape(); }
+  /// The full model's.  A press in the fast model's alone is answered with ok too.
   Range<Scalar> range() const noexcept { return full_.range(); }
   Scalar thickness() const noexcept { return full_.thickness(); }
   void reset() noexcept {

@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -46,9 +47,9 @@ namespace detail {
   std::snprintf(text, sizeof text, "nodes = %d: must be 1 to %d", size, most);
   throw std::invalid_argument(text);
 }
-[[noreturn, gnu::cold]] inline void reject_interval(double low, double high) {
+[[noreturn, gnu::cold]] inline void reject_interval(double low, double high, const char* allowed) {
   char text[120];
-  std::snprintf(text, sizeof text, "interval = %g to %g: must be finite and ascending", low, high);
+  std::snprintf(text, sizeof text, "interval = %g to %g: must be %s", low, high, allowed);
   throw std::invalid_argument(text);
 }
 }  // namespace detail
@@ -62,18 +63,25 @@ class Lagrange {
 
   /// @param size 1 to max_size   @param low, high  ends of the interval; equal only where size is 1
   /// @throws std::invalid_argument
-  [[gnu::cold]] Lagrange(int size, Scalar low, Scalar high)
-      : nodes_(static_cast<std::size_t>(size)), weights_(nodes_) {
+  [[gnu::cold]] Lagrange(int size, Scalar low, Scalar high) : low_(low), high_(high) {
     if (size < 1 || size > max_size) detail::reject_nodes(size, max_size);
     if (!(std::isfinite(low) && std::isfinite(high) && (low < high || (low == high && size == 1))))
-      detail::reject_interval(double(low), double(high));
+      detail::reject_interval(double(low), double(high), "finite and ascending");
+    nodes_ = weights_ = std::vector<Scalar>(static_cast<std::size_t>(size));
     const double middle = (double(low) + double(high)) / 2, half = (double(high) - double(low)) / 2;
     for (int k = 0; k < size; ++k) {
-      nodes_[static_cast<std::size_t>(k)] = static_cast<Scalar>(middle + half * Nodes::node(k, size));
-      weights_[static_cast<std::size_t>(k)] = static_cast<Scalar>(Nodes::weight(k, size));
+      const auto at = static_cast<std::size_t>(k);
+      nodes_[at] = static_cast<Scalar>(middle + half * Nodes::node(k, size));
+      weights_[at] = static_cast<Scalar>(Nodes::weight(k, size));
+      // Differences of neighbours must have digits left.
+      const Scalar least = 1000 * std::numeric_limits<Scalar>::epsilon() * std::abs(nodes_[at]);
+      if (k > 0 && !(nodes_[at] - nodes_[at - 1] > least))
+        detail::reject_interval(double(low), double(high), "wider for so many nodes");
     }
   }
 
+  Scalar low() const noexcept { return low_; }
+  Scalar high() const noexcept { return high_; }
   int size() const noexcept { return static_cast<int>(nodes_.size()); }
   Scalar node(int k) const noexcept { return nodes_[static_cast<std::size_t>(k)]; }
 
@@ -105,6 +113,7 @@ class Lagrange {
   }
 
  private:
+  Scalar low_, high_;
   std::vector<Scalar> nodes_, weights_;
 };
 

@@ -92,8 +92,10 @@ template <typename Scalar>
   positive("thickness", static_cast<double>(beam.thickness), "m");
   check_supports(beam.left, beam.right);
   positive("depth", static_cast<double>(depth), "m");
-  const Scalar low = fixes_w(beam.left) ? beam.length / 1000 : Scalar(0);
-  const Scalar high = beam.length - (fixes_w(beam.right) ? beam.length / 1000 : Scalar(0));
+  // Rounded to another scalar an edge may move by its last digit.
+  const Scalar margin = beam.length / 1000 - 4 * std::numeric_limits<Scalar>::epsilon() * beam.length;
+  const Scalar low = fixes_w(beam.left) ? margin : Scalar(0);
+  const Scalar high = beam.length - (fixes_w(beam.right) ? margin : Scalar(0));
   if (!(s_min >= low && s_min <= high))
     reject("s_min", static_cast<double>(s_min), "m",
            "on the beam, a thousandth away from an end that is held");
@@ -131,6 +133,8 @@ template <typename Scalar>
   for (const Scalar value : data.potential)
     if (!(value > 0)) reject_data("potential", static_cast<double>(value), "positive");
   check_table("rest", data.rest, positions);
+  for (const Scalar value : data.rest)
+    if (data.symmetric && value != 0) reject_data("rest", static_cast<double>(value), "0 where symmetric");
   // A press in range must not be beyond the grid: there a polynomial grows without bound.
   const DepthCoordinate<Scalar> y(data.beam, data.symmetric);
   const Scalar rounding = std::sqrt(std::numeric_limits<Scalar>::epsilon()) * (data.y_high - data.y_low);

@@ -5,7 +5,7 @@
 // contact follows from the same V, ∂V/∂s = F θ, and the rest of the shape from POD modes (thesis eq. 3.54, 3.67).
 // The cost knows nothing of elements: positions × depths for the force, and points × modes more for the shape.
 // Outside range() nothing is extrapolated.  Deeper presses take the force at the end of the range and its tangent
-// stiffness there, held constant; s is that of the nearest press in range.
+// stiffness there, held constant; s is that of the nearest press in range.  Only inside do closed paths close.
 // Offline: construction allocates and throws std::invalid_argument.  Servo: all else is noexcept and allocation-free.
 #pragma once
 

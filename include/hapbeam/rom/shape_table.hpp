@@ -42,12 +42,13 @@ class ContactFrame {
     const Scalar high = contact_node_ == segments_ ? length_ : length_ - least;
     return std::min(std::max(s, low), high);
   }
-  /// Arc position of node i for a contact node at s [m].
+  /// Arc position of node i for a contact at s [m].  Where the contact's node cannot follow, the others do.
   Scalar position(int i, Scalar s) const noexcept {
-    if (i == contact_node_) return s;
-    if (i < contact_node_) return s * Scalar(i) / Scalar(contact_node_);
+    if (i == contact_node_) return contact(s);
+    if (i < contact_node_) return std::max(s, contact(s)) * Scalar(i) / Scalar(contact_node_);
     if (i == segments_) return length_;
-    return s + (length_ - s) * Scalar(i - contact_node_) / Scalar(segments_ - contact_node_);
+    const Scalar start = std::min(s, contact(s));
+    return start + (length_ - start) * Scalar(i - contact_node_) / Scalar(segments_ - contact_node_);
   }
   /// h of node i [m]: the length of its side.  A side whose end yields bends no more sharply when it gets short.
   Scalar side(int i, Scalar s) const noexcept {
@@ -112,9 +113,9 @@ class ShapeTable {
 
     const Scalar contact = frame_.contact(s);
     const int middle = frame_.contact_node();
-    place(0, middle, contact, unit);
-    place(middle, middle + 1, contact, unit);
-    place(middle + 1, frame_.segments() + 1, contact, unit);
+    place(0, middle, s, unit);
+    place(middle, middle + 1, s, unit);
+    place(middle + 1, frame_.segments() + 1, s, unit);
     nodes_.back().s = length_;
     // The contact itself is known better than its modes; where it is too near to an end for its node, the end is straight.
     Node& node = nodes_[static_cast<std::size_t>(frame_.contact_node())];
@@ -126,10 +127,10 @@ class ShapeTable {
 
  private:
   /// Nodes on one side of the contact, or its own: they share their h and are evenly spaced.
-  void place(int first, int end, Scalar contact, Scalar unit) noexcept {
+  void place(int first, int end, Scalar s, Scalar unit) noexcept {
     if (first == end) return;
-    const Scalar per_side = unit / frame_.side(first, contact), start = frame_.position(first, contact);
-    const Scalar step = end - first > 1 ? frame_.position(first + 1, contact) - start : Scalar(0);
+    const Scalar per_side = unit / frame_.side(first, s), start = frame_.position(first, s);
+    const Scalar step = end - first > 1 ? frame_.position(first + 1, s) - start : Scalar(0);
     const Scalar* row = row_.data() + 3 * first;
     Node* node = nodes_.data() + first;
     for (int i = 0; i < end - first; ++i, row += 3)

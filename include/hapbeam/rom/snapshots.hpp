@@ -14,6 +14,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -48,6 +49,7 @@ struct Snapshot {
 struct Snapshots {
   BeamData<double> beam;
   TrainingPlan plan;
+  std::string nodes;  ///< name() of the policy that placed them
   int contact_node;
   double y_low, y_high;            ///< of DepthCoordinate; 0 where tensions were trained
   double tension;                  ///< [N] largest trained; 0 where depths were, or none arises
@@ -94,22 +96,27 @@ void for_each_position(const Model& full, int positions, int threads, const Work
   };
   const int wanted = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
   std::vector<std::thread> pool;
-  for (int t = 1; t < std::min(wanted, positions); ++t) pool.emplace_back(run);
+  try {
+    for (int t = 1; t < std::min(wanted, positions); ++t) pool.emplace_back(run);
+  } catch (const std::system_error&) {  // a system that has no more threads has these
+  }
   run();
   for (std::thread& thread : pool) thread.join();
   if (failure) std::rethrow_exception(failure);
 }
 
-/// The tension of the model's present press [N].  F d = 2V + N² L/EA, and V is what the model says.
+/// The tension of the model's present press [N].  F d = 2V + N² L/EA, and V is what the model says.  An end that slides
+/// takes none.
 template <class Model>
 double tension_of(const Model& model, const BeamData<double>& beam, double force, double d) {
+  if (!fixes_u(beam.left) || !fixes_u(beam.right)) return 0;
   const double membrane = force * d - 2 * static_cast<double>(model.strain_energy());
-  // Round-off and the solver's tolerance leave this much where there is none.
-  if (!(membrane > 1e-9 * std::abs(force * d))) return 0;
+  // Round-off and the solver's tolerance leave a linear element this much.
+  if (!(membrane > 1e-8 * std::abs(force * d))) return 0;
   return std::sqrt(membrane * beam.axial_stiffness / beam.length);
 }
 
-template <class Model>
+template <class Nodes, class Model>
 class SnapshotTaker {
  public:
   SnapshotTaker(const Beam& beam, const Model& full, const TrainingPlan& plan, const TrainingOptions& options)
@@ -117,6 +124,7 @@ class SnapshotTaker {
         options_(options),
         out_{BeamData<double>::of(beam),
              plan.check(beam),
+             Nodes::name(),
              plan.contact_node(beam),
              0,
              0,
@@ -140,8 +148,18 @@ class SnapshotTaker {
     }
     if (loaded && plan.symmetric)
       throw std::invalid_argument("symmetric = true: must be false for a beam under dead loads");
-    for (int i = 0; i < plan.positions; ++i)
-      out_.rest.push_back(static_cast<double>(shape.at(static_cast<S>(s(i))).w));
+    for (int i = 0; i < plan.positions; ++i) {
+      const double rest = static_cast<double>(shape.at(static_cast<S>(s(i))).w);
+      if (std::abs(rest) >= plan.depth)
+        reject("depth", plan.depth, "m", "more than dead loads bend the beam");
+      out_.rest.push_back(rest);
+    }
+    // The corners of the range: what they ask is asked before an hour was spent, and grids have no node there.
+    for (const double at : {edge(plan.s_min), edge(plan.s_max)})
+      for (const double d : {plan.depth, -plan.depth}) {
+        full_.reset();
+        press_for_training(full_, at, d);
+      }
   }
 
   Snapshots by_depth() {
@@ -149,7 +167,7 @@ class SnapshotTaker {
     const DepthCoordinate<double> coordinate(out_.beam, plan.symmetric);
     out_.y_low = plan.symmetric ? 0 : coordinate(-plan.depth - highest(out_.rest, 1));
     out_.y_high = coordinate(plan.depth + highest(out_.rest, -1));
-    const Lagrange<> y(plan.depths, out_.y_low, out_.y_high);
+    const Lagrange<Nodes> y(plan.depths, out_.y_low, out_.y_high);
     allocate();
     for_each_position(full_, plan.positions, options_.threads, [&](Model& model, int i) {
       const double rest = out_.rest[static_cast<std::size_t>(i)];
@@ -170,26 +188,38 @@ class SnapshotTaker {
       throw std::invalid_argument("symmetric = false: must be true, a GalerkinModel takes no dead loads");
     // The tensions of the plan and some way beyond, as far as the full model goes everywhere.
     const double headroom = 1.6;
-    double reach = std::numeric_limits<double>::infinity();
+    double needed = 0, reach = std::numeric_limits<double>::infinity(), nearest_limit = 0;
+    const TensionCoordinate<double> coordinate(out_.beam);
     for (int i = -2; i < plan.positions; ++i) {
-      const double at = i < 0 ? (i == -1 ? plan.s_min : plan.s_max) : s(i);
+      const double at = i < 0 ? edge(i == -1 ? plan.s_min : plan.s_max) : s(i);
       const double most = 0.999 * static_cast<double>(full_.range().depth_at(static_cast<S>(at)));
       full_.reset();
-      reach = std::min(reach, tension_at(full_, at, most));
-      if (i < 0)
-        out_.tension = std::max(out_.tension, tension_at(full_, at, std::min(headroom * plan.depth, most)));
+      const double reached = tension_at(full_, at, most);
+      if (reached < reach) reach = reached, nearest_limit = at;
+      if (i >= 0) continue;
+      needed = std::max(needed, tension_at(full_, at, std::min(plan.depth, most)));
+      out_.tension = std::max(out_.tension, tension_at(full_, at, std::min(headroom * plan.depth, most)));
     }
-    out_.tension = std::min(out_.tension, reach);
+    if (needed > reach)
+      throw TrainingError(
+          "depth = " + std::to_string(plan.depth) + " m: its tension, " + std::to_string(needed) +
+          " N, must be one that the full model reaches within its range everywhere, at s = " +
+          std::to_string(nearest_limit) +
+          " m too: " + std::to_string(0.99 * plan.depth * std::sqrt(reach / needed)) + " m would be");
+    // A plan so shallow that it stretches nothing gets the tensions where bending still outweighs them.
+    out_.tension = reach > 0 ? std::min(std::max(out_.tension, coordinate.unit()), reach) : 0;
     if (out_.tension == 0) out_.columns = 1;
-    const TensionCoordinate<double> coordinate(out_.beam);
-    const Lagrange<> z(out_.columns, 0, coordinate(out_.tension));
+    const Lagrange<Nodes> z(out_.columns, 0, coordinate(out_.tension));
     allocate();
     for_each_position(full_, plan.positions, options_.threads, [&](Model& model, int i) {
       model.reset();
-      double d = std::min(std::sqrt(out_.beam.bending_stiffness / out_.beam.axial_stiffness), plan.depth);
+      // Where bending and stretching are alike.
+      double d = std::sqrt(out_.beam.bending_stiffness / out_.beam.axial_stiffness);
+      if (out_.columns == 1) d = plan.depth;
       for (int j = 0; j < out_.columns; ++j) {
-        if (out_.tension > 0) d = depth_at_tension(model, s(i), coordinate.inverse(z.node(j)), d);
-        take(model, i, j, 0, d);
+        const double tension = coordinate.inverse(z.node(j));
+        if (tension > 0) d = depth_at_tension(model, s(i), tension, d);
+        take(model, i, j, 0, tension == 0 && out_.columns > 1 ? nothing() : d);
       }
     });
     return std::move(out_);
@@ -204,6 +234,13 @@ class SnapshotTaker {
   double s(int i) const {
     return out_.plan.positions > 1 ? PositionCoordinate<double>(out_.beam).inverse(x_.node(i))
                                    : out_.plan.s_min;
+  }
+  /// An end of the plan's range; the full model's, if they differ by round-off.
+  double edge(double s) const {
+    const Range<S> range = full_.range();
+    const double inside =
+        std::min(std::max(s, static_cast<double>(range.s_min)), static_cast<double>(range.s_max));
+    return std::abs(inside - s) <= 1e-9 * out_.beam.length ? inside : s;
   }
   static double highest(const std::vector<double>& values, double sign) {
     double most = sign * values.front();
@@ -240,21 +277,28 @@ class SnapshotTaker {
                         " N; the full model's solver may be too loose, or its range too small");
   }
 
+  /// A depth that is as good as none [m]: F/e is off by (e/ρ)².
+  double nothing() const {
+    return std::min(3e-3 * std::sqrt(out_.beam.bending_stiffness / out_.beam.axial_stiffness),
+                    1e-3 * out_.plan.depth);
+  }
+
   void take(Model& model, int i, int j, double rest, double e) {
+    // At rest itself a symmetric shape has no size to be freed of.
+    const double near = nothing();
+    if (out_.plan.symmetric) e = std::max(e, near);
     const double s = this->s(i), d = e + rest;
     const double force = press_for_training(model, s, d);
     Snapshot& snapshot = out_.grid[static_cast<std::size_t>(i) * static_cast<std::size_t>(out_.columns) +
                                    static_cast<std::size_t>(j)];
     snapshot = {s, d, force, force / e, {}};
-    const double contact = frame_.contact(s);
     for (int k = 0; k <= out_.plan.segments; ++k) {
-      const double x = frame_.position(k, contact);
+      const double x = frame_.position(k, s);
       const auto at = model.shape().at(static_cast<S>(x));
       snapshot.nodes.push_back(
           {x, static_cast<double>(at.u), static_cast<double>(at.w), static_cast<double>(at.theta)});
     }
-    // At rest itself force over depth is the derivative there.
-    const double near = 3e-3 * std::sqrt(out_.beam.bending_stiffness / out_.beam.axial_stiffness);
+    // Nor has force over depth a value: it is the derivative there.
     if (std::abs(e) < near)
       snapshot.stiffness =
           (press_for_training(model, s, rest + near) - press_for_training(model, s, rest - near)) /
@@ -268,26 +312,27 @@ class SnapshotTaker {
   const TrainingOptions& options_;
   Snapshots out_;
   ContactFrame<double> frame_;
-  Lagrange<> x_;
+  Lagrange<Nodes> x_;
   std::mutex progress_mutex_;
   int done_ = 0;
 };
 
 }  // namespace detail
 
-/// Snapshots for a PodModel.  @param full  a ForceModel that can be copied; its own state is not used
-template <class Model>
+/// Snapshots for a PodModel.
+/// @param full  a ForceModel that can be copied; its own state is not used   @tparam Nodes  what train_pod() is given
+template <class Nodes = ChebyshevNodes, class Model>
 Snapshots take_snapshots(const Beam& beam, const Model& full, const TrainingPlan& plan,
                          const TrainingOptions& options = {}) {
-  return detail::SnapshotTaker<Model>(beam, full, plan, options).by_depth();
+  return detail::SnapshotTaker<Nodes, Model>(beam, full, plan, options).by_depth();
 }
 
 /// Snapshots for a GalerkinModel: at each position the depths whose tensions are the grid's.
 /// @param full  as above, with strain_energy() [J] and a solver tight enough for F d - 2V, 1e-12 or so
-template <class Model>
+template <class Nodes = ChebyshevNodes, class Model>
 Snapshots take_snapshots_at_tensions(const Beam& beam, const Model& full, const TrainingPlan& plan,
                                      const TrainingOptions& options = {}) {
-  return detail::SnapshotTaker<Model>(beam, full, plan, options).by_tension();
+  return detail::SnapshotTaker<Nodes, Model>(beam, full, plan, options).by_tension();
 }
 
 }  // namespace hapbeam

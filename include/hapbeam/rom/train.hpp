@@ -11,6 +11,9 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -37,7 +40,7 @@ inline Eigen::MatrixXd snapshot_matrix(const Snapshots& snapshots) {
   for (Eigen::Index k = 0; k < X.cols(); ++k) {
     const Snapshot& snapshot = snapshots.grid[static_cast<std::size_t>(k)];
     const double unit = snapshots.plan.symmetric ? snapshot.d : snapshots.plan.depth;
-    const double s = frame.contact(snapshot.s);
+    const double s = snapshot.s;
     for (int i = 0; i <= frame.segments(); ++i) {
       const CentrelineNode<double>& node = snapshot.nodes[static_cast<std::size_t>(i)];
       const double side = frame.side(i, s) / unit;
@@ -54,8 +57,7 @@ inline Eigen::MatrixXd snapshot_matrix(const Snapshots& snapshots) {
 inline Eigen::MatrixXd stiffness_matrix(const Snapshots& snapshots) {
   const BeamData<double>& beam = snapshots.beam;
   const ContactFrame<double> frame(beam, snapshots.plan.segments, snapshots.contact_node);
-  const double s = frame.contact((snapshots.plan.s_min + snapshots.plan.s_max) / 2),
-               unit = snapshots.plan.depth;
+  const double s = (snapshots.plan.s_min + snapshots.plan.s_max) / 2, unit = snapshots.plan.depth;
   const Eigen::Index rows = 3 * (frame.segments() + 1);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(rows, rows);
   Eigen::VectorXd size(rows);
@@ -127,11 +129,50 @@ std::vector<double> potential(const Lagrange<Nodes>& y, const DepthCoordinate<do
 
 }  // namespace detail
 
+namespace detail {
+
+template <class Nodes>
+void check_nodes(const Snapshots& snapshots) {
+  if (snapshots.nodes != Nodes::name())
+    throw std::invalid_argument("nodes = " + snapshots.nodes + ": must be " + Nodes::name() +
+                                ", as the model is to have them; take_snapshots<Nodes>() says which");
+}
+
+/// Between its nodes the interpolant must push back, and harder the deeper: with too few depths it does not.
+template <class Nodes>
+void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coordinate,
+                  const std::vector<double>& work, double s) {
+  const int n = y.size(), steps = 8 * n;
+  std::vector<double> l(work.size());
+  double before = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= steps; ++k) {
+    const double at = y.low() + (y.high() - y.low()) * k / steps, e = coordinate.inverse(at);
+    y.weights(at, l.data());
+    double value = 0, slope = 0;
+    for (int i = 0; i < n; ++i) {
+      value += l[static_cast<std::size_t>(i)] * work[static_cast<std::size_t>(i)];
+      for (int j = 0; j < n; ++j)
+        slope += l[static_cast<std::size_t>(i)] * y.derivative(i, j) * work[static_cast<std::size_t>(j)];
+    }
+    const double stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
+    if (!(value > 0 && stiffness > 0 && force > before))
+      reject("depths", n, "",
+             ("more, or the plan less deep: at s = " + std::to_string(s) +
+              " m the force between them is not a beam's")
+                 .c_str());
+    before = force;
+  }
+}
+
+}  // namespace detail
+
 /// A PodModel's numbers.   @param truncation  of the shape's modes
+/// @throws std::invalid_argument where snapshots have other nodes, or are too few for the depth
 template <class Nodes = ChebyshevNodes, class Reducer = Svd, class InnerProduct = PlainInnerProduct>
 PodModelData<double> train_pod(const Snapshots& snapshots,
                                const Truncation& truncation = Truncation::error(1e-4),
                                const InnerProduct& product = {}) {
+  detail::check_nodes<Nodes>(snapshots);
   const TrainingPlan& plan = snapshots.plan;
   const PositionCoordinate<double> position(snapshots.beam);
   const DepthCoordinate<double> coordinate(snapshots.beam, plan.symmetric);
@@ -151,8 +192,10 @@ PodModelData<double> train_pod(const Snapshots& snapshots,
                             {}};
   std::vector<double> K(static_cast<std::size_t>(plan.depths));
   for (auto snapshot = snapshots.grid.begin(); snapshot != snapshots.grid.end();) {
-    for (double& k : K) k = position.scale(snapshot->s) * snapshot->stiffness, ++snapshot;
+    const double s = snapshot->s;
+    for (double& k : K) k = position.scale(s) * snapshot->stiffness, ++snapshot;
     const std::vector<double> row = detail::potential(y, coordinate, K);
+    detail::check_growth(y, coordinate, row, s);
     data.potential.insert(data.potential.end(), row.begin(), row.end());
   }
   return data;
@@ -163,6 +206,7 @@ template <class Nodes = ChebyshevNodes, class Reducer = Svd, class InnerProduct 
 GalerkinModelData<double> train_galerkin(const Snapshots& snapshots,
                                          const Truncation& truncation = Truncation::error(1e-4),
                                          const InnerProduct& product = {}) {
+  detail::check_nodes<Nodes>(snapshots);
   const TrainingPlan& plan = snapshots.plan;
   const PositionCoordinate<double> position(snapshots.beam);
   GalerkinModelData<double> data{snapshots.beam,

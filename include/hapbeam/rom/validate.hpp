@@ -17,7 +17,7 @@
 namespace hapbeam {
 
 struct ValidationOptions {
-  int presses = 500;       ///< at random over the range and on its edges, from 2 % of the depth up, both ways
+  int presses = 500;       ///< at random over the range, on its edges and nearly at rest, both ways
   std::uint64_t seed = 1;  ///< the same seed draws the same presses on every machine
   int s_regions = 3;       ///< parts of the range along the beam
   int depth_regions = 3;   ///< and in depth
@@ -73,20 +73,26 @@ std::vector<PressError> press_errors(Fast fast, const Full& full, const Validati
   for (int k = 0; k < options.presses; ++k) {
     // First the corners of the range, then one of ten on each of its edges: there a polynomial is at its worst.
     double along = random(), deep = random();
-    if (k < 4) along = k / 2, deep = k % 2;
+    if (k < 4) along = k / 2, deep = k % 2 ? 1 : 0.02;
     else if (k % 10 == 4 || k % 10 == 5) along = k % 10 - 4;
     else if (k % 10 == 6) deep = 1;
+    const bool shallow = k >= 4 && k % 10 > 7;  // down to a ten-thousandth of the depth
     S s = along == 1 ? range.s_max : static_cast<S>(s_min + (s_max - s_min) * along);
-    S size = deep == 1 ? range.depth : static_cast<S>(depth * (0.02 + 0.98 * deep));
+    S size = deep == 1 ? range.depth : static_cast<S>(depth * (shallow ? std::pow(10, -4 * deep) : deep));
     // In float an edge of the range may have been rounded to the number beyond the full model's.
     if (static_cast<double>(s) > static_cast<double>(known.s_max)) s = std::nextafter(s, S(0));
     if (static_cast<double>(s) < static_cast<double>(known.s_min)) s = std::nextafter(s, range.s_max + 1);
     if (static_cast<double>(size) > static_cast<double>(known.depth_at(static_cast<F>(s))))
       size = std::nextafter(size, S(0));
     // Depth counts from the untouched beam: where that hangs the force is zero, and has no relative error.
-    const S rest = static_cast<S>(model.shape().at(static_cast<F>(s)).w),
-            d = k / 2 % 2 ? rest - size : rest + size;
-    presses.push_back({s, std::min(std::max(d, -range.depth), range.depth)});
+    const S rest = static_cast<S>(model.shape().at(static_cast<F>(s)).w);
+    if (rest != 0) size = std::max(size, range.depth / 50);
+    const auto cut = [&](S d) { return std::min(std::max(d, -range.depth), range.depth); };
+    const S up = cut(rest + size), down = cut(rest - size);
+    const bool upward = std::abs(up - rest) < size / 2 || std::abs(down - rest) < size / 2
+                            ? up - rest > rest - down
+                            : k / 2 % 2 == 0;
+    presses.push_back({s, upward ? up : down});
   }
 
   std::vector<PressError> errors;
