@@ -72,8 +72,8 @@ plot data . '/3_10_force' using 1:2:3:4 with yerrorlines ls 1, \
 set output images . '/figure_3_11.svg'
 set title "Some 20 snapshots are enough:\nmore of them make the trained model slower and no better"
 set xlabel 'number of snapshots'
-set xtics ('3' 3, '4' 4, '6' 6, '8' 8, '10' 10, '14' 14, '20' 20, '28' 28, '40' 40, '64' 64)
-set xrange [2.75:70]
+set xtics ('4' 4, '6' 6, '8' 8, '10' 10, '14' 14, '20' 20, '28' 28, '40' 40, '64' 64)
+set xrange [3.7:70]
 plot data . '/3_11_force' using 1:2:3:4 with yerrorlines ls 1, \
      data . '/3_11_shape' using 1:2:3:4 with yerrorlines ls 2, \
      data . '/3_11_force' using 1:5 axes x1y2 with linespoints ls 3

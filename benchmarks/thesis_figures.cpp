@@ -36,7 +36,7 @@ namespace {
 constexpr int rounds = 9;
 constexpr int snapshots = 14;  // of figures 3.9 and 3.10
 constexpr int element_counts[] = {4, 8, 16, 32, 64, 128, 256, 512, 1024};
-constexpr int snapshot_counts[] = {3, 4, 5, 6, 8, 10, 12, 14, 20, 28, 40, 64};
+constexpr int snapshot_counts[] = {4, 5, 6, 8, 10, 12, 14, 20, 28, 40, 64};
 
 /// A beam, where it is pressed, and what that takes.
 struct Setting {
