@@ -12,7 +12,7 @@
 
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rom/error_report.hpp>
-#include <hapbeam/rom/snapshots.hpp>
+#include <hapbeam/rom/training_run.hpp>
 
 namespace hapbeam {
 
