@@ -86,7 +86,7 @@ class Lagrange {
   Scalar node(int k) const noexcept { return nodes_[static_cast<std::size_t>(k)]; }
 
   /// l_k(x) for every k, whose sum is 1.  Outside the interval this extrapolates.   @param l  out, size() values
-  void weights(Scalar x, Scalar* l) const noexcept {
+  [[gnu::noinline]] void weights(Scalar x, Scalar* l) const noexcept {
     const int n = size();
     const Scalar *nodes = nodes_.data(), *w = weights_.data();
     int hit = n == 1 ? 0 : -1;

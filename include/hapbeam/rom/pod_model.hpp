@@ -137,7 +137,7 @@ class PodModel {
   }
 
   /// The rest of locate(), for another depth at the same position.
-  void descend(Point& at) const noexcept {
+  [[gnu::noinline]] void descend(Point& at) const noexcept {
     const int n = data_.positions, m = data_.depths;
     at.e = at.press.d;
     if (!data_.symmetric) at.e -= detail::dot(at.lx, data_.rest.data(), n);
