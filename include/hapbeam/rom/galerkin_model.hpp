@@ -162,7 +162,7 @@ class GalerkinModel {
     using std::exp;
     using std::expm1;
     using std::sqrt;
-    const Scalar d = at.press.d, N0 = tension_.unit(), z_max = tension_(data_.tension);
+    const Scalar d = at.press.d, N0 = tension_.unit(), z_max = z_.high();
     const Scalar flexibility = data_.beam.length / data_.beam.axial_stiffness;
     const Scalar q = d * d / (2 * flexibility * N0 * N0 * scale);
     const Scalar settled = sqrt(std::numeric_limits<Scalar>::epsilon()) / 16;

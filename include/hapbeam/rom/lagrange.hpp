@@ -7,15 +7,13 @@
 // ChebyshevNodes are the default: the largest Σ|l_k|, by which an error in the values can grow, is 3.5 with 50 of them.
 // With EquispacedNodes, the thesis', it is 2e12, because it grows as 2ⁿ/(e n ln n).
 // Source: Berrut and Trefethen, Barycentric Lagrange interpolation, SIAM Review 46 (2004).
-// Real-time: weights() is noexcept, allocation-free and O(n); construction allocates and throws.
+// Real-time: weights() is noexcept, allocation-free and O(n); construction throws.
 #pragma once
 
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace hapbeam {
 
@@ -63,32 +61,30 @@ class Lagrange {
 
   /// @param size 1 to max_size   @param low, high  ends of the interval; equal only where size is 1
   /// @throws std::invalid_argument
-  [[gnu::cold]] Lagrange(int size, Scalar low, Scalar high) : low_(low), high_(high) {
+  [[gnu::cold]] Lagrange(int size, Scalar low, Scalar high) : size_(size), low_(low), high_(high) {
     if (size < 1 || size > max_size) detail::reject_nodes(size, max_size);
     if (!(std::isfinite(low) && std::isfinite(high) && (low < high || (low == high && size == 1))))
       detail::reject_interval(double(low), double(high), "finite and ascending");
-    nodes_ = weights_ = std::vector<Scalar>(static_cast<std::size_t>(size));
     const double middle = (double(low) + double(high)) / 2, half = (double(high) - double(low)) / 2;
     for (int k = 0; k < size; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      nodes_[at] = static_cast<Scalar>(middle + half * Nodes::node(k, size));
-      weights_[at] = static_cast<Scalar>(Nodes::weight(k, size));
+      nodes_[k] = static_cast<Scalar>(middle + half * Nodes::node(k, size));
+      weights_[k] = static_cast<Scalar>(Nodes::weight(k, size));
       // Differences of neighbours must have digits left.
-      const Scalar least = 1000 * std::numeric_limits<Scalar>::epsilon() * std::abs(nodes_[at]);
-      if (k > 0 && !(nodes_[at] - nodes_[at - 1] > least))
+      const Scalar least = 1000 * std::numeric_limits<Scalar>::epsilon() * std::abs(nodes_[k]);
+      if (k > 0 && !(nodes_[k] - nodes_[k - 1] > least))
         detail::reject_interval(double(low), double(high), "wider for so many nodes");
     }
   }
 
   Scalar low() const noexcept { return low_; }
   Scalar high() const noexcept { return high_; }
-  int size() const noexcept { return static_cast<int>(nodes_.size()); }
-  Scalar node(int k) const noexcept { return nodes_[static_cast<std::size_t>(k)]; }
+  int size() const noexcept { return size_; }
+  Scalar node(int k) const noexcept { return nodes_[k]; }
 
   /// l_k(x) for every k, whose sum is 1.  Outside the interval this extrapolates.   @param l  out, size() values
   [[gnu::noinline]] void weights(Scalar x, Scalar* l) const noexcept {
     const int n = size();
-    const Scalar *nodes = nodes_.data(), *w = weights_.data();
+    const Scalar *nodes = nodes_, *w = weights_;
     int hit = n == 1 ? 0 : -1;
     for (int k = 0; k < n; ++k)
       if (x == nodes[k]) hit = k;
@@ -104,8 +100,7 @@ class Lagrange {
 
   /// Derivative of l_j at node i.  The interpolant's derivative has degree n - 2: its values at the nodes define it.
   [[gnu::cold]] Scalar derivative(int i, int j) const noexcept {
-    const auto at = [](int k) { return static_cast<std::size_t>(k); };
-    if (i != j) return weights_[at(j)] / weights_[at(i)] / (nodes_[at(i)] - nodes_[at(j)]);
+    if (i != j) return weights_[j] / weights_[i] / (nodes_[i] - nodes_[j]);
     Scalar sum = 0;  // rows sum to zero: the derivative of 1
     for (int k = 0; k < size(); ++k)
       if (k != i) sum -= derivative(i, k);
@@ -113,8 +108,9 @@ class Lagrange {
   }
 
  private:
+  int size_;
   Scalar low_, high_;
-  std::vector<Scalar> nodes_, weights_;
+  Scalar nodes_[max_size], weights_[max_size];
 };
 
 }  // namespace hapbeam

@@ -84,9 +84,7 @@ class ShapeTable {
   [[gnu::cold]] ShapeTable(const BeamData<Scalar>& beam, const ShapeData<Scalar>& data)
       : frame_(beam, data.segments, data.contact_node),
         length_(beam.length),
-        column_(data.coefficients.size()),
-        mode_(static_cast<std::size_t>(data.modes)),
-        row_(data.rest.size()),
+        work_(data.coefficients.size() + static_cast<std::size_t>(data.modes) + data.rest.size()),
         nodes_(static_cast<std::size_t>(data.segments) + 1) {
     reset(data);
   }
@@ -106,10 +104,11 @@ class ShapeTable {
   /// @param unit [m]  what w is stored in units of   @param theta  rotation at the contact [rad], or null: by the modes
   void evaluate(const ShapeData<Scalar>& data, Scalar s, Scalar d, Scalar unit, const Scalar* theta,
                 const Scalar* lx, int positions, const Scalar* ly, int others) noexcept {
-    const int modes = data.modes, rows = static_cast<int>(row_.size());
-    detail::combine(data.coefficients.data(), others * modes, lx, positions, column_.data());
-    detail::combine(column_.data(), modes, ly, others, mode_.data());
-    detail::combine(data.basis.data(), rows, mode_.data(), modes, row_.data());
+    const int modes = data.modes, rows = 3 * (data.segments + 1);
+    Scalar *const row = work_.data(), *const mode = row + rows, *const column = mode + modes;
+    detail::combine(data.coefficients.data(), others * modes, lx, positions, column);
+    detail::combine(column, modes, ly, others, mode);
+    detail::combine(data.basis.data(), rows, mode, modes, row);
 
     const Scalar contact = frame_.contact(s);
     const int middle = frame_.contact_node();
@@ -131,7 +130,7 @@ class ShapeTable {
     if (first == end) return;
     const Scalar per_side = unit / frame_.side(first, s), start = frame_.position(first, s);
     const Scalar step = end - first > 1 ? frame_.position(first + 1, s) - start : Scalar(0);
-    const Scalar* row = row_.data() + 3 * first;
+    const Scalar* row = work_.data() + 3 * first;
     Node* node = nodes_.data() + first;
     for (int i = 0; i < end - first; ++i, row += 3)
       node[i] = {start + step * Scalar(i), row[0] * unit * per_side, row[1] * unit, row[2] * per_side};
@@ -145,7 +144,7 @@ class ShapeTable {
 
   ContactFrame<Scalar> frame_;
   Scalar length_;
-  std::vector<Scalar> column_, mode_, row_;
+  std::vector<Scalar> work_;  // displacements of the last shape, freed of units; its modes; these by depth
   std::vector<Node> nodes_;
 };
 

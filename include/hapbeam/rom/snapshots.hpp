@@ -95,7 +95,7 @@ class SnapshotTaker {
         reject("depth", plan.depth, "m", "more than dead loads bend the beam");
       out_.rest.push_back(rest);
     }
-    // The corners of the range: what they ask is asked before an hour was spent, and grids have no node there.
+    // The corners of the range, where a grid has no node: what cannot be answered there is told before the work is done.
     for (const double at : {edge(plan.s_min), edge(plan.s_max)})
       for (const double d : {plan.depth, -plan.depth}) {
         full_.reset();
