@@ -128,7 +128,21 @@ struct PointLoad {
 /// A dead load per unit length, as a function of arc position s [m] -> [N/m].
 using DistributedLoad = std::function<double(double)>;
 
-/// A straight prismatic beam, its ends and its loads.  An immutable value but for the loads added to it.
+/// Where a support holds its end.  What the support leaves free says where the end is before anything is loaded.
+struct Placement {
+  double u = 0;      ///< [m] from the end's place in the straight beam, along x
+  double w = 0;      ///< [m]
+  double theta = 0;  ///< [rad]
+};
+
+/// A part of the beam that is naturally an arc.
+struct Arc {
+  double end;        ///< [m] arc position at which it ends; it begins where the one before it does
+  double curvature;  ///< dθ/ds [1/m] without load: positive where the beam bulges up
+};
+
+/// A prismatic beam, its ends and its loads; straight, unless it is given a natural curvature, with its ends where they
+/// are in the straight beam, unless they are placed elsewhere.  An immutable value but for what is added to it.
 class Beam {
  public:
   /// @param length [m], positive
@@ -173,6 +187,28 @@ class Beam {
     return detail::finite("axial load", f, "N/m"), axial([f](double) { return f; });
   }
 
+  /// Gives the beam a natural shape of arcs, from the left end on; straight where they end.
+  /// @throws std::invalid_argument unless the ends increase, within the length
+  Beam& naturally(std::vector<Arc> arcs) {
+    double from = 0;
+    for (const Arc& arc : arcs) {
+      if (!(arc.end > from && arc.end <= length_ * (1 + 1e-12)))
+        detail::reject("arc end", arc.end, "m", "beyond the arc before it and on the beam");
+      detail::finite("arc curvature", arc.curvature, "1/m");
+      from = arc.end;
+    }
+    return arcs_ = std::move(arcs), *this;
+  }
+  /// Places the ends: an end shortening or a stretch, an arch or an inclined beam.
+  Beam& place(const Placement& left, const Placement& right) {
+    for (const Placement* end : {&left, &right}) {
+      detail::finite("placement u", end->u, "m");
+      detail::finite("placement w", end->w, "m");
+      detail::finite("placement theta", end->theta, "rad");
+    }
+    return left_place_ = left, right_place_ = right, *this;
+  }
+
   double length() const noexcept { return length_; }                        ///< L [m]
   double axial_stiffness() const noexcept { return axial_stiffness_; }      ///< EA [N]
   double bending_stiffness() const noexcept { return bending_stiffness_; }  ///< EI [N·m²]
@@ -182,12 +218,22 @@ class Beam {
   const std::vector<PointLoad>& point_loads() const noexcept { return point_loads_; }
   const DistributedLoad& transverse() const noexcept { return transverse_; }  ///< empty where there is none
   const DistributedLoad& axial() const noexcept { return axial_; }            ///< empty where there is none
+  const std::vector<Arc>& arcs() const noexcept { return arcs_; }  ///< empty where naturally straight
+  const Placement& left_place() const noexcept { return left_place_; }
+  const Placement& right_place() const noexcept { return right_place_; }
+  /// Whether it lies on the x axis, at full length, where nothing loads it.
+  bool straight() const noexcept {
+    const auto home = [](const Placement& p) { return p.u == 0 && p.w == 0 && p.theta == 0; };
+    return arcs_.empty() && home(left_place_) && home(right_place_);
+  }
 
  private:
   double length_, axial_stiffness_, bending_stiffness_, thickness_;
   Support left_, right_;
   std::vector<PointLoad> point_loads_;
   DistributedLoad transverse_, axial_;
+  std::vector<Arc> arcs_;
+  Placement left_place_, right_place_;
 };
 
 }  // namespace hapbeam

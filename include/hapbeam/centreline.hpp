@@ -1,10 +1,15 @@
 // The deformed centreline of a beam, as the models hand it out: nodes joined by cubics.
 //
-// A view: it owns nothing and is valid until the model that gave it is called again.  Between two nodes u is
-// linear and w the cubic that takes both nodes' displacement and slope (thesis eq. 3.17), so each piece is a
-// plane cubic, and contact and drawing see exactly the curve that the elements compute with.
+// A view: it owns nothing and is valid until the model that gave it is called again.  Each piece is a plane cubic, so
+// contact and drawing see one kind of curve.  Which cubic depends on the kinematics of the model:
+//   moderate rotation   u is linear, w takes both nodes' displacement and slope (thesis eq. 3.17): exactly the curve
+//                       that the elements compute with
+//   any rotation        the ends' tangents are (cos θ, -sin θ) and a third of the piece's length long: smooth at
+//                       nodes, and off by fourth order in the length
 // No allocation, noexcept, O(1) but for the search of the piece, which is O(log n).
 #pragma once
+
+#include <cmath>
 
 #include <Eigen/Core>
 
@@ -39,7 +44,8 @@ class Centreline {
  public:
   using Node = CentrelineNode<Scalar>;
 
-  Centreline(const Node* nodes, int size) noexcept : nodes_(nodes), size_(size) {}
+  Centreline(const Node* nodes, int size, bool any_rotation = false) noexcept
+      : nodes_(nodes), size_(size), any_rotation_(any_rotation) {}
 
   int size() const noexcept { return size_; }
   int segments() const noexcept { return size_ - 1; }
@@ -52,11 +58,18 @@ class Centreline {
   CubicSegment<Scalar> segment(int i) const noexcept {
     const Node& a = nodes_[i];
     const Node& b = nodes_[i + 1];
-    const Scalar third = (b.s - a.s) / 3;
-    const Scalar x0 = a.s + a.u, x3 = b.s + b.u, dx = (x3 - x0) / 3;
+    const Scalar third = (b.s - a.s) / 3, x0 = a.s + a.u, x3 = b.s + b.u;
     CubicSegment<Scalar> control;
-    control << x0, x0 + dx, x3 - dx, x3,  //
-        a.w, a.w - third * a.theta, b.w + third * b.theta, b.w;
+    if (any_rotation_) {
+      using std::cos;
+      using std::sin;
+      control << x0, x0 + third * cos(a.theta), x3 - third * cos(b.theta), x3,  //
+          a.w, a.w - third * sin(a.theta), b.w + third * sin(b.theta), b.w;
+    } else {
+      const Scalar dx = (x3 - x0) / 3;
+      control << x0, x0 + dx, x3 - dx, x3,  //
+          a.w, a.w - third * a.theta, b.w + third * b.theta, b.w;
+    }
     return control;
   }
 
@@ -79,6 +92,7 @@ class Centreline {
     const Node& a = nodes_[i];
     const Node& b = nodes_[i + 1];
     const Scalar h = b.s - a.s, t = (s - a.s) / h, r = 1 - t;
+    if (any_rotation_) return on_curve(i, s, t);
     const Scalar rise = b.w - a.w;
     // Hermite cubic about the chord, whose end slopes are -theta: exact at both nodes, little cancellation.
     const Scalar p = h * a.theta + rise, q = h * b.theta + rise;
@@ -87,8 +101,25 @@ class Centreline {
   }
 
  private:
+  /// θ is the angle of the tangent, in the turn in which the piece's ends are.
+  Displacement<Scalar> on_curve(int i, Scalar s, Scalar t) const noexcept {
+    using std::atan2;
+    using std::cos;
+    using std::sin;
+    const CubicSegment<Scalar> b = segment(i);
+    const Scalar r = 1 - t, middle = (nodes_[i].theta + nodes_[i + 1].theta) / 2;
+    const Vector2<Scalar> c0 = b.col(1) - b.col(0), c1 = b.col(2) - b.col(1), c2 = b.col(3) - b.col(2);
+    const Vector2<Scalar> velocity = r * r * c0 + 2 * r * t * c1 + t * t * c2;
+    const Vector2<Scalar> from_start = t * ((1 + r + r * r) * c0 + t * (1 + 2 * r) * c1 + t * t * c2);
+    const Scalar c = cos(middle), d = sin(middle);
+    const Scalar turned = -atan2(d * velocity.x() + c * velocity.y(), c * velocity.x() - d * velocity.y());
+    const Node& a = nodes_[i];
+    return {a.u + (from_start.x() - (s - a.s)), a.w + from_start.y(), middle + turned};
+  }
+
   const Node* nodes_;
   int size_;
+  bool any_rotation_;
 };
 
 }  // namespace hapbeam

@@ -13,6 +13,10 @@
 //   m.thickness()        Scalar [m]             noexcept; what contact adds on either side of the centreline
 //   m.reset()            void                   noexcept; back to the shape that the beam has untouched
 //
+// A model of large rotation may offer one more, which contact then takes instead of press():
+//
+//   m.push(p)            Response<Scalar>       of a Push<Scalar>; promises as press()
+//
 // No allocation, no exception, no dependency but the standard library.
 #pragma once
 
@@ -66,10 +70,19 @@ struct Press {
   Scalar d;  ///< [m] displacement w(s), measured from the unloaded beam, either sign
 };
 
+/// A frictionless surface that the centreline touches at one point: there its displacement along n is d, and the force
+/// acts along n.
+template <typename Scalar>
+struct Push {
+  Scalar s;                ///< [m] arc position of the point
+  Scalar d;                ///< [m] n · (u, w) at s
+  Vector2<Scalar> normal;  ///< n, unit
+};
+
 /// What a press takes.
 template <typename Scalar>
 struct Response {
-  Scalar force;   ///< [N] transverse force on the beam that holds d; the hand feels -force.  Always finite.
+  Scalar force;   ///< [N] force on the beam along the direction of d; the hand feels -force.  Always finite.
   Status status;  ///< whether force belongs to the request
 };
 
@@ -119,7 +132,19 @@ struct IsForceModel<M, std::void_t<typename M::Scalar>> {
   static constexpr bool value = decltype(check<M>(0))::value;
 };
 
+template <typename M, typename = void>
+struct TakesPush : std::false_type {};
+template <typename M>
+struct TakesPush<
+    M, std::void_t<decltype(std::declval<M&>().push(std::declval<const Push<typename M::Scalar>&>()))>>
+    : std::bool_constant<noexcept(std::declval<M&>().push(std::declval<const Push<typename M::Scalar>&>()))> {
+};
+
 }  // namespace detail
+
+/// True where M can be pushed along any direction, noexcept included.
+template <typename M>
+inline constexpr bool takes_push = detail::TakesPush<M>::value;
 
 /// True where M fulfils the contract above, every noexcept included.
 template <typename M>

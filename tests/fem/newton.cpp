@@ -52,7 +52,7 @@ TEST_CASE("Newton is quadratic: each increment is the square of the one before",
       System system(thesis_beam(Support::pinned, Support::pinned), elements);
       const auto mesh = ContactMesh<double>(elements, thesis_length).at(position * thesis_length);
       system.remesh(mesh);
-      system.set_goal(1, mesh.node(), 20e-3);
+      system.set_goal(mesh.node(), 20e-3);
       system.set_target(1);
       std::vector<double> sizes;
       std::ostringstream sequence;

@@ -8,6 +8,7 @@
 //   E::residual(p, d, r)       void     r = ∂V/∂d, overwritten [N, N, N·m, N, N, N·m]
 //   E::tangent(p, d, r, K)     S        V, r as above and K = ∂r/∂d, symmetric, both triangles, overwritten
 //   E::name()                  const char*
+//   E::any_rotation            bool, true: right at any rotation; may be left out, which says no
 //
 // with p an ElementProperties<S>.  An element is stateless: static functions, templated on the scalar S.
 // Real-time: no allocation, noexcept, O(1).
@@ -42,6 +43,8 @@ struct ElementProperties {
   Scalar axial_stiffness = 0;      ///< EA [N]
   Scalar axial_per_length = 0;     ///< EA/l [N/m]
   Scalar bending_per_length3 = 0;  ///< EI/l³ [N/m]
+  Scalar natural_a = 0;            ///< l times the rotation of end 1 against the chord that bends nothing [m]
+  Scalar natural_b = 0;            ///< the same at end 2 [m]
 };
 
 namespace detail {
@@ -72,7 +75,7 @@ struct IsElement<
                                                                             std::declval<Matrix6<S>&>()))>>>
     : std::true_type {};
 
-/// Strains of one element in the coordinates that a rigid translation does not change.
+/// Strains of one element in coordinates that a rigid translation does not change.
 template <typename S>
 struct Deformation {
   S stretch;  ///< u2 - u1 [m]
@@ -82,12 +85,23 @@ struct Deformation {
 
   Deformation(const ElementProperties<S>& p, const Vector6<S>& d) noexcept
       : stretch(d[3] - d[0]), rise(d[4] - d[1]), a(p.length * d[2] + rise), b(p.length * d[5] + rise) {}
+
+  /// Seen along the chord, which does not rise.
+  Deformation(S stretch_, S a_, S b_) noexcept : stretch(stretch_), rise(0), a(a_), b(b_) {}
 };
 
 /// Symmetric second derivatives in the coordinates (stretch, rise, lθ1, lθ2) [N/m].
 template <typename S>
 struct CoreTangent {
   S ss, sr, s1, s2, rr, r1, r2, t11, t12, t22;
+};
+
+/// Energy and its derivatives in the coordinates (stretch, rise, lθ1, lθ2): the core of a residual and a tangent.
+template <typename S>
+struct CoreResponse {
+  S energy;          ///< [J]
+  S s, r, t1, t2;    ///< [N]
+  CoreTangent<S> k;  ///< [N/m]
 };
 
 /// Residual from its core: ∂V/∂(stretch, rise, lθ1, lθ2) [N].
@@ -109,7 +123,40 @@ inline void expand(const ElementProperties<S>& p, const CoreTangent<S>& c, Matri
       -s2, -r2, ll * c.t12, s2, r2, ll * c.t22;
 }
 
+/// The contract above for an element that knows its core,
+///   E::respond(p, d) -> CoreResponse<S>,
+/// from which it inherits with itself as E.
+template <class E>
+struct ElementFromCore {
+  template <typename S>
+  static S energy(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
+    return E::respond(p, d).energy;
+  }
+  template <typename S>
+  static void residual(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r) noexcept {
+    const CoreResponse<S> c = E::respond(p, d);
+    expand(p, c.s, c.r, c.t1, c.t2, r);
+  }
+  template <typename S>
+  static S tangent(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r,
+                   Matrix6<S>& K) noexcept {
+    const CoreResponse<S> c = E::respond(p, d);
+    expand(p, c.s, c.r, c.t1, c.t2, r);
+    expand(p, c.k, K);
+    return c.energy;
+  }
+};
+
+template <class E, typename = void>
+struct AnyRotation : std::false_type {};
+template <class E>
+struct AnyRotation<E, std::void_t<decltype(E::any_rotation)>> : std::bool_constant<E::any_rotation> {};
+
 }  // namespace detail
+
+/// True where E says that it is right at any rotation.
+template <class E>
+inline constexpr bool any_rotation = detail::AnyRotation<E>::value;
 
 /// True where E fulfils the contract above for scalar S, every noexcept included.
 template <typename E, typename S>

@@ -1,9 +1,10 @@
 // The linear Euler–Bernoulli element: bending and stretching without their coupling.
 //
-//   V = EA/(2l) (u2-u1)² + EI/(2l³) (4a² + 4ab + 4b²),   a = lθ1 + w2 - w1,  b = lθ2 + w2 - w1
+//   V = EA/(2l) (u2-u1)² + EI/(2l³) (4a² + 4ab + 4b²),   a = lθ1 + w2 - w1 - a0,  b = lθ2 + w2 - w1 - b0
 //
 // The bending energy is that of the cubic Hermite interpolation, integrated in closed form, and written in
-// end slopes against the chord: what a large rigid motion would cancel is subtracted first.
+// end slopes against the chord: what a large rigid motion would cancel is subtracted first.  a0 and b0 are those of
+// the element's natural shape, zero for a straight beam.
 // Source: thesis eq. 3.16–3.31 without the product of slopes.
 #pragma once
 
@@ -11,31 +12,43 @@
 
 namespace hapbeam {
 
-struct Linear {
+namespace detail {
+
+/// Adds bending to what an element's membrane answers.
+template <typename S>
+inline void add_bending(const ElementProperties<S>& p, const Deformation<S>& e,
+                        CoreResponse<S>& core) noexcept {
+  const S k = p.bending_per_length3, a = e.a - p.natural_a, b = e.b - p.natural_b;
+  const S m1 = k * (4 * a + 2 * b), m2 = k * (2 * a + 4 * b);
+  core.energy += 2 * k * (a * a + a * b + b * b);
+  core.r += m1 + m2;
+  core.t1 += m1;
+  core.t2 += m2;
+  core.k.rr += 12 * k;
+  core.k.r1 += 6 * k;
+  core.k.r2 += 6 * k;
+  core.k.t11 += 4 * k;
+  core.k.t12 += 2 * k;
+  core.k.t22 += 4 * k;
+}
+
+}  // namespace detail
+
+struct Linear : detail::ElementFromCore<Linear> {
   static constexpr const char* name() noexcept { return "linear"; }
 
   template <typename S>
-  static S energy(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
-    const detail::Deformation<S> e(p, d);
-    return p.axial_per_length * e.stretch * e.stretch / 2 +
-           2 * p.bending_per_length3 * (e.a * e.a + e.a * e.b + e.b * e.b);
+  static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                         const detail::Deformation<S>& e) noexcept {
+    const S normal = p.axial_per_length * e.stretch;
+    detail::CoreResponse<S> core{
+        normal * e.stretch / 2, normal, 0, 0, 0, {p.axial_per_length, 0, 0, 0, 0, 0, 0, 0, 0, 0}};
+    detail::add_bending(p, e, core);
+    return core;
   }
-
   template <typename S>
-  static void residual(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r) noexcept {
-    const detail::Deformation<S> e(p, d);
-    const S m1 = p.bending_per_length3 * (4 * e.a + 2 * e.b),
-            m2 = p.bending_per_length3 * (2 * e.a + 4 * e.b);
-    detail::expand(p, p.axial_per_length * e.stretch, m1 + m2, m1, m2, r);
-  }
-
-  template <typename S>
-  static S tangent(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r,
-                   Matrix6<S>& K) noexcept {
-    residual(p, d, r);
-    const S k = p.bending_per_length3;
-    detail::expand(p, {p.axial_per_length, 0, 0, 0, 12 * k, 6 * k, 6 * k, 4 * k, 2 * k, 4 * k}, K);
-    return energy(p, d);
+  static detail::CoreResponse<S> respond(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
+    return respond(p, detail::Deformation<S>(p, d));
   }
 };
 

@@ -15,28 +15,22 @@ namespace hapbeam {
 
 namespace detail {
 
-/// Energy, first and second derivatives of the membrane part in (stretch, rise, lθ1, lθ2).
+/// Sum of two Gauss points.
 template <typename S>
-struct MembraneResponse {
-  S energy;          ///< [J]
-  S s, r, t1, t2;    ///< [N]
-  CoreTangent<S> k;  ///< [N/m]
-
-  friend MembraneResponse operator+(const MembraneResponse& a, const MembraneResponse& b) noexcept {
-    return {a.energy + b.energy,
-            a.s + b.s,
-            a.r + b.r,
-            a.t1 + b.t1,
-            a.t2 + b.t2,
-            {a.k.ss + b.k.ss, a.k.sr + b.k.sr, a.k.s1 + b.k.s1, a.k.s2 + b.k.s2, a.k.rr + b.k.rr,
-             a.k.r1 + b.k.r1, a.k.r2 + b.k.r2, a.k.t11 + b.k.t11, a.k.t12 + b.k.t12, a.k.t22 + b.k.t22}};
-  }
-};
+CoreResponse<S> sum(const CoreResponse<S>& a, const CoreResponse<S>& b) noexcept {
+  return {a.energy + b.energy,
+          a.s + b.s,
+          a.r + b.r,
+          a.t1 + b.t1,
+          a.t2 + b.t2,
+          {a.k.ss + b.k.ss, a.k.sr + b.k.sr, a.k.s1 + b.k.s1, a.k.s2 + b.k.s2, a.k.rr + b.k.rr,
+           a.k.r1 + b.k.r1, a.k.r2 + b.k.r2, a.k.t11 + b.k.t11, a.k.t12 + b.k.t12, a.k.t22 + b.k.t22}};
+}
 
 /// One Gauss point's part of ½ EA l ω ε².  @param t in [0, 1]   @param weight ω, all sum to 1
 template <typename S>
-inline MembraneResponse<S> at_gauss_point(const ElementProperties<S>& p, const Deformation<S>& e, S t,
-                                          S weight) noexcept {
+inline CoreResponse<S> at_gauss_point(const ElementProperties<S>& p, const Deformation<S>& e, S t,
+                                      S weight) noexcept {
   // l w' = rise + a g1 + b g2: the Hermite cubic about its chord.  f, g1, g2: its derivatives by rise, lθ1, lθ2.
   const S g1 = (t - 1) * (1 - 3 * t), g2 = t * (2 - 3 * t), f = 1 + g1 + g2;
   const S slope = (e.rise + e.a * g1 + e.b * g2) * p.inverse_length;
@@ -59,10 +53,10 @@ inline MembraneResponse<S> at_gauss_point(const ElementProperties<S>& p, const D
 struct FullIntegration {
   static constexpr const char* name() noexcept { return "full"; }
   template <typename S>
-  static detail::MembraneResponse<S> respond(const ElementProperties<S>& p,
-                                             const detail::Deformation<S>& e) noexcept {
-    return detail::at_gauss_point(p, e, S(0.21132486540518711775), S(0.5)) +
-           detail::at_gauss_point(p, e, S(0.78867513459481288225), S(0.5));
+  static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                         const detail::Deformation<S>& e) noexcept {
+    return detail::sum(detail::at_gauss_point(p, e, S(0.21132486540518711775), S(0.5)),
+                       detail::at_gauss_point(p, e, S(0.78867513459481288225), S(0.5)));
   }
 };
 
@@ -70,8 +64,8 @@ struct FullIntegration {
 struct ReducedIntegration {
   static constexpr const char* name() noexcept { return "reduced"; }
   template <typename S>
-  static detail::MembraneResponse<S> respond(const ElementProperties<S>& p,
-                                             const detail::Deformation<S>& e) noexcept {
+  static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                         const detail::Deformation<S>& e) noexcept {
     return detail::at_gauss_point(p, e, S(0.5), S(1));
   }
 };
@@ -80,8 +74,8 @@ struct ReducedIntegration {
 struct AssumedStrain {
   static constexpr const char* name() noexcept { return "assumed-strain"; }
   template <typename S>
-  static detail::MembraneResponse<S> respond(const ElementProperties<S>& p,
-                                             const detail::Deformation<S>& e) noexcept {
+  static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                         const detail::Deformation<S>& e) noexcept {
     const S i = p.inverse_length;
     // g = ½ ∂(l² mean w'²)/∂(rise, lθ1, lθ2)
     const S g1 = (4 * e.a - e.b) * S(1. / 30), g2 = (4 * e.b - e.a) * S(1. / 30), gr = e.rise + g1 + g2;

@@ -44,10 +44,10 @@ class FemModel {
         shortest_(uniform_.shortest(system_.length())),
         left_yields_(!fixes_w(beam.left())),
         right_yields_(!fixes_w(beam.right())) {
-    system_.set_goal(1, -1, 0);
+    system_.set_goal();
     rest_ = solver_.solve(system_);
     while (rest_.status == Status::iteration_limit && rest_.step < 1) {
-      system_.set_goal(1, -1, 0);
+      system_.set_goal();
       rest_ = solver_.solve(system_, rest_.step);
     }
     report_ = rest_;
@@ -61,24 +61,19 @@ class FemModel {
   /// (δ/L)³ at a free end and (δ/L)² at a guided one.
   /// @return force [N] and ok | out_of_range | invalid_request | iteration_limit | singular | non_finite
   Response<Scalar> press(const Press<Scalar>& request) noexcept {
-    using std::abs;
-    using std::isfinite;
-    const Scalar first_step = report_.step;
-    report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
-    if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 || request.s > system_.length())
-      return {0, Status::invalid_request};
-    if (rest_.status != Status::ok) return {0, rest_.status};
     const Press<Scalar> press = range().nearest(request);
-    const Scalar jump = press.d - shape().at(press.s).w, from_rest = press.d - rest_shape().at(press.s).w;
-    if (abs(from_rest) < abs(jump)) reset();
-    const ContactMesh<Scalar> mesh = uniform_.at(away_from_ends(press.s));
-    system_.remesh(mesh);
-    system_.set_goal(1, mesh.node(), press.d, press.s - mesh.s());
-    report_ = solver_.solve(system_, first_step);
     const bool in_range = press.s == request.s && press.d == request.d;
-    const Status status = report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status;
-    const Scalar force = system_.reaction();
-    return isfinite(force) ? Response<Scalar>{force, status} : Response<Scalar>{0, Status::non_finite};
+    return solve({request.s, press.d, {0, 1}}, press.s, std::isfinite(request.d), in_range);
+  }
+
+  /// Prescribes the displacement along any direction, by a force along it: what an element of any rotation needs where
+  /// it has turned.  At an end that slides along a wall the wall takes what does not act along it.
+  /// @return as press()
+  template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
+  Response<Scalar> push(const Push<Scalar>& request) noexcept {
+    const Scalar s = range().nearest({request.s, 0}).s;
+    const bool finite = std::isfinite(request.d) && request.normal.allFinite();
+    return solve(request, s, finite, s == request.s);
   }
 
   Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
@@ -111,7 +106,30 @@ class FemModel {
   int elements() const noexcept { return system_.elements(); }
 
  private:
-  Centreline<Scalar> rest_shape() const noexcept { return {rest_nodes_.data(), rest_nodes_.size()}; }
+  /// @param s  request.s, or the nearest in range
+  Response<Scalar> solve(const Push<Scalar>& request, Scalar s, bool finite, bool in_range) noexcept {
+    using std::abs;
+    using std::isfinite;
+    const Scalar first_step = report_.step;
+    report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
+    if (!finite || !isfinite(request.s) || request.s < 0 || request.s > system_.length())
+      return {0, Status::invalid_request};
+    if (rest_.status != Status::ok) return {0, rest_.status};
+    const auto along = [&](const Displacement<Scalar>& at) {
+      return request.normal.x() * at.u + request.normal.y() * at.w;
+    };
+    const Scalar jump = request.d - along(shape().at(s)), from_rest = request.d - along(rest_shape().at(s));
+    if (abs(from_rest) < abs(jump)) reset();
+    const ContactMesh<Scalar> mesh = uniform_.at(away_from_ends(s));
+    system_.remesh(mesh);
+    system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal);
+    report_ = solver_.solve(system_, first_step);
+    const Status status = report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status;
+    const Scalar force = system_.reaction();
+    return isfinite(force) ? Response<Scalar>{force, status} : Response<Scalar>{0, Status::non_finite};
+  }
+
+  Centreline<Scalar> rest_shape() const noexcept { return system_.view(rest_nodes_); }
 
   /// Where the node of a contact at s goes: s, or the end beside which an element would be too short for round-off.
   Scalar away_from_ends(Scalar s) const noexcept {

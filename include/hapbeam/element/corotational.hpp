@@ -1,0 +1,65 @@
+// An element that is right at any rotation: a local element in a frame that turns with the chord.
+//
+//   l = |x2 - x1|,  α = angle of the chord (up is positive),  stretch = l - L,  θi' = θi + α
+//
+//   V(d) = V_local(stretch, θ1', θ2')
+//   ∂V/∂Δ = N e + (M/l) z                      Δ = (u2 - u1, w2 - w1),  e = (cos α, sin α),  z = (-sin α, cos α)
+//   ∂²V/∂Δ² = k_ss eeᵀ + (k_sα/l - M/l²)(ezᵀ + zeᵀ) + (k_αα/l² + N/l) zzᵀ
+//
+// with N, M the local normal force and the sum of the local moments, k_sα = k_s1 + k_s2 and so on.  Residual and
+// tangent are the exact derivatives of V, so the tangent is symmetric, and rigid motion, several turns included, does
+// no work.  The order in the element's length is the local element's: with Linear (the textbooks' element) two, with
+// VonKarman<AssumedStrain>, whose strain knows that a bent piece is longer than its chord, four.
+// Right while the two ends of one element turn by less than half a turn against its chord.
+// Source: Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1, ch. 7.3; the tangent is
+// derived anew.
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+
+#include <hapbeam/element/von_karman.hpp>
+
+namespace hapbeam {
+
+/// @tparam Local  Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain>
+template <class Local = VonKarman<AssumedStrain>>
+struct Corotational : detail::ElementFromCore<Corotational<Local>> {
+  static constexpr bool any_rotation = true;
+  static constexpr const char* name() noexcept {
+    if constexpr (std::is_same_v<Local, Linear>) return "corotational-linear";
+    if constexpr (std::is_same_v<Local, VonKarman<FullIntegration>>) return "corotational-full";
+    if constexpr (std::is_same_v<Local, VonKarman<ReducedIntegration>>) return "corotational-reduced";
+    return "corotational";
+  }
+
+  template <typename S>
+  static detail::CoreResponse<S> respond(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
+    using std::atan2;
+    using std::nearbyint;
+    using std::sqrt;
+    const S L = p.length, du = d[3] - d[0], dw = d[4] - d[1], x = L + du;
+    const S l = sqrt(x * x + dw * dw), i = 1 / l, c = x * i, s = dw * i;
+    // l - L without the cancellation; the chord's angle is known up to whole turns, of which the nodes tell.
+    const S stretch = (du * (L + x) + dw * dw) / (l + L);
+    constexpr S turn = S(6.283185307179586476925);
+    S alpha = atan2(dw, x);
+    alpha -= turn * nearbyint((alpha + (d[2] + d[5]) / 2) * (1 / turn));
+
+    const detail::Deformation<S> local(stretch, L * (d[2] + alpha), L * (d[5] + alpha));
+    const detail::CoreResponse<S> q = Local::respond(p, local);
+    // By α: L times the sums over both ends, because the core is in Lθ.
+    const S h = L * i, M = h * (q.t1 + q.t2), a1 = h * (q.k.t11 + q.k.t12), a2 = h * (q.k.t12 + q.k.t22);
+    const S ez = h * (q.k.s1 + q.k.s2) - M * i, zz = h * (a1 + a2) + q.s * i, ss = q.k.ss;
+    return {q.energy,
+            q.s * c - M * s,
+            q.s * s + M * c,
+            q.t1,
+            q.t2,
+            {ss * c * c - 2 * ez * c * s + zz * s * s, (ss - zz) * c * s + ez * (c * c - s * s),
+             q.k.s1 * c - a1 * s, q.k.s2 * c - a2 * s, ss * s * s + 2 * ez * c * s + zz * c * c,
+             q.k.s1 * s + a1 * c, q.k.s2 * s + a2 * c, q.k.t11, q.k.t12, q.k.t22}};
+  }
+};
+
+}  // namespace hapbeam
