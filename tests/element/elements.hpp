@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/random.hpp"
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/von_karman.hpp>
 
@@ -10,6 +11,12 @@ namespace hapbeam::testing {
 using Full = VonKarman<FullIntegration>;
 using Reduced = VonKarman<ReducedIntegration>;
 using Assumed = VonKarman<AssumedStrain>;
+using TurningLinear = Corotational<Linear>;
+using TurningFull = Corotational<Full>;
+using TurningReduced = Corotational<Reduced>;
+using Turning = Corotational<Assumed>;
+
+inline constexpr double pi = 3.14159265358979323846;
 
 /// From a wire to a bar: lengths 1 cm to 1 m, slendernesses l/r 10 to 1000.
 inline ElementProperties<double> random_properties(Random& random) {
@@ -25,6 +32,19 @@ inline Vector6<double> random_state(Random& random, double length) {
   Vector6<double> d;
   d << u, w, random(0.3), u + random(0.05) * length, w + random(0.3) * length, random(0.3);
   return d;
+}
+
+/// The element of a state and all that moves with it, turned about node 1 by phi [rad], clockwise as θ is.
+inline Vector6<double> turned(double phi, const Vector6<double>& d, double length) {
+  const double s = std::sin(phi), x = length + d[3] - d[0], y = d[4] - d[1];
+  // cos - 1 without its cancellation
+  const double less = -2 * std::pow(std::sin(phi / 2), 2);
+  Vector6<double> r = d;
+  r[2] += phi;
+  r[3] += less * x + s * y;
+  r[4] += less * y - s * x;
+  r[5] += phi;
+  return r;
 }
 
 /// Steps that move each degree of freedom as much as the state: energies are polynomials, so differences need

@@ -23,7 +23,7 @@ TEST_CASE("consistent forces do the work of the load on every cubic", "[load]") 
         double across = 0, along = 0;
         for (const PointForce<double>& f : point_forces<double>(beam, elements)) {
           across += f.transverse * power(f.s, k);
-          if (k > 0) across -= f.moment * k / L * power(f.s, k - 1);  // theta = -w'
+          if (k > 0) across += f.transverse_arm * k / L * power(f.s, k - 1);  // works on w'
           if (k < 2) along += f.axial * power(f.s, k);
         }
         const double integral = L / (degree + k + 1);
@@ -33,15 +33,17 @@ TEST_CASE("consistent forces do the work of the load on every cubic", "[load]") 
     }
 }
 
-TEST_CASE("point loads stay as they are and come after those of the mesh", "[load]") {
+TEST_CASE("point loads stay as they are, in order of s", "[load]") {
   Beam beam = thesis_beam(Support::pinned, Support::roller);
   beam.add({0.7, 1, 2, 3}).add({0.0137, 4, 5, 6});
   const auto forces = point_forces<float>(beam, 4);
   REQUIRE(forces.size() == 2);
-  CHECK(forces[0].s == 0.7f);
-  CHECK(forces[0].axial == 1);
-  CHECK(forces[1].transverse == 5);
-  CHECK(forces[1].moment == 6);
+  CHECK(forces[0].s == 0.0137f);
+  CHECK(forces[0].transverse == 5);
+  CHECK(forces[0].moment == 6);
+  CHECK(forces[1].s == 0.7f);
+  CHECK(forces[1].axial == 1);
+  CHECK((forces[1].axial_arm == 0 && forces[1].transverse_arm == 0));
 }
 
 TEST_CASE("a load that is not finite somewhere on the beam is rejected by name", "[load]") {

@@ -9,6 +9,7 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -119,13 +120,15 @@ class BeamSystem {
     Matrix6<Scalar> K;
     Vector6<Scalar> r;
     Scalar energy = 0;
+    std::size_t load = 0;
     for (int e = 0; e < elements(); ++e) {
-      energy += Element::tangent(properties_[e], displacements(e), r, K);
+      const Vector6<Scalar> d = displacements(e);
+      energy += Element::tangent(properties_[e], d, r, K);
+      load = subtract_loads(e, load, d, r, &K);
       if (e == contact_ || e + 1 == contact_) take_contact_frame(e, r, K);
       assembler_.add(e, K, r);
     }
     size_ = sqrt(2 * energy);
-    if (load_ != 0) add_loads();
     prescribe_supports();
     if (contact_ >= 0) assembler_.prescribe(contact_, 1, d_ - contact_displacement());
     const Status status = assembler_.solve();
@@ -147,18 +150,13 @@ class BeamSystem {
     Vector6<Scalar> r;
     Vector2<Scalar> force = Vector2<Scalar>::Zero();
     if (contact_ < elements()) {
-      Element::residual(properties_[contact_], displacements(contact_), r);
+      residual(contact_, r);
       force += r.template head<2>();
     }
     if (contact_ > 0) {
-      Element::residual(properties_[contact_ - 1], displacements(contact_ - 1), r);
+      residual(contact_ - 1, r);
       force += r.template segment<2>(3);
     }
-    if (load_ != 0)
-      for (const PointForce<Scalar>& load : forces_)
-        visit_nodal_forces(load, [&](int node, const Vector3<Scalar>& f) {
-          if (node == contact_) force -= load_ * f.template head<2>();
-        });
     return normal_.dot(force);
   }
 
@@ -267,10 +265,6 @@ class BeamSystem {
     }
   }
 
-  Vector3<Scalar> to_contact_frame(const Vector3<Scalar>& f) const noexcept {
-    const Scalar across = normal_.x() * f[0] + normal_.y() * f[1];
-    return {normal_.y() * f[0] - normal_.x() * f[1], across, f[2] + lever_arm() * across};
-  }
   Vector3<Scalar> from_contact_frame(const Vector3<Scalar>& x) const noexcept {
     return {normal_.y() * x[0] + normal_.x() * x[1], normal_.y() * x[1] - normal_.x() * x[0], x[2]};
   }
@@ -292,21 +286,28 @@ class BeamSystem {
     return d;
   }
 
-  template <class Visitor>
-  void visit_nodal_forces(const PointForce<Scalar>& load, Visitor&& visit) const noexcept {
-    const int e = centreline().segment_at(load.s);
-    const Scalar h = properties_[e].length;
-    const Vector6<Scalar> f = ShapeFunctions<Scalar>((load.s - nodes_[e].s) / h, h)
-                                  .nodal_forces(load.axial, load.transverse, load.moment);
-    visit(e, Vector3<Scalar>(f.template head<3>()));
-    visit(e + 1, Vector3<Scalar>(f.template tail<3>()));
+  /// Residual of one element under its loads.
+  void residual(int e, Vector6<Scalar>& r) const noexcept {
+    const Vector6<Scalar> d = displacements(e);
+    Element::residual(properties_[e], d, r);
+    const auto first = std::partition_point(
+        forces_.begin(), forces_.end(), [&](const PointForce<Scalar>& load) { return load.s < nodes_[e].s; });
+    subtract_loads(e, static_cast<std::size_t>(first - forces_.begin()), d, r, nullptr);
   }
 
-  void add_loads() noexcept {
-    for (const PointForce<Scalar>& load : forces_)
-      visit_nodal_forces(load, [this](int node, const Vector3<Scalar>& f) {
-        assembler_.add_force(node, load_ * (node == contact_ ? to_contact_frame(f) : f));
-      });
+  /// Takes the loads of element e, which begin with the given one, from its residual and, unless null, its tangent.
+  /// @return the first load of the next element
+  std::size_t subtract_loads(int e, std::size_t load, const Vector6<Scalar>& d, Vector6<Scalar>& r,
+                             Matrix6<Scalar>* K) const noexcept {
+    const Scalar begin = nodes_[e].s, end = nodes_[e + 1].s;
+    if (load_ == 0) return load;
+    for (; load < forces_.size() && (forces_[load].s < end || e + 1 == elements()); ++load) {
+      const PointForce<Scalar>& force = forces_[load];
+      const Scalar t = force.s == end ? Scalar(1) : (force.s - begin) / properties_[e].length;
+      if constexpr (any_rotation<Element>) subtract_load(force, t, load_, properties_[e], d, r, K);
+      else subtract_load(force, t, load_, properties_[e], r);
+    }
+    return load;
   }
 
   /// Calls visit(node, component, displacement, where its support holds it).

@@ -1,27 +1,39 @@
 // Dead loads as forces at fixed points, ready for a mesh whose nodes move.
 //
-// A distributed load becomes the consistent nodal forces and moments of the uniform mesh (thesis eq. 3.31), once;
-// point loads stay where they are.  Each is then given to whichever element holds it.  On the uniform mesh that is the
-// consistent load itself; where the mesh has moved it is statically exact and off by O(l⁴) in the deflection.
-// Offline, may allocate and throw; the result is plain data.
+// A distributed load becomes the consistent nodal forces of the uniform mesh (thesis eq. 3.31), once; point loads stay
+// where they are.  Each is then given to whichever element holds it.  On the uniform mesh that is the consistent load
+// itself; where the mesh has moved it is statically exact and off by O(l⁴) in the deflection.
+//
+// What a distributed load gives a node beside a force is its first moment about the node.  The forces stay dead while
+// their arms, which lie along the beam, turn with it:
+//
+//   ∫f u + q w ds = Σ f u + q w + p (cos θ - 1) - q_arm sin θ         for one element and even loads p = ± f l²/12
+//
+// (Euler and Maclaurin's formula: off by O(l⁵) an element.)  Taken for a moment, which works on θ whatever θ is, it
+// leaves second order at large rotation.
+// Building the list is offline, and may allocate and throw; subtracting a load is noexcept and allocation-free.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/element/hermite.hpp>
+#include <hapbeam/fem/contact_mesh.hpp>
 
 namespace hapbeam {
 
-/// A dead force at a point of the beam.
+/// A dead force at a point of the beam, and the moment of what it stands for.
 template <typename Scalar>
 struct PointForce {
-  Scalar s;           ///< [m]
-  Scalar axial;       ///< [N]
-  Scalar transverse;  ///< [N]
-  Scalar moment;      ///< [N·m]
+  Scalar s;               ///< [m]
+  Scalar axial;           ///< [N]
+  Scalar transverse;      ///< [N]
+  Scalar moment;          ///< [N·m] does work on θ
+  Scalar axial_arm;       ///< [N·m] first moment of the axial load about s: does work on cos θ - 1
+  Scalar transverse_arm;  ///< [N·m] the same of the transverse load: does work on -sin θ
 };
 
 namespace detail {
@@ -44,28 +56,103 @@ inline double sample(const DistributedLoad& load, const char* field, double s) {
 template <typename Scalar>
 std::vector<PointForce<Scalar>> point_forces(const Beam& beam, int elements) {
   std::vector<PointForce<Scalar>> forces;
-  const auto push = [&forces](double s, double axial, double transverse, double moment) {
-    forces.push_back({Scalar(s), Scalar(axial), Scalar(transverse), Scalar(moment)});
-  };
   if (beam.transverse() || beam.axial()) {
     const double h = beam.length() / elements;
-    Vector6<double> left = Vector6<double>::Zero();
+    const ContactMesh<Scalar> mesh(elements, static_cast<Scalar>(beam.length()));
+    std::array<double, 4> left{};  // axial, transverse, and their arms
+    const auto push = [&](int node) {
+      forces.push_back(
+          {mesh.position(node), Scalar(left[0]), Scalar(left[1]), 0, Scalar(left[2]), Scalar(left[3])});
+    };
     for (int e = 0; e < elements; ++e) {
-      Vector6<double> f = Vector6<double>::Zero();
+      std::array<double, 4> right{};
       for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
         const double t = detail::gauss_points[k], weight = h * detail::gauss_weights[k];
-        const double axial = detail::sample(beam.axial(), "axial load", (e + t) * h);
-        const double transverse = detail::sample(beam.transverse(), "transverse load", (e + t) * h);
-        f += ShapeFunctions<double>(t, h).nodal_forces(weight * axial, weight * transverse, 0);
+        const double axial = weight * detail::sample(beam.axial(), "axial load", (e + t) * h);
+        const double transverse = weight * detail::sample(beam.transverse(), "transverse load", (e + t) * h);
+        const Vector6<double> f = ShapeFunctions<double>(t, h).nodal_forces(axial, transverse, 0);
+        const double bow = axial * h * t * (1 - t) / 2;  // -u'' h² t(1 - t)/2 is what the linear u leaves out
+        left[0] += f[0], left[1] += f[1], left[2] += bow, left[3] -= f[2];
+        right[0] += f[3], right[1] += f[4], right[2] -= bow, right[3] -= f[5];
       }
-      left.head<3>() += f.head<3>();
-      push(e * h, left[0], left[1], left[2]);
-      left.head<3>() = f.tail<3>();
+      push(e);
+      left = right;
     }
-    push(beam.length(), left[0], left[1], left[2]);
+    push(elements);
   }
-  for (const PointLoad& load : beam.point_loads()) push(load.s, load.axial, load.transverse, load.moment);
+  for (const PointLoad& load : beam.point_loads())
+    forces.push_back(
+        {Scalar(load.s), Scalar(load.axial), Scalar(load.transverse), Scalar(load.moment), 0, 0});
+  std::stable_sort(forces.begin(), forces.end(),
+                   [](const PointForce<Scalar>& a, const PointForce<Scalar>& b) { return a.s < b.s; });
   return forces;
+}
+
+/// Subtracts λ ∂W/∂d from an element's residual, W the work of a load at t = (s - s1)/l in it.  Moderate rotation: W is
+/// linear in d.
+template <typename Scalar>
+void subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
+                   const ElementProperties<Scalar>& p, Vector6<Scalar>& r) noexcept {
+  r -= lambda * ShapeFunctions<Scalar>(t, p.length)
+                    .nodal_forces(load.axial, load.transverse, load.moment - load.transverse_arm);
+}
+
+/// The same at any rotation, and λ ∂²W/∂d² from the tangent K, where it is wanted:
+///
+///   W = f·(t Δ + v z) + φ(θ),   φ = moment θ + axial_arm (cos θ - 1) - transverse_arm sin θ
+///
+/// with Δ, α, z the element's chord, its angle and its normal, v = -l (g1 θ1' + g2 θ2') the cubic's height above it,
+/// θi' = θi + α, and θ = c1 θ1' + c2 θ2' - α the cubic's angle.
+template <typename Scalar>
+void subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
+                   const ElementProperties<Scalar>& p, const Vector6<Scalar>& d, Vector6<Scalar>& r,
+                   Matrix6<Scalar>* K) noexcept {
+  using std::atan2;
+  using std::cos;
+  using std::nearbyint;
+  using std::sin;
+  using std::sqrt;
+  using S = Scalar;
+  const S f = lambda * load.axial, q = lambda * load.transverse, moment = lambda * load.moment,
+          f_arm = lambda * load.axial_arm, q_arm = lambda * load.transverse_arm;
+  const auto couple = [&](S theta) { return moment - f_arm * sin(theta) - q_arm * cos(theta); };  // φ'
+  const auto stiffness = [&](S theta) { return q_arm * sin(theta) - f_arm * cos(theta); };        // φ''
+  if (t == 0 || t == 1) {
+    const int node = t == 0 ? 0 : 3;
+    r[node] -= f;
+    r[node + 1] -= q;
+    r[node + 2] -= couple(d[node + 2]);
+    if (K) (*K)(node + 2, node + 2) -= stiffness(d[node + 2]);
+    return;
+  }
+  const S l = p.length, x = l + d[3] - d[0], y = d[4] - d[1], i = 1 / sqrt(x * x + y * y), c = x * i,
+          s = y * i;
+  constexpr S turn = S(6.283185307179586476925);
+  S alpha = atan2(y, x);
+  alpha -= turn * nearbyint((alpha + (d[2] + d[5]) / 2) * (1 / turn));
+  const S u = 1 - t, g1 = t * u * u, g2 = -t * t * u, c1 = u * (1 - 3 * t), c2 = t * (3 * t - 2),
+          ca = -6 * t * u;
+  const S v = -l * (g1 * (d[2] + alpha) + g2 * (d[5] + alpha)), theta = c1 * d[2] + c2 * d[5] + ca * alpha;
+  const S along = f * c + q * s, across = q * c - f * s, m = couple(theta), k = stiffness(theta), g = g1 + g2;
+  // By α, at fixed Δ, and by lθ1, lθ2, as the element's core has them.
+  const S a = ca * m - l * g * across - v * along, b1 = c1 * m * p.inverse_length - g1 * across,
+          b2 = c2 * m * p.inverse_length - g2 * across;
+  Vector6<S> force;
+  detail::expand(p, t * f - a * i * s, t * q + a * i * c, b1, b2, force);
+  r -= force;
+  r[0] -= f;
+  r[1] -= q;
+  if (!K) return;
+  const S aa = (ca * ca * k + 2 * l * g * along - v * across) * i * i, turned = a * i * i,
+          a1 = (ca * c1 * k * p.inverse_length + g1 * along) * i,
+          a2 = (ca * c2 * k * p.inverse_length + g2 * along) * i,
+          kk = k * p.inverse_length * p.inverse_length;
+  Matrix6<S> H;
+  detail::expand(p,
+                 {aa * s * s + 2 * turned * c * s, -aa * c * s - turned * (c * c - s * s), -a1 * s, -a2 * s,
+                  aa * c * c - 2 * turned * c * s, a1 * c, a2 * c, c1 * c1 * kk, c1 * c2 * kk, c2 * c2 * kk},
+                 H);
+  *K -= H;
 }
 
 }  // namespace hapbeam
