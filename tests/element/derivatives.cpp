@@ -1,5 +1,6 @@
 // Residual and tangent as derivatives of the energy, and what does no work: the laws of every element.
 //
+// Elements of any rotation have files of their own (corotational.cpp); of the others
 // V is a polynomial of degree four in the nodal displacements and the residual one of degree three, so the
 // five-point rule is exact with steps as large as the state and only round-off is left: eps times the largest
 // term over the step, which the membrane of a slender element makes EA/(EI/l²) <= 1e6 times the bending part.
@@ -64,7 +65,7 @@ TEMPLATE_TEST_CASE("the tangent is the gradient of the residual, and symmetric",
 // The state is a float, so that both scalars see the same one; 6 eps bounds the differences of displacements
 // that a float must take, relative to the largest term.
 TEMPLATE_TEST_CASE("in float residual and tangent are those of double to round-off", "[element][float]",
-                   Linear, Full, Reduced, Assumed) {
+                   Linear, Full, Reduced, Assumed, TurningLinear, TurningFull, TurningReduced, Turning) {
   Random random(23);
   double worst = 0;
   for (int trial = 0; trial < 1000; ++trial) {
@@ -92,7 +93,7 @@ TEMPLATE_TEST_CASE("in float residual and tangent are those of double to round-o
 }
 
 TEMPLATE_TEST_CASE("a rigid translation takes exactly no force and no energy", "[element]", Linear, Full,
-                   Reduced, Assumed) {
+                   Reduced, Assumed, TurningLinear, TurningFull, TurningReduced, Turning) {
   Random random(24);
   for (int trial = 0; trial < 100; ++trial) {
     const ElementProperties<double> p = random_properties(random);
