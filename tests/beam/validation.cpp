@@ -80,11 +80,56 @@ TEST_CASE("a point load must lie on the beam", "[beam]") {
   CHECK(rejection([] { hinged().add({0, 0, 1, 0}).add({thesis_length, 0, 1, 0}); }).empty());
 }
 
+TEST_CASE("arcs must follow each other, on the beam, with finite curvatures", "[beam]") {
+  const std::string order = "beyond the arc before it and on the beam", unit = "1/m";
+  for (const double end : {0.0, -1.0, thesis_length * (1 + 1e-9), infinity, not_a_number})
+    check_rejection([=] { hinged().naturally({{end, 0.1}}); }, "arc end", end, "m", order);
+  for (const double end : {0.5, 0.3, -1.0, not_a_number})
+    check_rejection(
+        [=] {
+          hinged().naturally({{0.5, 0.1}, {end, -0.1}, {2, 0.1}});
+        },
+        "arc end", end, "m", order);
+  for (const double bad : {infinity, -infinity, not_a_number})
+    check_rejection(
+        [=] {
+          hinged().naturally({{0.5, 0.1}, {1, bad}});
+        },
+        "arc curvature", bad, unit, "finite");
+  CHECK(rejection([] { hinged().naturally({}); }).empty());
+  CHECK(rejection([] { hinged().naturally({{1, 0.1}, {thesis_length, -3}}); }).empty());
+}
+
+TEST_CASE("ends must be placed at finite places", "[beam]") {
+  for (const double bad : {infinity, -infinity, not_a_number})
+    for (const bool left : {true, false}) {
+      const auto place = [=](const Placement& end) {
+        return [=] { hinged().place(left ? end : Placement{}, left ? Placement{} : end); };
+      };
+      check_rejection(place({bad, 0, 0}), "placement u", bad, "m", "finite");
+      check_rejection(place({0, bad, 0}), "placement w", bad, "m", "finite");
+      check_rejection(place({0, 0, bad}), "placement theta", bad, "rad", "finite");
+    }
+}
+
+TEST_CASE("a beam is straight unless it is naturally bent or held elsewhere", "[beam]") {
+  CHECK(hinged().straight());
+  CHECK(hinged().naturally({}).place({}, {}).straight());
+  CHECK_FALSE(hinged().naturally({{1, 0.1}}).straight());
+  for (const Placement& end : {Placement{1e-3, 0, 0}, {0, -1e-3, 0}, {0, 0, 1e-3}}) {
+    CHECK_FALSE(hinged().place(end, {}).straight());
+    CHECK_FALSE(hinged().place({}, end).straight());
+  }
+}
+
 TEST_CASE("what was rejected leaves the beam as it was", "[beam]") {
   Beam beam = hinged();
   beam.transverse(3);
   CHECK_FALSE(rejection([&] { beam.transverse(not_a_number); }).empty());
   CHECK_FALSE(rejection([&] { beam.add({1, 0, not_a_number, 0}); }).empty());
+  CHECK_FALSE(rejection([&] { beam.naturally({{1, 0.1}, {0.5, 0.1}}); }).empty());
+  CHECK_FALSE(rejection([&] { beam.place({1e-3, 0, 0}, {0, not_a_number, 0}); }).empty());
+  CHECK(beam.straight());
   CHECK(beam.transverse()(0.5) == 3);
   CHECK(beam.point_loads().empty());
 }
