@@ -11,4 +11,11 @@ inline NewtonRaphson tight_solver() {
   return solver;
 }
 
+/// The same with time to get there, for load cases far from rest: what it finds is looked at, not how.
+inline NewtonRaphson patient_solver() {
+  NewtonRaphson solver = tight_solver();
+  solver.max_solves = 1000;
+  return solver;
+}
+
 }  // namespace hapbeam::testing
