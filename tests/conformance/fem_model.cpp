@@ -3,6 +3,7 @@
 
 #include "conformance/force_model_suite.hpp"
 #include "support/thesis_beam.hpp"
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/dense.hpp>
 #include <hapbeam/fem/fem_model.hpp>
@@ -24,6 +25,15 @@ using Fixed = FemModel<VonKarman<>, double, 8>;
 using Bounded = FemModel<VonKarman<>, double, any, 12>;
 using FixedFloat = FemModel<VonKarman<ReducedIntegration>, float, 8>;
 
+using Turning = FemModel<Corotational<>>;
+using TurningLinear = FemModel<Corotational<Linear>>;
+using TurningReduced = FemModel<Corotational<VonKarman<ReducedIntegration>>>;
+using TurningFull = FemModel<Corotational<VonKarman<FullIntegration>>>;
+using TurningFloat = FemModel<Corotational<>, float>;
+using TurningLinearFloat = FemModel<Corotational<Linear>, float>;
+using TurningFixed = FemModel<Corotational<>, double, 8>;
+using TurningBounded = FemModel<Corotational<>, float, any, 12>;
+
 }  // namespace
 
 TEMPLATE_TEST_CASE("FemModel keeps the contract of a ForceModel between hinges", "[contract]", Default, Full,
@@ -31,16 +41,25 @@ TEMPLATE_TEST_CASE("FemModel keeps the contract of a ForceModel between hinges",
   check_force_model([] { return TestType(thesis_beam(Support::pinned, Support::pinned), 8); });
 }
 
-TEST_CASE("FemModel keeps the contract of a ForceModel on other supports", "[contract]") {
+TEMPLATE_TEST_CASE("FemModel of any rotation keeps the contract of a ForceModel between hinges", "[contract]",
+                   Turning, TurningLinear, TurningReduced, TurningFull, TurningFloat, TurningLinearFloat,
+                   TurningFixed, TurningBounded) {
+  static_assert(takes_push<TestType>);
+  check_force_model([] { return TestType(thesis_beam(Support::pinned, Support::pinned), 8); });
+}
+
+TEMPLATE_TEST_CASE("FemModel keeps the contract of a ForceModel on other supports", "[contract]", Default,
+                   Turning) {
   const auto [left, right] = GENERATE(table<Support, Support>({{Support::clamped, Support::clamped},
                                                                {Support::clamped, Support::free},
                                                                {Support::roller, Support::guided},
                                                                {Support::guided, Support::pinned}}));
   const Support one = left, other = right;
-  check_force_model([one, other] { return Default(thesis_beam(one, other), 8); });
+  check_force_model([one, other] { return TestType(thesis_beam(one, other), 8); });
 }
 
 TEST_CASE("FemModel on the dense assembler keeps the contract of a ForceModel", "[contract]") {
   using Reference = FemModel<VonKarman<>, double, any, any, Dense>;
+  static_assert(!takes_push<Reference>);
   check_force_model([] { return Reference(thesis_beam(Support::pinned, Support::pinned), 6); });
 }

@@ -7,6 +7,7 @@
 #include "realtime/counting_element.hpp"
 #include "realtime/requests.hpp"
 #include "support/catch.hpp"
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 using namespace hapbeam;
@@ -30,8 +31,18 @@ struct Work {
 
   template <typename Element>
   void press(Model& model, const Press<typename Model::Scalar>& request, CountingElement<Element>) {
+    count(model, CountingElement<Element>(), [&] { model.press(request); });
+  }
+  template <typename Element>
+  void push(Model& model, const Push<typename Model::Scalar>& request, CountingElement<Element>) {
+    count(model, CountingElement<Element>(), [&] { model.push(request); });
+  }
+
+ private:
+  template <typename Element, typename Call>
+  void count(Model& model, CountingElement<Element>, Call&& call) {
     CountingElement<Element>::tangents = CountingElement<Element>::residuals = 0;
-    model.press(request);
+    call();
     most_solves = std::max(most_solves, model.report().solves);
     most_tangents = std::max(most_tangents, CountingElement<Element>::tangents);
     most_residuals = std::max(most_residuals, CountingElement<Element>::residuals);
@@ -40,10 +51,14 @@ struct Work {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("FemModel: no request takes more linear solves than the solver's limit", "", double,
-                   float) {
-  using Element = CountingElement<VonKarman<>>;
-  using Model = FemModel<Element, TestType>;
+TEMPLATE_TEST_CASE("FemModel: no request takes more linear solves than the solver's limit", "",
+                   (FemModel<CountingElement<VonKarman<>>, double>),
+                   (FemModel<CountingElement<VonKarman<>>, float>),
+                   (FemModel<CountingElement<Corotational<>>, double>),
+                   (FemModel<CountingElement<Corotational<>>, float>)) {
+  using Model = TestType;
+  using Element = typename Model::ElementType;
+  using Scalar = typename Model::Scalar;
   constexpr int elements = 6;
   unsigned seed = 0;
   for (const int limit : {1, 2, 5, 48}) {
@@ -56,6 +71,13 @@ TEMPLATE_TEST_CASE("FemModel: no request takes more linear solves than the solve
       Work<Model> work;
       for (const auto& request : requests(model.range(), model.shape().length(), seed))
         work.press(model, request, Element());
+      if constexpr (takes_push<Model>) {
+        Scalar angle = 0;  // from press to press another direction, all around
+        for (const auto& request : requests(model.range(), model.shape().length(), seed)) {
+          angle += Scalar(0.1);
+          work.push(model, {request.s, request.d, {std::sin(angle), std::cos(angle)}}, Element());
+        }
+      }
       CHECK(work.most_solves <= limit);
       // All that a solve costs: each element once.  And once more for the two at the contact: the reaction.
       CHECK(work.most_tangents <= long(limit) * elements);

@@ -8,6 +8,7 @@ namespace hapbeam::testing {
 template <class Element>
 struct CountingElement {
   static inline long tangents = 0, residuals = 0;
+  static constexpr bool any_rotation = hapbeam::any_rotation<Element>;
   static constexpr const char* name() noexcept { return Element::name(); }
 
   template <typename S>

@@ -5,6 +5,7 @@
 
 #include "realtime/requests.hpp"
 #include "support/catch.hpp"
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
@@ -16,13 +17,17 @@ namespace {
 template <typename S, int Elements = Eigen::Dynamic, int MaxElements = Elements>
 using Default = FemModel<VonKarman<>, S, Elements, MaxElements>;
 
+template <typename S, int Elements = Eigen::Dynamic, int MaxElements = Elements>
+using Turning = FemModel<Corotational<>, S, Elements, MaxElements>;
+
 // Each element in both scalars, and the default one in each kind of storage.
 using Models =
     std::tuple<FemModel<Linear, double>, FemModel<VonKarman<FullIntegration>, double>,
                FemModel<VonKarman<ReducedIntegration>, double>, Default<double>, FemModel<Linear, float>,
                FemModel<VonKarman<FullIntegration>, float>, FemModel<VonKarman<ReducedIntegration>, float>,
                Default<float>, Default<double, 8>, Default<float, 8>, Default<double, Eigen::Dynamic, 32>,
-               Default<float, Eigen::Dynamic, 32>>;
+               Default<float, Eigen::Dynamic, 32>, Turning<double>, Turning<float>, Turning<double, 8>,
+               Turning<float, Eigen::Dynamic, 32>, FemModel<Corotational<Linear>, double>>;
 
 // An exception cannot leave a noexcept function, and one that is caught inside shows on the heap: see guards_fire.cpp.
 template <typename Model>
@@ -31,6 +36,7 @@ constexpr bool is_noexcept() {
   static_assert(is_force_model<Model>);
   static_assert(noexcept(std::declval<Model&>().press(std::declval<const Press<S>&>())));
   static_assert(noexcept(std::declval<Model&>().reset()));
+  static_assert(takes_push<Model> == any_rotation<typename Model::ElementType>);
   static_assert(noexcept(std::declval<const Model&>().shape()));
   static_assert(noexcept(std::declval<const Model&>().range()));
   static_assert(noexcept(std::declval<const Model&>().thickness()));
@@ -48,9 +54,18 @@ constexpr bool all_noexcept(std::tuple<Model...>*) {
 }
 static_assert(all_noexcept(static_cast<Models*>(nullptr)));
 
+/// A direction that turns from press to press, all around; now and then none at all.
+template <typename S>
+Vector2<S> direction(int k) noexcept {
+  if (k % 50 == 49) return Vector2<S>::Constant(std::numeric_limits<S>::quiet_NaN());
+  const S angle = S(0.1) * S(k);
+  return {std::sin(angle), std::cos(angle)};
+}
+
 struct Answers {
   int ok = 0;
   int not_finite = 0;
+  int pushes = 0;
 };
 
 /// Asks the model everything that a servo may ask.
@@ -63,6 +78,10 @@ Answers drive(Model& model, const Path& path) noexcept {
     const Response<S> response = model.press(press);
     answers.ok += response.status == Status::ok;
     answers.not_finite += !std::isfinite(response.force);
+    if constexpr (takes_push<Model>) {
+      const Response<S> pushed = model.push({press.s, press.d, direction<S>(++answers.pushes)});
+      answers.not_finite += !std::isfinite(pushed.force);
+    }
     const Centreline<S> shape = model.shape();
     looked_at += shape.at(press.s).w + shape.segment(shape.segments() / 2)(1, 1) + model.range().depth +
                  model.thickness() + S(model.report().solves) + model.strain_energy();
@@ -97,7 +116,7 @@ TEMPLATE_LIST_TEST_CASE("FemModel: nothing that a servo may call touches the hea
 
 TEMPLATE_TEST_CASE("FemModel of a bounded size: without dead loads it is built without the heap", "",
                    (Default<double, 8>), (Default<float, 8>), (Default<double, Eigen::Dynamic, 32>),
-                   (FemModel<Linear, double, 8>)) {
+                   (FemModel<Linear, double, 8>), (Turning<double, 8>)) {
   const Beam beam = thesis_beam(Support::pinned, Support::pinned);
   CHECK(heap_use([&] {
           TestType model(beam, 8);
