@@ -13,9 +13,12 @@
 //   m.thickness()        Scalar [m]             noexcept; what contact adds on either side of the centreline
 //   m.reset()            void                   noexcept; back to the shape that the beam has untouched
 //
-// A model of large rotation may offer one more, which contact then takes instead of press():
+// A model of large rotation may offer two more, which contact then takes instead of press() and reset():
 //
 //   m.push(p)            Response<Scalar>       of a Push<Scalar>; promises as press()
+//   m.release()          Status                 noexcept, bounded; lets go: the beam falls from its present shape to where
+//                                               it rests, which may be another shape than before (snapped), and may
+//                                               take more than one call (iteration_limit)
 //
 // No allocation, no exception, no dependency but the standard library.
 #pragma once
@@ -36,6 +39,9 @@ enum class Status : std::int8_t {
   /// The request lies outside range(); force and shape belong to the nearest request inside it, or go on from there as
   /// the model says, pushing no less.
   out_of_range = 1,
+  /// The equilibrium on which the beam was has ended or given way: force and shape belong to the stable one to which it
+  /// has jumped.
+  snapped = 2,
   /// s or d is not finite, or s lies off the beam (s < 0 or s > L): force 0, the state is kept.
   invalid_request = -1,
   /// The iteration budget ended with the estimated next increment above the tolerance.  In press(): force and
@@ -55,6 +61,7 @@ constexpr const char* name(Status status) noexcept {
   switch (status) {
     case Status::ok: return "ok";
     case Status::out_of_range: return "out_of_range";
+    case Status::snapped: return "snapped";
     case Status::invalid_request: return "invalid_request";
     case Status::iteration_limit: return "iteration_limit";
     case Status::singular: return "singular";
@@ -136,9 +143,10 @@ template <typename M, typename = void>
 struct TakesPush : std::false_type {};
 template <typename M>
 struct TakesPush<
-    M, std::void_t<decltype(std::declval<M&>().push(std::declval<const Push<typename M::Scalar>&>()))>>
-    : std::bool_constant<noexcept(std::declval<M&>().push(std::declval<const Push<typename M::Scalar>&>()))> {
-};
+    M, std::void_t<decltype(std::declval<M&>().release()),
+                   decltype(std::declval<M&>().push(std::declval<const Push<typename M::Scalar>&>()))>>
+    : std::bool_constant<noexcept(std::declval<M&>().release())&& noexcept(
+          std::declval<M&>().push(std::declval<const Push<typename M::Scalar>&>()))> {};
 
 }  // namespace detail
 

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include <hapbeam/centreline.hpp>
 #include <hapbeam/element/von_karman.hpp>
 
 namespace hapbeam {
@@ -35,19 +36,9 @@ struct Corotational : detail::ElementFromCore<Corotational<Local>> {
 
   template <typename S>
   static detail::CoreResponse<S> respond(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
-    using std::atan2;
-    using std::nearbyint;
-    using std::sqrt;
-    const S L = p.length, du = d[3] - d[0], dw = d[4] - d[1], x = L + du;
-    const S l = sqrt(x * x + dw * dw), i = 1 / l, c = x * i, s = dw * i;
-    // l - L without the cancellation; the chord's angle is known up to whole turns, of which the nodes tell.
-    const S stretch = (du * (L + x) + dw * dw) / (l + L);
-    constexpr S turn = S(6.283185307179586476925);
-    S alpha = atan2(dw, x);
-    alpha -= turn * nearbyint((alpha + (d[2] + d[5]) / 2) * (1 / turn));
-
-    const detail::Deformation<S> local(stretch, L * (d[2] + alpha), L * (d[5] + alpha));
-    const detail::CoreResponse<S> q = Local::respond(p, local);
+    const Chord<S> chord(p, d);
+    const S L = p.length, i = 1 / chord.length, c = chord.x * i, s = chord.w * i;
+    const detail::CoreResponse<S> q = Local::respond(p, chord.local(p, d));
     // By α: L times the sums over both ends, because the core is in Lθ.
     const S h = L * i, M = h * (q.t1 + q.t2), a1 = h * (q.k.t11 + q.k.t12), a2 = h * (q.k.t12 + q.k.t22);
     const S ez = h * (q.k.s1 + q.k.s2) - M * i, zz = h * (a1 + a2) + q.s * i, ss = q.k.ss;
@@ -60,6 +51,54 @@ struct Corotational : detail::ElementFromCore<Corotational<Local>> {
              q.k.s1 * c - a1 * s, q.k.s2 * c - a2 * s, ss * s * s + 2 * ez * c * s + zz * c * c,
              q.k.s1 * s + a1 * c, q.k.s2 * s + a2 * c, q.k.t11, q.k.t12, q.k.t22}};
   }
+
+  /// The chord, x2 - x1 [m], after an increment of the displacements that may be large.  It turns by the angle that the
+  /// increment means, and is as long as it takes for the normal force to be the one that the tangent foresees.  Added as
+  /// they are, displacements of a turning chord would stretch it, and a slender beam answers that with forces that have
+  /// nothing to do with the load.
+  /// @param x  increment of d
+  template <typename S>
+  static Vector2<S> chord_after(const ElementProperties<S>& p, const Vector6<S>& d,
+                                const Vector6<S>& x) noexcept {
+    using std::cos;
+    using std::sin;
+    const Chord<S> chord(p, d);
+    const S L = p.length, i = 1 / chord.length, dx = x[3] - x[0], dw = x[4] - x[1];
+    const S grows = (chord.x * dx + chord.w * dw) * i, turns = (chord.x * dw - chord.w * dx) * i * i;
+    const detail::Deformation<S> before = chord.local(p, d);
+    const S da = L * (x[2] + turns), db = L * (x[5] + turns);
+    const detail::CoreResponse<S> q = Local::respond(p, before);
+    const S foreseen = q.s + q.k.ss * grows + q.k.s1 * da + q.k.s2 * db;
+    const detail::Deformation<S> after(before.stretch + grows, before.a + da, before.b + db);
+    const S length = chord.length + grows + (foreseen - Local::respond(p, after).s) / q.k.ss;
+    return {length * cos(chord.angle + turns), length * sin(chord.angle + turns)};
+  }
+
+ private:
+  template <typename S>
+  struct Chord {
+    S x, w;     // [m]
+    S length;   // [m]
+    S stretch;  // length - L, without the cancellation [m]
+    S angle;    // [rad] up is positive, in the turn in which the nodes are
+
+    Chord(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
+      using std::atan2;
+      using std::nearbyint;
+      using std::sqrt;
+      const S u = d[3] - d[0];
+      x = p.length + u;
+      w = d[4] - d[1];
+      length = sqrt(x * x + w * w);
+      stretch = (u * (p.length + x) + w * w) / (length + p.length);
+      constexpr S turn = S(6.283185307179586476925);
+      angle = atan2(w, x);
+      angle -= turn * nearbyint((angle + (d[2] + d[5]) / 2) * (1 / turn));
+    }
+    detail::Deformation<S> local(const ElementProperties<S>& p, const Vector6<S>& d) const noexcept {
+      return {stretch, p.length * (d[2] + angle), p.length * (d[5] + angle)};
+    }
+  };
 };
 
 }  // namespace hapbeam

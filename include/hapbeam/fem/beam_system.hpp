@@ -16,10 +16,13 @@
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/fem/block_tridiagonal.hpp>
+#include <hapbeam/fem/chain.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/contact_point.hpp>
 #include <hapbeam/fem/loads.hpp>
 #include <hapbeam/fem/natural_shape.hpp>
 #include <hapbeam/fem/newton_raphson.hpp>
+#include <hapbeam/fem/supports.hpp>
 
 namespace hapbeam {
 
@@ -47,9 +50,12 @@ class BeamSystem {
         mesh_(elements, length_),
         axial_stiffness_(static_cast<Scalar>(beam.axial_stiffness())),
         bending_stiffness_(static_cast<Scalar>(beam.bending_stiffness())),
-        ends_{End(beam.left(), beam.left_place()), End(beam.right(), beam.right_place())},
+        ends_{detail::EndSupport<Scalar>(beam.left(), beam.left_place()),
+              detail::EndSupport<Scalar>(beam.right(), beam.right_place())},
         unit_(std::sqrt(bending_stiffness_ / length_)) {
-    take_natural_shape();
+    lay(natural_, ends_[0], ends_[1], mesh_, nodes_);
+    const Scalar slack = ends_[0].goal[0] - ends_[1].goal[0];
+    if (natural_.straight() && slack > 0 && ends_[0].held[0] && ends_[1].held[0]) bow(slack, nodes_);
     take(mesh_);
   }
 
@@ -78,18 +84,15 @@ class BeamSystem {
 
   /// Where the path ends: all of the dead loads, the ends where they are placed, and no contact.
   void set_goal() noexcept {
-    contact_ = -1;
-    lever_ = 0;
+    contact_ = {};
     begin_path();
   }
   /// The same with a contact: d = n · (u, w) at its node or, beside an end that yields, at a distance on a straight tip.
   /// @param contact node   @param d [m]   @param lever [m] from the node to the contact, along the beam
   /// @param normal n, a unit vector; other than (0, 1) where the element is right at any rotation
   void set_goal(int contact, Scalar d, Scalar lever = 0, const Vector2<Scalar>& normal = {0, 1}) noexcept {
-    contact_ = contact;
-    lever_ = lever;
-    normal_ = normal;
-    start_d_ = contact_displacement();
+    contact_ = {contact, lever, normal};
+    start_d_ = contact_.displacement(nodes_[contact]);
     goal_d_ = d;
     begin_path();
   }
@@ -100,8 +103,7 @@ class BeamSystem {
     const auto between = [t](Scalar start, Scalar goal) { return t < 1 ? start + t * (goal - start) : goal; };
     load_ = between(start_load_, 1);
     d_ = between(start_d_, goal_d_);
-    for (End& end : ends_)
-      for (int k = 0; k < 3; ++k) end.target[k] = between(end.start[k], end.goal[k]);
+    for (auto& end : ends_) end.set_target(t);
   }
   void save() noexcept {
     for (int i = 0; i < nodes_.size(); ++i) saved_[i] = nodes_[i];
@@ -115,49 +117,97 @@ class BeamSystem {
   Scalar unit() const noexcept { return unit_; }
 
   Iteration<Scalar> iterate() noexcept {
-    using std::abs;
-    using std::sqrt;
+    const Status status = factor(0);
+    if (status != Status::ok) return {status, 0};
+    advance();
+    return {status, increment()};
+  }
+
+  // What Descent asks beyond that: the two halves of an iteration.
+
+  /// Assembles and solves for an increment, and leaves the state as it is.
+  /// @param shift  what is added to the tangent: so many times EI/L³ on each displacement and EI/L on each rotation,
+  ///               shared out over the nodes   @return ok | singular | non_finite
+  Status factor(Scalar shift) noexcept {
     Matrix6<Scalar> K;
     Vector6<Scalar> r;
-    Scalar energy = 0;
+    Scalar energy = 0, work = 0;
     std::size_t load = 0;
     for (int e = 0; e < elements(); ++e) {
       const Vector6<Scalar> d = displacements(e);
       energy += Element::tangent(properties_[e], d, r, K);
-      load = subtract_loads(e, load, d, r, &K);
-      if (e == contact_ || e + 1 == contact_) take_contact_frame(e, r, K);
+      load = subtract_loads(e, load, d, work, r, &K);
+      if (contact_.holds(e)) contact_.transform(nodes_[e], true, r, K);
+      if (contact_.holds(e + 1)) contact_.transform(nodes_[e + 1], false, r, K);
       assembler_.add(e, K, r);
     }
-    size_ = sqrt(2 * energy);
-    prescribe_supports();
-    if (contact_ >= 0) assembler_.prescribe(contact_, 1, d_ - contact_displacement());
-    const Status status = assembler_.solve();
-    if (status != Status::ok) return {status, 0};
-    for (int i = 0; i < nodes_.size(); ++i) {
-      const Vector3<Scalar> x =
-          i == contact_ ? from_contact_frame(assembler_.increment(i)) : assembler_.increment(i);
-      nodes_[i].u += x[0];
-      nodes_[i].w += x[1];
-      nodes_[i].theta += x[2];
+    size_ = std::sqrt(2 * energy);
+    potential_ = energy - work;
+    if (shift != 0) add_shift(shift);
+    for (const std::size_t k : {0, 1})
+      ends_[k].visit(nodes_[end(k)], [&](int component, Scalar now, Scalar target) {
+        assembler_.prescribe(end(k), component, target - now);
+      });
+    const int c = contact_.node();
+    if (c >= 0) assembler_.prescribe(c, 1, d_ - contact_.displacement(nodes_[c]));
+    return assembler_.solve();
+  }
+  /// Adds the increment to the state.
+  void advance() noexcept {
+    const auto change = [this](int i) -> Vector3<Scalar> {
+      return contact_.holds(i) ? contact_.back(assembler_.increment(i)) : assembler_.increment(i);
+    };
+    if (any_rotation<Element> && contact_.node() < 0) {
+      if constexpr (any_rotation<Element>) detail::lay_chain<Element, Scalar>(nodes_, properties_, change);
+      detail::close_chain(nodes_, ends_[0], ends_[1]);
+    } else {
+      for (int i = 0; i < nodes_.size(); ++i) {
+        const Vector3<Scalar> x = change(i);
+        nodes_[i].u += x[0];
+        nodes_[i].w += x[1];
+        nodes_[i].theta += x[2];
+      }
     }
-    place_supports();
-    if (contact_ >= 0) correct_contact();
-    return {status, sqrt(abs(assembler_.energy()))};
+    for (const std::size_t k : {0, 1})
+      ends_[k].visit(nodes_[end(k)], [](int, Scalar& now, Scalar target) { now = target; });
+    if (contact_.node() >= 0) contact_.correct(nodes_[contact_.node()], d_);
+  }
+  /// Size of the last increment in the norm of the tangent [√J].
+  Scalar increment() const noexcept { return std::sqrt(std::abs(assembler_.energy())); }
+  /// V - λ f · x before the last increment was added [J].
+  Scalar potential() const noexcept { return potential_; }
+  /// How many directions there are along which the tangent of the last increment is not stiff but gives way.
+  int negative_pivots() const noexcept { return assembler_.negative_pivots(); }
+  /// Moves the nodes across the beam, most in the middle and a little more on its right, but not the contact.
+  /// @param size  [m], up where positive
+  void nudge(Scalar size) noexcept {
+    const Scalar c = contact_.node() < 0 ? 0 : nodes_[contact_.node()].s / length_;
+    for (Node& node : nodes_) {
+      using std::cos;
+      using std::sin;
+      const Scalar t = node.s / length_, r = 1 - t;
+      // Zero with its slope at both ends, and at the contact.
+      const Scalar bump =
+          16 * size * t * t * r * r * (contact_.node() < 0 ? (3 + t) / Scalar(3.5) : 4 * (t - c));
+      node.u += bump * sin(node.theta);
+      node.w += bump * cos(node.theta);
+    }
   }
 
   /// Force along n that holds the contact at d, thesis eq. 3.42 [N].
   Scalar reaction() const noexcept {
+    const int c = contact_.node();
     Vector6<Scalar> r;
     Vector2<Scalar> force = Vector2<Scalar>::Zero();
-    if (contact_ < elements()) {
-      residual(contact_, r);
+    if (c < elements()) {
+      residual(c, r);
       force += r.template head<2>();
     }
-    if (contact_ > 0) {
-      residual(contact_ - 1, r);
+    if (c > 0) {
+      residual(c - 1, r);
       force += r.template segment<2>(3);
     }
-    return normal_.dot(force);
+    return contact_.normal().dot(force);
   }
 
   /// Strain energy [J].
@@ -168,105 +218,11 @@ class BeamSystem {
   }
 
  private:
-  /// How an end is held: which of its displacements, and where.
-  struct End {
-    End(Support support, const Placement& place) noexcept
-        : held{fixes_u(support), fixes_w(support), fixes_theta(support)},
-          goal{static_cast<Scalar>(place.u), static_cast<Scalar>(place.w), static_cast<Scalar>(place.theta)} {
-    }
-    bool held[3];
-    Scalar goal[3];
-    Scalar start[3] = {0, 0, 0}, target[3] = {0, 0, 0};
-  };
+  int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
 
   void begin_path() noexcept {
     start_load_ = load_;
-    const auto begin = [](End& end, const Node& node) {
-      end.start[0] = node.u, end.start[1] = node.w, end.start[2] = node.theta;
-    };
-    begin(ends_[0], nodes_[0]);
-    begin(ends_[1], nodes_[elements()]);
-  }
-
-  /// The natural shape, from the left end's place, turned toward the right end's place unless the left end is clamped.
-  void take_natural_shape() noexcept {
-    using std::atan2;
-    using std::cos;
-    using std::sin;
-    const Scalar *from = ends_[0].goal, *to = ends_[1].goal;
-    const Displacement<Scalar> end = natural_.at(length_);
-    Scalar turn = from[2];
-    if (!ends_[0].held[2] && ends_[1].held[1])
-      turn = atan2(end.w, length_ + end.u) - atan2(to[1] - from[1], length_ + to[0] - from[0]);
-    else if (!ends_[0].held[2]) turn = to[2] - end.theta;
-    const Scalar c = cos(turn), s = sin(turn);
-    for (int i = 0; i < nodes_.size(); ++i) {
-      const Scalar position = mesh_.position(i);
-      const Displacement<Scalar> at = natural_.at(position);
-      const Scalar x = position + at.u;
-      nodes_[i] = {position, from[0] + c * x + s * at.w - position, from[1] - s * x + c * at.w,
-                   at.theta + turn};
-    }
-  }
-
-  /// n · (u, w) at the contact.  Along a straight tip w is -lever θ beyond its node, or -lever sin θ at any rotation.
-  Scalar contact_displacement() const noexcept {
-    const Node& node = nodes_[contact_];
-    const Scalar at_node = normal_.x() * node.u + normal_.y() * node.w;
-    if (lever_ == 0) return at_node;
-    if constexpr (any_rotation<Element>) {
-      using std::cos;
-      using std::sin;
-      return at_node + lever_ * (normal_.x() * (cos(node.theta) - 1) - normal_.y() * sin(node.theta));
-    }
-    return at_node - lever_ * node.theta;
-  }
-
-  /// ∂(n · (u, w))/∂θ at the contact, the sign turned [m].
-  Scalar lever_arm() const noexcept {
-    if constexpr (any_rotation<Element>) {
-      using std::cos;
-      using std::sin;
-      const Scalar theta = nodes_[contact_].theta;
-      return lever_ == 0 ? Scalar(0) : lever_ * (normal_.x() * sin(theta) + normal_.y() * cos(theta));
-    }
-    return lever_;
-  }
-
-  /// Puts the contact exactly where it belongs.
-  void correct_contact() noexcept {
-    const Scalar miss = d_ - contact_displacement();
-    nodes_[contact_].u += normal_.x() * miss;
-    nodes_[contact_].w += normal_.y() * miss;
-  }
-
-  /// The contact's unknowns become the displacement along the surface, that along n and θ:  with n = (0, 1) u and
-  /// w - arm θ.  What pairs with θ takes the arm times what pairs with n.
-  void take_contact_frame(int e, Vector6<Scalar>& r, Matrix6<Scalar>& K) noexcept {
-    const int u = e == contact_ ? 0 : 3, w = u + 1, theta = u + 2;
-    if (any_rotation<Element> && normal_.x() != 0) {
-      const Scalar c = normal_.y(), s = normal_.x();
-      const auto turn = [c, s](auto&& along, auto&& across) {
-        const auto before = along.eval();
-        along = c * before - s * across;
-        across = s * before + c * across;
-      };
-      const Scalar ru = r[u];
-      r[u] = c * ru - s * r[w];
-      r[w] = s * ru + c * r[w];
-      turn(K.col(u), K.col(w));
-      turn(K.row(u), K.row(w));
-    }
-    if (lever_ != 0) {
-      const Scalar arm = lever_arm();
-      r[theta] += arm * r[w];
-      K.col(theta) += arm * K.col(w);
-      K.row(theta) += arm * K.row(w);
-    }
-  }
-
-  Vector3<Scalar> from_contact_frame(const Vector3<Scalar>& x) const noexcept {
-    return {normal_.y() * x[0] + normal_.x() * x[1], normal_.y() * x[1] - normal_.x() * x[0], x[2]};
+    for (const std::size_t k : {0, 1}) ends_[k].begin(nodes_[end(k)]);
   }
 
   void take(const ContactMesh<Scalar>& mesh) noexcept {
@@ -295,39 +251,39 @@ class BeamSystem {
     subtract_loads(e, static_cast<std::size_t>(first - forces_.begin()), d, r, nullptr);
   }
 
-  /// Takes the loads of element e, which begin with the given one, from its residual and, unless null, its tangent.
-  /// @return the first load of the next element
-  std::size_t subtract_loads(int e, std::size_t load, const Vector6<Scalar>& d, Vector6<Scalar>& r,
-                             Matrix6<Scalar>* K) const noexcept {
+  /// Residual of one element under its loads.
+  void residual(int e, Vector6<Scalar>& r) const noexcept {
+    const Vector6<Scalar> d = displacements(e);
+    Element::residual(properties_[e], d, r);
+    const auto first = std::partition_point(
+        forces_.begin(), forces_.end(), [&](const PointForce<Scalar>& load) { return load.s < nodes_[e].s; });
+    Scalar work = 0;
+    subtract_loads(e, static_cast<std::size_t>(first - forces_.begin()), d, work, r, nullptr);
+  }
+
+  /// Takes the loads of element e, which begin with the given one, from its residual and, unless null, its tangent, and
+  /// adds their work.  @return the first load of the next element
+  std::size_t subtract_loads(int e, std::size_t load, const Vector6<Scalar>& d, Scalar& work,
+                             Vector6<Scalar>& r, Matrix6<Scalar>* K) const noexcept {
     const Scalar begin = nodes_[e].s, end = nodes_[e + 1].s;
     if (load_ == 0) return load;
     for (; load < forces_.size() && (forces_[load].s < end || e + 1 == elements()); ++load) {
       const PointForce<Scalar>& force = forces_[load];
       const Scalar t = force.s == end ? Scalar(1) : (force.s - begin) / properties_[e].length;
-      if constexpr (any_rotation<Element>) subtract_load(force, t, load_, properties_[e], d, r, K);
-      else subtract_load(force, t, load_, properties_[e], r);
+      if constexpr (any_rotation<Element>) work += subtract_load(force, t, load_, properties_[e], d, r, K);
+      else work += subtract_load(force, t, load_, properties_[e], d, r);
     }
     return load;
   }
 
-  /// Calls visit(node, component, displacement, where its support holds it).
-  template <class Visitor>
-  void visit_supports(Visitor&& visit) noexcept {
-    for (std::size_t k = 0; k < 2; ++k) {
-      const int i = k == 0 ? 0 : elements();
-      Node& node = nodes_[i];
-      Scalar* const displacement[3] = {&node.u, &node.w, &node.theta};
-      for (int j = 0; j < 3; ++j)
-        if (ends_[k].held[j]) visit(i, j, *displacement[j], ends_[k].target[j]);
+  void add_shift(Scalar shift) noexcept {
+    const Scalar across = shift * unit_ * unit_ / (length_ * length_), about = shift * unit_ * unit_;
+    for (int e = 0; e < elements(); ++e) {
+      const Scalar share = properties_[e].length / (2 * length_);
+      const Vector3<Scalar> diagonal(share * across, share * across, share * about);
+      assembler_.add_diagonal(e, diagonal);
+      assembler_.add_diagonal(e + 1, diagonal);
     }
-  }
-  void prescribe_supports() noexcept {
-    visit_supports([this](int node, int component, const Scalar& now, Scalar target) {
-      assembler_.prescribe(node, component, target - now);
-    });
-  }
-  void place_supports() noexcept {
-    visit_supports([](int, int, Scalar& now, Scalar target) { now = target; });
   }
 
   Nodes nodes_, saved_;
@@ -338,13 +294,11 @@ class BeamSystem {
   Scalar length_;
   ContactMesh<Scalar> mesh_;
   Scalar axial_stiffness_, bending_stiffness_;
-  std::array<End, 2> ends_;
-  int contact_ = -1;
-  Scalar lever_ = 0;
-  Vector2<Scalar> normal_{0, 1};
+  std::array<detail::EndSupport<Scalar>, 2> ends_;
+  detail::ContactPoint<Scalar, any_rotation<Element>> contact_;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;
-  Scalar size_ = 0, unit_;
+  Scalar size_ = 0, potential_ = 0, unit_;
 };
 
 }  // namespace hapbeam

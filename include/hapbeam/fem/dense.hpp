@@ -36,6 +36,10 @@ class Dense {
     x_.template segment<3>(3 * node) += force;
   }
 
+  void add_diagonal(int node, const Vector3<Scalar>& diagonal) noexcept {
+    K_.diagonal().template segment<3>(3 * node) += diagonal;
+  }
+
   void prescribe(int node, int component, Scalar increment) noexcept {
     const int k = 3 * node + component;
     const Scalar pivot = K_(k, k);
@@ -52,6 +56,7 @@ class Dense {
     const Eigen::LDLT<Matrix> factor(K_);
     x_ = factor.solve(rhs);
     energy_ = rhs.dot(x_);
+    negative_pivots_ = static_cast<int>((factor.vectorD().array() < 0).count());
     // Its order of elimination is not the beam's, so a pivot that should be zero holds the round-off of all rows.
     const Scalar epsilon = std::numeric_limits<Scalar>::epsilon() * static_cast<Scalar>(K_.rows());
     const Vector unpermuted = factor.transpositionsP().transpose() * factor.vectorD();
@@ -60,12 +65,14 @@ class Dense {
   }
 
   Scalar energy() const noexcept { return energy_; }
+  int negative_pivots() const noexcept { return negative_pivots_; }
   Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
 
  private:
   Matrix K_;
   Vector x_;
   Scalar energy_ = 0;
+  int negative_pivots_ = 0;
 };
 
 }  // namespace hapbeam

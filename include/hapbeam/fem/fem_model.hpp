@@ -18,6 +18,7 @@
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/descent.hpp>
 
 namespace hapbeam {
 
@@ -43,15 +44,11 @@ class FemModel {
         thickness_(static_cast<Scalar>(beam.thickness())),
         shortest_(uniform_.shortest(system_.length())),
         left_yields_(!fixes_w(beam.left())),
-        right_yields_(!fixes_w(beam.right())) {
-    system_.set_goal();
-    rest_ = solver_.solve(system_);
-    while (rest_.status == Status::iteration_limit && rest_.step < 1) {
-      system_.set_goal();
-      rest_ = solver_.solve(system_, rest_.step);
-    }
-    report_ = rest_;
+        right_yields_(!fixes_w(beam.right())),
+        single_valued_(beam.straight()) {
+    find_rest();
     for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
+    home_ = middle();
   }
 
   /// Prescribes the centreline's transverse displacement d [m] at arc position s [m] of the unloaded beam.
@@ -94,8 +91,29 @@ class FemModel {
 
   Scalar thickness() const noexcept { return thickness_; }
 
+  /// Lets go: the beam falls from its present shape to where it is at rest, which need not be rest() where it has more
+  /// than one such shape.
+  /// @return ok | snapped, where it has left the one that it was pressed from | iteration_limit, on its way: call again
+  Status release() noexcept {
+    if (single_valued_) {
+      reset();
+      return Status::ok;
+    }
+    const auto aim = [this] { system_.set_goal(); };
+    aim();
+    report_ = {Status::ok, 0, 0, 0, 0, 1};
+    fall(false, descent_, aim);
+    if (report_.status != Status::snapped) return report_.status;
+    const Scalar before = home_;
+    home_ = middle();
+    return std::abs(home_ - before) > system_.length() / 1000 ? Status::snapped : Status::ok;
+  }
+
   /// Back to rest().
-  void reset() noexcept { system_.set_state(uniform_, rest_nodes_.data()); }
+  void reset() noexcept {
+    system_.set_state(uniform_, rest_nodes_.data());
+    home_ = middle();
+  }
 
   /// How the search for the shape under the dead loads ended.
   const SolveReport<Scalar>& rest() const noexcept { return rest_; }
@@ -106,6 +124,55 @@ class FemModel {
   int elements() const noexcept { return system_.elements(); }
 
  private:
+  /// Where the middle of the beam is [m].
+  Scalar middle() const noexcept { return shape().at(system_.length() / 2).w; }
+
+  /// The shape under the dead loads alone; where that is no stable one, the nearest that is, on the upper side.
+  void find_rest() noexcept {
+    const auto aim = [this] { system_.set_goal(); };
+    aim();
+    rest_ = solver_.solve(system_);
+    while (rest_.status == Status::iteration_limit && rest_.step < 1) {
+      const int solves = rest_.solves;
+      aim();
+      rest_ = solver_.solve(system_, rest_.step);
+      rest_.solves += solves;
+    }
+    report_ = rest_;
+    if (!gives_way()) return;
+    single_valued_ = false;
+    Descent patient;
+    patient.max_solves = 10000;
+    fall(true, patient, aim);
+    if (report_.status == Status::snapped) report_.status = Status::ok;
+    rest_ = report_;
+  }
+
+  /// Whether the equilibrium that was found is none to stay at.  The last tangent is that of the state before the last
+  /// increment, where a slender beam may be under a compression that is gone now: a second look decides.
+  bool gives_way() noexcept {
+    if (report_.status != Status::ok || system_.negative_pivots() == 0) return false;
+    ++report_.solves;
+    return system_.factor(0) == Status::ok && system_.negative_pivots() > 0;
+  }
+
+  /// From an equilibrium that gives way, or where none was found, down to a stable one.
+  /// @param on_ridge  nothing but a nudge makes it go   @param aim  sets the system's goal anew
+  template <class Aim>
+  void fall(bool on_ridge, const Descent& descent, Aim&& aim) noexcept {
+    if (on_ridge) system_.nudge(system_.length() / 1000);
+    int solves = report_.solves;
+    if (descent.solve(system_, solves)) {
+      aim();
+      report_ = solver_.solve(system_);
+      if (report_.status == Status::ok)
+        report_.status = gives_way() ? Status::iteration_limit : Status::snapped;
+    } else {
+      report_.status = Status::iteration_limit;
+    }
+    report_.solves += solves;
+  }
+
   /// @param s  request.s, or the nearest in range
   Response<Scalar> solve(const Push<Scalar>& request, Scalar s, bool finite, bool in_range) noexcept {
     using std::abs;
@@ -119,11 +186,16 @@ class FemModel {
       return request.normal.x() * at.u + request.normal.y() * at.w;
     };
     const Scalar jump = request.d - along(shape().at(s)), from_rest = request.d - along(rest_shape().at(s));
-    if (abs(from_rest) < abs(jump)) reset();
+    if (single_valued_ && abs(from_rest) < abs(jump)) reset();
     const ContactMesh<Scalar> mesh = uniform_.at(away_from_ends(s));
     system_.remesh(mesh);
-    system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal);
+    const auto aim = [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); };
+    aim();
     report_ = solver_.solve(system_, first_step);
+    // A straight beam pressed across gives way in no element but those that lock.
+    const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
+    if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_))
+      fall(on_ridge, descent_, aim);
     const Status status = report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status;
     const Scalar force = system_.reaction();
     return isfinite(force) ? Response<Scalar>{force, status} : Response<Scalar>{0, Status::non_finite};
@@ -143,6 +215,9 @@ class FemModel {
   Solver solver_;
   Scalar thickness_, shortest_;
   bool left_yields_, right_yields_;
+  bool single_valued_;  // one shape for each press, as far as is known
+  Descent descent_;
+  Scalar home_ = 0;  // middle() of the shape from which the beam is pressed
   SolveReport<Scalar> rest_{}, report_{};
 };
 

@@ -89,12 +89,16 @@ std::vector<PointForce<Scalar>> point_forces(const Beam& beam, int elements) {
 }
 
 /// Subtracts λ ∂W/∂d from an element's residual, W the work of a load at t = (s - s1)/l in it.  Moderate rotation: W is
-/// linear in d.
+/// linear in d.  @return λ W [J]
 template <typename Scalar>
-void subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
-                   const ElementProperties<Scalar>& p, Vector6<Scalar>& r) noexcept {
-  r -= lambda * ShapeFunctions<Scalar>(t, p.length)
-                    .nodal_forces(load.axial, load.transverse, load.moment - load.transverse_arm);
+Scalar subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
+                     const ElementProperties<Scalar>& p, const Vector6<Scalar>& d,
+                     Vector6<Scalar>& r) noexcept {
+  const Vector6<Scalar> force =
+      lambda * ShapeFunctions<Scalar>(t, p.length)
+                   .nodal_forces(load.axial, load.transverse, load.moment - load.transverse_arm);
+  r -= force;
+  return force.dot(d);
 }
 
 /// The same at any rotation, and λ ∂²W/∂d² from the tangent K, where it is wanted:
@@ -104,9 +108,9 @@ void subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
 /// with Δ, α, z the element's chord, its angle and its normal, v = -l (g1 θ1' + g2 θ2') the cubic's height above it,
 /// θi' = θi + α, and θ = c1 θ1' + c2 θ2' - α the cubic's angle.
 template <typename Scalar>
-void subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
-                   const ElementProperties<Scalar>& p, const Vector6<Scalar>& d, Vector6<Scalar>& r,
-                   Matrix6<Scalar>* K) noexcept {
+Scalar subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
+                     const ElementProperties<Scalar>& p, const Vector6<Scalar>& d, Vector6<Scalar>& r,
+                     Matrix6<Scalar>* K) noexcept {
   using std::atan2;
   using std::cos;
   using std::nearbyint;
@@ -116,6 +120,7 @@ void subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
   const S f = lambda * load.axial, q = lambda * load.transverse, moment = lambda * load.moment,
           f_arm = lambda * load.axial_arm, q_arm = lambda * load.transverse_arm;
   const auto couple = [&](S theta) { return moment - f_arm * sin(theta) - q_arm * cos(theta); };  // φ'
+  const auto turns = [&](S theta) { return moment * theta + f_arm * (cos(theta) - 1) - q_arm * sin(theta); };  // φ
   const auto stiffness = [&](S theta) { return q_arm * sin(theta) - f_arm * cos(theta); };        // φ''
   if (t == 0 || t == 1) {
     const int node = t == 0 ? 0 : 3;
@@ -123,7 +128,7 @@ void subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
     r[node + 1] -= q;
     r[node + 2] -= couple(d[node + 2]);
     if (K) (*K)(node + 2, node + 2) -= stiffness(d[node + 2]);
-    return;
+    return f * d[node] + q * d[node + 1] + turns(d[node + 2]);
   }
   const S l = p.length, x = l + d[3] - d[0], y = d[4] - d[1], i = 1 / sqrt(x * x + y * y), c = x * i,
           s = y * i;
@@ -142,7 +147,8 @@ void subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
   r -= force;
   r[0] -= f;
   r[1] -= q;
-  if (!K) return;
+  const S work = f * (d[0] + t * (x - l) - v * s) + q * (d[1] + t * y + v * c) + turns(theta);
+  if (!K) return work;
   const S aa = (ca * ca * k + 2 * l * g * along - v * across) * i * i, turned = a * i * i,
           a1 = (ca * c1 * k * p.inverse_length + g1 * along) * i,
           a2 = (ca * c2 * k * p.inverse_length + g2 * along) * i,
@@ -153,6 +159,7 @@ void subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
                   aa * c * c - 2 * turned * c * s, a1 * c, a2 * c, c1 * c1 * kk, c1 * c2 * kk, c2 * c2 * kk},
                  H);
   *K -= H;
+  return work;
 }
 
 }  // namespace hapbeam

@@ -3,6 +3,7 @@
 // An element bends against the linear function that is nearest to the natural curvature over its length.  For that it
 // needs the integrals of the curvature and of its moment, which are exact for arcs of any length; so an arc shorter
 // than an element, a corner, does what it should.
+// It is also where a beam starts from on its way to rest.
 // Allocates at construction; all else is noexcept and allocation-free.
 #pragma once
 
@@ -12,6 +13,8 @@
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/supports.hpp>
 
 namespace hapbeam {
 
@@ -72,5 +75,56 @@ class NaturalShape {
 
   std::vector<Piece> arcs_;
 };
+
+/// Lays the natural shape from the left end's place, turned toward the right end's place unless the left end is clamped.
+/// @param nodes  out, those of the mesh
+template <typename Scalar, class Nodes>
+void lay(const NaturalShape<Scalar>& shape, const detail::EndSupport<Scalar>& left,
+         const detail::EndSupport<Scalar>& right, const ContactMesh<Scalar>& mesh, Nodes& nodes) noexcept {
+  using std::atan2;
+  using std::cos;
+  using std::sin;
+  const Scalar length = mesh.position(mesh.elements());
+  const Displacement<Scalar> end = shape.at(length);
+  const Scalar *from = left.goal, *to = right.goal;
+  Scalar turn = from[2];
+  if (!left.held[2])
+    turn = right.held[1] ? atan2(end.w, length + end.u) - atan2(to[1] - from[1], length + to[0] - from[0])
+                         : to[2] - end.theta;
+  const Scalar c = cos(turn), s = sin(turn);
+  for (int i = 0; i < nodes.size(); ++i) {
+    const Scalar position = mesh.position(i);
+    const Displacement<Scalar> at = shape.at(position);
+    const Scalar x = position + at.u;
+    nodes[i] = {position, from[0] + c * x + s * at.w - position, from[1] - s * x + c * at.w, at.theta + turn};
+  }
+}
+
+/// Bends a straight beam whose ends are to stand closer by `slack` [m] up, as far as its length allows, so that its search
+/// for rest begins on the buckled side:  w = a f(s/L),  f = 16 t² (1 - t)²,  u' = -½ w'²,  a² ∫f'² dt = 2 slack L.
+/// @param nodes  in and out, of a straight beam
+template <typename Scalar, class Nodes>
+void bow(Scalar slack, Nodes& nodes) noexcept {
+  using std::sqrt;
+  const int last = nodes.size() - 1;
+  const Scalar length = nodes[last].s, a = sqrt(2 * slack * length * Scalar(210. / 1024));
+  const auto slope = [a, length](Scalar s) {
+    const Scalar t = s / length;
+    return 32 * a * t * (1 - t) * (1 - 2 * t) / length;
+  };
+  Scalar u = nodes[0].u;
+  for (int i = 0; i <= last; ++i) {
+    auto& node = nodes[i];
+    const Scalar t = node.s / length;
+    if (i > 0) {  // Simpson's rule
+      const Scalar from = nodes[i - 1].s, before = slope(from), middle = slope((from + node.s) / 2),
+                   after = slope(node.s);
+      u -= (node.s - from) * (before * before + 4 * middle * middle + after * after) / 12;
+    }
+    node.u = u;
+    node.w += 16 * a * t * t * (1 - t) * (1 - t);
+    node.theta -= slope(node.s);
+  }
+}
 
 }  // namespace hapbeam

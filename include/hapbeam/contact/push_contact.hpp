@@ -1,0 +1,88 @@
+// How contact asks a model that can be pushed along any direction: a circle on a curve that yields.
+//
+// The centreline is to lie on the tangent of the circle with radius `reach` around the avatar's centre, at the point where
+// the two touch: one push along the normal there.  The beam slides along that tangent while it yields, so the point is
+// sought again on the new shape; what it is off by shrinks to a few percent with each push.  The way that it went in the
+// tick before is its first guess, so that a steady motion takes one push.
+// At an end the normal is the way from the end point to the avatar's centre.
+// Real-time: noexcept, no allocation; at most most_pushes pushes.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <hapbeam/contact/find_contact.hpp>
+#include <hapbeam/contact/press_contact.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+template <typename Scalar>
+class PushContact {
+ public:
+  static constexpr int most_pushes = 4;
+  /// How far the avatar's centre may be from where the normal points, in units of reach: the relative error of the force.
+  static constexpr Scalar near = Scalar(1e-5);
+  /// Farther than this after the last push, the contact has not been found.
+  static constexpr Scalar far = Scalar(1e-2);
+
+  void begin(const Contact<Scalar>&) noexcept { slid_ = 0; }
+
+  /// As PressContact::hold(); contact comes back as it is on the new shape.
+  template <class Model>
+  Held<Scalar> hold(Model& model, Contact<Scalar>& contact, const Vector2<Scalar>& position, Scalar reach,
+                    bool, Press<Scalar>& asked) noexcept {
+    const Scalar length = model.shape().length(), side = static_cast<Scalar>(contact.side), first = contact.s;
+    Scalar s = std::clamp(first + slid_, Scalar(0), length);
+    Foot foot(model, s, position, side);
+    for (int pushed = 1;; ++pushed) {
+      const Vector2<Scalar> normal = foot.normal;
+      const Scalar d = normal.x() * (position.x() - s) + normal.y() * position.y() - reach;
+      const Response<Scalar> response = model.push({s, d, normal});
+      foot = Foot(model, s, position, side);
+      asked = {s, foot.point.y()};
+      if (response.force > 0 || (response.force == 0 && is_answer(response.status)))
+        return {false, 0, response.status};
+      const Scalar off =
+          std::max(std::abs(cross(normal, foot.offset)), foot.at_end ? Scalar(0) : std::abs(foot.ahead));
+      if (off <= near * reach || pushed == most_pushes || !is_answer(response.status)) {
+        slid_ = s - first;
+        contact.s = s;
+        contact.foot = foot.point;
+        contact.normal = foot.normal;
+        contact.point = foot.point + foot.normal * (model.thickness() / 2);
+        contact.past_end = foot.at_end;
+        const bool lost = is_answer(response.status) && !(off <= far * reach);
+        return {true, -response.force, lost ? Status::iteration_limit : response.status};
+      }
+      s = std::clamp(s + foot.ahead, Scalar(0), length);
+      foot = Foot(model, s, position, side);
+    }
+  }
+
+ private:
+  /// The centreline at s, and the avatar's centre seen from there.
+  struct Foot {
+    Vector2<Scalar> point, normal, offset;  // [m], unit, [m] from the point to the avatar's centre
+    Scalar ahead;                           // [m] of that along the beam
+    bool at_end;                            // s is an end that the centre has passed
+
+    template <class Model>
+    Foot(const Model& model, Scalar s, const Vector2<Scalar>& position, Scalar side) noexcept {
+      using std::cos;
+      using std::sin;
+      const Displacement<Scalar> at = model.shape().at(s);
+      const Vector2<Scalar> along(cos(at.theta), -sin(at.theta));
+      point << s + at.u, at.w;
+      offset = position - point;
+      normal << -side * along.y(), side * along.x();
+      ahead = along.dot(offset);
+      at_end = (s <= 0 && ahead < 0) || (s >= model.shape().length() && ahead > 0);
+      if (at_end && normal.dot(offset) > 0) normal = offset.normalized();
+    }
+  };
+
+  Scalar slid_ = 0;  // how far the point went in the last tick [m]
+};
+
+}  // namespace hapbeam::detail

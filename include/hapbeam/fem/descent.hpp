@@ -1,0 +1,77 @@
+// Downhill to a stable equilibrium, where Newton's method has none to go to: the beam after a snap.
+//
+// Each step solves (K + μM) Δ = -r.  With μ so large that all pivots are positive that leads downhill; a step that
+// raises the potential, or a tangent that is not positive, is taken back and μ grows tenfold; a step that lowers it lets
+// μ fall tenfold, to zero in the end, where the step is Newton's.  It is the way of a beam in honey, which comes to rest
+// in the hollow on whose slope it was let go; where it stands on a ridge, whoever calls must have nudged it.
+//
+//   expression of a system, beyond those of NewtonRaphson
+//   -----------------------   ------------------------------------------------------------------------
+//   s.factor(μ)               assembles and solves for an increment  -> Status
+//   s.advance()               adds it
+//   s.negative_pivots()       of the last factor()
+//   s.potential()             V - λ f · x at the last factor() [J]
+//
+// Real-time: noexcept and no allocation where the system's are; at most max_solves linear solves.
+// Source: Levenberg 1944 and Marquardt 1963, on the potential of a beam.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam {
+
+struct Descent {
+  int max_solves = 48;         ///< what bounds a tick
+  double first_shift = 100;    ///< μ
+  double largest_shift = 1e9;  ///< where no step goes down, there is none
+  double enough =
+      0.02;  ///< [rad] a step of Newton's no larger than this, as √(2 ΔV L/EI), leaves the rest to it
+
+  /// Goes down from where the system is, at the end of its path.
+  /// @param solves  in and out: linear solves, counted on   @return whether it has come near a stable equilibrium
+  template <class System>
+  bool solve(System& system, int& solves) const noexcept {
+    using S = typename System::Scalar;
+    const S slack = 100 * std::numeric_limits<S>::epsilon();
+    S shift = S(first_shift), used = shift, least = std::numeric_limits<S>::max();
+    system.set_target(1);
+    system.save();
+    bool stepped = false;
+    for (const int last = solves + max_solves; solves < last;) {
+      ++solves;
+      const Status status = system.factor(shift);
+      const S potential = system.potential();
+      if (!(potential <= least + slack * std::abs(least))) {
+        system.restore();
+        shift = raised(used);
+        least = std::numeric_limits<S>::max();
+      } else if (status != Status::ok || system.negative_pivots() > 0) {
+        shift = raised(shift);
+      } else {
+        system.save();
+        // The first step also brings the contact to its place, from where potentials can be compared.
+        if (stepped) least = potential;
+        stepped = true;
+        const bool near = shift == 0 && system.increment() <= S(enough) * system.unit();
+        system.advance();
+        if (near) return true;
+        used = shift;
+        shift = shift > 1 ? shift / 10 : S(0);
+      }
+      if (!(shift < S(largest_shift))) break;
+    }
+    system.restore();
+    return false;
+  }
+
+ private:
+  template <typename S>
+  static S raised(S shift) noexcept {
+    return shift > 0 ? 10 * shift : S(1);
+  }
+};
+
+}  // namespace hapbeam
