@@ -55,22 +55,17 @@ class Centreline {
   Scalar length() const noexcept { return nodes_[size_ - 1].s; }
 
   /// The deformed piece between nodes i and i + 1, in the plane (x along the beam, w across) [m].
-  CubicSegment<Scalar> segment(int i) const noexcept {
-    const Node& a = nodes_[i];
-    const Node& b = nodes_[i + 1];
-    const Scalar third = (b.s - a.s) / 3, x0 = a.s + a.u, x3 = b.s + b.u;
-    CubicSegment<Scalar> control;
-    if (any_rotation_) {
-      using std::cos;
-      using std::sin;
-      control << x0, x0 + third * cos(a.theta), x3 - third * cos(b.theta), x3,  //
-          a.w, a.w - third * sin(a.theta), b.w + third * sin(b.theta), b.w;
-    } else {
-      const Scalar dx = (x3 - x0) / 3;
-      control << x0, x0 + dx, x3 - dx, x3,  //
-          a.w, a.w - third * a.theta, b.w + third * b.theta, b.w;
+  CubicSegment<Scalar> segment(int i) const noexcept { return segment(i, direction(i), direction(i + 1)); }
+
+  /// Calls visit(i, segment(i)) for each piece, in order; cheaper than one by one.
+  template <class Visitor>
+  void visit_segments(Visitor&& visitor) const noexcept {
+    Vector2<Scalar> from = direction(0);
+    for (int i = 0; i < segments(); ++i) {
+      const Vector2<Scalar> to = direction(i + 1);
+      visitor(i, segment(i, from, to));
+      from = to;
     }
-    return control;
   }
 
   /// Index of the piece that holds arc position s; the first or last one where s lies off the beam.
@@ -101,20 +96,37 @@ class Centreline {
   }
 
  private:
-  /// θ is the angle of the tangent, in the turn in which the piece's ends are.
-  Displacement<Scalar> on_curve(int i, Scalar s, Scalar t) const noexcept {
-    using std::atan2;
+  /// Slope or direction of the centreline at a node: dw/dx after (1, dw/dx), or a unit vector.
+  Vector2<Scalar> direction(int i) const noexcept {
+    const Scalar theta = nodes_[i].theta;
+    if (!any_rotation_) return {1, -theta};
     using std::cos;
     using std::sin;
-    const CubicSegment<Scalar> b = segment(i);
-    const Scalar r = 1 - t, middle = (nodes_[i].theta + nodes_[i + 1].theta) / 2;
+    return {cos(theta), -sin(theta)};
+  }
+
+  CubicSegment<Scalar> segment(int i, const Vector2<Scalar>& from, const Vector2<Scalar>& to) const noexcept {
+    const Node& a = nodes_[i];
+    const Node& b = nodes_[i + 1];
+    const Scalar third = (b.s - a.s) / 3, x0 = a.s + a.u, x3 = b.s + b.u, dx = (x3 - x0) / 3;
+    CubicSegment<Scalar> control;
+    control << x0, x0 + (any_rotation_ ? third * from.x() : dx), x3 - (any_rotation_ ? third * to.x() : dx),
+        x3, a.w, a.w + third * from.y(), b.w - third * to.y(), b.w;
+    return control;
+  }
+
+  /// θ is the angle of the tangent, in the turn in which the piece begins.
+  Displacement<Scalar> on_curve(int i, Scalar s, Scalar t) const noexcept {
+    using std::atan2;
+    const Node& a = nodes_[i];
+    const Vector2<Scalar> from = direction(i);
+    const CubicSegment<Scalar> b = segment(i, from, direction(i + 1));
+    const Scalar r = 1 - t;
     const Vector2<Scalar> c0 = b.col(1) - b.col(0), c1 = b.col(2) - b.col(1), c2 = b.col(3) - b.col(2);
     const Vector2<Scalar> velocity = r * r * c0 + 2 * r * t * c1 + t * t * c2;
-    const Vector2<Scalar> from_start = t * ((1 + r + r * r) * c0 + t * (1 + 2 * r) * c1 + t * t * c2);
-    const Scalar c = cos(middle), d = sin(middle);
-    const Scalar turned = -atan2(d * velocity.x() + c * velocity.y(), c * velocity.x() - d * velocity.y());
-    const Node& a = nodes_[i];
-    return {a.u + (from_start.x() - (s - a.s)), a.w + from_start.y(), middle + turned};
+    const Vector2<Scalar> way = t * ((1 + r + r * r) * c0 + t * (1 + 2 * r) * c1 + t * t * c2);
+    const Scalar turned = atan2(from.x() * velocity.y() - from.y() * velocity.x(), from.dot(velocity));
+    return {a.u + (way.x() - (s - a.s)), a.w + way.y(), a.theta - turned};
   }
 
   const Node* nodes_;

@@ -40,12 +40,12 @@ class BoundingVolumes {
     run_ = (segments_ + capacity_ - 1) / capacity_;
     int used = (segments_ + run_ - 1) / run_;
     for (leaves_ = 1; leaves_ < used;) leaves_ *= 2;
-    for (int leaf = 0; leaf < used; ++leaf) {
-      Box box;
-      for (int i = leaf * run_; i < std::min((leaf + 1) * run_, segments_); ++i)
-        box.include(centreline.segment(i));
-      boxes_[index(leaves_ + leaf)] = box;
-    }
+    for (int leaf = 0; leaf < used; ++leaf) boxes_[index(leaves_ + leaf)] = Box();
+    int leaf = 0, end = run_;
+    centreline.visit_segments([&](int i, const CubicSegment<Scalar>& segment) {
+      if (i == end) ++leaf, end += run_;
+      boxes_[index(leaves_ + leaf)].include(segment);
+    });
     for (int first = leaves_; first > 1; first /= 2) {
       if (used % 2)
         boxes_[index(first + used++)] = Box();  // the last one's missing sibling: empty, never entered

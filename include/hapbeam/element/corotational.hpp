@@ -75,6 +75,18 @@ struct Corotational : detail::ElementFromCore<Corotational<Local>> {
   }
 
  private:
+  /// atan2(y, x).  A chord mostly rises by less than 20 degrees; then half its angle has a short power series, r less
+  /// than 0.17 and the next term less than 1e-17, which takes half the time of the library's function.
+  template <typename S>
+  static S atan(S y, S x) noexcept {
+    using std::abs;
+    using std::atan2;
+    if (!(abs(y) < S(0.17) * x)) return atan2(y, x);
+    const S r = y / x, q = r * r, q2 = q * q, q4 = q2 * q2;
+    const auto pair = [q](double a, double b) { return S(1 / a) - q * S(1 / b); };
+    return r * (pair(1, 3) + q2 * pair(5, 7) + q4 * (pair(9, 11) + q2 * pair(13, 15) + q4 * pair(17, 19)));
+  }
+
   template <typename S>
   struct Chord {
     S x, w;     // [m]
@@ -83,7 +95,6 @@ struct Corotational : detail::ElementFromCore<Corotational<Local>> {
     S angle;    // [rad] up is positive, in the turn in which the nodes are
 
     Chord(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
-      using std::atan2;
       using std::nearbyint;
       using std::sqrt;
       const S u = d[3] - d[0];
@@ -92,7 +103,7 @@ struct Corotational : detail::ElementFromCore<Corotational<Local>> {
       length = sqrt(x * x + w * w);
       stretch = (u * (p.length + x) + w * w) / (length + p.length);
       constexpr S turn = S(6.283185307179586476925);
-      angle = atan2(w, x);
+      angle = atan(w, x);
       angle -= turn * nearbyint((angle + (d[2] + d[5]) / 2) * (1 / turn));
     }
     detail::Deformation<S> local(const ElementProperties<S>& p, const Vector6<S>& d) const noexcept {
