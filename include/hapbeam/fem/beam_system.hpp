@@ -178,19 +178,22 @@ class BeamSystem {
   Scalar potential() const noexcept { return potential_; }
   /// How many directions there are along which the tangent of the last increment is not stiff but gives way.
   int negative_pivots() const noexcept { return assembler_.negative_pivots(); }
-  /// Moves the nodes across the beam, most in the middle and a little more on its right, but not the contact.
-  /// @param size  [m], up where positive
+  /// Bends the beam a little: up, most in the middle and a little more on its right, or with a contact up on its right and
+  /// down on its left.  @param size  [m]
   void nudge(Scalar size) noexcept {
-    const Scalar c = contact_.node() < 0 ? 0 : nodes_[contact_.node()].s / length_;
+    const bool free = contact_.node() < 0;
+    const Scalar at_contact = free ? 0 : nodes_[contact_.node()].s / length_;
     for (Node& node : nodes_) {
       using std::cos;
       using std::sin;
-      const Scalar t = node.s / length_, r = 1 - t;
-      // Zero with its slope at both ends, and at the contact.
-      const Scalar bump =
-          16 * size * t * t * r * r * (contact_.node() < 0 ? (3 + t) / Scalar(3.5) : 4 * (t - c));
-      node.u += bump * sin(node.theta);
-      node.w += bump * cos(node.theta);
+      // f = 16 t² (1 - t)² g(t), zero with its slope at both ends, and at the contact
+      const Scalar t = node.s / length_, r = 1 - t, a = 16 * size * t * r;
+      const Scalar g = free ? (3 + t) / Scalar(3.5) : 4 * (t - at_contact),
+                   dg = free ? 1 / Scalar(3.5) : Scalar(4);
+      const Scalar f = a * t * r * g;
+      node.u += f * sin(node.theta);
+      node.w += f * cos(node.theta);
+      node.theta -= a * (2 * (1 - 2 * t) * g + t * r * dg) / length_;
     }
   }
 
@@ -240,15 +243,6 @@ class BeamSystem {
     Vector6<Scalar> d;
     d << a.u, a.w, a.theta, b.u, b.w, b.theta;
     return d;
-  }
-
-  /// Residual of one element under its loads.
-  void residual(int e, Vector6<Scalar>& r) const noexcept {
-    const Vector6<Scalar> d = displacements(e);
-    Element::residual(properties_[e], d, r);
-    const auto first = std::partition_point(
-        forces_.begin(), forces_.end(), [&](const PointForce<Scalar>& load) { return load.s < nodes_[e].s; });
-    subtract_loads(e, static_cast<std::size_t>(first - forces_.begin()), d, r, nullptr);
   }
 
   /// Residual of one element under its loads.

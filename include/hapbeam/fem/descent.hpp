@@ -16,6 +16,7 @@
 // Source: Levenberg 1944 and Marquardt 1963, on the potential of a beam.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -27,8 +28,7 @@ struct Descent {
   int max_solves = 48;         ///< what bounds a tick
   double first_shift = 100;    ///< μ
   double largest_shift = 1e9;  ///< where no step goes down, there is none
-  double enough =
-      0.02;  ///< [rad] a step of Newton's no larger than this, as √(2 ΔV L/EI), leaves the rest to it
+  double enough = 1e-3;  ///< [rad] a step of Newton's no larger, as √(ΔᵀKΔ L/EI), leaves the rest to it
 
   /// Goes down from where the system is, at the end of its path.
   /// @param solves  in and out: linear solves, counted on   @return whether it has come near a stable equilibrium
@@ -36,7 +36,7 @@ struct Descent {
   bool solve(System& system, int& solves) const noexcept {
     using S = typename System::Scalar;
     const S slack = 100 * std::numeric_limits<S>::epsilon();
-    S shift = S(first_shift), used = shift, least = std::numeric_limits<S>::max();
+    S shift = S(first_shift), good = shift, bad = 0, least = std::numeric_limits<S>::max();
     system.set_target(1);
     system.save();
     bool stepped = false;
@@ -46,10 +46,12 @@ struct Descent {
       const S potential = system.potential();
       if (!(potential <= least + slack * std::abs(least))) {
         system.restore();
-        shift = raised(used);
+        shift = 10 * std::max(good, S(0.1));
         least = std::numeric_limits<S>::max();
       } else if (status != Status::ok || system.negative_pivots() > 0) {
-        shift = raised(shift);
+        // Just above the least shift that will do, a step goes far along what gives way.
+        bad = std::max(shift, S(0.1));
+        shift = good > S(1.3) * bad ? std::sqrt(good * bad) : good > bad ? good : 10 * bad;
       } else {
         system.save();
         // The first step also brings the contact to its place, from where potentials can be compared.
@@ -58,19 +60,15 @@ struct Descent {
         const bool near = shift == 0 && system.increment() <= S(enough) * system.unit();
         system.advance();
         if (near) return true;
-        used = shift;
-        shift = shift > 1 ? shift / 10 : S(0);
+        good = shift;
+        shift = std::max(shift / 10, S(1.2) * bad);
+        if (good <= 1 && bad < S(0.1)) shift = 0;
+        bad /= 2;
       }
       if (!(shift < S(largest_shift))) break;
     }
     system.restore();
     return false;
-  }
-
- private:
-  template <typename S>
-  static S raised(S shift) noexcept {
-    return shift > 0 ? 10 * shift : S(1);
   }
 };
 

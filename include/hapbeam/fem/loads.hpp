@@ -120,8 +120,10 @@ Scalar subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
   const S f = lambda * load.axial, q = lambda * load.transverse, moment = lambda * load.moment,
           f_arm = lambda * load.axial_arm, q_arm = lambda * load.transverse_arm;
   const auto couple = [&](S theta) { return moment - f_arm * sin(theta) - q_arm * cos(theta); };  // φ'
-  const auto turns = [&](S theta) { return moment * theta + f_arm * (cos(theta) - 1) - q_arm * sin(theta); };  // φ
-  const auto stiffness = [&](S theta) { return q_arm * sin(theta) - f_arm * cos(theta); };        // φ''
+  const auto turns = [&](S theta) {
+    return moment * theta + f_arm * (cos(theta) - 1) - q_arm * sin(theta);
+  };                                                                                        // φ
+  const auto stiffness = [&](S theta) { return q_arm * sin(theta) - f_arm * cos(theta); };  // φ''
   if (t == 0 || t == 1) {
     const int node = t == 0 ? 0 : 3;
     r[node] -= f;
