@@ -44,12 +44,8 @@ TEST_CASE("0.5 to 8 mm: both elements feel the same beam, to the square of its s
       for (const double depth : {0.5e-3, 0.8e-3, 3.75e-3, 4e-3, 8e-3}) {
         const Difference off = difference(left, right, position * thesis_length, depth);
         CAPTURE(name(left), name(right), position, depth, off.force, off.slope);
-        CHECK(off.force <=
-              2 * off.slope * off.slope + 1e-9);  // round-off of the press: 12 eps (L/l)² and more
-        if (position == 0.5) worst = std::max(worst, off.force);
+        CHECK(off.force <= off.slope * off.slope);
       }
-  CAPTURE(worst);
-  CHECK(worst <= 2 * std::pow(3 * 8e-3 / (thesis_length / 2), 2));  // a cantilever's slope, 3/2 d/s and more
 }
 
 // Up to half of the radius of gyration, 7 mm, bending is what resists; deeper, tension takes over, with another factor.
