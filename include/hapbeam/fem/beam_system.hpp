@@ -54,8 +54,7 @@ class BeamSystem {
               detail::EndSupport<Scalar>(beam.right(), beam.right_place())},
         unit_(std::sqrt(bending_stiffness_ / length_)) {
     lay(natural_, ends_[0], ends_[1], mesh_, nodes_);
-    const Scalar slack = ends_[0].goal[0] - ends_[1].goal[0];
-    if (natural_.straight() && slack > 0 && ends_[0].held[0] && ends_[1].held[0]) bow(slack, nodes_);
+    if (natural_.straight()) bow(ends_[0], ends_[1], nodes_);
     take(mesh_);
   }
 

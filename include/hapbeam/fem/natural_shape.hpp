@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <hapbeam/beam.hpp>
@@ -100,29 +101,41 @@ void lay(const NaturalShape<Scalar>& shape, const detail::EndSupport<Scalar>& le
   }
 }
 
-/// Bends a straight beam whose ends are to stand closer by `slack` [m] up, as far as its length allows, so that its search
-/// for rest begins on the buckled side:  w = a f(s/L),  f = 16 t² (1 - t)²,  u' = -½ w'²,  a² ∫f'² dt = 2 slack L.
-/// @param nodes  in and out, of a straight beam
+/// Bends a straight beam whose ends are to stand closer, in its own direction and facing each other, by some slack: to its
+/// upper side, as far as its length allows, so that its search for rest begins on the buckled side.
+///   w = a f(s/L),  f = 16 t² (1 - t)²,  u' = -½ w'²,  a² ∫f'² dt = 2 slack L          along and across the beam
+/// @param nodes  in and out, as lay() lays a straight beam
 template <typename Scalar, class Nodes>
-void bow(Scalar slack, Nodes& nodes) noexcept {
+void bow(const detail::EndSupport<Scalar>& left, const detail::EndSupport<Scalar>& right,
+         Nodes& nodes) noexcept {
+  using std::abs;
+  using std::cos;
+  using std::sin;
   using std::sqrt;
   const int last = nodes.size() - 1;
-  const Scalar length = nodes[last].s, a = sqrt(2 * slack * length * Scalar(210. / 1024));
-  const auto slope = [a, length](Scalar s) {
-    const Scalar t = s / length;
+  const Scalar length = nodes[last].s, turn = nodes[0].theta, c = cos(turn), s = sin(turn);
+  const Scalar x = length + right.goal[0] - left.goal[0], y = right.goal[1] - left.goal[1];
+  const Scalar slack = length - (c * x - s * y), across = s * x + c * y;
+  const Scalar round_off = 64 * std::numeric_limits<Scalar>::epsilon();
+  const bool placed_across = left.held[1] && right.held[1] && abs(across) > round_off * length,
+             facing = !right.held[2] || abs(right.goal[2] - turn) <= round_off * (1 + abs(turn));
+  if (!left.held[0] || !right.held[0] || placed_across || !facing || !(slack > round_off * length)) return;
+  const Scalar a = sqrt(2 * slack * length * Scalar(210. / 1024));
+  const auto slope = [a, length](Scalar position) {
+    const Scalar t = position / length;
     return 32 * a * t * (1 - t) * (1 - 2 * t) / length;
   };
-  Scalar u = nodes[0].u;
+  Scalar u = 0;
   for (int i = 0; i <= last; ++i) {
     auto& node = nodes[i];
-    const Scalar t = node.s / length;
+    const Scalar t = node.s / length, w = 16 * a * t * t * (1 - t) * (1 - t);
     if (i > 0) {  // Simpson's rule
       const Scalar from = nodes[i - 1].s, before = slope(from), middle = slope((from + node.s) / 2),
                    after = slope(node.s);
       u -= (node.s - from) * (before * before + 4 * middle * middle + after * after) / 12;
     }
-    node.u = u;
-    node.w += 16 * a * t * t * (1 - t) * (1 - t);
+    node.u += c * u + s * w;
+    node.w += c * w - s * u;
     node.theta -= slope(node.s);
   }
 }
