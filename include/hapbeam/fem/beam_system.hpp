@@ -9,10 +9,8 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/fem/block_tridiagonal.hpp>
@@ -22,6 +20,7 @@
 #include <hapbeam/fem/loads.hpp>
 #include <hapbeam/fem/natural_shape.hpp>
 #include <hapbeam/fem/newton_raphson.hpp>
+#include <hapbeam/fem/starting_shapes.hpp>
 #include <hapbeam/fem/supports.hpp>
 
 namespace hapbeam {
@@ -44,7 +43,7 @@ class BeamSystem {
         saved_(elements),
         properties_(elements),
         assembler_(elements),
-        forces_(point_forces<Scalar>(beam, elements)),
+        loads_(beam, elements),
         natural_(beam),
         length_(static_cast<Scalar>(beam.length())),
         mesh_(elements, length_),
@@ -53,8 +52,8 @@ class BeamSystem {
         ends_{detail::EndSupport<Scalar>(beam.left(), beam.left_place()),
               detail::EndSupport<Scalar>(beam.right(), beam.right_place())},
         unit_(std::sqrt(bending_stiffness_ / length_)) {
-    lay(natural_, ends_[0], ends_[1], mesh_, nodes_);
-    if (natural_.straight()) bow(ends_[0], ends_[1], nodes_);
+    detail::lay(natural_, ends_[0], ends_[1], mesh_, nodes_);
+    if (natural_.straight()) detail::bow(ends_[0], ends_[1], nodes_);
     take(mesh_);
   }
 
@@ -127,49 +126,17 @@ class BeamSystem {
   /// Assembles and solves for an increment, and leaves the state as it is.
   /// @param shift  what is added to the tangent: so many times EI/L³ on each displacement and EI/L on each rotation,
   ///               shared out over the nodes   @return ok | singular | non_finite
-  Status factor(Scalar shift) noexcept {
-    Matrix6<Scalar> K;
-    Vector6<Scalar> r;
-    Scalar energy = 0, work = 0;
-    std::size_t load = 0;
-    for (int e = 0; e < elements(); ++e) {
-      const Vector6<Scalar> d = displacements(e);
-      energy += Element::tangent(properties_[e], d, r, K);
-      load = subtract_loads(e, load, d, work, r, &K);
-      if (contact_.holds(e)) contact_.transform(nodes_[e], true, r, K);
-      if (contact_.holds(e + 1)) contact_.transform(nodes_[e + 1], false, r, K);
-      assembler_.add(e, K, r);
-    }
-    size_ = std::sqrt(2 * energy);
-    potential_ = energy - work;
-    if (shift != 0) add_shift(shift);
-    for (const std::size_t k : {0, 1})
-      ends_[k].visit(nodes_[end(k)], [&](int component, Scalar now, Scalar target) {
-        assembler_.prescribe(end(k), component, target - now);
-      });
-    const int c = contact_.node();
-    if (c >= 0) assembler_.prescribe(c, 1, d_ - contact_.displacement(nodes_[c]));
-    return assembler_.solve();
-  }
+  Status factor(Scalar shift) noexcept { return assemble_and_solve<false>(shift); }
   /// Adds the increment to the state.
   void advance() noexcept {
-    const auto change = [this](int i) -> Vector3<Scalar> {
-      return contact_.holds(i) ? contact_.back(assembler_.increment(i)) : assembler_.increment(i);
-    };
+    const auto change = [this](int i) { return increment(i); };
     if (any_rotation<Element> && contact_.node() < 0) {
       if constexpr (any_rotation<Element>) detail::lay_chain<Element, Scalar>(nodes_, properties_, change);
       detail::close_chain(nodes_, ends_[0], ends_[1]);
+      place_ends();
     } else {
-      for (int i = 0; i < nodes_.size(); ++i) {
-        const Vector3<Scalar> x = change(i);
-        nodes_[i].u += x[0];
-        nodes_[i].w += x[1];
-        nodes_[i].theta += x[2];
-      }
+      move(change);
     }
-    for (const std::size_t k : {0, 1})
-      ends_[k].visit(nodes_[end(k)], [](int, Scalar& now, Scalar target) { now = target; });
-    if (contact_.node() >= 0) contact_.correct(nodes_[contact_.node()], d_);
   }
   /// Size of the last increment in the norm of the tangent [√J].
   Scalar increment() const noexcept { return std::sqrt(std::abs(assembler_.energy())); }
@@ -177,23 +144,37 @@ class BeamSystem {
   Scalar potential() const noexcept { return potential_; }
   /// How many directions there are along which the tangent of the last increment is not stiff but gives way.
   int negative_pivots() const noexcept { return assembler_.negative_pivots(); }
-  /// Bends the beam a little: up, most in the middle and a little more on its right, or with a contact up on its right and
-  /// down on its left.  @param size  [m]
+  /// Bends the beam a little where nothing makes it leave an equilibrium.  @param size  [m]
   void nudge(Scalar size) noexcept {
-    const bool free = contact_.node() < 0;
-    const Scalar at_contact = free ? 0 : nodes_[contact_.node()].s / length_;
-    for (Node& node : nodes_) {
-      using std::cos;
-      using std::sin;
-      // f = 16 t² (1 - t)² g(t), zero with its slope at both ends, and at the contact
-      const Scalar t = node.s / length_, r = 1 - t, a = 16 * size * t * r;
-      const Scalar g = free ? (3 + t) / Scalar(3.5) : 4 * (t - at_contact),
-                   dg = free ? 1 / Scalar(3.5) : Scalar(4);
-      const Scalar f = a * t * r * g;
-      node.u += f * sin(node.theta);
-      node.w += f * cos(node.theta);
-      node.theta -= a * (2 * (1 - 2 * t) * g + t * r * dg) / length_;
+    const int c = contact_.node();
+    detail::nudge(nodes_, c < 0 ? Scalar(-1) : nodes_[c].s, size);
+  }
+
+  // What ArcLength asks beyond that.
+
+  /// Lets go of the contact, places the ends and sets the factor λ on all dead loads, which goes where it likes.
+  void set_load(Scalar factor) noexcept {
+    contact_ = {};
+    for (auto& end : ends_) end.set_target(1);
+    load_ = factor;
+  }
+  Scalar load() const noexcept { return load_; }
+  /// As factor(0), but for the rate of the state with λ, K⁻¹f.
+  Status load_rate() noexcept { return assemble_and_solve<true>(0); }
+  /// Of node i after factor() or load_rate() [u, w, θ].
+  Vector3<Scalar> increment(int i) const noexcept {
+    return contact_.holds(i) ? contact_.back(assembler_.increment(i)) : assembler_.increment(i);
+  }
+  /// Adds to the state.  @param change  i -> [u, w, θ]
+  template <class Change>
+  void move(Change&& change) noexcept {
+    for (int i = 0; i < nodes_.size(); ++i) {
+      const Vector3<Scalar> x = change(i);
+      nodes_[i].u += x[0];
+      nodes_[i].w += x[1];
+      nodes_[i].theta += x[2];
     }
+    place_ends();
   }
 
   /// Force along n that holds the contact at d, thesis eq. 3.42 [N].
@@ -244,29 +225,55 @@ class BeamSystem {
     return d;
   }
 
+  /// @tparam Rate  whether the right-hand side is that of load_rate()
+  template <bool Rate>
+  Status assemble_and_solve(Scalar shift) noexcept {
+    Matrix6<Scalar> K;
+    Vector6<Scalar> r;
+    Scalar energy = 0, work = 0;
+    for (int e = 0; e < elements(); ++e) {
+      const Vector6<Scalar> d = displacements(e);
+      energy += Element::tangent(properties_[e], d, r, K);
+      work += subtract_loads(e, load_, d, r, &K);
+      if (Rate) {
+        r.setZero();
+        subtract_loads(e, 1, d, r, nullptr);
+      }
+      if (contact_.holds(e)) contact_.transform(nodes_[e], true, r, K);
+      if (contact_.holds(e + 1)) contact_.transform(nodes_[e + 1], false, r, K);
+      assembler_.add(e, K, r);
+    }
+    size_ = std::sqrt(2 * energy);
+    potential_ = energy - work;
+    if (shift != 0) add_shift(shift);
+    for (const std::size_t k : {0, 1})
+      ends_[k].visit(nodes_[end(k)], [&](int component, Scalar now, Scalar target) {
+        assembler_.prescribe(end(k), component, target - now);
+      });
+    const int c = contact_.node();
+    if (c >= 0) assembler_.prescribe(c, 1, d_ - contact_.displacement(nodes_[c]));
+    return assembler_.solve();
+  }
+
+  /// Puts the ends and the contact exactly where they belong.
+  void place_ends() noexcept {
+    for (const std::size_t k : {0, 1})
+      ends_[k].visit(nodes_[end(k)], [](int, Scalar& now, Scalar target) { now = target; });
+    if (contact_.node() >= 0) contact_.correct(nodes_[contact_.node()], d_);
+  }
+
   /// Residual of one element under its loads.
   void residual(int e, Vector6<Scalar>& r) const noexcept {
     const Vector6<Scalar> d = displacements(e);
     Element::residual(properties_[e], d, r);
-    const auto first = std::partition_point(
-        forces_.begin(), forces_.end(), [&](const PointForce<Scalar>& load) { return load.s < nodes_[e].s; });
-    Scalar work = 0;
-    subtract_loads(e, static_cast<std::size_t>(first - forces_.begin()), d, work, r, nullptr);
+    subtract_loads(e, load_, d, r, nullptr);
   }
-
-  /// Takes the loads of element e, which begin with the given one, from its residual and, unless null, its tangent, and
-  /// adds their work.  @return the first load of the next element
-  std::size_t subtract_loads(int e, std::size_t load, const Vector6<Scalar>& d, Scalar& work,
-                             Vector6<Scalar>& r, Matrix6<Scalar>* K) const noexcept {
-    const Scalar begin = nodes_[e].s, end = nodes_[e + 1].s;
-    if (load_ == 0) return load;
-    for (; load < forces_.size() && (forces_[load].s < end || e + 1 == elements()); ++load) {
-      const PointForce<Scalar>& force = forces_[load];
-      const Scalar t = force.s == end ? Scalar(1) : (force.s - begin) / properties_[e].length;
-      if constexpr (any_rotation<Element>) work += subtract_load(force, t, load_, properties_[e], d, r, K);
-      else work += subtract_load(force, t, load_, properties_[e], d, r);
-    }
-    return load;
+  /// Takes λ times the loads of an element from its residual and, unless null, its tangent.  @return their work [J]
+  Scalar subtract_loads(int e, Scalar lambda, const Vector6<Scalar>& d, Vector6<Scalar>& r,
+                        Matrix6<Scalar>* K) const noexcept {
+    if (lambda == 0 || loads_.empty()) return 0;
+    return loads_.template subtract<any_rotation<Element>>(nodes_[e].s, nodes_[e + 1].s, e + 1 == elements(),
+                                                           lambda, properties_[e], d, r, K);
   }
 
   void add_shift(Scalar shift) noexcept {
@@ -282,7 +289,7 @@ class BeamSystem {
   Nodes nodes_, saved_;
   detail::PerNode<ElementProperties<Scalar>, Elements, MaxElements> properties_;
   Assembler<Scalar, Elements, MaxElements> assembler_;
-  std::vector<PointForce<Scalar>> forces_;
+  DeadLoads<Scalar> loads_;
   NaturalShape<Scalar> natural_;
   Scalar length_;
   ContactMesh<Scalar> mesh_;

@@ -164,4 +164,32 @@ Scalar subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
   return work;
 }
 
+/// The dead loads of a beam, element by element of whatever mesh.
+template <typename Scalar>
+class DeadLoads {
+ public:
+  DeadLoads(const Beam& beam, int elements) : forces_(point_forces<Scalar>(beam, elements)) {}
+
+  bool empty() const noexcept { return forces_.empty(); }
+
+  /// Subtracts λ times the loads from begin to end, the end itself where it is the last, as subtract_load() does.
+  /// @return λ W [J]     O(log loads)
+  template <bool AnyRotation>
+  Scalar subtract(Scalar begin, Scalar end, bool last, Scalar lambda, const ElementProperties<Scalar>& p,
+                  const Vector6<Scalar>& d, Vector6<Scalar>& r, Matrix6<Scalar>* K) const noexcept {
+    Scalar work = 0;
+    auto load = std::partition_point(forces_.begin(), forces_.end(),
+                                     [begin](const PointForce<Scalar>& force) { return force.s < begin; });
+    for (; load != forces_.end() && (load->s < end || last); ++load) {
+      const Scalar t = load->s == end ? Scalar(1) : (load->s - begin) / p.length;
+      if constexpr (AnyRotation) work += subtract_load(*load, t, lambda, p, d, r, K);
+      else work += subtract_load(*load, t, lambda, p, d, r);
+    }
+    return work;
+  }
+
+ private:
+  std::vector<PointForce<Scalar>> forces_;  // in order of s
+};
+
 }  // namespace hapbeam

@@ -1,0 +1,98 @@
+// Where a search for equilibrium begins: the natural shape, the bow of a beam whose ends stand too close, and a nudge off
+// an equilibrium that gives way.
+//
+// Real-time: noexcept, no allocation, O(n).
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/natural_shape.hpp>
+#include <hapbeam/fem/supports.hpp>
+
+namespace hapbeam::detail {
+
+/// Lays the natural shape from the left end's place, turned toward the right end's place unless the left end is clamped.
+/// @param nodes  out, those of the mesh
+template <typename Scalar, class Nodes>
+void lay(const NaturalShape<Scalar>& shape, const EndSupport<Scalar>& left, const EndSupport<Scalar>& right,
+         const ContactMesh<Scalar>& mesh, Nodes& nodes) noexcept {
+  using std::atan2;
+  using std::cos;
+  using std::sin;
+  const Scalar length = mesh.position(mesh.elements());
+  const Displacement<Scalar> end = shape.at(length);
+  const Scalar *from = left.goal, *to = right.goal;
+  Scalar turn = from[2];
+  if (!left.held[2])
+    turn = right.held[1] ? atan2(end.w, length + end.u) - atan2(to[1] - from[1], length + to[0] - from[0])
+                         : to[2] - end.theta;
+  const Scalar c = cos(turn), s = sin(turn);
+  for (int i = 0; i < nodes.size(); ++i) {
+    const Scalar position = mesh.position(i);
+    const Displacement<Scalar> at = shape.at(position);
+    const Scalar x = position + at.u;
+    nodes[i] = {position, from[0] + c * x + s * at.w - position, from[1] - s * x + c * at.w, at.theta + turn};
+  }
+}
+
+/// Bends a straight beam whose ends are to stand closer, in its own direction and facing each other, by some slack: to its
+/// upper side, as far as its length allows, so that its search for rest begins on the buckled side.
+///   w = a f(s/L),  f = 16 t² (1 - t)²,  u' = -½ w'²,  a² ∫f'² dt = 2 slack L          along and across the beam
+/// @param nodes  in and out, as lay() lays a straight beam
+template <typename Scalar, class Nodes>
+void bow(const EndSupport<Scalar>& left, const EndSupport<Scalar>& right, Nodes& nodes) noexcept {
+  using std::abs;
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const int last = nodes.size() - 1;
+  const Scalar length = nodes[last].s, turn = nodes[0].theta, c = cos(turn), s = sin(turn);
+  const Scalar x = length + right.goal[0] - left.goal[0], y = right.goal[1] - left.goal[1];
+  const Scalar slack = length - (c * x - s * y), across = s * x + c * y;
+  const Scalar round_off = 64 * std::numeric_limits<Scalar>::epsilon();
+  const bool placed_across = left.held[1] && right.held[1] && abs(across) > round_off * length,
+             facing = !right.held[2] || abs(right.goal[2] - turn) <= round_off * (1 + abs(turn));
+  if (!left.held[0] || !right.held[0] || placed_across || !facing || !(slack > round_off * length)) return;
+  const Scalar a = sqrt(2 * slack * length * Scalar(210. / 1024));
+  const auto slope = [a, length](Scalar position) {
+    const Scalar t = position / length;
+    return 32 * a * t * (1 - t) * (1 - 2 * t) / length;
+  };
+  Scalar u = 0;
+  for (int i = 0; i <= last; ++i) {
+    auto& node = nodes[i];
+    const Scalar t = node.s / length, w = 16 * a * t * t * (1 - t) * (1 - t);
+    if (i > 0) {  // Simpson's rule
+      const Scalar from = nodes[i - 1].s, before = slope(from), middle = slope((from + node.s) / 2),
+                   after = slope(node.s);
+      u -= (node.s - from) * (before * before + 4 * middle * middle + after * after) / 12;
+    }
+    node.u += c * u + s * w;
+    node.w += c * w - s * u;
+    node.theta -= slope(node.s);
+  }
+}
+
+/// Bends a beam a little: up, most in the middle and a little more on its right, or with a contact up on its right and
+/// down on its left.
+/// @param contact  arc position [m], negative where there is none   @param size  [m]   @param nodes  in and out
+template <typename Scalar, class Nodes>
+void nudge(Nodes& nodes, Scalar contact, Scalar size) noexcept {
+  using std::cos;
+  using std::sin;
+  const Scalar length = nodes[nodes.size() - 1].s;
+  for (auto& node : nodes) {
+    // f = 16 t² (1 - t)² g(t), zero with its slope at both ends, and at the contact
+    const Scalar t = node.s / length, r = 1 - t, a = 16 * size * t * r;
+    const Scalar g = contact < 0 ? (3 + t) / Scalar(3.5) : 4 * (t - contact / length),
+                 slope = contact < 0 ? 1 / Scalar(3.5) : Scalar(4);
+    node.u += a * t * r * g * sin(node.theta);
+    node.w += a * t * r * g * cos(node.theta);
+    node.theta -= a * (2 * (1 - 2 * t) * g + t * r * slope) / length;
+  }
+}
+
+}  // namespace hapbeam::detail
