@@ -3,7 +3,7 @@
 // The centreline is to lie on the tangent of the circle with radius `reach` around the avatar's centre, at the point where
 // the two touch: one push along the normal there.  The beam slides along that tangent while it yields, so the point is
 // sought again on the new shape; what it is off by shrinks to a few percent with each push.  The way that it went in the
-// tick before is its first guess, so that a steady motion takes one push.
+// two ticks before is continued for a first guess, so that a smooth motion takes one push.
 // At an end the normal is the way from the end point to the avatar's centre.
 // Real-time: noexcept, no allocation; at most most_pushes pushes.
 #pragma once
@@ -26,14 +26,14 @@ class PushContact {
   /// Farther than this after the last push, the contact has not been found.
   static constexpr Scalar far = Scalar(1e-2);
 
-  void begin(const Contact<Scalar>&) noexcept { slid_ = 0; }
+  void begin(const Contact<Scalar>&) noexcept { slid_ = before_ = 0; }
 
   /// As PressContact::hold(); contact comes back as it is on the new shape.
   template <class Model>
   Held<Scalar> hold(Model& model, Contact<Scalar>& contact, const Vector2<Scalar>& position, Scalar reach,
                     bool, Press<Scalar>& asked) noexcept {
     const Scalar length = model.shape().length(), side = static_cast<Scalar>(contact.side), first = contact.s;
-    Scalar s = std::clamp(first + slid_, Scalar(0), length);
+    Scalar s = std::clamp(first + (2 * slid_ - before_), Scalar(0), length);
     Foot foot(model, s, position, side);
     for (int pushed = 1;; ++pushed) {
       const Vector2<Scalar> normal = foot.normal;
@@ -46,6 +46,7 @@ class PushContact {
       const Scalar off =
           std::max(std::abs(cross(normal, foot.offset)), foot.at_end ? Scalar(0) : std::abs(foot.ahead));
       if (off <= near * reach || pushed == most_pushes || !is_answer(response.status)) {
+        before_ = slid_;
         slid_ = s - first;
         contact.s = s;
         contact.foot = foot.point;
@@ -82,7 +83,8 @@ class PushContact {
     }
   };
 
-  Scalar slid_ = 0;  // how far the point went in the last tick [m]
+  Scalar slid_ = 0,
+         before_ = 0;  // how far the point went while the beam yielded, in the last tick and before [m]
 };
 
 }  // namespace hapbeam::detail

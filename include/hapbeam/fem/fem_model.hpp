@@ -12,6 +12,7 @@
 // and allocation-free; a press takes at most solver.max_solves linear solves of O(elements).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -46,6 +47,7 @@ class FemModel {
         left_yields_(!fixes_w(beam.left())),
         right_yields_(!fixes_w(beam.right())),
         single_valued_(beam.straight()) {
+    find_range(beam);
     find_rest();
     for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
     home_ = middle();
@@ -76,15 +78,16 @@ class FemModel {
   Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
 
   /// Where press() answers with ok.  A support that holds w is rigid: the shortest element keeps its distance from it.
-  /// |d| is bounded by a tenth of the length and by half of the distance to such a support: there moderate rotation has
-  /// ended, though the solver has not.
+  /// Moderate rotation: |d| up to a tenth of the length and half of the distance to such a support, where it has ended,
+  /// though the solver has not.  Any rotation: where the ends hold the beam along its axis, as far beyond what its length
+  /// allows; where it can slide, 0.8 of the length and of the distance, deep jumps in more than one call.
   Range<Scalar> range() const noexcept {
     constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
     const Scalar length = system_.length();
     return {left_yields_ ? Scalar(0) : shortest_,
             right_yields_ ? length : length - shortest_,
-            length / 10,
-            Scalar(0.5),
+            depth_,
+            slope_,
             left_yields_ ? -infinity : Scalar(0),
             right_yields_ ? infinity : length};
   }
@@ -124,6 +127,24 @@ class FemModel {
   int elements() const noexcept { return system_.elements(); }
 
  private:
+  void find_range(const Beam& beam) noexcept {
+    const Scalar length = system_.length();
+    depth_ = length / 10;
+    slope_ = Scalar(0.5);
+    if constexpr (any_rotation<Element>) {
+      if (fixes_u(beam.left()) && fixes_u(beam.right())) {
+        // How high a beam of this length can stand between its ends, over half the length.
+        const auto span = (beam.length() + beam.right_place().u - beam.left_place().u) / beam.length();
+        const Scalar sag = static_cast<Scalar>(std::sqrt(std::max(0.0, 1 - span * span)));
+        depth_ += sag * length / 2;
+        slope_ += sag;
+      } else {
+        depth_ = Scalar(0.8) * length;
+        slope_ = Scalar(0.8);
+      }
+    }
+  }
+
   /// Where the middle of the beam is [m].
   Scalar middle() const noexcept { return shape().at(system_.length() / 2).w; }
 
@@ -214,6 +235,7 @@ class FemModel {
   ContactMesh<Scalar> uniform_;
   Solver solver_;
   Scalar thickness_, shortest_;
+  Scalar depth_ = 0, slope_ = 0;  // of range()
   bool left_yields_, right_yields_;
   bool single_valued_;  // one shape for each press, as far as is known
   Descent descent_;

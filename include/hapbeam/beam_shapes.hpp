@@ -1,0 +1,69 @@
+// Beams that are not straight, or not at ease: through given nodes, an arch, stretched or pressed together.
+//
+// All of them are made of what Beam offers: a natural shape of arcs, and ends that are placed.
+// Offline: allocates, throws std::invalid_argument naming field, value and unit.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <hapbeam/beam.hpp>
+#include <hapbeam/centreline.hpp>
+
+namespace hapbeam {
+
+/// A beam that is naturally bent through given points, without force between its ends.  Its first arc is that of the
+/// first three points; the others go on without a kink, so the points should lie on a smooth curve.
+/// @param points  two or more, [m], (x, w); the first is the left end, and the beam's own x axis begins there
+inline Beam beam_through(const std::vector<Vector2<double>>& points, const Section& section,
+                         const Material& material, Support left, Support right) {
+  if (points.size() < 2) detail::reject("points", static_cast<double>(points.size()), "", "two or more");
+  // Up is positive here; θ turns the other way.
+  const auto angle = [](const Vector2<double>& v) { return std::atan2(v.y(), v.x()); };
+  const auto between = [](double a) { return std::remainder(a, 2 * 3.141592653589793238462643); };
+  double direction = angle(points[1] - points[0]);
+  if (points.size() > 2) {
+    // The tangent of the circle through the first three points: inscribed angles.
+    direction -= between(angle(points[2] - points[1]) - angle(points[2] - points[0]));
+  }
+  const double first = direction;
+  std::vector<Arc> arcs;
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const Vector2<double> chord = points[i + 1] - points[i];
+    const double c = detail::positive("distance of two points", chord.norm(), "m"),
+                 half = between(angle(chord) - direction);
+    if (!(std::abs(half) < 1.5)) detail::reject("turn from point to point", 2 * half, "rad", "less than 3");
+    const double arc = half == 0 ? c : c * half / std::sin(half);
+    arcs.push_back({length += arc, -2 * half / arc});
+    direction += 2 * half;
+  }
+  const Vector2<double> end = points.back() - points.front();
+  Beam beam(length, section, material, left, right);
+  return beam.naturally(std::move(arcs)).place({0, 0, -first}, {end.x() - length, end.y(), -direction});
+}
+
+/// A circular arch between two ends at the same height.
+/// @param span [m] from end to end   @param rise [m] of the middle, up; less than half the span
+inline Beam arch(double span, double rise, const Section& section, const Material& material, Support ends) {
+  detail::positive("span", span, "m");
+  detail::positive("rise", rise, "m");
+  if (!(rise < span / 2)) detail::reject("rise", rise, "m", "less than half the span");
+  const double half = 2 * std::atan(2 * rise / span), length = span * half / std::sin(half);
+  Beam beam(length, section, material, ends, ends);
+  return beam.naturally({{length, 2 * half / length}}).place({0, 0, -half}, {span - length, 0, half});
+}
+
+/// The same beam with its ends moved apart by `by` [m], or together where negative: a string, or a strip that buckles.
+inline Beam stretched(Beam beam, double by) {
+  Placement right = beam.right_place();
+  right.u += by;
+  return beam.place(beam.left_place(), right);
+}
+
+/// The same beam under a normal force [N]: N L / EA apart.
+inline Beam tensioned(const Beam& beam, double force) {
+  return stretched(beam, force * beam.length() / beam.axial_stiffness());
+}
+
+}  // namespace hapbeam
