@@ -123,6 +123,18 @@ TEST_CASE("snapshots at tensions have the same tensions at every position", "[sn
   }
 }
 
+TEST_CASE("a beam that is bent or moved by nature is not trained: a model does not know how", "[snapshots]") {
+  Beam bent = pinned(), stretched = pinned();
+  bent.naturally({{L, 0.1}});
+  stretched.place({}, {1e-3, 0, 0});
+  for (const Beam& beam : {bent, stretched}) {
+    const FemModel<> full(beam, 16);
+    CHECK_THROWS_WITH(
+        take_snapshots(beam, full, TrainingPlan::anywhere(beam, 0.05)),
+        "beam: must be straight, with its ends where they are in the straight beam, to train a model of it");
+  }
+}
+
 TEST_CASE("a plan that is none is refused by name", "[snapshots]") {
   const FemModel<> full(pinned(), 8);
   const auto refused = [&full](auto spoil, const char* message) {
