@@ -3,8 +3,10 @@
 #pragma once
 
 #include <hapbeam/beam.hpp>
+#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/contact/touch.hpp>
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/dense.hpp>
