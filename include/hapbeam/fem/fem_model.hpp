@@ -5,11 +5,14 @@
 //
 // press() moves the mesh so that a node lies at the contact, prescribes its transverse displacement, solves by
 // Newton–Raphson with the tangent as predictor, from the last press or from rest, whichever is closer, and returns
-// the reaction (thesis eq. 3.40–3.42).
+// the reaction (thesis eq. 3.40–3.42).  Elements of any rotation take a push() along any direction as well.  A beam with
+// more than one shape at rest keeps to the branch on which it is; where that ends or gives way it falls to a stable one,
+// and the status says snapped.
 // Composed of policies: Element × Assembler × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
-// and allocation-free; a press takes at most solver.max_solves linear solves of O(elements).
+// and allocation-free; a press takes at most solver.max_solves linear solves of O(elements), three times as many where
+// the beam falls.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +26,7 @@
 
 namespace hapbeam {
 
-/// @tparam Element    Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain>
+/// @tparam Element    Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain> | Corotational<…>
 /// @tparam ScalarType double | float
 /// @tparam Elements   number of elements, or Eigen::Dynamic      @tparam MaxElements  largest number, or Eigen::Dynamic
 /// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates)   @tparam Solver  NewtonRaphson
@@ -53,12 +56,12 @@ class FemModel {
     home_ = middle();
   }
 
-  /// Prescribes the centreline's transverse displacement d [m] at arc position s [m] of the unloaded beam.
+  /// Prescribes the centreline's transverse displacement d [m] at arc position s [m]: its w, from the x axis.
   /// Within range() the answer is that of the request; else, out_of_range, that of the nearest request in range.
   /// Beside an end that yields, closer than a thousandth of the length (3 % in float), an element up to the contact
   /// would lose the force to round-off; there the end's node is pressed through a straight tip, which is off by about
   /// (δ/L)³ at a free end and (δ/L)² at a guided one.
-  /// @return force [N] and ok | out_of_range | invalid_request | iteration_limit | singular | non_finite
+  /// @return force [N] and ok | out_of_range | snapped | invalid_request | iteration_limit | singular | non_finite
   Response<Scalar> press(const Press<Scalar>& request) noexcept {
     const Press<Scalar> press = range().nearest(request);
     const bool in_range = press.s == request.s && press.d == request.d;

@@ -1,0 +1,130 @@
+// The elements of one beam on a mesh whose nodes move: displacements, strain energy, dead loads, and their derivatives.
+//
+// Displacements are those from the straight beam, of arches too: an arch is a beam that bends nothing where it is bent,
+// between ends that stand closer.  Nodes carry their arc positions, so a mesh that follows the contact changes element
+// lengths and natural rotations and nothing else.
+// Allocates and throws at construction; every other member is noexcept and allocation-free.
+#pragma once
+
+#include <hapbeam/beam.hpp>
+#include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/loads.hpp>
+#include <hapbeam/fem/natural_shape.hpp>
+#include <hapbeam/fem/per_node.hpp>
+
+namespace hapbeam {
+
+template <class Element, typename ScalarType, int Elements, int MaxElements>
+class BeamElements {
+ public:
+  using Scalar = ScalarType;
+  using Node = CentrelineNode<Scalar>;
+  using Nodes = detail::PerNode<Node, Elements, MaxElements>;
+  using Properties = detail::PerNode<ElementProperties<Scalar>, Elements, MaxElements>;
+  static_assert(
+      is_element<Element, Scalar>,
+      "an Element needs static noexcept energy(p, d), residual(p, d, r), tangent(p, d, r, K) and name(): "
+      "see hapbeam/element/element.hpp");
+
+  /// At rest on the x axis.  @throws std::invalid_argument where a load is not finite somewhere on the beam, or elements
+  /// does not fit the type
+  BeamElements(const Beam& beam, int elements)
+      : nodes_(elements),
+        properties_(elements),
+        loads_(beam, elements),
+        natural_(beam),
+        mesh_(elements, static_cast<Scalar>(beam.length())),
+        axial_stiffness_(static_cast<Scalar>(beam.axial_stiffness())),
+        bending_stiffness_(static_cast<Scalar>(beam.bending_stiffness())) {
+    for (int i = 0; i <= elements; ++i) nodes_[i] = {mesh_.position(i), 0, 0, 0};
+    take(mesh_);
+  }
+
+  int size() const noexcept { return nodes_.size() - 1; }
+  Nodes& nodes() noexcept { return nodes_; }
+  const Nodes& nodes() const noexcept { return nodes_; }
+  const Properties& properties() const noexcept { return properties_; }
+  const NaturalShape<Scalar>& natural_shape() const noexcept { return natural_; }
+  const ContactMesh<Scalar>& mesh() const noexcept { return mesh_; }
+  /// Any nodes of this beam, seen with its kinematics.
+  static Centreline<Scalar> view(const Nodes& nodes) noexcept {
+    return {nodes.data(), nodes.size(), any_rotation<Element>};
+  }
+
+  /// Moves to another mesh of as many elements and carries the displacements over.  @param scratch  overwritten
+  void remesh(const ContactMesh<Scalar>& mesh, Nodes& scratch) noexcept {
+    for (int i = 0; i < nodes_.size(); ++i) scratch[i] = nodes_[i];
+    transfer(view(scratch), mesh, nodes_.data());
+    take(mesh);
+  }
+  /// Sets the whole state.  @param nodes those of the given mesh
+  void set(const ContactMesh<Scalar>& mesh, const Node* nodes) noexcept {
+    for (int i = 0; i < nodes_.size(); ++i) nodes_[i] = nodes[i];
+    take(mesh);
+  }
+
+  /// What one element has to say.
+  struct Energies {
+    Scalar strain;  ///< [J]
+    Scalar work;    ///< of λ times the loads on it [J]
+  };
+
+  /// Residual and tangent of V - λW in element e.
+  Energies tangent(int e, Scalar lambda, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
+    const Vector6<Scalar> d = displacements(e);
+    const Scalar energy = Element::tangent(properties_[e], d, r, K);
+    return {energy, subtract_loads(e, lambda, d, r, &K)};
+  }
+  /// The residual alone.
+  void residual(int e, Scalar lambda, Vector6<Scalar>& r) const noexcept {
+    const Vector6<Scalar> d = displacements(e);
+    Element::residual(properties_[e], d, r);
+    subtract_loads(e, lambda, d, r, nullptr);
+  }
+  /// Its derivative by λ.
+  void load_rate(int e, Vector6<Scalar>& r) const noexcept {
+    r.setZero();
+    subtract_loads(e, 1, displacements(e), r, nullptr);
+  }
+  /// [J]
+  Scalar strain_energy() const noexcept {
+    Scalar energy = 0;
+    for (int e = 0; e < size(); ++e) energy += Element::energy(properties_[e], displacements(e));
+    return energy;
+  }
+
+ private:
+  Vector6<Scalar> displacements(int e) const noexcept {
+    const Node &a = nodes_[e], &b = nodes_[e + 1];
+    Vector6<Scalar> d;
+    d << a.u, a.w, a.theta, b.u, b.w, b.theta;
+    return d;
+  }
+
+  Scalar subtract_loads(int e, Scalar lambda, const Vector6<Scalar>& d, Vector6<Scalar>& r,
+                        Matrix6<Scalar>* K) const noexcept {
+    if (lambda == 0 || loads_.empty()) return 0;
+    return loads_.template subtract<any_rotation<Element>>(nodes_[e].s, nodes_[e + 1].s, e + 1 == size(),
+                                                           lambda, properties_[e], d, r, K);
+  }
+
+  void take(const ContactMesh<Scalar>& mesh) noexcept {
+    mesh_ = mesh;
+    for (int e = 0; e < size(); ++e) {
+      const Scalar length = nodes_[e + 1].s - nodes_[e].s;
+      if (properties_[e].length != length)
+        properties_[e] = ElementProperties<Scalar>(length, axial_stiffness_, bending_stiffness_);
+      if (!natural_.straight()) natural_.apply(nodes_[e].s, properties_[e]);
+    }
+  }
+
+  Nodes nodes_;
+  Properties properties_;
+  DeadLoads<Scalar> loads_;
+  NaturalShape<Scalar> natural_;
+  ContactMesh<Scalar> mesh_;
+  Scalar axial_stiffness_, bending_stiffness_;
+};
+
+}  // namespace hapbeam
