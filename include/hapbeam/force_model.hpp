@@ -74,7 +74,8 @@ constexpr const char* name(Status status) noexcept {
 template <typename Scalar>
 struct Press {
   Scalar s;  ///< [m] arc position along the undeformed beam, 0 at the left end
-  Scalar d;  ///< [m] displacement w(s), measured from the unloaded beam, either sign
+  Scalar
+      d;  ///< [m] displacement w(s), from the x axis, along which the unloaded straight beam lies; either sign
 };
 
 /// A frictionless surface that the centreline touches at one point: there its displacement along n is d, and the force
