@@ -155,6 +155,36 @@ TEMPLATE_TEST_CASE("a rigid rotation by any angle, ten turns included, takes no 
   CHECK(worst_float <= 1);
 }
 
+// Each end may turn by up to half a turn against the chord, whatever the chord has turned by: there the energy is the
+// local element's, which sees no rise.  Angles are rounded to eps of 4 turns.
+TEMPLATE_TEST_CASE(
+    "seen from its chord the turning element is its local element, up to half a turn at either end",
+    "[element][rotation]", Linear, Full, Reduced, Assumed) {
+  Random random(67);
+  double worst = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const ElementProperties<double> p = random_properties(random);
+    Vector6<double> d = Vector6<double>::Zero();
+    d[2] = random(3.1);
+    d[3] = random(0.05) * p.length;
+    d[5] = random(3.1);
+    const double energy = TestType::energy(p, d),
+                 seen = Corotational<TestType>::energy(p, turned(random(four_turns), d, p.length));
+    worst = std::max(worst, std::abs(seen - energy) / (energy + 1e-4 * p.axial_stiffness * p.length));
+  }
+  INFO("energies off by " << worst);
+  CHECK(worst <= 1e-12);
+}
+
+// A chord's length less the element's has lost what a small strain is made of; nothing but the strain's own eps may go.
+TEMPLATE_TEST_CASE("a strain of 1e-10 keeps its digits", "[element][rotation]", TurningLinear, TurningFull,
+                   TurningReduced, Turning) {
+  const ElementProperties<double> p(0.7, 1e6, 10);
+  Vector6<double> d = Vector6<double>::Zero();
+  d[3] = 1e-10 * p.length;
+  CHECK(std::abs(residual<TestType>(p, d)[3] - 1e-4) <= 8 * eps * 1e-4);
+}
+
 // Invariance under rotation, said as forces: they balance about any point of the deformed element.
 TEMPLATE_TEST_CASE("any rotation: forces and moments are in balance on the deformed element",
                    "[element][rotation]", TurningLinear, TurningFull, TurningReduced, Turning) {
