@@ -29,7 +29,7 @@ void lay_chain(Nodes& nodes, const Properties& properties, Increment&& increment
     const Vector3<Scalar> y = increment(i);
     Vector6<Scalar> d, change;
     d << before.u, before.w, before.theta, node.u, node.w, node.theta;
-    change << x, y;
+    change << x[0], x[1], x[2], y[0], y[1], y[2];
     const Vector2<Scalar> chord = Element::chord_after(properties[i - 1], d, change);
     nodes[i] = {node.s, last.u + (chord.x() - (node.s - last.s)), last.w + chord.y(), node.theta + y[2]};
     before = node;
