@@ -29,9 +29,9 @@ struct CountingElement {
   }
   /// Where the element has it, an element of any rotation.
   template <typename S, class E = Element>
-  static auto chord_after(const hapbeam::ElementProperties<S>& p, const hapbeam::Vector6<S>& d,
-                          const hapbeam::Vector6<S>& x) noexcept -> decltype(E::chord_after(p, d, x)) {
-    return E::chord_after(p, d, x);
+  static auto chord_change(const hapbeam::ElementProperties<S>& p, const hapbeam::Vector6<S>& d,
+                           const hapbeam::Vector6<S>& x) noexcept -> decltype(E::chord_change(p, d, x)) {
+    return E::chord_change(p, d, x);
   }
 };
 

@@ -87,3 +87,21 @@ TEST_CASE("deep presses tell the two apart by as much as the square of the slope
   CHECK(off.force >= 0.1 * off.slope * off.slope);
   CHECK(off.force <= off.slope * off.slope);
 }
+
+// Rest is found by laying chains, whose round-off must be that of the increments and not of the positions: EA times the
+// latter, in float, is as much as these loads.
+TEST_CASE("in float a loaded beam between held ends comes to rest as in double", "[small][float]") {
+  for (const Support end : {Support::pinned, Support::clamped})
+    for (const int elements : {4, 8, 32}) {
+      Beam beam = thesis_beam(end, end);
+      beam.transverse([](double s) { return -60 * s; }).axial(20).add({0.3, 100, -40, 2});
+      const FemModel<Corotational<>> model(beam, elements);
+      const FemModel<Corotational<>, float> rounded(beam, elements);
+      CAPTURE(name(end), elements, model.rest().solves, rounded.rest().solves);
+      REQUIRE(rounded.rest().status == Status::ok);
+      CHECK(rounded.rest().solves <= model.rest().solves + 2);
+      const double s = thesis_length / 2,
+                   w = static_cast<double>(rounded.shape().at(static_cast<float>(s)).w);
+      CHECK(relative_error(w, model.shape().at(s).w) <= 1e-3);
+    }
+}

@@ -52,26 +52,30 @@ struct Corotational : detail::ElementFromCore<Corotational<Local>> {
              q.k.s1 * s + a1 * c, q.k.s2 * s + a2 * c, q.k.t11, q.k.t12, q.k.t22}};
   }
 
-  /// The chord, x2 - x1 [m], after an increment of the displacements that may be large.  It turns by the angle that the
-  /// increment means, and is as long as it takes for the normal force to be the one that the tangent foresees.  Added as
-  /// they are, displacements of a turning chord would stretch it, and a slender beam answers that with forces that have
-  /// nothing to do with the load.
+  /// What the chord, x2 - x1 [m], changes by when the displacements take an increment that may be large.  It turns by the
+  /// angle that the increment means, and is as long as it takes for the normal force to be the one that the tangent
+  /// foresees.  Added as they are, displacements of a turning chord would stretch it, and a slender beam answers that with
+  /// forces that have nothing to do with the load.
+  /// The change, and not the chord: a small one keeps its digits.
   /// @param x  increment of d
   template <typename S>
-  static Vector2<S> chord_after(const ElementProperties<S>& p, const Vector6<S>& d,
-                                const Vector6<S>& x) noexcept {
+  static Vector2<S> chord_change(const ElementProperties<S>& p, const Vector6<S>& d,
+                                 const Vector6<S>& x) noexcept {
     using std::cos;
     using std::sin;
     const Chord<S> chord(p, d);
     const S L = p.length, i = 1 / chord.length, dx = x[3] - x[0], dw = x[4] - x[1];
-    const S grows = (chord.x * dx + chord.w * dw) * i, turns = (chord.x * dw - chord.w * dx) * i * i;
+    const S extends = (chord.x * dx + chord.w * dw) * i, turns = (chord.x * dw - chord.w * dx) * i * i;
     const detail::Deformation<S> before = chord.local(p, d);
     const S da = L * (x[2] + turns), db = L * (x[5] + turns);
     const detail::CoreResponse<S> q = Local::respond(p, before);
-    const S foreseen = q.s + q.k.ss * grows + q.k.s1 * da + q.k.s2 * db;
-    const detail::Deformation<S> after(before.stretch + grows, before.a + da, before.b + db);
-    const S length = chord.length + grows + (foreseen - Local::respond(p, after).s) / q.k.ss;
-    return {length * cos(chord.angle + turns), length * sin(chord.angle + turns)};
+    const S foreseen = q.s + q.k.ss * extends + q.k.s1 * da + q.k.s2 * db;
+    const detail::Deformation<S> after(before.stretch + extends, before.a + da, before.b + db);
+    const S grows = extends + (foreseen - Local::respond(p, after).s) / q.k.ss;
+    // (l + grows) e(α + turns) - l e(α), with e(α + turns) - e(α) = 2 sin(turns/2) z(α + turns/2)
+    const S half = turns / 2, middle = chord.angle + half, bow = 2 * chord.length * sin(half),
+            end = middle + half;
+    return {grows * cos(end) - bow * sin(middle), grows * sin(end) + bow * cos(middle)};
   }
 
  private:

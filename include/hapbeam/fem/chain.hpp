@@ -23,15 +23,16 @@ template <class Element, typename Scalar, class Nodes, class Properties, class I
 void lay_chain(Nodes& nodes, const Properties& properties, Increment&& increment) noexcept {
   CentrelineNode<Scalar> before = nodes[0];
   Vector3<Scalar> x = increment(0);
+  Vector2<Scalar> way(x[0], x[1]);  // that the last node has moved
   nodes[0] = {before.s, before.u + x[0], before.w + x[1], before.theta + x[2]};
   for (int i = 1; i < nodes.size(); ++i) {
-    const CentrelineNode<Scalar> node = nodes[i], &last = nodes[i - 1];
+    const CentrelineNode<Scalar> node = nodes[i];
     const Vector3<Scalar> y = increment(i);
     Vector6<Scalar> d, change;
     d << before.u, before.w, before.theta, node.u, node.w, node.theta;
     change << x[0], x[1], x[2], y[0], y[1], y[2];
-    const Vector2<Scalar> chord = Element::chord_after(properties[i - 1], d, change);
-    nodes[i] = {node.s, last.u + (chord.x() - (node.s - last.s)), last.w + chord.y(), node.theta + y[2]};
+    way += Element::chord_change(properties[i - 1], d, change);
+    nodes[i] = {node.s, node.u + way.x(), node.w + way.y(), node.theta + y[2]};
     before = node;
     x = y;
   }
