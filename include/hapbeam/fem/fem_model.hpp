@@ -151,7 +151,8 @@ class FemModel {
   /// Where the middle of the beam is [m].
   Scalar middle() const noexcept { return shape().at(system_.length() / 2).w; }
 
-  /// The shape under the dead loads alone; where that is no stable one, the nearest that is, on the upper side.
+  /// The shape under the dead loads alone; where that is no stable one, the nearest that is, on the upper side.  Where
+  /// Newton's method loses its way, which slender beams with a hinge that stand aside make it do, down from its start.
   void find_rest() noexcept {
     const auto aim = [this] { system_.set_goal(); };
     aim();
@@ -163,11 +164,12 @@ class FemModel {
       rest_.solves += solves;
     }
     report_ = rest_;
-    if (!gives_way()) return;
+    const bool lost = report_.status == Status::iteration_limit;
+    if (!lost && !gives_way()) return;
     single_valued_ = false;
     Descent patient;
     patient.max_solves = 10000;
-    fall(true, patient, aim);
+    fall(!lost, patient, aim);
     if (report_.status == Status::snapped) report_.status = Status::ok;
     rest_ = report_;
   }
