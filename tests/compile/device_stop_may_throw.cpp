@@ -14,6 +14,7 @@ struct Device {
   void start(Servo&);
   void stop() PROMISE;
   bool running() const noexcept;
+  hapbeam::DeviceStatus status() const noexcept;
   hapbeam::DeviceCounts counts() const noexcept;
 };
 

@@ -33,6 +33,7 @@ struct StopMayThrow {
   void start(Servo&);
   void stop();
   bool running() const noexcept;
+  DeviceStatus status() const noexcept;
   DeviceCounts counts() const noexcept;
 };
 struct Device : StopMayThrow {

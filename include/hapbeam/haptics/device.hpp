@@ -13,10 +13,12 @@
 //   d.stop()      void              noexcept; blocks until the last tick has returned: s is called no more,
 //                                   the force is zero.  Never from the servo.  Harmless where nothing runs
 //   d.running()   bool              noexcept, wait-free; false again when the device ended the loop by itself
+//   d.status()    DeviceStatus      noexcept, wait-free, from any thread: how it is, or what ended the loop
 //   d.counts()    DeviceCounts      noexcept, wait-free, from any thread, while running and after
 //
 // A device sends no force that is not finite and none beyond its peak, whatever the servo says, and tells
-// the next tick so.  Axes: x right, y up, z toward the user, as OpenHaptics' HDAPI has them; SI here,
+// the next tick so.  Where the device itself is in trouble it sends less than it is asked for, or nothing; the
+// servo is told (DeviceState::status), and told when to forget the contact (DeviceState::reset).  Axes: x right, y up, z toward the user, as OpenHaptics' HDAPI has them; SI here,
 // millimetres nowhere.
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
@@ -36,14 +38,52 @@ enum class ForceCut : std::uint8_t {
   none,        ///< sent as it was
   peak,        ///< |F| > peak: shortened to the peak, direction kept
   not_finite,  ///< a component was NaN or infinite: zero was sent
+  ramped,  ///< scaled down, to zero perhaps: the force comes back after a start or an error, or the motors are warm
 };
+
+/// How a device is.  The first four have a loop that runs or may be started; the last three have ended it, or
+/// kept it from starting, and stay until the next start().
+enum class DeviceStatus : std::uint8_t {
+  stopped,      ///< no loop, and nothing wrong
+  running,      ///< the servo is called and its force sent
+  warm,         ///< runs; motors near their limit: the force is scaled down to zero until they have cooled
+  force_error,  ///< runs; the device refused a force or a speed: zero was sent, the force is coming back
+  calibration_needed,  ///< the device does not know where it is: put the arm where its maker says, start again
+  device_fault,        ///< the device or its driver reported what no loop can go on with
+  communication_lost,  ///< unplugged, switched off, or the line disturbed
+};
+
+/// True where the loop goes on.
+constexpr bool is_running(DeviceStatus status) noexcept {
+  return status == DeviceStatus::running || status == DeviceStatus::warm ||
+         status == DeviceStatus::force_error;
+}
+
+/// Short lower-case name, for messages and reports.
+constexpr const char* name(DeviceStatus status) noexcept {
+  switch (status) {
+    case DeviceStatus::stopped: return "stopped";
+    case DeviceStatus::running: return "running";
+    case DeviceStatus::warm: return "warm";
+    case DeviceStatus::force_error: return "force_error";
+    case DeviceStatus::calibration_needed: return "calibration_needed";
+    case DeviceStatus::device_fault: return "device_fault";
+    case DeviceStatus::communication_lost: return "communication_lost";
+  }
+  return "unknown";
+}
 
 /// What the servo learns at the beginning of a tick.
 struct DeviceState {
-  Eigen::Vector3d position;  ///< [m] as the encoders read it, in the device's axes
-  Eigen::Vector3d velocity;  ///< [m/s] as the device estimates it
-  double time;               ///< [s] since start
-  ForceCut cut;              ///< what became of the force of the tick before
+  Eigen::Vector3d position;                        ///< [m] as the encoders read it, in the device's axes
+  Eigen::Vector3d velocity;                        ///< [m/s] as the device estimates it
+  double time;                                     ///< [s] since start
+  ForceCut cut = ForceCut::none;                   ///< what became of the force of the tick before
+  Eigen::Vector3d sent = Eigen::Vector3d::Zero();  ///< [N] that force, as it was sent
+  DeviceStatus status = DeviceStatus::running;     ///< running, warm or force_error
+  /// Begin anew, from a hand that touches nothing: the first tick since start, and each in which a force error is
+  /// found.  The device sends zero then, or ramps the force in by itself, where its maker asks for that.
+  bool reset = false;
 };
 
 /// What a device can do.
@@ -56,6 +96,8 @@ struct DeviceInfo {
   double position_resolution;  ///< [m]
   double friction;             ///< [N] to drive the arm back by hand
   double period;               ///< [s] of the servo loop
+  double damping;              ///< [N·s/m] viscous, of the arm itself; 0 where unknown
+  double apparent_mass;        ///< [kg] of the arm at its tip; 0 where unknown
 };
 
 /// What happened since start.
@@ -105,11 +147,14 @@ template <typename D>
 struct IsDevice<
     D, std::void_t<decltype(std::declval<D&>().start(std::declval<AnyServo&>())),
                    decltype(std::declval<D&>().stop()), decltype(std::declval<const D&>().info()),
-                   decltype(std::declval<const D&>().running()), decltype(std::declval<const D&>().counts())>>
+                   decltype(std::declval<const D&>().running()), decltype(std::declval<const D&>().status()),
+                   decltype(std::declval<const D&>().counts())>>
     : std::bool_constant<
           std::is_same_v<std::decay_t<decltype(std::declval<const D&>().info())>, DeviceInfo>&& noexcept(
               std::declval<D&>().stop())&& noexcept(std::declval<const D&>().running()) &&
           std::is_same_v<decltype(std::declval<const D&>().running()), bool>&& noexcept(
+              std::declval<const D&>().status()) &&
+          std::is_same_v<decltype(std::declval<const D&>().status()), DeviceStatus>&& noexcept(
               std::declval<const D&>().counts()) &&
           std::is_same_v<decltype(std::declval<const D&>().counts()), DeviceCounts>> {};
 
@@ -134,7 +179,8 @@ template <typename D>
 constexpr void require_device() noexcept {
   static_assert(is_device<D>,
                 "a device has: info() const -> DeviceInfo; start(Servo&); stop() noexcept; "
-                "running() const noexcept -> bool; counts() const noexcept -> DeviceCounts");
+                "running() const noexcept -> bool; status() const noexcept -> DeviceStatus; "
+                "counts() const noexcept -> DeviceCounts");
 }
 
 }  // namespace hapbeam

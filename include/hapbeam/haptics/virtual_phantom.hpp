@@ -75,6 +75,7 @@ class VirtualPhantom {
   const DeviceInfo& info() const noexcept { return info_; }
   const VirtualPhantomOptions& options() const noexcept { return options_; }
   bool running() const noexcept { return running_.load(std::memory_order_acquire); }
+  DeviceStatus status() const noexcept { return running() ? DeviceStatus::running : DeviceStatus::stopped; }
   DeviceCounts counts() const noexcept {
     return {ticks_.load(std::memory_order_relaxed), missed_ticks_.load(std::memory_order_relaxed),
             force_cut_ticks_.load(std::memory_order_relaxed)};
@@ -135,8 +136,9 @@ class VirtualPhantom {
 
   template <typename Servo>
   void tick(Servo& servo) noexcept {
-    Eigen::Vector3d force = servo(DeviceState{encoders_.position(), encoders_.velocity(),
-                                              static_cast<double>(periods_) * options_.arm.period, cut_});
+    Eigen::Vector3d force = servo(DeviceState{
+        encoders_.position(), encoders_.velocity(), static_cast<double>(periods_) * options_.arm.period, cut_,
+        force_, DeviceStatus::running, ticks_.load(std::memory_order_relaxed) == 0});
     cut_ = limit_force(force, options_.arm.peak_force);
     force_ = force;
     ticks_.fetch_add(1, std::memory_order_relaxed);
@@ -207,7 +209,9 @@ class VirtualPhantom {
             3500,
             arm.resolution,
             arm.friction,
-            arm.period};
+            arm.period,
+            arm.damping,
+            arm.apparent_mass};
   }
   void check_workspace() const {
     if constexpr (std::is_same_v<Path, HandPath>)
