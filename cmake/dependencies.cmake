@@ -49,6 +49,13 @@ function(hapbeam_find_or_fetch_jansson)
   endif()
 endfunction()
 
+# OpenHaptics 3.0 or later, where it is installed; without it there is no hapbeam::openhaptics.  Its licence leaves nothing
+# to fetch.
+function(hapbeam_find_openhaptics)
+  list(PREPEND CMAKE_MODULE_PATH ${PROJECT_SOURCE_DIR}/cmake)
+  find_package(OpenHaptics MODULE QUIET)
+endfunction()
+
 # Catch2 3 or 2.13.  A macro: include(Catch) after it needs the module path that find_package sets.
 macro(hapbeam_find_catch2)
   find_package(Catch2 3 CONFIG QUIET)

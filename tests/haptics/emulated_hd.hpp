@@ -1,7 +1,7 @@
 // The emulated HDAPI as an Api of Hdapi: the functions and constants of the vendor, played by HdWorld.
 #pragma once
 
-#include "haptics/hd_world.hpp"
+#include "hd_world.hpp"
 #include <hapbeam/haptics/hdapi.hpp>
 
 namespace hapbeam::testing {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "haptics/emulated_hd.hpp"
+#include "emulated_hd.hpp"
 
 namespace hapbeam::testing {
 

@@ -195,3 +195,32 @@ TEST_CASE("arm, hand and script that cannot be are refused by name, value and un
   CHECK_THROWS_WITH(VirtualPhantom<>(HandPath({0, 0}).press(0.14, 1)),
                     ContainsSubstring("hand path y = -0.14 m"));
 }
+
+TEST_CASE("the servo is told what was sent, and to begin anew in the first tick alone", "[phantom]") {
+  VirtualPhantom<> phantom(press_and_slide);
+  struct {
+    std::vector<DeviceState> states;
+    Eigen::Vector3d operator()(const DeviceState& state) noexcept {
+      states.push_back(state);
+      return {0, 20.0 * static_cast<double>(states.size()), 0};
+    }
+  } servo;
+  CHECK(phantom.status() == DeviceStatus::stopped);
+  phantom.run(servo, 4e-3);
+  REQUIRE(servo.states.size() == 4);
+  const double sent[] = {0, 20, 37.5, 37.5};
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(servo.states[i].sent == Eigen::Vector3d(0, sent[i], 0));
+    CHECK(servo.states[i].cut == (i < 2 ? ForceCut::none : ForceCut::peak));
+    CHECK(servo.states[i].reset == (i == 0));
+    CHECK(servo.states[i].status == DeviceStatus::running);
+  }
+  phantom.reset();
+  phantom.step(servo);
+  CHECK(servo.states.back().reset);
+  CHECK(servo.states.back().sent == Eigen::Vector3d::Zero());
+  phantom.start(servo);
+  CHECK(phantom.status() == DeviceStatus::running);
+  phantom.stop();
+  CHECK(phantom.status() == DeviceStatus::stopped);
+}

@@ -75,14 +75,14 @@ constexpr const char* name(DeviceStatus status) noexcept {
 
 /// What the servo learns at the beginning of a tick.
 struct DeviceState {
-  Eigen::Vector3d position;                        ///< [m] as the encoders read it, in the device's axes
-  Eigen::Vector3d velocity;                        ///< [m/s] as the device estimates it
-  double time;                                     ///< [s] since start
-  ForceCut cut = ForceCut::none;                   ///< what became of the force of the tick before
-  Eigen::Vector3d sent = Eigen::Vector3d::Zero();  ///< [N] that force, as it was sent
-  DeviceStatus status = DeviceStatus::running;     ///< running, warm or force_error
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] as the encoders read it, in the device's axes
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s] as the device estimates it
+  double time = 0;                                     ///< [s] since start
+  ForceCut cut = ForceCut::none;                       ///< what became of the force of the tick before
+  Eigen::Vector3d sent = Eigen::Vector3d::Zero();      ///< [N] that force, as it was sent
+  DeviceStatus status = DeviceStatus::running;         ///< running, warm or force_error
   /// Begin anew, from a hand that touches nothing: the first tick since start, and each in which a force error is
-  /// found.  The device sends zero then, or ramps the force in by itself, where its maker asks for that.
+  /// found.  A real device sends zero then and ramps the force in; a simulated one sends what it is asked for.
   bool reset = false;
 };
 
