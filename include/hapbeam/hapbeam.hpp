@@ -1,6 +1,7 @@
-// All that a servo needs.  Training (rom/train.hpp, rom/validate.hpp) and model files (rom/model_file.hpp) are included
-// by name: they cost an SVD and one more library.  So are a real device (haptics/openhaptics.hpp), which needs its maker's
-// kit, and haptics/real_time.hpp, which brings the system's headers.
+// All that a servo needs.  Training (rom/train.hpp, rom/validate.hpp) and model files (rom/model_file.hpp)
+// are included by name: they cost an SVD and one more library.  So are a real device
+// (haptics/openhaptics.hpp), which needs its maker's kit, and haptics/real_time.hpp, which brings the
+// system's headers.
 #pragma once
 
 #include <hapbeam/beam.hpp>

@@ -1,5 +1,5 @@
 // A function of an Api that may throw would throw through a tick; so would one of other types convert in silence.
-// expect: an Api has the static functions and constants that hapbeam/haptics/hdapi_contract.hpp lists
+// expect: an Api is what hapbeam/haptics/hdapi_contract.hpp lists
 #include "../haptics/emulated_hd.hpp"
 
 #ifdef HAPBEAM_REPAIRED

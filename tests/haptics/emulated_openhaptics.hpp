@@ -1,5 +1,5 @@
-// Stands in for haptics/openhaptics.hpp when the programs of the documentation are built and run: the emulated HDAPI in
-// real time, with one device that a hand holds still.
+// Stands in for haptics/openhaptics.hpp when the programs of the documentation are built and run: the
+// emulated HDAPI in real time, with one device that a hand holds still.
 #pragma once
 
 #include "emulated_hd.hpp"

@@ -1,16 +1,16 @@
-// A world with haptic devices in it, behind the functions of HDAPI: simulated arms in simulated hands, one scheduler,
-// one stack of errors, and the rules that the real one has.
+// A world with haptic devices in it, behind the functions of HDAPI: simulated arms in simulated hands, one
+// scheduler, one stack of errors, and the rules that the real one has.
 //
-//   - One servo thread calls all callbacks, once a tick, the highest priority first; while it runs, a call of a device
-//     from anywhere else is an error.  In lock step a test's tick() is that thread.
-//   - A frame belongs to one device, once a tick.  Beginning it makes the device current and its force zero, ending it
-//     commits the force.  Nesting, ending what did not begin, and leaving one open are errors.
+//   - One servo thread calls all callbacks, once a tick, the highest priority first; while it runs, a call of
+//     a device from anywhere else is an error.  In lock step a test's tick() is that thread.
+//   - A frame belongs to one device, once a tick.  Beginning it makes the device current and its force zero,
+//     ending it commits the force.  Nesting, ending what did not begin, and leaving one open are errors.
 //   - The last force persists when nothing new is sent.  Motors are off until force output is enabled.
 //   - Errors are one stack for all, the newest first, each with the handle of its device.
 //   - A device that was unplugged has a dead handle for ever; it is initialised anew after it was disabled.
 //
-// What breaks a rule is also counted (violations()), because an adapter that reacts well to its own mistake hides it.
-// Nothing in a tick allocates.
+// What breaks a rule is also counted (violations()), because an adapter that reacts well to its own mistake
+// hides it. Nothing in a tick allocates.
 #pragma once
 
 #include <array>
@@ -362,8 +362,8 @@ class HdWorld : public HdCode {
     unsigned long id = 0;
   };
 
-  /// The devices move on one period under what the callbacks send: each is read before any callback, and its motors
-  /// after all of them.
+  /// The devices move on one period under what the callbacks send: each is read before any callback, and its
+  /// motors after all of them.
   void step(std::size_t i, bool with_callbacks) noexcept {
     if (i == devices_.size()) {
       if (with_callbacks && started_) call_all();

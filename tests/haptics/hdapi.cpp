@@ -151,7 +151,8 @@ TEST_CASE("behind HDAPI the hand feels what it feels on the same arm without it"
   for (int i = 0; i < 1000; ++i) {
     world.tick();
     same.step(direct);
-    // Positions differ by the rounding of mm, a step of the encoders at the border of one; the press is stable.
+    // Positions differ by the rounding of mm, a step of the encoders at the border of one; the press is
+    // stable.
     REQUIRE((phantom.arm.tip().position - same.tip().position).norm() <= 2e-6);
     REQUIRE(std::abs(behind.last.time - direct.last.time) <= 1e-9);
     REQUIRE(behind.last.reset == direct.last.reset);

@@ -1,5 +1,5 @@
-// What the adapter does when something goes wrong: each fault ends in a defined state, and from each it can be started
-// again.  Steady presses: the hand holds 20 mm below a floor of 1000 N/m, some 6 N.
+// What the adapter does when something goes wrong: each fault ends in a defined state, and from each it can
+// be started again.  Steady presses: the hand holds 20 mm below a floor of 1000 N/m, some 6 N.
 #include <limits>
 #include <vector>
 

@@ -16,10 +16,10 @@
 //   d.status()    DeviceStatus      noexcept, wait-free, from any thread: how it is, or what ended the loop
 //   d.counts()    DeviceCounts      noexcept, wait-free, from any thread, while running and after
 //
-// A device sends no force that is not finite and none beyond its peak, whatever the servo says, and tells
-// the next tick so.  Where the device itself is in trouble it sends less than it is asked for, or nothing; the
-// servo is told (DeviceState::status), and told when to forget the contact (DeviceState::reset).  Axes: x right, y up, z toward the user, as OpenHaptics' HDAPI has them; SI here,
-// millimetres nowhere.
+// A device sends no force that is not finite and none beyond its peak, whatever the servo says, and tells the
+// next tick so.  Where the device itself is in trouble it sends less than it is asked for, or nothing; the
+// servo is told (DeviceState::status), and told when to forget the contact (DeviceState::reset).  Axes: x
+// right, y up, z toward the user, as OpenHaptics' HDAPI has them; SI here, millimetres nowhere.
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
 
@@ -38,7 +38,7 @@ enum class ForceCut : std::uint8_t {
   none,        ///< sent as it was
   peak,        ///< |F| > peak: shortened to the peak, direction kept
   not_finite,  ///< a component was NaN or infinite: zero was sent
-  ramped,  ///< scaled down, to zero perhaps: the force comes back after a start or an error, or the motors are warm
+  ramped,      ///< scaled down, to zero perhaps, after a start or an error or with warm motors
 };
 
 /// How a device is.  The first four have a loop that runs or may be started; the last three have ended it, or
@@ -48,7 +48,7 @@ enum class DeviceStatus : std::uint8_t {
   running,      ///< the servo is called and its force sent
   warm,         ///< runs; motors near their limit: the force is scaled down to zero until they have cooled
   force_error,  ///< runs; the device refused a force or a speed: zero was sent, the force is coming back
-  calibration_needed,  ///< the device does not know where it is: put the arm where its maker says, start again
+  calibration_needed,  ///< the device does not know where its arm is
   device_fault,        ///< the device or its driver reported what no loop can go on with
   communication_lost,  ///< unplugged, switched off, or the line disturbed
 };
@@ -81,8 +81,9 @@ struct DeviceState {
   ForceCut cut = ForceCut::none;                       ///< what became of the force of the tick before
   Eigen::Vector3d sent = Eigen::Vector3d::Zero();      ///< [N] that force, as it was sent
   DeviceStatus status = DeviceStatus::running;         ///< running, warm or force_error
-  /// Begin anew, from a hand that touches nothing: the first tick since start, and each in which a force error is
-  /// found.  A real device sends zero then and ramps the force in; a simulated one sends what it is asked for.
+  /// Begin anew, from a hand that touches nothing: the first tick since start, and each in which a force
+  /// error is found.  A real device sends zero then and ramps the force in; a simulated one sends what it is
+  /// asked for.
   bool reset = false;
 };
 

@@ -1,18 +1,20 @@
 // The newest value from one thread to another, without waiting and without torn reads: from the servo to the
 // graphics (a shape, a state), or back (settings).
 //
-// Three copies: the writer fills one, the reader holds one, the third lies between them and is swapped, with the flag
-// "newer", in one atomic exchange.  Neither side ever waits for the other or repeats anything, values that nobody
-// read are overwritten, and what is read is always one whole value as it was published, never older than one
-// read before.  One writer, one reader: a value that several threads want takes one Exchange each.
+// Three copies: the writer fills one, the reader holds one, the third lies between them and is swapped, with
+// the flag "newer", in one atomic exchange.  Neither side ever waits for the other or repeats anything,
+// values that nobody read are overwritten, and what is read is always one whole value as it was published,
+// never older than one read before.  One writer, one reader: a value that several threads want takes one
+// Exchange each.
 //
 //   Exchange<Shape> shapes(empty);                      // allocates what copying `empty` allocates, thrice
 //   shapes.draft() = …;  shapes.publish();              // servo, each tick
 //   if (shapes.update()) draw(shapes.value());          // graphics, each picture
 //
-// A value that owns memory may be used where assigning to it does not allocate, for example one whose size is fixed
-// by `initial` and that is filled in place.
-// Source: the triple buffer; H. Simpson's "Four-slot fully asynchronous communication mechanism" (1990) is its ancestor.
+// A value that owns memory may be used where assigning to it does not allocate, for example one whose size is
+// fixed by `initial` and that is filled in place.
+// Source: the triple buffer; H. Simpson's "Four-slot fully asynchronous communication mechanism" (1990) is
+// its ancestor.
 #pragma once
 
 #include <atomic>

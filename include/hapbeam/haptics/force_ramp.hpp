@@ -1,9 +1,9 @@
 // How much of the force a device sends while something is not as it should be.
 //
-// Nothing in the tick of a start or of a force error, then a little more each tick, all of it a ramp later.  With warm
-// motors it goes down at the same rate, to nothing, and back when they have cooled: down above 0.7 of what they
-// bear, back below 0.5, the vendor's own figures (OpenHaptics programmer's guide).  A device that reports warm
-// motors without a temperature is given cooling_time.
+// Nothing in the tick of a start or of a force error, then a little more each tick, all of it a ramp later.
+// With warm motors it goes down at the same rate, to nothing, and back when they have cooled: down above 0.7
+// of what they bear, back below 0.5, the vendor's own figures (OpenHaptics programmer's guide).  A device
+// that reports warm motors without a temperature is given cooling_time.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 #pragma once
 

@@ -3,21 +3,20 @@
 //   Hdapi<OpenHaptics> device;          // connects; docs/haptics.md has a complete program
 //   device.start(servo);                // or throws: not calibrated, no communication …
 //
-// A tick is one frame: the device is read, the shared stack of errors emptied, the servo asked, its force limited,
-// ramped and sent, zero included, because a force that nobody replaces persists.
+// A tick is one frame: the device is read, the shared stack of errors emptied, the servo asked, its force
+// limited, ramped and sent, zero included, because a force that nobody replaces persists.
 //
 //   found in a tick                          what follows
-//   a force or speed was refused             zero is sent, DeviceState::reset, the force ramps in (force_ramp.hpp)
+//   a force or speed was refused             zero is sent, DeviceState::reset, the force ramps in
 //   warm motors, or a temperature above 0.7  the force ramps down to zero, and in again below 0.5
-//   communication lost; any other error, a   the servo is not asked, zero is sent, forces are switched off, the loop
-//   position that is not a number, a frame   ends and status() says why; start() connects anew
+//   communication lost; any other error, a   the servo is not asked, zero is sent, forces are switched off,
+//   position that is not a number, a frame   the loop ends and status() says why; start() connects anew
 //   that is not this device's
 //
-// Several devices share one scheduler and its one thread (hdapi_scheduler.hpp).  A device is constructed, or started again
-// after its loop was lost, while no other runs; a healthy one starts and stops whenever it likes.
-// Units and origin are the contract's (hdapi_connection.hpp).  The orientation of the stylus is not read.
-// Construction, calibrate() and start() allocate and throw; nothing in a tick does, and no tick waits for a thread.
-// Source: OpenHaptics Toolkit, programmer's guide.
+// Several devices share one scheduler (hdapi_scheduler.hpp): one is constructed, or started again after its loop
+// was lost, while no other runs; a healthy one starts and stops whenever it likes.  Units and origin are the
+// contract's (hdapi_connection.hpp).  Construction, calibrate() and start() allocate and throw; nothing in a tick
+// does, and no tick waits for a thread.   Source: OpenHaptics Toolkit, programmer's guide.
 #pragma once
 
 #include <atomic>
@@ -37,18 +36,17 @@ namespace hapbeam {
 /// @tparam Clock  of time and missed ticks: steady, now() noexcept
 template <typename Api, typename Clock = std::chrono::steady_clock>
 class Hdapi {
-  static_assert(
-      is_hd_api<Api>,
-      "an Api has the static functions and constants that hapbeam/haptics/hdapi_contract.hpp lists, "
-      "each noexcept and with the vendor's types");
+  static_assert(is_hd_api<Api>,
+                "an Api is what hapbeam/haptics/hdapi_contract.hpp lists, noexcept, in the vendor's types");
   static_assert(Clock::is_steady&& noexcept(Clock::now()),
-                "a tick is timed by a steady clock that does not throw");
+                "ticks are timed by a steady clock that does not throw");
 
   using Scheduler = detail::HdScheduler<Api>;
   using Lock = std::lock_guard<std::mutex>;
 
  public:
-  /// Connects.   @throws std::invalid_argument, DeviceError; std::logic_error while another device's loop runs
+  /// Connects.   @throws std::invalid_argument, DeviceError; std::logic_error while another device's loop
+  /// runs
   explicit Hdapi(const HdapiOptions& options = {})
       : device_(options), ramp_(options.ramp_time, 1.0 / options.rate) {
     const Lock lock(Scheduler::mutex);
@@ -78,10 +76,10 @@ class Hdapi {
     prepare([this] { device_.calibrate(true); });
   }
 
-  /// Checks the calibration, schedules the tick, switches forces on and, for the first device, starts the scheduler.
-  /// The force ramps in.  Also after a fault: connects anew then.  start() and stop() belong to one thread.
-  /// @throws std::logic_error where it runs already or must connect while another runs, std::invalid_argument where another
-  ///         runs at another rate, DeviceError with the status that status() then has
+  /// Checks the calibration, schedules the tick, switches forces on, starts the scheduler where none runs.  The
+  /// force ramps in.  After a fault: connects anew.  start() and stop() belong to one thread.
+  /// @throws std::logic_error where it runs already or must connect while another runs, std::invalid_argument
+  ///         where another runs at another rate, DeviceError with the status that status() then has
   template <typename Servo>
   void start(Servo& servo) {
     require_servo<Servo>();
@@ -177,7 +175,8 @@ class Hdapi {
     const unsigned handle = device_.client.handle;
     const auto now = Clock::now();
     Api::begin_frame(handle);
-    // A frame that does not begin may leave another device current, and that one must not get this one's force.
+    // A frame that does not begin may leave another device current, and that one must not get this one's
+    // force.
     const bool current = Api::get_current_device() == handle;
     const auto reading = device_.read();
     Scheduler::drain();
@@ -245,9 +244,7 @@ class Hdapi {
   std::atomic<DeviceStatus> status_{DeviceStatus::stopped};
   std::atomic<std::uint64_t> ticks_{0}, missed_ticks_{0}, force_cut_ticks_{0};
   std::atomic<bool> stopping_{false}, ended_{false};
-  static_assert(std::atomic<DeviceStatus>::is_always_lock_free &&
-                    std::atomic<std::uint64_t>::is_always_lock_free,
-                "a tick must not lock");
+  static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "a tick must not lock");
 };
 
 }  // namespace hapbeam

@@ -1,7 +1,7 @@
 // One device of HDAPI: connected, asked what it is, calibrated, read, let go.
 //
-// mm become m and N/mm become N/m here and nowhere else; the origin becomes the middle of the workspace.  Forces are in N
-// on both sides, axes are the same.
+// mm become m and N/mm become N/m here and nowhere else; the origin becomes the middle of the workspace.
+// Forces are in N on both sides, axes are the same.
 // Offline but for read(): throws and allocates.  A message names the device, what was asked of it and the
 // vendor's error.
 #pragma once
@@ -94,8 +94,8 @@ class HdConnection {
     connected_ = false;
   }
 
-  /// Checks the calibration, and updates it where the device can do that unattended, or where the arm is known to stand
-  /// in its reset position.  With the scheduler's mutex.   @throws DeviceError
+  /// Checks the calibration, and updates it where the device can do that unattended, or where the arm is
+  /// known to stand in its reset position.  With the scheduler's mutex.   @throws DeviceError
   void calibrate(bool at_reset_position) {
     unsigned answer = 0;
     HdErrors errors;
@@ -134,8 +134,7 @@ class HdConnection {
   struct Reading {
     Eigen::Vector3d position;  ///< [m]
     Eigen::Vector3d velocity;  ///< [m/s]
-    double
-        temperature;  ///< of the hottest motor over what it bears; 0 where it is not measured, 1 for no number
+    double temperature;        ///< of the hottest motor over what it bears; 0: not measured
     bool finite() const noexcept { return position.allFinite() && velocity.allFinite(); }
   };
   /// In a frame; not finite where the vendor's functions give nothing.

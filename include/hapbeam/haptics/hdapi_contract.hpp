@@ -1,8 +1,8 @@
 // What the adapter needs from OpenHaptics' HDAPI: a struct `Api` of static functions and constants.
 //
 // The real one is haptics/openhaptics.hpp; tests have an emulated one.  Functions are named as the vendor's
-// without "hd", constants without "HD_", and all have the vendor's types, which on every platform are those of
-// the table in is_hd_api below.
+// without "hd", constants without "HD_", and all have the vendor's types, which on every platform are those
+// of the table in is_hd_api below.
 //
 //   Api::ErrorInfo               a struct with: unsigned errorCode, int internalErrorCode, unsigned hHD
 //   Api::Callback                pointer to: unsigned f(void*), in the vendor's calling convention

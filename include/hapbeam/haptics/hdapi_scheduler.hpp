@@ -1,8 +1,9 @@
 // What all devices of one Api share: the scheduler, its one servo thread, and the one stack of errors.
 //
 // Counted: the first loop starts the scheduler, the last one stops it.  While it runs, a call of a device
-// belongs on the servo thread, and the list of loops is changed there alone, so that no tick waits for a lock.
-// An error names its device; whoever finds it notes it with that device's loop, which sees it in its next tick.
+// belongs on the servo thread, and the list of loops is changed there alone, so that no tick waits for a
+// lock. An error names its device; whoever finds it notes it with that device's loop, which sees it in its
+// next tick.
 #pragma once
 
 #include <algorithm>
@@ -67,7 +68,8 @@ class HdScheduler {
   }
 
   /// Empties the stack and notes each error with its device, one that names none with all.
-  /// @return the errors of no device in the list: of the calls just made for one that is not, else of loops that ended
+  /// @return the errors of no device in the list: of the calls just made for one that is not, else of loops
+  ///         that ended
   /// On the servo thread, or with the mutex where there is none.
   /// Real-time: no allocation, noexcept, bounded by most_errors.
   static HdErrors drain() noexcept {
@@ -90,7 +92,8 @@ class HdScheduler {
     rate_ = rate;
     if (loops_++ == 0) Api::start_scheduler();
   }
-  /// One loop less.  Stops the scheduler after the last one, and disables what was to be disabled.  With the mutex.
+  /// One loop less.  Stops the scheduler after the last one, and disables what was to be disabled.  With the
+  /// mutex.
   static void remove_loop() noexcept {
     if (--loops_ > 0) return;
     Api::stop_scheduler();

@@ -1,7 +1,7 @@
 // OpenHaptics' HDAPI as an Api of Hdapi (hdapi_contract.hpp): the only header that includes the vendor's.
 //
-// It needs the OpenHaptics developer kit, 3.0 or later; with CMake link hapbeam::openhaptics.  Each function hands on
-// to the vendor's of the same name and does nothing else.
+// It needs the OpenHaptics developer kit, 3.0 or later; with CMake link hapbeam::openhaptics.  Each function
+// hands on to the vendor's of the same name and does nothing else.
 #pragma once
 
 // The vendor's header knows Linux by a macro that g++ and clang define in their GNU dialects alone.

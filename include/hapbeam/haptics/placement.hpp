@@ -2,11 +2,11 @@
 //
 //   p_scene = origin + scale R p_device      v_scene = scale R v_device      F_device = Rᵀ F_scene
 //
-// R turns the device's axes (x right, y up, z toward the user) into the scene's.  The scene's x and y are the plane
-// of the beam, x along it and y = w across it, and z stands on that plane.  Forces are not scaled: with a
-// scale of 2 the hand moves half as far for the same force and feels a beam twice as stiff, so what a
-// device can render in the scene is its own limit divided by the scale.  Power shrinks by 1 / scale and never changes
-// sign: a passive scene stays passive in the hand.
+// R turns the device's axes (x right, y up, z toward the user) into the scene's.  The scene's x and y are the
+// plane of the beam, x along it and y = w across it, and z stands on that plane.  Forces are not scaled: with
+// a scale of 2 the hand moves half as far for the same force and feels a beam twice as stiff, so what a
+// device can render in the scene is its own limit divided by the scale.  Power shrinks by 1 / scale and never
+// changes sign: a passive scene stays passive in the hand.
 //
 //   const Placement placement = Placement::in_plane({1.27, 0.02});    // the device's origin, above mid-span
 //   const Vector2<double> hand = placement.beam_position(state.position);
@@ -72,7 +72,8 @@ class Placement {
     return turn_.transpose() * scene;
   }
 
-  /// In the plane of the beam: what the hand does across that plane is not seen.  @param device [m]   @return [m] x, w
+  /// In the plane of the beam: what the hand does across that plane is not seen.
+  /// @param device [m]   @return [m] x, w
   Vector2<double> beam_position(const Eigen::Vector3d& device) const noexcept {
     return scene_position(device).head<2>();
   }

@@ -1,12 +1,12 @@
-// Asks the system to let a thread run when it has to: a priority before all ordinary threads, and memory that is
-// never paged out.
+// Asks the system to let a thread run when it has to: a priority before all ordinary threads, and memory that
+// is never paged out.
 //
 //   servo thread   const RealTime priority = set_real_time_priority(80);     // in its first tick, say
 //   main, once     const RealTime memory = lock_memory();                    // before the loop starts
 //                  if (memory != RealTime::done) std::puts(message(memory));
 //
-// A loop runs without either, less regularly.  On systems other than Linux nothing is done, and the answer says so.
-// An HDAPI scheduler has a priority of its own already.
+// A loop runs without either, less regularly.  On systems other than Linux nothing is done, and the answer
+// says so. An HDAPI scheduler has a priority of its own already.
 #pragma once
 
 #include <cstdint>
@@ -70,8 +70,8 @@ constexpr const char* message(RealTime result) noexcept {
 #endif
 }
 
-/// All memory of the process, present and future, stays in RAM: a tick never waits for a page.  Where only so much may be
-/// locked nothing is, because the first allocation beyond that would fail.
+/// All memory of the process, present and future, stays in RAM: a tick never waits for a page.  Where only so
+/// much may be locked nothing is, because the first allocation beyond that would fail.
 /// noexcept; blocks for as long as it takes to fetch what is paged out.
 [[nodiscard]] inline RealTime lock_memory() noexcept {
 #if defined(__linux__)
