@@ -77,7 +77,7 @@ class Hdapi {
   }
 
   /// Checks the calibration, schedules the tick, switches forces on, starts the scheduler where none runs.  The
-  /// force ramps in.  After a fault: connects anew.  start() and stop() belong to one thread.
+  /// force ramps in.  After a fault: connects anew.  Blocks.  start() and stop() belong to one thread.
   /// @throws std::logic_error where it runs already or must connect while another runs, std::invalid_argument
   ///         where another runs at another rate, DeviceError with the status that status() then has
   template <typename Servo>
@@ -96,7 +96,7 @@ class Hdapi {
     prepare([this] { begin(); });
   }
 
-  void stop() noexcept {
+  void stop() noexcept {  // blocks until the last tick has returned
     const Lock lock(Scheduler::mutex);
     end();
   }
