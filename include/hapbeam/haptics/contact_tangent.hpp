@@ -1,0 +1,99 @@
+// What the beam will answer a little deeper: the last good force, continued along its tangent.
+//
+//   f(p) = f0 - k n·(p - p0)      never below zero: a beam does not pull
+//
+// p0, f0 n: place and force of the last good response, n the normal of the contact.  The stiffness k along n is
+// nowhere asked of the model; it follows from what the beam has answered.  Contact without friction is
+// conservative, so the work done on the beam since it was touched is its energy U, wherever along it the hand has slid
+// meanwhile, and whatever dead loads had bent it before.  For a force law f ~ y^q the tangent is
+//
+//   df/dy = 2q/(q + 1) · f²/2U      1 × f²/2U where the beam is linear, 1.5 × where it is cubic
+//
+// and k = 1.25 f²/2U is within a fifth of both: Newton's method with this slope divides an error by five each tick.
+// Tangents from differences of two responses have noise where the hand rests and are wrong where it
+// slides; f/depth is wrong by the change of stiffness along the beam, a factor of thousands near a support.
+// Where a response and its prediction disagree by more than 40 %, the response is believed and energy starts anew from it.
+// Real-time: no allocation, noexcept, wait-free, O(1).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <hapbeam/centreline.hpp>
+
+namespace hapbeam {
+
+class ContactTangent {
+ public:
+  bool known() const noexcept { return known_; }
+  const Vector2<double>& normal() const noexcept {
+    return normal_;
+  }                                                         ///< unit; out of the beam when last touched
+  double stiffness() const noexcept { return stiffness_; }  ///< k [N/m] along the normal
+
+  /// f0 - k n·(p - p0), below zero too where p lies outside; 0 while nothing is known.  @param place [m]   @return [N]
+  double force_at(const Vector2<double>& place) const noexcept {
+    return known_ ? force_ - stiffness_ * normal_.dot(place - place_) : 0;
+  }
+
+  /// The beam is touched no more.
+  void forget() noexcept { known_ = false, stiffness_ = 0; }
+
+  /// A good response.
+  /// @param place [m] from which the beam is pressed   @param force [N] on the hand, finite, not zero
+  /// @param depth [m] of the penetration that the first touch ended
+  void learn(const Vector2<double>& place, const Vector2<double>& force, double depth) noexcept {
+    const double size = force.norm();
+    const Vector2<double> normal = force / size;
+    if (known_) follow(place, normal, size);
+    else energy_ = size * std::max(depth, least_depth) / 2;
+    known_ = true;
+    place_ = place, normal_ = normal, force_ = size;
+    set_stiffness(safety * size * size / (2 * energy_));
+  }
+
+  /// Nothing was touched where the tangent still had a force: it falls more steeply.
+  void steepen() noexcept { set_stiffness(most_change * stiffness_); }
+
+ private:
+  static constexpr double safety = 1.25;      // over f²/2U
+  static constexpr double least_ratio = 0.6;  // of response to prediction: 0.8 where linear, 1.2 where cubic
+  static constexpr double most_ratio = 1.4;   //
+  static constexpr double loud = 1e-3;        // changes of the force, over it, that can be told from noise
+  static constexpr double most_change = 4;    // of the stiffness in a tick
+  static constexpr double most_work = 0.3;    // of the energy, that a trapezoid is taken for
+  static constexpr double least_depth = 1e-12;  // [m]
+  static constexpr double rigid = 1e12;         // [N/m]
+
+  void follow(const Vector2<double>& place, const Vector2<double>& normal, double force) noexcept {
+    const Vector2<double> step = place - place_;
+    const double work = -(normal * force + normal_ * force_).dot(step) / 2;
+    const double expected = -stiffness_ * normal.dot(step), change = force - force_;
+    const double ratio = change / expected;
+    const bool agrees = ratio > least_ratio && ratio < most_ratio;
+    const bool quiet = std::max(std::abs(expected), std::abs(change)) <= loud * force;
+    if ((agrees || quiet) && std::abs(work) <= most_work * energy_) {
+      energy_ += work;
+    } else {
+      // Too stiff is slow, too soft overshoots: up at once, down with care.
+      const double factor = agrees      ? 1
+                            : ratio > 0 ? std::max(safety * ratio, 1 / most_change)
+                                        : std::max(force / force_, 1.0);
+      energy_ = safety * force * force / (2 * factor * stiffness_);
+    }
+  }
+
+  /// Keeps energy and stiffness in step.
+  void set_stiffness(double stiffness) noexcept {
+    stiffness_ = std::min(stiffness, rigid);
+    energy_ = safety * force_ * force_ / (2 * stiffness_);
+  }
+
+  bool known_ = false;
+  Vector2<double> place_ = Vector2<double>::Zero(), normal_ = Vector2<double>::UnitY();
+  double force_ = 0;      // f0 [N]
+  double stiffness_ = 0;  // k [N/m]
+  double energy_ = 0;     // U [J]
+};
+
+}  // namespace hapbeam
