@@ -224,3 +224,51 @@ TEST_CASE("the servo is told what was sent, and to begin anew in the first tick 
   phantom.stop();
   CHECK(phantom.status() == DeviceStatus::stopped);
 }
+
+TEST_CASE("motors that are late by n periods move the arm as a servo that answers n periods later",
+          "[phantom]") {
+  struct Pulse {
+    int first, tick = 0;
+    Eigen::Vector3d operator()(const DeviceState&) noexcept {
+      const int since = tick++ - first;
+      return {0, since >= 0 && since < 3 ? 2.0 * (since + 1) : 0.0, 0};
+    }
+  };
+  for (const int delay : {0, 1, 3, 16}) {
+    VirtualPhantomOptions late;
+    late.arm.delay_ticks = delay;
+    VirtualPhantom delayed(Still{}, late), prompt(Still{});
+    Pulse early{2}, later{2 + delay};
+    for (int tick = 0; tick < 100; ++tick) {
+      delayed.step(early);
+      prompt.step(later);
+      REQUIRE(same_bits(delayed.tip().position, prompt.tip().position));
+    }
+    CHECK(delayed.tip().position.y() != 0);
+    // What is under way is forgotten with the rest.
+    Pulse now{0};
+    delayed.step(now);
+    delayed.reset();
+    Free free;
+    delayed.run(free, 0.05);
+    CHECK(delayed.tip().position.isZero(0));
+  }
+  VirtualPhantomOptions options;
+  for (const int delay : {-1, 17}) {
+    options.arm.delay_ticks = delay;
+    CHECK_THROWS_WITH((VirtualPhantom<Still>(Still{}, options)), ContainsSubstring("delay_ticks"));
+  }
+}
+
+TEST_CASE("a hand that pushes besides comes to rest where its spring holds the push, within friction",
+          "[phantom]") {
+  VirtualPhantomOptions options;
+  options.hand.push = {0, -3, 0};
+  VirtualPhantom phantom(Still{}, options);
+  Free free;
+  phantom.run(free, 5);
+  CHECK(phantom.tip().velocity.norm() == 0);
+  CHECK(std::abs(phantom.tip().position.y() * options.hand.stiffness + 3) <= options.arm.friction);
+  options.hand.push.x() = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH((VirtualPhantom<Still>(Still{}, options)), ContainsSubstring("push = inf N"));
+}

@@ -32,13 +32,13 @@ inline double passive_stiffness(double damping, double period, int delay_ticks) 
   return damping / (period * (0.5 + delay_ticks));
 }
 
-/// What a device can render with a margin: the spring takes half of the arm's damping, the damper a quarter, and a
-/// quarter is left (1); both are half of what friction holds (2, 3); and the stiffness does not exceed what the maker names.
+/// What a device can render with a margin of a quarter of (1): the spring takes half of the arm's damping, or less where
+/// it is as stiff as the maker names; the damper takes the rest up to three quarters.  Of (2) and (3), half.
 /// @param delay_ticks  whole periods between the servo's answer and the motors, besides the one that holds it; 0 to 16
 /// @throws std::invalid_argument where the device's damping, friction, resolution, stiffness or period cannot be, or
 ///         its damping is 0, that is unknown: there is no safe stiffness then
 inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks = 0) {
-  constexpr double spring_share = 0.5, damper_share = 0.25, friction_share = 0.5;
+  constexpr double spring_share = 0.5, both_share = 0.75, friction_share = 0.5;
   const double b = detail::positive("device damping", device.damping, "N·s/m");
   const double T = detail::positive("device period", device.period, "s");
   const double hardest = detail::positive("device max_stiffness", device.max_stiffness, "N/m");
@@ -46,15 +46,16 @@ inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks =
   if (!(device.position_resolution >= 0))
     detail::reject("device position_resolution", device.position_resolution, "m", "not negative");
   if (!(delay_ticks >= 0 && delay_ticks <= 16)) detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
-  CouplingFigures figures{std::min(hardest, spring_share * passive_stiffness(b, T, delay_ticks)),
-                          damper_share * b};
-  // An arm without friction has nothing that holds a step; (1) is all there is.
+  const double bound = passive_stiffness(b, T, delay_ticks);
+  double stiffness = std::min(hardest, spring_share * bound);
+  double damping = b;
+  // An arm without friction holds no step of the grid; (1) is all there is.
   if (device.friction > 0 && device.position_resolution > 0) {
     const double held = friction_share * device.friction / device.position_resolution;
-    figures.stiffness = std::min(figures.stiffness, 2 * held);
-    figures.damping = std::min(figures.damping, held * T);
+    stiffness = std::min(stiffness, 2 * held);
+    damping = held * T;
   }
-  return figures;
+  return {stiffness, std::min(damping, (both_share - stiffness / bound) * b)};
 }
 
 }  // namespace hapbeam

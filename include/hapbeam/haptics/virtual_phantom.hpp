@@ -9,9 +9,12 @@
 // Construction and start() allocate and throw; nothing in a tick does, and no tick waits for another thread.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 #include <thread>
@@ -34,6 +37,7 @@ struct ArmOptions {
   double velocity_cutoff = 100;  ///< [Hz] of the velocity's low pass, positive; not in the table
   double peak_force = 37.5;      ///< [N] positive
   double period = 1e-3;          ///< [s] of the servo loop, 1e-5 to 1
+  int delay_ticks = 0;           ///< whole periods between a force and the motors, 0 to 16
 };
 
 /// The hand that holds the arm, a spring and a damper between path and grip; within the published fits.
@@ -41,6 +45,8 @@ struct HandOptions {
   double stiffness = 500;  ///< [N/m]; 0: the hand has let go of the path
   double damping = 1.3;    ///< [N·s/m]
   double grip_mass = 0.2;  ///< [kg] that moves with the arm
+  Eigen::Vector3d push =
+      Eigen::Vector3d::Zero();  ///< [N] besides, from the beginning on: a weight that rests on it
 };
 
 struct VirtualPhantomOptions {
@@ -120,6 +126,7 @@ class VirtualPhantom {
     periods_ = 0;
     ticks_ = missed_ticks_ = force_cut_ticks_ = 0;
     force_.setZero();
+    late_.fill(force_);
     cut_ = ForceCut::none;
     target_ = path_(0);
     for (int i = 0; i < 3; ++i) axes_[i].place(target_.position[i]);
@@ -133,6 +140,7 @@ class VirtualPhantom {
 
  private:
   using Clock = std::chrono::steady_clock;
+  static constexpr int max_delay = 16;
 
   template <typename Servo>
   void tick(Servo& servo) noexcept {
@@ -150,8 +158,12 @@ class VirtualPhantom {
     const double period = options_.arm.period;
     const HandTarget from = target_;
     target_ = path_(static_cast<double>(++periods_) * period);
+    std::move_backward(late_.begin(), late_.end() - 1, late_.end());
+    late_[0] = force_;
+    const Eigen::Vector3d force =
+        late_[static_cast<std::size_t>(options_.arm.delay_ticks)] + options_.hand.push;
     for (int i = 0; i < 3; ++i)
-      axes_[i].advance(axes_[i].drive(force_[i], from.position[i], from.velocity[i], target_.position[i],
+      axes_[i].advance(axes_[i].drive(force[i], from.position[i], from.velocity[i], target_.position[i],
                                       target_.velocity[i], options_.hand.damping, period),
                        period);
     encoders_.read(tip().position);
@@ -188,6 +200,9 @@ class VirtualPhantom {
     detail::positive("velocity_cutoff", arm.velocity_cutoff, "Hz");
     detail::positive("peak_force", arm.peak_force, "N");
     if (!(arm.period >= 1e-5 && arm.period <= 1)) detail::reject("period", arm.period, "s", "1e-5 to 1");
+    if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= max_delay))
+      detail::reject("delay_ticks", arm.delay_ticks, "", "0 to 16");
+    for (int i = 0; i < 3; ++i) detail::finite("push", hand.push[i], "N");
     not_negative("hand stiffness", hand.stiffness, "N/m");
     not_negative("hand damping", hand.damping, "N·s/m");
     not_negative("grip_mass", hand.grip_mass, "kg");
@@ -230,6 +245,7 @@ class VirtualPhantom {
   Encoders encoders_{options_.arm.resolution, options_.arm.velocity_cutoff, options_.arm.period};
   HandTarget target_{};
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  std::array<Eigen::Vector3d, max_delay + 1> late_;  // newest first
   ForceCut cut_ = ForceCut::none;
   std::uint64_t periods_ = 0;
   std::atomic<std::uint64_t> ticks_{0}, missed_ticks_{0}, force_cut_ticks_{0};
