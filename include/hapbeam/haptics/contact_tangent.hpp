@@ -59,19 +59,21 @@ class ContactTangent {
   static constexpr double safety = 1.25;      // over f²/2U
   static constexpr double least_ratio = 0.6;  // of response to prediction: 0.8 where linear, 1.2 where cubic
   static constexpr double most_ratio = 1.4;   //
-  static constexpr double loud = 1e-3;        // changes of the force, over it, that can be told from noise
-  static constexpr double most_change = 4;    // of the stiffness in a tick
-  static constexpr double most_work = 0.3;    // of the energy, that a trapezoid is taken for
+  static constexpr double loud = 1e-3;  // change of the force, over it, from which a response says something
+  static constexpr double slide = 0.3;  // the same where the hand slides, which changes the force as well
+  static constexpr double most_change = 4;      // of the stiffness in a tick
+  static constexpr double most_work = 0.3;      // of the energy, that a trapezoid is taken for
   static constexpr double least_depth = 1e-12;  // [m]
   static constexpr double rigid = 1e12;         // [N/m]
 
   void follow(const Vector2<double>& place, const Vector2<double>& normal, double force) noexcept {
     const Vector2<double> step = place - place_;
     const double work = -(normal * force + normal_ * force_).dot(step) / 2;
-    const double expected = -stiffness_ * normal.dot(step), change = force - force_;
-    const double ratio = change / expected;
+    const double deeper = -normal.dot(step), along = (step + deeper * normal).norm();
+    const double expected = stiffness_ * deeper, change = force - force_, ratio = change / expected;
     const bool agrees = ratio > least_ratio && ratio < most_ratio;
-    const bool quiet = std::max(std::abs(expected), std::abs(change)) <= loud * force;
+    const double noise = along > std::abs(deeper) ? slide : loud;
+    const bool quiet = std::max(std::abs(expected), std::abs(change)) <= noise * force;
     if ((agrees || quiet) && std::abs(work) <= most_work * energy_) {
       energy_ += work;
     } else {

@@ -4,6 +4,7 @@
 //   c.tick(touch, hand)   CoupledForce   noexcept, no allocation; one touch.tick(), whose result it hands on
 //   c.in_scene(scale)     C              noexcept; the same between positions in metres of a scene, `scale` of them to
 //                                        one of the device's
+//   C::for_device(info, delay_ticks)   C   its default; may throw std::invalid_argument
 //   c.reset()             void           noexcept; the hand touches nothing
 //
 // Touch is Touch<Model>, or what has its tick(position).
@@ -50,6 +51,7 @@ struct CoupledForce {
 /// The hand presses the beam.  What the device cannot render it will not: near a support a steel beam buzzes.
 class Direct {
  public:
+  static Direct for_device(const DeviceInfo&, int) noexcept { return {}; }
   Direct in_scene(double) const noexcept { return *this; }
   void reset() noexcept { last_.forget(); }
 

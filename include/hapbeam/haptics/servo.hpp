@@ -1,0 +1,167 @@
+// One tick of the loop, for a program that has a loop of its own: CHAI3D, an HDAPI callback, Force Dimension's SDK, …
+//
+//   Servo<FemModel<>> servo(model, device_info, options);        // offline: allocates
+//   const Eigen::Vector3d force = servo.tick(state);             // each period: where the hand is, what it feels
+//
+//   device ─► Placement ─► Coupling (Touch ─► model) ─► EnergyMonitor ─► ForceGuard ─► device
+//                                   └─► newest record and shape, wait-free ─► graphics
+//
+// It is a servo of the device contract too: device.start(servo), or a ServoLoop, which does that.
+// tick(): no allocation, noexcept, wait-free but for the clock; at most one press of the model, whose work is bounded.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/haptics/coupling.hpp>
+#include <hapbeam/haptics/energy_monitor.hpp>
+#include <hapbeam/haptics/exchange.hpp>
+#include <hapbeam/haptics/force_guard.hpp>
+#include <hapbeam/haptics/placement.hpp>
+#include <hapbeam/haptics/servo_record.hpp>
+#include <hapbeam/haptics/tick_times.hpp>
+
+namespace hapbeam {
+
+struct ServoOptions {
+  Placement placement = {};      ///< of the device in the scene
+  double avatar_radius = 0.005;  ///< [m] in the scene, not negative
+  int delay_ticks = 0;           ///< whole periods between the servo's answer and the motors, 0 to 16
+  bool dissipate = false;        ///< energy that the loop has generated is taken back by damping
+};
+
+/// What is drawn: the record and the centreline of one tick.
+template <typename Scalar>
+struct ServoPicture {
+  ServoRecord record;
+  std::vector<CentrelineNode<Scalar>> nodes;
+
+  Centreline<Scalar> shape() const noexcept { return {nodes.data(), static_cast<int>(nodes.size())}; }
+};
+
+template <typename Model, typename Coupling = VirtualCoupling>
+class Servo {
+ public:
+  using Scalar = typename Model::Scalar;
+  using Picture = ServoPicture<Scalar>;
+
+  /// @param model   kept by reference; nobody else presses it
+  /// @param device  what the loop's device can do; its limits are the guard's
+  /// @param coupling  in the device's metres; its figures, too, are for placement.scale() to change
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  Servo(Model& model, const DeviceInfo& device, const ServoOptions& options, const Coupling& coupling)
+      : model_(model),
+        options_(options),
+        touch_(model, static_cast<Scalar>(options.avatar_radius)),
+        coupling_(coupling.in_scene(options.placement.scale())),
+        energy_(device, options.delay_ticks),
+        guard_(ForceGuard::for_device(device)),
+        times_(device.period),
+        pictures_(Picture{{}, {model.shape().begin(), model.shape().end()}}) {}
+
+  /// With the coupling that the device can render.   @throws as Coupling::for_device, too
+  Servo(Model& model, const DeviceInfo& device, const ServoOptions& options = {})
+      : Servo(model, device, options, Coupling::for_device(device, options.delay_ticks)) {}
+
+  /// @param state  of the device, at the beginning of a period   @return [N] on the hand, device axes
+  [[nodiscard]] Eigen::Vector3d tick(const DeviceState& state) noexcept {
+    times_.begin();
+    energy_.observe(state.position, state.cut == ForceCut::none ? guard_.force() : state.sent);
+    if (state.reset) release();
+    const auto coupled = coupling_.tick(touch_, options_.placement.beam_position(state.position));
+    const bool safe = is_answer(coupled.touch.status) || coupled.continued;
+    Eigen::Vector3d force = options_.placement.device_force_of_beam(coupled.force);
+    if (options_.dissipate && coupled.touch.pressing) force += energy_.dissipation(state.velocity);
+    const GuardedForce guarded = guard_.limit(force, state.time, safe);
+    record(state, coupled, guarded, safe);
+    publish();
+    times_.end();
+    return guarded.force;
+  }
+  Eigen::Vector3d operator()(const DeviceState& state) noexcept { return tick(state); }
+
+  /// As new, but for the motors' heat.  While no tick runs.
+  void reset() noexcept {
+    release();
+    record_ = {};
+    publish();
+    times_.pause();
+  }
+
+  const TickTimes& times() const noexcept { return times_; }
+  const Coupling& coupling() const noexcept { return coupling_; }  ///< in the scene's metres
+
+  /// The newest record and shape.  One reader, from any thread: wait-free.  They stay until the next call.
+  const Picture& picture() noexcept {
+    pictures_.update();
+    return pictures_.value();
+  }
+
+ private:
+  /// The hand is where nobody knows: it touches nothing.
+  void release() noexcept {
+    touch_.reset();
+    coupling_.reset();
+    energy_.reset();
+    guard_.reset();
+  }
+
+  static LoopStatus status(const DeviceState& state, const CoupledForce<Scalar>& coupled,
+                           const GuardedForce& guarded, bool safe) noexcept {
+    if (state.reset || state.status != DeviceStatus::running) return LoopStatus::device;
+    if (!safe) return LoopStatus::no_answer;
+    if (coupled.continued) return LoopStatus::continued;
+    if (guarded.limited || state.cut != ForceCut::none) return LoopStatus::limited;
+    if (!coupled.touch.pressing) return LoopStatus::free;
+    if (guarded.engaging) return LoopStatus::engaging;
+    return coupled.touch.status == Status::ok ? LoopStatus::touching : LoopStatus::out_of_range;
+  }
+
+  void record(const DeviceState& state, const CoupledForce<Scalar>& coupled, const GuardedForce& guarded,
+              bool safe) noexcept {
+    ServoRecord& r = record_;
+    const bool pressing = coupled.touch.pressing, touched = pressing && !r.pressing;
+    r.status = status(state, coupled, guarded, safe);
+    r.model = coupled.touch.status;
+    r.time = state.time;
+    r.position = state.position;
+    r.hand = options_.placement.beam_position(state.position);
+    r.avatar = coupled.avatar;
+    r.force = guarded.force;
+    r.press = {static_cast<double>(coupled.touch.press.s), static_cast<double>(coupled.touch.press.d)};
+    r.pressing = pressing;
+    r.heat = guard_.heat();
+    ++r.ticks;
+    r.contact_ticks += pressing;
+    r.touches += touched;
+    r.saturated_ticks += guarded.limited || state.cut != ForceCut::none;
+    r.continued_ticks += coupled.continued;
+    r.failed_ticks += !safe;
+    if (pressing) r.max_press = std::max(r.max_press, std::abs(r.press.d));
+    r.max_force = std::max(r.max_force, guarded.force.norm());
+    r.energy_generated = energy_.generated();
+    if (worse(r.model, r.worst)) r.worst = r.model;
+  }
+
+  void publish() noexcept {
+    Picture& draft = pictures_.draft();
+    const Centreline<Scalar> shape = model_.shape();
+    draft.record = record_;
+    std::copy(shape.begin(), shape.end(), draft.nodes.begin());
+    pictures_.publish();
+  }
+
+  const Model& model_;
+  ServoOptions options_;
+  Touch<Model> touch_;
+  Coupling coupling_;
+  EnergyMonitor energy_;
+  ForceGuard guard_;
+  TickTimes times_;
+  ServoRecord record_;
+  Exchange<Picture> pictures_;
+};
+
+}  // namespace hapbeam
