@@ -260,15 +260,29 @@ TEST_CASE("motors that are late by n periods move the arm as a servo that answer
   }
 }
 
-TEST_CASE("a hand that pushes besides comes to rest where its spring holds the push, within friction",
+TEST_CASE("a push besides, held over each period, moves the arm as the device's own force does",
           "[phantom]") {
-  VirtualPhantomOptions options;
-  options.hand.push = {0, -3, 0};
-  VirtualPhantom phantom(Still{}, options);
+  struct Pushing {
+    HandTarget operator()(double time) const noexcept {
+      return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+              Eigen::Vector3d(0, time < 0.0995 ? 0 : -3, 0)};
+    }
+  };
+  struct Step {
+    Eigen::Vector3d operator()(const DeviceState& state) noexcept {
+      return {0, state.time < 0.0995 ? 0.0 : -3.0, 0};
+    }
+  };
+  VirtualPhantom pushed(Pushing{}), driven(Still{});
   Free free;
-  phantom.run(free, 5);
-  CHECK(phantom.tip().velocity.norm() == 0);
-  CHECK(std::abs(phantom.tip().position.y() * options.hand.stiffness + 3) <= options.arm.friction);
-  options.hand.push.x() = std::numeric_limits<double>::infinity();
-  CHECK_THROWS_WITH((VirtualPhantom<Still>(Still{}, options)), ContainsSubstring("push = inf N"));
+  Step step;
+  for (int tick = 0; tick < 3000; ++tick) {
+    pushed.step(free);
+    driven.step(step);
+    REQUIRE(same_bits(pushed.tip().position, driven.tip().position));
+  }
+  const HandOptions hand;
+  const ArmOptions arm;
+  CHECK(pushed.tip().velocity.norm() == 0);
+  CHECK(std::abs(pushed.tip().position.y() * hand.stiffness + 3) <= arm.friction);
 }

@@ -16,10 +16,11 @@
 
 namespace hapbeam {
 
-/// Where the hand wants to be and how fast it wants to go there.
+/// Where the hand wants to be, how fast it wants to go there, and what it pushes besides.
 struct HandTarget {
-  Eigen::Vector3d position;  ///< [m] device axes
-  Eigen::Vector3d velocity;  ///< [m/s]
+  Eigen::Vector3d position;                        ///< [m] device axes
+  Eigen::Vector3d velocity;                        ///< [m/s]
+  Eigen::Vector3d push = Eigen::Vector3d::Zero();  ///< [N] held until the next target; a weight, for example
 };
 
 /// A script for the hand in the device's x-y plane (z = 0): it begins at rest at a place and is told what to

@@ -45,8 +45,6 @@ struct HandOptions {
   double stiffness = 500;  ///< [N/m]; 0: the hand has let go of the path
   double damping = 1.3;    ///< [N·s/m]
   double grip_mass = 0.2;  ///< [kg] that moves with the arm
-  Eigen::Vector3d push =
-      Eigen::Vector3d::Zero();  ///< [N] besides, from the beginning on: a weight that rests on it
 };
 
 struct VirtualPhantomOptions {
@@ -160,8 +158,7 @@ class VirtualPhantom {
     target_ = path_(static_cast<double>(++periods_) * period);
     std::move_backward(late_.begin(), late_.end() - 1, late_.end());
     late_[0] = force_;
-    const Eigen::Vector3d force =
-        late_[static_cast<std::size_t>(options_.arm.delay_ticks)] + options_.hand.push;
+    const Eigen::Vector3d force = late_[static_cast<std::size_t>(options_.arm.delay_ticks)] + from.push;
     for (int i = 0; i < 3; ++i)
       axes_[i].advance(axes_[i].drive(force[i], from.position[i], from.velocity[i], target_.position[i],
                                       target_.velocity[i], options_.hand.damping, period),
@@ -202,7 +199,6 @@ class VirtualPhantom {
     if (!(arm.period >= 1e-5 && arm.period <= 1)) detail::reject("period", arm.period, "s", "1e-5 to 1");
     if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= max_delay))
       detail::reject("delay_ticks", arm.delay_ticks, "", "0 to 16");
-    for (int i = 0; i < 3; ++i) detail::finite("push", hand.push[i], "N");
     not_negative("hand stiffness", hand.stiffness, "N/m");
     not_negative("hand damping", hand.damping, "N·s/m");
     not_negative("grip_mass", hand.grip_mass, "kg");
