@@ -273,7 +273,8 @@ TEST_CASE("a push besides, held over each period, moves the arm as the device's 
       return {0, state.time < 0.0995 ? 0.0 : -3.0, 0};
     }
   };
-  VirtualPhantom pushed(Pushing{}), driven(Still{});
+  VirtualPhantom pushed(Pushing{});
+  VirtualPhantom driven(Still{});
   Free free;
   Step step;
   for (int tick = 0; tick < 3000; ++tick) {

@@ -1,0 +1,117 @@
+// A hand that leans on a beam from one moment to the next, in lock step with simulated time: does the loop come to rest?
+//
+// The arm rests where the avatar touches the beam; once the guard has let the force in, the hand pushes down
+// with a steady force.  That is the step that also a hand without stiffness can make; to one of stiffness k it is a
+// step of push/k of its target.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/haptics/servo_loop.hpp>
+#include <hapbeam/haptics/virtual_phantom.hpp>
+
+namespace hapbeam::testing {
+
+/// Who presses, through what.
+struct Situation {
+  double hand_stiffness = 500, hand_damping = 1.3, grip_mass = 0.2;  ///< [N/m], [N·s/m], [kg]
+  double period = 1e-3;                                              ///< [s]
+  int delay = 0;                                                     ///< [ticks]
+  double resolution = 7e-6;                                          ///< [m]
+  double damping = 5, friction = 0.2;                                ///< of the arm [N·s/m], [N]
+  double push = 3;                                                   ///< [N]
+
+  VirtualPhantomOptions options() const {
+    VirtualPhantomOptions o;
+    o.arm.damping = damping, o.arm.friction = friction, o.arm.resolution = resolution;
+    o.arm.period = period, o.arm.delay_ticks = delay;
+    o.hand = {hand_stiffness, hand_damping, grip_mass};
+    return o;
+  }
+};
+
+/// The hand holds still, and leans down from a moment on.
+struct Leaning {
+  double push;                       // [N]
+  static constexpr double at = 0.3;  // [s]
+
+  HandTarget operator()(double time) const noexcept {
+    const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+    return {zero, zero, time < at ? zero : Eigen::Vector3d(0, -push, 0)};
+  }
+};
+
+struct StepResponse {
+  double speed = 0;         ///< [m/s] RMS, the largest over any 0.1 s that begins `settling` after the step or later
+  double amplitude = 0;     ///< [m] half the way between the extremes from then on
+  double frequency = 0;     ///< [Hz] of the velocity's changes of sign from then on
+  double least_energy = 0;  ///< [J] of what hand and arm have put into the loop, arm included: negative: it gave
+  double generated = 0;     ///< [J] as the loop's own monitor says
+  double force = 0;         ///< [N] sent last
+  double position = 0;      ///< [m] of the tip at the end, along y
+};
+
+/// @param s [m] where the beam is pressed, from above   @param duration [s] after the step   @param settling [s] as well
+/// Energy: -F·Δx of the force that the motors held, exactly, and b Δx²/T + f |Δx| of the arm, at least.
+template <typename Model, typename Coupling>
+StepResponse step_response(Model& model, double s, const Coupling& coupling, const Situation& who,
+                           double duration, double settling = 0.5) {
+  model.reset();
+  VirtualPhantom<Leaning> device(Leaning{who.push}, who.options());
+  ServoOptions options;
+  const double surface =
+      static_cast<double>(model.shape().at(static_cast<typename Model::Scalar>(s)).w + model.thickness() / 2);
+  options.placement = Placement::in_plane({s, surface + options.avatar_radius});
+  options.delay_ticks = who.delay;
+  ServoLoop<VirtualPhantom<Leaning>, Model, Coupling> loop(device, model, options, coupling);
+
+  StepResponse response;
+  std::array<double, 17> held{};  // newest first
+  double energy = 0, y = 0, squares = 0, low = 1e9, high = -1e9, last_speed = 0;
+  long in_window = 0, changes = 0;
+  const long window = std::lround(0.1 / who.period);
+  const long first = std::lround((Leaning::at + settling) / who.period);
+  const long end = std::lround((Leaning::at + duration) / who.period);
+  for (long tick = 0; tick < end; ++tick) {
+    double sent = 0;
+    struct Servo {
+      decltype(loop)& loop_;
+      double& sent_;
+      Eigen::Vector3d operator()(const DeviceState& state) noexcept {
+        const Eigen::Vector3d force = loop_.servo().tick(state);
+        sent_ = force.y();
+        return force;
+      }
+    } servo{loop, sent};
+    device.step(servo);
+    std::move_backward(held.begin(), held.end() - 1, held.end());
+    held[0] = sent;
+    const Tip tip = device.tip();
+    const double moved = tip.position.y() - y, speed = tip.velocity.y();
+    y = tip.position.y();
+    energy += -held[static_cast<std::size_t>(who.delay)] * moved + who.damping * moved * moved / who.period +
+              who.friction * std::abs(moved);
+    response.least_energy = std::min(response.least_energy, energy);
+    if (tick < first) continue;
+    low = std::min(low, y), high = std::max(high, y);
+    changes += speed * last_speed < 0;
+    last_speed = speed;
+    squares += speed * speed;
+    if (++in_window < window) continue;
+    response.speed = std::max(response.speed, std::sqrt(squares / static_cast<double>(window)));
+    squares = 0, in_window = 0;
+  }
+  response.amplitude = (high - low) / 2;
+  response.frequency = static_cast<double>(changes) / 2 / (duration - settling);
+  response.generated = loop.picture().record.energy_generated;
+  response.force = loop.picture().record.force.y();
+  response.position = y;
+  return response;
+}
+
+}  // namespace hapbeam::testing
