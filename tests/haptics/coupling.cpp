@@ -289,16 +289,16 @@ TEST_CASE("the default keeps a quarter of Colgate and Schenkel's bound, half of 
       REQUIRE(c.stiffness <= device.friction / device.position_resolution * (1 + 1e-12));
       REQUIRE(c.damping <= 0.5 * device.friction * device.period / device.position_resolution * (1 + 1e-12));
     }
-    REQUIRE(c.stiffness <= passive_stiffness(device.damping, device.period, delay) / 2);
+    REQUIRE(c.stiffness <= 0.4 * passive_stiffness(device.damping, device.period, delay) * (1 + 1e-12));
   }
-  // The thesis' device: as stiff as its maker says, or half of what the delay leaves.
+  // The thesis' device: as stiff as its maker says, or two fifths of what the delay leaves.
   CHECK(safe_coupling(phantom()).stiffness == 3500);
   CHECK(safe_coupling(phantom()).damping == Approx(0.75 * 5 - 3500 * T / 2));
-  CHECK(safe_coupling(phantom(), 1).stiffness == Approx(0.5 * 5 / 1.5e-3));
-  CHECK(safe_coupling(phantom(), 1).damping == Approx(0.25 * 5));
+  CHECK(safe_coupling(phantom(), 1).stiffness == Approx(0.4 * 5 / 1.5e-3));
+  CHECK(safe_coupling(phantom(), 1).damping == Approx(0.35 * 5));
   const CouplingFigures figures = VirtualCoupling::for_device(phantom(), 2).figures();
-  CHECK(figures.stiffness == Approx(0.5 * 5 / 2.5e-3));
-  CHECK(figures.damping == Approx(1.25));
+  CHECK(figures.stiffness == Approx(0.4 * 5 / 2.5e-3));
+  CHECK(figures.damping == Approx(1.75));
 }
 
 TEST_CASE("what cannot be a coupling is refused by name, value and unit", "[coupling]") {

@@ -47,13 +47,14 @@ struct Leaning {
 };
 
 struct StepResponse {
-  double speed = 0;         ///< [m/s] RMS, the largest over any 0.1 s that begins `settling` after the step or later
-  double amplitude = 0;     ///< [m] half the way between the extremes from then on
-  double frequency = 0;     ///< [Hz] of the velocity's changes of sign from then on
-  double least_energy = 0;  ///< [J] of what hand and arm have put into the loop, arm included: negative: it gave
-  double generated = 0;     ///< [J] as the loop's own monitor says
-  double force = 0;         ///< [N] sent last
-  double position = 0;      ///< [m] of the tip at the end, along y
+  double speed = 0;  ///< [m/s] RMS, the largest over any 0.1 s that begins `settling` after the step or later
+  double amplitude = 0;  ///< [m] half the way between the extremes from then on
+  double frequency = 0;  ///< [Hz] of the velocity's changes of sign from then on
+  double least_energy =
+      0;                 ///< [J] of what hand and arm have put into the loop, arm included: negative: it gave
+  double generated = 0;  ///< [J] as the loop's own monitor says
+  double force = 0;      ///< [N] sent last
+  double position = 0;   ///< [m] of the tip at the end, along y
 };
 
 /// @param s [m] where the beam is pressed, from above   @param duration [s] after the step   @param settling [s] as well

@@ -32,13 +32,14 @@ inline double passive_stiffness(double damping, double period, int delay_ticks) 
   return damping / (period * (0.5 + delay_ticks));
 }
 
-/// What a device can render with a margin of a quarter of (1): the spring takes half of the arm's damping, or less where
-/// it is as stiff as the maker names; the damper takes the rest up to three quarters.  Of (2) and (3), half.
+/// What a device can render with a margin of a quarter of (1): the spring takes two fifths of the arm's damping, or less
+/// where it is as stiff as the maker names; the damper takes the rest up to three quarters.  Of (2) and (3), half.  With half
+/// for the spring it would be a quarter stiffer, and four times as many heavy hands not at rest half a second after a step.
 /// @param delay_ticks  whole periods between the servo's answer and the motors, besides the one that holds it; 0 to 16
 /// @throws std::invalid_argument where the device's damping, friction, resolution, stiffness or period cannot be, or
 ///         its damping is 0, that is unknown: there is no safe stiffness then
 inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks = 0) {
-  constexpr double spring_share = 0.5, both_share = 0.75, friction_share = 0.5;
+  constexpr double spring_share = 0.4, both_share = 0.75, friction_share = 0.5;
   const double b = detail::positive("device damping", device.damping, "N·s/m");
   const double T = detail::positive("device period", device.period, "s");
   const double hardest = detail::positive("device max_stiffness", device.max_stiffness, "N/m");
