@@ -1,9 +1,12 @@
 // A hand presses a beam through a simulated Phantom, at 1 kHz.
 //
-// The tick is in servo.hpp; here it is put together, started and watched.
+// Model, coupling and device make a ServoLoop; here it is put together, started and watched.
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -14,15 +17,15 @@
 #include <variant>
 #include <vector>
 
+#include "counted.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "scene.hpp"
-#include "servo.hpp"
 #include "trained.hpp"
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/haptics/servo_loop.hpp>
 #include <hapbeam/haptics/virtual_phantom.hpp>
-#include <hapbeam/rom/guarded.hpp>
 
 namespace {
 
@@ -32,11 +35,13 @@ volatile std::sig_atomic_t interrupted = 0;
 
 extern "C" void interrupt(int) { interrupted = 1; }
 
+using Device = hapbeam::VirtualPhantom<>;
+
 /// Real time: the device ticks on its thread, this one prints a row a second.
-template <typename Device, typename Tick>
-void watch(Device& device, Tick& servo, const Notes& notes, double duration) {
+template <typename Loop>
+void watch(Loop& loop, const Device& device, double duration) {
   using Clock = std::chrono::steady_clock;
-  device.start(servo);
+  loop.start();
   const auto begin = Clock::now();
   const auto at = [begin](double seconds) {
     return begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -46,32 +51,38 @@ void watch(Device& device, Tick& servo, const Notes& notes, double duration) {
     std::this_thread::sleep_until(
         std::min(at(std::min(next_row, duration)), Clock::now() + std::chrono::milliseconds(50)));
     if (Clock::now() < at(next_row)) continue;
-    print_row(notes, device.counts());
+    print_row(loop.picture().record, loop.times(), device.counts());
     next_row += 1;
   }
-  device.stop();
+  loop.stop();
 }
 
 /// Lock step: a row for each simulated second.
-template <typename Device, typename Tick>
-void simulate(Device& device, Tick& servo, const Notes& notes, double duration) {
+template <typename Loop>
+void simulate(Loop& loop, Device& device, double duration) {
   for (double left = duration; left > 0 && !interrupted; left -= 1) {
-    device.run(servo, std::min(left, 1.0));
-    print_row(notes, device.counts());
+    device.run(loop.servo(), std::min(left, 1.0));
+    print_row(loop.picture().record, loop.times(), device.counts());
   }
 }
 
-template <typename Model>
-int run(Model model, const Trained* trained, const Options& options, std::ofstream& report) {
-  Notes notes;
-  Servo<Model> servo(model, options, notes);
-  hapbeam::VirtualPhantom<> device(make_path(options));
+/// Whose full model, if it has one, answered how often.
+using FullAnswers = std::atomic<std::uint64_t>;
+
+template <typename Coupling, typename Model>
+int run(Model& model, const Coupling& coupling, Device& device, const FullAnswers& full_answers,
+        const Trained* trained, const Options& options, std::ofstream& report) {
+  hapbeam::ServoOptions servo;
+  servo.placement = placement(options);
+  servo.avatar_radius = options.radius;
+  hapbeam::ServoLoop<Device, Model, Coupling> loop(device, model, servo, coupling);
 
   print_scene(options, trained, device.info());
-  if (options.lock_step) simulate(device, servo, notes, options.duration);
-  else watch(device, servo, notes, options.duration);
+  if (options.lock_step) simulate(loop, device, options.duration);
+  else watch(loop, device, options.duration);
 
-  const Run result{options, trained, device.info(), notes, device.counts(), interrupted != 0};
+  const Run result{options,      trained,         device.info(),       loop.picture().record,
+                   loop.times(), device.counts(), full_answers.load(), interrupted != 0};
   print_summary(result);
   if (options.report.empty()) return 0;
   if (report << json(result) << std::flush) return 0;
@@ -79,9 +90,23 @@ int run(Model model, const Trained* trained, const Options& options, std::ofstre
   return 1;
 }
 
+template <typename Model>
+int run(Model model, const FullAnswers& full_answers, const Trained* trained, Options options,
+        std::ofstream& report) {
+  Device device(make_path(options));
+  if (options.coupling == CouplingChoice::direct)
+    return run(model, hapbeam::Direct(), device, full_answers, trained, options, report);
+  const hapbeam::CouplingFigures safe = hapbeam::safe_coupling(device.info());
+  if (std::isnan(options.stiffness)) options.stiffness = safe.stiffness;
+  if (std::isnan(options.damping)) options.damping = safe.damping;
+  const hapbeam::VirtualCoupling coupling({options.stiffness, options.damping}, device.info().period);
+  return run(model, coupling, device, full_answers, trained, options, report);
+}
+
 template <typename Element>
 int run_full(const Options& options, std::ofstream& report) {
-  return run(hapbeam::FemModel<Element>(options.beam.make(), options.elements), nullptr, options, report);
+  return run(hapbeam::FemModel<Element>(options.beam.make(), options.elements), FullAnswers{0}, nullptr,
+             options, report);
 }
 
 /// The model is chosen once, here and below; a tick calls nothing virtual.
@@ -98,12 +123,13 @@ int run_full(const Options& options, std::ofstream& report) {
 
 int run_trained(const Trained& trained, const Options& options, std::ofstream& report) {
   using Full = hapbeam::FemModel<>;
+  FullAnswers full_answers{0};
   return std::visit(
       [&](const auto& fast) {
         using Fast = std::decay_t<decltype(fast)>;
-        if (!options.guarded) return run(fast, &trained, options, report);
+        if (!options.guarded) return run(fast, full_answers, &trained, options, report);
         const Full full(trained.make_beam(), options.elements);
-        return run(hapbeam::Guarded<Fast, Full>(fast, full), &trained, options, report);
+        return run(Counted<Fast, Full>(fast, full, full_answers), full_answers, &trained, options, report);
       },
       trained.model);
 }

@@ -12,6 +12,7 @@ using cli::count, cli::figure, cli::file, cli::flag, cli::one_of;
 constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::full, ElementChoice::reduced,
                                       ElementChoice::assumed_strain};
 constexpr Script scripts[] = {Script::slide, Script::press, Script::tap};
+constexpr CouplingChoice couplings[] = {CouplingChoice::direct, CouplingChoice::virtual_coupling};
 
 cli::Entries entries(Options& o) {
   cli::Entries list = cli::beam_entries(o.beam);
@@ -37,6 +38,15 @@ cli::Entries entries(Options& o) {
       figure("--scale", "X",
              "metres of the scene for one metre of the device; 1 by default.  Forces are never scaled",
              o.scale, 1e-3, 1e3, ""),
+      {"--coupling", "KIND",
+       "virtual (default): a spring and a damper that the device can render tie the hand to the beam;  "
+       "direct",
+       [&o](const std::string& v) { o.coupling = one_of(couplings, "--coupling", v); }},
+      figure("--stiffness", "X",
+             "of the coupling [N/m], 1 to 1e6; by default what the device can render with a margin",
+             o.stiffness, 1, 1e6, "N/m"),
+      figure("--damping", "X", "of the coupling [N s/m], 0 to 1000; by default the same", o.damping, 0, 1000,
+             "N s/m"),
       flag("--lock-step",
            "simulated time, as fast as the machine can and the same every time; else real time", o.lock_step),
       {"--headless", "", "no window, a table row a second; this build has no window and is always so",
@@ -79,6 +89,14 @@ const char* name(Script script) {
   return "unknown";
 }
 
+const char* name(CouplingChoice coupling) {
+  switch (coupling) {
+    case CouplingChoice::direct: return "direct";
+    case CouplingChoice::virtual_coupling: return "virtual";
+  }
+  return "unknown";
+}
+
 void settle(Options& o, double from, double to) {
   o.from = from, o.to = to;
   if (std::isnan(o.place)) o.place = (from + to) / 2;
@@ -88,11 +106,15 @@ void settle(Options& o, double from, double to) {
 
 Options parse(const std::vector<std::string>& arguments) {
   Options options;
-  options.place = std::numeric_limits<double>::quiet_NaN();
+  options.place = options.stiffness = options.damping = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::string> given = cli::read(arguments, entries(options));
   if (options.guarded && options.model.empty())
     throw cli::UsageError("--guarded: must stand beside --model, whose range it guards");
   check_model(options, given);
+  for (const char* figure : {"--stiffness", "--damping"})
+    if (options.coupling == CouplingChoice::direct && cli::contains(given, figure))
+      throw cli::UsageError(std::string(figure) +
+                            ": must not stand beside --coupling direct, which has no spring");
   if (!options.model.empty()) return options;
   options.beam.make();
   settle(options, 0, options.beam.length);

@@ -11,6 +11,7 @@ namespace phantom {
 
 enum class ElementChoice { linear, full, reduced, assumed_strain };
 enum class Script { slide, press, tap };
+enum class CouplingChoice { direct, virtual_coupling };
 
 /// Everything in SI.
 struct Options {
@@ -21,12 +22,15 @@ struct Options {
   bool guarded = false;  ///< finite elements where the trained model ends
 
   Script script = Script::slide;
-  double place;            ///< [m] from the left end
-  double from, to;         ///< [m] the hand slides in between
-  double depth = 0.03;     ///< [m] that the hand aims below the beam's surface
-  double duration = 10;    ///< [s]
-  double radius = 0.005;   ///< [m] of the avatar
-  double scale = 1;        ///< metres of the scene for one of the device
+  double place;           ///< [m] from the left end
+  double from, to;        ///< [m] the hand slides in between
+  double depth = 0.03;    ///< [m] that the hand aims below the beam's surface
+  double duration = 10;   ///< [s]
+  double radius = 0.005;  ///< [m] of the avatar
+  double scale = 1;       ///< metres of the scene for one of the device
+  CouplingChoice coupling = CouplingChoice::virtual_coupling;
+  double stiffness;        ///< [N/m] of the coupling; not a number: what the device can render
+  double damping;          ///< [N·s/m] the same
   bool lock_step = false;  ///< simulated time, as fast as the machine can
   std::string report;      ///< file, or empty
 };
@@ -34,6 +38,7 @@ struct Options {
 /// Names as they are typed.
 const char* name(ElementChoice element);
 const char* name(Script script);
+const char* name(CouplingChoice coupling);
 
 /// Lets the hand slide between two positions of the beam and, unless told otherwise, press midway.
 /// @throws cli::UsageError where it was told to press beside the beam

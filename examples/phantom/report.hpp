@@ -1,12 +1,14 @@
 // What the user sees: the scene in words, a table row a second, the summary, and the summary as JSON.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "options.hpp"
-#include "servo.hpp"
 #include "trained.hpp"
 #include <hapbeam/haptics/device.hpp>
+#include <hapbeam/haptics/servo_record.hpp>
+#include <hapbeam/haptics/tick_times.hpp>
 
 namespace phantom {
 
@@ -15,14 +17,17 @@ struct Run {
   const Options& options;
   const Trained* trained;  ///< or null: finite elements alone
   const hapbeam::DeviceInfo& device;
-  const Notes& notes;
+  const hapbeam::ServoRecord record;
+  const hapbeam::TickTimes& times;
   hapbeam::DeviceCounts counts;
+  std::uint64_t full_answers;  ///< of the full model of a guarded one
   bool interrupted;
 };
 
 /// @param trained  or null
 void print_scene(const Options& options, const Trained* trained, const hapbeam::DeviceInfo& device);
-void print_row(const Notes& notes, const hapbeam::DeviceCounts& counts);
+void print_row(const hapbeam::ServoRecord& record, const hapbeam::TickTimes& times,
+               const hapbeam::DeviceCounts& counts);
 void print_summary(const Run& run);
 std::string json(const Run& run);
 

@@ -9,29 +9,15 @@
 #include <algorithm>
 
 #include "options.hpp"
-#include <hapbeam/centreline.hpp>
-#include <hapbeam/haptics/device.hpp>
 #include <hapbeam/haptics/hand_path.hpp>
+#include <hapbeam/haptics/placement.hpp>
 
 namespace phantom {
 
-/// From the device's axes to the plane of the beam (x along it, w up) and back.
-class Placement {
- public:
-  explicit Placement(const Options& options) noexcept
-      : scale_(options.scale), origin_(options.place, options.beam.height / 2 + options.radius) {}
-
-  hapbeam::Vector2<double> to_scene(const Eigen::Vector3d& device) const noexcept {
-    return origin_ + scale_ * device.head<2>();
-  }
-  Eigen::Vector3d to_device(const hapbeam::Vector2<double>& force) const noexcept {
-    return {force.x(), force.y(), 0};
-  }
-
- private:
-  double scale_;
-  hapbeam::Vector2<double> origin_;
-};
+inline hapbeam::Placement placement(const Options& options) {
+  return hapbeam::Placement::in_plane({options.place, options.beam.height / 2 + options.radius},
+                                      options.scale);
+}
 
 /// How far the hand slides to either side of the place [m, device]: 0.15 m of the half width of 0.19 m, or less
 /// where there is less beam.

@@ -58,6 +58,7 @@ struct StepResponse {
 };
 
 /// @param s [m] where the beam is pressed, from above   @param duration [s] after the step   @param settling [s] as well
+/// A run ends early once the arm has stood still, to the bit, for two seconds: nothing moves it any more.
 /// Energy: -F·Δx of the force that the motors held, exactly, and b Δx²/T + f |Δx| of the arm, at least.
 template <typename Model, typename Coupling>
 StepResponse step_response(Model& model, double s, const Coupling& coupling, const Situation& who,
@@ -74,7 +75,7 @@ StepResponse step_response(Model& model, double s, const Coupling& coupling, con
   StepResponse response;
   std::array<double, 17> held{};  // newest first
   double energy = 0, y = 0, squares = 0, low = 1e9, high = -1e9, last_speed = 0;
-  long in_window = 0, changes = 0;
+  long in_window = 0, changes = 0, still = 0;
   const long window = std::lround(0.1 / who.period);
   const long first = std::lround((Leaning::at + settling) / who.period);
   const long end = std::lround((Leaning::at + duration) / who.period);
@@ -98,7 +99,9 @@ StepResponse step_response(Model& model, double s, const Coupling& coupling, con
     energy += -held[static_cast<std::size_t>(who.delay)] * moved + who.damping * moved * moved / who.period +
               who.friction * std::abs(moved);
     response.least_energy = std::min(response.least_energy, energy);
+    still = moved == 0 && speed == 0 ? still + 1 : 0;
     if (tick < first) continue;
+    if (still >= 20 * window) break;
     low = std::min(low, y), high = std::max(high, y);
     changes += speed * last_speed < 0;
     last_speed = speed;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -34,11 +35,30 @@ struct ServoOptions {
 
 /// What is drawn: the record and the centreline of one tick.
 template <typename Scalar>
-struct ServoPicture {
-  ServoRecord record;
-  std::vector<CentrelineNode<Scalar>> nodes;
+class ServoPicture {
+ public:
+  /// @param shape  as many nodes as it has, and `room` at least, are kept in later ones
+  explicit ServoPicture(const Centreline<Scalar>& shape)
+      : nodes_(std::max(room, static_cast<std::size_t>(shape.size()))) {
+    take(shape);
+  }
 
-  Centreline<Scalar> shape() const noexcept { return {nodes.data(), static_cast<int>(nodes.size())}; }
+  ServoRecord record;
+  Centreline<Scalar> shape() const noexcept { return {nodes_.data(), size_}; }
+
+  /// Of a shape with more nodes than there is room for, every second one is taken, or third, …, and the last.
+  void take(const Centreline<Scalar>& shape) noexcept {
+    const int last = shape.size() - 1, step = 1 + (last - 1) / (static_cast<int>(nodes_.size()) - 1);
+    size_ = 0;
+    for (int i = 0; i < last; i += step) nodes_[static_cast<std::size_t>(size_++)] = shape[i];
+    nodes_[static_cast<std::size_t>(size_++)] = shape[last];
+  }
+
+ private:
+  static constexpr std::size_t room = 513;  // models that hand over to others change their number of nodes
+
+  std::vector<CentrelineNode<Scalar>> nodes_;
+  int size_ = 0;
 };
 
 template <typename Model, typename Coupling = VirtualCoupling>
@@ -59,7 +79,7 @@ class Servo {
         energy_(device, options.delay_ticks),
         guard_(ForceGuard::for_device(device)),
         times_(device.period),
-        pictures_(Picture{{}, {model.shape().begin(), model.shape().end()}}) {}
+        pictures_(Picture(model.shape())) {}
 
   /// With the coupling that the device can render.   @throws as Coupling::for_device, too
   Servo(Model& model, const DeviceInfo& device, const ServoOptions& options = {})
@@ -147,9 +167,8 @@ class Servo {
 
   void publish() noexcept {
     Picture& draft = pictures_.draft();
-    const Centreline<Scalar> shape = model_.shape();
     draft.record = record_;
-    std::copy(shape.begin(), shape.end(), draft.nodes.begin());
+    draft.take(model_.shape());
     pictures_.publish();
   }
 
