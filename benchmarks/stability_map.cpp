@@ -1,8 +1,10 @@
 // Where the loop is stable: the simulated Phantom and a hand that leans on a beam, in lock step.
 //
-//   stability_map sweep [SECONDS]   the default coupling, every combination of hand, period, delay and resolution on four
-//                                   beams: a line of CSV for each, `failed` where it was not at rest half a second after the
-//                                   step, or gave out energy; 60 s each unless told otherwise
+//   stability_map sweep [SECONDS]   the default coupling on four beams, for every combination of push, hand, period, delay
+//                                   and resolution; 60 s each unless told otherwise.  A line of CSV for each, its result:
+//                                   at_rest half a second after the step and ever after; gives_energy; lost the beam;
+//                                   slow: still moved by more than 1 mm/s RMS; slow_as_the_arm_itself: so did the same
+//                                   arm in a loop of 10 kHz, without delay and grid
 //   stability_map border            the largest stable stiffness of the coupling against the bound of Colgate and
 //                                   Schenkel, for arms, periods and delays, for the worst of the hands
 //   stability_map direct            without a coupling: the least damping of the arm with which it is stable
@@ -83,6 +85,7 @@ void sweep(double seconds) {
                   const bool moves = r.speed > at_rest, gives = r.least_energy < -round_off;
                   const double best = moves ? unsampled(model, scene.s, figures, who).speed : 0;
                   const char* result = gives            ? "gives_energy"
+                                       : !(r.force > 0) ? "lost"
                                        : !moves         ? "at_rest"
                                        : best > at_rest ? "slow_as_the_arm_itself"
                                                         : "slow";

@@ -25,6 +25,7 @@ struct Situation {
   double resolution = 7e-6;                                          ///< [m]
   double damping = 5, friction = 0.2;                                ///< of the arm [N·s/m], [N]
   double push = 3;                                                   ///< [N]
+  bool dissipate = false;                                            ///< as ServoOptions
 
   VirtualPhantomOptions options() const {
     VirtualPhantomOptions o;
@@ -70,6 +71,7 @@ StepResponse step_response(Model& model, double s, const Coupling& coupling, con
       static_cast<double>(model.shape().at(static_cast<typename Model::Scalar>(s)).w + model.thickness() / 2);
   options.placement = Placement::in_plane({s, surface + options.avatar_radius});
   options.delay_ticks = who.delay;
+  options.dissipate = who.dissipate;
   ServoLoop<VirtualPhantom<Leaning>, Model, Coupling> loop(device, model, options, coupling);
 
   StepResponse response;
