@@ -180,7 +180,7 @@ class BeamSystem {
 
   void begin_path() noexcept {
     start_load_ = load_;
-    for (const std::size_t k : {0, 1}) ends_[k].begin(node(end(k)));
+    for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
   }
 
   /// @tparam Rate  whether the right-hand side is that of load_rate()
@@ -201,7 +201,7 @@ class BeamSystem {
     size_ = std::sqrt(2 * energy);
     potential_ = energy - work;
     if (shift != 0) add_shift(shift);
-    for (const std::size_t k : {0, 1})
+    for (std::size_t k = 0; k < 2; ++k)
       ends_[k].visit(node(end(k)), [&](int component, Scalar now, Scalar target) {
         assembler_.prescribe(end(k), component, target - now);
       });
@@ -212,7 +212,7 @@ class BeamSystem {
 
   /// Puts the ends and the contact exactly where they belong.
   void place() noexcept {
-    for (const std::size_t k : {0, 1})
+    for (std::size_t k = 0; k < 2; ++k)
       ends_[k].visit(beam_.nodes()[end(k)], [](int, Scalar& now, Scalar target) { now = target; });
     if (contact_.node() >= 0) contact_.correct(beam_.nodes()[contact_.node()], d_);
   }
