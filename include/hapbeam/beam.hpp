@@ -129,7 +129,7 @@ struct PointLoad {
 using DistributedLoad = std::function<double(double)>;
 
 /// Where a support holds its end.  What the support leaves free says where the end is before anything is loaded.
-struct Placement {
+struct EndPlace {
   double u = 0;      ///< [m] from the end's place in the straight beam, along x
   double w = 0;      ///< [m]
   double theta = 0;  ///< [rad]
@@ -200,11 +200,11 @@ class Beam {
     return arcs_ = std::move(arcs), *this;
   }
   /// Places the ends: an end shortening or a stretch, an arch or an inclined beam.
-  Beam& place(const Placement& left, const Placement& right) {
-    for (const Placement* end : {&left, &right}) {
-      detail::finite("placement u", end->u, "m");
-      detail::finite("placement w", end->w, "m");
-      detail::finite("placement theta", end->theta, "rad");
+  Beam& place(const EndPlace& left, const EndPlace& right) {
+    for (const EndPlace* end : {&left, &right}) {
+      detail::finite("end place u", end->u, "m");
+      detail::finite("end place w", end->w, "m");
+      detail::finite("end place theta", end->theta, "rad");
     }
     return left_place_ = left, right_place_ = right, *this;
   }
@@ -219,11 +219,11 @@ class Beam {
   const DistributedLoad& transverse() const noexcept { return transverse_; }  ///< empty where there is none
   const DistributedLoad& axial() const noexcept { return axial_; }            ///< empty where there is none
   const std::vector<Arc>& arcs() const noexcept { return arcs_; }  ///< empty where naturally straight
-  const Placement& left_place() const noexcept { return left_place_; }
-  const Placement& right_place() const noexcept { return right_place_; }
+  const EndPlace& left_place() const noexcept { return left_place_; }
+  const EndPlace& right_place() const noexcept { return right_place_; }
   /// Whether it lies on the x axis, at full length, where nothing loads it.
   bool straight() const noexcept {
-    const auto home = [](const Placement& p) { return p.u == 0 && p.w == 0 && p.theta == 0; };
+    const auto home = [](const EndPlace& p) { return p.u == 0 && p.w == 0 && p.theta == 0; };
     return arcs_.empty() && home(left_place_) && home(right_place_);
   }
 
@@ -233,7 +233,7 @@ class Beam {
   std::vector<PointLoad> point_loads_;
   DistributedLoad transverse_, axial_;
   std::vector<Arc> arcs_;
-  Placement left_place_, right_place_;
+  EndPlace left_place_, right_place_;
 };
 
 }  // namespace hapbeam

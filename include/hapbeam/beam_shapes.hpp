@@ -56,7 +56,7 @@ inline Beam arch(double span, double rise, const Section& section, const Materia
 
 /// The same beam with its ends moved apart by `by` [m], or together where negative: a string, or a strip that buckles.
 inline Beam stretched(Beam beam, double by) {
-  Placement right = beam.right_place();
+  EndPlace right = beam.right_place();
   right.u += by;
   return beam.place(beam.left_place(), right);
 }

@@ -103,12 +103,12 @@ TEST_CASE("arcs must follow each other, on the beam, with finite curvatures", "[
 TEST_CASE("ends must be placed at finite places", "[beam]") {
   for (const double bad : {infinity, -infinity, not_a_number})
     for (const bool left : {true, false}) {
-      const auto place = [=](const Placement& end) {
-        return [=] { hinged().place(left ? end : Placement{}, left ? Placement{} : end); };
+      const auto place = [=](const EndPlace& end) {
+        return [=] { hinged().place(left ? end : EndPlace{}, left ? EndPlace{} : end); };
       };
-      check_rejection(place({bad, 0, 0}), "placement u", bad, "m", "finite");
-      check_rejection(place({0, bad, 0}), "placement w", bad, "m", "finite");
-      check_rejection(place({0, 0, bad}), "placement theta", bad, "rad", "finite");
+      check_rejection(place({bad, 0, 0}), "end place u", bad, "m", "finite");
+      check_rejection(place({0, bad, 0}), "end place w", bad, "m", "finite");
+      check_rejection(place({0, 0, bad}), "end place theta", bad, "rad", "finite");
     }
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("a beam is straight unless it is naturally bent or held elsewhere", "[
   CHECK(hinged().straight());
   CHECK(hinged().naturally({}).place({}, {}).straight());
   CHECK_FALSE(hinged().naturally({{1, 0.1}}).straight());
-  for (const Placement& end : {Placement{1e-3, 0, 0}, {0, -1e-3, 0}, {0, 0, 1e-3}}) {
+  for (const EndPlace& end : {EndPlace{1e-3, 0, 0}, {0, -1e-3, 0}, {0, 0, 1e-3}}) {
     CHECK_FALSE(hinged().place(end, {}).straight());
     CHECK_FALSE(hinged().place({}, end).straight());
   }

@@ -11,8 +11,8 @@
 // Composed of policies: Element × Assembler × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
-// and allocation-free; a press takes at most solver.max_solves linear solves of O(elements), three times as many where
-// the beam falls.
+// and allocation-free; a press takes at most solver.max_solves linear solves of O(elements), and where the beam falls up
+// to three times as many and two.
 #pragma once
 
 #include <algorithm>
@@ -50,6 +50,7 @@ class FemModel {
         left_yields_(!fixes_w(beam.left())),
         right_yields_(!fixes_w(beam.right())),
         single_valued_(beam.straight()) {
+    descent_.max_solves = solver.max_solves;
     find_range(beam);
     find_rest();
     for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
@@ -157,7 +158,7 @@ class FemModel {
     const auto aim = [this] { system_.set_goal(); };
     aim();
     rest_ = solver_.solve(system_);
-    while (rest_.status == Status::iteration_limit && rest_.step < 1) {
+    while (rest_.status == Status::iteration_limit && (rest_.steps > 0 || rest_.step < 1)) {
       const int solves = rest_.solves;
       aim();
       rest_ = solver_.solve(system_, rest_.step);

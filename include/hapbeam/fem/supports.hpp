@@ -10,7 +10,7 @@ namespace hapbeam::detail {
 
 template <typename Scalar>
 struct EndSupport {
-  EndSupport(Support support, const Placement& place) noexcept
+  EndSupport(Support support, const EndPlace& place) noexcept
       : held{fixes_u(support), fixes_w(support), fixes_theta(support)},
         goal{static_cast<Scalar>(place.u), static_cast<Scalar>(place.w), static_cast<Scalar>(place.theta)} {}
 
