@@ -22,6 +22,7 @@
 #include "report.hpp"
 #include "scene.hpp"
 #include "trained.hpp"
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/haptics/servo_loop.hpp>
@@ -116,6 +117,7 @@ int run_full(const Options& options, std::ofstream& report) {
     case ElementChoice::linear: return run_full<Linear>(options, report);
     case ElementChoice::full: return run_full<VonKarman<FullIntegration>>(options, report);
     case ElementChoice::reduced: return run_full<VonKarman<ReducedIntegration>>(options, report);
+    case ElementChoice::corotational: return run_full<Corotational<>>(options, report);
     case ElementChoice::assumed_strain: break;
   }
   return run_full<VonKarman<AssumedStrain>>(options, report);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes.hpp"
+
 namespace phantom {
 
 namespace {
@@ -10,15 +12,23 @@ namespace {
 using cli::count, cli::figure, cli::file, cli::flag, cli::one_of;
 
 constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::full, ElementChoice::reduced,
-                                      ElementChoice::assumed_strain};
+                                      ElementChoice::assumed_strain, ElementChoice::corotational};
 constexpr Script scripts[] = {Script::slide, Script::press, Script::tap};
 constexpr CouplingChoice couplings[] = {CouplingChoice::direct, CouplingChoice::virtual_coupling};
 
 cli::Entries entries(Options& o) {
-  cli::Entries list = cli::beam_entries(o.beam);
+  cli::Entries list{{"--scene", "NAME",
+                     "a beam, the model that it needs and a hand that shows what there is to feel: " +
+                         scene_names() + ";  any other option changes it",
+                     [&o](const std::string& v) { set_scene(o, v); }, true}};
+  const cli::Entries beam = cli::beam_entries(o.beam);
+  list.insert(list.end(), beam.begin(), beam.end());
   const cli::Entries own = {
       count("--elements", "number of finite elements, 2 to 4096; 16 by default", o.elements, 2, 4096),
-      {"--element", "KIND", "linear, or von Karman with a membrane: full, reduced, assumed-strain (default)",
+      {"--element", "KIND",
+       "linear, or von Karman with a membrane: full, reduced, assumed-strain (default), or right at any "
+       "rotation: "
+       "corotational",
        [&o](const std::string& v) { o.element = one_of(elements, "--element", v); }},
       file("--model",
            "a model that train has made takes the place of finite elements; the beam is the file's", o.model),
@@ -60,6 +70,7 @@ cli::Entries entries(Options& o) {
 
 /// What a file decides cannot be chosen as well.
 void check_model(const Options& o, const std::vector<std::string>& given) {
+  cli::exclude(given, "--scene", "--model", "whose file says which beam it is");
   cli::BeamOptions unused;
   for (const cli::Entry& entry : cli::beam_entries(unused))
     cli::exclude(given, entry.option, "--model", "whose file says which beam it is");
@@ -76,6 +87,7 @@ const char* name(ElementChoice element) {
     case ElementChoice::full: return "full";
     case ElementChoice::reduced: return "reduced";
     case ElementChoice::assumed_strain: return "assumed-strain";
+    case ElementChoice::corotational: return "corotational";
   }
   return "unknown";
 }

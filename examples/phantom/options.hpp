@@ -9,12 +9,13 @@
 
 namespace phantom {
 
-enum class ElementChoice { linear, full, reduced, assumed_strain };
+enum class ElementChoice { linear, full, reduced, assumed_strain, corotational };
 enum class Script { slide, press, tap };
 enum class CouplingChoice { direct, virtual_coupling };
 
 /// Everything in SI.
 struct Options {
+  std::string scene;  ///< or empty
   cli::BeamOptions beam;
   ElementChoice element = ElementChoice::assumed_strain;
   int elements = 16;

@@ -6,6 +6,7 @@
 
 #include "json.hpp"
 #include "scene.hpp"
+#include "scenes.hpp"
 
 namespace phantom {
 
@@ -43,6 +44,7 @@ void print_scene(const Options& o, const Trained* trained, const hapbeam::Device
     print_trained(o, *trained);
   } else {
     std::printf("beam     %s\n", cli::describe(o.beam).c_str());
+    if (!o.scene.empty()) std::printf("feels    %s\n", feels(o.scene));
     std::printf("model    finite elements, %s, %d elements\n", name(o.element), o.elements);
   }
   std::printf("hand     %s, at %g m, aims %g mm below the surface, %g s; avatar of radius %g mm\n",

@@ -15,8 +15,8 @@
 namespace phantom {
 
 inline hapbeam::Placement placement(const Options& options) {
-  return hapbeam::Placement::in_plane({options.place, options.beam.height / 2 + options.radius},
-                                      options.scale);
+  const double surface = options.beam.rest(options.place) + options.beam.height / 2;
+  return hapbeam::Placement::in_plane({options.place, surface + options.radius}, options.scale);
 }
 
 /// How far the hand slides to either side of the place [m, device]: 0.15 m of the half width of 0.19 m, or less

@@ -1,7 +1,10 @@
 #include "beam_options.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
+
+#include <hapbeam/beam_shapes.hpp>
 
 namespace cli {
 
@@ -13,13 +16,20 @@ struct NamedBeam {
   const char* label;
   double length, width, height, young;
   Support left, right;
+  bool round = false;
+  double rise = 0, tension = 0;
 };
 
 // thesis: the textbook beam of its chapter 3, 100 in long, 1 in square, E = 30e6 psi.
 // ruler: a steel ruler of 30 cm held at one end; soft enough for the device.
+// strip: steel, so thin that stretching stiffens it at once.  string: steel wire under the tension of a guitar's.
+// arch: a strip of steel, bent by nature, that snaps through.
 constexpr NamedBeam beams[] = {
     {"thesis", 2.54, 0.0254, 0.0254, 206.8427e9, Support::pinned, Support::pinned},
     {"ruler", 0.3, 0.025, 0.001, 200e9, Support::clamped, Support::free},
+    {"strip", 0.4, 0.02, 0.0005, 200e9, Support::pinned, Support::pinned},
+    {"string", 0.65, 0.0008, 0.0008, 200e9, Support::pinned, Support::pinned, true, 0, 80},
+    {"arch", 0.2, 0.01, 0.0005, 200e9, Support::pinned, Support::pinned, false, 0.012},
 };
 constexpr Support supports[] = {Support::free, Support::clamped, Support::pinned, Support::roller,
                                 Support::guided};
@@ -30,6 +40,7 @@ void set(BeamOptions& o, const NamedBeam& beam) {
   o.name = beam.label;
   o.length = beam.length, o.width = beam.width, o.height = beam.height, o.young = beam.young;
   o.left = beam.left, o.right = beam.right;
+  o.round = beam.round, o.rise = beam.rise, o.tension = beam.tension;
 }
 
 void set_ends(BeamOptions& o, const std::string& value) {
@@ -51,14 +62,31 @@ Entry customised(BeamOptions& beam, Entry entry) {
 
 }  // namespace
 
+void set_beam(BeamOptions& options, const std::string& label) {
+  set(options, one_of(beams, "--beam", label));
+}
+
 BeamOptions::BeamOptions() { set(*this, beams[0]); }
 
 hapbeam::Beam BeamOptions::make() const {
+  const hapbeam::Material material{young};
   try {
-    return {length, hapbeam::Section::rectangle(width, height), hapbeam::Material{young}, left, right};
+    const auto section =
+        round ? hapbeam::Section::circle(height) : hapbeam::Section::rectangle(width, height);
+    if (rise == 0) return hapbeam::tensioned({length, section, material, left, right}, tension);
+    if (left != right) refuse("--ends", ends(left, right), "the same on both sides of an arch");
+    if (!(rise < length / 2))
+      refuse("--rise", digits(rise), "less than half the length, " + digits(length) + " m");
+    return hapbeam::tensioned(hapbeam::arch(length, rise, section, material, left), tension);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--ends: ") + error.what());
   }
+}
+
+double BeamOptions::rest(double x) const {
+  if (rise == 0) return 0;
+  const double radius = (length * length / 4 + rise * rise) / (2 * rise), from_middle = x - length / 2;
+  return std::sqrt(radius * radius - from_middle * from_middle) - (radius - rise);
 }
 
 std::string ends(Support left, Support right) {
@@ -69,15 +97,23 @@ std::string describe(const BeamOptions& b) {
   char text[200];
   std::snprintf(text, sizeof text, "%s: %g m, section %g x %g mm, E = %g GPa, %s", b.name.c_str(), b.length,
                 b.width * 1e3, b.height * 1e3, b.young / 1e9, ends(b.left, b.right).c_str());
-  return text;
+  std::string line = text;
+  if (b.round)
+    line.replace(line.find("section"), line.find(", E") - line.find("section"),
+                 "round, " + digits(b.height * 1e3) + " mm");
+  if (b.rise != 0) line += ", an arch that rises " + digits(b.rise * 1e3) + " mm";
+  if (b.tension != 0) line += ", under " + digits(b.tension) + " N";
+  return line;
 }
 
 Entries beam_entries(BeamOptions& b) {
   return {
       {"--beam", "NAME",
        "thesis (default): steel, 2.54 m, 25.4 mm square, pinned;  ruler: steel, 0.3 m x 25 mm x 1 mm, "
-       "clamped-free",
-       [&b](const std::string& v) { set(b, one_of(beams, "--beam", v)); }, true},
+       "clamped-free;  strip: 0.4 m x 20 mm x 0.5 mm, pinned;  string: 0.65 m of 0.8 mm wire under 80 N;  "
+       "arch: "
+       "0.2 m wide, 12 mm high, 10 mm x 0.5 mm, pinned",
+       [&b](const std::string& v) { set_beam(b, v); }, true},
       customised(b, figure("--length", "M", "length of the beam [m]", b.length, 1e-3, 100, "m")),
       customised(
           b, figure("--width", "M", "width of its section, out of the plane [m]", b.width, 1e-6, 10, "m")),
@@ -88,6 +124,10 @@ Entries beam_entries(BeamOptions& b) {
                      "how the ends are held: free, clamped, pinned, roller or guided, for example "
                      "clamped-free",
                      [&b](const std::string& v) { set_ends(b, v); }}),
+      customised(b,
+                 figure("--rise", "M", "makes it an arch whose span is the length [m]", b.rise, 0, 50, "m")),
+      customised(b,
+                 figure("--tension", "N", "stretches it before it is touched [N]", b.tension, 0, 1e7, "N")),
   };
 }
 

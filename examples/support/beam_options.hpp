@@ -15,17 +15,24 @@ struct BeamOptions {
   std::string name;  ///< or "custom" where a figure of it was changed
   double length, width, height, young;
   hapbeam::Support left, right;
+  bool round = false;  ///< a circular section, of diameter height
+  double rise = 0;     ///< [m] of an arch, whose span is the length; 0: straight
+  double tension = 0;  ///< [N] that stretches it
 
-  /// @throws UsageError where it is a mechanism
+  /// @throws UsageError where it is a mechanism, or an arch on two kinds of ends
   hapbeam::Beam make() const;
+  /// Where its centreline is before it is touched.  @param x [m]   @return w [m]
+  double rest(double x) const;
 };
 
+/// Takes a named beam.  @throws UsageError
+void set_beam(BeamOptions& options, const std::string& label);
 /// Names of the two ends, as they are typed: pinned-pinned.
 std::string ends(hapbeam::Support left, hapbeam::Support right);
 /// One line.
 std::string describe(const BeamOptions& beam);
 
-/// --beam, --length, --width, --height, --young, --ends.   @param beam  kept by reference
+/// --beam, --length, --width, --height, --young, --ends, --rise, --tension.   @param beam  kept by reference
 Entries beam_entries(BeamOptions& beam);
 
 }  // namespace cli

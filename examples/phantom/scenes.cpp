@@ -1,0 +1,59 @@
+#include "scenes.hpp"
+
+#include <limits>
+
+namespace phantom {
+
+namespace {
+
+struct NamedScene {
+  const char* label;  ///< of the scene and of its beam
+  ElementChoice element;
+  Script script;
+  double place;  ///< [m]; not a number: the middle
+  double depth;  ///< [m, device]
+  double scale;
+  const char* feels;  ///< what one feels, and why
+};
+
+constexpr double middle = std::numeric_limits<double>::quiet_NaN();
+
+// docs/scenes.md says the same at more length, and what is measured.
+constexpr NamedScene scenes[] = {
+    {"thesis", ElementChoice::assumed_strain, Script::slide, middle, 0.03, 1,
+     "a wall that gives a little: the bar is stiffer than the device, and what moves is the coupling"},
+    {"ruler", ElementChoice::corotational, Script::press, 0.15, 0.1, 3,
+     "it resists, turns, and then lets the hand slide down along it: past 40 degrees the force falls while "
+     "the hand goes on"},
+    {"strip", ElementChoice::assumed_strain, Script::press, middle, 0.03, 0.2,
+     "nothing, then more and more, then a wall: it bends like paper and stretches like steel, with the cube "
+     "of the depth"},
+    {"string", ElementChoice::assumed_strain, Script::slide, middle, 0.03, 0.5,
+     "a spring that is soft in the middle and hard at the ends: its tension, not its stiffness, pushes back"},
+    {"arch", ElementChoice::corotational, Script::press, middle, 0.04, 0.5,
+     "a click: it resists, tilts, gives way under the finger and is gone, to stand on the other side"},
+};
+
+const char* name(const NamedScene& scene) { return scene.label; }
+
+}  // namespace
+
+void set_scene(Options& o, const std::string& label) {
+  const NamedScene& scene = cli::one_of(scenes, "--scene", label);
+  cli::set_beam(o.beam, label);
+  o.scene = label;
+  o.element = scene.element;
+  o.script = scene.script;
+  o.place = scene.place;
+  o.depth = scene.depth;
+  o.scale = scene.scale;
+}
+
+const char* feels(const std::string& label) {
+  const NamedScene* scene = cli::find(scenes, label);
+  return scene ? scene->feels : "";
+}
+
+std::string scene_names() { return cli::names(scenes); }
+
+}  // namespace phantom

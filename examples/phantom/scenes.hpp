@@ -1,0 +1,17 @@
+// Scenes worth touching: a beam, the least model that is right for it, and a hand that shows what there is to feel.
+#pragma once
+
+#include <string>
+
+#include "options.hpp"
+
+namespace phantom {
+
+/// Sets what a scene chooses.   @throws cli::UsageError
+void set_scene(Options& options, const std::string& label);
+/// What one feels there; empty where no scene was chosen.
+const char* feels(const std::string& label);
+/// Their names.
+std::string scene_names();
+
+}  // namespace phantom
