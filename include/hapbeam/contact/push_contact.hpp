@@ -35,10 +35,12 @@ class PushContact {
     const Scalar length = model.shape().length(), side = static_cast<Scalar>(contact.side), first = contact.s;
     Scalar s = std::clamp(first + (2 * slid_ - before_), Scalar(0), length);
     Foot foot(model, s, position, side);
+    bool snapped = false;  // in any of the pushes
     for (int pushed = 1;; ++pushed) {
       const Vector2<Scalar> normal = foot.normal;
       const Scalar d = normal.x() * (position.x() - s) + normal.y() * position.y() - reach;
       const Response<Scalar> response = model.push({s, d, normal});
+      snapped = snapped || response.status == Status::snapped;
       foot = Foot(model, s, position, side);
       asked = {s, foot.point.y()};
       if (response.force > 0 || (response.force == 0 && is_answer(response.status)))
@@ -54,7 +56,8 @@ class PushContact {
         contact.point = foot.point + foot.normal * (model.thickness() / 2);
         contact.past_end = foot.at_end;
         const bool lost = is_answer(response.status) && !(off <= far * reach);
-        return {true, -response.force, lost ? Status::iteration_limit : response.status};
+        const Status status = snapped && response.status == Status::ok ? Status::snapped : response.status;
+        return {true, -response.force, lost ? Status::iteration_limit : status};
       }
       s = std::clamp(s + foot.ahead, Scalar(0), length);
       foot = Foot(model, s, position, side);

@@ -110,7 +110,10 @@ class FemModel {
     const auto aim = [this] { system_.set_goal(); };
     aim();
     report_ = {Status::ok, 0, 0, 0, 0, 1};
-    fall(false, descent_, aim);
+    if (!fall(false, descent_, aim)) {
+      reset();
+      return report_.status = Status::snapped;
+    }
     if (report_.status != Status::snapped) return report_.status;
     const Scalar before = home_;
     home_ = middle();
@@ -121,6 +124,7 @@ class FemModel {
   void reset() noexcept {
     system_.set_state(uniform_, rest_nodes_.data());
     home_ = middle();
+    falling_ = false;
   }
 
   /// How the search for the shape under the dead loads ended.
@@ -186,10 +190,13 @@ class FemModel {
 
   /// From an equilibrium that gives way, or where none was found, down to a stable one.
   /// @param on_ridge  nothing but a nudge makes it go   @param aim  sets the system's goal anew
+  /// @return false where no way leads down: the shape is one that only a request beyond all reach can have made
   template <class Aim>
-  void fall(bool on_ridge, const Descent& descent, Aim&& aim) noexcept {
+  bool fall(bool on_ridge, const Descent& descent, Aim&& aim) noexcept {
     if (on_ridge) system_.nudge(system_.length() / 1000);
     int solves = report_.solves;
+    const int budget = solves + descent.max_solves;
+    bool any_way = true;
     if (descent.solve(system_, solves)) {
       aim();
       report_ = solver_.solve(system_);
@@ -197,8 +204,11 @@ class FemModel {
         report_.status = gives_way() ? Status::iteration_limit : Status::snapped;
     } else {
       report_.status = Status::iteration_limit;
+      any_way = solves >= budget;
     }
     report_.solves += solves;
+    falling_ = report_.status == Status::iteration_limit;
+    return any_way;
   }
 
   /// @param s  request.s, or the nearest in range
@@ -222,8 +232,15 @@ class FemModel {
     report_ = solver_.solve(system_, first_step);
     // A straight beam pressed across gives way in no element but those that lock.
     const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
-    if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_))
-      fall(on_ridge, descent_, aim);
+    if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_)) {
+      if (!fall(on_ridge, descent_, aim)) {
+        reset();
+        falling_ = true;
+      }
+    } else if (falling_ && report_.status == Status::ok) {
+      falling_ = false;
+      report_.status = Status::snapped;
+    }
     const Status status = report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status;
     const Scalar force = system_.reaction();
     return isfinite(force) ? Response<Scalar>{force, status} : Response<Scalar>{0, Status::non_finite};
@@ -246,7 +263,8 @@ class FemModel {
   bool left_yields_, right_yields_;
   bool single_valued_;  // one shape for each press, as far as is known
   Descent descent_;
-  Scalar home_ = 0;  // middle() of the shape from which the beam is pressed
+  bool falling_ = false;  // off the shape that gave way, and not yet at a stable one
+  Scalar home_ = 0;       // middle() of the shape from which the beam is pressed
   SolveReport<Scalar> rest_{}, report_{};
 };
 
