@@ -54,7 +54,7 @@ class ContactPoint {
   /// To the contact's unknowns in an element: its residual and tangent.  @param first whether it is the element's first node
   void transform(const Node& node, bool first, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
     const int u = first ? 0 : 3, w = u + 1, theta = u + 2;
-    if (AnyRotation && normal_.x() != 0) {
+    if (AnyRotation && normal_.y() != 1) {
       const Scalar c = normal_.y(), s = normal_.x();
       const auto turn = [c, s](auto&& along, auto&& across) {
         const auto before = along.eval();

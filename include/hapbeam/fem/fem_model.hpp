@@ -237,6 +237,8 @@ class FemModel {
         reset();
         falling_ = true;
       }
+    } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0) {
+      reset();  // what the last request has left leads nowhere: the next one begins at rest
     } else if (falling_ && report_.status == Status::ok) {
       falling_ = false;
       report_.status = Status::snapped;
