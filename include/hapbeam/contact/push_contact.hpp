@@ -48,6 +48,9 @@ class PushContact {
       const Scalar off =
           std::max(std::abs(cross(normal, foot.offset)), foot.at_end ? Scalar(0) : std::abs(foot.ahead));
       if (off <= near * reach || pushed == most_pushes || !is_answer(response.status)) {
+        const bool lost = is_answer(response.status) && !(off <= far * reach);
+        // Pushed along itself an end has no place on the circle any more: it slips off.
+        if (lost && foot.at_end) return {false, 0, response.status};
         before_ = slid_;
         slid_ = s - first;
         contact.s = s;
@@ -55,7 +58,6 @@ class PushContact {
         contact.normal = foot.normal;
         contact.point = foot.point + foot.normal * (model.thickness() / 2);
         contact.past_end = foot.at_end;
-        const bool lost = is_answer(response.status) && !(off <= far * reach);
         const Status status = snapped && response.status == Status::ok ? Status::snapped : response.status;
         return {true, -response.force, lost ? Status::iteration_limit : status};
       }
