@@ -130,10 +130,13 @@ std::string json(const Run& run) {
       .add("peak_force_N", run.device.peak_force)
       .add("period_s", run.device.period)
       .add("real_time", !o.lock_step)
+      .add("scene", o.scene)
       .add("beam", o.beam.name)
       .add("length_m", o.beam.length)
       .add("width_m", o.beam.width)
       .add("height_m", o.beam.height)
+      .add("rise_m", o.beam.rise)
+      .add("tension_N", o.beam.tension)
       .add("young_Pa", o.beam.young)
       .add("ends", cli::ends(o.beam.left, o.beam.right))
       .add("model", run.trained ? run.trained->kind : "fem");

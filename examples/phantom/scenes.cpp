@@ -23,8 +23,9 @@ constexpr NamedScene scenes[] = {
     {"thesis", ElementChoice::assumed_strain, Script::slide, middle, 0.03, 1,
      "a wall that gives a little: the bar is stiffer than the device, and what moves is the coupling"},
     {"ruler", ElementChoice::corotational, Script::press, 0.15, 0.1, 3,
-     "it resists, turns, and then lets the hand slide down along it: past 40 degrees the force falls while "
-     "the hand goes on"},
+     "it resists, turns, and lets the hand slide down along it: the force falls while the hand goes on, "
+     "until it "
+     "slips off"},
     {"strip", ElementChoice::assumed_strain, Script::press, middle, 0.03, 0.2,
      "nothing, then more and more, then a wall: it bends like paper and stretches like steel, with the cube "
      "of the depth"},
