@@ -40,11 +40,12 @@ keep() {
       NR == 1 { next }
       { key = $1 "," $2; if (!(key in all)) order[++n] = key; ++all[key]; ++count[key, $NF] }
       END {
-        print "scene,push_N,combinations,at_rest,slow,slow_as_the_arm_itself,gives_energy"
+        print "scene,push_N,combinations,at_rest,slow,slow_as_the_arm_itself,slides_off,lost,gives_energy"
         for (k = 1; k <= n; ++k) {
           key = order[k]
           print key "," all[key] "," count[key, "at_rest"] + 0 "," count[key, "slow"] + 0 "," \
-            count[key, "slow_as_the_arm_itself"] + 0 "," count[key, "gives_energy"] + 0
+            count[key, "slow_as_the_arm_itself"] + 0 "," count[key, "slides_off"] + 0 "," count[key, "lost"] + 0 "," \
+            count[key, "gives_energy"] + 0
         }
       }' "$data/sweep.csv" >"$kept/stability_sweep.csv"
 }

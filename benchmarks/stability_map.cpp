@@ -3,8 +3,8 @@
 //   stability_map sweep [SECONDS]   the default coupling on four beams, for every combination of push, hand, period, delay
 //                                   and resolution; 60 s each unless told otherwise.  A line of CSV for each, its result:
 //                                   at_rest half a second after the step and ever after; gives_energy; lost the beam;
-//                                   slow: still moved by more than 1 mm/s RMS; slow_as_the_arm_itself: so did the same
-//                                   arm in a loop of 10 kHz, without delay and grid
+//                                   slow: still moved by more than 1 mm/s RMS.  slow_as_the_arm_itself, slides_off: so it
+//                                   was with the same arm in a loop of 10 kHz, without delay and grid
 //   stability_map border            the largest stable stiffness of the coupling against the bound of Colgate and
 //                                   Schenkel, for arms, periods and delays, for the worst of the hands
 //   stability_map direct            without a coupling: the least damping of the arm with which it is stable
@@ -83,16 +83,18 @@ void sweep(double seconds) {
                   const StepResponse r =
                       step_response(model, scene.s, VirtualCoupling(figures, period), who, seconds);
                   const bool moves = r.speed > at_rest, gives = r.least_energy < -round_off;
-                  const double best = moves ? unsampled(model, scene.s, figures, who).speed : 0;
-                  const char* result = gives            ? "gives_energy"
-                                       : !(r.force > 0) ? "lost"
-                                       : !moves         ? "at_rest"
-                                       : best > at_rest ? "slow_as_the_arm_itself"
-                                                        : "slow";
+                  const bool lost = !(r.force > 0);
+                  const StepResponse best =
+                      moves || lost ? unsampled(model, scene.s, figures, who) : StepResponse();
+                  const char* result = gives                  ? "gives_energy"
+                                       : lost                 ? (best.force > 0 ? "lost" : "slides_off")
+                                       : !moves               ? "at_rest"
+                                       : best.speed > at_rest ? "slow_as_the_arm_itself"
+                                                              : "slow";
                   std::printf("%s,%.3g,%g,%g,%g,%g,%d,%g,%.1f,%.3f,%.4g,%.4g,%.3g,%.3g,%.4g,%s\n", scene.name,
                               push, k, c, grip, period * 1e3, delay, resolution * 1e6, figures.stiffness,
                               figures.damping, r.speed * 1e3, r.amplitude * 1e3, r.least_energy, r.generated,
-                              best * 1e3, result);
+                              best.speed * 1e3, result);
                 }
     std::fflush(stdout);
   }

@@ -62,7 +62,7 @@ TEMPLATE_TEST_CASE("Servo: a script from air to beam and off, with a graphics th
   long locks = -1;
   CHECK(heap_use([&] { locks = locks_taken(run); }) == HeapUse{});
   CHECK(locks == 0);
-  CHECK(loop.picture().record.contact_ticks > 500);
+  CHECK(loop.picture().record.contact_ticks > 300);  // directly, it bounces
 }
 
 TEST_CASE("Servo: failures, resets and states that no device should give: no heap, no lock") {
