@@ -57,9 +57,10 @@ CouplingFigures default_figures(const Situation& who) {
 }
 
 /// The same arm, hand and spring on a loop of 10 kHz without delay and grid: what no servo can do better.
-StepResponse unsampled(FemModel<>& model, double s, const CouplingFigures& figures, Situation who) {
+StepResponse unsampled(FemModel<>& model, double s, const CouplingFigures& figures, Situation who,
+                       double seconds) {
   who.period = 1e-4, who.delay = 0, who.resolution = 0;
-  return step_response(model, s, VirtualCoupling(figures, who.period), who, 1.5);
+  return step_response(model, s, VirtualCoupling(figures, who.period), who, seconds);
 }
 
 void sweep(double seconds) {
@@ -85,7 +86,8 @@ void sweep(double seconds) {
                   const bool moves = r.speed > at_rest, gives = r.least_energy < -round_off;
                   const bool lost = !(r.force > 0);
                   const StepResponse best =
-                      moves || lost ? unsampled(model, scene.s, figures, who) : StepResponse();
+                      moves || lost ? unsampled(model, scene.s, figures, who, lost ? seconds : 1.5)
+                                    : StepResponse();
                   const char* result = gives                  ? "gives_energy"
                                        : lost                 ? (best.force > 0 ? "lost" : "slides_off")
                                        : !moves               ? "at_rest"

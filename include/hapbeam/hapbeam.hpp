@@ -16,6 +16,7 @@
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/haptics/exchange.hpp>
 #include <hapbeam/haptics/placement.hpp>
+#include <hapbeam/haptics/servo_loop.hpp>
 #include <hapbeam/haptics/tick_times.hpp>
 #include <hapbeam/haptics/virtual_phantom.hpp>
 #include <hapbeam/rom/galerkin_model.hpp>

@@ -21,6 +21,9 @@ using Vector = Vector2<double>;
 
 constexpr double T = 1e-3, radius = 5e-3;
 
+static_assert(is_coupling<Direct> && is_coupling<VirtualCoupling>);
+static_assert(!is_coupling<LastResponse>);
+
 /// y where K (x - y) = f(y).
 double series(const PowerWall& wall, double K, double x) {
   double low = 0, high = x;

@@ -180,6 +180,19 @@ TEST_CASE("to fall it may at once, to rise by the slew rate, along a turn by bot
         1e-12);
 }
 
+TEST_CASE("the limits are the device's own, one that was told to be weaker included", "[guard]") {
+  DeviceInfo device{};
+  device.peak_force = 37.5, device.continuous_force = 6.2, device.period = T;
+  CHECK(ForceGuard::for_device(device).peak_force == 37.5);
+  CHECK(ForceGuard::for_device(device).continuous_force == 6.2);
+  device.peak_force = 1;
+  CHECK(ForceGuard::for_device(device).continuous_force == 1);
+  ForceGuard guard(ForceGuard::for_device(device));
+  double time = 0;
+  for (int tick = 0; tick < 1000; ++tick) (void)guard.limit(Vector(0, 5, 0), time += T, true);
+  CHECK(guard.force().norm() == Approx(1));
+}
+
 TEST_CASE("a guard that cannot guard is refused by name, value and unit", "[guard]") {
   const auto with = [](auto change) {
     ForceGuardOptions o = options();

@@ -30,6 +30,7 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/contact/touch.hpp>
@@ -47,6 +48,39 @@ struct CoupledForce {
   bool continued = false;                            ///< by the tangent, the beam gave no answer
   TouchResult<Scalar> touch;                         ///< what the beam said
 };
+
+namespace detail {
+
+/// A beam to call a coupling with.
+struct AnyTouch {
+  using Scalar = double;
+  TouchResult<double> tick(const Vector2<double>&) noexcept;
+};
+
+template <typename C, typename = void>
+struct IsCoupling : std::false_type {};
+template <typename C>
+struct IsCoupling<
+    C, std::void_t<decltype(std::declval<C&>().tick(std::declval<AnyTouch&>(),
+                                                    std::declval<const Vector2<double>&>())),
+                   decltype(std::declval<const C&>().in_scene(1.0)), decltype(std::declval<C&>().reset()),
+                   decltype(C::for_device(std::declval<const DeviceInfo&>(), 0))>>
+    : std::bool_constant<
+          noexcept(
+              std::declval<C&>().tick(std::declval<AnyTouch&>(), std::declval<const Vector2<double>&>())) &&
+          std::is_same_v<decltype(std::declval<C&>().tick(std::declval<AnyTouch&>(),
+                                                          std::declval<const Vector2<double>&>())),
+                         CoupledForce<double>>&& noexcept(std::declval<const C&>()
+                                                              .in_scene(1.0))&& noexcept(std::declval<C&>()
+                                                                                             .reset()) &&
+          std::is_same_v<decltype(std::declval<const C&>().in_scene(1.0)), C> &&
+          std::is_same_v<decltype(C::for_device(std::declval<const DeviceInfo&>(), 0)), C>> {};
+
+}  // namespace detail
+
+/// True where C fulfils the contract above, every noexcept included.
+template <typename C>
+inline constexpr bool is_coupling = detail::IsCoupling<C>::value;
 
 /// The hand presses the beam.  What the device cannot render it will not: near a support a steel beam buzzes.
 class Direct {
@@ -75,6 +109,7 @@ class Direct {
   LastResponse last_;
 };
 
+/// The spring and the damper above.
 class VirtualCoupling {
  public:
   /// @param figures  K [N/m] and B [N·s/m]   @param period [s] of the loop

@@ -50,7 +50,7 @@ class ForceGuard {
 
   /// The device's own limits, the rest by default.
   static ForceGuardOptions for_device(const DeviceInfo& device) {
-    return {device.peak_force, device.continuous_force, device.period};
+    return {device.peak_force, std::min(device.continuous_force, device.peak_force), device.period};
   }
 
   double heat() const noexcept { return heat_; }  ///< q, 0 cold to 1: the continuous force is all there is

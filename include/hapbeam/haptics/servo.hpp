@@ -63,6 +63,11 @@ class ServoPicture {
 
 template <typename Model, typename Coupling = VirtualCoupling>
 class Servo {
+  static_assert(
+      is_coupling<Coupling>,
+      "a coupling has: tick(touch, hand) noexcept -> CoupledForce<Scalar>; in_scene(scale) const noexcept -> "
+      "itself; reset() noexcept; static for_device(info, delay_ticks) -> itself");
+
  public:
   using Scalar = typename Model::Scalar;
   using Picture = ServoPicture<Scalar>;
