@@ -1,0 +1,147 @@
+// push(), release() and Touch::tick on beams of any rotation: no heap, and a bounded number of linear solves.
+#include <cmath>
+#include <realtime/heap_watch.hpp>
+#include <vector>
+
+#include "realtime/counting_element.hpp"
+#include "stability/bistable.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include "support/thesis_beam.hpp"
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+/// Newton's method, a fall, Newton's method again, each at most max_solves; and a second look before and after the fall.
+constexpr int most_solves_of_a_push = 3 * 48 + 2;
+/// Four pushes, and a release: the same without the first.
+constexpr int most_solves_of_a_tick = 4 * most_solves_of_a_push + 2 * 48 + 2;
+
+template <class Element>
+using Counted = CountingElement<Element>;
+
+std::vector<std::pair<const char*, Beam>> beams() {
+  return {
+      {"ruler", Beam(0.3, Section::rectangle(0.025, 0.001), Material{2e11}, Support::clamped, Support::free)},
+      {"bar", thesis_beam(Support::pinned, Support::pinned)},
+      {"strip", buckled_strip()},
+      {"arch", hinged_arch()}};
+}
+
+/// Sweeps through the beam from both sides, slides along it, jumps, and positions that are none.
+template <typename S>
+std::vector<Vector2<S>> hand_path(double length, unsigned seed) {
+  Random random(seed);
+  std::vector<Vector2<S>> path;
+  const auto add = [&](double x, double y) {
+    path.emplace_back(static_cast<S>(length * x), static_cast<S>(length * y));
+  };
+  for (const int side : {1, -1})
+    for (int k = 0; k <= 400; ++k) add(0.49, side * (0.25 - k / 800.0));
+  for (int k = 0; k <= 300; ++k) add(1.1 * k / 300 - 0.05, 0.02);
+  for (int k = 0; k <= 300; ++k) add(0.3 + 0.8 * k / 300, -0.2);
+  for (int k = 0; k < 300; ++k) add(random(-0.1, 1.1), random(0.3));
+  for (const double bad : {std::nan(""), double(INFINITY), 1e30}) add(bad, 0), add(0.5, -0.1), add(0.5, bad);
+  return path;
+}
+
+template <typename Model>
+struct Ticks {
+  int pressing = 0, not_finite = 0, snapped = 0;
+
+  Ticks(Touch<Model>& touch, const std::vector<Vector2<typename Model::Scalar>>& path) noexcept {
+    for (const auto& position : path) {
+      const auto r = touch.tick(position);
+      pressing += r.pressing;
+      not_finite += !r.force.allFinite();
+      snapped += r.status == Status::snapped;
+    }
+  }
+};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("Touch on beams of any rotation: no heap, pressed, slipping off, snapping through", "",
+                   (FemModel<Corotational<>, double>), (FemModel<Corotational<>, float>),
+                   (FemModel<Corotational<>, double, 16>), (FemModel<VonKarman<>, double>)) {
+  int pressing = 0, snapped = 0;
+  for (const auto& [name, beam] : beams()) {
+    TestType model(beam, 16);
+    Touch<TestType> touch(model, typename TestType::Scalar(0.005));
+    const auto path = hand_path<typename TestType::Scalar>(beam.length(), 3);
+    HeapUse use;
+    int not_finite = 0;
+    use = heap_use([&] {
+      const Ticks<TestType> ticks(touch, path);
+      pressing += ticks.pressing, not_finite = ticks.not_finite, snapped += ticks.snapped;
+      touch.reset();
+    });
+    INFO(name);
+    CHECK(use == HeapUse{});
+    CHECK(not_finite == 0);
+  }
+  CHECK(pressing > 1000);
+  if (takes_push<TestType>) CHECK(snapped > 0);
+}
+
+TEMPLATE_TEST_CASE("push and release of a bistable beam: no heap, all the way through and back", "",
+                   (FemModel<Corotational<>, double>), (FemModel<Corotational<>, float>)) {
+  using S = typename TestType::Scalar;
+  TestType model(buckled_strip(), 16);
+  const S up = static_cast<S>(middle(model));
+  int snapped = 0, not_finite = 0, calls = 0;
+  CHECK(heap_use([&] {
+          for (const int side : {1, -1}) {
+            for (int k = 0; k <= 220; ++k) {
+              const S d = S(side) * up * (1 - S(k) / 200);
+              const auto response = model.push({S(0.1), d, {0, 1}});
+              snapped += response.status == Status::snapped;
+              not_finite += !std::isfinite(response.force);
+            }
+            while (model.release() == Status::iteration_limit && calls < 100) ++calls;
+          }
+          model.reset();
+        }) == HeapUse{});
+  CHECK(not_finite == 0);
+  CHECK(snapped >= 1);
+  CHECK(calls < 40);
+}
+
+TEST_CASE(
+    "no push takes more than three times the solver's limit, no tick more than four pushes and a release") {
+  using Element = Counted<Corotational<>>;
+  using Model = FemModel<Element>;
+  constexpr int elements = 16;
+  for (const auto& [name, beam] : beams()) {
+    Model model(beam, elements);
+    Random random(4);
+    int hardest = 0;
+    for (int k = 0; k < 1500; ++k) {
+      const double angle = random(3.2);
+      model.push(
+          {beam.length() * random(0, 1), beam.length() * random(0.4), {std::sin(angle), std::cos(angle)}});
+      hardest = std::max(hardest, model.report().solves);
+      if (k % 5 == 0) {
+        model.release();
+        CHECK(model.report().solves <= most_solves_of_a_push);
+      }
+    }
+    INFO(name << ": " << hardest);
+    CHECK(hardest <= most_solves_of_a_push);
+    CHECK(hardest >= 40);  // mean enough
+
+    Touch<Model> touch(model, 0.005);
+    long most = 0;
+    for (const auto& position : hand_path<double>(beam.length(), 5)) {
+      Element::tangents = 0;
+      (void)touch.tick(position);
+      most = std::max(most, Element::tangents / elements);
+    }
+    INFO(name << ": " << most);
+    CHECK(most <= most_solves_of_a_tick);
+  }
+}
