@@ -4,7 +4,7 @@
 #
 #   bash benchmarks/limits.sh [--programs FOLDER]
 #
-#   --programs FOLDER   where the program limits is, built already; default: builds it
+#   --programs FOLDER   where the program kinematics is, built already; default: builds it
 #   --help              this text
 set -u
 source "$(dirname "${BASH_SOURCE[0]}")/../cmake/steps.sh"
@@ -16,14 +16,14 @@ case ${1-} in
   ?*) echo "benchmarks/limits.sh: '$1': only --programs FOLDER and --help are allowed" >&2; exit 2 ;;
 esac
 if [[ -z $programs ]]; then
-  build release limits || exit 1
+  build release kinematics || exit 1
   programs=$top/build/release/benchmarks
 fi
 data=$(mktemp -d)
 trap 'rm -rf "$log" "$data"' EXIT
 
 table() {
-  "$programs/limits" --benchmark_format=json 2>/dev/null | awk -F'"' '
+  "$programs/kinematics" --benchmark_format=json 2>/dev/null | awk -F'"' '
     /"name":/ { name = $4; sub(/\/iterations:1.*/, "", name) }
     name != "" && $3 ~ /^: -?[0-9]/ { value = $3; gsub(/[:, ]/, "", value); v[name, $2] = value }
     function at(key, percent) {
@@ -38,7 +38,7 @@ table() {
       print "| ends | h/L | element | 1 % | 5 % | 10 % | at the deepest |"
       print "|---|---|---|---|---|---|---|"
       for (i = 1; i <= 4; ++i) for (j = 1; j <= 2; ++j) for (k = 1; k <= 3; ++k) {
-        key = "limits/" ends[i] "/" sections[j] "/" elements[k]
+        key = "kinematics/" ends[i] "/" sections[j] "/" elements[k]
         printf "| %s | 1/%d | %s | %s | %s | %s | %.1g at %g L |\n", ends[i], j == 1 ? 100 : 1000, title[elements[k]],
           at(key, 1), at(key, 5), at(key, 10), v[key, "error_at_deepest"], v[key, "deepest"]
       }

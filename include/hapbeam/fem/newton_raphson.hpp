@@ -8,10 +8,9 @@
 // Increments are measured in the norm of the tangent, |Δ|² = ΔᵀKΔ, where metres and radians, stretching and bending
 // weigh what they cost, and which bounds the relative error of the contact force: |δF|/F <= about |Δ|/√(2V).
 // A step has converged when the increment that would come next is below the tolerance; it need not be computed to be
-// known, because Newton is quadratic: |Δ(k+1)| = C|Δ(k)|² with C taken for 32 times the larger of the last two that were
+// known, because Newton is quadratic: |Δ(k+1)| = C|Δ(k)|² with C taken for four times the larger of the last two that were
 // measured, or 100/√(2V) while there are none (0.1 to 40 is usual; in nearly inextensible beams increments can come in
-// pairs, one of u and one of w, which is why one measurement is not believed, and at large rotation C grows up to
-// thirtyfold from one increment to the next).  The tolerance
+// pairs, one of u and one of w, which is why one measurement is not believed).  The tolerance
 // is max(relative, eps n²) √(2V), never below absolute √(EI/L): a relative criterion has no meaning at rest, and eps n²
 // is what round-off in the last place of n nodes costs (Σ 12EI/l³ (eps w)² against 48EI/L³ w²).  An increment below
 // √eps/10 √(2V) also ends a step: with C = 100/√(2V) round-off would follow it, of which no C can be measured.
@@ -105,9 +104,10 @@ struct NewtonRaphson {
       if (iteration.status != Status::ok) return iteration.status;
       const S state = system.size(), tolerance = relative * state;
       // The first increment holds the jump of the contact, which the tangent's norm overstates: C is measured without it.
-      const S measured = k > 2 ? 32 * iteration.size / (before * before) : state > 0 ? 100 / state : S(0);
+      const S measured = k > 2 ? 4 * iteration.size / (before * before) : state > 0 ? 100 / state : S(0);
       const S curvature = std::max(measured, measured_before);
-      const S next = state > 0 ? curvature * iteration.size * iteration.size : iteration.size;
+      // No larger than this one, which is what round-off would else make of it.
+      const S next = state > 0 ? std::min(curvature * iteration.size, S(1)) * iteration.size : iteration.size;
       report.error = state > 0 ? next / state : S(0);
       if (!std::isfinite(state)) return Status::non_finite;
       if (next <= std::max(tolerance, floor) || iteration.size <= noise * state) return Status::ok;

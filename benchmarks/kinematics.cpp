@@ -4,7 +4,7 @@
 // with a free end, across that end.  All have 64 elements, so that what is off is the kinematics; the truth is
 // Corotational<> with 256.
 //
-//   limits/ENDS/SECTION/ELEMENT
+//   kinematics/ENDS/SECTION/ELEMENT
 //     slope_1, _5, _10             largest rotation of the true beam there [degrees]
 //     deflection_1, _5, _10        d/L [-]
 //     press_1, _5, _10             d over the beam's height [-]
@@ -93,7 +93,7 @@ void add(const std::string& element) {
   for (const Case& c : cases)
     for (const auto& [section, height] : {std::pair("thick", width), std::pair("thin", width / 10)}) {
       const Beam beam(length, Section::rectangle(width, height), Material{206.84e9}, c.left, c.right);
-      const std::string name = std::string("limits/") + hapbeam::name(c.left) + "-" + hapbeam::name(c.right) +
+      const std::string name = std::string("kinematics/") + hapbeam::name(c.left) + "-" + hapbeam::name(c.right) +
                                "/" + section + "/" + element;
       benchmark::RegisterBenchmark(
           name.c_str(), [beam, &c](benchmark::State& state) { find_limits<Element>(state, beam, c); })
