@@ -133,6 +133,19 @@ TEST_CASE("a demand for more than the continuous force is met, fades, and ends a
   }
 }
 
+TEST_CASE("a clock that stands does not cool the motors: the force fades as if each tick were a period",
+          "[guard]") {
+  ForceGuard standing(options());
+  double time = 0;
+  for (int tick = 0; tick < 10; ++tick) (void)standing.limit(Vector(0, 20, 0), time += T, true);
+  for (int tick = 0; tick < 20000; ++tick) {
+    (void)standing.limit(Vector(0, 20, 0), time, true);
+    REQUIRE(standing.heat() <= 1 + 1e-12);
+  }
+  CHECK(standing.heat() > 0.9);
+  CHECK(standing.force().norm() < 0.6 * 20);
+}
+
 TEST_CASE("up to the continuous force nothing is ever taken away", "[guard]") {
   ForceGuard guard(options());
   double time = 0;
