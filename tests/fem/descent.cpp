@@ -100,7 +100,7 @@ TEST_CASE("no step of a descent raises the potential, and some are taken back fo
     CAPTURE(trial, found);
     taken_back += system.taken_back;
     for (std::size_t k = 3; k < system.kept.size(); ++k)
-      CHECK(system.kept[k] <= system.kept[k - 1] * (1 + 1e-12) + 1e-12);
+      CHECK(system.kept[k] <= system.kept[k - 1] * (1 + 1e-12) + 1e-10);  // what round-off may be, EI/L = 1
   }
   CHECK(taken_back > 10);  // the guard has something to do
 }

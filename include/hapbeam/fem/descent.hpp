@@ -35,7 +35,9 @@ struct Descent {
   template <class System>
   bool solve(System& system, int& solves) const noexcept {
     using S = typename System::Scalar;
-    const S slack = 100 * std::numeric_limits<S>::epsilon();
+    // Round-off, of a potential and, where a beam without stress has none, of its shape.
+    const S slack = 100 * std::numeric_limits<S>::epsilon(),
+            nothing = S(1e-4 * enough * enough) * system.unit() * system.unit();
     S shift = S(first_shift), good = shift, bad = 0, least = std::numeric_limits<S>::max();
     system.set_target(1);
     system.save();
@@ -44,7 +46,7 @@ struct Descent {
       ++solves;
       const Status status = system.factor(shift);
       const S potential = system.potential();
-      if (!(potential <= least + slack * std::abs(least))) {
+      if (!(potential <= least + slack * std::abs(least) + nothing)) {
         system.restore();
         shift = 10 * std::max(good, S(0.1));
         least = std::numeric_limits<S>::max();
