@@ -194,13 +194,13 @@ class BeamSystem {
       energy += strain;
       work += by_loads;
       if (Rate) beam_.load_rate(e, r);
+      if (shift != 0) add_shift(shift, e, K);
       if (contact_.holds(e)) contact_.transform(node(e), true, r, K);
       if (contact_.holds(e + 1)) contact_.transform(node(e + 1), false, r, K);
       assembler_.add(e, K, r);
     }
     size_ = std::sqrt(2 * energy);
     potential_ = energy - work;
-    if (shift != 0) add_shift(shift);
     for (std::size_t k = 0; k < 2; ++k)
       ends_[k].visit(node(end(k)), [&](int component, Scalar now, Scalar target) {
         assembler_.prescribe(end(k), component, target - now);
@@ -217,13 +217,14 @@ class BeamSystem {
     if (contact_.node() >= 0) contact_.correct(beam_.nodes()[contact_.node()], d_);
   }
 
-  void add_shift(Scalar shift) noexcept {
-    const Scalar across = shift * unit_ * unit_ / (length_ * length_), about = shift * unit_ * unit_;
-    for (int e = 0; e < elements(); ++e) {
-      const Scalar share = (node(e + 1).s - node(e).s) / (2 * length_);
-      const Vector3<Scalar> diagonal(share * across, share * across, share * about);
-      assembler_.add_diagonal(e, diagonal);
-      assembler_.add_diagonal(e + 1, diagonal);
+  /// An element's share of the shift, half of it to either node.
+  void add_shift(Scalar shift, int e, Matrix6<Scalar>& K) const noexcept {
+    const Scalar share = shift * unit_ * unit_ * (node(e + 1).s - node(e).s) / (2 * length_),
+                 across = share / (length_ * length_);
+    for (const int k : {0, 3}) {
+      K(k, k) += across;
+      K(k + 1, k + 1) += across;
+      K(k + 2, k + 2) += share;
     }
   }
 

@@ -36,10 +36,6 @@ class Dense {
     x_.template segment<3>(3 * node) += force;
   }
 
-  void add_diagonal(int node, const Vector3<Scalar>& diagonal) noexcept {
-    K_.diagonal().template segment<3>(3 * node) += diagonal;
-  }
-
   void prescribe(int node, int component, Scalar increment) noexcept {
     const int k = 3 * node + component;
     const Scalar pivot = K_(k, k);
