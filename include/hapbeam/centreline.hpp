@@ -53,6 +53,8 @@ class Centreline {
   const Node* begin() const noexcept { return nodes_; }
   const Node* end() const noexcept { return nodes_ + size_; }
   Scalar length() const noexcept { return nodes_[size_ - 1].s; }
+  /// Which cubic joins the nodes, above.
+  bool any_rotation() const noexcept { return any_rotation_; }
 
   /// The deformed piece between nodes i and i + 1, in the plane (x along the beam, w across) [m].
   CubicSegment<Scalar> segment(int i) const noexcept { return segment(i, direction(i), direction(i + 1)); }

@@ -9,6 +9,7 @@
 #include "support/random.hpp"
 #include "support/status.hpp"
 #include "support/thesis_beam.hpp"
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/haptics/servo_loop.hpp>
 #include <hapbeam/haptics/virtual_phantom.hpp>
@@ -97,6 +98,25 @@ TEST_CASE("the picture has the shape of its own tick", "[servo]") {
   REQUIRE(picture.shape().size() == c.beam.shape().size());
   for (int i = 0; i < picture.shape().size(); ++i) CHECK(picture.shape()[i].w == c.beam.shape()[i].w);
   CHECK(picture.shape()[1].w == picture.record.press.d);
+}
+
+// A quarter of a turn within a few elements: what moderate rotation draws between their nodes is far beside it.
+TEST_CASE("the picture draws a beam of any rotation as its model does", "[servo]") {
+  using Turning = FemModel<Corotational<>>;
+  Turning ruler(
+      Beam(0.3, Section::rectangle(0.025, 0.0005), Material{200e9}, Support::clamped, Support::free), 4);
+  Servo<Turning> servo(ruler, phantom(), above(0.15, 5.25e-3, 3), VirtualCoupling({2000, 0}, 1e-3));
+  for (int tick = 0; tick < 1000; ++tick) {
+    DeviceState now = state(0.001 - 5e-5 * tick, tick);
+    (void)servo.tick(now);
+  }
+  REQUIRE(ruler.shape()[4].theta > 0.7);
+  for (int k = 0; k <= 50; ++k) {
+    const double s = 0.006 * k;
+    const Displacement<double> own = ruler.shape().at(s), drawn = servo.picture().shape().at(s);
+    CHECK(drawn.u == own.u);
+    CHECK(drawn.w == own.w);
+  }
 }
 
 TEST_CASE("a model that fails: no force in the same tick, and gently back", "[servo]") {

@@ -112,6 +112,8 @@ class Touch {
     if constexpr (takes_push<Model>) {
       result.status = model_.release();
       falling_ = result.status == Status::iteration_limit;
+      // Nobody holds it: that no force is felt is the whole answer, wherever the beam is on its way.
+      if (falling_) result.status = Status::ok;
     } else {
       model_.reset();
     }

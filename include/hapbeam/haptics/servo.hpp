@@ -44,12 +44,13 @@ class ServoPicture {
   }
 
   ServoRecord record;
-  Centreline<Scalar> shape() const noexcept { return {nodes_.data(), size_}; }
+  Centreline<Scalar> shape() const noexcept { return {nodes_.data(), size_, any_rotation_}; }
 
   /// Of a shape with more nodes than there is room for, every second one is taken, or third, …, and the last.
   void take(const Centreline<Scalar>& shape) noexcept {
     const int last = shape.size() - 1, step = 1 + (last - 1) / (static_cast<int>(nodes_.size()) - 1);
     size_ = 0;
+    any_rotation_ = shape.any_rotation();
     for (int i = 0; i < last; i += step) nodes_[static_cast<std::size_t>(size_++)] = shape[i];
     nodes_[static_cast<std::size_t>(size_++)] = shape[last];
   }
@@ -59,6 +60,7 @@ class ServoPicture {
 
   std::vector<CentrelineNode<Scalar>> nodes_;
   int size_ = 0;
+  bool any_rotation_ = false;
 };
 
 template <typename Model, typename Coupling = VirtualCoupling>
@@ -141,7 +143,7 @@ class Servo {
     if (guarded.limited || state.cut != ForceCut::none) return LoopStatus::limited;
     if (!coupled.touch.pressing) return LoopStatus::free;
     if (guarded.engaging) return LoopStatus::engaging;
-    return coupled.touch.status == Status::ok ? LoopStatus::touching : LoopStatus::out_of_range;
+    return coupled.touch.status == Status::out_of_range ? LoopStatus::out_of_range : LoopStatus::touching;
   }
 
   void record(const DeviceState& state, const CoupledForce<Scalar>& coupled, const GuardedForce& guarded,
