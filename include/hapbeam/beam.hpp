@@ -5,36 +5,13 @@
 // x runs along the beam from its left end, w across it (up), theta = -dw/dx.
 #pragma once
 
-#include <cmath>
-#include <cstdio>
 #include <functional>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
+#include <hapbeam/support.hpp>
+
 namespace hapbeam {
-
-namespace detail {
-
-[[gnu::cold]] [[noreturn]] inline void reject(const char* field, double value, const char* unit,
-                                              const char* allowed) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%s = %g%s%s: must be %s", field, value, *unit ? " " : "", unit, allowed);
-  throw std::invalid_argument(text);
-}
-
-[[gnu::cold]] inline double positive(const char* field, double value, const char* unit) {
-  if (!(std::isfinite(value) && value > 0)) reject(field, value, unit, "positive and finite");
-  return value;
-}
-
-[[gnu::cold]] inline double finite(const char* field, double value, const char* unit) {
-  if (!std::isfinite(value)) reject(field, value, unit, "finite");
-  return value;
-}
-
-}  // namespace detail
 
 /// Cross-section: area, second moment about the bending axis, and extent in the bending direction.
 struct Section {
@@ -69,53 +46,6 @@ struct Section {
 struct Material {
   double young;  ///< Young's modulus E [Pa]
 };
-
-/// How an end is held.  Each name says which of u, w, theta are zero there.
-enum class Support {
-  free,     ///< none
-  clamped,  ///< u, w, theta
-  pinned,   ///< u, w: a hinge that cannot move
-  roller,   ///< w: a hinge that slides along the beam's axis
-  guided,   ///< u, theta: a symmetry plane
-};
-
-constexpr bool fixes_u(Support s) noexcept {
-  return s == Support::clamped || s == Support::pinned || s == Support::guided;
-}
-constexpr bool fixes_w(Support s) noexcept {
-  return s == Support::clamped || s == Support::pinned || s == Support::roller;
-}
-constexpr bool fixes_theta(Support s) noexcept { return s == Support::clamped || s == Support::guided; }
-
-constexpr const char* name(Support support) noexcept {
-  switch (support) {
-    case Support::free: return "free";
-    case Support::clamped: return "clamped";
-    case Support::pinned: return "pinned";
-    case Support::roller: return "roller";
-    case Support::guided: return "guided";
-  }
-  return "unknown";
-}
-
-namespace detail {
-
-/// @throws std::invalid_argument where a beam with these ends is a mechanism
-[[gnu::cold]] inline void check_supports(Support left, Support right) {
-  const char* why = nullptr;
-  const int held_w = fixes_w(left) + fixes_w(right);
-  const bool held_theta = fixes_theta(left) || fixes_theta(right);
-  if (!fixes_u(left) && !fixes_u(right)) why = "slides along its axis; hold u at one end";
-  if (held_w == 0) why = "moves across its axis; hold w at one end";
-  if (held_w == 1 && !held_theta) why = "turns about its only hinge; hold theta or the other end";
-  if (!why) return;
-  char text[160];
-  std::snprintf(text, sizeof text, "supports = %s, %s: the beam is a mechanism, it %s", name(left),
-                name(right), why);
-  throw std::invalid_argument(text);
-}
-
-}  // namespace detail
 
 /// A dead force and moment at one point of the beam.
 struct PointLoad {

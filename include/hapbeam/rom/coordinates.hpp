@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-#include <hapbeam/beam.hpp>
+#include <hapbeam/support.hpp>
 
 namespace hapbeam {
 
@@ -23,7 +23,9 @@ struct BeamData {
   Scalar thickness;          ///< [m]
   Support left, right;
 
-  static BeamData of(const Beam& beam) noexcept {
+  /// @tparam AnyBeam  Beam, which a program that only loads a model need not know
+  template <class AnyBeam>
+  static BeamData of(const AnyBeam& beam) noexcept {
     return {Scalar(beam.length()),
             Scalar(beam.axial_stiffness()),
             Scalar(beam.bending_stiffness()),

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <hapbeam/beam.hpp>
 #include <hapbeam/rom/model_data.hpp>
 
 namespace hapbeam {
