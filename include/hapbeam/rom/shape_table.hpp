@@ -45,10 +45,13 @@ class ContactFrame {
   /// Arc position of node i for a contact at s [m].  Where the contact's node cannot follow, the others do.
   Scalar position(int i, Scalar s) const noexcept {
     if (i == contact_node_) return contact(s);
-    if (i < contact_node_) return std::max(s, contact(s)) * Scalar(i) / Scalar(contact_node_);
-    if (i == segments_) return length_;
-    const Scalar start = std::min(s, contact(s));
-    return start + (length_ - start) * Scalar(i - contact_node_) / Scalar(segments_ - contact_node_);
+    if (i < contact_node_) return Scalar(i) * left_spacing(s);
+    return i == segments_ ? length_ : length_ - Scalar(segments_ - i) * right_spacing(s);
+  }
+  /// Between the nodes on one side of the contact [m].
+  Scalar left_spacing(Scalar s) const noexcept { return std::max(s, contact(s)) / Scalar(contact_node_); }
+  Scalar right_spacing(Scalar s) const noexcept {
+    return (length_ - std::min(s, contact(s))) / Scalar(segments_ - contact_node_);
   }
   /// h of node i [m]: the length of its side.  A side whose end yields bends no more sharply when it gets short.
   Scalar side(int i, Scalar s) const noexcept {
@@ -111,31 +114,34 @@ class ShapeTable {
     detail::combine(data.basis.data(), rows, mode, modes, row);
 
     const Scalar contact = frame_.contact(s);
-    const int middle = frame_.contact_node();
-    place(0, middle, s, unit);
-    place(middle, middle + 1, s, unit);
-    place(middle + 1, frame_.segments() + 1, s, unit);
+    const int middle = frame_.contact_node(), last = frame_.segments();
+    if (middle > 0) place(0, middle, s, Scalar(0), frame_.left_spacing(s), unit);
+    place(middle, middle + 1, s, contact, Scalar(0), unit);
+    if (middle < last) {
+      const Scalar spacing = frame_.right_spacing(s);
+      place(middle + 1, last + 1, s, std::min(s, contact) + spacing, spacing, unit);
+    }
     nodes_.back().s = length_;
     // The contact itself is known better than its modes; where it is too near to an end for its node, the end is straight.
-    Node& node = nodes_[static_cast<std::size_t>(frame_.contact_node())];
+    Node& node = nodes_[static_cast<std::size_t>(middle)];
     if (theta) node.theta = *theta;
     node.w = d - node.theta * (contact - s);
-    if (contact < s) straighten(frame_.contact_node() + 1, frame_.segments(), node);
-    if (contact > s) straighten(0, frame_.contact_node() - 1, node);
+    if (contact < s) straighten(middle + 1, last, node);
+    if (contact > s) straighten(0, middle - 1, node);
   }
 
  private:
-  /// Nodes on one side of the contact, or its own: they share their h and are evenly spaced.
-  void place(int first, int end, Scalar s, Scalar unit) noexcept {
-    if (first == end) return;
-    const Scalar per_side = unit / frame_.side(first, s), start = frame_.position(first, s);
-    const Scalar step = end - first > 1 ? frame_.position(first + 1, s) - start : Scalar(0);
+  /// Nodes on one side of the contact, or its own: they share their h and are evenly spaced from `start` on.
+  [[gnu::noinline]] void place(int first, int end, Scalar s, Scalar start, Scalar spacing,
+                               Scalar unit) noexcept {
+    const Scalar per_side = unit / frame_.side(first, s);
     const Scalar* row = work_.data() + 3 * first;
     Node* node = nodes_.data() + first;
     for (int i = 0; i < end - first; ++i, row += 3)
-      node[i] = {start + step * Scalar(i), row[0] * unit * per_side, row[1] * unit, row[2] * per_side};
+      node[i] = {start + spacing * Scalar(i), row[0] * unit * per_side, row[1] * unit, row[2] * per_side};
   }
-  void straighten(int first, int last, const Node& from) noexcept {
+  /// Rare: the contact is within a thousandth of the length from an end.
+  [[gnu::cold]] void straighten(int first, int last, const Node& from) noexcept {
     for (int i = first; i <= last; ++i) {
       Node& node = nodes_[static_cast<std::size_t>(i)];
       node = {node.s, from.u, from.w - from.theta * (node.s - from.s), from.theta};
