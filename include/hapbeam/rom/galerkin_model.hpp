@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -47,32 +46,17 @@ class GalerkinModel {
         tension_(data.beam),
         x_(data.positions, position_(data.s_min), position_(data.s_max)),
         z_(data.tensions, 0, tension_(data.tension)),
+        table_(static_cast<std::size_t>(data.positions) * static_cast<std::size_t>(row_size())),
         shape_(data.beam, data.shape) {
-    using Table = std::vector<Scalar>;  // position by position
-    const int n = data.positions, m = data.tensions;
-    const auto at = [m](int i, int j) { return static_cast<std::size_t>(i * m + j); };
-    const auto along_z = [&](const Table& f) {
-      Table slope(f.size());
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < m; ++j)
-          for (int k = 0; k < m; ++k) slope[at(i, j)] += z_.derivative(j, k) * f[at(i, k)];
-      return slope;
-    };
-    const auto append = [&](Table& rows, int i, const Table& f) {
-      rows.insert(rows.end(), f.begin() + i * m, f.begin() + (i + 1) * m);
-    };
-    const Table &f = data.log_stiffness, by_z = along_z(f), by_zz = along_z(by_z);
-    Table by_x(f.size());
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < m; ++j)
-        for (int k = 0; k < n; ++k) by_x[at(i, j)] += x_.derivative(i, k) * f[at(k, j)];
-    const Table by_xz = along_z(by_x);
-    for (int i = 0; i < n; ++i) {
-      for (const Table* table : std::initializer_list<const Table*>{&f, &by_z, &by_zz})
-        append(rows_, i, *table);
-      for (const Table* table : std::initializer_list<const Table*>{&by_x, &by_xz})
-        append(by_position_, i, *table);
+    const int m = data.tensions;
+    Scalar* row = table_.data();
+    for (int i = 0; i < data.positions; ++i, row += row_size()) {
+      std::copy_n(data.log_stiffness.data() + i * m, m, row);
+      z_.differentiate(row, 1, row + m);
+      z_.differentiate(row + m, 1, row + 2 * m);
     }
+    row = table_.data();
+    for (int j = 0; j < 2 * m; ++j) x_.differentiate(row + j, row_size(), row + 3 * m + j);
   }
 
   /// The force alone; shape() stays.  @return as press()
@@ -125,6 +109,8 @@ class GalerkinModel {
     Scalar beyond;  // √(N/Nm), 1 where the tension was trained
   };
 
+  int row_size() const noexcept { return 5 * data_.tensions; }
+
   Response<Scalar> respond(const Press<Scalar>& request, Point& at) noexcept {
     using std::exp;
     using std::isfinite;
@@ -136,7 +122,7 @@ class GalerkinModel {
     at.press = {nearest.s, detail::bounded(request.d, data_.beam.length)};
     const int m = data_.tensions;
     x_.weights(data_.positions > 1 ? position_(at.press.s) : Scalar(0), at.lx);
-    detail::combine(rows_.data(), 3 * m, at.lx, data_.positions, at.column);
+    detail::combine(table_.data(), row_size(), 3 * m, at.lx, data_.positions, at.column);
     const Scalar scale = position_.scale(at.press.s);
     const Scalar stiffness = m == 1 ? (along(at, 0), exp(at.f) / scale) : balance(at, scale);
     const Scalar force = stiffness * at.press.d;
@@ -211,7 +197,7 @@ class GalerkinModel {
     const int m = data_.tensions;
     const Scalar s = at.press.s, x_by_s = position_.derivative(s);
     Scalar column[2 * max_size];  // df/dx by tension, then d²f/dxdz
-    detail::combine(by_position_.data(), 2 * m, at.lx, data_.positions, column);
+    detail::combine(table_.data() + 3 * m, row_size(), 2 * m, at.lx, data_.positions, column);
     const Scalar log_by_s =
         detail::dot(at.lz, column, m) * x_by_s - position_.log_scale_derivative(s);  // of k, or of k at Nm
     if (!(at.beyond > 1)) return at.press.d / 2 * log_by_s;
@@ -242,8 +228,7 @@ class GalerkinModel {
   PositionCoordinate<Scalar> position_;
   TensionCoordinate<Scalar> tension_;
   Lagrange<Nodes, Scalar> x_, z_;
-  std::vector<Scalar> rows_;         // position by position: f by tension, df/dz, d²f/dz²
-  std::vector<Scalar> by_position_;  // position by position: df/dx by tension, d²f/dxdz
+  std::vector<Scalar> table_;  // position by position: f by tension, df/dz, d²f/dz², df/dx, d²f/dxdz
   ShapeTable<Scalar> shape_;
   Scalar last_ = 0;  // z of the last press
   int iterations_ = 0;

@@ -98,13 +98,16 @@ class Lagrange {
     for (int k = 0; k < n; ++k) l[k] *= inverse;
   }
 
-  /// Derivative of l_j at node i.  The interpolant's derivative has degree n - 2: its values at the nodes define it.
-  [[gnu::cold]] Scalar derivative(int i, int j) const noexcept {
-    if (i != j) return weights_[j] / weights_[i] / (nodes_[i] - nodes_[j]);
-    Scalar sum = 0;  // rows sum to zero: the derivative of 1
-    for (int k = 0; k < size(); ++k)
-      if (k != i) sum -= derivative(i, k);
-    return sum;
+  /// The interpolant's derivative at the nodes.  Its degree is n - 2, so that they define it.
+  /// @param f, slope  in and out, no overlap: size() values each, `stride` apart
+  [[gnu::cold, gnu::noinline]] void differentiate(const Scalar* f, int stride, Scalar* slope) const noexcept {
+    for (int i = 0; i < size(); ++i) {
+      const Scalar here = f[i * stride];
+      Scalar sum = 0;  // Σ_j l_j'(x_i) f_j, where the l_j' sum to zero: the derivative of 1
+      for (int j = 0; j < size(); ++j)
+        if (j != i) sum += weights_[j] / weights_[i] * (f[j * stride] - here) / (nodes_[i] - nodes_[j]);
+      slope[i * stride] = sum;
+    }
   }
 
  private:

@@ -37,25 +37,17 @@ class PodModel {
         depth_(data_.beam, data_.symmetric),
         x_(data_.positions, position_(data_.s_min), position_(data_.s_max)),
         y_(data_.depths, data_.y_low, data_.y_high),
+        table_(static_cast<std::size_t>(data_.positions) * static_cast<std::size_t>(row_size())),
         shape_(data_.beam, data_.shape) {
-    const auto n = static_cast<std::size_t>(data_.positions), m = static_cast<std::size_t>(data_.depths);
-    by_depth_ = std::vector<Scalar>(2 * n * m);
-    by_position_ = std::vector<Scalar>(n * m);
-    rest_slope_ = std::vector<Scalar>(n);
-    for (int i = 0; i < data_.positions; ++i) {
-      for (int j = 0; j < data_.depths; ++j) {
-        Scalar dx = 0, dy = 0;
-        for (int k = 0; k < data_.positions && n > 1; ++k) dx += x_.derivative(i, k) * potential(k, j);
-        for (int k = 0; k < data_.depths; ++k) dy += y_.derivative(j, k) * potential(i, k);
-        const std::size_t row = 2 * static_cast<std::size_t>(i) * m, at = static_cast<std::size_t>(j);
-        by_depth_[row + at] = potential(i, j);
-        by_depth_[row + m + at] = dy;
-        by_position_[row / 2 + at] = dx;
-      }
-      for (int k = 0; k < data_.positions && n > 1; ++k)
-        rest_slope_[static_cast<std::size_t>(i)] +=
-            x_.derivative(i, k) * data_.rest[static_cast<std::size_t>(k)];
+    const int m = data_.depths;
+    Scalar* row = table_.data();
+    for (int i = 0; i < data_.positions; ++i, row += row_size()) {
+      std::copy_n(data_.potential.data() + i * m, m, row + m);
+      row[2 * m] = data_.rest[static_cast<std::size_t>(i)];
+      y_.differentiate(row + m, 1, row);
     }
+    row = table_.data();
+    for (int j = m; j <= 2 * m; ++j) x_.differentiate(row + j, row_size(), row + j + m + 1);
   }
 
   /// The force alone; shape() stays.  @return as press()
@@ -103,10 +95,7 @@ class PodModel {
     Scalar force() const noexcept { return e * (work + half_slope * work_by_y) / scale; }
   };
 
-  Scalar potential(int i, int j) const noexcept {
-    return data_.potential[static_cast<std::size_t>(i) * static_cast<std::size_t>(data_.depths) +
-                           static_cast<std::size_t>(j)];
-  }
+  int row_size() const noexcept { return 3 * data_.depths + 2; }
 
   Response<Scalar> respond(const Press<Scalar>& request, Point& at) const noexcept {
     using std::isfinite;
@@ -145,18 +134,18 @@ class PodModel {
     at.half_slope = depth_.half_log_derivative(at.e, at.y);
     y_.weights(at.y, at.ly);
     Scalar sum[2 * max_size];
-    if (n > 1) detail::combine(by_depth_.data(), 2 * m, at.lx, n, sum);
-    const Scalar* column = n > 1 ? sum : by_depth_.data();
-    at.work = detail::dot(at.ly, column, m);
-    at.work_by_y = detail::dot(at.ly, column + m, m);
+    if (n > 1) detail::combine(table_.data(), row_size(), 2 * m, at.lx, n, sum);
+    const Scalar* column = n > 1 ? sum : table_.data();
+    at.work = detail::dot(at.ly, column + m, m);
+    at.work_by_y = detail::dot(at.ly, column, m);
   }
 
   /// θ at the contact: (∂V/∂s at constant d)/F [rad].
   Scalar rotation(const Point& at) const noexcept {
-    Scalar column[max_size];
-    detail::combine(by_position_.data(), data_.depths, at.lx, data_.positions, column);
-    const Scalar by_x = detail::dot(at.ly, column, data_.depths);
-    const Scalar rest_by_x = detail::dot(at.lx, rest_slope_.data(), data_.positions);
+    const int m = data_.depths;
+    Scalar column[max_size + 1];
+    detail::combine(table_.data() + 2 * m + 1, row_size(), m + 1, at.lx, data_.positions, column);
+    const Scalar by_x = detail::dot(at.ly, column, m), rest_by_x = column[m];
     const Scalar s = at.press.s, x_by_s = position_.derivative(s);
     return at.e / 2 * (by_x * x_by_s - at.work * position_.log_scale_derivative(s)) /
                (at.work + at.half_slope * at.work_by_y) -
@@ -167,9 +156,8 @@ class PodModel {
   PositionCoordinate<Scalar> position_;
   DepthCoordinate<Scalar> depth_;
   Lagrange<Nodes, Scalar> x_, y_;
-  std::vector<Scalar> by_depth_;     // position by position: potential, then its derivative in y
-  std::vector<Scalar> by_position_;  // derivative of the potential in x
-  std::vector<Scalar> rest_slope_;   // derivative of rest in x
+  // Position by position: derivative of the potential in y by depth, the potential, rest; derivatives of these two in x.
+  std::vector<Scalar> table_;
   ShapeTable<Scalar> shape_;
 };
 

@@ -109,9 +109,9 @@ class ShapeTable {
                 const Scalar* lx, int positions, const Scalar* ly, int others) noexcept {
     const int modes = data.modes, rows = 3 * (data.segments + 1);
     Scalar *const row = work_.data(), *const mode = row + rows, *const column = mode + modes;
-    detail::combine(data.coefficients.data(), others * modes, lx, positions, column);
-    detail::combine(column, modes, ly, others, mode);
-    detail::combine(data.basis.data(), rows, mode, modes, row);
+    detail::combine(data.coefficients.data(), others * modes, others * modes, lx, positions, column);
+    detail::combine(column, modes, modes, ly, others, mode);
+    detail::combine(data.basis.data(), rows, rows, mode, modes, row);
 
     const Scalar contact = frame_.contact(s);
     const int middle = frame_.contact_node(), last = frame_.segments();

@@ -143,7 +143,8 @@ template <class Nodes>
 void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coordinate,
                   const std::vector<double>& work, double s) {
   const int n = y.size(), steps = 8 * n;
-  std::vector<double> l(work.size());
+  std::vector<double> l(work.size()), slopes(work.size());
+  y.differentiate(work.data(), 1, slopes.data());
   double before = -std::numeric_limits<double>::infinity();
   for (int k = 0; k <= steps; ++k) {
     const double at = y.low() + (y.high() - y.low()) * k / steps, e = coordinate.inverse(at);
@@ -151,8 +152,7 @@ void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coord
     double value = 0, slope = 0;
     for (int i = 0; i < n; ++i) {
       value += l[static_cast<std::size_t>(i)] * work[static_cast<std::size_t>(i)];
-      for (int j = 0; j < n; ++j)
-        slope += l[static_cast<std::size_t>(i)] * y.derivative(i, j) * work[static_cast<std::size_t>(j)];
+      slope += l[static_cast<std::size_t>(i)] * slopes[static_cast<std::size_t>(i)];
     }
     const double stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
     if (!(value > 0 && stiffness > 0 && force > before))
