@@ -26,15 +26,13 @@ namespace detail {
 /// @param format, ...  as printf's   @throws ModelFileError  "source: …"
 [[noreturn, gnu::cold, gnu::format(printf, 2, 3)]] inline void fail(const std::string& source,
                                                                     const char* format, ...) {
-  char text[800];
+  char text[4800];
+  const int size = std::snprintf(text, sizeof text, "%.4000s: ", source.c_str());
   std::va_list arguments;
   va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
+  std::vsnprintf(text + size, sizeof text - static_cast<std::size_t>(size), format, arguments);
   va_end(arguments);
-  std::string message = source;
-  message += ": ";
-  message += text;
-  throw ModelFileError(message);
+  throw ModelFileError(text);
 }
 
 /// Owns a JSON value.

@@ -22,37 +22,45 @@ namespace hapbeam::detail {
 class JsonReader {
  public:
   /// @param root  emptied; outlives this   @param source  the file's name, for messages; outlives this
-  [[gnu::cold, gnu::noinline]] JsonReader(json_t* root, const std::string& source)
-      : source_(source), root_(root) {
-    if (!json_is_object(root)) fail(source_, "is %s: must be an object", ShownJson(root).text);
+  /// @param path  of an object within another, "errors.regions[2]"   @param unit_path  the same for its units, "errors.regions"
+  /// @param units  of the object that it is in
+  [[gnu::cold, gnu::noinline]] JsonReader(json_t* root, const std::string& source, const char* path = "",
+                                          const char* unit_path = "", json_t* units = nullptr)
+      : source_(source), root_(root), units_(units) {
+    if (!json_is_object(root))
+      fail(source_, "%s%s %s: must be an object", path, *path ? " =" : "is", ShownJson(root).text);
+    const char* const dot = *path ? "." : "";
+    std::snprintf(path_, sizeof path_, "%s%s", path, dot);
+    std::snprintf(unit_path_, sizeof unit_path_, "%s%s", unit_path, dot);
   }
 
   /// Takes the member "units", which the reals that follow are compared with.
   [[gnu::cold, gnu::noinline]] void units() {
-    own_units_ = take("units");
+    own_units_ = take("units", JSON_OBJECT, "an object");
     units_ = own_units_.get();
-    if (!json_is_object(units_)) reject("units", units_, "", "an object");
   }
 
-  [[gnu::cold, gnu::noinline]] void real(const char* name, const char* unit, double& value) {
-    value = number(name, unit, largest(value));
-  }
-  [[gnu::cold, gnu::noinline]] void real(const char* name, const char* unit, float& value) {
-    value = static_cast<float>(number(name, unit, largest(value)));
+  template <typename Scalar>
+  [[gnu::cold, gnu::noinline]] void real(const char* name, const char* unit, Scalar& value) {
+    check_unit(name, unit);
+    const Json found = take(name);
+    value = static_cast<Scalar>(number(name, alone, unit, found.get(), largest(value)));
   }
   template <typename Scalar>
   [[gnu::cold, gnu::noinline]] void table(const char* name, const char* unit, std::vector<Scalar>& values) {
-    const Json found = array(name, unit);
-    values = std::vector<Scalar>(json_array_size(found.get()));
+    check_unit(name, unit);
+    const Json found = take(name, JSON_ARRAY, "an array");
+    std::vector<Scalar>(json_array_size(found.get())).swap(values);
     for (std::size_t k = 0; k < values.size(); ++k)
-      values[k] = static_cast<Scalar>(entry(name, unit, found.get(), k, largest(Scalar())));
+      values[k] =
+          static_cast<Scalar>(number(name, k, unit, json_array_get(found.get(), k), largest(Scalar())));
   }
   /// A whole number that is not negative.
   [[gnu::cold, gnu::noinline]] void count(const char* name, int& value) {
-    const Json found = take(name);
+    const char* const allowed = "a whole number from 0 to 2147483647";
+    const Json found = take(name, JSON_INTEGER, allowed);
     const json_int_t number = json_integer_value(found.get());
-    if (!json_is_integer(found.get()) || number < 0 || number > std::numeric_limits<int>::max())
-      reject(name, found.get(), "", "a whole number from 0 to 2147483647");
+    if (number < 0 || number > std::numeric_limits<int>::max()) reject(name, found.get(), "", allowed);
     value = static_cast<int>(number);
   }
   [[gnu::cold, gnu::noinline]] void flag(const char* name, bool& value) {
@@ -61,19 +69,19 @@ class JsonReader {
     value = json_is_true(found.get());
   }
   [[gnu::cold, gnu::noinline]] void word(const char* name, std::string& value) {
-    value = json_string_value(string(name).get());
+    value = json_string_value(take(name, JSON_STRING, "a string").get());
   }
-  /// A word that is known beforehand.
-  [[gnu::cold, gnu::noinline]] void constant(const char* name, const char* wanted) {
-    const Json found = string(name);
-    char quoted[40];
-    std::snprintf(quoted, sizeof quoted, "\"%s\"", wanted);
-    if (std::strcmp(json_string_value(found.get()), wanted) != 0) reject(name, found.get(), "", quoted);
+  /// A word that is known beforehand.   @param why  for the message, after the word
+  [[gnu::cold, gnu::noinline]] void constant(const char* name, const char* wanted, const char* why = "") {
+    const Json found = take(name, JSON_STRING, "a string");
+    char allowed[160];
+    std::snprintf(allowed, sizeof allowed, "\"%s\"%s", wanted, why);
+    if (std::strcmp(json_string_value(found.get()), wanted) != 0) reject(name, found.get(), "", allowed);
   }
   /// A value of an enumeration that runs from 0 to last, by its name(value).
   template <class Value>
   [[gnu::cold, gnu::noinline]] void choice(const char* field, Value& value, Value last) {
-    const Json found = string(field);
+    const Json found = take(field, JSON_STRING, "a string");
     char words[200] = "one of";
     for (int k = 0; k <= static_cast<int>(last); ++k) {
       const char* const word = name(static_cast<Value>(k));
@@ -88,19 +96,19 @@ class JsonReader {
   template <class Value, class Each>
   [[gnu::cold, gnu::noinline]] void object(const char* name, Value& value, Each each) {
     const Json found = take(name);
-    JsonReader reader(*this, found.get(), name, name, true);
+    JsonReader reader(found.get(), source_, name, name, units_);
     each(reader, value);
     reader.finish();
   }
   /// A list of objects, each read by each(reader, entry).  Their units are compared once.
   template <class Entry, class Each>
   [[gnu::cold, gnu::noinline]] void list(const char* name, std::vector<Entry>& entries, Each each) {
-    const Json found = array(name, nullptr);
-    entries = std::vector<Entry>(json_array_size(found.get()));
+    const Json found = take(name, JSON_ARRAY, "an array");
+    std::vector<Entry>(json_array_size(found.get())).swap(entries);
     for (std::size_t k = 0; k < entries.size(); ++k) {
       char path[64];
       std::snprintf(path, sizeof path, "%s[%lu]", name, static_cast<unsigned long>(k));
-      JsonReader reader(*this, json_array_get(found.get(), k), path, name, k == 0);
+      JsonReader reader(json_array_get(found.get(), k), source_, path, name, k == 0 ? units_ : nullptr);
       each(reader, entries[k]);
       reader.finish();
     }
@@ -114,15 +122,6 @@ class JsonReader {
   }
 
  private:
-  /// For an object within another.
-  [[gnu::cold, gnu::noinline]] JsonReader(const JsonReader& parent, json_t* object, const char* path,
-                                          const char* unit_path, bool with_units)
-      : source_(parent.source_), root_(object), units_(with_units ? parent.units_ : nullptr) {
-    if (!json_is_object(root_)) reject(path, root_, "", "an object");
-    std::snprintf(path_, sizeof path_, "%s.", path);
-    std::snprintf(unit_path_, sizeof unit_path_, "%s.", unit_path);
-  }
-
   [[gnu::cold, gnu::noinline]] [[noreturn]] void reject(const char* name, const json_t* found,
                                                         const char* unit, const char* allowed) const {
     const bool bare = !*unit || std::strcmp(unit, "1") == 0;
@@ -143,19 +142,20 @@ class JsonReader {
 
   /// The member of that name, out of its object, and that out of its own if nothing else was in it.
   [[gnu::cold, gnu::noinline]] Json take(const char* name) {
-    Json found = take(root_, name);
+    char outer[64] = "";
+    const char* const dot = std::strchr(name, '.');
+    if (dot) std::snprintf(outer, sizeof outer, "%.*s", static_cast<int>(dot - name), name);
+    json_t* const object = dot ? json_object_get(root_, outer) : root_;
+    const char* const inner = dot ? dot + 1 : name;
+    Json found(json_incref(json_object_get(object, inner)));
     if (!found.get()) fail(source_, "%s%s is missing", path_, name);
+    json_object_del(object, inner);
+    if (dot && json_object_size(object) == 0) json_object_del(root_, outer);
     return found;
   }
-  [[gnu::cold, gnu::noinline]] static Json take(json_t* object, const char* name) {
-    char key[64];
-    const char* const dot = std::strchr(name, '.');
-    const std::size_t size = dot ? static_cast<std::size_t>(dot - name) : std::strlen(name);
-    std::snprintf(key, sizeof key, "%.*s", static_cast<int>(size), name);
-    json_t* const member = json_object_get(object, key);
-    Json found(dot ? nullptr : json_incref(member));
-    if (dot) found = take(member, dot + 1);
-    if (member && (!dot || json_object_size(member) == 0)) json_object_del(object, key);
+  [[gnu::cold, gnu::noinline]] Json take(const char* name, json_type type, const char* allowed) {
+    Json found = take(name);
+    if (json_typeof(found.get()) != type) reject(name, found.get(), "", allowed);
     return found;
   }
 
@@ -173,41 +173,19 @@ class JsonReader {
   static double largest(double) noexcept { return std::numeric_limits<double>::max(); }
   static double largest(float) noexcept { return 3.4028235e38; }
 
-  [[gnu::cold, gnu::noinline]] Json string(const char* name) {
-    Json found = take(name);
-    if (!json_is_string(found.get())) reject(name, found.get(), "", "a string");
-    return found;
-  }
-  [[gnu::cold, gnu::noinline]] Json array(const char* name, const char* unit) {
-    if (unit) check_unit(name, unit);
-    Json found = take(name);
-    if (!json_is_array(found.get())) reject(name, found.get(), "", "an array");
-    return found;
-  }
-  [[gnu::cold, gnu::noinline]] double number(const char* name, const char* unit, double most) {
-    check_unit(name, unit);
-    const Json found = take(name);
-    if (!is_number(found.get(), most)) reject_number(name, found.get(), unit, most);
-    return json_number_value(found.get());
-  }
-  [[gnu::cold, gnu::noinline]] double entry(const char* name, const char* unit, const json_t* array,
-                                            std::size_t k, double most) const {
-    const json_t* const found = json_array_get(array, k);
-    if (!is_number(found, most)) {
-      char indexed[80];
-      std::snprintf(indexed, sizeof indexed, "%s[%lu]", name, static_cast<unsigned long>(k));
-      reject_number(indexed, found, unit, most);
-    }
-    return json_number_value(found);
-  }
-  [[gnu::cold, gnu::noinline]] static bool is_number(const json_t* found, double most) {
-    return json_is_number(found) && std::abs(json_number_value(found)) <= most;
-  }
-  [[gnu::cold, gnu::noinline]] [[noreturn]] void reject_number(const char* name, const json_t* found,
-                                                               const char* unit, double most) const {
-    char allowed[64];
+  /// Of a number that is no entry of a table.
+  static constexpr std::size_t alone = static_cast<std::size_t>(-1);
+
+  /// @param k  which entry of the table of that name, or alone   @param most  largest absolute value
+  [[gnu::cold, gnu::noinline]] double number(const char* name, std::size_t k, const char* unit,
+                                             const json_t* found, double most) const {
+    const double value = json_number_value(found);
+    if (json_is_number(found) && std::abs(value) <= most) return value;
+    char entry[24] = "", path[80], allowed[64];
+    if (k != alone) std::snprintf(entry, sizeof entry, "[%lu]", static_cast<unsigned long>(k));
+    std::snprintf(path, sizeof path, "%s%s", name, entry);
     std::snprintf(allowed, sizeof allowed, "a number from -%.8g to %.8g", most, most);
-    reject(name, found, unit, allowed);
+    reject(path, found, unit, allowed);
   }
 
   const std::string& source_;
