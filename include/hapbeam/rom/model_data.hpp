@@ -67,11 +67,18 @@ inline constexpr std::size_t largest_table = std::size_t(1) << 24;
   reject_data(field, static_cast<double>(size), allowed);
 }
 
+/// @param low  that every entry must be above
 template <typename Scalar>
-[[gnu::cold]] void check_table(const char* field, const std::vector<Scalar>& values, std::size_t wanted) {
+[[gnu::cold]] void check_table(const char* field, const std::vector<Scalar>& values, std::size_t wanted,
+                               Scalar low, const char* allowed) {
   if (values.size() != wanted) reject_size(field, values.size(), wanted);
   for (const Scalar value : values)
-    if (!std::isfinite(value)) reject_data(field, static_cast<double>(value), "finite in every entry");
+    if (!(value > low && value <= std::numeric_limits<Scalar>::max()))
+      reject_data(field, static_cast<double>(value), allowed);
+}
+template <typename Scalar>
+[[gnu::cold]] void check_table(const char* field, const std::vector<Scalar>& values, std::size_t wanted) {
+  check_table(field, values, wanted, -std::numeric_limits<Scalar>::infinity(), "finite in every entry");
 }
 
 [[gnu::cold]] inline std::size_t check_count(const char* field, int value, int low, int high) {
@@ -129,19 +136,17 @@ template <typename Scalar>
   finite("y_high", static_cast<double>(data.y_high), "");
   if (!(data.y_low < data.y_high) || (data.symmetric && data.y_low != 0))
     reject_data("y_low", static_cast<double>(data.y_low), "below y_high, 0 where symmetric");
-  check_table("potential", data.potential, positions * depths);
-  for (const Scalar value : data.potential)
-    if (!(value > 0)) reject_data("potential", static_cast<double>(value), "positive");
+  check_table("potential", data.potential, positions * depths, Scalar(0),
+              "positive and finite in every entry");
   check_table("rest", data.rest, positions);
-  for (const Scalar value : data.rest)
-    if (data.symmetric && value != 0) reject_data("rest", static_cast<double>(value), "0 where symmetric");
   // A press in range must not be beyond the grid: there a polynomial grows without bound.
   const DepthCoordinate<Scalar> y(data.beam, data.symmetric);
   const Scalar rounding = std::sqrt(std::numeric_limits<Scalar>::epsilon()) * (data.y_high - data.y_low);
-  for (const Scalar rest : data.rest)
-    if (!(y(data.depth - rest) <= data.y_high + rounding &&
-          (data.symmetric || y(-data.depth - rest) >= data.y_low - rounding)))
+  for (const Scalar rest : data.rest) {
+    if (data.symmetric && rest != 0) reject_data("rest", static_cast<double>(rest), "0 where symmetric");
+    if (!(y(data.depth - rest) <= data.y_high + rounding && y(-data.depth - rest) >= data.y_low - rounding))
       reject("depth", static_cast<double>(data.depth), "m", "within the depths of the grid, y_low to y_high");
+  }
   check_shape(data.shape, positions * depths);
   return data;
 }
