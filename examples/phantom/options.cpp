@@ -59,8 +59,15 @@ cli::Entries entries(Options& o) {
              "N s/m"),
       flag("--lock-step",
            "simulated time, as fast as the machine can and the same every time; else real time", o.lock_step),
-      {"--headless", "", "no window, a table row a second; this build has no window and is always so",
-       [](const std::string&) {}},
+      flag("--headless", "no window, a table row a second; so it is without a display, too", o.headless),
+      file("--record", "writes a CSV row for each tick: time, hand, force, depth, status", o.record),
+      file("--replay", "the hand repeats a recording, in lock step", o.replay),
+      file("--screenshot", "writes a picture of the window as PNG and, unless a duration is given, closes it",
+           o.screenshot),
+      figure("--at", "S", "when the screenshot is taken [s]; 3 by default", o.at, 0, 86400, "s"),
+      count("--tour",
+            "closes the window after so many switches of scene and model, one a picture, 1 to 100000", o.tour,
+            1, 100000),
       file("--report", "writes the summary as JSON", o.report),
       {"--help", "", "prints this", [](const std::string&) {}},
   };
@@ -123,6 +130,15 @@ Options parse(const std::vector<std::string>& arguments) {
   if (options.guarded && options.model.empty())
     throw cli::UsageError("--guarded: must stand beside --model, whose range it guards");
   check_model(options, given);
+  options.timed = cli::contains(given, "--duration");
+  if (!options.replay.empty()) {
+    for (const char* path : {"--script", "--depth", "--duration"})
+      cli::exclude(given, path, "--replay", "whose file says what the hand does");
+    options.lock_step = true;
+  }
+  for (const char* shown : {"--screenshot", "--tour"})
+    for (const char* other : {"--headless", "--lock-step", "--replay"})
+      cli::exclude(given, shown, other, "which shows no window");
   for (const char* figure : {"--stiffness", "--damping"})
     if (options.coupling == CouplingChoice::direct && cli::contains(given, figure))
       throw cli::UsageError(std::string(figure) +

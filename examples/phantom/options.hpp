@@ -33,7 +33,14 @@ struct Options {
   double stiffness;        ///< [N/m] of the coupling; not a number: what the device can render
   double damping;          ///< [N·s/m] the same
   bool lock_step = false;  ///< simulated time, as fast as the machine can
+  bool headless = false;   ///< no window
+  bool timed = false;      ///< a duration was given; a window stays open without
   std::string report;      ///< file, or empty
+  std::string record;      ///< file for each tick, or empty
+  std::string replay;      ///< file whose hand is repeated, or empty
+  std::string screenshot;  ///< file, or empty
+  double at = 3;           ///< [s] when the screenshot is taken
+  int tour = 0;            ///< switches of scene and model, one a picture, after which the window closes
 };
 
 /// Names as they are typed.

@@ -49,6 +49,7 @@ class ServoPicture {
   /// Of a shape with more nodes than there is room for, every second one is taken, or third, …, and the last.
   void take(const Centreline<Scalar>& shape) noexcept {
     const int last = shape.size() - 1, step = 1 + (last - 1) / (static_cast<int>(nodes_.size()) - 1);
+    any_rotation_ = shape.any_rotation();
     size_ = 0;
     any_rotation_ = shape.any_rotation();
     for (int i = 0; i < last; i += step) nodes_[static_cast<std::size_t>(size_++)] = shape[i];
@@ -102,7 +103,7 @@ class Servo {
     Eigen::Vector3d force = options_.placement.device_force_of_beam(coupled.force);
     if (options_.dissipate && coupled.touch.pressing) force += energy_.dissipation(state.velocity);
     const GuardedForce guarded = guard_.limit(force, state.time, safe);
-    record(state, coupled, guarded, safe);
+    keep(state, coupled, guarded, safe);
     publish();
     times_.end();
     return guarded.force;
@@ -119,6 +120,9 @@ class Servo {
 
   const TickTimes& times() const noexcept { return times_; }
   const Coupling& coupling() const noexcept { return coupling_; }  ///< in the scene's metres
+
+  /// Of the last tick.  From the servo's own thread, or while no tick runs.
+  const ServoRecord& record() const noexcept { return record_; }
 
   /// The newest record and shape.  One reader, from any thread: wait-free.  They stay until the next call.
   const Picture& picture() noexcept {
@@ -146,8 +150,8 @@ class Servo {
     return coupled.touch.status == Status::out_of_range ? LoopStatus::out_of_range : LoopStatus::touching;
   }
 
-  void record(const DeviceState& state, const CoupledForce<Scalar>& coupled, const GuardedForce& guarded,
-              bool safe) noexcept {
+  void keep(const DeviceState& state, const CoupledForce<Scalar>& coupled, const GuardedForce& guarded,
+            bool safe) noexcept {
     ServoRecord& r = record_;
     const bool pressing = coupled.touch.pressing, touched = pressing && !r.pressing;
     r.status = status(state, coupled, guarded, safe);

@@ -1,0 +1,64 @@
+#include "recording.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <stdexcept>
+
+namespace phantom {
+
+namespace {
+
+constexpr const char* head =
+    "time_s,hand_x_m,hand_y_m,hand_vx_m_per_s,hand_vy_m_per_s,x_m,y_m,force_x_N,force_y_N,place_m,depth_m,"
+    "status,model";
+constexpr double longest = 86400;  // [s]
+
+}  // namespace
+
+Recording::Recording(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "w")) {
+  if (!file_ || std::fprintf(file_.get(), "%s\n", head) < 0)
+    throw std::runtime_error(path + ": the recording cannot be written");
+}
+
+void Recording::write(const Tick& tick) {
+  const hapbeam::ServoRecord& r = tick.record;
+  const auto& hand = tick.hand;
+  std::fprintf(file_.get(), "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%s,%s\n",
+               r.time, hand.position.x(), hand.position.y(), hand.velocity.x(), hand.velocity.y(),
+               r.position.x(), r.position.y(), r.force.x(), r.force.y(), r.press.s, r.press.d, name(r.status),
+               name(r.model));
+}
+
+void Recording::close() {
+  const bool whole = file_ && !std::ferror(file_.get());
+  if (std::FILE* file = file_.release(); !file || std::fclose(file) != 0 || !whole)
+    throw std::runtime_error(path_ + ": the recording cannot be written");
+}
+
+Replay read_recording(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line) || line != head)
+    throw std::runtime_error(path + ": is no recording, its first line must be " + head);
+  Replay replay;
+  for (int number = 2; std::getline(file, line); ++number) {
+    double time, x, y, vx, vy;
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", &time, &x, &y, &vx, &vy) != 5 ||
+        !(time >= 0 && time < longest) || !(std::abs(x) < 1 && std::abs(y) < 1) ||
+        !(std::abs(vx) < 100 && std::abs(vy) < 100))
+      throw std::runtime_error(path + ", line " + std::to_string(number) +
+                               ": must begin with time [s], place [m] and velocity [m/s] of a hand");
+    const hapbeam::HandTarget target{{x, y, 0}, {vx, vy, 0}};
+    const auto tick = static_cast<std::size_t>(std::llround(time / Replay::period));
+    if (tick < replay.targets.size())
+      throw std::runtime_error(path + ", line " + std::to_string(number) +
+                               ": the time must be after the one before it");
+    replay.targets.resize(tick, replay.targets.empty() ? target : replay.targets.back());
+    replay.targets.push_back(target);
+  }
+  if (replay.targets.empty()) throw std::runtime_error(path + ": has no ticks");
+  return replay;
+}
+
+}  // namespace phantom

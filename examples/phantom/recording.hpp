@@ -1,0 +1,38 @@
+// Runs on file: a CSV row for each tick, written while the loop runs and read again as a path for the hand.
+//
+//   time_s,hand_x_m,hand_y_m,hand_vx_m_per_s,hand_vy_m_per_s,x_m,y_m,force_x_N,force_y_N,place_m,depth_m,status,model
+//
+// hand is where the hand wanted to be, x and y where the device was, depth the press asked of the model.  All digits are
+// written, so that the same path through the same model gives the same forces to the bit, in lock step.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "hand.hpp"
+#include "tape.hpp"
+
+namespace phantom {
+
+class Recording {
+ public:
+  /// @throws std::runtime_error where the file cannot be written
+  explicit Recording(const std::string& path);
+  void write(const Tick& tick);
+  /// @throws std::runtime_error where not all could be written
+  void close();
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+  };
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;
+};
+
+/// The hand's path of a recording; periods that the loop has missed keep the target before them.
+/// @throws std::runtime_error naming file and line where it is no recording
+Replay read_recording(const std::string& path);
+
+}  // namespace phantom
