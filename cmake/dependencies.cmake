@@ -56,6 +56,34 @@ function(hapbeam_find_openhaptics)
   find_package(OpenHaptics MODULE QUIET)
 endfunction()
 
+# What the window of an example needs: GLFW 3.3, OpenGL, Dear ImGui 1.86 or later as a library with its GLFW and OpenGL 3
+# backends, and stb_image_write.  All as the system has them, or no hapbeam_window: fetching a GUI to press a beam would be
+# more than anybody asked for, and without it the example runs headless.
+function(hapbeam_find_window)
+  find_package(glfw3 3.3 CONFIG QUIET)
+  set(OpenGL_GL_PREFERENCE GLVND)
+  find_package(OpenGL QUIET)
+  find_path(HAPBEAM_IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui)
+  find_path(HAPBEAM_IMGUI_BACKENDS_INCLUDE_DIR imgui_impl_glfw.h PATH_SUFFIXES imgui/backends backends imgui)
+  find_library(HAPBEAM_IMGUI_LIBRARY imgui)
+  find_path(HAPBEAM_STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb)
+  # Debian's Dear ImGui leaves the rasterising of fonts to stb's library; built elsewhere it has its own.
+  find_library(HAPBEAM_STB_LIBRARY stb)
+  set(stb)
+  if(HAPBEAM_STB_LIBRARY)
+    set(stb ${HAPBEAM_STB_LIBRARY})
+  endif()
+  mark_as_advanced(HAPBEAM_STB_LIBRARY HAPBEAM_IMGUI_INCLUDE_DIR HAPBEAM_IMGUI_BACKENDS_INCLUDE_DIR HAPBEAM_IMGUI_LIBRARY HAPBEAM_STB_INCLUDE_DIR)
+  if(NOT (TARGET glfw AND TARGET OpenGL::GL AND HAPBEAM_IMGUI_INCLUDE_DIR AND HAPBEAM_IMGUI_BACKENDS_INCLUDE_DIR
+          AND HAPBEAM_IMGUI_LIBRARY AND HAPBEAM_STB_INCLUDE_DIR))
+    return()
+  endif()
+  add_library(hapbeam_window INTERFACE)
+  target_include_directories(hapbeam_window SYSTEM INTERFACE
+    ${HAPBEAM_IMGUI_INCLUDE_DIR} ${HAPBEAM_IMGUI_BACKENDS_INCLUDE_DIR} ${HAPBEAM_STB_INCLUDE_DIR})
+  target_link_libraries(hapbeam_window INTERFACE ${HAPBEAM_IMGUI_LIBRARY} ${stb} glfw OpenGL::GL ${CMAKE_DL_LIBS})
+endfunction()
+
 # Catch2 3 or 2.13.  A macro: include(Catch) after it needs the module path that find_package sets.
 macro(hapbeam_find_catch2)
   find_package(Catch2 3 CONFIG QUIET)

@@ -39,12 +39,13 @@ install_packages() {
 }
 
 # build PRESET TARGET...: installs what the build needs, configures and builds.
-# What tests and benchmarks need comes along: one build folder serves all three.
+# What tests, benchmarks and the example's window need comes along: one build folder serves all.
 build() {
   local preset=$1 compiler=g++
   shift
   [[ $preset != *clang* ]] || compiler=clang
-  need "$compiler" cmake ninja-build libeigen3-dev libjansson-dev catch2 libbenchmark-dev &&
+  need "$compiler" cmake ninja-build libeigen3-dev libjansson-dev catch2 libbenchmark-dev \
+    libglfw3-dev libimgui-dev libgl-dev fonts-dejavu-core &&
     step "configure ($preset)" cmake -S "$top" --preset "$preset" &&
     step "build $*" cmake --build "$top/build/$preset" --parallel "$(nproc)" --target "$@"
 }

@@ -19,6 +19,9 @@
 #include "scene.hpp"
 #include "session.hpp"
 #include "trained.hpp"
+#ifdef HAPBEAM_EXAMPLES_WINDOW
+#include "window/run_window.hpp"
+#endif
 
 namespace {
 
@@ -90,6 +93,19 @@ int run(Options options, const Trained* trained, std::ofstream& report) {
   return 1;
 }
 
+/// @return whether there is a window, in which it then has run; else why not
+bool run_in_window([[maybe_unused]] const Options& options, [[maybe_unused]] const Trained* trained,
+                   std::string& why) {
+#ifdef HAPBEAM_EXAMPLES_WINDOW
+  const std::unique_ptr<Display> display = Display::open(why);
+  if (display) run_window(*display, options, trained, interrupted);
+  return display != nullptr;
+#else
+  why = "it was built without GLFW, OpenGL, Dear ImGui and stb";
+  return false;
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -106,6 +122,14 @@ int main(int argc, char** argv) {
     if (!report) {
       std::fprintf(stderr, "phantom: %s: the report cannot be written\n", options.report.c_str());
       return 1;
+    }
+    if (!options.headless && !options.lock_step) {
+      std::string why;
+      if (run_in_window(options, trained ? &*trained : nullptr, why)) return 0;
+      const bool needs_window = !options.screenshot.empty() || options.tour > 0;
+      std::fprintf(needs_window ? stderr : stdout, "phantom: no window: %s%s\n", why.c_str(),
+                   needs_window ? "" : "; runs headless");
+      if (needs_window) return 1;
     }
     return run(options, trained ? &*trained : nullptr, report);
   } catch (const cli::UsageError& error) {

@@ -1,0 +1,26 @@
+// The column on the right: what runs, in words, and what can be changed.
+#pragma once
+
+#include <string>
+
+#include "../options.hpp"
+#include "../trained.hpp"
+#include "running.hpp"
+
+namespace phantom {
+
+/// What the user asked for in this picture.
+struct Wish {
+  bool switches = false;  ///< to another session, of these options
+  Options options;
+  bool trained = false;  ///< the trained model instead of finite elements
+};
+
+/// @param file  the options of the trained model that the program was started with, or null
+/// @param note  a line to show, or empty
+Wish draw_controls(Running& running, const Options* file, const std::string& note);
+
+/// One sentence for one who feels it.
+const char* in_words(const hapbeam::ServoRecord& record);
+
+}  // namespace phantom

@@ -1,0 +1,32 @@
+// A window of GLFW with OpenGL 3 and Dear ImGui in it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+struct GLFWwindow;
+
+namespace phantom {
+
+class Display {
+ public:
+  /// @param why  out: where it is null, one line that says what is missing
+  static std::unique_ptr<Display> open(std::string& why);
+  ~Display();
+  Display(const Display&) = delete;
+  Display& operator=(const Display&) = delete;
+
+  bool begin_picture();  ///< false where the window is to be closed
+  /// @param screenshot  file to write the picture to, or empty   @return whether that could be done
+  bool end_picture(const std::string& screenshot);
+  void resize(int width, int height);
+  bool pressed(int key) const;  ///< GLFW's number
+
+ private:
+  explicit Display(GLFWwindow* window);
+  bool write_png(const std::string& path) const;
+
+  GLFWwindow* window_;
+};
+
+}  // namespace phantom

@@ -1,0 +1,266 @@
+#include "draw_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+
+#include "../scene.hpp"
+#include "colours.hpp"
+#include "draw_supports.hpp"
+
+namespace phantom {
+
+namespace {
+
+/// The next of 1, 2, 5, 10, … that is not less.
+double rounded_up(double x) {
+  const double decade = std::pow(10, std::floor(std::log10(x)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (step * decade >= x * (1 - 1e-9)) return step * decade;
+  return 10 * decade;
+}
+
+std::string text(const char* format, double value) {
+  char line[80];
+  std::snprintf(line, sizeof line, format, value);
+  return line;
+}
+
+std::string metres(double length) {
+  return length < 1 ? text("%g mm", std::round(length * 1e6) / 1e3) : text("%g m", length);
+}
+
+/// Text on a patch of paper, so that nothing that it crosses makes it illegible.
+void label(ImDrawList& list, ImVec2 at, ImU32 colour, const std::string& line) {
+  const ImVec2 size = ImGui::CalcTextSize(line.c_str());
+  list.AddRectFilled({at.x - 3, at.y - 1}, {at.x + size.x + 3, at.y + size.y + 1},
+                     colour::with_alpha(colour::paper, 215), 3);
+  list.AddText(at, colour, line.c_str());
+}
+
+void dashed(ImDrawList& list, const ImVec2& a, const ImVec2& b, ImU32 colour, float dash) {
+  const float length = std::hypot(b.x - a.x, b.y - a.y);
+  if (!(length > 0)) return;
+  const ImVec2 way{(b.x - a.x) / length, (b.y - a.y) / length};
+  for (float at = 0; at < length; at += 2 * dash) {
+    const float end = std::min(at + dash, length);
+    list.AddLine({a.x + at * way.x, a.y + at * way.y}, {a.x + end * way.x, a.y + end * way.y}, colour, 1.2f);
+  }
+}
+
+void spring(ImDrawList& list, const ImVec2& a, const ImVec2& b, ImU32 colour, float unit) {
+  const float length = std::hypot(b.x - a.x, b.y - a.y);
+  if (length < 1) return;
+  const ImVec2 across{-(b.y - a.y) / length * unit * 0.25f, (b.x - a.x) / length * unit * 0.25f};
+  constexpr int turns = 12;
+  ImVec2 points[turns + 1];
+  for (int i = 0; i <= turns; ++i) {
+    const float t = static_cast<float>(i) / turns;
+    const float side = i < 2 || i > turns - 2 ? 0.0f : i % 2 == 0 ? 1.0f : -1.0f;
+    points[i] = {a.x + t * (b.x - a.x) + side * across.x, a.y + t * (b.y - a.y) + side * across.y};
+  }
+  list.AddPolyline(points, turns + 1, colour, ImDrawFlags_None, std::max(1.0f, unit / 12));
+}
+
+}  // namespace
+
+double default_exaggeration(const Options& o) {
+  if (o.scene == "ruler" || o.scene == "arch") return 1;
+  if (o.scene == "strip" || o.scene == "string") return 5;
+  return o.beam.rise == 0 && o.beam.length > 1 ? 20 : 1;
+}
+
+SceneDrawing::SceneDrawing(const Options& options, const hapbeam::DeviceInfo& device,
+                           const hapbeam::Centreline<double>& rest)
+    : exaggeration(default_exaggeration(options)),
+      options_(options),
+      placement_(placement(options)),
+      workspace_(device.workspace.head<2>() * options.scale / 2),
+      largest_strain_(1e-6) {
+  constexpr int pieces = 240;
+  for (int i = 0; i <= pieces; ++i) {
+    const double s = rest.length() * i / pieces;
+    const auto d = rest.at(s);
+    samples_.push_back({s, s + d.u, d.w, d.theta, s + d.u, d.w});
+    rest_theta_.push_back(d.theta);
+  }
+}
+
+void SceneDrawing::fit(const ImVec2& low, const ImVec2& high) {
+  const Options& o = options_;
+  double left = samples_[0].rest_x, right = left, top = 0, bottom = 0;
+  for (const Sample& sample : samples_) {
+    left = std::min(left, sample.rest_x), right = std::max(right, sample.rest_x);
+    top = std::max(top, sample.rest_w), bottom = std::min(bottom, sample.rest_w);
+  }
+  const double span = right - left, above = 0.03 * o.scale * exaggeration;
+  const double below = std::min(1.1 * o.depth * o.scale * exaggeration, 1.1 * span);
+  top += above + o.radius, bottom -= std::max(below, bottom < top ? 0.8 * (top - bottom) : 0);
+  const double width = static_cast<double>(high.x - low.x), height = static_cast<double>(high.y - low.y);
+  view_ = {low,
+           high,
+           std::min(width / (1.2 * span), height / (1.12 * (top - bottom))),
+           {(left + right) / 2, (top + bottom) / 2},
+           exaggeration};
+}
+
+void SceneDrawing::sample(const hapbeam::Centreline<double>& shape) {
+  for (Sample& sample : samples_) {
+    const auto d = shape.at(std::min(sample.s, shape.length()));
+    sample.x = sample.s + d.u, sample.w = d.w, sample.theta = d.theta;
+  }
+}
+
+void SceneDrawing::draw_axis(ImDrawList& list, float unit) const {
+  for (std::size_t i = 0; i + 4 < samples_.size(); i += 6)
+    dashed(list, view_({samples_[i].rest_x, samples_[i].rest_w}),
+           view_({samples_[i + 4].rest_x, samples_[i + 4].rest_w}), colour::faint, 2 * unit);
+}
+
+void SceneDrawing::draw_workspace(ImDrawList& list, float unit) const {
+  const Point middle = placement_.origin().head<2>();
+  const ImVec2 a = view_(across_.drawn(middle + Point(-workspace_.x(), workspace_.y()))),
+               b = view_(across_.drawn(middle + Point(workspace_.x(), -workspace_.y())));
+  const ImVec2 corners[] = {a, {b.x, a.y}, b, {a.x, b.y}};
+  for (int i = 0; i < 4; ++i) {
+    const ImVec2 &from = corners[i], &to = corners[(i + 1) % 4];
+    // Only what is seen: the outline may be a hundred times larger than the canvas.
+    const ImVec2 low{view_.low.x - 50, view_.low.y - 50}, high{view_.high.x + 50, view_.high.y + 50};
+    const auto clip = [&](const ImVec2& p) {
+      return ImVec2{std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y)};
+    };
+    dashed(list, clip(from), clip(to), colour::with_alpha(colour::blue, 150), 0.4f * unit);
+  }
+  const float x = std::max(a.x, view_.low.x) + 0.4f * unit, y = std::max(a.y, view_.low.y + 3.2f * unit);
+  if (a.x > view_.low.x) label(list, {x, y + 0.3f * unit}, colour::blue, "device's reach");
+}
+
+void SceneDrawing::draw_beam(ImDrawList& list) {
+  const double half = std::max(options_.beam.height / 2, 1.6 / view_.pixels);
+  std::vector<ImVec2> upper, lower;
+  for (const Sample& p : samples_) {
+    const double x = p.rest_x + view_.exaggeration * (p.x - p.rest_x);
+    const double w = p.rest_w + view_.exaggeration * (p.w - p.rest_w);
+    const double turn = p.theta;
+    // The normal of the exaggerated curve is that of a displacement so much larger.
+    const double slope = std::atan(view_.exaggeration * std::tan(std::clamp(turn, -1.5, 1.5)));
+    const double angle = view_.exaggeration == 1 ? turn : slope;
+    const Point normal(std::sin(angle), std::cos(angle));
+    upper.push_back(view_(Point(x, w) + half * normal));
+    lower.push_back(view_(Point(x, w) - half * normal));
+  }
+  const std::size_t n = samples_.size();
+  std::vector<double> strain(n - 1);
+  double largest = 0;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double turned = (samples_[i + 1].theta - rest_theta_[i + 1]) - (samples_[i].theta - rest_theta_[i]);
+    strain[i] = std::abs(turned / (samples_[i + 1].s - samples_[i].s)) * options_.beam.height / 2;
+    largest = std::max(largest, strain[i]);
+  }
+  if (largest > largest_strain_) largest_strain_ = rounded_up(largest);
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const ImVec2 quad[] = {upper[i], upper[i + 1], lower[i + 1], lower[i]};
+    // Without anti-aliasing, whose seams would show; the outline smooths the edge.
+    const ImDrawListFlags flags = list.Flags;
+    list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
+    list.AddConvexPolyFilled(quad, 4, colour::viridis(strain[i] / largest_strain_));
+    list.Flags = flags;
+  }
+  list.AddPolyline(upper.data(), static_cast<int>(n), colour::ink, ImDrawFlags_None, 1.2f);
+  list.AddPolyline(lower.data(), static_cast<int>(n), colour::ink, ImDrawFlags_None, 1.2f);
+  list.AddLine(upper[0], lower[0], colour::ink, 1.2f);
+  list.AddLine(upper[n - 1], lower[n - 1], colour::ink, 1.2f);
+}
+
+void SceneDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, const Point& target,
+                             float unit) {
+  const ImVec2 avatar = view_(across_.drawn(r.avatar)), hand = view_(across_.drawn(r.hand));
+  const ImVec2 wanted = view_(across_.drawn(placement_.beam_position({target.x(), target.y(), 0})));
+  const float radius = std::max(static_cast<float>(options_.radius * view_.pixels), 0.25f * unit);
+  spring(list, wanted, hand, colour::faint, unit);
+  list.AddLine({wanted.x - 0.5f * unit, wanted.y}, {wanted.x + 0.5f * unit, wanted.y}, colour::ink, 1.5f);
+  list.AddLine({wanted.x, wanted.y - 0.5f * unit}, {wanted.x, wanted.y + 0.5f * unit}, colour::ink, 1.5f);
+  // The arm's tip is where the device is; the avatar is where the coupling lets it press.
+  list.AddLine(hand, avatar, colour::blue, 1.5f);
+  list.AddCircleFilled(hand, 0.2f * unit, colour::blue);
+  list.AddCircleFilled(avatar, radius, colour::with_alpha(colour::orange, 200));
+  list.AddCircle(avatar, radius, colour::ink, 0, 1.5f);
+
+  const double force = r.force.norm();
+  if (!(force > 0.02)) return;
+  const Point along = r.force.head<2>() / force;
+  const auto length = static_cast<float>((1.5 + 4.5 * std::min(force / 20, 1.5)) * static_cast<double>(unit));
+  const auto ax = static_cast<float>(along.x()), ay = static_cast<float>(-along.y());
+  const ImVec2 from{avatar.x + ax * radius, avatar.y + ay * radius};
+  const ImVec2 to{from.x + ax * length, from.y + ay * length};
+  const float head = 0.55f * unit;
+  const ImVec2 neck{to.x - ax * head, to.y - ay * head};
+  list.AddLine(from, neck, colour::vermilion, std::max(2.0f, unit / 6));
+  list.AddTriangleFilled(to, {neck.x - ay * head * 0.5f, neck.y + ax * head * 0.5f},
+                         {neck.x + ay * head * 0.5f, neck.y - ax * head * 0.5f}, colour::vermilion);
+  label(list, {to.x + 0.6f * unit, to.y - 0.3f * unit}, colour::vermilion, text("%.2f N", force));
+}
+
+void SceneDrawing::draw_legend(ImDrawList& list, float unit) const {
+  const float line = 1.25f * unit, left = view_.low.x + unit, bottom = view_.high.y - unit;
+  // Scale bar: a fifth of the canvas, rounded.
+  const double bar = rounded_up(static_cast<double>(view_.high.x - view_.low.x) / view_.pixels / 12);
+  const auto pixels = static_cast<float>(bar * view_.pixels);
+  list.AddLine({left, bottom}, {left + pixels, bottom}, colour::ink, 2);
+  for (const float x : {left, left + pixels})
+    list.AddLine({x, bottom - 0.3f * unit}, {x, bottom + 0.3f * unit}, colour::ink, 2);
+  label(list, {left, bottom - 1.5f * unit}, colour::ink, metres(bar));
+  const std::string scale = view_.exaggeration == 1
+                                ? "displacements true to scale"
+                                : text("displacements exaggerated %g times", view_.exaggeration);
+  label(list, {left + pixels + unit, bottom - 0.6f * unit}, colour::ink, scale);
+
+  // Strain: a bar of colours with its ends.
+  const float width = 13.5f * unit, right = view_.high.x - unit, top = bottom - 0.7f * unit;
+  constexpr int steps = 64;
+  for (int i = 0; i < steps; ++i) {
+    const float a = right - width + width * static_cast<float>(i) / steps;
+    list.AddRectFilled({a, top}, {a + width / steps + 1, bottom + 0.1f * unit},
+                       colour::viridis((i + 0.5) / steps));
+  }
+  list.AddRect({right - width, top}, {right + 1, bottom + 0.1f * unit}, colour::ink);
+  label(list, {right - width, top - line}, colour::ink, "0");
+  const std::string most = text("%g", largest_strain_ * 1e6) + " um/m";
+  label(list, {right - ImGui::CalcTextSize(most.c_str()).x, top - line}, colour::ink, most);
+  label(list, {right - width, top - 2 * line}, colour::ink, "bending strain at the surface");
+}
+
+void SceneDrawing::draw(ImDrawList& list, const Session::Picture& picture, const Point& target,
+                        const ImVec2& low, const ImVec2& high, float unit) {
+  fit(low, high);
+  sample(picture.shape);
+  const hapbeam::ServoRecord& r = picture.record;
+  if (r.pressing) side_ = r.force.y() < 0 ? -1 : 1;
+  else side_ = r.avatar.y() < options_.beam.rest(r.avatar.x()) ? -1 : 1;
+  const double reach = options_.radius + options_.beam.height / 2;
+  across_ = {options_.beam.rest(r.avatar.x()) + side_ * reach, view_.exaggeration};
+
+  list.PushClipRect(low, high, true);
+  list.AddRectFilled(low, high, colour::paper);
+  draw_workspace(list, unit);
+  draw_axis(list, unit);
+  const float half = static_cast<float>(options_.beam.height / 2 * view_.pixels);
+  const auto end = [&](const Sample& p) {
+    return view_(
+        {p.rest_x + view_.exaggeration * (p.x - p.rest_x), p.rest_w + view_.exaggeration * (p.w - p.rest_w)});
+  };
+  draw_beam(list);
+  draw_support(list, options_.beam.left, end(samples_.front()), -1, half, 1.3f * unit);
+  draw_support(list, options_.beam.right, end(samples_.back()), 1, half, 1.3f * unit);
+  draw_hand(list, r, target, unit);
+  draw_legend(list, unit);
+  list.PopClipRect();
+}
+
+Point SceneDrawing::device_position(const ImVec2& cursor) const {
+  const Point scene = across_.real(view_.inverse(cursor));
+  return placement_.device_position({scene.x(), scene.y(), 0}).head<2>();
+}
+
+}  // namespace phantom

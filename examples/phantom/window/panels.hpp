@@ -1,0 +1,22 @@
+// The diagrams below the scene: force and depth over time, force against depth beside other models, tick times, energy.
+#pragma once
+
+#include <imgui.h>
+#include <vector>
+
+#include "curves.hpp"
+#include "history.hpp"
+
+namespace phantom {
+
+struct PanelData {
+  const History& history;
+  const std::vector<Curve>& curves;  ///< at the place that is pressed
+  const char* running;               ///< name of the running model
+  double place;                      ///< [m] of the curves
+  double depth;                      ///< [m] of the curves
+};
+
+void draw_panels(ImDrawList& list, const PanelData& data, const ImVec2& low, const ImVec2& high);
+
+}  // namespace phantom
