@@ -11,4 +11,4 @@ picture() {
   step "scene_$1.png" env LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1 xvfb-run -a -s '-screen 0 1280x720x24' \
     "$top/build/release/examples/phantom" --scene "$1" --screenshot "$top/docs/images/scene_$1.png" --at "$2"
 }
-picture thesis 3.5 && picture ruler 2 && picture strip 3.5 && picture string 4.5 && picture arch 1.75
+picture thesis 3.5 && picture ruler 1.5 && picture strip 3.5 && picture string 4.5 && picture arch 1.75
