@@ -52,7 +52,6 @@ class Centreline {
   const Node& operator[](int i) const noexcept { return nodes_[i]; }
   const Node* begin() const noexcept { return nodes_; }
   const Node* end() const noexcept { return nodes_ + size_; }
-  bool any_rotation() const noexcept { return any_rotation_; }  ///< which of the two cubics
   Scalar length() const noexcept { return nodes_[size_ - 1].s; }
   /// Which cubic joins the nodes, above.
   bool any_rotation() const noexcept { return any_rotation_; }

@@ -49,7 +49,6 @@ class ServoPicture {
   /// Of a shape with more nodes than there is room for, every second one is taken, or third, …, and the last.
   void take(const Centreline<Scalar>& shape) noexcept {
     const int last = shape.size() - 1, step = 1 + (last - 1) / (static_cast<int>(nodes_.size()) - 1);
-    any_rotation_ = shape.any_rotation();
     size_ = 0;
     any_rotation_ = shape.any_rotation();
     for (int i = 0; i < last; i += step) nodes_[static_cast<std::size_t>(size_++)] = shape[i];
