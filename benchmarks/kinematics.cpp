@@ -93,8 +93,8 @@ void add(const std::string& element) {
   for (const Case& c : cases)
     for (const auto& [section, height] : {std::pair("thick", width), std::pair("thin", width / 10)}) {
       const Beam beam(length, Section::rectangle(width, height), Material{206.84e9}, c.left, c.right);
-      const std::string name = std::string("kinematics/") + hapbeam::name(c.left) + "-" + hapbeam::name(c.right) +
-                               "/" + section + "/" + element;
+      const std::string name = std::string("kinematics/") + hapbeam::name(c.left) + "-" +
+                               hapbeam::name(c.right) + "/" + section + "/" + element;
       benchmark::RegisterBenchmark(
           name.c_str(), [beam, &c](benchmark::State& state) { find_limits<Element>(state, beam, c); })
           ->Iterations(1)
