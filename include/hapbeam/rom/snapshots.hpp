@@ -82,11 +82,13 @@ class SnapshotTaker {
     bool loaded = false;
     for (int i = 0; i <= plan.segments; ++i) {
       const auto at = shape.at(shape.length() * static_cast<S>(i) / static_cast<S>(plan.segments));
-      for (const S value : {at.u, at.w, at.theta}) {
-        out_.rest_shape.push_back(static_cast<double>(value));
-        loaded = loaded || value != 0;
-      }
+      // Between the nodes of an element of any rotation there is round-off.
+      const double least = 1e-9 * plan.depth, length = out_.beam.length;
+      for (const S value : {at.u, at.w, at.theta * static_cast<S>(length)})
+        loaded = loaded || std::abs(static_cast<double>(value)) > least;
+      for (const S value : {at.u, at.w, at.theta}) out_.rest_shape.push_back(static_cast<double>(value));
     }
+    if (!loaded) std::fill(out_.rest_shape.begin(), out_.rest_shape.end(), 0.0);
     if (loaded && plan.symmetric)
       throw std::invalid_argument("symmetric = true: must be false for a beam under dead loads");
     for (int i = 0; i < plan.positions; ++i) {

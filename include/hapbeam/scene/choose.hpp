@@ -1,0 +1,165 @@
+// The least model that a scene needs.
+//
+//   Scene scene = Scene::anywhere(beam, 0.02);
+//   scene.force_error = 0.02, scene.tick = 20e-6;
+//   const Choice choice = choose(scene);
+//   std::puts(choice.text().c_str());                 // what was chosen, and which bound rejected what
+//   SceneModel model = build(scene, choice.model());
+//
+// Each family of models (three kinematics, halves of the beam where the scene is symmetric, two reductions) is tried at
+// growing size on the presses of a Pilot until its error is well below the tolerated one; of those that get there within the
+// time, the cheapest is chosen.  No rule knows a beam: what is known of the scene is what these presses say.
+// Offline: allocates; takes some tens of milliseconds; throws std::invalid_argument for a scene that makes no sense.
+#pragma once
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <utility>
+
+#include <hapbeam/scene/build.hpp>
+#include <hapbeam/scene/choice.hpp>
+#include <hapbeam/scene/pilot.hpp>
+
+namespace hapbeam {
+
+namespace detail {
+
+class Chooser {
+ public:
+  /// The pilot's presses do not meet the worst press of all, so a model has to do better on them than is tolerated.
+  /// Finite elements are at their worst at the corners of the range, which the pilot meets, and interpolation is between.
+  static constexpr double elements_margin = 0.85, trained_margin = 0.6;
+
+  Chooser(const Scene& scene, const TickCosts& costs) : scene_(scene), costs_(costs), pilot_(scene) {
+    choice_.force_error = scene.force_error, choice_.tick = scene.tick;
+  }
+
+  Choice choose() {
+    for (const Kinematics kinematics :
+         {Kinematics::linear, Kinematics::von_karman, Kinematics::corotational}) {
+      elements(kinematics, false);
+      if (scene_.mirrored() && kinematics != Kinematics::linear) elements(kinematics, true);
+    }
+    // What trains a model costs nothing in a tick, so it is the one that is right.  Galerkin's equation is von Kármán's.
+    trained(Reduction::pod, Kinematics::corotational);
+    trained(Reduction::galerkin, Kinematics::von_karman);
+    decide();
+    return std::move(choice_);
+  }
+
+ private:
+  static constexpr double nothing = std::numeric_limits<double>::infinity();
+
+  /// Finite elements: where many are right, the fewest that are.
+  void elements(Kinematics kinematics, bool mirrored) {
+    Verdict verdict = judge({kinematics, Reduction::none, pilot_.elements(), mirrored});
+    for (const int n : {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384}) {
+      if (!verdict.right || n >= pilot_.elements()) break;
+      if (mirrored && (n < 4 || n % 2 != 0)) continue;
+      const Verdict fewer = judge({kinematics, Reduction::none, n, mirrored});
+      if (!fewer.right) continue;
+      verdict = fewer;
+      break;
+    }
+    choice_.verdicts.push_back(verdict);
+  }
+
+  /// Interpolation: first as many depths as one place takes, then as many places.
+  void trained(Reduction reduction, Kinematics kinematics) {
+    const Verdict& full = of(kinematics);
+    // Fourth order: twice the elements leave a sixteenth of the error to the full model.
+    Candidate candidate{kinematics, reduction, 2 * full.candidate.elements, false, 1, 2};
+    Verdict verdict{candidate, nothing, candidate.tick(costs_, scene_.shape), false, {}};
+    if (!full.right)
+      verdict.refusal = std::string(name(kinematics)) + ", which would train it, is not right itself";
+    const auto grow = [&] {
+      const Verdict larger = judge(candidate);
+      if (larger.error < verdict.error || verdict.refusal.empty()) verdict = larger;
+      return verdict.right;
+    };
+    for (const int depths : {2, 3, 4, 6, 8, 12, 16, 24, 32}) {
+      candidate.depths = depths;
+      if (!full.right || (scene_.one_place() ? grow() : enough_depths(candidate))) break;
+    }
+    for (const int positions : {3, 4, 6, 8, 12, 16, 24, 32, 48}) {
+      candidate.positions = positions;
+      if (!full.right || scene_.one_place() || grow()) break;
+    }
+    choice_.verdicts.push_back(verdict);
+  }
+
+  /// Of one kinematics by itself, on the whole beam.
+  const Verdict& of(Kinematics kinematics) const {
+    const auto is = [&](const Verdict& verdict) { return verdict.candidate.kinematics == kinematics; };
+    return *std::find_if(choice_.verdicts.begin(), choice_.verdicts.end(), is);
+  }
+
+  bool enough_depths(const Candidate& candidate) const {
+    try {
+      for (const double s : pilot_.places()) {
+        Scene place = scene_;
+        place.s_min = place.s_max = s;
+        SceneModel model = detail::build(place, candidate, 2);
+        if (!(pilot_.error_at(model, s) <= 0.8 * wanted(candidate))) return false;
+      }
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+
+  Verdict judge(const Candidate& candidate) {
+    Verdict verdict{candidate, nothing, candidate.tick(costs_, scene_.shape), false, {}};
+    try {
+      SceneModel model = detail::build(scene_, candidate, 2);
+      verdict.error = pilot_.error(model);
+      verdict.right = verdict.error <= wanted(candidate);
+    } catch (const std::exception& why) {
+      verdict.refusal = why.what();
+    }
+    if (verdict.tick <= scene_.tick && verdict.error < in_time_.error) in_time_ = verdict;
+    return verdict;
+  }
+
+  double wanted(const Candidate& candidate) const noexcept {
+    return (candidate.reduction == Reduction::none ? elements_margin : trained_margin) * scene_.force_error;
+  }
+
+  void decide() {
+    const Verdict* least = nullptr;
+    for (const Verdict& verdict : choice_.verdicts)
+      if (verdict.right && (!least || verdict.tick < least->tick)) least = &verdict;
+    if (least && least->tick <= scene_.tick) {
+      choice_.candidate = least->candidate;
+      return;
+    }
+    char text[400], slower[150] = "", coarser[150] = "";
+    if (least)
+      std::snprintf(slower, sizeof slower, "a tick of %.2g us (%s)", 1e6 * least->tick,
+                    least->candidate.text().c_str());
+    if (in_time_.error < 1)
+      std::snprintf(coarser, sizeof coarser, "%sa force error of %.2g %% (%s)", least ? ", or " : "",
+                    100 * in_time_.error / trained_margin, in_time_.candidate.text().c_str());
+    std::snprintf(text, sizeof text, "no model is within %.2g %% of the force in %.2g us: %s%s%s",
+                  100 * scene_.force_error, 1e6 * scene_.tick,
+                  least || *coarser ? "allow " : "press less deep or in a smaller range", slower, coarser);
+    choice_.advice = text;
+  }
+
+  const Scene& scene_;
+  const TickCosts& costs_;
+  Pilot pilot_;
+  Choice choice_;
+  Verdict in_time_{{}, nothing, 0, false, {}};  // the least error of all that are fast enough
+};
+
+}  // namespace detail
+
+/// @param costs  what presses cost on the machine that will run them
+/// @throws std::invalid_argument for a scene that makes no sense
+inline Choice choose(const Scene& scene, const TickCosts& costs = TickCosts::typical()) {
+  return detail::Chooser(scene, costs).choose();
+}
+
+}  // namespace hapbeam

@@ -1,0 +1,82 @@
+// What presses cost on the machine at hand, for choose().
+//
+//   const TickCosts costs = measure_tick_costs();      // some tens of milliseconds, once
+//   const Choice choice = choose(scene, costs);
+//
+// A bar is pressed along a slow path by a small and a large model of each family; a line goes through both times.  Each is
+// the least of several passes: what the rest of the machine adds is not the model's.
+// Offline: allocates.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include <hapbeam/scene/build.hpp>
+#include <hapbeam/scene/tick_costs.hpp>
+
+namespace hapbeam {
+
+namespace detail {
+
+/// Mean time of a press of a hand that presses and slides at about 50 mm/s, a press a millisecond [s].
+inline double time_press(SceneModel& model, const Scene& scene, bool shape) {
+  using Clock = std::chrono::steady_clock;
+  const int passes = 9, presses = 200;
+  double least = std::numeric_limits<double>::infinity();
+  volatile double sink = 0;
+  model.visit([&](auto& chosen) {
+    for (int pass = 0; pass < passes; ++pass) {
+      chosen.reset();
+      const auto begin = Clock::now();
+      for (int k = 0; k < presses; ++k) {
+        const double part = (k + 1.0) / presses;
+        const Press<double> press{scene.s_min + (scene.s_max - scene.s_min) * part,
+                                  scene.depth * (0.2 + 0.8 * part)};
+        sink = shape ? chosen.press(press).force : force_of(chosen, press).force;
+      }
+      least = std::min(least, std::chrono::duration<double>(Clock::now() - begin).count() / presses);
+    }
+  });
+  return least;
+}
+
+inline TickCost line_through(int small, double small_time, int large, double large_time) {
+  const double per_unit = std::max((large_time - small_time) / (large - small), 0.0);
+  return {std::max(small_time - per_unit * small, 0.0), per_unit};
+}
+
+}  // namespace detail
+
+inline TickCosts measure_tick_costs() {
+  const Beam bar(2.54, Section::rectangle(0.0254, 0.0254), Material{206.84e9}, Support::pinned,
+                 Support::pinned);
+  Scene slide = Scene::anywhere(bar, 0.01), hold = Scene::at(bar, 1.0, 0.01);
+  slide.s_min = 1.0, slide.s_max = 1.01;
+  const auto elements = [&](Kinematics kinematics) {
+    SceneModel small = build(slide, {kinematics, Reduction::none, 4}),
+               large = build(slide, {kinematics, Reduction::none, 64});
+    return detail::line_through(4, detail::time_press(small, slide, true), 64,
+                                detail::time_press(large, slide, true));
+  };
+  const auto trained = [&](Reduction reduction, TickCost& force, TickCost& shape) {
+    SceneModel small = build(hold, {Kinematics::von_karman, reduction, 64, false, 1, 8}),
+               large = build(slide, {Kinematics::von_karman, reduction, 64, false, 16, 12});
+    force = detail::line_through(8, detail::time_press(small, hold, false), 192,
+                                 detail::time_press(large, slide, false));
+    shape = detail::line_through(8, detail::time_press(small, hold, true), 192,
+                                 detail::time_press(large, slide, true));
+  };
+  TickCosts costs{elements(Kinematics::linear),
+                  elements(Kinematics::von_karman),
+                  elements(Kinematics::corotational),
+                  {},
+                  {},
+                  {},
+                  {}};
+  trained(Reduction::pod, costs.pod_force, costs.pod_shape);
+  trained(Reduction::galerkin, costs.galerkin_force, costs.galerkin_shape);
+  return costs;
+}
+
+}  // namespace hapbeam

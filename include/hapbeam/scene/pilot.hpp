@@ -1,0 +1,131 @@
+// Presses by which candidates are judged: a few lines of increasing depth, answered by a reference that is known to be right.
+//
+// The reference is Corotational<>, with as many elements as it takes until half of them say the same to a twentieth of the
+// tolerated error.  Lines stand at both ends of the range and between, closer toward supports, where every method is at its
+// worst; along a line the beam is pressed from rest ever deeper, as a hand would.
+// Offline: allocates, throws std::invalid_argument where the scene asks for presses that no model answers.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/rom/coordinates.hpp>
+#include <hapbeam/scene/scene.hpp>
+
+namespace hapbeam {
+
+class Pilot {
+ public:
+  using Reference = FemModel<Corotational<>>;
+
+  explicit Pilot(const Scene& scene) : floor_(scene.check().force_floor) {
+    place(scene);
+    // Four elements at least between a support and the nearest press, or half as many would be no other mesh there.
+    const double length = scene.beam.length();
+    const double left = fixes_w(scene.beam.left()) ? scene.s_min : length;
+    const double right = fixes_w(scene.beam.right()) ? length - scene.s_max : length;
+    for (elements_ = 32; elements_ < 512 && elements_ * std::min(left, right) < 4 * length;) elements_ *= 2;
+    for (;; elements_ *= 2) {
+      Reference coarse(scene.beam, elements_ / 2), reference(scene.beam, elements_);
+      press(reference, scene.depth);
+      own_error_ = error(coarse);
+      if (own_error_ <= scene.force_error / 20 || elements_ == 512) return;
+    }
+  }
+
+  /// Largest relative error of the force; infinite where a press is not answered with ok.
+  template <class Model>
+  double error(Model& model) const {
+    double most = 0;
+    for (const Line& line : lines_) most = std::max(most, error(model, line));
+    return most;
+  }
+  /// The same at one of places().
+  template <class Model>
+  double error_at(Model& model, double s) const {
+    double most = 0;
+    for (const Line& line : lines_)
+      if (line.s == s) most = std::max(most, error(model, line));
+    return most;
+  }
+  /// Both ends of the range and its middle [m].
+  std::vector<double> places() const {
+    return {lines_.front().s, lines_[lines_.size() / 2].s, lines_.back().s};
+  }
+
+  int elements() const noexcept { return elements_; }       ///< of the reference
+  double own_error() const noexcept { return own_error_; }  ///< of half as many elements
+
+ private:
+  struct Line {
+    double s;
+    std::vector<double> depths;  // d [m], from rest outward
+    std::vector<double> forces;  // [N] of the reference
+  };
+
+  template <class Model>
+  double error(Model& model, const Line& line) const {
+    model.reset();
+    double most = 0;
+    for (std::size_t k = 0; k < line.depths.size(); ++k) {
+      const Response<double> response = model.press({line.s, line.depths[k]});
+      if (response.status != Status::ok) return std::numeric_limits<double>::infinity();
+      most = std::max(most,
+                      std::abs(response.force - line.forces[k]) / std::max(std::abs(line.forces[k]), floor_));
+    }
+    return most;
+  }
+
+  /// Answers of a reference, kept with the lines.
+  void press(Reference& reference, double depth) {
+    for (Line& line : lines_) {
+      line.forces.clear();
+      reference.reset();
+      for (const double d : line.depths) {
+        const Response<double> response = reference.press({line.s, d});
+        if (response.status != Status::ok)
+          throw std::invalid_argument(
+              "depth = " + std::to_string(depth) +
+              " m: must be one that a beam answers everywhere; at s = " + std::to_string(line.s) +
+              " m a press of " + std::to_string(d) + " m is " + name(response.status));
+        line.forces.push_back(response.force);
+      }
+    }
+  }
+
+  void place(const Scene& scene) {
+    const Reference rest(scene.beam, 32);
+    const PositionCoordinate<double> coordinate(BeamData<double>::of(scene.beam));
+    const double low = coordinate(scene.s_min), high = coordinate(scene.s_max);
+    bool flat = scene.beam.arcs().empty();
+    for (const CentrelineNode<double>& node : rest.shape()) flat = flat && node.w == 0;
+    // Uneven, lest they meet the nodes of an interpolation.
+    for (const double along : {0.0, 0.11, 0.23, 0.36, 0.52, 0.67, 0.78, 0.91, 1.0}) {
+      if (scene.one_place() && along > 0) break;
+      const double s = along == 0   ? scene.s_min
+                       : along == 1 ? scene.s_max
+                                    : coordinate.inverse(low + (high - low) * along);
+      const double w = rest.shape().at(s).w;
+      for (const double sign : {1.0, -1.0}) {
+        if (flat && sign < 0) continue;
+        Line line{s, {}, {}};
+        const double depth = std::min(scene.depth, 0.999 * rest.range().depth_at(s) - sign * w);
+        // From a hundredth of the depth on: evenly where thin beams answer as strings, in the logarithm.
+        for (int k = 20; k >= 0; --k) line.depths.push_back(w + sign * depth * std::pow(100.0, -k / 20.0));
+        lines_.push_back(line);
+      }
+    }
+  }
+
+  double floor_;
+  std::vector<Line> lines_;
+  int elements_ = 0;
+  double own_error_ = 0;
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,56 @@
+// What a scene asks of a model: a beam, where and how deep it is pressed, and what error and time are allowed.
+//
+// Offline: throws std::invalid_argument naming field, value, unit and what is allowed.
+#pragma once
+
+#include <cmath>
+
+#include <hapbeam/beam.hpp>
+
+namespace hapbeam {
+
+struct Scene {
+  Beam beam;
+  double s_min, s_max;  ///< [m] where it is pressed; equal: at one place
+  double
+      depth;  ///< [m] how deep, from the untouched beam, to either side; beside a support as deep as press() of
+              ///< Corotational<> answers, a third of the distance or so
+  double force_error = 0.05;  ///< largest relative error of the force; a hand tells forces apart from 7 % on
+  double force_floor = 0;  ///< [N] smaller forces count as this one, where they change sign or cannot be felt
+  double tick = 50e-6;     ///< [s] largest time of a press
+  bool shape = true;  ///< contact and drawing want the shape in each tick; a hand at a known place may not
+
+  /// Anywhere from 5 to 95 % of the length, or up to an end that yields.
+  static Scene anywhere(const Beam& beam, double depth) {
+    const double L = beam.length();
+    return {beam, fixes_w(beam.left()) ? 0.05 * L : 0, fixes_w(beam.right()) ? 0.95 * L : L, depth};
+  }
+  /// At one place.
+  static Scene at(const Beam& beam, double s, double depth) { return {beam, s, s, depth}; }
+
+  bool one_place() const noexcept { return s_min == s_max; }
+
+  /// Whether half of the beam says all: pressed in the middle, alike on both sides.
+  bool mirrored() const noexcept {
+    const EndPlace &a = beam.left_place(), &b = beam.right_place();
+    return one_place() && std::abs(2 * s_min - beam.length()) < 1e-9 * beam.length() &&
+           beam.left() == beam.right() && beam.arcs().empty() && a.u == 0 && a.w == 0 && a.theta == 0 &&
+           b.w == 0 && b.theta == 0 && beam.point_loads().empty() && !beam.transverse() && !beam.axial();
+  }
+
+  /// @throws std::invalid_argument
+  const Scene& check() const {
+    detail::finite("s_min", s_min, "m");
+    detail::finite("s_max", s_max, "m");
+    if (!(s_min >= 0 && s_min <= s_max)) detail::reject("s_min", s_min, "m", "on the beam, at most s_max");
+    if (!(s_max <= beam.length())) detail::reject("s_max", s_max, "m", "on the beam");
+    detail::positive("depth", depth, "m");
+    detail::positive("force_error", force_error, "");
+    if (!(force_floor >= 0 && std::isfinite(force_floor)))
+      detail::reject("force_floor", force_floor, "N", "finite and not negative");
+    detail::positive("tick", tick, "s");
+    return *this;
+  }
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,152 @@
+// choose(): what it picks holds what was asked on presses that it has not seen, nothing cheaper was at hand, and where it
+// picks nothing it says what to relax.
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+#include "support/catch.hpp"
+#include "support/random_scene.hpp"
+#include "support/thesis_beam.hpp"
+#include <hapbeam/scene/choose.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
+
+const Verdict& verdict_of(const Choice& choice, Kinematics kinematics,
+                          Reduction reduction = Reduction::none) {
+  for (const Verdict& verdict : choice.verdicts)
+    if (verdict.candidate.kinematics == kinematics && verdict.candidate.reduction == reduction)
+      return verdict;
+  throw std::runtime_error("no such family");
+}
+
+}  // namespace
+
+TEST_CASE("what is chosen keeps the tolerance on presses that it has not seen", "[scene]") {
+  // benchmarks/chooser does this with hundreds of scenes.
+  Random random(20);
+  int chosen = 0;
+  for (int k = 0; k < 12; ++k) {
+    const Scene scene = random_scene(random);
+    const auto presses = held_out(scene, random, 12, 128);
+    const Choice choice = choose(scene);
+    INFO("scene " << k << "\n" << choice.text());
+    if (!choice.candidate) continue;
+    ++chosen;
+    SceneModel model = build(scene, choice.model());
+    CHECK(worst_error(model, presses) <= scene.force_error);
+  }
+  CHECK(chosen >= 10);
+}
+
+TEST_CASE("what is chosen is the cheapest of those that are right and fast enough", "[scene]") {
+  Scene scene = Scene::anywhere(pinned(), 0.02);
+  scene.force_error = 0.01;
+  const Choice choice = choose(scene);
+  const double tick = choice.model().tick(TickCosts::typical(), scene.shape);
+  for (const Verdict& verdict : choice.verdicts)
+    if (verdict.right && verdict.tick <= scene.tick) CHECK(tick <= verdict.tick);
+}
+
+TEST_CASE("a scene gets no more model than it needs", "[scene]") {
+  SECTION("hardly pressed, the linear element is enough, with any number of elements") {
+    const Choice choice = choose(Scene::anywhere(pinned(), 1e-4));
+    CHECK(verdict_of(choice, Kinematics::linear).right);
+    CHECK(verdict_of(choice, Kinematics::linear).candidate.elements == 2);
+  }
+  SECTION("pressed by its own height, it is not, and no number of elements helps") {
+    const Choice choice = choose(Scene::anywhere(pinned(), 0.0254));
+    const Verdict& linear = verdict_of(choice, Kinematics::linear);
+    CHECK_FALSE(linear.right);
+    // k d against k d + c d³: off by far more than the height's share at the limit, docs/limits.md.
+    CHECK(linear.error > 0.5);
+    CHECK_THAT(choice.reason(linear), ContainsSubstring("allowed 5 %"));
+    CHECK(verdict_of(choice, Kinematics::von_karman).right);
+  }
+  SECTION("bent far, only elements of any rotation are") {
+    const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{200e9}, Support::clamped, Support::free);
+    Scene scene = Scene::at(ruler, 0.3, 0.08);
+    scene.force_error = 0.01;
+    const Choice choice = choose(scene);
+    CHECK_FALSE(verdict_of(choice, Kinematics::von_karman).right);
+    CHECK(verdict_of(choice, Kinematics::corotational).right);
+    CHECK(choice.model().kinematics == Kinematics::corotational);
+  }
+  SECTION("one place takes one position, and less time than any place") {
+    const Choice one = choose(Scene::at(pinned(), 1.0, 0.01)), any = choose(Scene::anywhere(pinned(), 0.01));
+    const Verdict& pod = verdict_of(one, Kinematics::corotational, Reduction::pod);
+    CHECK(pod.candidate.positions == 1);
+    CHECK(pod.tick < verdict_of(any, Kinematics::corotational, Reduction::pod).tick);
+  }
+  SECTION("the middle of a symmetric beam that cannot be trained takes half of it") {
+    Scene scene = Scene::at(tensioned(pinned(), 1e5), thesis_length / 2, 0.02);
+    scene.force_error = 1e-3;
+    const Choice choice = choose(scene);
+    CHECK(choice.model().mirrored);
+    CHECK_THAT(choice.reason(verdict_of(choice, Kinematics::corotational, Reduction::pod)),
+               ContainsSubstring("not built: beam: must be straight"));
+  }
+}
+
+TEST_CASE("the example of docs/choosing.md prints what stands there", "[scene]") {
+  const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{200e9}, Support::clamped, Support::free);
+  Scene scene = Scene::at(ruler, 0.3, 0.06);
+  scene.force_error = 0.02;
+  scene.tick = 10e-6;
+  std::ifstream page(HAPBEAM_TEST_DATA_DIR "/../../docs/choosing.md");
+  const std::string text{std::istreambuf_iterator<char>(page), {}};
+  std::istringstream lines(choose(scene).text());
+  for (std::string line; std::getline(lines, line);) CHECK_THAT(text, ContainsSubstring("    " + line));
+}
+
+TEST_CASE("where nothing is admissible it says what to relax", "[scene]") {
+  Scene scene = Scene::anywhere(pinned(), 0.02);
+  scene.force_error = 1e-3;
+  scene.tick = 1e-9;
+  const Choice choice = choose(scene);
+  CHECK_FALSE(choice.candidate);
+  CHECK_THAT(choice.advice, ContainsSubstring("0.1 %") && ContainsSubstring("allow a tick of"));
+  CHECK_THROWS_WITH(choice.model(), choice.advice);
+  SECTION("and what it says is true") {
+    double least = 1;
+    for (const Verdict& verdict : choice.verdicts)
+      if (verdict.right) least = std::min(least, verdict.tick);
+    scene.tick = 1.01 * least;
+    CHECK(choose(scene).candidate);
+  }
+}
+
+TEST_CASE("what presses cost on a machine decides", "[scene]") {
+  Scene scene = Scene::anywhere(pinned(), 0.02);
+  TickCosts costs = TickCosts::typical();
+  CHECK(choose(scene, costs).model().reduction == Reduction::pod);
+  costs.pod_shape.fixed = 1;
+  costs.galerkin_shape.fixed = 1;
+  CHECK(choose(scene, costs).model().reduction == Reduction::none);
+}
+
+TEST_CASE("a scene that makes no sense is refused by name", "[scene]") {
+  const auto refused = [](auto&& change, const char* message) {
+    Scene scene = Scene::anywhere(pinned(), 0.01);
+    change(scene);
+    CHECK_THROWS_WITH(choose(scene), ContainsSubstring(message));
+  };
+  refused([](Scene& s) { s.s_min = -1; }, "s_min = -1 m");
+  refused([](Scene& s) { s.s_max = 3; }, "s_max = 3 m");
+  refused([](Scene& s) { s.s_min = 2.5; }, "s_min = 2.5 m");
+  refused([](Scene& s) { s.depth = 0; }, "depth = 0 m");
+  refused([](Scene& s) { s.force_error = -0.1; }, "force_error = -0.1");
+  refused([](Scene& s) { s.force_floor = -1; }, "force_floor = -1 N");
+  refused([](Scene& s) { s.tick = std::nan(""); }, "tick = nan s");
+  // A strip that buckles and is pressed through answers from two shapes, so there is no one force to be right about.
+  const Beam strip(0.3, Section::rectangle(0.025, 0.0005), Material{200e9}, Support::clamped,
+                   Support::clamped);
+  Scene through = Scene::anywhere(stretched(strip, -0.002), 0.02);
+  CHECK_THROWS_WITH(choose(through), ContainsSubstring("must be one that a beam answers everywhere"));
+}
