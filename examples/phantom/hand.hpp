@@ -2,13 +2,14 @@
 //
 // The cursor comes sixty times a second from the window and the arm is asked a thousand times.  So the hand follows the
 // cursor as a critically damped mass on a spring of 8 Hz, no faster than an arm moves: the target that the simulated hand
-// gets is smooth.  Until the cursor first takes it, the script is followed to the bit.
-// pull(), at(): no allocation, noexcept, wait-free.
+// gets is smooth.  In the same way it goes to where another script begins.  The first script is followed to the bit.
+// follow(), pull(): from one thread; they allocate.  at(): no allocation, noexcept, wait-free.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -34,45 +35,58 @@ using Way = std::variant<hapbeam::HandPath, Replay>;
 
 class Hand {
  public:
-  /// @param repeat  begins the script anew when it has ended
-  explicit Hand(Way script, bool repeat = false) : script_(std::move(script)), repeat_(repeat) {}
+  /// @param repeat  begins a script anew when it has ended
+  explicit Hand(Way script, bool repeat = false)
+      : repeat_(repeat),
+        wish_{0, false, {0, 0}, std::make_shared<const Way>(std::move(script))},
+        wishes_(wish_) {}
 
-  /// From the window: pulls the hand to a place.  @param place [m] device axes
-  void pull(const hapbeam::Vector2<double>& place) noexcept { cursor_.publish(Cursor{true, place}); }
-  /// The script again.  While no loop runs.
-  void let_go() noexcept {
-    cursor_.publish(Cursor{});
-    taken_ = false;
+  /// Pulls the hand to a place, where it stays.  @param place [m] device axes
+  void pull(const hapbeam::Vector2<double>& place) {
+    wish_.pulled = true, wish_.place = place;
+    wishes_.publish(wish_);
   }
+  /// Goes to where the script begins, and follows it.
+  void follow(Way script) {
+    wish_ = {wish_.scripts + 1, false, {0, 0}, std::make_shared<const Way>(std::move(script))};
+    wishes_.publish(wish_);
+  }
+  double duration() const noexcept { return length(*wish_.script); }  ///< [s] of the script
 
   /// From the servo's thread, times in order; 0 begins anew.
   hapbeam::HandTarget at(double time) noexcept {
-    cursor_.update();
-    const Cursor& cursor = cursor_.value();
-    if (!cursor.pulls && !taken_) return last_ = scripted(time), time_ = time, last_;
-    if (time > time_) follow(cursor.place, time - time_);
-    taken_ = true, time_ = time;
+    wishes_.update();
+    const Wish& wish = wishes_.value();
+    if (wish.scripts != scripts_) scripts_ = wish.scripts, begin_ = time + approach;
+    if (!wish.pulled && time >= begin_) last_ = scripted(*wish.script, time - begin_);
+    else if (time > time_) lead(wish.pulled ? wish.place : start(*wish.script), time - time_);
+    time_ = time;
     return last_;
-  }
-  double duration() const noexcept {
-    return std::visit([](const auto& script) { return script.duration(); }, script_);
   }
   const hapbeam::HandTarget& last() const noexcept { return last_; }  ///< the same thread's
 
  private:
-  struct Cursor {
-    bool pulls = false;
-    hapbeam::Vector2<double> place = hapbeam::Vector2<double>::Zero();
+  struct Wish {
+    int scripts;  // before this one
+    bool pulled;
+    hapbeam::Vector2<double> place;
+    // Copied and dropped by the window alone, so that the servo's thread frees nothing.
+    std::shared_ptr<const Way> script;
   };
 
-  hapbeam::HandTarget scripted(double time) const noexcept {
+  static double length(const Way& way) noexcept {
+    return std::visit([](const auto& script) { return script.duration(); }, way);
+  }
+  hapbeam::HandTarget scripted(const Way& way, double time) const noexcept {
     return std::visit(
-        [&](const auto& script) { return script(repeat_ ? std::fmod(time, script.duration()) : time); },
-        script_);
+        [&](const auto& script) { return script(repeat_ ? std::fmod(time, script.duration()) : time); }, way);
+  }
+  hapbeam::Vector2<double> start(const Way& way) const noexcept {
+    return scripted(way, 0).position.head<2>();
   }
 
-  /// x'' = ω² (cursor - x) - 2 ω x', implicit in x', so that it is stable with any step.
-  void follow(const hapbeam::Vector2<double>& to, double step) noexcept {
+  /// x'' = ω² (to - x) - 2 ω x', implicit in x', so that it is stable with any step.
+  void lead(const hapbeam::Vector2<double>& to, double step) noexcept {
     for (int i = 0; i < 2; ++i) {
       const double far = 2 * fastest / omega, way = std::clamp(to[i] - last_.position[i], -far, far);
       double& v = last_.velocity[i];
@@ -83,11 +97,13 @@ class Hand {
 
   static constexpr double omega = 2 * 3.141592653589793 * 8;  // [1/s]
   static constexpr double fastest = 1;                        // [m/s]
+  static constexpr double approach = 0.6;  // [s] across the workspace, and at rest to a micrometre
 
-  Way script_;
   bool repeat_;
-  hapbeam::Exchange<Cursor> cursor_;
-  bool taken_ = false;
+  Wish wish_;
+  hapbeam::Exchange<Wish> wishes_;
+  int scripts_ = 0;
+  double begin_ = 0;  // [s] of the script
   double time_ = 0;
   hapbeam::HandTarget last_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };

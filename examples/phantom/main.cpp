@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "options.hpp"
@@ -46,7 +47,7 @@ void watch(Session& session, double duration, const Write& write) {
         std::min(at(std::min(next_row, duration)), Clock::now() + std::chrono::milliseconds(50)));
     write();
     if (Clock::now() < at(next_row)) continue;
-    print_row(session.picture().record, session.times(), session.counts());
+    print_row(session.picture().record, session.body().times(), session.device().counts());
     next_row += 1;
   }
   session.stop();
@@ -58,11 +59,17 @@ void simulate(Session& session, double duration, const Write& write) {
   for (double left = duration; left > 0 && !interrupted; left -= 1) {
     session.run(std::min(left, 1.0));
     write();
-    print_row(session.picture().record, session.times(), session.counts());
+    print_row(session.picture().record, session.body().times(), session.device().counts());
   }
 }
 
-int run(Options options, const Trained* trained, std::ofstream& report) {
+int write_report(std::ofstream& file, const Options& options, const std::string& report) {
+  if (options.report.empty() || file << report << std::flush) return 0;
+  std::fprintf(stderr, "phantom: %s: the report cannot be written\n", options.report.c_str());
+  return 1;
+}
+
+int run(Options options, std::shared_ptr<const Trained> trained, std::ofstream& report) {
   Hand hand(options.replay.empty() ? Way(make_path(options)) : Way(read_recording(options.replay)));
   if (!options.replay.empty()) options.duration = hand.duration();
   Tape tape;
@@ -73,37 +80,33 @@ int run(Options options, const Trained* trained, std::ofstream& report) {
       if (recording) recording->write(tick);
     });
   };
-  const std::unique_ptr<Session> session = make_session(options, trained, hand, tape);
+  Session session(options, std::move(trained), hand, tape);
 
-  print_scene(session->options(), trained, session->device());
-  if (options.lock_step) simulate(*session, options.duration, write);
-  else watch(*session, options.duration, write);
+  print_scene(session.body().options(), session.body().trained(), session.device().info());
+  if (options.lock_step) simulate(session, options.duration, write);
+  else watch(session, options.duration, write);
   write();
   if (recording) recording->close();
 
-  const Run result{session->options(), trained,           session->device(),       session->picture().record,
-                   session->times(),   session->counts(), session->full_answers(), interrupted != 0};
+  const Run result = Run::of(session, interrupted != 0);
   print_summary(result);
   if (tape.lost() > 0)
     std::printf("record   %llu ticks are missing, the disk was too slow\n",
                 static_cast<unsigned long long>(tape.lost()));
-  if (options.report.empty()) return 0;
-  if (report << json(result) << std::flush) return 0;
-  std::fprintf(stderr, "phantom: %s: the report cannot be written\n", options.report.c_str());
-  return 1;
+  return write_report(report, options, json(result));
 }
 
-/// @return whether there is a window, in which it then has run; else why not
-bool run_in_window([[maybe_unused]] const Options& options, [[maybe_unused]] const Trained* trained,
-                   std::string& why) {
+/// @return the report, where there is a window in which it then has run; else nothing, and why
+std::optional<std::string> run_in_window([[maybe_unused]] const Options& options,
+                                         [[maybe_unused]] const std::shared_ptr<const Trained>& trained,
+                                         std::string& why) {
 #ifdef HAPBEAM_EXAMPLES_WINDOW
-  const std::unique_ptr<Display> display = Display::open(why);
-  if (display) run_window(*display, options, trained, interrupted);
-  return display != nullptr;
+  if (const std::unique_ptr<Display> display = Display::open(options.zoom, why))
+    return run_window(*display, options, trained, interrupted);
 #else
   why = "it was built without GLFW, OpenGL, Dear ImGui and stb";
-  return false;
 #endif
+  return {};
 }
 
 }  // namespace
@@ -115,23 +118,23 @@ int main(int argc, char** argv) {
   std::signal(SIGTERM, interrupt);
   try {
     Options options = parse(arguments);
-    std::optional<Trained> trained;
-    if (!options.model.empty()) trained = load(options);
+    std::shared_ptr<const Trained> trained;
+    if (!options.model.empty()) trained = std::make_shared<const Trained>(load(options));
     std::ofstream report;
     if (!options.report.empty()) report.open(options.report);
     if (!report) {
       std::fprintf(stderr, "phantom: %s: the report cannot be written\n", options.report.c_str());
       return 1;
     }
-    if (!options.headless && !options.lock_step) {
+    const bool needs_window = !options.screenshot.empty() || options.tour > 0;
+    if (!options.headless && (!options.lock_step || needs_window)) {
       std::string why;
-      if (run_in_window(options, trained ? &*trained : nullptr, why)) return 0;
-      const bool needs_window = !options.screenshot.empty() || options.tour > 0;
+      if (const auto text = run_in_window(options, trained, why)) return write_report(report, options, *text);
       std::fprintf(needs_window ? stderr : stdout, "phantom: no window: %s%s\n", why.c_str(),
                    needs_window ? "" : "; runs headless");
       if (needs_window) return 1;
     }
-    return run(options, trained ? &*trained : nullptr, report);
+    return run(options, std::move(trained), report);
   } catch (const cli::UsageError& error) {
     std::fprintf(stderr, "phantom: %s\n", error.what());
     return 2;

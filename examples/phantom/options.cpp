@@ -15,6 +15,7 @@ constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::full
                                       ElementChoice::assumed_strain, ElementChoice::corotational};
 constexpr Script scripts[] = {Script::slide, Script::press, Script::tap};
 constexpr CouplingChoice couplings[] = {CouplingChoice::direct, CouplingChoice::virtual_coupling};
+constexpr DeviceChoice devices[] = {DeviceChoice::simulated, DeviceChoice::phantom};
 
 cli::Entries entries(Options& o) {
   cli::Entries list{{"--scene", "NAME",
@@ -57,17 +58,28 @@ cli::Entries entries(Options& o) {
              o.stiffness, 1, 1e6, "N/m"),
       figure("--damping", "X", "of the coupling [N s/m], 0 to 1000; by default the same", o.damping, 0, 1000,
              "N s/m"),
+      {"--device", "NAME",
+       "virtual (default): a simulated Phantom and hand;  phantom: a real one, its arm in its reset position "
+       "when "
+       "the program starts",
+       [&o](const std::string& v) { o.device = one_of(devices, "--device", v); }},
       flag("--lock-step",
-           "simulated time, as fast as the machine can and the same every time; else real time", o.lock_step),
+           "simulated time, as fast as the machine can and the same every time; else real time.  With a "
+           "window only for a "
+           "screenshot or a tour",
+           o.lock_step),
       flag("--headless", "no window, a table row a second; so it is without a display, too", o.headless),
       file("--record", "writes a CSV row for each tick: time, hand, force, depth, status", o.record),
       file("--replay", "the hand repeats a recording, in lock step", o.replay),
       file("--screenshot", "writes a picture of the window as PNG and, unless a duration is given, closes it",
            o.screenshot),
+      figure("--zoom", "X", "size of the window and of its text, 1 to 4; 1 by default, 1280 x 720 pixels",
+             o.zoom, 1, 4, ""),
       figure("--at", "S", "when the screenshot is taken [s]; 3 by default", o.at, 0, 86400, "s"),
-      count("--tour",
-            "closes the window after so many switches of scene and model, one a picture, 1 to 100000", o.tour,
-            1, 100000),
+      count(
+          "--tour",
+          "closes the window after so many switches of scene, model and coupling, one a picture, 1 to 100000",
+          o.tour, 1, 100000),
       file("--report", "writes the summary as JSON", o.report),
       {"--help", "", "prints this", [](const std::string&) {}},
   };
@@ -116,6 +128,8 @@ const char* name(CouplingChoice coupling) {
   return "unknown";
 }
 
+const char* name(DeviceChoice device) { return device == DeviceChoice::phantom ? "phantom" : "virtual"; }
+
 void settle(Options& o, double from, double to) {
   o.from = from, o.to = to;
   if (std::isnan(o.place)) o.place = (from + to) / 2;
@@ -137,8 +151,11 @@ Options parse(const std::vector<std::string>& arguments) {
     options.lock_step = true;
   }
   for (const char* shown : {"--screenshot", "--tour"})
-    for (const char* other : {"--headless", "--lock-step", "--replay"})
+    for (const char* other : {"--headless", "--replay"})
       cli::exclude(given, shown, other, "which shows no window");
+  if (options.device == DeviceChoice::phantom)
+    for (const char* simulated : {"--lock-step", "--replay", "--screenshot"})
+      cli::exclude(given, simulated, "--device", "of which a real one has no simulated time");
   for (const char* figure : {"--stiffness", "--damping"})
     if (options.coupling == CouplingChoice::direct && cli::contains(given, figure))
       throw cli::UsageError(std::string(figure) +

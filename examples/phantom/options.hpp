@@ -12,6 +12,8 @@ namespace phantom {
 enum class ElementChoice { linear, full, reduced, assumed_strain, corotational };
 enum class Script { slide, press, tap };
 enum class CouplingChoice { direct, virtual_coupling };
+enum class ModelChoice { finite_elements, pod, galerkin };
+enum class DeviceChoice { simulated, phantom };
 
 /// Everything in SI.
 struct Options {
@@ -19,8 +21,11 @@ struct Options {
   cli::BeamOptions beam;
   ElementChoice element = ElementChoice::assumed_strain;
   int elements = 16;
-  std::string model;     ///< file of a trained model, or empty: finite elements
+  ModelChoice model_choice = ModelChoice::finite_elements;
+  std::string model;     ///< file of a trained model, whose beam it is, or empty
   bool guarded = false;  ///< finite elements where the trained model ends
+
+  DeviceChoice device = DeviceChoice::simulated;
 
   Script script = Script::slide;
   double place;           ///< [m] from the left end
@@ -39,6 +44,7 @@ struct Options {
   std::string record;      ///< file for each tick, or empty
   std::string replay;      ///< file whose hand is repeated, or empty
   std::string screenshot;  ///< file, or empty
+  double zoom = 1;         ///< of the window and its text
   double at = 3;           ///< [s] when the screenshot is taken
   int tour = 0;            ///< switches of scene and model, one a picture, after which the window closes
 };
@@ -47,6 +53,7 @@ struct Options {
 const char* name(ElementChoice element);
 const char* name(Script script);
 const char* name(CouplingChoice coupling);
+const char* name(DeviceChoice device);
 
 /// Lets the hand slide between two positions of the beam and, unless told otherwise, press midway.
 /// @throws cli::UsageError where it was told to press beside the beam

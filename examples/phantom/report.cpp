@@ -37,6 +37,13 @@ void print_trained(const Options& o, const Trained& t) {
 
 }  // namespace
 
+Run Run::of(Session& session, bool interrupted) {
+  const Body& body = session.body();
+  return {body.options(),           body.trained(), session.device().info(),
+          session.picture().record, body.times(),   session.device().counts(),
+          body.full_answers(),      interrupted};
+}
+
 void print_scene(const Options& o, const Trained* trained, const hapbeam::DeviceInfo& device) {
   std::printf("device   %s, %.0f Hz, %s\n", device.name.c_str(), 1 / device.period,
               o.lock_step ? "lock step with simulated time" : "real time");

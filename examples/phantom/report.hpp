@@ -5,6 +5,7 @@
 #include <string>
 
 #include "options.hpp"
+#include "session.hpp"
 #include "trained.hpp"
 #include <hapbeam/haptics/device.hpp>
 #include <hapbeam/haptics/servo_record.hpp>
@@ -14,6 +15,9 @@ namespace phantom {
 
 /// What was run, and how it went.
 struct Run {
+  /// @param session  one that has stopped; kept by reference
+  static Run of(Session& session, bool interrupted);
+
   const Options& options;
   const Trained* trained;  ///< or null: finite elements alone
   const hapbeam::DeviceInfo& device;

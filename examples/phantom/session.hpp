@@ -1,18 +1,16 @@
-// One model, one coupling and one simulated Phantom, put together by name and driven without knowing which.
+// A device, and the body that is touched through it and can be changed while it runs.
 //
-// What is virtual here is called sixty times a second; a tick calls nothing virtual.
+// The device's thread calls the relay; everything here is for one other thread.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 
+#include "body.hpp"
+#include "device.hpp"
 #include "hand.hpp"
 #include "options.hpp"
+#include "relay.hpp"
 #include "tape.hpp"
-#include "trained.hpp"
-#include <hapbeam/centreline.hpp>
-#include <hapbeam/haptics/device.hpp>
-#include <hapbeam/haptics/tick_times.hpp>
 
 namespace phantom {
 
@@ -24,20 +22,34 @@ class Session {
     hapbeam::Centreline<double> shape;
   };
 
-  virtual ~Session() = default;
-  virtual void start() = 0;          ///< in real time, on a thread of its own, from the beginning
-  virtual void stop() noexcept = 0;  ///< returns when the last tick has
-  virtual void run(double duration) noexcept = 0;  ///< [s] in lock step; goes on from where it was
-  virtual Picture picture() noexcept = 0;          ///< wait-free, from one thread
-  virtual const hapbeam::TickTimes& times() const noexcept = 0;
-  virtual const hapbeam::DeviceInfo& device() const noexcept = 0;
-  virtual hapbeam::DeviceCounts counts() const noexcept = 0;
-  virtual std::uint64_t full_answers() const noexcept = 0;  ///< of the full model of a guarded one
-  virtual const Options& options() const noexcept = 0;      ///< the coupling's figures filled in
-};
+  /// @param trained  as for make_body   @param hand, tape  kept by reference
+  /// @throws as connect and make_body
+  Session(const Options& options, std::shared_ptr<const Trained> trained, Hand& hand, Tape& tape);
+  ~Session() { stop(); }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
 
-/// @param trained  or null: finite elements   @param hand, tape  kept by reference
-/// @throws cli::UsageError or std::invalid_argument where the options do not go together
-std::unique_ptr<Session> make_session(const Options& options, const Trained* trained, Hand& hand, Tape& tape);
+  void start() { device_->start(relay_); }  ///< in real time, on the device's thread
+  void stop() noexcept { device_->stop(); }
+  void run(double duration) noexcept { device_->run(relay_, duration); }  ///< [s] in lock step; goes on
+
+  /// Another body: within 0.4 s, or after that where a change is on its way; then the last that was asked for.
+  /// @param from [m] device axes: beside it   @throws as make_body; then all stays as it is
+  void change(const Options& options, std::shared_ptr<const Trained> trained, const Eigen::Vector3d& from);
+  /// Once a picture: begins the change that waits and drops what is touched no longer.
+  void update();
+
+  Body& body() noexcept;                                      ///< that is felt
+  int changes() noexcept { return relay_.newest().changes; }  ///< until it was
+  Picture picture() noexcept { return {relay_.newest().record, body().shape()}; }
+  const Device& device() const noexcept { return *device_; }
+
+ private:
+  std::unique_ptr<Device> device_;
+  std::unique_ptr<Body> body_, next_, waiting_;
+  Eigen::Vector3d waiting_from_{0, 0, 0};
+  int begun_ = 0;  // changes
+  Relay relay_;
+};
 
 }  // namespace phantom

@@ -17,6 +17,7 @@ struct Tick {
   hapbeam::ServoRecord record;
   hapbeam::HandTarget hand;  ///< where the hand wanted to be
   double duration;           ///< [s] that the servo took
+  int changes;               ///< of the body, before it
 };
 
 class Tape {

@@ -10,28 +10,42 @@
 
 namespace phantom {
 
+using hapbeam::GalerkinModel, hapbeam::PodModel;
+
+Trained::Trained(const PodModel<>& pod)
+    : model(pod),
+      kind("pod"),
+      beam(pod.data().beam),
+      s_min(pod.data().s_min),
+      s_max(pod.data().s_max),
+      depth(pod.data().depth),
+      positions(pod.data().positions),
+      columns(pod.data().depths),
+      modes(pod.data().shape.modes),
+      loaded(!pod.data().symmetric),
+      errors(pod.data().errors) {}
+
+Trained::Trained(const GalerkinModel<>& galerkin)
+    : model(galerkin),
+      kind("galerkin"),
+      beam(galerkin.data().beam),
+      s_min(galerkin.data().s_min),
+      s_max(galerkin.data().s_max),
+      depth(galerkin.data().depth),
+      positions(galerkin.data().positions),
+      columns(galerkin.data().tensions),
+      modes(galerkin.data().shape.modes),
+      loaded(false),
+      errors(galerkin.data().errors) {}
+
 #ifdef HAPBEAM_EXAMPLES_MODEL_FILE
 
 namespace {
 
-using hapbeam::GalerkinModel, hapbeam::PodModel;
-
-int columns(const PodModel<>::Data& data) { return data.depths; }
-int columns(const GalerkinModel<>::Data& data) { return data.tensions; }
-bool loaded(const PodModel<>::Data& data) { return !data.symmetric; }
-bool loaded(const GalerkinModel<>::Data&) { return false; }
-
-template <typename Model>
-Trained trained(const char* kind, Model model) {
-  const auto& d = model.data();
-  return {model,       kind,       d.beam,        d.s_min,   d.s_max, d.depth,
-          d.positions, columns(d), d.shape.modes, loaded(d), d.errors};
-}
-
 Trained read(const std::string& path) {
   const hapbeam::ModelFileInfo info = hapbeam::describe_model_file(path);
-  if (info.kind == "galerkin") return trained("galerkin", hapbeam::load_model<GalerkinModel<>>(path));
-  return trained("pod", hapbeam::load_model<PodModel<>>(path));
+  if (info.kind == "galerkin") return Trained(hapbeam::load_model<GalerkinModel<>>(path));
+  return Trained(hapbeam::load_model<PodModel<>>(path));
 }
 
 }  // namespace
@@ -41,6 +55,8 @@ Trained load(Options& options) {
   if (options.guarded && trained.loaded)
     throw cli::UsageError("--guarded: must not stand beside " + options.model +
                           ", trained under dead loads that the file does not say");
+  const bool pod = std::holds_alternative<PodModel<>>(trained.model);
+  options.model_choice = pod ? ModelChoice::pod : ModelChoice::galerkin;
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   cli::BeamOptions& beam = options.beam;
   beam.name = options.model;

@@ -1,4 +1,4 @@
-// A trained model from its file, whichever kind it is, and what the user should know of it.
+// A trained model, whichever kind it is, and what the user should know of it.
 #pragma once
 
 #include <string>
@@ -11,13 +11,16 @@
 namespace phantom {
 
 struct Trained {
+  explicit Trained(const hapbeam::PodModel<>& pod);
+  explicit Trained(const hapbeam::GalerkinModel<>& galerkin);
+
   std::variant<hapbeam::PodModel<>, hapbeam::GalerkinModel<>> model;
   const char* kind;                ///< pod | galerkin
   hapbeam::BeamData<double> beam;  ///< in SI
   double s_min, s_max, depth;      ///< [m] the trained range
   int positions, columns;          ///< of the grid: columns are depths or tensions
   int modes;                       ///< of the shape
-  bool loaded;                     ///< trained under dead loads, which the file does not keep
+  bool loaded;                     ///< trained under dead loads, which the model does not keep
   hapbeam::ErrorReport errors;     ///< stated when it was trained
 
   /// The same beam for a full model.

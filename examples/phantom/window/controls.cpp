@@ -30,32 +30,30 @@ bool begin_choice(const char* title, const char* id, const char* chosen) {
   return ImGui::BeginCombo(id, chosen);
 }
 
-void choose_scene(const Running& running, Wish& wish) {
-  const std::string now = running.options().scene.empty() ? "your own" : running.options().scene;
-  if (!begin_choice("scene", "##scene", now.c_str())) return;
+/// As high as the choice of elements, which it takes the place of.
+void trained_range(const Trained& trained) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::Text("%d modes, to %.3g mm, error %.0e", trained.modes, trained.depth * 1e3,
+              trained.errors.all.force_max);
+}
+
+void choose_scene(Running& running, const Options* file, Wish& wish) {
+  const Options& felt = running.options();
+  const char* own = felt.model.empty() ? "your own" : felt.model.c_str();
+  if (!begin_choice("scene", "##scene", felt.scene.empty() ? own : felt.scene.c_str())) return;
+  Options& o = wish.options;
   for (const char* label : scene_labels)
-    if (ImGui::Selectable(label, now == label)) {
-      Options& o = wish.options;
+    if (ImGui::Selectable(label, felt.scene == label)) {
       set_scene(o, label);
+      o.model.clear(), o.guarded = false, o.model_choice = ModelChoice::finite_elements;
       settle(o, 0, o.beam.length);
-      wish.switches = true, wish.trained = false;
+      wish.change = true;
     }
+  if (file && ImGui::Selectable(file->model.c_str(), !felt.model.empty())) o = *file, wish.change = true;
   ImGui::EndCombo();
 }
 
-void choose_model(const Running& running, const Options* file, Wish& wish) {
-  const char* now = running.trained() ? running.trained()->kind
-                                      : element_labels[static_cast<int>(running.options().element)];
-  if (begin_choice("model", "##model", now)) {
-    for (int i = 0; i < 5 && (!running.trained() || running.options().guarded || file == nullptr); ++i)
-      if (ImGui::Selectable(element_labels[i],
-                            !running.trained() && running.options().element == elements[i]))
-        wish.options.element = elements[i], wish.switches = true, wish.trained = false;
-    if (file && ImGui::Selectable("trained (--model)", running.trained() != nullptr))
-      wish.options = *file, wish.switches = wish.trained = true;
-    ImGui::EndCombo();
-  }
-  if (running.trained()) return;
+void choose_elements(const Options& felt, Wish& wish) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("elements");
   ImGui::SameLine(5.2f * ImGui::GetFontSize());
@@ -63,24 +61,64 @@ void choose_model(const Running& running, const Options* file, Wish& wish) {
   for (const int count : counts) {
     char label[8];
     std::snprintf(label, sizeof label, "%d", count);
-    if (ImGui::RadioButton(label, running.options().elements == count))
-      wish.options.elements = count, wish.switches = true;
+    if (ImGui::RadioButton(label, felt.elements == count)) wish.options.elements = count, wish.change = true;
     if (count != 64) ImGui::SameLine(0, 0.35f * ImGui::GetFontSize());
   }
 }
 
-void choose_coupling(const Running& running, Wish& wish) {
-  const Options& o = running.options();
+void choose_model(Running& running, const Options* file, Wish& wish) {
+  const Options& felt = running.options();
+  const bool elements_answer = felt.model_choice == ModelChoice::finite_elements;
+  const auto label_of = [&](ModelChoice choice) {
+    if (!felt.model.empty()) return choice == ModelChoice::pod ? "POD, of the file" : "Galerkin, of the file";
+    return choice == ModelChoice::pod ? "POD, trained here" : "Galerkin, trained here";
+  };
+  const char* now =
+      elements_answer ? element_labels[static_cast<int>(felt.element)] : label_of(felt.model_choice);
+  if (begin_choice("model", "##model", now)) {
+    for (int i = 0; i < 5; ++i)
+      if (ImGui::Selectable(element_labels[i], elements_answer && felt.element == elements[i])) {
+        wish.options.element = elements[i], wish.options.model_choice = ModelChoice::finite_elements;
+        wish.options.guarded = false;
+        wish.change = true;
+      }
+    for (const ModelChoice choice : {ModelChoice::pod, ModelChoice::galerkin}) {
+      // A file holds one model, and not the beam's section, which training another would take.
+      if (!felt.model.empty() && file->model_choice != choice) continue;
+      if (ImGui::Selectable(label_of(choice), felt.model_choice == choice)) {
+        if (!felt.model.empty()) wish.options.guarded = file->guarded;
+        wish.options.model_choice = choice, wish.change = true;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  if (elements_answer) choose_elements(felt, wish);
+  else trained_range(*running.session().body().trained());
+}
+
+void choose_coupling(Running& running, Wish& wish) {
+  const Options& felt = running.options();
+  const bool direct = felt.coupling == CouplingChoice::direct;
   char now[60];
-  if (o.coupling == CouplingChoice::direct) std::snprintf(now, sizeof now, "direct");
-  else std::snprintf(now, sizeof now, "virtual, %.3g N/mm", o.stiffness / 1e3);
+  if (direct) std::snprintf(now, sizeof now, "direct");
+  else std::snprintf(now, sizeof now, "virtual, %.3g N/mm", felt.stiffness / 1e3);
   if (!begin_choice("coupling", "##coupling", now)) return;
-  if (ImGui::Selectable("virtual: what the device can render", o.coupling != CouplingChoice::direct)) {
-    wish.options.coupling = CouplingChoice::virtual_coupling, wish.switches = true;
+  if (ImGui::Selectable("virtual: what the device can render", !direct)) {
+    wish.options.coupling = CouplingChoice::virtual_coupling, wish.change = true;
     wish.options.stiffness = wish.options.damping = std::numeric_limits<double>::quiet_NaN();
   }
-  if (ImGui::Selectable("direct: the hand presses the beam itself", o.coupling == CouplingChoice::direct))
-    wish.options.coupling = CouplingChoice::direct, wish.switches = true;
+  if (ImGui::Selectable("direct: the hand presses the beam itself", direct))
+    wish.options.coupling = CouplingChoice::direct, wish.change = true;
+  ImGui::EndCombo();
+}
+
+void choose_device(Running& running, Wish& wish) {
+  const bool simulated = running.session().device().simulated();
+  if (!begin_choice("device", "##device", simulated ? "virtual Phantom" : "Phantom")) return;
+  if (ImGui::Selectable("virtual Phantom, led by the mouse", simulated))
+    wish.options.device = DeviceChoice::simulated, wish.change = true;
+  if (ImGui::Selectable("Phantom, its arm in its reset position now", !simulated))
+    wish.options.device = DeviceChoice::phantom, wish.change = true;
   ImGui::EndCombo();
 }
 
@@ -97,7 +135,7 @@ void choose_exaggeration(SceneDrawing& drawing) {
 
 void show_state(Running& running) {
   const hapbeam::ServoRecord& r = running.session().picture().record;
-  const hapbeam::TickTimes& times = running.session().times();
+  const hapbeam::TickTimes& times = running.session().body().times();
   ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
   ImGui::Text("%.2f N", r.force.norm());
   ImGui::PopFont();
@@ -112,7 +150,7 @@ void show_state(Running& running) {
   ImGui::Text("force cut: %llu ticks   motors: %.0f %%", static_cast<unsigned long long>(r.saturated_ticks),
               100 * r.heat);
   ImGui::Text("tick p99: %.1f us   missed: %llu", times.compute().quantile(0.99) * 1e6,
-              static_cast<unsigned long long>(running.session().counts().missed_ticks));
+              static_cast<unsigned long long>(running.session().device().counts().missed_ticks));
   ImGui::PopTextWrapPos();
 }
 
@@ -135,15 +173,16 @@ const char* in_words(const hapbeam::ServoRecord& r) {
 }
 
 Wish draw_controls(Running& running, const Options* file, const std::string& note) {
-  Wish wish{false, running.options(), running.trained() != nullptr};
+  Wish wish{false, running.asked(), false};
   show_state(running);
   ImGui::Separator();
-  choose_scene(running, wish);
+  choose_scene(running, file, wish);
   choose_model(running, file, wish);
   choose_coupling(running, wish);
+  choose_device(running, wish);
   choose_exaggeration(running.drawing());
   ImGui::Spacing();
-  if (ImGui::Button("play the script", {-1, 0})) wish.switches = true;
+  if (ImGui::Button("play the script", {-1, 0})) wish.play = true;
   caption(running.pulled()
               ? "Press the mouse in the drawing and pull; arrow keys move the hand, space lifts it."
               : "A script leads the hand. Press the mouse in the drawing, and pull: the hand is yours.");

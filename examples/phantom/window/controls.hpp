@@ -11,9 +11,9 @@ namespace phantom {
 
 /// What the user asked for in this picture.
 struct Wish {
-  bool switches = false;  ///< to another session, of these options
+  bool change = false;  ///< to a body of these options
   Options options;
-  bool trained = false;  ///< the trained model instead of finite elements
+  bool play = false;  ///< the script
 };
 
 /// @param file  the options of the trained model that the program was started with, or null

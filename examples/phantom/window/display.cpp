@@ -48,7 +48,7 @@ void load_font(float scale) {
 
 }  // namespace
 
-std::unique_ptr<Display> Display::open(std::string& why) {
+std::unique_ptr<Display> Display::open(double zoom, std::string& why) {
   if (!glfwInit()) {
     why = last_error();
     return nullptr;
@@ -58,14 +58,15 @@ std::unique_ptr<Display> Display::open(std::string& why) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  if (GLFWwindow* window = glfwCreateWindow(1280, 720, "hapbeam", nullptr, nullptr))
-    return std::unique_ptr<Display>(new Display(window));
+  const int width = static_cast<int>(1280 * zoom), height = static_cast<int>(720 * zoom);
+  if (GLFWwindow* window = glfwCreateWindow(width, height, "hapbeam", nullptr, nullptr))
+    return std::unique_ptr<Display>(new Display(window, static_cast<float>(zoom)));
   why = last_error();
   glfwTerminate();
   return nullptr;
 }
 
-Display::Display(GLFWwindow* window) : window_(window) {
+Display::Display(GLFWwindow* window, float zoom) : window_(window) {
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   glfwSetWindowSizeLimits(window_, 800, 500, GLFW_DONT_CARE, GLFW_DONT_CARE);
@@ -74,6 +75,7 @@ Display::Display(GLFWwindow* window) : window_(window) {
   ImGui::StyleColorsLight();
   float scale = 1, unused = 1;
   glfwGetWindowContentScale(window_, &scale, &unused);
+  scale *= zoom;
   ImGui::GetStyle().ScaleAllSizes(scale);
   load_font(scale);
   ImGui_ImplGlfw_InitForOpenGL(window_, true);

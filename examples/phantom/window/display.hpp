@@ -10,8 +10,9 @@ namespace phantom {
 
 class Display {
  public:
+  /// @param zoom  of window and text, beside what the system asks for
   /// @param why  out: where it is null, one line that says what is missing
-  static std::unique_ptr<Display> open(std::string& why);
+  static std::unique_ptr<Display> open(double zoom, std::string& why);
   ~Display();
   Display(const Display&) = delete;
   Display& operator=(const Display&) = delete;
@@ -23,7 +24,7 @@ class Display {
   bool pressed(int key) const;  ///< GLFW's number
 
  private:
-  explicit Display(GLFWwindow* window);
+  Display(GLFWwindow* window, float zoom);
   bool write_png(const std::string& path) const;
 
   GLFWwindow* window_;

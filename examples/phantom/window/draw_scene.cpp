@@ -136,8 +136,13 @@ void SceneDrawing::draw_workspace(ImDrawList& list, float unit) const {
   if (a.x > view_.low.x) label(list, {x, y + 0.3f * unit}, colour::blue, "device's reach");
 }
 
-void SceneDrawing::draw_beam(ImDrawList& list) {
-  const double half = std::max(options_.beam.height / 2, 1.6 / view_.pixels);
+double SceneDrawing::drawn_half(float unit) const {
+  return std::max(options_.beam.height / 2, 0.17 * static_cast<double>(unit) / view_.pixels);
+}
+
+void SceneDrawing::draw_beam(ImDrawList& list, float unit) {
+  const double half = drawn_half(unit);
+  const float thin = unit / 12;
   std::vector<ImVec2> upper, lower;
   for (const Sample& p : samples_) {
     const double x = p.rest_x + view_.exaggeration * (p.x - p.rest_x);
@@ -167,10 +172,10 @@ void SceneDrawing::draw_beam(ImDrawList& list) {
     list.AddConvexPolyFilled(quad, 4, colour::viridis(strain[i] / largest_strain_));
     list.Flags = flags;
   }
-  list.AddPolyline(upper.data(), static_cast<int>(n), colour::ink, ImDrawFlags_None, 1.2f);
-  list.AddPolyline(lower.data(), static_cast<int>(n), colour::ink, ImDrawFlags_None, 1.2f);
-  list.AddLine(upper[0], lower[0], colour::ink, 1.2f);
-  list.AddLine(upper[n - 1], lower[n - 1], colour::ink, 1.2f);
+  list.AddPolyline(upper.data(), static_cast<int>(n), colour::ink, ImDrawFlags_None, thin);
+  list.AddPolyline(lower.data(), static_cast<int>(n), colour::ink, ImDrawFlags_None, thin);
+  list.AddLine(upper[0], lower[0], colour::ink, thin);
+  list.AddLine(upper[n - 1], lower[n - 1], colour::ink, thin);
 }
 
 void SceneDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, const Point& target,
@@ -179,13 +184,13 @@ void SceneDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, co
   const ImVec2 wanted = view_(across_.drawn(placement_.beam_position({target.x(), target.y(), 0})));
   const float radius = std::max(static_cast<float>(options_.radius * view_.pixels), 0.25f * unit);
   spring(list, wanted, hand, colour::faint, unit);
-  list.AddLine({wanted.x - 0.5f * unit, wanted.y}, {wanted.x + 0.5f * unit, wanted.y}, colour::ink, 1.5f);
-  list.AddLine({wanted.x, wanted.y - 0.5f * unit}, {wanted.x, wanted.y + 0.5f * unit}, colour::ink, 1.5f);
+  list.AddLine({wanted.x - 0.5f * unit, wanted.y}, {wanted.x + 0.5f * unit, wanted.y}, colour::ink, unit / 9);
+  list.AddLine({wanted.x, wanted.y - 0.5f * unit}, {wanted.x, wanted.y + 0.5f * unit}, colour::ink, unit / 9);
   // The arm's tip is where the device is; the avatar is where the coupling lets it press.
-  list.AddLine(hand, avatar, colour::blue, 1.5f);
+  list.AddLine(hand, avatar, colour::blue, unit / 9);
   list.AddCircleFilled(hand, 0.2f * unit, colour::blue);
   list.AddCircleFilled(avatar, radius, colour::with_alpha(colour::orange, 200));
-  list.AddCircle(avatar, radius, colour::ink, 0, 1.5f);
+  list.AddCircle(avatar, radius, colour::ink, 0, unit / 9);
 
   const double force = r.force.norm();
   if (!(force > 0.02)) return;
@@ -207,13 +212,14 @@ void SceneDrawing::draw_legend(ImDrawList& list, float unit) const {
   // Scale bar: a fifth of the canvas, rounded.
   const double bar = rounded_up(static_cast<double>(view_.high.x - view_.low.x) / view_.pixels / 12);
   const auto pixels = static_cast<float>(bar * view_.pixels);
-  list.AddLine({left, bottom}, {left + pixels, bottom}, colour::ink, 2);
+  list.AddLine({left, bottom}, {left + pixels, bottom}, colour::ink, unit / 7);
   for (const float x : {left, left + pixels})
-    list.AddLine({x, bottom - 0.3f * unit}, {x, bottom + 0.3f * unit}, colour::ink, 2);
+    list.AddLine({x, bottom - 0.3f * unit}, {x, bottom + 0.3f * unit}, colour::ink, unit / 7);
   label(list, {left, bottom - 1.5f * unit}, colour::ink, metres(bar));
-  const std::string scale = view_.exaggeration == 1
-                                ? "displacements true to scale"
-                                : text("displacements exaggerated %g times", view_.exaggeration);
+  std::string scale = view_.exaggeration == 1
+                          ? "displacements true to scale"
+                          : text("displacements exaggerated %g times", view_.exaggeration);
+  if (drawn_half(unit) > options_.beam.height / 2) scale += ", thickness not to scale";
   label(list, {left + pixels + unit, bottom - 0.6f * unit}, colour::ink, scale);
 
   // Strain: a bar of colours with its ends.
@@ -245,12 +251,12 @@ void SceneDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
   list.AddRectFilled(low, high, colour::paper);
   draw_workspace(list, unit);
   draw_axis(list, unit);
-  const float half = static_cast<float>(options_.beam.height / 2 * view_.pixels);
+  const float half = static_cast<float>(drawn_half(unit) * view_.pixels);
   const auto end = [&](const Sample& p) {
     return view_(
         {p.rest_x + view_.exaggeration * (p.x - p.rest_x), p.rest_w + view_.exaggeration * (p.w - p.rest_w)});
   };
-  draw_beam(list);
+  draw_beam(list, unit);
   draw_support(list, options_.beam.left, end(samples_.front()), -1, half, 1.3f * unit);
   draw_support(list, options_.beam.right, end(samples_.back()), 1, half, 1.3f * unit);
   draw_hand(list, r, target, unit);

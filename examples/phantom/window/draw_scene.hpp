@@ -39,7 +39,8 @@ class SceneDrawing {
   void sample(const hapbeam::Centreline<double>& shape);
   void draw_axis(ImDrawList& list, float unit) const;
   void draw_workspace(ImDrawList& list, float unit) const;
-  void draw_beam(ImDrawList& list);
+  double drawn_half(float unit) const;  ///< [m] of the thickness, which can be seen
+  void draw_beam(ImDrawList& list, float unit);
   void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Point& target, float unit);
   void draw_legend(ImDrawList& list, float unit) const;
 

@@ -74,6 +74,10 @@ void force_against_depth(ImDrawList& list, const ImVec2& low, const ImVec2& high
           [&](std::size_t k) { return static_cast<double>(history[i + k].force_up); }, colour::vermilion, 2);
     i = end_of_touch + 1;
   }
+  if (history.size() > 0) {
+    const History::Moment& now = history[history.size() - 1];
+    plot.point(static_cast<double>(now.depth), static_cast<double>(now.force_up), colour::vermilion);
+  }
   plot.key("running", colour::vermilion);
 }
 
@@ -95,14 +99,14 @@ void tick_times(ImDrawList& list, const ImVec2& low, const ImVec2& high, const H
 }  // namespace
 
 void draw_panels(ImDrawList& list, const PanelData& data, const ImVec2& low, const ImVec2& high) {
-  constexpr float shares[] = {0.22f, 0.22f, 0.32f, 0.24f};
+  constexpr float shares[] = {0.18f, 0.18f, 0.27f, 0.19f, 0.18f};
   const float gap = 0.4f * ImGui::GetFontSize();
   float left = low.x;
-  ImVec2 from[4], to[4];
-  for (int i = 0; i < 4; ++i) {
+  ImVec2 from[5], to[5];
+  for (int i = 0; i < 5; ++i) {
     from[i] = {left, low.y};
     left += shares[i] * (high.x - low.x);
-    to[i] = {i == 3 ? high.x : left - gap, high.y};
+    to[i] = {i == 4 ? high.x : left - gap, high.y};
   }
   over_time(list, "force on the hand", from[0], to[0], data.history, &History::Moment::force, 1, "N", 1,
             colour::vermilion);
@@ -110,6 +114,8 @@ void draw_panels(ImDrawList& list, const PanelData& data, const ImVec2& low, con
             1e3, colour::blue);
   force_against_depth(list, from[2], to[2], data);
   tick_times(list, from[3], to[3], data.history);
+  over_time(list, "energy generated", from[4], to[4], data.history, &History::Moment::energy, 1e-3, "mJ", 1e3,
+            colour::purple);
 }
 
 }  // namespace phantom

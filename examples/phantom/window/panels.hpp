@@ -12,7 +12,6 @@ namespace phantom {
 struct PanelData {
   const History& history;
   const std::vector<Curve>& curves;  ///< at the place that is pressed
-  const char* running;               ///< name of the running model
   double place;                      ///< [m] of the curves
   double depth;                      ///< [m] of the curves
 };

@@ -73,23 +73,28 @@ void Plot::line(std::size_t count, const std::function<double(std::size_t)>& x,
     if (points.empty() || std::hypot(point.x - points.back().x, point.y - points.back().y) > 0.7f)
       points.push_back(point);
   }
-  list_.AddPolyline(points.data(), static_cast<int>(points.size()), colour, ImDrawFlags_None, width);
+  list_.AddPolyline(points.data(), static_cast<int>(points.size()), colour, ImDrawFlags_None,
+                    width * unit_ / 14);
 }
 
 void Plot::bar(double from, double to, double height, ImU32 colour) {
   list_.AddRectFilled({pixel_x(from), pixel_y(height)}, {pixel_x(to), high_.y}, colour);
 }
 
+void Plot::point(double x, double y, ImU32 colour) {
+  list_.AddCircleFilled({pixel_x(x), pixel_y(y)}, 0.25f * unit_, colour);
+}
+
 void Plot::upright(double x, ImU32 colour, const char* text) {
   const float at = pixel_x(x);
-  list_.AddLine({at, low_.y}, {at, high_.y}, colour, 2);
+  list_.AddLine({at, low_.y}, {at, high_.y}, colour, unit_ / 7);
   const ImVec2 size = ImGui::CalcTextSize(text);
   list_.AddText({at - size.x - 0.3f * unit_, low_.y + 0.2f * unit_}, colour, text);
 }
 
 void Plot::key(const char* text, ImU32 colour) {
   const float y = low_.y + (0.2f + 1.1f * static_cast<float>(keys_++)) * unit_, x = low_.x + 0.4f * unit_;
-  list_.AddLine({x, y + 0.5f * unit_}, {x + unit_, y + 0.5f * unit_}, colour, 2);
+  list_.AddLine({x, y + 0.5f * unit_}, {x + unit_, y + 0.5f * unit_}, colour, unit_ / 7);
   list_.AddText({x + 1.3f * unit_, y}, colour::ink, text);
 }
 

@@ -28,6 +28,7 @@ class Plot {
             const std::function<double(std::size_t)>& y, ImU32 colour, float width);
   /// From the lower edge.
   void bar(double from, double to, double height, ImU32 colour);
+  void point(double x, double y, ImU32 colour);
   void upright(double x, ImU32 colour, const char* text);
   /// In the upper left corner, one under the other; a dash of the colour before each.
   void key(const char* text, ImU32 colour);

@@ -5,22 +5,27 @@
 #include <cstdio>
 #include <exception>
 #include <imgui.h>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "../recording.hpp"
+#include "../report.hpp"
 #include "../scenes.hpp"
 #include "controls.hpp"
 #include "panels.hpp"
 #include "running.hpp"
+#include "training.hpp"
 
 namespace phantom {
 
 namespace {
 
-constexpr double picture_time = 0.05;  // [s] simulated from one picture to the next
+/// [s] simulated from one picture to the next; a tour ends each change before it begins the next.
+double picture_time(const Options& options) {
+  return options.tour > 0 ? Relay::approach + Relay::handover + 0.05 : 0.05;
+}
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
@@ -28,20 +33,19 @@ constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
 
 class Window {
  public:
-  Window(Display& display, const Options& options, const Trained* trained)
-      : display_(display), first_(options), trained_(trained) {
+  Window(Display& display, const Options& options, std::shared_ptr<const Trained> trained)
+      : display_(display), first_(options), file_(std::move(trained)) {
     if (!options.record.empty()) recording_.emplace(options.record);
-    running_ = std::make_unique<Running>(options, trained);
-    begin();
+    running_ = std::make_unique<Running>(options, file_);
+    if (!simulated()) running_->start();
   }
 
   /// @return false where the window is to be closed
   bool draw() {
     if (!display_.begin_picture()) return false;
-    if (simulated()) running_->session().run(picture_time);
-    running_->update([this](const Tick& tick) {
-      if (recording_) recording_->write(tick);
-    });
+    if (simulated()) running_->session().run(picture_time(first_));
+    take_trained();
+    update();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize(), gap = 0.5f * unit, column = 20 * unit;
     const float below = std::max(0.34f * size.y, 11 * unit);
@@ -50,17 +54,17 @@ class Window {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gap, gap});
     ImGui::Begin("phantom", nullptr, fixed);
     draw_scene({gap, gap}, {size.x - column - gap, size.y - below - gap}, unit);
-    draw_panels(
-        *ImGui::GetWindowDrawList(),
-        {running_->history(), running_->curves(), "", running_->curve_place(), running_->curve_depth()},
-        {gap, size.y - below}, {size.x - gap, size.y - gap});
+    draw_panels(*ImGui::GetWindowDrawList(),
+                {running_->history(), running_->curves(), running_->curve_place(), running_->curve_depth()},
+                {gap, size.y - below}, {size.x - gap, size.y - gap});
     ImGui::SetCursorPos({size.x - column, gap});
     ImGui::BeginChild("controls", {column - gap, size.y - below - 2 * gap});
-    const Wish wish = draw_controls(*running_, trained_ ? &first_ : nullptr, note_);
+    const Wish wish = draw_controls(*running_, first_.model.empty() ? nullptr : &first_, note());
     ImGui::EndChild();
     ImGui::End();
     ImGui::PopStyleVar();
-    if (wish.switches) switch_to(wish.options, wish.trained ? trained_ : nullptr);
+    if (wish.change) change(wish.options);
+    if (wish.play) running_->play();
     return true;
   }
 
@@ -71,25 +75,34 @@ class Window {
                                           ElementChoice::assumed_strain, ElementChoice::reduced,
                                           ElementChoice::full};
     Options options = first_;
-    set_scene(options, scenes[step % 5]);
+    // Two changes under the hand that presses, then another scene.
+    set_scene(options, scenes[step / 3 % 5]);
     settle(options, 0, options.beam.length);
-    options.element = elements[step / 5 % 5];
+    options.element = elements[step % 5];
     options.elements = 4 << step / 25 % 3;
-    options.coupling = step % 2 ? CouplingChoice::direct : CouplingChoice::virtual_coupling;
-    switch_to(options, nullptr);
-    if (step % 3 == 0) running_->pull({0.01, -0.02});
+    // What is stiffer than the device can render throws the hand about without a coupling.
+    const bool soft = options.scene == "strip" || options.scene == "string";
+    options.coupling = soft && step % 4 == 1 ? CouplingChoice::direct : CouplingChoice::virtual_coupling;
+    change(options);
+    if (step % 3 == 1) running_->pull({0.01, -0.02});
     if (step % 10 == 0) display_.resize(800 + 50 * (step / 10 % 10), 500 + 30 * (step / 10 % 7));
   }
 
-  void close() {
+  /// @return the report
+  std::string close(bool interrupted) {
     running_->session().stop();
-    running_->update([this](const Tick& tick) {
-      if (recording_) recording_->write(tick);
-    });
+    update();
     if (recording_) recording_->close();
+    return json(Run::of(running_->session(), interrupted));
   }
 
  private:
+  void update() {
+    running_->update([this](const Tick& tick) {
+      if (recording_) recording_->write(tick);
+    });
+  }
+
   void draw_scene(const ImVec2& low, const ImVec2& high, float unit) {
     ImGui::SetCursorPos(low);
     ImGui::InvisibleButton("scene", {high.x - low.x, high.y - low.y});
@@ -115,36 +128,60 @@ class Window {
     if (display_.pressed(GLFW_KEY_SPACE)) running_->lift(), led_ = false;
   }
 
-  /// The next one is built while this one runs; where it cannot be, this one goes on.
-  void switch_to(const Options& options, const Trained* trained) {
+  /// Where it cannot be, all goes on as it was and the note says why.
+  void change(const Options& options) {
     try {
-      auto next = std::make_unique<Running>(options, trained);
-      close_recording();
-      running_->session().stop();
-      running_ = std::move(next);
-      begin();
-      led_ = held_ = false;
+      note_.clear();
+      training_.reset();
+      if (options.device != running_->asked().device) change_device(options);
+      else if (options.model_choice == ModelChoice::finite_elements || !options.model.empty())
+        running_->change(options, file_);
+      else if (const auto& trained = running_->asked_trained(); known(options))
+        running_->change(options, trained);
+      else training_.emplace(options);
     } catch (const std::exception& error) {
       note_ = error.what();
     }
   }
+  /// The model that is wanted is the one there is, of the same beam.
+  bool known(const Options& options) const {
+    const Options& now = running_->asked();
+    return now.model_choice == options.model_choice && now.scene == options.scene &&
+           now.beam.name == options.beam.name;
+  }
+  void take_trained() {
+    if (!training_ || !training_->ended()) return;
+    try {
+      running_->change(training_->options(), training_->result());
+    } catch (const std::exception& error) {
+      note_ = error.what();
+    }
+    training_.reset();
+  }
+  /// The next one is connected while this one runs.
+  void change_device(const Options& options) {
+    auto next = std::make_unique<Running>(options, running_->asked_trained());
+    running_->session().stop();
+    update();
+    running_ = std::move(next);
+    running_->start();
+  }
+
+  std::string note() const {
+    if (!training_) return note_;
+    char text[60];
+    std::snprintf(text, sizeof text, "Training: %.0f %% of the presses.", 100 * training_->done());
+    return text;
+  }
   /// A screenshot shows what happens at its time, however busy the machine: then time is simulated.
-  bool simulated() const { return !first_.screenshot.empty(); }
-  void begin() {
-    if (!simulated()) running_->start();
-  }
-  void close_recording() {
-    if (!recording_) return;
-    close();
-    recording_.reset();
-    note_ = "The recording has ended with the switch.";
-  }
+  bool simulated() const { return first_.lock_step || !first_.screenshot.empty(); }
 
   Display& display_;
   const Options first_;
-  const Trained* trained_;
+  const std::shared_ptr<const Trained> file_;
   std::optional<Recording> recording_;
   std::unique_ptr<Running> running_;
+  std::optional<Training> training_;
   std::string note_;
   Point wanted_{0, 0};
   bool held_ = false;  // by the mouse
@@ -153,14 +190,14 @@ class Window {
 
 }  // namespace
 
-void run_window(Display& display, const Options& options, const Trained* trained,
-                const volatile std::sig_atomic_t& interrupted) {
-  Window window(display, options, trained);
+std::string run_window(Display& display, const Options& options, std::shared_ptr<const Trained> trained,
+                       const volatile std::sig_atomic_t& interrupted) {
+  Window window(display, options, std::move(trained));
   const auto begin = std::chrono::steady_clock::now();
   bool pictured = false;
   for (int pictures = 0; !interrupted; ++pictures) {
     std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-    if (!options.screenshot.empty()) passed = std::chrono::duration<double>(picture_time * pictures);
+    if (!options.screenshot.empty()) passed = std::chrono::duration<double>(picture_time(options) * pictures);
     if (options.timed && passed.count() >= options.duration) break;
     if (options.tour > 0 && pictures >= options.tour) break;
     if (options.tour > 0) window.tour(pictures);
@@ -171,7 +208,7 @@ void run_window(Display& display, const Options& options, const Trained* trained
     pictured = pictured || now;
     if (now && !options.timed) break;
   }
-  window.close();
+  return window.close(interrupted != 0);
 }
 
 }  // namespace phantom

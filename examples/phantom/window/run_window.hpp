@@ -2,6 +2,8 @@
 #pragma once
 
 #include <csignal>
+#include <memory>
+#include <string>
 
 #include "../options.hpp"
 #include "../trained.hpp"
@@ -10,9 +12,9 @@
 namespace phantom {
 
 /// Runs until the window is closed, or the duration, screenshot or tour that was asked for is done.
-/// @param trained  or null   @param interrupted  nonzero: close
+/// @param trained  of options.model, or null   @param interrupted  nonzero: close   @return the report
 /// @throws std::runtime_error where a file cannot be written
-void run_window(Display& display, const Options& options, const Trained* trained,
-                const volatile std::sig_atomic_t& interrupted);
+std::string run_window(Display& display, const Options& options, std::shared_ptr<const Trained> trained,
+                       const volatile std::sig_atomic_t& interrupted);
 
 }  // namespace phantom

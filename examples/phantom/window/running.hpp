@@ -1,5 +1,7 @@
-// One session and what is seen of it.  Switching builds the next one while this one runs; then this one stops, which
-// makes the force zero, and the next starts with the hand above the beam, where the guard lets its force in gently.
+// A session and what is seen of it: its last seconds, the drawing of its beam, other models' curves.
+//
+// What runs can be changed while it runs.  Model and coupling change under the hand, which goes on as it did; with another
+// scene the hand is led to where its script begins.
 #pragma once
 
 #include <memory>
@@ -17,28 +19,35 @@ namespace phantom {
 
 class Running {
  public:
-  /// @param trained  or null   @throws as make_session
-  Running(const Options& options, const Trained* trained);
+  /// @param trained  as for make_body   @throws as Session
+  Running(const Options& options, std::shared_ptr<const Trained> trained);
 
-  void start() { session_->start(); }
+  void start() { session_.start(); }
   /// Once a picture.  @param visit  called with each tick since the last
   template <typename Visitor>
   void update(Visitor&& visit) {
+    session_.update();
+    show_newest();
     tape_.take([&](const Tick& tick) {
-      history_.add(tick, options().beam.rest(tick.record.press.s));
+      if (tick.changes >= scene_since_) history_.add(tick, options().beam.rest(tick.record.press.s));
       target_ = tick.hand.position.head<2>();
       visit(tick);
     });
     refresh_curves();
   }
+  /// To another body, of the same device.   @throws as Session::change
+  void change(const Options& options, std::shared_ptr<const Trained> trained);
+  /// The hand plays the script of the scene.
+  void play();
   /// @param place  [m] device axes; kept within its reach
   void pull(Point place);
   /// The hand is led to a place above the beam, as it was at the start, where it stays until it is pulled.
   void lift() { pull({target_.x(), height_above}); }
 
-  Session& session() { return *session_; }
-  const Options& options() const { return session_->options(); }
-  const Trained* trained() const { return trained_; }
+  Session& session() { return session_; }
+  const Options& options() { return session_.body().options(); }
+  const Options& asked() const { return asked_; }  ///< what is felt, or will be once it has changed
+  const std::shared_ptr<const Trained>& asked_trained() const { return asked_trained_; }
   const History& history() const { return history_; }
   const std::vector<Curve>& curves() const { return curves_; }
   double curve_place() const { return curve_place_; }
@@ -50,14 +59,19 @@ class Running {
  private:
   static constexpr double height_above = 0.02;  // [m]
 
+  void show_newest();  ///< once another body is felt
+  void show_body();
   void refresh_curves();
-  double depth_to_show() const;  ///< [m]
+  double depth_to_show();                       ///< [m]
+  Eigen::Vector3d beside(const Options& next);  ///< [m] device axes: where it does not touch the next body
 
-  const Trained* trained_;
   Tape tape_;
-  std::unique_ptr<Hand> hand_;
-  std::unique_ptr<Session> session_;  // stops before what it refers to goes
-  std::optional<hapbeam::Beam> beam_;
+  Hand hand_;
+  Session session_;  // stops before what it refers to goes
+  Options asked_, drawn_;
+  std::shared_ptr<const Trained> asked_trained_;
+  int shown_ = 0;        // changes of the session
+  int scene_since_ = 0;  // changes
   std::optional<SceneDrawing> drawing_;
   History history_;
   std::vector<Curve> curves_;

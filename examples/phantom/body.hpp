@@ -1,0 +1,41 @@
+// What the hand touches: one model, one coupling and their servo, put together by name and driven without knowing which.
+//
+// A tick makes one virtual call.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "options.hpp"
+#include "trained.hpp"
+#include <hapbeam/beam.hpp>
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/haptics/device.hpp>
+#include <hapbeam/haptics/servo_record.hpp>
+#include <hapbeam/haptics/tick_times.hpp>
+
+namespace phantom {
+
+class Body {
+ public:
+  virtual ~Body() = default;
+  /// From the servo's thread.  Real-time: as hapbeam::Servo.
+  virtual Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept = 0;
+  virtual const hapbeam::ServoRecord& record() const noexcept = 0;  ///< of the last tick, the same thread's
+  virtual void reset() noexcept = 0;                                ///< while no tick runs
+  /// Of the newest tick, from one other thread: wait-free.  It stays until the next call.
+  virtual hapbeam::Centreline<double> shape() noexcept = 0;
+  virtual hapbeam::Centreline<double> rest() const noexcept = 0;  ///< before it is touched
+  virtual const hapbeam::TickTimes& times() const noexcept = 0;
+  virtual std::uint64_t full_answers() const noexcept = 0;  ///< of the full model of a guarded one
+  virtual const Options& options() const noexcept = 0;      ///< the coupling's figures filled in
+  virtual const hapbeam::Beam& beam() const noexcept = 0;
+  virtual const Trained* trained() const noexcept = 0;  ///< or null: finite elements
+};
+
+/// @param trained  the model, where options.model is not of finite elements; also the beam, where it is from a file
+/// @throws cli::UsageError or std::invalid_argument where the options do not go together
+std::unique_ptr<Body> make_body(const Options& options, std::shared_ptr<const Trained> trained,
+                                const hapbeam::DeviceInfo& device);
+
+}  // namespace phantom

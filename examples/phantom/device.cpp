@@ -1,0 +1,71 @@
+#include "device.hpp"
+
+#include <stdexcept>
+
+#include <hapbeam/haptics/virtual_phantom.hpp>
+#ifdef HAPBEAM_EXAMPLES_OPENHAPTICS
+#include <hapbeam/haptics/openhaptics.hpp>
+#endif
+
+namespace phantom {
+
+namespace {
+
+class Simulated final : public Device {
+ public:
+  explicit Simulated(Hand& hand) : device_(Guided{&hand}) {}
+  void start(Relay& servo) override { device_.start(servo); }
+  void stop() noexcept override { device_.stop(); }
+  void run(Relay& servo, double duration) noexcept override { device_.run(servo, duration); }
+  const hapbeam::DeviceInfo& info() const noexcept override { return device_.info(); }
+  hapbeam::DeviceStatus status() const noexcept override { return device_.status(); }
+  hapbeam::DeviceCounts counts() const noexcept override { return device_.counts(); }
+  bool simulated() const noexcept override { return true; }
+
+ private:
+  hapbeam::VirtualPhantom<Guided> device_;
+};
+
+#ifdef HAPBEAM_EXAMPLES_OPENHAPTICS
+
+/// The figures that HDAPI does not tell are of the Phantom Premium 1.5/6DOF High Force (docs/haptics.md).
+hapbeam::HdapiOptions premium() {
+  hapbeam::HdapiOptions options;
+  options.position_resolution = 7e-6, options.friction = 0.2, options.apparent_mass = 0.21;
+  options.damping = 5;
+  return options;
+}
+
+class Real final : public Device {
+ public:
+  Real() : device_(premium()) { device_.calibrate(); }
+  void start(Relay& servo) override { device_.start(servo); }
+  void stop() noexcept override { device_.stop(); }
+  void run(Relay&, double) noexcept override {}
+  const hapbeam::DeviceInfo& info() const noexcept override { return device_.info(); }
+  hapbeam::DeviceStatus status() const noexcept override { return device_.status(); }
+  hapbeam::DeviceCounts counts() const noexcept override { return device_.counts(); }
+  bool simulated() const noexcept override { return false; }
+
+ private:
+  hapbeam::Hdapi<hapbeam::OpenHaptics> device_;
+};
+
+std::unique_ptr<Device> connect_real() { return std::make_unique<Real>(); }
+
+#else
+
+std::unique_ptr<Device> connect_real() {
+  throw std::runtime_error(
+      "a Phantom: this program was built without OpenHaptics, its driver's developer kit");
+}
+
+#endif
+
+}  // namespace
+
+std::unique_ptr<Device> connect(DeviceChoice choice, Hand& hand) {
+  return choice == DeviceChoice::phantom ? connect_real() : std::make_unique<Simulated>(hand);
+}
+
+}  // namespace phantom
