@@ -32,8 +32,8 @@ run_tests() {
   return "${PIPESTATUS[0]}"
 }
 
-# A display for the window of the example, drawn by software; without, its tests are left out.
-need xvfb xauth libgl1-mesa-dri
+# A display for the window of the example, drawn by software, and a mouse in it; without, those tests are left out.
+need xvfb xauth libgl1-mesa-dri xdotool
 
 build "$preset" hapbeam_tests hapbeam_examples || { echo '0 passed, 1 failed'; exit 1; }
 step "test" run_tests

@@ -1,14 +1,35 @@
 #!/usr/bin/env bash
-# Draws docs/images/scene_*.png from the program itself, on a display that nobody sees (Debian; as root or with sudo).
+# Draws docs/images/scene_*.png and arch.gif from the program itself, on a display that nobody sees, and the small pictures
+# that tests compare the window with (Debian; as root or with sudo).  Look at them before they are kept.
 set -u
 source "$(dirname "${BASH_SOURCE[0]}")/../../cmake/steps.sh"
 
-need xvfb xauth libgl1-mesa-dri fonts-dejavu-core libglfw3-dev libimgui-dev libgl-dev
-build release phantom || exit 1
+need xvfb xauth libgl1-mesa-dri fonts-dejavu-core libglfw3-dev libimgui-dev libgl-dev imagemagick
+build release phantom compare_pictures || exit 1
+images=$top/docs/images
 
-# picture SCENE SECONDS: when there is most to see.
-picture() {
-  step "scene_$1.png" env LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1 xvfb-run -a -s '-screen 0 1280x720x24' \
-    "$top/build/release/examples/phantom" --scene "$1" --screenshot "$top/docs/images/scene_$1.png" --at "$2"
+# draw SCENE FILE OPTION...
+draw() {
+  LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1 xvfb-run -a -s '-screen 0 1280x720x24' \
+    "$top/build/release/examples/phantom" --scene "$1" --screenshot "$2" "${@:3}"
 }
-picture thesis 3.5 && picture ruler 1.5 && picture strip 3.5 && picture string 4.5 && picture arch 1.75
+# picture SCENE SECONDS: when there is most to see; tests/examples/window.cmake names the same times.
+picture() {
+  step "scene_$1.png" draw "$1" "$images/scene_$1.png" --at "$2" &&
+    "$top/build/release/tests/examples/compare_pictures" reduce "$images/scene_$1.png" "$top/tests/examples/pictures/$1.png"
+}
+# The arch snaps through: 1.9 s at their own pace, then the last picture for one and a half.
+animation() {
+  local frames
+  frames=$(mktemp -d)
+  draw arch "$frames/frame.png" --at 0.7 --frames 38 &&
+    convert -loop 0 -delay 5 "$frames"/frame_0[0-2]*.png "$frames"/frame_03[0-6].png -delay 150 "$frames/frame_037.png" \
+      -resize 768x -dither None -colors 96 -layers Optimize "$images/arch.gif"
+  local status=$?
+  rm -r "$frames"
+  return "$status"
+}
+
+mkdir -p "$top/tests/examples/pictures"
+picture thesis 3.5 && picture ruler 1.5 && picture strip 3.5 && picture string 4.5 && picture arch 1.75 &&
+  step arch.gif animation

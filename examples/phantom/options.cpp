@@ -76,6 +76,10 @@ cli::Entries entries(Options& o) {
       figure("--zoom", "X", "size of the window and of its text, 1 to 4; 1 by default, 1280 x 720 pixels",
              o.zoom, 1, 4, ""),
       figure("--at", "S", "when the screenshot is taken [s]; 3 by default", o.at, 0, 86400, "s"),
+      count("--frames",
+            "so many screenshots, 0.05 s apart, 1 to 1000; FILE.png becomes FILE_000.png, FILE_001.png and "
+            "so on",
+            o.frames, 1, 1000),
       count(
           "--tour",
           "closes the window after so many switches of scene, model and coupling, one a picture, 1 to 100000",

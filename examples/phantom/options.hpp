@@ -46,6 +46,7 @@ struct Options {
   std::string screenshot;  ///< file, or empty
   double zoom = 1;         ///< of the window and its text
   double at = 3;           ///< [s] when the screenshot is taken
+  int frames = 1;          ///< so many, one a picture; more than one are numbered
   int tour = 0;            ///< switches of scene and model, one a picture, after which the window closes
 };
 

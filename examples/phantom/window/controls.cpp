@@ -124,7 +124,8 @@ void choose_device(Running& running, Wish& wish) {
 
 void choose_exaggeration(SceneDrawing& drawing) {
   char now[40];
-  std::snprintf(now, sizeof now, "%g times", drawing.exaggeration);
+  std::snprintf(now, sizeof now, drawing.exaggeration == 1 ? "true to scale" : "%g times",
+                drawing.exaggeration);
   if (!begin_choice("drawn", "##exaggeration", now)) return;
   for (const double x : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
     std::snprintf(now, sizeof now, x == 1 ? "true to scale" : "displacements %g times", x);

@@ -70,6 +70,8 @@ Display::Display(GLFWwindow* window, float zoom) : window_(window) {
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   glfwSetWindowSizeLimits(window_, 800, 500, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  // A key that was pressed and let go between two pictures counts, too.
+  glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE);
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::StyleColorsLight();
@@ -99,7 +101,7 @@ bool Display::begin_picture() {
   return true;
 }
 
-bool Display::end_picture(const std::string& screenshot) {
+bool Display::end_picture(bool at_once, const std::string& screenshot) {
   // Where the display does not wait for its next picture, as a virtual one, this does.
   static auto last = std::chrono::steady_clock::now();
   ImGui::Render();
@@ -111,7 +113,7 @@ bool Display::end_picture(const std::string& screenshot) {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   const bool written = screenshot.empty() || write_png(screenshot);
   glfwSwapBuffers(window_);
-  std::this_thread::sleep_until(last + std::chrono::milliseconds(16));
+  if (!at_once) std::this_thread::sleep_until(last + std::chrono::milliseconds(16));
   last = std::chrono::steady_clock::now();
   return written;
 }

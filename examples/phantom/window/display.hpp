@@ -18,8 +18,9 @@ class Display {
   Display& operator=(const Display&) = delete;
 
   bool begin_picture();  ///< false where the window is to be closed
+  /// @param at_once     without waiting for the time of the next picture
   /// @param screenshot  file to write the picture to, or empty   @return whether that could be done
-  bool end_picture(const std::string& screenshot);
+  bool end_picture(bool at_once, const std::string& screenshot);
   void resize(int width, int height);
   bool pressed(int key) const;  ///< GLFW's number
 

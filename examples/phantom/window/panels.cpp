@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "colours.hpp"
 #include "plot.hpp"
@@ -48,12 +49,12 @@ void force_against_depth(ImDrawList& list, const ImVec2& low, const ImVec2& high
     most = std::max(most, static_cast<double>(history[i].force_up));
     least = std::min(least, static_cast<double>(history[i].force_up));
   }
-  // The curves that grow fastest leave the diagram; the flattest says how high it is.
-  double flattest = 1e9;
+  // A curve that grows much faster than the others leaves the diagram.
+  std::vector<double> peaks;
   for (const Curve& curve : data.curves)
-    flattest =
-        std::min(flattest, static_cast<double>(*std::max_element(curve.force.begin(), curve.force.end())));
-  if (!data.curves.empty()) most = std::max(most, std::min(flattest, 40.0));
+    peaks.push_back(static_cast<double>(*std::max_element(curve.force.begin(), curve.force.end())));
+  std::sort(peaks.begin(), peaks.end());
+  if (!peaks.empty()) most = std::max(most, std::min(peaks[peaks.size() / 2], 40.0));
   const double end = rounded_end(1.1 * most);
   Plot plot(list, title, low, high, {0, data.depth, "mm", 1e3}, {least < -0.05 * end ? -end : 0, end, "N"});
   constexpr ImU32 colours[] = {colour::orange, colour::blue, colour::green};

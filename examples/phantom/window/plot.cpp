@@ -19,7 +19,7 @@ double rounded_end(double x) {
 Plot::Plot(ImDrawList& list, const char* title, const ImVec2& low, const ImVec2& high, const Axis& x,
            const Axis& y)
     : list_(list), x_(x), y_(y), unit_(ImGui::GetFontSize()) {
-  low_ = {low.x + 3.5f * unit_, low.y + 1.5f * unit_};
+  low_ = {low.x + 4 * unit_, low.y + 1.5f * unit_};
   high_ = {high.x - 0.9f * unit_, high.y - 1.6f * unit_};
   list_.AddRectFilled(low, high, colour::paper, 4);
   list_.AddText({low.x + 0.5f * unit_, low.y + 0.15f * unit_}, colour::ink, title);
@@ -94,6 +94,8 @@ void Plot::upright(double x, ImU32 colour, const char* text) {
 
 void Plot::key(const char* text, ImU32 colour) {
   const float y = low_.y + (0.2f + 1.1f * static_cast<float>(keys_++)) * unit_, x = low_.x + 0.4f * unit_;
+  list_.AddRectFilled({x, y}, {x + 1.3f * unit_ + ImGui::CalcTextSize(text).x, y + 1.1f * unit_},
+                      colour::with_alpha(IM_COL32_WHITE, 215));
   list_.AddLine({x, y + 0.5f * unit_}, {x + unit_, y + 0.5f * unit_}, colour, unit_ / 7);
   list_.AddText({x + 1.3f * unit_, y}, colour::ink, text);
 }

@@ -2,12 +2,14 @@
 
 #include <GLFW/glfw3.h>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <imgui.h>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "../recording.hpp"
@@ -25,6 +27,16 @@ namespace {
 /// [s] simulated from one picture to the next; a tour ends each change before it begins the next.
 double picture_time(const Options& options) {
   return options.tour > 0 ? Relay::approach + Relay::handover + 0.05 : 0.05;
+}
+
+/// Where the i-th screenshot goes.
+std::string frame(const Options& options, int i) {
+  if (options.frames == 1) return options.screenshot;
+  char number[16];
+  std::snprintf(number, sizeof number, "_%03d", i);
+  std::string file = options.screenshot;
+  const std::size_t dot = file.rfind('.');
+  return file.insert(dot == std::string::npos ? file.size() : dot, number);
 }
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
@@ -95,6 +107,9 @@ class Window {
     if (recording_) recording_->close();
     return json(Run::of(running_->session(), interrupted));
   }
+
+  /// A screenshot shows what happens at its time, however busy the machine: then time is simulated.
+  bool simulated() const { return first_.lock_step || !first_.screenshot.empty(); }
 
  private:
   void update() {
@@ -173,8 +188,6 @@ class Window {
     std::snprintf(text, sizeof text, "Training: %.0f %% of the presses.", 100 * training_->done());
     return text;
   }
-  /// A screenshot shows what happens at its time, however busy the machine: then time is simulated.
-  bool simulated() const { return first_.lock_step || !first_.screenshot.empty(); }
 
   Display& display_;
   const Options first_;
@@ -194,19 +207,20 @@ std::string run_window(Display& display, const Options& options, std::shared_ptr
                        const volatile std::sig_atomic_t& interrupted) {
   Window window(display, options, std::move(trained));
   const auto begin = std::chrono::steady_clock::now();
-  bool pictured = false;
+  int taken = 0;
   for (int pictures = 0; !interrupted; ++pictures) {
     std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-    if (!options.screenshot.empty()) passed = std::chrono::duration<double>(picture_time(options) * pictures);
+    if (window.simulated()) passed = std::chrono::duration<double>(picture_time(options) * pictures);
     if (options.timed && passed.count() >= options.duration) break;
     if (options.tour > 0 && pictures >= options.tour) break;
     if (options.tour > 0) window.tour(pictures);
     if (!window.draw()) break;
-    const bool now = !pictured && !options.screenshot.empty() && passed.count() >= options.at;
-    if (!display.end_picture(now ? options.screenshot : ""))
-      throw std::runtime_error(options.screenshot + ": the screenshot cannot be written");
-    pictured = pictured || now;
-    if (now && !options.timed) break;
+    const bool now = !options.screenshot.empty() && taken < options.frames && passed.count() >= options.at;
+    const std::string file = now ? frame(options, taken) : "";
+    if (!display.end_picture(window.simulated(), file))
+      throw std::runtime_error(file + ": the screenshot cannot be written");
+    taken += now;
+    if (now && taken == options.frames && !options.timed) break;
   }
   return window.close(interrupted != 0);
 }

@@ -1,0 +1,82 @@
+// What recordings of phantom must fulfil.
+//
+//   check_recordings slew FILE RATE [N/s]            the force never changes faster, up or down
+//   check_recordings beside FILE DISTANCE [m]       the beam is felt where the hand is so far from the line of a script that
+//                                                    presses straight down
+//   check_recordings same FILE FILE TOLERANCE [N]    the same forces at the same times, in contact at least half a second
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+struct Row {
+  double time, hand_x, x, y;  ///< [s, m, N, N]
+};
+
+std::vector<Row> read(const char* path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  std::vector<Row> rows;
+  while (std::getline(file, line)) {
+    Row row{};
+    if (std::sscanf(line.c_str(), "%lf,%lf,%*f,%*f,%*f,%*f,%*f,%lf,%lf", &row.time, &row.hand_x, &row.x,
+                    &row.y) != 4) {
+      std::fprintf(stderr, "%s: is no recording\n", path);
+      std::exit(2);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+int slew(const char* path, double rate) {
+  const std::vector<Row> rows = read(path);
+  double most = 0, at = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double change = std::hypot(rows[i].x - rows[i - 1].x, rows[i].y - rows[i - 1].y);
+    const double speed = change / (rows[i].time - rows[i - 1].time);
+    if (speed > most) most = speed, at = rows[i].time;
+  }
+  std::printf("%zu ticks, the force changes by %.6g N/s at most, at %.3f s\n", rows.size(), most, at);
+  // A force that never changed proves nothing.  Times are written to 17 digits, their differences good to 1e-10.
+  return most > 0.01 * rate && most <= rate * (1 + 1e-8) ? 0 : 1;
+}
+
+int beside(const char* path, double distance) {
+  int ticks = 0;
+  for (const Row& row : read(path)) ticks += std::abs(row.hand_x) >= distance && std::hypot(row.x, row.y) > 0;
+  std::printf("in contact beside the line in %d ticks\n", ticks);
+  return ticks > 0 ? 0 : 1;
+}
+
+int same(const char* path_a, const char* path_b, double tolerance) {
+  const std::vector<Row> a = read(path_a), b = read(path_b);
+  double most = 0, largest = 0;
+  int pressed = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    if (a[i].time != b[i].time) return std::printf("other times\n"), 1;
+    const double force = std::hypot(a[i].x, a[i].y);
+    most = std::max(most, std::hypot(a[i].x - b[i].x, a[i].y - b[i].y));
+    largest = std::max(largest, force);
+    pressed += force > 0;
+  }
+  std::printf("%zu and %zu ticks, %d of them in contact, up to %.3f N; they differ by %.3g N\n", a.size(),
+              b.size(), pressed, largest, most);
+  return a.size() == b.size() && pressed >= 500 && most <= tolerance ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 4 && std::strcmp(argv[1], "slew") == 0) return slew(argv[2], std::atof(argv[3]));
+  if (argc == 4 && std::strcmp(argv[1], "beside") == 0) return beside(argv[2], std::atof(argv[3]));
+  if (argc == 5 && std::strcmp(argv[1], "same") == 0) return same(argv[2], argv[3], std::atof(argv[4]));
+  return 2;
+}

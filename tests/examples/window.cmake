@@ -1,0 +1,75 @@
+# The window of phantom on a display that nobody sees: its pictures, its changes while it runs, a mouse in it.
+
+# Neither what the driver keeps nor its threads are ours.
+set(display ${CMAKE_COMMAND} -E env LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1
+  LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_SOURCE_DIR}/lsan.supp:print_suppressions=0
+  TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_SOURCE_DIR}/tsan.supp:print_suppressions=0
+  ${HAPBEAM_XVFB_RUN} -a -s "-screen 0 1280x720x24")
+
+# hapbeam_test_file(NAME NEEDS fixture [REFUSED] COMMAND command...): what a program says of a file that was made.
+function(hapbeam_test_file name)
+  cmake_parse_arguments(arg "REFUSED" "NEEDS" "COMMAND" ${ARGN})
+  add_test(NAME examples/${name} WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR} COMMAND ${arg_COMMAND})
+  set_tests_properties(examples/${name} PROPERTIES LABELS examples TIMEOUT 60 FIXTURES_REQUIRED "${arg_NEEDS}")
+  if(arg_REFUSED)
+    set_tests_properties(examples/${name} PROPERTIES PASS_REGULAR_EXPRESSION "^different: ")
+  endif()
+endfunction()
+
+add_executable(compare_pictures compare_pictures.cpp)
+target_link_libraries(compare_pictures PRIVATE hapbeam_checks hapbeam_window)
+add_dependencies(hapbeam_tests compare_pictures)
+
+# Each scene looks as it did when its reference was looked at (docs/images/scenes.sh), but for what depends on the machine:
+# the line and the diagram of how long a tick takes.
+set(times 0.78,0.15,1,0.185 0.627,0.655,0.822,1)
+foreach(scene_at thesis:3.5 ruler:1.5 strip:3.5 string:4.5 arch:1.75)
+  string(REPLACE ":" ";" scene_at ${scene_at})
+  list(GET scene_at 0 scene)
+  list(GET scene_at 1 at)
+  hapbeam_test_example(phantom window_${scene} STATUS 0 OUTPUT "^$" BEFORE ${display} MAKES hapbeam_picture_${scene}
+    OPTIONS --scene ${scene} --screenshot window_${scene}.png --at ${at})
+  set_tests_properties(examples/phantom_window_${scene} PROPERTIES TIMEOUT 300)
+  hapbeam_test_file(picture_${scene} NEEDS hapbeam_picture_${scene}
+    COMMAND compare_pictures same window_${scene}.png ${CMAKE_CURRENT_SOURCE_DIR}/pictures/${scene}.png ${times})
+endforeach()
+hapbeam_test_file(picture_of_another_scene NEEDS hapbeam_picture_strip REFUSED
+  COMMAND compare_pictures same window_strip.png ${CMAKE_CURRENT_SOURCE_DIR}/pictures/string.png ${times})
+hapbeam_test_example(phantom window_later STATUS 0 OUTPUT "^$" BEFORE ${display} MAKES hapbeam_picture_later
+  OPTIONS --scene arch --screenshot window_later.png --at 2)
+set_tests_properties(examples/phantom_window_later PROPERTIES TIMEOUT 300)
+hapbeam_test_file(picture_of_another_time NEEDS hapbeam_picture_later REFUSED
+  COMMAND compare_pictures same window_later.png ${CMAKE_CURRENT_SOURCE_DIR}/pictures/arch.png ${times})
+
+# A thousand changes of scene, model and coupling, a hand that presses and windows of other sizes in between: the force
+# changes by no more than the guard's 10 N a millisecond.  Under sanitizers a hundred.
+set(changes 1000)
+if(HAPBEAM_SANITIZE)
+  set(changes 100)
+endif()
+hapbeam_test_example(phantom window_changes STATUS 0 OUTPUT "^$" BEFORE ${display} MAKES hapbeam_tour
+  OPTIONS --tour ${changes} --lock-step --record tour.csv)
+set_tests_properties(examples/phantom_window_changes PROPERTIES TIMEOUT 300)
+hapbeam_test_file(slew_of_changes NEEDS hapbeam_tour COMMAND check_recordings slew tour.csv 10000)
+# The same in real time, where each second change comes while the one before is under way.
+hapbeam_test_example(phantom window_tour STATUS 0 OUTPUT "^$" BEFORE ${display} OPTIONS --tour 100)
+set_tests_properties(examples/phantom_window_tour PROPERTIES TIMEOUT 300)
+# Without a coupling the bar throws the arm about, faster than that: the check can fail.
+hapbeam_test_example(phantom record_buzz STATUS 0 OUTPUT "bounce" MAKES hapbeam_buzz
+  OPTIONS --lock-step --duration 6 --coupling direct --place 0.254 --depth 0.01 --script press --record buzz.csv)
+hapbeam_test_file(slew_of_buzz NEEDS hapbeam_buzz COMMAND check_recordings slew buzz.csv 10000)
+set_tests_properties(examples/slew_of_buzz PROPERTIES WILL_FAIL TRUE)
+
+# What a mouse pressed in the window, the hand that is led along its recording presses without one.
+if(HAPBEAM_XDOTOOL)
+  add_test(NAME examples/window_mouse WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
+    COMMAND ${display} bash ${CMAKE_CURRENT_SOURCE_DIR}/press_with_mouse.sh $<TARGET_FILE:phantom> mouse.csv)
+  set_tests_properties(examples/window_mouse PROPERTIES LABELS examples TIMEOUT 300 FIXTURES_SETUP hapbeam_mouse)
+  hapbeam_test_file(mouse_draws_along NEEDS hapbeam_mouse COMMAND check_recordings beside mouse.csv 0.005)
+  hapbeam_test_example(phantom replay_mouse STATUS 0 OUTPUT "lock step" NEEDS hapbeam_mouse MAKES hapbeam_mouse_replayed
+    OPTIONS --scene strip --replay mouse.csv --record mouse_again.csv)
+  hapbeam_test_file(mouse_is_replayed NEEDS hapbeam_mouse_replayed
+    COMMAND check_recordings same mouse.csv mouse_again.csv 1e-9)
+else()
+  message(STATUS "Without xdotool the mouse in the window of phantom is not tested")
+endif()
