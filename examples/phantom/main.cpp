@@ -47,6 +47,7 @@ void watch(Session& session, double duration, const Write& write) {
         std::min(at(std::min(next_row, duration)), Clock::now() + std::chrono::milliseconds(50)));
     write();
     if (Clock::now() < at(next_row)) continue;
+    session.update();
     print_row(session.picture().record, session.body().times(), session.device().counts());
     next_row += 1;
   }
@@ -59,6 +60,7 @@ void simulate(Session& session, double duration, const Write& write) {
   for (double left = duration; left > 0 && !interrupted; left -= 1) {
     session.run(std::min(left, 1.0));
     write();
+    session.update();
     print_row(session.picture().record, session.body().times(), session.device().counts());
   }
 }

@@ -38,6 +38,7 @@ void print_trained(const Options& o, const Trained& t) {
 }  // namespace
 
 Run Run::of(Session& session, bool interrupted) {
+  session.update();
   const Body& body = session.body();
   return {body.options(),           body.trained(), session.device().info(),
           session.picture().record, body.times(),   session.device().counts(),

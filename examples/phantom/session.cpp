@@ -17,6 +17,7 @@ void Session::change(const Options& options, std::shared_ptr<const Trained> trai
 }
 
 void Session::update() {
+  newest_ = relay_.newest();
   if (!relay_.settled()) return;
   if (next_) body_ = std::move(next_);
   if (!waiting_) return;
@@ -25,6 +26,6 @@ void Session::update() {
   relay_.change(*next_, waiting_from_);
 }
 
-Body& Session::body() noexcept { return next_ && relay_.newest().changes == begun_ ? *next_ : *body_; }
+Body& Session::body() noexcept { return next_ && newest_.changes == begun_ ? *next_ : *body_; }
 
 }  // namespace phantom

@@ -36,12 +36,14 @@ class Session {
   /// Another body: within 0.4 s, or after that where a change is on its way; then the last that was asked for.
   /// @param from [m] device axes: beside it   @throws as make_body; then all stays as it is
   void change(const Options& options, std::shared_ptr<const Trained> trained, const Eigen::Vector3d& from);
-  /// Once a picture: begins the change that waits and drops what is touched no longer.
+  /// Once a picture: takes the newest tick, begins the change that waits and drops what is touched no longer.
   void update();
 
-  Body& body() noexcept;                                      ///< that is felt
-  int changes() noexcept { return relay_.newest().changes; }  ///< until it was
-  Picture picture() noexcept { return {relay_.newest().record, body().shape()}; }
+  // Of the newest tick that was taken.
+  Body& body() noexcept;                                    ///< that is felt
+  int changes() const noexcept { return newest_.changes; }  ///< until it was
+  Picture picture() noexcept { return {newest_.record, body().shape()}; }
+
   const Device& device() const noexcept { return *device_; }
 
  private:
@@ -50,6 +52,7 @@ class Session {
   Eigen::Vector3d waiting_from_{0, 0, 0};
   int begun_ = 0;  // changes
   Relay relay_;
+  Relay::Newest newest_;
 };
 
 }  // namespace phantom

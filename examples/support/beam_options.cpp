@@ -1,5 +1,6 @@
 #include "beam_options.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -85,7 +86,8 @@ hapbeam::Beam BeamOptions::make() const {
 
 double BeamOptions::rest(double x) const {
   if (rise == 0) return 0;
-  const double radius = (length * length / 4 + rise * rise) / (2 * rise), from_middle = x - length / 2;
+  const double radius = (length * length / 4 + rise * rise) / (2 * rise);
+  const double from_middle = std::clamp(x, 0.0, length) - length / 2;
   return std::sqrt(radius * radius - from_middle * from_middle) - (radius - rise);
 }
 

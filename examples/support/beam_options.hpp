@@ -21,7 +21,7 @@ struct BeamOptions {
 
   /// @throws UsageError where it is a mechanism, or an arch on two kinds of ends
   hapbeam::Beam make() const;
-  /// Where its centreline is before it is touched.  @param x [m]   @return w [m]
+  /// Where its centreline is before it is touched; beside it, where the nearer end is.  @param x [m]   @return w [m]
   double rest(double x) const;
 };
 

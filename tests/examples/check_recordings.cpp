@@ -3,7 +3,7 @@
 //   check_recordings slew FILE RATE [N/s]            the force never changes faster, up or down
 //   check_recordings beside FILE DISTANCE [m]       the beam is felt where the hand is so far from the line of a script that
 //                                                    presses straight down
-//   check_recordings same FILE FILE TOLERANCE [N]    the same forces at the same times, in contact at least half a second
+//   check_recordings same FILE FILE TOLERANCE [N]    the same forces at the same times, in contact a tenth of a second at least
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -69,7 +69,7 @@ int same(const char* path_a, const char* path_b, double tolerance) {
   }
   std::printf("%zu and %zu ticks, %d of them in contact, up to %.3f N; they differ by %.3g N\n", a.size(),
               b.size(), pressed, largest, most);
-  return a.size() == b.size() && pressed >= 500 && most <= tolerance ? 0 : 1;
+  return a.size() == b.size() && pressed >= 100 && most <= tolerance ? 0 : 1;
 }
 
 }  // namespace

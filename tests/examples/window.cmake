@@ -47,8 +47,10 @@ hapbeam_test_file(picture_of_another_time NEEDS hapbeam_picture_later REFUSED
 # A thousand changes of scene, model and coupling, a hand that presses and windows of other sizes in between: the force
 # changes by no more than the guard's 10 N a millisecond.  Under sanitizers a hundred.
 set(changes 1000)
+set(pace 0.1)
 if(HAPBEAM_SANITIZE)
   set(changes 100)
+  set(pace 0.4)
 endif()
 hapbeam_test_example(phantom window_changes STATUS 0 OUTPUT "^$" BEFORE ${display} MAKES hapbeam_tour
   OPTIONS --tour ${changes} --lock-step --record tour.csv)
@@ -66,13 +68,17 @@ set_tests_properties(examples/slew_of_buzz PROPERTIES WILL_FAIL TRUE)
 # What a mouse pressed in the window, the hand that is led along its recording presses without one.
 if(HAPBEAM_XDOTOOL)
   add_test(NAME examples/window_mouse WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
-    COMMAND ${display} bash ${CMAKE_CURRENT_SOURCE_DIR}/press_with_mouse.sh $<TARGET_FILE:phantom> mouse.csv)
+    COMMAND ${display} bash ${CMAKE_CURRENT_SOURCE_DIR}/press_with_mouse.sh $<TARGET_FILE:phantom> mouse.csv ${pace})
   set_tests_properties(examples/window_mouse PROPERTIES LABELS examples TIMEOUT 300 FIXTURES_SETUP hapbeam_mouse)
   hapbeam_test_file(mouse_draws_along NEEDS hapbeam_mouse COMMAND check_recordings beside mouse.csv 0.005)
   hapbeam_test_example(phantom replay_mouse STATUS 0 OUTPUT "lock step" NEEDS hapbeam_mouse MAKES hapbeam_mouse_replayed
     OPTIONS --scene strip --replay mouse.csv --record mouse_again.csv)
   hapbeam_test_file(mouse_is_replayed NEEDS hapbeam_mouse_replayed
     COMMAND check_recordings same mouse.csv mouse_again.csv 1e-9)
+  # A reduced model of the scene is trained and takes over while the hand presses.
+  hapbeam_test_example(phantom window_trains STATUS 0 OUTPUT "^$" FIELDS stated_force_error_max
+    BEFORE ${display} bash ${CMAKE_CURRENT_SOURCE_DIR}/choose_pod.sh ${pace} OPTIONS --scene thesis)
+  set_tests_properties(examples/phantom_window_trains PROPERTIES TIMEOUT 300)
 else()
   message(STATUS "Without xdotool the mouse in the window of phantom is not tested")
 endif()

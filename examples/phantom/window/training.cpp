@@ -17,9 +17,9 @@ constexpr int elements = 64;  // of the full model: its force is right to 1e-5
 
 struct GivenUp : std::exception {};
 
-/// Deep enough for the scene's script; a tenth of the length is where moderate rotations end.
+/// As deep as the scene's script, from what `train` takes by default up to what the full model answers beside a support.
 double trained_depth(const Options& o) {
-  return std::clamp(o.depth * o.scale, o.beam.length / 50, o.beam.length / 10);
+  return std::clamp(o.depth * o.scale, 0.02 * o.beam.length, 0.024 * o.beam.length);
 }
 
 template <typename Model>
