@@ -1,7 +1,9 @@
 #include "device.hpp"
 
+#include <atomic>
 #include <stdexcept>
 
+#include <hapbeam/haptics/real_time.hpp>
 #include <hapbeam/haptics/virtual_phantom.hpp>
 #ifdef HAPBEAM_EXAMPLES_OPENHAPTICS
 #include <hapbeam/haptics/openhaptics.hpp>
@@ -11,18 +13,35 @@ namespace phantom {
 
 namespace {
 
+/// A servo whose first tick asks for a priority before the threads that draw.
+struct Urgent {
+  Relay* servo = nullptr;
+  std::atomic<bool> asked{false};
+  std::atomic<hapbeam::RealTime> priority{hapbeam::RealTime::not_supported};
+
+  Eigen::Vector3d operator()(const hapbeam::DeviceState& state) noexcept {
+    if (!asked.exchange(true)) priority = hapbeam::set_real_time_priority(80);
+    return (*servo)(state);
+  }
+};
+
 class Simulated final : public Device {
  public:
   explicit Simulated(Hand& hand) : device_(Guided{&hand}) {}
-  void start(Relay& servo) override { device_.start(servo); }
+  void start(Relay& servo) override {
+    urgent_.servo = &servo;
+    device_.start(urgent_);
+  }
   void stop() noexcept override { device_.stop(); }
   void run(Relay& servo, double duration) noexcept override { device_.run(servo, duration); }
   const hapbeam::DeviceInfo& info() const noexcept override { return device_.info(); }
   hapbeam::DeviceStatus status() const noexcept override { return device_.status(); }
   hapbeam::DeviceCounts counts() const noexcept override { return device_.counts(); }
   bool simulated() const noexcept override { return true; }
+  hapbeam::RealTime priority() const noexcept override { return urgent_.priority; }
 
  private:
+  Urgent urgent_;
   hapbeam::VirtualPhantom<Guided> device_;
 };
 
@@ -46,6 +65,7 @@ class Real final : public Device {
   hapbeam::DeviceStatus status() const noexcept override { return device_.status(); }
   hapbeam::DeviceCounts counts() const noexcept override { return device_.counts(); }
   bool simulated() const noexcept override { return false; }
+  hapbeam::RealTime priority() const noexcept override { return hapbeam::RealTime::done; }
 
  private:
   hapbeam::Hdapi<hapbeam::OpenHaptics> device_;

@@ -7,6 +7,7 @@
 #include "options.hpp"
 #include "relay.hpp"
 #include <hapbeam/haptics/device.hpp>
+#include <hapbeam/haptics/real_time.hpp>
 
 namespace phantom {
 
@@ -20,7 +21,8 @@ class Device {
   virtual const hapbeam::DeviceInfo& info() const noexcept = 0;
   virtual hapbeam::DeviceStatus status() const noexcept = 0;
   virtual hapbeam::DeviceCounts counts() const noexcept = 0;
-  virtual bool simulated() const noexcept = 0;  ///< its hand can be led
+  virtual bool simulated() const noexcept = 0;              ///< its hand can be led
+  virtual hapbeam::RealTime priority() const noexcept = 0;  ///< of its thread in real time
 };
 
 /// @param hand  of the simulated one; kept by reference   @throws std::runtime_error saying why it cannot be had

@@ -40,9 +40,15 @@ void print_trained(const Options& o, const Trained& t) {
 Run Run::of(Session& session, bool interrupted) {
   session.update();
   const Body& body = session.body();
-  return {body.options(),           body.trained(), session.device().info(),
-          session.picture().record, body.times(),   session.device().counts(),
-          body.full_answers(),      interrupted};
+  return {body.options(),
+          body.trained(),
+          session.device().info(),
+          session.picture().record,
+          body.times(),
+          session.device().counts(),
+          body.full_answers(),
+          session.device().priority(),
+          interrupted};
 }
 
 void print_scene(const Options& o, const Trained* trained, const hapbeam::DeviceInfo& device) {
@@ -86,6 +92,8 @@ void print_summary(const Run& run) {
   const double all = static_cast<double>(c.ticks > 0 ? c.ticks : 1);
   std::printf("\n%s%llu ticks, %llu missed (began more than one period after their deadline)\n",
               run.interrupted ? "interrupted after " : "", number(c.ticks), number(c.missed_ticks));
+  if (!run.options.lock_step && run.priority != hapbeam::RealTime::done)
+    std::printf("time     %s\n", message(run.priority));
   std::printf("tick     p50 %.2f us, p99 %.2f us, max %.1f us: contact, press and force\n", compute.p50 * 1e6,
               compute.p99 * 1e6, compute.max * 1e6);
   std::printf(
@@ -138,6 +146,7 @@ std::string json(const Run& run) {
       .add("peak_force_N", run.device.peak_force)
       .add("period_s", run.device.period)
       .add("real_time", !o.lock_step)
+      .add("priority", run.priority == hapbeam::RealTime::done)
       .add("scene", o.scene)
       .add("beam", o.beam.name)
       .add("length_m", o.beam.length)

@@ -25,6 +25,7 @@ struct Run {
   const hapbeam::TickTimes& times;
   hapbeam::DeviceCounts counts;
   std::uint64_t full_answers;  ///< of the full model of a guarded one
+  hapbeam::RealTime priority;  ///< of the servo's thread
   bool interrupted;
 };
 
