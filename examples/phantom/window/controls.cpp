@@ -18,7 +18,7 @@ constexpr const char* element_labels[] = {"linear", "von Karman, full", "von Kar
 
 void caption(const char* text) {
   ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled("%s", text);
+  ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
 }
 
@@ -185,8 +185,8 @@ Wish draw_controls(Running& running, const Options* file, const std::string& not
   ImGui::Spacing();
   if (ImGui::Button("play the script", {-1, 0})) wish.play = true;
   caption(running.pulled()
-              ? "Press the mouse in the drawing and pull; arrow keys move the hand, space lifts it."
-              : "A script leads the hand. Press the mouse in the drawing, and pull: the hand is yours.");
+              ? "Press the mouse in the drawing and pull. Arrow keys move the hand, space lifts it."
+              : "A script leads the hand, until you press the mouse in the drawing and pull.");
   if (*feels(running.options().scene)) {
     ImGui::Separator();
     ImGui::PushTextWrapPos(0);

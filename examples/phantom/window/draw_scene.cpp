@@ -209,18 +209,20 @@ void SceneDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, co
 
 void SceneDrawing::draw_legend(ImDrawList& list, float unit) const {
   const float line = 1.25f * unit, left = view_.low.x + unit, bottom = view_.high.y - unit;
-  // Scale bar: a fifth of the canvas, rounded.
+  // Scale bar: a twelfth of the canvas or more, rounded.
   const double bar = rounded_up(static_cast<double>(view_.high.x - view_.low.x) / view_.pixels / 12);
   const auto pixels = static_cast<float>(bar * view_.pixels);
   list.AddLine({left, bottom}, {left + pixels, bottom}, colour::ink, unit / 7);
   for (const float x : {left, left + pixels})
     list.AddLine({x, bottom - 0.3f * unit}, {x, bottom + 0.3f * unit}, colour::ink, unit / 7);
-  label(list, {left, bottom - 1.5f * unit}, colour::ink, metres(bar));
-  std::string scale = view_.exaggeration == 1
-                          ? "displacements true to scale"
-                          : text("displacements exaggerated %g times", view_.exaggeration);
-  if (drawn_half(unit) > options_.beam.height / 2) scale += ", thickness not to scale";
-  label(list, {left + pixels + unit, bottom - 0.6f * unit}, colour::ink, scale);
+  label(list, {left + pixels + 0.6f * unit, bottom - 0.6f * unit}, colour::ink, metres(bar));
+  // One under the other, so that a narrow window has room for the strain beside them.
+  float above = bottom - 0.8f * unit - line;
+  if (drawn_half(unit) > options_.beam.height / 2)
+    label(list, {left, above}, colour::ink, "thickness not to scale"), above -= line;
+  label(list, {left, above}, colour::ink,
+        view_.exaggeration == 1 ? "displacements true to scale"
+                                : text("displacements exaggerated %g times", view_.exaggeration));
 
   // Strain: a bar of colours with its ends.
   const float width = 13.5f * unit, right = view_.high.x - unit, top = bottom - 0.7f * unit;

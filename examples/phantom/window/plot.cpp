@@ -58,7 +58,8 @@ void Plot::frame() {
     const std::string fy = figure(y * y_.factor, i == parts ? y_.unit : "");
     const ImVec2 sx = ImGui::CalcTextSize(fx.c_str()), sy = ImGui::CalcTextSize(fy.c_str());
     const float left = std::clamp(px - sx.x / 2, low_.x - unit_, high_.x + 0.7f * unit_ - sx.x);
-    list_.AddText({left, high_.y + 0.15f * unit_}, colour::faint, fx.c_str());
+    const bool crowded = high_.x - low_.x < 9 * unit_ && i > 0 && i < parts;
+    if (!crowded) list_.AddText({left, high_.y + 0.15f * unit_}, colour::faint, fx.c_str());
     list_.AddText({low_.x - sy.x - 0.3f * unit_, py - sy.y / 2}, colour::faint, fy.c_str());
   }
   list_.AddRect(low_, high_, colour::faint);

@@ -15,6 +15,7 @@
 #include "../recording.hpp"
 #include "../report.hpp"
 #include "../scenes.hpp"
+#include "colours.hpp"
 #include "controls.hpp"
 #include "panels.hpp"
 #include "running.hpp"
@@ -127,6 +128,17 @@ class Window {
     arrows();
     drawing.draw(*ImGui::GetWindowDrawList(), running_->session().picture(), running_->target(), low, high,
                  unit);
+    if (!running_->pulled()) hint(low, high);
+  }
+
+  /// Until it has been done.
+  static void hint(const ImVec2& low, const ImVec2& high) {
+    constexpr const char* text = "hold the mouse button here and pull";
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    const ImVec2 at{(low.x + high.x - size.x) / 2, low.y + size.y};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({at.x - 3, at.y}, {at.x + size.x + 3, at.y + size.y}, colour::paper);
+    list.AddText(at, colour::faint, text);
   }
 
   /// A tenth of a metre in a second.
