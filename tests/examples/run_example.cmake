@@ -1,6 +1,7 @@
 # cmake -D COMMAND=program;option;... -D STATUS=n -D OUTPUT=regex [-D REPORT=x.json -D FIELDS=name;...] [-D ABSENT=file]
 #       -P run_example.cmake
-# Succeeds if the command ends with the status, prints what matches (both streams, whole), its report has all fields, and
+# Succeeds if the command ends with the status, prints what matches (both streams, whole), its report has all fields (name, or
+# name=text), and
 # nothing stands where a file must be absent, not even a part of it.
 if(ABSENT)
   file(REMOVE ${ABSENT})
@@ -15,8 +16,13 @@ endif()
 if(REPORT)
   file(READ ${REPORT} report)
   foreach(field IN LISTS FIELDS)
-    if(NOT report MATCHES "\"${field}\": *(\"[^\"]+\"|[-+.e0-9]+|true|false)[,\n]")
-      message(FATAL_ERROR "the report has no ${field}:\n${report}")
+    set(value "(\"[^\"]+\"|[-+.e0-9]+|true|false)")
+    if(field MATCHES "^(.*)=(.*)$")
+      set(field ${CMAKE_MATCH_1})
+      set(value "\"${CMAKE_MATCH_2}\"")
+    endif()
+    if(NOT report MATCHES "\"${field}\": *${value}[,\n]")
+      message(FATAL_ERROR "the report has no ${field}: ${value}:\n${report}")
     endif()
   endforeach()
 endif()

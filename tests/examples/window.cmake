@@ -75,10 +75,13 @@ if(HAPBEAM_XDOTOOL)
     OPTIONS --scene strip --replay mouse.csv --record mouse_again.csv)
   hapbeam_test_file(mouse_is_replayed NEEDS hapbeam_mouse_replayed
     COMMAND check_recordings same mouse.csv mouse_again.csv 1e-9)
-  # A reduced model of the scene is trained and takes over while the hand presses.
-  hapbeam_test_example(phantom window_trains STATUS 0 OUTPUT "^$" FIELDS stated_force_error_max
-    BEFORE ${display} bash ${CMAKE_CURRENT_SOURCE_DIR}/choose_pod.sh ${pace} OPTIONS --scene thesis)
-  set_tests_properties(examples/phantom_window_trains PROPERTIES TIMEOUT 300)
+  # A reduced model of the scene is trained and takes over while the hand presses; a real device does, where there is one.
+  set(choose ${display} bash ${CMAKE_CURRENT_SOURCE_DIR}/choose.sh ${pace})
+  hapbeam_test_example(phantom window_trains STATUS 0 OUTPUT "^$" FIELDS model=pod stated_force_error_max
+    BEFORE ${choose} 1170,170 1170,290 OPTIONS --scene thesis)
+  hapbeam_test_example(phantom_emulated window_device STATUS 0 OUTPUT "^$" FIELDS "device=emulated Phantom"
+    BEFORE ${choose} 1170,242 1170,282 OPTIONS --scene thesis)
+  set_tests_properties(examples/phantom_window_trains examples/phantom_emulated_window_device PROPERTIES TIMEOUT 300)
 else()
   message(STATUS "Without xdotool the mouse in the window of phantom is not tested")
 endif()

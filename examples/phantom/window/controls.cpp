@@ -141,17 +141,19 @@ void show_state(Running& running) {
   ImGui::Text("%.2f N", r.force.norm());
   ImGui::PopFont();
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(in_words(r));
+  const Device& device = running.session().device();
+  const char* state = device.simulated() || is_running(device.status()) ? in_words(r) : name(device.status());
+  ImGui::TextUnformatted(state);
   // As high with one line as with two, so that what is below stays.
   const float line = ImGui::GetTextLineHeightWithSpacing();
-  if (ImGui::CalcTextSize(in_words(r), nullptr, false, ImGui::GetContentRegionAvail().x).y < 1.5f * line)
+  if (ImGui::CalcTextSize(state, nullptr, false, ImGui::GetContentRegionAvail().x).y < 1.5f * line)
     ImGui::Dummy({0, line - ImGui::GetStyle().ItemSpacing.y});
   ImGui::Separator();
   ImGui::Text("energy generated: %.2g J%s", r.energy_generated, r.energy_generated > 0 ? "" : " (passive)");
   ImGui::Text("force cut: %llu ticks   motors: %.0f %%", static_cast<unsigned long long>(r.saturated_ticks),
               100 * r.heat);
   ImGui::Text("tick p99: %.1f us   missed: %llu", times.compute().quantile(0.99) * 1e6,
-              static_cast<unsigned long long>(running.session().device().counts().missed_ticks));
+              static_cast<unsigned long long>(device.counts().missed_ticks));
   ImGui::PopTextWrapPos();
 }
 
@@ -184,7 +186,8 @@ Wish draw_controls(Running& running, const Options* file, const std::string& not
   choose_exaggeration(running.drawing());
   ImGui::Spacing();
   if (ImGui::Button("play the script", {-1, 0})) wish.play = true;
-  caption(running.pulled()
+  caption(!running.session().device().simulated() ? "The hand is yours, on the device."
+          : running.pulled()
               ? "Press the mouse in the drawing and pull. Arrow keys move the hand, space lifts it."
               : "A script leads the hand, until you press the mouse in the drawing and pull.");
   if (*feels(running.options().scene)) {

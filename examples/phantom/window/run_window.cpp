@@ -128,7 +128,7 @@ class Window {
     arrows();
     drawing.draw(*ImGui::GetWindowDrawList(), running_->session().picture(), running_->target(), low, high,
                  unit);
-    if (!running_->pulled()) hint(low, high);
+    if (!running_->pulled() && running_->session().device().simulated()) hint(low, high);
   }
 
   /// Until it has been done.
