@@ -12,6 +12,7 @@ constexpr ImU32 faint = IM_COL32(120, 128, 140, 255);
 constexpr ImU32 grid = IM_COL32(214, 218, 224, 255);
 constexpr ImU32 paper = IM_COL32(252, 252, 250, 255);
 constexpr ImU32 blue = IM_COL32(0, 114, 178, 255);
+constexpr ImU32 sky = IM_COL32(86, 180, 233, 255);
 constexpr ImU32 vermilion = IM_COL32(213, 94, 0, 255);
 constexpr ImU32 green = IM_COL32(0, 158, 115, 255);
 constexpr ImU32 purple = IM_COL32(204, 121, 167, 255);

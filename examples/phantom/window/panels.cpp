@@ -57,7 +57,7 @@ void force_against_depth(ImDrawList& list, const ImVec2& low, const ImVec2& high
   if (!peaks.empty()) most = std::max(most, std::min(peaks[peaks.size() / 2], 40.0));
   const double end = rounded_end(1.1 * most);
   Plot plot(list, title, low, high, {0, data.depth, "mm", 1e3}, {least < -0.05 * end ? -end : 0, end, "N"});
-  constexpr ImU32 colours[] = {colour::orange, colour::blue, colour::green};
+  constexpr ImU32 colours[] = {colour::sky, colour::blue, colour::green};
   for (std::size_t c = 0; c < data.curves.size(); ++c) {
     const Curve& curve = data.curves[c];
     plot.line(
