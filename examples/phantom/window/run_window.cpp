@@ -19,6 +19,7 @@
 #include "controls.hpp"
 #include "panels.hpp"
 #include "running.hpp"
+#include "strokes.hpp"
 #include "training.hpp"
 
 namespace phantom {
@@ -135,10 +136,7 @@ class Window {
   static void hint(const ImVec2& low, const ImVec2& high) {
     constexpr const char* text = "hold the mouse button here and pull";
     const ImVec2 size = ImGui::CalcTextSize(text);
-    const ImVec2 at{(low.x + high.x - size.x) / 2, low.y + size.y};
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({at.x - 3, at.y}, {at.x + size.x + 3, at.y + size.y}, colour::paper);
-    list.AddText(at, colour::faint, text);
+    label(*ImGui::GetWindowDrawList(), {(low.x + high.x - size.x) / 2, low.y + size.y}, colour::faint, text);
   }
 
   /// A tenth of a metre in a second.
