@@ -188,15 +188,25 @@ class Window {
     auto next = std::make_unique<Running>(options, running_->asked_trained());
     running_->session().stop();
     update();
+    // The next one's clock begins anew.
+    if (recording_)
+      recording_->close(), recording_.reset(), note_ = "The recording has ended with the device.";
     running_ = std::move(next);
     running_->start();
   }
 
   std::string note() const {
-    if (!training_) return note_;
-    char text[60];
-    std::snprintf(text, sizeof text, "Training: %.0f %% of the presses.", 100 * training_->done());
-    return text;
+    if (training_) {
+      char text[60];
+      std::snprintf(text, sizeof text, "Training: %.0f %% of the presses.", 100 * training_->done());
+      return text;
+    }
+    const Device& device = running_->session().device();
+    const hapbeam::DeviceCounts counts = device.counts();
+    if (!note_.empty() || simulated() || device.priority() == hapbeam::RealTime::done ||
+        100 * counts.missed_ticks < counts.ticks)
+      return note_;
+    return std::string("Many ticks are missed: ") + message(device.priority()) + ".";
   }
 
   Display& display_;
