@@ -30,14 +30,18 @@ trap 'rm -rf "$log" "$reports"' EXIT
 # run WHAT ROUND COMMAND...
 run() {
   "${@:3}" --scene thesis --duration "$seconds" --report "$reports/$1.$2" >"$log" || { cat "$log"; exit 1; }
-  awk -v what="$1" -F '[:,]' '/"(tick_us_p50|tick_us_p99|tick_us_max|missed_ticks|period_us_p99)"/ { gsub(/[" ]/, ""); v[$1] = $2 }
-    END { printf "%-8s  p50 %6.2f us  p99 %6.2f us  max %8.1f us  period p99 %7.1f us  missed %d\n", what, v["tick_us_p50"],
-          v["tick_us_p99"], v["tick_us_max"], v["period_us_p99"], v["missed_ticks"] }' "$reports/$1.$2"
+  awk -v what="$1" -F '[:,]' '/"(tick_us_p50|tick_us_p99|tick_us_max|missed_ticks|period_us_p99|picture_ms_p50|picture_ms_p99|picture_ms_max)"/ { gsub(/[" ]/, ""); v[$1] = $2 }
+    END { printf "%-8s  p50 %6.2f us  p99 %6.2f us  max %8.1f us  period p99 %7.1f us  missed %d%s\n", what, v["tick_us_p50"],
+          v["tick_us_p99"], v["tick_us_max"], v["period_us_p99"], v["missed_ticks"],
+          "picture_ms_p50" in v ? sprintf("  pictures p50 %.1f ms  p99 %.1f ms  max %.1f ms", v["picture_ms_p50"], v["picture_ms_p99"],
+          v["picture_ms_max"]) : "" }' "$reports/$1.$2"
 }
 for ((round = 1; round <= rounds; ++round)); do
   run headless "$round" "$top/build/release/examples/phantom" --headless
   run window "$round" ${screen[@]+"${screen[@]}"} "$top/build/release/examples/phantom"
 done
+# The same with scene, model or coupling changed at each picture.
+run changes 1 ${screen[@]+"${screen[@]}"} "$top/build/release/examples/phantom" --tour $((60 * seconds))
 # median WHAT FIELD
 median() {
   sed -n "s/.*\"$2\": \([0-9.e+-]*\).*/\1/p" "$reports/$1".* | sort -g | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'

@@ -37,7 +37,7 @@ void print_trained(const Options& o, const Trained& t) {
 
 }  // namespace
 
-Run Run::of(Session& session, bool interrupted) {
+Run Run::of(Session& session, bool interrupted, const hapbeam::TimeSummary& pictures) {
   session.update();
   const Body& body = session.body();
   return {body.options(),
@@ -48,7 +48,8 @@ Run Run::of(Session& session, bool interrupted) {
           session.device().counts(),
           body.full_answers(),
           session.device().priority(),
-          interrupted};
+          interrupted,
+          pictures};
 }
 
 void print_scene(const Options& o, const Trained* trained, const hapbeam::DeviceInfo& device) {
@@ -173,6 +174,11 @@ std::string json(const Run& run) {
   }
   if (!run.trained || o.guarded) report.add("element", name(o.element)).add("elements", o.elements);
   if (o.guarded) report.add("full_model_ticks", run.full_answers);
+  if (run.pictures.count > 0)
+    report.add("pictures", run.pictures.count)
+        .add("picture_ms_p50", run.pictures.p50 * 1e3)
+        .add("picture_ms_p99", run.pictures.p99 * 1e3)
+        .add("picture_ms_max", run.pictures.max * 1e3);
   return report.add("script", name(o.script))
       .add("place_m", o.place)
       .add("depth_m", o.depth)

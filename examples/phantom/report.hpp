@@ -16,7 +16,8 @@ namespace phantom {
 /// What was run, and how it went.
 struct Run {
   /// @param session  one that has stopped; kept by reference
-  static Run of(Session& session, bool interrupted);
+  /// @param pictures  times from one picture to the next; none headless
+  static Run of(Session& session, bool interrupted, const hapbeam::TimeSummary& pictures = {});
 
   const Options& options;
   const Trained* trained;  ///< or null: finite elements alone
@@ -27,6 +28,7 @@ struct Run {
   std::uint64_t full_answers;  ///< of the full model of a guarded one
   hapbeam::RealTime priority;  ///< of the servo's thread
   bool interrupted;
+  hapbeam::TimeSummary pictures;
 };
 
 /// @param trained  or null

@@ -103,11 +103,11 @@ class Window {
   }
 
   /// @return the report
-  std::string close(bool interrupted) {
+  std::string close(bool interrupted, const hapbeam::TickTimes& pictures) {
     running_->session().stop();
     update();
     if (recording_) recording_->close();
-    return json(Run::of(running_->session(), interrupted));
+    return json(Run::of(running_->session(), interrupted, pictures.period().summary()));
   }
 
   /// A screenshot shows what happens at its time, however busy the machine: then time is simulated.
@@ -227,6 +227,7 @@ std::string run_window(Display& display, const Options& options, std::shared_ptr
                        const volatile std::sig_atomic_t& interrupted) {
   Window window(display, options, std::move(trained));
   const auto begin = std::chrono::steady_clock::now();
+  hapbeam::TickTimes times(1.0 / 60);
   int taken = 0;
   for (int pictures = 0; !interrupted; ++pictures) {
     std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
@@ -234,6 +235,7 @@ std::string run_window(Display& display, const Options& options, std::shared_ptr
     if (options.timed && passed.count() >= options.duration) break;
     if (options.tour > 0 && pictures >= options.tour) break;
     if (options.tour > 0) window.tour(pictures);
+    times.begin();
     if (!window.draw()) break;
     const bool now = !options.screenshot.empty() && taken < options.frames && passed.count() >= options.at;
     const std::string file = now ? frame(options, taken) : "";
@@ -242,7 +244,7 @@ std::string run_window(Display& display, const Options& options, std::shared_ptr
     taken += now;
     if (now && taken == options.frames && !options.timed) break;
   }
-  return window.close(interrupted != 0);
+  return window.close(interrupted != 0, times);
 }
 
 }  // namespace phantom
