@@ -1,14 +1,7 @@
-// Work over closed paths of the contact.  A hand that comes back to where it was must have got back what it gave, or
-// the model feeds the loop.
-//
-// The frictionless contact does the work F (dd - w' ds) = F (dd + θ ds), w' the slope at the contact.
-#include <cmath>
-#include <vector>
-
+// Work over closed paths of the contact.  tests/stability/training.cpp has what it is without a potential.
 #include "rom/trained.hpp"
 #include "support/catch.hpp"
-#include "support/random.hpp"
-#include "support/status.hpp"
+#include "support/closed_path.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/rom/galerkin_model.hpp>
 #include <hapbeam/rom/pod_model.hpp>
@@ -18,46 +11,10 @@ using namespace hapbeam::testing;
 
 namespace {
 
-constexpr double L = thesis_length;
-
-/// Work over a loop of sines, over the most that was stored on the way.
-template <class Model>
-double gain(Model& model, std::uint64_t seed) {
-  Random random(seed);
-  double phase[6], size[6];
-  for (int k = 0; k < 6; ++k) phase[k] = random(3.14), size[k] = random(0.3, 1.0);
-  const auto wave = [&](int first, double t) {  // in [-1, 1]
-    double sum = 0, all = 0;
-    for (int k = 0; k < 3; ++k) {
-      sum += size[first + k] * std::sin((k + 1) * t + phase[first + k]);
-      all += size[first + k];
-    }
-    return sum / all;
-  };
-  const auto place = [&](double t) {
-    return Press<double>{L * (0.5 + 0.44 * wave(0, t)), 0.025 + 0.024 * wave(3, t)};
-  };
-  // Trapezium rule on a periodic smooth integrand: it converges faster than any power.
-  const int steps = 4000;
-  const double turn = 2 * std::acos(-1.0), h = turn / steps;
-  double work = 0, least = 0, most = 0;
-  model.reset();
-  for (int k = 0; k < steps; ++k) {
-    const double t = k * h, e = 1e-4;
-    const Press<double> press = place(t), ahead = place(t + e), behind = place(t - e);
-    const Response<double> response = model.press(press);
-    REQUIRE(response.status == Status::ok);
-    const double theta = model.shape().at(press.s).theta;
-    work += h * response.force * ((ahead.d - behind.d) + theta * (ahead.s - behind.s)) / (2 * e);
-    least = std::min(least, work), most = std::max(most, work);
-  }
-  return std::abs(work) / (most - least);
-}
-
 template <class Model>
 double worst_gain(Model&& model) {
   double worst = 0;
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) worst = std::max(worst, gain(model, seed));
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) worst = std::max(worst, gain(feel_of(model), seed));
   return worst;
 }
 

@@ -2,6 +2,7 @@
 #include "rom/press_errors.hpp"
 #include "rom/trained.hpp"
 #include "support/error.hpp"
+#include "support/global_modes.hpp"
 #include "support/solver.hpp"
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/rom/galerkin_model.hpp>
@@ -14,27 +15,6 @@ namespace {
 constexpr double L = thesis_length;
 
 Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
-/// Force of the pinned beam in the space of its first modes, sin(nπx/L): each has its own buckling load, and the tension is
-/// found by bisection.
-double force_in_global_modes(int modes, double s, double d) {
-  const double pi = std::acos(-1.0);
-  const auto compliance = [&](double N) {
-    double sum = 0;
-    for (int n = 1; n <= modes; ++n) {
-      const double a = std::pow(n * pi / L, 2);
-      sum += 2 / L * std::pow(std::sin(n * pi * s / L), 2) / (a * (thesis_EI * a + N));
-    }
-    return sum;
-  };
-  const auto excess = [&](double N) {  // ½ d² k'(N) - N L/EA
-    const double h = 1e-4 * (N + 1);
-    return d * d / 2 * (1 / compliance(N + h) - 1 / compliance(N - h)) / (2 * h) - N * L / thesis_EA;
-  };
-  double low = 0, high = 1e8;
-  for (int k = 0; k < 200; ++k) (excess((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
-  return d / compliance(low);
-}
 
 }  // namespace
 

@@ -26,6 +26,8 @@ struct Situation {
   double damping = 5, friction = 0.2;                                ///< of the arm [N·s/m], [N]
   double push = 3;                                                   ///< [N]
   bool dissipate = false;                                            ///< as ServoOptions
+  int missed = 0,
+      of = 1;  ///< so many ticks of as many are missed in a row: the force stays, the arm moves on
 
   VirtualPhantomOptions options() const {
     VirtualPhantomOptions o;
@@ -61,9 +63,10 @@ struct StepResponse {
 /// @param s [m] where the beam is pressed, from above   @param duration [s] after the step   @param settling [s] as well
 /// A run ends early once the arm has stood still, to the bit, for two seconds: nothing moves it any more.
 /// Energy: -F·Δx of the force that the motors held, exactly, and b Δx²/T + f |Δx| of the arm, at least.
-template <typename Model, typename Coupling>
+/// @param watch  called each period: (time [s], position of the tip along y [m])
+template <typename Model, typename Coupling, typename Watch>
 StepResponse step_response(Model& model, double s, const Coupling& coupling, const Situation& who,
-                           double duration, double settling = 0.5) {
+                           double duration, double settling, Watch&& watch) {
   model.reset();
   VirtualPhantom<Leaning> device(Leaning{who.push}, who.options());
   ServoOptions options;
@@ -76,28 +79,29 @@ StepResponse step_response(Model& model, double s, const Coupling& coupling, con
 
   StepResponse response;
   std::array<double, 17> held{};  // newest first
+  Eigen::Vector3d sent = Eigen::Vector3d::Zero();
   double energy = 0, y = 0, squares = 0, low = 1e9, high = -1e9, last_speed = 0;
   long in_window = 0, changes = 0, still = 0;
   const long window = std::lround(0.1 / who.period);
   const long first = std::lround((Leaning::at + settling) / who.period);
   const long end = std::lround((Leaning::at + duration) / who.period);
   for (long tick = 0; tick < end; ++tick) {
-    double sent = 0;
     struct Servo {
       decltype(loop)& loop_;
-      double& sent_;
+      Eigen::Vector3d& sent_;
+      bool missed_;
       Eigen::Vector3d operator()(const DeviceState& state) noexcept {
-        const Eigen::Vector3d force = loop_.servo().tick(state);
-        sent_ = force.y();
-        return force;
+        if (!missed_) sent_ = loop_.servo().tick(state);
+        return sent_;
       }
-    } servo{loop, sent};
+    } servo{loop, sent, tick % who.of >= who.of - who.missed};
     device.step(servo);
     std::move_backward(held.begin(), held.end() - 1, held.end());
-    held[0] = sent;
+    held[0] = sent.y();
     const Tip tip = device.tip();
     const double moved = tip.position.y() - y, speed = tip.velocity.y();
     y = tip.position.y();
+    watch(static_cast<double>(tick + 1) * who.period, y);
     energy += -held[static_cast<std::size_t>(who.delay)] * moved + who.damping * moved * moved / who.period +
               who.friction * std::abs(moved);
     response.least_energy = std::min(response.least_energy, energy);
@@ -112,12 +116,17 @@ StepResponse step_response(Model& model, double s, const Coupling& coupling, con
     response.speed = std::max(response.speed, std::sqrt(squares / static_cast<double>(window)));
     squares = 0, in_window = 0;
   }
-  response.amplitude = (high - low) / 2;
+  response.amplitude = std::max(0.0, (high - low) / 2);
   response.frequency = static_cast<double>(changes) / 2 / (duration - settling);
   response.generated = loop.picture().record.energy_generated;
   response.force = loop.picture().record.force.y();
   response.position = y;
   return response;
+}
+template <typename Model, typename Coupling>
+StepResponse step_response(Model& model, double s, const Coupling& coupling, const Situation& who,
+                           double duration, double settling = 0.5) {
+  return step_response(model, s, coupling, who, duration, settling, [](double, double) {});
 }
 
 }  // namespace hapbeam::testing

@@ -1,0 +1,36 @@
+// A force interpolated between snapshots that are not exact.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "support/random.hpp"
+#include <hapbeam/rom/lagrange.hpp>
+
+namespace hapbeam::testing {
+
+/// Lagrange's polynomial through F/d at the nodes of a policy, each value off by up to `noise` of itself.
+template <class Nodes>
+class NoisyForce {
+ public:
+  /// @param force  depth [m] -> [N]
+  template <class Force>
+  NoisyForce(int nodes, double shallowest, double deepest, double noise, Force&& force)
+      : axis_(nodes, shallowest, deepest), weights_(static_cast<std::size_t>(nodes)) {
+    Random random(1);
+    for (int k = 0; k < nodes; ++k)
+      values_.push_back(force(axis_.node(k)) / axis_.node(k) * (1 + random(noise)));
+  }
+  double operator()(double d) {
+    axis_.weights(d, weights_.data());
+    double sum = 0;
+    for (std::size_t k = 0; k < values_.size(); ++k) sum += weights_[k] * values_[k];
+    return sum * d;
+  }
+
+ private:
+  Lagrange<Nodes> axis_;
+  std::vector<double> values_, weights_;
+};
+
+}  // namespace hapbeam::testing
