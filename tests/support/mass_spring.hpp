@@ -2,7 +2,7 @@
 //
 //   m xi'' = -c xi' + Σ g + f      v += Δt/m (…), x += Δt v   (symplectic Euler: of explicit steps the most forgiving)
 //
-// Masses move in the plane.  Neighbours are joined by springs EA/l; of three masses the middle one is drawn onto the line
+// Masses move in the plane.  Neighbours are joined by springs EA/l; across, the middle one of three is drawn onto the line
 // of the others by EI/l³ times (1, -2, 1), the difference quotient of bending.  Both ends are hinged.
 // A step is stable while Δt ω < 2, and the fastest ω of the chain is 2√(k/m) of its springs, or 4√(EI/ml³) of bending.
 #pragma once
@@ -54,10 +54,10 @@ class MassSpringChain {
       f_[i + 1] -= pull;
     }
     for (std::size_t i = 1; i + 1 < n; ++i) {
-      const Vector2<double> bend = b_ * (x_[i - 1] - 2 * x_[i] + x_[i + 1]);
-      f_[i - 1] -= bend;
-      f_[i] += 2 * bend;
-      f_[i + 1] -= bend;
+      const double bend = b_ * (x_[i - 1].y() - 2 * x_[i].y() + x_[i + 1].y());
+      f_[i - 1].y() -= bend;
+      f_[i].y() += 2 * bend;
+      f_[i + 1].y() -= bend;
     }
     const double force = -f_[held].y();
     for (std::size_t i = 1; i + 1 < n; ++i) {
