@@ -26,8 +26,9 @@ Beam ruler() {
 
 }  // namespace
 
-// Of the linear beam, k = 3EI L/s²(L - s)²: what half an element makes of it is geometry.
-TEST_CASE("pressed at the nearest node a beam is up to 40 % too stiff or soft, and rigid next to a support",
+// Of the linear beam, k = 3EI L/s²(L - s)²: what half an element makes of it is geometry, and most half an element beyond
+// the first node, (3·13/2·14)² = 1.94.
+TEST_CASE("pressed at the nearest node a beam is up to 90 % too stiff, and rigid next to a support",
           "[contact]") {
   FemModel<Linear> model(thesis_beam(Support::pinned, Support::pinned), 8);
   const auto stiffness = [](double s) { return 3 * thesis_EI * L / (s * s * (L - s) * (L - s)); };
@@ -41,7 +42,7 @@ TEST_CASE("pressed at the nearest node a beam is up to 40 % too stiff or soft, a
     if (s > half) worst = std::max(worst, relative_error(stiffness(node), stiffness(s)));
     else CHECK(node == 0);  // a support is no spring
   }
-  CHECK(worst >= 0.3);
+  CHECK((worst >= 0.85 && worst <= 0.94));
 }
 
 // A tenth of the length, a thousandth of it from a hinge: a slope of a hundred, of which moderate rotation makes -½w'² of

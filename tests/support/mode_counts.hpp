@@ -22,22 +22,41 @@ inline Eigen::MatrixXd raw_snapshots(const Snapshots& snapshots, double per_metr
   return X;
 }
 
-/// The fewest modes that leave less than `tolerance` of the largest entry of each column, by kind: u, w, θ.
+/// What so many modes leave of the snapshots, of the largest entry of each column: the worst column, for u, w and θ.
+class LeftOver {
+ public:
+  explicit LeftOver(const Eigen::MatrixXd& X)
+      : X_(X), pod_(X, Truncation::count(static_cast<int>(X.rows()))) {}
+
+  int modes() const { return pod_.modes(); }
+  std::array<double, 3> operator()(int modes) const {
+    const auto basis = pod_.basis().leftCols(modes);
+    const Eigen::MatrixXd left = X_ - basis * (basis.transpose() * X_);
+    const auto largest = [](const Eigen::MatrixXd& A, Eigen::Index kind, Eigen::Index column) {
+      return A.col(column)(Eigen::seq(kind, Eigen::last, 3)).cwiseAbs().maxCoeff();
+    };
+    std::array<double, 3> worst{};
+    for (Eigen::Index kind = 0; kind < 3; ++kind)
+      for (Eigen::Index k = 0; k < X_.cols(); ++k) {
+        double& at = worst[static_cast<std::size_t>(kind)];
+        at = std::max(at, largest(left, kind, k) / largest(X_, kind, k));
+      }
+    return worst;
+  }
+
+ private:
+  Eigen::MatrixXd X_;
+  Pod<> pod_;
+};
+
+/// The fewest modes that leave less than `tolerance`, for u, w and θ.
 inline std::array<int, 3> modes_needed(const Eigen::MatrixXd& X, double tolerance) {
-  const Pod<> pod(X, Truncation::count(static_cast<int>(X.rows())));
+  const LeftOver left(X);
   std::array<int, 3> needed{};
-  for (int modes = 1; modes <= pod.modes(); ++modes) {
-    const auto basis = pod.basis().leftCols(modes);
-    const Eigen::MatrixXd left = X - basis * (basis.transpose() * X);
-    for (Eigen::Index kind = 0; kind < 3; ++kind) {
-      int& found = needed[static_cast<std::size_t>(kind)];
-      const auto largest = [kind](const Eigen::MatrixXd& A, Eigen::Index column) {
-        return A.col(column)(Eigen::seq(kind, Eigen::last, 3)).cwiseAbs().maxCoeff();
-      };
-      double worst = 0;
-      for (Eigen::Index k = 0; k < X.cols(); ++k) worst = std::max(worst, largest(left, k) / largest(X, k));
-      if (found == 0 && worst < tolerance) found = modes;
-    }
+  for (int modes = 1; modes <= left.modes(); ++modes) {
+    const std::array<double, 3> worst = left(modes);
+    for (std::size_t kind = 0; kind < 3; ++kind)
+      if (needed[kind] == 0 && worst[kind] < tolerance) needed[kind] = modes;
   }
   return needed;
 }

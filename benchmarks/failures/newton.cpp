@@ -1,0 +1,156 @@
+// Newton's method: from far away, beyond a limit point, on a ridge, and at zero.
+#include <cmath>
+
+#include "report.hpp"
+#include "support/arch.hpp"
+#include "support/naive_newton.hpp"
+#include "support/path.hpp"
+#include "support/thesis_beam.hpp"
+#include <hapbeam/fem/fem_model.hpp>
+
+namespace hapbeam::benchmarks {
+
+namespace {
+
+using namespace hapbeam::testing;
+
+void far(Report& report) {
+  Beam beam(1, 1e4, 1, 0.01, Support::clamped, Support::free);
+  beam.add({1, 0, 10, 0});
+  Series series = report.series("newton_far", "elements,naive_steps,naive_solves,hapbeam_solves");
+  int coarse = 0, steps = 0, solves = 0, library = 0;
+  for (int n = 8; n <= 1024; n *= 2) {
+    NaiveSolve naive{};
+    for (steps = 1; steps <= 4096; steps *= 2) {
+      System<> system(beam, n);
+      system.set_goal();
+      naive = naive_newton(system, steps);
+      if (naive.converged) break;
+    }
+    if (n == 8) coarse = steps;
+    solves = naive.solves, library = FemModel<Corotational<>>(beam, n).rest().solves;
+    series.add(n, steps, solves, library);
+  }
+  report.failure("newton-from-far-away", "one load step fails; " + std::to_string(coarse) +
+                                             " are enough for 8 elements, " + std::to_string(steps) +
+                                             " for 1024");
+  report.row("linear solves from rest to 0.81 lengths of deflection, 1024 elements", std::to_string(solves),
+             std::to_string(library));
+}
+
+void limit_points(Report& report) {
+  const double rise = level_arch_rise(1, 0.2);
+  const Beam arch = level_arch(1, 0.2, 20736, 1, 0.001, Support::pinned, Support::pinned);
+  Beam loaded = arch;
+  loaded.add({0.5, 0, -1, 0});
+  const Path path = follow(
+      loaded, 16, 0.002, [&](const auto& at) { return (rise - at.node(8).w) / rise; },
+      [](const Equilibrium& e) { return e.way < 2.5; });
+  Series along = report.series("limit_path", "down,load");
+  for (const Equilibrium& e : path.points) along.add(e.way, e.load);
+  const std::vector<Turn> limits = load_turns(path);
+
+  // Up, past the first limit point, to where it says that it has converged.
+  Series naive = report.series("limit_load", "down,load");
+  System<> system(loaded, 16);
+  double down = 0, jump = 0;
+  for (double load = 0.1; jump < 1 && load < 3; load += 0.1) {
+    system.set_load(load);
+    for (int k = 0; k < 1000; ++k) {
+      if (system.factor(0) != Status::ok) break;
+      system.move([&](int i) { return system.increment(i); });
+      if (RelativeEnergy{}(system)) break;
+    }
+    const double now = (rise - system.node(8).w) / rise;
+    jump = now - down, down = now;
+    naive.add(down, load);
+  }
+
+  Series pressed = report.series("limit_press", "down,load");
+  FemModel<Corotational<>> model(arch, 16);
+  double largest = 0, before = 0, most = 0;
+  int solves = 0;
+  for (int k = 1; k <= 250; ++k) {
+    const double force = -model.press({0.5, rise * (1 - k / 100.0)}).force;
+    if (k % 10 == 0) pressed.add(k / 100.0, force);
+    largest = std::max(largest, force);
+    most = std::max(most, std::abs(force - before));
+    solves = std::max(solves, model.report().solves);
+    before = force;
+  }
+  report.failure("limit-points", "at the limit load, " + number(limits.front().extreme, 4) + ", " +
+                                     number(limits.front().other, 2) + " rises down");
+  report.row("largest move of the middle from one step to the next, in rises", number(jump),
+             "0.01, the hand's own");
+  report.row("linear solves of a step, at most", "does not converge, or some hundred",
+             std::to_string(solves));
+}
+
+void buckling(Report& report) {
+  const double EA = 1e6, euler = std::acos(-1.0) * std::acos(-1.0), push = 1e-4;
+  Series series =
+      report.series("buckling", "times_euler,naive_aside,hapbeam_aside,naive_stiffness,hapbeam_stiffness");
+  const auto at = [&](double times, double& naive, double& aside, double& naive_k, double& k) {
+    Beam beam(1, EA, 1, 0.001, Support::pinned, Support::pinned);
+    beam.place({}, {-times * euler / EA, 0, 0});
+    System<> system(beam, 16);
+    const ContactMesh<double> mesh(16, 1.0);
+    std::vector<CentrelineNode<double>> straight;
+    for (int i = 0; i <= 16; ++i) straight.push_back({mesh.position(i), 0, 0, 0});
+    system.set_state(mesh, straight.data());
+    system.set_goal();
+    naive_newton(system);
+    naive = system.node(8).w;
+    system.set_goal(8, push);
+    naive_newton(system);
+    naive_k = system.reaction() / push;
+    FemModel<Corotational<>> model(beam, 16);
+    aside = model.shape().at(0.5).w;
+    k = model.press({0.5, aside - push}).force / -push;
+  };
+  double naive = 0, aside = 0, naive_k = 0, k = 0;
+  for (double times = 0.1; times <= 10.01; times *= std::pow(10, 0.05)) {
+    at(times, naive, aside, naive_k, k);
+    series.add(times, naive, aside, naive_k, k);
+  }
+  report.failure("buckling", "at Euler's load");
+  for (const double times : {0.5, 2.0, 10.0}) {
+    at(times, naive, aside, naive_k, k);
+    report.row("ends moved together by " + number(times) +
+                   " times what Euler's load takes: aside by so much of the length",
+               number(naive), number(std::abs(aside) < 1e-12 ? 0 : aside));
+    report.row("and stiffness of a press there, in EI/L³", number(naive_k), number(k));
+  }
+}
+
+void zero(Report& report) {
+  const double s = 0.3 * thesis_length;
+  const Beam beam = thesis_beam(Support::pinned, Support::pinned);
+  report.failure("a-press-to-zero", "at a press that takes no force");
+  for (const double d : {1e-3, 1e-12, 0.0}) {
+    System<VonKarman<>> system(beam, 16);
+    const auto mesh = ContactMesh<double>(16, thesis_length).at(s);
+    system.remesh(mesh);
+    system.set_goal(mesh.node(), 1e-2);
+    naive_newton(system);
+    system.set_goal(mesh.node(), d);
+    const NaiveSolve naive = naive_newton(system, 1, 1000, RelativeDisplacement{});
+    FemModel<> model(beam, 16);
+    model.press({s, 1e-2});
+    model.press({s, d});
+    report.row("linear solves from a press of 10 mm to one of " + number(1e3 * d) + " mm",
+               naive.converged ? std::to_string(naive.solves) : "never ends",
+               std::to_string(model.report().solves));
+  }
+}
+
+}  // namespace
+
+void newton(Report& report) {
+  far(report);
+  limit_points(report);
+  buckling(report);
+  zero(report);
+}
+
+}  // namespace hapbeam::benchmarks
