@@ -20,14 +20,14 @@
 
 namespace hapbeam::benchmarks {
 
-/// @param act  Press -> Response   @param response  out   @return [ns], the clock's own time included
-template <class Act>
-double time_tick(Press<double> press, Act& act, Response<double>& response) {
+/// @param act  request -> answer   @param answer  out   @return [ns], the clock's own time included
+template <class Request, class Act, class Answer>
+double time_tick(Request request, Act& act, Answer& answer) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
-  benchmark::DoNotOptimize(press);  // neither earlier than the clock
-  response = act(press);
-  benchmark::DoNotOptimize(response);  // nor later
+  benchmark::DoNotOptimize(request);  // neither earlier than the clock
+  answer = act(request);
+  benchmark::DoNotOptimize(answer);  // nor later
   return std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
 }
 
@@ -99,7 +99,7 @@ class Rounds {
     std::vector<double> ns;
     Response<double> response{};
     const auto nothing = [](const Press<double>& press) { return Response<double>{press.d, Status::ok}; };
-    for (int k = 0; k < 500; ++k) ns.push_back(time_tick({0, 0}, nothing, response));
+    for (int k = 0; k < 500; ++k) ns.push_back(time_tick(Press<double>{0, 0}, nothing, response));
     return middle(ns);
   }
 

@@ -38,12 +38,18 @@ Trained<typename Model::Data> timed(const Beam& beam, int elements, bool validat
 
 }  // namespace
 
+template <class Nodes>
 Trained<PodModelData<double>> time_pod_training(const Beam& beam, const TrainingPlan& plan, int elements,
-                                                bool validated) {
-  return timed<PodModel<>>(
-      beam, elements, validated, [&](const auto& full) { return take_snapshots(beam, full, plan); },
-      [](const Snapshots& snapshots) { return train_pod(snapshots); });
+                                                bool validated, int modes) {
+  const Truncation truncation = modes > 0 ? Truncation::count(modes) : Truncation::error(1e-4);
+  return timed<PodModel<double, Nodes>>(
+      beam, elements, validated, [&](const auto& full) { return take_snapshots<Nodes>(beam, full, plan); },
+      [&](const Snapshots& snapshots) { return train_pod<Nodes>(snapshots, truncation); });
 }
+template Trained<PodModelData<double>> time_pod_training<ChebyshevNodes>(const Beam&, const TrainingPlan&,
+                                                                         int, bool, int);
+template Trained<PodModelData<double>> time_pod_training<EquispacedNodes>(const Beam&, const TrainingPlan&,
+                                                                          int, bool, int);
 
 Trained<GalerkinModelData<double>> time_galerkin_training(const Beam& beam, const TrainingPlan& plan,
                                                           int elements, bool validated) {

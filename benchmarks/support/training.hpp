@@ -1,6 +1,7 @@
 // Training for the benchmarks, with its time.  Compiled once: an SVD takes longer to compile than all else here.
 #pragma once
 
+#include <hapbeam/rom/lagrange.hpp>
 #include <hapbeam/rom/model_data.hpp>
 #include <hapbeam/rom/training_plan.hpp>
 
@@ -14,8 +15,10 @@ struct Trained {
 };
 
 /// @param elements  of the full model   @param validated  fills data.errors, by the same full model
+/// @param modes  of the shape; 0: as many as the default truncation keeps
+template <class Nodes = ChebyshevNodes>
 Trained<PodModelData<double>> time_pod_training(const Beam& beam, const TrainingPlan& plan,
-                                                int elements = 256, bool validated = false);
+                                                int elements = 256, bool validated = false, int modes = 0);
 Trained<GalerkinModelData<double>> time_galerkin_training(const Beam& beam, const TrainingPlan& plan,
                                                           int elements = 256, bool validated = false);
 

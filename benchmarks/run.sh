@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# Builds and runs the benchmarks, writes docs/data, draws docs/charts, and fills in what README.md and docs quote.
+# Installs what is missing for that (Debian; as root or with sudo).
+#
+#   bash benchmarks/run.sh [--quick] [--only PROGRAM] [--stability] [--programs FOLDER]
+#
+#   --quick             fewer sizes, stops and rounds: under 3 minutes; the numbers are rougher and fewer
+#   --only PROGRAM      measures with that one alone; `none` measures nothing and draws what docs/data has
+#   --stability         also maps where the servo loop is stable: simulated time, the same numbers on every machine, 10 min
+#   --programs FOLDER   where the benchmarks are, built already; default: builds them
+#   --help              this text
+#
+# Nothing else should run meanwhile.  Takes 12 minutes at most after the build.
+set -u
+source "$(dirname "${BASH_SOURCE[0]}")/../cmake/steps.sh"
+source "$top/benchmarks/report/csv.sh"
+
+usage() { sed -n '2,14s/^# \{0,1\}//p' "$0"; }
+wrong() { echo "benchmarks/run.sh: $1" >&2; exit 2; }
+
+all=(speed_accuracy)
+only=("${all[@]}") stability= programs=
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --help) usage; exit 0 ;;
+    --quick) export HAPBEAM_QUICK=1; shift ;;
+    --only) only=("${2-}"); shift 2 2>/dev/null || shift ;;
+    --stability) stability=yes; shift ;;
+    --programs) programs=${2-}; shift 2 2>/dev/null || shift ;;
+    *) wrong "'$1': see --help" ;;
+  esac
+done
+[[ ${only[*]} != none ]] || only=()
+for program in "${only[@]}"; do
+  [[ " ${all[*]} " == *" $program "* ]] || wrong "--only '$program': must be none or one of ${all[*]}"
+done
+
+need gnuplot-nox fonts-dejavu-core || exit 1
+if [[ -z $programs ]]; then
+  targets=("${only[@]}" ${stability:+stability_map})
+  [[ ${#targets[@]} == 0 ]] || build release "${targets[@]}" || exit 1
+  programs=$top/build/release/benchmarks
+fi
+kept=$top/docs/data charts=$top/docs/charts scratch=$(mktemp -d)
+trap 'rm -rf "$log" "$scratch"' EXIT
+
+measure() {
+  "$programs/$1" --benchmark_out="$scratch/$1.json" --benchmark_out_format=json &&
+    ! grep error_message "$scratch/$1.json" && "csv_$1" && cp "$scratch/$1.json" "$kept/$1.json"
+}
+
+draw() {
+  local chart
+  for chart in "$top"/benchmarks/report/*.gp; do
+    [[ $chart != */style.gp ]] || continue
+    gnuplot -e "data = '$kept'; charts = '$charts'; scratch = '$scratch'; folder = '$top/benchmarks/report'" "$chart" ||
+      return 1
+  done
+  # Gnuplot's titles are its own expressions, and browsers show them under the pointer.
+  sed -i -E 's:<(title|desc)>[^<]*</(title|desc)>::' "$charts"/*.svg
+}
+
+for program in "${only[@]}"; do step "$program" measure "$program" || exit 1; done
+if [[ -n $stability ]]; then
+  for what in border direct sweep; do step "stability_map $what" csv_stability "$what" || exit 1; done
+fi
+step 'docs/charts' draw

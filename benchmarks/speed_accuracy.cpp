@@ -1,0 +1,229 @@
+// Speed against accuracy: a servo's tick from the avatar's position to the force on the hand, for every method.
+//
+//   SCENE/MODEL/ELEMENTS/MODES/SNAPSHOTS     scenes: support/touch_scenes.hpp; 0 where a method has none
+//
+//   tick_ns_p50, _p99     of a tick [ns], contact included: median over the rounds, and over all ticks of a hand's path
+//   force_error_max, _median   |F - truth| / |truth|, vectors, at stops that no method was trained with
+//   outside_error_max     the same up to 1.6 times deeper than the scene; left out where one of these has no answer
+//   bytes                 what the method holds for one beam
+//
+// All methods are compiled alike, start each tick from the one before, and share contact detection, but for the chain of masses,
+// which has its own.  What differs from FemModel in its linear solver alone is called Newton + solver.
+// HAPBEAM_QUICK=1 in the environment takes fewer stops and rounds.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "support/closed_form_model.hpp"
+#include "support/heap.hpp"
+#include "support/mass_spring.hpp"
+#include "support/sparse_assemblers.hpp"
+#include "support/tick_times.hpp"
+#include "support/touch_scenes.hpp"
+#include "support/training.hpp"
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/element/linear.hpp>
+#include <hapbeam/fem/dense.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/rom/galerkin_model.hpp>
+#include <hapbeam/rom/pod_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::benchmarks;
+
+namespace {
+
+const bool quick = std::getenv("HAPBEAM_QUICK") != nullptr;
+const int rounds = quick ? 3 : 9, stops = quick ? 16 : 64;
+constexpr double slow_us = 100;  // a tick; what is slower is measured in fewer rounds
+
+/// A model under an avatar.
+template <class Model>
+struct Touched {
+  template <class... Arguments>
+  explicit Touched(const Arguments&... arguments) : model(arguments...), touch(model, avatar_radius) {}
+  Touched(const Touched&) = delete;
+  TouchResult<double> tick(const Point& position) noexcept { return touch.tick(position); }
+  void reset() noexcept { touch.reset(); }
+
+  Model model;
+  Touch<Model> touch;
+};
+
+struct Size {
+  int elements = 0, modes = 0, snapshots = 0;
+};
+
+struct Entry {
+  std::string name;
+  std::map<std::string, double> counters;
+};
+
+template <class Element, template <typename, int, int> class Assembler = BlockTridiagonal>
+using Fem = FemModel<Element, double, Eigen::Dynamic, Eigen::Dynamic, Assembler>;
+
+class Contest {
+ public:
+  Contest() {
+    for (const Scene& scene : touch_scenes(stops)) {
+      const bool turns = scene.name == "ruler" || scene.name == "arch", straight = scene.beam.straight();
+      const std::vector<int> sizes = quick ? std::vector<int>{4, 8, 16, 64}
+                                           : std::vector<int>{4, 8, 16, 32, 64, 128},
+                             few = quick ? std::vector<int>{8, 16} : std::vector<int>{8, 16, 32, 64};
+      if (straight) {
+        fem<Linear>(scene, "Linear", sizes);
+        fem<VonKarman<FullIntegration>>(scene, "VonKarman<FullIntegration>", sizes);
+        fem<VonKarman<ReducedIntegration>>(scene, "VonKarman<ReducedIntegration>", sizes);
+        fem<VonKarman<AssumedStrain>>(scene, "VonKarman<AssumedStrain>", sizes);
+      }
+      fem<Corotational<Linear>>(scene, "Corotational<Linear>", sizes);
+      fem<Corotational<>>(scene, "Corotational<VonKarman<AssumedStrain>>", sizes);
+      if (turns) solvers<Corotational<>>(scene, few);
+      else solvers<VonKarman<>>(scene, few);
+      for (const int n : few) {
+        add(scene, "mass-spring", {n, 0, 0}, [&scene, n] {
+          return std::make_unique<MassSpring>(scene.beam, n, avatar_radius, scene.mass_per_length,
+                                              scene.lowest);
+        });
+      }
+      if (turns) continue;
+      trained(scene);
+      add(scene, "closed form", {},
+          [&scene] { return std::make_unique<Touched<ClosedFormModel>>(scene.beam); });
+    }
+    times_.run(rounds);
+  }
+
+  const std::vector<Entry>& entries() const { return entries_; }
+  const TickTimes& times(const std::string& name) const { return times_.of(name); }
+
+ private:
+  template <class Element, template <typename, int, int> class Assembler = BlockTridiagonal>
+  void fem(const Scene& scene, const std::string& model, const std::vector<int>& sizes) {
+    for (const int n : sizes)
+      add(scene, model, {n, 0, 0},
+          [&scene, n] { return std::make_unique<Touched<Fem<Element, Assembler>>>(scene.beam, n); });
+  }
+
+  template <class Element>
+  void solvers(const Scene& scene, const std::vector<int>& sizes) {
+    fem<Element, SimplicialLdltNatural>(scene, "Newton + SimplicialLDLT", sizes);
+    // It cannot tell an arch that gives way.
+    if (scene.beam.straight()) fem<Element, SparseLuFromTriplets>(scene, "Newton + SparseLU", sizes);
+    fem<Element, Dense>(scene, "Newton + dense LDLT", sizes);
+  }
+
+  void trained(const Scene& scene) {
+    struct Grid {
+      int positions, depths, modes;  // 0: as many modes as the default truncation keeps
+    };
+    constexpr Grid grids[] = {{6, 6, 0},   {8, 8, 0},   {12, 8, 0},  {12, 12, 0}, {16, 12, 0},
+                              {24, 16, 0}, {32, 24, 0}, {16, 12, 2}, {16, 12, 4}, {16, 12, 8}};
+    for (const Grid& grid : grids) {
+      const TrainingPlan plan = TrainingPlan::anywhere(scene.beam, scene.depth, grid.positions, grid.depths);
+      pod<ChebyshevNodes>(scene, "PodModel<ChebyshevNodes>", plan, grid.modes);
+      if (grid.modes == 0) {
+        pod<EquispacedNodes>(scene, "PodModel<EquispacedNodes>", plan, 0);
+        attempt(scene, "GalerkinModel", plan, [&] {
+          const auto data = time_galerkin_training(scene.beam, plan).data;
+          add(scene, "GalerkinModel", {0, data.shape.modes, data.positions * data.tensions},
+              [data] { return std::make_unique<Touched<GalerkinModel<>>>(data); });
+        });
+      }
+    }
+  }
+
+  template <class Nodes>
+  void pod(const Scene& scene, const std::string& model, const TrainingPlan& plan, int modes) {
+    attempt(scene, model, plan, [&] {
+      const auto data = time_pod_training<Nodes>(scene.beam, plan, 256, false, modes).data;
+      add(scene, model, {0, data.shape.modes, data.positions * data.depths},
+          [data] { return std::make_unique<Touched<PodModel<double, Nodes>>>(data); });
+    });
+  }
+
+  /// Training refuses too few snapshots: no model, no point.
+  template <class Train>
+  static void attempt(const Scene& scene, const std::string& model, const TrainingPlan& plan,
+                      const Train& train) {
+    try {
+      train();
+    } catch (const std::exception& refusal) {
+      std::fprintf(stderr, "%s, %s of %d x %d: %s\n", scene.name.c_str(), model.c_str(), plan.positions,
+                   plan.depths, refusal.what());
+    }
+  }
+
+  template <class Make>
+  void add(const Scene& scene, const std::string& model, const Size& size, const Make& make) {
+    const std::string name = scene.name + "/" + model + "/" + std::to_string(size.elements) + "/" +
+                             std::to_string(size.modes) + "/" + std::to_string(size.snapshots);
+    const auto own = std::shared_ptr(make());
+    const auto errors = [&own](const std::vector<Stop>& known) {
+      std::vector<double> all;
+      for (const Stop& stop : known) {
+        own->reset();
+        const auto felt = come_down([&own](const Point& position) { return own->tick(position); }, stop);
+        all.push_back((felt.force - stop.force).norm() / stop.force.norm());
+      }
+      return all;
+    };
+    std::vector<double> inside = errors(scene.stops), outside = errors(scene.outside);
+    entries_.push_back({name,
+                        {{"elements", size.elements},
+                         {"modes", size.modes},
+                         {"snapshots", size.snapshots},
+                         {"force_error_max", quantile(inside, 1)},
+                         {"force_error_median", quantile(inside, 0.5)},
+                         {"outside_error_max", quantile(outside, 1)},
+                         {"bytes", bytes_of(make)}}});
+    times_.add(name, [own, path = scene.path, height = 2 * scene.depth, round = 0,
+                      slow = false](std::vector<double>& ns) mutable {
+      if (slow && ++round > 2) return Status::ok;
+      TouchResult<double> felt;
+      auto act = [&own](const Point& position) { return own->tick(position); };
+      // Onto the beam; caches, and the branches that a processor learns.
+      own->reset();
+      const std::size_t first = path.size() - path.size() / 20;
+      come_down(act, {path[first], height, {}});
+      for (std::size_t k = first; k < path.size(); ++k) time_tick(path[k], act, felt);
+      for (const Point& position : path) ns.push_back(time_tick(position, act, felt));
+      slow = middle(ns) > 1e3 * slow_us;
+      return Status::ok;
+    });
+  }
+
+  std::vector<Entry> entries_;
+  Rounds times_;
+};
+
+// Names and sizes are known when the models have been trained: all is measured before the first line is printed.
+const bool registered = [] {
+  static const Contest contest;
+  for (const Entry& entry : contest.entries())
+    benchmark::RegisterBenchmark(entry.name.c_str(),
+                                 [&entry](benchmark::State& state) {
+                                   const TickTimes& times = contest.times(entry.name);
+                                   for (auto _ : state) state.SetIterationTime(times.p50() * 1e-6);
+                                   for (const auto& [counter, value] : entry.counters)
+                                     state.counters[counter] = value;
+                                   state.counters["tick_ns_p50"] = 1e3 * times.p50();
+                                   state.counters["tick_ns_p99"] = 1e3 * times.part(0.99);
+                                 })
+        ->Iterations(1)
+        ->UseManualTime()
+        ->Unit(benchmark::kMicrosecond);
+  return true;
+}();
+
+}  // namespace

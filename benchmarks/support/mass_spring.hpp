@@ -1,0 +1,180 @@
+// A chain of masses and springs, integrated explicitly: the method people reach for (thesis eq. 2.2-2.5).
+//
+//   m ẍ = -c ẋ + g + f      springs of EA/l between neighbours, of EI/l in the angle at each mass; c = 2 ω m
+//
+// As good as such a chain gets: its springs are those of the beam, its masses too, it is damped critically in its lowest
+// mode ω, and the avatar holds it as a constraint and not as one more spring.  Masses are moved by symplectic Euler, in as
+// many sub-steps of a tick as its fastest mode needs, ω_max Δt < 2: eq. 2.2 the other way round.
+// Servo: noexcept, no allocation, O(masses × sub-steps).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+namespace hapbeam::benchmarks {
+
+class MassSpring {
+  using Vector = Vector2<double>;
+
+ public:
+  static constexpr double tick_time = 1e-3;  // [s]
+
+  /// @param mass_per_length [kg/m]   @param lowest  ω of its lowest mode [rad/s]
+  MassSpring(const Beam& beam, int links, double radius, double mass_per_length, double lowest)
+      : EA_(beam.axial_stiffness()),
+        bending_(beam.bending_stiffness() / (beam.length() / links)),
+        link_(beam.length() / links),
+        mass_(mass_per_length * link_),
+        damping_(2 * lowest),
+        reach_(radius + beam.thickness() / 2) {
+    const FemModel<Corotational<>> resting(beam, links);
+    for (const auto& node : resting.shape()) rest_.emplace_back(node.s + node.u, node.w);
+    link_ = (rest_[1] - rest_[0]).norm();  // the chord of what may be an arc
+    const auto direction = [](double theta) { return Vector(std::cos(theta), -std::sin(theta)); };
+    wall_ = {direction(beam.left_place().theta), direction(beam.right_place().theta)};
+    held_ = {fixes_w(beam.left()), fixes_w(beam.right())};
+    clamped_ = {fixes_theta(beam.left()), fixes_theta(beam.right())};
+    // Along: 2 √(EA/(l m)).  Across: 4 √(EI/(l³ m)), and a free end moves twice the way.
+    const double fastest = std::hypot(2 * std::sqrt(EA_ / (link_ * mass_)),
+                                      4 * std::sqrt(2 * bending_ / (link_ * link_ * mass_)));
+    steps_ = static_cast<int>(std::ceil(tick_time * fastest / (0.9 * 2)));
+    force_.resize(rest_.size());
+    natural_.assign(rest_.size(), 0);
+    x_ = rest_;
+    for (std::size_t i = 0; i < rest_.size(); ++i) natural_[i] = bend(i).angle;
+    reset();
+  }
+
+  void reset() noexcept {
+    x_ = rest_;
+    v_.assign(rest_.size(), Vector::Zero());
+    near_ = 0;
+    known_ = false;
+  }
+
+  [[nodiscard]] TouchResult<double> tick(const Vector& position) noexcept {
+    if (!known_) before_ = position, known_ = true;
+    const double dt = tick_time / steps_;
+    Vector impulse = Vector::Zero();
+    for (int k = 1; k <= steps_; ++k) {
+      advance(dt);
+      impulse += hold(before_ + (position - before_) * k / steps_, dt);
+    }
+    before_ = position;
+    TouchResult<double> result;
+    result.force = impulse / tick_time;
+    result.pressing = result.force.squaredNorm() > 0;
+    if (!result.force.allFinite()) result.force.setZero(), result.status = Status::non_finite;
+    return result;
+  }
+
+  int steps() const noexcept { return steps_; }
+
+ private:
+  struct Bend {
+    Vector a, b;   // links before and after the mass
+    double angle;  // 2 tan(φ/2)
+  };
+
+  Bend bend(std::size_t i) const noexcept {
+    const std::size_t last = x_.size() - 1;
+    if ((i == 0 && !clamped_[0]) || (i == last && !clamped_[1])) return {Vector::UnitX(), Vector::UnitX(), 0};
+    const Vector a = i == 0 ? wall_[0] : Vector(x_[i] - x_[i - 1]);
+    const Vector b = i == last ? wall_[1] : Vector(x_[i + 1] - x_[i]);
+    const double cross = a.x() * b.y() - a.y() * b.x();
+    return {a, b, 2 * cross / (std::sqrt(a.squaredNorm() * b.squaredNorm()) + a.dot(b))};
+  }
+
+  void advance(double dt) noexcept {
+    const std::size_t last = x_.size() - 1;
+    for (Vector& force : force_) force.setZero();
+    for (std::size_t i = 0; i < last; ++i) {
+      const Vector link = x_[i + 1] - x_[i];
+      const double length = link.norm();
+      const Vector pull = EA_ * (length / link_ - 1) / length * link;
+      force_[i] += pull;
+      force_[i + 1] -= pull;
+    }
+    for (std::size_t i = 0; i <= last; ++i) {
+      const Bend at = bend(i);
+      const bool end = i == 0 || i == last;
+      // A clamp holds the middle of what would be one more link.
+      const double moment = (end ? 2 : 1) * bending_ * (at.angle - natural_[i]);
+      if (moment == 0) continue;
+      const auto turn = [](const Vector& a) { return Vector(Vector(-a.y(), a.x()) / a.squaredNorm()); };
+      if (i > 0) {
+        const Vector pair = moment * turn(at.a);
+        force_[i - 1] -= pair;
+        force_[i] += pair;
+      }
+      if (i < last) {
+        const Vector pair = moment * turn(at.b);
+        force_[i] += pair;
+        force_[i + 1] -= pair;
+      }
+    }
+    const double kept = 1 - damping_ * dt;
+    for (std::size_t i = 0; i <= last; ++i) {
+      const double inverse = inverse_mass(i);
+      if (inverse == 0) continue;
+      v_[i] = kept * v_[i] + dt * inverse * force_[i];
+      x_[i] += dt * v_[i];
+    }
+  }
+
+  /// Moves the two masses of the link that the avatar has entered out of it.   @return [N·s] on the avatar
+  Vector hold(const Vector& centre, double dt) noexcept {
+    const std::size_t links = x_.size() - 1;
+    const auto offset = [&](std::size_t i, double& t) {
+      const Vector link = x_[i + 1] - x_[i];
+      t = std::clamp(link.dot(centre - x_[i]) / link.squaredNorm(), 0.0, 1.0);
+      return Vector(centre - x_[i] - t * link);
+    };
+    double t;
+    if (near_ == 0) {  // anywhere; from then on it is near where it was
+      for (std::size_t i = 0; i < links; ++i)
+        if (offset(i, t).squaredNorm() < offset(near_, t).squaredNorm()) near_ = i;
+    }
+    for (const std::size_t i : {near_ - (near_ > 0), std::min(near_ + 1, links - 1)})
+      if (offset(i, t).squaredNorm() < offset(near_, t).squaredNorm()) near_ = i;
+    const Vector way = offset(near_, t), link = x_[near_ + 1] - x_[near_];
+    Vector normal = Vector(-link.y(), link.x()).normalized();  // pressed from above
+    if ((t == 0 || t == 1) && way.dot(normal) > 0) normal = way.normalized();
+    const double depth = reach_ - way.dot(normal);
+    if (depth <= 0) return Vector::Zero();
+    const double first = (1 - t) * inverse_mass(near_), second = t * inverse_mass(near_ + 1);
+    const double impulse = depth / (dt * ((1 - t) * first + t * second));
+    const auto push = [&](std::size_t i, double share) {
+      v_[i] -= impulse * share * normal;
+      x_[i] -= impulse * share * dt * normal;
+    };
+    push(near_, first);
+    push(near_ + 1, second);
+    return impulse * normal;
+  }
+
+  /// Half of a link is at a free end.
+  double inverse_mass(std::size_t i) const noexcept {
+    const bool left = i == 0, right = i + 1 == rest_.size();
+    if ((left && held_[0]) || (right && held_[1])) return 0;
+    return (left || right ? 2 : 1) / mass_;
+  }
+
+  double EA_, bending_, link_, mass_, damping_, reach_;
+  std::array<Vector, 2> wall_;
+  std::array<bool, 2> held_, clamped_;
+  std::vector<Vector> rest_, x_, v_, force_;
+  std::vector<double> natural_;
+  Vector before_;
+  bool known_ = false;
+  std::size_t near_ = 0;
+  int steps_;
+};
+
+}  // namespace hapbeam::benchmarks
