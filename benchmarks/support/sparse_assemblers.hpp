@@ -6,13 +6,6 @@
 // without searching, and allocates nothing of its own in a solve.  SparseLuFromTriplets is what one writes first.
 #pragma once
 
-#if defined(__GNUC__) && !defined(__clang__)
-// GCC 12 takes the undefined lanes of its own AVX-512 intrinsics for a mistake (GCC bug 105593).  The warning comes
-// from inlining, after any pop: it is off for the rest of the file.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#endif
-
 #include <algorithm>
 #include <vector>
 

@@ -1,9 +1,3 @@
-#if defined(__GNUC__) && !defined(__clang__)
-// See training.cpp.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#endif
-
 #include "touch_scenes.hpp"
 
 #include <cmath>

@@ -1,10 +1,3 @@
-#if defined(__GNUC__) && !defined(__clang__)
-// GCC 12 takes the undefined lanes of its own AVX-512 intrinsics for a mistake (GCC bug 105593).  Without -march=native
-// it would not; but the same inline functions, compiled for two processors, must not meet in one program.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#endif
-
 #include "training.hpp"
 
 #include <chrono>
