@@ -4,6 +4,7 @@
 //
 //   modes/pod/N         a PodModel of 16 × 12 presses with N modes
 //   snapshots/MODEL/N   a model of N presses, 4 positions for 3 depths; training it from 256 elements
+//   near_support/MODEL/N    the same from 1 % of the span on, 10 mm deep: 32 positions for 12 depths
 //   beams/MODEL/N       N beams ticked in turn, as a scene full of them would: a tick of one
 //   elements/fem/N      what N elements hold of the memory
 //
@@ -58,6 +59,15 @@ class Costs {
         return time_galerkin_training(thesis_beam(), p);
       });
     }
+    TrainingPlan wide = plan(32, 12);
+    wide.s_min = 0.01 * length, wide.s_max = 0.99 * length, wide.depth = 0.01;
+    const auto at_the_edge = known_presses(0.01, 0.99, wide.depth);
+    add("near_support/pod/384",
+        {{"force_error",
+          force_errors(PodModel<>(time_pod_training(thesis_beam(), wide).data), at_the_edge).max}});
+    add("near_support/galerkin/384",
+        {{"force_error",
+          force_errors(GalerkinModel<>(time_galerkin_training(thesis_beam(), wide).data), at_the_edge).max}});
     const PodModel<> pod(time_pod_training(thesis_beam(), plan(16, 12)).data);
     const GalerkinModel<> galerkin(time_galerkin_training(thesis_beam(), plan(16, 12)).data);
     for (int n = 1; n <= 1024; n *= 4) {

@@ -12,13 +12,14 @@
 #
 # Nothing else should run meanwhile.  Takes 12 minutes at most after the build.
 set -u
+export LC_ALL=C
 source "$(dirname "${BASH_SOURCE[0]}")/../cmake/steps.sh"
 source "$top/benchmarks/report/csv.sh"
 
 usage() { sed -n '2,14s/^# \{0,1\}//p' "$0"; }
 wrong() { echo "benchmarks/run.sh: $1" >&2; exit 2; }
 
-all=(speed_accuracy)
+all=(speed_accuracy costs thesis_figures reduced_press any_rotation fem_press kinematics servo_times)
 only=("${all[@]}") stability= programs=
 while [[ $# -gt 0 ]]; do
   case $1 in
@@ -44,7 +45,12 @@ fi
 kept=$top/docs/data charts=$top/docs/charts scratch=$(mktemp -d)
 trap 'rm -rf "$log" "$scratch"' EXIT
 
+# Google Benchmark's; the others print text.
 measure() {
+  if [[ $1 == servo_times ]]; then
+    csv_servo_times
+    return
+  fi
   "$programs/$1" --benchmark_out="$scratch/$1.json" --benchmark_out_format=json &&
     ! grep error_message "$scratch/$1.json" && "csv_$1" && cp "$scratch/$1.json" "$kept/$1.json"
 }
@@ -53,7 +59,7 @@ draw() {
   local chart
   for chart in "$top"/benchmarks/report/*.gp; do
     [[ $chart != */style.gp ]] || continue
-    gnuplot -e "data = '$kept'; charts = '$charts'; scratch = '$scratch'; folder = '$top/benchmarks/report'" "$chart" ||
+    gnuplot -e "data = '$kept'; charts = '$charts'; folder = '$top/benchmarks/report'" "$chart" ||
       return 1
   done
   # Gnuplot's titles are its own expressions, and browsers show them under the pointer.
@@ -64,4 +70,6 @@ for program in "${only[@]}"; do step "$program" measure "$program" || exit 1; do
 if [[ -n $stability ]]; then
   for what in border direct sweep; do step "stability_map $what" csv_stability "$what" || exit 1; done
 fi
-step 'docs/charts' draw
+[[ -n ${HAPBEAM_QUICK-} || ${#only[@]} -lt ${#all[@]} ]] || step compile_cost csv_compile_cost || exit 1
+step 'docs/charts' draw || exit 1
+step 'README.md, docs' bash "$top/benchmarks/report/fill.sh"

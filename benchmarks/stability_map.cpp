@@ -9,7 +9,7 @@
 //                                   Schenkel, for arms, periods and delays, for the worst of the hands
 //   stability_map direct            without a coupling: the least damping of the arm with which it is stable
 //
-// Nothing here is timed; the same numbers on every machine.  Charts: stability.sh.
+// Nothing here is timed; the same numbers on every machine.  Chart: benchmarks/run.sh --stability.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-# What tests/run.sh, examples/run.sh and .ci/run share; for `source`.
+# What tests/run.sh, examples/run.sh, benchmarks/run.sh and .ci/run share; for `source`.
 
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 log=$(mktemp)

@@ -3,8 +3,8 @@
 # context KEY PROGRAM: of Google Benchmark's header.
 context() { sed -nE 's/^ *"'"$1"'": "?([^"]*[^",])"?,?$/\1/p' "$scratch/$2.json" | head -n 1; }
 
-# csv PROGRAM PARTS COUNTER...: a line for each benchmark: the parts of its name, separated by '/', then its counters;
-# nothing where it has none of that name.
+# csv PROGRAM PARTS COUNTER...: a line for each benchmark: the parts of its name, separated by '/', the last one with the rest
+# of it, then its counters; nothing where it has none of that name.
 csv() {
   local program=$1 parts=$2
   shift 2
@@ -13,14 +13,18 @@ csv() {
     echo "# $(context compiler "$program"), $(context flags "$program")"
     echo "# commit $(context commit "$program"), $(context date "$program")${HAPBEAM_QUICK:+, quick}"
     awk -F'"' -v parts="$parts" -v counters="$*" '
-      function put(  k, line) {
+      function put(  k, line, part) {
         if (name == "") return
-        line = name
+        split(name, part, "/")
+        line = part[1]
+        for (k = 2; k <= m; ++k) line = line "," part[k]
+        for (k = m + 1; k in part; ++k) line = line "/" part[k]
         for (k = 1; k <= n; ++k) line = line "," value[counter[k]]
         print line
       }
       BEGIN {
         n = split(counters, counter, " ")
+        m = split(parts, part, "/")
         line = parts
         gsub("/", ",", line)
         for (k = 1; k <= n; ++k) line = line "," counter[k]
@@ -30,10 +34,9 @@ csv() {
         put()
         name = $4
         sub(/\/iterations:1.*/, "", name)
-        if (index(parts, "/")) gsub("/", ",", name)
         split("", value)
       }
-      name != "" && $3 ~ /^: -?[0-9]/ { gsub(/[:, ]/, "", $3); value[$2] = sprintf("%.6g", $3) }
+      name != "" && $3 ~ /^: -?[0-9]/ { gsub(/[:, ]/, "", $3); value[$2] = sprintf("%.9g", $3) }
       END { put() }' "$scratch/$program.json"
   } >"$kept/$program.csv"
 }
@@ -41,4 +44,57 @@ csv() {
 csv_speed_accuracy() {
   csv speed_accuracy scene/model/elements/modes/snapshots \
     tick_ns_p50 tick_ns_p99 force_error_max force_error_median outside_error_max bytes
+}
+csv_costs() { csv costs what/model/n tick_us training_ms force_error shape_error bytes; }
+csv_thesis_figures() { csv thesis_figures figure/setting/n/what time_us force_error; }
+csv_reduced_press() {
+  csv reduced_press path/model/what p50_us p99_us max_us force_error_median force_error_max shape_error_max snapshots_ms pod_ms
+}
+csv_any_rotation() { csv any_rotation scene/model/elements p50_us p99_us ratio force_error; }
+csv_fem_press() { csv fem_press path/solver/membrane/elements p50_us p99_us solves solve_ns force_error; }
+csv_kinematics() {
+  csv kinematics study/ends/section/element slope_1 deflection_1 press_1 slope_5 deflection_5 press_5 slope_10 deflection_10 \
+    press_10 deepest error_at_deepest
+}
+
+# Programs that are no micro-benchmarks.
+
+# What a servo's tick and its period take in real time.
+csv_servo_times() {
+  "$programs/servo_times" "$([[ -n ${HAPBEAM_QUICK-} ]] && echo 5 || echo 60)" >"$scratch/servo_times" && {
+    grep '^#' "$kept/costs.csv"
+    echo what,p50_us,p99_us,p999_us,max_us,ticks
+    awk '/^(compute|period)/ { print $1 "," $3 "," $6 "," $9 "," $12 "," $15 }' "$scratch/servo_times"
+  } >"$kept/servo_times.csv"
+}
+
+# What the compiler pays for a trained model.
+csv_compile_cost() {
+  bash "$top/benchmarks/compile_cost.sh" >"$scratch/compile_cost" && {
+    sed -n '1s/^/# /p' "$scratch/compile_cost"
+    echo file,seconds
+    sed -nE 's/^(.*[^ ]) +([0-9.]+) s$/\1,\2/p' "$scratch/compile_cost"
+  } >"$kept/compile_cost.csv"
+}
+
+# csv_stability border|direct|sweep: of the sweep, which has a line for each combination, counts and failures.
+csv_stability() {
+  "$programs/stability_map" "$1" >"$scratch/$1.csv" || return 1
+  if [[ $1 != sweep ]]; then
+    cp "$scratch/$1.csv" "$kept/stability_$1.csv"
+    return
+  fi
+  awk -F, 'NR == 1 || $NF != "at_rest"' "$scratch/sweep.csv" >"$kept/stability_failures.csv"
+  awk -F, '
+    NR == 1 { next }
+    { key = $1 "," $2; if (!(key in all)) order[++n] = key; ++all[key]; ++count[key, $NF] }
+    END {
+      print "scene,push_N,combinations,at_rest,slow,slow_as_the_arm_itself,slides_off,lost,gives_energy"
+      for (k = 1; k <= n; ++k) {
+        key = order[k]
+        print key "," all[key] "," count[key, "at_rest"] + 0 "," count[key, "slow"] + 0 "," \
+          count[key, "slow_as_the_arm_itself"] + 0 "," count[key, "slides_off"] + 0 "," count[key, "lost"] + 0 "," \
+          count[key, "gives_energy"] + 0
+      }
+    }' "$scratch/sweep.csv" >"$kept/stability_sweep.csv"
 }

@@ -6,34 +6,43 @@ file = data . '/speed_accuracy.csv'
 rows(scene, model) = sprintf("< awk -F, -v scene='%s' -v model='%s' -f %s/series.awk %s %s | sort -t, -k6g", \
   scene, model, folder, file, file)
 front(scene) = sprintf("< awk -F, -v scene='%s' -f %s/front.awk %s", scene, folder, file)
+# The row of that number, or the last; 0: the one that is most wrong.
+row(scene, model, n) = rows(scene, model) . \
+  (n eq '0' ? ' | sort -t, -k8gr | head -n 1' : sprintf(" | awk -v n=%s '{ line = $0 } NR == n { exit } END { print line }'", n))
 
-# What a series is called, its colour and point, and its label: at its fastest or slowest point, aside by so many characters.
 array models[14] = ['Linear', 'VonKarman<FullIntegration>', 'VonKarman<ReducedIntegration>', 'Corotational<Linear>', \
   'mass-spring', 'Newton + SparseLU', 'Newton + dense LDLT', 'Newton + SimplicialLDLT', 'PodModel<EquispacedNodes>', \
   'PodModel<ChebyshevNodes>', 'GalerkinModel', 'closed form', 'VonKarman<AssumedStrain>', \
   'Corotational<VonKarman<AssumedStrain>>']
-array names[14] = ['Linear', 'full integration', 'reduced integration', "textbook\ncorotational", \
-  "masses and\nsprings", "Newton,\nSparseLU", "Newton,\ndense", "Newton,\nSimplicialLDLT", 'equispaced', \
-  'PodModel', 'GalerkinModel', 'closed form', 'VonKarman', 'Corotational']
 array colours[14] = [grey, orange, orange, sky, purple, grey, grey, grey, green, green, black, black, vermilion, blue]
 array shapes[14] = [2, 4, 6, 8, 12, 1, 2, 3, 6, 7, 13, 9, 7, 5]
-array places[14] = ['tail 1 0.7', 'tail 0.7 0.7', 'tail 0.7 0.7', 'tail 0.7 0.7', 'tail 0.7 0.7', 'tail -1 -1', \
-  'tail -1 -1', 'tail -1 -1', 'tail 0.9 0', 'head -1 0', 'head -3 0.8', 'head -1 -0.9', 'tail 1 -0.2', 'tail 1 -0.2']
-place(scene, i) = places[i]
+array names[14] = ['Linear', 'full integration', 'reduced integration', 'textbook corotational', 'masses and springs', \
+  'sparse LU', 'dense', 'sparse LDLT', 'equispaced', 'POD', 'Galerkin', 'closed form', 'VonKarman', 'Corotational']
+name(scene, i) = scene eq 'ruler' && (i == 2 || i == 3) ? '' : scene eq 'ruler' && i == 13 ? 'VonKarman, any membrane' : names[i]
+# Where a name stands: at which point of its series, from there aside and up by so many characters, and which side of it.
+array places[14] = ['9 0.8 0.5 l', '9 0.8 0.5 l', '9 0.8 0.3 l', '9 0.8 0.4 l', '3 0.8 0.6 l', '9 0.8 0 l', '9 -0.8 -0.6 r', \
+  '9 0.8 -0.4 l', '9 0.9 0.4 l', '0 -1 0 r', '0 -1 0.3 r', '1 -0.9 -0.7 r', '9 0.8 -0.4 l', '3 -1 -0.3 r']
+array exceptions[5]
+exceptions[1] = '02=9 0.6 -0.9 l;04=9 0.8 0.6 l;07=2 0.8 0.4 l;08=3 0.8 0.4 l;06=9 0.8 0.6 l;13=4 -0.9 -0.6 r;14=9 0.8 -0.4 l;'
+exceptions[2] = '02=9 0.8 0.9 l;14=9 0.8 -0.7 l;'
+exceptions[3] = '01=1 0 0.7 l;02=9 0.8 -0.4 l;03=9 0.8 0.9 l;04=9 0.8 -0.5 l;05=2 0.8 0.6 l;10=0 -1 0.3 r;11=3 0.8 0 l;14=9 0.8 0.6 l;'
+exceptions[4] = '01=1 0 0.7 l;04=5 0.8 0.4 l;05=2 0.8 0.6 l;06=9 0 -0.9 c;08=9 0.2 -0.9 l;13=9 -1 -0.9 l;'
+exceptions[5] = '04=5 0.8 0.4 l;05=1 0.8 0.6 l;07=9 0.8 0 l;'
+at(k, i) = strstrt(exceptions[k], sprintf('%02d=', i))
+place(k, i) = at(k, i) ? substr(exceptions[k], at(k, i) + 3, at(k, i) + 1 + strstrt(substr(exceptions[k], at(k, i), 999), ';') - 3) : places[i]
+anchor(i, side) = word(place(k, i), 4) eq side && there[i] ? row(scene, models[i], word(place(k, i), 1)) : '/dev/null'
 
-array titles[5] = ['Steel bar of 2.54 m between hinges, pressed up to 5 mm', \
-  'Steel bar of 2.54 m between hinges, pressed up to 50 mm', \
-  'Steel strip between hinges, pressed up to ten times its thickness', \
-  'Ruler, clamped at one end, bent to 0.8 of its length', \
-  'Arch, pressed on its way to snap through']
 scenes = 'bar_5mm bar_50mm strip ruler arch'
+array titles[5] = ['Steel bar between hinges, pressed up to 5 mm', 'Steel bar between hinges, pressed up to 50 mm', \
+  'Steel strip, pressed up to ten times its thickness', 'Ruler, clamped, bent to 0.8 of its length', \
+  'Arch, pressed on its way to snap through']
+array lowest[5] = [3e-9, 6e-6, 1e-5, 2e-8, 4e-8]
 
 set logscale xy
 unset mxtics
 unset mytics
-set xrange [200:3e6]
-set yrange [4e-9:3]
-set xtics ('1 µs' 1e3, '10 µs' 1e4, '100 µs' 1e5, '1 ms' 1e6)
+set xrange [60:4e6]
+set xtics ('0.1 µs' 100, '1 µs' 1e3, '10 µs' 1e4, '100 µs' 1e5, '1 ms' 1e6)
 set ytics ('100 %%' 1, '10 %%' 0.1, '1 %%' 0.01, '0.1 %%' 1e-3, '10^{-4}' 1e-4, '10^{-5}' 1e-5, '10^{-6}' 1e-6, \
   '10^{-7}' 1e-7, '10^{-8}' 1e-8)
 set tmargin 5.5
@@ -42,8 +51,8 @@ set xlabel 'time of a servo tick, from position to force'
 set ylabel 'largest error of the force' offset 0.5
 set arrow 1 from 1e6, graph 0 to 1e6, graph 1 nohead lc rgb grey dt (8, 5)
 set arrow 2 from graph 0, first 0.07 to graph 1, first 0.07 nohead lc rgb grey dt (8, 5)
-set label 1 'budget' at 1.1e6, graph 0.02 left textcolor rgb grey font ',16'
-set label 2 'just felt: 7 %%' at graph 0.01, first 0.1 left textcolor rgb grey font ',16'
+set label 1 '1 kHz' at 8.5e5, graph 0.02 right textcolor rgb grey font ',17'
+set label 2 'just felt' at graph 0.01, first 0.095 left textcolor rgb grey font ',17'
 set label 3 'down and left is better; yellow: nothing is better at both' at screen 0.5, 0.915 center textcolor rgb grey font ',17'
 
 do for [format in 'svg png'] {
@@ -53,13 +62,17 @@ do for [format in 'svg png'] {
     array there[14]
     do for [i = 1:14] { there[i] = int(system(sprintf("grep -cF '%s,%s,' %s", scene, models[i], file))) > 0 }
     eval begin('speed_accuracy_' . scene, format)
-    set label 4 titles[k] at screen 0.5, 0.96 center font ',20'
+    set yrange [lowest[k]:3]
+    set label 4 titles[k] at screen 0.5, 0.96 center font ',21'
     plot front(scene) using 1:2 with steps lc rgb '#ffe08a' lw 9, \
-      for [i = 1:14] (there[i] ? rows(scene, models[i]) : '/dev/null') using 6:8 with lines lc rgb colours[i] lw (i > 9 ? 2.5 : 1.8), \
+      for [i = 1:14] (there[i] ? rows(scene, models[i]) : '/dev/null') using 6:8 with lines lc rgb colours[i] lw (i > 9 ? 3 : 1.8), \
       for [i = 1:14] (there[i] ? rows(scene, models[i]) : '/dev/null') using 6:8:6:7 with xerrorbars lc rgb colours[i] pt shapes[i] ps 0.9 lw 1, \
-      for [i = 1:14] (there[i] ? rows(scene, models[i]) . ' | ' . word(place(scene, i), 1) . ' -n 1' : '/dev/null') \
-        using 6:8:(names[i]) with labels left textcolor rgb colours[i] font ',17' \
-        offset real(word(place(scene, i), 2)), real(word(place(scene, i), 3))
+      for [i = 1:14] anchor(i, 'l') using 6:8:(name(scene, i)) with labels left textcolor rgb colours[i] font ',18' \
+        offset real(word(place(k, i), 2)), real(word(place(k, i), 3)), \
+      for [i = 1:14] anchor(i, 'r') using 6:8:(name(scene, i)) with labels right textcolor rgb colours[i] font ',18' \
+        offset real(word(place(k, i), 2)), real(word(place(k, i), 3)), \
+      for [i = 1:14] anchor(i, 'c') using 6:8:(name(scene, i)) with labels center textcolor rgb colours[i] font ',18' \
+        offset real(word(place(k, i), 2)), real(word(place(k, i), 3))
     set output
   }
 }

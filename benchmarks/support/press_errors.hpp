@@ -20,16 +20,16 @@ namespace hapbeam::benchmarks {
 /// A press and the force that it takes.
 using Known = std::pair<Press<double>, double>;
 
-/// @param from, to  part of the span; equal for one place
-inline std::vector<Known> known_presses(double from, double to, int count = 500) {
+/// @param from, to  part of the span; equal for one place   @param deepest  [m]
+inline std::vector<Known> known_presses(double from, double to, double deepest = depth) {
   const Beam beam = thesis_beam();
   const PinnedClosedForm exact(beam.length(), beam.axial_stiffness(), beam.bending_stiffness());
   // The standard fixes the generator but not its distributions.
   std::mt19937_64 generator(2008);
   const auto random = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
   std::vector<Known> known;
-  for (int k = 0; k < count; ++k) {
-    const double s = length * (from + (to - from) * random()), d = depth * (0.02 + 0.98 * random());
+  for (int k = 0; k < 500; ++k) {
+    const double s = length * (from + (to - from) * random()), d = deepest * (0.02 + 0.98 * random());
     const Press<double> press{s, k % 2 ? -d : d};
     known.emplace_back(press, exact.force(press));
   }

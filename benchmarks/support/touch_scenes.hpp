@@ -54,7 +54,7 @@ TouchResult<double> come_down(Tick&& tick, const Stop& stop) {
     felt = tick(stop.position);
     if (k % apart != 0) continue;
     // A beam that was thrown off will be back.
-    if (felt.pressing && (felt.force - before).norm() <= 1e-7 * felt.force.norm()) break;
+    if (felt.pressing && (felt.force - before).norm() <= 1e-6 * felt.force.norm()) break;
     before = felt.force;
   }
   return felt;

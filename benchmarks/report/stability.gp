@@ -1,4 +1,4 @@
-# Draws what stability.sh has found.  Needs `data`, the folder of the series, and `charts`, where the chart goes.
+# Draws where the loop is stable.
 set encoding utf8
 set datafile separator ','
 

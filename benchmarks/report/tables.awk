@@ -1,0 +1,199 @@
+# The tables of README.md and docs: awk -F, -v table=NAME -f numbers.awk -f tables.awk FILE.csv
+
+/^#/ { head = head (head == "" ? "" : "; ") substr($0, 3); next }
+columns == 0 { columns = NF; for (k = 1; k <= NF; ++k) title[k] = $k; next }
+{
+  ++rows
+  for (k = 1; k <= columns; ++k) cell[rows, title[k]] = $k
+}
+
+function line(a, b, c, d, e, f, g, h) {
+  print "| " a " | " b (c == "" ? "" : " | " c) (d == "" ? "" : " | " d) (e == "" ? "" : " | " e) (f == "" ? "" : " | " f) \
+    (g == "" ? "" : " | " g) (h == "" ? "" : " | " h) " |"
+}
+function rule(n,  k, text) {
+  for (k = 1; k <= n; ++k) text = text "|---"
+  print text "|"
+}
+
+# The first row of a scene, model and size, in speed_accuracy.csv.
+function point(scene, model, elements, snapshots,  k) {
+  for (k = 1; k <= rows; ++k)
+    if (cell[k, "scene"] == scene && cell[k, "model"] == model && cell[k, "elements"] == elements && \
+        cell[k, "snapshots"] == snapshots)
+      return k
+  print "no " model " of " elements " elements and " snapshots " snapshots in " scene >"/dev/stderr"
+  exit 1
+}
+
+# Which model for which scene.
+function choice(text, name, scene, model, elements, snapshots,  k) {
+  k = point(scene, model, elements, snapshots)
+  line(text, name, time(cell[k, "tick_ns_p50"]), percent(cell[k, "force_error_max"]), \
+    percent(cell[k, "outside_error_max"]), size(cell[k, "bytes"]))
+}
+function scenes() {
+  line("scene", "model", "a tick", "largest error", "1.6 × deeper", "memory")
+  rule(6)
+  choice("a bar that is pressed, ends held", "`FemModel<>`, 8 elements", "bar_5mm", "VonKarman<AssumedStrain>", 8, 0)
+  choice("the same, up to twice its thickness", "`FemModel<>`, 16 elements", "bar_50mm", "VonKarman<AssumedStrain>", 16, 0)
+  choice("the same, as exact as can be, trained first", "`PodModel<>`, 16 × 12", "bar_50mm", "PodModel<ChebyshevNodes>", 0, 192)
+  choice("the same, pressed deeper than trained", "`GalerkinModel<>`, 16 × 12", "bar_50mm", "GalerkinModel", 0, 192)
+  choice("a thin strip that stretches", "`GalerkinModel<>`, 16 × 12", "strip", "GalerkinModel", 0, 192)
+  choice("a ruler that bends far", "`FemModel<Corotational<>>`, 8 elements", "ruler", "Corotational<VonKarman<AssumedStrain>>", 8, 0)
+  choice("an arch that snaps", "`FemModel<Corotational<>>`, 8 elements", "arch", "Corotational<VonKarman<AssumedStrain>>", 8, 0)
+}
+
+# Whether a model, of those that match, is at least as fast and as exact as row k.
+function passed(k, models,  j) {
+  for (j = 1; j <= rows; ++j)
+    if (j != k && cell[j, "scene"] == cell[k, "scene"] && cell[j, "model"] ~ models && \
+        cell[j, "tick_ns_p50"] + 0 <= cell[k, "tick_ns_p50"] + 0 && \
+        cell[j, "force_error_max"] + 0 <= cell[k, "force_error_max"] + 0)
+      return 1
+  return 0
+}
+function fronts(  n, s, m, k, scene, model, own, sizes, on, ours, form, even, others) {
+  split("bar_5mm bar_50mm strip ruler arch", scene, " ")
+  own = "^VonKarman<AssumedStrain>|^Corotational<VonKarman|^PodModel<Chebyshev|^GalerkinModel"
+  line("scene", "default", "sizes", "on the front", "passed by other defaults", "by the closed form", "by equispaced nodes", "by anything else")
+  rule(8)
+  for (s = 1; s <= 5; ++s) {
+    m = split(s <= 3 ? "VonKarman<AssumedStrain> PodModel<ChebyshevNodes> GalerkinModel" : \
+      "Corotational<VonKarman<AssumedStrain>>", model, " ")
+    for (n = 1; n <= m; ++n) {
+      sizes = on = ours = form = even = others = 0
+      for (k = 1; k <= rows; ++k) {
+        if (cell[k, "scene"] != scene[s] || cell[k, "model"] != model[n]) continue
+        ++sizes
+        on += !passed(k, ".")
+        ours += passed(k, own)
+        form += passed(k, "^closed form")
+        even += passed(k, "Equispaced")
+        others += passed(k, "^Linear|Integration|^Corotational<Linear>|^Newton|^mass-spring")
+      }
+      line(scene[s], "`" model[n] "`", sizes, on, ours, form, even, others)
+    }
+  }
+}
+
+# Of reduced_press.csv.
+function press_row(where, model, what, shown,  k) {
+  for (k = 1; k <= rows; ++k)
+    if (cell[k, "path"] == where && cell[k, "model"] == model && cell[k, "what"] == what)
+      line(shown, digits(cell[k, "p50_us"]), digits(cell[k, "p99_us"]), percent(cell[k, "force_error_median"]), \
+        percent(cell[k, "force_error_max"]), \
+        cell[k, "pod_ms"] == "" ? "–" : digits(cell[k, "snapshots_ms"] + cell[k, "pod_ms"]))
+}
+function presses(where, shown, one,  k, models, titles, n) {
+  line(shown, "tick, µs", "p99, µs", "force error, median", "largest", "training, ms")
+  rule(6)
+  n = split(one ? "pod_1 galerkin_1 pod_2 galerkin_2" : "pod_2 galerkin_2", models, " ")
+  split(one ? "PodModel, 14;GalerkinModel, 14;PodModel, 16 × 12;GalerkinModel, 16 × 12" : \
+    "PodModel, 16 × 12;GalerkinModel, 16 × 12", titles, ";")
+  for (k = 1; k <= n; ++k) {
+    press_row(where, models[k], "force", titles[k] ", force")
+    press_row(where, models[k], "shape", titles[k] ", force and shape")
+  }
+  press_row(where, "fem", "8", "FemModel, 8 elements")
+  press_row(where, "fem", "64", "FemModel, 64 elements")
+  press_row(where, "fem", "1024", "FemModel, 1024 elements")
+}
+function trained_row(model, what, shown, deeper,  k) {
+  for (k = 1; k <= rows; ++k)
+    if (cell[k, "path"] == "slide" && cell[k, "model"] == model && cell[k, "what"] == what)
+      line(shown, digits(cell[k, "p50_us"]) " µs", percent(cell[k, "force_error_median"]), percent(cell[k, "force_error_max"]), deeper)
+}
+function trained() {
+  line("model, pressed up to 50 mm", "press and shape", "force error, median", "largest", "deeper than trained")
+  rule(5)
+  trained_row("fem", "8", "`FemModel<>`, 8 elements", "solves, to a tenth of the length")
+  trained_row("fem", "64", "`FemModel<>`, 64 elements", "the same")
+  trained_row("pod_2", "shape", "`PodModel<>`: interpolated work, POD shapes", "goes on with constant stiffness, and says so")
+  trained_row("galerkin_2", "shape", "`GalerkinModel<>`: one unknown, the tension", "solves on")
+}
+function hand_over(  k, e, kind, what) {
+  line("hand-over of a Guarded model", "elements", "p50, µs", "p99, µs", "longest, µs")
+  rule(5)
+  split("alone near;first near;first rest", kind, ";")
+  split("any tick of FemModel alone, the same path;the tick that hands over, 20 ticks after the full model rested;" \
+    "the tick that hands over, from rest", what, ";")
+  for (e = 8; e <= 64; e *= 8)
+    for (n = 1; n <= 3; ++n) {
+      split(kind[n], part, " ")
+      for (k = 1; k <= rows; ++k)
+        if (cell[k, "path"] == "hand_over" && cell[k, "model"] == part[2] && cell[k, "what"] == e "/" part[1])
+          line(what[n], e, digits(cell[k, "p50_us"]), digits(cell[k, "p99_us"]), digits(cell[k, "max_us"]))
+    }
+}
+
+# Of fem_press.csv: a Newton iteration, by solver and number of elements.
+function solvers(  k, n, s, e, solver, text) {
+  n = split("block_tridiagonal simplicial_ldlt_natural simplicial_ldlt_amd sparse_lu_from_triplets", solver, " ")
+  line("a Newton iteration, µs", "16 elements", "64", "256", "1024")
+  rule(5)
+  split("hapbeam, block-tridiagonal;Eigen SimplicialLDLT, natural order;Eigen SimplicialLDLT, AMD;Eigen SparseLU from triplets", text, ";")
+  for (s = 1; s <= n; ++s) {
+    for (k = 1; k <= rows; ++k)
+      if (cell[k, "path"] == "press" && cell[k, "solver"] == solver[s] && cell[k, "membrane"] == "reduced")
+        found[s, cell[k, "elements"]] = digits(cell[k, "solve_ns"] / 1e3)
+    line(text[s], found[s, 16], found[s, 64], found[s, 256], found[s, 1024])
+  }
+}
+
+# Of any_rotation.csv.
+function rotation(  k, text) {
+  line("any rotation, 16 elements", "a tick", "times moderate rotation", "error")
+  rule(4)
+  for (k = 1; k <= rows; ++k)
+    if (cell[k, "elements"] == 16 && cell[k, "model"] != "von_karman")
+      line(cell[k, "scene"] ", `" (cell[k, "model"] == "corotational" ? "Corotational<>" : "Corotational<Linear>") "`", \
+        digits(cell[k, "p50_us"]) " µs", digits(cell[k, "ratio"]), percent(cell[k, "force_error"]))
+}
+
+# Of kinematics.csv.
+function at(k, part) {
+  if (cell[k, "slope_" part] == "") return "–"
+  return sprintf("%.3g°, %.2g L, " (cell[k, "press_" part] + 0 < 99.5 ? "%.2g" : "%.0f") " h", cell[k, "slope_" part], \
+    cell[k, "deflection_" part], cell[k, "press_" part])
+}
+function limits(  i, j, n, k, ends, section, element, shown) {
+  split("pinned-pinned clamped-clamped pinned-roller clamped-free", ends, " ")
+  split("thick thin", section, " "); split("linear von_karman corotational", element, " ")
+  split("`Linear` `VonKarman` `Corotational`", shown, " ")
+  line("ends", "h/L", "element", "1 %", "5 %", "10 %", "at the deepest")
+  rule(7)
+  for (i = 1; i <= 4; ++i) for (j = 1; j <= 2; ++j) for (n = 1; n <= 3; ++n) for (k = 1; k <= rows; ++k)
+    if (cell[k, "ends"] == ends[i] && cell[k, "section"] == section[j] && cell[k, "element"] == element[n])
+      line(ends[i], "1/" (j == 1 ? 100 : 1000), shown[n], at(k, 1), at(k, 5), at(k, 10), \
+        sprintf("%.1g at %g L", cell[k, "error_at_deepest"], cell[k, "deepest"]))
+}
+
+# Of stability_sweep.csv.
+function stability(  k, text) {
+  text["bar_tenth"] = "bar, a tenth of the span"; text["bar_middle"] = "bar, mid-span"
+  text["strip_middle"] = "strip 500 × 20 × 0.5 mm, mid-span"; text["ruler_tip"] = "ruler 300 × 30 × 1 mm, clamped, tip"
+  line("pressed", "push", "at rest within 0.5 s", "slower", "slower, as the arm itself", "slides off")
+  rule(6)
+  for (k = 1; k <= rows; ++k)
+    line(text[cell[k, "scene"]], cell[k, "push_N"] " N", cell[k, "at_rest"], cell[k, "slow"], \
+      cell[k, "slow_as_the_arm_itself"], cell[k, "slides_off"] + cell[k, "lost"])
+}
+
+END {
+  if (table == "machine") print head "."
+  else if (table == "scenes") scenes()
+  else if (table == "fronts") fronts()
+  else if (table == "press") presses("press", "pressed at mid-span, 0 to 50 mm", 1)
+  else if (table == "slide") presses("slide", "sliding from 0.3 L to 0.7 L at 20 mm", 0)
+  else if (table == "trained") trained()
+  else if (table == "hand_over") hand_over()
+  else if (table == "solvers") solvers()
+  else if (table == "rotation") rotation()
+  else if (table == "limits") limits()
+  else if (table == "stability") stability()
+  else {
+    print "no table " table >"/dev/stderr"
+    exit 1
+  }
+}
