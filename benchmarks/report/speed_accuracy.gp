@@ -21,7 +21,7 @@ array names[14] = ['Linear', 'full integration', 'reduced integration', 'textboo
 name(scene, i) = scene eq 'ruler' && (i == 2 || i == 3) ? '' : scene eq 'ruler' && i == 13 ? 'VonKarman, any membrane' : names[i]
 # Where a name stands: at which point of its series, from there aside and up by so many characters, and which side of it.
 array places[14] = ['9 0.8 0.5 l', '9 0.8 0.5 l', '9 0.8 0.3 l', '9 0.8 0.4 l', '3 0.8 0.6 l', '9 0.8 0 l', '9 -0.8 -0.6 r', \
-  '9 0.8 -0.4 l', '9 0.9 0.4 l', '0 -1 0 r', '0 -1 0.3 r', '1 -0.9 -0.7 r', '9 0.8 -0.4 l', '3 -1 -0.3 r']
+  '9 0.8 -0.4 l', '9 0.9 0.4 l', '0 -1 0 r', '0 -1 0.3 r', '1 -0.9 -0.7 r', '9 0.8 -0.4 l', '3 -2.5 -0.2 r']
 array exceptions[5]
 exceptions[1] = '02=9 0.6 -0.9 l;04=9 0.8 0.6 l;07=2 0.8 0.4 l;08=3 0.8 0.4 l;06=9 0.8 0.6 l;13=4 -0.9 -0.6 r;14=9 0.8 -0.4 l;'
 exceptions[2] = '02=9 0.8 0.9 l;14=9 0.8 -0.7 l;'
@@ -67,6 +67,8 @@ do for [format in 'svg png'] {
     plot front(scene) using 1:2 with steps lc rgb '#ffe08a' lw 9, \
       for [i = 1:14] (there[i] ? rows(scene, models[i]) : '/dev/null') using 6:8 with lines lc rgb colours[i] lw (i > 9 ? 3 : 1.8), \
       for [i = 1:14] (there[i] ? rows(scene, models[i]) : '/dev/null') using 6:8:6:7 with xerrorbars lc rgb colours[i] pt shapes[i] ps 0.9 lw 1, \
+      rows(scene, k < 4 ? models[13] : models[14]) using 6:8:3 with labels textcolor rgb (k < 4 ? vermilion : blue) font ',14' \
+        offset k < 4 ? 1.2 : -1.4, k < 4 ? 0.4 : -0.2, \
       for [i = 1:14] anchor(i, 'l') using 6:8:(name(scene, i)) with labels left textcolor rgb colours[i] font ',18' \
         offset real(word(place(k, i), 2)), real(word(place(k, i), 3)), \
       for [i = 1:14] anchor(i, 'r') using 6:8:(name(scene, i)) with labels right textcolor rgb colours[i] font ',18' \
