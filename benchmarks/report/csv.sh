@@ -1,7 +1,13 @@
 # From what the programs print to docs/data/*.csv; for `source`, by run.sh.
 
-# context KEY PROGRAM: of Google Benchmark's header.
-context() { sed -nE 's/^ *"'"$1"'": "?([^"]*[^",])"?,?$/\1/p' "$scratch/$2.json" | head -n 1; }
+# heading FILE COMMIT DATE: what stands above each table, machine and compiler from a FILE of Google Benchmark's.
+heading() {
+  context() { sed -nE 's/^ *"'"$1"'": "?([^"]*[^",])"?,?$/\1/p' "$file" | head -n 1; }
+  local file=$1
+  echo "# $(context processor), $(context num_cpus) processors"
+  echo "# $(context compiler), $(context flags)"
+  echo "# commit ${2:-$(context commit)}, ${3:-$(context date)}${HAPBEAM_QUICK:+, quick}"
+}
 
 # csv PROGRAM PARTS COUNTER...: a line for each benchmark: the parts of its name, separated by '/', the last one with the rest
 # of it, then its counters; nothing where it has none of that name.
@@ -9,9 +15,7 @@ csv() {
   local program=$1 parts=$2
   shift 2
   {
-    echo "# $(context processor "$program"), $(context num_cpus "$program") processors"
-    echo "# $(context compiler "$program"), $(context flags "$program")"
-    echo "# commit $(context commit "$program"), $(context date "$program")${HAPBEAM_QUICK:+, quick}"
+    heading "$scratch/$program.json"
     awk -F'"' -v parts="$parts" -v counters="$*" '
       function put(  k, line, part) {
         if (name == "") return
@@ -62,7 +66,7 @@ csv_kinematics() {
 # What a servo's tick and its period take in real time.
 csv_servo_times() {
   "$programs/servo_times" "$([[ -n ${HAPBEAM_QUICK-} ]] && echo 5 || echo 60)" >"$scratch/servo_times" && {
-    grep '^#' "$kept/costs.csv"
+    heading "$kept/costs.json" "$(git -C "$top" describe --always --dirty --abbrev=12 '--exclude=*')" "$(date -Iseconds)"
     echo what,p50_us,p99_us,p999_us,max_us,ticks
     awk '/^(compute|period)/ { print $1 "," $3 "," $6 "," $9 "," $12 "," $15 }' "$scratch/servo_times"
   } >"$kept/servo_times.csv"
