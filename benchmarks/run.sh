@@ -4,7 +4,7 @@
 #
 #   bash benchmarks/run.sh [--quick] [--only PROGRAM] [--stability] [--programs FOLDER]
 #
-#   --quick             fewer sizes, stops and rounds: under 3 minutes; the numbers are rougher and fewer
+#   --quick             fewer sizes, stops and rounds, no chooser: under 3 minutes; the numbers are rougher and fewer
 #   --only PROGRAM      measures with that one alone; `none` measures nothing and draws what docs/data has
 #   --stability         also maps where the servo loop is stable: simulated time, the same numbers on every machine, 10 min
 #   --programs FOLDER   where the benchmarks are, built already; default: builds them
@@ -19,40 +19,45 @@ source "$top/benchmarks/report/csv.sh"
 usage() { sed -n '2,14s/^# \{0,1\}//p' "$0"; }
 wrong() { echo "benchmarks/run.sh: $1" >&2; exit 2; }
 
-all=(speed_accuracy costs thesis_figures reduced_press any_rotation fem_press kinematics servo_times)
-only=("${all[@]}") stability= programs=
+quick=(speed_accuracy costs thesis_figures reduced_press any_rotation fem_press kinematics servo_times)
+all=("${quick[@]}" chooser compile_cost)
+what=("${all[@]}") stability= programs=
 while [[ $# -gt 0 ]]; do
   case $1 in
     --help) usage; exit 0 ;;
-    --quick) export HAPBEAM_QUICK=1; shift ;;
-    --only) only=("${2-}"); shift 2 2>/dev/null || shift ;;
-    --stability) stability=yes; shift ;;
+    --quick) export HAPBEAM_QUICK=1; what=("${quick[@]}"); shift ;;
+    --only) what=("${2-}"); shift 2 2>/dev/null || shift ;;
+    --stability) stability=stability_map; shift ;;
     --programs) programs=${2-}; shift 2 2>/dev/null || shift ;;
     *) wrong "'$1': see --help" ;;
   esac
 done
-[[ ${only[*]} != none ]] || only=()
-for program in "${only[@]}"; do
+[[ ${what[*]} != none ]] || what=()
+for program in "${what[@]}"; do
   [[ " ${all[*]} " == *" $program "* ]] || wrong "--only '$program': must be none or one of ${all[*]}"
 done
 
 need gnuplot-nox fonts-dejavu-core || exit 1
 if [[ -z $programs ]]; then
-  targets=("${only[@]}" ${stability:+stability_map})
+  targets=()
+  for program in "${what[@]}" $stability; do
+    [[ $program == compile_cost ]] || targets+=("$program")
+  done
   [[ ${#targets[@]} == 0 ]] || build release "${targets[@]}" || exit 1
   programs=$top/build/release/benchmarks
 fi
 kept=$top/docs/data charts=$top/docs/charts scratch=$(mktemp -d)
 trap 'rm -rf "$log" "$scratch"' EXIT
 
-# Google Benchmark's; the others print text.
 measure() {
-  if [[ $1 == servo_times ]]; then
-    csv_servo_times
-    return
-  fi
-  "$programs/$1" --benchmark_out="$scratch/$1.json" --benchmark_out_format=json &&
-    ! grep error_message "$scratch/$1.json" && "csv_$1" && cp "$scratch/$1.json" "$kept/$1.json"
+  case $1 in
+    servo_times | compile_cost) "csv_$1" ;;
+    chooser) bash "$top/benchmarks/chooser.sh" --programs "$programs" ;;
+    *)
+      "$programs/$1" --benchmark_out="$scratch/$1.json" --benchmark_out_format=json &&
+        ! grep error_message "$scratch/$1.json" && "csv_$1" && cp "$scratch/$1.json" "$kept/$1.json"
+      ;;
+  esac
 }
 
 draw() {
@@ -66,10 +71,9 @@ draw() {
   sed -i -E 's:<(title|desc)>[^<]*</(title|desc)>::' "$charts"/*.svg
 }
 
-for program in "${only[@]}"; do step "$program" measure "$program" || exit 1; done
+for program in "${what[@]}"; do step "$program" measure "$program" || exit 1; done
 if [[ -n $stability ]]; then
-  for what in border direct sweep; do step "stability_map $what" csv_stability "$what" || exit 1; done
+  for map in border direct sweep; do step "stability_map $map" csv_stability "$map" || exit 1; done
 fi
-[[ -n ${HAPBEAM_QUICK-} || ${#only[@]} -lt ${#all[@]} ]] || step compile_cost csv_compile_cost || exit 1
 step 'docs/charts' draw || exit 1
 step 'README.md, docs' bash "$top/benchmarks/report/fill.sh"

@@ -76,7 +76,7 @@ using Fem = FemModel<Element, double, Eigen::Dynamic, Eigen::Dynamic, Assembler>
 class Contest {
  public:
   Contest() {
-    for (const Scene& scene : touch_scenes(stops)) {
+    for (const TouchScene& scene : touch_scenes(stops)) {
       const bool turns = scene.name == "ruler" || scene.name == "arch", straight = scene.beam.straight();
       const std::vector<int> sizes = quick ? std::vector<int>{4, 8, 16, 64}
                                            : std::vector<int>{4, 8, 16, 32, 64, 128},
@@ -112,14 +112,14 @@ class Contest {
 
  private:
   template <class Element, template <typename, int, int> class Assembler = BlockTridiagonal>
-  void fem(const Scene& scene, const std::string& model, const std::vector<int>& sizes) {
+  void fem(const TouchScene& scene, const std::string& model, const std::vector<int>& sizes) {
     for (const int n : sizes)
       add(scene, model, {n, 0, 0},
           [&scene, n] { return std::make_unique<Touched<Fem<Element, Assembler>>>(scene.beam, n); });
   }
 
   template <class Element>
-  void solvers(const Scene& scene, const std::vector<int>& sizes) {
+  void solvers(const TouchScene& scene, const std::vector<int>& sizes) {
     fem<Element, SimplicialLdltNatural>(scene, "Newton + SimplicialLDLT", sizes);
     // It cannot tell an arch that gives way.
     if (scene.beam.straight()) fem<Element, SparseLuFromTriplets>(scene, "Newton + SparseLU", sizes);
@@ -128,7 +128,7 @@ class Contest {
                         {sizes.begin(), std::min(sizes.begin() + 3, sizes.end())});
   }
 
-  void trained(const Scene& scene) {
+  void trained(const TouchScene& scene) {
     struct Grid {
       int positions, depths, modes;  // 0: as many modes as the default truncation keeps
     };
@@ -149,7 +149,7 @@ class Contest {
   }
 
   template <class Nodes>
-  void pod(const Scene& scene, const std::string& model, const TrainingPlan& plan, int modes) {
+  void pod(const TouchScene& scene, const std::string& model, const TrainingPlan& plan, int modes) {
     attempt(scene, model, plan, [&] {
       const auto data = time_pod_training<Nodes>(scene.beam, plan, 256, false, modes).data;
       add(scene, model, {0, data.shape.modes, data.positions * data.depths},
@@ -159,7 +159,7 @@ class Contest {
 
   /// Training refuses too few snapshots: no model, no point.
   template <class Train>
-  static void attempt(const Scene& scene, const std::string& model, const TrainingPlan& plan,
+  static void attempt(const TouchScene& scene, const std::string& model, const TrainingPlan& plan,
                       const Train& train) {
     try {
       train();
@@ -171,7 +171,7 @@ class Contest {
 
   /// @param make  () -> std::unique_ptr of what has tick(Point) and reset()   @param every  so many stops is asked
   template <class Make>
-  void add(const Scene& scene, const std::string& model, const Size& size, const Make& make,
+  void add(const TouchScene& scene, const std::string& model, const Size& size, const Make& make,
            std::size_t every = 1) {
     const std::string name = scene.name + "/" + model + "/" + std::to_string(size.elements) + "/" +
                              std::to_string(size.modes) + "/" + std::to_string(size.snapshots);

@@ -33,13 +33,13 @@ class Random {
 double in(double t) { return shallowest + (1 - shallowest) * (1 - std::cos(4 * M_PI * t)) / 2; }
 double aside(double t) { return std::sin(2 * M_PI * t); }
 
-Scene begin(const char* name, const Beam& beam, double young, double depth, double wave_number) {
+TouchScene begin(const char* name, const Beam& beam, double young, double depth, double wave_number) {
   const double mass = steel * beam.axial_stiffness() / young;
   return {name, beam, depth, mass, wave_number * wave_number * std::sqrt(beam.bending_stiffness() / mass),
           {},   {},   {}};
 }
 
-Scene between_hinges(const char* name, const Beam& beam, double young, double depth, int stops) {
+TouchScene between_hinges(const char* name, const Beam& beam, double young, double depth, int stops) {
   const double L = beam.length(), reach = avatar_radius + beam.thickness() / 2;
   const PinnedClosedForm exact(beam);
   const auto stop = [&](double s, double d) {
@@ -47,7 +47,7 @@ Scene between_hinges(const char* name, const Beam& beam, double young, double de
     const Point normal = Point(-at.tangent.y(), at.tangent.x()).normalized();
     return Stop{at.point + reach * normal, d + reach, -at.force / normal.y() * normal};
   };
-  Scene scene = begin(name, beam, young, depth, M_PI / L);
+  TouchScene scene = begin(name, beam, young, depth, M_PI / L);
   Random random;
   for (int k = 0; k < stops; ++k)
     scene.stops.push_back(stop(random(0.06, 0.94) * L, random(shallowest, 1) * depth));
@@ -59,8 +59,8 @@ Scene between_hinges(const char* name, const Beam& beam, double young, double de
 }
 
 /// @param from, to  [m] where the avatar comes down   @param top  [m] where it meets the beam there
-Scene turning(const char* name, const Beam& beam, double depth, double wave_number, double from, double to,
-              double (*top)(double x), int stops) {
+TouchScene turning(const char* name, const Beam& beam, double depth, double wave_number, double from,
+                   double to, double (*top)(double x), int stops) {
   using Reference = FemModel<Corotational<>>;
   NewtonRaphson tight;
   tight.relative_tolerance = 1e-10;
@@ -73,7 +73,7 @@ Scene turning(const char* name, const Beam& beam, double depth, double wave_numb
     there.force = come_down([&](const Point& position) { return touch.tick(position); }, there).force;
     return there;
   };
-  Scene scene = begin(name, beam, spring_steel.young, depth, wave_number);
+  TouchScene scene = begin(name, beam, spring_steel.young, depth, wave_number);
   Random random;
   for (int k = 0; k < stops; ++k)
     scene.stops.push_back(stop(random(from, to), random(shallowest, 1) * depth));
@@ -88,7 +88,7 @@ Scene turning(const char* name, const Beam& beam, double depth, double wave_numb
 
 }  // namespace
 
-std::vector<Scene> touch_scenes(int stops) {
+std::vector<TouchScene> touch_scenes(int stops) {
   const Beam strip(0.4, Section::rectangle(0.02, 0.0005), spring_steel, Support::pinned, Support::pinned);
   const Beam ruler(0.3, Section::rectangle(0.025, 0.001), spring_steel, Support::clamped, Support::free);
   const Beam bow = arch(0.2, 0.012, Section::rectangle(0.01, 0.0005), spring_steel, Support::pinned);

@@ -28,7 +28,7 @@ struct Stop {
   Point force;
 };
 
-struct Scene {
+struct TouchScene {
   std::string name;
   Beam beam;
   double depth;                      ///< [m] of the deepest press
@@ -41,7 +41,7 @@ struct Scene {
 inline constexpr double avatar_radius = 0.005;  // [m]
 
 /// @param stops  in each scene; half as many outside
-std::vector<Scene> touch_scenes(int stops);
+std::vector<TouchScene> touch_scenes(int stops);
 
 /// @param tick  Point -> TouchResult, of a beam that is untouched   @return where the force has come to rest
 template <class Tick>
