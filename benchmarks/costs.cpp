@@ -23,7 +23,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include "support/avx512_warnings.hpp"
 #include "support/heap.hpp"
 #include "support/press_errors.hpp"
 #include "support/thesis_beam.hpp"

@@ -20,7 +20,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include "support/avx512_warnings.hpp"
 #include "support/sparse_assemblers.hpp"
 #include "support/statistics.hpp"
 #include "support/thesis_beam.hpp"

@@ -23,7 +23,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include "support/avx512_warnings.hpp"
 #include "support/closed_form_model.hpp"
 #include "support/heap.hpp"
 #include "support/mass_spring.hpp"

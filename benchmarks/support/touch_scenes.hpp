@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "avx512_warnings.hpp"
 #include <hapbeam/beam.hpp>
 #include <hapbeam/contact/touch.hpp>
 

@@ -1,7 +1,6 @@
 // Training for the benchmarks, with its time.  Compiled once: an SVD takes longer to compile than all else here.
 #pragma once
 
-#include "avx512_warnings.hpp"
 #include <hapbeam/rom/lagrange.hpp>
 #include <hapbeam/rom/model_data.hpp>
 #include <hapbeam/rom/training_plan.hpp>
