@@ -4,10 +4,10 @@
 //
 //   tick_ns_p50, _p99     of a tick [ns], contact included: median over the rounds, and over all ticks of a hand's path
 //   force_error_max, _median   |F - truth| / |truth|, vectors, at stops that no method was trained with
-//   outside_error_max     the same up to 1.6 times deeper than the scene; left out where one of these has no answer
+//   outside_error_max     the same deeper than the scene, up to 1.6 times
 //   bytes                 what the method holds for one beam
 //
-// All methods are compiled alike, start each tick from the one before, and share contact detection, but for the chain of masses,
+// All methods are compiled alike, each in a file of its own, start each tick from the one before, and share contact detection, but for the chain of masses,
 // which has its own.  What differs from FemModel in its linear solver alone is called Newton + solver.
 // HAPBEAM_QUICK=1 in the environment takes fewer stops and rounds.
 #include <algorithm>
@@ -24,6 +24,7 @@
 #include <benchmark/benchmark.h>
 
 #include "support/closed_form_model.hpp"
+#include "support/contender.hpp"
 #include "support/heap.hpp"
 #include "support/mass_spring.hpp"
 #include "support/sparse_assemblers.hpp"
@@ -47,19 +48,6 @@ const bool quick = std::getenv("HAPBEAM_QUICK") != nullptr;
 const int rounds = quick ? 3 : 9, stops = quick ? 16 : 64;
 constexpr double slow_us = 100;  // a tick; what is slower is measured in fewer rounds
 
-/// A model under an avatar.
-template <class Model>
-struct Touched {
-  template <class... Arguments>
-  explicit Touched(const Arguments&... arguments) : model(arguments...), touch(model, avatar_radius) {}
-  Touched(const Touched&) = delete;
-  TouchResult<double> tick(const Point& position) noexcept { return touch.tick(position); }
-  void reset() noexcept { touch.reset(); }
-
-  Model model;
-  Touch<Model> touch;
-};
-
 struct Size {
   int elements = 0, modes = 0, snapshots = 0;
 };
@@ -68,9 +56,6 @@ struct Entry {
   std::string name;
   std::map<std::string, double> counters;
 };
-
-template <class Element, template <typename, int, int> class Assembler = BlockTridiagonal>
-using Fem = FemModel<Element, double, Eigen::Dynamic, Eigen::Dynamic, Assembler>;
 
 class Contest {
  public:
@@ -81,27 +66,25 @@ class Contest {
                                            : std::vector<int>{4, 8, 16, 32, 64, 128},
                              few = quick ? std::vector<int>{8, 16} : std::vector<int>{8, 16, 32, 64};
       if (straight) {
-        fem<Linear>(scene, "Linear", sizes);
-        fem<VonKarman<FullIntegration>>(scene, "VonKarman<FullIntegration>", sizes);
-        fem<VonKarman<ReducedIntegration>>(scene, "VonKarman<ReducedIntegration>", sizes);
-        fem<VonKarman<AssumedStrain>>(scene, "VonKarman<AssumedStrain>", sizes);
+        fem<FemModel<Linear>>(scene, "Linear", sizes);
+        fem<FemModel<VonKarman<FullIntegration>>>(scene, "VonKarman<FullIntegration>", sizes);
+        fem<FemModel<VonKarman<ReducedIntegration>>>(scene, "VonKarman<ReducedIntegration>", sizes);
+        fem<FemModel<VonKarman<AssumedStrain>>>(scene, "VonKarman<AssumedStrain>", sizes);
       }
-      fem<Corotational<Linear>>(scene, "Corotational<Linear>", sizes);
-      fem<Corotational<>>(scene, "Corotational<VonKarman<AssumedStrain>>", sizes);
+      fem<FemModel<Corotational<Linear>>>(scene, "Corotational<Linear>", sizes);
+      fem<FemModel<Corotational<>>>(scene, "Corotational<VonKarman<AssumedStrain>>", sizes);
       if (turns) solvers<Corotational<>>(scene, few);
       else solvers<VonKarman<>>(scene, few);
       for (const int n : few) {
-        // Its cost is of order n²: more masses are asked at fewer stops.
         const auto make = [&scene, n] {
-          return std::make_unique<MassSpring>(scene.beam, n, avatar_radius, scene.mass_per_length,
-                                              scene.lowest);
+          return contender<MassSpring>(scene.beam, n, avatar_radius, scene.mass_per_length, scene.lowest);
         };
+        // A tick is of order n²: more masses are asked at fewer stops.
         add(scene, "mass-spring", {n, 0, 0}, make, static_cast<std::size_t>(n / 8));
       }
       if (turns) continue;
       trained(scene);
-      add(scene, "closed form", {},
-          [&scene] { return std::make_unique<Touched<ClosedFormModel>>(scene.beam); });
+      add(scene, "closed form", {}, [&scene] { return contender<ClosedFormModel>(scene.beam); });
     }
     times_.run(rounds);
   }
@@ -110,21 +93,20 @@ class Contest {
   const TickTimes& times(const std::string& name) const { return times_.of(name); }
 
  private:
-  template <class Element, template <typename, int, int> class Assembler = BlockTridiagonal>
+  template <class Model>
   void fem(const TouchScene& scene, const std::string& model, const std::vector<int>& sizes) {
     for (const int n : sizes)
-      add(scene, model, {n, 0, 0},
-          [&scene, n] { return std::make_unique<Touched<Fem<Element, Assembler>>>(scene.beam, n); });
+      add(scene, model, {n, 0, 0}, [&scene, n] { return contender<Model>(scene.beam, n); });
   }
 
   template <class Element>
   void solvers(const TouchScene& scene, const std::vector<int>& sizes) {
-    fem<Element, SimplicialLdltNatural>(scene, "Newton + SimplicialLDLT", sizes);
+    fem<Solved<Element, SimplicialLdltNatural>>(scene, "Newton + SimplicialLDLT", sizes);
     // It cannot tell an arch that gives way.
-    if (scene.beam.straight()) fem<Element, SparseLuFromTriplets>(scene, "Newton + SparseLU", sizes);
+    if (scene.beam.straight()) fem<Solved<Element, SparseLuFromTriplets>>(scene, "Newton + SparseLU", sizes);
     // Of order n³: 64 elements take milliseconds.
-    fem<Element, Dense>(scene, "Newton + dense LDLT",
-                        {sizes.begin(), std::min(sizes.begin() + 3, sizes.end())});
+    fem<Solved<Element, Dense>>(scene, "Newton + dense LDLT",
+                                {sizes.begin(), std::min(sizes.begin() + 3, sizes.end())});
   }
 
   void trained(const TouchScene& scene) {
@@ -141,7 +123,7 @@ class Contest {
         attempt(scene, "GalerkinModel", plan, [&] {
           const auto data = time_galerkin_training(scene.beam, plan).data;
           add(scene, "GalerkinModel", {0, data.shape.modes, data.positions * data.tensions},
-              [data] { return std::make_unique<Touched<GalerkinModel<>>>(data); });
+              [data] { return contender<GalerkinModel<>>(data); });
         });
       }
     }
@@ -152,7 +134,7 @@ class Contest {
     attempt(scene, model, plan, [&] {
       const auto data = time_pod_training<Nodes>(scene.beam, plan, 256, false, modes).data;
       add(scene, model, {0, data.shape.modes, data.positions * data.depths},
-          [data] { return std::make_unique<Touched<PodModel<double, Nodes>>>(data); });
+          [data] { return contender<PodModel<double, Nodes>>(data); });
     });
   }
 
@@ -168,13 +150,13 @@ class Contest {
     }
   }
 
-  /// @param make  () -> std::unique_ptr of what has tick(Point) and reset()   @param every  so many stops is asked
+  /// @param make  () -> std::unique_ptr<Contender>   @param every  so many stops one is asked
   template <class Make>
   void add(const TouchScene& scene, const std::string& model, const Size& size, const Make& make,
            std::size_t every = 1) {
     const std::string name = scene.name + "/" + model + "/" + std::to_string(size.elements) + "/" +
                              std::to_string(size.modes) + "/" + std::to_string(size.snapshots);
-    const auto own = std::shared_ptr(make());
+    const std::shared_ptr<Contender> own = make();
     const auto errors = [&own, every](const std::vector<Stop>& known) {
       std::vector<double> all;
       for (std::size_t k = 0; k < known.size(); k += every) {

@@ -1,6 +1,7 @@
 #include "touch_scenes.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include "closed_form.hpp"
@@ -18,16 +19,26 @@ constexpr double beyond = 1.6;      // of the depth
 constexpr double shallowest = 0.1;  // of the depth
 constexpr Material spring_steel{200e9};
 
-class Random {
- public:
-  double operator()(double low, double high) {
-    // The standard fixes the generator but not its distributions.
-    return low + (high - low) * static_cast<double>(generator_() >> 11) * 0x1p-53;
-  }
-
- private:
-  std::mt19937_64 generator_{2008};
+struct Interval {
+  double low, high;
 };
+
+/// So many stops at random.   @param stop  (where, depth) -> Stop
+template <class MakeStop>
+std::vector<Stop> random_stops(int count, const Interval& where, const Interval& depth, std::uint64_t seed,
+                               const MakeStop& stop) {
+  // The standard fixes the generator but not its distributions.
+  std::mt19937_64 generator(seed);
+  const auto random = [&generator](const Interval& range) {
+    return range.low + (range.high - range.low) * static_cast<double>(generator() >> 11) * 0x1p-53;
+  };
+  std::vector<Stop> stops;
+  for (int k = 0; k < count; ++k) {
+    const double x = random(where), d = random(depth);
+    stops.push_back(stop(x, d));
+  }
+  return stops;
+}
 
 /// In and out twice a second, to and fro once.   @param t  [s]
 double in(double t) { return shallowest + (1 - shallowest) * (1 - std::cos(4 * M_PI * t)) / 2; }
@@ -48,11 +59,8 @@ TouchScene between_hinges(const char* name, const Beam& beam, double young, doub
     return Stop{at.point + reach * normal, d + reach, -at.force / normal.y() * normal};
   };
   TouchScene scene = begin(name, beam, young, depth, M_PI / L);
-  Random random;
-  for (int k = 0; k < stops; ++k)
-    scene.stops.push_back(stop(random(0.06, 0.94) * L, random(shallowest, 1) * depth));
-  for (int k = 0; k < stops / 2; ++k)
-    scene.outside.push_back(stop(random(0.2, 0.8) * L, random(1.05, beyond) * depth));
+  scene.stops = random_stops(stops, {0.06 * L, 0.94 * L}, {shallowest * depth, depth}, 2008, stop);
+  scene.outside = random_stops(stops / 2, {0.2 * L, 0.8 * L}, {1.05 * depth, beyond * depth}, 2009, stop);
   for (int k = 0; k < 1000; ++k)
     scene.path.push_back(stop(0.3 * L + 0.02 * aside(k * 1e-3), in(k * 1e-3) * depth).position);
   return scene;
@@ -74,11 +82,8 @@ TouchScene turning(const char* name, const Beam& beam, double depth, double wave
     return there;
   };
   TouchScene scene = begin(name, beam, spring_steel.young, depth, wave_number);
-  Random random;
-  for (int k = 0; k < stops; ++k)
-    scene.stops.push_back(stop(random(from, to), random(shallowest, 1) * depth));
-  for (int k = 0; k < stops / 2; ++k)
-    scene.outside.push_back(stop(random(from, to), random(1.05, beyond) * depth));
+  scene.stops = random_stops(stops, {from, to}, {shallowest * depth, depth}, 2008, stop);
+  scene.outside = random_stops(stops / 2, {from, to}, {1.05 * depth, beyond * depth}, 2009, stop);
   for (int k = 0; k < 1000; ++k) {
     const double x = (from + to + (to - from) * aside(k * 1e-3)) / 2;
     scene.path.emplace_back(x, top(x) + reach - in(k * 1e-3) * depth);

@@ -6,7 +6,7 @@
 //   strip               steel, 400 × 20 × 0.5 mm between hinges, pressed there by up to ten times its thickness
 //   ruler               steel, 300 × 25 × 1 mm, clamped at one end, bent until the other is 0.8 of its length down
 //   arch                steel, span 200 mm, rise 12 mm, 10 × 0.5 mm between hinges, pressed beside its middle: the force
-//                       has its peak at a third of the way, and a good way beyond the deepest press the arch snaps through
+//                       has its peak halfway, and some way beyond the deepest press the arch snaps through
 // Truth: for bar and strip the closed form of a von Kármán beam; for ruler and arch 256 elements of any rotation.
 #pragma once
 

@@ -1,0 +1,29 @@
+// A method under an avatar: what speed_accuracy asks of all of them.
+//
+// Each is compiled in a file of its own (contender.cpp.in), as it is in a program that uses one: beside others the compiler
+// inlines less, and a tick takes up to a third longer.
+#pragma once
+
+#include <memory>
+
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+namespace hapbeam::benchmarks {
+
+class Contender {
+ public:
+  virtual ~Contender() = default;
+  virtual TouchResult<double> tick(const Vector2<double>& position) noexcept = 0;
+  virtual void reset() noexcept = 0;
+};
+
+/// @tparam Model  one of those that benchmarks/CMakeLists.txt lists   @param arguments  of its constructor, as listed there
+template <class Model, class... Arguments>
+std::unique_ptr<Contender> contender(const Arguments&... arguments);
+
+/// FemModel over another assembler.
+template <class Element, template <typename, int, int> class Assembler>
+using Solved = FemModel<Element, double, Eigen::Dynamic, Eigen::Dynamic, Assembler>;
+
+}  // namespace hapbeam::benchmarks
