@@ -53,6 +53,14 @@ function passed(k, models,  j) {
       return 1
   return 0
 }
+# Whether a trained model has fewer modes than another one that has as many snapshots.
+function truncated(k,  j) {
+  for (j = 1; j <= rows; ++j)
+    if (cell[j, "scene"] == cell[k, "scene"] && cell[j, "model"] == cell[k, "model"] && \
+        cell[j, "snapshots"] == cell[k, "snapshots"] && cell[j, "modes"] + 0 > cell[k, "modes"] + 0)
+      return 1
+  return 0
+}
 function fronts(  n, s, m, k, scene, model, own, sizes, on, ours, form, even, others) {
   split("bar_5mm bar_50mm strip ruler arch", scene, " ")
   own = "^VonKarman<AssumedStrain>|^Corotational<VonKarman|^PodModel<Chebyshev|^GalerkinModel"
@@ -64,7 +72,7 @@ function fronts(  n, s, m, k, scene, model, own, sizes, on, ours, form, even, ot
     for (n = 1; n <= m; ++n) {
       sizes = on = ours = form = even = others = 0
       for (k = 1; k <= rows; ++k) {
-        if (cell[k, "scene"] != scene[s] || cell[k, "model"] != model[n]) continue
+        if (cell[k, "scene"] != scene[s] || cell[k, "model"] != model[n] || truncated(k)) continue
         ++sizes
         on += !passed(k, ".")
         ours += passed(k, own)
