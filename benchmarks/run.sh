@@ -19,7 +19,7 @@ source "$top/benchmarks/report/csv.sh"
 usage() { sed -n '2,14s/^# \{0,1\}//p' "$0"; }
 wrong() { echo "benchmarks/run.sh: $1" >&2; exit 2; }
 
-quick=(speed_accuracy costs thesis_figures reduced_press any_rotation fem_press kinematics servo_times)
+quick=(speed_accuracy costs thesis_figures reduced_press any_rotation fem_press kinematics where_methods_fail servo_times)
 all=("${quick[@]}" chooser compile_cost)
 what=("${all[@]}") stability= programs=
 while [[ $# -gt 0 ]]; do
@@ -53,6 +53,7 @@ measure() {
   case $1 in
     servo_times | compile_cost) "csv_$1" ;;
     chooser) bash "$top/benchmarks/chooser.sh" --programs "$programs" ;;
+    where_methods_fail) bash "$top/benchmarks/$1.sh" --program "$programs/$1" ;;
     *)
       "$programs/$1" --benchmark_out="$scratch/$1.json" --benchmark_out_format=json &&
         ! grep error_message "$scratch/$1.json" && "csv_$1" && cp "$scratch/$1.json" "$kept/$1.json"
