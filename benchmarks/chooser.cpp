@@ -77,7 +77,9 @@ struct Measured {
 
 Measured measure(const Scene& scene, const Candidate& candidate, const std::vector<KnownPress>& presses) {
   SceneModel model = build(scene, candidate);
-  return {candidate.text(), worst_error(model, presses), time_on(model, scene)};
+  std::string text = candidate.text();
+  std::replace(text.begin(), text.end(), ',', ';');  // a comma ends a column
+  return {text, worst_error(model, presses), time_on(model, scene)};
 }
 
 /// The cheapest that is right and fast enough, of those that are expected to cost less than a limit.
@@ -108,7 +110,7 @@ void print(int number, const Scene& scene) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int scenes = argc > 1 ? std::atoi(argv[1]) : 200;
+  const int scenes = argc > 1 ? std::atoi(argv[1]) : 400;
   Random random(argc > 2 ? static_cast<std::uint64_t>(std::atoll(argv[2])) : 1);
   const TickCosts costs = measure_tick_costs();
   std::puts(
@@ -126,7 +128,7 @@ int main(int argc, char** argv) {
     const double limit = choice.candidate ? 1.5 * choice.candidate->tick(costs, scene.shape) : scene.tick;
     const Measured best = cheapest(scene, costs, limit, presses);
     print(k, scene);
-    std::printf("%.1f,\"%s\",%.3g,%.3g,\"%s\",%.3g,%.3g\n", 1e3 * choosing, chosen.text.c_str(), chosen.error,
+    std::printf("%.1f,%s,%.3g,%.3g,%s,%.3g,%.3g\n", 1e3 * choosing, chosen.text.c_str(), chosen.error,
                 1e6 * chosen.tick, best.text.c_str(), best.error, 1e6 * best.tick);
     std::fflush(stdout);
   }

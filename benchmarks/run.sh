@@ -51,8 +51,7 @@ trap 'rm -rf "$log" "$scratch"' EXIT
 
 measure() {
   case $1 in
-    servo_times | compile_cost) "csv_$1" ;;
-    chooser) bash "$top/benchmarks/chooser.sh" --programs "$programs" ;;
+    servo_times | chooser | compile_cost) "csv_$1" ;;
     where_methods_fail) bash "$top/benchmarks/$1.sh" --program "$programs/$1" ;;
     *)
       "$programs/$1" --benchmark_out="$scratch/$1.json" --benchmark_out_format=json &&

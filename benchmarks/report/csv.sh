@@ -72,6 +72,14 @@ csv_servo_times() {
   } >"$kept/servo_times.csv"
 }
 
+# How well models are chosen, a line a scene.
+csv_chooser() {
+  "$programs/chooser" >"$scratch/chooser" && {
+    heading "$kept/costs.json" "$(git -C "$top" describe --always --dirty --abbrev=12 '--exclude=*')" "$(date -Iseconds)"
+    cat "$scratch/chooser"
+  } >"$kept/chooser.csv"
+}
+
 # What the compiler pays for a trained model.
 csv_compile_cost() {
   bash "$top/benchmarks/compile_cost.sh" >"$scratch/compile_cost" && {

@@ -188,6 +188,37 @@ function stability(  k, text) {
       cell[k, "slow_as_the_arm_itself"], cell[k, "slides_off"] + cell[k, "lost"])
 }
 
+# Of chooser.csv.
+function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst, missed, ratio, dear, dearest, slowest, text) {
+  n = split("POD Galerkin Linear VonKarman Corotational", kinds, " ")
+  for (k = 1; k <= rows; ++k) {
+    if (cell[k, "choose_ms"] + 0 > slowest) slowest = cell[k, "choose_ms"] + 0
+    if (cell[k, "chosen"] == "none") {
+      ++none
+      if (cell[k, "cheapest"] != "none") ++overlooked
+      continue
+    }
+    split(cell[k, "chosen"], part, /[; ]/)
+    ++count[part[1]]
+    error = cell[k, "error"] / cell[k, "tolerance"]
+    if (error > worst) worst = error
+    if (error > 1) ++missed
+    if (cell[k, "cheapest"] == "none") continue
+    ratio = cell[k, "tick_us"] / cell[k, "cheapest_tick_us"]
+    if (ratio > dearest) dearest = ratio
+    if (ratio > 2) ++dear
+  }
+  for (k = 1; k <= n; ++k)
+    if (kinds[k] in count) text = text (text == "" ? "" : ", ") kinds[k] " " count[kinds[k]]
+  line("of " rows " scenes", "")
+  rule(2)
+  line("a model was chosen", rows - none ": " text)
+  line("none was, though one would have done", overlooked + 0 " of " none + 0)
+  line("error beyond the tolerated one, on 60 presses that were held out", sprintf("%d; at worst %.2f of it", missed, worst))
+  line("costs more than twice the cheapest that is right", sprintf("%d; at most %s times", dear, digits(dearest)))
+  line("longest choice", sprintf("%.0f ms", slowest))
+}
+
 END {
   if (table == "machine") print head "."
   else if (table == "scenes") scenes()
@@ -200,6 +231,7 @@ END {
   else if (table == "rotation") rotation()
   else if (table == "limits") limits()
   else if (table == "stability") stability()
+  else if (table == "chosen") chosen()
   else {
     print "no table " table >"/dev/stderr"
     exit 1
