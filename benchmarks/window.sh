@@ -11,6 +11,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../cmake/steps.sh"
 rounds=4 seconds=10
 while [[ $# -gt 0 ]]; do
   case $1 in
+    --help) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 0 ;;
     --rounds) rounds=$2 ;;
     --seconds) seconds=$2 ;;
     *) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 2 ;;

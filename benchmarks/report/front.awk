@@ -1,5 +1,8 @@
-# What nothing else in a scene is better than at both: awk -F, -v scene=… -f front.awk FILE; lines 'time,error' by time.
-$1 == scene { time[++n] = $6; error[n] = $8 }
+# What nothing else in a scene is better than at both: awk -F, -v scene=… -f front.awk FILE FILE, the same file twice; lines
+# 'time,error' by time.  Of a trained model with several numbers of modes, the one with the most, as in series.awk.
+$1 != scene { next }
+FNR == NR { if (!(($2, $5) in most) || $4 > most[$2, $5]) most[$2, $5] = $4; next }
+$4 == most[$2, $5] { time[++n] = $6; error[n] = $8 }
 END {
   for (;;) {
     best = 0

@@ -5,7 +5,7 @@ h = 960
 file = data . '/speed_accuracy.csv'
 rows(scene, model) = sprintf("< awk -F, -v scene='%s' -v model='%s' -f %s/series.awk %s %s | sort -t, -k6g", \
   scene, model, folder, file, file)
-front(scene) = sprintf("< awk -F, -v scene='%s' -f %s/front.awk %s", scene, folder, file)
+front(scene) = sprintf("< awk -F, -v scene='%s' -f %s/front.awk %s %s", scene, folder, file, file)
 # The row of that number, or the last; 0: the one that is most wrong.
 row(scene, model, n) = rows(scene, model) . \
   (n eq '0' ? ' | sort -t, -k8gr | head -n 1' : sprintf(" | awk -v n=%s '{ line = $0 } NR == n { exit } END { print line }'", n))

@@ -41,13 +41,13 @@ function scenes() {
   choice("the same, pressed deeper than trained", "`GalerkinModel<>`, 16 × 12", "bar_50mm", "GalerkinModel", 0, 192)
   choice("a thin strip that stretches", "`GalerkinModel<>`, 16 × 12", "strip", "GalerkinModel", 0, 192)
   choice("a ruler that bends far", "`FemModel<Corotational<>>`, 8 elements", "ruler", "Corotational<VonKarman<AssumedStrain>>", 8, 0)
-  choice("an arch that snaps", "`FemModel<Corotational<>>`, 8 elements", "arch", "Corotational<VonKarman<AssumedStrain>>", 8, 0)
+  choice("an arch, up to where it snaps", "`FemModel<Corotational<>>`, 8 elements", "arch", "Corotational<VonKarman<AssumedStrain>>", 8, 0)
 }
 
 # Whether a model, of those that match, is at least as fast and as exact as row k.
 function passed(k, models,  j) {
   for (j = 1; j <= rows; ++j)
-    if (j != k && cell[j, "scene"] == cell[k, "scene"] && cell[j, "model"] ~ models && \
+    if (j != k && !truncated(j) && cell[j, "scene"] == cell[k, "scene"] && cell[j, "model"] ~ models && \
         cell[j, "tick_ns_p50"] + 0 <= cell[k, "tick_ns_p50"] + 0 && \
         cell[j, "force_error_max"] + 0 <= cell[k, "force_error_max"] + 0)
       return 1
