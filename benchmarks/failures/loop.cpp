@@ -83,7 +83,7 @@ void stiffness_and_delay(Report& report) {
   };
   Situation who;
   report.failure("too-stiff", number(border(0) / 1e3) + " kN/m; the bound b/(T/2) is " +
-                                  number(passive_stiffness(who.damping, who.period, 0) / 1e3));
+                                  number(passive_stiffness(who.damping, who.period, 0) / 1e3) + " kN/m");
   report.row("pressed at a tenth of the span, 163 kN/m, directly",
              mm_per_s(speed(model, tenth, Direct(), who)),
              mm_per_s(speed(model, tenth, VirtualCoupling(default_figures(who, 0), who.period), who)) +
@@ -137,7 +137,7 @@ void encoders(Report& report) {
     series.add(1e6 * resolution, 1e3 * coarse, 1e3 * at(resolution, true));
   }
   report.failure("coarse-encoders", "10 kN/m: steps of " + number(1e6 * begins) + " µm; the bound 2f/K is " +
-                                        number(1e6 * 2 * who.friction / fine.figures().stiffness));
+                                        number(1e6 * 2 * who.friction / fine.figures().stiffness) + " µm");
   for (const double resolution : {7e-6, 200e-6, 400e-6}) {
     const double buzz = at(resolution, false), rest = at(resolution, true);
     report.row("steps of " + number(1e6 * resolution) + " µm: 10 kN/m; default", mm_per_s(buzz),
