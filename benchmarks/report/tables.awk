@@ -55,11 +55,13 @@ function passed(k, models,  j) {
 }
 # Whether a trained model has fewer modes than another one that has as many snapshots.
 function truncated(k,  j) {
+  if (k in memo) return memo[k]
+  memo[k] = 0
   for (j = 1; j <= rows; ++j)
     if (cell[j, "scene"] == cell[k, "scene"] && cell[j, "model"] == cell[k, "model"] && \
         cell[j, "snapshots"] == cell[k, "snapshots"] && cell[j, "modes"] + 0 > cell[k, "modes"] + 0)
-      return 1
-  return 0
+      memo[k] = 1
+  return memo[k]
 }
 function fronts(  n, s, m, k, scene, model, own, sizes, on, ours, form, even, others) {
   split("bar_5mm bar_50mm strip ruler arch", scene, " ")
