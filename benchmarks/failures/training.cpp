@@ -27,13 +27,8 @@ double force_at_mid_span(double d) { return PinnedPress(L, thesis_EA, thesis_EI)
 
 template <class Nodes>
 double worst_error(int nodes, double noise) {
-  NoisyForce<Nodes> interpolated(nodes, shallowest, deepest, noise, force_at_mid_span);
-  double worst = 0;
-  for (int k = 0; k < 200; ++k) {
-    const double d = shallowest + (deepest - shallowest) * (k + 0.5) / 200;
-    worst = std::max(worst, relative_error(interpolated(d), force_at_mid_span(d)));
-  }
-  return worst;
+  return NoisyForce<Nodes>(nodes, shallowest, deepest, noise, force_at_mid_span)
+      .worst_error(200, force_at_mid_span);
 }
 
 void interpolation(Report& report) {

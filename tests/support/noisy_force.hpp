@@ -1,9 +1,11 @@
 // A force interpolated between snapshots that are not exact.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
+#include "support/error.hpp"
 #include "support/random.hpp"
 #include <hapbeam/rom/lagrange.hpp>
 
@@ -26,6 +28,16 @@ class NoisyForce {
     double sum = 0;
     for (std::size_t k = 0; k < values_.size(); ++k) sum += weights_[k] * values_[k];
     return sum * d;
+  }
+  /// Largest relative error at so many even depths.
+  template <class Force>
+  double worst_error(int depths, Force&& force) {
+    double worst = 0;
+    for (int k = 0; k < depths; ++k) {
+      const double d = axis_.low() + (axis_.high() - axis_.low()) * (k + 0.5) / depths;
+      worst = std::max(worst, relative_error((*this)(d), force(d)));
+    }
+    return worst;
   }
 
  private:
