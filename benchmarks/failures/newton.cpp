@@ -105,10 +105,7 @@ void buckling(Report& report) {
     Beam beam(1, EA, 1, 0.001, Support::pinned, Support::pinned);
     beam.place({}, {-times * euler / EA, 0, 0});
     System<> system(beam, 16);
-    const ContactMesh<double> mesh(16, 1.0);
-    std::vector<CentrelineNode<double>> straight;
-    for (int i = 0; i <= 16; ++i) straight.push_back({mesh.position(i), 0, 0, 0});
-    system.set_state(mesh, straight.data());
+    lay_straight(system, 1);
     system.set_goal();
     naive_newton(system);
     naive = system.node(8).w;

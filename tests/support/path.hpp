@@ -24,6 +24,15 @@ struct Path {
 template <class Element = Corotational<>>
 using System = BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal>;
 
+/// Lays the beam along the x axis, wherever its supports are placed: where a naive solve begins.  @param length  [m]
+template <class Element>
+void lay_straight(System<Element>& system, double length) {
+  const ContactMesh<double> mesh(system.elements(), length);
+  std::vector<CentrelineNode<double>> straight;
+  for (int i = 0; i <= system.elements(); ++i) straight.push_back({mesh.position(i), 0, 0, 0});
+  system.set_state(mesh, straight.data());
+}
+
 /// Follows a beam's path from λ = 0.  @param way  system -> displacement   @param go_on  Equilibrium -> bool
 template <class Element = Corotational<>, class Way, class GoOn>
 Path follow(const Beam& beam, int elements, double step, Way&& way, GoOn&& go_on) {

@@ -9,7 +9,7 @@
 // Each family of models (three kinematics, halves of the beam where the scene is symmetric, two reductions) is tried at
 // growing size on the presses of a Pilot until its error is well below the tolerated one; of those that get there within the
 // time, the cheapest is chosen.  No rule knows a beam: what is known of the scene is what these presses say.
-// Offline: allocates; takes some tens of milliseconds; throws std::invalid_argument for a scene that makes no sense.
+// Offline: allocates; takes tens of milliseconds, hundreds for thin beams; throws std::invalid_argument for a scene that makes no sense.
 #pragma once
 
 #include <algorithm>
@@ -114,7 +114,7 @@ class Chooser {
     try {
       SceneModel model = detail::build(scene_, candidate, 2);
       verdict.error = pilot_.error(model);
-      verdict.right = verdict.error <= wanted(candidate);
+      verdict.right = verdict.error + pilot_.own_error() <= wanted(candidate);
     } catch (const std::exception& why) {
       verdict.refusal = why.what();
     }

@@ -1,7 +1,7 @@
-// Presses by which candidates are judged: a few lines of increasing depth, answered by a reference that is known to be right.
+// Presses by which candidates are judged: a few lines of increasing depth, answered by a reference whose error is known.
 //
 // The reference is Corotational<>, with as many elements as it takes until half of them say the same to a twentieth of the
-// tolerated error.  Lines stand at both ends of the range and between, closer toward supports, where every method is at its
+// tolerated error, or with 512; what they are off then is own_error().  Lines stand at both ends of the range and between, closer toward supports, where every method is at its
 // worst; along a line the beam is pressed from rest ever deeper, as a hand would.
 // Offline: allocates, throws std::invalid_argument where the scene asks for presses that no model answers.
 #pragma once
@@ -58,8 +58,10 @@ class Pilot {
     return {lines_.front().s, lines_[lines_.size() / 2].s, lines_.back().s};
   }
 
-  int elements() const noexcept { return elements_; }       ///< of the reference
-  double own_error() const noexcept { return own_error_; }  ///< of half as many elements
+  int elements() const noexcept { return elements_; }  ///< of the reference
+  double own_error() const noexcept {
+    return own_error_;
+  }  ///< of half as many elements: more than the reference's
 
  private:
   struct Line {
