@@ -134,13 +134,15 @@ class Chooser {
       choice_.candidate = least->candidate;
       return;
     }
+    // A twentieth more than that, for it is written with two digits.
     char text[400], slower[150] = "", coarser[150] = "";
     if (least)
-      std::snprintf(slower, sizeof slower, "a tick of %.2g us (%s)", 1e6 * least->tick,
+      std::snprintf(slower, sizeof slower, "a tick of %.2g us (%s)", 1.05e6 * least->tick,
                     least->candidate.text().c_str());
     if (in_time_.error < 1)
       std::snprintf(coarser, sizeof coarser, "%sa force error of %.2g %% (%s)", least ? ", or " : "",
-                    100 * in_time_.error / trained_margin, in_time_.candidate.text().c_str());
+                    105 * (in_time_.error + pilot_.own_error()) / trained_margin,
+                    in_time_.candidate.text().c_str());
     std::snprintf(text, sizeof text, "no model is within %.2g %% of the force in %.2g us: %s%s%s",
                   100 * scene_.force_error, 1e6 * scene_.tick,
                   least || *coarser ? "allow " : "press less deep or in a smaller range", slower, coarser);
