@@ -112,8 +112,10 @@ class Centreline {
     const Node& b = nodes_[i + 1];
     const Scalar third = (b.s - a.s) / 3, x0 = a.s + a.u, x3 = b.s + b.u, dx = (x3 - x0) / 3;
     CubicSegment<Scalar> control;
-    control << x0, x0 + (any_rotation_ ? third * from.x() : dx), x3 - (any_rotation_ ? third * to.x() : dx),
-        x3, a.w, a.w + third * from.y(), b.w - third * to.y(), b.w;
+    control.col(0) = Vector2<Scalar>(x0, a.w);
+    control.col(1) = Vector2<Scalar>(x0 + (any_rotation_ ? third * from.x() : dx), a.w + third * from.y());
+    control.col(2) = Vector2<Scalar>(x3 - (any_rotation_ ? third * to.x() : dx), b.w - third * to.y());
+    control.col(3) = Vector2<Scalar>(x3, b.w);
     return control;
   }
 

@@ -14,6 +14,8 @@
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <type_traits>
 #include <utility>
 
@@ -107,7 +109,7 @@ struct CoreResponse {
 /// Residual from its core: ∂V/∂(stretch, rise, lθ1, lθ2) [N].
 template <typename S>
 inline void expand(const ElementProperties<S>& p, S s, S r, S t1, S t2, Vector6<S>& residual) noexcept {
-  residual << -s, -r, p.length * t1, s, r, p.length * t2;
+  residual = Vector6<S>(-s, -r, p.length * t1, s, r, p.length * t2);
 }
 
 /// Six by six from its core: node 1 enters stretch and rise with -1, node 2 with +1, rotations with l.
@@ -115,12 +117,14 @@ template <typename S>
 inline void expand(const ElementProperties<S>& p, const CoreTangent<S>& c, Matrix6<S>& K) noexcept {
   const S l = p.length, ll = l * l;
   const S s1 = l * c.s1, s2 = l * c.s2, r1 = l * c.r1, r2 = l * c.r2;
-  K << c.ss, c.sr, -s1, -c.ss, -c.sr, -s2,       //
-      c.sr, c.rr, -r1, -c.sr, -c.rr, -r2,        //
-      -s1, -r1, ll * c.t11, s1, r1, ll * c.t12,  //
-      -c.ss, -c.sr, s1, c.ss, c.sr, s2,          //
-      -c.sr, -c.rr, r1, c.sr, c.rr, r2,          //
-      -s2, -r2, ll * c.t12, s2, r2, ll * c.t22;
+  // Column by column, which is row by row.  Eigen's comma initializer would check what cannot fail, and is not inlined.
+  const S entries[] = {c.ss,  c.sr,  -s1,        -c.ss, -c.sr, -s2,         //
+                       c.sr,  c.rr,  -r1,        -c.sr, -c.rr, -r2,         //
+                       -s1,   -r1,   ll * c.t11, s1,    r1,    ll * c.t12,  //
+                       -c.ss, -c.sr, s1,         c.ss,  c.sr,  s2,          //
+                       -c.sr, -c.rr, r1,         c.sr,  c.rr,  r2,          //
+                       -s2,   -r2,   ll * c.t12, s2,    r2,    ll * c.t22};
+  std::copy(std::begin(entries), std::end(entries), K.data());
 }
 
 /// The contract above for an element that knows its core,

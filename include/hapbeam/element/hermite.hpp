@@ -14,16 +14,14 @@ struct ShapeFunctions {
 
   ShapeFunctions(Scalar t, Scalar length) noexcept : u1(1 - t), u2(t) {
     const Scalar r = 1 - t;
-    w << r * r * (1 + 2 * t), -length * t * r * r, t * t * (3 - 2 * t), length * t * t * r;
-    theta << 6 * t * r / length, r * (1 - 3 * t), -6 * t * r / length, t * (3 * t - 2);
+    w = {r * r * (1 + 2 * t), -length * t * r * r, t * t * (3 - 2 * t), length * t * t * r};
+    theta = {6 * t * r / length, r * (1 - 3 * t), -6 * t * r / length, t * (3 * t - 2)};
   }
 
   /// Nodal forces that do the work of a force (axial, transverse) [N] and moment [N·m] at this point.
   Vector6<Scalar> nodal_forces(Scalar axial, Scalar transverse, Scalar moment) const noexcept {
     const Eigen::Matrix<Scalar, 4, 1> bending = transverse * w + moment * theta;
-    Vector6<Scalar> f;
-    f << u1 * axial, bending[0], bending[1], u2 * axial, bending[2], bending[3];
-    return f;
+    return {u1 * axial, bending[0], bending[1], u2 * axial, bending[2], bending[3]};
   }
 };
 

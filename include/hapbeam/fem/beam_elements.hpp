@@ -97,9 +97,7 @@ class BeamElements {
  private:
   Vector6<Scalar> displacements(int e) const noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
-    Vector6<Scalar> d;
-    d << a.u, a.w, a.theta, b.u, b.w, b.theta;
-    return d;
+    return {a.u, a.w, a.theta, b.u, b.w, b.theta};
   }
 
   Scalar subtract_loads(int e, Scalar lambda, const Vector6<Scalar>& d, Vector6<Scalar>& r,

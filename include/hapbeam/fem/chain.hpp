@@ -28,9 +28,8 @@ void lay_chain(Nodes& nodes, const Properties& properties, Increment&& increment
   for (int i = 1; i < nodes.size(); ++i) {
     const CentrelineNode<Scalar> node = nodes[i];
     const Vector3<Scalar> y = increment(i);
-    Vector6<Scalar> d, change;
-    d << before.u, before.w, before.theta, node.u, node.w, node.theta;
-    change << x[0], x[1], x[2], y[0], y[1], y[2];
+    const Vector6<Scalar> d(before.u, before.w, before.theta, node.u, node.w, node.theta),
+        change(x[0], x[1], x[2], y[0], y[1], y[2]);
     way += Element::chord_change(properties[i - 1], d, change);
     nodes[i] = {node.s, node.u + way.x(), node.w + way.y(), node.theta + y[2]};
     before = node;
