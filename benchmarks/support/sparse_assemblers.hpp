@@ -54,10 +54,6 @@ class SimplicialLdlt {
     rhs_.template segment<3>(3 * e + 3) = -r.template tail<3>();
   }
 
-  void add_force(int node, const Vector3<Scalar>& force) noexcept {
-    rhs_.template segment<3>(3 * node) += force;
-  }
-
   void prescribe(int node, int component, Scalar increment) noexcept {
     const auto take = [&](Scalar& entry, int row) {
       rhs_[row] -= increment * entry;
@@ -129,8 +125,6 @@ class SparseLuFromTriplets {
       for (int i = 0; i < 6; ++i) triplets_.emplace_back(3 * e + i, 3 * e + j, K(i, j));
     rhs_.template segment<6>(3 * e) -= r;
   }
-
-  void add_force(int node, const Vector3<Scalar>& force) { rhs_.template segment<3>(3 * node) += force; }
 
   void prescribe(int node, int component, Scalar increment) {
     fixed_[3 * node + component] = 1;

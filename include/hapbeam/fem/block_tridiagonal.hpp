@@ -51,9 +51,6 @@ class BlockTridiagonal {
     }
   }
 
-  /// Adds a force [N, N, N·m] to the right-hand side of one node.
-  void add_force(int node, const Vector& force) noexcept { rows_[node].x += force; }
-
   /// Prescribes the increment of one degree of freedom (0: u, 1: w, 2: θ) of a node, after all elements are in: its
   /// column goes to the right-hand side, its row answers 0.
   void prescribe(int node, int component, Scalar increment) noexcept {

@@ -32,10 +32,6 @@ class Dense {
     x_.template segment<6>(3 * e) -= r;
   }
 
-  void add_force(int node, const Vector3<Scalar>& force) noexcept {
-    x_.template segment<3>(3 * node) += force;
-  }
-
   void prescribe(int node, int component, Scalar increment) noexcept {
     const int k = 3 * node + component;
     const Scalar pivot = K_(k, k);
