@@ -35,7 +35,8 @@ struct Corotational : detail::ElementFromCore<Corotational<Local>> {
   }
 
   template <typename S>
-  static detail::CoreResponse<S> respond(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
+  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                                const Vector6<S>& d) noexcept {
     const Chord<S> chord(p, d);
     const S L = p.length, i = 1 / chord.length, c = chord.x * i, s = chord.w * i;
     const detail::CoreResponse<S> q = Local::respond(p, chord.local(p, d));
@@ -98,7 +99,7 @@ struct Corotational : detail::ElementFromCore<Corotational<Local>> {
     S stretch;  // length - L, without the cancellation [m]
     S angle;    // [rad] up is positive, in the turn in which the nodes are
 
-    Chord(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
+    [[gnu::always_inline]] Chord(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
       using std::nearbyint;
       using std::sqrt;
       const S u = d[3] - d[0];

@@ -16,8 +16,8 @@ namespace detail {
 
 /// Adds bending to what an element's membrane answers.
 template <typename S>
-inline void add_bending(const ElementProperties<S>& p, const Deformation<S>& e,
-                        CoreResponse<S>& core) noexcept {
+[[gnu::always_inline]] inline void add_bending(const ElementProperties<S>& p, const Deformation<S>& e,
+                                               CoreResponse<S>& core) noexcept {
   const S k = p.bending_per_length3, a = e.a - p.natural_a, b = e.b - p.natural_b;
   const S m1 = k * (4 * a + 2 * b), m2 = k * (2 * a + 4 * b);
   core.energy += 2 * k * (a * a + a * b + b * b);
@@ -38,8 +38,8 @@ struct Linear : detail::ElementFromCore<Linear> {
   static constexpr const char* name() noexcept { return "linear"; }
 
   template <typename S>
-  static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                         const detail::Deformation<S>& e) noexcept {
+  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                                const detail::Deformation<S>& e) noexcept {
     const S normal = p.axial_per_length * e.stretch;
     detail::CoreResponse<S> core{
         normal * e.stretch / 2, normal, 0, 0, 0, {p.axial_per_length, 0, 0, 0, 0, 0, 0, 0, 0, 0}};
@@ -47,7 +47,8 @@ struct Linear : detail::ElementFromCore<Linear> {
     return core;
   }
   template <typename S>
-  static detail::CoreResponse<S> respond(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
+  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                                const Vector6<S>& d) noexcept {
     return respond(p, detail::Deformation<S>(p, d));
   }
 };

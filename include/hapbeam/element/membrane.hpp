@@ -17,7 +17,8 @@ namespace detail {
 
 /// Sum of two Gauss points.
 template <typename S>
-CoreResponse<S> sum(const CoreResponse<S>& a, const CoreResponse<S>& b) noexcept {
+[[gnu::always_inline]] inline CoreResponse<S> sum(const CoreResponse<S>& a,
+                                                  const CoreResponse<S>& b) noexcept {
   return {a.energy + b.energy,
           a.s + b.s,
           a.r + b.r,
@@ -29,8 +30,9 @@ CoreResponse<S> sum(const CoreResponse<S>& a, const CoreResponse<S>& b) noexcept
 
 /// One Gauss point's part of ½ EA l ω ε².  @param t in [0, 1]   @param weight ω, all sum to 1
 template <typename S>
-inline CoreResponse<S> at_gauss_point(const ElementProperties<S>& p, const Deformation<S>& e, S t,
-                                      S weight) noexcept {
+[[gnu::always_inline]] inline CoreResponse<S> at_gauss_point(const ElementProperties<S>& p,
+                                                             const Deformation<S>& e, S t,
+                                                             S weight) noexcept {
   // l w' = rise + a g1 + b g2: the Hermite cubic about its chord.  f, g1, g2: its derivatives by rise, lθ1, lθ2.
   const S g1 = (t - 1) * (1 - 3 * t), g2 = t * (2 - 3 * t), f = 1 + g1 + g2;
   const S slope = (e.rise + e.a * g1 + e.b * g2) * p.inverse_length;
@@ -53,8 +55,8 @@ inline CoreResponse<S> at_gauss_point(const ElementProperties<S>& p, const Defor
 struct FullIntegration {
   static constexpr const char* name() noexcept { return "full"; }
   template <typename S>
-  static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                         const detail::Deformation<S>& e) noexcept {
+  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                                const detail::Deformation<S>& e) noexcept {
     return detail::sum(detail::at_gauss_point(p, e, S(0.21132486540518711775), S(0.5)),
                        detail::at_gauss_point(p, e, S(0.78867513459481288225), S(0.5)));
   }
@@ -64,8 +66,8 @@ struct FullIntegration {
 struct ReducedIntegration {
   static constexpr const char* name() noexcept { return "reduced"; }
   template <typename S>
-  static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                         const detail::Deformation<S>& e) noexcept {
+  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                                const detail::Deformation<S>& e) noexcept {
     return detail::at_gauss_point(p, e, S(0.5), S(1));
   }
 };
@@ -74,8 +76,8 @@ struct ReducedIntegration {
 struct AssumedStrain {
   static constexpr const char* name() noexcept { return "assumed-strain"; }
   template <typename S>
-  static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                         const detail::Deformation<S>& e) noexcept {
+  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                                const detail::Deformation<S>& e) noexcept {
     const S i = p.inverse_length;
     // g = ½ ∂(l² mean w'²)/∂(rise, lθ1, lθ2)
     const S g1 = (4 * e.a - e.b) * S(1. / 30), g2 = (4 * e.b - e.a) * S(1. / 30), gr = e.rise + g1 + g2;

@@ -17,14 +17,15 @@ struct VonKarman : detail::ElementFromCore<VonKarman<Membrane>> {
   static constexpr const char* name() noexcept { return Membrane::name(); }
 
   template <typename S>
-  static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                         const detail::Deformation<S>& e) noexcept {
+  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                                const detail::Deformation<S>& e) noexcept {
     detail::CoreResponse<S> core = Membrane::respond(p, e);
     detail::add_bending(p, e, core);
     return core;
   }
   template <typename S>
-  static detail::CoreResponse<S> respond(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
+  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                                const Vector6<S>& d) noexcept {
     return respond(p, detail::Deformation<S>(p, d));
   }
 };

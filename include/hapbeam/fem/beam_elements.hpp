@@ -71,7 +71,8 @@ class BeamElements {
   };
 
   /// Residual and tangent of V - λW in element e.
-  Energies tangent(int e, Scalar lambda, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
+  [[gnu::always_inline]] Energies tangent(int e, Scalar lambda, Vector6<Scalar>& r,
+                                          Matrix6<Scalar>& K) const noexcept {
     const Vector6<Scalar> d = displacements(e);
     const Scalar energy = Element::tangent(properties_[e], d, r, K);
     return {energy, subtract_loads(e, lambda, d, r, &K)};

@@ -36,7 +36,7 @@ class BlockTridiagonal {
 
   /// Adds element e: its tangent, and its residual to the right-hand side with the sign turned.
   /// Elements come in order, 0 to n - 1; element 0 starts a new system.
-  void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
+  [[gnu::always_inline]] void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
     Row& a = rows_[e];
     Row& b = rows_[e + 1];
     if (e == 0) a.block = {0, 0, 0, 0, 0, 0}, a.x.setZero();
