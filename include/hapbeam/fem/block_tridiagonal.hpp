@@ -40,9 +40,9 @@ class BlockTridiagonal {
     Row& a = rows_[e];
     Row& b = rows_[e + 1];
     if (e == 0) a.block = {0, 0, 0, 0, 0, 0}, a.x.setZero();
-    const Block& d = a.block;
-    a.block = {d.a00 + K(0, 0), d.a10 + K(1, 0), d.a20 + K(2, 0),
-               d.a11 + K(1, 1), d.a21 + K(2, 1), d.a22 + K(2, 2)};
+    // Entry by entry: g++ 12 -O3 miscompiles a = {a.a00 + …, …} where this function is not inlined further.
+    a.block.a00 += K(0, 0), a.block.a10 += K(1, 0), a.block.a20 += K(2, 0);
+    a.block.a11 += K(1, 1), a.block.a21 += K(2, 1), a.block.a22 += K(2, 2);
     b.block = {K(3, 3), K(4, 3), K(5, 3), K(4, 4), K(5, 4), K(5, 5)};
     for (int j = 0; j < 3; ++j) {
       for (int i = 0; i < 3; ++i) a.coupling(i, j) = K(i, j + 3);
