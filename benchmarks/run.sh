@@ -20,7 +20,7 @@ usage() { sed -n '2,14s/^# \{0,1\}//p' "$0"; }
 wrong() { echo "benchmarks/run.sh: $1" >&2; exit 2; }
 
 quick=(speed_accuracy costs thesis_figures reduced_press any_rotation fem_press kinematics where_methods_fail servo_times)
-all=("${quick[@]}" chooser compile_cost)
+all=("${quick[@]}" chooser compile_cost flags)
 what=("${all[@]}") stability= programs=
 while [[ $# -gt 0 ]]; do
   case $1 in
@@ -41,7 +41,7 @@ need gnuplot-nox fonts-dejavu-core || exit 1
 if [[ -z $programs ]]; then
   targets=()
   for program in "${what[@]}" $stability; do
-    [[ $program == compile_cost ]] || targets+=("$program")
+    [[ $program == compile_cost || $program == flags ]] || targets+=("$program")
   done
   [[ ${#targets[@]} == 0 ]] || build release "${targets[@]}" || exit 1
   programs=$top/build/release/benchmarks
@@ -51,7 +51,7 @@ trap 'rm -rf "$log" "$scratch"' EXIT
 
 measure() {
   case $1 in
-    servo_times | chooser | compile_cost) "csv_$1" ;;
+    servo_times | chooser | compile_cost | flags) "csv_$1" ;;
     where_methods_fail) bash "$top/benchmarks/$1.sh" --program "$programs/$1" ;;
     *)
       "$programs/$1" --benchmark_out="$scratch/$1.json" --benchmark_out_format=json &&

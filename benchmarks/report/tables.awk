@@ -221,6 +221,26 @@ function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst
   line("longest choice", sprintf("%.0f ms", slowest))
 }
 
+# A tick with each combination of flags: a row for each, a column for each compiler and model.
+function flags(  k, c, f, title, text) {
+  for (k = 1; k <= rows; ++k) {
+    title = cell[k, "compiler"] ", `" cell[k, "model"] "`"
+    sub(/ beside others`/, "` beside others", title)
+    if (!(title in seen)) { seen[title] = 1; column[++c] = title }
+    if (!(cell[k, "flags"] in known)) { known[cell[k, "flags"]] = 1; row[++f] = cell[k, "flags"] }
+    us[title, cell[k, "flags"]] = digits(cell[k, "tick_us"]) " µs, " sprintf("%.2f", cell[k, "over_best"])
+  }
+  text = "| flags |"
+  for (k = 1; k <= c; ++k) text = text " " column[k] " |"
+  print text
+  rule(c + 1)
+  for (f = 1; f in row; ++f) {
+    text = "| `" row[f] "` |"
+    for (k = 1; k <= c; ++k) text = text " " us[column[k], row[f]] " |"
+    print text
+  }
+}
+
 END {
   if (table == "machine") print head "."
   else if (table == "scenes") scenes()
@@ -234,6 +254,7 @@ END {
   else if (table == "limits") limits()
   else if (table == "stability") stability()
   else if (table == "chosen") chosen()
+  else if (table == "flags") flags()
   else {
     print "no table " table >"/dev/stderr"
     exit 1
