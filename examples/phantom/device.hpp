@@ -25,6 +25,12 @@ class Device {
   virtual hapbeam::RealTime priority() const noexcept = 0;  ///< of its thread in real time
 };
 
+/// The servo is asked in each tick: what its record says is so now.
+inline bool asks(const Device& device) noexcept {
+  const hapbeam::DeviceStatus status = device.status();
+  return device.simulated() || (is_running(status) && status != hapbeam::DeviceStatus::calibrating);
+}
+
 /// @param hand  of the simulated one; kept by reference   @throws std::runtime_error saying why it cannot be had
 std::unique_ptr<Device> connect(DeviceChoice choice, Hand& hand);
 

@@ -77,12 +77,12 @@ void print_scene(const Options& o, const Trained* trained, const hapbeam::Device
               "force N", "ticks", "missed", "cut", "p99 us", "status");
 }
 
-void print_row(const hapbeam::ServoRecord& r, const hapbeam::TickTimes& times,
-               const hapbeam::DeviceCounts& counts) {
+void print_row(const hapbeam::ServoRecord& r, const hapbeam::TickTimes& times, const Device& device) {
+  const hapbeam::DeviceCounts counts = device.counts();
   std::printf("%7.2f %9.2f %9.2f %9.3f %9.2f %8llu %7llu %7llu %9.1f  %s\n", r.time, r.position.x() * 1e3,
               r.position.y() * 1e3, r.press.d * 1e3, r.force.norm(), number(counts.ticks),
               number(counts.missed_ticks), number(r.saturated_ticks), times.compute().quantile(0.99) * 1e6,
-              name(r.status));
+              asks(device) ? name(r.status) : name(device.status()));
   std::fflush(stdout);
 }
 

@@ -33,8 +33,7 @@ struct Run {
 
 /// @param trained  or null
 void print_scene(const Options& options, const Trained* trained, const hapbeam::DeviceInfo& device);
-void print_row(const hapbeam::ServoRecord& record, const hapbeam::TickTimes& times,
-               const hapbeam::DeviceCounts& counts);
+void print_row(const hapbeam::ServoRecord& record, const hapbeam::TickTimes& times, const Device& device);
 void print_summary(const Run& run);
 std::string json(const Run& run);
 

@@ -175,3 +175,56 @@ TEST_CASE("callbacks go by priority, then by age, and one that is done is called
   world.tick();
   CHECK(order == "b");
 }
+
+TEST_CASE(
+    "a device with an inkwell is calibrated in the servo loop alone: asked within a frame, updated outside",
+    "[hd_world]") {
+  struct Calibrates {
+    unsigned device, style;
+    bool in_frame;
+    unsigned outside = 0, inside = 0;
+    static unsigned run(void* self) noexcept {
+      auto& c = *static_cast<Calibrates*>(self);
+      HdWorld& world = HdWorld::here();
+      world.make_current_device(c.device);
+      c.outside = world.check_calibration();
+      world.begin_frame(c.device);
+      c.inside = world.check_calibration();
+      if (c.in_frame) world.update_calibration(c.style);
+      world.end_frame(c.device);
+      if (!c.in_frame) world.update_calibration(c.style);
+      return HdCode::callback_continue;
+    }
+  };
+  const unsigned style = GENERATE(as<unsigned>(), HdCode::calibration_auto, HdCode::calibration_inkwell);
+  const bool in_frame = GENERATE(false, true);
+  HdWorld world;
+  auto& phantom = world.plug("one", press_and_hold());
+  phantom.styles = style;
+  phantom.calibration = HdCode::calibration_needs_update;
+  Calibrates calibrates{world.init_device("one"), style, in_frame};
+  world.update_calibration(style);
+  CHECK(world.check_calibration() == HdCode::calibration_needs_update);
+  CHECK(world.violations() == 2);
+  world.schedule_asynchronous(&Calibrates::run, &calibrates, HdCode::default_priority);
+  world.start_scheduler();
+  world.tick();
+  CHECK(calibrates.inside == HdCode::calibration_needs_update);
+  CHECK(phantom.updates == !in_frame);
+  world.tick();
+  CHECK(calibrates.inside == (in_frame ? HdCode::calibration_needs_update : HdCode::calibration_ok));
+  CHECK(calibrates.outside == HdCode::calibration_needs_update);
+  CHECK(world.violations() == 2 + (in_frame ? 4 : 2));
+  world.update_calibration(HdCode::calibration_encoder_reset);
+  world.stop_scheduler();
+  // No error told of any of it.
+  CHECK(world.get_error().errorCode == HdCode::invalid_operation);  // the last, from outside of a callback
+  CHECK(world.get_error().errorCode == HdCode::success);
+  // A stylus that is not in the inkwell cannot be updated away.
+  phantom.calibration = HdCode::calibration_needs_manual_input;
+  calibrates.in_frame = false;
+  world.start_scheduler();
+  world.run(2);
+  CHECK(calibrates.inside == HdCode::calibration_needs_manual_input);
+  world.stop_scheduler();
+}

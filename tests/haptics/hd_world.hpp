@@ -8,6 +8,9 @@
 //   - The last force persists when nothing new is sent.  Motors are off until force output is enabled.
 //   - Errors are one stack for all, the newest first, each with the handle of its device.
 //   - A device that was unplugged has a dead handle for ever; it is initialised anew after it was disabled.
+//   - Encoders are reset wherever a device may be called.  A device with an inkwell or automatic calibration is
+//     calibrated by the servo loop alone: its status is asked within a frame, and updated outside of one.
+//     Elsewhere the status stays "needs update", nothing is updated, and no error says so.
 //
 // What breaks a rule is also counted (violations()), because an adapter that reacts well to its own mistake
 // hides it. Nothing in a tick allocates.
@@ -66,7 +69,8 @@ class HdWorld : public HdCode {
     double temperature = 0, peak = 37.5, top_speed = 5;  // of the hottest motor; [N]; [m/s]
     unsigned calibration = calibration_ok, styles = calibration_encoder_reset, init_error = success,
              enable_error = success;
-    int resets = 0;
+    int resets = 0, updates = 0;         // of encoders; of what calibrates itself
+    Eigen::Vector3d misplaced{0, 0, 0};  // [mm] added to what it reads until it is calibrated
 
     unsigned handle = invalid_handle;
     bool dead = false, enabled = false, open = false, framed = false;
@@ -196,7 +200,7 @@ class HdWorld : public HdCode {
     device->open = device->framed = true;
     device->staged.setZero();
     if (device->dead) return push(comm_error, handle);
-    device->seen_position = device->position;
+    device->seen_position = device->position + device->misplaced;
     device->seen_velocity = device->velocity;
   }
   void end_frame(unsigned handle) noexcept {
@@ -273,18 +277,29 @@ class HdWorld : public HdCode {
   }
   unsigned check_calibration() noexcept {
     const Lock lock(mutex_);
-    note("check_calibration ");
+    if (!in_callback()) note("check_calibration ");
     Device* device = device_call("check_calibration") ? find(current_) : nullptr;
-    return device ? device->calibration : calibration_needs_manual_input;
+    if (!device) return calibration_needs_manual_input;
+    if (!calibrates_itself(*device) || (in_callback() && device->open)) return device->calibration;
+    unheard("calibration is checked within a frame of the servo loop");
+    return calibration_needs_update;
   }
   void update_calibration(unsigned style) noexcept {
     const Lock lock(mutex_);
-    note("update_calibration ");
+    if (!in_callback()) note("update_calibration ");
     Device* device = device_call("update_calibration") ? find(current_) : nullptr;
     if (!device) return;
-    if (!(style & device->styles)) return push(invalid_value, current_);
-    device->resets += style == calibration_encoder_reset;
+    if (!(style & device->styles) || (style & (style - 1))) return push(invalid_value, current_);
+    if (style == calibration_encoder_reset) {
+      ++device->resets;
+    } else {
+      if (!in_callback() || device->open)
+        return unheard("calibration is updated in the servo loop, outside of a frame");
+      if (device->calibration == calibration_needs_manual_input) return;
+      ++device->updates;
+    }
     device->calibration = calibration_ok;
+    device->misplaced.setZero();
   }
 
   void set_scheduler_rate(unsigned long rate) noexcept {
@@ -449,6 +464,14 @@ class HdWorld : public HdCode {
     ++violations_;
     last_violation_ = rule;
     push(code, handle);
+  }
+  /// What breaks a rule and is no error to the vendor's functions, which do nothing then.
+  void unheard(const char* rule) noexcept {
+    ++violations_;
+    last_violation_ = rule;
+  }
+  static bool calibrates_itself(const Device& device) noexcept {
+    return (device.styles & (calibration_auto | calibration_inkwell)) != 0;
   }
   /// The lifecycle's calls come from outside a tick, but for switching forces off.
   void note(const char* call) noexcept {

@@ -307,54 +307,6 @@ TEST_CASE("a device of another rate is called at that rate, one that is unknown 
   CHECK(world.callbacks() == 0);
 }
 
-TEST_CASE("encoders are set to zero only where somebody says that the arm is in its place", "[hdapi]") {
-  HdWorld world;
-  auto& phantom = world.plug("one", press_and_hold());
-  phantom.calibration =
-      GENERATE(as<unsigned>(), HdCode::calibration_needs_update, HdCode::calibration_needs_manual_input);
-  LockStepHdapi device;
-  Floor floor;
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    try {
-      device.start(floor);
-      FAIL("started without calibration");
-    } catch (const DeviceError& error) {
-      CHECK(error.why() == DeviceStatus::calibration_needed);
-      CHECK_THAT(error.what(), ContainsSubstring("reset position"));
-    }
-    CHECK(device.status() == DeviceStatus::calibration_needed);
-    CHECK_FALSE(device.running());
-    CHECK(world.callbacks() == 0);
-    CHECK_FALSE(phantom.enabled);
-  }
-  CHECK(phantom.resets == 0);
-  device.calibrate();
-  CHECK(phantom.resets == 1);
-  CHECK(device.status() == DeviceStatus::stopped);
-  device.start(floor);
-  CHECK_THROWS_AS(device.calibrate(), std::logic_error);
-  CHECK_THROWS_AS(device.start(floor), std::logic_error);
-  CHECK(device.running());
-  CHECK(world.violations() == 0);
-}
-
-TEST_CASE("a device that calibrates itself does so at the start", "[hdapi]") {
-  HdWorld world;
-  auto& phantom = world.plug("one", press_and_hold());
-  phantom.styles = GENERATE(as<unsigned>(), HdCode::calibration_auto, HdCode::calibration_inkwell,
-                            HdCode::calibration_encoder_reset | HdCode::calibration_inkwell);
-  phantom.calibration = HdCode::calibration_needs_update;
-  LockStepHdapi device;
-  Floor floor;
-  device.start(floor);
-  CHECK(device.running());
-  CHECK(phantom.resets == 0);
-  device.stop();
-  // What needs a hand is not done without one.
-  phantom.calibration = HdCode::calibration_needs_manual_input;
-  CHECK_THROWS_AS(device.start(floor), DeviceError);
-}
-
 TEST_CASE("a scheduler without room is an error, and room found later is used", "[hdapi]") {
   HdWorld world;
   world.plug("one", press_and_hold());

@@ -83,6 +83,7 @@ TEST_CASE("whatever happens to one device, the other's force is the same to the 
   CHECK(forces_right([](Two& two) { two.world.raise(Code::warm_motors, &two.left); }) == undisturbed);
   CHECK(forces_right([](Two& two) { two.world.unplug(two.left); }) == undisturbed);
   CHECK(forces_right([](Two& two) { two.left.has_readings = false; }) == undisturbed);
+  CHECK(forces_right([](Two& two) { two.left.calibration = Code::calibration_needs_update; }) == undisturbed);
   CHECK(forces_right([](Two& two) { two.left_floor.stiffness = 1e300; }) == undisturbed);
   // Closed by somebody else: what is meant for it must not reach the device that is current instead.
   CHECK(forces_right([](Two& two) { two.left.handle = Code::invalid_handle; }) == undisturbed);

@@ -67,6 +67,27 @@ TEST_CASE("a tick behind HDAPI: no heap, faults and the end included") {
         }) == HeapUse{});
 }
 
+TEST_CASE("a device that calibrates itself behind HDAPI: no heap, before it has and when it must again") {
+  HdWorld world;
+  auto& phantom = world.plug("one", HandPath({0, 0.03}).press(0.025, 0.2).rest(10));
+  phantom.styles = HdCode::calibration_inkwell;
+  phantom.calibration = HdCode::calibration_needs_manual_input;
+  LockStepHdapi device;
+  FemModel<> model(thesis_beam(Support::pinned, Support::pinned), 16);
+  Servo servo(model);
+  device.start(servo);
+  CHECK(heap_use([&] {
+          world.run(300);
+          phantom.calibration = HdCode::calibration_needs_update;
+          world.run(900);
+          phantom.calibration = HdCode::calibration_needs_update;
+          world.run(300);
+        }) == HeapUse{});
+  CHECK(phantom.updates == 2);
+  CHECK(servo.pressing > 500);
+  CHECK(world.violations() == 0);
+}
+
 TEST_CASE("heap watch: what a servo allocates is seen through the C callback") {
   HdWorld world;
   world.plug("one", press_and_hold());

@@ -142,7 +142,11 @@ void show_state(Running& running) {
   ImGui::PopFont();
   ImGui::PushTextWrapPos(0);
   const Device& device = running.session().device();
-  const char* state = device.simulated() || is_running(device.status()) ? in_words(r) : name(device.status());
+  const char* state =
+      asks(device) ? in_words(r)
+      : is_running(device.status())
+          ? "The arm does not know where it is: put the stylus into its inkwell, or move it about."
+          : name(device.status());
   ImGui::TextUnformatted(state);
   // As high with one line as with two, so that what is below stays.
   const float line = ImGui::GetTextLineHeightWithSpacing();

@@ -6,6 +6,7 @@
 //
 //   a servo S
 //   s(state)      Eigen::Vector3d   noexcept; the force on the hand [N], device axes; no allocation or waiting
+//                                   (called only in ticks in which the device knows where its arm is)
 //
 //   a device D
 //   d.info()      DeviceInfo        (or a const reference) what the device can do
@@ -41,14 +42,15 @@ enum class ForceCut : std::uint8_t {
   ramped,      ///< scaled down, to zero perhaps, after a start or an error or with warm motors
 };
 
-/// How a device is.  The first four have a loop that runs or may be started; the last three have ended it, or
+/// How a device is.  The first five have a loop that runs or may be started; the last three have ended it, or
 /// kept it from starting, and stay until the next start().
 enum class DeviceStatus : std::uint8_t {
   stopped,      ///< no loop, and nothing wrong
   running,      ///< the servo is called and its force sent
   warm,         ///< runs; motors near their limit: the force is scaled down to zero until they have cooled
   force_error,  ///< runs; the device refused a force or a speed: zero was sent, the force is coming back
-  calibration_needed,  ///< the device does not know where its arm is
+  calibrating,  ///< runs; the device is finding out where its arm is: zero is sent, the servo is not asked
+  calibration_needed,  ///< the device does not know where its arm is, and a person has to show it
   device_fault,        ///< the device or its driver reported what no loop can go on with
   communication_lost,  ///< unplugged, switched off, or the line disturbed
 };
@@ -56,7 +58,7 @@ enum class DeviceStatus : std::uint8_t {
 /// True where the loop goes on.
 constexpr bool is_running(DeviceStatus status) noexcept {
   return status == DeviceStatus::running || status == DeviceStatus::warm ||
-         status == DeviceStatus::force_error;
+         status == DeviceStatus::force_error || status == DeviceStatus::calibrating;
 }
 
 /// Short lower-case name, for messages and reports.
@@ -66,6 +68,7 @@ constexpr const char* name(DeviceStatus status) noexcept {
     case DeviceStatus::running: return "running";
     case DeviceStatus::warm: return "warm";
     case DeviceStatus::force_error: return "force_error";
+    case DeviceStatus::calibrating: return "calibrating";
     case DeviceStatus::calibration_needed: return "calibration_needed";
     case DeviceStatus::device_fault: return "device_fault";
     case DeviceStatus::communication_lost: return "communication_lost";
@@ -81,9 +84,9 @@ struct DeviceState {
   ForceCut cut = ForceCut::none;                       ///< what became of the force of the tick before
   Eigen::Vector3d sent = Eigen::Vector3d::Zero();      ///< [N] that force, as it was sent
   DeviceStatus status = DeviceStatus::running;         ///< running, warm or force_error
-  /// Begin anew, from a hand that touches nothing: the first tick since start, and each in which a force
-  /// error is found.  A real device sends zero then and ramps the force in; a simulated one sends what it is
-  /// asked for.
+  /// Begin anew, from a hand that touches nothing: the first tick since start or since the device has calibrated
+  /// itself, and each in which a force error is found.  A real device sends zero then and ramps the force in; a
+  /// simulated one sends what it is asked for.
   bool reset = false;
 };
 

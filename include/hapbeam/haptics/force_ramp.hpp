@@ -29,7 +29,12 @@ class ForceRamp {
   bool recovering() const noexcept { return recovering_; }  ///< since a force error, until all is sent again
 
   /// As at the start of a loop: nothing yet; what the motors' state is remains to be told.
-  void start() noexcept { gain_ = 0, recovering_ = hot_ = false, wait_ = 0, fresh_ = true; }
+  void start() noexcept {
+    recovering_ = hot_ = false, wait_ = 0;
+    restart();
+  }
+  /// Nothing in the next tick, and then a little more each tick; motors stay as warm as they are.
+  void restart() noexcept { gain_ = 0, fresh_ = true; }
 
   /// Once a tick, before its force is sent.
   /// @param temperature  of the hottest motor over what it bears; one that is not a number counts as hot

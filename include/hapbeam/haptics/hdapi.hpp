@@ -1,7 +1,7 @@
 // A device of OpenHaptics' HDAPI behind the device contract (device.hpp).
 //
 //   Hdapi<OpenHaptics> device;          // connects; docs/haptics.md has a complete program
-//   device.start(servo);                // or throws: not calibrated, no communication …
+//   device.start(servo);                // or throws: a person has to calibrate it, no communication …
 //
 // A tick is one frame: the device is read, the shared stack of errors emptied, the servo asked, its force
 // limited, ramped and sent, zero included, because a force that nobody replaces persists.
@@ -9,6 +9,8 @@
 //   found in a tick                          what follows
 //   a force or speed was refused             zero is sent, DeviceState::reset, the force ramps in
 //   warm motors, or a temperature above 0.7  the force ramps down to zero, and in again below 0.5
+//   calibration missing or lost              the servo is not asked, zero is sent until the device has calibrated
+//                                            itself, then reset and ramp; one that a person calibrates: the loop ends
 //   communication lost; any other error, a   the servo is not asked, zero is sent, forces are switched off,
 //   position that is not a number, a frame   the loop ends and status() says why; start() connects anew
 //   that is not this device's
@@ -68,7 +70,8 @@ class Hdapi {
             force_cut_ticks_.load(std::memory_order_relaxed)};
   }
 
-  /// The arm stands in its reset position, or in its inkwell: takes that for the place that the maker means.
+  /// The arm stands in its reset position: takes that for the place that the maker means.  Nothing where the device
+  /// calibrates itself while it runs, with an inkwell or without.
   /// @throws std::logic_error while it runs, DeviceError where the device is not calibrated even so
   void calibrate() {
     const Lock lock(Scheduler::mutex);
@@ -76,8 +79,9 @@ class Hdapi {
     prepare([this] { device_.calibrate(true); });
   }
 
-  /// Checks the calibration, schedules the tick, switches forces on, starts the scheduler where none runs.  The
-  /// force ramps in.  After a fault: connects anew.  Blocks.  start() and stop() belong to one thread.
+  /// Checks a calibration that a person makes, schedules the tick, switches forces on, starts the scheduler where none
+  /// runs.  The force ramps in; a device that calibrates itself is `calibrating` first, for as long as that takes.
+  /// After a fault: connects anew.  Blocks.  start() and stop() belong to one thread.
   /// @throws std::logic_error where it runs already or must connect while another runs, std::invalid_argument
   ///         where another runs at another rate, DeviceError with the status that status() then has
   template <typename Servo>
@@ -124,6 +128,8 @@ class Hdapi {
     sent_.setZero();
     cut_ = ForceCut::none;
     ramp_.start();
+    device_.calibration.start();
+    anew_ = true, timed_ = false;
     detail::HdErrors errors;
     scheduled_ = true;
     Scheduler::call([this]() noexcept {
@@ -132,7 +138,8 @@ class Hdapi {
       Scheduler::link(device_.client);
     });
     if (!Scheduler::runs()) Api::set_scheduler_rate(device_.options().rate);
-    status_.store(DeviceStatus::running, std::memory_order_release);
+    status_.store(device_.calibration.automatic() ? DeviceStatus::calibrating : DeviceStatus::running,
+                  std::memory_order_release);
     schedule_ =
         Api::schedule_asynchronous(Api::template callback<&Hdapi::servo_tick>, this, Api::default_priority);
     const bool asked = Scheduler::call([&]() noexcept {
@@ -179,28 +186,37 @@ class Hdapi {
     // force.
     const bool current = Api::get_current_device() == handle;
     const auto reading = device_.read();
+    const bool calibrated = current && device_.calibration.ask();
     Scheduler::drain();
     const detail::HdErrors errors = std::exchange(device_.client.errors, {});
 
-    const DeviceStatus end = errors.worst == HdErrorClass::communication ? DeviceStatus::communication_lost
-                             : errors.worst == HdErrorClass::fault || !(current && reading.finite())
-                                 ? DeviceStatus::device_fault
-                             : stopping_.load(relaxed) ? DeviceStatus::stopped
-                                                       : DeviceStatus::running;
+    const DeviceStatus end =
+        errors.worst == HdErrorClass::communication ? DeviceStatus::communication_lost
+        : errors.worst == HdErrorClass::fault || !(current && reading.finite()) ? DeviceStatus::device_fault
+        : !calibrated && !device_.calibration.automatic() ? DeviceStatus::calibration_needed
+        : stopping_.load(relaxed)                         ? DeviceStatus::stopped
+                                                          : DeviceStatus::running;
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     if (is_running(end)) {
       const bool force_error = errors.worst == HdErrorClass::force;
       ramp_.advance(reading.temperature, errors.warm, force_error);
       DeviceState state{reading.position, reading.velocity, elapsed(now), cut_, sent_};
-      state.status = ramp_.warm()         ? DeviceStatus::warm
+      state.status = !calibrated          ? DeviceStatus::calibrating
+                     : ramp_.warm()       ? DeviceStatus::warm
                      : ramp_.recovering() ? DeviceStatus::force_error
                                           : DeviceStatus::running;
-      state.reset = force_error || ticks_.load(relaxed) == 0;
-      force = ask(state);
+      state.reset = force_error || anew_;
+      status_.store(state.status, std::memory_order_release);
+      if (calibrated) force = ask(state);
+      else sent_.setZero(), cut_ = ForceCut::none, ramp_.restart();
+      anew_ = !calibrated;
     }
     if (current) Api::set_doublev(Api::current_force, force.data());
     Api::end_frame(handle);
-    if (is_running(end)) return true;
+    if (is_running(end)) {
+      device_.calibration.update();
+      return true;
+    }
     if (current) Api::disable(Api::force_output);
     Scheduler::unlink(device_.client);
     status_.store(end, std::memory_order_release);
@@ -210,7 +226,6 @@ class Hdapi {
 
   /// The servo's force, as it may be sent [N].
   Eigen::Vector3d ask(const DeviceState& state) noexcept {
-    status_.store(state.status, std::memory_order_release);
     Eigen::Vector3d force = ask_(servo_, state);
     cut_ = limit_force(force, info().peak_force);
     if (cut_ == ForceCut::none && ramp_.gain() < 1 && force != Eigen::Vector3d::Zero())
@@ -224,7 +239,7 @@ class Hdapi {
 
   /// Time since the first tick [s]; counts the ticks that should have been since the last one.
   double elapsed(typename Clock::time_point now) noexcept {
-    if (ticks_.load(relaxed) == 0) first_ = last_ = now;
+    if (!std::exchange(timed_, true)) first_ = last_ = now;
     const double gap = std::chrono::duration<double>(now - std::exchange(last_, now)).count() / info().period;
     if (gap >= 2) missed_ticks_.fetch_add(static_cast<std::uint64_t>(gap) - 1, relaxed);
     return std::chrono::duration<double>(now - first_).count();
@@ -238,6 +253,8 @@ class Hdapi {
   Eigen::Vector3d (*ask_)(void*, const DeviceState&) noexcept = nullptr;
   unsigned long schedule_ = 0;
   bool scheduled_ = false, counted_ = false;
+  bool anew_ = true;    // the servo has not been asked since the arm's place is known
+  bool timed_ = false;  // the clock runs
   Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();
   ForceCut cut_ = ForceCut::none;
   typename Clock::time_point first_{}, last_{};

@@ -15,6 +15,7 @@
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/haptics/device.hpp>
+#include <hapbeam/haptics/hdapi_calibration.hpp>
 #include <hapbeam/haptics/hdapi_scheduler.hpp>
 
 namespace hapbeam {
@@ -94,30 +95,24 @@ class HdConnection {
     connected_ = false;
   }
 
-  /// Checks the calibration, and updates it where the device can do that unattended, or where the arm is
-  /// known to stand in its reset position.  With the scheduler's mutex.   @throws DeviceError
+  /// Of a device that a person calibrates; one that calibrates itself does so in the loop.
+  /// @param at_reset_position  the arm stands there now   With the scheduler's mutex.   @throws DeviceError
   void calibrate(bool at_reset_position) {
-    unsigned answer = 0;
+    if (calibration.automatic()) return;
+    bool calibrated = false;
     HdErrors errors;
     const bool asked = Scheduler::call([&]() noexcept {
       Scheduler::drain();
       Api::make_current_device(client.handle);
-      int styles = 0;
-      Api::get_integerv(Api::calibration_style, &styles);
-      const unsigned style = best_style(static_cast<unsigned>(styles), at_reset_position);
-      answer = Api::check_calibration();
-      if (style != 0 && (at_reset_position || answer == Api::calibration_needs_update)) {
-        Api::update_calibration(style);
-        answer = Api::check_calibration();
-      }
+      calibrated = calibration.check(at_reset_position);
       errors = Scheduler::drain();
     });
     if (!asked || errors.worst >= HdErrorClass::fault) fail("does not tell its calibration", errors);
-    if (answer == Api::calibration_ok) return;
-    throw DeviceError(DeviceStatus::calibration_needed,
-                      title() +
-                          "is not calibrated: put the arm into its inkwell or its reset position, call "
-                          "calibrate() there, and start again");
+    if (!calibrated)
+      throw DeviceError(DeviceStatus::calibration_needed,
+                        title() +
+                            "is not calibrated: put the arm into its reset position, call calibrate() there, "
+                            "and start again");
   }
 
   /// @throws DeviceError
@@ -150,7 +145,8 @@ class HdConnection {
     return {(position - middle_) * 1e-3, velocity * 1e-3, hottest};
   }
 
-  HdClient client;  ///< its handle, and the errors that are its own
+  HdClient client;                       ///< its handle, and the errors that are its own
+  HdCalibration<Api> calibration{0, 1};  ///< of the connected device
 
  private:
   static void not_negative(const char* field, double value, const char* unit) {
@@ -162,13 +158,6 @@ class HdConnection {
            " ";
   }
 
-  static unsigned best_style(unsigned styles, bool at_reset_position) noexcept {
-    if (styles & static_cast<unsigned>(Api::calibration_auto)) return Api::calibration_auto;
-    if (styles & static_cast<unsigned>(Api::calibration_inkwell)) return Api::calibration_inkwell;
-    const bool resets = styles & static_cast<unsigned>(Api::calibration_encoder_reset);
-    return resets && at_reset_position ? Api::calibration_encoder_reset : 0;
-  }
-
   void describe() {
     Api::make_current_device(client.handle);
     double box[6] = {}, peak = 0, continuous = 0, stiffness = 0;  // mm, N, N, N/mm
@@ -176,12 +165,15 @@ class HdConnection {
     Api::get_doublev(Api::nominal_max_force, &peak);
     Api::get_doublev(Api::nominal_max_continuous_force, &continuous);
     Api::get_doublev(Api::nominal_max_stiffness, &stiffness);
+    int styles = 0;
+    Api::get_integerv(Api::calibration_style, &styles);
     const char* model = Api::get_string(Api::device_model_type);
     const HdErrors errors = Scheduler::drain();
     if (errors.worst >= HdErrorClass::fault) fail("does not say what it is", errors);
     const Eigen::Vector3d low(box[0], box[1], box[2]), high(box[3], box[4], box[5]);
     if (!(low.allFinite() && high.allFinite() && (high - low).minCoeff() > 0)) fail("names no workspace", {});
     if (!(std::isfinite(peak) && peak > 0)) fail("names no maximal force", {});
+    calibration = HdCalibration<Api>(static_cast<unsigned>(styles), options_.rate);
     middle_ = (low + high) / 2;
     info_ = {model ? model : "unnamed device",
              (high - low) * 1e-3,
