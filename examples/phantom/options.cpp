@@ -20,7 +20,8 @@ constexpr DeviceChoice devices[] = {DeviceChoice::simulated, DeviceChoice::phant
 cli::Entries entries(Options& o) {
   cli::Entries list{{"--scene", "NAME",
                      "a beam, the model that it needs and a hand that shows what there is to feel: " +
-                         scene_names() + ";  any other option changes it",
+                         scene_names() + ";  " + opening_scene +
+                         " by default, and none beside --beam or --model.  Any other option changes it",
                      [&o](const std::string& v) { set_scene(o, v); }, true}};
   const cli::Entries beam = cli::beam_entries(o.beam);
   list.insert(list.end(), beam.begin(), beam.end());
@@ -35,19 +36,21 @@ cli::Entries entries(Options& o) {
            "a model that train has made takes the place of finite elements; the beam is the file's", o.model),
       flag("--guarded", "with --model: finite elements answer what is out of the trained range", o.guarded),
       {"--script", "NAME",
-       "what the hand does: slide (default): press, slide to and fro, let go;  press;  tap",
+       "what the hand does, the scene's by default:  slide: press, slide to and fro, let go;  press;  tap",
        [&o](const std::string& v) { o.script = one_of(scripts, "--script", v); }},
       figure("--place", "M",
              "where it presses, from the beam's left end [m]; by default the middle of the beam, or of the "
              "trained range",
              o.place, 0, 100, "m"),
-      figure("--depth", "M", "how far below the beam's surface the hand aims [m], 0 to 0.1; 0.03 by default",
+      figure("--depth", "M",
+             "how far below the beam's surface the hand aims [m], 0 to 0.1; the scene's by default, or 0.012",
              o.depth, 0, 0.1, "m"),
       figure("--duration", "S", "of the whole script [s], 1 to 86400; 10 by default", o.duration, 1, 86400,
              "s"),
       figure("--radius", "M", "of the avatar [m]; 0.005 by default", o.radius, 0, 0.1, "m"),
       figure("--scale", "X",
-             "metres of the scene for one metre of the device; 1 by default.  Forces are never scaled",
+             "metres of the scene for one metre of the device; the scene's by default, or 1.  Forces are "
+             "never scaled",
              o.scale, 1e-3, 1e3, ""),
       {"--coupling", "KIND",
        "virtual (default): a spring and a damper that the device can render tie the hand to the beam;  "
@@ -89,6 +92,18 @@ cli::Entries entries(Options& o) {
   };
   list.insert(list.end(), own.begin(), own.end());
   return list;
+}
+
+/// Before anything is asked for.
+Options without_scene() {
+  Options options;
+  options.place = options.stiffness = options.damping = std::numeric_limits<double>::quiet_NaN();
+  return options;
+}
+Options opening() {
+  Options options = without_scene();
+  set_scene(options, opening_scene);
+  return options;
 }
 
 /// What a file decides cannot be chosen as well.
@@ -142,8 +157,8 @@ void settle(Options& o, double from, double to) {
 }
 
 Options parse(const std::vector<std::string>& arguments) {
-  Options options;
-  options.place = options.stiffness = options.damping = std::numeric_limits<double>::quiet_NaN();
+  const bool own = cli::contains(arguments, "--beam") || cli::contains(arguments, "--model");
+  Options options = own ? without_scene() : opening();
   const std::vector<std::string> given = cli::read(arguments, entries(options));
   if (options.guarded && options.model.empty())
     throw cli::UsageError("--guarded: must stand beside --model, whose range it guards");
@@ -171,7 +186,7 @@ Options parse(const std::vector<std::string>& arguments) {
 }
 
 std::string help() {
-  Options unused;
+  Options unused = opening();
   return "phantom: a hand presses a beam through a simulated haptic device, a thousand times a second\n\n" +
          cli::describe(entries(unused)) +
          "\nCtrl-C ends the run with its summary.  Exit status: 0, 1 where the model cannot be read or the "

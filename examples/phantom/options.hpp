@@ -28,9 +28,10 @@ struct Options {
   DeviceChoice device = DeviceChoice::simulated;
 
   Script script = Script::slide;
-  double place;           ///< [m] from the left end
-  double from, to;        ///< [m] the hand slides in between
-  double depth = 0.03;    ///< [m] that the hand aims below the beam's surface
+  double place;     ///< [m] from the left end
+  double from, to;  ///< [m] the hand slides in between
+  double depth =
+      0.012;  ///< [m] that the hand aims below the beam's surface; at 500 N/m no beam is too stiff then
   double duration = 10;   ///< [s]
   double radius = 0.005;  ///< [m] of the avatar
   double scale = 1;       ///< metres of the scene for one of the device

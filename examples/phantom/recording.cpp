@@ -1,7 +1,9 @@
 #include "recording.hpp"
 
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <fstream>
 #include <stdexcept>
 
@@ -38,6 +40,7 @@ void Recording::close() {
 
 Replay read_recording(const std::string& path) {
   std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + ": cannot be read: " + std::strerror(errno));
   std::string line;
   if (!std::getline(file, line) || line != head)
     throw std::runtime_error(path + ": is no recording, its first line must be " + head);

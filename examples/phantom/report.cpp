@@ -73,8 +73,8 @@ void print_scene(const Options& o, const Trained* trained, const hapbeam::Device
   if (o.script == Script::slide)
     std::printf("slide    %.4g m to either side in the scene, within the beam and the device's %g mm\n",
                 reach(o) * o.scale, device.workspace.x() * 1e3);
-  std::printf("\n%7s %9s %9s %9s %9s %8s %7s %7s %9s  %s\n", "time s", "hand x mm", "hand y mm", "press mm",
-              "force N", "ticks", "missed", "cut", "p99 us", "status");
+  std::printf("\n%7s %9s %9s %9s %9s %8s %7s %7s %10s  %s\n", "time s", "hand x mm", "hand y mm", "press mm",
+              "force N", "ticks", "missed", "cut", "p99 µs", "status");
 }
 
 void print_row(const hapbeam::ServoRecord& r, const hapbeam::TickTimes& times, const Device& device) {
@@ -95,7 +95,7 @@ void print_summary(const Run& run) {
               run.interrupted ? "interrupted after " : "", number(c.ticks), number(c.missed_ticks));
   if (!run.options.lock_step && run.priority != hapbeam::RealTime::done)
     std::printf("time     %s\n", message(run.priority));
-  std::printf("tick     p50 %.2f us, p99 %.2f us, max %.1f us: contact, press and force\n", compute.p50 * 1e6,
+  std::printf("tick     p50 %.2f µs, p99 %.2f µs, max %.1f µs: contact, press and force\n", compute.p50 * 1e6,
               compute.p99 * 1e6, compute.max * 1e6);
   std::printf(
       "contact  in %llu ticks, begun %llu times; deepest press %.3f mm, largest force %.2f N; worst status "

@@ -7,6 +7,9 @@
 
 namespace phantom {
 
+/// Where neither a scene nor a beam is asked for.
+constexpr const char* opening_scene = "strip";
+
 /// Sets what a scene chooses.   @throws cli::UsageError
 void set_scene(Options& options, const std::string& label);
 /// What one feels there; empty where no scene was chosen.

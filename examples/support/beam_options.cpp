@@ -111,10 +111,11 @@ std::string describe(const BeamOptions& b) {
 Entries beam_entries(BeamOptions& b) {
   return {
       {"--beam", "NAME",
-       "thesis (default): steel, 2.54 m, 25.4 mm square, pinned;  ruler: steel, 0.3 m x 25 mm x 1 mm, "
+       "thesis: steel, 2.54 m, 25.4 mm square, pinned;  ruler: steel, 0.3 m x 25 mm x 1 mm, "
        "clamped-free;  strip: 0.4 m x 20 mm x 0.5 mm, pinned;  string: 0.65 m of 0.8 mm wire under 80 N;  "
        "arch: "
-       "0.2 m wide, 12 mm high, 10 mm x 0.5 mm, pinned",
+       "0.2 m wide, 12 mm high, 10 mm x 0.5 mm, pinned;  " +
+           b.name + " by default",
        [&b](const std::string& v) { set_beam(b, v); }, true},
       customised(b, figure("--length", "M", "length of the beam [m]", b.length, 1e-3, 100, "m")),
       customised(

@@ -58,18 +58,28 @@ if(HAPBEAM_SANITIZE)
   set(changes 60)
   set(pace 0.4)
 endif()
-hapbeam_test_example(phantom window_changes STATUS 0 OUTPUT "^$" BEFORE ${display} MAKES hapbeam_tour
+hapbeam_test_example(phantom window_changes STATUS 0 OUTPUT "ticks, 0 missed" BEFORE ${display} MAKES hapbeam_tour
   OPTIONS --tour ${changes} --lock-step --record tour.csv)
 set_tests_properties(examples/phantom_window_changes PROPERTIES TIMEOUT 300)
 hapbeam_test_file(slew_of_changes NEEDS hapbeam_tour COMMAND check_recordings slew tour.csv 10000)
 # The same in real time, where each second change comes while the one before is under way.
-hapbeam_test_example(phantom window_tour STATUS 0 OUTPUT "^$" BEFORE ${display} OPTIONS --tour 100)
+hapbeam_test_example(phantom window_tour STATUS 0 OUTPUT "^\n[0-9]+ ticks, [0-9]+ missed" BEFORE ${display} OPTIONS --tour 100)
 set_tests_properties(examples/phantom_window_tour PROPERTIES TIMEOUT 300)
 # Without a coupling the bar throws the arm about, faster than that: the check can fail.
 hapbeam_test_example(phantom record_buzz STATUS 0 OUTPUT "bounce" MAKES hapbeam_buzz
-  OPTIONS --lock-step --duration 6 --coupling direct --place 0.254 --depth 0.01 --script press --record buzz.csv)
+  OPTIONS --beam thesis --lock-step --duration 6 --coupling direct --place 0.254 --depth 0.01 --script press --record buzz.csv)
 hapbeam_test_file(slew_of_buzz NEEDS hapbeam_buzz COMMAND check_recordings slew buzz.csv 10000)
 set_tests_properties(examples/slew_of_buzz PROPERTIES WILL_FAIL TRUE)
+
+# A window that ends, by itself or by Ctrl-C, leaves the summary; it shows the opening scene unless another is asked for.
+hapbeam_test_example(phantom window_timed STATUS 0 OUTPUT "^\n[0-9]+ ticks, [0-9]+ missed" FIELDS scene=strip
+  BEFORE ${display} OPTIONS --duration 1)
+find_program(HAPBEAM_TIMEOUT timeout)
+mark_as_advanced(HAPBEAM_TIMEOUT)
+if(HAPBEAM_TIMEOUT)
+  hapbeam_test_example(phantom window_interrupted STATUS 0 OUTPUT "^\ninterrupted after [0-9]+ ticks" FIELDS scene=strip
+    BEFORE ${display} ${HAPBEAM_TIMEOUT} --preserve-status --signal INT 1.5)
+endif()
 
 # What a mouse pressed in the window, the hand that is led along its recording presses without one.
 if(HAPBEAM_XDOTOOL)
@@ -83,9 +93,9 @@ if(HAPBEAM_XDOTOOL)
     COMMAND check_recordings same mouse.csv mouse_again.csv 1e-9)
   # A reduced model of the scene is trained and takes over while the hand presses; a real device does, where there is one.
   set(choose ${display} bash ${CMAKE_CURRENT_SOURCE_DIR}/choose.sh ${pace})
-  hapbeam_test_example(phantom window_trains STATUS 0 OUTPUT "^$" FIELDS model=pod stated_force_error_max
+  hapbeam_test_example(phantom window_trains STATUS 0 OUTPUT "^\n(interrupted after )?[0-9]+ ticks" FIELDS model=pod stated_force_error_max
     BEFORE ${choose} 1170,170 1170,290 OPTIONS --scene thesis)
-  hapbeam_test_example(phantom_emulated window_device STATUS 0 OUTPUT "^$" FIELDS "device=emulated Phantom"
+  hapbeam_test_example(phantom_emulated window_device STATUS 0 OUTPUT "^\n(interrupted after )?[0-9]+ ticks" FIELDS "device=emulated Phantom"
     BEFORE ${choose} 1170,242 1170,282 OPTIONS --scene thesis)
   set_tests_properties(examples/phantom_window_trains examples/phantom_emulated_window_device PROPERTIES TIMEOUT 300)
 else()

@@ -316,7 +316,8 @@ TEST_CASE("what cannot be a coupling is refused by name, value and unit", "[coup
     return [device] { (void)safe_coupling(device); };
   };
   CHECK_THROWS_WITH(with([](auto& d) { d.damping = 0; })(),
-                    ContainsSubstring("device damping = 0 N·s/m: must be"));
+                    ContainsSubstring("device damping = 0 N·s/m: must be positive") &&
+                        ContainsSubstring("set HdapiOptions::damping or DeviceInfo::damping"));
   CHECK_THROWS_WITH(with([](auto& d) { d.period = -1; })(), ContainsSubstring("device period = -1 s"));
   CHECK_THROWS_WITH(with([](auto& d) { d.max_stiffness = 0; })(), ContainsSubstring("max_stiffness = 0 N/m"));
   CHECK_THROWS_WITH(with([](auto& d) { d.friction = -1; })(), ContainsSubstring("friction = -1 N"));

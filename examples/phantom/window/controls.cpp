@@ -25,7 +25,7 @@ void caption(const char* text) {
 bool begin_choice(const char* title, const char* id, const char* chosen) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(title);
-  ImGui::SameLine(5.2f * ImGui::GetFontSize());
+  ImGui::SameLine(4.6f * ImGui::GetFontSize());
   ImGui::SetNextItemWidth(-1);
   return ImGui::BeginCombo(id, chosen);
 }
@@ -56,7 +56,7 @@ void choose_scene(Running& running, const Options* file, Wish& wish) {
 void choose_elements(const Options& felt, Wish& wish) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("elements");
-  ImGui::SameLine(5.2f * ImGui::GetFontSize());
+  ImGui::SameLine(4.6f * ImGui::GetFontSize());
   constexpr int counts[] = {4, 8, 16, 64};
   for (const int count : counts) {
     char label[8];
@@ -156,7 +156,7 @@ void show_state(Running& running) {
   ImGui::Text("energy generated: %.2g J%s", r.energy_generated, r.energy_generated > 0 ? "" : " (passive)");
   ImGui::Text("force cut: %llu ticks   motors: %.0f %%", static_cast<unsigned long long>(r.saturated_ticks),
               100 * r.heat);
-  ImGui::Text("tick p99: %.1f us   missed: %llu", times.compute().quantile(0.99) * 1e6,
+  ImGui::Text("tick p99: %.1f µs   missed: %llu", times.compute().quantile(0.99) * 1e6,
               static_cast<unsigned long long>(device.counts().missed_ticks));
   ImGui::PopTextWrapPos();
 }
@@ -194,12 +194,12 @@ Wish draw_controls(Running& running, const Options* file, const std::string& not
           : running.pulled()
               ? "Press the mouse in the drawing and pull. Arrow keys move the hand, space lifts it."
               : "A script leads the hand, until you press the mouse in the drawing and pull.");
-  if (*feels(running.options().scene)) {
-    ImGui::Separator();
-    ImGui::PushTextWrapPos(0);
-    ImGui::Text("To feel: %s.", feels(running.options().scene));
-    ImGui::PopTextWrapPos();
-  }
+  ImGui::Separator();
+  ImGui::PushTextWrapPos(0);
+  if (const Options& felt = running.options(); *feels(felt.scene))
+    ImGui::Text("To feel: %s.", feels(felt.scene));
+  else if (felt.model.empty()) ImGui::TextUnformatted(cli::describe(felt.beam).c_str());
+  ImGui::PopTextWrapPos();
   if (!note.empty()) {
     ImGui::Separator();
     ImGui::PushTextWrapPos(0);

@@ -78,6 +78,8 @@ Display::Display(GLFWwindow* window, float zoom) : window_(window) {
   float scale = 1, unused = 1;
   glfwGetWindowContentScale(window_, &scale, &unused);
   scale *= zoom;
+  // White on pale grey is not seen without an edge.
+  ImGui::GetStyle().FrameBorderSize = scale;
   ImGui::GetStyle().ScaleAllSizes(scale);
   load_font(scale);
   ImGui_ImplGlfw_InitForOpenGL(window_, true);

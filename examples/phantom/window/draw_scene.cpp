@@ -36,7 +36,8 @@ std::string metres(double length) {
 
 double default_exaggeration(const Options& o) {
   if (o.scene == "ruler" || o.scene == "arch") return 1;
-  if (o.scene == "strip" || o.scene == "string") return 5;
+  if (o.scene == "strip") return 10;
+  if (o.scene == "string") return 5;
   return o.beam.rise == 0 && o.beam.length > 1 ? 20 : 1;
 }
 
@@ -94,14 +95,17 @@ void SceneDrawing::draw_workspace(ImDrawList& list, float unit) const {
   const ImVec2 corners[] = {a, {b.x, a.y}, b, {a.x, b.y}};
   for (int i = 0; i < 4; ++i) {
     const ImVec2 &from = corners[i], &to = corners[(i + 1) % 4];
-    // Only what is seen: the outline may be a hundred times larger than the canvas.
-    const ImVec2 low{view_.low.x - 50, view_.low.y - 50}, high{view_.high.x + 50, view_.high.y + 50};
+    // Only what is seen, the outline may be a hundred times larger than the canvas; not through the words above and below.
+    const ImVec2 low{view_.low.x - 50, view_.low.y + 2 * unit},
+        high{view_.high.x + 50, view_.high.y - 4.5f * unit};
+    const auto hidden = [&](const ImVec2& p) { return p.y < low.y || p.y > high.y; };
+    if (hidden(from) && hidden(to) && from.y == to.y) continue;
     const auto clip = [&](const ImVec2& p) {
       return ImVec2{std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y)};
     };
     dashed(list, clip(from), clip(to), colour::with_alpha(colour::blue, 150), 0.4f * unit);
   }
-  const float x = std::max(a.x, view_.low.x) + 0.4f * unit, y = std::max(a.y, view_.low.y + 3.2f * unit);
+  const float x = std::max(a.x, view_.low.x) + 0.4f * unit, y = std::max(a.y, view_.low.y + 2 * unit);
   if (a.x > view_.low.x) label(list, {x, y + 0.3f * unit}, colour::blue, "device's reach");
 }
 
@@ -203,7 +207,7 @@ void SceneDrawing::draw_legend(ImDrawList& list, float unit) const {
   }
   list.AddRect({right - width, top}, {right + 1, bottom + 0.1f * unit}, colour::ink);
   label(list, {right - width, top - line}, colour::ink, "0");
-  const std::string most = text("%g", largest_strain_ * 1e6) + " um/m";
+  const std::string most = text("%g", largest_strain_ * 1e6) + " µm/m";
   label(list, {right - ImGui::CalcTextSize(most.c_str()).x, top - line}, colour::ink, most);
   label(list, {right - width, top - 2 * line}, colour::ink, "bending strain at the surface");
 }

@@ -13,8 +13,9 @@ namespace phantom {
 class History {
  public:
   struct Moment {
-    float time, force_up, force, depth, energy;  ///< [s, N, N, m, J]; depth is down from the beam at rest
-    bool pressing;
+    float time, force_up, force, depth, place,
+        energy;          ///< [s, N, N, m, m, J]; depth is down from the beam at rest
+    bool pressing, cut;  ///< cut: the force is the device's limit
   };
 
   /// @param rest  [m] where the beam's centreline is at rest there
@@ -24,8 +25,10 @@ class History {
                         static_cast<float>(r.force.y()),
                         static_cast<float>(r.force.norm()),
                         static_cast<float>(r.pressing ? rest - r.press.d : 0.0),
+                        static_cast<float>(r.press.s),
                         static_cast<float>(r.energy_generated),
-                        r.pressing};
+                        r.pressing,
+                        r.status == hapbeam::LoopStatus::limited};
     if (moments_.size() < room) moments_.push_back(moment);
     else moments_[first_] = moment, first_ = (first_ + 1) % room;
     ++counts_[bin(tick.duration)];

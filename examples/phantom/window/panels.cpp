@@ -38,48 +38,79 @@ void over_time(ImDrawList& list, const char* title, const ImVec2& low, const ImV
       [&](std::size_t i) { return static_cast<double>(history[i].*member); }, colour, 2);
 }
 
+enum class Felt { here, elsewhere, cut };
+constexpr ImU32 felt_colours[] = {colour::vermilion, IM_COL32(240, 190, 155, 255), colour::ink};
+
+/// The last touch, in which the hand may have gone on along the beam, and the device may have cut the force.
+struct Trace {
+  Trace(const PanelData& data) : history(data.history), place(data.place), near(data.near) {
+    end = history.size();
+    while (end > 0 && !history[end - 1].pressing) --end;
+    for (begin = end; begin > 0 && history[begin - 1].pressing;) --begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto force = static_cast<double>(history[i].force_up),
+                 depth = static_cast<double>(history[i].depth);
+      most = std::max(most, force), least = std::min(least, force), above = std::min(above, depth);
+      seen[static_cast<int>(felt(i))] = true;
+    }
+  }
+  Felt felt(std::size_t i) const {
+    if (history[i].cut) return Felt::cut;
+    return std::abs(static_cast<double>(history[i].place) - place) <= near ? Felt::here : Felt::elsewhere;
+  }
+  void draw(Plot& plot) const {
+    for (std::size_t i = begin; i < end;) {
+      std::size_t next = i + 1;
+      while (next < end && felt(next) == felt(i)) ++next;
+      // To the next stretch's first, so that there is no gap.
+      plot.line(
+          std::min(next + 1, end) - i,
+          [&](std::size_t k) { return static_cast<double>(history[i + k].depth); },
+          [&](std::size_t k) { return static_cast<double>(history[i + k].force_up); },
+          felt_colours[static_cast<int>(felt(i))], 2);
+      i = next;
+    }
+    if (end > begin && end == history.size())
+      plot.point(static_cast<double>(history[end - 1].depth), static_cast<double>(history[end - 1].force_up),
+                 felt_colours[static_cast<int>(felt(end - 1))]);
+  }
+
+  const History& history;
+  double place, near;                     // [m] along the beam
+  std::size_t begin, end;                 // moments
+  double most = 0, least = 0, above = 0;  // [N] felt; [m] pressed from below
+  bool seen[3] = {false, false, false};
+};
+
 void force_against_depth(ImDrawList& list, const ImVec2& low, const ImVec2& high, const PanelData& data) {
   char title[80];
   std::snprintf(title, sizeof title, "force against depth, at %.4g mm", data.place * 1e3);
-  const History& history = data.history;
-  // Less than a second and a half: a trace, and not what was pressed elsewhere.
-  const std::size_t from = history.size() > 1500 ? history.size() - 1500 : 0;
-  double most = 0.05, least = 0;
-  for (std::size_t i = from; i < history.size(); ++i) {
-    most = std::max(most, static_cast<double>(history[i].force_up));
-    least = std::min(least, static_cast<double>(history[i].force_up));
-  }
+  const Trace trace(data);
   // A curve that grows much faster than the others leaves the diagram.
   std::vector<double> peaks;
   for (const Curve& curve : data.curves)
     peaks.push_back(static_cast<double>(*std::max_element(curve.force.begin(), curve.force.end())));
   std::sort(peaks.begin(), peaks.end());
+  double most = std::max(trace.most, 0.05);
   if (!peaks.empty()) most = std::max(most, std::min(peaks[peaks.size() / 2], 40.0));
-  const double end = rounded_end(1.1 * most);
-  Plot plot(list, title, low, high, {0, data.depth, "mm", 1e3}, {least < -0.05 * end ? -end : 0, end, "N"});
+  const double end = rounded_end(std::max(1.1 * most, -trace.least));
   constexpr ImU32 colours[] = {colour::sky, colour::blue, colour::green};
+  std::vector<Plot::Key> keys;
+  for (std::size_t c = 0; c < data.curves.size(); ++c) keys.push_back({data.curves[c].name, colours[c % 3]});
+  constexpr const char* felt[] = {"felt", "elsewhere", "cut by device"};
+  for (int i = 0; i < 3; ++i)
+    if (i == 0 || trace.seen[i]) keys.push_back({felt[i], felt_colours[i]});
+  const double left = trace.above < -0.05 * data.depth ? -data.depth : 0;
+  Plot plot(list, title, low, high, {left, data.depth, "mm", 1e3},
+            {trace.least < -0.05 * end ? -end : 0, end, "N"}, keys);
   for (std::size_t c = 0; c < data.curves.size(); ++c) {
     const Curve& curve = data.curves[c];
     plot.line(
         curve.depth.size(), [&](std::size_t i) { return static_cast<double>(curve.depth[i]); },
         [&](std::size_t i) { return static_cast<double>(curve.force[i]); }, colours[c % 3],
         4 - static_cast<float>(c));
-    plot.key(curve.name, colours[c % 3]);
   }
-  for (std::size_t i = from; i < history.size();) {
-    std::size_t end_of_touch = i;
-    while (end_of_touch < history.size() && history[end_of_touch].pressing) ++end_of_touch;
-    if (end_of_touch > i)
-      plot.line(
-          end_of_touch - i, [&](std::size_t k) { return static_cast<double>(history[i + k].depth); },
-          [&](std::size_t k) { return static_cast<double>(history[i + k].force_up); }, colour::vermilion, 2);
-    i = end_of_touch + 1;
-  }
-  if (history.size() > 0) {
-    const History::Moment& now = history[history.size() - 1];
-    plot.point(static_cast<double>(now.depth), static_cast<double>(now.force_up), colour::vermilion);
-  }
-  plot.key("running", colour::vermilion);
+  trace.draw(plot);
 }
 
 void tick_times(ImDrawList& list, const ImVec2& low, const ImVec2& high, const History& history) {

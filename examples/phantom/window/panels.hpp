@@ -13,6 +13,7 @@ struct PanelData {
   const History& history;
   const std::vector<Curve>& curves;  ///< at the place that is pressed
   double place;                      ///< [m] of the curves
+  double near;                       ///< [m] beside that place, where they still hold
   double depth;                      ///< [m] of the curves
 };
 

@@ -17,12 +17,14 @@ double rounded_end(double x) {
 }
 
 Plot::Plot(ImDrawList& list, const char* title, const ImVec2& low, const ImVec2& high, const Axis& x,
-           const Axis& y)
+           const Axis& y, const std::vector<Key>& keys)
     : list_(list), x_(x), y_(y), unit_(ImGui::GetFontSize()) {
-  low_ = {low.x + 4 * unit_, low.y + 1.5f * unit_};
-  high_ = {high.x - 0.9f * unit_, high.y - 1.6f * unit_};
   list_.AddRectFilled(low, high, colour::paper, 4);
   list_.AddText({low.x + 0.5f * unit_, low.y + 0.15f * unit_}, colour::ink, title);
+  const float above = draw_keys(keys, {low.x + 0.5f * unit_, low.y + 1.3f * unit_}, high.x);
+  // The last figure of the upright axis stands half above it.
+  low_ = {low.x + 4.3f * unit_, above + 0.65f * unit_};
+  high_ = {high.x - 0.9f * unit_, high.y - 1.6f * unit_};
   frame();
   list_.PushClipRect(low_, high_, true);
 }
@@ -45,7 +47,7 @@ void Plot::frame() {
   const auto power = [](double exponent) {
     char text[40];
     const double us = std::pow(10, exponent);
-    std::snprintf(text, sizeof text, "%.3g %s", us < 999 ? us : us / 1e3, us < 999 ? "us" : "ms");
+    std::snprintf(text, sizeof text, "%.3g %s", us < 999 ? us : us / 1e3, us < 999 ? "µs" : "ms");
     return std::string(text);
   };
   constexpr int parts = 2;
@@ -93,12 +95,17 @@ void Plot::upright(double x, ImU32 colour, const char* text) {
   list_.AddText({at - size.x - 0.3f * unit_, low_.y + 0.2f * unit_}, colour, text);
 }
 
-void Plot::key(const char* text, ImU32 colour) {
-  const float y = low_.y + (0.2f + 1.1f * static_cast<float>(keys_++)) * unit_, x = low_.x + 0.4f * unit_;
-  list_.AddRectFilled({x, y}, {x + 1.3f * unit_ + ImGui::CalcTextSize(text).x, y + 1.1f * unit_},
-                      colour::with_alpha(IM_COL32_WHITE, 215));
-  list_.AddLine({x, y + 0.5f * unit_}, {x + unit_, y + 0.5f * unit_}, colour, unit_ / 7);
-  list_.AddText({x + 1.3f * unit_, y}, colour::ink, text);
+float Plot::draw_keys(const std::vector<Key>& keys, const ImVec2& low, float right) {
+  const float dash = unit_, line = 1.15f * unit_;
+  ImVec2 at = low;
+  for (const Key& key : keys) {
+    const float width = 1.3f * dash + ImGui::CalcTextSize(key.text).x;
+    if (at.x > low.x && at.x + width > right) at = {low.x, at.y + line};
+    list_.AddLine({at.x, at.y + 0.55f * unit_}, {at.x + dash, at.y + 0.55f * unit_}, key.colour, unit_ / 7);
+    list_.AddText({at.x + 1.3f * dash, at.y}, colour::ink, key.text);
+    at.x += width + 0.7f * unit_;
+  }
+  return keys.empty() ? low.y : at.y + line;
 }
 
 }  // namespace phantom

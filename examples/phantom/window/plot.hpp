@@ -4,6 +4,7 @@
 #include <functional>
 #include <imgui.h>
 #include <string>
+#include <vector>
 
 namespace phantom {
 
@@ -16,9 +17,14 @@ class Plot {
     bool times = false;  ///< given as the decimal logarithm of microseconds
   };
 
-  /// Draws the frame.  @param low, high  [pixel] of all of it, title included
+  struct Key {
+    const char* text;
+    ImU32 colour;  ///< of the dash before it
+  };
+
+  /// Draws the frame, and the keys between title and axes.  @param low, high  [pixel] of all of it, title included
   Plot(ImDrawList& list, const char* title, const ImVec2& low, const ImVec2& high, const Axis& x,
-       const Axis& y);
+       const Axis& y, const std::vector<Key>& keys = {});
   ~Plot() { list_.PopClipRect(); }
   Plot(const Plot&) = delete;
   Plot& operator=(const Plot&) = delete;
@@ -30,19 +36,17 @@ class Plot {
   void bar(double from, double to, double height, ImU32 colour);
   void point(double x, double y, ImU32 colour);
   void upright(double x, ImU32 colour, const char* text);
-  /// In the upper left corner, one under the other; a dash of the colour before each.
-  void key(const char* text, ImU32 colour);
   float pixel_x(double x) const;
   float pixel_y(double y) const;
 
  private:
   void frame();
+  float draw_keys(const std::vector<Key>& keys, const ImVec2& low, float right);  ///< [pixel] where they end
 
   ImDrawList& list_;
   ImVec2 low_, high_;  // [pixel] of what is inside the axes
   Axis x_, y_;
   float unit_;
-  int keys_ = 0;
 };
 
 /// A figure to end an axis with: the next of 1, 1.5, 2, 3, 5, 10, … that is not less.

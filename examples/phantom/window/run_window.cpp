@@ -69,7 +69,8 @@ class Window {
     ImGui::Begin("phantom", nullptr, fixed);
     draw_scene({gap, gap}, {size.x - column - gap, size.y - below - gap}, unit);
     draw_panels(*ImGui::GetWindowDrawList(),
-                {running_->history(), running_->curves(), running_->curve_place(), running_->curve_depth()},
+                {running_->history(), running_->curves(), running_->curve_place(), running_->curve_step(),
+                 running_->curve_depth()},
                 {gap, size.y - below}, {size.x - gap, size.y - gap});
     ImGui::SetCursorPos({size.x - column, gap});
     ImGui::BeginChild("controls", {column - gap, size.y - below - 2 * gap});
@@ -102,12 +103,14 @@ class Window {
     if (step % 10 == 0) display_.resize(800 + 50 * (step / 10 % 10), 500 + 30 * (step / 10 % 7));
   }
 
-  /// @return the report
+  /// Prints the summary, unless it was only to draw pictures.   @return the report
   std::string close(bool interrupted, const hapbeam::TickTimes& pictures) {
     running_->session().stop();
     update();
     if (recording_) recording_->close();
-    return json(Run::of(running_->session(), interrupted, pictures.period().summary()));
+    const Run result = Run::of(running_->session(), interrupted, pictures.period().summary());
+    if (first_.screenshot.empty()) print_summary(result);
+    return json(result);
   }
 
   /// A screenshot shows what happens at its time, however busy the machine: then time is simulated.
@@ -136,7 +139,8 @@ class Window {
   static void hint(const ImVec2& low, const ImVec2& high) {
     constexpr const char* text = "hold the mouse button here and pull";
     const ImVec2 size = ImGui::CalcTextSize(text);
-    label(*ImGui::GetWindowDrawList(), {(low.x + high.x - size.x) / 2, low.y + size.y}, colour::faint, text);
+    label(*ImGui::GetWindowDrawList(), {(low.x + high.x - size.x) / 2, low.y + 0.5f * size.y}, colour::faint,
+          text);
   }
 
   /// A tenth of a metre in a second.

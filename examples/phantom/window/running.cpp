@@ -75,7 +75,7 @@ void Running::pull(Point place) {
 double Running::depth_to_show() {
   const Options& o = options();
   double deepest = std::max(0.3 * o.depth * o.scale, o.beam.rise);
-  if (o.scene == "thesis") deepest = 0.003;
+  if (o.beam.name == "thesis") deepest = 0.0005;
   for (std::size_t i = 0; i < history_.size(); ++i)
     deepest = std::max(deepest, static_cast<double>(history_[i].depth));
   const double decade = std::pow(10, std::floor(std::log10(deepest)));
@@ -85,7 +85,7 @@ double Running::depth_to_show() {
 /// Three times 48 presses, a millisecond: only where the hand has gone to another place, or deeper.
 void Running::refresh_curves() {
   const hapbeam::ServoRecord& r = session_.picture().record;
-  const double length = options().beam.length, step = length / 50;
+  const double length = options().beam.length, step = curve_step();
   const double wanted = r.pressing ? r.press.s : curve_place_ < 0 ? options().place : curve_place_;
   const double place = std::clamp(std::round(wanted / step) * step, step, length - step);
   const double depth = depth_to_show();

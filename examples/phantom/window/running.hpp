@@ -51,6 +51,7 @@ class Running {
   const History& history() const { return history_; }
   const std::vector<Curve>& curves() const { return curves_; }
   double curve_place() const { return curve_place_; }
+  double curve_step() { return options().beam.length / 50; }  ///< [m] between places of curves
   double curve_depth() const { return curve_depth_; }
   const Point& target() const { return target_; }  ///< [m] device axes, newest
   bool pulled() const { return pulled_; }          ///< the script has been left

@@ -10,7 +10,7 @@ namespace phantom {
 void label(ImDrawList& list, ImVec2 at, ImU32 colour, const std::string& line) {
   const ImVec2 size = ImGui::CalcTextSize(line.c_str());
   list.AddRectFilled({at.x - 3, at.y - 1}, {at.x + size.x + 3, at.y + size.y + 1},
-                     colour::with_alpha(colour::paper, 215), 3);
+                     colour::with_alpha(colour::paper, 245), 3);
   list.AddText(at, colour, line.c_str());
 }
 

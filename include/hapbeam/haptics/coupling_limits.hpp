@@ -14,6 +14,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/haptics/device.hpp>
@@ -40,7 +41,12 @@ inline double passive_stiffness(double damping, double period, int delay_ticks) 
 ///         its damping is 0, that is unknown: there is no safe stiffness then
 inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks = 0) {
   constexpr double spring_share = 0.4, both_share = 0.75, friction_share = 0.5;
-  const double b = detail::positive("device damping", device.damping, "N·s/m");
+  const double b = device.damping;
+  if (!(std::isfinite(b) && b > 0))
+    detail::reject(
+        "device damping", b, "N·s/m",
+        "positive, the arm's own: set HdapiOptions::damping or DeviceInfo::damping, or give the loop a "
+        "VirtualCoupling of your own");
   const double T = detail::positive("device period", device.period, "s");
   const double hardest = detail::positive("device max_stiffness", device.max_stiffness, "N/m");
   if (!(device.friction >= 0)) detail::reject("device friction", device.friction, "N", "not negative");
