@@ -62,9 +62,9 @@ cli::Entries entries(Options& o) {
       figure("--damping", "X", "of the coupling [N s/m], 0 to 1000; by default the same", o.damping, 0, 1000,
              "N s/m"),
       {"--device", "NAME",
-       "virtual (default): a simulated Phantom and hand;  phantom: a real one, its arm in its reset position "
-       "when "
-       "the program starts",
+       "virtual (default): a simulated Phantom and hand;  phantom: a real one, its arm in its inkwell or "
+       "reset "
+       "position when the program starts",
        [&o](const std::string& v) { o.device = one_of(devices, "--device", v); }},
       flag("--lock-step",
            "simulated time, as fast as the machine can and the same every time; else real time.  With a "

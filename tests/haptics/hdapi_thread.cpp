@@ -112,3 +112,31 @@ TEST_CASE("a second device comes and goes beside one that runs", "[hdapi][thread
   CHECK(world.violations() == 0);
   CHECK(world.last_violation().empty());
 }
+
+TEST_CASE("a device that calibrates itself is stopped while it waits, and felt once it knows",
+          "[hdapi][thread]") {
+  HdWorld world(HdWorld::Time::real);
+  auto& waits = world.plug("waits", HandPath({0, -0.01}).rest(1000));
+  auto& moves = world.plug("moves", HandPath({0, -0.01}).rest(1000));
+  waits.styles = HdCode::calibration_inkwell;
+  waits.calibration = HdCode::calibration_needs_manual_input;
+  moves.styles = HdCode::calibration_auto;
+  moves.calibration = HdCode::calibration_needs_update;
+  RealTimeHdapi on_waits(named("waits")), on_moves(named("moves"));
+  Floor first, second;
+  on_moves.start(second);
+  for (int round = 0; round < 10; ++round) {
+    on_waits.start(first);
+    CHECK(on_waits.status() == DeviceStatus::calibrating);
+    sleep_ms(2);
+    on_waits.stop();
+    CHECK(on_waits.status() == DeviceStatus::stopped);
+  }
+  CHECK(first.calls == 0);
+  CHECK(wait_for([&] { return on_moves.status() == DeviceStatus::running && world.motors(moves).y() > 1; }));
+  on_moves.stop();
+  CHECK(second.resets == 1);
+  CHECK(moves.updates == 1);
+  CHECK(world.violations() == 0);
+  CHECK(world.last_violation().empty());
+}

@@ -117,7 +117,7 @@ void choose_device(Running& running, Wish& wish) {
   if (!begin_choice("device", "##device", simulated ? "virtual Phantom" : "Phantom")) return;
   if (ImGui::Selectable("virtual Phantom, led by the mouse", simulated))
     wish.options.device = DeviceChoice::simulated, wish.change = true;
-  if (ImGui::Selectable("Phantom, its arm in its reset position now", !simulated))
+  if (ImGui::Selectable("Phantom, its arm in its inkwell or reset position now", !simulated))
     wish.options.device = DeviceChoice::phantom, wish.change = true;
   ImGui::EndCombo();
 }
