@@ -194,7 +194,7 @@ Wish draw_controls(Running& running, const Options* file, const std::string& not
           : running.pulled()
               ? "Press the mouse in the drawing and pull. Arrow keys move the hand, space lifts it."
               : "A script leads the hand, until you press the mouse in the drawing and pull.");
-  ImGui::Separator();
+  if (running.options().model.empty()) ImGui::Separator();
   ImGui::PushTextWrapPos(0);
   if (const Options& felt = running.options(); *feels(felt.scene))
     ImGui::Text("To feel: %s.", feels(felt.scene));

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "../scene.hpp"
+#include "plot.hpp"
+#include <hapbeam/haptics/virtual_phantom.hpp>
 
 namespace phantom {
 
@@ -57,6 +59,7 @@ void Running::show_body() {
   drawn_ = options();
   drawing_.emplace(drawn_, session_.device().info(), session_.body().rest());
   curve_place_ = -1;
+  deepest_ = first_depth();
   refresh_curves();
 }
 
@@ -72,23 +75,29 @@ void Running::pull(Point place) {
   pulled_ = true;
 }
 
-double Running::depth_to_show() {
+/// Half of what the hand presses a beam that stays as stiff as it is at first; a stiff one gives way by less than the hand
+/// goes on.
+double Running::first_depth() {
+  constexpr double press = 1e-6;  // [m]
   const Options& o = options();
-  double deepest = std::max(0.3 * o.depth * o.scale, o.beam.rise);
-  if (o.beam.name == "thesis") deepest = 0.0005;
-  for (std::size_t i = 0; i < history_.size(); ++i)
-    deepest = std::max(deepest, static_cast<double>(history_[i].depth));
-  const double decade = std::pow(10, std::floor(std::log10(deepest)));
-  return std::ceil(deepest / decade * 2) / 2 * decade;
+  const auto curves = force_curves(session_.body().beam(), o.elements, place_of_curves(), press);
+  const double k = curves.empty() ? 0 : std::abs(static_cast<double>(curves[0].force.back())) / press;
+  const double hand = hapbeam::HandOptions{}.stiffness;
+  return std::max({0.5 * hand * o.depth / (k + hand / o.scale), o.beam.rise, 1e-4});
+}
+
+double Running::place_of_curves() {
+  const hapbeam::ServoRecord& r = session_.picture().record;
+  const double length = options().beam.length, step = curve_step();
+  const double wanted = r.pressing ? r.press.s : curve_place_ < 0 ? options().place : curve_place_;
+  return std::clamp(std::round(wanted / step) * step, step, length - step);
 }
 
 /// Three times 48 presses, a millisecond: only where the hand has gone to another place, or deeper.
 void Running::refresh_curves() {
-  const hapbeam::ServoRecord& r = session_.picture().record;
-  const double length = options().beam.length, step = curve_step();
-  const double wanted = r.pressing ? r.press.s : curve_place_ < 0 ? options().place : curve_place_;
-  const double place = std::clamp(std::round(wanted / step) * step, step, length - step);
-  const double depth = depth_to_show();
+  for (std::size_t i = 0; i < history_.size(); ++i)
+    deepest_ = std::max(deepest_, static_cast<double>(history_[i].depth));
+  const double place = place_of_curves(), depth = rounded_end(deepest_);
   if (place == curve_place_ && depth == curve_depth_) return;
   curve_depth_ = depth;
   curve_place_ = place;

@@ -63,7 +63,8 @@ class Running {
   void show_newest();  ///< once another body is felt
   void show_body();
   void refresh_curves();
-  double depth_to_show();                       ///< [m]
+  double first_depth();                         ///< [m] of the curves before anything is pressed
+  double place_of_curves();                     ///< [m] along the beam
   Eigen::Vector3d beside(const Options& next);  ///< [m] device axes: where it does not touch the next body
 
   Tape tape_;
@@ -76,7 +77,7 @@ class Running {
   std::optional<SceneDrawing> drawing_;
   History history_;
   std::vector<Curve> curves_;
-  double curve_place_ = -1, curve_depth_ = 0;
+  double curve_place_ = -1, curve_depth_ = 0, deepest_ = 0;
   Point target_{0, height_above};
   bool pulled_ = false;
 };
