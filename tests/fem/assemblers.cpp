@@ -3,6 +3,7 @@
 // Bounds are measured in a scaled system, D K D with D = diag(K)^(-1/2), where metres and radians are alike:
 // LDLᵀ without pivoting of a positive definite matrix is as exact there as anywhere, |δx| <= c n eps κ |x|
 // with κ the scaled condition (Higham, Accuracy and Stability, 10.1).
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -53,9 +54,13 @@ struct Problem {
   int elements() const { return static_cast<int>(K.size()); }
 
   template <class Assembler>
-  Status solve(Assembler& assembler) const {
+  void assemble(Assembler& assembler) const {
     for (std::size_t e = 0; e < K.size(); ++e) assembler.add(static_cast<int>(e), K[e], r[e]);
     for (const Prescribed& p : prescribed) assembler.prescribe(p.node, p.component, p.increment);
+  }
+  template <class Assembler>
+  Status solve(Assembler& assembler) const {
+    assemble(assembler);
     return assembler.solve();
   }
 
@@ -111,6 +116,44 @@ Eigen::VectorXd increments(const Assembler& assembler, const Problem::Reduced& r
 }
 
 }  // namespace
+
+TEST_CASE("what holds a prescribed displacement is its row of the linear equations", "[assembler]") {
+  Random random(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    const int elements = random.integer(2, 12), node = random.integer(0, elements),
+              component = random.integer(0, 2);
+    Problem problem(random, elements, 1e-3, 0.02);
+    problem.prescribed.erase(
+        std::remove_if(problem.prescribed.begin(), problem.prescribed.end(),
+                       [&](const auto& p) { return p.node == node && p.component == component; }),
+        problem.prescribed.end());
+    const double increment = random(1e-3);
+    const auto held_by = [&](auto&& assembler) {
+      problem.assemble(assembler);
+      assembler.hold(node, component, increment);
+      REQUIRE(assembler.solve() == Status::ok);
+      // Its row of r + Kx, with the prescribed increments in x.
+      std::vector<Vector3<double>> x(static_cast<std::size_t>(elements) + 1);
+      for (int i = 0; i <= elements; ++i) x[static_cast<std::size_t>(i)] = assembler.increment(i);
+      for (const auto& p : problem.prescribed) x[static_cast<std::size_t>(p.node)][p.component] = p.increment;
+      x[static_cast<std::size_t>(node)][component] = increment;
+      double row = -problem.force[static_cast<std::size_t>(node)][component], size = std::abs(row);
+      for (const int e : {node - 1, node}) {
+        if (e < 0 || e >= elements) continue;
+        Vector6<double> d;
+        d << x[static_cast<std::size_t>(e)], x[static_cast<std::size_t>(e) + 1];
+        const int k = component + (e < node ? 3 : 0);
+        const auto element = static_cast<std::size_t>(e);
+        row += problem.r[element][k] + problem.K[element].row(k).dot(d);
+        size += std::abs(problem.r[element][k]) + problem.K[element].row(k).cwiseAbs().dot(d.cwiseAbs());
+      }
+      CAPTURE(elements, node, component);
+      CHECK(std::abs(assembler.reaction() - row) <= 1e-13 * size);
+    };
+    held_by(BlockTridiagonal<double>(elements));
+    held_by(Dense<double>(elements));
+  }
+}
 
 TEST_CASE("block-tridiagonal and dense give the same increments, prescriptions included", "[assembler]") {
   Random random(1);

@@ -27,6 +27,32 @@ TEST_CASE("a number of elements that does not fit the type is refused by name an
   CHECK_THROWS_WITH(Bounded(beam, 1), ContainsSubstring("elements = 1"));
 }
 
+// The condition of the bending stiffness is the fourth power of the elements: tests/stability/round_off.cpp.
+TEST_CASE("more elements than round-off allows are refused with how many it allows, and that many answer",
+          "[size]") {
+  using Single = FemModel<VonKarman<>, float>;
+  for (const auto& [left, right] :
+       {std::pair(Support::pinned, Support::pinned), std::pair(Support::clamped, Support::roller),
+        std::pair(Support::clamped, Support::free)}) {
+    const Beam beam = thesis_beam(left, right);
+    CAPTURE(name(left), name(right));
+    CHECK_THROWS_WITH(Free(beam, 65536),
+                      ContainsSubstring("elements = 65536") &&
+                          ContainsSubstring("at most " + std::to_string(Free::most_elements(beam))));
+    CHECK_THROWS_AS(Single(beam, Single::most_elements(beam) + 1), std::invalid_argument);
+    Free reference(beam, 64), finest(beam, Free::most_elements(beam));
+    Single single(beam, Single::most_elements(beam));
+    const Press<double> press{1.0, 5e-3};
+    const double force = reference.press(press).force;
+    const Response<double> fine = finest.press(press);
+    const Response<float> coarse = single.press({1.0f, 5e-3f});
+    CHECK(fine.status == Status::ok);
+    CHECK(relative_error(fine.force, force) <= 1e-4);
+    CHECK(coarse.status == Status::ok);
+    CHECK(relative_error(coarse.force, force) <= 1e-2);
+  }
+}
+
 TEST_CASE("fixed, bounded and free sizes give the same force", "[size]") {
   const Beam beam = thesis_beam(Support::clamped, Support::pinned);
   Fixed fixed(beam, 8);

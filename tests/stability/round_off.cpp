@@ -1,4 +1,5 @@
 // Where digits end: on fine meshes, and in float.  tests/stability/ends.cpp has the shortest element.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,8 +9,10 @@
 #include "support/error.hpp"
 #include "support/naive_newton.hpp"
 #include "support/path.hpp"
+#include "support/random.hpp"
 #include "support/status.hpp"
 #include "support/thesis_beam.hpp"
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 using namespace hapbeam;
@@ -65,25 +68,54 @@ TEST_CASE("on a fine mesh a small residual never comes; a small increment does, 
   }
 }
 
-// 1e-8 is below the last place of a float.  Of 256 elements float has no digits left: then the model says that it has not
-// found its rest, and answers nothing.
-TEST_CASE(
-    "in float a tolerance of 1e-8 is never met; the library's grows with round-off, and its refusal too",
-    "[round-off][float]") {
+// 1e-8 is below the last place of a float.
+TEST_CASE("in float a tolerance of 1e-8 is never met; the library ends where increments are round-off",
+          "[round-off][float]") {
   const auto increment = [](int) { return RelativeEnergy{}; };
-  for (const int n : {8, 16, 32, 64}) {
+  for (const int n : {8, 16, 32, 64, 128}) {
     CAPTURE(n);
     CHECK_FALSE(naive_press<float>(n, 100, increment).converged);
     FemModel<VonKarman<>, float> model(pinned(), n);
     const Response<float> response = model.press({float(s), float(d)});
     CHECK(response.status == Status::ok);
     CHECK(model.report().solves <= 6);
-    CHECK(relative_error(response.force, exact()) <= discretisation(n) + round_off<float>(n));
+    // The force is that of the linear equations: rounded nodes leave nothing in it but what they leave of the tangent.
+    CHECK(relative_error(response.force, exact()) <= discretisation(n) + round_off<float>(n) / n);
   }
-  FemModel<VonKarman<>, float> fine(pinned(), 256);
-  const Response<float> response = fine.press({float(s), float(d)});
-  CHECK_FALSE(is_answer(response.status));
-  CHECK(response.force == 0);
+}
+
+// What is accepted is right, whatever the way there.  In float the tangent of a slender free end has lost its softest digits:
+// Newton's method then wanders, blows up and comes back, and must not be believed on the way.
+TEMPLATE_TEST_CASE("in float no press that is ok is off by more than 100 eps n²", "[round-off][float]",
+                   VonKarman<>, Corotational<>) {
+  const Beam ruler(0.3, Section::rectangle(0.025, 1e-3), Material{2e11}, Support::clamped, Support::free);
+  Random random(3);
+  for (const int n : {8, 16, 32, 48, 64}) {
+    const double allowed = 100.0 * std::numeric_limits<float>::epsilon() * n * n;
+    FemModel<TestType, float> single(ruler, n);
+    FemModel<TestType> exact(ruler, n);
+    int compared = 0, ticks = 0;
+    double worst = 0;
+    for (int press = 0; press < 1600 / n + 20; ++press) {
+      // Nearer than 3 % to the tip, float presses the tip's node instead.
+      const float place = static_cast<float>(random(0.02, 0.96) * 0.3);
+      const double depth = random(0.03);
+      single.reset();
+      exact.reset();
+      for (int k = 1; k <= 40; ++k, ++ticks) {
+        const Press<float> asked{place, static_cast<float>(depth * k / 40)};
+        const Response<float> got = single.press(asked);
+        const Response<double> want = exact.press({asked.s, asked.d});
+        REQUIRE(std::isfinite(got.force));
+        if (got.status != Status::ok || want.status != Status::ok) continue;
+        ++compared;
+        worst = std::max(worst, relative_error(got.force, want.force));
+      }
+    }
+    CAPTURE(n, ticks, compared, worst);
+    CHECK(worst <= allowed);
+    CHECK(compared >= ticks * 8 / 10);
+  }
 }
 
 // Metres of stretching weigh EA/l, radians of bending EI/l: their quotient is a strip's thickness over its element, squared,

@@ -94,6 +94,7 @@ class BeamSystem {
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
+    linear_reaction_ = assembler_.reaction();
     advance();
     return {status, increment()};
   }
@@ -156,6 +157,10 @@ class BeamSystem {
     place();
   }
 
+  /// The same as reaction() at the end of the last iterate(), of its linear equations, r + KΔ: right to what Newton's next
+  /// increment would change.  reaction() has the round-off of nodes in it, EA/l and 12EI/l³ times their last places, which
+  /// those equations have balanced.
+  Scalar linear_reaction() const noexcept { return linear_reaction_; }
   /// Force along n that holds the contact at d, thesis eq. 3.42 [N].
   Scalar reaction() const noexcept {
     const int c = contact_.node();
@@ -206,7 +211,7 @@ class BeamSystem {
         assembler_.prescribe(end(k), component, target - now);
       });
     const int c = contact_.node();
-    if (c >= 0) assembler_.prescribe(c, 1, d_ - contact_.displacement(node(c)));
+    if (c >= 0) assembler_.hold(c, 1, d_ - contact_.displacement(node(c)));
     return assembler_.solve();
   }
 
@@ -236,7 +241,7 @@ class BeamSystem {
   Scalar length_;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;
-  Scalar size_ = 0, potential_ = 0, unit_;
+  Scalar size_ = 0, potential_ = 0, linear_reaction_ = 0, unit_;
 };
 
 }  // namespace hapbeam

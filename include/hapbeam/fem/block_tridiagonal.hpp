@@ -76,6 +76,21 @@ class BlockTridiagonal {
     }
   }
 
+  /// The same for the one degree of freedom whose reaction() is wanted, after all others are prescribed.
+  void hold(int node, int component, Scalar increment) noexcept {
+    const Row& row = rows_[node];
+    const Block& d = row.block;
+    const Scalar own[3][3] = {{d.a00, d.a10, d.a20}, {d.a10, d.a11, d.a21}, {d.a20, d.a21, d.a22}};
+    held_ = node;
+    held_by_loads_ = own[component][component] * increment - row.x[component];
+    held_by_.setZero();
+    if (node > 0) held_by_.row(0) = rows_[node - 1].coupling.col(component).transpose();
+    for (int k = 0; k < 3; ++k)
+      if (k != component) held_by_(1, k) = own[component][k];
+    if (node + 1 < rows_.size()) held_by_.row(2) = row.coupling.row(component);
+    prescribe(node, component, increment);
+  }
+
   /// Factors and solves.  @return ok | singular | non_finite
   Status solve() noexcept {
     const int last = rows_.size() - 1, pairs = last / 2, middle = pairs;
@@ -106,6 +121,14 @@ class BlockTridiagonal {
 
   /// Increment of one node [m, m, rad], after solve(); 0 where it was prescribed.
   const Vector& increment(int node) const noexcept { return rows_[node].x; }
+
+  /// What holds the degree of freedom of hold() after the increment, of the linear equations: its row of r + Kx [N].
+  Scalar reaction() const noexcept {
+    Scalar sum = held_by_loads_;
+    for (int k = -1; k <= 1; ++k)
+      if (held_ + k >= 0 && held_ + k < rows_.size()) sum += held_by_.row(k + 1).dot(rows_[held_ + k].x);
+    return sum;
+  }
 
   /// Number of negative pivots of the last solve(): the number of negative eigenvalues of the tangent.
   int negative_pivots() const noexcept { return negative_pivots_; }
@@ -189,6 +212,10 @@ class BlockTridiagonal {
   detail::PerNode<Row, Elements, MaxElements> rows_;
   int negative_pivots_ = 0;
   Scalar energy_ = 0;
+  int held_ = 0;              // node of hold()
+  Scalar held_by_loads_ = 0;  // its row: what is known,
+  Matrix3<Scalar> held_by_ =
+      Matrix3<Scalar>::Zero();  // and the entries of the node before, of its own and of the node after
 };
 
 }  // namespace hapbeam

@@ -42,6 +42,14 @@ class Dense {
     K_(k, k) = pivot;
   }
 
+  void hold(int node, int component, Scalar increment) noexcept {
+    const int k = 3 * node + component;
+    held_by_ = K_.col(k);
+    held_by_[k] = 0;
+    held_by_loads_ = K_(k, k) * increment - x_[k];
+    prescribe(node, component, increment);
+  }
+
   Status solve() {
     if (!K_.allFinite() || !x_.allFinite()) return Status::non_finite;
     const Vector assembled = K_.diagonal(), rhs = x_;
@@ -57,12 +65,14 @@ class Dense {
   }
 
   Scalar energy() const noexcept { return energy_; }
+  Scalar reaction() const noexcept { return held_by_loads_ + held_by_.dot(x_); }
   int negative_pivots() const noexcept { return negative_pivots_; }
   Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
 
  private:
   Matrix K_;
-  Vector x_;
+  Vector x_, held_by_;
+  Scalar held_by_loads_ = 0;
   Scalar energy_ = 0;
   int negative_pivots_ = 0;
 };

@@ -9,11 +9,13 @@
 // weigh what they cost, and which bounds the relative error of the contact force: |δF|/F <= about |Δ|/√(2V).
 // A step has converged when the increment that would come next is below the tolerance; it need not be computed to be
 // known, because Newton is quadratic: |Δ(k+1)| = C|Δ(k)|² with C taken for four times the larger of the last two that were
-// measured, or 100/√(2V) while there are none (0.1 to 40 is usual; in nearly inextensible beams increments can come in
-// pairs, one of u and one of w, which is why one measurement is not believed).  The tolerance
-// is max(relative, eps n²) √(2V), never below absolute √(EI/L): a relative criterion has no meaning at rest, and eps n²
-// is what round-off in the last place of n nodes costs (Σ 12EI/l³ (eps w)² against 48EI/L³ w²).  An increment below
-// √eps/10 √(2V) also ends a step: with C = 100/√(2V) round-off would follow it, of which no C can be measured.
+// measured, but no less than 10/√(2V), or 100/√(2V) while there are none (0.1 to 40 is usual; in nearly inextensible beams
+// increments can come in pairs, one of u and one of w, which is why one measurement is not believed; and what is measured
+// of an increment that leads back from a state that has blown up is nothing).  The tolerance is relative √(2V), never
+// below absolute √(EI/L): a relative criterion has no meaning at rest.
+// An increment below n √eps/20 √(2V) also ends a step.  Increments stop shrinking at round-off, √eps n² of the state where
+// bending is worst, of which no C can be measured; with C = 100/√(2V) the step that was taken is right to eps n²/4.  That
+// holds for the linear equations' force and not for one that is computed anew from rounded nodes.
 //
 //   expression of a system       meaning
 //   --------------------------   -----------------------------------------------------------------------
@@ -93,19 +95,17 @@ struct NewtonRaphson {
   template <class System, typename S>
   Status iterate(System& system, SolveReport<S>& report) const noexcept {
     const S n = static_cast<S>(system.elements());
-    const S relative = std::max(S(relative_tolerance), std::numeric_limits<S>::epsilon() * n * n);
     const S floor = S(absolute_tolerance) * system.unit();
-    // With C = 100/√(2V) an increment below this is followed by round-off, from which no C can be measured.
-    const S noise = std::sqrt(std::numeric_limits<S>::epsilon()) / 10;
+    const S noise = n * std::sqrt(std::numeric_limits<S>::epsilon()) / 20;
     S before = 0, measured_before = 0;
     for (int k = 1; k <= max_iterations && report.solves < max_solves; ++k) {
       const Iteration<S> iteration = system.iterate();
       ++report.solves;
       if (iteration.status != Status::ok) return iteration.status;
-      const S state = system.size(), tolerance = relative * state;
+      const S state = system.size(), tolerance = S(relative_tolerance) * state;
       // The first increment holds the jump of the contact, which the tangent's norm overstates: C is measured without it.
       const S measured = k > 2 ? 4 * iteration.size / (before * before) : state > 0 ? 100 / state : S(0);
-      const S curvature = std::max(measured, measured_before);
+      const S curvature = std::max({measured, measured_before, state > 0 ? 10 / state : S(0)});
       // No larger than this one, which is what round-off would else make of it.
       const S next = state > 0 ? std::min(curvature * iteration.size, S(1)) * iteration.size : iteration.size;
       report.error = state > 0 ? next / state : S(0);
