@@ -13,6 +13,8 @@
 // increments can come in pairs, one of u and one of w, which is why one measurement is not believed; and what is measured
 // of an increment that leads back from a state that has blown up is nothing).  The tolerance is relative √(2V), never
 // below absolute √(EI/L): a relative criterion has no meaning at rest.
+// An increment that is 1/(10 √eps) times the one before ends a step without: where the energy has grown by the square of
+// that, round-off keeps nothing of the state that it was, and where Newton's method then arrives is anywhere.
 // An increment below n √eps/20 √(2V) also ends a step.  Increments stop shrinking at round-off, √eps n² of the state where
 // bending is worst, of which no C can be measured; with C = 100/√(2V) the step that was taken is right to eps n²/4.  That
 // holds for the linear equations' force and not for one that is computed anew from rounded nodes.
@@ -97,11 +99,13 @@ struct NewtonRaphson {
     const S n = static_cast<S>(system.elements());
     const S floor = S(absolute_tolerance) * system.unit();
     const S noise = n * std::sqrt(std::numeric_limits<S>::epsilon()) / 20;
+    const S lost = 10 * std::sqrt(std::numeric_limits<S>::epsilon());
     S before = 0, measured_before = 0;
     for (int k = 1; k <= max_iterations && report.solves < max_solves; ++k) {
       const Iteration<S> iteration = system.iterate();
       ++report.solves;
       if (iteration.status != Status::ok) return iteration.status;
+      if (k > 1 && iteration.size * lost > before) return Status::iteration_limit;
       const S state = system.size(), tolerance = S(relative_tolerance) * state;
       // The first increment holds the jump of the contact, which the tangent's norm overstates: C is measured without it.
       const S measured = k > 2 ? 4 * iteration.size / (before * before) : state > 0 ? 100 / state : S(0);
