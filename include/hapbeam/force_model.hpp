@@ -15,10 +15,14 @@
 //
 // A model of large rotation may offer two more, which contact then takes instead of press() and reset():
 //
-//   m.push(p)            Response<Scalar>       of a Push<Scalar>; promises as press()
+//   m.push(p)            Response<Scalar>       of a Push<Scalar>; promises as press(), whose work the pushes of a tick share
 //   m.release()          Status                 noexcept, bounded; lets go: the beam falls from its present shape to where
 //                                               it rests, which may be another shape than before (snapped), and may
 //                                               take more than one call (iteration_limit)
+//
+// Bounded work is a number that the model states, of what it repeats: FemModel solves at most solver.max_solves (48) linear
+// systems a press, all pushes of a tick, or a release; then it says iteration_limit and goes on in the next call, and until
+// it has arrived its force is that of the last equilibrium.
 //
 // No allocation, no exception, no dependency but the standard library.
 #pragma once
@@ -44,8 +48,8 @@ enum class Status : std::int8_t {
   snapped = 2,
   /// s or d is not finite, or s lies off the beam (s < 0 or s > L): force 0, the state is kept.
   invalid_request = -1,
-  /// The iteration budget ended with the estimated next increment above the tolerance.  In press(): force and
-  /// shape belong to the press reached on the way; the next call goes on from there.
+  /// The iteration budget ended with the estimated next increment above the tolerance.  In press() and push(): the force is
+  /// that of the last equilibrium on the way, which may be the last answer; the next call goes on from there.
   iteration_limit = -2,
   /// A pivot of the tangent is below round-off: |p| <= eps |k| with k its diagonal entry.  The last good state is kept.
   singular = -3,
@@ -85,6 +89,7 @@ struct Push {
   Scalar s;                ///< [m] arc position of the point
   Scalar d;                ///< [m] n · (u, w) at s
   Vector2<Scalar> normal;  ///< n, unit
+  bool goes_on = false;    ///< in the tick of the push before, with what that has left of the tick's work
 };
 
 /// What a press takes.

@@ -45,7 +45,7 @@ std::vector<Press1> press_through(Model& model, int side, double step) {
     REQUIRE(std::isfinite(response.force));
     const double moved = distance(before, model.shape());
     CAPTURE(k, response.force, moved, model.report().solves);
-    CHECK(model.report().solves <= 3 * 48);
+    CHECK(model.report().solves <= 48 + 2);
     // What keeps to its branch moves with the hand; a change of branch is never silent.
     if (response.status == Status::ok) CHECK(moved <= 30 * step + 0.02 * from * side);
     else REQUIRE((response.status == Status::snapped || response.status == Status::iteration_limit));
@@ -64,7 +64,7 @@ template <class Model>
 int let_go(Model& model) {
   for (int calls = 1;; ++calls) {
     const Status status = model.release();
-    REQUIRE(model.report().solves <= 2 * 48);
+    REQUIRE(model.report().solves <= 48 + 2);
     if (status != Status::iteration_limit) {
       CHECK(status == Status::snapped);
       return calls;
@@ -249,14 +249,14 @@ TEST_CASE("from a request beyond all reach a bistable beam comes to rest again",
     press_through(model, 1, up / 1000);
     let_go(model);
     other.assign(model.shape().begin(), model.shape().end());
-    for (int trial = 0; trial < 200; ++trial) {
+    for (int trial = 0; trial < 600; ++trial) {
       const int pushes = random.integer(1, 4);
       for (int k = 0; k < pushes; ++k) {
         const double angle = random(3.2);
         const Response<double> response =
             model.push({0.2 * random(0.05, 0.95), 0.2 * random(0.5), {std::sin(angle), std::cos(angle)}});
         REQUIRE(std::isfinite(response.force));
-        REQUIRE(model.report().solves <= 3 * 48);
+        REQUIRE(model.report().solves <= 48 + 2);
       }
       int calls = 1;
       while (model.release() == Status::iteration_limit && calls < 100) ++calls;

@@ -5,7 +5,7 @@
 // sought again on the new shape; what it is off by shrinks to a few percent with each push.  The way that it went in the
 // two ticks before is continued for a first guess, so that a smooth motion takes one push.
 // At an end the normal is the way from the end point to the avatar's centre.
-// Real-time: noexcept, no allocation; at most most_pushes pushes.
+// Real-time: noexcept, no allocation; at most most_pushes pushes, which share the model's work for one.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,7 @@ class PushContact {
     for (int pushed = 1;; ++pushed) {
       const Vector2<Scalar> normal = foot.normal;
       const Scalar d = normal.x() * (position.x() - s) + normal.y() * position.y() - reach;
-      const Response<Scalar> response = model.push({s, d, normal});
+      const Response<Scalar> response = model.push({s, d, normal, pushed > 1});
       snapped = snapped || response.status == Status::snapped;
       foot = Foot(model, s, position, side);
       asked = {s, foot.point.y()};

@@ -62,8 +62,9 @@ class Touch {
 
   /// One tick.
   /// @param position  [m] centre of the avatar
-  /// Real-time: noexcept, no allocation, bounded: at most one press or four pushes, and none without contact but for a
-  /// beam that falls to rest.
+  /// Real-time: noexcept, no allocation, bounded: at most one press or four pushes, which share the work of one, and one
+  /// release; nothing without contact but for a beam that falls to rest.  With FemModel that is 96 linear solves, and two looks
+  /// more for each of the five: with 64 elements at 0.1 µs an element and solve 0.68 ms.
   [[nodiscard]] TouchResult<Scalar> tick(const Vector2<Scalar>& position) noexcept {
     TouchResult<Scalar> result;
     Contact<Scalar>& contact = result.contact;

@@ -55,7 +55,10 @@ class BeamSystem {
     if (!(mesh == beam_.mesh())) beam_.remesh(mesh, saved_);
   }
   /// Sets the whole state.  @param nodes those of the given mesh
-  void set_state(const ContactMesh<Scalar>& mesh, const Node* nodes) noexcept { beam_.set(mesh, nodes); }
+  void set_state(const ContactMesh<Scalar>& mesh, const Node* nodes) noexcept {
+    beam_.set(mesh, nodes);
+    linear_reaction_ = 0;
+  }
 
   /// Where the path ends: all of the dead loads, the ends where they are placed, and no contact.
   void set_goal() noexcept {
@@ -83,10 +86,12 @@ class BeamSystem {
   void save() noexcept {
     for (int i = 0; i <= elements(); ++i) saved_[i] = node(i);
     saved_load_ = load_;
+    saved_reaction_ = linear_reaction_;
   }
   void restore() noexcept {
     for (int i = 0; i <= elements(); ++i) beam_.nodes()[i] = saved_[i];
     load_ = saved_load_;
+    linear_reaction_ = saved_reaction_;
   }
   Scalar size() const noexcept { return size_; }
   Scalar unit() const noexcept { return unit_; }
@@ -157,9 +162,10 @@ class BeamSystem {
     place();
   }
 
-  /// The same as reaction() at the end of the last iterate(), of its linear equations, r + KΔ: right to what Newton's next
+  /// The same as reaction() at the end of the last iterate(), of its linear equations, r + KΔ: accurate to what Newton's next
   /// increment would change.  reaction() has the round-off of nodes in it, EA/l and 12EI/l³ times their last places, which
-  /// those equations have balanced.
+  /// those equations have balanced.  It is saved and restored with the state, and stays where the mesh moves or a descent
+  /// is on its way: the force of the last equilibrium.
   Scalar linear_reaction() const noexcept { return linear_reaction_; }
   /// Force along n that holds the contact at d, thesis eq. 3.42 [N].
   Scalar reaction() const noexcept {
@@ -241,7 +247,7 @@ class BeamSystem {
   Scalar length_;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;
-  Scalar size_ = 0, potential_ = 0, linear_reaction_ = 0, unit_;
+  Scalar size_ = 0, potential_ = 0, linear_reaction_ = 0, saved_reaction_ = 0, unit_;
 };
 
 }  // namespace hapbeam

@@ -11,8 +11,9 @@
 // Composed of policies: Element × Assembler × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
-// and allocation-free; a press takes at most solver.max_solves linear solves of O(elements), and where the beam falls up
-// to three times as many and two.
+// and allocation-free; a press, the pushes of a tick together, or a release take at most solver.max_solves linear solves of
+// O(elements), the way of a beam that falls included, and two more each where it gives way.  What is not done then is
+// iteration_limit: the force is that of the last equilibrium, and the next call goes on.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +53,6 @@ class FemModel {
         left_yields_(!fixes_w(beam.left())),
         right_yields_(!fixes_w(beam.right())),
         single_valued_(beam.straight()) {
-    descent_.max_solves = solver.max_solves;
     find_range(beam);
     find_rest();
     for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
@@ -76,6 +76,7 @@ class FemModel {
   Response<Scalar> press(const Press<Scalar>& request) noexcept {
     const Press<Scalar> press = range().nearest(request);
     const bool in_range = press.s == request.s && press.d == request.d;
+    left_ = solver_.max_solves;
     return solve({request.s, press.d, {0, 1}}, press.s, std::isfinite(request.d), in_range);
   }
 
@@ -86,6 +87,7 @@ class FemModel {
   Response<Scalar> push(const Push<Scalar>& request) noexcept {
     const Scalar s = range().nearest({request.s, 0}).s;
     const bool finite = std::isfinite(request.d) && request.normal.allFinite();
+    if (!request.goes_on) left_ = solver_.max_solves;
     return solve(request, s, finite, s == request.s);
   }
 
@@ -120,7 +122,9 @@ class FemModel {
     const auto aim = [this] { system_.set_goal(); };
     aim();
     report_ = {Status::ok, 0, 0, 0, 0, 1};
-    if (!fall(false, descent_, aim)) {
+    Descent descent;
+    descent.max_solves = solver_.max_solves;
+    if (!fall(false, descent, aim) || folded()) {
       reset();
       return report_.status = Status::snapped;
     }
@@ -134,7 +138,7 @@ class FemModel {
   void reset() noexcept {
     system_.set_state(uniform_, rest_nodes_.data());
     home_ = middle();
-    falling_ = false;
+    falling_ = descending_ = false;
   }
 
   /// How the search for the shape under the dead loads ended.
@@ -207,7 +211,8 @@ class FemModel {
   }
 
   /// From an equilibrium that gives way, or where none was found, down to a stable one.
-  /// @param on_ridge  nothing but a nudge makes it go   @param aim  sets the system's goal anew
+  /// @param on_ridge  nothing but a nudge makes it go   @param descent  its max_solves bound the whole of it
+  /// @param aim  sets the system's goal anew
   /// @return false where no way leads down: the shape is one that only a request beyond all reach can have made
   template <class Aim>
   bool fall(bool on_ridge, const Descent& descent, Aim&& aim) noexcept {
@@ -215,9 +220,10 @@ class FemModel {
     int solves = report_.solves;
     const int budget = solves + descent.max_solves;
     bool any_way = true;
-    if (descent.solve(system_, solves)) {
+    descending_ = !descent.solve(system_, solves);
+    if (!descending_) {
       aim();
-      report_ = solver_.solve(system_);
+      report_ = solve_within(budget - solves);
       if (report_.status == Status::ok)
         report_.status = gives_way() ? Status::iteration_limit : Status::snapped;
     } else {
@@ -229,6 +235,21 @@ class FemModel {
     return any_way;
   }
 
+  /// Whether an element has turned so far in itself that it no longer stands for a beam: what only a request beyond all
+  /// reach leaves, and what may be at rest and stable.
+  bool folded() const noexcept {
+    for (int i = 0; i < elements(); ++i)
+      if (std::abs(system_.node(i + 1).theta - system_.node(i).theta) > 2) return true;
+    return false;
+  }
+
+  /// Newton's method with no more than so many linear solves.
+  SolveReport<Scalar> solve_within(int most, Scalar first_step = 1) noexcept {
+    Solver solver = solver_;
+    solver.max_solves = std::min(solver.max_solves, most);
+    return solver.solve(system_, first_step);
+  }
+
   /// @param s  request.s, or the nearest in range
   Response<Scalar> solve(const Push<Scalar>& request, Scalar s, bool finite, bool in_range) noexcept {
     using std::abs;
@@ -238,6 +259,7 @@ class FemModel {
     if (!finite || !isfinite(request.s) || request.s < 0 || request.s > system_.length())
       return {0, Status::invalid_request};
     if (rest_.status != Status::ok) return {0, rest_.status};
+    if (left_ <= 0) return {system_.linear_reaction(), report_.status = Status::iteration_limit};
     const auto along = [&](const Displacement<Scalar>& at) {
       return request.normal.x() * at.u + request.normal.y() * at.w;
     };
@@ -247,22 +269,27 @@ class FemModel {
     system_.remesh(mesh);
     const auto aim = [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); };
     aim();
-    report_ = solver_.solve(system_, first_step);
+    if (descending_) report_.status = Status::iteration_limit;
+    else report_ = solve_within(left_, first_step);
     // A straight beam pressed across gives way in no element but those that lock.
     const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
+    Descent descent;
+    descent.max_solves = left_ - report_.solves;
     if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_)) {
-      if (!fall(on_ridge, descent_, aim)) {
+      if (!fall(on_ridge, descent, aim)) {
         reset();
         falling_ = true;
       }
-    } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0) {
+    } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0 &&
+               left_ == solver_.max_solves) {
       reset();  // what the last request has left leads nowhere: the next one begins at rest
     } else if (falling_ && report_.status == Status::ok) {
       falling_ = false;
       report_.status = Status::snapped;
     }
+    left_ -= report_.solves;
     const Status status = report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status;
-    const Scalar force = is_answer(status) ? system_.linear_reaction() : system_.reaction();
+    const Scalar force = system_.linear_reaction();
     return isfinite(force) ? Response<Scalar>{force, status} : Response<Scalar>{0, Status::non_finite};
   }
 
@@ -281,10 +308,11 @@ class FemModel {
   Scalar thickness_, shortest_;
   Scalar depth_ = 0, slope_ = 0;  // of range()
   bool left_yields_, right_yields_;
-  bool single_valued_;  // one shape for each press, as far as is known
-  Descent descent_;
-  bool falling_ = false;  // off the shape that gave way, and not yet at a stable one
-  Scalar home_ = 0;       // middle() of the shape from which the beam is pressed
+  bool single_valued_;       // one shape for each press, as far as is known
+  int left_ = 0;             // linear solves that this tick may still take
+  bool falling_ = false;     // off the shape that gave way, and not yet at a stable one
+  bool descending_ = false;  // and not yet near one
+  Scalar home_ = 0;          // middle() of the shape from which the beam is pressed
   SolveReport<Scalar> rest_{}, report_{};
 };
 
