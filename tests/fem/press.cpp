@@ -210,6 +210,7 @@ TEST_CASE("a press that is not reached answers with the force of the last that w
   FemModel<Corotational<>> model(ruler, 16, hurried);
   double last = 0;
   int on_the_way = 0;
+  bool set_back = true;
   for (int k = 1; k <= 400; ++k) {
     // 4 mm and 2 mm a tick: too far for three solves.
     const double turned = 0.5 * k;
@@ -218,8 +219,10 @@ TEST_CASE("a press that is not reached answers with the force of the last that w
     REQUIRE(std::isfinite(response.force));
     if (response.status == Status::iteration_limit && model.report().steps == 0) {
       ++on_the_way;
-      CHECK((response.force == last || response.force == 0));
+      // Set back to rest, the beam has nothing to go on with but this once.
+      CHECK((response.force == last || (response.force == 0 && set_back)));
     }
+    set_back = !is_answer(response.status) && model.shape()[16].w == 0;
     last = response.force;
   }
   CHECK(on_the_way >= 5);

@@ -263,6 +263,7 @@ class FemModel {
     const auto along = [&](const Displacement<Scalar>& at) {
       return request.normal.x() * at.u + request.normal.y() * at.w;
     };
+    const Scalar last = system_.linear_reaction();
     const Scalar jump = request.d - along(shape().at(s)), from_rest = request.d - along(rest_shape().at(s));
     if (single_valued_ && abs(from_rest) < abs(jump)) reset();
     const ContactMesh<Scalar> mesh = uniform_.at(away_from_ends(s));
@@ -289,7 +290,8 @@ class FemModel {
     }
     left_ -= report_.solves;
     const Status status = report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status;
-    const Scalar force = system_.linear_reaction();
+    // A beam that was set back to rest on the way has none yet.
+    const Scalar now = system_.linear_reaction(), force = is_answer(status) || now != 0 ? now : last;
     return isfinite(force) ? Response<Scalar>{force, status} : Response<Scalar>{0, Status::non_finite};
   }
 
