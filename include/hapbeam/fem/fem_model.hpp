@@ -228,6 +228,7 @@ class FemModel {
         report_.status = gives_way() ? Status::iteration_limit : Status::snapped;
     } else {
       report_.status = Status::iteration_limit;
+      report_.solves = 0;
       any_way = solves >= budget;
     }
     report_.solves += solves;
