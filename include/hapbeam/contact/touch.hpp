@@ -120,8 +120,11 @@ class Touch {
     }
     let_go();
   }
+  /// What the contact remembers belongs to the touch.  A beam that has sprung back is a new beam: whoever stands behind it
+  /// is on its other side.
   void let_go() noexcept {
     volumes_.refit(model_.shape());
+    memory_.touching = memory_.through = false;
     pressing_ = false;
   }
 
