@@ -16,10 +16,16 @@
 namespace hapbeam::detail {
 
 /// What became of a contact.
+enum class Hold {
+  pressing,
+  released,  ///< the beam would have to pull
+  lost,      ///< the point of contact has left the beam: it has slipped off, or the search for it went astray
+};
+
 template <typename Scalar>
 struct Held {
-  bool pressing;  ///< false: the beam would have to pull
-  Scalar force;   ///< [N] along the contact's normal
+  Hold hold;
+  Scalar force;  ///< [N] along the contact's normal, not negative
   Status status;
 };
 
@@ -42,12 +48,15 @@ class PressContact {
                     bool pressing, Press<Scalar>& asked) const noexcept {
     if (pressing) smooth_kink(model, contact, position, reach);
     Scalar rise;
-    if (!rise_to_touch(contact, position, reach, rise)) return {false, 0, Status::ok};
+    if (!rise_to_touch(contact, position, reach, rise)) return {Hold::released, 0, Status::ok};
     asked = {contact.s, contact.foot.y() + rise};
     const Response<Scalar> response = model.press(asked);
     const Scalar n_w = contact.normal.y();
-    const bool pulls = response.force * n_w > 0 || (response.force == 0 && is_answer(response.status));
-    return {!pulls, std::abs(response.force) / std::max(std::abs(n_w), least_normal), response.status};
+    const Scalar force = (n_w < 0 ? response.force : -response.force) / std::max(std::abs(n_w), least_normal);
+    const bool answer = is_answer(response.status);
+    if (force < 0 || (answer && force == 0))
+      return {answer ? Hold::released : Hold::lost, 0, response.status};
+    return {Hold::pressing, force, response.status};
   }
 
  private:

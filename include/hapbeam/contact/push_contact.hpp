@@ -43,14 +43,16 @@ class PushContact {
       snapped = snapped || response.status == Status::snapped;
       foot = Foot(model, s, position, side);
       asked = {s, foot.point.y()};
-      if (response.force > 0 || (response.force == 0 && is_answer(response.status)))
-        return {false, 0, response.status};
       const Scalar off =
           std::max(std::abs(cross(normal, foot.offset)), foot.at_end ? Scalar(0) : std::abs(foot.ahead));
-      if (off <= near * reach || pushed == most_pushes || !is_answer(response.status)) {
-        const bool lost = is_answer(response.status) && !(off <= far * reach);
+      const bool answer = is_answer(response.status), found = off <= far * reach;
+      const bool pulls = response.force > 0 || (answer && response.force == 0);
+      // What pulls beside the contact, or on the way to it, may press there.
+      if (pulls) return {answer && found ? Hold::released : Hold::lost, 0, response.status};
+      if (off <= near * reach || pushed == most_pushes || !answer) {
+        const bool lost = answer && !found;
         // Pushed along itself an end has no place on the circle any more: it slips off.
-        if (lost && foot.at_end) return {false, 0, response.status};
+        if (lost && foot.at_end) return {Hold::lost, 0, response.status};
         before_ = slid_;
         slid_ = s - first;
         contact.s = s;
@@ -59,7 +61,7 @@ class PushContact {
         contact.point = foot.point + foot.normal * (model.thickness() / 2);
         contact.past_end = foot.at_end;
         const Status status = snapped && response.status == Status::ok ? Status::snapped : response.status;
-        return {true, -response.force, lost ? Status::iteration_limit : status};
+        return {Hold::pressing, -response.force, lost ? Status::iteration_limit : status};
       }
       s = std::clamp(s + foot.ahead, Scalar(0), length);
       foot = Foot(model, s, position, side);

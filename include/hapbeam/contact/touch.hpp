@@ -85,12 +85,18 @@ class Touch {
       return result;
     }
 
-    if (!pressing_) side_ = contact.side, holder_.begin(contact);
+    if (!pressing_) side_ = contact.side, unanswered_ = 0, holder_.begin(contact);
     const Scalar reach = avatar_radius_ + model_.thickness() / 2;
     const detail::Held<Scalar> held = holder_.hold(model_, contact, position, reach, pressing_, result.press);
     result.status = held.status;
-    if (!held.pressing) {
+    if (is_answer(held.status)) unanswered_ = 0;
+    else if (!(held.force > 0)) ++unanswered_;
+    if (held.hold == detail::Hold::released) {
       release(result);
+      return result;
+    }
+    if (held.hold == detail::Hold::lost || unanswered_ > patience) {
+      lose(avatar, result);
       return result;
     }
     volumes_.refit(model_.shape());
@@ -103,6 +109,9 @@ class Touch {
   }
 
   [[nodiscard]] bool pressing() const noexcept { return pressing_; }
+
+  /// Ticks since the last answer in which the model may have no force either.  After them the touch is over.
+  static constexpr int patience = 20;
 
  private:
   using Holder =
@@ -120,6 +129,18 @@ class Touch {
     }
     let_go();
   }
+  /// The beam is let go.  If it comes to rest beneath the avatar it has not slipped off: the touch goes on from there.
+  void lose(const Avatar<Scalar>& avatar, TouchResult<Scalar>& result) noexcept {
+    release(result);
+    ContactMemory<Scalar> nothing;
+    const Contact<Scalar> contact =
+        find_contact(avatar, model_.shape(), volumes_, model_.thickness(), nothing);
+    if (!contact.touching || contact.side != side_) return;
+    holder_.begin(contact);
+    falling_ = false;
+    pressing_ = result.pressing = true;
+    result.status = Status::iteration_limit;
+  }
   /// What the contact remembers belongs to the touch.  A beam that has sprung back is a new beam: whoever stands behind it
   /// is on its other side.
   void let_go() noexcept {
@@ -136,6 +157,7 @@ class Touch {
   bool pressing_ = false;
   bool falling_ = false;  // let go, and not yet at rest
   int side_ = 1;          // of the press, as Contact::side
+  int unanswered_ = 0;    // ticks without a force since the last answer
 };
 
 }  // namespace hapbeam
