@@ -33,6 +33,7 @@ struct PowerWall {
     result.press = {0, -y};
     return result;
   }
+  bool meets(const Vector2<double>& position) const noexcept { return normal.dot(position) < 0; }
 };
 
 }  // namespace hapbeam::testing

@@ -110,6 +110,14 @@ class Touch {
 
   [[nodiscard]] bool pressing() const noexcept { return pressing_; }
 
+  /// Whether the beam as it lies now would be touched on the straight way from the last tick's position to this one.
+  /// Real-time: noexcept, no allocation, bounded; no press.
+  [[nodiscard]] bool meets(const Vector2<Scalar>& position) const noexcept {
+    ContactMemory<Scalar> memory = memory_;
+    return find_contact({position, avatar_radius_}, model_.shape(), volumes_, model_.thickness(), memory)
+        .touching;
+  }
+
   /// Ticks since the last answer in which the model may have no force either.  After them the touch is over.
   static constexpr int patience = 20;
 

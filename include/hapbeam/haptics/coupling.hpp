@@ -7,7 +7,7 @@
 //   C::for_device(info, delay_ticks)   C   its default; may throw std::invalid_argument
 //   c.reset()             void           noexcept; the hand touches nothing
 //
-// Touch is Touch<Model>, or what has its tick(position).
+// Touch is Touch<Model>, or what has its tick(position) and meets(position).
 //
 // VirtualCoupling: a steel beam is stiffer than a sampled loop can render.  So it is not the hand h that presses the
 // beam but a point p without mass, to which the hand is tied by a spring K and a damper B.  Hand and beam share
@@ -45,8 +45,8 @@ template <typename Scalar>
 struct CoupledForce {
   Vector2<double> force = Vector2<double>::Zero();   ///< [N] on the hand; always finite
   Vector2<double> avatar = Vector2<double>::Zero();  ///< [m] from where the beam was pressed
-  bool continued = false;                            ///< by the tangent, the beam gave no answer
-  TouchResult<Scalar> touch;                         ///< what the beam said
+  bool continued = false;     ///< by the tangent: the beam gave no answer, or was missed
+  TouchResult<Scalar> touch;  ///< what the beam said
 };
 
 namespace detail {
@@ -55,6 +55,7 @@ namespace detail {
 struct AnyTouch {
   using Scalar = double;
   TouchResult<double> tick(const Vector2<double>&) noexcept;
+  bool meets(const Vector2<double>&) const noexcept;
 };
 
 template <typename C, typename = void>
@@ -147,7 +148,10 @@ class VirtualCoupling {
     result.avatar = hand + last_.tangent().normal() * solve(hand).gap;
     result.touch = touch.tick(result.avatar.template cast<typename Touch::Scalar>());
     last_.learn(result.touch, result.avatar);
-    result.continued = last_.continued();
+    // Where the hand itself would not touch it either, the beam has not been missed: it is gone.
+    if (!result.touch.pressing && last_.tangent().known() &&
+        !touch.meets(hand.template cast<typename Touch::Scalar>()))
+      last_.forget();
 
     const Balance balance = solve(hand);
     if (!std::isfinite(balance.force)) {
@@ -156,6 +160,7 @@ class VirtualCoupling {
     }
     gap_ = balance.gap;
     result.force = last_.tangent().normal() * balance.force;
+    result.continued = last_.continued() && (balance.force > 0 || result.touch.pressing);
     if (balance.force == 0 && !result.touch.pressing) last_.forget();
     return result;
   }

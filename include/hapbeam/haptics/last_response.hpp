@@ -2,7 +2,8 @@
 //
 // Keeps the tangent of the last good response through ticks in which the model ran out of its budget, for
 // max_continued of them, and through ticks that missed the beam though the tangent still had a force there:
-// there the tangent was too flat and the point from which the beam is pressed was taken too far out, or the beam is gone.
+// there the tangent was too flat and the point from which the beam is pressed was taken too far out.  (Where the beam is gone
+// the coupling forgets it.)
 // Any other failure ends the contact.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 #pragma once
@@ -21,8 +22,8 @@ class LastResponse {
   static constexpr int max_missed = 3;
 
   const ContactTangent& tangent() const noexcept { return tangent_; }
-  /// The last response was none, and the tangent stands for it.
-  bool continued() const noexcept { return continued_ > 0 && tangent_.known(); }
+  /// The last response was none, or missed the beam, and the tangent stands for it.
+  bool continued() const noexcept { return (continued_ > 0 || missed_ > 0) && tangent_.known(); }
 
   void forget() noexcept {
     tangent_.forget();

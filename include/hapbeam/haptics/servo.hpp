@@ -152,7 +152,7 @@ class Servo {
   void keep(const DeviceState& state, const CoupledForce<Scalar>& coupled, const GuardedForce& guarded,
             bool safe) noexcept {
     ServoRecord& r = record_;
-    const bool pressing = coupled.touch.pressing, touched = pressing && !r.pressing;
+    const bool pressing = coupled.touch.pressing || coupled.continued, touched = pressing && !r.pressing;
     r.status = status(state, coupled, guarded, safe);
     r.model = coupled.touch.status;
     r.time = state.time;

@@ -20,9 +20,10 @@ enum class LoopStatus : std::uint8_t {
   out_of_range,  ///< the same, with a model that answers for the nearest press it knows (Status::out_of_range)
   engaging,      ///< the force is coming in, after a start, a failure or a pause
   limited,       ///< the guard or the device cut the force: what is felt is less than the beam
-  continued,     ///< the model ran out of its budget: the last good force goes on along its tangent
-  no_answer,     ///< the model failed (ServoRecord::model says how): the force is zero and engages anew
-  device,        ///< the device is warm, or recovers from a force error, or has asked to begin anew
+  continued,  ///< the model ran out of its budget, or was pressed from too far out: the last good force goes on along its
+              ///< tangent
+  no_answer,  ///< the model failed (ServoRecord::model says how): the force is zero and engages anew
+  device,     ///< the device is warm, or recovers from a force error, or has asked to begin anew
 };
 
 /// Short lower-case name, for messages and reports.
@@ -56,14 +57,14 @@ struct ServoRecord {
       Vector2<double>::Zero();  ///< [m] from where the beam is pressed; the hand, where free
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N] sent, device axes
   Press<double> press{0, 0};                        ///< asked of the model; zero where nothing was
-  bool pressing = false;                            ///< the beam is touched
-  double heat = 0;                                  ///< of the motors, 1: only the continuous force is left
+  bool pressing = false;  ///< the hand holds the beam: it is touched, or its force goes on
+  double heat = 0;        ///< of the motors, 1: only the continuous force is left
 
   std::uint64_t ticks = 0;            ///< since the start
   std::uint64_t contact_ticks = 0;    ///< the beam was touched
   std::uint64_t touches = 0;          ///< contact began
   std::uint64_t saturated_ticks = 0;  ///< the guard or the device cut the force
-  std::uint64_t continued_ticks = 0;  ///< without an answer, by the tangent
+  std::uint64_t continued_ticks = 0;  ///< without an answer to where the hand is, by the tangent
   std::uint64_t failed_ticks = 0;     ///< the force was zero because something failed
   double max_press = 0;               ///< [m] magnitude
   double max_force = 0;               ///< [N] sent
