@@ -127,3 +127,44 @@ TEST_CASE("a monitor of a device that cannot be is refused", "[energy]") {
   CHECK_THROWS_WITH(EnergyMonitor(device(5), 17), ContainsSubstring("delay_ticks = 17: must be 0 to 16"));
   CHECK_THROWS_WITH(EnergyMonitor(device(5), -1), ContainsSubstring("delay_ticks"));
 }
+
+TEST_CASE("positions and forces that no device has leave the account finite and as it was", "[energy]") {
+  EnergyMonitor monitor(device(5));
+  monitor.observe(Vector::Zero(), Vector::Zero());
+  monitor.observe(Vector(0, 1e-3, 0), Vector(0, 10, 0));
+  const double net = monitor.net();
+  for (const double garbage : {1e300, -1e300, 1e160, 20.0}) {
+    monitor.observe(Vector(0, garbage, 0), Vector(0, 10, 0));
+    monitor.observe(Vector(0, 1e-3, 0), Vector(0, 10, 0));
+    CHECK(monitor.net() == net);
+  }
+  for (int i = 0; i < 1000; ++i) monitor.observe(Vector(0, i % 2 * 5.0, 0), Vector(0, 1.7e308, 0));
+  monitor.observe(Vector::Zero(), Vector::Zero());
+  CHECK(std::isfinite(monitor.generated()));
+}
+
+// W - ∫U de = -e U for a force -e dU/dx: what the rising share lends is all that comes back.
+TEST_CASE("a spring whose force comes in while it is pressed has lent its energy and generated none",
+          "[energy]") {
+  const double K = 1000, depth = 0.02;
+  const int ticks = 20000;
+  for (const bool counted : {false, true}) {
+    EnergyMonitor monitor(device(0));
+    double force = 0, share = 0;
+    for (int i = 0; i <= 2 * ticks; ++i) {
+      const double x = depth * std::min(i, 2 * ticks - i) / ticks;
+      monitor.observe(Vector(0, -x, 0), Vector(0, force, 0));
+      const double before = share;
+      share = std::min(1.0, i / (0.7 * ticks));
+      force = share * K * x;
+      if (counted) monitor.lend((share - before) * K * x * x / 2);
+    }
+    // ∫U de = K depth²/6 · 0.7² of the way; what is left is the sampling's, K δ² N.
+    const double lent = K * depth * depth / 6 * 0.7 * 0.7, held = K * depth * depth / ticks;
+    if (counted) CHECK(monitor.generated() <= 2 * held);
+    else CHECK(monitor.generated() == Approx(lent).epsilon(0.01));
+  }
+  EnergyMonitor monitor(device(0));
+  monitor.lend(-1);
+  CHECK(monitor.net() == 0);
+}

@@ -204,6 +204,49 @@ TEST_CASE("states that no device should give: finite, within the peak, and over 
   }
 }
 
+// The arm takes nothing here, so that each joule is counted; the sample-and-hold gives K δ² N, K the series.
+TEST_CASE("pressing while the force comes in lends energy, and the record counts none as generated",
+          "[servo]") {
+  DeviceInfo lossless = phantom();
+  lossless.damping = lossless.friction = lossless.position_resolution = 0;
+  const auto press = [&](auto& servo, int ticks, double depth) {
+    int tick = 0;
+    for (; tick <= ticks; ++tick) (void)servo.tick(state(0.001 - (depth + 0.001) * tick / ticks, tick));
+    for (int i = 0; i < 300; ++i) (void)servo.tick(state(-depth, tick++));
+    for (int i = 0; i <= 200; ++i) (void)servo.tick(state(-depth + (depth + 0.001) * i / 200, tick++));
+    return servo.record();
+  };
+  const double reach = 5e-3 + thesis_length / 200;
+  for (const double scale : {1.0, 4.0})
+    for (const int ticks : {50, 150}) {
+      FemModel<> model(thesis_beam(Support::pinned, Support::pinned), 16);
+      Servo<FemModel<>> servo(model, lossless, above(1.27, reach, scale), VirtualCoupling({1000, 1}, 1e-3));
+      const double depth = 0.005, K = 1 / (1 / 1000.0 + 1 / (21e3 * scale)),
+                   step = depth / std::min(ticks, 200);
+      const ServoRecord record = press(servo, ticks, depth);
+      CAPTURE(scale, ticks);
+      CHECK(record.status == LoopStatus::free);
+      CHECK(record.max_force > 1);
+      CHECK(record.energy_generated <= K * step * depth);
+    }
+}
+
+TEST_CASE("a servo that is reset has generated nothing, now and in its next tick", "[servo]") {
+  Closed c;
+  c.press(0.02, 400);
+  for (int i = 1; i <= 30; ++i) {  // the device pushes the hand out, harder than it was asked to
+    DeviceState pushed = state(-0.02 + 1e-3 * i, c.tick++);
+    pushed.cut = ForceCut::peak, pushed.sent = Vector(0, i < 20 ? 37 : 0, 0);
+    (void)c.servo.tick(pushed);
+  }
+  c.press(-0.01, 2);
+  REQUIRE(c.record().energy_generated > 0);
+  c.servo.reset();
+  CHECK(c.record().energy_generated == 0);
+  c.press(-0.01, 5);
+  CHECK(c.record().energy_generated == 0);
+}
+
 TEST_CASE("in a scene of another scale the hand feels the coupling that its device can render", "[servo]") {
   // A beam that is rigid against the coupling: what is felt is the coupling, device force over device metres.
   for (const double scale : {0.5, 1.0, 5.0}) {

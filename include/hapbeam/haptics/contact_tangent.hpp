@@ -31,6 +31,8 @@ class ContactTangent {
   }                                                         ///< unit; out of the beam when last touched
   double stiffness() const noexcept { return stiffness_; }  ///< k [N/m] along the normal
 
+  double energy() const noexcept { return known_ ? energy_ : 0; }  ///< U [J]
+
   /// f0 - k n·(p - p0), below zero too where p lies outside; 0 while nothing is known.  @param place [m]   @return [N]
   double force_at(const Vector2<double>& place) const noexcept {
     return known_ ? force_ - stiffness_ * normal_.dot(place - place_) : 0;

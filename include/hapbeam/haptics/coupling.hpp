@@ -46,6 +46,7 @@ struct CoupledForce {
   Vector2<double> force = Vector2<double>::Zero();   ///< [N] on the hand; always finite
   Vector2<double> avatar = Vector2<double>::Zero();  ///< [m] from where the beam was pressed
   bool continued = false;     ///< by the tangent: the beam gave no answer, or was missed
+  double energy = 0;          ///< [J] that beam and coupling would give back, in metres of the scene
   TouchResult<Scalar> touch;  ///< what the beam said
 };
 
@@ -103,6 +104,7 @@ class Direct {
       result.force = last_.tangent().normal() * std::max(0.0, last_.tangent().force_at(hand));
     else if (is_answer(result.touch.status)) result.force = result.touch.force.template cast<double>();
     if (!result.force.allFinite()) result.force.setZero();
+    else if (!result.force.isZero(0)) result.energy = last_.tangent().energy();
     return result;
   }
 
@@ -161,6 +163,7 @@ class VirtualCoupling {
     gap_ = balance.gap;
     result.force = last_.tangent().normal() * balance.force;
     result.continued = last_.continued() && (balance.force > 0 || result.touch.pressing);
+    if (balance.force > 0) result.energy = last_.tangent().energy() + stiffness_ * gap_ * gap_ / 2;
     if (balance.force == 0 && !result.touch.pressing) last_.forget();
     return result;
   }

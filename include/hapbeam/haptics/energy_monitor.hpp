@@ -6,6 +6,8 @@
 // What the arm's own damping b and friction f have taken meanwhile, at least, is counted off, from a path shortened by
 // one step of the encoders, which may not have been travelled.  A beam gives back what pressing it has cost: at the
 // end of a contact W <= 0 where the loop is passive, and W > 0 is energy that the loop has generated.
+// Where the force comes in over a while (ForceGuard), a beam is pressed for less than it gives back: a share e of its energy U
+// that rises by de lends the hand U de.  That is known, bounded by U and no fault of the loop: it is counted off as well.
 // The controller adds -α v, α = W / (T v²), while W > 0: it takes back what has been generated within a period, with no
 // more damping than the arm has itself, which is what the sampling allows.
 // The force that comes of it goes through the guard like any other.
@@ -16,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Core>
@@ -46,6 +49,11 @@ class EnergyMonitor {
   /// W [J] of this contact: positive where the loop gave out more than it took.
   double net() const noexcept { return net_; }
 
+  /// As new.
+  void start() noexcept {
+    reset();
+    ended_ = 0;
+  }
   /// The hand has been moved by hand, so to speak: a contact that was is not judged.
   void reset() noexcept {
     net_ = 0;
@@ -59,7 +67,8 @@ class EnergyMonitor {
     std::move_backward(sent_.begin(), sent_.end() - 1, sent_.end());
     sent_[0] = sent;
     const Eigen::Vector3d held = sent_[static_cast<std::size_t>(delay_)];
-    const Eigen::Vector3d moved = known_ && position.allFinite() ? position - position_ : zero();
+    Eigen::Vector3d moved = known_ && position.allFinite() ? position - position_ : zero();
+    if (!(moved.norm() <= longest_step)) moved.setZero();
     if (position.allFinite()) position_ = position, known_ = true;
     if (held.isZero(0)) {
       end_contact();
@@ -68,8 +77,11 @@ class EnergyMonitor {
     const Eigen::Array3d way = (moved.array().abs() - step_).max(0.0);
     const double work = held.dot(moved);
     const double taken = damping_ * way.square().sum() / period_ + friction_ * way.sum();
-    if (std::isfinite(work)) net_ += work - taken;
+    add(work - taken);
   }
+
+  /// A share of the beam's energy that has come in [J]; what has gone out again is lost.
+  void lend(double energy) noexcept { add(-std::max(0.0, energy)); }
 
   /// What the controller adds [N].  @param velocity [m/s] as the device says
   Eigen::Vector3d dissipation(const Eigen::Vector3d& velocity) const noexcept {
@@ -81,8 +93,15 @@ class EnergyMonitor {
  private:
   static Eigen::Vector3d zero() noexcept { return Eigen::Vector3d::Zero(); }
 
+  static constexpr double longest_step = 10;  // [m] between two readings: longer is a fault, and no way
+
+  /// To the account, unless the sum is no number.
+  void add(double energy) noexcept {
+    if (std::isfinite(net_ + energy)) net_ += energy;
+  }
   void end_contact() noexcept {
-    ended_ += std::max(0.0, net_);
+    const double sum = ended_ + std::max(0.0, net_);
+    if (std::isfinite(sum)) ended_ = sum;
     net_ = 0;
   }
 

@@ -56,6 +56,9 @@ class ForceGuard {
   double heat() const noexcept { return heat_; }  ///< q, 0 cold to 1: the continuous force is all there is
   const Eigen::Vector3d& force() const noexcept { return force_; }  ///< [N] sent last
 
+  /// Share of the force that has come in, 0 to 1.
+  double engaged() const noexcept { return engaged_; }
+
   /// Zero, and engage anew.  The motors stay as warm as they are.
   void reset() noexcept {
     force_.setZero();

@@ -101,7 +101,9 @@ class Servo {
     const bool safe = is_answer(coupled.touch.status) || coupled.continued;
     Eigen::Vector3d force = options_.placement.device_force_of_beam(coupled.force);
     if (options_.dissipate && coupled.touch.pressing) force += energy_.dissipation(state.velocity);
+    const double engaged = guard_.engaged();
     const GuardedForce guarded = guard_.limit(force, state.time, safe);
+    energy_.lend((guard_.engaged() - engaged) * coupled.energy / options_.placement.scale());
     keep(state, coupled, guarded, safe);
     publish();
     times_.end();
@@ -112,6 +114,7 @@ class Servo {
   /// As new, but for the motors' heat.  While no tick runs.
   void reset() noexcept {
     release();
+    energy_.start();
     record_ = {};
     publish();
     times_.pause();
