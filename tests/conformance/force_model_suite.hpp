@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "conformance/touch_laws.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
@@ -147,6 +148,7 @@ void check_force_model(Make make) {
     Model fresh = make();
     CHECK(close(model.press(middle).force, fresh.press(middle).force));
   }
+  SECTION("what a touch remembers ends with its release") { check_touch(make, force_tolerance<Scalar>); }
   SECTION("reset goes back to the untouched shape") {
     Model untouched = make();
     for (const Press<Scalar>& press : presses) model.press(press);

@@ -1,0 +1,127 @@
+// What a touch owes to the hand, whichever model it presses: what it remembers ends with the release.
+//
+//   check_touch([] { return MyModel(...); });      within a SECTION of force_model_suite.hpp, so over every ForceModel
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/status.hpp"
+#include <hapbeam/contact/touch.hpp>
+
+namespace hapbeam::testing {
+
+/// A hand on one beam, and how often it has touched it.
+template <class Model>
+struct Stroke {
+  using Scalar = typename Model::Scalar;
+  using Vector = Vector2<Scalar>;
+
+  Touch<Model> touch;
+  Vector hand;
+  int begun = 0, ended = 0, ticks = 0;
+  bool pressing = false;
+  std::vector<Vector> forces;  ///< of every tick [N]
+
+  Stroke(Model& model, Scalar radius, const Vector& from) : touch(model, radius), hand(from) {
+    move(from, 1);
+  }
+
+  void move(const Vector& to, int steps) {
+    const Vector from = hand;
+    for (int k = 1; k <= steps; ++k) {
+      hand = from + (to - from) * (Scalar(k) / Scalar(steps));
+      const TouchResult<Scalar> result = touch.tick(hand);
+      begun += result.pressing && !pressing;
+      ended += pressing && !result.pressing;
+      pressing = result.pressing;
+      ++ticks;
+      forces.push_back(result.force);
+      INFO("tick " << ticks << ", hand at " << hand.x() << ", " << hand.y() << " m: " << name(result.status));
+      REQUIRE(result.force.allFinite());
+      if (!pressing) REQUIRE(result.force.isZero(0));
+    }
+  }
+};
+
+/// @param tolerance  of two forces of the same press, relative to the larger
+template <class Make, typename Scalar>
+void check_touch(Make make, Scalar tolerance) {
+  using Model = decltype(make());
+  using Vector = Vector2<Scalar>;
+  Model model = make();
+  const Range<Scalar> range = model.range();
+  const Scalar length = model.shape().length(), radius = length / 200, reach = radius + model.thickness() / 2;
+  const Scalar middle = (range.s_min + range.s_max) / 2, deep = range.depth_at(middle) / 2;
+
+  // Down, and up again: one beginning and one end, and the field after the release is that of a first contact.
+  for (const Scalar side : {Scalar(1), Scalar(-1)}) {
+    const Vector above(middle, side * 2 * reach), below(middle, side * (reach - deep));
+    const auto press = [&](Stroke<Model>& stroke) {
+      stroke.forces.clear();
+      stroke.move(below, 60);
+      stroke.move(above, 60);
+    };
+    Stroke<Model> again(model, radius, above);
+    press(again);
+    CHECK((again.begun == 1 && again.ended == 1));
+    again.move({middle, -above.y()}, 1);  // a step through the beam takes it along
+    CHECK(again.pressing);
+    again.move(above, 1);
+    CHECK_FALSE(again.pressing);
+    again.move({length + 4 * reach, above.y()}, 20);  // round its end, and back
+    again.move({length + 4 * reach, -above.y()}, 20);
+    again.move({middle, -above.y()}, 20);
+    CHECK(again.begun == 2);
+    again.move({length + 4 * reach, -above.y()}, 20);
+    again.move({length + 4 * reach, above.y()}, 20);
+    again.move(above, 20);
+    CHECK(again.begun == 2);
+    press(again);
+    CHECK((again.begun == 3 && again.ended == 3));
+    Model fresh = make();
+    Stroke<Model> first(fresh, radius, above);
+    press(first);
+    Scalar largest = 0, apart = 0;
+    for (std::size_t k = 0; k < first.forces.size(); ++k) {
+      largest = std::max(largest, first.forces[k].norm());
+      apart = std::max(apart, (first.forces[k] - again.forces[k]).norm());
+    }
+    CHECK(largest > 0);
+    CHECK(apart <= tolerance * largest);
+  }
+
+  // Slid off an end while it is bent: whoever comes back below it, however fast, is below a new beam.
+  for (const Scalar beyond : {Scalar(-4 * reach), length + 4 * reach}) {
+    Stroke<Model> stroke(model, radius, {middle, 2 * reach});
+    const Scalar low = -std::max(deep, 3 * reach);
+    stroke.move({middle, low}, 60);
+    CHECK(stroke.begun == 1);
+    stroke.move({beyond, low}, 200);
+    CHECK((stroke.begun == 1 && stroke.ended <= 1));
+    if (stroke.pressing) continue;  // pulled along round its support
+    stroke.move({middle, low}, 1);
+    CHECK(stroke.begun == 1);
+    stroke.move({middle, -reach / 2}, 60);
+    CHECK(stroke.begun == 2);
+    CHECK(stroke.forces.back().y() < 0);
+    stroke.touch.reset();  // forgets the side as well
+    CHECK_FALSE(stroke.touch.pressing());
+    stroke.pressing = false;
+    stroke.move({middle, low}, 1);
+    CHECK_FALSE(stroke.pressing);
+  }
+
+  // Led straight down past an end, as a hand slips off a ruler: at the most once, and then nothing more.
+  for (const Scalar x : {Scalar(0.12) * length, Scalar(0.9) * length}) {
+    Stroke<Model> stroke(model, radius, {x, 2 * reach});
+    stroke.move({x, -Scalar(0.7) * length}, 500);
+    INFO("led down at " << x << " m");
+    CHECK(stroke.begun == 1);
+    CHECK(stroke.ended <= 1);
+  }
+}
+
+}  // namespace hapbeam::testing
