@@ -2,8 +2,9 @@
 //
 // The centreline is to lie on the tangent of the circle with radius `reach` around the avatar's centre, at the point where
 // the two touch: one push along the normal there.  The beam slides along that tangent while it yields, so the point is
-// sought again on the new shape; what it is off by shrinks to a few percent with each push.  The way that it went in the
-// two ticks before is continued for a first guess, so that a smooth motion takes one push.
+// sought again on the new shape; what it is off by shrinks to a few percent with each push.  Where the beam bends about as
+// sharply as the circle that would grow instead of shrinking: the third push follows the secant through the first two.  The
+// way that it went in the two ticks before is continued for a first guess, so that a smooth motion takes one push.
 // At an end the normal is the way from the end point to the avatar's centre.
 // Real-time: noexcept, no allocation; at most most_pushes pushes, which share the model's work for one.
 #pragma once
@@ -35,6 +36,7 @@ class PushContact {
     const Scalar length = model.shape().length(), side = static_cast<Scalar>(contact.side), first = contact.s;
     Scalar s = std::clamp(first + (2 * slid_ - before_), Scalar(0), length);
     Foot foot(model, s, position, side);
+    Secant secant;
     bool snapped = false;  // in any of the pushes
     for (int pushed = 1;; ++pushed) {
       const Vector2<Scalar> normal = foot.normal;
@@ -63,12 +65,45 @@ class PushContact {
         const Status status = snapped && response.status == Status::ok ? Status::snapped : response.status;
         return {Hold::pressing, -response.force, lost ? Status::iteration_limit : status};
       }
-      s = std::clamp(s + foot.ahead, Scalar(0), length);
+      const Aim next = secant.after({s + foot.ahead, foot.normal},
+                                    {foot.ahead, reach * cross(normal, foot.normal)}, pushed > 1);
+      s = std::clamp(next.s, Scalar(0), length);
       foot = Foot(model, s, position, side);
+      if (!foot.at_end) foot.normal = next.normal;
     }
   }
 
  private:
+  /// Where a push goes.
+  struct Aim {
+    Scalar s;                // [m]
+    Vector2<Scalar> normal;  // unit
+  };
+
+  /// The search for x = g(x), of x = (s, normal), from the last two images g and the residuals g - x: Anderson's mixing
+  /// of depth one (J. ACM 12(4), 1965).
+  class Secant {
+   public:
+    Aim after(const Aim& image, const Vector2<Scalar>& residual, bool known) noexcept {
+      const Vector2<Scalar> change = residual - residual_;
+      Scalar share = known ? residual.dot(change) / change.squaredNorm() : Scalar(0);
+      if (!(std::abs(share) < most_share)) share = 0;
+      Aim next = image;
+      if (share != 0) {
+        next.s -= share * (image.s - image_.s);
+        next.normal = (image.normal - share * (image.normal - image_.normal)).normalized();
+      }
+      image_ = image;
+      residual_ = residual;
+      return next;
+    }
+
+   private:
+    static constexpr Scalar most_share = 2;  // of the last step that is taken back or taken again
+    Aim image_{0, {0, 1}};
+    Vector2<Scalar> residual_{0, 0};
+  };
+
   /// The centreline at s, and the avatar's centre seen from there.
   struct Foot {
     Vector2<Scalar> point, normal, offset;  // [m], unit, [m] from the point to the avatar's centre

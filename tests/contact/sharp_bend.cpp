@@ -1,0 +1,65 @@
+// A circle in a bend that is about as sharp as itself: it may touch at two points, and one is all that is looked for.
+#include <cmath>
+
+#include "support/catch.hpp"
+#include "support/status.hpp"
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+using namespace hapbeam;
+
+namespace {
+
+using Vector = Vector2<double>;
+using Turning = FemModel<Corotational<>>;
+
+/// Largest change of the force in a tick, over the force [-].
+struct Hand {
+  Touch<Turning>& touch;
+  Vector at;
+  double step;
+  Vector force = {0, 0};
+  int ticks = 0, pressing = 0, lost = 0;
+  double go(const Vector& to) {
+    const Vector from = at;
+    const int steps = static_cast<int>(std::ceil((to - from).norm() / step));
+    double largest = 0;
+    for (int k = 1; k <= steps; ++k) {
+      at = from + (to - from) * (double(k) / steps);
+      const TouchResult<double> result = touch.tick(at);
+      ++ticks, pressing += result.pressing, lost += result.status == Status::iteration_limit;
+      if (force.norm() > 0) largest = std::max(largest, (result.force - force).norm() / result.force.norm());
+      force = result.force;
+    }
+    return largest;
+  }
+};
+
+}  // namespace
+
+// A beam between hinges stretches, so F goes with d³ at the most: a step δ explains a change of 3 δ/d, and what slides
+// changes it less.  Twice that is allowed down; along the beam a mesh of 32 elements adds its own steps at the nodes.
+TEST_CASE("the force stays continuous where a beam bends more sharply than the circle that presses it",
+          "[push]") {
+  const double length = 1, height = 0.01;
+  const Beam beam(length, Section::rectangle(0.02, height), Material{200e9}, Support::pinned,
+                  Support::pinned);
+  for (const double radius : {0.005, 0.02, 0.05}) {
+    Turning model(beam, 32);
+    Touch<Turning> touch(model, radius);
+    const double top = radius + height / 2, step = 4e-4;
+    (void)touch.tick({0.5, top + 0.001});
+    Hand hand{touch, {0.5, top + 0.001}, step};
+    hand.go({0.5, top - 0.1});
+    CAPTURE(radius);
+    const int before = hand.ticks;
+    CHECK(hand.go({0.5, top - 0.25}) <= 2 * 3 * step / 0.1);
+    CHECK(hand.go({0.42, top - 0.25}) <= 0.01);
+    CHECK(hand.go({0.45, top - 0.08}) <= 2 * 3 * step / 0.08);
+    CHECK(hand.ticks - before > 900);
+    CHECK(touch.pressing());
+    CHECK(hand.ticks - hand.pressing <= 3);
+    if (radius == 0.005) CHECK(hand.lost <= 10);  // nowhere as sharp as that
+  }
+}
