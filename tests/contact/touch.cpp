@@ -313,6 +313,25 @@ TEST_CASE("an avatar without a size is taken, one with an impossible size is not
     CHECK_THROWS_WITH(Touch<Model>(model, bad), Catch::Matchers::ContainsSubstring("avatar_radius"));
 }
 
+TEST_CASE("an avatar beyond a thousand lengths of the beam is refused, and one of that size stays finite") {
+  Model model(Ends::simply_supported);
+  ClosedFormBeam<float> single(Ends::simply_supported);
+  CHECK_THROWS_WITH(Touch<Model>(model, 1e200),
+                    Catch::Matchers::ContainsSubstring("avatar_radius = 1e+200 m: must be 0 to 1000 m"));
+  CHECK_THROWS_AS(Touch<ClosedFormBeam<float>>(single, 1e20f), std::invalid_argument);
+  const auto press = [](auto touch, auto one) {
+    using Scalar = decltype(one);
+    for (const double y : {1.5e3, 1e3, 999.5, 0.0, -1e3, 1e18, -1e18})
+      for (const double x : {0.5, 0.999, 1e3, -1e18}) {
+        const auto r = touch.tick({static_cast<Scalar>(x), static_cast<Scalar>(y)});
+        REQUIRE(r.force.allFinite());
+        REQUIRE(r.contact.normal.allFinite());
+      }
+  };
+  press(Touch<Model>(model, 1e3), 1.0);
+  press(Touch<ClosedFormBeam<float>>(single, 1e3f), 1.0f);
+}
+
 TEST_CASE("a tick cannot throw") {
   STATIC_REQUIRE(noexcept(std::declval<Touch<Model>&>().tick(std::declval<const Vector&>())));
   STATIC_REQUIRE(noexcept(std::declval<Touch<Model>&>().reset()));

@@ -81,6 +81,8 @@ TEST_CASE("a beam that lies along the user's depth is pressed from above", "[pla
 TEST_CASE("what is no placement is refused by name", "[placement]") {
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double scale : {1e-300, 9e-7, 1.1e6, 1e200, -1.0})
+    CHECK_THROWS_WITH(Placement(one, {0, 0, 0}, scale), ContainsSubstring("must be 1e-6 to 1e6"));
   CHECK_THROWS_WITH(Placement(one, {0, 0, 0}, 0), ContainsSubstring("placement scale = 0"));
   CHECK_THROWS_WITH(Placement(one, {0, nan, 0}), ContainsSubstring("placement origin = nan m"));
   CHECK_THROWS_WITH(Placement(1.001 * one, {0, 0, 0}), ContainsSubstring("placement rotation"));

@@ -8,8 +8,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
-#include <string>
 #include <type_traits>
 
 #include <hapbeam/contact/find_contact.hpp>
@@ -42,12 +42,18 @@ class Touch {
   using Scalar = typename Model::Scalar;
 
   /// @param model   kept by reference   @param avatar_radius  [m]
-  /// Allocates.   @throws std::invalid_argument unless avatar_radius is finite and not negative
+  /// Allocates.   @throws std::invalid_argument unless avatar_radius is 0 to most_radius lengths of the beam
   Touch(Model& model, Scalar avatar_radius)
       : model_(model), avatar_radius_(avatar_radius), volumes_(model.shape().segments()) {
-    if (!(avatar_radius >= 0 && std::isfinite(avatar_radius)))
-      throw std::invalid_argument("avatar_radius = " + std::to_string(avatar_radius) +
-                                  " m: must be finite and not negative");
+    const double radius = static_cast<double>(avatar_radius);
+    const double largest = most_radius * static_cast<double>(model.shape().length());
+    if (!(radius >= 0 && radius <= largest)) {
+      char text[128];
+      std::snprintf(text, sizeof text,
+                    "avatar_radius = %g m: must be 0 to %g m, a thousand lengths of the beam", radius,
+                    largest);
+      throw std::invalid_argument(text);
+    }
     reset();
   }
 
@@ -118,6 +124,9 @@ class Touch {
         .touching;
   }
 
+  /// Of the avatar's radius, in lengths of the beam.  Seen from the beam a larger disc is a plane, and in `float` the depth
+  /// of a bend is lost in the round-off of its radius.
+  static constexpr double most_radius = 1000;
   /// Ticks since the last answer in which the model may have no force either.  After them the touch is over.
   static constexpr int patience = 20;
 

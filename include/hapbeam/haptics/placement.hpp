@@ -31,10 +31,12 @@ class Placement {
 
   /// @param rotation  3×3, the device's axes in the scene's, orthonormal and right-handed to 1e-9
   /// @param origin    [m] where the device's origin lies in the scene
-  /// @param scale     [m/m] of the scene for the device, positive
+  /// @param scale     [m/m] of the scene for the device, 1e-6 to 1e6
   /// @throws std::invalid_argument naming field, value, unit and what is allowed
   Placement(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& origin, double scale = 1)
-      : turn_(rotation), origin_(origin), scale_(detail::positive("placement scale", scale, "m/m")) {
+      : turn_(rotation), origin_(origin), scale_(scale) {
+    if (!(scale >= 1e-6 && scale <= 1e6))
+      detail::reject("placement scale", scale, "m/m", "1e-6 to 1e6: a hand's centimetres are 10 nm to 10 km");
     const double skew = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
     if (!(skew <= 1e-9))
       detail::reject("placement rotation, |R R^T - 1|", skew, "", "an orthonormal matrix, at most 1e-9");
@@ -46,7 +48,7 @@ class Placement {
   }
 
   /// The beam lies along the device's x, its w along the device's y.
-  /// @param origin  [m] x along the beam and w where the device's origin lies   @param scale  [m/m] positive
+  /// @param origin  [m] x along the beam and w where the device's origin lies   @param scale  [m/m] 1e-6 to 1e6
   static Placement in_plane(const Vector2<double>& origin, double scale = 1) {
     return Placement(Eigen::Matrix3d::Identity(), {origin.x(), origin.y(), 0}, scale);
   }
