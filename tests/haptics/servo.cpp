@@ -204,6 +204,40 @@ TEST_CASE("states that no device should give: finite, within the peak, and over 
   }
 }
 
+// A coupled hand led past the tip of a ruler, and then in and out at random.
+TEST_CASE("where the record says free nothing is sent, and a ruler that slips off was touched once",
+          "[servo]") {
+  using Turning = FemModel<Corotational<>>;
+  const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{206.84e9}, Support::clamped,
+                   Support::free);
+  for (const double x : {0.15, 0.18, 0.2, 0.22, 0.24, 0.25, 0.26, 0.27, 0.28, 0.285, 0.29}) {
+    Turning model(ruler, 16);
+    ServoOptions options;
+    Servo<Turning> servo(model, phantom(), options);
+    int tick = 0;
+    const auto to = [&](double along, double y) {
+      DeviceState now = state(y, tick++);
+      now.position.x() = along;
+      const Vector force = servo.tick(now);
+      CAPTURE(x, y, name(servo.record().status));
+      if (servo.record().status == LoopStatus::free) REQUIRE(force.isZero(0));
+      if (!servo.record().pressing) REQUIRE(force.isZero(0));
+    };
+    for (int i = 0; i < 210; ++i) to(x, 0.02);
+    for (double y = 0.02; y > -0.35; y -= 2e-4) to(x, y);
+    CHECK(servo.record().touches == 1);
+    CHECK(servo.record().max_force > 5);
+    CHECK_FALSE(servo.record().pressing);
+    Random random(5);
+    double along = x, y = -0.35;
+    for (int way = 0; way < 10; ++way) {
+      const double next_along = random(0.05, 0.33), next_y = random(0.1);
+      for (int i = 1; i <= 100; ++i) to(along + (next_along - along) * i / 100, y + (next_y - y) * i / 100);
+      along = next_along, y = next_y;
+    }
+  }
+}
+
 // The arm takes nothing here, so that each joule is counted; the sample-and-hold gives K δ² N, K the series.
 TEST_CASE("pressing while the force comes in lends energy, and the record counts none as generated",
           "[servo]") {
