@@ -29,7 +29,8 @@ class PushContact {
 
   void begin(const Contact<Scalar>&) noexcept { slid_ = before_ = 0; }
 
-  /// As PressContact::hold(); contact comes back as it is on the new shape.
+  /// As PressContact::hold(); contact comes back as it is on the new shape.  out_of_range: the circle touches at two points,
+  /// and force and shape are those of one.
   template <class Model>
   Held<Scalar> hold(Model& model, Contact<Scalar>& contact, const Vector2<Scalar>& position, Scalar reach,
                     bool, Press<Scalar>& asked) noexcept {
@@ -62,7 +63,9 @@ class PushContact {
         contact.normal = foot.normal;
         contact.point = foot.point + foot.normal * (model.thickness() / 2);
         contact.past_end = foot.at_end;
-        const Status status = snapped && response.status == Status::ok ? Status::snapped : response.status;
+        Status status = snapped && response.status == Status::ok ? Status::snapped : response.status;
+        if (status == Status::ok && !foot.at_end && pinched(model.shape(), s, position, reach))
+          status = Status::out_of_range;
         return {Hold::pressing, -response.force, lost ? Status::iteration_limit : status};
       }
       const Aim next = secant.after({s + foot.ahead, foot.normal},
@@ -103,6 +106,17 @@ class PushContact {
     Aim image_{0, {0, 1}};
     Vector2<Scalar> residual_{0, 0};
   };
+
+  /// Whether the beam beside s lies within the circle, because it bends more sharply there and touches at two points.
+  static bool pinched(const Centreline<Scalar>& line, Scalar s, const Vector2<Scalar>& position,
+                      Scalar reach) noexcept {
+    for (const Scalar way : {-reach / 2, reach / 2}) {
+      const Scalar beside = std::clamp(s + way, Scalar(0), line.length());
+      const Displacement<Scalar> at = line.at(beside);
+      if ((position - Vector2<Scalar>(beside + at.u, at.w)).norm() < (1 - far) * reach) return true;
+    }
+    return false;
+  }
 
   /// The centreline at s, and the avatar's centre seen from there.
   struct Foot {
