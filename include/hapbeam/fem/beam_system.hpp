@@ -7,6 +7,7 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -115,7 +116,16 @@ class BeamSystem {
     const auto change = [this](int i) { return increment(i); };
     if constexpr (any_rotation<Element>) {
       if (contact_.node() < 0) {
-        detail::lay_chain<Element, Scalar>(beam_.nodes(), beam_.properties(), change);
+        // Prescribed increments answer 0; a chain that ended where they were would share them out a second time.
+        const auto with_ends = [this](int i) {
+          Vector3<Scalar> x = increment(i);
+          for (std::size_t k = 0; k < 2; ++k)
+            if (i == end(k))
+              ends_[k].visit(node(i),
+                             [&x](int component, Scalar now, Scalar target) { x[component] = target - now; });
+          return x;
+        };
+        detail::lay_chain<Element, Scalar>(beam_.nodes(), beam_.properties(), with_ends);
         detail::close_chain(beam_.nodes(), ends_[0], ends_[1]);
         return place();
       }
@@ -132,6 +142,15 @@ class BeamSystem {
   void nudge(Scalar size) noexcept {
     const int c = contact_.node();
     detail::nudge(beam_.nodes(), c < 0 ? Scalar(-1) : node(c).s, size);
+  }
+
+  // What LoadPath asks beyond that.
+
+  /// Largest rotation of a node in the last increment [rad].
+  Scalar turn() const noexcept {
+    Scalar largest = 0;
+    for (int i = 0; i <= elements(); ++i) largest = std::max(largest, std::abs(assembler_.increment(i)[2]));
+    return largest;
   }
 
   // What ArcLength asks beyond that.
