@@ -1,5 +1,6 @@
-// Complete elliptic integrals by the arithmetic-geometric mean, and the buckled elastica in closed form with them.
-// Source: Abramowitz and Stegun, 17.6; Timoshenko and Gere, Theory of Elastic Stability, 2.7.
+// Elliptic integrals by the arithmetic-geometric mean, and with them the buckled elastica and that under a tip load.
+// Source: Abramowitz and Stegun, 17.6; Timoshenko and Gere, Theory of Elastic Stability, 2.7; Bisshopp and Drucker, Large
+// deflection of cantilever beams, Quart. Appl. Math. 3 (1945).
 #pragma once
 
 #include <cmath>
@@ -23,6 +24,33 @@ struct CompleteElliptic {
     E = K * (1 - sum);
   }
 };
+
+/// ∫(1 - k² sin² t)^-½ dt from 0 to phi, which is at most a quarter.
+inline double incomplete_elliptic(double k, double phi) {
+  double a = 1, b = std::sqrt((1 - k) * (1 + k)), c = k, weight = 1;
+  const double pi = std::acos(-1.0);
+  while (std::abs(c) > 1e-16) {
+    phi += std::atan(b / a * std::tan(phi)) + pi * std::floor(phi / pi + 0.5);
+    const double mean = (a + b) / 2;
+    c = (a - b) / 2;
+    b = std::sqrt(a * b);
+    a = mean;
+    weight *= 2;
+  }
+  return phi / (weight * a);
+}
+
+/// Slope angle of the tip of an inextensible cantilever under a dead load P across its end, on the branch that begins where
+/// P is zero: √α = K(k) - F(k, φ), k² = (1 + sin θ)/2, k sin φ = √½.  @param alpha  PL²/EI
+inline double cantilever_tip_slope(double alpha) {
+  double low = 0, high = std::acos(-1.0) / 2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2, k = std::sqrt((1 + std::sin(middle)) / 2);
+    const double root = CompleteElliptic(k).K - incomplete_elliptic(k, std::asin(std::sqrt(0.5) / k));
+    (root * root < alpha ? low : high) = middle;
+  }
+  return low;
+}
 
 /// The inextensible beam whose ends, both hinged or both clamped, have been moved together by `shortening` lengths.
 struct BuckledElastica {

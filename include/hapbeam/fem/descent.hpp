@@ -30,16 +30,17 @@ struct Descent {
   double largest_shift = 1e9;  ///< where no step goes down, there is none
   double enough = 1e-3;  ///< [rad] a step of Newton's no larger, as √(ΔᵀKΔ L/EI), leaves the rest to it
 
-  /// Goes down from where the system is, at the end of its path.
-  /// @param solves  in and out: linear solves, counted on   @return whether it has come near a stable equilibrium
+  /// Goes down from where the system is.
+  /// @param solves  in and out: linear solves, counted on   @param t  position on the system's path, its end
+  /// @return whether it has come near a stable equilibrium
   template <class System>
-  bool solve(System& system, int& solves) const noexcept {
+  bool solve(System& system, int& solves, typename System::Scalar t = 1) const noexcept {
     using S = typename System::Scalar;
     // Round-off, of a potential and, where a beam without stress has none, of its shape.
     const S slack = 100 * std::numeric_limits<S>::epsilon(),
             nothing = S(1e-4 * enough * enough) * system.unit() * system.unit();
     S shift = S(first_shift), good = shift, bad = 0, least = std::numeric_limits<S>::max();
-    system.set_target(1);
+    system.set_target(t);
     system.save();
     bool stepped = false;
     for (const int last = solves + max_solves; solves < last;) {

@@ -21,11 +21,13 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/descent.hpp>
+#include <hapbeam/fem/load_path.hpp>
 
 namespace hapbeam {
 
@@ -41,7 +43,8 @@ class FemModel {
   using Scalar = ScalarType;
   using ElementType = Element;
 
-  /// Builds the beam and finds its shape at rest, under its dead loads alone.  Look at rest() for how that went.
+  /// Builds the beam and finds its shape at rest, the one that it reaches when its dead loads rise from nothing.  Look at
+  /// rest() for how that went.
   /// @param elements two to most_elements(beam)   @throws std::invalid_argument naming field, value and what is allowed
   FemModel(const Beam& beam, int elements, const Solver& solver = {})
       : system_(beam, at_most(most_elements(beam), elements)),
@@ -54,7 +57,7 @@ class FemModel {
         right_yields_(!fixes_w(beam.right())),
         single_valued_(beam.straight()) {
     find_range(beam);
-    find_rest();
+    find_rest(beam);
     for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
     home_ = middle();
   }
@@ -141,7 +144,9 @@ class FemModel {
     falling_ = descending_ = false;
   }
 
-  /// How the search for the shape under the dead loads ended.
+  /// How the search for the shape under the dead loads ended: ok | snapped, where the branch on which the beam was ended
+  /// before the loads had risen to their size, and rest() is the stable shape to which it then falls | iteration_limit,
+  /// singular, non_finite, where there is none and no press is answered.
   const SolveReport<Scalar>& rest() const noexcept { return rest_; }
   /// How the last press ended: linear solves, load steps, estimated increment.
   const SolveReport<Scalar>& report() const noexcept { return report_; }
@@ -179,27 +184,44 @@ class FemModel {
   /// Where the middle of the beam is [m].
   Scalar middle() const noexcept { return shape().at(system_.length() / 2).w; }
 
-  /// The shape under the dead loads alone; where that is no stable one, the nearest that is, on the upper side.  Where
-  /// Newton's method loses its way, which slender beams with a hinge that stand aside make it do, down from its start.
-  void find_rest() noexcept {
-    const auto aim = [this] { system_.set_goal(); };
-    aim();
-    rest_ = solver_.solve(system_);
-    while (rest_.status == Status::iteration_limit && (rest_.steps > 0 || rest_.step < 1)) {
-      const int solves = rest_.solves;
-      aim();
-      rest_ = solver_.solve(system_, rest_.step);
-      rest_.solves += solves;
+  /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
+  /// the model computes in: round-off would hide which way a branch goes on.
+  void find_rest(const Beam& beam) {
+    if constexpr (std::is_same_v<Scalar, double>) {
+      follow_loads(system_);
+    } else {
+      BeamSystem<Element, double, Elements, MaxElements, Assembler> exact(beam, elements());
+      follow_loads(exact);
+      for (int i = 0; i <= elements(); ++i)
+        rest_nodes_[i] = {uniform_.position(i), static_cast<Scalar>(exact.node(i).u),
+                          static_cast<Scalar>(exact.node(i).w), static_cast<Scalar>(exact.node(i).theta)};
+      system_.set_state(uniform_, rest_nodes_.data());
+      system_.set_goal();
+      system_.set_target(1);
+      // Whether so many elements can be told apart in this scalar at all.
+      const Status status = system_.factor(0);
+      if (status != Status::ok) rest_.status = status;
     }
     report_ = rest_;
-    const bool lost = report_.status == Status::iteration_limit;
-    if (!lost && !gives_way()) return;
-    single_valued_ = false;
-    Descent patient;
-    patient.max_solves = 10000;
-    fall(!lost, patient, aim);
-    if (report_.status == Status::snapped) report_.status = Status::ok;
-    rest_ = report_;
+  }
+
+  template <class System>
+  void follow_loads(System& system) noexcept {
+    system.set_goal();
+    const auto path = LoadPath{}.solve(system);
+    auto last = path.report;
+    if (is_answer(last.status)) {
+      system.set_goal();
+      last = solver_.solve(system);
+      last.solves += path.report.solves;
+      last.steps = path.report.steps;
+      // A beam that is nearly free of stress has no digits beyond those of its path.
+      if (last.status == Status::ok || last.status == Status::iteration_limit)
+        last.status = path.report.status;
+    }
+    single_valued_ = single_valued_ && !path.fell;
+    rest_ = {last.status,          last.solves,        last.steps,
+             Scalar(last.reached), Scalar(last.error), Scalar(last.step)};
   }
 
   /// Whether the equilibrium that was found is none to stay at.  The last tangent is that of the state before the last
@@ -259,7 +281,7 @@ class FemModel {
     report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
     if (!finite || !isfinite(request.s) || request.s < 0 || request.s > system_.length())
       return {0, Status::invalid_request};
-    if (rest_.status != Status::ok) return {0, rest_.status};
+    if (!is_answer(rest_.status)) return {0, rest_.status};
     if (left_ <= 0) return {system_.linear_reaction(), report_.status = Status::iteration_limit};
     const auto along = [&](const Displacement<Scalar>& at) {
       return request.normal.x() * at.u + request.normal.y() * at.w;

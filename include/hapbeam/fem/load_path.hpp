@@ -1,0 +1,153 @@
+// The branch of equilibria that a beam follows while its loads rise and its ends are moved, from nothing to their full size.
+//
+// Newton's method under the full load finds an equilibrium, but not always that of the branch: a cantilever under PL²/EI = 15
+// may end with its tip turned the other way round.  So each step along the path has to show that it has stayed on the branch.
+// Its first increment is the predictor, the others are corrections.  A correction may turn no node by more than half of what
+// the one before turned any, nor by more than a quarter of a radian; else the step is taken back and cut.  A path without
+// bend is one step, however far it goes: a beam that hardly turns, a cantilever that a moment rolls up.
+//
+// Where the branch ends or gives way, the beam falls to a stable shape just beyond, and the path goes on from there.  It has
+// snapped if that shape is another under the load before, too: a column that has buckled goes back.
+//
+//   expression of a system, beyond those of Descent
+//   -----------------------   ------------------------------------------------------------------------
+//   s.turn()                  largest rotation of a node in the last increment [rad]
+//   s.nudge(a)                moves it by about a [m] off an equilibrium that gives way
+//
+// Offline: noexcept and without allocation where the system's members are; at most max_solves linear solves and those of
+// a few Descents.
+// Source: Den Heijer and Rheinboldt, On steplength algorithms for a class of continuation methods, SIAM J. Numer. Anal. 18
+// (1981), for steps that contraction sizes.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <hapbeam/fem/descent.hpp>
+#include <hapbeam/fem/newton_raphson.hpp>
+
+namespace hapbeam {
+
+/// Where a path has led.
+template <typename Scalar>
+struct PathEnd {
+  SolveReport<Scalar> report;  ///< ok | snapped, where the beam has jumped on the way | iteration_limit
+  bool fell;                   ///< whether the branch ended or gave way
+};
+
+struct LoadPath {
+  int max_solves = 10000;
+  int max_iterations = 12;           ///< per step
+  double largest_correction = 0.25;  ///< [rad]
+  double nothing = 1e-6;             ///< [rad] a rotation that is round-off
+  double resolution = 1e-5;          ///< how closely the end of a branch is found, of the load there
+  double fork = 1e-2;  ///< the same where it gives way: nearer to that nothing drives the beam aside
+  double jump = 1e-5;  ///< energy set free, of EI/L, that says that it has jumped
+
+  /// Goes from the start of the system's path to its end.
+  template <class System>
+  auto solve(System& system) const noexcept -> PathEnd<typename System::Scalar> {
+    using S = typename System::Scalar;
+    PathEnd<S> end{{Status::iteration_limit, 0, 0, 0, 0, 1}, false};
+    SolveReport<S>& report = end.report;
+    S &t = report.reached, step = 1, beyond = 0;
+    bool snapped = false;
+    system.save();
+    while (t < 1) {
+      if (report.solves > max_solves) return end;
+      const S to = std::min(t + step, S(1));
+      const Step<S> made = go(system, to, report.solves);
+      if (made.stays) {
+        t = to;
+        step *= 2;
+        ++report.steps;
+        system.save();
+        continue;
+      }
+      system.restore();
+      step = made.shorter * (to - t);
+      const S closely = S(made.gives_way ? fork : resolution), here = std::max(t, closely);
+      if (step > closely * here) continue;
+      // The branch ends here.  At t = 0 it has not begun: a beam that is bowed to begin with is in no equilibrium.
+      if (t > 0) beyond = std::max(4 * beyond, 4 * closely);
+      const S past = std::min(t + beyond * here, S(1)), before = potential(system, t, report.solves);
+      if (t == 0) beyond = closely;
+      end.fell = true;
+      const auto fall = [&](S at) {
+        if (made.gives_way) system.nudge(system.length() / 1000);
+        return descend(system, at, report.solves);
+      };
+      if (!fall(past)) return end;
+      if (t > 0) {
+        if (!descend(system, t, report.solves)) return end;
+        if (before - potential(system, t, report.solves) > S(jump) * system.unit() * system.unit())
+          snapped = true;
+        else if (!fall(past)) return end;
+        else t = past;
+      }
+      system.save();
+      step = t > 0 ? beyond * here : S(1);
+    }
+    report.status = snapped ? Status::snapped : Status::ok;
+    return end;
+  }
+
+ private:
+  template <typename S>
+  struct Step {
+    bool stays;      ///< on the branch, and that is stable
+    bool gives_way;  ///< on the branch, and that is not stable
+    S shorter;       ///< part of the step that would stay
+  };
+
+  template <class System, typename S = typename System::Scalar>
+  Step<S> go(System& system, S t, int& solves) const noexcept {
+    constexpr Step<S> lost{false, false, S(0.25)};
+    const S enough = t < 1 ? S(1e-4) : S(1e-5);
+    system.set_target(t);
+    S first = 0, before = 0;
+    for (int k = 0; k < max_iterations; ++k) {
+      ++solves;
+      if (system.factor(0) != Status::ok) return lost;
+      const S turn = system.turn();
+      if (!std::isfinite(turn)) return lost;
+      const bool done = turn <= std::max(k == 0 ? S(0) : enough * first, S(nothing));
+      if (k > 0 && !done) {
+        const S excess = std::max(2 * turn / before, turn / S(largest_correction));
+        if (excess > 1) return {false, false, std::max(S(0.5) / excess, S(0.01))};
+      }
+      system.advance();
+      if (done) return stable(system, solves, k) ? Step<S>{true, false, 1} : Step<S>{false, true, S(0.25)};
+      if (k == 0) first = turn;
+      before = turn;
+    }
+    return lost;
+  }
+
+  /// The last tangent is that of the state before the last increment.  Where it has a negative pivot, or that increment was the
+  /// whole step, a second look decides.
+  template <class System>
+  static bool stable(System& system, int& solves, int corrections) noexcept {
+    if (corrections > 0 && system.negative_pivots() == 0) return true;
+    ++solves;
+    return system.factor(0) == Status::ok && system.negative_pivots() == 0;
+  }
+
+  template <class System, typename S = typename System::Scalar>
+  bool descend(System& system, S t, int& solves) const noexcept {
+    Descent patient;
+    patient.max_solves = max_solves;
+    patient.largest_shift = 1e14;
+    return patient.solve(system, solves, t);
+  }
+
+  template <class System, typename S = typename System::Scalar>
+  static S potential(System& system, S t, int& solves) noexcept {
+    ++solves;
+    system.set_target(t);
+    system.factor(0);
+    return system.potential();
+  }
+};
+
+}  // namespace hapbeam
