@@ -39,6 +39,22 @@ int negative_pivots_under(Beam beam, int elements, double load) {
   return system.factor(0) == Status::ok ? system.negative_pivots() : 1;
 }
 
+/// The same under a dead load along all of the beam, down on it, on a mesh with a node at s.
+template <class Element>
+int negative_pivots_of_weight(Beam beam, int elements, double s, double load) {
+  System<Element> system(beam.axial(-load / L), elements);
+  const ContactMesh<double> mesh = ContactMesh<double>(elements, L).at(s);
+  std::vector<CentrelineNode<double>> nodes;
+  for (int i = 0; i <= elements; ++i) nodes.push_back({mesh.position(i), 0, 0, 0});
+  system.set_state(mesh, nodes.data());
+  system.set_load(1);
+  for (int k = 0; k < 4; ++k) {
+    if (system.factor(0) != Status::ok) return 1;
+    system.advance();
+  }
+  return system.factor(0) == Status::ok ? system.negative_pivots() : 1;
+}
+
 /// Where a count goes from 0 to 1, between low and high.
 template <class Count>
 double first_event(Count&& count, double low, double high) {
@@ -93,6 +109,25 @@ TEMPLATE_TEST_CASE("Euler's load of columns under a dead load", "[buckling]", Co
                       0.9 * euler, 1.1 * euler);
       CAPTURE(name(column.left), name(column.right), elements, load, euler);
       CHECK(relative_error(load, euler) <= 1.05 * cubic + 2 * euler / EA);
+    }
+}
+
+// A mast under its own weight: J(-1/3) of 2/3 √(f L³/EI) is zero.  Source: Greenhill, Determination of the greatest height
+// consistent with stability, Proc. Cambridge Phil. Soc. 4 (1881).  Nodes at a hand move the mesh away from the load's forces, which then
+// act inside elements.
+TEMPLATE_TEST_CASE("the weight that buckles a mast is met with fourth order, wherever the nodes are",
+                   "[buckling]", Corotational<>, VonKarman<>) {
+  const double exact = 7.837347439, EA = 1e8;
+  const Beam mast(L, EA, EI, 0.001, Support::clamped, Support::free);
+  for (const double s : {0.5, 0.37, 0.62, 0.81})
+    for (const int elements : {4, 8, 16, 32}) {
+      const double load =
+          first_event([&](double f) { return negative_pivots_of_weight<TestType>(mast, elements, s, f); },
+                      0.8 * exact, 1.2 * exact);
+      const double longest =
+          L * std::max(s / std::round(s * elements), (1 - s) / (elements - std::round(s * elements)));
+      CAPTURE(s, elements, load);
+      CHECK(relative_error(load, exact) <= 0.1 * std::pow(longest, 4) + 2 * exact / EA);  // of 0.05
     }
 }
 

@@ -9,6 +9,7 @@
 //   E::tangent(p, d, r, K)     S        V, r as above and K = ∂r/∂d, symmetric, both triangles, overwritten
 //   E::name()                  const char*
 //   E::any_rotation            bool, true: right at any rotation; may be left out, which says no
+//   E::membrane_feels_slope    bool, true: ε holds ½ w'², and an axial load on the element bends it; may be left out, too
 //
 // with p an ElementProperties<S>.  An element is stateless: static functions, templated on the scalar S.
 // Real-time: no allocation, noexcept, O(1).

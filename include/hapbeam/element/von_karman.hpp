@@ -14,6 +14,7 @@ namespace hapbeam {
 /// @tparam Membrane  FullIntegration | ReducedIntegration | AssumedStrain
 template <class Membrane = AssumedStrain>
 struct VonKarman : detail::ElementFromCore<VonKarman<Membrane>> {
+  static constexpr bool membrane_feels_slope = true;
   static constexpr const char* name() noexcept { return Membrane::name(); }
 
   template <typename S>

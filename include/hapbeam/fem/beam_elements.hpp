@@ -104,8 +104,8 @@ class BeamElements {
   Scalar subtract_loads(int e, Scalar lambda, const Vector6<Scalar>& d, Vector6<Scalar>& r,
                         Matrix6<Scalar>* K) const noexcept {
     if (lambda == 0 || loads_.empty()) return 0;
-    return loads_.template subtract<any_rotation<Element>>(nodes_[e].s, nodes_[e + 1].s, e + 1 == size(),
-                                                           lambda, properties_[e], d, r, K);
+    return loads_.template subtract<Element>(nodes_[e].s, nodes_[e + 1].s, e + 1 == size(), lambda,
+                                             properties_[e], d, r, K);
   }
 
   void take(const ContactMesh<Scalar>& mesh) noexcept {
