@@ -43,14 +43,14 @@ Vector2<double> point(const CubicSegment<double>& b, double t) {
 
 }  // namespace
 
-TEST_CASE("pieces meet in the node, with its tangent and a third of their length", "[centreline]") {
+TEST_CASE("pieces meet in the node, with its tangent and a third of how long they are now", "[centreline]") {
   Random random(91);
   for (int trial = 0; trial < 50; ++trial) {
     const Nodes nodes = ragged(random);
     const Centreline<double> line = view(nodes);
     for (int i = 0; i < line.segments(); ++i) {
       const CubicSegment<double> b = line.segment(i);
-      const double third = (line[i + 1].s - line[i].s) / 3;
+      const double third = (b.col(1) - b.col(0)).norm(), chord = (b.col(3) - b.col(0)).norm();
       const auto tangent = [](const CentrelineNode<double>& node) {
         return Vector2<double>(std::cos(node.theta), -std::sin(node.theta));
       };
@@ -59,6 +59,7 @@ TEST_CASE("pieces meet in the node, with its tangent and a third of their length
       };
       CHECK((b.col(0) - place(line[i])).norm() == 0);
       CHECK((b.col(3) - place(line[i + 1])).norm() == 0);
+      CHECK(3 * third >= chord);
       CHECK((b.col(1) - b.col(0) - third * tangent(line[i])).norm() <= 16 * eps);
       CHECK((b.col(3) - b.col(2) - third * tangent(line[i + 1])).norm() <= 16 * eps);
     }
@@ -118,6 +119,37 @@ TEST_CASE("against a circle of three turns the curve is off by k³h⁴/384 and i
   }
   CHECK(observed_order(places[0], places[1]) >= 3.8);
   CHECK(observed_order(places[1], places[2]) >= 3.8);
+}
+
+// A circle that is stretched evenly is a larger one, whose points keep their arc positions.
+TEST_CASE(
+    "the curve of a stretched circle is off by fourth order, too, and a stretched straight one by nothing",
+    "[centreline]") {
+  const double length = 2, k = 3 * 2 * pi / length;
+  for (const double stretch : {-0.05, 0.002, 0.1, 0.5}) {
+    std::vector<double> places;
+    for (const int segments : {24, 48, 96}) {
+      Nodes nodes = circle(segments, length, k);
+      for (auto& node : nodes) node.u += stretch * (node.s + node.u), node.w *= 1 + stretch;
+      const Centreline<double> line = view(nodes);
+      double place = 0;
+      for (int j = 0; j <= 2000; ++j) {
+        const double s = length * j / 2000;
+        const Displacement<double> at = line.at(s);
+        place = std::max(place, std::hypot(s + at.u - (1 + stretch) * std::sin(k * s) / k,
+                                           at.w - (1 + stretch) * (std::cos(k * s) - 1) / k));
+      }
+      places.push_back(place);
+    }
+    CAPTURE(stretch, places[0], places[1], places[2]);
+    const double h = length / 24;
+    CHECK(places[0] <= (1 + stretch) * std::pow(k, 3) * std::pow(h, 4) / 384 * (1 + k * h * k * h));
+    CHECK(observed_order(places[0], places[1]) >= 3.8);
+    CHECK(observed_order(places[1], places[2]) >= 3.8);
+
+    const Nodes straight = {{0, 0, 0, 0}, {0.3, 0.3 * stretch, 0, 0}, {1, stretch, 0, 0}};
+    for (double s = 0; s <= 1; s += 1. / 64) CHECK(std::abs(view(straight).at(s).u - stretch * s) <= 4 * eps);
+  }
 }
 
 // The angle between nodes is that of the tangent; a finite difference of the curve knows it up to whole turns, with h²/6

@@ -4,8 +4,9 @@
 // contact and drawing see one kind of curve.  Which cubic depends on the kinematics of the model:
 //   moderate rotation   u is linear, w takes both nodes' displacement and slope (thesis eq. 3.17): exactly the curve
 //                       that the elements compute with
-//   any rotation        the ends' tangents are (cos θ, -sin θ) and a third of the piece's length long: smooth at
-//                       nodes, and off by fourth order in the length
+//   any rotation        the ends' tangents are (cos θ, -sin θ) and a third as long as the piece is now, stretched and bent:
+//                       its direction is continuous at nodes.  Its error is of fourth order in the length l of a piece that
+//                       stretches evenly; where the strain varies along it, by ε', l² ε'/8 along the beam is added
 // No allocation, noexcept, O(1) but for the search of the piece, which is O(log n).
 #pragma once
 
@@ -110,13 +111,28 @@ class Centreline {
   CubicSegment<Scalar> segment(int i, const Vector2<Scalar>& from, const Vector2<Scalar>& to) const noexcept {
     const Node& a = nodes_[i];
     const Node& b = nodes_[i + 1];
-    const Scalar third = (b.s - a.s) / 3, x0 = a.s + a.u, x3 = b.s + b.u, dx = (x3 - x0) / 3;
+    const Scalar x0 = a.s + a.u, x3 = b.s + b.u, dx = (x3 - x0) / 3;
+    const Scalar third = (any_rotation_ ? arc({x3 - x0, b.w - a.w}, from, to) : b.s - a.s) / 3;
     CubicSegment<Scalar> control;
     control.col(0) = Vector2<Scalar>(x0, a.w);
     control.col(1) = Vector2<Scalar>(x0 + (any_rotation_ ? third * from.x() : dx), a.w + third * from.y());
     control.col(2) = Vector2<Scalar>(x3 - (any_rotation_ ? third * to.x() : dx), b.w - third * to.y());
     control.col(3) = Vector2<Scalar>(x3, b.w);
     return control;
+  }
+
+  /// Length of a piece, from its chord c and the angles α, β of its ends against it:  c (1 + m + 7m²/10) with
+  /// m = (2α² - αβ + 2β²)/30, as the elements have it; the last term is that of a circle.  sin + sin³/6 stands for an angle.
+  static Scalar arc(const Vector2<Scalar>& chord, const Vector2<Scalar>& from,
+                    const Vector2<Scalar>& to) noexcept {
+    using std::sqrt;
+    const Scalar c = sqrt(chord.squaredNorm()), i = c > 0 ? 1 / c : Scalar(0);
+    const auto angle = [&](const Vector2<Scalar>& v) {
+      const Scalar sine = (chord.x() * v.y() - chord.y() * v.x()) * i;
+      return sine * (1 + sine * sine / 6);
+    };
+    const Scalar p = angle(from), q = angle(to), m = (2 * (p * p + q * q) - p * q) / 30;
+    return c * (1 + m * (1 + Scalar(0.7) * m));
   }
 
   /// θ is the angle of the tangent, in the turn in which the piece begins.
