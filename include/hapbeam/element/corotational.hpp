@@ -25,7 +25,11 @@ namespace hapbeam {
 
 /// @tparam Local  Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain>
 template <class Local = VonKarman<AssumedStrain>>
-struct Corotational : detail::ElementFromCore<Corotational<Local>> {
+struct Corotational : ElementFromCore<Corotational<Local>> {
+  static_assert(
+      responds_to_deformation<Local, double>,
+      "a Local element needs static noexcept respond(const ElementProperties<S>&, const Deformation<S>&) -> "
+      "CoreResponse<S> and name() -> const char*: see hapbeam/element/corotational.hpp");
   static constexpr bool any_rotation = true;
   static constexpr const char* name() noexcept {
     if constexpr (std::is_same_v<Local, Linear>) return "corotational-linear";
@@ -35,11 +39,11 @@ struct Corotational : detail::ElementFromCore<Corotational<Local>> {
   }
 
   template <typename S>
-  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                                                const Vector6<S>& d) noexcept {
+  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                        const Vector6<S>& d) noexcept {
     const Chord<S> chord(p, d);
     const S L = p.length, i = 1 / chord.length, c = chord.x * i, s = chord.w * i;
-    const detail::CoreResponse<S> q = Local::respond(p, chord.local(p, d));
+    const CoreResponse<S> q = Local::respond(p, chord.local(p, d));
     // By α: L times the sums over both ends, because the core is in Lθ.
     const S h = L * i, M = h * (q.t1 + q.t2), a1 = h * (q.k.t11 + q.k.t12), a2 = h * (q.k.t12 + q.k.t22);
     const S ez = h * (q.k.s1 + q.k.s2) - M * i, zz = h * (a1 + a2) + q.s * i, ss = q.k.ss;
@@ -67,11 +71,11 @@ struct Corotational : detail::ElementFromCore<Corotational<Local>> {
     const Chord<S> chord(p, d);
     const S L = p.length, i = 1 / chord.length, dx = x[3] - x[0], dw = x[4] - x[1];
     const S extends = (chord.x * dx + chord.w * dw) * i, turns = (chord.x * dw - chord.w * dx) * i * i;
-    const detail::Deformation<S> before = chord.local(p, d);
+    const Deformation<S> before = chord.local(p, d);
     const S da = L * (x[2] + turns), db = L * (x[5] + turns);
-    const detail::CoreResponse<S> q = Local::respond(p, before);
+    const CoreResponse<S> q = Local::respond(p, before);
     const S foreseen = q.s + q.k.ss * extends + q.k.s1 * da + q.k.s2 * db;
-    const detail::Deformation<S> after(before.stretch + extends, before.a + da, before.b + db);
+    const Deformation<S> after(before.stretch + extends, before.a + da, before.b + db);
     const S grows = extends + (foreseen - Local::respond(p, after).s) / q.k.ss;
     // (l + grows) e(α + turns) - l e(α), with e(α + turns) - e(α) = 2 sin(turns/2) z(α + turns/2)
     const S half = turns / 2, middle = chord.angle + half, bow = 2 * chord.length * sin(half),
@@ -111,7 +115,7 @@ struct Corotational : detail::ElementFromCore<Corotational<Local>> {
       angle = atan(w, x);
       angle -= turn * nearbyint((angle + (d[2] + d[5]) / 2) * (1 / turn));
     }
-    detail::Deformation<S> local(const ElementProperties<S>& p, const Vector6<S>& d) const noexcept {
+    Deformation<S> local(const ElementProperties<S>& p, const Vector6<S>& d) const noexcept {
       return {stretch, p.length * (d[2] + angle), p.length * (d[5] + angle)};
     }
   };

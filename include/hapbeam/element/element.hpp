@@ -50,34 +50,6 @@ struct ElementProperties {
   Scalar natural_b = 0;            ///< the same at end 2 [m]
 };
 
-namespace detail {
-
-template <typename E, typename S, typename = void>
-struct IsElement : std::false_type {};
-
-template <typename E, typename S>
-struct IsElement<
-    E, S,
-    std::void_t<
-        decltype(E::name()),
-        std::enable_if_t<noexcept(E::energy(
-            std::declval<const ElementProperties<S>&>(),
-            std::declval<const Vector6<
-                S>&>()))&& noexcept(E::
-                                        residual(
-                                            std::declval<const ElementProperties<S>&>(),
-                                            std::declval<const Vector6<S>&>(),
-                                            std::declval<Vector6<
-                                                S>&>()))&& noexcept(E::
-                                                                        tangent(
-                                                                            std::declval<
-                                                                                const ElementProperties<
-                                                                                    S>&>(),
-                                                                            std::declval<const Vector6<S>&>(),
-                                                                            std::declval<Vector6<S>&>(),
-                                                                            std::declval<Matrix6<S>&>()))>>>
-    : std::true_type {};
-
 /// Strains of one element in coordinates that a rigid translation does not change.
 template <typename S>
 struct Deformation {
@@ -107,6 +79,8 @@ struct CoreResponse {
   CoreTangent<S> k;  ///< [N/m]
 };
 
+namespace detail {
+
 /// Residual from its core: ∂V/∂(stretch, rise, lθ1, lθ2) [N].
 template <typename S>
 [[gnu::always_inline]] inline void expand(const ElementProperties<S>& p, S s, S r, S t1, S t2,
@@ -130,6 +104,8 @@ template <typename S>
   std::copy(std::begin(entries), std::end(entries), K.data());
 }
 
+}  // namespace detail
+
 /// What runs once an element and iteration is inlined by intent ([[gnu::always_inline]], here and in the elements): left to
 /// itself, g++ -O2 makes calls of it, whose results go through memory and take a quarter of the tick.
 ///
@@ -145,17 +121,59 @@ struct ElementFromCore {
   template <typename S>
   static void residual(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r) noexcept {
     const CoreResponse<S> c = E::respond(p, d);
-    expand(p, c.s, c.r, c.t1, c.t2, r);
+    detail::expand(p, c.s, c.r, c.t1, c.t2, r);
   }
   template <typename S>
   [[gnu::always_inline]] static S tangent(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r,
                                           Matrix6<S>& K) noexcept {
     const CoreResponse<S> c = E::respond(p, d);
-    expand(p, c.s, c.r, c.t1, c.t2, r);
-    expand(p, c.k, K);
+    detail::expand(p, c.s, c.r, c.t1, c.t2, r);
+    detail::expand(p, c.k, K);
     return c.energy;
   }
 };
+
+namespace detail {
+
+template <typename E, typename S, typename = void>
+struct IsElement : std::false_type {};
+
+template <typename E, typename S>
+struct IsElement<
+    E, S,
+    std::void_t<
+        decltype(E::name()),
+        std::enable_if_t<noexcept(E::energy(
+            std::declval<const ElementProperties<S>&>(),
+            std::declval<const Vector6<
+                S>&>()))&& noexcept(E::
+                                        residual(
+                                            std::declval<const ElementProperties<S>&>(),
+                                            std::declval<const Vector6<S>&>(),
+                                            std::declval<Vector6<
+                                                S>&>()))&& noexcept(E::
+                                                                        tangent(
+                                                                            std::declval<
+                                                                                const ElementProperties<
+                                                                                    S>&>(),
+                                                                            std::declval<const Vector6<S>&>(),
+                                                                            std::declval<Vector6<S>&>(),
+                                                                            std::declval<Matrix6<S>&>()))>>>
+    : std::true_type {};
+
+template <typename L, typename S, typename = void>
+struct RespondsToDeformation : std::false_type {};
+template <typename L, typename S>
+struct RespondsToDeformation<L, S,
+                             std::void_t<decltype(L::respond(std::declval<const ElementProperties<S>&>(),
+                                                             std::declval<const Deformation<S>&>())),
+                                         decltype(L::name())>>
+    : std::bool_constant<noexcept(L::respond(std::declval<const ElementProperties<S>&>(),
+                                             std::declval<const Deformation<S>&>())) &&
+                         std::is_same_v<decltype(L::respond(std::declval<const ElementProperties<S>&>(),
+                                                            std::declval<const Deformation<S>&>())),
+                                        CoreResponse<S>> &&
+                         std::is_convertible_v<decltype(L::name()), const char*>> {};
 
 template <class E, typename = void>
 struct AnyRotation : std::false_type {};
@@ -163,6 +181,11 @@ template <class E>
 struct AnyRotation<E, std::void_t<decltype(E::any_rotation)>> : std::bool_constant<E::any_rotation> {};
 
 }  // namespace detail
+
+/// True where L has what an element needs of its membrane policy, and an element of any rotation of its local element:
+///   L::respond(const ElementProperties<S>&, const Deformation<S>&) noexcept -> CoreResponse<S>,   L::name() -> const char*
+template <typename L, typename S>
+inline constexpr bool responds_to_deformation = detail::RespondsToDeformation<L, S>::value;
 
 /// True where E says that it is right at any rotation.
 template <class E>

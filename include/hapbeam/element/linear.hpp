@@ -34,22 +34,22 @@ template <typename S>
 
 }  // namespace detail
 
-struct Linear : detail::ElementFromCore<Linear> {
+struct Linear : ElementFromCore<Linear> {
   static constexpr const char* name() noexcept { return "linear"; }
 
   template <typename S>
-  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                                                const detail::Deformation<S>& e) noexcept {
+  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                        const Deformation<S>& e) noexcept {
     const S normal = p.axial_per_length * e.stretch;
-    detail::CoreResponse<S> core{
+    CoreResponse<S> core{
         normal * e.stretch / 2, normal, 0, 0, 0, {p.axial_per_length, 0, 0, 0, 0, 0, 0, 0, 0, 0}};
     detail::add_bending(p, e, core);
     return core;
   }
   template <typename S>
-  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                                                const Vector6<S>& d) noexcept {
-    return respond(p, detail::Deformation<S>(p, d));
+  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                        const Vector6<S>& d) noexcept {
+    return respond(p, Deformation<S>(p, d));
   }
 };
 

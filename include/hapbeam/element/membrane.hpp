@@ -5,7 +5,13 @@
 // u' is constant over the element and w'² is not.  FullIntegration takes that difference for strain energy and
 // locks; ReducedIntegration looks at the middle alone; AssumedStrain takes the mean of ε over the element,
 // which is the constant membrane force that equilibrium asks for.  Each answers with energy, first and second
-// derivatives in the coordinates (stretch, rise, lθ1, lθ2).
+// derivatives in the coordinates (stretch, rise, lθ1, lθ2), which is all that a policy has to have:
+//
+//   expression             type                promise
+//   --------------------   -----------------   -----------------------------------------------------------------
+//   M::respond(p, e)       CoreResponse<S>     of an ElementProperties<S> and a Deformation<S>; static, noexcept
+//   M::name()              const char*
+//
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
 
@@ -55,8 +61,8 @@ template <typename S>
 struct FullIntegration {
   static constexpr const char* name() noexcept { return "full"; }
   template <typename S>
-  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                                                const detail::Deformation<S>& e) noexcept {
+  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                        const Deformation<S>& e) noexcept {
     return detail::sum(detail::at_gauss_point(p, e, S(0.21132486540518711775), S(0.5)),
                        detail::at_gauss_point(p, e, S(0.78867513459481288225), S(0.5)));
   }
@@ -66,8 +72,8 @@ struct FullIntegration {
 struct ReducedIntegration {
   static constexpr const char* name() noexcept { return "reduced"; }
   template <typename S>
-  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                                                const detail::Deformation<S>& e) noexcept {
+  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                        const Deformation<S>& e) noexcept {
     return detail::at_gauss_point(p, e, S(0.5), S(1));
   }
 };
@@ -76,8 +82,8 @@ struct ReducedIntegration {
 struct AssumedStrain {
   static constexpr const char* name() noexcept { return "assumed-strain"; }
   template <typename S>
-  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                                                const detail::Deformation<S>& e) noexcept {
+  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                        const Deformation<S>& e) noexcept {
     const S i = p.inverse_length;
     // g = ½ ∂(l² mean w'²)/∂(rise, lθ1, lθ2)
     const S g1 = (4 * e.a - e.b) * S(1. / 30), g2 = (4 * e.b - e.a) * S(1. / 30), gr = e.rise + g1 + g2;

@@ -11,23 +11,27 @@
 
 namespace hapbeam {
 
-/// @tparam Membrane  FullIntegration | ReducedIntegration | AssumedStrain
+/// @tparam Membrane  FullIntegration | ReducedIntegration | AssumedStrain, or one of your own: membrane.hpp
 template <class Membrane = AssumedStrain>
-struct VonKarman : detail::ElementFromCore<VonKarman<Membrane>> {
+struct VonKarman : ElementFromCore<VonKarman<Membrane>> {
+  static_assert(responds_to_deformation<Membrane, double>,
+                "a Membrane policy needs static noexcept respond(const ElementProperties<S>&, const "
+                "Deformation<S>&) -> "
+                "CoreResponse<S> and name() -> const char*: see hapbeam/element/membrane.hpp");
   static constexpr bool membrane_feels_slope = true;
   static constexpr const char* name() noexcept { return Membrane::name(); }
 
   template <typename S>
-  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                                                const detail::Deformation<S>& e) noexcept {
-    detail::CoreResponse<S> core = Membrane::respond(p, e);
+  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                        const Deformation<S>& e) noexcept {
+    CoreResponse<S> core = Membrane::respond(p, e);
     detail::add_bending(p, e, core);
     return core;
   }
   template <typename S>
-  [[gnu::always_inline]] static detail::CoreResponse<S> respond(const ElementProperties<S>& p,
-                                                                const Vector6<S>& d) noexcept {
-    return respond(p, detail::Deformation<S>(p, d));
+  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                        const Vector6<S>& d) noexcept {
+    return respond(p, Deformation<S>(p, d));
   }
 };
 

@@ -146,7 +146,7 @@ Scalar subtract_moderate_load(const PointForce<Scalar>& load, Scalar t, Scalar l
       return work;
     }
     const detail::Bow<S> bow(t);
-    const detail::Deformation<S> e(p, d);
+    const Deformation<S> e(p, d);
     // -l v = g1 a + g2 b, and θ = c1 a + c2 b - rise over l
     const S u = 1 - t, g1 = t * u * u, g2 = -t * t * u, i = p.inverse_length;
     const S c1 = u * (1 - 3 * t), c2 = t * (3 * t - 2), cr = c1 + c2 - 1;
