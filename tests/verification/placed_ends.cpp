@@ -125,6 +125,41 @@ TEST_CASE("an inclined strip buckles as the level one does, to its own upper sid
     }
 }
 
+// The figures of docs/limits.md.  F/d = N / (ab/L - sinh ka sinh kb / (k sinh kL)), k² = N/EI, a and b from the hand to the
+// hinges; tension makes the beam longer by 1e-5 of itself, which is what the formula leaves out.
+TEMPLATE_TEST_CASE("shallow presses of a tensioned beam are met where elements resolve its boundary layer",
+                   "[placed]", VonKarman<>, Corotational<>) {
+  struct Row {
+    double euler_loads, error[4];
+    int enough;
+  };
+  for (const Row& row :
+       {Row{1, {3e-5, 2e-5, 2e-5, 2e-5}, 4}, Row{10, {1.3e-3, 8e-5, 2e-5, 2e-5}, 9},
+        Row{100, {0.019, 2.6e-3, 2.3e-4, 2e-5}, 26}, Row{1000, {0.049, 0.019, 3.3e-3, 4.5e-4}, 50},
+        Row{10000, {0.07, 0.045, 0.015, 4.3e-3}, 112}}) {
+    const double N = row.euler_loads * pi * pi * EI, EA = 1e5 * N, k = std::sqrt(N / EI);
+    const auto worst = [&](int elements) {
+      Beam beam(L, EA, EI, 0.01, Support::pinned, Support::pinned);
+      FemModel<TestType> model(tensioned(beam, N), elements);
+      double error = 0;
+      for (const double a : {0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.63, 0.77, 0.94}) {
+        const double b = L - a, d = 1e-6;
+        const double bent =
+            (1 - std::exp(-2 * k * a)) * (1 - std::exp(-2 * k * b)) / (1 - std::exp(-2 * k * L)) / 2;
+        const Response<double> response = model.press({a, d});
+        REQUIRE(response.status == Status::ok);
+        error = std::max(error, relative_error(response.force, d * N / (a * b / L - bent / k)));
+      }
+      return error;
+    };
+    for (int j = 0; j < 4; ++j) {
+      CAPTURE(row.euler_loads, 8 << j);
+      CHECK(worst(8 << j) <= row.error[j]);
+    }
+    CHECK(worst(row.enough) <= 1e-3);
+  }
+}
+
 // The ends move while the nodes between them follow: where the strain of all elements together is more than one element is
 // long, n δ/L > 1, ends that come after would turn the last element inside out.
 TEMPLATE_TEST_CASE("stretched as far as it likes a beam rests straight and even, whatever its mesh",
