@@ -166,7 +166,7 @@ TEST_CASE("the force comes in by a straight ramp, and the servo is told what was
   HdWorld world;
   auto& phantom = world.plug("one", HandPath({0, 0}).rest(1));
   LockStepHdapi device;
-  Push push;
+  SteadyPush push;
   push.force = {0.3, 1, -2};
   device.start(push);
   for (int i = 0; i <= 600; ++i) {
@@ -192,7 +192,7 @@ TEST_CASE("whatever a servo asks for, what is sent is finite and within the limi
   const double peak = std::min(37.5, options.force_limit);
   CHECK(device.info().peak_force == peak);
   CHECK(device.info().continuous_force == std::min(6.2, options.force_limit));
-  Push push;
+  SteadyPush push;
   device.start(push);
   world.run(2);
   for (const double bad : {not_a_number, inf, -inf}) {

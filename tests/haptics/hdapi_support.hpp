@@ -22,7 +22,7 @@ struct Floor {
 };
 
 /// Always the same force.
-struct Push {
+struct SteadyPush {
   Eigen::Vector3d force{0, 1, 0};
   DeviceState last{};
   std::uint64_t calls = 0;
