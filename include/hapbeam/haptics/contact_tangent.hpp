@@ -35,7 +35,7 @@ class ContactTangent {
 
   /// f0 - k n·(p - p0), below zero too where p lies outside; 0 while nothing is known.  @param place [m]   @return [N]
   double force_at(const Vector2<double>& place) const noexcept {
-    return known_ ? force_ - stiffness_ * normal_.dot(place - place_) : 0;
+    return known_ ? force_ - stiffness_ * normal_.dot(way(place)) : 0;
   }
 
   /// The beam is touched no more.
@@ -46,7 +46,7 @@ class ContactTangent {
   /// @param depth [m] of the penetration that the first touch ended
   void learn(const Vector2<double>& place, const Vector2<double>& force, double depth) noexcept {
     const double size = force.norm();
-    const Vector2<double> normal = force / size;
+    const Vector2<double> normal(force.x() / size, force.y() / size);
     if (known_) follow(place, normal, size);
     else energy_ = size * std::max(depth, least_depth) / 2;
     known_ = true;
@@ -68,10 +68,15 @@ class ContactTangent {
   static constexpr double least_depth = 1e-12;  // [m]
   static constexpr double rigid = 1e12;         // [N/m]
 
+  /// From the last good response to a place [m].
+  Vector2<double> way(const Vector2<double>& place) const noexcept {
+    return {place.x() - place_.x(), place.y() - place_.y()};
+  }
+
   void follow(const Vector2<double>& place, const Vector2<double>& normal, double force) noexcept {
-    const Vector2<double> step = place - place_;
-    const double work = -(normal * force + normal_ * force_).dot(step) / 2;
-    const double deeper = -normal.dot(step), along = (step + deeper * normal).norm();
+    const Vector2<double> step = way(place);
+    const double deeper = -normal.dot(step), work = (force * deeper - force_ * normal_.dot(step)) / 2;
+    const double along = std::abs(normal.x() * step.y() - normal.y() * step.x());
     const double expected = stiffness_ * deeper, change = force - force_, ratio = change / expected;
     const bool agrees = ratio > least_ratio && ratio < most_ratio;
     const double noise = along > std::abs(deeper) ? slide : loud;
@@ -94,7 +99,7 @@ class ContactTangent {
   }
 
   bool known_ = false;
-  Vector2<double> place_ = Vector2<double>::Zero(), normal_ = Vector2<double>::UnitY();
+  Vector2<double> place_{0, 0}, normal_{0, 1};
   double force_ = 0;      // f0 [N]
   double stiffness_ = 0;  // k [N/m]
   double energy_ = 0;     // U [J]

@@ -24,6 +24,7 @@
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -111,21 +112,29 @@ struct DeviceCounts {
   std::uint64_t force_cut_ticks = 0;  ///< the servo's force was not sent as it was
 };
 
+namespace detail {
+
+inline bool all_finite(const Eigen::Vector3d& v) noexcept {
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+}  // namespace detail
+
 /// The force that a device may send: finite and no longer than its peak.
 /// @param force  in: what the servo wants, out: what may be sent [N]   @param peak [N]
 /// Real-time: no allocation, noexcept, wait-free, O(1).
 [[nodiscard]] inline ForceCut limit_force(Eigen::Vector3d& force, double peak) noexcept {
-  if (!force.allFinite()) {
+  if (!detail::all_finite(force)) {
     force.setZero();
     return ForceCut::not_finite;
   }
   // In units of the largest component, whose square may overflow.
-  const double largest = force.cwiseAbs().maxCoeff();
+  const double largest = std::max({std::abs(force[0]), std::abs(force[1]), std::abs(force[2])});
   if (largest == 0) return ForceCut::none;
-  const Eigen::Vector3d direction = force / largest;
+  const Eigen::Vector3d direction(force[0] / largest, force[1] / largest, force[2] / largest);
   const double allowed = peak / direction.norm();
   if (!(largest > allowed)) return ForceCut::none;
-  force = direction * allowed;
+  for (int i = 0; i < 3; ++i) force[i] = direction[i] * allowed;
   return ForceCut::peak;
 }
 

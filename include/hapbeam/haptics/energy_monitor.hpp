@@ -67,14 +67,15 @@ class EnergyMonitor {
     std::move_backward(sent_.begin(), sent_.end() - 1, sent_.end());
     sent_[0] = sent;
     const Eigen::Vector3d held = sent_[static_cast<std::size_t>(delay_)];
-    Eigen::Vector3d moved = known_ && position.allFinite() ? position - position_ : zero();
+    const bool finite = detail::all_finite(position);
+    Eigen::Vector3d moved = known_ && finite ? position - position_ : zero();
     if (!(moved.norm() <= longest_step)) moved.setZero();
-    if (position.allFinite()) position_ = position, known_ = true;
+    if (finite) position_ = position, known_ = true;
     if (held.isZero(0)) {
       end_contact();
       return;
     }
-    const Eigen::Array3d way = (moved.array().abs() - step_).max(0.0);
+    const Eigen::Array3d way(moved_along(moved[0]), moved_along(moved[1]), moved_along(moved[2]));
     const double work = held.dot(moved);
     const double taken = damping_ * way.square().sum() / period_ + friction_ * way.sum();
     add(work - taken);
@@ -91,6 +92,8 @@ class EnergyMonitor {
   }
 
  private:
+  /// The least that the arm has moved along an axis where it was read to have moved so far.
+  double moved_along(double moved) const noexcept { return std::max(std::abs(moved) - step_, 0.0); }
   static Eigen::Vector3d zero() noexcept { return Eigen::Vector3d::Zero(); }
 
   static constexpr double longest_step = 10;  // [m] between two readings: longer is a fault, and no way

@@ -69,7 +69,7 @@ class ForceGuard {
   GuardedForce limit(const Eigen::Vector3d& wanted, double time, bool safe) noexcept {
     const double dt = step(time);
     if (dt > o_.longest_pause) reset();
-    if (!safe || !wanted.allFinite()) {
+    if (!safe || !detail::all_finite(wanted)) {
       reset();
       return {force_, false, true};
     }
@@ -108,10 +108,11 @@ class ForceGuard {
   bool limit_growth(Eigen::Vector3d& force, double most) const noexcept {
     const double size = force_.squaredNorm();
     const double along = size > 0 ? std::clamp(force.dot(force_) / size, 0.0, 1.0) : 0;
-    const Eigen::Vector3d from = along * force_, growth = force - from;
+    const Eigen::Vector3d from = along * force_;
+    const Eigen::Vector3d growth(force[0] - from[0], force[1] - from[1], force[2] - from[2]);
     const double length = growth.norm();
     if (!(length > most)) return false;
-    force = from + growth * (most / length);
+    for (int i = 0; i < 3; ++i) force[i] = from[i] + growth[i] * (most / length);
     return true;
   }
 

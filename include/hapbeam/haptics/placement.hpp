@@ -37,7 +37,13 @@ class Placement {
       : turn_(rotation), origin_(origin), scale_(scale) {
     if (!(scale >= 1e-6 && scale <= 1e6))
       detail::reject("placement scale", scale, "m/m", "1e-6 to 1e6: a hand's centimetres are 10 nm to 10 km");
-    const double skew = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
+    double skew = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const double product = rotation(i, 0) * rotation(k, 0) + rotation(i, 1) * rotation(k, 1) +
+                               rotation(i, 2) * rotation(k, 2);
+        skew = std::hypot(skew, product - (i == k));
+      }
     if (!(skew <= 1e-9))
       detail::reject("placement rotation, |R R^T - 1|", skew, "", "an orthonormal matrix, at most 1e-9");
     // The product of the first two axes is the third, or its opposite where the axes are left-handed.
@@ -59,29 +65,33 @@ class Placement {
 
   /// @param device [m]   @return [m]
   Eigen::Vector3d scene_position(const Eigen::Vector3d& device) const noexcept {
-    return origin_ + scale_ * (turn_ * device);
+    const Eigen::Vector3d scene = scene_velocity(device);
+    return {origin_[0] + scene[0], origin_[1] + scene[1], origin_[2] + scene[2]};
   }
   /// @param device [m/s]   @return [m/s]
   Eigen::Vector3d scene_velocity(const Eigen::Vector3d& device) const noexcept {
-    return scale_ * (turn_ * device);
+    return {scale_ * turned(0, device), scale_ * turned(1, device), scale_ * turned(2, device)};
   }
   /// Where the hand has to be to be there in the scene.  @param scene [m]   @return [m]
   Eigen::Vector3d device_position(const Eigen::Vector3d& scene) const noexcept {
-    return turn_.transpose() * (scene - origin_) / scale_;
+    return device_force({(scene[0] - origin_[0]) / scale_, (scene[1] - origin_[1]) / scale_,
+                         (scene[2] - origin_[2]) / scale_});
   }
   /// @param scene [N] on the hand   @return [N] on the hand
   Eigen::Vector3d device_force(const Eigen::Vector3d& scene) const noexcept {
-    return turn_.transpose() * scene;
+    return {turned_back(0, scene), turned_back(1, scene), turned_back(2, scene)};
   }
 
   /// In the plane of the beam: what the hand does across that plane is not seen.
   /// @param device [m]   @return [m] x, w
   Vector2<double> beam_position(const Eigen::Vector3d& device) const noexcept {
-    return scene_position(device).head<2>();
+    const Eigen::Vector3d scene = scene_position(device);
+    return {scene[0], scene[1]};
   }
   /// @param device [m/s]   @return [m/s] along x and w
   Vector2<double> beam_velocity(const Eigen::Vector3d& device) const noexcept {
-    return scene_velocity(device).head<2>();
+    const Eigen::Vector3d scene = scene_velocity(device);
+    return {scene[0], scene[1]};
   }
   /// @param beam [N] on the hand, along x and w; nothing across the plane   @return [N] on the hand
   Eigen::Vector3d device_force_of_beam(const Vector2<double>& beam) const noexcept {
@@ -89,6 +99,14 @@ class Placement {
   }
 
  private:
+  // Rows of R v and Rᵀ v, by hand: as products of Eigen's they cost each file that includes this more than the rest of it.
+  double turned(int row, const Eigen::Vector3d& v) const noexcept {
+    return turn_(row, 0) * v[0] + turn_(row, 1) * v[1] + turn_(row, 2) * v[2];
+  }
+  double turned_back(int row, const Eigen::Vector3d& v) const noexcept {
+    return turn_(0, row) * v[0] + turn_(1, row) * v[1] + turn_(2, row) * v[2];
+  }
+
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double scale_ = 1;
