@@ -241,6 +241,22 @@ function flags(  k, c, f, title, text) {
   }
 }
 
+# What a file costs the compiler, dearest first: the README's programs or the headers.
+function compile_times(programs,  k, j, n, order, t) {
+  for (k = 1; k <= rows; ++k) if ((cell[k, "file"] ~ /^README/) == programs) order[++n] = k
+  for (k = 2; k <= n; ++k)
+    for (j = k; j > 1 && cell[order[j], "of_eigen"] + 0 > cell[order[j - 1], "of_eigen"] + 0; --j) {
+      t = order[j]; order[j] = order[j - 1]; order[j - 1] = t
+    }
+  line(programs ? "program" : "header", "seconds", "of `<Eigen/Core>`")
+  rule(3)
+  for (k = 1; k <= n; ++k) {
+    t = cell[order[k], "file"]
+    sub(/^hapbeam\//, "", t)
+    line(programs ? t : "`" t "`", cell[order[k], "seconds"], cell[order[k], "of_eigen"])
+  }
+}
+
 END {
   if (table == "machine") print head "."
   else if (table == "scenes") scenes()
@@ -255,6 +271,8 @@ END {
   else if (table == "stability") stability()
   else if (table == "chosen") chosen()
   else if (table == "flags") flags()
+  else if (table == "compiled_headers") compile_times(0)
+  else if (table == "compiled_programs") compile_times(1)
   else {
     print "no table " table >"/dev/stderr"
     exit 1
