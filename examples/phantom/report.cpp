@@ -27,7 +27,7 @@ void print_trained(const Options& o, const Trained& t) {
   std::printf(", up to %g mm deep\n", t.depth * 1e3);
   if (errors.presses > 0)
     std::printf("error    force within %.1e (95 %%: %.1e), shape within %.1e of %s, on %d presses\n",
-                errors.force_max, errors.force_p95, errors.shape_max, t.errors.reference.c_str(),
+                t.errors.force_bound, errors.force_p95, errors.shape_max, t.errors.reference.c_str(),
                 errors.presses);
   else std::printf("error    none is stated in the file\n");
   if (o.guarded)
@@ -168,7 +168,7 @@ std::string json(const Run& run) {
         .add("stated_presses", errors.presses)
         .add("stated_force_error_median", stated ? errors.force_median : unknown)
         .add("stated_force_error_p95", stated ? errors.force_p95 : unknown)
-        .add("stated_force_error_max", stated ? errors.force_max : unknown)
+        .add("stated_force_error_max", stated ? t->errors.force_bound : unknown)
         .add("stated_shape_error_max", stated ? errors.shape_max : unknown)
         .add("guarded", o.guarded);
   }

@@ -98,6 +98,8 @@ void print_result(const Options& o, const Result& r) {
               r.errors.reference.c_str());
   std::printf("force    max %.1e, 95 %% %.1e, median %.1e of the force\n", e.force_max, e.force_p95,
               e.force_median);
+  std::printf("bound    %.1e of the force anywhere in range, %.1e of it the full model's own error\n",
+              r.errors.force_bound, r.errors.reference_error);
   std::printf("shape    max %.1e, median %.1e of the largest deflection\n", e.shape_max, e.shape_median);
   print_regions(r.errors);
 }

@@ -48,14 +48,14 @@ template <typename Model>
 Result measured(const typename Model::Data& trained, const Options& options, Result result) {
   const Model model = make<Model>(trained);
   const int elements = 2 * options.elements;
-  const FemModel<> full = full_model(options.beam.make(), elements);
+  const auto full = full_model(options.beam.make(), elements);
   ValidationOptions validation;
   validation.presses = options.presses;
   if (options.single_place()) validation.s_regions = 1;
   result.presses = timed(result.stages, "validation", [&] { return press_errors(model, full, validation); });
   typename Model::Data data = trained;
   data.errors =
-      report_errors(result.presses, model.range(), validation, std::to_string(elements) + " finite elements");
+      report_errors(model, full, result.presses, validation, std::to_string(elements) + " finite elements");
   result.errors = data.errors;
   result.model.emplace(Model(data));
   return result;
@@ -65,7 +65,7 @@ Result measured(const typename Model::Data& trained, const Options& options, Res
 
 Result run(const Options& options, const Progress& progress) {
   const Beam beam = options.beam.make();
-  const FemModel<> full = full_model(beam, options.elements);
+  const auto full = full_model(beam, options.elements);
   const TrainingPlan plan = options.plan();
   const TrainingOptions training{options.threads, progress};
   const bool pod = options.kind == Kind::pod, in_float = options.scalar == Scalar::single_precision;

@@ -134,6 +134,30 @@ TEST_CASE("the force grows with the depth, over the end of the trained tensions 
   }
 }
 
+TEST_CASE("it never pulls, whatever it was trained with and however deep it is pressed", "[galerkin]") {
+  Random random(9);
+  for (const auto& [left, right] : {std::pair{Support::pinned, Support::pinned},
+                                    {Support::clamped, Support::pinned},
+                                    {Support::guided, Support::clamped},
+                                    {Support::clamped, Support::free}})
+    for (const int tensions : {2, 12, 30}) {
+      const Beam beam(1, Section::rectangle(0.02, std::pow(10, random(-3, -1.5))), Material{2e11}, left,
+                      right);
+      const double depth = std::pow(10, random(-5, -2));
+      GalerkinModel<> model(
+          trained_galerkin(beam, TrainingPlan::anywhere(beam, depth, random.integer(2, 16), tensions), 32));
+      GalerkinModel<float> single(cast<float>(model.data()));
+      int pulls = 0;
+      for (int k = 0; k < 2000; ++k) {
+        const double s = random(0, 1), d = (k % 2 ? -depth : depth) * std::pow(10, random(-3, 2));
+        const Response<double> response = model.force({s, d});
+        pulls += !(response.force * d > 0) || !is_answer(response.status);
+        pulls += !(single.force({float(s), float(d)}).force * float(d) > 0);
+      }
+      CHECK(pulls == 0);
+    }
+}
+
 TEST_CASE("in float the tension is found as well", "[galerkin][float]") {
   GalerkinModel<float> model(cast<float>(trained_galerkin(pinned(), TrainingPlan::anywhere(pinned(), 0.05))));
   const ForceErrors errors = force_errors(model, pinned_closed_form, 0.001, 0.05);

@@ -98,6 +98,8 @@ TEMPLATE_TEST_CASE("A model comes back from its file bit by bit", "[model_file]"
   CHECK(loaded.errors().reference == model.errors().reference);
   CHECK(loaded.errors().regions.size() == 2);
   CHECK(loaded.errors().all.shape_median == 5e-324);
+  CHECK(loaded.errors().force_bound == 0.25);
+  CHECK(loaded.errors().reference_error == 1e-7);
   const S L = model.data().beam.length;
   for (int i = -1; i <= 41; ++i)
     for (int j = -30; j <= 30; ++j) {
@@ -110,22 +112,53 @@ TEMPLATE_TEST_CASE("A model comes back from its file bit by bit", "[model_file]"
     }
 }
 
-TEST_CASE("The ends of the real numbers come back bit by bit", "[model_file]") {
-  using d = std::numeric_limits<double>;
-  using f = std::numeric_limits<float>;
-  auto wide = hand_made_pod<double>();
-  wide.shape.basis = irregular<double>(18);
-  wide.shape.basis[0] = d::denorm_min(), wide.shape.basis[1] = d::min(), wide.shape.basis[2] = d::max();
-  wide.shape.basis[3] = -0.0, wide.shape.basis[4] = d::lowest(), wide.shape.basis[5] = 1 + d::epsilon();
-  const auto loaded = read_model<PodModel<>>(write_model(PodModel<>(wide)));
-  CHECK(same_bits(loaded.data().shape.basis, wide.shape.basis));
+TEMPLATE_TEST_CASE("The ends of the real numbers come back bit by bit", "[model_file]", double, float) {
+  using limits = std::numeric_limits<TestType>;
+  const std::vector<TestType> ends = {limits::denorm_min(), limits::min(),    limits::max(),
+                                      TestType(-0.0),       limits::lowest(), 1 + limits::epsilon()};
+  const std::string source = "test";
+  detail::JsonWriter writer(source);
+  writer.units();
+  writer.table("ends", "1", ends);
+  const std::string text = writer.text(limits::max_digits10);
+  const detail::Json root = detail::parse_json(text.data(), text.size(), source, 1);
+  detail::JsonReader reader(root.get(), source);
+  reader.units();
+  std::vector<TestType> found;
+  reader.table("ends", "1", found);
+  CHECK(same_bits(found, ends));
 
-  auto narrow = hand_made_pod<float>();
-  narrow.shape.basis[0] = f::denorm_min(), narrow.shape.basis[1] = f::min(), narrow.shape.basis[2] = f::max();
-  narrow.shape.basis[3] = -0.0f, narrow.shape.basis[4] = f::lowest(),
-  narrow.shape.basis[5] = 1 + f::epsilon();
-  const auto loaded_float = read_model<PodModel<float>>(write_model(PodModel<float>(narrow)));
-  CHECK(same_bits(loaded_float.data().shape.basis, narrow.shape.basis));
+  auto data = hand_made_pod<TestType>();
+  for (const std::size_t k : {0u, 1u, 3u, 5u}) data.shape.basis[k] = ends[k];
+  data.shape.basis[2] = TestType(1e9);
+  const auto loaded = read_model<PodModel<TestType>>(write_model(PodModel<TestType>(data)));
+  CHECK(same_bits(loaded.data().shape.basis, data.shape.basis));
+}
+
+TEST_CASE("What would answer with what is not finite is no model", "[model_file]") {
+  const std::string text = write_model(hand_made<PodModel<>>());
+  SECTION("a shape beyond all lengths") {
+    auto data = hand_made_pod<double>();
+    data.shape.basis[2] = 1e10;
+    CHECK_THROWS_WITH(PodModel<>(data),
+                      ContainsSubstring("basis = 1e+10: must be within 1e9 in every entry"));
+  }
+  SECTION("a potential that falls to nothing between two positions") {
+    auto data = hand_made_pod<double>();
+    for (std::size_t k = 0; k < 3; ++k) data.potential[k] = 1e308, data.potential[6 + k] = 1e308;
+    CHECK_THAT(message_of([&] { read_model<PodModel<>>(write_model(PodModel<>(data)), "bar.json"); }),
+               ContainsSubstring("bar.json: is no model: its press at s = "));
+  }
+  SECTION("a stiffness that overflows") {
+    auto data = hand_made_galerkin<double>();
+    data.log_stiffness.assign(9, 720);
+    CHECK_THAT(message_of([&] { read_model<GalerkinModel<>>(write_model(GalerkinModel<>(data))); }),
+               ContainsSubstring("is no model: its press at s = "));
+  }
+  SECTION("a beam that is none") {
+    CHECK_THAT(message(edited(text, "\"length\":2.54", "\"length\":1e20")),
+               ContainsSubstring("length = 1e+20 m: must be from 1e-12 to 1e12"));
+  }
 }
 
 TEST_CASE("A file says what is in it", "[model_file]") {
@@ -133,7 +166,7 @@ TEST_CASE("A file says what is in it", "[model_file]") {
   save_model(hand_made<GalerkinModel<float>>(), path);
   const ModelFileInfo info = describe_model_file(path);
   std::remove(path.c_str());
-  CHECK(info.version == 1);
+  CHECK(info.version == 2);
   CHECK(info.kind == "galerkin");
   CHECK(info.scalar == "float");
   CHECK(info.nodes == "chebyshev");
@@ -182,9 +215,9 @@ TEST_CASE("What is not a model of that type is told", "[model_file]") {
   CHECK_THAT(message<PodModel<float>>(pod), ContainsSubstring("scalar = \"double\": must be \"float\""));
   CHECK_THAT((message<PodModel<double, EquispacedNodes>>(pod)),
              ContainsSubstring("nodes = \"chebyshev\": must be \"equispaced\""));
-  CHECK_THAT(message(edited(pod, "\"version\":1", "\"version\":2")),
-             ContainsSubstring("version = 2: must be 1"));
-  CHECK_THAT(message(edited(pod, "\"version\":1", "\"version\":-1")),
+  CHECK_THAT(message(edited(pod, "\"version\":2", "\"version\":1")),
+             ContainsSubstring("version = 1: must be 2"));
+  CHECK_THAT(message(edited(pod, "\"version\":2", "\"version\":-1")),
              ContainsSubstring("version = -1: must be"));
   CHECK_THAT(message(edited(pod, "hapbeam model", "music")),
              ContainsSubstring("format = \"music\": must be \"hapbeam model\""));

@@ -34,7 +34,7 @@ bool begin_choice(const char* title, const char* id, const char* chosen) {
 void trained_range(const Trained& trained) {
   ImGui::AlignTextToFramePadding();
   ImGui::Text("%d modes, to %.3g mm, error %.0e", trained.modes, trained.depth * 1e3,
-              trained.errors.all.force_max);
+              trained.errors.force_bound);
 }
 
 void choose_scene(Running& running, const Options* file, Wish& wish) {

@@ -75,6 +75,7 @@ class GalerkinModel {
     if (!is_answer(response.status)) return response;
     const Scalar s = at.press.s, d = at.press.d;
     const Scalar theta = rotation(at);
+    if (data_.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
     shape_.evaluate(data_.shape, s, d, d, data_.positions > 1 ? &theta : nullptr, at.lx, data_.positions,
                     at.lz, data_.tensions);
     return response;

@@ -104,12 +104,13 @@ class JsonReader {
   template <class Entry, class Each>
   [[gnu::cold, gnu::noinline]] void list(const char* name, std::vector<Entry>& entries, Each each) {
     const Json found = take(name, JSON_ARRAY, "an array");
-    std::vector<Entry>(json_array_size(found.get())).swap(entries);
-    for (std::size_t k = 0; k < entries.size(); ++k) {
+    entries.clear();
+    for (std::size_t k = 0; k < json_array_size(found.get()); ++k) {
       char path[64];
       std::snprintf(path, sizeof path, "%s[%lu]", name, static_cast<unsigned long>(k));
       JsonReader reader(json_array_get(found.get(), k), source_, path, name, k == 0 ? units_ : nullptr);
-      each(reader, entries[k]);
+      entries.emplace_back();  // one by one: of a hostile list none is an object
+      each(reader, entries.back());
       reader.finish();
     }
   }

@@ -67,18 +67,24 @@ inline constexpr std::size_t largest_table = std::size_t(1) << 24;
   reject_data(field, static_cast<double>(size), allowed);
 }
 
-/// @param low  that every entry must be above
+/// @param low, high  that every entry must be above, and not above
 template <typename Scalar>
 [[gnu::cold]] void check_table(const char* field, const std::vector<Scalar>& values, std::size_t wanted,
-                               Scalar low, const char* allowed) {
+                               Scalar low, Scalar high, const char* allowed) {
   if (values.size() != wanted) reject_size(field, values.size(), wanted);
   for (const Scalar value : values)
-    if (!(value > low && value <= std::numeric_limits<Scalar>::max()))
-      reject_data(field, static_cast<double>(value), allowed);
+    if (!(value > low && value <= high)) reject_data(field, static_cast<double>(value), allowed);
 }
+/// What has no unit, or is a length of a beam: products of a few of them are finite in float, too.
 template <typename Scalar>
 [[gnu::cold]] void check_table(const char* field, const std::vector<Scalar>& values, std::size_t wanted) {
-  check_table(field, values, wanted, -std::numeric_limits<Scalar>::infinity(), "finite in every entry");
+  check_table(field, values, wanted, Scalar(-1e9), Scalar(1e9), "within 1e9 in every entry");
+}
+
+/// A length that a beam may have.
+[[gnu::cold]] inline void check_length(const char* field, double value) {
+  if (!(value >= 1e-12 && value <= 1e12))
+    reject(field, positive(field, value, "m"), "m", "from 1e-12 to 1e12");
 }
 
 [[gnu::cold]] inline std::size_t check_count(const char* field, int value, int low, int high) {
@@ -93,12 +99,12 @@ template <typename Scalar>
 template <typename Scalar>
 [[gnu::cold]] void check_range(const BeamData<Scalar>& beam, Scalar s_min, Scalar s_max, Scalar depth,
                                int positions) {
-  positive("length", static_cast<double>(beam.length), "m");
+  check_length("length", static_cast<double>(beam.length));
   positive("axial_stiffness", static_cast<double>(beam.axial_stiffness), "N");
   positive("bending_stiffness", static_cast<double>(beam.bending_stiffness), "N·m²");
-  positive("thickness", static_cast<double>(beam.thickness), "m");
+  check_length("thickness", static_cast<double>(beam.thickness));
   check_supports(beam.left, beam.right);
-  positive("depth", static_cast<double>(depth), "m");
+  check_length("depth", static_cast<double>(depth));
   // Rounded to another scalar an edge may move by its last digit.
   const Scalar margin = beam.length / 1000 - 4 * std::numeric_limits<Scalar>::epsilon() * beam.length;
   const Scalar low = fixes_w(beam.left) ? margin : Scalar(0);
@@ -136,7 +142,7 @@ template <typename Scalar>
   finite("y_high", static_cast<double>(data.y_high), "");
   if (!(data.y_low < data.y_high) || (data.symmetric && data.y_low != 0))
     reject_data("y_low", static_cast<double>(data.y_low), "below y_high, 0 where symmetric");
-  check_table("potential", data.potential, positions * depths, Scalar(0),
+  check_table("potential", data.potential, positions * depths, Scalar(0), std::numeric_limits<Scalar>::max(),
               "positive and finite in every entry");
   check_table("rest", data.rest, positions);
   // A press in range must not be beyond the grid: there a polynomial grows without bound.

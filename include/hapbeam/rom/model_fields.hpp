@@ -18,6 +18,16 @@ constexpr const char* kind_of(const GalerkinModelData<Scalar>&) noexcept {
   return "galerkin";
 }
 
+/// Size of the grid along its other axis than that of the positions.
+template <typename Scalar>
+constexpr int second_axis(const PodModelData<Scalar>& data) noexcept {
+  return data.depths;
+}
+template <typename Scalar>
+constexpr int second_axis(const GalerkinModelData<Scalar>& data) noexcept {
+  return data.tensions;
+}
+
 template <typename Scalar>
 constexpr const char* scalar_name() noexcept {
   static_assert(std::is_same_v<Scalar, double> || std::is_same_v<Scalar, float>,
@@ -94,6 +104,8 @@ template <class Fields, class Data>
   visit_grid(f, data);
   visit_shape(f, data.shape);
   f.word("errors.reference", data.errors.reference);
+  f.real("errors.force_bound", "1", data.errors.force_bound);
+  f.real("errors.reference_error", "1", data.errors.reference_error);
   f.object("errors.all", data.errors.all, visit_errors<Fields>);
   f.list("errors.regions", data.errors.regions, visit_region<Fields>);
   f.finish();

@@ -5,7 +5,7 @@
 //
 // A file is two lines of JSON, in UTF-8 and SI:
 //
-//   {"format":"hapbeam model","version":1,"kind":"pod","scalar":"double","checksum":"crc32:9a3b5c01"}
+//   {"format":"hapbeam model","version":2,"kind":"pod","scalar":"double","checksum":"crc32:9a3b5c01"}
 //   {"units":{"beam.length":"m", …},"beam":{…},"nodes":"chebyshev",…,"grid":{…},…,"shape":{…},"errors":{…}}
 //
 // The checksum goes over every byte after the first line feed.  The members of the second line are those of PodModelData
@@ -22,6 +22,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <hapbeam/rom/check_answers.hpp>
 #include <hapbeam/rom/checksum.hpp>
 #include <hapbeam/rom/galerkin_model.hpp>
 #include <hapbeam/rom/json_reader.hpp>
@@ -44,7 +45,7 @@ struct ModelFileInfo {
 
 namespace detail {
 
-inline constexpr int model_file_version = 1;
+inline constexpr int model_file_version = 2;
 /// A larger file is refused, unread.  A million numbers and more: a servo loop has no time for them.
 inline constexpr std::size_t largest_model_file = std::size_t(1) << 25;
 
@@ -76,8 +77,32 @@ struct Checksum {
   return text;
 }
 
+/// About what the parser may take, by what each part of a text costs it: so many times its size, and what a header takes.
+/// A test measures that 20 times and 64 kB are never exceeded.
+inline constexpr std::size_t memory_per_byte = 16, memory_to_begin = 1 << 15;
+
+/// Refuses what would take more, before it is parsed: three bytes can make an empty object of 250.
+/// What stands in strings counts as well; a model has few.
+[[gnu::cold]] inline void check_memory(const char* text, std::size_t size, const std::string& source,
+                                       int line) {
+  std::size_t needed = 0;
+  for (std::size_t k = 0; k < size; ++k) switch (text[k]) {
+      case '{':
+      case '[': needed += 320; break;
+      case ':': needed += 112; break;
+      case ',': needed += 48; break;
+      case '"': needed += 24; break;
+      default: break;
+    }
+  const std::size_t most = memory_per_byte * size + memory_to_begin;
+  if (needed > most)
+    fail(source, "line %d takes about %lu bytes of memory to read: must be at most %lu for its size", line,
+         static_cast<unsigned long>(needed), static_cast<unsigned long>(most));
+}
+
 [[gnu::cold]] inline Json parse_json(const char* text, std::size_t size, const std::string& source,
                                      int line) {
+  check_memory(text, size, source, line);
   json_error_t error;
   Json root(json_loadb(text, size, JSON_REJECT_DUPLICATES, &error));
   if (!root.get())
@@ -183,7 +208,9 @@ template <class Model>
   detail::JsonReader fields(payload.get(), source);
   detail::visit_model(fields, data, Model::Nodes::name());
   try {
-    return Model(std::move(data));
+    Model model(std::move(data));
+    detail::check_answers(model, model.data().positions, detail::second_axis(model.data()));
+    return model;
   } catch (const std::invalid_argument& error) {
     detail::fail(source, "%s", error.what());
   }

@@ -63,6 +63,7 @@ class PodModel {
     const Response<Scalar> response = respond(request, at);
     if (!is_answer(response.status)) return response;
     const Scalar unit = data_.symmetric ? at.press.d : data_.depth, theta = rotation(at);
+    if (data_.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
     shape_.evaluate(data_.shape, at.press.s, at.press.d, unit, data_.positions > 1 ? &theta : nullptr, at.lx,
                     data_.positions, at.ly, data_.depths);
     return response;

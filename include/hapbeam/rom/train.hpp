@@ -18,20 +18,11 @@
 #include <vector>
 
 #include <hapbeam/element/linear.hpp>
-#include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/rom/full_model.hpp>
 #include <hapbeam/rom/pod.hpp>
 #include <hapbeam/rom/snapshots.hpp>
 
 namespace hapbeam {
-
-/// The full model to train with: so many elements, so tight a solver, that what is left of an error is the reduction's.
-template <class Element = VonKarman<AssumedStrain>>
-FemModel<Element> full_model(const Beam& beam, int elements = 256) {
-  NewtonRaphson solver;
-  solver.relative_tolerance = 1e-13;
-  solver.max_solves = 200;
-  return FemModel<Element>(beam, elements, solver);
-}
 
 /// Snapshots as the columns of a matrix, their displacements freed of units as in ShapeTable: (u, w, θ) node by node.
 inline Eigen::MatrixXd snapshot_matrix(const Snapshots& snapshots) {

@@ -1,5 +1,9 @@
 // How wrong is a trained model?  Measured on presses that it was not trained with, against a full one.
 //
+//   data.errors = validate(PodModel<>(data), full_model(beam));
+//   data.errors.force_bound;                 // no press in range has a larger relative error of its force
+//
+// A sample of presses says how large errors usually are; the bound comes from worst_press.hpp.
 // Offline: allocates; throws TrainingError where the full model does not answer.
 #pragma once
 
@@ -10,9 +14,8 @@
 #include <string>
 #include <vector>
 
-#include <hapbeam/force_model.hpp>
 #include <hapbeam/rom/error_report.hpp>
-#include <hapbeam/rom/training_run.hpp>
+#include <hapbeam/rom/worst_press.hpp>
 
 namespace hapbeam {
 
@@ -21,14 +24,6 @@ struct ValidationOptions {
   std::uint64_t seed = 1;  ///< the same seed draws the same presses on every machine
   int s_regions = 3;       ///< parts of the range along the beam
   int depth_regions = 3;   ///< and in depth
-};
-
-/// Of one press.
-struct PressError {
-  double s;      ///< [m]
-  double depth;  ///< [m] |d|
-  double force;  ///< relative
-  double shape;  ///< largest |Δw| along the beam over the largest |w|
 };
 
 namespace detail {
@@ -54,74 +49,45 @@ inline ErrorSummary summarize(const std::vector<PressError>& errors) {
 
 }  // namespace detail
 
-/// Compares force and shape, press by press.
+/// Compares force and shape on a sample of presses.
 template <class Fast, class Full>
-std::vector<PressError> press_errors(Fast fast, const Full& full, const ValidationOptions& options = {}) {
-  using S = typename Fast::Scalar;
-  using F = typename Full::Scalar;
-  const Range<S> range = fast.range();
-  const Range<F> known = full.range();
-  const double s_min = static_cast<double>(range.s_min), s_max = static_cast<double>(range.s_max);
-  const double depth = static_cast<double>(range.depth);
-
+std::vector<PressError> press_errors(const Fast& fast, const Full& full,
+                                     const ValidationOptions& options = {}) {
+  detail::PressComparison<Fast, Full> comparison(fast, full, fast.range());
   // The standard fixes the generator but not its distributions.
   std::mt19937_64 generator(options.seed);
   const auto random = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
-  Full model(full);
-  model.reset();
-  std::vector<Press<S>> presses;
+  std::vector<PressError> errors;
   for (int k = 0; k < options.presses; ++k) {
     // First the corners of the range, then one of ten on each of its edges: there a polynomial is at its worst.
     double along = random(), deep = random();
     if (k < 4) along = k / 2, deep = k % 2 ? 1 : 0.02;
     else if (k % 10 == 4 || k % 10 == 5) along = k % 10 - 4;
     else if (k % 10 == 6) deep = 1;
-    const bool shallow = k >= 4 && k % 10 > 7;  // down to a ten-thousandth of the depth
-    S s = along == 1 ? range.s_max : static_cast<S>(s_min + (s_max - s_min) * along);
-    S size = deep == 1 ? range.depth : static_cast<S>(depth * (shallow ? std::pow(10, -4 * deep) : deep));
-    // In float an edge of the range may have been rounded to the number beyond the full model's.
-    if (static_cast<double>(s) > static_cast<double>(known.s_max)) s = std::nextafter(s, S(0));
-    if (static_cast<double>(s) < static_cast<double>(known.s_min)) s = std::nextafter(s, range.s_max + 1);
-    if (static_cast<double>(size) > static_cast<double>(known.depth_at(static_cast<F>(s))))
-      size = std::nextafter(size, S(0));
-    // Depth counts from the untouched beam: where that hangs the force is zero, and has no relative error.
-    const S rest = static_cast<S>(model.shape().at(static_cast<F>(s)).w);
-    if (rest != 0) size = std::max(size, range.depth / 50);
-    const auto cut = [&](S d) { return std::min(std::max(d, -range.depth), range.depth); };
-    const S up = cut(rest + size), down = cut(rest - size);
-    const bool upward = std::abs(up - rest) < size / 2 || std::abs(down - rest) < size / 2
-                            ? up - rest > rest - down
-                            : k / 2 % 2 == 0;
-    presses.push_back({s, upward ? up : down});
-  }
-
-  std::vector<PressError> errors;
-  for (const Press<S>& press : presses) {
-    model.reset();
-    const double wanted =
-        detail::press_for_training(model, static_cast<double>(press.s), static_cast<double>(press.d));
-    const double found = static_cast<double>(fast.press(press).force);
-    const double d = std::abs(static_cast<double>(press.d));
-    double off = 0, size = d;
-    for (const CentrelineNode<S>& node : fast.shape()) {
-      const double w = static_cast<double>(model.shape().at(static_cast<F>(node.s)).w);
-      off = std::max(off, std::abs(static_cast<double>(node.w) - w));
-      size = std::max(size, std::abs(w));
-    }
-    errors.push_back(
-        {static_cast<double>(press.s), d, std::abs(found - wanted) / std::abs(wanted), off / size});
+    else if (k % 10 > 7) deep = std::pow(10, -4 * deep);  // down to a ten-thousandth of the depth
+    const double s = along == 1 ? comparison.s_max()
+                                : comparison.s_min() + (comparison.s_max() - comparison.s_min()) * along;
+    const bool up = k / 2 % 2 == 0;
+    errors.push_back(comparison(s, (up ? deep : -deep) * comparison.reach(s, up)));
   }
   return errors;
 }
 
-/// All of them in figures, and by regions of a range.   @param reference  what the full model is called in the report
-template <typename Scalar>
-ErrorReport report_errors(const std::vector<PressError>& errors, const Range<Scalar>& range,
+/// The sample in figures, as a whole and by regions of the range, and a bound for all presses.
+/// @param sample  of press_errors()   @param reference  what the full model is called in the report
+template <class Fast, class Full>
+ErrorReport report_errors(const Fast& fast, const Full& full, const std::vector<PressError>& sample,
                           const ValidationOptions& options = {},
                           const std::string& reference = "finite elements") {
+  const auto range = fast.range();
   const double s_min = static_cast<double>(range.s_min), s_max = static_cast<double>(range.s_max);
   const double depth = static_cast<double>(range.depth);
-  ErrorReport report{reference, detail::summarize(errors), {}};
+  detail::PressComparison<Fast, Full> comparison(fast, full, range);
+  std::vector<PressError> starts = sample;
+  detail::add_shallow_presses(comparison, starts);
+  const double worst = detail::worst_error(comparison, std::move(starts), 8),
+               own = detail::own_error(full, range, sample);
+  ErrorReport report{reference, detail::summarize(sample), {}, 1.1 * worst + own, own};
   for (int i = 0; i < options.s_regions; ++i)
     for (int j = 0; j < options.depth_regions; ++j) {
       const auto part = [](double low, double high, int k, int n) { return low + (high - low) * k / n; };
@@ -131,7 +97,7 @@ ErrorReport report_errors(const std::vector<PressError>& errors, const Range<Sca
                          part(0, depth, j + 1, options.depth_regions),
                          {}};
       std::vector<PressError> inside;
-      for (const PressError& error : errors)
+      for (const PressError& error : sample)
         if (error.s >= region.s_min && (error.s < region.s_max || i + 1 == options.s_regions) &&
             error.depth >= region.depth_min &&
             (error.depth < region.depth_max || j + 1 == options.depth_regions))
@@ -142,11 +108,12 @@ ErrorReport report_errors(const std::vector<PressError>& errors, const Range<Sca
   return report;
 }
 
-/// Both: how wrong a model is.   @param reference  what the full model is called in the report
+/// Both: how wrong a model is.
+/// @param full  of full_model(); any other ForceModel counts as exact   @param reference  what it is called in the report
 template <class Fast, class Full>
 ErrorReport validate(const Fast& fast, const Full& full, const ValidationOptions& options = {},
                      const std::string& reference = "finite elements") {
-  return report_errors(press_errors(fast, full, options), fast.range(), options, reference);
+  return report_errors(fast, full, press_errors(fast, full, options), options, reference);
 }
 
 }  // namespace hapbeam
