@@ -5,6 +5,9 @@
 #include "support/error.hpp"
 #include "support/solver.hpp"
 #include "support/thesis_beam.hpp"
+#include <hapbeam/beam_shapes.hpp>
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/rom/snapshots.hpp>
 
@@ -133,6 +136,31 @@ TEST_CASE("a beam that is bent or moved by nature is not trained: a model does n
         take_snapshots(beam, full, TrainingPlan::anywhere(beam, 0.05)),
         "beam: must be straight, with its ends where they are in the straight beam, to train a model of it");
   }
+}
+
+TEST_CASE("a full model of another beam is refused, whatever differs", "[snapshots]") {
+  const TrainingPlan plan = TrainingPlan::anywhere(pinned(), 0.02, 3, 3);
+  const auto refused = [&plan](const Beam& another, const char* message) {
+    CHECK_THROWS_WITH(take_snapshots(pinned(), FemModel<>(another, 16), plan), Catch::Contains(message));
+    CHECK_THROWS_WITH(take_snapshots_at_tensions(pinned(), FemModel<>(another, 16), plan),
+                      Catch::Contains(message));
+  };
+  const Section section = Section::rectangle(0.0254, 0.0254);
+  const char* const force = "full model: must be of the beam that is trained; pressed at s = 1.27 m";
+  refused(Beam(1.2, section, Material{206.84e9}, Support::pinned, Support::pinned),
+          "length of the full model = 1.2 m: must be that of the beam that is trained");
+  refused(Beam(L, thesis_EA, thesis_EI, 0.02, Support::pinned, Support::pinned),
+          "thickness of the full model = 0.02 m");
+  refused(Beam(L, section, Material{70e9}, Support::pinned, Support::pinned), force);
+  refused(Beam(L, 1.01 * thesis_EA, thesis_EI, 0.0254, Support::pinned, Support::pinned), force);
+  refused(thesis_beam(Support::clamped, Support::pinned), force);
+  refused(thesis_beam(Support::pinned, Support::roller), force);
+  refused(stretched(pinned(), 1e-3), force);
+  Beam loaded = pinned();
+  loaded.add({1.0, 0, -100, 0});
+  refused(loaded, force);
+  CHECK_NOTHROW(take_snapshots(pinned(), FemModel<Linear>(pinned(), 16), plan));
+  CHECK_NOTHROW(take_snapshots(pinned(), FemModel<Corotational<>>(pinned(), 8), plan));
 }
 
 TEST_CASE("a plan that is none is refused by name", "[snapshots]") {

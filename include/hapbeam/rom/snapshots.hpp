@@ -17,6 +17,7 @@
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rom/coordinates.hpp>
 #include <hapbeam/rom/lagrange.hpp>
+#include <hapbeam/rom/same_beam.hpp>
 #include <hapbeam/rom/training_plan.hpp>
 #include <hapbeam/rom/training_run.hpp>
 
@@ -77,6 +78,7 @@ class SnapshotTaker {
         frame_(out_.beam, plan.segments, out_.contact_node),
         x_(plan.positions, position(plan.s_min), position(plan.s_max)) {
     static_assert(is_force_model<Model>, "a full model is a ForceModel: see hapbeam/force_model.hpp");
+    check_same_beam(beam, full, plan);
     full_.reset();
     const auto shape = full_.shape();
     bool loaded = false;
@@ -263,7 +265,7 @@ class SnapshotTaker {
 }  // namespace detail
 
 /// Snapshots for a PodModel.
-/// @param full  a ForceModel that can be copied; its own state is not used   @tparam Nodes  what train_pod() is given
+/// @param full  a ForceModel of that beam that can be copied; its own state is not used   @tparam Nodes  what train_pod() is given
 template <class Nodes = ChebyshevNodes, class Model>
 Snapshots take_snapshots(const Beam& beam, const Model& full, const TrainingPlan& plan,
                          const TrainingOptions& options = {}) {
