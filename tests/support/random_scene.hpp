@@ -10,7 +10,7 @@
 #include "random.hpp"
 #include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/element/corotational.hpp>
-#include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/rom/full_model.hpp>
 #include <hapbeam/scene/scene.hpp>
 
 namespace hapbeam::testing {
@@ -54,23 +54,44 @@ inline Scene random_scene(Random& random) {
   return scene;
 }
 
+/// The same under dead loads, or naturally bent: it rests up to a tenth of its length from straight, or a thousandth of that.
+inline Scene random_bent_scene(Random& random) {
+  Scene scene = random_scene(random);
+  Beam& beam = scene.beam;
+  const double L = beam.length(), unit = beam.bending_stiffness() / (L * L * L);  // [N] for a bend by L
+  const double sign = random.integer(0, 1) ? 1 : -1, s = random(0.1, 0.9) * L,
+               size = log_even(random, 1e-4, 0.05);
+  switch (random.integer(0, 4)) {
+    case 0: beam.transverse(sign * 100 * unit * size); break;
+    case 1: beam.add({s, 0, sign * 30 * unit * L * size, 0}); break;
+    case 2: beam.add({s, 0, 0, sign * 10 * unit * L * L * size}); break;
+    case 3: beam.axial(sign * unit * log_even(random, 0.01, 1)).transverse(-100 * unit * size); break;
+    default: beam.naturally({{L, sign * 3 / L * size}}); break;
+  }
+  return scene;
+}
+
 struct KnownPress {
   Press<double> press;
   double force;  // [N]
 };
 
-/// Presses all over a scene, with the forces of many elements of any rotation.
+/// Presses all over a scene, with the forces of many elements of any rotation.  They count from where the beam rests; a bent one
+/// is pressed to either side of it, from a thousandth of the depth on.
 inline std::vector<KnownPress> held_out(const Scene& scene, Random& random, int number, int elements) {
-  FemModel<Corotational<>> truth(scene.beam, elements);
+  FullModel<Corotational<>> truth(scene.beam, elements);
   std::vector<KnownPress> presses;
   for (int k = 0; k < number; ++k) {
     const double s = scene.one_place() ? scene.s_min : random(scene.s_min, scene.s_max);
-    const double depth = std::min(scene.depth, 0.999 * truth.range().depth_at(s)) *
-                         (k % 3 ? random(0, 1) : log_even(random, 0.01, 1));
     truth.reset();
+    const double rest = truth.shape().at(s).w, sign = rest != 0 && k % 2 ? -1 : 1;
+    const double depth = std::min(scene.depth, 0.999 * truth.range().depth_at(s) - sign * rest) *
+                         (k % 3       ? random(0.001, 1)
+                          : rest != 0 ? log_even(random, 0.001, 1)
+                                      : log_even(random, 0.01, 1));
     Response<double> response{};
-    for (int step = 1; step <= 4; ++step) response = truth.press({s, depth * step / 4});
-    if (response.status == Status::ok) presses.push_back({{s, depth}, response.force});
+    for (int step = 1; step <= 4; ++step) response = truth.press({s, rest + sign * depth * step / 4});
+    if (response.status == Status::ok) presses.push_back({{s, rest + sign * depth}, response.force});
   }
   return presses;
 }

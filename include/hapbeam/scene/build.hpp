@@ -3,6 +3,10 @@
 // Offline: allocates; throws what training throws.  Includes an SVD, which takes seconds to compile.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
 #include <hapbeam/rom/train.hpp>
 #include <hapbeam/scene/candidate.hpp>
 #include <hapbeam/scene/scene.hpp>
@@ -12,21 +16,32 @@ namespace hapbeam {
 
 namespace detail {
 
+/// How far from the x axis dead loads and nature take the beam [m].
+template <class Model>
+double hang_of(const Model& model) noexcept {
+  double hang = 0;
+  for (const auto& node : model.shape()) hang = std::max(hang, std::abs(node.w));
+  return hang;
+}
+
 /// @param segments  of the shape that is drawn; 2 where only the force is looked at
 template <class Element>
 SceneModel build(const Scene& scene, const Candidate& candidate, int segments) {
   const Beam& beam = scene.beam;
+  const int n = candidate.elements;
   if (candidate.reduction == Reduction::none) {
     if constexpr (!std::is_same_v<Element, Linear>)
       if (candidate.mirrored)
-        return SceneModel(Mirrored<FemModel<Element>>(
-            FemModel<Element>(half_of(beam), candidate.elements / 2), beam.right_place().u));
-    return SceneModel(FemModel<Element>(beam, candidate.elements));
+        return SceneModel(
+            Mirrored<FemModel<Element>>(FemModel<Element>(half_of(beam), n / 2), beam.right_place().u));
+    return SceneModel(FemModel<Element>(beam, n));
   }
   const bool loaded = !beam.point_loads().empty() || beam.transverse() || beam.axial();
-  TrainingPlan plan{scene.s_min, scene.s_max, candidate.positions, scene.depth, candidate.depths, !loaded};
-  plan.segments = segments;
-  const auto full = full_model<Element>(beam, candidate.elements);
+  const auto full = full_model<Element>(beam, n);
+  // A scene's depth counts from rest, a plan's from the straight beam; other meshes have rest about a percent lower at most.
+  const TrainingPlan plan{
+      scene.s_min, scene.s_max, candidate.positions, scene.depth + 1.01 * hang_of(full), candidate.depths,
+      !loaded,     segments};
   if (candidate.reduction == Reduction::pod)
     return SceneModel(PodModel<>(train_pod(take_snapshots(beam, full, plan))));
   return SceneModel(GalerkinModel<>(train_galerkin(take_snapshots_at_tensions(beam, full, plan))));

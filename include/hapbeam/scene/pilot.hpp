@@ -1,27 +1,33 @@
 // Presses by which candidates are judged: a few lines of increasing depth, answered by a reference whose error is known.
 //
 // The reference is Corotational<>, with as many elements as it takes until half of them say the same to a twentieth of the
-// tolerated error, or with 512; what they are off then is own_error().  Lines stand at both ends of the range and between, closer toward supports, where every method is at its
-// worst; along a line the beam is pressed from rest ever deeper, as a hand would.
+// tolerated error, or with 512.  own_error() is a third of what they differ by then: the error of the reference where it is
+// of second order or better.  Lines stand at both ends of the range and between, closer toward supports, where every method
+// is at its worst; along a line the beam is pressed from rest ever deeper, as a hand would.
+// The error is relative to the force.  A straight beam's force has a stiffness at rest, so that the error of its shallowest
+// presses is that of a hundredth of the depth.  A beam that dead loads or nature bend is at rest where its force changes
+// sign, and a model that has it rest elsewhere errs by a force that does not vanish with the depth: it is pressed from a
+// thousandth of the depth on, at many more places, and shallower presses are not judged.
 // Offline: allocates, throws std::invalid_argument where the scene asks for presses that no model answers.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include <hapbeam/element/corotational.hpp>
-#include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/rom/coordinates.hpp>
+#include <hapbeam/rom/full_model.hpp>
 #include <hapbeam/scene/scene.hpp>
 
 namespace hapbeam {
 
 class Pilot {
  public:
-  using Reference = FemModel<Corotational<>>;
+  using Reference = FullModel<Corotational<>>;
 
   explicit Pilot(const Scene& scene) : floor_(scene.check().force_floor) {
     place(scene);
@@ -33,8 +39,9 @@ class Pilot {
     for (;; elements_ *= 2) {
       Reference coarse(scene.beam, elements_ / 2), reference(scene.beam, elements_);
       press(reference, scene.depth);
-      own_error_ = error(coarse);
-      if (own_error_ <= scene.force_error / 20 || elements_ == 512) return;
+      const double apart = error(coarse);
+      own_error_ = apart / 3;
+      if (apart <= scene.force_error / 20 || elements_ == 512) return;
     }
   }
 
@@ -55,7 +62,7 @@ class Pilot {
   }
   /// Both ends of the range and its middle [m].
   std::vector<double> places() const {
-    return {lines_.front().s, lines_[lines_.size() / 2].s, lines_.back().s};
+    return {lines_.front().s, lines_[main_lines_ / 2].s, lines_[main_lines_ - 1].s};
   }
 
   int elements() const noexcept { return elements_; }  ///< of the reference
@@ -102,30 +109,61 @@ class Pilot {
 
   void place(const Scene& scene) {
     const Reference rest(scene.beam, 32);
+    check_depth(scene, rest);
     const PositionCoordinate<double> coordinate(BeamData<double>::of(scene.beam));
     const double low = coordinate(scene.s_min), high = coordinate(scene.s_max);
     bool flat = scene.beam.arcs().empty();
     for (const CentrelineNode<double>& node : rest.shape()) flat = flat && node.w == 0;
-    // Uneven, lest they meet the nodes of an interpolation.
-    for (const double along : {0.0, 0.11, 0.23, 0.36, 0.52, 0.67, 0.78, 0.91, 1.0}) {
-      if (scene.one_place() && along > 0) break;
-      const double s = along == 0   ? scene.s_min
-                       : along == 1 ? scene.s_max
-                                    : coordinate.inverse(low + (high - low) * along);
+    // Twenty presses for two powers of ten: evenly where thin beams answer as strings, in the logarithm.
+    const auto lines_at = [&](double s, int deepest, int shallowest) {
       const double w = rest.shape().at(s).w;
       for (const double sign : {1.0, -1.0}) {
         if (flat && sign < 0) continue;
         Line line{s, {}, {}};
         const double depth = std::min(scene.depth, 0.999 * rest.range().depth_at(s) - sign * w);
-        // From a hundredth of the depth on: evenly where thin beams answer as strings, in the logarithm.
-        for (int k = 20; k >= 0; --k) line.depths.push_back(w + sign * depth * std::pow(100.0, -k / 20.0));
+        for (int k = shallowest; k >= deepest; --k)
+          line.depths.push_back(w + sign * depth * std::pow(10.0, -k / 10.0));
         lines_.push_back(line);
       }
+    };
+    // Uneven, lest they meet the nodes of an interpolation.
+    for (const double along : {0.0, 0.11, 0.23, 0.36, 0.52, 0.67, 0.78, 0.91, 1.0}) {
+      if (scene.one_place() && along > 0) break;
+      lines_at(along == 0   ? scene.s_min
+               : along == 1 ? scene.s_max
+                            : coordinate.inverse(low + (high - low) * along),
+               0, flat ? 20 : 30);
     }
+    main_lines_ = lines_.size();
+    for (int k = 1; k <= 40 && !flat && !scene.one_place(); ++k) {
+      const double along = std::fmod(0.618033988749895 * k, 1.0);
+      lines_at(scene.s_min + (scene.s_max - scene.s_min) * along, 30, 30);
+    }
+  }
+
+  /// @throws std::invalid_argument unless there is a place where presses to either side of rest are answered
+  static void check_depth(const Scene& scene, const Reference& rest) {
+    double deepest = 0, hangs = 0;
+    for (int k = 0; k <= 64; ++k) {
+      const double s = scene.s_min + (scene.s_max - scene.s_min) * k / 64, w = std::abs(rest.shape().at(s).w);
+      deepest = std::max(deepest, rest.range().depth_at(s) - w), hangs = std::max(hangs, w);
+    }
+    if (scene.depth <= deepest) return;
+    char allowed[160];
+    if (deepest > 0)
+      std::snprintf(allowed, sizeof allowed, "at most %.4g m, the deepest press that is answered there",
+                    0.999 * deepest);
+    else
+      std::snprintf(
+          allowed, sizeof allowed,
+          "of presses that are answered; this beam hangs %.4g m deep at rest, which is deeper than those",
+          hangs);
+    detail::reject("depth", scene.depth, "m", allowed);
   }
 
   double floor_;
   std::vector<Line> lines_;
+  std::size_t main_lines_ = 0;  // of those the ones that go all the way down
   int elements_ = 0;
   double own_error_ = 0;
 };
