@@ -158,7 +158,7 @@ TEST_CASE("the stated bound holds the error of the full model", "[validate]") {
   CHECK((report.force_bound >= worst && report.force_bound <= 3 * worst));
 }
 
-// 28 beams and 5000 presses of each were tried so, with none beyond its bound; beams whose error is nothing but round-off of
+// 25 beams and 5000 presses of each were tried so, with none beyond its bound; beams whose error is nothing but round-off of
 // the full model, 1e-7 and less where an end slides, have bounds of up to 20 times what is found.
 TEST_CASE("no press is beyond the stated bound, and the bound is no more than three times the worst",
           "[validate]") {
