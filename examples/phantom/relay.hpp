@@ -1,7 +1,8 @@
 // The servo that the device calls: it asks the body that is touched, and while that is changed the next one too.
 //
 // A change takes 0.4 s.  For 0.2 s the next body is approached, unfelt, by a hand that comes from beside it to where the
-// hand is: so it is pressed from the same side.  For 0.2 s the force goes over from the one to the other.  A guard behind
+// hand is: so it is pressed from the same side.  Where the hand has slipped off the one that is felt meanwhile, the next begins
+// anew, as a beam that nobody has pressed.  For 0.2 s the force goes over from the one to the other.  A guard behind
 // both keeps the sum within what the device bears and within the slew rate, and knows how warm the motors are.
 // operator(): no allocation, noexcept, wait-free but for the clock; one tick of a body, of two during a change.
 #pragma once
@@ -54,7 +55,8 @@ class Relay {
     double share = 0;
     if (next_) {
       share = std::clamp((state.time - begun_ - approach) / handover, 0.0, 1.0);
-      force = (1 - share) * force + share * next_->tick(approaching(state));
+      const bool begins_anew = share > 0 && !felt_ && !body_->record().pressing;
+      force = (1 - share) * force + share * next_->tick(approaching(state, begins_anew));
     }
     if (state.reset) guard_.reset();
     const hapbeam::GuardedForce guarded = guard_.limit(force, state.time, true);
@@ -85,10 +87,10 @@ class Relay {
     asked_.store(nullptr, std::memory_order_release);
   }
 
-  hapbeam::DeviceState approaching(hapbeam::DeviceState state) noexcept {
+  hapbeam::DeviceState approaching(hapbeam::DeviceState state, bool begins_anew) noexcept {
     const double left = std::max(0.0, 1 - (state.time - begun_) / approach);
     state.position += left * (from_ - state.position);
-    state.reset = state.reset || !approached_;
+    state.reset = state.reset || !approached_ || begins_anew;
     approached_ = true;
     return state;
   }

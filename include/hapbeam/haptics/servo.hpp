@@ -94,6 +94,7 @@ class Servo {
 
   /// @param state  of the device, at the beginning of a period   @return [N] on the hand, device axes
   [[nodiscard]] Eigen::Vector3d tick(const DeviceState& state) noexcept {
+    if (state.reset) times_.pause();  // the device had no ticks for it meanwhile
     times_.begin();
     energy_.observe(state.position, state.cut == ForceCut::none ? guard_.force() : state.sent);
     if (state.reset) release();
