@@ -137,7 +137,7 @@ TEST_CASE("what holds a prescribed displacement is its row of the linear equatio
       for (int i = 0; i <= elements; ++i) x[static_cast<std::size_t>(i)] = assembler.increment(i);
       for (const auto& p : problem.prescribed) x[static_cast<std::size_t>(p.node)][p.component] = p.increment;
       x[static_cast<std::size_t>(node)][component] = increment;
-      double row = -problem.force[static_cast<std::size_t>(node)][component], size = std::abs(row);
+      double row = 0, size = 0;
       for (const int e : {node - 1, node}) {
         if (e < 0 || e >= elements) continue;
         Vector6<double> d;
