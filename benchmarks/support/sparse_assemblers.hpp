@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
@@ -35,6 +36,7 @@ class SimplicialLdlt {
         entries.emplace_back(row, column, 1);
     K_.setFromTriplets(entries.begin(), entries.end());
     solver_.analyzePattern(K_);
+    held_by_.reserve(8);
   }
 
   void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
@@ -55,19 +57,18 @@ class SimplicialLdlt {
   }
 
   void prescribe(int node, int component, Scalar increment) noexcept {
-    const auto take = [&](Scalar& entry, int row) {
+    visit_row(node, component, [&](Scalar& entry, int row) {
       rhs_[row] -= increment * entry;
       entry = 0;
-    };
-    const int k = 3 * node + component;
-    Scalar* column = own(node, component);
-    if (node > 0)
-      for (int i = 0; i < 3; ++i) take(column[i - 3], 3 * node - 3 + i);
-    for (int i = 0; i < component; ++i) take(column[i], 3 * node + i);
-    for (int j = component + 1; j < 3; ++j) take(own(node, j)[component], 3 * node + j);
-    if (k + 3 < K_.cols())
-      for (int j = 0; j < 3; ++j) take(own(node + 1, j)[component - 3], 3 * node + 3 + j);
-    rhs_[k] = 0;
+    });
+    rhs_[3 * node + component] = 0;
+  }
+
+  void hold(int node, int component, Scalar increment) noexcept {
+    held_by_loads_ = own(node, component)[component] * increment - rhs_[3 * node + component];
+    held_by_.clear();
+    visit_row(node, component, [&](Scalar& entry, int column) { held_by_.push_back({column, entry}); });
+    prescribe(node, component, increment);
   }
 
   Status solve() {
@@ -78,6 +79,11 @@ class SimplicialLdlt {
   }
 
   Scalar energy() const noexcept { return rhs_.dot(x_); }
+  Scalar reaction() const noexcept {
+    Scalar sum = held_by_loads_;
+    for (const auto& [column, entry] : held_by_) sum += entry * x_[column];
+    return sum;
+  }
   int negative_pivots() const { return static_cast<int>((solver_.vectorD().array() < 0).count()); }
   Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
 
@@ -86,6 +92,17 @@ class SimplicialLdlt {
   Scalar* own(int node, int j) noexcept {
     return K_.valuePtr() + K_.outerIndexPtr()[3 * node + j] + (node > 0 ? 3 : 0);
   }
+  /// Calls visit(entry, column) for each entry of a row but the diagonal one.
+  template <class Visitor>
+  void visit_row(int node, int component, Visitor&& visit) noexcept {
+    Scalar* column = own(node, component);
+    if (node > 0)
+      for (int i = 0; i < 3; ++i) visit(column[i - 3], 3 * node - 3 + i);
+    for (int i = 0; i < component; ++i) visit(column[i], 3 * node + i);
+    for (int j = component + 1; j < 3; ++j) visit(own(node, j)[component], 3 * node + j);
+    if (3 * node + 3 < K_.cols())
+      for (int j = 0; j < 3; ++j) visit(own(node + 1, j)[component - 3], 3 * node + 3 + j);
+  }
   void clear_own(int node) noexcept {
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i <= j; ++i) own(node, j)[i] = 0;
@@ -93,6 +110,8 @@ class SimplicialLdlt {
 
   Matrix K_;
   Vector rhs_, x_;
+  std::vector<std::pair<int, Scalar>> held_by_;
+  Scalar held_by_loads_ = 0;
   Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Ordering> solver_;
 };
 
@@ -131,7 +150,19 @@ class SparseLuFromTriplets {
     given_[3 * node + component] = increment;
   }
 
+  void hold(int node, int component, Scalar increment) {
+    prescribe(node, component, increment);
+    held_ = 3 * node + component;
+  }
+
   Status solve() {
+    held_by_.clear();
+    held_by_loads_ = -rhs_[held_];
+    for (const auto& entry : triplets_) {
+      if (entry.row() != held_) continue;
+      if (fixed_[entry.col()] != 0) held_by_loads_ += entry.value() * given_[entry.col()];
+      else held_by_.push_back(entry);
+    }
     for (auto& entry : triplets_) {
       const bool row = fixed_[entry.row()] != 0, column = fixed_[entry.col()] != 0;
       if (column) rhs_[entry.row()] -= given_[entry.col()] * entry.value();
@@ -146,11 +177,18 @@ class SparseLuFromTriplets {
   }
 
   Scalar energy() const noexcept { return rhs_.dot(x_); }
+  Scalar reaction() const noexcept {
+    Scalar sum = held_by_loads_;
+    for (const auto& entry : held_by_) sum += entry.value() * x_[entry.col()];
+    return sum;
+  }
   int negative_pivots() const noexcept { return 0; }  // LU does not tell; the benchmark's beams are stable
   Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
 
  private:
-  std::vector<Eigen::Triplet<Scalar>> triplets_;
+  std::vector<Eigen::Triplet<Scalar>> triplets_, held_by_;
+  int held_ = 0;
+  Scalar held_by_loads_ = 0;
   Matrix K_;
   Vector rhs_, x_, fixed_, given_;
 };

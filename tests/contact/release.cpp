@@ -48,7 +48,7 @@ TEST_CASE("a hand led straight past the tip of a ruler touches it once, at any s
       CAPTURE(x, step, count.refused);
       CHECK((count.begun == 1 && count.ended == 1));
       CHECK(count.largest < 25);
-      CHECK(count.refused <= 2);  // at the tip itself
+      CHECK(count.refused <= 4);  // at the tip itself, where a fall may take more solves than a tick has
       CHECK(model.shape()[16].w == 0);
       // Back up, through the ruler: from below, and once more.
       for (double w = -0.35; w < 0.35; w += 4e-4) count.add(touch.tick({x, w}));

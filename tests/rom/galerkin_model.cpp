@@ -37,8 +37,9 @@ TEST_CASE("beyond the trained depth it still solves the equation, within 1e-2", 
         2e-2);
 }
 
-// The polynomial of degree 49 through 50 equidistant forces, as the thesis extrapolates (eq. 3.67 at 8 of 5 mm).
-TEST_CASE("where the thesis' interpolation is off by more than 100 % at 1.6 times the depth",
+// The polynomial of degree 49 through 50 equidistant forces, as the thesis extrapolates (eq. 3.67 at 8 of 5 mm).  It makes 10¹⁴ of what
+// the forces are off by, here the tolerance of Newton's method.
+TEST_CASE("where the thesis' interpolation has an error of more than half at 1.6 times the depth",
           "[galerkin][thesis]") {
   const Lagrange<EquispacedNodes> axis(50, 1e-3, 50e-3);
   std::vector<double> l(50);
@@ -47,7 +48,7 @@ TEST_CASE("where the thesis' interpolation is off by more than 100 % at 1.6 time
   double force = 0;
   for (int k = 0; k < 50; ++k)
     force += l[static_cast<std::size_t>(k)] * full.press({L / 2, axis.node(k)}).force;
-  CHECK(relative_error(force, pinned_closed_form(L / 2, 0.08)) > 1);
+  CHECK(relative_error(force, pinned_closed_form(L / 2, 0.08)) > 0.5);
 }
 
 TEST_CASE("and so for other ends, against 64 elements", "[galerkin]") {

@@ -100,7 +100,7 @@ class BeamSystem {
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
-    linear_reaction_ = assembler_.reaction();
+    linear_reaction_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
     advance();
     return {status, increment()};
   }
