@@ -173,10 +173,10 @@ TEMPLATE_TEST_CASE("stretched as far as it likes a beam rests straight and even,
     const Support left = random.integer(0, 1) ? Support::pinned : Support::clamped,
                   right = random.integer(0, 1) ? Support::pinned : Support::clamped;
     const Beam beam(L, Section::rectangle(height, height), Material{2e11}, left, right);
-    const FemModel<Corotational<>, TestType> model(stretched(beam, stretch), elements);
-    CAPTURE(stretch, height, elements, name(left), name(right));
     // In float the tangent of many slender elements has no digits left, and the model says so.
     if (std::is_same_v<TestType, float> && elements > 32) continue;
+    const FemModel<Corotational<>, TestType> model(stretched(beam, stretch), elements);
+    CAPTURE(stretch, height, elements, name(left), name(right));
     REQUIRE(model.rest().status == Status::ok);
     CHECK(model.rest().solves <= 4);
     const double round_off = 16 * static_cast<double>(std::numeric_limits<TestType>::epsilon());
