@@ -24,8 +24,8 @@ add() {
 while read -r header; do
   # Without the library or the kit that it needs it cannot be compiled.
   case $header in
-    hapbeam/rom/model_file.hpp | hapbeam/rom/json*) "$compiler" -E -include jansson.h -x c++ /dev/null >"$folder/out" 2>&1 || continue ;;
-    hapbeam/haptics/openhaptics.hpp) continue ;;
+    hapbeam/rom/file/model_file.hpp | hapbeam/rom/json*) "$compiler" -E -include jansson.h -x c++ /dev/null >"$folder/out" 2>&1 || continue ;;
+    hapbeam/haptics/hdapi/openhaptics.hpp) continue ;;
   esac
   add "$header" <<<"#include <$header>"
 done < <(cd "$top/include" && find hapbeam -name '*.hpp' | sort)

@@ -34,9 +34,9 @@
 #include "support/tick_times.hpp"
 #include "support/training.hpp"
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/guarded.hpp>
-#include <hapbeam/rom/pod_model.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/guarded.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::benchmarks;

@@ -14,9 +14,9 @@
 
 #include "support/thesis_beam.hpp"
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/haptics/real_time.hpp>
-#include <hapbeam/haptics/servo.hpp>
-#include <hapbeam/haptics/virtual_phantom.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
+#include <hapbeam/haptics/servo/real_time.hpp>
+#include <hapbeam/haptics/servo/servo.hpp>
 
 using namespace hapbeam;
 

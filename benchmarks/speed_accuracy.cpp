@@ -34,10 +34,10 @@
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
-#include <hapbeam/fem/dense.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/pod_model.hpp>
+#include <hapbeam/fem/solver/dense.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::benchmarks;

@@ -26,7 +26,7 @@
 #include "support/tick_times.hpp"
 #include "support/training.hpp"
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/rom/pod_model.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::benchmarks;

@@ -10,9 +10,9 @@
 #include "support/mode_counts.hpp"
 #include "support/noisy_force.hpp"
 #include "support/thesis_beam.hpp"
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/guarded.hpp>
-#include <hapbeam/rom/pod_model.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/guarded.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
 
 namespace hapbeam::benchmarks {
 

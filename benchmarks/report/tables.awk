@@ -257,6 +257,21 @@ function compile_times(programs,  k, j, n, order, t) {
   }
 }
 
+# The rooms of include/hapbeam, from the ground up.
+function rooms_of_headers(  k, where, from, holds) {
+  line("room", "headers", "includes", "holds")
+  rule(4)
+  for (k = 1; k <= rows; ++k) {
+    where = cell[k, "headers"]
+    gsub(/ /, "`, `", where)
+    from = cell[k, "may include"]
+    gsub(/ /, ", ", from)
+    holds = cell[k, "holds"]
+    gsub(/;/, ",", holds)
+    line(cell[k, "room"], "`" where "`", from == "" ? "none" : from, holds)
+  }
+}
+
 END {
   if (table == "machine") print head "."
   else if (table == "scenes") scenes()
@@ -271,6 +286,7 @@ END {
   else if (table == "stability") stability()
   else if (table == "chosen") chosen()
   else if (table == "flags") flags()
+  else if (table == "rooms") rooms_of_headers()
   else if (table == "compiled_headers") compile_times(0)
   else if (table == "compiled_programs") compile_times(1)
   else {

@@ -10,10 +10,10 @@
 #include "touch_scenes.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
-#include <hapbeam/fem/dense.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/pod_model.hpp>
+#include <hapbeam/fem/solver/dense.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
 
 namespace hapbeam::benchmarks {
 

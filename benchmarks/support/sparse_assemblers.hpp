@@ -1,7 +1,7 @@
 // What hapbeam's assembler is measured against: the same FemModel, the same Newton, mesh, elements and convergence
 // rule, over Eigen's general sparse solvers.
 //
-// Both fulfil the Assembler policy (compare hapbeam/fem/dense.hpp), so that the linear algebra is the only difference.
+// Both fulfil the Assembler policy (compare hapbeam/fem/solver/dense.hpp), so that the linear algebra is the only difference.
 // Written as well as one can from outside: SimplicialLdlt analyses its pattern once, refills the values in place
 // without searching, and allocates nothing of its own in a solve.  SparseLuFromTriplets is what one writes first.
 #pragma once
@@ -14,7 +14,7 @@
 #include <Eigen/SparseLU>
 
 #include <hapbeam/element/element.hpp>
-#include <hapbeam/fem/block_tridiagonal.hpp>
+#include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::benchmarks {

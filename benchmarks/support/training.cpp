@@ -2,10 +2,10 @@
 
 #include <chrono>
 
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/pod_model.hpp>
-#include <hapbeam/rom/train.hpp>
-#include <hapbeam/rom/validate.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
+#include <hapbeam/rom/training/train.hpp>
+#include <hapbeam/rom/training/validate.hpp>
 
 namespace hapbeam::benchmarks {
 

@@ -1,9 +1,9 @@
 // Training for the benchmarks, with its time.  Compiled once: an SVD takes longer to compile than all else here.
 #pragma once
 
-#include <hapbeam/rom/lagrange.hpp>
-#include <hapbeam/rom/model_data.hpp>
-#include <hapbeam/rom/training_plan.hpp>
+#include <hapbeam/rom/trained/lagrange.hpp>
+#include <hapbeam/rom/trained/model_data.hpp>
+#include <hapbeam/rom/training/training_plan.hpp>
 
 namespace hapbeam::benchmarks {
 

@@ -10,7 +10,7 @@
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/haptics/servo.hpp>
+#include <hapbeam/haptics/servo/servo.hpp>
 
 namespace phantom {
 

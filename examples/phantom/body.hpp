@@ -10,9 +10,9 @@
 #include "trained.hpp"
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/haptics/device.hpp>
-#include <hapbeam/haptics/servo_record.hpp>
-#include <hapbeam/haptics/tick_times.hpp>
+#include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/servo/servo_record.hpp>
+#include <hapbeam/haptics/servo/tick_times.hpp>
 
 namespace phantom {
 

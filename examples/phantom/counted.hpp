@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include <hapbeam/rom/guarded.hpp>
+#include <hapbeam/rom/trained/guarded.hpp>
 
 namespace phantom {
 

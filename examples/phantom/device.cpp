@@ -3,10 +3,10 @@
 #include <atomic>
 #include <stdexcept>
 
-#include <hapbeam/haptics/real_time.hpp>
-#include <hapbeam/haptics/virtual_phantom.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
+#include <hapbeam/haptics/servo/real_time.hpp>
 #ifdef HAPBEAM_EXAMPLES_OPENHAPTICS
-#include <hapbeam/haptics/openhaptics.hpp>
+#include <hapbeam/haptics/hdapi/openhaptics.hpp>
 #endif
 
 namespace phantom {

@@ -6,8 +6,8 @@
 #include "hand.hpp"
 #include "options.hpp"
 #include "relay.hpp"
-#include <hapbeam/haptics/device.hpp>
-#include <hapbeam/haptics/real_time.hpp>
+#include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/servo/real_time.hpp>
 
 namespace phantom {
 

@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
-#include <hapbeam/haptics/exchange.hpp>
-#include <hapbeam/haptics/hand_path.hpp>
+#include <hapbeam/haptics/device/hand_path.hpp>
+#include <hapbeam/haptics/servo/exchange.hpp>
 
 namespace phantom {
 

@@ -14,8 +14,8 @@
 #include "body.hpp"
 #include "hand.hpp"
 #include "tape.hpp"
-#include <hapbeam/haptics/exchange.hpp>
-#include <hapbeam/haptics/force_guard.hpp>
+#include <hapbeam/haptics/servo/exchange.hpp>
+#include <hapbeam/haptics/stability/force_guard.hpp>
 
 namespace phantom {
 

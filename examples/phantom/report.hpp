@@ -7,9 +7,9 @@
 #include "options.hpp"
 #include "session.hpp"
 #include "trained.hpp"
-#include <hapbeam/haptics/device.hpp>
-#include <hapbeam/haptics/servo_record.hpp>
-#include <hapbeam/haptics/tick_times.hpp>
+#include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/servo/servo_record.hpp>
+#include <hapbeam/haptics/servo/tick_times.hpp>
 
 namespace phantom {
 

@@ -9,8 +9,8 @@
 #include <algorithm>
 
 #include "options.hpp"
-#include <hapbeam/haptics/hand_path.hpp>
-#include <hapbeam/haptics/placement.hpp>
+#include <hapbeam/haptics/device/hand_path.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
 
 namespace phantom {
 

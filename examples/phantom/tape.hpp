@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <hapbeam/haptics/hand_path.hpp>
-#include <hapbeam/haptics/servo_record.hpp>
+#include <hapbeam/haptics/device/hand_path.hpp>
+#include <hapbeam/haptics/servo/servo_record.hpp>
 
 namespace phantom {
 

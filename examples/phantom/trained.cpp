@@ -5,7 +5,7 @@
 #include <utility>
 
 #ifdef HAPBEAM_EXAMPLES_MODEL_FILE
-#include <hapbeam/rom/model_file.hpp>
+#include <hapbeam/rom/file/model_file.hpp>
 #endif
 
 namespace phantom {

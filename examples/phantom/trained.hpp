@@ -5,8 +5,8 @@
 #include <variant>
 
 #include "options.hpp"
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/pod_model.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
 
 namespace phantom {
 

@@ -16,7 +16,7 @@
 #include "plot.hpp"
 #include "report.hpp"
 #include "training.hpp"
-#include <hapbeam/rom/model_file.hpp>
+#include <hapbeam/rom/file/model_file.hpp>
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "support/beam_options.hpp"
 #include "support/command_line.hpp"
-#include <hapbeam/rom/training_plan.hpp>
+#include <hapbeam/rom/training/training_plan.hpp>
 
 namespace train {
 

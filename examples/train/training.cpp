@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include <hapbeam/rom/train.hpp>
+#include <hapbeam/rom/training/train.hpp>
 
 namespace train {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "options.hpp"
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/pod_model.hpp>
-#include <hapbeam/rom/validate.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
+#include <hapbeam/rom/training/validate.hpp>
 
 namespace train {
 

@@ -1,6 +1,6 @@
-// All that a servo needs.  Training (rom/train.hpp, rom/validate.hpp) and model files (rom/model_file.hpp)
+// All that a servo needs.  Training (rom/training/train.hpp, rom/training/validate.hpp) and model files (rom/file/model_file.hpp)
 // are included by name: they cost an SVD and one more library.  So are a real device
-// (haptics/openhaptics.hpp), which needs its maker's kit, and haptics/real_time.hpp, which brings the
+// (haptics/hdapi/openhaptics.hpp), which needs its maker's kit, and haptics/servo/real_time.hpp, which brings the
 // system's headers.
 #pragma once
 
@@ -11,14 +11,14 @@
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/von_karman.hpp>
-#include <hapbeam/fem/dense.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/solver/dense.hpp>
 #include <hapbeam/force_model.hpp>
-#include <hapbeam/haptics/exchange.hpp>
-#include <hapbeam/haptics/placement.hpp>
-#include <hapbeam/haptics/servo_loop.hpp>
-#include <hapbeam/haptics/tick_times.hpp>
-#include <hapbeam/haptics/virtual_phantom.hpp>
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/guarded.hpp>
-#include <hapbeam/rom/pod_model.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
+#include <hapbeam/haptics/servo/exchange.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
+#include <hapbeam/haptics/servo/servo_loop.hpp>
+#include <hapbeam/haptics/servo/tick_times.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/guarded.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>

@@ -1,4 +1,4 @@
-// How the ends of a beam are held, and how a number that makes no beam is refused.
+// How the ends of a beam are held.
 //
 // What a trained model needs to know of a beam.  beam.hpp has the rest: loads, which are functions, and which a program
 // that only loads a model would compile for nothing.
@@ -6,9 +6,10 @@
 // noexcept.
 #pragma once
 
-#include <cmath>
 #include <cstdio>
 #include <stdexcept>
+
+#include <hapbeam/check.hpp>
 
 namespace hapbeam {
 
@@ -41,23 +42,6 @@ constexpr const char* name(Support support) noexcept {
 }
 
 namespace detail {
-
-[[gnu::cold]] [[noreturn]] inline void reject(const char* field, double value, const char* unit,
-                                              const char* allowed) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%s = %g%s%s: must be %s", field, value, *unit ? " " : "", unit, allowed);
-  throw std::invalid_argument(text);
-}
-
-[[gnu::cold]] inline double positive(const char* field, double value, const char* unit) {
-  if (!(std::isfinite(value) && value > 0)) reject(field, value, unit, "positive and finite");
-  return value;
-}
-
-[[gnu::cold]] inline double finite(const char* field, double value, const char* unit) {
-  if (!std::isfinite(value)) reject(field, value, unit, "finite");
-  return value;
-}
 
 /// @throws std::invalid_argument where a beam with these ends is a mechanism
 [[gnu::cold]] inline void check_supports(Support left, Support right) {

@@ -1,7 +1,7 @@
 // A coupling is called in each tick: what it throws would end the program.
 // expect: a coupling has: tick\(touch, hand\) noexcept -> CoupledForce
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/haptics/servo.hpp>
+#include <hapbeam/haptics/servo/servo.hpp>
 
 #ifdef HAPBEAM_REPAIRED
 #define PROMISE noexcept

@@ -1,6 +1,6 @@
 // A device whose stop() may throw leaves a loop running that nobody can end.
 // expect: a device has: info\(\) const -> DeviceInfo
-#include <hapbeam/haptics/device.hpp>
+#include <hapbeam/haptics/device/device.hpp>
 
 #ifdef HAPBEAM_REPAIRED
 #define PROMISE noexcept

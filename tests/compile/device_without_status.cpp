@@ -1,6 +1,6 @@
 // A device that does not say how it is leaves nobody a reason why its loop has ended.
 // expect: status\(\) const noexcept -> DeviceStatus
-#include <hapbeam/haptics/device.hpp>
+#include <hapbeam/haptics/device/device.hpp>
 
 struct Device {
   hapbeam::DeviceInfo info() const;

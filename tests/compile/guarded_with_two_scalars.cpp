@@ -1,8 +1,8 @@
 // Forces and shapes of two scalars cannot be one model's.
 // expect: Guarded<Fast, Full>: both must have the same Scalar
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/rom/guarded.hpp>
-#include <hapbeam/rom/pod_model.hpp>
+#include <hapbeam/rom/trained/guarded.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
 
 using namespace hapbeam;
 

@@ -1,6 +1,6 @@
 // A function of an Api that may throw would throw through a tick; so would one of other types convert in silence.
-// expect: an Api is what hapbeam/haptics/hdapi_contract.hpp lists
-#include "../haptics/emulated_hd.hpp"
+// expect: an Api is what hapbeam/haptics/hdapi/contract.hpp lists
+#include "../haptics/hdapi/emulated_hd.hpp"
 
 #ifdef HAPBEAM_REPAIRED
 #define PROMISE noexcept

@@ -1,6 +1,6 @@
 // A servo that may throw would throw through the device's thread, or through a vendor's C code.
 // expect: a servo is called as: Eigen::Vector3d servo\(const DeviceState&\) noexcept
-#include <hapbeam/haptics/virtual_phantom.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
 
 #ifdef HAPBEAM_REPAIRED
 #define PROMISE noexcept

@@ -1,7 +1,7 @@
 // What is trained from must answer presses.
 // expect: a full model is a ForceModel: see hapbeam/force_model.hpp
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/rom/snapshots.hpp>
+#include <hapbeam/rom/training/snapshots.hpp>
 
 using namespace hapbeam;
 

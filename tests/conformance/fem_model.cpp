@@ -5,8 +5,8 @@
 #include "support/thesis_beam.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
-#include <hapbeam/fem/dense.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/solver/dense.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -1,10 +1,10 @@
 // The trained models as ForceModels: both kinds, both scalars, one position or many, guarded or not.
 #include "conformance/force_model_suite.hpp"
 #include "support/thesis_beam.hpp"
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/guarded.hpp>
-#include <hapbeam/rom/pod_model.hpp>
-#include <hapbeam/rom/train.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/guarded.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
+#include <hapbeam/rom/training/train.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include <hapbeam/rom/model_file.hpp>
+#include <hapbeam/rom/file/model_file.hpp>
 
 #ifdef EIGEN_SVD_MODULE_H
 #error "loading a model compiles a singular value decomposition"

@@ -9,7 +9,7 @@
 
 #include "phantom/body.hpp"
 #include "phantom/relay.hpp"
-#include <hapbeam/haptics/virtual_phantom.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
 
 namespace {
 

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include <hapbeam/rom/model_file.hpp>
+#include <hapbeam/rom/file/model_file.hpp>
 
 using namespace hapbeam;
 

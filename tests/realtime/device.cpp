@@ -5,7 +5,7 @@
 #include "support/thesis_beam.hpp"
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/haptics/virtual_phantom.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -1,14 +1,14 @@
 // A tick behind HDAPI: no heap, no exception, when all is well and in the ticks in which something breaks.
 #include <realtime/heap_watch.hpp>
 
-#include "haptics/hdapi_support.hpp"
+#include "haptics/hdapi/hdapi_support.hpp"
 #include "support/catch.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/haptics/exchange.hpp>
-#include <hapbeam/haptics/placement.hpp>
-#include <hapbeam/haptics/tick_times.hpp>
+#include <hapbeam/haptics/servo/exchange.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
+#include <hapbeam/haptics/servo/tick_times.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -8,10 +8,10 @@
 #include "support/instructions.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/contact/touch.hpp>
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/guarded.hpp>
-#include <hapbeam/rom/pod_model.hpp>
-#include <hapbeam/rom/train.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/guarded.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
+#include <hapbeam/rom/training/train.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

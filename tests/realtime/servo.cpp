@@ -10,8 +10,8 @@
 #include "support/random.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/haptics/servo_loop.hpp>
-#include <hapbeam/haptics/virtual_phantom.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
+#include <hapbeam/haptics/servo/servo_loop.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -8,9 +8,9 @@
 #include "support/thesis_beam.hpp"
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/pod_model.hpp>
-#include <hapbeam/rom/train.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
+#include <hapbeam/rom/training/train.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

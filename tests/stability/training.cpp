@@ -12,9 +12,9 @@
 #include "support/noisy_force.hpp"
 #include "support/status.hpp"
 #include "support/thesis_beam.hpp"
-#include <hapbeam/rom/galerkin_model.hpp>
-#include <hapbeam/rom/guarded.hpp>
-#include <hapbeam/rom/pod_model.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/guarded.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -83,7 +83,7 @@ TEST_CASE("beyond the snapshots a polynomial is anything; the library says so, a
   CHECK(tangent.force > pod.press({L / 2, deepest}).force);
   CHECK(tangent.force < truth);
   CHECK(solved.status == Status::out_of_range);
-  CHECK(relative_error(solved.force, truth) <= 1e-2);  // as tests/rom/galerkin_model.cpp anywhere
+  CHECK(relative_error(solved.force, truth) <= 1e-2);  // as tests/rom/trained/galerkin_model.cpp anywhere
   Guarded<PodModel<>, FemModel<>> guarded(pod, FemModel<>(pinned(), 32));
   const Response<double> handed_over = guarded.press({L / 2, d});
   CHECK(handed_over.status == Status::ok);
@@ -116,7 +116,7 @@ TEST_CASE("in metres and radians the SVD's modes depend on the unit of length; f
   CHECK(off <= 1e-9 * a.singular_values()[0]);
 }
 
-// The same full model, as dense a table, force and rotation each on its own.  tests/rom/energy.cpp has the library's.
+// The same full model, as dense a table, force and rotation each on its own.  tests/rom/trained/energy.cpp has the library's.
 TEST_CASE("a table of forces without a potential gives energy for going round; a trained model none",
           "[training][energy]") {
   FemModel<> full(pinned(), 64);

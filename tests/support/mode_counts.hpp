@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include <hapbeam/rom/train.hpp>
+#include <hapbeam/rom/training/train.hpp>
 
 namespace hapbeam::testing {
 

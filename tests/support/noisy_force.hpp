@@ -7,7 +7,7 @@
 
 #include "support/error.hpp"
 #include "support/random.hpp"
-#include <hapbeam/rom/lagrange.hpp>
+#include <hapbeam/rom/trained/lagrange.hpp>
 
 namespace hapbeam::testing {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <hapbeam/element/corotational.hpp>
-#include <hapbeam/fem/arc_length.hpp>
 #include <hapbeam/fem/beam_system.hpp>
+#include <hapbeam/fem/solver/arc_length.hpp>
 
 namespace hapbeam::testing {
 

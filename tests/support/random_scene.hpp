@@ -10,7 +10,7 @@
 #include "random.hpp"
 #include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/element/corotational.hpp>
-#include <hapbeam/rom/full_model.hpp>
+#include <hapbeam/rom/training/full_model.hpp>
 #include <hapbeam/scene/scene.hpp>
 
 namespace hapbeam::testing {

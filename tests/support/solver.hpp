@@ -1,7 +1,7 @@
 // A solver so tight that what is left of an error belongs to the elements, or to round-off.
 #pragma once
 
-#include <hapbeam/fem/newton_raphson.hpp>
+#include <hapbeam/fem/solver/newton_raphson.hpp>
 
 namespace hapbeam::testing {
 

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include <hapbeam/contact/touch.hpp>
-#include <hapbeam/haptics/servo_loop.hpp>
-#include <hapbeam/haptics/virtual_phantom.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
+#include <hapbeam/haptics/servo/servo_loop.hpp>
 
 namespace hapbeam::testing {
 

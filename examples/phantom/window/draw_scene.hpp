@@ -9,7 +9,7 @@
 #include "../options.hpp"
 #include "../session.hpp"
 #include "view.hpp"
-#include <hapbeam/haptics/placement.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
 
 namespace phantom {
 

@@ -6,7 +6,7 @@
 
 #include "../scene.hpp"
 #include "plot.hpp"
-#include <hapbeam/haptics/virtual_phantom.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
 
 namespace phantom {
 

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include <hapbeam/rom/train.hpp>
-#include <hapbeam/rom/validate.hpp>
+#include <hapbeam/rom/training/train.hpp>
+#include <hapbeam/rom/training/validate.hpp>
 
 namespace phantom {
 

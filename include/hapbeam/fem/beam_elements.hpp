@@ -11,7 +11,7 @@
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
 #include <hapbeam/fem/natural_shape.hpp>
-#include <hapbeam/fem/per_node.hpp>
+#include <hapbeam/fem/solver/per_node.hpp>
 
 namespace hapbeam {
 

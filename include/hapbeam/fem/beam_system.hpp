@@ -13,10 +13,10 @@
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/fem/beam_elements.hpp>
-#include <hapbeam/fem/block_tridiagonal.hpp>
 #include <hapbeam/fem/chain.hpp>
 #include <hapbeam/fem/contact_point.hpp>
-#include <hapbeam/fem/newton_raphson.hpp>
+#include <hapbeam/fem/solver/block_tridiagonal.hpp>
+#include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/starting_shapes.hpp>
 #include <hapbeam/fem/supports.hpp>
 

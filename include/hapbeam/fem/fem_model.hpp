@@ -26,8 +26,8 @@
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
-#include <hapbeam/fem/descent.hpp>
 #include <hapbeam/fem/load_path.hpp>
+#include <hapbeam/fem/solver/descent.hpp>
 
 namespace hapbeam {
 

@@ -23,8 +23,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <hapbeam/fem/descent.hpp>
-#include <hapbeam/fem/newton_raphson.hpp>
+#include <hapbeam/fem/solver/descent.hpp>
+#include <hapbeam/fem/solver/newton_raphson.hpp>
 
 namespace hapbeam {
 

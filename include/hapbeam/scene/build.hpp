@@ -7,7 +7,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include <hapbeam/rom/train.hpp>
+#include <hapbeam/rom/training/train.hpp>
 #include <hapbeam/scene/candidate.hpp>
 #include <hapbeam/scene/scene.hpp>
 #include <hapbeam/scene/scene_model.hpp>

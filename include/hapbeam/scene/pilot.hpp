@@ -19,8 +19,8 @@
 #include <vector>
 
 #include <hapbeam/element/corotational.hpp>
-#include <hapbeam/rom/coordinates.hpp>
-#include <hapbeam/rom/full_model.hpp>
+#include <hapbeam/rom/trained/coordinates.hpp>
+#include <hapbeam/rom/training/full_model.hpp>
 #include <hapbeam/scene/scene.hpp>
 
 namespace hapbeam {

@@ -1,0 +1,29 @@
+// How a number that makes no sense is refused where it enters.
+//
+// Offline: each check throws std::invalid_argument naming field, value, unit and what is allowed.
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace hapbeam::detail {
+
+[[gnu::cold]] [[noreturn]] inline void reject(const char* field, double value, const char* unit,
+                                              const char* allowed) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%s = %g%s%s: must be %s", field, value, *unit ? " " : "", unit, allowed);
+  throw std::invalid_argument(text);
+}
+
+[[gnu::cold]] inline double positive(const char* field, double value, const char* unit) {
+  if (!(std::isfinite(value) && value > 0)) reject(field, value, unit, "positive and finite");
+  return value;
+}
+
+[[gnu::cold]] inline double finite(const char* field, double value, const char* unit) {
+  if (!std::isfinite(value)) reject(field, value, unit, "finite");
+  return value;
+}
+
+}  // namespace hapbeam::detail

@@ -1,0 +1,80 @@
+// The reference assembler: the whole tangent as one dense matrix, factored by Eigen.
+//
+// It computes what BlockTridiagonal computes, in O(n³), without knowing that a beam is a chain.  Use it to check
+// an assembler or an element, never in a servo loop: it allocates.  Exceptions: only at construction.
+#pragma once
+
+#include <limits>
+
+#include <Eigen/Cholesky>
+
+#include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/solver/ldlt3.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam {
+
+template <typename Scalar, int Elements = Eigen::Dynamic, int MaxElements = Elements>
+class Dense {
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+ public:
+  explicit Dense(int elements) : K_(3 * (elements + 1), 3 * (elements + 1)), x_(3 * (elements + 1)) {}
+
+  /// Members do what those of BlockTridiagonal of the same name do.
+  void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
+    if (e == 0) {
+      K_.setZero();
+      x_.setZero();
+    }
+    K_.template block<6, 6>(3 * e, 3 * e) += K;
+    x_.template segment<6>(3 * e) -= r;
+  }
+
+  void prescribe(int node, int component, Scalar increment) noexcept {
+    const int k = 3 * node + component;
+    const Scalar pivot = K_(k, k);
+    x_ -= increment * K_.col(k);
+    x_[k] = 0;
+    K_.row(k).setZero();
+    K_.col(k).setZero();
+    K_(k, k) = pivot;
+  }
+
+  void hold(int node, int component, Scalar increment) noexcept {
+    const int k = 3 * node + component;
+    held_by_ = K_.col(k);
+    held_by_[k] = 0;
+    held_by_loads_ = K_(k, k) * increment - x_[k];
+    prescribe(node, component, increment);
+  }
+
+  Status solve() {
+    if (!K_.allFinite() || !x_.allFinite()) return Status::non_finite;
+    const Vector assembled = K_.diagonal(), rhs = x_;
+    const Eigen::LDLT<Matrix> factor(K_);
+    x_ = factor.solve(rhs);
+    energy_ = rhs.dot(x_);
+    negative_pivots_ = static_cast<int>((factor.vectorD().array() < 0).count());
+    // Its order of elimination is not the beam's, so a pivot that should be zero holds the round-off of all rows.
+    const Scalar epsilon = std::numeric_limits<Scalar>::epsilon() * static_cast<Scalar>(K_.rows());
+    const Vector unpermuted = factor.transpositionsP().transpose() * factor.vectorD();
+    return (unpermuted.array().abs() > epsilon * assembled.array().abs()).all() ? Status::ok
+                                                                                : Status::singular;
+  }
+
+  Scalar energy() const noexcept { return energy_; }
+  Scalar reaction() const noexcept { return held_by_loads_ + held_by_.dot(x_); }
+  int negative_pivots() const noexcept { return negative_pivots_; }
+  Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
+
+ private:
+  Matrix K_;
+  Vector x_, held_by_;
+  Scalar held_by_loads_ = 0;
+  Scalar energy_ = 0;
+  int negative_pivots_ = 0;
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,108 @@
+// Where a scripted hand wants to be: timed way-points in the plane, joined by the smoothest reach.
+//
+// Between two way-points the hand moves on the straight line with minimum jerk (Flash and Hogan, J. Neurosci.
+// 5(7), 1985), the shape of a human reach: it leaves and arrives at rest, so that position, velocity and
+// acceleration are continuous everywhere:  p(τ) = a + (b - a)(10τ³ - 15τ⁴ + 6τ⁵),  τ in [0, 1].
+// Building allocates and throws std::invalid_argument naming field, value and unit; asking does neither.
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/check.hpp>
+#include <hapbeam/haptics/device/device.hpp>
+
+namespace hapbeam {
+
+/// Where the hand wants to be, how fast it wants to go there, and what it pushes besides.
+struct HandTarget {
+  Eigen::Vector3d position;                        ///< [m] device axes
+  Eigen::Vector3d velocity;                        ///< [m/s]
+  Eigen::Vector3d push = Eigen::Vector3d::Zero();  ///< [N] held until the next target; a weight, for example
+};
+
+/// A script for the hand in the device's x-y plane (z = 0): it begins at rest at a place and is told what to
+/// do next, for example `HandPath({0, 0.02}).press(0.03, 1).slide(0.1, 2).release(0.03, 1)`.
+class HandPath {
+ public:
+  /// One way-point, passed at rest.
+  struct WayPoint {
+    double time;               ///< [s] since the beginning
+    Vector2<double> position;  ///< [m] x to the right, y up
+  };
+
+  /// A hand that rests at a place.
+  /// @param place [m]   @throws std::invalid_argument where a coordinate is not finite
+  explicit HandPath(const Vector2<double>& place) : points_{{0, checked("hand path place", place)}} {}
+
+  /// Way-points in the order of their times.
+  /// @throws std::invalid_argument where there is none, the first is not at 0 s, a time does not come after
+  ///         the one before it, or anything is not finite
+  explicit HandPath(const std::vector<WayPoint>& points) {
+    if (points.empty()) throw std::invalid_argument("hand path: must have at least one way-point");
+    if (points.front().time != 0) detail::reject("hand path first time", points.front().time, "s", "0");
+    points_.reserve(points.size());
+    for (const WayPoint& point : points) {
+      if (!points_.empty() && !(std::isfinite(point.time) && point.time > points_.back().time))
+        detail::reject("hand path time", point.time, "s", "finite and after the one before it");
+      points_.push_back({point.time, checked("hand path position", point.position)});
+    }
+  }
+
+  /// Reaches for a place.  @param place [m]   @param duration [s], positive
+  HandPath& move_to(const Vector2<double>& place, double duration) {
+    detail::positive("hand path duration", duration, "s");
+    points_.push_back({points_.back().time + duration, checked("hand path place", place)});
+    return *this;
+  }
+  /// Moves along the beam.  @param distance [m] to the right, either sign   @param duration [s]
+  HandPath& slide(double distance, double duration) { return move_by(distance, 0, duration); }
+  /// Presses down.  @param depth [m], positive   @param duration [s]
+  HandPath& press(double depth, double duration) {
+    return move_by(0, -detail::positive("hand path depth", depth, "m"), duration);
+  }
+  /// Lets go upwards.  @param height [m], positive   @param duration [s]
+  HandPath& release(double height, double duration) {
+    return move_by(0, detail::positive("hand path height", height, "m"), duration);
+  }
+  /// Stays where it is.  @param duration [s]
+  HandPath& rest(double duration) { return move_by(0, 0, duration); }
+
+  const std::vector<WayPoint>& points() const noexcept { return points_; }
+  double duration() const noexcept { return points_.back().time; }  ///< [s]
+
+  /// Where the hand wants to be at a time; before the first way-point the first, after the last the last.
+  /// @param time [s]
+  /// Real-time: no allocation, noexcept, wait-free, O(log way-points).
+  HandTarget operator()(double time) const noexcept {
+    const auto next = std::upper_bound(points_.begin(), points_.end(), time,
+                                       [](double t, const WayPoint& point) { return t < point.time; });
+    if (next == points_.begin()) return at_rest(points_.front());
+    if (next == points_.end()) return at_rest(points_.back());
+    const WayPoint &a = *(next - 1), &b = *next;
+    const double span = b.time - a.time, t = (time - a.time) / span, r = 1 - t;
+    const Vector2<double> way = b.position - a.position;
+    const Vector2<double> position = a.position + way * (t * t * t * (10 + t * (6 * t - 15)));
+    const Vector2<double> velocity = way * (30 * t * t * r * r / span);
+    return {{position.x(), position.y(), 0}, {velocity.x(), velocity.y(), 0}};
+  }
+
+ private:
+  static Vector2<double> checked(const char* field, const Vector2<double>& place) {
+    detail::finite(field, place.x(), "m");
+    detail::finite(field, place.y(), "m");
+    return place;
+  }
+  static HandTarget at_rest(const WayPoint& point) noexcept {
+    return {{point.position.x(), point.position.y(), 0}, Eigen::Vector3d::Zero()};
+  }
+  HandPath& move_by(double x, double y, double duration) {
+    return move_to(points_.back().position + Vector2<double>(x, y), duration);
+  }
+
+  std::vector<WayPoint> points_;
+};
+
+}  // namespace hapbeam

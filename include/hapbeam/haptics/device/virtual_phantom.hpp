@@ -1,0 +1,253 @@
+// A Phantom Premium 1.5/6DOF High Force and the hand that holds it, simulated: a device without a device.
+//
+// The arm is a mass with viscous damping and Coulomb friction on each axis (arm_axis.hpp), read by encoders
+// (encoders.hpp), its force held over the period and limited to the peak; a hand of mass, spring and damper
+// pulls it along a path (hand_path.hpp).  Figures: thesis Table 2.1.  Three translations, no end stops.
+//
+// It fulfils the device contract (device.hpp) with a thread of its own, in real time, or runs in lock step
+// with simulated time, as fast as the machine can and the same bits every time.
+// Construction and start() allocate and throw; nothing in a tick does, and no tick waits for another thread.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <thread>
+#include <type_traits>
+#include <utility>
+
+#include <hapbeam/haptics/device/arm_axis.hpp>
+#include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/device/encoders.hpp>
+#include <hapbeam/haptics/device/hand_path.hpp>
+
+namespace hapbeam {
+
+/// The arm.  Defaults are the thesis' Table 2.1 where no other source is named.
+struct ArmOptions {
+  double apparent_mass = 0.21;   ///< [kg] at the tip, positive
+  double damping = 5;            ///< [N·s/m] viscous; not in the table, a figure seen for such a unit
+  double friction = 0.2;         ///< [N] Coulomb, on each axis
+  double resolution = 7e-6;      ///< [m] of the encoders; 0: exact
+  double velocity_cutoff = 100;  ///< [Hz] of the velocity's low pass, positive; not in the table
+  double peak_force = 37.5;      ///< [N] positive
+  double period = 1e-3;          ///< [s] of the servo loop, 1e-5 to 1
+  int delay_ticks = 0;           ///< whole periods between a force and the motors, 0 to 16
+};
+
+/// The hand that holds the arm, a spring and a damper between path and grip; within the published fits.
+struct HandOptions {
+  double stiffness = 500;  ///< [N/m]; 0: the hand has let go of the path
+  double damping = 1.3;    ///< [N·s/m]
+  double grip_mass = 0.2;  ///< [kg] that moves with the arm
+};
+
+struct VirtualPhantomOptions {
+  ArmOptions arm;
+  HandOptions hand;
+};
+
+/// True position and velocity of the arm's tip, which no device would tell.
+struct Tip {
+  Eigen::Vector3d position;  ///< [m]
+  Eigen::Vector3d velocity;  ///< [m/s]
+};
+
+/// @tparam Path  where the hand wants to be: HandTarget path(double time) noexcept, time in [s]
+template <typename Path = HandPath>
+class VirtualPhantom {
+  static_assert(std::is_nothrow_invocable_v<const Path&, double> &&
+                    std::is_same_v<std::invoke_result_t<const Path&, double>, HandTarget>,
+                "a hand's path is called as: HandTarget path(double time) const noexcept");
+
+ public:
+  /// @throws std::invalid_argument naming field, value and unit; also where a HandPath leaves the workspace
+  explicit VirtualPhantom(Path path, const VirtualPhantomOptions& options = {})
+      : path_(std::move(path)), options_(checked(options)), info_(describe(options.arm)) {
+    check_workspace();
+    reset();
+  }
+  ~VirtualPhantom() { stop(); }
+  VirtualPhantom(const VirtualPhantom&) = delete;
+  VirtualPhantom& operator=(const VirtualPhantom&) = delete;
+
+  const DeviceInfo& info() const noexcept { return info_; }
+  const VirtualPhantomOptions& options() const noexcept { return options_; }
+  bool running() const noexcept { return running_.load(std::memory_order_acquire); }
+  DeviceStatus status() const noexcept { return running() ? DeviceStatus::running : DeviceStatus::stopped; }
+  DeviceCounts counts() const noexcept {
+    return {ticks_.load(std::memory_order_relaxed), missed_ticks_.load(std::memory_order_relaxed),
+            force_cut_ticks_.load(std::memory_order_relaxed)};
+  }
+
+  /// Begins the path anew and calls the servo in real time, at absolute deadlines.  A tick that begins more
+  /// than one period after its deadline has missed as many ticks as whole periods have passed; meanwhile the
+  /// arm moves on under the last force.  start() and stop() belong to one thread.
+  /// @throws std::logic_error where it runs already, std::system_error where the system gives no thread
+  template <typename Servo>
+  void start(Servo& servo) {
+    require_servo<Servo>();
+    if (running()) throw std::logic_error("VirtualPhantom: runs already");
+    stop();
+    reset();
+    stopping_.store(false, std::memory_order_relaxed);
+    thread_ = std::thread([this, &servo]() noexcept { run_in_real_time(servo); });
+    running_.store(true, std::memory_order_release);
+  }
+  void stop() noexcept {
+    if (!thread_.joinable()) return;
+    stopping_.store(true, std::memory_order_relaxed);
+    thread_.join();
+    running_.store(false, std::memory_order_release);
+  }
+
+  /// Lock step: one tick and one period of simulated time.  Only while it does not run.
+  /// Real-time: no allocation, noexcept, wait-free; bounded work.
+  template <typename Servo>
+  void step(Servo& servo) noexcept {
+    require_servo<Servo>();
+    tick(servo);
+    advance();
+  }
+  /// Lock step over a simulated duration [s], to the nearest whole period.  Only while it does not run.
+  template <typename Servo>
+  void run(Servo& servo, double duration) noexcept {
+    for (auto left = std::llround(duration / options_.arm.period); left > 0; --left) step(servo);
+  }
+  /// Back to the beginning of the path, at rest there, all counts zero.  Only while it does not run.
+  void reset() noexcept {
+    periods_ = 0;
+    ticks_ = missed_ticks_ = force_cut_ticks_ = 0;
+    force_.setZero();
+    late_.fill(force_);
+    cut_ = ForceCut::none;
+    target_ = path_(0);
+    for (int i = 0; i < 3; ++i) axes_[i].place(target_.position[i]);
+    encoders_.reset(tip().position);
+  }
+  /// Where the tip really is.  Only while it does not run, or from the servo.
+  Tip tip() const noexcept {
+    return {{axes_[0].position(), axes_[1].position(), axes_[2].position()},
+            {axes_[0].velocity(), axes_[1].velocity(), axes_[2].velocity()}};
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int max_delay = 16;
+
+  template <typename Servo>
+  void tick(Servo& servo) noexcept {
+    Eigen::Vector3d force = servo(DeviceState{
+        encoders_.position(), encoders_.velocity(), static_cast<double>(periods_) * options_.arm.period, cut_,
+        force_, DeviceStatus::running, ticks_.load(std::memory_order_relaxed) == 0});
+    cut_ = limit_force(force, options_.arm.peak_force);
+    force_ = force;
+    ticks_.fetch_add(1, std::memory_order_relaxed);
+    if (cut_ != ForceCut::none) force_cut_ticks_.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  /// One period under the last force.
+  void advance() noexcept {
+    const double period = options_.arm.period;
+    const HandTarget from = target_;
+    target_ = path_(static_cast<double>(++periods_) * period);
+    std::move_backward(late_.begin(), late_.end() - 1, late_.end());
+    late_[0] = force_;
+    const Eigen::Vector3d force = late_[static_cast<std::size_t>(options_.arm.delay_ticks)] + from.push;
+    for (int i = 0; i < 3; ++i)
+      axes_[i].advance(axes_[i].drive(force[i], from.position[i], from.velocity[i], target_.position[i],
+                                      target_.velocity[i], options_.hand.damping, period),
+                       period);
+    encoders_.read(tip().position);
+  }
+
+  template <typename Servo>
+  void run_in_real_time(Servo& servo) noexcept {
+    const auto period =
+        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options_.arm.period));
+    auto deadline = Clock::now();
+    while (!stopping_.load(std::memory_order_relaxed)) {
+      tick(servo);
+      deadline += period;
+      std::this_thread::sleep_until(deadline);
+      advance();
+      for (; Clock::now() - deadline > period; deadline += period) {
+        missed_ticks_.fetch_add(1, std::memory_order_relaxed);
+        advance();
+      }
+    }
+  }
+
+  static VirtualPhantomOptions checked(const VirtualPhantomOptions& options) {
+    const ArmOptions& arm = options.arm;
+    const HandOptions& hand = options.hand;
+    const auto not_negative = [](const char* field, double value, const char* unit) {
+      if (!(std::isfinite(value) && value >= 0))
+        detail::reject(field, value, unit, "finite and not negative");
+    };
+    detail::positive("apparent_mass", arm.apparent_mass, "kg");
+    not_negative("arm damping", arm.damping, "N·s/m");
+    not_negative("friction", arm.friction, "N");
+    not_negative("resolution", arm.resolution, "m");
+    detail::positive("velocity_cutoff", arm.velocity_cutoff, "Hz");
+    detail::positive("peak_force", arm.peak_force, "N");
+    if (!(arm.period >= 1e-5 && arm.period <= 1)) detail::reject("period", arm.period, "s", "1e-5 to 1");
+    if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= max_delay))
+      detail::reject("delay_ticks", arm.delay_ticks, "", "0 to 16");
+    not_negative("hand stiffness", hand.stiffness, "N/m");
+    not_negative("hand damping", hand.damping, "N·s/m");
+    not_negative("grip_mass", hand.grip_mass, "kg");
+    // Bounded work: an arm that settles a thousand times within a period is a mistake in a unit.
+    if (arm.period > 500 * axis(options).longest_piece())
+      detail::reject("apparent_mass", arm.apparent_mass, "kg",
+                     "large enough that the arm does not settle in 1/1000 period");
+    return options;
+  }
+  static ArmAxis axis(const VirtualPhantomOptions& o) noexcept {
+    return ArmAxis({o.arm.apparent_mass + o.hand.grip_mass, o.arm.damping + o.hand.damping, o.hand.stiffness,
+                    o.arm.friction});
+  }
+  static DeviceInfo describe(const ArmOptions& arm) {
+    return {"virtual Phantom Premium 1.5/6DOF High Force",
+            {0.381, 0.267, 0.191},
+            arm.peak_force,
+            6.2,
+            3500,
+            arm.resolution,
+            arm.friction,
+            arm.period,
+            arm.damping,
+            arm.apparent_mass};
+  }
+  void check_workspace() const {
+    if constexpr (std::is_same_v<Path, HandPath>)
+      for (const HandPath::WayPoint& point : path_.points())
+        for (int i = 0; i < 2; ++i)
+          if (std::abs(point.position[i]) > info_.workspace[i] / 2)
+            detail::reject(
+                i == 0 ? "hand path x" : "hand path y", point.position[i], "m",
+                i == 0 ? "in the workspace, -0.1905 to 0.1905" : "in the workspace, -0.1335 to 0.1335");
+  }
+
+  Path path_;
+  VirtualPhantomOptions options_;
+  DeviceInfo info_;
+  ArmAxis axes_[3] = {axis(options_), axis(options_), axis(options_)};
+  Encoders encoders_{options_.arm.resolution, options_.arm.velocity_cutoff, options_.arm.period};
+  HandTarget target_{};
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  std::array<Eigen::Vector3d, max_delay + 1> late_;  // newest first
+  ForceCut cut_ = ForceCut::none;
+  std::uint64_t periods_ = 0;
+  std::atomic<std::uint64_t> ticks_{0}, missed_ticks_{0}, force_cut_ticks_{0};
+  std::atomic<bool> running_{false}, stopping_{false};
+  std::thread thread_;
+  static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "counting in a tick must not lock");
+};
+
+}  // namespace hapbeam

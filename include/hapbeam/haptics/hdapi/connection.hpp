@@ -1,0 +1,204 @@
+// One device of HDAPI: connected, asked what it is, calibrated, read, let go.
+//
+// mm become m and N/mm become N/m here and nowhere else; the origin becomes the middle of the workspace.
+// Forces are in N on both sides, axes are the same.
+// Offline but for read(): throws and allocates.  A message names the device, what was asked of it and the
+// vendor's error.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <hapbeam/check.hpp>
+#include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/hdapi/calibration.hpp>
+#include <hapbeam/haptics/hdapi/scheduler.hpp>
+
+namespace hapbeam {
+
+/// Which device, and how it is to be used.
+struct HdapiOptions {
+  std::string device;    ///< its name in the vendor's setup program; empty: the default device
+  unsigned rate = 1000;  ///< [Hz] of the servo loop, one that the device knows; the same for all devices
+  double force_limit =
+      std::numeric_limits<double>::infinity();  ///< [N] positive; the device's own peak applies too
+  double ramp_time = 0.5;  ///< [s] from no force to all of it, after a start and after an error; positive
+
+  // What HDAPI does not tell; 0 where unknown.
+  double position_resolution = 0;  ///< [m]
+  double friction = 0;             ///< [N] to drive the arm back by hand
+  double damping = 0;              ///< [N·s/m] viscous, of the arm
+  double apparent_mass = 0;        ///< [kg] at the tip
+};
+
+/// A device that cannot be used; why() is what its status() says.
+class DeviceError : public std::runtime_error {
+ public:
+  DeviceError(DeviceStatus why, const std::string& text) : std::runtime_error(text), why_(why) {}
+  DeviceStatus why() const noexcept { return why_; }
+
+ private:
+  DeviceStatus why_;
+};
+
+namespace detail {
+
+template <typename Api>
+class HdConnection {
+ public:
+  using Scheduler = HdScheduler<Api>;
+
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  explicit HdConnection(const HdapiOptions& options) : options_(options) {
+    if (options.rate < 100 || options.rate > 10000)
+      reject("rate", options.rate, "Hz", "one that the device knows, 100 to 10000");
+    if (!(options.force_limit > 0)) reject("force_limit", options.force_limit, "N", "positive");
+    positive("ramp_time", options.ramp_time, "s");
+    not_negative("position_resolution", options.position_resolution, "m");
+    not_negative("friction", options.friction, "N");
+    not_negative("damping", options.damping, "N·s/m");
+    not_negative("apparent_mass", options.apparent_mass, "kg");
+  }
+
+  const HdapiOptions& options() const noexcept { return options_; }
+  const DeviceInfo& info() const noexcept { return info_; }
+  const Eigen::Vector3d& middle() const noexcept {
+    return middle_;
+  }  ///< [mm] of the workspace, vendor's axes
+  bool connected() const noexcept { return connected_; }
+
+  /// Initialises the device and asks what it is.  With the scheduler's mutex.
+  /// @throws std::logic_error while any loop of this Api runs, DeviceError
+  void connect() {
+    if (Scheduler::runs())
+      throw std::logic_error("Hdapi: a device is connected while no loop runs; stop the other devices first");
+    Scheduler::drain();
+    client.handle = Api::init_device(options_.device.empty() ? nullptr : options_.device.c_str());
+    const HdErrors errors = Scheduler::drain();
+    connected_ = client.handle != Api::invalid_handle;
+    try {
+      if (!connected_ || errors.worst >= HdErrorClass::fault) fail("cannot be initialised", errors);
+      describe();
+    } catch (...) {
+      disconnect();
+      throw;
+    }
+  }
+
+  /// With the scheduler's mutex.
+  void disconnect() noexcept {
+    if (connected_) Scheduler::disable(client.handle);
+    connected_ = false;
+  }
+
+  /// Of a device that a person calibrates; one that calibrates itself does so in the loop.
+  /// @param at_reset_position  the arm stands there now   With the scheduler's mutex.   @throws DeviceError
+  void calibrate(bool at_reset_position) {
+    if (calibration.automatic()) return;
+    bool calibrated = false;
+    HdErrors errors;
+    const bool asked = Scheduler::call([&]() noexcept {
+      Scheduler::drain();
+      Api::make_current_device(client.handle);
+      calibrated = calibration.check(at_reset_position);
+      errors = Scheduler::drain();
+    });
+    if (!asked || errors.worst >= HdErrorClass::fault) fail("does not tell its calibration", errors);
+    if (!calibrated)
+      throw DeviceError(DeviceStatus::calibration_needed,
+                        title() +
+                            "is not calibrated: put the arm into its reset position, call calibrate() there, "
+                            "and start again");
+  }
+
+  /// @throws DeviceError
+  [[noreturn]] void fail(const char* what, const HdErrors& errors) const {
+    const char* said = errors.code == Api::success ? nullptr : Api::get_error_string(errors.code);
+    char code[24];
+    std::snprintf(code, sizeof code, " (0x%03x)", errors.code);
+    throw DeviceError(errors.worst == HdErrorClass::communication ? DeviceStatus::communication_lost
+                                                                  : DeviceStatus::device_fault,
+                      title() + what + ": " + (said ? said : "no reason is given") + code);
+  }
+
+  /// What the current device reads, in SI.
+  struct Reading {
+    Eigen::Vector3d position;  ///< [m]
+    Eigen::Vector3d velocity;  ///< [m/s]
+    double temperature;        ///< of the hottest motor over what it bears; 0: not measured
+    bool finite() const noexcept { return position.allFinite() && velocity.allFinite(); }
+  };
+  /// In a frame; not finite where the vendor's functions give nothing.
+  /// Real-time: no allocation, noexcept, O(1).
+  Reading read() const noexcept {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    Eigen::Vector3d position(none, none, none), velocity(none, none, none);  // mm, mm/s
+    double heat[most_motors] = {}, hottest = 0;
+    Api::get_doublev(Api::current_position, position.data());
+    Api::get_doublev(Api::current_velocity, velocity.data());
+    if (has_temperature_) Api::get_doublev(Api::motor_temperature, heat);
+    for (const double motor : heat) hottest = std::max(hottest, std::isfinite(motor) ? motor : 1.0);
+    return {(position - middle_) * 1e-3, velocity * 1e-3, hottest};
+  }
+
+  HdClient client;                       ///< its handle, and the errors that are its own
+  HdCalibration<Api> calibration{0, 1};  ///< of the connected device
+
+ private:
+  static void not_negative(const char* field, double value, const char* unit) {
+    if (!(std::isfinite(value) && value >= 0)) reject(field, value, unit, "finite and not negative");
+  }
+
+  std::string title() const {
+    return "Hdapi: " + (options_.device.empty() ? "the default device" : "device '" + options_.device + "'") +
+           " ";
+  }
+
+  void describe() {
+    Api::make_current_device(client.handle);
+    double box[6] = {}, peak = 0, continuous = 0, stiffness = 0;  // mm, N, N, N/mm
+    Api::get_doublev(Api::usable_workspace, box);
+    Api::get_doublev(Api::nominal_max_force, &peak);
+    Api::get_doublev(Api::nominal_max_continuous_force, &continuous);
+    Api::get_doublev(Api::nominal_max_stiffness, &stiffness);
+    int styles = 0;
+    Api::get_integerv(Api::calibration_style, &styles);
+    const char* model = Api::get_string(Api::device_model_type);
+    const HdErrors errors = Scheduler::drain();
+    if (errors.worst >= HdErrorClass::fault) fail("does not say what it is", errors);
+    const Eigen::Vector3d low(box[0], box[1], box[2]), high(box[3], box[4], box[5]);
+    if (!(low.allFinite() && high.allFinite() && (high - low).minCoeff() > 0)) fail("names no workspace", {});
+    if (!(std::isfinite(peak) && peak > 0)) fail("names no maximal force", {});
+    calibration = HdCalibration<Api>(static_cast<unsigned>(styles), options_.rate);
+    middle_ = (low + high) / 2;
+    info_ = {model ? model : "unnamed device",
+             (high - low) * 1e-3,
+             std::min(peak, options_.force_limit),
+             std::min(continuous, options_.force_limit),
+             stiffness * 1e3,
+             options_.position_resolution,
+             options_.friction,
+             1.0 / options_.rate,
+             options_.damping,
+             options_.apparent_mass};
+    // Not every device measures it; what is an error here must not be one in each tick.
+    double temperatures[most_motors] = {};
+    Api::get_doublev(Api::motor_temperature, temperatures);
+    has_temperature_ = Scheduler::drain().worst == HdErrorClass::none;
+  }
+
+  static constexpr int most_motors = 16;
+
+  HdapiOptions options_;
+  DeviceInfo info_;
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  // [mm] of the workspace, in the vendor's axes
+  bool has_temperature_ = false, connected_ = false;
+};
+
+}  // namespace detail
+
+}  // namespace hapbeam

@@ -1,0 +1,267 @@
+// A device of OpenHaptics' HDAPI behind the device contract (device.hpp).
+//
+//   Hdapi<OpenHaptics> device;          // connects; docs/haptics.md has a complete program
+//   device.start(servo);                // or throws: a person has to calibrate it, no communication …
+//
+// A tick is one frame: the device is read, the shared stack of errors emptied, the servo asked, its force
+// limited, ramped and sent, zero included, because a force that nobody replaces persists.
+//
+//   found in a tick                          what follows
+//   a force or speed was refused             zero is sent, DeviceState::reset, the force ramps in
+//   warm motors, or a temperature above 0.7  the force ramps down to zero, and in again below 0.5
+//   calibration missing or lost              the servo is not asked, zero is sent until the device has calibrated
+//                                            itself, then reset and ramp; one that a person calibrates: the loop ends
+//   communication lost; any other error, a   the servo is not asked, zero is sent, forces are switched off,
+//   position that is not a number, a frame   the loop ends and status() says why; start() connects anew
+//   that is not this device's
+//
+// Several devices share one scheduler (hdapi_scheduler.hpp): one is constructed, or started again after its loop
+// was lost, while no other runs; a healthy one starts and stops whenever it likes.  Units and origin are the
+// contract's (hdapi_connection.hpp).  Construction, calibrate() and start() allocate and throw; nothing in a tick
+// does, and no tick waits for a thread.   Source: OpenHaptics Toolkit, programmer's guide.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/device/force_ramp.hpp>
+#include <hapbeam/haptics/hdapi/connection.hpp>
+
+namespace hapbeam {
+
+/// @tparam Api    the C functions and constants (hdapi_contract.hpp): OpenHaptics, or an emulation
+/// @tparam Clock  of time and missed ticks: steady, now() noexcept
+template <typename Api, typename Clock = std::chrono::steady_clock>
+class Hdapi {
+  static_assert(is_hd_api<Api>,
+                "an Api is what hapbeam/haptics/hdapi/contract.hpp lists, noexcept, in the vendor's types");
+  static_assert(Clock::is_steady&& noexcept(Clock::now()),
+                "ticks are timed by a steady clock that does not throw");
+
+  using Scheduler = detail::HdScheduler<Api>;
+  using Lock = std::lock_guard<std::mutex>;
+
+ public:
+  /// Connects.   @throws std::invalid_argument, DeviceError; std::logic_error while another device's loop
+  /// runs
+  explicit Hdapi(const HdapiOptions& options = {})
+      : device_(options), ramp_(options.ramp_time, 1.0 / options.rate) {
+    const Lock lock(Scheduler::mutex);
+    device_.connect();
+  }
+  ~Hdapi() {
+    stop();
+    const Lock lock(Scheduler::mutex);
+    device_.disconnect();
+  }
+  Hdapi(const Hdapi&) = delete;
+  Hdapi& operator=(const Hdapi&) = delete;
+
+  const DeviceInfo& info() const noexcept { return device_.info(); }
+  DeviceStatus status() const noexcept { return status_.load(std::memory_order_acquire); }
+  bool running() const noexcept { return is_running(status()); }
+  DeviceCounts counts() const noexcept {
+    return {ticks_.load(std::memory_order_relaxed), missed_ticks_.load(std::memory_order_relaxed),
+            force_cut_ticks_.load(std::memory_order_relaxed)};
+  }
+
+  /// The arm stands in its reset position: takes that for the place that the maker means.  Nothing where the device
+  /// calibrates itself while it runs, with an inkwell or without.
+  /// @throws std::logic_error while it runs, DeviceError where the device is not calibrated even so
+  void calibrate() {
+    const Lock lock(Scheduler::mutex);
+    if (running()) throw std::logic_error("Hdapi: cannot be calibrated while it runs");
+    prepare([this] { device_.calibrate(true); });
+  }
+
+  /// Checks a calibration that a person makes, schedules the tick, switches forces on, starts the scheduler where none
+  /// runs.  The force ramps in; a device that calibrates itself is `calibrating` first, for as long as that takes.
+  /// After a fault: connects anew.  Blocks.  start() and stop() belong to one thread.
+  /// @throws std::logic_error where it runs already or must connect while another runs, std::invalid_argument
+  ///         where another runs at another rate, DeviceError with the status that status() then has
+  template <typename Servo>
+  void start(Servo& servo) {
+    require_servo<Servo>();
+    const Lock lock(Scheduler::mutex);
+    if (running()) throw std::logic_error("Hdapi: runs already");
+    const unsigned rate = device_.options().rate;
+    if (Scheduler::runs() && Scheduler::rate() != rate)
+      detail::reject("rate", rate, "Hz", "that of the devices that run already");
+    prepare([this] { device_.calibrate(false); });
+    servo_ = &servo;
+    ask_ = [](void* object, const DeviceState& state) noexcept {
+      return (*static_cast<Servo*>(object))(state);
+    };
+    prepare([this] { begin(); });
+  }
+
+  void stop() noexcept {  // blocks until the last tick has returned
+    const Lock lock(Scheduler::mutex);
+    end();
+  }
+
+ private:
+  /// Does what may throw a DeviceError, with a connected device; what is thrown becomes the status.
+  template <typename Act>
+  void prepare(const Act& act) {
+    try {
+      end();
+      if (!device_.connected()) device_.connect();
+      status_.store(DeviceStatus::stopped, std::memory_order_release);
+      act();
+    } catch (const DeviceError& error) {
+      end();
+      status_.store(error.why(), std::memory_order_release);
+      end();
+      throw;
+    }
+  }
+
+  void begin() {
+    ticks_ = missed_ticks_ = force_cut_ticks_ = 0;
+    stopping_ = ended_ = false;
+    sent_.setZero();
+    cut_ = ForceCut::none;
+    ramp_.start();
+    device_.calibration.start();
+    anew_ = true, timed_ = false;
+    detail::HdErrors errors;
+    scheduled_ = true;
+    Scheduler::call([this]() noexcept {
+      Scheduler::drain();
+      device_.client.errors = {};
+      Scheduler::link(device_.client);
+    });
+    if (!Scheduler::runs()) Api::set_scheduler_rate(device_.options().rate);
+    status_.store(device_.calibration.automatic() ? DeviceStatus::calibrating : DeviceStatus::running,
+                  std::memory_order_release);
+    schedule_ =
+        Api::schedule_asynchronous(Api::template callback<&Hdapi::servo_tick>, this, Api::default_priority);
+    const bool asked = Scheduler::call([&]() noexcept {
+      if (ended_.load(relaxed)) return;  // beside another loop this one runs by now, and has met a fault
+      Api::make_current_device(device_.client.handle);
+      Api::enable(Api::force_output);
+      Scheduler::drain();
+      errors = device_.client.errors;
+    });
+    if (!asked || !has_schedule()) device_.fail("is not scheduled", errors);
+    if (errors.worst >= HdErrorClass::fault) device_.fail("does not start", errors);
+    counted_ = true;
+    Scheduler::add_loop(device_.options().rate);
+  }
+  bool has_schedule() const noexcept { return static_cast<unsigned>(schedule_) != Api::invalid_handle; }
+
+  /// Zero is sent, forces are switched off and the tick is called no more; a device that was lost is let go.
+  void end() noexcept {
+    stopping_.store(true, relaxed);
+    // What is called synchronously returns after this tick or the next: the loop has then ended itself.
+    for (int i = 0; i < 10 && scheduled_ && Scheduler::runs() && has_schedule() && !ended_; ++i)
+      Scheduler::call([]() noexcept {});
+    if (std::exchange(counted_, false)) Scheduler::remove_loop();
+    if (std::exchange(scheduled_, false) && !ended_) {  // it never ran, or the scheduler does not answer
+      if (has_schedule()) Api::unschedule(schedule_);
+      Scheduler::call([this]() noexcept { Scheduler::unlink(device_.client); });
+    }
+    if (running()) status_.store(DeviceStatus::stopped, std::memory_order_release);
+    if (status() == DeviceStatus::device_fault || status() == DeviceStatus::communication_lost)
+      device_.disconnect();
+  }
+
+  static unsigned servo_tick(void* self) noexcept {
+    return static_cast<Hdapi*>(self)->tick() ? Api::callback_continue : Api::callback_done;
+  }
+
+  /// @return whether the loop goes on
+  bool tick() noexcept {
+    if (ended_.load(relaxed)) return false;
+    const unsigned handle = device_.client.handle;
+    const auto now = Clock::now();
+    Api::begin_frame(handle);
+    // A frame that does not begin may leave another device current, and that one must not get this one's
+    // force.
+    const bool current = Api::get_current_device() == handle;
+    const auto reading = device_.read();
+    const bool calibrated = current && device_.calibration.ask();
+    Scheduler::drain();
+    const detail::HdErrors errors = std::exchange(device_.client.errors, {});
+
+    const DeviceStatus end =
+        errors.worst == HdErrorClass::communication ? DeviceStatus::communication_lost
+        : errors.worst == HdErrorClass::fault || !(current && reading.finite()) ? DeviceStatus::device_fault
+        : !calibrated && !device_.calibration.automatic() ? DeviceStatus::calibration_needed
+        : stopping_.load(relaxed)                         ? DeviceStatus::stopped
+                                                          : DeviceStatus::running;
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    if (is_running(end)) {
+      const bool force_error = errors.worst == HdErrorClass::force;
+      ramp_.advance(reading.temperature, errors.warm, force_error);
+      DeviceState state{reading.position, reading.velocity, elapsed(now), cut_, sent_};
+      state.status = !calibrated          ? DeviceStatus::calibrating
+                     : ramp_.warm()       ? DeviceStatus::warm
+                     : ramp_.recovering() ? DeviceStatus::force_error
+                                          : DeviceStatus::running;
+      state.reset = force_error || anew_;
+      status_.store(state.status, std::memory_order_release);
+      if (calibrated) force = ask(state);
+      else sent_.setZero(), cut_ = ForceCut::none, ramp_.restart();
+      anew_ = !calibrated;
+    }
+    if (current) Api::set_doublev(Api::current_force, force.data());
+    Api::end_frame(handle);
+    if (is_running(end)) {
+      device_.calibration.update();
+      return true;
+    }
+    if (current) Api::disable(Api::force_output);
+    Scheduler::unlink(device_.client);
+    status_.store(end, std::memory_order_release);
+    ended_.store(true, std::memory_order_release);
+    return false;
+  }
+
+  /// The servo's force, as it may be sent [N].
+  Eigen::Vector3d ask(const DeviceState& state) noexcept {
+    Eigen::Vector3d force = ask_(servo_, state);
+    cut_ = limit_force(force, info().peak_force);
+    if (cut_ == ForceCut::none && ramp_.gain() < 1 && force != Eigen::Vector3d::Zero())
+      cut_ = ForceCut::ramped;
+    force *= ramp_.gain();
+    sent_ = force;
+    ticks_.fetch_add(1, relaxed);
+    if (cut_ != ForceCut::none) force_cut_ticks_.fetch_add(1, relaxed);
+    return force;
+  }
+
+  /// Time since the first tick [s]; counts the ticks that should have been since the last one.
+  double elapsed(typename Clock::time_point now) noexcept {
+    if (!std::exchange(timed_, true)) first_ = last_ = now;
+    const double gap = std::chrono::duration<double>(now - std::exchange(last_, now)).count() / info().period;
+    if (gap >= 2) missed_ticks_.fetch_add(static_cast<std::uint64_t>(gap) - 1, relaxed);
+    return std::chrono::duration<double>(now - first_).count();
+  }
+
+  static constexpr auto relaxed = std::memory_order_relaxed;
+
+  detail::HdConnection<Api> device_;
+  ForceRamp ramp_;
+  void* servo_ = nullptr;
+  Eigen::Vector3d (*ask_)(void*, const DeviceState&) noexcept = nullptr;
+  unsigned long schedule_ = 0;
+  bool scheduled_ = false, counted_ = false;
+  bool anew_ = true;    // the servo has not been asked since the arm's place is known
+  bool timed_ = false;  // the clock runs
+  Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();
+  ForceCut cut_ = ForceCut::none;
+  typename Clock::time_point first_{}, last_{};
+  std::atomic<DeviceStatus> status_{DeviceStatus::stopped};
+  std::atomic<std::uint64_t> ticks_{0}, missed_ticks_{0}, force_cut_ticks_{0};
+  std::atomic<bool> stopping_{false}, ended_{false};
+  static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "a tick must not lock");
+};
+
+}  // namespace hapbeam

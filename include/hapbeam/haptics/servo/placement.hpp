@@ -1,0 +1,115 @@
+// Where the device's workspace lies in the scene: from the hand to the beam and, for forces, back.
+//
+//   p_scene = origin + scale R p_device      v_scene = scale R v_device      F_device = Rᵀ F_scene
+//
+// R turns the device's axes (x right, y up, z toward the user) into the scene's.  The scene's x and y are the
+// plane of the beam, x along it and y = w across it, and z stands on that plane.  Forces are not scaled: with
+// a scale of 2 the hand moves half as far for the same force and feels a beam twice as stiff, so what a
+// device can render in the scene is its own limit divided by the scale.  Power shrinks by 1 / scale and never
+// changes sign: a passive scene stays passive in the hand.
+//
+//   const Placement placement = Placement::in_plane({1.27, 0.02});    // the device's origin, above mid-span
+//   const Vector2<double> hand = placement.beam_position(state.position);
+//   const Eigen::Vector3d force = placement.device_force_of_beam(touch.tick(hand).force);
+//
+// Real-time: no allocation, noexcept, wait-free, O(1), but for the constructors.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/check.hpp>
+
+namespace hapbeam {
+
+class Placement {
+ public:
+  /// The device's axes are the scene's.
+  Placement() noexcept = default;
+
+  /// @param rotation  3×3, the device's axes in the scene's, orthonormal and right-handed to 1e-9
+  /// @param origin    [m] where the device's origin lies in the scene
+  /// @param scale     [m/m] of the scene for the device, 1e-6 to 1e6
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  Placement(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& origin, double scale = 1)
+      : turn_(rotation), origin_(origin), scale_(scale) {
+    if (!(scale >= 1e-6 && scale <= 1e6))
+      detail::reject("placement scale", scale, "m/m", "1e-6 to 1e6: a hand's centimetres are 10 nm to 10 km");
+    double skew = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const double product = rotation(i, 0) * rotation(k, 0) + rotation(i, 1) * rotation(k, 1) +
+                               rotation(i, 2) * rotation(k, 2);
+        skew = std::hypot(skew, product - (i == k));
+      }
+    if (!(skew <= 1e-9))
+      detail::reject("placement rotation, |R R^T - 1|", skew, "", "an orthonormal matrix, at most 1e-9");
+    // The product of the first two axes is the third, or its opposite where the axes are left-handed.
+    const double third = rotation(0, 0) * rotation(1, 1) - rotation(1, 0) * rotation(0, 1);
+    if (!(std::abs(third - rotation(2, 2)) <= 1e-8))
+      detail::reject("placement rotation determinant", -1, "", "1: a rotation keeps axes right-handed");
+    for (int i = 0; i < 3; ++i) detail::finite("placement origin", origin[i], "m");
+  }
+
+  /// The beam lies along the device's x, its w along the device's y.
+  /// @param origin  [m] x along the beam and w where the device's origin lies   @param scale  [m/m] 1e-6 to 1e6
+  static Placement in_plane(const Vector2<double>& origin, double scale = 1) {
+    return Placement(Eigen::Matrix3d::Identity(), {origin.x(), origin.y(), 0}, scale);
+  }
+
+  const Eigen::Matrix3d& rotation() const noexcept { return turn_; }
+  const Eigen::Vector3d& origin() const noexcept { return origin_; }  ///< [m] scene
+  double scale() const noexcept { return scale_; }                    ///< [m/m]
+
+  /// @param device [m]   @return [m]
+  Eigen::Vector3d scene_position(const Eigen::Vector3d& device) const noexcept {
+    const Eigen::Vector3d scene = scene_velocity(device);
+    return {origin_[0] + scene[0], origin_[1] + scene[1], origin_[2] + scene[2]};
+  }
+  /// @param device [m/s]   @return [m/s]
+  Eigen::Vector3d scene_velocity(const Eigen::Vector3d& device) const noexcept {
+    return {scale_ * turned(0, device), scale_ * turned(1, device), scale_ * turned(2, device)};
+  }
+  /// Where the hand has to be to be there in the scene.  @param scene [m]   @return [m]
+  Eigen::Vector3d device_position(const Eigen::Vector3d& scene) const noexcept {
+    return device_force({(scene[0] - origin_[0]) / scale_, (scene[1] - origin_[1]) / scale_,
+                         (scene[2] - origin_[2]) / scale_});
+  }
+  /// @param scene [N] on the hand   @return [N] on the hand
+  Eigen::Vector3d device_force(const Eigen::Vector3d& scene) const noexcept {
+    return {turned_back(0, scene), turned_back(1, scene), turned_back(2, scene)};
+  }
+
+  /// In the plane of the beam: what the hand does across that plane is not seen.
+  /// @param device [m]   @return [m] x, w
+  Vector2<double> beam_position(const Eigen::Vector3d& device) const noexcept {
+    const Eigen::Vector3d scene = scene_position(device);
+    return {scene[0], scene[1]};
+  }
+  /// @param device [m/s]   @return [m/s] along x and w
+  Vector2<double> beam_velocity(const Eigen::Vector3d& device) const noexcept {
+    const Eigen::Vector3d scene = scene_velocity(device);
+    return {scene[0], scene[1]};
+  }
+  /// @param beam [N] on the hand, along x and w; nothing across the plane   @return [N] on the hand
+  Eigen::Vector3d device_force_of_beam(const Vector2<double>& beam) const noexcept {
+    return device_force({beam.x(), beam.y(), 0});
+  }
+
+ private:
+  // Rows of R v and Rᵀ v, by hand: as products of Eigen's they cost each file that includes this more than the rest of it.
+  double turned(int row, const Eigen::Vector3d& v) const noexcept {
+    return turn_(row, 0) * v[0] + turn_(row, 1) * v[1] + turn_(row, 2) * v[2];
+  }
+  double turned_back(int row, const Eigen::Vector3d& v) const noexcept {
+    return turn_(0, row) * v[0] + turn_(1, row) * v[1] + turn_(2, row) * v[2];
+  }
+
+  Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  double scale_ = 1;
+};
+
+}  // namespace hapbeam

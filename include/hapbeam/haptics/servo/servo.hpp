@@ -1,0 +1,200 @@
+// One tick of the loop, for a program that has a loop of its own: CHAI3D, an HDAPI callback, Force Dimension's SDK, …
+//
+//   Servo<FemModel<>> servo(model, device_info, options);        // offline: allocates
+//   const Eigen::Vector3d force = servo.tick(state);             // each period: where the hand is, what it feels
+//
+//   device ─► Placement ─► Coupling (Touch ─► model) ─► EnergyMonitor ─► ForceGuard ─► device
+//                                   └─► newest record and shape, wait-free ─► graphics
+//
+// It is a servo of the device contract too: device.start(servo), or a ServoLoop, which does that.
+// tick(): no allocation, noexcept, wait-free but for the clock; at most one press of the model, whose work is bounded.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/haptics/servo/exchange.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
+#include <hapbeam/haptics/servo/servo_record.hpp>
+#include <hapbeam/haptics/servo/tick_times.hpp>
+#include <hapbeam/haptics/stability/coupling.hpp>
+#include <hapbeam/haptics/stability/energy_monitor.hpp>
+#include <hapbeam/haptics/stability/force_guard.hpp>
+
+namespace hapbeam {
+
+struct ServoOptions {
+  Placement placement = {};      ///< of the device in the scene
+  double avatar_radius = 0.005;  ///< [m] in the scene, not negative
+  int delay_ticks = 0;           ///< whole periods between the servo's answer and the motors, 0 to 16
+  bool dissipate = false;        ///< energy that the loop has generated is taken back by damping
+};
+
+/// What is drawn: the record and the centreline of one tick.
+template <typename Scalar>
+class ServoPicture {
+ public:
+  /// @param shape  as many nodes as it has, and `room` at least, are kept in later ones
+  explicit ServoPicture(const Centreline<Scalar>& shape)
+      : nodes_(std::max(room, static_cast<std::size_t>(shape.size()))) {
+    take(shape);
+  }
+
+  ServoRecord record;
+  Centreline<Scalar> shape() const noexcept { return {nodes_.data(), size_, any_rotation_}; }
+
+  /// Of a shape with more nodes than there is room for, every second one is taken, or third, …, and the last.
+  void take(const Centreline<Scalar>& shape) noexcept {
+    const int last = shape.size() - 1, step = 1 + (last - 1) / (static_cast<int>(nodes_.size()) - 1);
+    size_ = 0;
+    any_rotation_ = shape.any_rotation();
+    for (int i = 0; i < last; i += step) nodes_[static_cast<std::size_t>(size_++)] = shape[i];
+    nodes_[static_cast<std::size_t>(size_++)] = shape[last];
+  }
+
+ private:
+  static constexpr std::size_t room = 513;  // models that hand over to others change their number of nodes
+
+  std::vector<CentrelineNode<Scalar>> nodes_;
+  int size_ = 0;
+  bool any_rotation_ = false;
+};
+
+template <typename Model, typename Coupling = VirtualCoupling>
+class Servo {
+  static_assert(
+      is_coupling<Coupling>,
+      "a coupling has: tick(touch, hand) noexcept -> CoupledForce<Scalar>; in_scene(scale) const noexcept -> "
+      "itself; reset() noexcept; static for_device(info, delay_ticks) -> itself");
+
+ public:
+  using Scalar = typename Model::Scalar;
+  using Picture = ServoPicture<Scalar>;
+
+  /// @param model   kept by reference; nobody else presses it
+  /// @param device  what the loop's device can do; its limits are the guard's
+  /// @param coupling  in the device's metres; its figures, too, are for placement.scale() to change
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  Servo(Model& model, const DeviceInfo& device, const ServoOptions& options, const Coupling& coupling)
+      : model_(model),
+        options_(options),
+        touch_(model, static_cast<Scalar>(options.avatar_radius)),
+        coupling_(coupling.in_scene(options.placement.scale())),
+        energy_(device, options.delay_ticks),
+        guard_(ForceGuard::for_device(device)),
+        times_(device.period),
+        pictures_(Picture(model.shape())) {}
+
+  /// With the coupling that the device can render.   @throws as Coupling::for_device, too
+  Servo(Model& model, const DeviceInfo& device, const ServoOptions& options = {})
+      : Servo(model, device, options, Coupling::for_device(device, options.delay_ticks)) {}
+
+  /// @param state  of the device, at the beginning of a period   @return [N] on the hand, device axes
+  [[nodiscard]] Eigen::Vector3d tick(const DeviceState& state) noexcept {
+    if (state.reset) times_.pause();  // the device had no ticks for it meanwhile
+    times_.begin();
+    energy_.observe(state.position, state.cut == ForceCut::none ? guard_.force() : state.sent);
+    if (state.reset) release();
+    const auto coupled = coupling_.tick(touch_, options_.placement.beam_position(state.position));
+    const bool safe = is_answer(coupled.touch.status) || coupled.continued;
+    Eigen::Vector3d force = options_.placement.device_force_of_beam(coupled.force);
+    if (options_.dissipate && coupled.touch.pressing) force += energy_.dissipation(state.velocity);
+    const double engaged = guard_.engaged();
+    const GuardedForce guarded = guard_.limit(force, state.time, safe);
+    energy_.lend((guard_.engaged() - engaged) * coupled.energy / options_.placement.scale());
+    keep(state, coupled, guarded, safe);
+    publish();
+    times_.end();
+    return guarded.force;
+  }
+  Eigen::Vector3d operator()(const DeviceState& state) noexcept { return tick(state); }
+
+  /// As new, but for the motors' heat.  While no tick runs.
+  void reset() noexcept {
+    release();
+    energy_.start();
+    record_ = {};
+    publish();
+    times_.pause();
+  }
+
+  const TickTimes& times() const noexcept { return times_; }
+  const Coupling& coupling() const noexcept { return coupling_; }  ///< in the scene's metres
+
+  /// Of the last tick.  From the servo's own thread, or while no tick runs.
+  const ServoRecord& record() const noexcept { return record_; }
+
+  /// The newest record and shape.  One reader, from any thread: wait-free.  They stay until the next call.
+  const Picture& picture() noexcept {
+    pictures_.update();
+    return pictures_.value();
+  }
+
+ private:
+  /// The hand is where nobody knows: it touches nothing.
+  void release() noexcept {
+    touch_.reset();
+    coupling_.reset();
+    energy_.reset();
+    guard_.reset();
+  }
+
+  static LoopStatus status(const DeviceState& state, const CoupledForce<Scalar>& coupled,
+                           const GuardedForce& guarded, bool safe) noexcept {
+    if (state.reset || state.status != DeviceStatus::running) return LoopStatus::device;
+    if (!safe) return LoopStatus::no_answer;
+    if (coupled.continued) return LoopStatus::continued;
+    if (guarded.limited || state.cut != ForceCut::none) return LoopStatus::limited;
+    if (!coupled.touch.pressing) return LoopStatus::free;
+    if (guarded.engaging) return LoopStatus::engaging;
+    return coupled.touch.status == Status::out_of_range ? LoopStatus::out_of_range : LoopStatus::touching;
+  }
+
+  void keep(const DeviceState& state, const CoupledForce<Scalar>& coupled, const GuardedForce& guarded,
+            bool safe) noexcept {
+    ServoRecord& r = record_;
+    const bool pressing = coupled.touch.pressing || coupled.continued, touched = pressing && !r.pressing;
+    r.status = status(state, coupled, guarded, safe);
+    r.model = coupled.touch.status;
+    r.time = state.time;
+    r.position = state.position;
+    r.hand = options_.placement.beam_position(state.position);
+    r.avatar = coupled.avatar;
+    r.force = guarded.force;
+    r.press = {static_cast<double>(coupled.touch.press.s), static_cast<double>(coupled.touch.press.d)};
+    r.pressing = pressing;
+    r.heat = guard_.heat();
+    ++r.ticks;
+    r.contact_ticks += pressing;
+    r.touches += touched;
+    r.saturated_ticks += guarded.limited || state.cut != ForceCut::none;
+    r.continued_ticks += coupled.continued;
+    r.failed_ticks += !safe;
+    if (pressing) r.max_press = std::max(r.max_press, std::abs(r.press.d));
+    r.max_force = std::max(r.max_force, guarded.force.norm());
+    r.energy_generated = energy_.generated();
+    if (worse(r.model, r.worst)) r.worst = r.model;
+  }
+
+  void publish() noexcept {
+    Picture& draft = pictures_.draft();
+    draft.record = record_;
+    draft.take(model_.shape());
+    pictures_.publish();
+  }
+
+  const Model& model_;
+  ServoOptions options_;
+  Touch<Model> touch_;
+  Coupling coupling_;
+  EnergyMonitor energy_;
+  ForceGuard guard_;
+  TickTimes times_;
+  ServoRecord record_;
+  Exchange<Picture> pictures_;
+};
+
+}  // namespace hapbeam

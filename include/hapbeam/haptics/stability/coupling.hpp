@@ -1,0 +1,199 @@
+// What connects the hand to the beam: nothing, or a spring and a damper that the device can render.
+//
+//   a coupling C
+//   c.tick(touch, hand)   CoupledForce   noexcept, no allocation; one touch.tick(), whose result it hands on
+//   c.in_scene(scale)     C              noexcept; the same between positions in metres of a scene, `scale` of them to
+//                                        one of the device's
+//   C::for_device(info, delay_ticks)   C   its default; may throw std::invalid_argument
+//   c.reset()             void           noexcept; the hand touches nothing
+//
+// Touch is Touch<Model>, or what has its tick(position) and meets(position).
+//
+// VirtualCoupling: a steel beam is stiffer than a sampled loop can render.  So it is not the hand h that presses the
+// beam but a point p without mass, to which the hand is tied by a spring K and a damper B.  Hand and beam share
+// the displacement, and the force passes through both:
+//
+//   K g + B g' = f(p),   p = h + n g,   g >= 0        n: normal of the contact, f: the beam's force along it
+//
+// Steady, that is the series of coupling and beam, exactly.  It is solved implicitly (backward Euler in g), with f
+// continued along its tangent: once to place p, from where the beam is pressed, and once more with what the beam
+// has answered there, for the force.  So p does not oscillate by itself: the stiffer the beam, the less p moves.
+// Off the beam p comes to h at once or within B/K, without a force: free motion is free.  Across n p goes with the hand.
+//
+// Where the model runs out of its budget the last good force goes on along its tangent (last_response.hpp); with any
+// other failure the force is zero.  Either way the status is touch.status.
+// Real-time: no allocation, noexcept, wait-free; as touch.tick() and O(1).
+// Source: Colgate, Stanley and Brown, "Issues in the haptic display of tool use", IROS 1995; the massless
+// point is Zilles and Salisbury's god-object, IROS 1995.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include <hapbeam/check.hpp>
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/stability/coupling_limits.hpp>
+#include <hapbeam/haptics/stability/last_response.hpp>
+
+namespace hapbeam {
+
+/// What a coupling makes of a tick.
+template <typename Scalar>
+struct CoupledForce {
+  Vector2<double> force = Vector2<double>::Zero();   ///< [N] on the hand; always finite
+  Vector2<double> avatar = Vector2<double>::Zero();  ///< [m] from where the beam was pressed
+  bool continued = false;     ///< by the tangent: the beam gave no answer, or was missed
+  double energy = 0;          ///< [J] that beam and coupling would give back, in metres of the scene
+  TouchResult<Scalar> touch;  ///< what the beam said
+};
+
+namespace detail {
+
+/// A beam to call a coupling with.
+struct AnyTouch {
+  using Scalar = double;
+  TouchResult<double> tick(const Vector2<double>&) noexcept;
+  bool meets(const Vector2<double>&) const noexcept;
+};
+
+template <typename C, typename = void>
+struct IsCoupling : std::false_type {};
+template <typename C>
+struct IsCoupling<
+    C, std::void_t<decltype(std::declval<C&>().tick(std::declval<AnyTouch&>(),
+                                                    std::declval<const Vector2<double>&>())),
+                   decltype(std::declval<const C&>().in_scene(1.0)), decltype(std::declval<C&>().reset()),
+                   decltype(C::for_device(std::declval<const DeviceInfo&>(), 0))>>
+    : std::bool_constant<
+          noexcept(
+              std::declval<C&>().tick(std::declval<AnyTouch&>(), std::declval<const Vector2<double>&>())) &&
+          std::is_same_v<decltype(std::declval<C&>().tick(std::declval<AnyTouch&>(),
+                                                          std::declval<const Vector2<double>&>())),
+                         CoupledForce<double>>&& noexcept(std::declval<const C&>()
+                                                              .in_scene(1.0))&& noexcept(std::declval<C&>()
+                                                                                             .reset()) &&
+          std::is_same_v<decltype(std::declval<const C&>().in_scene(1.0)), C> &&
+          std::is_same_v<decltype(C::for_device(std::declval<const DeviceInfo&>(), 0)), C>> {};
+
+}  // namespace detail
+
+/// True where C fulfils the contract above, every noexcept included.
+template <typename C>
+inline constexpr bool is_coupling = detail::IsCoupling<C>::value;
+
+/// The hand presses the beam.  What the device cannot render it will not: near a support a steel beam buzzes.
+class Direct {
+ public:
+  static Direct for_device(const DeviceInfo&, int) noexcept { return {}; }
+  Direct in_scene(double) const noexcept { return *this; }
+  void reset() noexcept { last_.forget(); }
+
+  /// @param touch  of the same beam each tick   @param hand [m]
+  template <typename Touch>
+  [[nodiscard]] auto tick(Touch& touch, const Vector2<double>& hand) noexcept
+      -> CoupledForce<typename Touch::Scalar> {
+    CoupledForce<typename Touch::Scalar> result;
+    result.avatar = hand;
+    result.touch = touch.tick(hand.cast<typename Touch::Scalar>());
+    last_.learn(result.touch, hand);
+    result.continued = last_.continued();
+    if (result.continued)
+      result.force = last_.tangent().normal() * std::max(0.0, last_.tangent().force_at(hand));
+    else if (is_answer(result.touch.status)) result.force = result.touch.force.template cast<double>();
+    if (!result.force.allFinite()) result.force.setZero();
+    else if (!result.force.isZero(0)) result.energy = last_.tangent().energy();
+    return result;
+  }
+
+ private:
+  LastResponse last_;
+};
+
+/// The spring and the damper above.
+class VirtualCoupling {
+ public:
+  /// @param figures  K [N/m] and B [N·s/m]   @param period [s] of the loop
+  /// @throws std::invalid_argument unless K and the period are positive, B not negative, and all finite
+  VirtualCoupling(const CouplingFigures& figures, double period)
+      : stiffness_(detail::positive("coupling stiffness", figures.stiffness, "N/m")),
+        period_(detail::positive("period", period, "s")),
+        damper_(figures.damping / period) {
+    if (!(figures.damping >= 0 && std::isfinite(figures.damping)))
+      detail::reject("coupling damping", figures.damping, "N·s/m", "finite and not negative");
+  }
+  /// What the device can render, with the margin of safe_coupling().   @throws as that
+  static VirtualCoupling for_device(const DeviceInfo& device, int delay_ticks = 0) {
+    return {safe_coupling(device, delay_ticks), device.period};
+  }
+
+  CouplingFigures figures() const noexcept { return {stiffness_, damper_ * period_}; }
+  /// Longer metres, softer springs: force over displacement is divided by the scale.
+  VirtualCoupling in_scene(double scale) const noexcept {
+    VirtualCoupling scaled = *this;
+    scaled.stiffness_ /= scale;
+    scaled.damper_ /= scale;
+    return scaled;
+  }
+  void reset() noexcept {
+    last_.forget();
+    gap_ = 0;
+  }
+
+  /// Once a period.  @param touch  of the same beam each tick   @param hand [m]
+  template <typename Touch>
+  [[nodiscard]] auto tick(Touch& touch, const Vector2<double>& hand) noexcept
+      -> CoupledForce<typename Touch::Scalar> {
+    CoupledForce<typename Touch::Scalar> result;
+    result.avatar = hand + last_.tangent().normal() * solve(hand).gap;
+    result.touch = touch.tick(result.avatar.template cast<typename Touch::Scalar>());
+    last_.learn(result.touch, result.avatar);
+    // Where the hand itself would not touch it either, the beam has not been missed: it is gone.
+    if (!result.touch.pressing && last_.tangent().known() &&
+        !touch.meets(hand.template cast<typename Touch::Scalar>()))
+      last_.forget();
+
+    const Balance balance = solve(hand);
+    if (!std::isfinite(balance.force)) {
+      reset();
+      return result;
+    }
+    gap_ = balance.gap;
+    result.force = last_.tangent().normal() * balance.force;
+    result.continued = last_.continued() && (balance.force > 0 || result.touch.pressing);
+    if (balance.force > 0) result.energy = last_.tangent().energy() + stiffness_ * gap_ * gap_ / 2;
+    if (balance.force == 0 && !result.touch.pressing) last_.forget();
+    return result;
+  }
+
+ private:
+  struct Balance {
+    double gap;    // g [m]
+    double force;  // K g + B g' [N]
+  };
+
+  /// (K + B/T) g - B/T g_before = f(p0) - k n·(h + n g - p0), g where neither side pulls.
+  Balance solve(const Vector2<double>& hand) const noexcept {
+    const ContactTangent& beam = last_.tangent();
+    const double given = damper_ * gap_, own = stiffness_ + damper_;
+    if (beam.known()) {
+      const double gap = (beam.force_at(hand) + given) / (own + beam.stiffness());
+      const double force = own * gap - given;
+      if (!(force <= 0)) return {gap, force};
+    }
+    const double gap = given / own;
+    return {gap > least_gap ? gap : 0, 0};
+  }
+
+  static constexpr double least_gap = 1e-12;  // [m] is none
+
+  double stiffness_;  // K [N/m]
+  double period_;     // T [s]
+  double damper_;     // B/T [N/m]
+  LastResponse last_;
+  double gap_ = 0;  // g [m], how far the hand is below the point
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,68 @@
+// How stiff and how damped a coupling may be in the hands of a device.
+//
+// A spring K with a damper B, sampled at T, its force held over the period and late by n more periods, takes
+// as much damping from the arm as it gives back late:
+//
+//   b > K T (1/2 + n) + |B|        b: viscous damping of the arm      passive, whatever the hand     (1)
+//   K <= 2 f / Δ                   f: the arm's friction, Δ: resolution of its encoders              (2)
+//   B <= f T / Δ                   one step of the encoders within one period                        (3)
+//
+// (1) for n = 0 is Colgate and Schenkel (J. Robotic Systems 14(1), 1997), (2) with K <= 2b/T Abbott and Okamura (IEEE
+// Trans. Robotics 21(5), 2005), (3) the same argument for the damper: friction holds what a step of the grid
+// changes in the force.
+// Offline: throws std::invalid_argument naming field, value, unit and what is allowed.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <hapbeam/check.hpp>
+#include <hapbeam/haptics/device/device.hpp>
+
+namespace hapbeam {
+
+/// A spring and a damper between hand and beam, in the device's metres.
+struct CouplingFigures {
+  double stiffness;  ///< K [N/m] positive
+  double damping;    ///< B [N·s/m] not negative
+};
+
+/// K at which a spring alone takes all of the arm's damping: b / (T (1/2 + n)) [N/m], by (1).
+/// @param damping b [N·s/m]   @param period T [s]   @param delay_ticks n
+inline double passive_stiffness(double damping, double period, int delay_ticks) noexcept {
+  return damping / (period * (0.5 + delay_ticks));
+}
+
+/// What a device can render with a margin of a quarter of (1): the spring takes two fifths of the arm's damping, or less
+/// where it is as stiff as the maker names; the damper takes the rest up to three quarters.  Of (2) and (3), half.  With half
+/// for the spring it would be a quarter stiffer, and four times as many heavy hands not at rest half a second after a step.
+/// @param delay_ticks  whole periods between the servo's answer and the motors, besides the one that holds it; 0 to 16
+/// @throws std::invalid_argument where the device's damping, friction, resolution, stiffness or period cannot be, or
+///         its damping is 0, that is unknown: there is no safe stiffness then
+inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks = 0) {
+  constexpr double spring_share = 0.4, both_share = 0.75, friction_share = 0.5;
+  const double b = device.damping;
+  if (!(std::isfinite(b) && b > 0))
+    detail::reject(
+        "device damping", b, "N·s/m",
+        "positive, the arm's own: set HdapiOptions::damping or DeviceInfo::damping, or give the loop a "
+        "VirtualCoupling of your own");
+  const double T = detail::positive("device period", device.period, "s");
+  const double hardest = detail::positive("device max_stiffness", device.max_stiffness, "N/m");
+  if (!(device.friction >= 0)) detail::reject("device friction", device.friction, "N", "not negative");
+  if (!(device.position_resolution >= 0))
+    detail::reject("device position_resolution", device.position_resolution, "m", "not negative");
+  if (!(delay_ticks >= 0 && delay_ticks <= 16)) detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
+  const double bound = passive_stiffness(b, T, delay_ticks);
+  double stiffness = std::min(hardest, spring_share * bound);
+  double damping = b;
+  // An arm without friction holds no step of the grid; (1) is all there is.
+  if (device.friction > 0 && device.position_resolution > 0) {
+    const double held = friction_share * device.friction / device.position_resolution;
+    stiffness = std::min(stiffness, 2 * held);
+    damping = held * T;
+  }
+  return {stiffness, std::min(damping, (both_share - stiffness / bound) * b)};
+}
+
+}  // namespace hapbeam

@@ -1,0 +1,125 @@
+// Does the loop give out energy that nobody put in?  A passivity observer, and a controller that takes it back.
+//
+//   W += F·Δx - b |Δx|²/T - f |Δx|      over each period of a contact
+//
+// F is the force that the motors held over the period, Δx how far the hand went: the work done on hand and arm, exactly.
+// What the arm's own damping b and friction f have taken meanwhile, at least, is counted off, from a path shortened by
+// one step of the encoders, which may not have been travelled.  A beam gives back what pressing it has cost: at the
+// end of a contact W <= 0 where the loop is passive, and W > 0 is energy that the loop has generated.
+// Where the force comes in over a while (ForceGuard), a beam is pressed for less than it gives back: a share e of its energy U
+// that rises by de lends the hand U de.  That is known, bounded by U and no fault of the loop: it is counted off as well.
+// The controller adds -α v, α = W / (T v²), while W > 0: it takes back what has been generated within a period, with no
+// more damping than the arm has itself, which is what the sampling allows.
+// The force that comes of it goes through the guard like any other.
+// Real-time: no allocation, noexcept, wait-free, O(1).
+// Source: Hannaford and Ryu, IEEE Trans. Robotics and Automation 18(1), 2002; the exact work of a held force:
+// Stramigioli et al., IEEE Trans. Robotics 21(4), 2005.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include <hapbeam/check.hpp>
+#include <hapbeam/haptics/device/device.hpp>
+
+namespace hapbeam {
+
+class EnergyMonitor {
+ public:
+  static constexpr int max_delay = 16;
+
+  /// @param delay_ticks  whole periods between a force and the motors, 0 to 16
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  explicit EnergyMonitor(const DeviceInfo& device, int delay_ticks = 0)
+      : period_(detail::positive("device period", device.period, "s")),
+        damping_(detail::finite("device damping", device.damping, "N·s/m")),
+        friction_(detail::finite("device friction", device.friction, "N")),
+        step_(detail::finite("device position_resolution", device.position_resolution, "m")),
+        delay_(delay_ticks) {
+    if (!(delay_ticks >= 0 && delay_ticks <= max_delay))
+      detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
+  }
+
+  /// [J] generated so far, in contacts that have ended and in this one.
+  double generated() const noexcept { return ended_ + std::max(0.0, net_); }
+  /// W [J] of this contact: positive where the loop gave out more than it took.
+  double net() const noexcept { return net_; }
+
+  /// As new.
+  void start() noexcept {
+    reset();
+    ended_ = 0;
+  }
+  /// The hand has been moved by hand, so to speak: a contact that was is not judged.
+  void reset() noexcept {
+    net_ = 0;
+    known_ = false;
+    sent_ = zeros();
+  }
+
+  /// A period has ended.   @param position [m] now   @param sent [N] by the loop in the tick before
+  void observe(const Eigen::Vector3d& position, const Eigen::Vector3d& sent) noexcept {
+    // Newest first: what the motors held is `delay` ticks older.
+    std::move_backward(sent_.begin(), sent_.end() - 1, sent_.end());
+    sent_[0] = sent;
+    const Eigen::Vector3d held = sent_[static_cast<std::size_t>(delay_)];
+    const bool finite = detail::all_finite(position);
+    Eigen::Vector3d moved = known_ && finite ? position - position_ : zero();
+    if (!(moved.norm() <= longest_step)) moved.setZero();
+    if (finite) position_ = position, known_ = true;
+    if (held.isZero(0)) {
+      end_contact();
+      return;
+    }
+    const Eigen::Array3d way(moved_along(moved[0]), moved_along(moved[1]), moved_along(moved[2]));
+    const double work = held.dot(moved);
+    const double taken = damping_ * way.square().sum() / period_ + friction_ * way.sum();
+    add(work - taken);
+  }
+
+  /// A share of the beam's energy that has come in [J]; what has gone out again is lost.
+  void lend(double energy) noexcept { add(-std::max(0.0, energy)); }
+
+  /// What the controller adds [N].  @param velocity [m/s] as the device says
+  Eigen::Vector3d dissipation(const Eigen::Vector3d& velocity) const noexcept {
+    const double speed = velocity.squaredNorm();
+    if (!(net_ > 0 && speed > 0 && std::isfinite(speed))) return zero();
+    return -std::min(damping_, net_ / (period_ * speed)) * velocity;
+  }
+
+ private:
+  /// The least that the arm has moved along an axis where it was read to have moved so far.
+  double moved_along(double moved) const noexcept { return std::max(std::abs(moved) - step_, 0.0); }
+  static Eigen::Vector3d zero() noexcept { return Eigen::Vector3d::Zero(); }
+
+  static constexpr double longest_step = 10;  // [m] between two readings: longer is a fault, and no way
+
+  /// To the account, unless the sum is no number.
+  void add(double energy) noexcept {
+    if (std::isfinite(net_ + energy)) net_ += energy;
+  }
+  void end_contact() noexcept {
+    const double sum = ended_ + std::max(0.0, net_);
+    if (std::isfinite(sum)) ended_ = sum;
+    net_ = 0;
+  }
+
+  double period_, damping_, friction_, step_;
+  int delay_;
+  double ended_ = 0, net_ = 0;
+  bool known_ = false;
+  Eigen::Vector3d position_ = zero();
+  std::array<Eigen::Vector3d, max_delay + 1> sent_ = zeros();
+
+  static std::array<Eigen::Vector3d, max_delay + 1> zeros() noexcept {
+    std::array<Eigen::Vector3d, max_delay + 1> all;
+    all.fill(zero());
+    return all;
+  }
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,141 @@
+// The last word before the device: whatever a servo has computed, what is sent cannot hurt hand or motors.
+//
+// In this order, each tick:
+//   failure      a force that is not finite, or a tick that the caller calls unsafe: zero at once, and engage anew
+//   engage       after start, failure or a pause the force comes in linearly over engage_time
+//   peak         |F| <= peak
+//   heat         of the motors, which goes with F²:  q' = (F²/Fc² - q)/τ.  The force that is allowed falls from peak to
+//                the continuous Fc as q goes from warm to 1, so q <= 1 always: Fc for ever, more for a moment
+//   slew         the force grows by slew_rate · dt at most; to fall, along the way to zero, it may at once
+//
+// dt is the time since the tick before, by the device's clock.  A clock that stands, runs backwards or is no number
+// lets nothing grow, and the motors are taken to have been heated for a period; a late tick lets the force grow
+// no more than two periods would.  After longest_pause the hand may be anywhere: the force engages anew.
+// Holds for every input: the force is finite and no longer than the peak, and lies within slew_rate · 2 periods of the way
+// from the last force to zero; q <= 1 while ticks are on time.
+// Real-time: no allocation, noexcept, wait-free, O(1).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include <hapbeam/check.hpp>
+#include <hapbeam/haptics/device/device.hpp>
+
+namespace hapbeam {
+
+struct ForceGuardOptions {
+  double peak_force;           ///< [N] positive
+  double continuous_force;     ///< Fc [N] positive, at most the peak
+  double period;               ///< [s] of the loop, positive
+  double slew_rate = 1e4;      ///< [N/s] positive; 10 N a millisecond is faster than any hand and no blow
+  double thermal_time = 10;    ///< τ [s] positive; of small motors' windings, of housings minutes
+  double engage_time = 0.2;    ///< [s] not negative
+  double longest_pause = 0.1;  ///< [s] not negative
+};
+
+/// What the guard did to a force.
+struct GuardedForce {
+  Eigen::Vector3d force;  ///< [N] to be sent
+  bool limited;           ///< cut by peak, heat or slew
+  bool engaging;          ///< held back because the loop has just begun, or begun again
+};
+
+class ForceGuard {
+ public:
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  explicit ForceGuard(const ForceGuardOptions& options) : o_(checked(options)) {}
+
+  /// The device's own limits, the rest by default.
+  static ForceGuardOptions for_device(const DeviceInfo& device) {
+    return {device.peak_force, std::min(device.continuous_force, device.peak_force), device.period};
+  }
+
+  double heat() const noexcept { return heat_; }  ///< q, 0 cold to 1: the continuous force is all there is
+  const Eigen::Vector3d& force() const noexcept { return force_; }  ///< [N] sent last
+
+  /// Share of the force that has come in, 0 to 1.
+  double engaged() const noexcept { return engaged_; }
+
+  /// Zero, and engage anew.  The motors stay as warm as they are.
+  void reset() noexcept {
+    force_.setZero();
+    engaged_ = 0;
+  }
+
+  /// @param wanted [N]   @param time [s] of the device's clock   @param safe  false: zero, whatever is wanted
+  GuardedForce limit(const Eigen::Vector3d& wanted, double time, bool safe) noexcept {
+    const double dt = step(time);
+    if (dt > o_.longest_pause) reset();
+    if (!safe || !detail::all_finite(wanted)) {
+      reset();
+      return {force_, false, true};
+    }
+    engaged_ = o_.engage_time > 0 ? std::min(1.0, engaged_ + dt / o_.engage_time) : 1;
+    const Eigen::Vector3d asked = engaged_ * wanted;
+    Eigen::Vector3d force = asked;
+    bool limited = limit_force(force, allowed()) != ForceCut::none;
+    limited |= limit_growth(force, o_.slew_rate * std::min(dt, 2 * o_.period));
+    force_ = force;
+    return {force, limited, engaged_ < 1};
+  }
+
+ private:
+  static constexpr double warm = 0.5;  // heat from which on the peak is not allowed
+
+  /// Heats the motors by the force of the period that has ended.   @return its length [s]; 0 where the clock is wrong
+  double step(double time) noexcept {
+    const double dt = time - time_;
+    const bool good = dt > 0 && std::isfinite(dt);
+    if (std::isfinite(time)) time_ = time;
+    const double ratio = force_.norm() / o_.continuous_force;
+    heat_ += -std::expm1(-(good ? dt : o_.period) / o_.thermal_time) * (ratio * ratio - heat_);
+    return good ? dt : 0;
+  }
+
+  /// [N]  At most what heats the motors to 1 in a period, however short τ is.
+  double allowed() const noexcept {
+    const double peak = o_.peak_force * o_.peak_force, lasting = o_.continuous_force * o_.continuous_force;
+    const double cool = std::clamp((1 - heat_) / (1 - warm), 0.0, 1.0);
+    const double gain = -std::expm1(-o_.period / o_.thermal_time);
+    const double at_once = lasting * std::max(1.0, heat_ + (1 - heat_) / gain);
+    return std::sqrt(std::min(lasting + (peak - lasting) * cool, at_once));
+  }
+
+  /// To within `most` of the nearest point between the last force and zero.   @return true where it was farther
+  bool limit_growth(Eigen::Vector3d& force, double most) const noexcept {
+    const double size = force_.squaredNorm();
+    const double along = size > 0 ? std::clamp(force.dot(force_) / size, 0.0, 1.0) : 0;
+    const Eigen::Vector3d from = along * force_;
+    const Eigen::Vector3d growth(force[0] - from[0], force[1] - from[1], force[2] - from[2]);
+    const double length = growth.norm();
+    if (!(length > most)) return false;
+    for (int i = 0; i < 3; ++i) force[i] = from[i] + growth[i] * (most / length);
+    return true;
+  }
+
+  static ForceGuardOptions checked(const ForceGuardOptions& o) {
+    detail::positive("peak_force", o.peak_force, "N");
+    detail::positive("continuous_force", o.continuous_force, "N");
+    if (!(o.continuous_force <= o.peak_force))
+      detail::reject("continuous_force", o.continuous_force, "N", "at most the peak force");
+    detail::positive("period", o.period, "s");
+    detail::positive("slew_rate", o.slew_rate, "N/s");
+    detail::positive("thermal_time", o.thermal_time, "s");
+    if (!(o.engage_time >= 0 && std::isfinite(o.engage_time)))
+      detail::reject("engage_time", o.engage_time, "s", "finite and not negative");
+    if (!(o.longest_pause >= 0 && std::isfinite(o.longest_pause)))
+      detail::reject("longest_pause", o.longest_pause, "s", "finite and not negative");
+    return o;
+  }
+
+  ForceGuardOptions o_;
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  double time_ = 0;
+  double engaged_ = 0;
+  double heat_ = 0;
+};
+
+}  // namespace hapbeam

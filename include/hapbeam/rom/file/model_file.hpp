@@ -1,0 +1,244 @@
+// Trained models in files: written after training, read by the program that has the servo loop.
+//
+//   save_model(model, "bar.json");
+//   auto model = load_model<PodModel<>>("bar.json");
+//
+// A file is two lines of JSON, in UTF-8 and SI:
+//
+//   {"format":"hapbeam model","version":2,"kind":"pod","scalar":"double","checksum":"crc32:9a3b5c01"}
+//   {"units":{"beam.length":"m", …},"beam":{…},"nodes":"chebyshev",…,"grid":{…},…,"shape":{…},"errors":{…}}
+//
+// The checksum goes over every byte after the first line feed.  The members of the second line are those of PodModelData
+// and GalerkinModelData; model_fields.hpp is their list.  Reals have as many digits as bring back every bit.
+// A file makes a whole model or a ModelFileError: each member must be there, be of its type and in its unit, and no other
+// may; the model's own check has the last word.  The error names the file, the field, its value, unit and what is allowed.
+// Offline: allocates and throws.  Needs jansson: link hapbeam::model_file.  hapbeam.hpp does not include this file.
+#pragma once
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <hapbeam/rom/file/check_answers.hpp>
+#include <hapbeam/rom/file/checksum.hpp>
+#include <hapbeam/rom/file/json_reader.hpp>
+#include <hapbeam/rom/file/json_writer.hpp>
+#include <hapbeam/rom/file/model_fields.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
+
+namespace hapbeam {
+
+/// What a program must know of a file to choose the type to load it with.
+struct ModelFileInfo {
+  int version;
+  std::string kind;    ///< pod | galerkin
+  std::string scalar;  ///< double | float
+  std::string nodes;   ///< Model::Nodes::name(): chebyshev | equispaced
+  BeamData<double> beam;
+  double s_min, s_max;  ///< [m] of its range
+  double depth;         ///< [m]
+};
+
+namespace detail {
+
+inline constexpr int model_file_version = 2;
+/// A larger file is refused, unread.  A million numbers and more: a servo loop has no time for them.
+inline constexpr std::size_t largest_model_file = std::size_t(1) << 25;
+
+struct Checksum {
+  char text[16];
+
+  explicit Checksum(const char* bytes, std::size_t size) {
+    std::snprintf(text, sizeof text, "crc32:%08lx", static_cast<unsigned long>(crc32(bytes, size)));
+  }
+};
+
+[[gnu::cold]] inline void check_size(std::size_t size, const std::string& source) {
+  if (size > largest_model_file)
+    fail(source, "size = %lu bytes: must be at most %lu", static_cast<unsigned long>(size),
+         static_cast<unsigned long>(largest_model_file));
+}
+
+/// Header and payload.   @param payload  with its line feed
+[[gnu::cold]] inline std::string model_file_text(const char* kind, const char* scalar,
+                                                 const std::string& payload, const std::string& source) {
+  JsonWriter f(source);
+  f.constant("format", "hapbeam model");
+  f.count("version", model_file_version);
+  f.constant("kind", kind);
+  f.constant("scalar", scalar);
+  f.constant("checksum", Checksum(payload.data(), payload.size()).text);
+  std::string text = f.text(17) + "\n" + payload;
+  check_size(text.size(), source);
+  return text;
+}
+
+/// About what the parser may take, by what each part of a text costs it: so many times its size, and what a header takes.
+/// A test measures that 20 times and 64 kB are never exceeded.
+inline constexpr std::size_t memory_per_byte = 16, memory_to_begin = 1 << 15;
+
+/// Refuses what would take more, before it is parsed: three bytes can make an empty object of 250.
+/// What stands in strings counts as well; a model has few.
+[[gnu::cold]] inline void check_memory(const char* text, std::size_t size, const std::string& source,
+                                       int line) {
+  std::size_t needed = 0;
+  for (std::size_t k = 0; k < size; ++k) switch (text[k]) {
+      case '{':
+      case '[': needed += 320; break;
+      case ':': needed += 112; break;
+      case ',': needed += 48; break;
+      case '"': needed += 24; break;
+      default: break;
+    }
+  const std::size_t most = memory_per_byte * size + memory_to_begin;
+  if (needed > most)
+    fail(source, "line %d takes about %lu bytes of memory to read: must be at most %lu for its size", line,
+         static_cast<unsigned long>(needed), static_cast<unsigned long>(most));
+}
+
+[[gnu::cold]] inline Json parse_json(const char* text, std::size_t size, const std::string& source,
+                                     int line) {
+  check_memory(text, size, source, line);
+  json_error_t error;
+  Json root(json_loadb(text, size, JSON_REJECT_DUPLICATES, &error));
+  if (!root.get())
+    fail(source, "line %d, column %d is no JSON: %s", line + error.line - 1, error.column, error.text);
+  return root;
+}
+
+/// The payload, parsed, of a text whose header is right.   @param info  out, of it the version, kind and scalar
+[[gnu::cold]] inline Json parse_model_file(const std::string& text, const std::string& source,
+                                           ModelFileInfo& info) {
+  check_size(text.size(), source);
+  const std::size_t end = text.find('\n');
+  if (end == std::string::npos) fail(source, "has one line: must be a header and a model, a line each");
+  const Json header = parse_json(text.data(), end, source, 1);
+  JsonReader f(header.get(), source);
+  f.constant("format", "hapbeam model");
+  f.count("version", info.version);
+  if (info.version != model_file_version)
+    fail(source, "version = %d: must be %d", info.version, model_file_version);
+  f.word("kind", info.kind);
+  f.word("scalar", info.scalar);
+  const char* const payload = text.data() + end + 1;
+  const std::size_t size = text.size() - end - 1;
+  f.constant("checksum", Checksum(payload, size).text,
+             ", that of all after the first line: the file is cut off, damaged or changed");
+  f.finish();
+  return parse_json(payload, size, source, 2);
+}
+
+/// The file is of another type than is asked for.
+[[gnu::cold]] inline void check_type(const char* field, const std::string& found, const char* wanted,
+                                     const std::string& source) {
+  if (found != wanted)
+    fail(source, "%s = \"%.20s\": must be \"%s\" for this type of model", field, found.c_str(), wanted);
+}
+
+[[gnu::cold]] [[noreturn]] inline void reject_file(const std::string& path, const char* what) {
+  fail(path, "%s: %s", what, errno ? std::strerror(errno) : "unknown reason");
+}
+
+[[gnu::cold]] inline std::string read_file(const std::string& path) {
+  errno = 0;
+  std::FILE* const file = std::fopen(path.c_str(), "rb");
+  if (!file) reject_file(path, "cannot be opened");
+  std::string text;
+  char part[1 << 12];
+  // One byte too many is enough to be refused.
+  for (std::size_t size = 1; size > 0 && text.size() <= largest_model_file; text.append(part, size))
+    size = std::fread(part, 1, sizeof part, file);
+  const bool failed = std::ferror(file);
+  std::fclose(file);
+  if (failed) reject_file(path, "cannot be read");
+  return text;
+}
+
+/// All of the text under that name, or nothing new: a file beside it takes its place when it is complete.
+[[gnu::cold]] inline void write_file(const std::string& path, const std::string& text) {
+  errno = 0;
+  // A name of its own where two programs save at once.
+  std::string temporary;
+  std::FILE* file = nullptr;
+  for (int k = 0; k < 100 && !file; ++k) {
+    temporary = path + ".part" + std::to_string(k);
+    file = std::fopen(temporary.c_str(), "wbx");
+    if (!file && errno != EEXIST) break;
+  }
+  if (!file) reject_file(temporary, "cannot be made");
+  bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  written = std::fclose(file) == 0 && written;
+#ifdef _WIN32
+  // Its rename replaces nothing.
+  if (written) std::remove(path.c_str());
+#endif
+  if (written && std::rename(temporary.c_str(), path.c_str()) == 0) return;
+  const int why = errno;
+  std::remove(temporary.c_str());
+  errno = why;
+  reject_file(path, "cannot be written");
+}
+
+}  // namespace detail
+
+/// The text of a model's file.
+/// @tparam Model  PodModel | GalerkinModel   @throws ModelFileError where an error of its report is not finite
+template <class Model>
+[[gnu::cold]] std::string write_model(const Model& model, const std::string& source = "model") {
+  using Scalar = typename Model::Scalar;
+  typename Model::Data data = model.data();
+  detail::JsonWriter fields(source);
+  detail::visit_model(fields, data, Model::Nodes::name());
+  const std::string payload = fields.text(std::numeric_limits<Scalar>::max_digits10) + "\n";
+  return detail::model_file_text(detail::kind_of(data), detail::scalar_name<Scalar>(), payload, source);
+}
+
+/// The model in such a text.   @param source  what messages call it   @throws ModelFileError
+template <class Model>
+[[gnu::cold]] Model read_model(const std::string& text, const std::string& source = "model") {
+  typename Model::Data data{};
+  ModelFileInfo info{};
+  const detail::Json payload = detail::parse_model_file(text, source, info);
+  detail::check_type("kind", info.kind, detail::kind_of(data), source);
+  detail::check_type("scalar", info.scalar, detail::scalar_name<typename Model::Scalar>(), source);
+  detail::JsonReader fields(payload.get(), source);
+  detail::visit_model(fields, data, Model::Nodes::name());
+  try {
+    Model model(std::move(data));
+    detail::check_answers(model, model.data().positions, detail::second_axis(model.data()));
+    return model;
+  } catch (const std::invalid_argument& error) {
+    detail::fail(source, "%s", error.what());
+  }
+}
+
+/// Writes a model's file, or throws and leaves what was there before.
+/// @tparam Model  PodModel | GalerkinModel   @throws ModelFileError
+template <class Model>
+[[gnu::cold]] void save_model(const Model& model, const std::string& path) {
+  detail::write_file(path, write_model(model, path));
+}
+
+/// Reads a model's file.   @tparam Model  of the kind, scalar and nodes in the file   @throws ModelFileError
+template <class Model>
+[[gnu::cold]] Model load_model(const std::string& path) {
+  return read_model<Model>(detail::read_file(path), path);
+}
+
+/// What is in a file.  Its checksum and the members that are returned have been checked; the others are when it is loaded.
+/// @throws ModelFileError
+[[gnu::cold]] inline ModelFileInfo describe_model_file(const std::string& path) {
+  ModelFileInfo info{};
+  const detail::Json payload = detail::parse_model_file(detail::read_file(path), path, info);
+  detail::JsonReader fields(payload.get(), path);
+  fields.units();
+  detail::visit_beam_and_range(fields, info);
+  fields.word("nodes", info.nodes);
+  return info;
+}
+
+}  // namespace hapbeam

@@ -1,0 +1,238 @@
+// A trained beam that still solves its equation, in one unknown, as a ForceModel.
+//
+// Without axial load the tension N is the same in all of the beam, and the deflection is a multiple of g(x; s, N), the beam's
+// response to a unit force at the contact s under that tension.  Galerkin's projection on this one function, which moves
+// with the contact and with the tension, leaves the membrane energy a polynomial and the contact a
+// constraint whose multiplier is the force:
+//
+//   V(d, N) = ½ k(s, N) d² - N² L/(2EA),     F = ∂V/∂d = k d,     0 = ∂V/∂N = ½ d² ∂k/∂N - N L/EA
+//
+// k = 1/g(s; s, N) is interpolated, ln(scale k) over x(s) and z = ln(1 + N/N0), N0 = 10 EI/L².  For the von Kármán beam no
+// other error is made.  k grows with N and is concave, so the equation has one root: Newton, kept in a bracket.
+// A fixed basis does worse, because the kink moves with the contact: with 8 global modes the force beside a support is off
+// by more than a tenth, with this one by 1e-5.
+// Beyond the largest tension that was trained, k' falls to that of a string, 1/A, as N^(-1/2), which is what its
+// boundary layers do: A = s(L - s)/L between two ends that hold w.
+// Where no tension arises (an end slides, or the element is linear) it has no unknown and k depends on s alone.
+// Offline: construction allocates and throws.  Servo: noexcept, allocation-free, at most max_iterations iterations.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <hapbeam/force_model.hpp>
+#include <hapbeam/rom/trained/combine.hpp>
+#include <hapbeam/rom/trained/lagrange.hpp>
+#include <hapbeam/rom/trained/model_data.hpp>
+
+namespace hapbeam {
+
+/// @tparam ScalarType double | float      @tparam NodePolicy  ChebyshevNodes | EquispacedNodes, as it was trained
+template <typename ScalarType = double, class NodePolicy = ChebyshevNodes>
+class GalerkinModel {
+ public:
+  using Scalar = ScalarType;
+  using Nodes = NodePolicy;
+  using Data = GalerkinModelData<Scalar>;
+
+  static constexpr int max_iterations = 40;
+
+  /// @throws std::invalid_argument where the data do not make a model
+  explicit GalerkinModel(const Data& data)
+      : data_(check(data)),
+        position_(data.beam),
+        tension_(data.beam),
+        x_(data.positions, position_(data.s_min), position_(data.s_max)),
+        z_(data.tensions, 0, tension_(data.tension)),
+        table_(static_cast<std::size_t>(data.positions) * static_cast<std::size_t>(row_size())),
+        shape_(data.beam, data.shape) {
+    const int m = data.tensions;
+    Scalar* row = table_.data();
+    for (int i = 0; i < data.positions; ++i, row += row_size()) {
+      std::copy_n(data.log_stiffness.data() + i * m, m, row);
+      z_.differentiate(row, 1, row + m);
+      z_.differentiate(row + m, 1, row + 2 * m);
+    }
+    row = table_.data();
+    for (int j = 0; j < 2 * m; ++j) x_.differentiate(row + j, row_size(), row + 3 * m + j);
+  }
+
+  /// The force alone; shape() stays.  @return as press()
+  [[nodiscard]] Response<Scalar> force(const Press<Scalar>& request) noexcept {
+    Point at;
+    return respond(request, at);
+  }
+
+  /// Force and shape of a transverse displacement d [m] at arc position s [m] of the unloaded beam.
+  /// Deeper than range() the equation is solved all the same, with a tension that may be beyond what was trained; s is
+  /// that of the nearest press in range.
+  /// @return force [N] and ok | out_of_range | invalid_request | non_finite
+  Response<Scalar> press(const Press<Scalar>& request) noexcept {
+    Point at;
+    const Response<Scalar> response = respond(request, at);
+    if (!is_answer(response.status)) return response;
+    const Scalar s = at.press.s, d = at.press.d;
+    const Scalar theta = rotation(at);
+    if (data_.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
+    shape_.evaluate(data_.shape, s, d, d, data_.positions > 1 ? &theta : nullptr, at.lx, data_.positions,
+                    at.lz, data_.tensions);
+    return response;
+  }
+
+  Centreline<Scalar> shape() const noexcept { return shape_.centreline(); }
+  /// Where it was trained.
+  Range<Scalar> range() const noexcept {
+    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+    return {data_.s_min, data_.s_max, data_.depth, Scalar(1), -infinity, infinity};
+  }
+  Scalar thickness() const noexcept { return data_.beam.thickness; }
+  void reset() noexcept {
+    shape_.reset(data_.shape);
+    last_ = 0;
+  }
+
+  const Data& data() const noexcept { return data_; }
+  /// Of presses that it was not trained with.
+  const ErrorReport& errors() const noexcept { return data_.errors; }
+  /// Newton iterations of the last press.
+  int iterations() const noexcept { return iterations_; }
+
+ private:
+  static constexpr int max_size = Lagrange<Nodes, Scalar>::max_size;
+
+  struct Point {
+    Press<Scalar> press;
+    Scalar lx[max_size], lz[max_size];  // weights
+    Scalar column[3 * max_size];        // f = ln(scale k) at s by tension, then df/dz and d²f/dz²
+    Scalar f, by_z, by_zz;
+    Scalar beyond;  // √(N/Nm), 1 where the tension was trained
+  };
+
+  int row_size() const noexcept { return 5 * data_.tensions; }
+
+  Response<Scalar> respond(const Press<Scalar>& request, Point& at) noexcept {
+    using std::exp;
+    using std::isfinite;
+    iterations_ = 0;
+    at.beyond = 1;
+    if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 || request.s > data_.beam.length)
+      return {0, Status::invalid_request};
+    const Press<Scalar> nearest = range().nearest(request);
+    at.press = {nearest.s, detail::bounded(request.d, data_.beam.length)};
+    const int m = data_.tensions;
+    x_.weights(data_.positions > 1 ? position_(at.press.s) : Scalar(0), at.lx);
+    detail::combine(table_.data(), row_size(), 3 * m, at.lx, data_.positions, at.column);
+    const Scalar scale = position_.scale(at.press.s);
+    const Scalar stiffness = m == 1 ? (along(at, 0), exp(at.f) / scale) : balance(at, scale);
+    const Scalar force = stiffness * at.press.d;
+    if (!isfinite(force)) return {0, Status::non_finite};
+    const bool in_range = nearest.s == request.s && nearest.d == request.d;
+    return {force, in_range ? Status::ok : Status::out_of_range};
+  }
+
+  /// f and its derivatives at z.
+  void along(Point& at, Scalar z) const noexcept {
+    const int m = data_.tensions;
+    z_.weights(z, at.lz);
+    at.f = detail::dot(at.lz, at.column, m);
+    at.by_z = detail::dot(at.lz, at.column + m, m);
+    at.by_zz = detail::dot(at.lz, at.column + 2 * m, m);
+  }
+
+  /// k(s, N) [N/m] with N the tension of the press.  In z the equation is
+  ///   φ(z) = q exp(f - z) f' - (exp(z) - 1) = 0,     q = d² EA/(2 L N0² scale)
+  /// with φ falling, for k is concave in N.
+  Scalar balance(Point& at, Scalar scale) noexcept {
+    using std::abs;
+    using std::exp;
+    using std::expm1;
+    using std::sqrt;
+    const Scalar d = at.press.d, N0 = tension_.unit(), z_max = z_.high();
+    const Scalar flexibility = data_.beam.length / data_.beam.axial_stiffness;
+    const Scalar q = d * d / (2 * flexibility * N0 * N0 * scale);
+    const Scalar settled = sqrt(std::numeric_limits<Scalar>::epsilon()) / 16;
+    Scalar low = -1, high = 2 * z_max, z = std::min(last_, z_max);  // both open: no end has been looked at
+    for (; iterations_ < max_iterations; ++iterations_) {
+      along(at, z);
+      const Scalar part = q * exp(at.f - z), growth = expm1(z), phi = part * at.by_z - growth;
+      (phi > 0 ? low : high) = z;
+      if (low == z_max) break;
+      const Scalar step = phi / (growth + 1 - part * (at.by_z * (at.by_z - 1) + at.by_zz));
+      const Scalar next = std::min(std::max(z + step, Scalar(0)), z_max);
+      if (abs(step) <= settled) {
+        z = next;
+        break;
+      }
+      z = next > low && next < high ? next : (std::max(low, Scalar(0)) + std::min(high, z_max)) / 2;
+    }
+    last_ = z;
+    along(at, z);
+    const Scalar k = exp(at.f) / scale;
+    if (low != z_max) return k;
+
+    // N = Nm r²:  k' = 1/A + b/r,  hence r³ - P r - Q = 0, convex where r > 0; Newton comes down to its only root there.
+    const Scalar Nm = data_.tension, string = 1 / string_compliance(at.press.s);
+    const Scalar b = k * at.by_z / (N0 + Nm) - string, half = d * d / (2 * flexibility * Nm);
+    const Scalar P = half * string, Q = half * b;
+    Scalar r = std::max(sqrt(P) + std::cbrt(std::max(Q, Scalar(0))), Scalar(1));
+    for (; iterations_ < max_iterations; ++iterations_) {
+      const Scalar step = (r * (r * r - P) - Q) / (3 * r * r - P);
+      if (!(step > 0)) break;
+      r -= step;
+      if (step <= settled * r) break;
+    }
+    at.beyond = std::max(r, Scalar(1));
+    return k + beyond(at, string, b);
+  }
+
+  /// What ∂k/∂N = 1/A + b √(Nm/N) adds to k from Nm to N.
+  Scalar beyond(const Point& at, Scalar string, Scalar b) const noexcept {
+    const Scalar r = at.beyond;
+    return data_.tension * (string * (r - 1) * (r + 1) + 2 * b * (r - 1));
+  }
+
+  /// θ at the contact: (∂V/∂s)/F = ½ d (∂k/∂s)/k, N being stationary [rad].
+  Scalar rotation(const Point& at) const noexcept {
+    const int m = data_.tensions;
+    const Scalar s = at.press.s, x_by_s = position_.derivative(s);
+    Scalar column[2 * max_size];  // df/dx by tension, then d²f/dxdz
+    detail::combine(table_.data() + 3 * m, row_size(), 2 * m, at.lx, data_.positions, column);
+    const Scalar log_by_s =
+        detail::dot(at.lz, column, m) * x_by_s - position_.log_scale_derivative(s);  // of k, or of k at Nm
+    if (!(at.beyond > 1)) return at.press.d / 2 * log_by_s;
+    const Scalar k = std::exp(at.f) / position_.scale(s), k_by_s = k * log_by_s;
+    const Scalar string = 1 / string_compliance(s),
+                 string_by_s = -string * string * string_compliance_by_s(s);
+    const Scalar span = tension_.unit() + data_.tension;  // N0 + Nm
+    const Scalar b = k * at.by_z / span - string;
+    const Scalar b_by_s =
+        (k_by_s * at.by_z + k * detail::dot(at.lz, column + m, m) * x_by_s) / span - string_by_s;
+    return at.press.d / 2 * (k_by_s + beyond(at, string_by_s, b_by_s)) / (k + beyond(at, string, b));
+  }
+
+  /// Deflection under a unit force of a string under unit tension with these ends [m].
+  Scalar string_compliance(Scalar s) const noexcept {
+    const Scalar L = data_.beam.length;
+    if (!fixes_w(data_.beam.left)) return L - s;
+    return fixes_w(data_.beam.right) ? s * (L - s) / L : s;
+  }
+
+  Scalar string_compliance_by_s(Scalar s) const noexcept {
+    const Scalar L = data_.beam.length;
+    if (!fixes_w(data_.beam.left)) return -1;
+    return fixes_w(data_.beam.right) ? (L - 2 * s) / L : Scalar(1);
+  }
+
+  Data data_;
+  PositionCoordinate<Scalar> position_;
+  TensionCoordinate<Scalar> tension_;
+  Lagrange<Nodes, Scalar> x_, z_;
+  std::vector<Scalar> table_;  // position by position: f by tension, df/dz, d²f/dz², df/dx, d²f/dxdz
+  ShapeTable<Scalar> shape_;
+  Scalar last_ = 0;  // z of the last press
+  int iterations_ = 0;
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,283 @@
+// Presses of a full model, taken for training: on a grid of depths, or of tensions.
+//
+// Positions are shared out to threads, each with its own copy of the model.  A press that the full model does not answer
+// with ok fails the training: none is left out, none is used with a doubt.
+// Offline: allocates; throws std::invalid_argument for a plan that cannot be carried out and TrainingError for a press.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <hapbeam/force_model.hpp>
+#include <hapbeam/rom/trained/coordinates.hpp>
+#include <hapbeam/rom/trained/lagrange.hpp>
+#include <hapbeam/rom/training/same_beam.hpp>
+#include <hapbeam/rom/training/training_plan.hpp>
+#include <hapbeam/rom/training/training_run.hpp>
+
+namespace hapbeam {
+
+/// One press of the full model.
+struct Snapshot {
+  double s;                                   ///< [m]
+  double d;                                   ///< [m]
+  double force;                               ///< [N]
+  double stiffness;                           ///< [N/m] F/(d - w), w of the untouched beam
+  std::vector<CentrelineNode<double>> nodes;  ///< the shape at the nodes of a ContactFrame
+};
+
+struct Snapshots {
+  BeamData<double> beam;
+  TrainingPlan plan;
+  std::string nodes;  ///< name() of the policy that placed them
+  int contact_node;
+  double y_low, y_high;            ///< of DepthCoordinate; 0 where tensions were trained
+  double tension;                  ///< [N] largest trained; 0 where depths were, or none arises
+  int columns;                     ///< depths or tensions at each position
+  std::vector<Snapshot> grid;      ///< position by position
+  std::vector<double> rest;        ///< w of the untouched beam by position [m]
+  std::vector<double> rest_shape;  ///< (u, w, θ) of the untouched beam at even nodes
+};
+
+namespace detail {
+
+/// The tension of the model's present press [N].  F d = 2V + N² L/EA, and V is what the model says.  An end that slides
+/// takes none.
+template <class Model>
+double tension_of(const Model& model, const BeamData<double>& beam, double force, double d) {
+  if (!fixes_u(beam.left) || !fixes_u(beam.right)) return 0;
+  const double membrane = force * d - 2 * static_cast<double>(model.strain_energy());
+  // Round-off and the solver's tolerance leave a linear element this much.
+  if (!(membrane > 1e-8 * std::abs(force * d))) return 0;
+  return std::sqrt(membrane * beam.axial_stiffness / beam.length);
+}
+
+template <class Nodes, class Model>
+class SnapshotTaker {
+ public:
+  SnapshotTaker(const Beam& beam, const Model& full, const TrainingPlan& plan, const TrainingOptions& options)
+      : full_(full),
+        options_(options),
+        out_{BeamData<double>::of(beam),
+             plan.check(beam),
+             Nodes::name(),
+             plan.contact_node(beam),
+             0,
+             0,
+             0,
+             plan.depths,
+             {},
+             {},
+             {}},
+        frame_(out_.beam, plan.segments, out_.contact_node),
+        x_(plan.positions, position(plan.s_min), position(plan.s_max)) {
+    static_assert(is_force_model<Model>, "a full model is a ForceModel: see hapbeam/force_model.hpp");
+    check_same_beam(beam, full, plan);
+    full_.reset();
+    const auto shape = full_.shape();
+    bool loaded = false;
+    for (int i = 0; i <= plan.segments; ++i) {
+      const auto at = shape.at(shape.length() * static_cast<S>(i) / static_cast<S>(plan.segments));
+      // Between the nodes of an element of any rotation there is round-off.
+      const double least = 1e-9 * plan.depth, length = out_.beam.length;
+      for (const S value : {at.u, at.w, at.theta * static_cast<S>(length)})
+        loaded = loaded || std::abs(static_cast<double>(value)) > least;
+      for (const S value : {at.u, at.w, at.theta}) out_.rest_shape.push_back(static_cast<double>(value));
+    }
+    if (!loaded) std::fill(out_.rest_shape.begin(), out_.rest_shape.end(), 0.0);
+    if (loaded && plan.symmetric)
+      throw std::invalid_argument("symmetric = true: must be false for a beam under dead loads");
+    for (int i = 0; i < plan.positions; ++i) {
+      const double rest = static_cast<double>(shape.at(static_cast<S>(s(i))).w);
+      if (std::abs(rest) >= plan.depth)
+        reject("depth", plan.depth, "m", "more than dead loads bend the beam");
+      out_.rest.push_back(rest);
+    }
+    // The corners of the range, where a grid has no node: what cannot be answered there is told before the work is done.
+    for (const double at : {edge(plan.s_min), edge(plan.s_max)})
+      for (const double d : {plan.depth, -plan.depth}) {
+        full_.reset();
+        press_for_training(full_, at, d);
+      }
+  }
+
+  Snapshots by_depth() {
+    const TrainingPlan& plan = out_.plan;
+    const DepthCoordinate<double> coordinate(out_.beam, plan.symmetric);
+    out_.y_low = plan.symmetric ? 0 : coordinate(-plan.depth - highest(out_.rest, 1));
+    out_.y_high = coordinate(plan.depth + highest(out_.rest, -1));
+    const Lagrange<Nodes> y(plan.depths, out_.y_low, out_.y_high);
+    allocate();
+    for_each_position(full_, plan.positions, options_.threads, [&](Model& model, int i) {
+      const double rest = out_.rest[static_cast<std::size_t>(i)];
+      // From rest outward to either side, as a hand would.
+      int first = 0;
+      while (first < plan.depths - 1 && y.node(first) < 0) ++first;
+      model.reset();
+      for (int j = first; j < plan.depths; ++j) take(model, i, j, rest, coordinate.inverse(y.node(j)));
+      model.reset();
+      for (int j = first - 1; j >= 0; --j) take(model, i, j, rest, coordinate.inverse(y.node(j)));
+    });
+    return std::move(out_);
+  }
+
+  Snapshots by_tension() {
+    const TrainingPlan& plan = out_.plan;
+    if (!plan.symmetric)
+      throw std::invalid_argument("symmetric = false: must be true, a GalerkinModel takes no dead loads");
+    // The tensions of the plan and some way beyond, as far as the full model goes everywhere.
+    const double headroom = 1.6;
+    double needed = 0, reach = std::numeric_limits<double>::infinity(), nearest_limit = 0;
+    const TensionCoordinate<double> coordinate(out_.beam);
+    for (int i = -2; i < plan.positions; ++i) {
+      const double at = i < 0 ? edge(i == -1 ? plan.s_min : plan.s_max) : s(i);
+      const double most = 0.999 * static_cast<double>(full_.range().depth_at(static_cast<S>(at)));
+      full_.reset();
+      const double reached = tension_at(full_, at, most);
+      if (reached < reach) reach = reached, nearest_limit = at;
+      if (i >= 0) continue;
+      needed = std::max(needed, tension_at(full_, at, std::min(plan.depth, most)));
+      out_.tension = std::max(out_.tension, tension_at(full_, at, std::min(headroom * plan.depth, most)));
+    }
+    if (needed > reach)
+      throw TrainingError(
+          "depth = " + std::to_string(plan.depth) + " m: its tension, " + std::to_string(needed) +
+          " N, must be one that the full model reaches within its range everywhere, at s = " +
+          std::to_string(nearest_limit) +
+          " m too: " + std::to_string(0.99 * plan.depth * std::sqrt(reach / needed)) + " m would be");
+    // A plan so shallow that it stretches nothing gets the tensions where bending still outweighs them.
+    out_.tension = reach > 0 ? std::min(std::max(out_.tension, coordinate.unit()), reach) : 0;
+    if (out_.tension == 0) out_.columns = 1;
+    const Lagrange<Nodes> z(out_.columns, 0, coordinate(out_.tension));
+    allocate();
+    for_each_position(full_, plan.positions, options_.threads, [&](Model& model, int i) {
+      model.reset();
+      // Where bending and stretching are alike.
+      double d = std::sqrt(out_.beam.bending_stiffness / out_.beam.axial_stiffness);
+      if (out_.columns == 1) d = plan.depth;
+      for (int j = 0; j < out_.columns; ++j) {
+        const double tension = coordinate.inverse(z.node(j));
+        if (tension > 0) d = depth_at_tension(model, s(i), tension, d);
+        take(model, i, j, 0, tension == 0 && out_.columns > 1 ? nothing() : d);
+      }
+    });
+    return std::move(out_);
+  }
+
+ private:
+  using S = typename Model::Scalar;
+
+  double position(double s) const {
+    return out_.plan.positions > 1 ? PositionCoordinate<double>(out_.beam)(s) : s;
+  }
+  double s(int i) const {
+    return out_.plan.positions > 1 ? PositionCoordinate<double>(out_.beam).inverse(x_.node(i))
+                                   : out_.plan.s_min;
+  }
+  /// An end of the plan's range; the full model's, if they differ by round-off.
+  double edge(double s) const {
+    const Range<S> range = full_.range();
+    const double inside =
+        std::min(std::max(s, static_cast<double>(range.s_min)), static_cast<double>(range.s_max));
+    return std::abs(inside - s) <= 1e-9 * out_.beam.length ? inside : s;
+  }
+  static double highest(const std::vector<double>& values, double sign) {
+    double most = sign * values.front();
+    for (const double value : values) most = std::max(most, sign * value);
+    return most;
+  }
+
+  void allocate() {
+    out_.grid.resize(static_cast<std::size_t>(out_.plan.positions) * static_cast<std::size_t>(out_.columns));
+  }
+
+  double tension_at(Model& model, double s, double d) const {
+    return tension_of(model, out_.beam, press_for_training(model, s, d), d);
+  }
+
+  /// The depth whose tension is N, by secants of ln N over ln d.
+  double depth_at_tension(Model& model, double s, double N, double d) const {
+    const double most = 0.9999 * static_cast<double>(model.range().depth_at(static_cast<S>(s)));
+    const double unit = TensionCoordinate<double>(out_.beam).unit();
+    const auto miss = [&](double depth) { return std::log(tension_at(model, s, depth) / N); };
+    double before = std::min(d, most), miss_before = miss(before);
+    double next = before * std::exp(-miss_before / 2);
+    for (int k = 0; k < 40; ++k) {
+      next = std::min(next, most);
+      const double now = miss(next);
+      // Below N0 a tension changes little, and round-off of the energies leaves it few digits.
+      if (std::abs(now) * N / (N + unit) < 1e-7) return next;
+      if (now == miss_before || !std::isfinite(now)) break;
+      const double power = std::log(next / before) / (now - miss_before);
+      before = next, miss_before = now;
+      next *= std::exp(-now * power);
+    }
+    throw TrainingError("no press at s = " + std::to_string(s) + " m has a tension of " + std::to_string(N) +
+                        " N; the full model's solver may be too loose, or its range too small");
+  }
+
+  /// A depth that is as good as none [m]: F/e is off by (e/ρ)².
+  double nothing() const {
+    return std::min(3e-3 * std::sqrt(out_.beam.bending_stiffness / out_.beam.axial_stiffness),
+                    1e-3 * out_.plan.depth);
+  }
+
+  void take(Model& model, int i, int j, double rest, double e) {
+    // At rest itself a symmetric shape has no size to be freed of.
+    const double near = nothing();
+    if (out_.plan.symmetric) e = std::max(e, near);
+    const double s = this->s(i), d = e + rest;
+    const double force = press_for_training(model, s, d);
+    Snapshot& snapshot = out_.grid[static_cast<std::size_t>(i) * static_cast<std::size_t>(out_.columns) +
+                                   static_cast<std::size_t>(j)];
+    snapshot = {s, d, force, force / e, {}};
+    for (int k = 0; k <= out_.plan.segments; ++k) {
+      const double x = frame_.position(k, s);
+      const auto at = model.shape().at(static_cast<S>(x));
+      snapshot.nodes.push_back(
+          {x, static_cast<double>(at.u), static_cast<double>(at.w), static_cast<double>(at.theta)});
+    }
+    // Nor has force over depth a value: it is the derivative there.
+    if (std::abs(e) < near)
+      snapshot.stiffness =
+          (press_for_training(model, s, rest + near) - press_for_training(model, s, rest - near)) /
+          (2 * near);
+    if (!options_.progress) return;
+    const std::lock_guard<std::mutex> lock(progress_mutex_);
+    options_.progress(++done_, static_cast<int>(out_.grid.size()));
+  }
+
+  Model full_;
+  const TrainingOptions& options_;
+  Snapshots out_;
+  ContactFrame<double> frame_;
+  Lagrange<Nodes> x_;
+  std::mutex progress_mutex_;
+  int done_ = 0;
+};
+
+}  // namespace detail
+
+/// Snapshots for a PodModel.
+/// @param full  a ForceModel of that beam that can be copied; its own state is not used   @tparam Nodes  what train_pod() is given
+template <class Nodes = ChebyshevNodes, class Model>
+Snapshots take_snapshots(const Beam& beam, const Model& full, const TrainingPlan& plan,
+                         const TrainingOptions& options = {}) {
+  return detail::SnapshotTaker<Nodes, Model>(beam, full, plan, options).by_depth();
+}
+
+/// Snapshots for a GalerkinModel: at each position the depths whose tensions are the grid's.
+/// @param full  as above, with strain_energy() [J] and a solver tight enough for F d - 2V, 1e-12 or so
+template <class Nodes = ChebyshevNodes, class Model>
+Snapshots take_snapshots_at_tensions(const Beam& beam, const Model& full, const TrainingPlan& plan,
+                                     const TrainingOptions& options = {}) {
+  return detail::SnapshotTaker<Nodes, Model>(beam, full, plan, options).by_tension();
+}
+
+}  // namespace hapbeam

@@ -1,0 +1,218 @@
+// From snapshots to the numbers of a model: POD of the shapes, and what is interpolated of the force.
+//
+//   #include <hapbeam/rom/trained/pod_model.hpp>, <…/train.hpp>, <…/validate.hpp>
+//   const Beam beam(…);
+//   const auto full = full_model(beam);
+//   const auto plan = TrainingPlan::anywhere(beam, 0.05);
+//   PodModelData<double> data = train_pod(take_snapshots(beam, full, plan));
+//   data.errors = validate(PodModel<>(data), full);
+//
+// Offline: allocates; throws what the parts throw.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <hapbeam/element/linear.hpp>
+#include <hapbeam/rom/training/full_model.hpp>
+#include <hapbeam/rom/training/pod.hpp>
+#include <hapbeam/rom/training/snapshots.hpp>
+
+namespace hapbeam {
+
+/// Snapshots as the columns of a matrix, their displacements freed of units as in ShapeTable: (u, w, θ) node by node.
+inline Eigen::MatrixXd snapshot_matrix(const Snapshots& snapshots) {
+  const ContactFrame<double> frame(snapshots.beam, snapshots.plan.segments, snapshots.contact_node);
+  Eigen::MatrixXd X(3 * (snapshots.plan.segments + 1), static_cast<Eigen::Index>(snapshots.grid.size()));
+  for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    const Snapshot& snapshot = snapshots.grid[static_cast<std::size_t>(k)];
+    const double unit = snapshots.plan.symmetric ? snapshot.d : snapshots.plan.depth;
+    const double s = snapshot.s;
+    for (int i = 0; i <= frame.segments(); ++i) {
+      const CentrelineNode<double>& node = snapshot.nodes[static_cast<std::size_t>(i)];
+      const double side = frame.side(i, s) / unit;
+      X.col(k).segment<3>(3 * i) << node.u * side / unit, node.w / unit, node.theta * side;
+    }
+  }
+  return X;
+}
+
+/// The linear beam's stiffness for columns of snapshot_matrix(): ½ xᵀ K x is the strain energy [J] of a shape x, of a press by
+/// the plan's depth at the middle of its positions.  What supports hold gets the largest diagonal entry, so that K is
+/// positive definite.  For StiffnessInnerProduct: once units are gone the plain product needs fewer modes, 10 where this needs
+/// 16 for shapes within a percent, because stretching outweighs bending in an energy.
+inline Eigen::MatrixXd stiffness_matrix(const Snapshots& snapshots) {
+  const BeamData<double>& beam = snapshots.beam;
+  const ContactFrame<double> frame(beam, snapshots.plan.segments, snapshots.contact_node);
+  const double s = (snapshots.plan.s_min + snapshots.plan.s_max) / 2, unit = snapshots.plan.depth;
+  const Eigen::Index rows = 3 * (frame.segments() + 1);
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(rows, rows);
+  Eigen::VectorXd size(rows);
+  Vector6<double> r;
+  Matrix6<double> k;
+  for (int i = 0; i <= frame.segments(); ++i) {
+    const double per_side = unit / frame.side(i, s);
+    size.segment<3>(3 * i) << unit * per_side, unit, per_side;
+    if (i == frame.segments()) break;
+    const double length = frame.position(i + 1, s) - frame.position(i, s);
+    Linear::tangent(ElementProperties<double>(length, beam.axial_stiffness, beam.bending_stiffness),
+                    Vector6<double>::Zero().eval(), r, k);
+    K.block<6, 6>(3 * i, 3 * i) += k;
+  }
+  K = size.asDiagonal() * K * size.asDiagonal();
+  const double largest = K.diagonal().maxCoeff();
+  const auto hold = [&](Eigen::Index row, bool held) {
+    if (!held) return;
+    K.row(row).setZero();
+    K.col(row).setZero();
+    K(row, row) = largest;
+  };
+  for (const auto& [first, end] : {std::pair{Eigen::Index(0), beam.left}, std::pair{rows - 3, beam.right}}) {
+    hold(first, fixes_u(end));
+    hold(first + 1, fixes_w(end));
+    hold(first + 2, fixes_theta(end));
+  }
+  return K;
+}
+
+namespace detail {
+
+template <class Reducer, class InnerProduct>
+ShapeData<double> reduce_shapes(const Snapshots& snapshots, const Truncation& truncation,
+                                const InnerProduct& product) {
+  const Eigen::MatrixXd X = snapshot_matrix(snapshots);
+  const Pod<Reducer, InnerProduct> pod(X, truncation, product);
+  const Eigen::MatrixXd C = pod.coefficients(X);
+  ShapeData<double> shape{snapshots.plan.segments, snapshots.contact_node, pod.modes(), {}, {},
+                          snapshots.rest_shape};
+  shape.basis.assign(pod.basis().data(), pod.basis().data() + pod.basis().size());
+  shape.coefficients.assign(C.data(), C.data() + C.size());
+  return shape;
+}
+
+/// scale(s) · 2V/e² at one position from scale(s) · F/e at the same nodes:  2V/e² = 2 ∫₀¹ t K(y(t e)) dt.
+/// Panels shrink toward t = 0, where y(t e) bends on the length ρ/e.
+template <class Nodes>
+std::vector<double> potential(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coordinate,
+                              const std::vector<double>& K) {
+  std::vector<double> l(K.size()), work(K.size());
+  for (std::size_t j = 0; j < K.size(); ++j) {
+    const double e = coordinate.inverse(y.node(static_cast<int>(j)));
+    double high = 1;
+    for (int panel = 0; panel < 60; ++panel) {
+      const double low = panel == 59 ? 0 : high * 0.8;
+      for (std::size_t g = 0; g < gauss_points.size(); ++g) {
+        const double t = low + (high - low) * gauss_points[g];
+        y.weights(coordinate(t * e), l.data());
+        double sum = 0;
+        for (std::size_t k = 0; k < K.size(); ++k) sum += l[k] * K[k];
+        work[j] += 2 * (high - low) * gauss_weights[g] * t * sum;
+      }
+      high = low;
+    }
+  }
+  return work;
+}
+
+}  // namespace detail
+
+namespace detail {
+
+template <class Nodes>
+void check_nodes(const Snapshots& snapshots) {
+  if (snapshots.nodes != Nodes::name())
+    throw std::invalid_argument("nodes = " + snapshots.nodes + ": must be " + Nodes::name() +
+                                ", as the model is to have them; take_snapshots<Nodes>() says which");
+}
+
+/// Between its nodes the interpolant must push back, and harder the deeper: with too few depths it does not.
+template <class Nodes>
+void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coordinate,
+                  const std::vector<double>& work, double s) {
+  const int n = y.size(), steps = 8 * n;
+  std::vector<double> l(work.size()), slopes(work.size());
+  y.differentiate(work.data(), 1, slopes.data());
+  double before = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= steps; ++k) {
+    const double at = y.low() + (y.high() - y.low()) * k / steps, e = coordinate.inverse(at);
+    y.weights(at, l.data());
+    double value = 0, slope = 0;
+    for (int i = 0; i < n; ++i) {
+      value += l[static_cast<std::size_t>(i)] * work[static_cast<std::size_t>(i)];
+      slope += l[static_cast<std::size_t>(i)] * slopes[static_cast<std::size_t>(i)];
+    }
+    const double stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
+    if (!(value > 0 && stiffness > 0 && force > before))
+      reject("depths", n, "",
+             ("more, or the plan less deep: at s = " + std::to_string(s) +
+              " m the force between them is not a beam's")
+                 .c_str());
+    before = force;
+  }
+}
+
+}  // namespace detail
+
+/// A PodModel's numbers.   @param truncation  of the shape's modes
+/// @throws std::invalid_argument where snapshots have other nodes, or are too few for the depth
+template <class Nodes = ChebyshevNodes, class Reducer = Svd, class InnerProduct = PlainInnerProduct>
+PodModelData<double> train_pod(const Snapshots& snapshots,
+                               const Truncation& truncation = Truncation::error(1e-4),
+                               const InnerProduct& product = {}) {
+  detail::check_nodes<Nodes>(snapshots);
+  const TrainingPlan& plan = snapshots.plan;
+  const PositionCoordinate<double> position(snapshots.beam);
+  const DepthCoordinate<double> coordinate(snapshots.beam, plan.symmetric);
+  const Lagrange<Nodes> y(plan.depths, snapshots.y_low, snapshots.y_high);
+  PodModelData<double> data{snapshots.beam,
+                            plan.s_min,
+                            plan.s_max,
+                            plan.depth,
+                            plan.symmetric,
+                            plan.positions,
+                            plan.depths,
+                            snapshots.y_low,
+                            snapshots.y_high,
+                            {},
+                            snapshots.rest,
+                            detail::reduce_shapes<Reducer>(snapshots, truncation, product),
+                            {}};
+  std::vector<double> K(static_cast<std::size_t>(plan.depths));
+  for (auto snapshot = snapshots.grid.begin(); snapshot != snapshots.grid.end();) {
+    const double s = snapshot->s;
+    for (double& k : K) k = position.scale(s) * snapshot->stiffness, ++snapshot;
+    const std::vector<double> row = detail::potential(y, coordinate, K);
+    detail::check_growth(y, coordinate, row, s);
+    data.potential.insert(data.potential.end(), row.begin(), row.end());
+  }
+  return data;
+}
+
+/// A GalerkinModel's numbers, from snapshots at tensions.   @param truncation  of the shape's modes
+template <class Nodes = ChebyshevNodes, class Reducer = Svd, class InnerProduct = PlainInnerProduct>
+GalerkinModelData<double> train_galerkin(const Snapshots& snapshots,
+                                         const Truncation& truncation = Truncation::error(1e-4),
+                                         const InnerProduct& product = {}) {
+  detail::check_nodes<Nodes>(snapshots);
+  const TrainingPlan& plan = snapshots.plan;
+  const PositionCoordinate<double> position(snapshots.beam);
+  GalerkinModelData<double> data{snapshots.beam,
+                                 plan.s_min,
+                                 plan.s_max,
+                                 plan.depth,
+                                 plan.positions,
+                                 snapshots.columns,
+                                 snapshots.tension,
+                                 {},
+                                 detail::reduce_shapes<Reducer>(snapshots, truncation, product),
+                                 {}};
+  for (const Snapshot& snapshot : snapshots.grid)
+    data.log_stiffness.push_back(std::log(position.scale(snapshot.s) * snapshot.stiffness));
+  return data;
+}
+
+}  // namespace hapbeam

@@ -1,0 +1,119 @@
+// How wrong is a trained model?  Measured on presses that it was not trained with, against a full one.
+//
+//   data.errors = validate(PodModel<>(data), full_model(beam));
+//   data.errors.force_bound;                 // no press in range has a larger relative error of its force
+//
+// A sample of presses says how large errors usually are; the bound comes from worst_press.hpp.
+// Offline: allocates; throws TrainingError where the full model does not answer.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <hapbeam/rom/trained/error_report.hpp>
+#include <hapbeam/rom/training/worst_press.hpp>
+
+namespace hapbeam {
+
+struct ValidationOptions {
+  int presses = 500;       ///< at random over the range, on its edges and nearly at rest, both ways
+  std::uint64_t seed = 1;  ///< the same seed draws the same presses on every machine
+  int s_regions = 3;       ///< parts of the range along the beam
+  int depth_regions = 3;   ///< and in depth
+};
+
+namespace detail {
+
+/// Value that a part of all do not exceed.
+inline double quantile(std::vector<double>& values, double part) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+inline ErrorSummary summarize(const std::vector<PressError>& errors) {
+  if (errors.empty()) return {};
+  std::vector<double> force, shape;
+  for (const PressError& error : errors) force.push_back(error.force), shape.push_back(error.shape);
+  return {static_cast<int>(errors.size()),
+          quantile(force, 0.5),
+          quantile(force, 0.95),
+          quantile(force, 1),
+          quantile(shape, 0.5),
+          quantile(shape, 1)};
+}
+
+}  // namespace detail
+
+/// Compares force and shape on a sample of presses.
+template <class Fast, class Full>
+std::vector<PressError> press_errors(const Fast& fast, const Full& full,
+                                     const ValidationOptions& options = {}) {
+  detail::PressComparison<Fast, Full> comparison(fast, full, fast.range());
+  // The standard fixes the generator but not its distributions.
+  std::mt19937_64 generator(options.seed);
+  const auto random = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  std::vector<PressError> errors;
+  for (int k = 0; k < options.presses; ++k) {
+    // First the corners of the range, then one of ten on each of its edges: there a polynomial is at its worst.
+    double along = random(), deep = random();
+    if (k < 4) along = k / 2, deep = k % 2 ? 1 : 0.02;
+    else if (k % 10 == 4 || k % 10 == 5) along = k % 10 - 4;
+    else if (k % 10 == 6) deep = 1;
+    else if (k % 10 > 7) deep = std::pow(10, -4 * deep);  // down to a ten-thousandth of the depth
+    const double s = along == 1 ? comparison.s_max()
+                                : comparison.s_min() + (comparison.s_max() - comparison.s_min()) * along;
+    const bool up = k / 2 % 2 == 0;
+    errors.push_back(comparison(s, (up ? deep : -deep) * comparison.reach(s, up)));
+  }
+  return errors;
+}
+
+/// The sample in figures, as a whole and by regions of the range, and a bound for all presses.
+/// @param sample  of press_errors()   @param reference  what the full model is called in the report
+template <class Fast, class Full>
+ErrorReport report_errors(const Fast& fast, const Full& full, const std::vector<PressError>& sample,
+                          const ValidationOptions& options = {},
+                          const std::string& reference = "finite elements") {
+  const auto range = fast.range();
+  const double s_min = static_cast<double>(range.s_min), s_max = static_cast<double>(range.s_max);
+  const double depth = static_cast<double>(range.depth);
+  detail::PressComparison<Fast, Full> comparison(fast, full, range);
+  std::vector<PressError> starts = sample;
+  detail::add_shallow_presses(comparison, starts);
+  const double worst = detail::worst_error(comparison, std::move(starts), 8),
+               own = detail::own_error(full, range, sample);
+  ErrorReport report{reference, detail::summarize(sample), {}, 1.1 * worst + own, own};
+  for (int i = 0; i < options.s_regions; ++i)
+    for (int j = 0; j < options.depth_regions; ++j) {
+      const auto part = [](double low, double high, int k, int n) { return low + (high - low) * k / n; };
+      RegionError region{part(s_min, s_max, i, options.s_regions),
+                         part(s_min, s_max, i + 1, options.s_regions),
+                         part(0, depth, j, options.depth_regions),
+                         part(0, depth, j + 1, options.depth_regions),
+                         {}};
+      std::vector<PressError> inside;
+      for (const PressError& error : sample)
+        if (error.s >= region.s_min && (error.s < region.s_max || i + 1 == options.s_regions) &&
+            error.depth >= region.depth_min &&
+            (error.depth < region.depth_max || j + 1 == options.depth_regions))
+          inside.push_back(error);
+      region.errors = detail::summarize(inside);
+      report.regions.push_back(region);
+    }
+  return report;
+}
+
+/// Both: how wrong a model is.
+/// @param full  of full_model(); any other ForceModel counts as exact   @param reference  what it is called in the report
+template <class Fast, class Full>
+ErrorReport validate(const Fast& fast, const Full& full, const ValidationOptions& options = {},
+                     const std::string& reference = "finite elements") {
+  return report_errors(fast, full, press_errors(fast, full, options), options, reference);
+}
+
+}  // namespace hapbeam

@@ -1,0 +1,183 @@
+// Where two models differ most: a climb from the worst presses of a sample.
+//
+// The error of an interpolation is a landscape of hills, one between any four nodes of its grid, and a sample hardly meets
+// their tops.  From the worst presses steps go up and down in position and depth, and get shorter where none leads up.
+// Steps are parts of the distance to the nearer end and of the depth from rest, on which hills are about alike.
+// Offline: allocates; throws TrainingError where the full model does not answer.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <hapbeam/force_model.hpp>
+#include <hapbeam/rom/training/training_run.hpp>
+
+namespace hapbeam {
+
+/// Of one press.
+struct PressError {
+  double s;      ///< [m]
+  double depth;  ///< [m] |d|
+  double force;  ///< relative
+  double shape;  ///< largest |Δw| along the beam over the largest |w|
+  double d;      ///< [m]
+};
+
+namespace detail {
+
+/// Compares two models press by press, each from rest.
+template <class Fast, class Full>
+class PressComparison {
+ public:
+  /// @param range  of the presses: s_min, s_max and depth alone
+  template <typename R>
+  PressComparison(const Fast& fast, const Full& full, const Range<R>& range)
+      : fast_(fast),
+        full_(full),
+        rest_(full),
+        s_min_(near(static_cast<double>(range.s_min), static_cast<double>(full.range().s_min), length())),
+        s_max_(near(static_cast<double>(range.s_max), static_cast<double>(full.range().s_max), length())),
+        depth_(static_cast<double>(range.depth)) {
+    rest_.reset();
+  }
+
+  double s_min() const noexcept { return s_min_; }
+  double s_max() const noexcept { return s_max_; }
+  double length() const noexcept { return static_cast<double>(rest_.shape().length()); }
+  /// w of the untouched beam [m].
+  double rest(double s) const noexcept { return static_cast<double>(rest_.shape().at(static_cast<F>(s)).w); }
+  /// Where dead loads bend the beam, shallower presses are judged by the force of this depth from rest [m].
+  double least() const noexcept { return depth_ / 1000; }
+  /// From rest to the end of the range [m].
+  double reach(double s, bool up) const noexcept { return deepest(s) + (up ? -rest(s) : rest(s)); }
+
+  /// The press at s by e from rest, or the nearest in range that both scalars hold.
+  PressError operator()(double s, double e) {
+    S at = static_cast<S>(std::min(std::max(s, s_min_), s_max_));
+    // In float an edge of the range may be rounded to the number beyond it.
+    if (static_cast<double>(at) > s_max_) at = std::nextafter(at, S(0));
+    if (static_cast<double>(at) < s_min_) at = std::nextafter(at, std::numeric_limits<S>::max());
+    const double most = deepest(static_cast<double>(at));
+    S d = static_cast<S>(std::min(std::max(rest(static_cast<double>(at)) + e, -most), most));
+    if (std::abs(static_cast<double>(d)) > most) d = std::nextafter(d, S(0));
+    return compare(at, d);
+  }
+
+ private:
+  using S = typename Fast::Scalar;
+  using F = typename Full::Scalar;
+
+  /// An edge of the range; the full model's, if they differ by round-off.
+  static double near(double edge, double known, double unit) noexcept {
+    return std::abs(edge - known) <= 1e-6 * unit ? known : edge;
+  }
+  /// Largest |d| in range [m].
+  double deepest(double s) const noexcept {
+    return near(depth_, static_cast<double>(full_.range().depth_at(static_cast<F>(s))), depth_);
+  }
+
+  PressError compare(S s, S d) {
+    PressError error{static_cast<double>(s), static_cast<double>(std::abs(d)), 0, 0, static_cast<double>(d)};
+    full_.reset(), fast_.reset();
+    const double wanted = press_for_training(full_, error.s, error.d);
+    const double found = static_cast<double>(fast_.press({s, d}).force);
+    const double w = rest(error.s), e = std::abs(error.d - w), least = w == 0 ? 0 : this->least();
+    error.force = std::abs(found - wanted) / (std::abs(wanted) * (e < least ? least / e : 1));
+    double off = 0, size = error.depth;
+    for (const CentrelineNode<S>& node : fast_.shape()) {
+      const double height = static_cast<double>(full_.shape().at(static_cast<F>(node.s)).w);
+      off = std::max(off, std::abs(static_cast<double>(node.w) - height));
+      size = std::max(size, std::abs(height));
+    }
+    error.shape = off / size;
+    return error;
+  }
+
+  Fast fast_;
+  Full full_, rest_;
+  double s_min_, s_max_, depth_;
+};
+
+/// Up the hill on which a press stands.
+template <class Comparison>
+PressError climb(Comparison& comparison, PressError top) {
+  const double L = comparison.length();
+  // A hill of sixteen positions is a third of the distance to the end wide, one of twelve depths two thirds of the depth.
+  for (double step = 0.1; step > 0.01; step /= 2) {
+    for (bool higher = true; higher;) {
+      higher = false;
+      const double e = top.d - comparison.rest(top.s);
+      const double by = step * std::max(std::min(top.s, L - top.s), L / 50);
+      for (const auto& [s, part] : {std::pair{top.s - by, 1.0},
+                                    {top.s + by, 1.0},
+                                    {top.s, 1 - 2 * step},
+                                    {top.s, 1 / (1 - 2 * step)}}) {
+        const PressError next = comparison(s, part * e);
+        if (!(next.force > top.force * (1 + 1e-3))) continue;
+        top = next;
+        higher = true;
+        break;
+      }
+    }
+  }
+  return top;
+}
+
+/// Largest relative error of the force that climbs from the worst of these presses find.
+template <class Comparison>
+double worst_error(Comparison& comparison, std::vector<PressError> presses, int climbs) {
+  const auto worse = [](const PressError& a, const PressError& b) { return a.force > b.force; };
+  std::sort(presses.begin(), presses.end(), worse);
+  double most = presses.empty() ? 0 : presses.front().force;
+  std::vector<PressError> begun;
+  for (const PressError& press : presses) {
+    // Those on the same hill lead to the same top.
+    bool same = false;
+    for (const PressError& other : begun)
+      same = same || (std::abs(press.s - other.s) < 0.05 * std::min(press.s, comparison.length() - press.s) &&
+                      press.d / other.d > 0.8 && press.d / other.d < 1.25);
+    if (same) continue;
+    begun.push_back(press);
+    most = std::max(most, climb(comparison, press).force);
+    if (static_cast<int>(begun.size()) == climbs) break;
+  }
+  return most;
+}
+
+/// Where dead loads bend a beam: presses from rest by the least depth that is judged, where the error is not small with it.
+template <class Comparison>
+void add_shallow_presses(Comparison& comparison, std::vector<PressError>& presses) {
+  const double low = comparison.s_min(), high = comparison.s_max();
+  for (int k = 0; k < 128; ++k) {
+    const double s = low + (high - low) * k / 127;
+    if (comparison.rest(s) != 0)
+      presses.push_back(comparison(s, k % 2 ? comparison.least() : -comparison.least()));
+  }
+}
+
+template <class Full, typename = void>
+struct CanBeRefined : std::false_type {};
+template <class Full>
+struct CanBeRefined<Full, std::void_t<decltype(std::declval<const Full&>().refined())>> : std::true_type {};
+
+/// Largest relative error of a full model's force on a range, against one with twice its elements, which itself errs by a
+/// third of the difference or less where the order is two or more.  Zero of a model without refined().
+template <class Full, typename R>
+double own_error(const Full& full, const Range<R>& range, const std::vector<PressError>& sample) {
+  if constexpr (CanBeRefined<Full>::value) {
+    PressComparison<Full, Full> comparison(full, full.refined(), range);
+    std::vector<PressError> presses;
+    // The corners of the range come first, and its edges in the first of each ten.
+    for (std::size_t k = 0; k < sample.size(); k += k < 10 ? 1 : 17)
+      presses.push_back(comparison(sample[k].s, sample[k].d - comparison.rest(sample[k].s)));
+    return 4.0 / 3 * worst_error(comparison, std::move(presses), 3);
+  }
+  return 0;
+}
+
+}  // namespace detail
+}  // namespace hapbeam
