@@ -18,7 +18,6 @@ using namespace hapbeam::testing;
 
 constexpr double L = thesis_length;
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
 Beam ruler() {
   return Beam(0.3, Section::rectangle(0.03, 0.001), Material{thesis_young}, Support::clamped, Support::free);
 }

@@ -17,8 +17,6 @@ using namespace hapbeam::testing;
 
 constexpr double tenth = thesis_length / 10, middle = thesis_length / 2, at_rest = 1e-3;  // [m], [m], [m/s]
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
 CouplingFigures default_figures(const Situation& who, int delay) {
   return safe_coupling(VirtualPhantom<Leaning>(Leaning{0}, who.options()).info(), delay);
 }

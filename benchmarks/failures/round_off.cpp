@@ -20,8 +20,6 @@ using namespace hapbeam::testing;
 constexpr double s = 0.3 * thesis_length, d = 5e-3;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
 template <typename Scalar>
 double error(int n) {
   FemModel<VonKarman<>, Scalar> model(pinned(), n);

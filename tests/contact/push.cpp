@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 #include "support/error.hpp"
 #include "support/random.hpp"
+#include "support/ruler.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
 #include <hapbeam/contact/touch.hpp>
@@ -19,11 +20,7 @@ namespace {
 using Vector = Vector2<double>;
 using Turning = FemModel<Corotational<>>;
 
-constexpr double length = 0.3, thickness = 0.001;
-
-Beam ruler() {
-  return {length, Section::rectangle(0.025, thickness), Material{206.84e9}, Support::clamped, Support::free};
-}
+constexpr double length = ruler_length, thickness = ruler_thickness;
 
 /// Distance of a point from the deformed centreline, by samples a hundredth of an element apart and a parabola: to
 /// 1e-6 of an element.
@@ -70,7 +67,7 @@ TouchResult<double> rest_at(Touch<Model>& touch, const Vector& at) {
 // The equations do not know which way is up.
 TEST_CASE("a push from below is the mirror image of a push from above, for a beam straight or bent",
           "[push]") {
-  Turning above(ruler(), 8), below(ruler(), 8);
+  Turning above(steel_ruler(), 8), below(steel_ruler(), 8);
   for (const double angle : {0.0, 0.3, -1.0, 1.5})
     for (const double d : {-1e-4, -0.01, -0.05, -0.1}) {
       const Vector n(std::sin(angle), std::cos(angle)), mirrored(n.x(), -n.y());
@@ -89,7 +86,7 @@ TEST_CASE("a push from below is the mirror image of a push from above, for a bea
 
 // Along -n the displacement and the force are the negative of those along n.
 TEST_CASE("the sense of the normal is a matter of signs", "[push]") {
-  Turning one(ruler(), 8), other(ruler(), 8);
+  Turning one(steel_ruler(), 8), other(steel_ruler(), 8);
   for (const double angle : {0.0, 0.4, -0.8})
     for (const double d : {1e-4, -0.03}) {
       const Vector n(std::sin(angle), std::cos(angle));
@@ -104,8 +101,8 @@ TEST_CASE("the sense of the normal is a matter of signs", "[push]") {
 
 // The thesis presses across and does not slide.  For a slope t both agree up to t² (here of 2 mm on 0.2 m: 3e-4).
 TEST_CASE("for a small deflection a push is the press of the thesis", "[push]") {
-  Turning turning(ruler(), 16);
-  FemModel<> moderate(ruler(), 16);
+  Turning turning(steel_ruler(), 16);
+  FemModel<> moderate(steel_ruler(), 16);
   const double reach = 0.005 + thickness / 2;
   for (const double s : {0.1, 0.2, 0.28})
     for (const double d : {-1e-5, -1e-4, -1e-3}) {
@@ -125,7 +122,7 @@ TEST_CASE("a circle at rest touches the centreline at radius + thickness/2, also
           "[push]") {
   for (const int side : {1, -1})
     for (const double radius : {0.001, 0.005, 0.02}) {
-      Turning model(ruler(), 16);
+      Turning model(steel_ruler(), 16);
       Touch<Turning> touch(model, radius);
       const double reach = radius + thickness / 2;
       Vector at(0.24, side * (reach + 0.001));
@@ -155,7 +152,7 @@ TEST_CASE("a circle at rest touches the centreline at radius + thickness/2, also
 // was the work is nothing.  The hand's work is integrated by Simpson's rule over three ticks: h⁴ of its way.
 TEST_CASE("closed paths of the avatar along and around the bent ruler take no work", "[push]") {
   for (const int elements : {8, 16}) {
-    Turning model(ruler(), elements, tight_solver());
+    Turning model(steel_ruler(), elements, tight_solver());
     Random random(3);
     double worst = 0;
     for (int path = 0; path < 6; ++path) {
@@ -204,7 +201,7 @@ TEST_CASE("closed paths of the avatar along and around the bent ruler take no wo
 // F = -∇V of the hand's position: central differences of the stored energy with h = 1e-5 m leave (h/L)² and 1e-9 of round-off;
 // what 16 elements miss of a potential, because their nodes follow the contact, is 1e-6.
 TEST_CASE("the force is the gradient of the stored energy, along and across the beam", "[push]") {
-  Turning model(ruler(), 16, tight_solver());
+  Turning model(steel_ruler(), 16, tight_solver());
   Touch<Turning> touch(model, 0.005);
   (void)touch.tick({0.2, 0.02});
   for (const Vector& at : {Vector(0.2, -0.02), Vector(0.17, -0.06), Vector(0.13, -0.1), Vector(0.22, 0.0)}) {
@@ -233,7 +230,7 @@ TEST_CASE("the force is the gradient of the stored energy, along and across the 
 TEST_CASE("a hand that goes past the tip slips off the bent ruler and is free", "[push]") {
   for (const int side : {1, -1})
     for (const double radius : {0.001, 0.005, 0.02}) {
-      Turning model(ruler(), 8);
+      Turning model(steel_ruler(), 8);
       Touch<Turning> touch(model, radius);
       Vector at(0.27, side * (radius + 0.01));
       (void)touch.tick(at);
@@ -284,8 +281,8 @@ TEST_CASE("an arch is met where it stands, from above and from below", "[push]")
 }
 
 TEST_CASE("in float the ruler answers to four digits", "[push][float]") {
-  FemModel<Corotational<>, float> rounded(ruler(), 8);
-  Turning model(ruler(), 8);
+  FemModel<Corotational<>, float> rounded(steel_ruler(), 8);
+  Turning model(steel_ruler(), 8);
   Touch<FemModel<Corotational<>, float>> touch_float(rounded, 0.005f);
   Touch<Turning> touch(model, 0.005);
   double worst = 0;

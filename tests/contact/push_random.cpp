@@ -1,6 +1,7 @@
 // 10⁵ ticks of a hand that keeps to no rule: slides, jumps, goes through the ruler and round its ends and into its clamp.
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/ruler.hpp"
 #include "support/status.hpp"
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/corotational.hpp>
@@ -13,11 +14,7 @@ namespace {
 
 using Vector = Vector2<double>;
 using Turning = FemModel<Corotational<>>;
-constexpr double length = 0.3, thickness = 0.001;
-
-Beam ruler() {
-  return {length, Section::rectangle(0.025, thickness), Material{206.84e9}, Support::clamped, Support::free};
-}
+constexpr double length = ruler_length, thickness = ruler_thickness;
 
 /// Largest distance by which the centreline lies within `reach` of a point, at samples [m]; it misses their
 /// distance squared over 8 reach, and half of that more where the ruler bends away.
@@ -81,7 +78,7 @@ void check(const Tally& tally, double reach) {
 
 TEST_CASE("random ticks with jumps: never NaN, never a pull, never a miss that is not said", "[push]") {
   for (const double radius : {0.002, 0.005, 0.02}) {
-    Turning model(ruler(), 8);
+    Turning model(steel_ruler(), 8);
     Touch<Turning> touch(model, radius);
     Random random(7);
     Tally tally;
@@ -102,7 +99,7 @@ TEST_CASE("random ticks with jumps: never NaN, never a pull, never a miss that i
 
 // What a hand can do: 0.2 m/s at 1 kHz, from place to place, on both sides and round the tip.
 TEST_CASE("random ways at the speed of a hand are followed without a refusal", "[push]") {
-  Turning model(ruler(), 8);
+  Turning model(steel_ruler(), 8);
   Touch<Turning> touch(model, 0.005);
   Random random(7);
   Tally tally;
@@ -121,7 +118,7 @@ TEST_CASE("random ways at the speed of a hand are followed without a refusal", "
 TEST_CASE("a step through the ruler takes it along", "[push]") {
   Random random(11);
   for (int trial = 0; trial < 300; ++trial) {
-    Turning model(ruler(), 8);
+    Turning model(steel_ruler(), 8);
     Touch<Turning> touch(model, 0.005);
     const int side = trial % 2 ? 1 : -1;
     const double x = random(0.05, 0.29), far = x * random(0.05, 0.4);

@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/ruler.hpp"
 #include "support/status.hpp"
 #include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/contact/touch.hpp>
@@ -16,11 +17,7 @@ namespace {
 
 using Vector = Vector2<double>;
 using Turning = FemModel<Corotational<>>;
-constexpr double length = 0.3, thickness = 0.001, radius = 0.005;
-
-Beam ruler(Support left = Support::clamped, Support right = Support::free) {
-  return {length, Section::rectangle(0.025, thickness), Material{206.84e9}, left, right};
-}
+constexpr double length = ruler_length, radius = 0.005;
 
 struct Count {
   int begun = 0, ended = 0, refused = 0;
@@ -39,7 +36,7 @@ struct Count {
 
 // Strength of materials: a clamped ruler is never pressed harder than EI π²/(2 s)², and 24 N at half of its length.
 TEST_CASE("a hand led straight past the tip of a ruler touches it once, at any speed", "[push]") {
-  Turning model(ruler(), 16);
+  Turning model(steel_ruler(), 16);
   for (const double x : {0.15, 0.20, 0.22, 0.24, 0.25, 0.26, 0.28, 0.29})
     for (const double step : {1e-4, 2e-4, 4e-4, 5e-4, 1e-3}) {
       Touch<Turning> touch(model, radius);
@@ -57,8 +54,8 @@ TEST_CASE("a hand led straight past the tip of a ruler touches it once, at any s
 }
 
 TEST_CASE("large and small circles that slip off a ruler askew touch it once", "[push]") {
-  Turning turning(ruler(), 16);
-  FemModel<> moderate(ruler(), 16);
+  Turning turning(steel_ruler(), 16);
+  FemModel<> moderate(steel_ruler(), 16);
   Random random(3);
   const auto strokes = [&](auto& model) {
     for (int k = 0; k < 60; ++k) {
@@ -104,7 +101,7 @@ TEST_CASE("an arch that snaps away is let go once, and pressed again where it li
 
 TEST_CASE("a hand that is lengths away at once holds a beam for a few ticks at the most", "[push]") {
   for (const Support right : {Support::free, Support::roller, Support::pinned}) {
-    Turning model(ruler(right == Support::free ? Support::clamped : Support::pinned, right), 16);
+    Turning model(steel_ruler(right == Support::free ? Support::clamped : Support::pinned, right), 16);
     for (const double far : {5.0, 7.0, 20.0, 1e3}) {
       Touch<Turning> touch(model, radius);
       (void)touch.tick({0.2, 0.02});
@@ -122,7 +119,7 @@ TEST_CASE("a hand that is lengths away at once holds a beam for a few ticks at t
 }
 
 TEST_CASE("two touches of one model in turn, and of two shapes, know nothing of each other") {
-  Turning straight(ruler(), 8), finer(ruler(), 24);
+  Turning straight(steel_ruler(), 8), finer(steel_ruler(), 24);
   for (Turning* model : {&straight, &finer, &straight}) {
     Touch<Turning> touch(*model, radius);
     (void)touch.tick({0.2, 0.02});

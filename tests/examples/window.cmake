@@ -21,6 +21,7 @@ endif()
 
 add_executable(compare_pictures compare_pictures.cpp)
 target_link_libraries(compare_pictures PRIVATE hapbeam_checks hapbeam_window)
+target_include_directories(compare_pictures PRIVATE ${PROJECT_SOURCE_DIR}/examples)
 add_dependencies(hapbeam_tests compare_pictures)
 
 # Each scene looks as it did when its reference was looked at (docs/images/scenes.sh), but for what depends on the machine:

@@ -31,8 +31,6 @@ static_assert(is_noexcept<PodModel<>>() && is_noexcept<PodModel<float>>() && is_
               is_noexcept<GalerkinModel<float>>());
 static_assert(is_force_model<Guarded<PodModel<>, FemModel<>>>);
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
 PodModelData<double> pod(int elements = 64, int segments = 32) {
   TrainingPlan plan = TrainingPlan::anywhere(pinned(), 0.05);
   plan.segments = segments;

@@ -17,8 +17,6 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
 const Verdict& verdict_of(const Choice& choice, Kinematics kinematics,
                           Reduction reduction = Reduction::none) {
   for (const Verdict& verdict : choice.verdicts)

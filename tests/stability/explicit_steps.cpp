@@ -16,8 +16,6 @@ namespace {
 constexpr double tick = 1e-3;                                               // [s]
 constexpr double steel = 7850, mass = steel * inch * inch * thesis_length;  // [kg/m³], [kg]
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
 /// How far any mass of an undamped chain gets that was disturbed by 1 µm [m].
 double farthest(int pieces, double dt, int steps) {
   MassSpringChain chain(pinned(), pieces, mass, 0);

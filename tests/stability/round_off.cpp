@@ -22,7 +22,6 @@ namespace {
 
 constexpr double s = 0.3 * thesis_length, d = 5e-3;
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
 double exact() { return PinnedPress(thesis_length, thesis_EA, thesis_EI)(s, d); }
 
 /// The reaction is the difference of two shears of 12EI/l³ times displacements that are rounded to eps/2 each; against

@@ -21,8 +21,6 @@ constexpr double at_rest = 1e-3;    // [m/s]
 constexpr double round_off = 1e-9;  // [J]
 constexpr double tenth = thesis_length / 10, middle = thesis_length / 2;
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
 CouplingFigures default_figures(const Situation& who) {
   return safe_coupling(VirtualPhantom<Leaning>(Leaning{0}, who.options()).info(), who.delay);
 }

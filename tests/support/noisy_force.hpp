@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "support/closed_form.hpp"
 #include "support/error.hpp"
 #include "support/random.hpp"
+#include "support/thesis_beam.hpp"
 #include <hapbeam/rom/trained/lagrange.hpp>
 
 namespace hapbeam::testing {
@@ -44,5 +46,17 @@ class NoisyForce {
   Lagrange<Nodes> axis_;
   std::vector<double> values_, weights_;
 };
+
+/// The thesis' beam between hinges, pressed at mid-span, d [m] -> [N]: what trainings go wrong on, 1 to 50 mm deep.
+inline double force_at_mid_span(double d) {
+  return PinnedPress(thesis_length, thesis_EA, thesis_EI)(thesis_length / 2, d);
+}
+inline constexpr double shallowest = 1e-3, deepest = 50e-3;  // [m]
+
+template <class Nodes>
+double worst_error(int nodes, double noise, int depths) {
+  return NoisyForce<Nodes>(nodes, shallowest, deepest, noise, force_at_mid_span)
+      .worst_error(depths, force_at_mid_span);
+}
 
 }  // namespace hapbeam::testing

@@ -18,6 +18,8 @@ inline Beam thesis_beam(Support left, Support right, double length = thesis_leng
   return Beam(length, Section::rectangle(inch, inch), Material{thesis_young}, left, right);
 }
 
+inline Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
+
 /// Left half of a beam whose ends are alike: symmetric at mid-span.
 inline Beam thesis_half(Support end) { return thesis_beam(end, Support::guided, thesis_length / 2); }
 

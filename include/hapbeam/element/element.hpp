@@ -106,33 +106,6 @@ template <typename S>
 
 }  // namespace detail
 
-/// What runs once an element and iteration is inlined by intent ([[gnu::always_inline]], here and in the elements): left to
-/// itself, g++ -O2 makes calls of it, whose results go through memory and take a quarter of the tick.
-///
-/// The contract above for an element that knows its core,
-///   E::respond(p, d) -> CoreResponse<S>,
-/// from which it inherits with itself as E.
-template <class E>
-struct ElementFromCore {
-  template <typename S>
-  static S energy(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
-    return E::respond(p, d).energy;
-  }
-  template <typename S>
-  static void residual(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r) noexcept {
-    const CoreResponse<S> c = E::respond(p, d);
-    detail::expand(p, c.s, c.r, c.t1, c.t2, r);
-  }
-  template <typename S>
-  [[gnu::always_inline]] static S tangent(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r,
-                                          Matrix6<S>& K) noexcept {
-    const CoreResponse<S> c = E::respond(p, d);
-    detail::expand(p, c.s, c.r, c.t1, c.t2, r);
-    detail::expand(p, c.k, K);
-    return c.energy;
-  }
-};
-
 namespace detail {
 
 template <typename E, typename S, typename = void>
@@ -186,6 +159,41 @@ struct AnyRotation<E, std::void_t<decltype(E::any_rotation)>> : std::bool_consta
 ///   L::respond(const ElementProperties<S>&, const Deformation<S>&) noexcept -> CoreResponse<S>,   L::name() -> const char*
 template <typename L, typename S>
 inline constexpr bool responds_to_deformation = detail::RespondsToDeformation<L, S>::value;
+
+/// What runs once an element and iteration is inlined by intent ([[gnu::always_inline]], here and in the elements): left to
+/// itself, g++ -O2 makes calls of it, whose results go through memory and take a quarter of the tick.
+///
+/// The contract above for an element that knows its core,
+///   E::respond(p, d) -> CoreResponse<S>,   of the displacements or of the Deformation that they make,
+/// from which it inherits with itself as E.
+template <class E>
+struct ElementFromCore {
+  template <typename S>
+  static S energy(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
+    return respond_to(p, d).energy;
+  }
+  template <typename S>
+  static void residual(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r) noexcept {
+    const CoreResponse<S> c = respond_to(p, d);
+    detail::expand(p, c.s, c.r, c.t1, c.t2, r);
+  }
+  template <typename S>
+  [[gnu::always_inline]] static S tangent(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r,
+                                          Matrix6<S>& K) noexcept {
+    const CoreResponse<S> c = respond_to(p, d);
+    detail::expand(p, c.s, c.r, c.t1, c.t2, r);
+    detail::expand(p, c.k, K);
+    return c.energy;
+  }
+
+ private:
+  template <typename S>
+  [[gnu::always_inline]] static CoreResponse<S> respond_to(const ElementProperties<S>& p,
+                                                           const Vector6<S>& d) noexcept {
+    if constexpr (responds_to_deformation<E, S>) return E::respond(p, Deformation<S>(p, d));
+    else return E::respond(p, d);
+  }
+};
 
 /// True where E says that it is right at any rotation.
 template <class E>

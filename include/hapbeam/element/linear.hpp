@@ -46,11 +46,6 @@ struct Linear : ElementFromCore<Linear> {
     detail::add_bending(p, e, core);
     return core;
   }
-  template <typename S>
-  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
-                                                        const Vector6<S>& d) noexcept {
-    return respond(p, Deformation<S>(p, d));
-  }
 };
 
 }  // namespace hapbeam

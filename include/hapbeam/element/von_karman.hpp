@@ -28,11 +28,6 @@ struct VonKarman : ElementFromCore<VonKarman<Membrane>> {
     detail::add_bending(p, e, core);
     return core;
   }
-  template <typename S>
-  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
-                                                        const Vector6<S>& d) noexcept {
-    return respond(p, Deformation<S>(p, d));
-  }
 };
 
 }  // namespace hapbeam

@@ -14,8 +14,6 @@ namespace {
 
 constexpr double L = thesis_length;
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
 }  // namespace
 
 TEST_CASE("one unknown gives the force of any press up to 50 mm within 3e-3, the median within 1e-5",

@@ -15,8 +15,6 @@ namespace {
 
 constexpr double L = thesis_length;
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
 using Model = Guarded<PodModel<>, FemModel<>>;
 
 PodModelData<double> data() {

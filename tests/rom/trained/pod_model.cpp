@@ -12,8 +12,6 @@ namespace {
 
 constexpr double L = thesis_length;
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
 }  // namespace
 
 TEST_CASE("14 snapshots at mid-span give the force of any press up to 50 mm within 1e-6", "[pod_model]") {

@@ -18,8 +18,6 @@ namespace {
 
 constexpr double L = thesis_length;
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
 /// A full model that has trouble: past a depth its press ends without converging.
 class Stubborn : public FemModel<> {
  public:

@@ -17,8 +17,6 @@ using namespace hapbeam::testing;
 
 namespace {
 
-Beam pinned() { return thesis_beam(Support::pinned, Support::pinned); }
-
 /// Off by a known part of the force: 1 % in the left half and 3 % in the right one.
 class Wrong : public FemModel<> {
  public:
