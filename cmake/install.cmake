@@ -10,5 +10,5 @@ configure_file(cmake/hapbeamConfig.cmake.in hapbeamConfig.cmake @ONLY)
 write_basic_package_version_file(hapbeamConfigVersion.cmake COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(FILES
   ${PROJECT_BINARY_DIR}/hapbeamConfig.cmake ${PROJECT_BINARY_DIR}/hapbeamConfigVersion.cmake cmake/jansson.cmake
-  cmake/FindOpenHaptics.cmake
+  cmake/FindOpenHaptics.cmake cmake/build_type.cmake
   DESTINATION share/cmake/hapbeam)
