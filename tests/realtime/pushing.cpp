@@ -1,7 +1,6 @@
 // push(), release() and Touch::tick on beams of any rotation: no heap, and a bounded number of linear solves.
 #include <cmath>
 #include <realtime/heap_watch.hpp>
-#include <string_view>
 #include <vector>
 
 #include "realtime/counting_element.hpp"
@@ -148,7 +147,8 @@ TEST_CASE(
   }
 }
 
-// What a tick leaves undone the next ones do: a hand that has raged for a second at 1 m/s and then rests is met.
+// What a tick leaves undone the next ones do: a hand that has raged for a second at 1 m/s and then rests is met, even
+// where it holds strip and arch taut and they bend 1.6 times as sharply as the avatar is round.
 TEST_CASE(
     "64 elements under a wild hand: each tick bounded, each force finite, and rest when the hand rests") {
   using Element = Counted<Corotational<>>;
@@ -157,7 +157,7 @@ TEST_CASE(
   for (const auto& [name, beam] : beams()) {
     Model model(beam, elements);
     Touch<Model> touch(model, 0.005);
-    Random random(8);
+    Random random(11);
     const double length = beam.length(), reach = std::min(0.1 * length, 0.05);
     long most = 0;
     int refused = 0, ticks = 0;
@@ -177,7 +177,6 @@ TEST_CASE(
     }
     INFO(name << ": " << most << " solves in one of " << ticks << " ticks");
     CHECK(most <= most_solves_of_a_tick);
-    // A hand may come to rest where it holds the strip taut, and pulls it farther than it reaches.
-    CHECK(refused <= (std::string_view(name) == "strip" ? 1 : 0));
+    CHECK(refused == 0);
   }
 }

@@ -56,7 +56,8 @@ class PushContact {
         const bool lost = answer && !found;
         // Pushed along itself an end has no place on the circle any more: it slips off.
         if (lost && foot.at_end) return {Hold::lost, 0, response.status};
-        before_ = slid_;
+        // A point that was not found says nothing of the way: continued, what it is off by would come back larger.
+        before_ = off <= near * reach ? slid_ : s - first;
         slid_ = s - first;
         contact.s = s;
         contact.foot = foot.point;
