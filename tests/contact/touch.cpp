@@ -105,6 +105,19 @@ TEST_CASE("a step through the beam presses it at once, by the whole depth") {
   CHECK(r.force.x() == 0);
 }
 
+// Beyond the end the way to the hand points down, and it has come from above all the same.
+TEST_CASE("a step through the beam that ends past its end, beneath, presses from above and goes on so") {
+  FemModel<> model(thesis_beam(Support::free), 8);
+  Touch<FemModel<>> touch(model, radius);
+  CHECK_FALSE(touch.tick({2.4, 0.1}).pressing);
+  for (const double x : {2.541, 2.5405, 2.53, 2.5, 2.4}) {
+    const auto r = touch.tick({x, -0.003});
+    CHECK(r.pressing);
+    CHECK(r.press.d < 0);
+    CHECK(r.force.y() > 0);
+  }
+}
+
 TEST_CASE("the beam follows a hand that draws back and lets go at its rest shape, not before and not after") {
   Model model(Ends::simply_supported);
   Touch<Model> touch(model, radius);

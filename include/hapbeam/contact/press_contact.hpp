@@ -34,12 +34,11 @@ class PressContact {
  public:
   /// The normal's transverse component is taken to be at least this (a slope of 60 degrees): on a steeper piece, or
   /// beside an end, a transverse press can do little against the penetration, and the force along the normal stays below
-  /// |F| / least_normal.
+  /// |F| / least_normal.  A shape that has turned over, of a model far beyond its range, counts as upright: its normal never
+  /// points to the other side.
   static constexpr Scalar least_normal = Scalar(0.5);
 
-  void begin(const Contact<Scalar>& contact) noexcept {
-    up_ = contact.normal.y() < 0 ? Scalar(-1) : Scalar(1);
-  }
+  void begin(const Contact<Scalar>& contact) noexcept { up_ = static_cast<Scalar>(contact.side); }
 
   /// @param contact  in: on the shape before, out: where it was pressed   @param pressing  since the tick before
   /// @param reach  [m] from the avatar's centre to the centreline   @param asked  out: what was asked of the model
@@ -51,8 +50,9 @@ class PressContact {
     if (!rise_to_touch(contact, position, reach, rise)) return {Hold::released, 0, Status::ok};
     asked = {contact.s, contact.foot.y() + rise};
     const Response<Scalar> response = model.press(asked);
-    const Scalar n_w = contact.normal.y();
-    const Scalar force = (n_w < 0 ? response.force : -response.force) / std::max(std::abs(n_w), least_normal);
+    const Scalar n_w = up_ * contact.normal.y();
+    if (n_w < 0) contact.normal << (contact.normal.x() < 0 ? Scalar(-1) : Scalar(1)), 0;
+    const Scalar force = -up_ * response.force / std::max(n_w, least_normal);
     const bool answer = is_answer(response.status);
     if (force < 0 || (answer && force == 0))
       return {answer ? Hold::released : Hold::lost, 0, response.status};
@@ -98,7 +98,7 @@ class PressContact {
       contact.normal << offset.x() / reach, above / reach;
       return true;
     }
-    rise = -up_ * contact.depth / std::max(std::abs(contact.normal.y()), least_normal);
+    rise = -up_ * contact.depth / std::max(up_ * contact.normal.y(), least_normal);
     return true;
   }
 

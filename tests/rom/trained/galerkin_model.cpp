@@ -4,6 +4,7 @@
 #include "support/error.hpp"
 #include "support/global_modes.hpp"
 #include "support/solver.hpp"
+#include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 
@@ -155,6 +156,34 @@ TEST_CASE("it never pulls, whatever it was trained with and however deep it is p
       }
       CHECK(pulls == 0);
     }
+}
+
+// Beside a support and far beyond its depth the shape that it draws turns over: the normal there points to the other side.
+TEST_CASE("a hand that jumps far deeper than was trained is pushed back to the side that it came from",
+          "[galerkin]") {
+  const double deep = GENERATE(2.0, 6.6, 30.0);
+  GalerkinModel<> model(trained_galerkin(pinned(), TrainingPlan::anywhere(pinned(), 0.05), 64));
+  Touch<GalerkinModel<>> touch(model, 0.005);
+  Random random(1);
+  Vector2<double> hand(L / 2, 0.1), aim = hand;
+  bool pressing = false;
+  int side = 1, wrong = 0, pressed = 0;
+  double step = 0;
+  for (int k = 0; k < 40000; ++k) {
+    if (k % 100 == 0) {
+      aim << random(-0.1, 1.1) * L, random(-0.05, 0.05) * deep;
+      step = 0.05 * std::pow(10, random(-3, 0));
+    }
+    const Vector2<double> way = aim - hand;
+    hand += k / 100 % 3 == 0 ? way : Vector2<double>(way * std::min(1.0, step / (way.norm() + 1e-300)));
+    const TouchResult<double> felt = touch.tick(hand);
+    if (felt.pressing && !pressing) side = felt.contact.side;
+    pressing = felt.pressing;
+    pressed += pressing;
+    wrong += felt.force.y() * side < 0 && !felt.contact.past_end;
+  }
+  CHECK(pressed > 10000);
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("in float the tension is found as well", "[galerkin][float]") {
