@@ -55,6 +55,13 @@ class PressComparison {
   /// From rest to the end of the range [m].
   double reach(double s, bool up) const noexcept { return deepest(s) + (up ? -rest(s) : rest(s)); }
 
+  /// Whether two presses are about as deep.  What is untouched at rest errs alike on both sides.
+  bool alike(const PressError& a, const PressError& b) const noexcept {
+    const double ratio = (a.d - rest(a.s)) / (b.d - rest(b.s));
+    const double size = rest(a.s) == 0 ? std::abs(ratio) : ratio;
+    return size > 0.8 && size < 1.25;
+  }
+
   /// The press at s by e from rest, or the nearest in range that both scalars hold.
   PressError operator()(double s, double e) {
     S at = static_cast<S>(std::min(std::max(s, s_min_), s_max_));
@@ -102,6 +109,9 @@ class PressComparison {
   double s_min_, s_max_, depth_;
 };
 
+/// The unit of steps along the beam [m].
+inline double to_the_end(double s, double L) noexcept { return std::max(std::min(s, L - s), L / 50); }
+
 /// Up the hill on which a press stands.
 template <class Comparison>
 PressError climb(Comparison& comparison, PressError top) {
@@ -111,7 +121,7 @@ PressError climb(Comparison& comparison, PressError top) {
     for (bool higher = true; higher;) {
       higher = false;
       const double e = top.d - comparison.rest(top.s);
-      const double by = step * std::max(std::min(top.s, L - top.s), L / 50);
+      const double by = step * to_the_end(top.s, L);
       for (const auto& [s, part] : {std::pair{top.s - by, 1.0},
                                     {top.s + by, 1.0},
                                     {top.s, 1 - 2 * step},
@@ -138,8 +148,8 @@ double worst_error(Comparison& comparison, std::vector<PressError> presses, int 
     // Those on the same hill lead to the same top.
     bool same = false;
     for (const PressError& other : begun)
-      same = same || (std::abs(press.s - other.s) < 0.05 * std::min(press.s, comparison.length() - press.s) &&
-                      press.d / other.d > 0.8 && press.d / other.d < 1.25);
+      same = same || (std::abs(press.s - other.s) < 0.05 * to_the_end(press.s, comparison.length()) &&
+                      comparison.alike(press, other));
     if (same) continue;
     begun.push_back(press);
     most = std::max(most, climb(comparison, press).force);
@@ -148,10 +158,15 @@ double worst_error(Comparison& comparison, std::vector<PressError> presses, int 
   return most;
 }
 
-/// Where dead loads bend a beam: presses from rest by the least depth that is judged, where the error is not small with it.
+/// Where a sample at random has few: nearly at rest along both edges of the range, and, where dead loads bend the beam, by the
+/// least depth that is judged all along it, for there the error is not small with the depth.
 template <class Comparison>
 void add_shallow_presses(Comparison& comparison, std::vector<PressError>& presses) {
   const double low = comparison.s_min(), high = comparison.s_max();
+  for (const double s : {low, high})
+    for (int k = 0; k < 9; ++k)
+      for (const bool up : {true, false})
+        presses.push_back(comparison(s, (up ? 1 : -1) * comparison.reach(s, up) * std::pow(10, -k / 2.0)));
   for (int k = 0; k < 128; ++k) {
     const double s = low + (high - low) * k / 127;
     if (comparison.rest(s) != 0)
