@@ -2,6 +2,7 @@
 #include "support/catch.hpp"
 #include "support/error.hpp"
 #include "support/thesis_beam.hpp"
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 using namespace hapbeam;
@@ -75,4 +76,17 @@ TEST_CASE("a copy is a beam of its own", "[size]") {
   CHECK(one.shape()[4].w > 0);
   CHECK(other.shape()[4].w < 0);
   CHECK(one.press({1.0, 3e-3}).force == Approx(force).epsilon(1e-9));
+}
+
+// Sizes that are finite one by one and leave nothing to compute with.
+TEST_CASE("a beam whose length or shape at rest the scalar does not hold is refused", "[fem]") {
+  const auto beam = [](double length) {
+    return Beam(length, 5e6, 0.4, 1e-3, Support::clamped, Support::pinned);
+  };
+  const Beam placed = beam(0.3).place({}, {1e40, 0, 0});
+  CHECK_THROWS_AS((FemModel<Corotational<>, float>(placed, 8)), std::invalid_argument);
+  CHECK_THROWS_AS((FemModel<VonKarman<>, float>(beam(1e308), 8)), std::invalid_argument);
+  CHECK_THROWS_AS(FemModel<>(beam(1e308), 8), std::invalid_argument);
+  CHECK_THROWS_AS((FemModel<Corotational<>, float>(beam(1e-200), 8)), std::invalid_argument);
+  CHECK_NOTHROW(FemModel<Corotational<>, float>(beam(0.3), 8));
 }

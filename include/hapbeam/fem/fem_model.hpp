@@ -59,6 +59,7 @@ class FemModel {
     find_range(beam);
     find_rest(beam);
     for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
+    check_rest();
     home_ = middle();
   }
 
@@ -186,6 +187,16 @@ class FemModel {
 
   /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
   /// the model computes in: round-off would hide which way a branch goes on.
+  [[gnu::cold]] void check_rest() const {
+    bool finite = system_.length() >= std::numeric_limits<Scalar>::min();
+    for (const CentrelineNode<Scalar>& node : system_.centreline())
+      for (const Scalar value : {node.s, node.u, node.w, node.theta}) finite = finite && std::isfinite(value);
+    if (!finite)
+      throw std::invalid_argument(
+          "beam: sizes, loads and placed ends must leave it a length and a shape at rest that the model's "
+          "scalar holds");
+  }
+
   void find_rest(const Beam& beam) {
     if constexpr (std::is_same_v<Scalar, double>) {
       follow_loads(system_);

@@ -60,6 +60,8 @@ TEST_CASE("a script that cannot be followed is refused by name, value and unit",
   CHECK_THROWS_AS(path.slide(nan, 1), std::invalid_argument);
   CHECK_THROWS_AS(path.rest(-1), std::invalid_argument);
   CHECK_THROWS_AS(path.move_to({0, 0}, nan), std::invalid_argument);
+  CHECK_THROWS_WITH(path.slide(1e308, 1e-3), ContainsSubstring("speed = inf m/s: must be at most 1e9"));
+  CHECK_THROWS_WITH(path.slide(0.1, 1e-300), ContainsSubstring("speed"));
   CHECK(path.points().size() == 1);
 
   using Points = std::vector<HandPath::WayPoint>;

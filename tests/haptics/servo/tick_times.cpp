@@ -113,7 +113,10 @@ TEST_CASE("a deadline is missed when a whole period has passed without its tick"
   CHECK(times.period().longest() == Approx(5.5e-3).epsilon(1e-15));
 }
 
-TEST_CASE("a period is positive", "[tick_times]") {
+TEST_CASE("a period is one of a loop: of a shorter one no nanosecond is left to count", "[tick_times]") {
+  for (const double period : {1e-300, 1e-10, 1e4, 1e300})
+    CHECK_THROWS_WITH(TickTimes(period), ContainsSubstring("must be 1e-6 to 1e3"));
+  CHECK_NOTHROW(TickTimes(1e-6));
   CHECK_THROWS_WITH(TickTimes(0), ContainsSubstring("period = 0 s"));
   CHECK_THROWS_AS(TickTimes(-1e-3), std::invalid_argument);
   CHECK_THROWS_AS(TickTimes(std::nan("")), std::invalid_argument);

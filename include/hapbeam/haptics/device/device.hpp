@@ -33,6 +33,8 @@
 
 #include <Eigen/Core>
 
+#include <hapbeam/support.hpp>
+
 namespace hapbeam {
 
 /// What a device did to the force that it was given.
@@ -104,6 +106,16 @@ struct DeviceInfo {
   double damping;              ///< [N·s/m] viscous, of the arm itself; 0 where unknown
   double apparent_mass;        ///< [kg] of the arm at its tip; 0 where unknown
 };
+
+namespace detail {
+
+/// A period of a loop: its nanoseconds are counted in 64 bits, and a damper is divided by it.
+[[gnu::cold]] inline double loop_period(const char* field, double seconds) {
+  if (!(seconds >= 1e-6 && seconds <= 1e3)) reject(field, positive(field, seconds, "s"), "s", "1e-6 to 1e3");
+  return seconds;
+}
+
+}  // namespace detail
 
 /// What happened since start.
 struct DeviceCounts {

@@ -39,7 +39,7 @@ class HandPath {
 
   /// Way-points in the order of their times.
   /// @throws std::invalid_argument where there is none, the first is not at 0 s, a time does not come after
-  ///         the one before it, or anything is not finite
+  ///         the one before it, anything is not finite, or the hand would be faster than 1e9 m/s
   explicit HandPath(const std::vector<WayPoint>& points) {
     if (points.empty()) throw std::invalid_argument("hand path: must have at least one way-point");
     if (points.front().time != 0) detail::reject("hand path first time", points.front().time, "s", "0");
@@ -47,14 +47,14 @@ class HandPath {
     for (const WayPoint& point : points) {
       if (!points_.empty() && !(std::isfinite(point.time) && point.time > points_.back().time))
         detail::reject("hand path time", point.time, "s", "finite and after the one before it");
-      points_.push_back({point.time, checked("hand path position", point.position)});
+      go_to({point.time, checked("hand path position", point.position)});
     }
   }
 
   /// Reaches for a place.  @param place [m]   @param duration [s], positive
   HandPath& move_to(const Vector2<double>& place, double duration) {
     detail::positive("hand path duration", duration, "s");
-    points_.push_back({points_.back().time + duration, checked("hand path place", place)});
+    go_to({points_.back().time + duration, checked("hand path place", place)});
     return *this;
   }
   /// Moves along the beam.  @param distance [m] to the right, either sign   @param duration [s]
@@ -95,12 +95,22 @@ class HandPath {
     detail::finite(field, place.y(), "m");
     return place;
   }
+  void go_to(const WayPoint& next) {
+    if (!points_.empty()) {
+      const WayPoint& last = points_.back();
+      const double speed = 1.875 * (next.position - last.position).norm() / (next.time - last.time);
+      if (!(speed <= fastest)) detail::reject("hand path speed", speed, "m/s", "at most 1e9");
+    }
+    points_.push_back(next);
+  }
   static HandTarget at_rest(const WayPoint& point) noexcept {
     return {{point.position.x(), point.position.y(), 0}, Eigen::Vector3d::Zero()};
   }
   HandPath& move_by(double x, double y, double duration) {
     return move_to(points_.back().position + Vector2<double>(x, y), duration);
   }
+
+  static constexpr double fastest = 1e9;  // [m/s]
 
   std::vector<WayPoint> points_;
 };

@@ -19,7 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <hapbeam/check.hpp>
+#include <hapbeam/haptics/device/device.hpp>
 
 namespace hapbeam {
 
@@ -95,10 +95,10 @@ class BasicTickTimes {
                 "ticks are timed by a steady clock that does not throw");
 
  public:
-  /// @param period  [s] that a tick should come after the one before, positive
+  /// @param period  [s] that a tick should come after the one before, 1e-6 to 1e3
   /// @throws std::invalid_argument
   explicit BasicTickTimes(double period)
-      : period_ns_(static_cast<std::int64_t>(std::llround(detail::positive("period", period, "s") * 1e9))) {}
+      : period_ns_(static_cast<std::int64_t>(std::llround(detail::loop_period("period", period) * 1e9))) {}
 
   /// First in a tick.  One thread.  Real-time: no allocation, noexcept, wait-free; reads the clock.
   void begin() noexcept {

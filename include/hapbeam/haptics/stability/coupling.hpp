@@ -116,10 +116,10 @@ class Direct {
 class VirtualCoupling {
  public:
   /// @param figures  K [N/m] and B [N·s/m]   @param period [s] of the loop
-  /// @throws std::invalid_argument unless K and the period are positive, B not negative, and all finite
+  /// @throws std::invalid_argument unless K is positive, B not negative, both finite, and the period 1e-6 to 1e3 s
   VirtualCoupling(const CouplingFigures& figures, double period)
       : stiffness_(detail::positive("coupling stiffness", figures.stiffness, "N/m")),
-        period_(detail::positive("period", period, "s")),
+        period_(detail::loop_period("period", period)),
         damper_(figures.damping / period) {
     if (!(figures.damping >= 0 && std::isfinite(figures.damping)))
       detail::reject("coupling damping", figures.damping, "N·s/m", "finite and not negative");

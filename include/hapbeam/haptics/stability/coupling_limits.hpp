@@ -47,7 +47,7 @@ inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks =
         "device damping", b, "N·s/m",
         "positive, the arm's own: set HdapiOptions::damping or DeviceInfo::damping, or give the loop a "
         "VirtualCoupling of your own");
-  const double T = detail::positive("device period", device.period, "s");
+  const double T = detail::loop_period("device period", device.period);
   const double hardest = detail::positive("device max_stiffness", device.max_stiffness, "N/m");
   if (!(device.friction >= 0)) detail::reject("device friction", device.friction, "N", "not negative");
   if (!(device.position_resolution >= 0))

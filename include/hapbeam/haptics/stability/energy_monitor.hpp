@@ -35,7 +35,7 @@ class EnergyMonitor {
   /// @param delay_ticks  whole periods between a force and the motors, 0 to 16
   /// @throws std::invalid_argument naming field, value, unit and what is allowed
   explicit EnergyMonitor(const DeviceInfo& device, int delay_ticks = 0)
-      : period_(detail::positive("device period", device.period, "s")),
+      : period_(detail::loop_period("device period", device.period)),
         damping_(detail::finite("device damping", device.damping, "N·s/m")),
         friction_(detail::finite("device friction", device.friction, "N")),
         step_(detail::finite("device position_resolution", device.position_resolution, "m")),

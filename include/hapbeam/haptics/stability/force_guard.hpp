@@ -29,7 +29,7 @@ namespace hapbeam {
 struct ForceGuardOptions {
   double peak_force;           ///< [N] positive
   double continuous_force;     ///< Fc [N] positive, at most the peak
-  double period;               ///< [s] of the loop, positive
+  double period;               ///< [s] of the loop, 1e-6 to 1e3
   double slew_rate = 1e4;      ///< [N/s] positive; 10 N a millisecond is faster than any hand and no blow
   double thermal_time = 10;    ///< τ [s] positive; of small motors' windings, of housings minutes
   double engage_time = 0.2;    ///< [s] not negative
@@ -121,7 +121,7 @@ class ForceGuard {
     detail::positive("continuous_force", o.continuous_force, "N");
     if (!(o.continuous_force <= o.peak_force))
       detail::reject("continuous_force", o.continuous_force, "N", "at most the peak force");
-    detail::positive("period", o.period, "s");
+    detail::loop_period("period", o.period);
     detail::positive("slew_rate", o.slew_rate, "N/s");
     detail::positive("thermal_time", o.thermal_time, "s");
     if (!(o.engage_time >= 0 && std::isfinite(o.engage_time)))
