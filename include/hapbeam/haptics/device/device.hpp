@@ -33,7 +33,7 @@
 
 #include <Eigen/Core>
 
-#include <hapbeam/support.hpp>
+#include <hapbeam/check.hpp>
 
 namespace hapbeam {
 
