@@ -185,8 +185,7 @@ class FemModel {
   /// Where the middle of the beam is [m].
   Scalar middle() const noexcept { return shape().at(system_.length() / 2).w; }
 
-  /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
-  /// the model computes in: round-off would hide which way a branch goes on.
+  /// @throws std::invalid_argument where the scalar does not hold the shape at rest
   [[gnu::cold]] void check_rest() const {
     bool finite = system_.length() >= std::numeric_limits<Scalar>::min();
     for (const CentrelineNode<Scalar>& node : system_.centreline())
@@ -197,6 +196,8 @@ class FemModel {
           "scalar holds");
   }
 
+  /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
+  /// the model computes in: round-off would hide which way a branch goes on.
   void find_rest(const Beam& beam) {
     if constexpr (std::is_same_v<Scalar, double>) {
       follow_loads(system_);
@@ -210,8 +211,11 @@ class FemModel {
       system_.set_goal();
       system_.set_target(1);
       // Whether so many elements can be told apart in this scalar at all.
-      const Status status = system_.factor(0);
-      if (status != Status::ok) rest_.status = status;
+      if (is_answer(rest_.status) && system_.factor(0) != Status::ok)
+        throw std::invalid_argument(
+            "elements = " + std::to_string(elements()) +
+            ": too many for this beam in this scalar, its tangent at rest has no digits "
+            "left; take fewer, or double");
     }
     report_ = rest_;
   }
