@@ -39,8 +39,11 @@ k=0
 while IFS=, read -r compiler flags several; do
   # shellcheck disable=SC2086
   "$compiler" -std=c++17 $flags $several -I "$top/include" -isystem "$eigen" -pthread "$top/benchmarks/flags/ticks.cpp" \
-    -o "$folder/ticks_$((k++))"
+    -o "$folder/ticks_$k" &
+  k=$((k + 1))
+  [[ $(jobs -r | wc -l) -lt $(nproc) ]] || wait -n
 done < <(variants)
+wait
 for _ in 1 2 3 4 5; do
   k=0
   while IFS=, read -r compiler flags several; do

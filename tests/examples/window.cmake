@@ -79,7 +79,7 @@ find_program(HAPBEAM_TIMEOUT timeout)
 mark_as_advanced(HAPBEAM_TIMEOUT)
 if(HAPBEAM_TIMEOUT)
   hapbeam_test_example(phantom window_interrupted STATUS 0 OUTPUT "^\ninterrupted after [0-9]+ ticks" FIELDS scene=strip
-    BEFORE ${display} ${HAPBEAM_TIMEOUT} --preserve-status --signal INT 1)
+    BEFORE ${display} ${HAPBEAM_TIMEOUT} --foreground --preserve-status --signal INT 1)
 endif()
 
 # What a mouse pressed in the window, the hand that is led along its recording presses without one.
