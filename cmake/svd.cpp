@@ -1,0 +1,3 @@
+#include "svd.hpp"
+
+template class Eigen::JacobiSVD<Eigen::MatrixXd>;
