@@ -2,6 +2,7 @@
 #include <string>
 
 #include "conformance/force_model_suite.hpp"
+#include "support/catch.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>

@@ -1,10 +1,11 @@
 // What a touch owes to the hand, whichever model it presses: what it remembers ends with the release.
 //
-//   check_touch([] { return MyModel(...); });      within a SECTION of force_model_suite.hpp, so over every ForceModel
+//   check_touch<Model>(make, tolerance);      within a SECTION of force_model_suite.cpp, so over every ForceModel
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -47,9 +48,9 @@ struct Stroke {
 };
 
 /// @param tolerance  of two forces of the same press, relative to the larger
-template <class Make, typename Scalar>
-void check_touch(Make make, Scalar tolerance) {
-  using Model = decltype(make());
+template <class Model>
+void check_touch(const std::function<Model()>& make, typename Model::Scalar tolerance) {
+  using Scalar = typename Model::Scalar;
   using Vector = Vector2<Scalar>;
   Model model = make();
   const Range<Scalar> range = model.range();
