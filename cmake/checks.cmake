@@ -9,6 +9,9 @@ else()
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${HAPBEAM_WARNINGS_AS_ERRORS}>:-Werror>)
 endif()
 
+# g++ collects its garbage from 128 MB on, an eighth of the time of a test with many models; left alone it takes a seventh more memory.
+target_compile_options(hapbeam_checks INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=4000000>)
+
 if(HAPBEAM_SANITIZE)
   target_compile_options(hapbeam_checks INTERFACE
     -fsanitize=${HAPBEAM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -1,25 +1,27 @@
 #!/usr/bin/env bash
 # Builds and runs all tests, and installs what is missing for that (Debian; as root or with sudo).
 #
-#   bash tests/run.sh [--preset NAME]
+#   bash tests/run.sh [--preset NAME] [--folders 'NAME...']
 #
-#   --preset NAME   one of release (default), debug, asan-ubsan, tsan, strict-gcc, strict-clang; see CMakePresets.json
-#   --help          this text
+#   --preset NAME       one of release (default), debug, asan-ubsan, tsan, strict-gcc, strict-clang; see CMakePresets.json
+#   --folders 'NAME...' the tests of these folders of tests/ alone
+#   --help              this text
 #
 # The last line is 'N passed, N failed', with ', N skipped' if there are any.  Exit status 0 only if nothing failed.
 set -u
 source "$(dirname "${BASH_SOURCE[0]}")/../cmake/steps.sh"
 
-usage() { sed -n '2,9s/^# \{0,1\}//p' "$0"; }
+usage() { sed -n '2,10s/^# \{0,1\}//p' "$0"; }
 wrong() { echo "tests/run.sh: $1" >&2; exit 2; }
 
-preset=release
+preset=release folders=
 while [[ $# -gt 0 ]]; do
   case $1 in
     --help) usage; exit 0 ;;
     --preset) preset=${2-}; shift 2 2>/dev/null || shift ;;
     --preset=*) preset=${1#*=}; shift ;;
-    *) wrong "'$1': only --preset NAME and --help are allowed" ;;
+    --folders) folders=${2-}; shift 2 2>/dev/null || shift ;;
+    *) wrong "'$1': only --preset NAME, --folders 'NAME...' and --help are allowed" ;;
   esac
 done
 case $preset in
@@ -27,15 +29,21 @@ case $preset in
   *) wrong "--preset '$preset': must be release, debug, asan-ubsan, tsan, strict-gcc or strict-clang" ;;
 esac
 
+targets=(hapbeam_tests hapbeam_examples) select=()
+if [[ -n $folders ]]; then
+  read -ra names <<<"$folders"
+  targets=("${names[@]/#/test_}") select=(-L "^($(IFS='|'; echo "${names[*]}"))$")
+fi
+
 run_tests() {
-  (cd "$top" && ctest --preset "$preset" --parallel "$(nproc)") | grep -vE '^ +Start +[0-9]+:| +Passed +[0-9.]+ sec$'
+  (cd "$top" && ctest --preset "$preset" --parallel "$(nproc)" "${select[@]}") | grep -vE '^ +Start +[0-9]+:| +Passed +[0-9.]+ sec$'
   return "${PIPESTATUS[0]}"
 }
 
 # A display for the window of the example, drawn by software, and a mouse in it; without, those tests are left out.
 need xvfb xauth libgl1-mesa-dri xdotool
 
-build "$preset" hapbeam_tests hapbeam_examples || { echo '0 passed, 1 failed'; exit 1; }
+build "$preset" "${targets[@]}" || { echo '0 passed, 1 failed'; exit 1; }
 step "test" run_tests
 status=$?
 

@@ -61,11 +61,11 @@ if(HAPBEAM_SANITIZE)
 endif()
 hapbeam_test_example(phantom window_changes STATUS 0 OUTPUT "ticks, 0 missed" BEFORE ${display} MAKES hapbeam_tour
   OPTIONS --tour ${changes} --lock-step --record tour.csv)
-set_tests_properties(examples/phantom_window_changes PROPERTIES TIMEOUT 300)
+set_tests_properties(examples/phantom_window_changes PROPERTIES TIMEOUT 300 COST 20)
 hapbeam_test_file(slew_of_changes NEEDS hapbeam_tour COMMAND check_recordings slew tour.csv 10000)
 # The same in real time, where each second change comes while the one before is under way.
 hapbeam_test_example(phantom window_tour STATUS 0 OUTPUT "^\n[0-9]+ ticks, [0-9]+ missed" BEFORE ${display} OPTIONS --tour 100)
-set_tests_properties(examples/phantom_window_tour PROPERTIES TIMEOUT 300)
+set_tests_properties(examples/phantom_window_tour PROPERTIES TIMEOUT 300 COST 5)
 # Without a coupling the bar throws the arm about, faster than that: the check can fail.
 hapbeam_test_example(phantom record_buzz STATUS 0 OUTPUT "bounce" MAKES hapbeam_buzz
   OPTIONS --beam thesis --lock-step --duration 6 --coupling direct --place 0.254 --depth 0.01 --script press --record buzz.csv)
@@ -98,7 +98,7 @@ if(HAPBEAM_XDOTOOL)
     BEFORE ${choose} 1170,170 1170,290 OPTIONS --scene thesis)
   hapbeam_test_example(phantom_emulated window_device STATUS 0 OUTPUT "^\n(interrupted after )?[0-9]+ ticks" FIELDS "device=emulated Phantom"
     BEFORE ${choose} 1170,242 1170,282 OPTIONS --scene thesis)
-  set_tests_properties(examples/phantom_window_trains examples/phantom_emulated_window_device PROPERTIES TIMEOUT 300)
+  set_tests_properties(examples/phantom_window_trains examples/phantom_emulated_window_device PROPERTIES TIMEOUT 300 COST 5)
 else()
   message(STATUS "Without xdotool the mouse in the window of phantom is not tested")
 endif()
