@@ -47,6 +47,44 @@ struct Stroke {
   }
 };
 
+/// Straight down, over both ends and past them, from both sides: one beginning, and one end at the most.  Past an end that holds w
+/// the disc slides round a fixed point.  Its force then changes in a tick by no more than stiffness and direction explain: the force
+/// grows with no more than the cube of the depth, and turns with the way from the end to the disc.
+template <class Make, typename Scalar>
+void check_touch_at_ends(Make make, Scalar radius) {
+  using Model = decltype(make());
+  Model model = make();
+  const Range<Scalar> range = model.range();
+  const Scalar length = model.shape().length(), reach = radius + model.thickness() / 2;
+  const int steps = 400;
+  for (const bool right : {false, true}) {
+    const Scalar edge = right ? range.s_max : range.s_min, deep = range.depth_at(edge);
+    const bool held = std::isfinite(right ? range.right_support : range.left_support);
+    Model fresh = make();
+    const Scalar stiffness = std::abs(fresh.press({edge, -deep}).force) / deep;
+    for (const Scalar beyond :
+         {-length / 100, -length / 500, Scalar(0), reach * Scalar(0.3), reach * Scalar(0.7)})
+      for (const Scalar side : {Scalar(1), Scalar(-1)}) {
+        const Scalar x = right ? length + beyond : -beyond, high = side * Scalar(1.1) * reach;
+        Stroke<Model> stroke(model, radius, {x, high});
+        stroke.move({x, -high}, steps);
+        INFO("led down at " << x << " m from side " << side << ": " << stroke.begun << " beginnings, "
+                            << stroke.ended << " ends");
+        CHECK((stroke.begun == 1 && stroke.ended <= 1));
+        if (!held || beyond <= 0) continue;
+        CHECK(stroke.ended == 1);
+        Scalar largest = 0, change = 0;
+        for (std::size_t k = 0; k < stroke.forces.size(); ++k) {
+          largest = std::max(largest, stroke.forces[k].norm());
+          if (k > 0) change = std::max(change, (stroke.forces[k] - stroke.forces[k - 1]).norm());
+        }
+        const Scalar step = 2 * std::abs(high) / Scalar(steps);
+        CHECK(largest > 0);
+        CHECK(change <= step * (3 * std::max(stiffness, largest / reach) + largest / beyond) * Scalar(1.1));
+      }
+  }
+}
+
 /// @param tolerance  of two forces of the same press, relative to the larger
 template <class Model>
 void check_touch(const std::function<Model()>& make, typename Model::Scalar tolerance) {
@@ -123,6 +161,7 @@ void check_touch(const std::function<Model()>& make, typename Model::Scalar tole
     CHECK(stroke.begun == 1);
     CHECK(stroke.ended <= 1);
   }
+  check_touch_at_ends(make, radius);
 }
 
 }  // namespace hapbeam::testing

@@ -118,6 +118,24 @@ TEST_CASE("for a small deflection a push is the press of the thesis", "[push]") 
 }
 
 // The push ends where the centre is as far from the normal as `near` = 1e-5 of reach, which is second order in the distance.
+// An end that slides along a wall moves across the beam alone: (u, w) = (0, d / n_w), and of the force F the wall takes F n_x.
+TEST_CASE("an end that slides along a wall is pushed along any normal as it is pressed", "[push]") {
+  for (const Support left : {Support::clamped, Support::roller})
+    for (const double angle : {-0.6, -0.1, 0.1, 0.3, 0.6, 1.0})
+      for (const double d : {-1e-5, -3e-4, -3e-3, 1e-3}) {
+        const Beam beam = steel_ruler(left, Support::guided);
+        const Vector normal(std::sin(angle), std::cos(angle));
+        Turning pushed(beam, 16), pressed(beam, 16);
+        const Response<double> push = pushed.push({length, d, normal}),
+                               press = pressed.press({length, d / normal.y()});
+        CAPTURE(name(left), angle, d, push.force, press.force);
+        CHECK(push.status == Status::ok);
+        CHECK(push.force == Approx(press.force / normal.y()).epsilon(1e-7));
+        CHECK(pushed.shape()[16].u == 0);
+        CHECK(pushed.shape()[16].w == Approx(d / normal.y()).epsilon(1e-12));
+      }
+}
+
 TEST_CASE("a circle at rest touches the centreline at radius + thickness/2, also of a ruler bent to 80 %",
           "[push]") {
   for (const int side : {1, -1})

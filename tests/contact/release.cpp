@@ -53,6 +53,36 @@ TEST_CASE("a hand led straight past the tip of a ruler touches it once, at any s
     }
 }
 
+// A roller is rigid across the beam and free along it: where a press beside it draws it from under the hand, the hand has slipped
+// off, and has the beam again only after it has left it.
+TEST_CASE("a hand led down beside an end that holds w, or past it, touches it once", "[push]") {
+  const auto strokes = [](auto& model) {
+    using Model = std::decay_t<decltype(model)>;
+    for (const double r : {0.0, 0.001, 0.005, 0.02})
+      for (const double beyond : {-0.05, -0.02, -0.01, -0.005, -0.002, 0.0, 0.005, 0.012})
+        for (const double step : {5e-5, 3e-4}) {
+          const double reach = r + ruler_thickness / 2, x = length * (1 + beyond);
+          if (beyond * length > 0.98 * reach) continue;
+          Touch<Model> touch(model, r);
+          Count count;
+          for (double w = 1.1 * reach; w > -2.2 * reach - 0.01; w -= step) count.add(touch.tick({x, w}));
+          CAPTURE(r, beyond, step, count.begun, count.ended);
+          CHECK((count.begun == 1 && count.ended <= 1));
+        }
+  };
+  for (const auto& [left, right] : {std::pair{Support::pinned, Support::roller},
+                                    {Support::pinned, Support::pinned},
+                                    {Support::clamped, Support::clamped},
+                                    {Support::free, Support::clamped},
+                                    {Support::clamped, Support::guided}}) {
+    CAPTURE(name(left), name(right));
+    FemModel<> moderate(steel_ruler(left, right), 16);
+    strokes(moderate);
+    Turning turning(steel_ruler(left, right), 16);
+    strokes(turning);
+  }
+}
+
 TEST_CASE("large and small circles that slip off a ruler askew touch it once", "[push]") {
   Turning turning(steel_ruler(), 16);
   FemModel<> moderate(steel_ruler(), 16);

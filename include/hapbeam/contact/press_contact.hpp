@@ -20,6 +20,7 @@ enum class Hold {
   pressing,
   released,  ///< the beam would have to pull
   lost,      ///< the point of contact has left the beam: it has slipped off, or the search for it went astray
+  slipped,   ///< off an end that holds w and has slid away
 };
 
 template <typename Scalar>

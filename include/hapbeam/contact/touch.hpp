@@ -2,8 +2,8 @@
 //
 // Knows the ForceModel contract and no particular model.  Each tick finds the contact on the shape of the
 // last press and asks the model for the displacement that would just end the penetration: along the normal where the
-// model can be pushed along any direction (push_contact.hpp), across the beam where it cannot (press_contact.hpp).  The
-// force acts along the normal and never pulls.
+// model can be pushed along any direction (push_contact.hpp), across the beam where it cannot (press_contact.hpp), and not
+// at all past an end that holds w (support_contact.hpp).  The force acts along the normal and never pulls.
 // Allocates and throws in its constructor only.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include <hapbeam/contact/find_contact.hpp>
 #include <hapbeam/contact/press_contact.hpp>
 #include <hapbeam/contact/push_contact.hpp>
+#include <hapbeam/contact/support_contact.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam {
@@ -62,8 +63,8 @@ class Touch {
   void reset() noexcept {
     memory_ = {};
     model_.reset();
-    falling_ = false;
-    let_go();
+    volumes_.refit(model_.shape());
+    pressing_ = falling_ = on_support_ = inside_ = false;
   }
 
   /// One tick.
@@ -77,8 +78,9 @@ class Touch {
     const Avatar<Scalar> avatar{position, avatar_radius_};
     if (!pressing_ && !falling_ && out_of_reach(avatar, volumes_, model_.thickness(), memory_)) return result;
     // A pressed beam moves with the hand, which cannot have gone round its end.  Only a beam that has stopped at the
-    // end of its range can be passed, and that must not turn the press into one from the other side.
-    if (pressing_) memory_.touching = memory_.through = true, memory_.side = side_;
+    // end of its range can be passed, and that must not turn the press into one from the other side.  A rigid end is gone round.
+    if (pressing_) memory_.touching = true, memory_.through = !on_support_, memory_.side = side_;
+    if (inside_) memory_ = {};
     contact = find_contact(avatar, model_.shape(), volumes_, model_.thickness(), memory_);
     if (contact.segment < 0) {
       result.status = Status::invalid_request;
@@ -86,28 +88,28 @@ class Touch {
       return result;
     }
     // A pressed beam follows a hand that draws back, until it would have to pull.
-    if (!contact.touching && !pressing_) {
+    inside_ = inside_ && contact.touching;
+    if (!pressing_ && (inside_ || !contact.touching)) {
       if (falling_) release(result);
+      if (inside_) result.status = Status::out_of_range;
       return result;
     }
 
-    if (!pressing_) side_ = contact.side, unanswered_ = 0, holder_.begin(contact);
     const Scalar reach = avatar_radius_ + model_.thickness() / 2;
-    const detail::Held<Scalar> held = holder_.hold(model_, contact, position, reach, pressing_, result.press);
+    if (!pressing_) unanswered_ = 0, support_.begin(model_);
+    const detail::Held<Scalar> held = hold(contact, position, reach, result.press);
     result.status = held.status;
+    if (takes_push<Model> && across_ && held.status == Status::ok) result.status = Status::out_of_range;
     if (is_answer(held.status)) unanswered_ = 0;
     else if (!(held.force > 0)) ++unanswered_;
-    if (held.hold == detail::Hold::released) {
-      release(result);
+    if (held.hold != detail::Hold::pressing || unanswered_ > patience) {
+      let_go(avatar, held.hold, result);
       return result;
     }
-    if (held.hold == detail::Hold::lost || unanswered_ > patience) {
-      lose(avatar, result);
-      return result;
-    }
+    falling_ = false;
+    if (on_support_ && support_.slid(contact, model_)) spring_back();
     volumes_.refit(model_.shape());
     pressing_ = true;
-    falling_ = false;
     result.pressing = true;
     if (std::isfinite(held.force)) result.force = contact.normal * held.force;
     else result.status = Status::non_finite;
@@ -119,6 +121,7 @@ class Touch {
   /// Whether the beam as it lies now would be touched on the straight way from the last tick's position to this one.
   /// Real-time: noexcept, no allocation, bounded; no press.
   [[nodiscard]] bool meets(const Vector2<Scalar>& position) const noexcept {
+    if (inside_) return false;
     ContactMemory<Scalar> memory = memory_;
     return find_contact({position, avatar_radius_}, model_.shape(), volumes_, model_.thickness(), memory)
         .touching;
@@ -131,50 +134,78 @@ class Touch {
   static constexpr int patience = 20;
 
  private:
-  using Holder =
-      std::conditional_t<takes_push<Model>, detail::PushContact<Scalar>, detail::PressContact<Scalar>>;
+  detail::Held<Scalar> hold(Contact<Scalar>& contact, const Vector2<Scalar>& position, Scalar reach,
+                            Press<Scalar>& asked) noexcept {
+    const bool was_on_support = on_support_, was_across = across_;
+    on_support_ = support_.past(contact, model_);
+    if (on_support_) {
+      side_ = contact.side;
+      return support_.hold(model_, contact, asked);
+    }
+    // Beside a rigid end, which no push moves, the beam is pressed across, and that ends with its range.
+    across_ = !takes_push<Model> || support_.over(model_, position, reach) ||
+              (pressing_ && was_across && contact.depth > reach);
+    if (!pressing_ || was_on_support) side_ = contact.side;
+    if (!pressing_ || was_on_support || across_ != was_across) begin(contact);
+    if constexpr (takes_push<Model>)
+      if (!across_) return pusher_.hold(model_, contact, position, reach, pressing_, asked);
+    return presser_.hold(model_, contact, position, reach, pressing_, asked);
+  }
+  void begin(const Contact<Scalar>& contact) noexcept {
+    presser_.begin(contact);
+    pusher_.begin(contact);
+  }
 
   /// The beam springs back, or falls to where it rests.
-  void release(TouchResult<Scalar>& result) noexcept {
+  Status spring_back() noexcept {
     if constexpr (takes_push<Model>) {
-      result.status = model_.release();
-      falling_ = result.status == Status::iteration_limit;
-      // Nobody holds it: that no force is felt is the whole answer, wherever the beam is on its way.
-      if (falling_) result.status = Status::ok;
+      const Status status = model_.release();
+      falling_ = status == Status::iteration_limit;
+      return status;
     } else {
       model_.reset();
+      return Status::ok;
     }
-    let_go();
   }
-  /// The beam is let go.  If it comes to rest beneath the avatar it has not slipped off: the touch goes on from there.
-  void lose(const Avatar<Scalar>& avatar, TouchResult<Scalar>& result) noexcept {
+  void release(TouchResult<Scalar>& result) noexcept {
+    const Status status = spring_back();
+    // Nobody holds it: that no force is felt is the whole answer, wherever the beam is on its way.
+    if (takes_push<Model>) result.status = falling_ ? Status::ok : status;
+    volumes_.refit(model_.shape());
+    pressing_ = on_support_ = memory_.touching = memory_.through = false;
+  }
+  /// What the contact remembers belongs to the touch.  A beam that has sprung back is a new beam: whoever stands behind it
+  /// is on its other side, and whoever is inside it has to leave before touching it.
+  void let_go(const Avatar<Scalar>& avatar, detail::Hold why, TouchResult<Scalar>& result) noexcept {
     release(result);
     ContactMemory<Scalar> nothing;
     const Contact<Scalar> contact =
         find_contact(avatar, model_.shape(), volumes_, model_.thickness(), nothing);
-    if (!contact.touching || contact.side != side_) return;
-    holder_.begin(contact);
+    const Scalar reach = avatar_radius_ + model_.thickness() / 2;
+    inside_ = contact.touching && (why == detail::Hold::slipped ||
+                                   (contact.side != side_ && support_.near(contact, model_, 2 * reach)));
+    if (!contact.touching || inside_ || why == detail::Hold::released) return;
+    // Lost, and at rest beneath the avatar: it has not slipped off, and the touch goes on from there.
+    begin(contact);
     falling_ = false;
     pressing_ = result.pressing = true;
     result.status = Status::iteration_limit;
-  }
-  /// What the contact remembers belongs to the touch.  A beam that has sprung back is a new beam: whoever stands behind it
-  /// is on its other side.
-  void let_go() noexcept {
-    volumes_.refit(model_.shape());
-    memory_.touching = memory_.through = false;
-    pressing_ = false;
   }
 
   Model& model_;
   Scalar avatar_radius_;
   BoundingVolumes<Scalar> volumes_;
   ContactMemory<Scalar> memory_;
-  Holder holder_;
+  detail::PressContact<Scalar> presser_;
+  detail::PushContact<Scalar> pusher_;
+  detail::SupportContact<Scalar> support_;
   bool pressing_ = false;
-  bool falling_ = false;  // let go, and not yet at rest
-  int side_ = 1;          // of the press, as Contact::side
-  int unanswered_ = 0;    // ticks without a force since the last answer
+  bool falling_ = false;     // let go, and not yet at rest
+  bool inside_ = false;      // let go, and not yet clear of the beam
+  bool on_support_ = false;  // pressing, past an end that holds w
+  bool across_ = true;       // pressing, by presser_
+  int side_ = 1;             // of the press, as Contact::side
+  int unanswered_ = 0;       // ticks without a force since the last answer
 };
 
 }  // namespace hapbeam

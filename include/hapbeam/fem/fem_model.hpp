@@ -55,6 +55,8 @@ class FemModel {
         shortest_(uniform_.shortest(system_.length())),
         left_yields_(!fixes_w(beam.left())),
         right_yields_(!fixes_w(beam.right())),
+        left_guided_(left_yields_ && fixes_u(beam.left())),
+        right_guided_(right_yields_ && fixes_u(beam.right())),
         single_valued_(beam.straight()) {
     find_range(beam);
     find_rest(beam);
@@ -92,7 +94,17 @@ class FemModel {
     const Scalar s = range().nearest({request.s, 0}).s;
     const bool finite = std::isfinite(request.d) && request.normal.allFinite();
     if (!request.goes_on) left_ = solver_.max_solves;
-    return solve(request, s, finite, s == request.s);
+    const Scalar node = away_from_ends(s);
+    if (!((node == 0 && left_guided_) || (node == system_.length() && right_guided_)))
+      return solve(request, s, finite, s == request.s);
+    const Scalar u = system_.node(node == 0 ? 0 : elements()).u;
+    const Scalar n_w = std::copysign(std::max(Scalar(0.5), std::abs(request.normal.y())), request.normal.y());
+    const Scalar d = (request.d - request.normal.x() * u) / n_w;
+    const Response<Scalar> across =
+        solve({request.s, d, {0, 1}}, s, finite && std::isfinite(d), s == request.s);
+    const Scalar force = across.force / n_w;
+    return std::isfinite(force) ? Response<Scalar>{force, across.status}
+                                : Response<Scalar>{0, Status::non_finite};
   }
 
   Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
@@ -347,7 +359,7 @@ class FemModel {
   Solver solver_;
   Scalar thickness_, shortest_;
   Scalar depth_ = 0, slope_ = 0;  // of range()
-  bool left_yields_, right_yields_;
+  bool left_yields_, right_yields_, left_guided_, right_guided_;
   bool single_valued_;       // one shape for each press, as far as is known
   int left_ = 0;             // linear solves that this tick may still take
   bool falling_ = false;     // off the shape that gave way, and not yet at a stable one

@@ -117,7 +117,8 @@ TEST_CASE("under dead loads depth counts from where the beam hangs", "[validate]
 
 namespace {
 
-/// The largest error of the force on presses at random, and at both edges of the range, against many elements.
+/// The largest error of the force on presses at random, and at both edges of the range, against many elements.  These are no judge
+/// within a thousandth of an end that yields.
 template <class Model>
 double worst_held_out(const Model& trained, const FullModel<>& truth, Random& random, int presses) {
   Model model(trained);
@@ -125,7 +126,8 @@ double worst_held_out(const Model& trained, const FullModel<>& truth, Random& ra
   const auto& data = model.data();
   double worst = 0;
   for (int k = 0; k < presses; ++k) {
-    const double s = k % 10 == 0 ? data.s_min : k % 10 == 1 ? data.s_max : random(data.s_min, data.s_max);
+    const double last = std::min(data.s_max, 0.999 * data.beam.length);
+    const double s = k % 10 == 0 ? data.s_min : k % 10 == 1 ? data.s_max : random(data.s_min, last);
     full.reset();
     const double rest = full.shape().at(s).w,
                  way = random.integer(0, 1) ? data.depth - rest : -data.depth - rest;
@@ -156,8 +158,8 @@ TEST_CASE("the stated bound holds the error of the full model", "[validate]") {
   CHECK((report.force_bound >= worst && report.force_bound <= 3 * worst));
 }
 
-// 25 beams and 5000 presses of each were tried so, with none beyond its bound; beams whose error is nothing but round-off of
-// the full model, 1e-7 and less where an end slides, have bounds of up to 20 times what is found.
+// 50 beams and 5000 presses of each were tried so, with none beyond its bound, and no bound that is more than round-off above 1.24
+// times what was found.
 TEST_CASE("no press is beyond the stated bound, and the bound is no more than three times the worst",
           "[validate]") {
   Random random(4);
@@ -199,6 +201,24 @@ TEST_CASE("the bound is found where a sample has no press", "[validate]") {
   }
   INFO("bound " << report.force_bound << ", found " << worst << ", in the sample " << report.all.force_max);
   CHECK((report.force_bound >= worst && report.force_bound <= 3 * worst));
+}
+
+// There finite elements press the end's node through a straight tip, which is off by (δ/L)², 3e-6, and is what a search would find.
+TEST_CASE("the bound beside a guided end is that of the trained model", "[validate]") {
+  Random random(2);
+  for (const bool hangs : {false, true}) {
+    Beam beam(1, Section::rectangle(0.4, 0.05), Material{2e11}, hangs ? Support::clamped : Support::pinned,
+              Support::guided);
+    const double depth = 1e-3;
+    TrainingPlan plan = TrainingPlan::anywhere(beam, depth, hangs ? 20 : 26, 14);
+    if (hangs) beam.transverse(-depth * beam.bending_stiffness());
+    plan.symmetric = !hangs;
+    const PodModel<> model(trained_pod(beam, plan, 64));
+    const double found = worst_held_out(model, full_model(beam, 128), random, 300);
+    const double bound = validate(model, full_model(beam, 64)).force_bound;
+    CAPTURE(hangs, found, bound);
+    CHECK((found <= bound && bound <= std::max(3 * found, 1e-8)));
+  }
 }
 
 TEST_CASE("no bound is below what round-off may be", "[validate]") {

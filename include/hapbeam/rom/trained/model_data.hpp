@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <hapbeam/force_model.hpp>
 #include <hapbeam/rom/trained/coordinates.hpp>
 #include <hapbeam/rom/trained/error_report.hpp>
 #include <hapbeam/rom/trained/shape_table.hpp>
@@ -46,6 +47,19 @@ struct GalerkinModelData {
 };
 
 namespace detail {
+
+/// As deep at all places; a support that holds w is where touching ends.
+template <typename Data>
+auto trained_range(const Data& data) noexcept {
+  using Scalar = decltype(data.depth);
+  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  return Range<Scalar>{data.s_min,
+                       data.s_max,
+                       data.depth,
+                       std::numeric_limits<Scalar>::max(),
+                       fixes_w(data.beam.left) ? Scalar(0) : -infinity,
+                       fixes_w(data.beam.right) ? data.beam.length : infinity};
+}
 
 /// A displacement of more than a thousand lengths is as good as one of a thousand, and its square does not overflow.
 template <typename Scalar>

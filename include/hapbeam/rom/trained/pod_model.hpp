@@ -71,10 +71,7 @@ class PodModel {
 
   Centreline<Scalar> shape() const noexcept { return shape_.centreline(); }
   /// Where it was trained.
-  Range<Scalar> range() const noexcept {
-    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-    return {data_.s_min, data_.s_max, data_.depth, Scalar(1), -infinity, infinity};
-  }
+  Range<Scalar> range() const noexcept { return detail::trained_range(data_); }
   Scalar thickness() const noexcept { return data_.beam.thickness; }
   void reset() noexcept { shape_.reset(data_.shape); }
 

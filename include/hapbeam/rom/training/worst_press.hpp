@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rom/training/training_run.hpp>
 
@@ -62,9 +63,10 @@ class PressComparison {
     return size > 0.8 && size < 1.25;
   }
 
-  /// The press at s by e from rest, or the nearest in range that both scalars hold.
+  /// The press at s by e from rest, or the nearest in range that both scalars hold and that finite elements do not make
+  /// through a straight tip (FemModel::press).
   PressError operator()(double s, double e) {
-    S at = static_cast<S>(std::min(std::max(s, s_min_), s_max_));
+    S at = static_cast<S>(std::min(std::max(off_tips(s), s_min_), s_max_));
     // In float an edge of the range may be rounded to the number beyond it.
     if (static_cast<double>(at) > s_max_) at = std::nextafter(at, S(0));
     if (static_cast<double>(at) < s_min_) at = std::nextafter(at, std::numeric_limits<S>::max());
@@ -85,6 +87,14 @@ class PressComparison {
   /// Largest |d| in range [m].
   double deepest(double s) const noexcept {
     return near(depth_, static_cast<double>(full_.range().depth_at(static_cast<F>(s))), depth_);
+  }
+
+  /// To the end itself or to the foot of the tip, whichever is nearer.
+  double off_tips(double s) const noexcept {
+    const double L = length(), tip = ContactMesh<double>::shortest(L);
+    if (s > 0 && s < tip) return s < tip / 2 ? 0 : tip;
+    if (s < L && s > L - tip) return s > L - tip / 2 ? L : L - tip;
+    return s;
   }
 
   PressError compare(S s, S d) {
