@@ -6,8 +6,16 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <string>
 
 namespace hapbeam::detail {
+
+/// In a message: six digits, however small.
+[[gnu::cold]] inline std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
 
 [[gnu::cold]] [[noreturn]] inline void reject(const char* field, double value, const char* unit,
                                               const char* allowed) {

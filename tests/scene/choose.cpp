@@ -214,6 +214,9 @@ TEST_CASE("a scene that makes no sense is refused by name", "[scene]") {
   refused([](Scene& s) { s.s_min = -1; }, "s_min = -1 m");
   refused([](Scene& s) { s.s_max = 3; }, "s_max = 3 m");
   refused([](Scene& s) { s.s_min = 2.5; }, "s_min = 2.5 m");
+  refused([](Scene& s) { s.s_min = 0; },
+          "s_min = 0 m: must be on the beam, at most s_max, a thousandth away");
+  refused([](Scene& s) { s.s_max = s.beam.length(); }, "s_max = 2.54 m: must be on the beam, a thousandth");
   refused([](Scene& s) { s.depth = 0; }, "depth = 0 m");
   refused([](Scene& s) { s.force_error = -0.1; }, "force_error = -0.1");
   refused([](Scene& s) { s.force_floor = -1; }, "force_floor = -1 N");

@@ -98,11 +98,13 @@ class FemModel {
     if (!((node == 0 && left_guided_) || (node == system_.length() && right_guided_)))
       return solve(request, s, finite, s == request.s);
     const Scalar u = system_.node(node == 0 ? 0 : elements()).u;
-    const Scalar n_w = std::copysign(std::max(std::abs(request.normal.y()), Scalar(0.5)), request.normal.y());
-    Response<Scalar> response =
-        solve({request.s, (request.d - request.normal.x() * u) / n_w, {0, 1}}, s, finite, s == request.s);
-    response.force /= n_w;
-    return response;
+    const Scalar n_w = std::copysign(std::max(Scalar(0.5), std::abs(request.normal.y())), request.normal.y());
+    const Scalar d = (request.d - request.normal.x() * u) / n_w;
+    const Response<Scalar> across =
+        solve({request.s, d, {0, 1}}, s, finite && std::isfinite(d), s == request.s);
+    const Scalar force = across.force / n_w;
+    return std::isfinite(force) ? Response<Scalar>{force, across.status}
+                                : Response<Scalar>{0, Status::non_finite};
   }
 
   Centreline<Scalar> shape() const noexcept { return system_.centreline(); }

@@ -99,9 +99,9 @@ class Pilot {
         const Response<double> response = reference.press({line.s, d});
         if (response.status != Status::ok)
           throw std::invalid_argument(
-              "depth = " + std::to_string(depth) +
-              " m: must be one that a beam answers everywhere; at s = " + std::to_string(line.s) +
-              " m a press of " + std::to_string(d) + " m is " + name(response.status));
+              "depth = " + detail::number(depth) +
+              " m: must be one that a beam answers everywhere; at s = " + detail::number(line.s) +
+              " m a press of " + detail::number(d) + " m is " + name(response.status));
         line.forces.push_back(response.force);
       }
     }

@@ -236,7 +236,7 @@ TEST_CASE(
     "[galerkin]") {
   const Beam beam = thesis_beam(Support::clamped, Support::guided);
   CHECK_THROWS_WITH(trained_galerkin(beam, TrainingPlan::anywhere(beam, 0.05)),
-                    Catch::Contains("depth = 0.050000 m") && Catch::Contains("m would be"));
+                    Catch::Contains("depth = 0.05 m") && Catch::Contains("m would be"));
   CHECK_NOTHROW(trained_galerkin(beam, TrainingPlan::anywhere(beam, 0.045)));
 }
 

@@ -147,10 +147,10 @@ class SnapshotTaker {
     }
     if (needed > reach)
       throw TrainingError(
-          "depth = " + std::to_string(plan.depth) + " m: its tension, " + std::to_string(needed) +
+          "depth = " + detail::number(plan.depth) + " m: its tension, " + detail::number(needed) +
           " N, must be one that the full model reaches within its range everywhere, at s = " +
-          std::to_string(nearest_limit) +
-          " m too: " + std::to_string(0.99 * plan.depth * std::sqrt(reach / needed)) + " m would be");
+          detail::number(nearest_limit) +
+          " m too: " + detail::number(0.99 * plan.depth * std::sqrt(reach / needed)) + " m would be");
     // A plan so shallow that it stretches nothing gets the tensions where bending still outweighs them.
     out_.tension = reach > 0 ? std::min(std::max(out_.tension, coordinate.unit()), reach) : 0;
     if (out_.tension == 0) out_.columns = 1;
@@ -218,7 +218,7 @@ class SnapshotTaker {
       before = next, miss_before = now;
       next *= std::exp(-now * power);
     }
-    throw TrainingError("no press at s = " + std::to_string(s) + " m has a tension of " + std::to_string(N) +
+    throw TrainingError("no press at s = " + detail::number(s) + " m has a tension of " + detail::number(N) +
                         " N; the full model's solver may be too loose, or its range too small");
   }
 

@@ -147,10 +147,10 @@ void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coord
     }
     const double stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
     if (!(value > 0 && stiffness > 0 && force > before))
-      reject("depths", n, "",
-             ("more, or the plan less deep: at s = " + std::to_string(s) +
-              " m the force between them is not a beam's")
-                 .c_str());
+      reject(
+          "depths", n, "",
+          ("more, or the plan less deep: at s = " + number(s) + " m the force between them is not a beam's")
+              .c_str());
     before = force;
   }
 }

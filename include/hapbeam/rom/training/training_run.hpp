@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include <hapbeam/check.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam {
@@ -31,9 +32,7 @@ struct TrainingOptions {
 
 namespace detail {
 
-inline std::string describe(double s, double d) {
-  return "s = " + std::to_string(s) + " m, d = " + std::to_string(d) + " m";
-}
+inline std::string describe(double s, double d) { return "s = " + number(s) + " m, d = " + number(d) + " m"; }
 
 /// One press, or a TrainingError.
 template <class Model>
@@ -44,7 +43,7 @@ double press_for_training(Model& model, double s, double d) {
   const double limit = static_cast<double>(model.range().depth_at(static_cast<S>(s)));
   throw TrainingError("the press at " + describe(s, d) + ": " + name(response.status) +
                       (response.status == Status::out_of_range
-                           ? ", the full model answers up to " + std::to_string(limit) + " m there"
+                           ? ", the full model answers up to " + number(limit) + " m there"
                            : ""));
 }
 
