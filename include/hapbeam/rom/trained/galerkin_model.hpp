@@ -169,7 +169,7 @@ class GalerkinModel {
     const Scalar d = at.press.d, N0 = tension_.unit(), z_max = z_.high();
     const Scalar flexibility = data_.beam.length / data_.beam.axial_stiffness;
     const Scalar q = d * d / (2 * flexibility * N0 * N0 * scale);
-    // Halley's method is of third order: what a step that small leaves is round-off.
+    // Newton's method, and near the root Halley's, of third order: what a step that small leaves is round-off.
     const Scalar settled = std::cbrt(std::numeric_limits<Scalar>::epsilon()) / 16;
     Scalar low = -1, high = 2 * z_max, z = std::min(last_, z_max);  // both open: no end has been looked at
     Scalar k = 0;
@@ -181,7 +181,8 @@ class GalerkinModel {
       if (low == z_max) break;
       const Scalar less = at.by_z - 1, falls = growth + 1 - part * (at.by_z * less + at.by_zz),
                    bends = growth + 1 - part * (at.by_z * less * less + at.by_zz * (3 * at.by_z - 2));
-      const Scalar newton = phi / falls, step = newton / (1 + newton * bends / (2 * falls));
+      const Scalar newton = phi / falls, curve = newton * bends / (2 * falls);
+      const Scalar step = abs(curve) < Scalar(0.25) ? newton / (1 + curve) : newton;
       const Scalar next = std::min(std::max(z + step, Scalar(0)), z_max);
       if (abs(step) <= settled) {
         const Scalar way = next - z, change = way * (at.by_z + way / 2 * at.by_zz);
