@@ -10,6 +10,7 @@
 // No allocation, noexcept, O(1) but for the search of the piece, which is O(log n).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -153,5 +154,25 @@ class Centreline {
   int size_;
   bool any_rotation_;
 };
+
+/// Neighbouring pieces of a centreline.
+template <typename Scalar>
+struct CentrelinePart {
+  Centreline<Scalar> line;  ///< of these pieces alone
+  int first;                ///< index of the first one in the whole
+  int segments;             ///< of the whole
+
+  bool begins() const noexcept { return first == 0; }                         ///< holds the left end
+  bool ends() const noexcept { return first + line.segments() == segments; }  ///< holds the right end
+};
+
+/// The pieces that hold arc positions s0 to s1: both pieces of a node at either.   O(log n)
+template <typename Scalar>
+CentrelinePart<Scalar> part_of(const Centreline<Scalar>& whole, Scalar s0, Scalar s1) noexcept {
+  int first = whole.segment_at(s0);
+  const int last = whole.segment_at(s1) + 1;
+  if (first > 0 && whole[first].s >= s0) --first;
+  return {{whole.begin() + first, last - first + 1, whole.any_rotation()}, first, whole.segments()};
+}
 
 }  // namespace hapbeam

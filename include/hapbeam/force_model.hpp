@@ -20,6 +20,15 @@
 //                                               it rests, which may be another shape than before (snapped), and may
 //                                               take more than one call (iteration_limit)
 //
+// A model whose shape costs more than its force may offer a part of it, which is all that a touch that goes on looks at:
+//
+//   m.part(s0, s1)       CentrelinePart<Scalar> noexcept; the pieces of shape() that hold arc positions s0 to s1, both
+//                                               pieces of a node at either; valid until the next call
+//
+// What shape() and part() cost: FemModel has its nodes from the press, O(1) and O(log n); trained models have the
+// two pieces beside the contact from it, and compute all when another is asked for, O(modes (grid + nodes)).
+// A centreline of moderate rotation does not turn back: x = s + u grows along it.
+//
 // Bounded work is a number that the model states, of what it repeats: FemModel solves at most solver.max_solves (48) linear
 // systems a press, all pushes of a tick, or a release; then it says iteration_limit and goes on in the next call, and until
 // it has arrived its force is that of the last equilibrium.
@@ -154,7 +163,23 @@ struct TakesPush<
     : std::bool_constant<noexcept(std::declval<M&>().release())&& noexcept(
           std::declval<M&>().push(std::declval<const Push<typename M::Scalar>&>()))> {};
 
+template <typename M, typename = void>
+struct OffersPart : std::false_type {};
+template <typename M>
+struct OffersPart<
+    M, std::void_t<decltype(std::declval<const M&>().part(typename M::Scalar(), typename M::Scalar()))>>
+    : std::bool_constant<noexcept(
+          std::declval<const M&>().part(typename M::Scalar(), typename M::Scalar()))> {};
+
 }  // namespace detail
+
+/// The pieces of the model's shape that hold arc positions s0 to s1.
+template <typename M>
+CentrelinePart<typename M::Scalar> part_of(const M& model, typename M::Scalar s0,
+                                           typename M::Scalar s1) noexcept {
+  if constexpr (detail::OffersPart<M>::value) return model.part(s0, s1);
+  else return part_of(model.shape(), s0, s1);
+}
 
 /// True where M can be pushed along any direction, noexcept included.
 template <typename M>

@@ -51,43 +51,31 @@ struct FootFrame {
 };
 
 template <typename Scalar>
-FootFrame<Scalar> foot_frame(const Centreline<Scalar>& centreline,
+FootFrame<Scalar> foot_frame(const CentrelinePart<Scalar>& part,
                              const NearestPoint<Scalar>& nearest) noexcept {
   const int i = nearest.segment;
   const Scalar t = nearest.at.t;
-  FootFrame<Scalar> frame{tangent(centreline.segment(i), t).normalized(), t == 0 || t == 1, false};
+  FootFrame<Scalar> frame{tangent(part.line.segment(i), t).normalized(), t == 0 || t == 1, false};
   const Scalar ahead = frame.direction.dot(nearest.at.offset);
-  if (i == 0 && t == 0) frame.past_end = ahead < 0;
-  if (i == centreline.segments() - 1 && t == 1) frame.past_end = ahead > 0;
+  if (part.begins() && i == 0 && t == 0) frame.past_end = ahead < 0;
+  if (part.ends() && i == part.line.segments() - 1 && t == 1) frame.past_end = ahead > 0;
   return frame;
 }
 
-}  // namespace detail
-
-/// The avatar against the deformed beam.  Inside the beam's length
-///   depth = radius + thickness/2 - side * signed distance of the centre,
-/// hence more than radius + thickness/2 when the centre has passed through the centreline.  Past an end the
-/// distance has no sign.  While there is no contact the side follows the avatar; while there is, it stays,
-/// unless the avatar goes round an end.  Contact ends when depth <= 0.
-/// A position that is not finite, or too large to square, is answered with segment -1 and changes no memory.
-/// @param volumes    refitted to this centreline   @param thickness  [m] >= 0
-/// @param memory     of the same avatar and beam, in and out
-/// Real-time: noexcept, no allocation, bounded; mostly O(log n).
-template <typename Scalar>
-[[nodiscard]] Contact<Scalar> find_contact(const Avatar<Scalar>& avatar, const Centreline<Scalar>& centreline,
-                                           const BoundingVolumes<Scalar>& volumes, Scalar thickness,
-                                           ContactMemory<Scalar>& memory) noexcept {
+/// What there is to say of the nearest point.
+/// @param nearest  its index within the part   @param crossings  of the avatar's step, called where it may have crossed the beam
+template <typename Scalar, class Crossed>
+Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const CentrelinePart<Scalar>& part,
+                           const Avatar<Scalar>& avatar, Scalar thickness, ContactMemory<Scalar>& memory,
+                           Crossed&& crossings) noexcept {
   const Vector2<Scalar>& q = avatar.position;
   Contact<Scalar> contact;
-  const NearestPoint<Scalar> nearest = volumes.nearest(centreline, q);
-  if (nearest.segment < 0) return contact;
-
-  const detail::FootFrame<Scalar> frame = detail::foot_frame(centreline, nearest);
+  const FootFrame<Scalar> frame = foot_frame(part, nearest);
   const Vector2<Scalar>& offset = nearest.at.offset;
-  contact.segment = nearest.segment;
+  contact.segment = part.first + nearest.segment;
   contact.foot = q - offset;
   contact.past_end = frame.past_end;
-  const auto &a = centreline[nearest.segment], &b = centreline[nearest.segment + 1];
+  const auto &a = part.line[nearest.segment], &b = part.line[nearest.segment + 1];
   contact.s = nearest.at.t < 1 ? std::min(a.s + nearest.at.t * (b.s - a.s), b.s) : b.s;
 
   // A step that ends on the centreline itself has crossed it, so the sign of zero does not matter below.
@@ -100,7 +88,7 @@ template <typename Scalar>
   } else if (memory.known) {
     // Only a step longer than the present distance can have crossed anything.
     if ((q - memory.position).squaredNorm() >= nearest.at.distance_squared) {
-      const Crossings crossed = volumes.crossings(centreline, memory.position, q);
+      const Crossings crossed = crossings();
       if (crossed.count % 2 != 0) contact.side = crossed.net > 0 ? 1 : -1;
     }
   }
@@ -122,6 +110,27 @@ template <typename Scalar>
   contact.point = contact.foot + contact.normal * (thickness / 2);
   memory = {q, true, contact.touching, contact.touching && through, contact.side};
   return contact;
+}
+
+}  // namespace detail
+
+/// The avatar against the deformed beam.  Inside the beam's length
+///   depth = radius + thickness/2 - side * signed distance of the centre,
+/// hence more than radius + thickness/2 when the centre has passed through the centreline.  Past an end the
+/// distance has no sign.  While there is no contact the side follows the avatar; while there is, it stays,
+/// unless the avatar goes round an end.  Contact ends when depth <= 0.
+/// A position that is not finite, or too large to square, is answered with segment -1 and changes no memory.
+/// @param volumes    refitted to this centreline   @param thickness  [m] >= 0
+/// @param memory     of the same avatar and beam, in and out
+/// Real-time: noexcept, no allocation, bounded; mostly O(log n).
+template <typename Scalar>
+[[nodiscard]] Contact<Scalar> find_contact(const Avatar<Scalar>& avatar, const Centreline<Scalar>& centreline,
+                                           const BoundingVolumes<Scalar>& volumes, Scalar thickness,
+                                           ContactMemory<Scalar>& memory) noexcept {
+  const NearestPoint<Scalar> nearest = volumes.nearest(centreline, avatar.position);
+  if (nearest.segment < 0) return {};
+  return detail::contact_at(nearest, {centreline, 0, centreline.segments()}, avatar, thickness, memory,
+                            [&] { return volumes.crossings(centreline, memory.position, avatar.position); });
 }
 
 /// True where find_contact() would find none, because the avatar is farther from the box around the beam than

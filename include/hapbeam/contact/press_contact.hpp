@@ -67,10 +67,16 @@ class PressContact {
   template <class Model>
   static void smooth_kink(const Model& model, Contact<Scalar>& contact, const Vector2<Scalar>& position,
                           Scalar reach) noexcept {
-    const Centreline<Scalar> line = model.shape();
-    const int i = contact.segment;
-    const int node = contact.s - line[i].s < line[i + 1].s - contact.s ? i : i + 1;
-    if (contact.past_end || node == 0 || node == line.segments()) return;
+    const CentrelinePart<Scalar> piece = part_of(model, contact.s, contact.s);
+    const int i = contact.segment - piece.first;
+    const Scalar before_it = contact.s - piece.line[i].s, after_it = piece.line[i + 1].s - contact.s;
+    const int nearer = before_it < after_it ? 0 : 1;
+    if (contact.past_end || contact.segment + nearer == 0 || contact.segment + nearer == piece.segments)
+      return;
+    const Scalar s = piece.line[i + nearer].s;
+    const CentrelinePart<Scalar> part = part_of(model, s, s);
+    const Centreline<Scalar>& line = part.line;
+    const int node = contact.segment + nearer - part.first;
     const CubicSegment<Scalar> right = line.segment(node);
     const Vector2<Scalar> before = tangent(line.segment(node - 1), Scalar(1)).normalized();
     const Vector2<Scalar> after = tangent(right, Scalar(0)).normalized();

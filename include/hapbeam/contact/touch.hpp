@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include <hapbeam/contact/find_contact.hpp>
+#include <hapbeam/contact/find_contact_near.hpp>
 #include <hapbeam/contact/press_contact.hpp>
 #include <hapbeam/contact/push_contact.hpp>
 #include <hapbeam/contact/support_contact.hpp>
@@ -63,7 +64,7 @@ class Touch {
   void reset() noexcept {
     memory_ = {};
     model_.reset();
-    volumes_.refit(model_.shape());
+    refit();
     pressing_ = falling_ = on_support_ = inside_ = false;
   }
 
@@ -81,7 +82,8 @@ class Touch {
     // end of its range can be passed, and that must not turn the press into one from the other side.  A rigid end is gone round.
     if (pressing_) memory_.touching = true, memory_.through = !on_support_, memory_.side = side_;
     if (inside_) memory_ = {};
-    contact = find_contact(avatar, model_.shape(), volumes_, model_.thickness(), memory_);
+    if (!pressing_ || !detail::find_contact_near(model_, s_, avatar, memory_, contact))
+      contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory_);
     if (contact.segment < 0) {
       result.status = Status::invalid_request;
       result.pressing = pressing_;
@@ -108,7 +110,8 @@ class Touch {
     }
     falling_ = false;
     if (on_support_ && support_.slid(contact, model_)) spring_back();
-    volumes_.refit(model_.shape());
+    moved_ = true;
+    s_ = contact.s;
     pressing_ = true;
     result.pressing = true;
     if (std::isfinite(held.force)) result.force = contact.normal * held.force;
@@ -120,10 +123,10 @@ class Touch {
 
   /// Whether the beam as it lies now would be touched on the straight way from the last tick's position to this one.
   /// Real-time: noexcept, no allocation, bounded; no press.
-  [[nodiscard]] bool meets(const Vector2<Scalar>& position) const noexcept {
+  [[nodiscard]] bool meets(const Vector2<Scalar>& position) noexcept {
     if (inside_) return false;
     ContactMemory<Scalar> memory = memory_;
-    return find_contact({position, avatar_radius_}, model_.shape(), volumes_, model_.thickness(), memory)
+    return find_contact({position, avatar_radius_}, model_.shape(), volumes(), model_.thickness(), memory)
         .touching;
   }
 
@@ -134,6 +137,16 @@ class Touch {
   static constexpr int patience = 20;
 
  private:
+  /// Fitted to the present shape.  A touch that goes on seldom needs them.
+  const BoundingVolumes<Scalar>& volumes() noexcept {
+    if (moved_) refit();
+    return volumes_;
+  }
+  void refit() noexcept {
+    volumes_.refit(model_.shape());
+    moved_ = false;
+  }
+
   detail::Held<Scalar> hold(Contact<Scalar>& contact, const Vector2<Scalar>& position, Scalar reach,
                             Press<Scalar>& asked) noexcept {
     const bool was_on_support = on_support_, was_across = across_;
@@ -171,7 +184,7 @@ class Touch {
     const Status status = spring_back();
     // Nobody holds it: that no force is felt is the whole answer, wherever the beam is on its way.
     if (takes_push<Model>) result.status = falling_ ? Status::ok : status;
-    volumes_.refit(model_.shape());
+    refit();
     pressing_ = on_support_ = memory_.touching = memory_.through = false;
   }
   /// What the contact remembers belongs to the touch.  A beam that has sprung back is a new beam: whoever stands behind it
@@ -180,7 +193,7 @@ class Touch {
     release(result);
     ContactMemory<Scalar> nothing;
     const Contact<Scalar> contact =
-        find_contact(avatar, model_.shape(), volumes_, model_.thickness(), nothing);
+        find_contact(avatar, model_.shape(), volumes(), model_.thickness(), nothing);
     const Scalar reach = avatar_radius_ + model_.thickness() / 2;
     inside_ = contact.touching && (why == detail::Hold::slipped ||
                                    (contact.side != side_ && support_.near(contact, model_, 2 * reach)));
@@ -199,6 +212,8 @@ class Touch {
   detail::PressContact<Scalar> presser_;
   detail::PushContact<Scalar> pusher_;
   detail::SupportContact<Scalar> support_;
+  Scalar s_ = 0;        // of the last contact [m]
+  bool moved_ = false;  // since the volumes were fitted
   bool pressing_ = false;
   bool falling_ = false;     // let go, and not yet at rest
   bool inside_ = false;      // let go, and not yet clear of the beam

@@ -42,7 +42,7 @@ TEMPLATE_TEST_CASE("a polynomial of degree n - 1 is reproduced, and its derivati
     const auto dp = [n](double x) { return n == 1 ? 0 : (n - 1) * std::pow(x + 0.3, n - 2); };
     std::vector<double> values, slopes(static_cast<std::size_t>(n));
     for (int k = 0; k < n; ++k) values.push_back(p(axis.node(k)));
-    axis.differentiate(values.data(), 1, slopes.data());
+    axis.differentiate(values.data(), 1, slopes.data(), 1);
     Random random(1);
     for (int trial = 0; trial < 50; ++trial) {
       const double x = n == 1 ? 1 : random(-1, 2);

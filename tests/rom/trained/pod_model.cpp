@@ -1,8 +1,13 @@
 // PodModel: its force against closed form and finite elements, inside its range and outside.
+#include <algorithm>
+#include <vector>
+
 #include "rom/training/press_errors.hpp"
 #include "rom/training/trained.hpp"
 #include "support/error.hpp"
+#include "support/random.hpp"
 #include "support/solver.hpp"
+#include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
 
 using namespace hapbeam;
@@ -216,4 +221,42 @@ TEST_CASE("a range at its narrowest and at its edges is the same in float, or re
   const auto narrow = trained_pod(pinned(), TrainingPlan{1.0, 1.0 + 1e-6, 16, 0.01, 4}, 16);
   CHECK_NOTHROW(PodModel<>(narrow));
   CHECK_THROWS_AS(PodModel<float>(cast<float>(narrow)), std::invalid_argument);
+}
+
+TEST_CASE(
+    "beside the contact the pieces that contact looks at are those of the whole shape, and elsewhere too",
+    "[pod_model]") {
+  const auto [left, right] = GENERATE(table<Support, Support>({{Support::pinned, Support::pinned},
+                                                               {Support::clamped, Support::free},
+                                                               {Support::free, Support::clamped},
+                                                               {Support::roller, Support::guided}}));
+  const Beam beam = thesis_beam(left, right);
+  const auto compare = [&](auto model) {
+    const Range<double> range = model.range();
+    Random random(5);
+    for (int k = 0; k < 200; ++k) {
+      const double s = k == 0 ? range.s_max : random(range.s_min, range.s_max);
+      const double d = random(1) * range.depth_at(s), other = k % 2 ? s : random(0, beam.length());
+      model.press({s, d});
+      std::vector<CentrelineNode<double>> seen;
+      const CentrelinePart<double> part = model.part(std::min(s, other), std::max(s, other));
+      seen.assign(part.line.begin(), part.line.end());
+      const Centreline<double> shape = model.shape();
+      REQUIRE(part.segments == shape.segments());
+      REQUIRE((part.begins() || seen.front().s < std::min(s, other)));
+      REQUIRE((part.ends() || seen.back().s > std::max(s, other)));
+      double apart = 0;
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const auto& node = shape[part.first + static_cast<int>(i)];
+        REQUIRE(std::abs(seen[i].s - node.s) <= 1e-15 * beam.length());
+        apart = std::max({apart, std::abs(seen[i].u - node.u) / std::abs(d),
+                          std::abs(seen[i].w - node.w) / std::abs(d),
+                          std::abs(seen[i].theta - node.theta) * beam.length() / std::abs(d)});
+      }
+      REQUIRE(apart <= 1e-11);
+    }
+  };
+  const auto plan = TrainingPlan::anywhere(beam, 0.02, 12, 10);
+  SECTION("POD") { compare(PodModel<>(trained_pod(beam, plan, 32))); }
+  SECTION("Galerkin") { compare(GalerkinModel<>(trained_galerkin(beam, plan, 32))); }
 }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -86,7 +87,8 @@ class Servo {
         energy_(device, options.delay_ticks),
         guard_(ForceGuard::for_device(device)),
         times_(device.period),
-        pictures_(Picture(model.shape())) {}
+        seen_(model.shape()),
+        pictures_(seen_) {}
 
   /// With the coupling that the device can render.   @throws as Coupling::for_device, too
   Servo(Model& model, const DeviceInfo& device, const ServoOptions& options = {})
@@ -128,7 +130,9 @@ class Servo {
   const ServoRecord& record() const noexcept { return record_; }
 
   /// The newest record and shape.  One reader, from any thread: wait-free.  They stay until the next call.
+  /// The shape of a trained model is computed for who looks, and is that of a tick up to shape_period before the last look.
   const Picture& picture() noexcept {
+    looked_.store(true, std::memory_order_relaxed);
     pictures_.update();
     return pictures_.value();
   }
@@ -182,9 +186,17 @@ class Servo {
   void publish() noexcept {
     Picture& draft = pictures_.draft();
     draft.record = record_;
-    draft.take(model_.shape());
+    if constexpr (detail::OffersPart<Model>::value) {
+      if (record_.ticks % shape_period == 0 && looked_.exchange(false, std::memory_order_relaxed))
+        seen_.take(model_.shape());
+      draft.take(seen_.shape());
+    } else {
+      draft.take(model_.shape());
+    }
     pictures_.publish();
   }
+
+  static constexpr int shape_period = 8;  // [ticks]
 
   const Model& model_;
   ServoOptions options_;
@@ -194,6 +206,8 @@ class Servo {
   ForceGuard guard_;
   TickTimes times_;
   ServoRecord record_;
+  Picture seen_;  // the last shape of a model whose shape costs more than its force
+  std::atomic<bool> looked_{true};
   Exchange<Picture> pictures_;
 };
 

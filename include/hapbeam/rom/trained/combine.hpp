@@ -3,27 +3,35 @@
 // Real-time: noexcept, no allocation, O(rows × columns).
 #pragma once
 
-#include <cstddef>
+#include <Eigen/Core>
 
 namespace hapbeam::detail {
 
-/// y = Σ_k x_k a_k with a_k the first `rows` of the k-th run of `stride` numbers of A.  Four columns at a time, so that y is
-/// read and written once for each four.  Eigen's product is as fast at -O3, and takes half as long to compile as all of
-/// Eigen/Core.
+template <int Rows, typename Scalar>
+[[gnu::always_inline]] inline void combine_rows(const Scalar* a, int stride, const Scalar* x, int columns,
+                                                Scalar* y) noexcept {
+  using Column = Eigen::Array<Scalar, Rows, 1>;
+  Column sum = Column::Zero();
+  for (int k = 0; k < columns; ++k, a += stride) sum += x[k] * Eigen::Map<const Column>(a);
+  Eigen::Map<Column>{y} = sum;
+}
+
+/// y = Σ_k x_k a_k with a_k the first `rows` of the k-th run of `stride` numbers of A.  So many rows at a time as registers
+/// hold, through all columns: A is read once and y is written once.  Quickest where rows is a multiple of eight.
 /// @param y  out, rows values
 template <typename Scalar>
 [[gnu::noinline]] void combine(const Scalar* A, int stride, int rows, const Scalar* x, int columns,
                                Scalar* y) noexcept {
-  for (int r = 0; r < rows; ++r) y[r] = 0;
-  int k = 0;
-  for (; k + 4 <= columns; k += 4, A += 4 * static_cast<std::ptrdiff_t>(stride)) {
-    const Scalar *a = A, *b = a + stride, *c = b + stride, *d = c + stride;
-    const Scalar p = x[k], q = x[k + 1], s = x[k + 2], t = x[k + 3];
-    for (int r = 0; r < rows; ++r) y[r] += (p * a[r] + q * b[r]) + (s * c[r] + t * d[r]);
-  }
-  for (; k < columns; ++k, A += stride)
-    for (int r = 0; r < rows; ++r) y[r] += x[k] * A[r];
+  constexpr int wide = 32, half = 16, narrow = 8;
+  int r = 0;
+  for (; r + wide <= rows; r += wide) combine_rows<wide>(A + r, stride, x, columns, y + r);
+  for (; r + half <= rows; r += half) combine_rows<half>(A + r, stride, x, columns, y + r);
+  for (; r + narrow <= rows; r += narrow) combine_rows<narrow>(A + r, stride, x, columns, y + r);
+  for (; r < rows; ++r) combine_rows<1>(A + r, stride, x, columns, y + r);
 }
+
+/// The next multiple of eight.
+constexpr int padded(int rows) noexcept { return (rows + 7) / 8 * 8; }
 
 /// Σ x_k y_k
 template <typename Scalar>

@@ -46,17 +46,23 @@ class GalerkinModel {
         tension_(data.beam),
         x_(data.positions, position_(data.s_min), position_(data.s_max)),
         z_(data.tensions, 0, tension_(data.tension)),
-        table_(static_cast<std::size_t>(data.positions) * static_cast<std::size_t>(row_size())),
+        table_(static_cast<std::size_t>(data.positions * row_size() + detail::padded(1))),
         shape_(data.beam, data.shape) {
     const int m = data.tensions;
     Scalar* row = table_.data();
     for (int i = 0; i < data.positions; ++i, row += row_size()) {
-      std::copy_n(data.log_stiffness.data() + i * m, m, row);
-      z_.differentiate(row, 1, row + m);
-      z_.differentiate(row + m, 1, row + 2 * m);
+      for (int j = 0; j < m; ++j) {
+        row[4 * j] = data.log_stiffness[static_cast<std::size_t>(i * m + j)];
+        Shape::tabulate(data.shape, i * m + j, near(row, j));
+      }
+      z_.differentiate(row, 4, row + 1, 4);
+      z_.differentiate(row + 1, 4, row + 2, 4);
     }
     row = table_.data();
-    for (int j = 0; j < 2 * m; ++j) x_.differentiate(row + j, row_size(), row + 3 * m + j);
+    for (int j = 0; j < m; ++j) {
+      x_.differentiate(row + 4 * j, row_size(), near(row, j) + Shape::own, row_size());
+      x_.differentiate(row + 4 * j + 1, row_size(), row + 4 * j + 3, row_size());
+    }
   }
 
   /// The force alone; shape() stays.  @return as press()
@@ -74,14 +80,23 @@ class GalerkinModel {
     const Response<Scalar> response = respond(request, at);
     if (!is_answer(response.status)) return response;
     const Scalar s = at.press.s, d = at.press.d;
-    const Scalar theta = rotation(at);
+    const int m = data_.tensions;
+    Scalar by_tension[Shape::near_size * max_size], near[Shape::near_size];
+    detail::combine(table_.data() + 4 * m, row_size(), Shape::near_size * m, at.lx, data_.positions,
+                    by_tension);
+    detail::combine(by_tension, Shape::near_size, Shape::near_size, at.lz, m, near);
+    const Scalar theta = rotation(at, near[Shape::own]);
     if (data_.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
-    shape_.evaluate(data_.shape, s, d, d, data_.positions > 1 ? &theta : nullptr, at.lx, data_.positions,
-                    at.lz, data_.tensions);
+    shape_.press(s, d, d, data_.positions > 1 ? &theta : nullptr, at.lx, data_.positions, at.lz, m, near);
     return response;
   }
 
-  Centreline<Scalar> shape() const noexcept { return shape_.centreline(); }
+  /// Computed when it is first asked for: by one thread at a time.
+  Centreline<Scalar> shape() const noexcept { return shape_.all(data_.shape); }
+  /// The pieces of shape() that hold arc positions s0 to s1; beside the contact without the others.
+  CentrelinePart<Scalar> part(Scalar s0, Scalar s1) const noexcept {
+    return shape_.part(data_.shape, s0, s1);
+  }
   /// Where it was trained.
   Range<Scalar> range() const noexcept { return detail::trained_range(data_); }
   Scalar thickness() const noexcept { return data_.beam.thickness; }
@@ -98,16 +113,20 @@ class GalerkinModel {
 
  private:
   static constexpr int max_size = Lagrange<Nodes, Scalar>::max_size;
+  using Shape = ShapeTable<Scalar, max_size>;
 
   struct Point {
     Press<Scalar> press;
     Scalar lx[max_size], lz[max_size];  // weights
-    Scalar column[3 * max_size];        // f = ln(scale k) at s by tension, then df/dz and d²f/dz²
-    Scalar f, by_z, by_zz;
+    Scalar column[4 * max_size];        // by tension f = ln(scale k) at s, df/dz, d²f/dz² and d²f/dxdz
+    Scalar f, by_z, by_zz, by_xz;
     Scalar beyond;  // √(N/Nm), 1 where the tension was trained
   };
 
-  int row_size() const noexcept { return 5 * data_.tensions; }
+  int row_size() const noexcept { return (4 + Shape::near_size) * data_.tensions; }
+  Scalar* near(Scalar* row, int tension) const noexcept {
+    return row + 4 * data_.tensions + Shape::near_size * tension;
+  }
 
   Response<Scalar> respond(const Press<Scalar>& request, Point& at) noexcept {
     using std::exp;
@@ -120,7 +139,7 @@ class GalerkinModel {
     at.press = {nearest.s, detail::bounded(request.d, data_.beam.length)};
     const int m = data_.tensions;
     x_.weights(data_.positions > 1 ? position_(at.press.s) : Scalar(0), at.lx);
-    detail::combine(table_.data(), row_size(), 3 * m, at.lx, data_.positions, at.column);
+    detail::combine(table_.data(), row_size(), detail::padded(4 * m), at.lx, data_.positions, at.column);
     const Scalar scale = position_.scale(at.press.s);
     const Scalar stiffness = m == 1 ? (along(at, 0), exp(at.f) / scale) : balance(at, scale);
     const Scalar force = stiffness * at.press.d;
@@ -133,9 +152,10 @@ class GalerkinModel {
   void along(Point& at, Scalar z) const noexcept {
     const int m = data_.tensions;
     z_.weights(z, at.lz);
-    at.f = detail::dot(at.lz, at.column, m);
-    at.by_z = detail::dot(at.lz, at.column + m, m);
-    at.by_zz = detail::dot(at.lz, at.column + 2 * m, m);
+    Eigen::Array<Scalar, 4, 1> sum = Eigen::Array<Scalar, 4, 1>::Zero();
+    for (int j = 0; j < m; ++j)
+      sum += at.lz[j] * Eigen::Map<const Eigen::Array<Scalar, 4, 1>>(at.column + 4 * j);
+    at.f = sum[0], at.by_z = sum[1], at.by_zz = sum[2], at.by_xz = sum[3];
   }
 
   /// k(s, N) [N/m] with N the tension of the press.  In z the equation is
@@ -149,24 +169,33 @@ class GalerkinModel {
     const Scalar d = at.press.d, N0 = tension_.unit(), z_max = z_.high();
     const Scalar flexibility = data_.beam.length / data_.beam.axial_stiffness;
     const Scalar q = d * d / (2 * flexibility * N0 * N0 * scale);
-    const Scalar settled = sqrt(std::numeric_limits<Scalar>::epsilon()) / 16;
+    // Newton's method, and near the root Halley's, of third order: what a step that small leaves is round-off.
+    const Scalar settled = std::cbrt(std::numeric_limits<Scalar>::epsilon()) / 16;
     Scalar low = -1, high = 2 * z_max, z = std::min(last_, z_max);  // both open: no end has been looked at
+    Scalar k = 0;
     for (; iterations_ < max_iterations; ++iterations_) {
       along(at, z);
-      const Scalar part = q * exp(at.f - z), growth = expm1(z), phi = part * at.by_z - growth;
+      const Scalar ratio = exp(at.f - z), part = q * ratio, growth = expm1(z), phi = part * at.by_z - growth;
       (phi > 0 ? low : high) = z;
+      k = ratio * (growth + 1) / scale;
       if (low == z_max) break;
-      const Scalar step = phi / (growth + 1 - part * (at.by_z * (at.by_z - 1) + at.by_zz));
+      const Scalar less = at.by_z - 1, falls = growth + 1 - part * (at.by_z * less + at.by_zz),
+                   bends = growth + 1 - part * (at.by_z * less * less + at.by_zz * (3 * at.by_z - 2));
+      const Scalar newton = phi / falls, curve = newton * bends / (2 * falls);
+      const Scalar step = abs(curve) < Scalar(0.25) ? newton / (1 + curve) : newton;
       const Scalar next = std::min(std::max(z + step, Scalar(0)), z_max);
       if (abs(step) <= settled) {
+        const Scalar way = next - z, change = way * (at.by_z + way / 2 * at.by_zz);
+        at.f += change;
+        at.by_z += way * at.by_zz;
+        k *= 1 + change * (1 + change / 2);
         z = next;
+        z_.weights(z, at.lz);
         break;
       }
       z = next > low && next < high ? next : (std::max(low, Scalar(0)) + std::min(high, z_max)) / 2;
     }
     last_ = z;
-    along(at, z);
-    const Scalar k = exp(at.f) / scale;
     if (low != z_max) return k;
 
     // N = Nm r²:  k' = 1/A + b/r,  hence r³ - P r - Q = 0, convex where r > 0; Newton comes down to its only root there.
@@ -191,21 +220,17 @@ class GalerkinModel {
   }
 
   /// θ at the contact: (∂V/∂s)/F = ½ d (∂k/∂s)/k, N being stationary [rad].
-  Scalar rotation(const Point& at) const noexcept {
-    const int m = data_.tensions;
+  /// @param by_x  df/dx
+  Scalar rotation(const Point& at, Scalar by_x) const noexcept {
     const Scalar s = at.press.s, x_by_s = position_.derivative(s);
-    Scalar column[2 * max_size];  // df/dx by tension, then d²f/dxdz
-    detail::combine(table_.data() + 3 * m, row_size(), 2 * m, at.lx, data_.positions, column);
-    const Scalar log_by_s =
-        detail::dot(at.lz, column, m) * x_by_s - position_.log_scale_derivative(s);  // of k, or of k at Nm
+    const Scalar log_by_s = by_x * x_by_s - position_.log_scale_derivative(s);  // of k, or of k at Nm
     if (!(at.beyond > 1)) return at.press.d / 2 * log_by_s;
     const Scalar k = std::exp(at.f) / position_.scale(s), k_by_s = k * log_by_s;
     const Scalar string = 1 / string_compliance(s),
                  string_by_s = -string * string * string_compliance_by_s(s);
     const Scalar span = tension_.unit() + data_.tension;  // N0 + Nm
     const Scalar b = k * at.by_z / span - string;
-    const Scalar b_by_s =
-        (k_by_s * at.by_z + k * detail::dot(at.lz, column + m, m) * x_by_s) / span - string_by_s;
+    const Scalar b_by_s = (k_by_s * at.by_z + k * at.by_xz * x_by_s) / span - string_by_s;
     return at.press.d / 2 * (k_by_s + beyond(at, string_by_s, b_by_s)) / (k + beyond(at, string, b));
   }
 
@@ -226,9 +251,10 @@ class GalerkinModel {
   PositionCoordinate<Scalar> position_;
   TensionCoordinate<Scalar> tension_;
   Lagrange<Nodes, Scalar> x_, z_;
-  std::vector<Scalar> table_;  // position by position: f by tension, df/dz, d²f/dz², df/dx, d²f/dxdz
-  ShapeTable<Scalar> shape_;
-  Scalar last_ = 0;  // z of the last press
+  // Position by position: by tension f, df/dz, d²f/dz² and d²f/dxdz; what makes the nodes near the contact, with df/dx for its own.
+  std::vector<Scalar> table_;
+  mutable Shape shape_;  // of the last press, as far as it was asked for
+  Scalar last_ = 0;      // z of the last press
   int iterations_ = 0;
 };
 

@@ -10,10 +10,13 @@
 // Real-time: weights() is noexcept, allocation-free and O(n); construction throws.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
+
+#include <Eigen/Core>
 
 namespace hapbeam {
 
@@ -58,6 +61,7 @@ class Lagrange {
  public:
   /// More are of no use to the first policy and poison to the second.
   static constexpr int max_size = 64;
+  static constexpr int block = 4;  // numbers of a register
 
   /// @param size 1 to max_size   @param low, high  ends of the interval; equal only where size is 1
   /// @throws std::invalid_argument
@@ -65,6 +69,8 @@ class Lagrange {
     if (size < 1 || size > max_size) detail::reject_nodes(size, max_size);
     if (!(std::isfinite(low) && std::isfinite(high) && (low < high || (low == high && size == 1))))
       detail::reject_interval(double(low), double(high), "finite and ascending");
+    std::fill_n(nodes_, max_size, std::numeric_limits<Scalar>::infinity());
+    std::fill_n(weights_, max_size, Scalar(0));
     const double middle = (double(low) + double(high)) / 2, half = (double(high) - double(low)) / 2;
     for (int k = 0; k < size; ++k) {
       nodes_[k] = static_cast<Scalar>(middle + half * Nodes::node(k, size));
@@ -81,38 +87,45 @@ class Lagrange {
   int size() const noexcept { return size_; }
   Scalar node(int k) const noexcept { return nodes_[k]; }
 
-  /// l_k(x) for every k, whose sum is 1.  Outside the interval this extrapolates.   @param l  out, size() values
+  /// l_k(x) for every k, whose sum is 1.  Outside the interval this extrapolates.
+  /// @param l  out, size() values
   [[gnu::noinline]] void weights(Scalar x, Scalar* l) const noexcept {
-    const int n = size();
-    const Scalar *nodes = nodes_, *w = weights_;
-    int hit = n == 1 ? 0 : -1;
-    for (int k = 0; k < n; ++k)
-      if (x == nodes[k]) hit = k;
-    if (hit >= 0) {
-      for (int k = 0; k < n; ++k) l[k] = k == hit ? Scalar(1) : Scalar(0);
-      return;
-    }
-    Scalar sum = 0;
-    for (int k = 0; k < n; ++k) sum += l[k] = w[k] / (x - nodes[k]);
-    const Scalar inverse = 1 / sum;
-    for (int k = 0; k < n; ++k) l[k] *= inverse;
+    using Block = Eigen::Array<Scalar, block, 1>;
+    const auto term = [&](int k) -> Block {
+      return Eigen::Map<const Block>(weights_ + k) / (x - Eigen::Map<const Block>(nodes_ + k));
+    };
+    Block sum = Block::Zero();
+    int k = 0;
+    for (; k + block <= size_; k += block) sum += Eigen::Map<Block>{l + k} = term(k);
+    const Block rest = k < size_ ? term(k) : Block(Block::Zero());
+    const Scalar inverse = 1 / (sum + rest).sum();
+    if (!(std::abs(inverse) > 0)) return at_node(x, l);
+    for (k = 0; k + block <= size_; k += block) Eigen::Map<Block>{l + k} *= inverse;
+    for (int i = k; i < size_; ++i) l[i] = rest[i - k] * inverse;
   }
 
   /// The interpolant's derivative at the nodes.  Its degree is n - 2, so that they define it.
-  /// @param f, slope  in and out, no overlap: size() values each, `stride` apart
-  [[gnu::cold, gnu::noinline]] void differentiate(const Scalar* f, int stride, Scalar* slope) const noexcept {
+  /// @param f, slope  in and out, no overlap: size() values each, so many apart
+  [[gnu::cold, gnu::noinline]] void differentiate(const Scalar* f, int stride, Scalar* slope,
+                                                  int slope_stride) const noexcept {
     for (int i = 0; i < size(); ++i) {
       const Scalar here = f[i * stride];
       Scalar sum = 0;  // Σ_j l_j'(x_i) f_j, where the l_j' sum to zero: the derivative of 1
       for (int j = 0; j < size(); ++j)
         if (j != i) sum += weights_[j] / weights_[i] * (f[j * stride] - here) / (nodes_[i] - nodes_[j]);
-      slope[i * stride] = sum;
+      slope[i * slope_stride] = sum;
     }
   }
 
  private:
+  /// Where a term of the barycentric form is infinite.
+  [[gnu::cold]] void at_node(Scalar x, Scalar* l) const noexcept {
+    for (int k = 0; k < size_; ++k) l[k] = size_ == 1 || x == nodes_[k] ? Scalar(1) : Scalar(0);
+  }
+
   int size_;
   Scalar low_, high_;
+  // Beyond size_ there are weights of zero, and nodes that nothing is near.
   Scalar nodes_[max_size], weights_[max_size];
 };
 

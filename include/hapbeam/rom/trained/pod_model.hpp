@@ -37,17 +37,20 @@ class PodModel {
         depth_(data_.beam, data_.symmetric),
         x_(data_.positions, position_(data_.s_min), position_(data_.s_max)),
         y_(data_.depths, data_.y_low, data_.y_high),
-        table_(static_cast<std::size_t>(data_.positions) * static_cast<std::size_t>(row_size())),
+        table_(static_cast<std::size_t>(data_.positions * row_size() + detail::padded(1))),
+        rest_by_x_(static_cast<std::size_t>(data_.positions)),
         shape_(data_.beam, data_.shape) {
-    const int m = data_.depths;
+    const int m = data_.depths, n = data_.positions;
     Scalar* row = table_.data();
-    for (int i = 0; i < data_.positions; ++i, row += row_size()) {
+    for (int i = 0; i < n; ++i, row += row_size()) {
       std::copy_n(data_.potential.data() + i * m, m, row + m);
-      row[2 * m] = data_.rest[static_cast<std::size_t>(i)];
-      y_.differentiate(row + m, 1, row);
+      y_.differentiate(row + m, 1, row, 1);
+      for (int j = 0; j < m; ++j) Shape::tabulate(data_.shape, i * m + j, near(row, j));
     }
     row = table_.data();
-    for (int j = m; j <= 2 * m; ++j) x_.differentiate(row + j, row_size(), row + j + m + 1);
+    for (int j = 0; j < m; ++j)
+      x_.differentiate(row + m + j, row_size(), near(row, j) + Shape::own, row_size());
+    x_.differentiate(data_.rest.data(), 1, rest_by_x_.data(), 1);
   }
 
   /// The force alone; shape() stays.  @return as press()
@@ -62,14 +65,25 @@ class PodModel {
     Point at;
     const Response<Scalar> response = respond(request, at);
     if (!is_answer(response.status)) return response;
-    const Scalar unit = data_.symmetric ? at.press.d : data_.depth, theta = rotation(at);
+    const Scalar unit = data_.symmetric ? at.press.d : data_.depth;
+    const int m = data_.depths;
+    Scalar by_depth[Shape::near_size * max_size], near[Shape::near_size];
+    detail::combine(table_.data() + 2 * m, row_size(), Shape::near_size * m, at.lx, data_.positions,
+                    by_depth);
+    detail::combine(by_depth, Shape::near_size, Shape::near_size, at.ly, m, near);
+    const Scalar theta = rotation(at, near[Shape::own]);
     if (data_.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
-    shape_.evaluate(data_.shape, at.press.s, at.press.d, unit, data_.positions > 1 ? &theta : nullptr, at.lx,
-                    data_.positions, at.ly, data_.depths);
+    shape_.press(at.press.s, at.press.d, unit, data_.positions > 1 ? &theta : nullptr, at.lx, data_.positions,
+                 at.ly, m, near);
     return response;
   }
 
-  Centreline<Scalar> shape() const noexcept { return shape_.centreline(); }
+  /// Computed when it is first asked for: by one thread at a time.
+  Centreline<Scalar> shape() const noexcept { return shape_.all(data_.shape); }
+  /// The pieces of shape() that hold arc positions s0 to s1; beside the contact without the others.
+  CentrelinePart<Scalar> part(Scalar s0, Scalar s1) const noexcept {
+    return shape_.part(data_.shape, s0, s1);
+  }
   /// Where it was trained.
   Range<Scalar> range() const noexcept { return detail::trained_range(data_); }
   Scalar thickness() const noexcept { return data_.beam.thickness; }
@@ -81,6 +95,7 @@ class PodModel {
 
  private:
   static constexpr int max_size = Lagrange<Nodes, Scalar>::max_size;
+  using Shape = ShapeTable<Scalar, max_size>;
 
   /// A press in range and what is interpolated there.
   struct Point {
@@ -93,7 +108,10 @@ class PodModel {
     Scalar force() const noexcept { return e * (work + half_slope * work_by_y) / scale; }
   };
 
-  int row_size() const noexcept { return 3 * data_.depths + 2; }
+  int row_size() const noexcept { return (2 + Shape::near_size) * data_.depths; }
+  Scalar* near(Scalar* row, int depth) const noexcept {
+    return row + 2 * data_.depths + Shape::near_size * depth;
+  }
 
   Response<Scalar> respond(const Press<Scalar>& request, Point& at) const noexcept {
     using std::isfinite;
@@ -132,18 +150,17 @@ class PodModel {
     at.half_slope = depth_.half_log_derivative(at.e, at.y);
     y_.weights(at.y, at.ly);
     Scalar sum[2 * max_size];
-    if (n > 1) detail::combine(table_.data(), row_size(), 2 * m, at.lx, n, sum);
+    if (n > 1) detail::combine(table_.data(), row_size(), detail::padded(2 * m), at.lx, n, sum);
     const Scalar* column = n > 1 ? sum : table_.data();
     at.work = detail::dot(at.ly, column + m, m);
     at.work_by_y = detail::dot(at.ly, column, m);
   }
 
   /// θ at the contact: (∂V/∂s at constant d)/F [rad].
-  Scalar rotation(const Point& at) const noexcept {
-    const int m = data_.depths;
-    Scalar column[max_size + 1];
-    detail::combine(table_.data() + 2 * m + 1, row_size(), m + 1, at.lx, data_.positions, column);
-    const Scalar by_x = detail::dot(at.ly, column, m), rest_by_x = column[m];
+  /// @param by_x  ∂/∂x of the potential
+  Scalar rotation(const Point& at, Scalar by_x) const noexcept {
+    const Scalar rest_by_x =
+        data_.symmetric ? Scalar(0) : detail::dot(at.lx, rest_by_x_.data(), data_.positions);
     const Scalar s = at.press.s, x_by_s = position_.derivative(s);
     return at.e / 2 * (by_x * x_by_s - at.work * position_.log_scale_derivative(s)) /
                (at.work + at.half_slope * at.work_by_y) -
@@ -154,9 +171,10 @@ class PodModel {
   PositionCoordinate<Scalar> position_;
   DepthCoordinate<Scalar> depth_;
   Lagrange<Nodes, Scalar> x_, y_;
-  // Position by position: derivative of the potential in y by depth, the potential, rest; derivatives of these two in x.
-  std::vector<Scalar> table_;
-  ShapeTable<Scalar> shape_;
+  // Position by position: derivative of the potential in y by depth, the potential, and by depth what makes the nodes near the
+  // contact, the last of which is the derivative of the potential in x.
+  std::vector<Scalar> table_, rest_by_x_;
+  mutable Shape shape_;  // of the last press, as far as it was asked for
 };
 
 }  // namespace hapbeam

@@ -77,11 +77,17 @@ struct ShapeData {
   std::vector<Scalar> rest;  ///< (u, w, θ) of the untouched beam at segments + 1 even nodes [m, m, rad]
 };
 
-/// The shape of the last press.  What was trained stays with the model, which passes it in.
-template <typename Scalar>
+/// The shape of the last press.  The contact's node and its neighbours, which is where contact looks, come with the press;
+/// the others when they are asked for.  What was trained stays with the model, which passes it in.
+/// @tparam MaxSize  of either axis of the grid
+template <typename Scalar, int MaxSize>
 class ShapeTable {
  public:
   using Node = CentrelineNode<Scalar>;
+
+  /// What makes the node at the contact and its neighbours: (u, w, θ) of the one before, u of its own, (u, w, θ) of the one
+  /// after, freed of units; the last is the model's own.
+  static constexpr int near_size = 8, own = 7;
 
   /// Allocates.  @param data  sizes that fit each other, as check() in model_data.hpp sees to
   [[gnu::cold]] ShapeTable(const BeamData<Scalar>& beam, const ShapeData<Scalar>& data)
@@ -92,7 +98,20 @@ class ShapeTable {
     reset(data);
   }
 
-  Centreline<Scalar> centreline() const noexcept { return {nodes_.data(), static_cast<int>(nodes_.size())}; }
+  /// @param point  of the grid   @param near  out, near_size numbers
+  [[gnu::cold]] static void tabulate(const ShapeData<Scalar>& data, int point, Scalar* near) noexcept {
+    const int rows = 3 * (data.segments + 1), middle = 3 * data.contact_node;
+    std::fill_n(near, near_size, Scalar(0));
+    for (int mode = 0; mode < data.modes; ++mode) {
+      const Scalar share = data.coefficients[static_cast<std::size_t>(point * data.modes + mode)];
+      const Scalar* basis = data.basis.data() + mode * rows + middle;
+      near[3] += share * basis[0];
+      for (int k = 0; k < 3; ++k) {
+        if (middle > 0) near[k] += share * basis[k - 3];
+        if (middle + 3 < rows) near[4 + k] += share * basis[k + 3];
+      }
+    }
+  }
 
   void reset(const ShapeData<Scalar>& data) noexcept {
     const Scalar* rest = data.rest.data();
@@ -100,42 +119,77 @@ class ShapeTable {
       nodes_[static_cast<std::size_t>(i)] = {length_ * Scalar(i) / Scalar(data.segments), rest[0], rest[1],
                                              rest[2]};
     nodes_.back().s = length_;
+    first_ = 0, last_ = data.segments;
   }
 
-  /// The shape of a press by d at s.
+  /// The shape of a press by d at s.   O(1)
   /// @param lx, positions, ly, others  interpolation weights along both axes of the grid
   /// @param unit [m]  what w is stored in units of   @param theta  rotation at the contact [rad], or null: by the modes
-  void evaluate(const ShapeData<Scalar>& data, Scalar s, Scalar d, Scalar unit, const Scalar* theta,
-                const Scalar* lx, int positions, const Scalar* ly, int others) noexcept {
-    const int modes = data.modes, rows = 3 * (data.segments + 1);
-    Scalar *const row = work_.data(), *const mode = row + rows, *const column = mode + modes;
-    detail::combine(data.coefficients.data(), others * modes, others * modes, lx, positions, column);
-    detail::combine(column, modes, modes, ly, others, mode);
-    detail::combine(data.basis.data(), rows, rows, mode, modes, row);
-
-    const Scalar contact = frame_.contact(s);
-    const int middle = frame_.contact_node(), last = frame_.segments();
-    if (middle > 0) place(0, middle, s, Scalar(0), frame_.left_spacing(s), unit);
-    place(middle, middle + 1, s, contact, Scalar(0), unit);
-    if (middle < last) {
-      const Scalar spacing = frame_.right_spacing(s);
-      place(middle + 1, last + 1, s, std::min(s, contact) + spacing, spacing, unit);
+  /// @param near  interpolated
+  void press(Scalar s, Scalar d, Scalar unit, const Scalar* theta, const Scalar* lx, int positions,
+             const Scalar* ly, int others, const Scalar* near) noexcept {
+    s_ = s, d_ = d, unit_ = unit;
+    theta_known_ = theta != nullptr;
+    if (theta) theta_ = *theta;
+    std::copy_n(lx, positions, lx_);
+    std::copy_n(ly, others, ly_);
+    positions_ = positions, others_ = others;
+    const int middle = frame_.contact_node(), end = frame_.segments();
+    first_ = std::max(middle - 1, 0), last_ = std::min(middle + 1, end);
+    if (!theta || frame_.contact(s) != s) {
+      last_ = first_ - 1;
+      return;
     }
+    nodes_[index(middle)] = {s, near[3] * unit * (unit / frame_.side(middle, s)), d, *theta};
+    if (first_ < middle) place(first_, middle, near, frame_.left_spacing(s) * Scalar(first_), Scalar(0));
+    if (last_ > middle) place(last_, last_ + 1, near + 4, s + frame_.right_spacing(s), Scalar(0));
     nodes_.back().s = length_;
-    // The contact itself is known better than its modes; where it is too near to an end for its node, the end is straight.
-    Node& node = nodes_[static_cast<std::size_t>(middle)];
-    if (theta) node.theta = *theta;
-    node.w = d - node.theta * (contact - s);
-    if (contact < s) straighten(middle + 1, last, node);
-    if (contact > s) straighten(0, middle - 1, node);
+  }
+
+  /// All of it.   O(modes (grid + nodes)) after a press, O(1) from then on
+  Centreline<Scalar> all(const ShapeData<Scalar>& data) noexcept {
+    if (first_ > 0 || last_ < data.segments) evaluate(data);
+    return {nodes_.data(), static_cast<int>(nodes_.size())};
+  }
+  /// The pieces that hold arc positions s0 to s1.   O(1) beside the contact, elsewhere as all()
+  CentrelinePart<Scalar> part(const ShapeData<Scalar>& data, Scalar s0, Scalar s1) noexcept {
+    if (first_ < last_ && s0 >= nodes_[index(first_)].s && s1 <= nodes_[index(last_)].s)
+      return {{nodes_.data() + first_, last_ - first_ + 1}, first_, data.segments};
+    return part_of(all(data), s0, s1);
   }
 
  private:
+  static std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+
+  [[gnu::noinline]] void evaluate(const ShapeData<Scalar>& data) noexcept {
+    const int modes = data.modes, rows = 3 * (data.segments + 1);
+    Scalar *const row = work_.data(), *const mode = row + rows, *const column = mode + modes;
+    detail::combine(data.coefficients.data(), others_ * modes, others_ * modes, lx_, positions_, column);
+    detail::combine(column, modes, modes, ly_, others_, mode);
+    detail::combine(data.basis.data(), rows, rows, mode, modes, row);
+
+    const Scalar contact = frame_.contact(s_);
+    const int middle = frame_.contact_node(), last = data.segments;
+    if (middle > 0) place(0, middle, row, Scalar(0), frame_.left_spacing(s_));
+    place(middle, middle + 1, row + 3 * middle, contact, Scalar(0));
+    if (middle < last) {
+      const Scalar spacing = frame_.right_spacing(s_);
+      place(middle + 1, last + 1, row + 3 * middle + 3, std::min(s_, contact) + spacing, spacing);
+    }
+    nodes_.back().s = length_;
+    // The contact itself is known better than its modes; where it is too near to an end for its node, the end is straight.
+    Node& node = nodes_[index(middle)];
+    if (theta_known_) node.theta = theta_;
+    node.w = d_ - node.theta * (contact - s_);
+    if (contact < s_) straighten(middle + 1, last, node);
+    if (contact > s_) straighten(0, middle - 1, node);
+    first_ = 0, last_ = last;
+  }
+
   /// Nodes on one side of the contact, or its own: they share their h and are evenly spaced from `start` on.
-  [[gnu::noinline]] void place(int first, int end, Scalar s, Scalar start, Scalar spacing,
-                               Scalar unit) noexcept {
-    const Scalar per_side = unit / frame_.side(first, s);
-    const Scalar* row = work_.data() + 3 * first;
+  /// @param row  (u, w, θ) of the first one, then of the others
+  void place(int first, int end, const Scalar* row, Scalar start, Scalar spacing) noexcept {
+    const Scalar unit = unit_, per_side = unit / frame_.side(first, s_);
     Node* node = nodes_.data() + first;
     for (int i = 0; i < end - first; ++i, row += 3)
       node[i] = {start + spacing * Scalar(i), row[0] * unit * per_side, row[1] * unit, row[2] * per_side};
@@ -143,7 +197,7 @@ class ShapeTable {
   /// Rare: the contact is within a thousandth of the length from an end.
   [[gnu::cold]] void straighten(int first, int last, const Node& from) noexcept {
     for (int i = first; i <= last; ++i) {
-      Node& node = nodes_[static_cast<std::size_t>(i)];
+      Node& node = nodes_[index(i)];
       node = {node.s, from.u, from.w - from.theta * (node.s - from.s), from.theta};
     }
   }
@@ -152,6 +206,13 @@ class ShapeTable {
   Scalar length_;
   std::vector<Scalar> work_;  // displacements of the last shape, freed of units; its modes; these by depth
   std::vector<Node> nodes_;
+  int first_ = 0,
+      last_ = 0;  // of the nodes that are those of the last press; none where the last is before the first
+  // The last press.
+  Scalar s_ = 0, d_ = 0, unit_ = 1, theta_ = 0;
+  bool theta_known_ = false;
+  Scalar lx_[MaxSize] = {}, ly_[MaxSize] = {};
+  int positions_ = 0, others_ = 0;
 };
 
 }  // namespace hapbeam

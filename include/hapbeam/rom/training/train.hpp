@@ -135,7 +135,7 @@ void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coord
                   const std::vector<double>& work, double s) {
   const int n = y.size(), steps = 8 * n;
   std::vector<double> l(work.size()), slopes(work.size());
-  y.differentiate(work.data(), 1, slopes.data());
+  y.differentiate(work.data(), 1, slopes.data(), 1);
   double before = -std::numeric_limits<double>::infinity();
   for (int k = 0; k <= steps; ++k) {
     const double at = y.low() + (y.high() - y.low()) * k / steps, e = coordinate.inverse(at);

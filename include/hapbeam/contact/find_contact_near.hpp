@@ -1,0 +1,73 @@
+// The contact of a touch that goes on: sought where it was, with a proof that no other piece came nearer.
+//
+// A beam of moderate rotation runs along x without turning back.  What is nearer to the avatar's centre q than the nearest point that
+// a few pieces have, at distance d, lies between q.x - d and q.x + d; where these pieces reach beyond that on both sides, or to the
+// beam's end, nothing else has to be looked at, or to be computed.
+// Beams of any rotation may come near from anywhere: they are searched with bounding volumes, find_contact().
+// Real-time: noexcept, no allocation; the cost of three or four pieces whatever the size of the beam.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include <hapbeam/contact/closest_point.hpp>
+#include <hapbeam/contact/find_contact.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+/// The nearest point of a part that runs along x, to q.
+template <typename Scalar>
+NearestPoint<Scalar> nearest_along_x(const Centreline<Scalar>& line, const Vector2<Scalar>& q) noexcept {
+  // As in BoundingVolumes: what round-off could explain is looked at.
+  constexpr Scalar slack = 1 + 16 * std::numeric_limits<Scalar>::epsilon();
+  NearestPoint<Scalar> best;
+  const auto x = [&](int i) { return line[i].s + line[i].u; };
+  const auto look = [&](int i) {
+    const Scalar away = std::max(std::max(x(i) - q.x(), q.x() - x(i + 1)), Scalar(0));
+    if (away * away > best.at.distance_squared * slack) return;
+    const ClosestPoint<Scalar> candidate = closest_point(line.segment(i), q);
+    const Scalar a = candidate.distance_squared, b = best.at.distance_squared;
+    if (a < b || (a == b && i < best.segment)) best = {i, candidate};
+  };
+  int beneath = 0;
+  while (beneath + 1 < line.segments() && x(beneath + 1) <= q.x()) ++beneath;
+  look(beneath);
+  for (int i = beneath - 1; i >= 0; --i) look(i);
+  for (int i = beneath + 1; i < line.segments(); ++i) look(i);
+  return best;
+}
+
+/// As find_contact() on the whole of the model's shape, for an avatar that touches it.
+/// @param s  [m] where the last contact was   @param memory  touching   @param contact  out, where the answer is true
+/// @return false where the contact may be elsewhere
+template <class Model>
+[[nodiscard]] bool find_contact_near(const Model& model, typename Model::Scalar s,
+                                     const Avatar<typename Model::Scalar>& avatar,
+                                     ContactMemory<typename Model::Scalar>& memory,
+                                     Contact<typename Model::Scalar>& contact) noexcept {
+  using Scalar = typename Model::Scalar;
+  constexpr Scalar slack = 1 + 16 * std::numeric_limits<Scalar>::epsilon();
+  const Vector2<Scalar>& q = avatar.position;
+  const auto x = [](const CentrelineNode<Scalar>& node) { return node.s + node.u; };
+  Scalar low = s, high = s;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const CentrelinePart<Scalar> part = part_of(model, low, high);
+    const Centreline<Scalar>& line = part.line;
+    if (line.any_rotation()) return false;
+    const NearestPoint<Scalar> nearest = nearest_along_x(line, q);
+    if (nearest.segment < 0) return false;
+    const Scalar d = std::sqrt(nearest.at.distance_squared) * slack;
+    const CentrelineNode<Scalar>&first = line[0], &last = line[line.segments()];
+    const bool left = part.begins() || x(first) < q.x() - d, right = part.ends() || x(last) > q.x() + d;
+    if (left && right) {
+      contact = contact_at(nearest, part, avatar, model.thickness(), memory, [] { return Crossings{}; });
+      return true;
+    }
+    if (!left) low = std::min(low, q.x() - d - first.u);
+    if (!right) high = std::max(high, q.x() + d - last.u);
+  }
+  return false;
+}
+
+}  // namespace hapbeam::detail

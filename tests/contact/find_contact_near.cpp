@@ -1,0 +1,88 @@
+// The contact sought where it was, against the one that is sought on the whole shape: the same, to the bit, or not found.
+#include <cmath>
+#include <limits>
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include "support/thesis_beam.hpp"
+#include <hapbeam/contact/find_contact_near.hpp>
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+struct Tried {
+  int found = 0, elsewhere = 0, apart = 0;
+};
+
+/// Presses anywhere, then looks from avatars near and far, fine and coarse, remembered at the right place or another.
+template <class Model>
+Tried try_random(Model model, int presses) {
+  using Scalar = typename Model::Scalar;
+  const Range<Scalar> range = model.range();
+  const double length = static_cast<double>(model.shape().length());
+  Random random(17);
+  Tried tried;
+  for (int k = 0; k < presses; ++k) {
+    const Scalar s = static_cast<Scalar>(random(range.s_min, range.s_max));
+    model.press({s, static_cast<Scalar>(random(1)) * range.depth_at(s)});
+    BoundingVolumes<Scalar> volumes(model.shape().segments());
+    for (int j = 0; j < 20; ++j) {
+      const double far = std::pow(10, random(-5, 0)) * length;
+      const Displacement<Scalar> at = part_of(model, s, s).line.at(s);
+      const Vector2<Scalar> q(s + at.u + static_cast<Scalar>(random(far)),
+                              at.w + static_cast<Scalar>(random(far)));
+      const Avatar<Scalar> avatar{q, static_cast<Scalar>(random(0.0, 0.05) * length)};
+      const Scalar from = j % 4 == 3 ? static_cast<Scalar>(random(0.0, length)) : s;
+      const int side = random.integer(0, 1) ? 1 : -1;
+      ContactMemory<Scalar> near{q, true, true, j % 2 == 0, side}, all = near;
+      Contact<Scalar> found;
+      if (!detail::find_contact_near(model, from, avatar, near, found)) {
+        ++tried.elsewhere;
+        continue;
+      }
+      ++tried.found;
+      volumes.refit(model.shape());
+      const Contact<Scalar> whole = find_contact(avatar, model.shape(), volumes, model.thickness(), all);
+      const bool alike = found.touching == whole.touching && found.side == whole.side &&
+                         found.segment == whole.segment && found.past_end == whole.past_end &&
+                         found.s == whole.s && found.depth == whole.depth && found.foot == whole.foot &&
+                         found.normal == whole.normal && near.through == all.through;
+      tried.apart += !alike;
+    }
+  }
+  return tried;
+}
+
+}  // namespace
+
+TEST_CASE("near where it was the contact is that of the whole shape, and little is looked at") {
+  const Beam bar = thesis_beam(Support::pinned, Support::pinned);
+  SECTION("finite elements, to the bit") {
+    const Tried tried = try_random(FemModel<>(bar, 16), 1000);
+    CHECK(tried.apart == 0);
+    CHECK(tried.found > 10000);
+  }
+  SECTION("a cantilever, in float") {
+    const Tried tried =
+        try_random(FemModel<VonKarman<>, float>(thesis_beam(Support::clamped, Support::free), 32), 1000);
+    CHECK(tried.apart == 0);
+    CHECK(tried.found > 10000);
+  }
+}
+
+TEST_CASE("of beams of any rotation, and of what is no position, nothing is said") {
+  const Beam bar = thesis_beam(Support::pinned, Support::pinned);
+  FemModel<Corotational<>> turning(bar, 8);
+  FemModel<> straight(bar, 8);
+  Contact<double> contact;
+  ContactMemory<double> memory{{0, 0}, true, true, false, 1};
+  CHECK_FALSE(detail::find_contact_near(turning, 1.0, {{1.0, 0.0}, 0.01}, memory, contact));
+  constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(detail::find_contact_near(straight, 1.0, {{1.0, not_a_number}, 0.01}, memory, contact));
+  CHECK_FALSE(detail::find_contact_near(straight, 1.0, {{1e200, 0.0}, 0.01}, memory, contact));
+  CHECK(detail::find_contact_near(straight, 1.0, {{1.0, 0.0}, 0.01}, memory, contact));
+}
