@@ -8,6 +8,8 @@
 // the reaction (thesis eq. 3.40–3.42).  Elements of any rotation take a push() along any direction as well.  A beam with
 // more than one shape at rest keeps to the branch on which it is; where that ends or gives way it falls to a stable one,
 // and the status says snapped.
+// A straight beam without dead loads whose ends stand no closer than it is long has one unknown, the tension; of elements whose
+// membrane strain is one number the model solves for that alone, with the same answers (taut_system.hpp).
 // Composed of policies: Element × Assembler × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
@@ -36,7 +38,7 @@ namespace hapbeam {
 /// @tparam Element    Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain> | Corotational<…>
 /// @tparam ScalarType double | float
 /// @tparam Elements   number of elements, or Eigen::Dynamic      @tparam MaxElements  largest number, or Eigen::Dynamic
-/// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates)   @tparam Solver  NewtonRaphson
+/// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates, and always of all displacements)   @tparam Solver  NewtonRaphson
 template <class Element = VonKarman<AssumedStrain>, typename ScalarType = double,
           int Elements = Eigen::Dynamic, int MaxElements = Elements,
           template <typename, int, int> class Assembler = BlockTridiagonal, class Solver = NewtonRaphson>

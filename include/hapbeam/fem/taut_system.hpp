@@ -67,6 +67,7 @@ class TautSystem {
     const ContactMesh<Scalar> mesh(elements(), length_);
     set_goal(mesh, 0, 0);
     tension_ = between_ends_ ? drawn_ : Scalar(0);
+    known_ = {tension_, 0, 0};
     d_ = 0;
     for (int i = 0; i <= elements(); ++i) nodes_[i].s = mesh.position(i);
     lay();
@@ -77,13 +78,21 @@ class TautSystem {
     mesh_node_ = mesh.node();
     mesh_s_ = mesh.s();
     spans_.set(mesh_node_, elements() - mesh_node_, mesh_s_ / length_, lever / length_);
-    start_d_ = centreline().at(mesh_s_ + lever).w / length_;
+    contact_s_ = mesh_s_ + lever;
     goal_d_ = d / length_;
   }
 
   // What NewtonRaphson asks of a system, in units of EI/L.
 
-  void set_target(Scalar t) noexcept { d_ = t < 1 ? start_d_ + t * (goal_d_ - start_d_) : goal_d_; }
+  void set_target(Scalar t) noexcept {
+    d_ = goal_d_;
+    if (t < 1) {
+      const Scalar start = centreline().at(contact_s_).w / length_;
+      d_ = start + t * (goal_d_ - start);
+    }
+    // The predictor: what the last function says of the new depth.
+    if (between_ends_) tension_ = known_.tension + fit(known_, d_);
+  }
   void save() noexcept {
     saved_tension_ = tension_;
     saved_d_ = d_;
@@ -98,16 +107,16 @@ class TautSystem {
   Iteration<Scalar> iterate() noexcept {
     using std::sqrt;
     const detail::Taylor<Scalar> k = spans_.stiffness(tension_);
-    const Scalar square = d_ * d_, longer = k.c1 * square / 2,
-                 by_tension = std::min(k.c2 * square, Scalar(0));
+    const Scalar square = d_ * d_, longer = k.c1 * square / 2;
     const Scalar doubled = k.c0 * square - 2 * tension_ * longer + tension_ * tension_ * flexibility_;
     size_ = sqrt(std::max(doubled, Scalar(0)));
-    if (!(std::isfinite(doubled) && std::isfinite(longer))) return {Status::non_finite, 0};
+    if (!(std::isfinite(doubled) && std::isfinite(k.c2))) return {Status::non_finite, 0};
     if (!between_ends_) return {Status::ok, 0};
-    const Scalar change = fit(longer, by_tension);
+    known_ = {tension_, k.c1 / 2, k.c2 < 0 ? -k.c2 / k.c1 : Scalar(0)};
+    const Scalar change = fit(known_, d_);
     tension_ += change;
     return {std::isfinite(tension_) ? Status::ok : Status::non_finite,
-            std::abs(change) * sqrt(flexibility_ - by_tension)};
+            std::abs(change) * sqrt(flexibility_ + 2 * known_.beta * longer)};
   }
 
   /// Computes the shape that belongs to tension and d, and its force.
@@ -135,18 +144,23 @@ class TautSystem {
   }
 
  private:
-  /// Change of ν to where arc and chord fit:  (ν + δ - δ0)(1 + βδ)² = longer/flexibility,  β = -by_tension/(2 longer).
-  Scalar fit(Scalar longer, Scalar by_tension) const noexcept {
-    const Scalar above = tension_ - drawn_, wanted = longer / flexibility_;
-    if (!(longer > std::numeric_limits<Scalar>::min())) return -above;
-    const Scalar beta = -by_tension / (2 * longer);
+  /// How much longer than its chord the arc is, over d², as far as it is known: rate/(1 + β (ν - tension))².
+  struct Longer {
+    Scalar tension, rate, beta;
+  };
+
+  /// Change of ν to where arc and chord fit:  (ν + δ - δ0)(1 + βδ)² = rate d²/flexibility.
+  Scalar fit(const Longer& known, Scalar d) const noexcept {
+    const Scalar above = known.tension - drawn_, wanted = known.rate * d * d / flexibility_,
+                 beta = known.beta;
     // From 0 the first step may pass the root; from beyond it Newton's method comes back without passing again.
     Scalar change = 0;
     for (int k = 0; k < 60; ++k) {
       const Scalar q = 1 + beta * change, p = above + change;
       const Scalar step = (wanted - p * q * q) / (q * (q + 2 * beta * p));
       change += step;
-      if (std::abs(step) <= Scalar(1e-5) * std::abs(change)) break;
+      // What is left is of second order, as what the function has left out.
+      if (beta * std::abs(step) <= Scalar(1e-2) * q) break;
     }
     return change;
   }
@@ -158,8 +172,9 @@ class TautSystem {
   Scalar place_[2];  // u of the ends [L]
   Scalar drawn_;     // ν at rest
   int mesh_node_ = 0;
-  Scalar mesh_s_ = 0;
-  Scalar tension_ = 0, saved_tension_ = 0, d_ = 0, saved_d_ = 0, start_d_ = 0, goal_d_ = 0;
+  Scalar mesh_s_ = 0, contact_s_ = 0;
+  Longer known_{0, 0, 0};
+  Scalar tension_ = 0, saved_tension_ = 0, d_ = 0, saved_d_ = 0, goal_d_ = 0;
   Scalar size_ = 0, stiffness_ = 0;
 };
 

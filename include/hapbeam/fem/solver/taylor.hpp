@@ -7,13 +7,28 @@
 // Real-time: noexcept, no allocation, O(1).   Source: Griewank and Walther, Evaluating Derivatives, 2008, ch. 13.
 #pragma once
 
+#include <hapbeam/fem/solver/lanes.hpp>
+
 namespace hapbeam::detail {
 
-/// @tparam V  a scalar, or an array of them that is computed entry by entry
+/// @tparam V  a scalar, or Lanes
 template <typename V>
 struct Taylor {
   V c0, c1, c2;
 };
+
+/// a + bc
+[[gnu::always_inline]] inline float add_product(float a, float b, float c) noexcept { return a + b * c; }
+[[gnu::always_inline]] inline double add_product(double a, double b, double c) noexcept { return a + b * c; }
+[[gnu::always_inline]] inline long double add_product(long double a, long double b, long double c) noexcept {
+  return a + b * c;
+}
+template <typename V>
+[[gnu::always_inline]] inline Taylor<V> add_product(const Taylor<V>& a, const Taylor<V>& b,
+                                                    const Taylor<V>& c) noexcept {
+  return {add_product(a.c0, b.c0, c.c0), add_product(add_product(a.c1, b.c0, c.c1), b.c1, c.c0),
+          add_product(add_product(add_product(a.c2, b.c0, c.c2), b.c1, c.c1), b.c2, c.c0)};
+}
 
 template <typename V>
 [[gnu::always_inline]] inline Taylor<V> operator+(const Taylor<V>& a, const Taylor<V>& b) noexcept {
@@ -25,20 +40,8 @@ template <typename V>
 }
 template <typename V>
 [[gnu::always_inline]] inline Taylor<V> operator*(const Taylor<V>& a, const Taylor<V>& b) noexcept {
-  return {a.c0 * b.c0, a.c0 * b.c1 + a.c1 * b.c0, a.c0 * b.c2 + a.c1 * b.c1 + a.c2 * b.c0};
-}
-
-/// a + bc
-template <typename V>
-[[gnu::always_inline]] inline V add_product(const V& a, const V& b, const V& c) noexcept {
-  return a + b * c;
-}
-template <typename V>
-[[gnu::always_inline]] inline Taylor<V> add_product(const Taylor<V>& a, const Taylor<V>& b,
-                                                    const Taylor<V>& c) noexcept {
-  // In an order in which each product is summed as it is made.
-  return {a.c0 + b.c0 * c.c0, (a.c1 + b.c0 * c.c1) + b.c1 * c.c0,
-          ((a.c2 + b.c0 * c.c2) + b.c1 * c.c1) + b.c2 * c.c0};
+  return {a.c0 * b.c0, add_product(V(a.c0 * b.c1), a.c1, b.c0),
+          add_product(add_product(V(a.c0 * b.c2), a.c1, b.c1), a.c2, b.c0)};
 }
 
 /// a times a constant
@@ -52,14 +55,18 @@ template <typename V>
 }
 
 /// 1/a
-template <typename V>
-[[gnu::always_inline]] inline V inverse(const V& a) noexcept {
+template <typename Scalar>
+[[gnu::always_inline]] inline Scalar inverse(const Scalar& a) noexcept {
   return 1 / a;
+}
+template <typename Scalar>
+[[gnu::always_inline]] inline Lanes<Scalar> inverse(const Lanes<Scalar>& a) noexcept {
+  return Lanes<Scalar>::both(1) / a;
 }
 template <typename V>
 [[gnu::always_inline]] inline Taylor<V> inverse(const Taylor<V>& a) noexcept {
-  const V i = 1 / a.c0, j = -a.c1 * i * i;
-  return {i, j, -(a.c2 * i + a.c1 * j) * i};
+  const V i = inverse(a.c0), j = -(a.c1 * i * i);
+  return {i, j, -(add_product(V(a.c2 * i), a.c1, j) * i)};
 }
 
 /// The value alone.

@@ -23,7 +23,7 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
+#include <type_traits>
 
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
@@ -34,8 +34,7 @@ namespace hapbeam::detail {
 
 template <class Element, typename Scalar, int Elements, int MaxElements>
 class TwoSpans {
-  /// One value of the left span, one of the right.
-  using Lanes = Eigen::Array<Scalar, 2, 1>;
+  using Pair = Lanes<Scalar>;  // of the left and of the right span
 
  public:
   TwoSpans(int elements, Support left, Support right) : rows_(elements), supports_{left, right} {
@@ -44,20 +43,22 @@ class TwoSpans {
       const auto k = Element::respond(ElementProperties<Scalar>(1, 1, bending),
                                       Deformation<Scalar>(stretch, Scalar(0), Scalar(0)))
                          .k;
-      return Terms{k.rr, k.r1, k.t11, k.t12};
+      return Terms{Pair::both(k.rr), Pair::both(k.r1), Pair::both(k.t11), Pair::both(k.t12)};
     };
     bent_ = terms(1, 0);
     taut_ = terms(0, 1);
-    const Scalar bent = bent_.t11 + bent_.t12, taut = taut_.t11 + taut_.t12;
-    turning_ = bent * taut_.rr + taut * bent_.rr - 4 * bent_.r * taut_.r;
-    turning_taut_ = taut * taut_.rr - 2 * taut_.r * taut_.r;
-    for (int side = 0; side < 2; ++side) {
-      const bool w = fixes_w(supports_[side]), theta = fixes_theta(supports_[side]);
-      yields_[side] = !w && !theta;
-      holds_w_[side] = w && !theta;
-      holds_theta_[side] = theta && !w;
-      holds_both_[side] = w && theta;
-    }
+    const Pair bent = bent_.t11 + bent_.t12, taut = taut_.t11 + taut_.t12, four = Pair::both(4),
+               two = Pair::both(2);
+    turning_ = bent * taut_.rr + taut * bent_.rr - four * bent_.r * taut_.r;
+    turning_taut_ = taut * taut_.rr - two * taut_.r * taut_.r;
+    const auto where = [&](bool w, bool theta) {
+      const auto is = [&](Support s) { return Scalar(fixes_w(s) == w && fixes_theta(s) == theta); };
+      return Pair(is(left), is(right));
+    };
+    yields_ = where(false, false);
+    holds_w_ = where(true, false);
+    holds_theta_ = where(false, true);
+    holds_both_ = where(true, true);
   }
 
   /// Puts the inner node where the contact is.  A side may have no element; its support is then at the node.
@@ -65,8 +66,8 @@ class TwoSpans {
   void set(int left, int right, Scalar s, Scalar lever) noexcept {
     count_[0] = left;
     count_[1] = right;
-    length_ = {left > 0 ? s / Scalar(left) : Scalar(1), right > 0 ? (1 - s) / Scalar(right) : Scalar(1)};
-    inverse_length_ = 1 / length_;
+    length_ = Pair(left > 0 ? s / Scalar(left) : Scalar(1), right > 0 ? (1 - s) / Scalar(right) : Scalar(1));
+    inverse_length_ = inverse(length_);
     lever_ = lever;
     turns_ = (left > 0 || !fixes_theta(supports_[0])) && (right > 0 || !fixes_theta(supports_[1]));
   }
@@ -74,8 +75,8 @@ class TwoSpans {
   /// Force at the contact over its displacement k(ν), and its derivatives.  ½ k' d² is by how much the slope makes the beam
   /// longer than its chord [L].
   Taylor<Scalar> stiffness(Scalar tension) const noexcept {
-    const Lanes square = length_ * length_;
-    const auto element = under(Taylor<Lanes>{tension * square, square, Lanes::Zero()});
+    const Pair square = length_ * length_;
+    const auto element = under(Taylor<Pair>{Pair::both(tension) * square, square, Pair::both(0)});
     return join(element, condense(element, [](auto&&...) {})).stiffness;
   }
 
@@ -84,30 +85,34 @@ class TwoSpans {
   /// @return k(ν)
   template <class Visit>
   Scalar lay(Scalar tension, Scalar flexibility, Scalar d, Visit&& visit) noexcept {
-    const auto k = under(Lanes(tension * length_ * length_));
+    const auto k = under(Pair(Pair::both(tension) * length_ * length_));
     int row = 0;
-    const auto condensed = condense(k, [&](const Span<Lanes>& x, const Lanes& sigma) {
-      const Lanes i = 1 / sigma;
-      rows_[row++] = {(x.sigma + k.rr_D * x.e + k.r_D * x.b) * i,
-                      (k.shear_D * x.sigma + k.r_D * x.e + k.t12_D * x.b) * i,
-                      (k.rr_D * x.b + k.r_D * x.a) * -i, (x.sigma - k.r_D * x.b - k.t12_D * x.a) * i};
+    const auto condensed = condense(k, [&](const Span<Pair>& x, const Pair& sigma) {
+      const Pair i = inverse(sigma);
+      rows_[row++] = {add_product(add_product(x.sigma, k.rr_D, x.e), k.r_D, x.b) * i,
+                      add_product(add_product(Pair(k.shear_D * x.sigma), k.r_D, x.e), k.t12_D, x.b) * i,
+                      add_product(Pair(k.rr_D * x.b), k.r_D, x.a) * -i,
+                      (x.sigma - k.r_D * x.b - k.t12_D * x.a) * i};
     });
     const auto joint = join(k, condensed);
     const Scalar theta = joint.turn * d, at_node = d + lever_ * theta;
     visit(count_[0], Scalar(0), at_node, theta);
-    const Lanes mirror(1, -1), turn = mirror * inverse_length_, stretch = length_ * (tension * flexibility),
-                               half = inverse_length_ / 2;
-    Lanes w = Lanes::Constant(at_node), phi = mirror * length_ * theta, shortened = Lanes::Zero();
+    const Pair mirror(1, -1), turn = mirror * inverse_length_, two = Pair::both(2),
+                              half = inverse_length_ / two,
+                              stretch = length_ * Pair::both(tension * flexibility);
+    Pair w = Pair::both(at_node), phi = mirror * length_ * Pair::both(theta), shortened = Pair::both(0);
     const int most = std::max(count_[0], count_[1]);
     for (int j = 1; j <= most; ++j) {
       const Row& x = rows_[most - j];
-      const Lanes outer = x.ww * w + x.wp * phi, turned = x.pw * w + x.pp * phi, rise = w - outer;
-      shortened += half * (rise * (taut_.rr * rise + 2 * taut_.r * (phi + turned)) +
-                           taut_.t11 * (phi * phi + turned * turned) + 2 * taut_.t12 * phi * turned) -
-                   stretch;
+      const Pair outer = add_product(Pair(x.ww * w), x.wp, phi),
+                 turned = add_product(Pair(x.pw * w), x.pp, phi), rise = w - outer;
+      const Pair by_rise = rise * add_product(Pair(taut_.rr * rise), two * taut_.r, phi + turned);
+      const Pair by_turn = add_product(Pair(phi * phi), turned, turned) * taut_.t11;
+      shortened = add_product(Pair(shortened - stretch), half,
+                              add_product(Pair(by_rise + by_turn), two * taut_.t12, Pair(phi * turned)));
       w = outer;
       phi = turned;
-      const Lanes angle = turn * phi;
+      const Pair angle = turn * phi;
       if (j <= count_[0]) visit(count_[0] - j, shortened[0], w[0], angle[0]);
       if (j <= count_[1]) visit(count_[0] + j, -shortened[1], w[1], angle[1]);
     }
@@ -117,7 +122,7 @@ class TwoSpans {
  private:
   /// An element's tangent in (rise, lθ1, lθ2).
   struct Terms {
-    Scalar rr, r, t11, t12;
+    Pair rr, r, t11, t12;
   };
   /// An element of length and EI 1 under tension, as above.
   template <class T>
@@ -132,25 +137,39 @@ class TwoSpans {
   };
   /// (w, φ) of a node by those of the next one inward.
   struct Row {
-    Lanes ww, wp, pw, pp;
+    Pair ww, wp, pw, pp;
   };
   template <class T>
   struct Joint {
     T stiffness, turn;  // force and θ of the inner node, by d
   };
 
-  static constexpr Scalar large = Scalar(1e12);  // of a σ that is brought back to 1
+  /// Of a σ that is brought back to 1: a product of two, over l⁴, is a number.
+  static constexpr Scalar large = std::is_same_v<Scalar, float> ? Scalar(1e6) : Scalar(1e12);
 
-  [[gnu::always_inline]] static Lanes linear(Scalar a, Scalar b, const Lanes& x) noexcept {
-    return a + b * x;
+  [[gnu::always_inline]] static Pair linear(const Pair& a, const Pair& b, const Pair& x) noexcept {
+    return add_product(a, b, x);
   }
-  [[gnu::always_inline]] static Taylor<Lanes> linear(Scalar a, Scalar b, const Taylor<Lanes>& x) noexcept {
-    return {a + b * x.c0, b * x.c1, b * x.c2};
+  [[gnu::always_inline]] static Taylor<Pair> linear(const Pair& a, const Pair& b,
+                                                    const Taylor<Pair>& x) noexcept {
+    return {add_product(a, b, x.c0), b * x.c1, b * x.c2};
   }
-  static void constant(const Lanes& a, Lanes& x) noexcept { x = a; }
-  static void constant(const Lanes& a, Taylor<Lanes>& x) noexcept { x = {a, Lanes::Zero(), Lanes::Zero()}; }
-  static Scalar side(const Lanes& x, int i) noexcept { return x[i]; }
-  static Taylor<Scalar> side(const Taylor<Lanes>& x, int i) noexcept { return {x.c0[i], x.c1[i], x.c2[i]}; }
+  static void constant(const Pair& a, Pair& x) noexcept { x = a; }
+  static void constant(const Pair& a, Taylor<Pair>& x) noexcept { x = {a, Pair::both(0), Pair::both(0)}; }
+  static Pair swapped(const Pair& x) noexcept { return x.swapped(); }
+  static Taylor<Pair> swapped(const Taylor<Pair>& x) noexcept {
+    return {x.c0.swapped(), x.c1.swapped(), x.c2.swapped()};
+  }
+  static Scalar sum(const Pair& x) noexcept { return x[0] + x[1]; }
+  static Taylor<Scalar> sum(const Taylor<Pair>& x) noexcept { return {sum(x.c0), sum(x.c1), sum(x.c2)}; }
+  static Scalar difference(const Pair& x) noexcept { return x[0] - x[1]; }
+  static Taylor<Scalar> difference(const Taylor<Pair>& x) noexcept {
+    return {difference(x.c0), difference(x.c1), difference(x.c2)};
+  }
+  static Scalar product(const Pair& x) noexcept { return x[0] * x[1]; }
+  static Taylor<Scalar> product(const Taylor<Pair>& x) noexcept {
+    return Taylor<Scalar>{x.c0[0], x.c1[0], x.c2[0]} * Taylor<Scalar>{x.c0[1], x.c1[1], x.c2[1]};
+  }
 
   /// @param n  tension times l²
   template <class T>
@@ -181,7 +200,7 @@ class TwoSpans {
     Span<T> x;
     constant(yields_, x.sigma);
     constant(holds_w_, x.a);
-    constant(Lanes::Zero(), x.b);
+    constant(Pair::both(0), x.b);
     constant(holds_theta_, x.e);
     x.e = x.e + scaled(yields_, k.c);
     x.d = scaled(holds_both_, k.i_D) + scaled(holds_w_, T(k.c * k.i_D));
@@ -204,7 +223,7 @@ class TwoSpans {
       x.e = add_product(add_product(e, k.h, x.d), k.c2, sigma);
       x.d = add_product(x.d, k.c2_D, x.a);
       if (value(sigma)[0] > large || value(sigma)[1] > large) {
-        const Lanes q = 1 / value(sigma);
+        const Pair q = inverse(value(sigma));
         x = {scaled(q, x.sigma), scaled(q, x.a), scaled(q, x.b), scaled(q, x.e), scaled(q, x.d)};
       }
     }
@@ -221,7 +240,7 @@ class TwoSpans {
     if (wait > 0) {
       x = add(k, start, wait, visit);
       const Scalar left = count_[0] > count_[1] ? 1 : 0;
-      const Lanes on(left, 1 - left), anew = 1 - on;
+      const Pair on(left, 1 - left), anew = on.swapped();
       const auto mix = [&](const T& a, const T& b) { return T(scaled(on, a) + scaled(anew, b)); };
       x = {mix(x.sigma, start.sigma), mix(x.a, start.a), mix(x.b, start.b), mix(x.e, start.e),
            mix(x.d, start.d)};
@@ -229,37 +248,33 @@ class TwoSpans {
     return add(k, x, most - wait, visit);
   }
 
-  /// Both meet at the inner node.
+  /// Both meet at the inner node, where S, in w and θ, is the sum of both: for either the other's σ is the denominator.
   template <class T>
   [[gnu::always_inline]] auto join(const Under<T>& k, const Span<T>& x) const noexcept {
-    const Lanes there(count_[0] > 0 ? 1 : 0, count_[1] > 0 ? 1 : 0);
-    const Lanes i1 = there * inverse_length_, i2 = i1 * i1;
-    const T i = inverse(x.sigma), a = x.a * i, b = x.b * i, e = x.e * i - k.c, d = x.d * k.D * i - k.c * a;
-    // In w and θ, which is φ/l on the left and -φ/l on the right.
-    const T A = scaled(Lanes(i1 * i2), a), B = scaled(i2, b), E = scaled(i1, e),
-            det = scaled(Lanes(i2 * i2), d);
-    using R = decltype(side(a, 0));
-    const R a0 = side(A, 0), a1 = side(A, 1), b0 = side(B, 0), b1 = side(B, 1), e0 = side(E, 0),
-            e1 = side(E, 1);
-    const R stiff = a0 + a1, across = b0 - b1;
-    if (!turns_) return Joint<R>{stiff, stiff - stiff};
-    R turning = e0 + e1, slide = across;
+    const Pair there(Scalar(count_[0] > 0), Scalar(count_[1] > 0));
+    const Pair i1 = there * inverse_length_, i2 = i1 * i1, i3 = i1 * i2, i4 = i2 * i2;
+    // φ/l is θ on the left and -θ on the right.
+    const T a = scaled(i3, x.a), b = scaled(i2, x.b), e = scaled(i1, T(x.e - k.c * x.sigma)),
+            d = scaled(i4, T(x.d * k.D - k.c * x.a)), other = swapped(x.sigma);
+    const auto det = sum(T(add_product(add_product(T(d * other), a, swapped(e)), b, swapped(b))));
+    const auto stiff = sum(T(a * other)), across = difference(T(b * other));
+    using R = std::decay_t<decltype(stiff)>;
+    if (!turns_) return Joint<R>{R(stiff * inverse(product(x.sigma))), stiff - stiff};
+    R turning = sum(T(e * other)), slide = across;
     if (lever_ != 0) {
-      const R arm = scaled(lever_, stiff);
-      turning = turning + scaled(lever_, R(across + across + arm));
-      slide = across + arm;
+      slide = across + scaled(lever_, stiff);
+      turning = turning + scaled(lever_, R(across + slide));
     }
-    const R by = inverse(turning), both = b0 * b1;
-    return Joint<R>{(side(det, 0) + side(det, 1) + a0 * e1 + a1 * e0 + both + both) * by,
-                    scaled(Scalar(-1), R(slide * by))};
+    const R by = inverse(turning);
+    return Joint<R>{det * by, scaled(Scalar(-1), R(slide * by))};
   }
 
   PerNode<Row, Elements, MaxElements> rows_;
   Support supports_[2];
-  Terms bent_, taut_;                                  // by bending alone, and by a unit of tension
-  Scalar turning_ = 0, turning_taut_ = 0;              // of c
-  Lanes yields_, holds_w_, holds_theta_, holds_both_;  // 1 or 0
-  Lanes length_ = Lanes::Ones(), inverse_length_ = Lanes::Ones();
+  Terms bent_, taut_;                                 // by bending alone, and by a unit of tension
+  Pair turning_, turning_taut_;                       // of c
+  Pair yields_, holds_w_, holds_theta_, holds_both_;  // 1 or 0
+  Pair length_ = Pair::both(1), inverse_length_ = Pair::both(1);
   Scalar lever_ = 0;
   int count_[2] = {0, 0};
   bool turns_ = true;
