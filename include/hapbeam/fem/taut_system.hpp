@@ -121,13 +121,13 @@ class TautSystem {
 
   /// Computes the shape that belongs to tension and d, and its force.
   void lay() noexcept {
-    const Scalar left = mesh_s_ / Scalar(std::max(mesh_node_, 1)),
-                 right = (length_ - mesh_s_) / Scalar(std::max(elements() - mesh_node_, 1));
     const int last = elements();
-    stiffness_ = spans_.lay(tension_, flexibility_, d_, [&](int i, Scalar u, Scalar w, Scalar theta) {
-      const Scalar s = i < mesh_node_ ? left * Scalar(i) : length_ - right * Scalar(last - i);
-      nodes_[i] = {i == mesh_node_ ? mesh_s_ : s, u * length_, w * length_, theta};
-    });
+    const auto place = [this](int i, Scalar distance, Scalar u, Scalar w, Scalar theta) {
+      nodes_[i] = {mesh_s_ + distance, u, w, theta};
+    };
+    stiffness_ = spans_.lay(tension_, flexibility_, d_, length_, place);
+    nodes_[0].s = 0;
+    nodes_[last].s = length_;
     const Scalar shift =
         from_left_ ? place_[0] * length_ - nodes_[0].u : place_[1] * length_ - nodes_[last].u;
     for (Node& node : nodes_) node.u += shift;

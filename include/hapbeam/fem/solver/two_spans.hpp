@@ -80,11 +80,12 @@ class TwoSpans {
     return join(element, condense(element, [](auto&&...) {})).stiffness;
   }
 
-  /// The shape in which the contact is displaced by d.  @param d [L]   @param flexibility  EI/(EA L²)
-  /// @param visit  (node, u, w, θ) for all nodes, from the inner one outward: u [L] against that of the inner node, w [L]
-  /// @return k(ν)
+  /// The shape in which the contact is displaced by d.
+  /// @param flexibility  EI/(EA L²)   @param d [L]   @param length  L [m]
+  /// @param visit  (node, distance, u, w, θ) for all nodes, from the inner one outward: distance and u [m] from those of the
+  ///               inner node, w [m]   @return k(ν)
   template <class Visit>
-  Scalar lay(Scalar tension, Scalar flexibility, Scalar d, Visit&& visit) noexcept {
+  Scalar lay(Scalar tension, Scalar flexibility, Scalar d, Scalar length, Visit&& visit) noexcept {
     const auto k = under(Pair(Pair::both(tension) * length_ * length_));
     int row = 0;
     const auto condensed = condense(k, [&](const Span<Pair>& x, const Pair& sigma) {
@@ -96,26 +97,37 @@ class TwoSpans {
     });
     const auto joint = join(k, condensed);
     const Scalar theta = joint.turn * d, at_node = d + lever_ * theta;
-    visit(count_[0], Scalar(0), at_node, theta);
-    const Pair mirror(1, -1), turn = mirror * inverse_length_, two = Pair::both(2),
-                              half = inverse_length_ / two,
-                              stretch = length_ * Pair::both(tension * flexibility);
+    visit(count_[0], Scalar(0), Scalar(0), at_node * length, theta);
+    const Pair mirror(1, -1), unit = Pair::both(length), two = Pair::both(2);
+    const Pair turn = mirror * inverse_length_, along = -(mirror * unit * length_), to_right = mirror * unit;
+    const Pair stretch = length_ * Pair::both(tension * flexibility), half = inverse_length_ / two;
+    const Pair r2 = two * taut_.r, t2 = two * taut_.t12;
     Pair w = Pair::both(at_node), phi = mirror * length_ * Pair::both(theta), shortened = Pair::both(0);
-    const int most = std::max(count_[0], count_[1]);
-    for (int j = 1; j <= most; ++j) {
+    const int least = std::min(count_[0], count_[1]), most = std::max(count_[0], count_[1]);
+    const auto outward = [&](int j, auto&& place) {
       const Row& x = rows_[most - j];
       const Pair outer = add_product(Pair(x.ww * w), x.wp, phi),
                  turned = add_product(Pair(x.pw * w), x.pp, phi), rise = w - outer;
-      const Pair by_rise = rise * add_product(Pair(taut_.rr * rise), two * taut_.r, phi + turned);
+      const Pair by_rise = rise * add_product(Pair(taut_.rr * rise), r2, phi + turned);
       const Pair by_turn = add_product(Pair(phi * phi), turned, turned) * taut_.t11;
       shortened = add_product(Pair(shortened - stretch), half,
-                              add_product(Pair(by_rise + by_turn), two * taut_.t12, Pair(phi * turned)));
+                              add_product(Pair(by_rise + by_turn), t2, Pair(phi * turned)));
       w = outer;
       phi = turned;
-      const Pair angle = turn * phi;
-      if (j <= count_[0]) visit(count_[0] - j, shortened[0], w[0], angle[0]);
-      if (j <= count_[1]) visit(count_[0] + j, -shortened[1], w[1], angle[1]);
-    }
+      const Pair distance = along * Pair::both(Scalar(j)), u = to_right * shortened, up = unit * w,
+                 angle = turn * phi;
+      place(0, count_[0] - j, distance, u, up, angle);
+      place(1, count_[0] + j, distance, u, up, angle);
+    };
+    const int longer = count_[1] > count_[0] ? 1 : 0;
+    for (int j = 1; j <= least; ++j)
+      outward(j, [&](int i, int node, const Pair& distance, const Pair& u, const Pair& up,
+                     const Pair& angle) { visit(node, distance[i], u[i], up[i], angle[i]); });
+    for (int j = least + 1; j <= most; ++j)
+      outward(j,
+              [&](int i, int node, const Pair& distance, const Pair& u, const Pair& up, const Pair& angle) {
+                if (i == longer) visit(node, distance[i], u[i], up[i], angle[i]);
+              });
     return joint.stiffness;
   }
 
