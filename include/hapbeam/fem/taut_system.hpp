@@ -53,7 +53,8 @@ class TautSystem {
         from_left_(fixes_u(beam.left())),
         place_{static_cast<Scalar>(beam.left_place().u / beam.length()),
                static_cast<Scalar>(beam.right_place().u / beam.length())},
-        drawn_((place_[1] - place_[0]) / flexibility_) {
+        drawn_(static_cast<Scalar>((beam.right_place().u - beam.left_place().u) / beam.length()) /
+               flexibility_) {
     rest();
   }
 
