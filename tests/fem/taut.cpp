@@ -211,17 +211,16 @@ TEST_CASE("a stiffness has the derivatives of its values", "[taut]") {
       }
 }
 
+#if defined(NDEBUG)  // of a program that is optimised
 TEST_CASE("a press under one tension takes a third of the instructions", "[taut]") {
   const auto count = [](auto&& model) {
     double d = 0.02;
     model.press({1.0, d});
     return instructions([&] { model.press({1.0, d += 1e-4}); });
   };
-  const long taut = count(FemModel<>(pinned(), 32)),
-             nodes = count(FemModel<NodeByNode<VonKarman<>>>(pinned(), 32));
-  if (taut < 0) return;
+  const long taut = count(FemModel<>(pinned(), 8)),
+             nodes = count(FemModel<NodeByNode<VonKarman<>>>(pinned(), 8));
   CAPTURE(taut, nodes);
-#ifdef NDEBUG
-  CHECK(3 * taut <= nodes);
-#endif
+  CHECK((taut < 0 || 3 * taut <= nodes));  // -1: this system does not let them be counted
 }
+#endif
