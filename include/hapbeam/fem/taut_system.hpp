@@ -68,7 +68,7 @@ class TautSystem {
     const ContactMesh<Scalar> mesh(elements(), length_);
     set_goal(mesh, 0, 0);
     tension_ = between_ends_ ? drawn_ : Scalar(0);
-    known_ = {tension_, 0, 0};
+    known_ = {contact_s_, tension_, 0, 0};
     d_ = 0;
     for (int i = 0; i <= elements(); ++i) nodes_[i].s = mesh.position(i);
     lay();
@@ -91,8 +91,7 @@ class TautSystem {
       const Scalar start = centreline().at(contact_s_).w / length_;
       d_ = start + t * (goal_d_ - start);
     }
-    // The predictor: what the last function says of the new depth.
-    if (between_ends_) tension_ = known_.tension + fit(known_, d_);
+    if (between_ends_) tension_ = known_.tension + fit(foreseen(), d_);
   }
   void save() noexcept {
     saved_tension_ = tension_;
@@ -113,7 +112,8 @@ class TautSystem {
     size_ = sqrt(std::max(doubled, Scalar(0)));
     if (!(std::isfinite(doubled) && std::isfinite(k.c2))) return {Status::non_finite, 0};
     if (!between_ends_) return {Status::ok, 0};
-    known_ = {tension_, k.c1 / 2, k.c2 < 0 ? -k.c2 / k.c1 : Scalar(0)};
+    if (known_.s != contact_s_) before_ = known_;
+    known_ = {contact_s_, tension_, k.c1 / 2, k.c2 < 0 ? -k.c2 / k.c1 : Scalar(0)};
     const Scalar change = fit(known_, d_);
     tension_ += change;
     return {std::isfinite(tension_) ? Status::ok : Status::non_finite,
@@ -147,8 +147,21 @@ class TautSystem {
  private:
   /// How much longer than its chord the arc is, over d², as far as it is known: rate/(1 + β (ν - tension))².
   struct Longer {
-    Scalar tension, rate, beta;
+    Scalar s, tension, rate, beta;
   };
+
+  /// The predictor: the function of the last press, and where the hand slides on by at most as much again, its rate as it goes
+  /// on from the last two.
+  Longer foreseen() const noexcept {
+    Longer longer = known_;
+    const Scalar moved = contact_s_ - known_.s, way = known_.s - before_.s;
+    if (moved != 0 && std::abs(moved) <= 2 * std::abs(way)) {
+      const Scalar q = 1 + known_.beta * (known_.tension - before_.tension);
+      const Scalar rate = known_.rate + moved / way * (known_.rate - before_.rate / (q * q));
+      if (rate > 0) longer.rate = rate;
+    }
+    return longer;
+  }
 
   /// Change of ν to where arc and chord fit:  (ν + δ - δ0)(1 + βδ)² = rate d²/flexibility.
   Scalar fit(const Longer& known, Scalar d) const noexcept {
@@ -174,7 +187,7 @@ class TautSystem {
   Scalar drawn_;     // ν at rest
   int mesh_node_ = 0;
   Scalar mesh_s_ = 0, contact_s_ = 0;
-  Longer known_{0, 0, 0};
+  Longer known_{0, 0, 0, 0}, before_{0, 0, 0, 0};  // of the last iteration, and at the place before
   Scalar tension_ = 0, saved_tension_ = 0, d_ = 0, saved_d_ = 0, goal_d_ = 0;
   Scalar size_ = 0, stiffness_ = 0;
 };
