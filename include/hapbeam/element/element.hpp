@@ -10,6 +10,8 @@
 //   E::name()                  const char*
 //   E::any_rotation            bool, true: right at any rotation; may be left out, which says no
 //   E::membrane_feels_slope    bool, true: ε holds ½ w'², and an axial load on the element bends it; may be left out, too
+//   E::one_strain              bool, true: the membrane strain is one number, (u2-u1)/l and a quadratic form of rise, lθ1 and
+//                              lθ2, and E has respond(p, e) as below; may be left out, too
 //
 // with p an ElementProperties<S>.  An element is stateless: static functions, templated on the scalar S.
 // Real-time: no allocation, noexcept, O(1).
@@ -153,6 +155,11 @@ struct AnyRotation : std::false_type {};
 template <class E>
 struct AnyRotation<E, std::void_t<decltype(E::any_rotation)>> : std::bool_constant<E::any_rotation> {};
 
+template <class E, typename = void>
+struct OneStrain : std::false_type {};
+template <class E>
+struct OneStrain<E, std::void_t<decltype(E::one_strain)>> : std::bool_constant<E::one_strain> {};
+
 }  // namespace detail
 
 /// True where L has what an element needs of its membrane policy, and an element of any rotation of its local element:
@@ -198,6 +205,10 @@ struct ElementFromCore {
 /// True where E says that it is right at any rotation.
 template <class E>
 inline constexpr bool any_rotation = detail::AnyRotation<E>::value;
+
+/// True where E, or a membrane policy, says that its membrane strain is one number.
+template <class E>
+inline constexpr bool one_strain = detail::OneStrain<E>::value;
 
 /// True where E fulfils the contract above for scalar S, every noexcept included.
 template <typename E, typename S>

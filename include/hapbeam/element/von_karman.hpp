@@ -19,6 +19,7 @@ struct VonKarman : ElementFromCore<VonKarman<Membrane>> {
                 "Deformation<S>&) -> "
                 "CoreResponse<S> and name() -> const char*: see hapbeam/element/membrane.hpp");
   static constexpr bool membrane_feels_slope = true;
+  static constexpr bool one_strain = hapbeam::one_strain<Membrane>;
   static constexpr const char* name() noexcept { return Membrane::name(); }
 
   template <typename S>

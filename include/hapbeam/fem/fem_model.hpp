@@ -8,6 +8,8 @@
 // the reaction (thesis eq. 3.40–3.42).  Elements of any rotation take a push() along any direction as well.  A beam with
 // more than one shape at rest keeps to the branch on which it is; where that ends or gives way it falls to a stable one,
 // and the status says snapped.
+// A straight beam without dead loads whose ends stand no closer than it is long has one unknown, the tension; of elements whose
+// membrane strain is one number the model solves for that alone, with the same answers (taut_system.hpp).
 // Composed of policies: Element × Assembler × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
@@ -22,19 +24,21 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <variant>
 
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/load_path.hpp>
 #include <hapbeam/fem/solver/descent.hpp>
+#include <hapbeam/fem/taut_system.hpp>
 
 namespace hapbeam {
 
 /// @tparam Element    Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain> | Corotational<…>
 /// @tparam ScalarType double | float
 /// @tparam Elements   number of elements, or Eigen::Dynamic      @tparam MaxElements  largest number, or Eigen::Dynamic
-/// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates)   @tparam Solver  NewtonRaphson
+/// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates, and always of all displacements)   @tparam Solver  NewtonRaphson
 template <class Element = VonKarman<AssumedStrain>, typename ScalarType = double,
           int Elements = Eigen::Dynamic, int MaxElements = Elements,
           template <typename, int, int> class Assembler = BlockTridiagonal, class Solver = NewtonRaphson>
@@ -47,20 +51,22 @@ class FemModel {
   /// rest() for how that went.
   /// @param elements two to most_elements(beam)   @throws std::invalid_argument naming field, value and what is allowed
   FemModel(const Beam& beam, int elements, const Solver& solver = {})
-      : system_(beam, at_most(most_elements(beam), elements)),
+      : system_(make_system(beam, at_most(most_elements(beam), elements))),
         rest_nodes_(elements),
-        uniform_(elements, system_.length()),
+        length_(static_cast<Scalar>(beam.length())),
+        uniform_(elements, length_),
         solver_(solver),
         thickness_(static_cast<Scalar>(beam.thickness())),
-        shortest_(uniform_.shortest(system_.length())),
+        shortest_(uniform_.shortest(length_)),
         left_yields_(!fixes_w(beam.left())),
         right_yields_(!fixes_w(beam.right())),
         left_guided_(left_yields_ && fixes_u(beam.left())),
         right_guided_(right_yields_ && fixes_u(beam.right())),
         single_valued_(beam.straight()) {
     find_range(beam);
-    find_rest(beam);
-    for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
+    if (is_taut()) rest_ = report_ = {Status::ok, 0, 1, 1, 0, 1}, single_valued_ = true;
+    else find_rest(beam);
+    for (int i = 0; i <= elements; ++i) rest_nodes_[i] = shape()[i];
     check_rest();
     home_ = middle();
   }
@@ -83,6 +89,8 @@ class FemModel {
     const Press<Scalar> press = range().nearest(request);
     const bool in_range = press.s == request.s && press.d == request.d;
     left_ = solver_.max_solves;
+    if constexpr (may_be_taut)
+      if (taut()) return solve_taut(request.s, press, std::isfinite(request.d), in_range);
     return solve({request.s, press.d, {0, 1}}, press.s, std::isfinite(request.d), in_range);
   }
 
@@ -107,7 +115,11 @@ class FemModel {
                                 : Response<Scalar>{0, Status::non_finite};
   }
 
-  Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
+  Centreline<Scalar> shape() const noexcept {
+    if constexpr (may_be_taut)
+      if (const Taut* system = taut()) return system->centreline();
+    return system().centreline();
+  }
 
   /// Where press() answers with ok.  A support that holds w is rigid: the shortest element keeps its distance from it.
   /// Moderate rotation: |d| up to a tenth of the length and half of the distance to such a support, where it has ended,
@@ -116,7 +128,7 @@ class FemModel {
   /// push() has no such limit.
   Range<Scalar> range() const noexcept {
     constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-    const Scalar length = system_.length();
+    const Scalar length = length_;
     return {left_yields_ ? Scalar(0) : shortest_,
             right_yields_ ? length : length - shortest_,
             depth_,
@@ -135,7 +147,7 @@ class FemModel {
       reset();
       return Status::ok;
     }
-    const auto aim = [this] { system_.set_goal(); };
+    const auto aim = [this] { system().set_goal(); };
     aim();
     report_ = {Status::ok, 0, 0, 0, 0, 1};
     Descent descent;
@@ -147,12 +159,15 @@ class FemModel {
     if (report_.status != Status::snapped) return report_.status;
     const Scalar before = home_;
     home_ = middle();
-    return std::abs(home_ - before) > system_.length() / 1000 ? Status::snapped : Status::ok;
+    return std::abs(home_ - before) > length_ / 1000 ? Status::snapped : Status::ok;
   }
 
   /// Back to rest().
   void reset() noexcept {
-    system_.set_state(uniform_, rest_nodes_.data());
+    if constexpr (may_be_taut) {
+      if (Taut* system = taut()) return system->rest();
+    }
+    system().set_state(uniform_, rest_nodes_.data());
     home_ = middle();
     falling_ = descending_ = false;
   }
@@ -164,10 +179,32 @@ class FemModel {
   /// How the last press ended: linear solves, load steps, estimated increment.
   const SolveReport<Scalar>& report() const noexcept { return report_; }
   /// Strain energy of the present shape [J].
-  Scalar strain_energy() const noexcept { return system_.strain_energy(); }
-  int elements() const noexcept { return system_.elements(); }
+  Scalar strain_energy() const noexcept {
+    if constexpr (may_be_taut)
+      if (const Taut* system = taut()) return system->strain_energy();
+    return system().strain_energy();
+  }
+  int elements() const noexcept { return uniform_.elements(); }
 
  private:
+  using General = BeamSystem<Element, Scalar, Elements, MaxElements, Assembler>;
+  using Taut = TautSystem<Element, Scalar, Elements, MaxElements>;
+  static constexpr bool may_be_taut =
+      one_strain<Element> && std::is_same_v<Assembler<Scalar, Elements, MaxElements>,
+                                            BlockTridiagonal<Scalar, Elements, MaxElements>>;
+  using Systems = std::conditional_t<may_be_taut, std::variant<General, Taut>, std::variant<General>>;
+
+  static Systems make_system(const Beam& beam, int elements) {
+    if constexpr (may_be_taut)
+      if (hapbeam::is_taut(beam)) return Systems(std::in_place_type<Taut>, beam, elements);
+    return Systems(std::in_place_type<General>, beam, elements);
+  }
+  bool is_taut() const noexcept { return system_.index() != 0; }
+  General& system() noexcept { return *std::get_if<General>(&system_); }
+  const General& system() const noexcept { return *std::get_if<General>(&system_); }
+  Taut* taut() noexcept { return std::get_if<Taut>(&system_); }
+  const Taut* taut() const noexcept { return std::get_if<Taut>(&system_); }
+
   static int at_most(int most, int elements) {
     if (elements > most)
       throw std::invalid_argument("elements = " + std::to_string(elements) + ": must be at most " +
@@ -177,7 +214,7 @@ class FemModel {
   }
 
   void find_range(const Beam& beam) noexcept {
-    const Scalar length = system_.length();
+    const Scalar length = length_;
     depth_ = length / 10;
     slope_ = Scalar(0.5);
     if constexpr (any_rotation<Element>) {
@@ -195,12 +232,12 @@ class FemModel {
   }
 
   /// Where the middle of the beam is [m].
-  Scalar middle() const noexcept { return shape().at(system_.length() / 2).w; }
+  Scalar middle() const noexcept { return shape().at(length_ / 2).w; }
 
   /// @throws std::invalid_argument where the scalar does not hold the shape at rest
   [[gnu::cold]] void check_rest() const {
-    bool finite = system_.length() >= std::numeric_limits<Scalar>::min();
-    for (const CentrelineNode<Scalar>& node : system_.centreline())
+    bool finite = length_ >= std::numeric_limits<Scalar>::min();
+    for (const CentrelineNode<Scalar>& node : shape())
       for (const Scalar value : {node.s, node.u, node.w, node.theta}) finite = finite && std::isfinite(value);
     if (!finite)
       throw std::invalid_argument(
@@ -212,18 +249,18 @@ class FemModel {
   /// the model computes in: round-off would hide which way a branch goes on.
   void find_rest(const Beam& beam) {
     if constexpr (std::is_same_v<Scalar, double>) {
-      follow_loads(system_);
+      follow_loads(system());
     } else {
       BeamSystem<Element, double, Elements, MaxElements, Assembler> exact(beam, elements());
       follow_loads(exact);
       for (int i = 0; i <= elements(); ++i)
         rest_nodes_[i] = {uniform_.position(i), static_cast<Scalar>(exact.node(i).u),
                           static_cast<Scalar>(exact.node(i).w), static_cast<Scalar>(exact.node(i).theta)};
-      system_.set_state(uniform_, rest_nodes_.data());
-      system_.set_goal();
-      system_.set_target(1);
+      system().set_state(uniform_, rest_nodes_.data());
+      system().set_goal();
+      system().set_target(1);
       // Whether so many elements can be told apart in this scalar at all.
-      if (is_answer(rest_.status) && system_.factor(0) != Status::ok)
+      if (is_answer(rest_.status) && system().factor(0) != Status::ok)
         throw std::invalid_argument(
             "elements = " + std::to_string(elements()) +
             ": too many for this beam in this scalar, its tangent at rest has no digits "
@@ -254,9 +291,9 @@ class FemModel {
   /// Whether the equilibrium that was found is none to stay at.  The last tangent is that of the state before the last
   /// increment, where a slender beam may be under a compression that is gone now: a second look decides.
   bool gives_way() noexcept {
-    if (report_.status != Status::ok || system_.negative_pivots() == 0) return false;
+    if (report_.status != Status::ok || system().negative_pivots() == 0) return false;
     ++report_.solves;
-    return system_.factor(0) == Status::ok && system_.negative_pivots() > 0;
+    return system().factor(0) == Status::ok && system().negative_pivots() > 0;
   }
 
   /// From an equilibrium that gives way, or where none was found, down to a stable one.
@@ -265,11 +302,11 @@ class FemModel {
   /// @return false where no way leads down: the shape is one that only a request beyond all reach can have made
   template <class Aim>
   bool fall(bool on_ridge, const Descent& descent, Aim&& aim) noexcept {
-    if (on_ridge) system_.nudge(system_.length() / 1000);
+    if (on_ridge) system().nudge(length_ / 1000);
     int solves = report_.solves;
     const int budget = solves + descent.max_solves;
     bool any_way = true;
-    descending_ = !descent.solve(system_, solves);
+    descending_ = !descent.solve(system(), solves);
     if (!descending_) {
       aim();
       report_ = solve_within(budget - solves);
@@ -289,7 +326,7 @@ class FemModel {
   /// reach leaves, and what may be at rest and stable.
   bool folded() const noexcept {
     for (int i = 0; i < elements(); ++i)
-      if (std::abs(system_.node(i + 1).theta - system_.node(i).theta) > 2) return true;
+      if (std::abs(system().node(i + 1).theta - system().node(i).theta) > 2) return true;
     return false;
   }
 
@@ -297,7 +334,22 @@ class FemModel {
   SolveReport<Scalar> solve_within(int most, Scalar first_step = 1) noexcept {
     Solver solver = solver_;
     solver.max_solves = std::min(solver.max_solves, most);
-    return solver.solve(system_, first_step);
+    return solver.solve(system(), first_step);
+  }
+
+  /// A press of a beam that has one equilibrium.  @param s  of the request   @param press  the nearest in range
+  Response<Scalar> solve_taut(Scalar s, const Press<Scalar>& press, bool finite, bool in_range) noexcept {
+    Taut& system = *taut();
+    const Scalar first_step = report_.step;
+    report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
+    if (!finite || !std::isfinite(s) || s < 0 || s > length_) return {0, Status::invalid_request};
+    const ContactMesh<Scalar> mesh = uniform_.at(away_from_ends(press.s));
+    system.set_goal(mesh, press.d, press.s - mesh.s());
+    report_ = solver_.solve(system, first_step);
+    if (report_.steps > 0) system.lay();
+    const Scalar force = system.reaction();
+    if (!std::isfinite(force)) return {0, report_.status = Status::non_finite};
+    return {force, report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status};
   }
 
   /// @param s  request.s, or the nearest in range
@@ -306,19 +358,19 @@ class FemModel {
     using std::isfinite;
     const Scalar first_step = report_.step;
     report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
-    if (!finite || !isfinite(request.s) || request.s < 0 || request.s > system_.length())
+    if (!finite || !isfinite(request.s) || request.s < 0 || request.s > length_)
       return {0, Status::invalid_request};
     if (!is_answer(rest_.status)) return {0, rest_.status};
-    if (left_ <= 0) return {system_.linear_reaction(), report_.status = Status::iteration_limit};
+    if (left_ <= 0) return {system().linear_reaction(), report_.status = Status::iteration_limit};
     const auto along = [&](const Displacement<Scalar>& at) {
       return request.normal.x() * at.u + request.normal.y() * at.w;
     };
-    const Scalar last = system_.linear_reaction();
+    const Scalar last = system().linear_reaction();
     const Scalar jump = request.d - along(shape().at(s)), from_rest = request.d - along(rest_shape().at(s));
     if (single_valued_ && abs(from_rest) < abs(jump)) reset();
     const ContactMesh<Scalar> mesh = uniform_.at(away_from_ends(s));
-    system_.remesh(mesh);
-    const auto aim = [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); };
+    system().remesh(mesh);
+    const auto aim = [&] { system().set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); };
     aim();
     if (descending_) report_.status = Status::iteration_limit;
     else report_ = solve_within(left_, first_step);
@@ -341,20 +393,21 @@ class FemModel {
     left_ -= report_.solves;
     const Status status = report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status;
     // A beam that was set back to rest on the way has none yet.
-    const Scalar now = system_.linear_reaction(), force = is_answer(status) || now != 0 ? now : last;
+    const Scalar now = system().linear_reaction(), force = is_answer(status) || now != 0 ? now : last;
     return isfinite(force) ? Response<Scalar>{force, status} : Response<Scalar>{0, Status::non_finite};
   }
 
-  Centreline<Scalar> rest_shape() const noexcept { return system_.view(rest_nodes_); }
+  Centreline<Scalar> rest_shape() const noexcept { return system().view(rest_nodes_); }
 
   /// Where the node of a contact at s goes: s, or the end beside which an element would be too short for round-off.
   Scalar away_from_ends(Scalar s) const noexcept {
-    const Scalar length = system_.length();
+    const Scalar length = length_;
     return s < shortest_ && left_yields_ ? Scalar(0) : length - s < shortest_ && right_yields_ ? length : s;
   }
 
-  BeamSystem<Element, Scalar, Elements, MaxElements, Assembler> system_;
+  Systems system_;
   detail::PerNode<CentrelineNode<Scalar>, Elements, MaxElements> rest_nodes_;
+  Scalar length_;
   ContactMesh<Scalar> uniform_;
   Solver solver_;
   Scalar thickness_, shortest_;

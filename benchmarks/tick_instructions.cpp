@@ -1,0 +1,106 @@
+// Where the instructions of a tick go: contact, and the parts of a press.  Counted and not timed, so that another program on
+// the machine changes nothing; compiler and flags do.
+//
+// The thesis' beam, both ends pinned, touched at 1 m by a hand that presses 10 µm a tick or slides 1 mm.  Prints CSV, which
+// docs/performance.md quotes; Linux alone.
+#include <cstdio>
+
+#include "support/instructions.hpp"
+#include "support/thesis_beam.hpp"
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::benchmarks;
+using hapbeam::testing::instructions;
+
+namespace {
+
+/// The same element, of which the model does not know that one tension serves all.
+struct NodeByNode : VonKarman<> {
+  static constexpr bool one_strain = false;
+};
+
+constexpr double start = 1.0, pressed = 0.02;
+
+volatile double felt;
+
+template <class F>
+long count(F&& f) {
+  return instructions(f) - instructions([] {});
+}
+
+void line(const char* model, int elements, const char* hand, const char* part, long n, int solves) {
+  std::printf("%s,%d,%s,%s,%ld,%d\n", model, elements, hand, part, n, solves);
+}
+
+template <class Model>
+void ticks(const char* name, int elements, bool slides) {
+  const char* const hand = slides ? "slides" : "presses";
+  {
+    Model model(thesis_beam(), elements);
+    Press<double> press{start, -pressed};
+    const auto next = [&] {
+      (slides ? press.s : press.d) += slides ? 1e-3 : -1e-5;
+      felt = model.press(press).force;
+    };
+    for (int k = 0; k < 3; ++k) next();
+    const long n = count(next);
+    next();
+    line(name, elements, hand, "press", n, model.report().solves);
+  }
+  Model model(thesis_beam(), elements);
+  Touch<Model> touch(model, 0.01);
+  Vector2<double> at(start, 0.01 + 0.0127);
+  for (int k = 0; k < 2000; ++k) (void)touch.tick(at -= Vector2<double>(0, pressed / 2000));
+  const auto next = [&] {
+    at += slides ? Vector2<double>(1e-3, 0) : Vector2<double>(0, -1e-5);
+    felt = touch.tick(at).force.y();
+  };
+  const long n = count(next);
+  next();
+  line(name, elements, hand, "tick", n, model.report().solves);
+}
+
+/// The parts of a press that has one unknown.
+void parts(int elements, bool slides) {
+  const char* const hand = slides ? "slides" : "presses";
+  TautSystem<VonKarman<>, double, Eigen::Dynamic, Eigen::Dynamic> system(thesis_beam(), elements);
+  const ContactMesh<double> uniform(elements, length);
+  double s = start, d = -pressed;
+  ContactMesh<double> mesh = uniform;
+  SolveReport<double> report{};
+  const auto go = [&] {
+    (slides ? s : d) += slides ? 1e-3 : -1e-5;
+    mesh = uniform.at(s);
+    system.set_goal(mesh, d, 0);
+  };
+  const auto solve = [&] { report = NewtonRaphson{}.solve(system); };
+  for (int k = 0; k < 3; ++k) go(), solve(), system.lay();
+  const char* const name = "one_tension";
+  const long goal = count(go);
+  const long solved = count([&] { go(), solve(); }) - goal;
+  go(), solve();
+  line(name, elements, hand, "mesh", goal, 0);
+  line(name, elements, hand, "solve", solved, report.solves);
+  line(name, elements, hand, "of which an iteration", count([&] { felt = system.iterate().size; }), 1);
+  line(name, elements, hand, "shape", count([&] { system.lay(); }), 0);
+}
+
+}  // namespace
+
+int main() {
+  if (instructions([] {}) < 0) {
+    std::fprintf(stderr, "this system does not let a process trace its child\n");
+    return 1;
+  }
+  std::printf("model,elements,hand,part,instructions,solves\n");
+  for (const int elements : {8, 64})
+    for (const bool slides : {false, true}) {
+      parts(elements, slides);
+      ticks<FemModel<>>("one_tension", elements, slides);
+      ticks<FemModel<NodeByNode>>("block_tridiagonal", elements, slides);
+      ticks<FemModel<Corotational<>>>("corotational", elements, slides);
+    }
+}
