@@ -103,9 +103,9 @@ class FemModel {
     const bool finite = std::isfinite(request.d) && request.normal.allFinite();
     if (!request.goes_on) left_ = solver_.max_solves;
     const Scalar node = away_from_ends(s);
-    if (!((node == 0 && left_guided_) || (node == system_.length() && right_guided_)))
+    if (!((node == 0 && left_guided_) || (node == length_ && right_guided_)))
       return solve(request, s, finite, s == request.s);
-    const Scalar u = system_.node(node == 0 ? 0 : elements()).u;
+    const Scalar u = system().node(node == 0 ? 0 : elements()).u;
     const Scalar n_w = std::copysign(std::max(Scalar(0.5), std::abs(request.normal.y())), request.normal.y());
     const Scalar d = (request.d - request.normal.x() * u) / n_w;
     const Response<Scalar> across =
