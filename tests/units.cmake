@@ -30,9 +30,9 @@ endif()
 set(HAPBEAM_UNITS_SCRIPT ${CMAKE_CURRENT_LIST_FILE})
 set(HAPBEAM_TEST_UNIT 40000 CACHE STRING "Compile the tests of a folder together, up to so many bytes; 0: each file by itself")
 
-# hapbeam_gather(NAME VARIABLE FILE...): the units that compile the files.  A file that opens a namespace, specialises a
+# hapbeam_gather(NAME VARIABLE WEIGHT FILE...): the units that compile the files, whose bytes weigh so many hundredths.  A file that opens a namespace, specialises a
 # template or asks the preprocessor outside of all namespaces is compiled as it is.
-function(hapbeam_gather name variable)
+function(hapbeam_gather name variable weight)
   set(units)
   set(gathered)
   foreach(file IN LISTS ARGN)
@@ -51,6 +51,7 @@ function(hapbeam_gather name variable)
     set(size 0)
     if(file)
       file(SIZE ${file} size)
+      math(EXPR size "${size} * ${weight} / 100")
       # Reduced models and what trains them cost twice as much.
       file(STRINGS ${file} reduced REGEX "^#include .(hapbeam/rom|hapbeam/scene|rom)/")
       if(reduced)
