@@ -27,7 +27,7 @@
 //
 // What shape() and part() cost: FemModel has its nodes from the press, O(1) and O(log n); trained models have the
 // two pieces beside the contact from it, and compute all when another is asked for, O(modes (grid + nodes)).
-// A centreline of moderate rotation does not turn back: x = s + u grows along it.
+// After a press with ok a centreline of moderate rotation does not turn back: x = s + u grows along it.
 //
 // Bounded work is a number that the model states, of what it repeats: FemModel solves at most solver.max_solves (48) linear
 // systems a press, all pushes of a tick, or a release; then it says iteration_limit and goes on in the next call, and until

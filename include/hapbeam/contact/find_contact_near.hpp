@@ -1,6 +1,6 @@
 // The contact of a touch that goes on: sought where it was, with a proof that no other piece came nearer.
 //
-// A beam of moderate rotation runs along x without turning back.  What is nearer to the avatar's centre q than the nearest point that
+// In its range a beam of moderate rotation runs along x without turning back.  What is nearer to the avatar's centre q than the nearest point that
 // a few pieces have, at distance d, lies between q.x - d and q.x + d; where these pieces reach beyond that on both sides, or to the
 // beam's end, nothing else has to be looked at, or to be computed.
 // Beams of any rotation may come near from anywhere: they are searched with bounding volumes, find_contact().

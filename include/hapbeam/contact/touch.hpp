@@ -82,7 +82,7 @@ class Touch {
     // end of its range can be passed, and that must not turn the press into one from the other side.  A rigid end is gone round.
     if (pressing_) memory_.touching = true, memory_.through = !on_support_, memory_.side = side_;
     if (inside_) memory_ = {};
-    if (!pressing_ || !detail::find_contact_near(model_, s_, avatar, memory_, contact))
+    if (!pressing_ || !in_range_ || !detail::find_contact_near(model_, s_, avatar, memory_, contact))
       contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory_);
     if (contact.segment < 0) {
       result.status = Status::invalid_request;
@@ -112,6 +112,7 @@ class Touch {
     if (on_support_ && support_.slid(contact, model_)) spring_back();
     moved_ = true;
     s_ = contact.s;
+    in_range_ = held.status == Status::ok;
     pressing_ = true;
     result.pressing = true;
     if (std::isfinite(held.force)) result.force = contact.normal * held.force;
@@ -212,8 +213,9 @@ class Touch {
   detail::PressContact<Scalar> presser_;
   detail::PushContact<Scalar> pusher_;
   detail::SupportContact<Scalar> support_;
-  Scalar s_ = 0;        // of the last contact [m]
-  bool moved_ = false;  // since the volumes were fitted
+  Scalar s_ = 0;           // of the last contact [m]
+  bool in_range_ = false;  // there: beyond its range a shape of moderate rotation may turn back
+  bool moved_ = false;     // since the volumes were fitted
   bool pressing_ = false;
   bool falling_ = false;     // let go, and not yet at rest
   bool inside_ = false;      // let go, and not yet clear of the beam

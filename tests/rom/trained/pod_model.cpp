@@ -236,22 +236,27 @@ TEST_CASE(
     Random random(5);
     for (int k = 0; k < 200; ++k) {
       const double s = k == 0 ? range.s_max : random(range.s_min, range.s_max);
-      const double d = random(1) * range.depth_at(s), other = k % 2 ? s : random(0, beam.length());
+      const double d = random(1) * range.depth_at(s);
+      model.press({s, d});
+      // The contact's place, from there to any other, or a node: then both of its pieces.
+      const double node = model.shape()[random.integer(0, model.shape().segments())].s;
+      const double other = k % 2 ? s : random(0, beam.length());
+      const double low = k % 3 ? std::min(s, other) : node, high = k % 3 ? std::max(s, other) : node;
       model.press({s, d});
       std::vector<CentrelineNode<double>> seen;
-      const CentrelinePart<double> part = model.part(std::min(s, other), std::max(s, other));
+      const CentrelinePart<double> part = model.part(low, high);
       seen.assign(part.line.begin(), part.line.end());
       const Centreline<double> shape = model.shape();
       REQUIRE(part.segments == shape.segments());
-      REQUIRE((part.begins() || seen.front().s < std::min(s, other)));
-      REQUIRE((part.ends() || seen.back().s > std::max(s, other)));
+      REQUIRE((part.begins() || seen.front().s < low));
+      REQUIRE((part.ends() || seen.back().s > high));
       double apart = 0;
       for (std::size_t i = 0; i < seen.size(); ++i) {
-        const auto& node = shape[part.first + static_cast<int>(i)];
-        REQUIRE(std::abs(seen[i].s - node.s) <= 1e-15 * beam.length());
-        apart = std::max({apart, std::abs(seen[i].u - node.u) / std::abs(d),
-                          std::abs(seen[i].w - node.w) / std::abs(d),
-                          std::abs(seen[i].theta - node.theta) * beam.length() / std::abs(d)});
+        const CentrelineNode<double>& drawn = shape[part.first + static_cast<int>(i)];
+        REQUIRE(std::abs(seen[i].s - drawn.s) <= 1e-15 * beam.length());
+        apart = std::max({apart, std::abs(seen[i].u - drawn.u) / std::abs(d),
+                          std::abs(seen[i].w - drawn.w) / std::abs(d),
+                          std::abs(seen[i].theta - drawn.theta) * beam.length() / std::abs(d)});
       }
       REQUIRE(apart <= 1e-11);
     }

@@ -153,7 +153,9 @@ class ShapeTable {
   }
   /// The pieces that hold arc positions s0 to s1.   O(1) beside the contact, elsewhere as all()
   CentrelinePart<Scalar> part(const ShapeData<Scalar>& data, Scalar s0, Scalar s1) noexcept {
-    if (first_ < last_ && s0 >= nodes_[index(first_)].s && s1 <= nodes_[index(last_)].s)
+    const bool left = first_ == 0 || s0 > nodes_[index(first_)].s,
+               right = last_ == data.segments || s1 < nodes_[index(last_)].s;
+    if (first_ < last_ && left && right)
       return {{nodes_.data() + first_, last_ - first_ + 1}, first_, data.segments};
     return part_of(all(data), s0, s1);
   }
