@@ -34,11 +34,9 @@ namespace {
 
 constexpr double force_at_50_mm = 11105.121222;  // [N] closed form: tests/data/von_karman_press_pinned.csv
 
-/// The same element, of which the model does not know that one tension serves all.
+/// The same element by another name, of which the model does not know that one tension serves all.
 template <class Membrane>
-struct NodeByNode : VonKarman<Membrane> {
-  static constexpr bool one_strain = false;
-};
+struct NodeByNode : VonKarman<Membrane> {};
 
 template <class Membrane, template <typename, int, int> class Assembler>
 using Model = FemModel<VonKarman<Membrane>, double, Eigen::Dynamic, Eigen::Dynamic, Assembler>;

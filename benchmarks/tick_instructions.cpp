@@ -17,10 +17,8 @@ using hapbeam::testing::instructions;
 
 namespace {
 
-/// The same element, of which the model does not know that one tension serves all.
-struct NodeByNode : VonKarman<> {
-  static constexpr bool one_strain = false;
-};
+/// The same element by another name, of which the model does not know that one tension serves all.
+struct NodeByNode : VonKarman<> {};
 
 constexpr double start = 1.0, pressed = 0.02;
 

@@ -20,11 +20,9 @@ using namespace hapbeam::testing;
 
 namespace {
 
-/// The same element, of which the model does not know that one tension serves all.
+/// The same element by another name, of which the model does not know that one tension serves all.
 template <class Element>
-struct NodeByNode : Element {
-  static constexpr bool one_strain = false;
-};
+struct NodeByNode : Element {};
 
 struct Case {
   std::string name;

@@ -10,8 +10,9 @@
 //   E::name()                  const char*
 //   E::any_rotation            bool, true: right at any rotation; may be left out, which says no
 //   E::membrane_feels_slope    bool, true: ε holds ½ w'², and an axial load on the element bends it; may be left out, too
-//   E::one_strain              bool, true: the membrane strain is one number, (u2-u1)/l and a quadratic form of rise, lθ1 and
-//                              lθ2, and E has respond(p, e) as below; may be left out, too
+//   E::OneStrain               type, E itself: the membrane strain is one number, (u2-u1)/l and a quadratic form of rise, lθ1
+//                              and lθ2, and E has respond(p, e) as below; may be left out, too.  A class that inherits from E
+//                              inherits the name of E, which is not its own, and so promises nothing
 //
 // with p an ElementProperties<S>.  An element is stateless: static functions, templated on the scalar S.
 // Real-time: no allocation, noexcept, O(1).
@@ -158,7 +159,7 @@ struct AnyRotation<E, std::void_t<decltype(E::any_rotation)>> : std::bool_consta
 template <class E, typename = void>
 struct OneStrain : std::false_type {};
 template <class E>
-struct OneStrain<E, std::void_t<decltype(E::one_strain)>> : std::bool_constant<E::one_strain> {};
+struct OneStrain<E, std::void_t<typename E::OneStrain>> : std::is_same<typename E::OneStrain, E> {};
 
 }  // namespace detail
 
@@ -206,7 +207,7 @@ struct ElementFromCore {
 template <class E>
 inline constexpr bool any_rotation = detail::AnyRotation<E>::value;
 
-/// True where E, or a membrane policy, says that its membrane strain is one number.
+/// True where E, or a membrane policy, says of itself that its membrane strain is one number.
 template <class E>
 inline constexpr bool one_strain = detail::OneStrain<E>::value;
 

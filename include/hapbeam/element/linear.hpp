@@ -35,7 +35,7 @@ template <typename S>
 }  // namespace detail
 
 struct Linear : ElementFromCore<Linear> {
-  static constexpr bool one_strain = true;
+  using OneStrain = Linear;
   static constexpr const char* name() noexcept { return "linear"; }
 
   template <typename S>

@@ -11,7 +11,7 @@
 //   --------------------   -----------------   -----------------------------------------------------------------
 //   M::respond(p, e)       CoreResponse<S>     of an ElementProperties<S> and a Deformation<S>; static, noexcept
 //   M::name()              const char*
-//   M::one_strain          bool, true: ε is averaged to one number; may be left out, which says no
+//   M::OneStrain           type, M itself: ε is averaged to one number; may be left out, which says no
 //
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
@@ -71,7 +71,7 @@ struct FullIntegration {
 
 /// One Gauss point in the middle of the element (Reddy; the thesis).
 struct ReducedIntegration {
-  static constexpr bool one_strain = true;
+  using OneStrain = ReducedIntegration;
   static constexpr const char* name() noexcept { return "reduced"; }
   template <typename S>
   [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
@@ -82,7 +82,7 @@ struct ReducedIntegration {
 
 /// The element's mean strain, in closed form:  l² ∫w'² dx/l = rise² + (2a² - ab + 2b²)/15.
 struct AssumedStrain {
-  static constexpr bool one_strain = true;
+  using OneStrain = AssumedStrain;
   static constexpr const char* name() noexcept { return "assumed-strain"; }
   template <typename S>
   [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,

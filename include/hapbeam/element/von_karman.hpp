@@ -6,6 +6,8 @@
 // Source: thesis eq. 3.13–3.39 (eq. 3.30c has a factor ½ too many: K21 = 2 K12ᵀ).
 #pragma once
 
+#include <type_traits>
+
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/membrane.hpp>
 
@@ -19,7 +21,7 @@ struct VonKarman : ElementFromCore<VonKarman<Membrane>> {
                 "Deformation<S>&) -> "
                 "CoreResponse<S> and name() -> const char*: see hapbeam/element/membrane.hpp");
   static constexpr bool membrane_feels_slope = true;
-  static constexpr bool one_strain = hapbeam::one_strain<Membrane>;
+  using OneStrain = std::conditional_t<one_strain<Membrane>, VonKarman, void>;
   static constexpr const char* name() noexcept { return Membrane::name(); }
 
   template <typename S>

@@ -8,8 +8,10 @@
 // the reaction (thesis eq. 3.40–3.42).  Elements of any rotation take a push() along any direction as well.  A beam with
 // more than one shape at rest keeps to the branch on which it is; where that ends or gives way it falls to a stable one,
 // and the status says snapped.
-// A straight beam without dead loads whose ends stand no closer than it is long has one unknown, the tension; of elements whose
-// membrane strain is one number the model solves for that alone, with the same answers (taut_system.hpp).
+// There are two ways to the answer, and the beam decides when it is built.  A straight beam without dead loads whose ends stand
+// no closer than it is long has one unknown, the tension; of elements whose membrane strain is one number the model solves for
+// that alone (one_tension.hpp).  All else is solved for the displacements of all nodes (all_displacements.hpp).  The answers
+// are the same.
 // Composed of policies: Element × Assembler × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
@@ -27,11 +29,9 @@
 #include <variant>
 
 #include <hapbeam/element/von_karman.hpp>
-#include <hapbeam/fem/beam_system.hpp>
-#include <hapbeam/fem/contact_mesh.hpp>
-#include <hapbeam/fem/load_path.hpp>
-#include <hapbeam/fem/solver/descent.hpp>
-#include <hapbeam/fem/taut_system.hpp>
+#include <hapbeam/fem/all_displacements.hpp>
+#include <hapbeam/fem/one_tension.hpp>
+#include <hapbeam/fem/press_range.hpp>
 
 namespace hapbeam {
 
@@ -51,24 +51,10 @@ class FemModel {
   /// rest() for how that went.
   /// @param elements two to most_elements(beam)   @throws std::invalid_argument naming field, value and what is allowed
   FemModel(const Beam& beam, int elements, const Solver& solver = {})
-      : system_(make_system(beam, at_most(most_elements(beam), elements))),
-        rest_nodes_(elements),
-        length_(static_cast<Scalar>(beam.length())),
-        uniform_(elements, length_),
-        solver_(solver),
-        thickness_(static_cast<Scalar>(beam.thickness())),
-        shortest_(uniform_.shortest(length_)),
-        left_yields_(!fixes_w(beam.left())),
-        right_yields_(!fixes_w(beam.right())),
-        left_guided_(left_yields_ && fixes_u(beam.left())),
-        right_guided_(right_yields_ && fixes_u(beam.right())),
-        single_valued_(beam.straight()) {
-    find_range(beam);
-    if (is_taut()) rest_ = report_ = {Status::ok, 0, 1, 1, 0, 1}, single_valued_ = true;
-    else find_rest(beam);
-    for (int i = 0; i <= elements; ++i) rest_nodes_[i] = shape()[i];
+      : ways_(make_way(beam, at_most(most_elements(beam), elements), solver)),
+        range_(beam),
+        thickness_(static_cast<Scalar>(beam.thickness())) {
     check_rest();
-    home_ = middle();
   }
 
   /// Elements that round-off allows.  The condition of the bending stiffness grows with their fourth power, and eps times it
@@ -87,11 +73,8 @@ class FemModel {
   /// @return force [N] and ok | out_of_range | snapped | invalid_request | iteration_limit | singular | non_finite
   Response<Scalar> press(const Press<Scalar>& request) noexcept {
     const Press<Scalar> press = range().nearest(request);
-    const bool in_range = press.s == request.s && press.d == request.d;
-    left_ = solver_.max_solves;
-    if constexpr (may_be_taut)
-      if (taut()) return solve_taut(request.s, press, std::isfinite(request.d), in_range);
-    return solve({request.s, press.d, {0, 1}}, press.s, std::isfinite(request.d), in_range);
+    const bool valid = std::isfinite(request.d) && range_.on_beam(request.s);
+    return solve({press.s, press.d, {0, 1}}, valid, press.s == request.s && press.d == request.d);
   }
 
   /// Prescribes the displacement along any direction, by a force along it: what an element of any rotation needs where
@@ -99,43 +82,24 @@ class FemModel {
   /// @return as press()
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Response<Scalar> push(const Push<Scalar>& request) noexcept {
-    const Scalar s = range().nearest({request.s, 0}).s;
-    const bool finite = std::isfinite(request.d) && request.normal.allFinite();
-    if (!request.goes_on) left_ = solver_.max_solves;
-    const Scalar node = away_from_ends(s);
-    if (!((node == 0 && left_guided_) || (node == length_ && right_guided_)))
-      return solve(request, s, finite, s == request.s);
-    const Scalar u = system().node(node == 0 ? 0 : elements()).u;
+    const Scalar s = range().nearest({request.s, 0}).s, node = range_.node(s);
+    const bool valid = std::isfinite(request.d) && request.normal.allFinite() && range_.on_beam(request.s);
+    if (!range_.on_wall(node))
+      return solve({s, request.d, request.normal, request.goes_on}, valid, s == request.s);
+    const Scalar u = shape()[node == 0 ? 0 : elements()].u;
     const Scalar n_w = std::copysign(std::max(Scalar(0.5), std::abs(request.normal.y())), request.normal.y());
     const Scalar d = (request.d - request.normal.x() * u) / n_w;
     const Response<Scalar> across =
-        solve({request.s, d, {0, 1}}, s, finite && std::isfinite(d), s == request.s);
-    const Scalar force = across.force / n_w;
-    return std::isfinite(force) ? Response<Scalar>{force, across.status}
-                                : Response<Scalar>{0, Status::non_finite};
+        solve({s, d, {0, 1}, request.goes_on}, valid && std::isfinite(d), s == request.s);
+    return finite({across.force / n_w, across.status});
   }
 
   Centreline<Scalar> shape() const noexcept {
-    if constexpr (may_be_taut)
-      if (const Taut* system = taut()) return system->centreline();
-    return system().centreline();
+    return take(ways_, [](const auto& way) { return way.shape(); });
   }
 
-  /// Where press() answers with ok.  A support that holds w is rigid: the shortest element keeps its distance from it.
-  /// Moderate rotation: |d| up to a tenth of the length and half of the distance to such a support, where it has ended,
-  /// though the solver has not.  Any rotation: where the ends hold the beam along its axis, as far beyond what its length
-  /// allows; where it can slide, 0.3 of the length and of the distance, the deepest that one call reaches from rest.  A
-  /// push() has no such limit.
-  Range<Scalar> range() const noexcept {
-    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-    const Scalar length = length_;
-    return {left_yields_ ? Scalar(0) : shortest_,
-            right_yields_ ? length : length - shortest_,
-            depth_,
-            slope_,
-            left_yields_ ? -infinity : Scalar(0),
-            right_yields_ ? infinity : length};
-  }
+  /// Where press() answers with ok: press_range.hpp says how far that is.  A push() has no limit of depth.
+  Range<Scalar> range() const noexcept { return range_.range(); }
 
   Scalar thickness() const noexcept { return thickness_; }
 
@@ -143,67 +107,55 @@ class FemModel {
   /// than one such shape.
   /// @return ok | snapped, where it has left the one that it was pressed from | iteration_limit, on its way: call again
   Status release() noexcept {
-    if (single_valued_) {
-      reset();
-      return Status::ok;
-    }
-    const auto aim = [this] { system().set_goal(); };
-    aim();
-    report_ = {Status::ok, 0, 0, 0, 0, 1};
-    Descent descent;
-    descent.max_solves = solver_.max_solves;
-    if (!fall(false, descent, aim) || folded()) {
-      reset();
-      return report_.status = Status::snapped;
-    }
-    if (report_.status != Status::snapped) return report_.status;
-    const Scalar before = home_;
-    home_ = middle();
-    return std::abs(home_ - before) > length_ / 1000 ? Status::snapped : Status::ok;
+    return take(ways_, [](auto& way) { return way.release(); });
   }
 
   /// Back to rest().
   void reset() noexcept {
-    if constexpr (may_be_taut) {
-      if (Taut* system = taut()) return system->rest();
-    }
-    system().set_state(uniform_, rest_nodes_.data());
-    home_ = middle();
-    falling_ = descending_ = false;
+    take(ways_, [](auto& way) { way.reset(); });
   }
 
   /// How the search for the shape under the dead loads ended: ok | snapped, where the branch on which the beam was ended
   /// before the loads had risen to their size, and rest() is the stable shape to which it then falls | iteration_limit,
   /// singular, non_finite, where there is none and no press is answered.
-  const SolveReport<Scalar>& rest() const noexcept { return rest_; }
+  const SolveReport<Scalar>& rest() const noexcept {
+    return take(
+        ways_, [](const auto& way) -> auto& { return way.rest(); });
+  }
   /// How the last press ended: linear solves, load steps, estimated increment.
-  const SolveReport<Scalar>& report() const noexcept { return report_; }
+  const SolveReport<Scalar>& report() const noexcept {
+    return take(
+        ways_, [](const auto& way) -> auto& { return way.report(); });
+  }
   /// Strain energy of the present shape [J].
   Scalar strain_energy() const noexcept {
-    if constexpr (may_be_taut)
-      if (const Taut* system = taut()) return system->strain_energy();
-    return system().strain_energy();
+    return take(ways_, [](const auto& way) { return way.strain_energy(); });
   }
-  int elements() const noexcept { return uniform_.elements(); }
+  int elements() const noexcept {
+    return take(ways_, [](const auto& way) { return way.elements(); });
+  }
 
  private:
-  using General = BeamSystem<Element, Scalar, Elements, MaxElements, Assembler>;
-  using Taut = TautSystem<Element, Scalar, Elements, MaxElements>;
+  using General = AllDisplacements<Element, Scalar, Elements, MaxElements, Assembler, Solver>;
+  using Taut = OneTension<Element, Scalar, Elements, MaxElements, Solver>;
   static constexpr bool may_be_taut =
       one_strain<Element> && std::is_same_v<Assembler<Scalar, Elements, MaxElements>,
                                             BlockTridiagonal<Scalar, Elements, MaxElements>>;
-  using Systems = std::conditional_t<may_be_taut, std::variant<General, Taut>, std::variant<General>>;
+  using Ways = std::conditional_t<may_be_taut, std::variant<General, Taut>, std::variant<General>>;
 
-  static Systems make_system(const Beam& beam, int elements) {
+  static Ways make_way(const Beam& beam, int elements, const Solver& solver) {
     if constexpr (may_be_taut)
-      if (hapbeam::is_taut(beam)) return Systems(std::in_place_type<Taut>, beam, elements);
-    return Systems(std::in_place_type<General>, beam, elements);
+      if (is_taut(beam)) return Ways(std::in_place_type<Taut>, beam, elements, solver);
+    return Ways(std::in_place_type<General>, beam, elements, solver);
   }
-  bool is_taut() const noexcept { return system_.index() != 0; }
-  General& system() noexcept { return *std::get_if<General>(&system_); }
-  const General& system() const noexcept { return *std::get_if<General>(&system_); }
-  Taut* taut() noexcept { return std::get_if<Taut>(&system_); }
-  const Taut* taut() const noexcept { return std::get_if<Taut>(&system_); }
+
+  /// f of the way that this beam goes.
+  template <class AnyWays, class F>
+  [[gnu::always_inline]] static decltype(auto) take(AnyWays& ways, F&& f) noexcept {
+    if constexpr (may_be_taut)
+      if (auto* const way = std::get_if<Taut>(&ways)) return f(*way);
+    return f(*std::get_if<General>(&ways));
+  }
 
   static int at_most(int most, int elements) {
     if (elements > most)
@@ -213,30 +165,9 @@ class FemModel {
     return elements;
   }
 
-  void find_range(const Beam& beam) noexcept {
-    const Scalar length = length_;
-    depth_ = length / 10;
-    slope_ = Scalar(0.5);
-    if constexpr (any_rotation<Element>) {
-      if (fixes_u(beam.left()) && fixes_u(beam.right())) {
-        // How high a beam of this length can stand between its ends, over half the length.
-        const auto span = (beam.length() + beam.right_place().u - beam.left_place().u) / beam.length();
-        const Scalar sag = static_cast<Scalar>(std::sqrt(std::max(0.0, 1 - span * span)));
-        depth_ += sag * length / 2;
-        slope_ += sag;
-      } else {
-        depth_ = Scalar(0.3) * length;
-        slope_ = Scalar(0.3);
-      }
-    }
-  }
-
-  /// Where the middle of the beam is [m].
-  Scalar middle() const noexcept { return shape().at(length_ / 2).w; }
-
   /// @throws std::invalid_argument where the scalar does not hold the shape at rest
   [[gnu::cold]] void check_rest() const {
-    bool finite = length_ >= std::numeric_limits<Scalar>::min();
+    bool finite = range_.length() >= std::numeric_limits<Scalar>::min();
     for (const CentrelineNode<Scalar>& node : shape())
       for (const Scalar value : {node.s, node.u, node.w, node.theta}) finite = finite && std::isfinite(value);
     if (!finite)
@@ -245,180 +176,20 @@ class FemModel {
           "scalar holds");
   }
 
-  /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
-  /// the model computes in: round-off would hide which way a branch goes on.
-  void find_rest(const Beam& beam) {
-    if constexpr (std::is_same_v<Scalar, double>) {
-      follow_loads(system());
-    } else {
-      BeamSystem<Element, double, Elements, MaxElements, Assembler> exact(beam, elements());
-      follow_loads(exact);
-      for (int i = 0; i <= elements(); ++i)
-        rest_nodes_[i] = {uniform_.position(i), static_cast<Scalar>(exact.node(i).u),
-                          static_cast<Scalar>(exact.node(i).w), static_cast<Scalar>(exact.node(i).theta)};
-      system().set_state(uniform_, rest_nodes_.data());
-      system().set_goal();
-      system().set_target(1);
-      // Whether so many elements can be told apart in this scalar at all.
-      if (is_answer(rest_.status) && system().factor(0) != Status::ok)
-        throw std::invalid_argument(
-            "elements = " + std::to_string(elements()) +
-            ": too many for this beam in this scalar, its tangent at rest has no digits "
-            "left; take fewer, or double");
-    }
-    report_ = rest_;
+  /// @param nearest  request in range   @param valid  whether the request was one   @param in_range  whether it was the nearest
+  Response<Scalar> solve(const Push<Scalar>& nearest, bool valid, bool in_range) noexcept {
+    const Scalar node = range_.node(nearest.s);
+    const Response<Scalar> response = take(ways_, [&](auto& way) { return way.press(nearest, node, valid); });
+    return finite({response.force,
+                   response.status == Status::ok && !in_range ? Status::out_of_range : response.status});
+  }
+  static Response<Scalar> finite(const Response<Scalar>& response) noexcept {
+    return std::isfinite(response.force) ? response : Response<Scalar>{0, Status::non_finite};
   }
 
-  template <class System>
-  void follow_loads(System& system) noexcept {
-    system.set_goal();
-    const auto path = LoadPath{}.solve(system);
-    auto last = path.report;
-    if (is_answer(last.status)) {
-      system.set_goal();
-      last = solver_.solve(system);
-      last.solves += path.report.solves;
-      last.steps = path.report.steps;
-      // A beam that is nearly free of stress has no digits beyond those of its path.
-      if (last.status == Status::ok || last.status == Status::iteration_limit)
-        last.status = path.report.status;
-    }
-    single_valued_ = single_valued_ && !path.fell;
-    rest_ = {last.status,          last.solves,        last.steps,
-             Scalar(last.reached), Scalar(last.error), Scalar(last.step)};
-  }
-
-  /// Whether the equilibrium that was found is none to stay at.  The last tangent is that of the state before the last
-  /// increment, where a slender beam may be under a compression that is gone now: a second look decides.
-  bool gives_way() noexcept {
-    if (report_.status != Status::ok || system().negative_pivots() == 0) return false;
-    ++report_.solves;
-    return system().factor(0) == Status::ok && system().negative_pivots() > 0;
-  }
-
-  /// From an equilibrium that gives way, or where none was found, down to a stable one.
-  /// @param on_ridge  nothing but a nudge makes it go   @param descent  its max_solves bound the whole of it
-  /// @param aim  sets the system's goal anew
-  /// @return false where no way leads down: the shape is one that only a request beyond all reach can have made
-  template <class Aim>
-  bool fall(bool on_ridge, const Descent& descent, Aim&& aim) noexcept {
-    if (on_ridge) system().nudge(length_ / 1000);
-    int solves = report_.solves;
-    const int budget = solves + descent.max_solves;
-    bool any_way = true;
-    descending_ = !descent.solve(system(), solves);
-    if (!descending_) {
-      aim();
-      report_ = solve_within(budget - solves);
-      if (report_.status == Status::ok)
-        report_.status = gives_way() ? Status::iteration_limit : Status::snapped;
-    } else {
-      report_.status = Status::iteration_limit;
-      report_.solves = 0;
-      any_way = solves >= budget;
-    }
-    report_.solves += solves;
-    falling_ = report_.status == Status::iteration_limit;
-    return any_way;
-  }
-
-  /// Whether an element has turned so far in itself that it no longer stands for a beam: what only a request beyond all
-  /// reach leaves, and what may be at rest and stable.
-  bool folded() const noexcept {
-    for (int i = 0; i < elements(); ++i)
-      if (std::abs(system().node(i + 1).theta - system().node(i).theta) > 2) return true;
-    return false;
-  }
-
-  /// Newton's method with no more than so many linear solves.
-  SolveReport<Scalar> solve_within(int most, Scalar first_step = 1) noexcept {
-    Solver solver = solver_;
-    solver.max_solves = std::min(solver.max_solves, most);
-    return solver.solve(system(), first_step);
-  }
-
-  /// A press of a beam that has one equilibrium.  @param s  of the request   @param press  the nearest in range
-  Response<Scalar> solve_taut(Scalar s, const Press<Scalar>& press, bool finite, bool in_range) noexcept {
-    Taut& system = *taut();
-    const Scalar first_step = report_.step;
-    report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
-    if (!finite || !std::isfinite(s) || s < 0 || s > length_) return {0, Status::invalid_request};
-    const ContactMesh<Scalar> mesh = uniform_.at(away_from_ends(press.s));
-    system.set_goal(mesh, press.d, press.s - mesh.s());
-    report_ = solver_.solve(system, first_step);
-    if (report_.steps > 0) system.lay();
-    const Scalar force = system.reaction();
-    if (!std::isfinite(force)) return {0, report_.status = Status::non_finite};
-    return {force, report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status};
-  }
-
-  /// @param s  request.s, or the nearest in range
-  Response<Scalar> solve(const Push<Scalar>& request, Scalar s, bool finite, bool in_range) noexcept {
-    using std::abs;
-    using std::isfinite;
-    const Scalar first_step = report_.step;
-    report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
-    if (!finite || !isfinite(request.s) || request.s < 0 || request.s > length_)
-      return {0, Status::invalid_request};
-    if (!is_answer(rest_.status)) return {0, rest_.status};
-    if (left_ <= 0) return {system().linear_reaction(), report_.status = Status::iteration_limit};
-    const auto along = [&](const Displacement<Scalar>& at) {
-      return request.normal.x() * at.u + request.normal.y() * at.w;
-    };
-    const Scalar last = system().linear_reaction();
-    const Scalar jump = request.d - along(shape().at(s)), from_rest = request.d - along(rest_shape().at(s));
-    if (single_valued_ && abs(from_rest) < abs(jump)) reset();
-    const ContactMesh<Scalar> mesh = uniform_.at(away_from_ends(s));
-    system().remesh(mesh);
-    const auto aim = [&] { system().set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); };
-    aim();
-    if (descending_) report_.status = Status::iteration_limit;
-    else report_ = solve_within(left_, first_step);
-    // A straight beam pressed across gives way in no element but those that lock.
-    const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
-    Descent descent;
-    descent.max_solves = left_ - report_.solves;
-    if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_)) {
-      if (!fall(on_ridge, descent, aim)) {
-        reset();
-        falling_ = true;
-      }
-    } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0 &&
-               left_ == solver_.max_solves) {
-      reset();  // what the last request has left leads nowhere: the next one begins at rest
-    } else if (falling_ && report_.status == Status::ok) {
-      falling_ = false;
-      report_.status = Status::snapped;
-    }
-    left_ -= report_.solves;
-    const Status status = report_.status == Status::ok && !in_range ? Status::out_of_range : report_.status;
-    // A beam that was set back to rest on the way has none yet.
-    const Scalar now = system().linear_reaction(), force = is_answer(status) || now != 0 ? now : last;
-    return isfinite(force) ? Response<Scalar>{force, status} : Response<Scalar>{0, Status::non_finite};
-  }
-
-  Centreline<Scalar> rest_shape() const noexcept { return system().view(rest_nodes_); }
-
-  /// Where the node of a contact at s goes: s, or the end beside which an element would be too short for round-off.
-  Scalar away_from_ends(Scalar s) const noexcept {
-    const Scalar length = length_;
-    return s < shortest_ && left_yields_ ? Scalar(0) : length - s < shortest_ && right_yields_ ? length : s;
-  }
-
-  Systems system_;
-  detail::PerNode<CentrelineNode<Scalar>, Elements, MaxElements> rest_nodes_;
-  Scalar length_;
-  ContactMesh<Scalar> uniform_;
-  Solver solver_;
-  Scalar thickness_, shortest_;
-  Scalar depth_ = 0, slope_ = 0;  // of range()
-  bool left_yields_, right_yields_, left_guided_, right_guided_;
-  bool single_valued_;       // one shape for each press, as far as is known
-  int left_ = 0;             // linear solves that this tick may still take
-  bool falling_ = false;     // off the shape that gave way, and not yet at a stable one
-  bool descending_ = false;  // and not yet near one
-  Scalar home_ = 0;          // middle() of the shape from which the beam is pressed
-  SolveReport<Scalar> rest_{}, report_{};
+  Ways ways_;
+  PressRange<Element, Scalar> range_;
+  Scalar thickness_;
 };
 
 }  // namespace hapbeam

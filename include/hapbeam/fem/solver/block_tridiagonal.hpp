@@ -52,8 +52,8 @@ class BlockTridiagonal {
   }
 
   /// Prescribes the increment of one degree of freedom (0: u, 1: w, 2: θ) of a node, after all elements are in: its
-  /// column goes to the right-hand side, its row answers 0.
-  void prescribe(int node, int component, Scalar increment) noexcept {
+  /// column goes to the right-hand side, its row answers 0.  Inlined by intent, as hold(): the caller knows the component.
+  [[gnu::always_inline]] void prescribe(int node, int component, Scalar increment) noexcept {
     Row& row = rows_[node];
     Block& d = row.block;
     Scalar* const diagonal[] = {&d.a00, &d.a11, &d.a22};
@@ -77,7 +77,7 @@ class BlockTridiagonal {
   }
 
   /// The same for the one degree of freedom whose reaction() is wanted, after all others are prescribed.
-  void hold(int node, int component, Scalar increment) noexcept {
+  [[gnu::always_inline]] void hold(int node, int component, Scalar increment) noexcept {
     const Row& row = rows_[node];
     const Block& d = row.block;
     const Scalar own[3][3] = {{d.a00, d.a10, d.a20}, {d.a10, d.a11, d.a21}, {d.a20, d.a21, d.a22}};

@@ -1,32 +1,16 @@
 // Both spans of a beam under one tension, condensed to the node between them.
 //
-// Under a tension N all elements of a span, which are equally long, have one stiffness, linear in N.  Seen from its inner
-// end a span is a stiffness S in w and φ = lθ there; one more element makes of it
-//
-//   S' = K22 - K21 (K11 + S)⁻¹ K12
-//
-// This is rational in S and linear in its Plücker coordinates σ : σS : σ det S: a step is a product with a constant sparse
-// matrix and has no division.  A displacement that the outer support holds is an infinite S, σ = 0, and needs no case of its
-// own.  With K11 = H + c, K12 = -H T⁻¹, T⁻¹ = [1 τ; 0 1], H = [rr -r; -r h], c on φ alone and D = det H the step is
-//
-//   σ' = σ + (h a + 2r b + rr e)/D + d                          S = [a b; b e]/σ - c,  det(S + c) = D d/σ
-//   a' = a + rr d,   b' = b + τa + r d,   e' = e + 2τb + τ²a + h d + 2c σ',   d' = d + 2c a'/D
-//
-// All terms are positive where N is not negative, so that nothing cancels: the stiffness at the inner node is exact to a few
-// last places whatever the number of elements, in float as in double.  With Taylor polynomials in N for numbers the same
-// steps give its derivatives.  Both spans run side by side, in two lanes of one register, each from its own support inward.
-//
+// Each span is condensed from its own support inward (span_recursion.hpp), both side by side in two lanes of one register.  They
+// meet at the inner node, whose stiffness is the sum of both.  The shape is laid from there outward.
 // Lengths are in units of the beam's L, forces of EI/L², so that tension is ν = N L²/EI.
-// Real-time: noexcept, no allocation after construction; 63 multiply-adds a pair of elements with derivatives.
-// Source: condensation as in Golub and Van Loan, Matrix Computations, 4.5.1; Riccati recursions are linear on Lagrangian
-// planes: Bittanti, Laub and Willems, The Riccati Equation, 1991, ch. 3.
+// Real-time: noexcept, no allocation after construction, O(n).
 #pragma once
 
 #include <algorithm>
 #include <type_traits>
 
-#include <hapbeam/element/element.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
+#include <hapbeam/fem/solver/span_recursion.hpp>
 #include <hapbeam/fem/solver/taylor.hpp>
 #include <hapbeam/support.hpp>
 
@@ -35,22 +19,14 @@ namespace hapbeam::detail {
 template <class Element, typename Scalar, int Elements, int MaxElements>
 class TwoSpans {
   using Pair = Lanes<Scalar>;  // of the left and of the right span
+  using Recursion = SpanRecursion<Element, Scalar>;
+  template <class T>
+  using Under = TensionedElement<T>;
+  template <class T>
+  using Span = SpanStiffness<T>;
 
  public:
   TwoSpans(int elements, Support left, Support right) : rows_(elements), supports_{left, right} {
-    // Of one element of length 1: EI = 1 without tension, and a unit of tension alone.
-    const auto terms = [](Scalar bending, Scalar stretch) {
-      const auto k = Element::respond(ElementProperties<Scalar>(1, 1, bending),
-                                      Deformation<Scalar>(stretch, Scalar(0), Scalar(0)))
-                         .k;
-      return Terms{Pair::both(k.rr), Pair::both(k.r1), Pair::both(k.t11), Pair::both(k.t12)};
-    };
-    bent_ = terms(1, 0);
-    taut_ = terms(0, 1);
-    const Pair bent = bent_.t11 + bent_.t12, taut = taut_.t11 + taut_.t12, four = Pair::both(4),
-               two = Pair::both(2);
-    turning_ = bent * taut_.rr + taut * bent_.rr - four * bent_.r * taut_.r;
-    turning_taut_ = taut * taut_.rr - two * taut_.r * taut_.r;
     const auto where = [&](bool w, bool theta) {
       const auto is = [&](Support s) { return Scalar(fixes_w(s) == w && fixes_theta(s) == theta); };
       return Pair(is(left), is(right));
@@ -76,7 +52,7 @@ class TwoSpans {
   /// longer than its chord [L].
   Taylor<Scalar> stiffness(Scalar tension) const noexcept {
     const Pair square = length_ * length_;
-    const auto element = under(Taylor<Pair>{Pair::both(tension) * square, square, Pair::both(0)});
+    const auto element = recursion_.under(Taylor<Pair>{Pair::both(tension) * square, square, Pair::both(0)});
     return join(element, condense(element, [](auto&&...) {})).stiffness;
   }
 
@@ -86,7 +62,7 @@ class TwoSpans {
   ///               inner node, w [m]   @return k(ν)
   template <class Visit>
   Scalar lay(Scalar tension, Scalar flexibility, Scalar d, Scalar length, Visit&& visit) noexcept {
-    const auto k = under(Pair(Pair::both(tension) * length_ * length_));
+    const auto k = recursion_.under(Pair(Pair::both(tension) * length_ * length_));
     int row = 0;
     const auto condensed = condense(k, [&](const Span<Pair>& x, const Pair& sigma) {
       const Pair i = inverse(sigma);
@@ -101,15 +77,16 @@ class TwoSpans {
     const Pair mirror(1, -1), unit = Pair::both(length), two = Pair::both(2);
     const Pair turn = mirror * inverse_length_, along = -(mirror * unit * length_), to_right = mirror * unit;
     const Pair stretch = length_ * Pair::both(tension * flexibility), half = inverse_length_ / two;
-    const Pair r2 = two * taut_.r, t2 = two * taut_.t12;
+    const auto& taut = recursion_.taut();
+    const Pair r2 = two * taut.r, t2 = two * taut.t12;
     Pair w = Pair::both(at_node), phi = mirror * length_ * Pair::both(theta), shortened = Pair::both(0);
     const int least = std::min(count_[0], count_[1]), most = std::max(count_[0], count_[1]);
     const auto outward = [&](int j, auto&& place) {
       const Row& x = rows_[most - j];
       const Pair outer = add_product(Pair(x.ww * w), x.wp, phi),
                  turned = add_product(Pair(x.pw * w), x.pp, phi), rise = w - outer;
-      const Pair by_rise = rise * add_product(Pair(taut_.rr * rise), r2, phi + turned);
-      const Pair by_turn = add_product(Pair(phi * phi), turned, turned) * taut_.t11;
+      const Pair by_rise = rise * add_product(Pair(taut.rr * rise), r2, phi + turned);
+      const Pair by_turn = add_product(Pair(phi * phi), turned, turned) * taut.t11;
       shortened = add_product(Pair(shortened - stretch), half,
                               add_product(Pair(by_rise + by_turn), t2, Pair(phi * turned)));
       w = outer;
@@ -132,21 +109,6 @@ class TwoSpans {
   }
 
  private:
-  /// An element's tangent in (rise, lθ1, lθ2).
-  struct Terms {
-    Pair rr, r, t11, t12;
-  };
-  /// An element of length and EI 1 under tension, as above.
-  template <class T>
-  struct Under {
-    T rr, r, h, tau, c, c2, D, i_D;
-    T h_D, r_D, r2_D, rr_D, t12_D, shear_D, c2_D;  // over D; shear: r (h - t12)
-  };
-  /// σ and so on of either span.
-  template <class T>
-  struct Span {
-    T sigma, a, b, e, d;
-  };
   /// (w, φ) of a node by those of the next one inward.
   struct Row {
     Pair ww, wp, pw, pp;
@@ -156,16 +118,6 @@ class TwoSpans {
     T stiffness, turn;  // force and θ of the inner node, by d
   };
 
-  /// Of a σ that is brought back to 1: a product of two, over l⁴, is a number.
-  static constexpr Scalar large = std::is_same_v<Scalar, float> ? Scalar(1e6) : Scalar(1e12);
-
-  [[gnu::always_inline]] static Pair linear(const Pair& a, const Pair& b, const Pair& x) noexcept {
-    return add_product(a, b, x);
-  }
-  [[gnu::always_inline]] static Taylor<Pair> linear(const Pair& a, const Pair& b,
-                                                    const Taylor<Pair>& x) noexcept {
-    return {add_product(a, b, x.c0), b * x.c1, b * x.c2};
-  }
   static void constant(const Pair& a, Pair& x) noexcept { x = a; }
   static void constant(const Pair& a, Taylor<Pair>& x) noexcept { x = {a, Pair::both(0), Pair::both(0)}; }
   static Pair swapped(const Pair& x) noexcept { return x.swapped(); }
@@ -183,29 +135,6 @@ class TwoSpans {
     return Taylor<Scalar>{x.c0[0], x.c1[0], x.c2[0]} * Taylor<Scalar>{x.c0[1], x.c1[1], x.c2[1]};
   }
 
-  /// @param n  tension times l²
-  template <class T>
-  [[gnu::always_inline]] Under<T> under(const T& n) const noexcept {
-    Under<T> k;
-    k.rr = linear(bent_.rr, taut_.rr, n);
-    k.r = linear(bent_.r, taut_.r, n);
-    const T t12 = linear(bent_.t12, taut_.t12, n), r2 = k.r + k.r, i = inverse(k.rr);
-    k.tau = r2 * i;
-    k.h = k.tau * k.r - t12;
-    k.c = n * linear(turning_, turning_taut_, n) * i;  // t11 + t12 - τr, whose parts without tension cancel
-    k.c2 = k.c + k.c;
-    k.D = k.r * k.r - k.rr * t12;
-    k.i_D = inverse(k.D);
-    k.h_D = k.h * k.i_D;
-    k.r_D = k.r * k.i_D;
-    k.r2_D = k.r_D + k.r_D;
-    k.rr_D = k.rr * k.i_D;
-    k.t12_D = t12 * k.i_D;
-    k.shear_D = k.r_D * (k.h - t12);
-    k.c2_D = k.c2 * k.i_D;
-    return k;
-  }
-
   /// Both spans as their supports hold them, without an element.
   template <class T>
   [[gnu::always_inline]] Span<T> supported(const Under<T>& k) const noexcept {
@@ -219,29 +148,6 @@ class TwoSpans {
     return x;
   }
 
-  /// Adds elements to both.  @param visit  (span before, σ after) at each
-  template <class T, class Visit>
-  [[gnu::always_inline]] static Span<T> add(const Under<T>& element, Span<T> x, int elements,
-                                            Visit&& visit) noexcept {
-    const Under<T> k = element;
-    for (int i = 0; i < elements; ++i) {
-      const T b = add_product(x.b, k.tau, x.a), e = add_product(x.e, k.tau, T(x.b + b));
-      const T sigma =
-          add_product(add_product(add_product(x.sigma, k.h_D, x.a), k.r2_D, x.b), k.rr_D, x.e) + x.d;
-      visit(x, value(sigma));
-      x.sigma = sigma;
-      x.a = add_product(x.a, k.rr, x.d);
-      x.b = add_product(b, k.r, x.d);
-      x.e = add_product(add_product(e, k.h, x.d), k.c2, sigma);
-      x.d = add_product(x.d, k.c2_D, x.a);
-      if (value(sigma)[0] > large || value(sigma)[1] > large) {
-        const Pair q = inverse(value(sigma));
-        x = {scaled(q, x.sigma), scaled(q, x.a), scaled(q, x.b), scaled(q, x.e), scaled(q, x.d)};
-      }
-    }
-    return x;
-  }
-
   /// All elements of both; the longer side begins alone.
   template <class T, class Visit>
   [[gnu::always_inline]] Span<T> condense(const Under<T>& k, Visit&& visit) const noexcept {
@@ -250,14 +156,14 @@ class TwoSpans {
     const int wait = least > 0 ? most - least : 0;
     Span<T> x = start;
     if (wait > 0) {
-      x = add(k, start, wait, visit);
+      x = Recursion::add(k, start, wait, visit);
       const Scalar left = count_[0] > count_[1] ? 1 : 0;
       const Pair on(left, 1 - left), anew = on.swapped();
       const auto mix = [&](const T& a, const T& b) { return T(scaled(on, a) + scaled(anew, b)); };
       x = {mix(x.sigma, start.sigma), mix(x.a, start.a), mix(x.b, start.b), mix(x.e, start.e),
            mix(x.d, start.d)};
     }
-    return add(k, x, most - wait, visit);
+    return Recursion::add(k, x, most - wait, visit);
   }
 
   /// Both meet at the inner node, where S, in w and θ, is the sum of both: for either the other's σ is the denominator.
@@ -282,9 +188,8 @@ class TwoSpans {
   }
 
   PerNode<Row, Elements, MaxElements> rows_;
+  Recursion recursion_;
   Support supports_[2];
-  Terms bent_, taut_;                                 // by bending alone, and by a unit of tension
-  Pair turning_, turning_taut_;                       // of c
   Pair yields_, holds_w_, holds_theta_, holds_both_;  // 1 or 0
   Pair length_ = Pair::both(1), inverse_length_ = Pair::both(1);
   Scalar lever_ = 0;

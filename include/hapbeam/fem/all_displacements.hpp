@@ -1,0 +1,236 @@
+// A press of any beam, solved for the displacements of all nodes: the general way of FemModel.
+//
+// The mesh moves so that a node lies at the contact, and BeamSystem is solved by Newton–Raphson from the last press or from
+// rest, whichever is closer.  A beam with more than one shape at rest keeps to the branch on which it is; where that ends or
+// gives way it falls to a stable one (Descent), and the status says snapped.
+// Offline: construction allocates, finds the shape at rest and may throw.  Servo: every other member is noexcept and
+// allocation-free where the assembler is; the presses of a tick together, or a release, take at most solver.max_solves linear
+// solves of O(elements), a fall included, and two more each where the beam gives way.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include <hapbeam/fem/beam_system.hpp>
+#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/load_path.hpp>
+#include <hapbeam/fem/solver/descent.hpp>
+
+namespace hapbeam {
+
+template <class Element, typename ScalarType, int Elements, int MaxElements,
+          template <typename, int, int> class Assembler, class Solver>
+class AllDisplacements {
+ public:
+  using Scalar = ScalarType;
+
+  /// Finds the shape at rest.
+  /// @throws std::invalid_argument as BeamSystem, and where the scalar cannot tell so many elements apart
+  AllDisplacements(const Beam& beam, int elements, const Solver& solver)
+      : system_(beam, elements),
+        rest_nodes_(elements),
+        uniform_(elements, system_.length()),
+        solver_(solver),
+        single_valued_(beam.straight()) {
+    find_rest(beam);
+    for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
+    home_ = middle();
+  }
+
+  /// Prescribes the displacement along request.normal at request.s.
+  /// @param node  [m] where the mesh has its node: at request.s, or at an end beside it   @param valid  whether there is a request
+  /// @return force [N], not always finite, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
+  Response<Scalar> press(const Push<Scalar>& request, Scalar node, bool valid) noexcept {
+    using std::abs;
+    if (!request.goes_on) left_ = solver_.max_solves;
+    const Scalar first_step = report_.step;
+    report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
+    if (!valid) return {0, Status::invalid_request};
+    if (!is_answer(rest_.status)) return {0, rest_.status};
+    if (left_ <= 0) return {system_.linear_reaction(), report_.status = Status::iteration_limit};
+    const Scalar s = request.s;
+    const auto along = [&](const Displacement<Scalar>& at) {
+      return request.normal.x() * at.u + request.normal.y() * at.w;
+    };
+    const Scalar last = system_.linear_reaction();
+    const Scalar jump = request.d - along(shape().at(s)), from_rest = request.d - along(rest_shape().at(s));
+    if (single_valued_ && abs(from_rest) < abs(jump)) reset();
+    const ContactMesh<Scalar> mesh = uniform_.at(node);
+    system_.remesh(mesh);
+    const auto aim = [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); };
+    aim();
+    if (descending_) report_.status = Status::iteration_limit;
+    else report_ = solve_within(left_, first_step);
+    // A straight beam pressed across gives way in no element but those that lock.
+    const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
+    Descent descent;
+    descent.max_solves = left_ - report_.solves;
+    if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_)) {
+      if (!fall(on_ridge, descent, aim)) {
+        reset();
+        falling_ = true;
+      }
+    } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0 &&
+               left_ == solver_.max_solves) {
+      reset();  // what the last request has left leads nowhere: the next one begins at rest
+    } else if (falling_ && report_.status == Status::ok) {
+      falling_ = false;
+      report_.status = Status::snapped;
+    }
+    left_ -= report_.solves;
+    // A beam that was set back to rest on the way has none yet.
+    const Scalar now = system_.linear_reaction();
+    return {is_answer(report_.status) || now != 0 ? now : last, report_.status};
+  }
+
+  /// Falls to the shape at rest on whose slope the beam is.   @return ok | snapped | iteration_limit
+  Status release() noexcept {
+    if (single_valued_) {
+      reset();
+      return Status::ok;
+    }
+    const auto aim = [this] { system_.set_goal(); };
+    aim();
+    report_ = {Status::ok, 0, 0, 0, 0, 1};
+    Descent descent;
+    descent.max_solves = solver_.max_solves;
+    if (!fall(false, descent, aim) || folded()) {
+      reset();
+      return report_.status = Status::snapped;
+    }
+    if (report_.status != Status::snapped) return report_.status;
+    const Scalar before = home_;
+    home_ = middle();
+    return std::abs(home_ - before) > system_.length() / 1000 ? Status::snapped : Status::ok;
+  }
+
+  /// Back to the shape that construction has found.
+  void reset() noexcept {
+    system_.set_state(uniform_, rest_nodes_.data());
+    home_ = middle();
+    falling_ = descending_ = false;
+  }
+
+  int elements() const noexcept { return system_.elements(); }
+  Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
+  Scalar strain_energy() const noexcept { return system_.strain_energy(); }
+  /// How the search for the shape at rest ended.
+  const SolveReport<Scalar>& rest() const noexcept { return rest_; }
+  /// How the last press or release ended.
+  const SolveReport<Scalar>& report() const noexcept { return report_; }
+
+ private:
+  using System = BeamSystem<Element, Scalar, Elements, MaxElements, Assembler>;
+
+  Centreline<Scalar> rest_shape() const noexcept { return system_.view(rest_nodes_); }
+  /// Where the middle of the beam is [m].
+  Scalar middle() const noexcept { return shape().at(system_.length() / 2).w; }
+
+  /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
+  /// the model computes in: round-off would hide which way a branch goes on.
+  void find_rest(const Beam& beam) {
+    if constexpr (std::is_same_v<Scalar, double>) {
+      follow_loads(system_);
+    } else {
+      BeamSystem<Element, double, Elements, MaxElements, Assembler> exact(beam, elements());
+      follow_loads(exact);
+      for (int i = 0; i <= elements(); ++i)
+        rest_nodes_[i] = {uniform_.position(i), static_cast<Scalar>(exact.node(i).u),
+                          static_cast<Scalar>(exact.node(i).w), static_cast<Scalar>(exact.node(i).theta)};
+      system_.set_state(uniform_, rest_nodes_.data());
+      system_.set_goal();
+      system_.set_target(1);
+      // Whether so many elements can be told apart in this scalar at all.
+      if (is_answer(rest_.status) && system_.factor(0) != Status::ok)
+        throw std::invalid_argument(
+            "elements = " + std::to_string(elements()) +
+            ": too many for this beam in this scalar, its tangent at rest has no digits "
+            "left; take fewer, or double");
+    }
+    report_ = rest_;
+  }
+
+  template <class AnySystem>
+  void follow_loads(AnySystem& system) noexcept {
+    system.set_goal();
+    const auto path = LoadPath{}.solve(system);
+    auto last = path.report;
+    if (is_answer(last.status)) {
+      system.set_goal();
+      last = solver_.solve(system);
+      last.solves += path.report.solves;
+      last.steps = path.report.steps;
+      // A beam that is nearly free of stress has no digits beyond those of its path.
+      if (last.status == Status::ok || last.status == Status::iteration_limit)
+        last.status = path.report.status;
+    }
+    single_valued_ = single_valued_ && !path.fell;
+    rest_ = {last.status,          last.solves,        last.steps,
+             Scalar(last.reached), Scalar(last.error), Scalar(last.step)};
+  }
+
+  /// Whether the equilibrium that was found is none to stay at.  The last tangent is that of the state before the last
+  /// increment, where a slender beam may be under a compression that is gone now: a second look decides.
+  bool gives_way() noexcept {
+    if (report_.status != Status::ok || system_.negative_pivots() == 0) return false;
+    ++report_.solves;
+    return system_.factor(0) == Status::ok && system_.negative_pivots() > 0;
+  }
+
+  /// From an equilibrium that gives way, or where none was found, down to a stable one.
+  /// @param on_ridge  nothing but a nudge makes it go   @param descent  its max_solves bound the whole of it
+  /// @param aim  sets the system's goal anew
+  /// @return false where no way leads down: the shape is one that only a request beyond all reach can have made
+  template <class Aim>
+  bool fall(bool on_ridge, const Descent& descent, Aim&& aim) noexcept {
+    if (on_ridge) system_.nudge(system_.length() / 1000);
+    int solves = report_.solves;
+    const int budget = solves + descent.max_solves;
+    bool any_way = true;
+    descending_ = !descent.solve(system_, solves);
+    if (!descending_) {
+      aim();
+      report_ = solve_within(budget - solves);
+      if (report_.status == Status::ok)
+        report_.status = gives_way() ? Status::iteration_limit : Status::snapped;
+    } else {
+      report_.status = Status::iteration_limit;
+      report_.solves = 0;
+      any_way = solves >= budget;
+    }
+    report_.solves += solves;
+    falling_ = report_.status == Status::iteration_limit;
+    return any_way;
+  }
+
+  /// Whether an element has turned so far in itself that it no longer stands for a beam: what only a request beyond all
+  /// reach leaves, and what may be at rest and stable.
+  bool folded() const noexcept {
+    for (int i = 0; i < elements(); ++i)
+      if (std::abs(system_.node(i + 1).theta - system_.node(i).theta) > 2) return true;
+    return false;
+  }
+
+  /// Newton's method with no more than so many linear solves.
+  SolveReport<Scalar> solve_within(int most, Scalar first_step = 1) noexcept {
+    Solver solver = solver_;
+    solver.max_solves = std::min(solver.max_solves, most);
+    return solver.solve(system_, first_step);
+  }
+
+  System system_;
+  typename System::Nodes rest_nodes_;
+  ContactMesh<Scalar> uniform_;
+  Solver solver_;
+  bool single_valued_;       // one shape for each press, as far as is known
+  int left_ = 0;             // linear solves that this tick may still take
+  bool falling_ = false;     // off the shape that gave way, and not yet at a stable one
+  bool descending_ = false;  // and not yet near one
+  Scalar home_ = 0;          // middle() of the shape from which the beam is pressed
+  SolveReport<Scalar> rest_{}, report_{};
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,62 @@
+// A press of a straight beam without dead loads whose ends stand no closer than it is long: the taut way of FemModel.
+//
+// TautSystem is solved for its one unknown by Newton–Raphson, from the last press on.  There is one equilibrium for each press,
+// and it is stable: letting go leads back to rest.
+// Allocates at construction; every other member is noexcept and allocation-free, and takes at most solver.max_solves
+// iterations of O(elements).
+#pragma once
+
+#include <cmath>
+
+#include <hapbeam/beam.hpp>
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/taut_system.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam {
+
+/// The members are those of AllDisplacements.
+/// @tparam Element  one whose membrane strain is one number: one_strain<Element>
+template <class Element, typename ScalarType, int Elements, int MaxElements, class Solver>
+class OneTension {
+ public:
+  using Scalar = ScalarType;
+
+  /// @param beam  one that is_taut()
+  OneTension(const Beam& beam, int elements, const Solver& solver)
+      : system_(beam, elements), uniform_(elements, system_.length()), solver_(solver) {}
+
+  Response<Scalar> press(const Push<Scalar>& request, Scalar node, bool valid) noexcept {
+    const Scalar first_step = report_.step;
+    report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
+    if (!valid) return {0, Status::invalid_request};
+    const ContactMesh<Scalar> mesh = uniform_.at(node);
+    system_.set_goal(mesh, request.d, request.s - mesh.s());
+    report_ = solver_.solve(system_, first_step);
+    if (report_.steps > 0) system_.lay();
+    const Scalar force = system_.reaction();
+    if (!std::isfinite(force)) report_.status = Status::non_finite;
+    return {force, report_.status};
+  }
+
+  Status release() noexcept {
+    reset();
+    return Status::ok;
+  }
+  void reset() noexcept { system_.rest(); }
+
+  int elements() const noexcept { return system_.elements(); }
+  Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
+  Scalar strain_energy() const noexcept { return system_.strain_energy(); }
+  const SolveReport<Scalar>& rest() const noexcept { return rest_; }
+  const SolveReport<Scalar>& report() const noexcept { return report_; }
+
+ private:
+  TautSystem<Element, Scalar, Elements, MaxElements> system_;
+  ContactMesh<Scalar> uniform_;
+  Solver solver_;
+  SolveReport<Scalar> rest_{Status::ok, 0, 1, 1, 0, 1}, report_ = rest_;
+};
+
+}  // namespace hapbeam
