@@ -78,7 +78,8 @@ double force(const Beam& beam) {
 
 TEST_CASE("only the exact type that says so has one strain", "[element]") {
   STATIC_REQUIRE(one_strain<VonKarman<>>);
-  STATIC_REQUIRE(one_strain<VonKarman<ReducedIntegration>>);
+  // Not stiff against bending where an element is under much tension: it is solved with pivots.
+  STATIC_REQUIRE_FALSE(one_strain<VonKarman<ReducedIntegration>>);
   STATIC_REQUIRE(one_strain<Linear>);
   STATIC_REQUIRE_FALSE(one_strain<VonKarman<FullIntegration>>);
   STATIC_REQUIRE_FALSE(one_strain<Corotational<>>);
@@ -89,7 +90,7 @@ TEST_CASE("only the exact type that says so has one strain", "[element]") {
 }
 
 TEMPLATE_TEST_CASE("an element that inherits and answers twice as much takes twice the force", "[element]",
-                   VonKarman<AssumedStrain>, VonKarman<ReducedIntegration>, Linear) {
+                   VonKarman<AssumedStrain>, Linear) {
   const double once = force<TestType>(stiffer(1, 1));
   CHECK(relative_error(force<DoubledTangent<TestType>>(stiffer(1, 1)), 2 * once) <= 1e-12);
   CHECK(relative_error(force<DoubledResponse<TestType>>(stiffer(1, 1)), 2 * once) <= 1e-12);

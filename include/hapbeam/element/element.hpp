@@ -11,7 +11,7 @@
 //   E::any_rotation            bool, true: right at any rotation; may be left out, which says no
 //   E::membrane_feels_slope    bool, true: ε holds ½ w'², and an axial load on the element bends it; may be left out, too
 //   E::OneStrain               type, E itself: the membrane strain is one number, (u2-u1)/l and a quadratic form of rise, lθ1
-//                              and lθ2, and E has respond(p, e) as below; may be left out, too.  A class that inherits from E
+//                              and lθ2 that is positive unless all are zero, and E has respond(p, e) as below; may be left out, too.  A class that inherits from E
 //                              inherits the name of E, which is not its own, and so promises nothing
 //
 // with p an ElementProperties<S>.  An element is stateless: static functions, templated on the scalar S.

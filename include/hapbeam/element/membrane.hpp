@@ -11,7 +11,8 @@
 //   --------------------   -----------------   -----------------------------------------------------------------
 //   M::respond(p, e)       CoreResponse<S>     of an ElementProperties<S> and a Deformation<S>; static, noexcept
 //   M::name()              const char*
-//   M::OneStrain           type, M itself: ε is averaged to one number; may be left out, which says no
+//   M::OneStrain           type, M itself: ε is averaged to one number, ½ w'² over the whole element; may be left out,
+//                                              which says no
 //
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
@@ -69,9 +70,9 @@ struct FullIntegration {
   }
 };
 
-/// One Gauss point in the middle of the element (Reddy; the thesis).
+/// One Gauss point in the middle of the element (Reddy; the thesis).  Its strain is one number, and yet no OneStrain: where
+/// N l² > 16 EI an element is not stiff against bending at a given tension.
 struct ReducedIntegration {
-  using OneStrain = ReducedIntegration;
   static constexpr const char* name() noexcept { return "reduced"; }
   template <typename S>
   [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
