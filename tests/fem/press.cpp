@@ -11,6 +11,7 @@
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/solver/dense.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -66,6 +67,26 @@ TEST_CASE("the same path in float takes at most 6 solves a tick", "[press][float
       INFO(elements << " elements at " << position);
       CHECK(most_solves(model, position * thesis_length) <= 6);
     }
+}
+
+// Nothing but the contact moves then, so that it alone tells how far the state has gone.
+TEMPLATE_TEST_CASE("two elements between clamped ends answer a press of their middle as their cubics do",
+                   "[press]", FemModel<>, (FemModel<VonKarman<>, float>),
+                   (FemModel<VonKarman<>, double, 2, 2, Dense>)) {
+  using Scalar = typename TestType::Scalar;
+  const Beam beam = thesis_beam(Support::clamped, Support::clamped);
+  TestType model(beam, 2);
+  const double l = thesis_length / 2;
+  for (const double d : {1e-3, 5e-3, 25e-3, 0.1}) {
+    model.reset();
+    const Response<Scalar> response = model.press({static_cast<Scalar>(l), static_cast<Scalar>(d)});
+    // F = 2 (12 EI d/l³ + N 6/5 d/l),  N = EA 3/5 d²/l²
+    const double force = 24 * beam.bending_stiffness() * d / (l * l * l) +
+                         36.0 / 25 * beam.axial_stiffness() * d * d * d / (l * l * l);
+    CAPTURE(d, model.report().solves);
+    CHECK(response.status == Status::ok);
+    CHECK(relative_error(response.force, force) <= 100 * std::numeric_limits<Scalar>::epsilon());
+  }
 }
 
 // Rest is the hardest start: no membrane force yet, and the whole depth in one tick.
