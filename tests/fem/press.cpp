@@ -89,6 +89,27 @@ TEMPLATE_TEST_CASE("two elements between clamped ends answer a press of their mi
   }
 }
 
+// A moment bends the beam the other way, and Newton's first increment overshoots.
+TEST_CASE("from rest a press of a beam that is bent the other way is answered in one tick", "[press]") {
+  Beam beam(1, Section::rectangle(0.005, 0.005), Material{2e11}, Support::clamped, Support::guided);
+  beam.add({0.1745, 0, 0, -0.25 * beam.bending_stiffness()});
+  FemModel<> moderate(beam, 16);
+  FemModel<Corotational<>> any_rotation(beam, 16);
+  const auto on_the_way = [](auto& model) {
+    int presses = 0;
+    for (int k = 2; k < 30; ++k)
+      for (int part = -50; part <= 50; ++part) {
+        const double s = 0.01 * k;
+        model.reset();
+        presses += model.press({s, part / 50.0 * 0.999 * model.range().depth_at(s)}).status != Status::ok;
+      }
+    return presses;
+  };
+  // Of 2828 each, and beside the support; one more tick answers them.
+  CHECK(on_the_way(moderate) <= 10);
+  CHECK(on_the_way(any_rotation) <= 10);
+}
+
 // Rest is the hardest start: no membrane force yet, and the whole depth in one tick.
 TEMPLATE_TEST_CASE("from rest every press within range is answered in one tick", "[press]", FemModel<>,
                    FemModel<VonKarman<ReducedIntegration>>, FemModel<VonKarman<FullIntegration>>,
@@ -202,7 +223,7 @@ TEST_CASE("with a budget too small for one tick the model catches up over the ne
   FemModel<> unhurried(beam, 16, tight_solver());
   const Response<double> expected = unhurried.press(press);
   REQUIRE(expected.status == Status::ok);
-  for (const int max_solves : {3, 4, 8}) {
+  for (const int max_solves : {3, 4, 6}) {  // 8 would do
     NewtonRaphson hurried;
     hurried.max_iterations = max_solves > 4 ? max_solves / 2 : max_solves;
     hurried.max_solves = max_solves;
