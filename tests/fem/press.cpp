@@ -90,7 +90,7 @@ TEMPLATE_TEST_CASE("two elements between clamped ends answer a press of their mi
 }
 
 // A moment bends the beam the other way, and Newton's first increment overshoots.
-TEST_CASE("from rest a press of a beam that is bent the other way is answered in one tick", "[press]") {
+TEST_CASE("few presses of a beam that is bent the other way take more than one tick from rest", "[press]") {
   Beam beam(1, Section::rectangle(0.005, 0.005), Material{2e11}, Support::clamped, Support::guided);
   beam.add({0.1745, 0, 0, -0.25 * beam.bending_stiffness()});
   FemModel<> moderate(beam, 16);
@@ -105,9 +105,21 @@ TEST_CASE("from rest a press of a beam that is bent the other way is answered in
       }
     return presses;
   };
-  // Of 2828 each, and beside the support; one more tick answers them.
-  CHECK(on_the_way(moderate) <= 10);
-  CHECK(on_the_way(any_rotation) <= 10);
+  // Of 2828 each; one more tick answers them.
+  CHECK(on_the_way(moderate) <= 5);
+  CHECK(on_the_way(any_rotation) <= 5);
+}
+
+// A state that is carried to another mesh is in no equilibrium there, however short the step: Newton's method has to be let finish.
+TEST_CASE("a contact that goes to and fro beside a support is answered in each tick", "[press]") {
+  const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{2e11}, Support::clamped, Support::pinned);
+  FemModel<> model(ruler, 16);
+  for (int k = 0; k < 400; ++k) {
+    const Press<double> press =
+        k % 2 == 0 ? Press<double>{0.9508 * 0.3, -6e-3 - 1e-6 * k} : Press<double>{0.9785 * 0.3, -4.3e-3};
+    CAPTURE(k, press.d);
+    CHECK(is_answer(model.press(press).status));
+  }
 }
 
 // Rest is the hardest start: no membrane force yet, and the whole depth in one tick.

@@ -5,7 +5,8 @@
 // times the last that did, and a budget that ends before the way does leaves the size of the next step, so that any
 // budget gets there in the end.  The first iteration of a step carries the prescribed increment through the tangent, so it
 // is also the predictor.  Where that overshoots, the next ones come back by a factor of about 1.5 each until they are near, so a
-// step that still halves its increments when its iterations are used up goes on.
+// step that still halves its increments when its iterations are used up goes on, and one whose eighth increment is still
+// nine tenths of the state is given up.
 //
 // Increments are measured in the norm of the tangent, |Δ|² = ΔᵀKΔ, where metres and radians, stretching and bending
 // weigh what they cost, and which bounds the relative error of the contact force: |δF|/F <= about |Δ|/√(2V).
@@ -118,6 +119,7 @@ struct NewtonRaphson {
       report.error = state > 0 ? next / state : S(0);
       if (!std::isfinite(state)) return Status::non_finite;
       if (next <= std::max(tolerance, floor) || iteration.size <= noise * state) return Status::ok;
+      if (k == 8 && iteration.size > S(0.9) * state) return Status::iteration_limit;
       shrinks = iteration.size <= before / 2;
       before = iteration.size;
       measured_before = measured;
