@@ -235,9 +235,9 @@ TEST_CASE("with a budget too small for one tick the model catches up over the ne
   FemModel<> unhurried(beam, 16, tight_solver());
   const Response<double> expected = unhurried.press(press);
   REQUIRE(expected.status == Status::ok);
-  for (const int max_solves : {3, 4, 6}) {  // 8 would do
+  for (const int max_solves : {3, 4}) {
     NewtonRaphson hurried;
-    hurried.max_iterations = max_solves > 4 ? max_solves / 2 : max_solves;
+    hurried.max_iterations = max_solves == 4 ? 2 : 3;
     hurried.max_solves = max_solves;
     FemModel<> model(beam, 16, hurried);
     Response<double> response = model.press(press);
