@@ -11,6 +11,7 @@
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/solver/dense.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -66,6 +67,59 @@ TEST_CASE("the same path in float takes at most 6 solves a tick", "[press][float
       INFO(elements << " elements at " << position);
       CHECK(most_solves(model, position * thesis_length) <= 6);
     }
+}
+
+// Nothing but the contact moves then, so that it alone tells how far the state has gone.
+TEMPLATE_TEST_CASE("two elements between clamped ends answer a press of their middle as their cubics do",
+                   "[press]", FemModel<>, (FemModel<VonKarman<>, float>),
+                   (FemModel<VonKarman<>, double, 2, 2, Dense>)) {
+  using Scalar = typename TestType::Scalar;
+  const Beam beam = thesis_beam(Support::clamped, Support::clamped);
+  TestType model(beam, 2);
+  const double l = thesis_length / 2;
+  for (const double d : {1e-3, 5e-3, 25e-3, 0.1}) {
+    model.reset();
+    const Response<Scalar> response = model.press({static_cast<Scalar>(l), static_cast<Scalar>(d)});
+    // F = 2 (12 EI d/l³ + N 6/5 d/l),  N = EA 3/5 d²/l²
+    const double force = 24 * beam.bending_stiffness() * d / (l * l * l) +
+                         36.0 / 25 * beam.axial_stiffness() * d * d * d / (l * l * l);
+    CAPTURE(d, model.report().solves);
+    CHECK(response.status == Status::ok);
+    CHECK(relative_error(response.force, force) <= 100 * std::numeric_limits<Scalar>::epsilon());
+  }
+}
+
+// A moment bends the beam the other way, and Newton's first increment overshoots.
+TEST_CASE("few presses of a beam that is bent the other way take more than one tick from rest", "[press]") {
+  Beam beam(1, Section::rectangle(0.005, 0.005), Material{2e11}, Support::clamped, Support::guided);
+  beam.add({0.1745, 0, 0, -0.25 * beam.bending_stiffness()});
+  FemModel<> moderate(beam, 16);
+  FemModel<Corotational<>> any_rotation(beam, 16);
+  const auto on_the_way = [](auto& model) {
+    int presses = 0;
+    for (int k = 2; k < 30; ++k)
+      for (int part = -50; part <= 50; ++part) {
+        const double s = 0.01 * k;
+        model.reset();
+        presses += model.press({s, part / 50.0 * 0.999 * model.range().depth_at(s)}).status != Status::ok;
+      }
+    return presses;
+  };
+  // Of 2828 each; one more tick answers them.
+  CHECK(on_the_way(moderate) <= 5);
+  CHECK(on_the_way(any_rotation) <= 5);
+}
+
+// A state that is carried to another mesh is in no equilibrium there, however short the step: Newton's method has to be let finish.
+TEST_CASE("a contact that goes to and fro beside a support is answered in each tick", "[press]") {
+  const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{2e11}, Support::clamped, Support::pinned);
+  FemModel<> model(ruler, 16);
+  for (int k = 0; k < 400; ++k) {
+    const Press<double> press =
+        k % 2 == 0 ? Press<double>{0.9508 * 0.3, -6e-3 - 1e-6 * k} : Press<double>{0.9785 * 0.3, -4.3e-3};
+    CAPTURE(k, press.d);
+    CHECK(is_answer(model.press(press).status));
+  }
 }
 
 // Rest is the hardest start: no membrane force yet, and the whole depth in one tick.
@@ -181,9 +235,9 @@ TEST_CASE("with a budget too small for one tick the model catches up over the ne
   FemModel<> unhurried(beam, 16, tight_solver());
   const Response<double> expected = unhurried.press(press);
   REQUIRE(expected.status == Status::ok);
-  for (const int max_solves : {3, 4, 8}) {
+  for (const int max_solves : {3, 4}) {
     NewtonRaphson hurried;
-    hurried.max_iterations = max_solves > 4 ? max_solves / 2 : max_solves;
+    hurried.max_iterations = max_solves == 4 ? 2 : 3;
     hurried.max_solves = max_solves;
     FemModel<> model(beam, 16, hurried);
     Response<double> response = model.press(press);

@@ -1,6 +1,7 @@
 // choose(): what it picks holds what was asked on presses that it has not seen, nothing cheaper was at hand, and where it
 // picks nothing it says what to relax.
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -66,6 +67,39 @@ TEST_CASE("and so on beams that dead loads or nature bend, from a thousandth of 
     CHECK(worst_error(model, presses) <= scene.force_error);
   }
   CHECK(chosen >= 8);
+}
+
+// Two elements between clamped ends answered it with the linear force, a third of what it takes, where it was pressed in one go.
+TEST_CASE("what is chosen for the middle of a taut clamped beam is right in one press from rest", "[scene]") {
+  const Beam bar(1, Section::circle(0.0148), Material{2e11}, Support::clamped, Support::clamped);
+  for (const double stretch : {-1.5e-5, 1.5e-5}) {
+    const Beam beam = stretched(bar, stretch);
+    FullModel<Corotational<>> truth(beam, 128);
+    for (const double tolerance : {0.003, 0.02, 0.1})
+      for (const double depth : {0.002, 0.005, 0.02}) {
+        Scene scene = Scene::at(beam, 0.5, depth);
+        scene.force_error = tolerance;
+        const Choice choice = choose(scene);
+        CAPTURE(choice.text(), stretch, depth);
+        SceneModel model = build(scene, choice.model());
+        truth.reset();
+        const double force = truth.press({0.5, depth}).force;
+        CHECK(std::abs(model.press({0.5, depth}).force - force) <= tolerance * force);
+      }
+  }
+}
+
+// At both ends and in the middle of its range eight depths are enough for this strip, and between them twelve are needed.
+TEST_CASE("where more places do not help, a trained model gets more depths", "[scene]") {
+  const double L = 0.742, EI = 2.27e-5, unit = EI / (L * L * L);
+  Beam strip(L, 244, EI, 0.00106, Support::pinned, Support::pinned);
+  strip.transverse(-2.034 * unit).axial(0.3665 * unit);
+  Scene scene{strip, 0.1825 * L, 0.567 * L, 1.65e-4 * L};
+  scene.force_error = 0.027, scene.tick = 1.23e-6;
+  const Choice choice = choose(scene);
+  INFO(choice.text());
+  CHECK(choice.model().reduction == Reduction::pod);
+  CHECK(choice.model().depths > 8);
 }
 
 TEST_CASE("a trained model of a beam that hangs reaches as deep as the scene, from where it hangs",

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <limits>
 #include <optional>
@@ -81,13 +82,20 @@ class Chooser {
       if (larger.error < verdict.error || verdict.refusal.empty()) verdict = larger;
       return verdict.right;
     };
-    for (const int depths : {2, 3, 4, 6, 8, 12, 16, 24, 32}) {
-      candidate.depths = depths;
+    constexpr std::array<int, 9> all_depths{2, 3, 4, 6, 8, 12, 16, 24, 32};
+    auto depths = all_depths.begin();
+    for (; depths != all_depths.end(); ++depths) {
+      candidate.depths = *depths;
       if (!full.right || (scene_.one_place() ? grow() : enough_depths(candidate))) break;
     }
     for (const int positions : {3, 4, 6, 8, 12, 16, 24, 32, 48}) {
       candidate.positions = positions;
+      const double before = verdict.error;
       if (!full.right || scene_.one_place() || grow()) break;
+      // More places that help no more leave the error to the depths, which have been looked at in three places.
+      if (verdict.error <= before / 2 || depths == all_depths.end() || ++depths == all_depths.end()) continue;
+      candidate.depths = *depths;
+      if (grow()) break;
     }
     choice_.verdicts.push_back(verdict);
   }

@@ -172,6 +172,8 @@ TEST_CASE("a plan that is none is refused by name", "[snapshots]") {
   refused([](TrainingPlan& p) { p.positions = 1; }, "positions = 1: must be 1 where s_min = s_max");
   refused([](TrainingPlan& p) { p.depths = 65; }, "depths = 65: must be 2 to 64");
   refused([](TrainingPlan& p) { p.depth = std::nan(""); }, "depth = nan m: must be positive and finite");
+  refused([](TrainingPlan& p) { p.depth = thesis_length; }, "must be less than the beam's length");
+  refused([](TrainingPlan& p) { p.depth = 1e6; }, "depth = 1e+06 m: must be less than the beam's length");
   refused([](TrainingPlan& p) { p.s_min = 0; }, "s_min = 0 m: must be on the beam");
   refused([](TrainingPlan& p) { p.s_max = 9; }, "s_max = 9 m: must be");
   refused([](TrainingPlan& p) { p.segments = 1; }, "segments = 1: must be 2 to 16384");

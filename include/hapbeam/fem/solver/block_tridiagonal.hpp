@@ -39,7 +39,7 @@ class BlockTridiagonal {
   [[gnu::always_inline]] void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
     Row& a = rows_[e];
     Row& b = rows_[e + 1];
-    if (e == 0) a.block = {0, 0, 0, 0, 0, 0}, a.x.setZero();
+    if (e == 0) a.block = {0, 0, 0, 0, 0, 0}, a.x.setZero(), held_energy_ = 0;
     // Entry by entry: g++ 12 -O3 miscompiles a = {a.a00 + …, …} where this function is not inlined further.
     a.block.a00 += K(0, 0), a.block.a10 += K(1, 0), a.block.a20 += K(2, 0);
     a.block.a11 += K(1, 1), a.block.a21 += K(2, 1), a.block.a22 += K(2, 2);
@@ -83,6 +83,7 @@ class BlockTridiagonal {
     const Scalar own[3][3] = {{d.a00, d.a10, d.a20}, {d.a10, d.a11, d.a21}, {d.a20, d.a21, d.a22}};
     held_ = node;
     held_by_loads_ = own[component][component] * increment - row.x[component];
+    held_energy_ = own[component][component] * increment * increment;
     held_by_.setZero();
     if (node > 0) held_by_.row(0) = rows_[node - 1].coupling.col(component).transpose();
     for (int k = 0; k < 3; ++k)
@@ -109,6 +110,7 @@ class BlockTridiagonal {
     }
     if (last % 2 != 0) substitute<true>(last, y);
     energy_ = p.energy + q.energy;
+    if (held_energy_ > std::abs(energy_)) energy_ = held_energy_;
     negative_pivots_ = p.negative + q.negative;
     if (p.lowest <= 0 || q.lowest <= 0) return Status::singular;
     const bool finite = std::isfinite(p.lowest) && std::isfinite(q.lowest) && std::isfinite(energy_);
@@ -116,7 +118,8 @@ class BlockTridiagonal {
   }
 
   /// xᵀKx of the last solve() [J]: the increment's length in the norm of the tangent, squared; negative where K is not
-  /// positive along it.
+  /// positive along it.  No less than what the increment of hold() costs while all else stays: in two elements between
+  /// clamped ends nothing else moves when their middle is pressed, and x is zero however far that goes.
   Scalar energy() const noexcept { return energy_; }
 
   /// Increment of one node [m, m, rad], after solve(); 0 where it was prescribed.
@@ -212,7 +215,8 @@ class BlockTridiagonal {
   detail::PerNode<Row, Elements, MaxElements> rows_;
   int negative_pivots_ = 0;
   Scalar energy_ = 0;
-  int held_ = 0;              // node of hold()
+  int held_ = 0;  // node of hold()
+  Scalar held_energy_ = 0;
   Scalar held_by_loads_ = 0;  // its row: what is known,
   Matrix3<Scalar> held_by_ =
       Matrix3<Scalar>::Zero();  // and the entries of the node before, of its own and of the node after

@@ -4,6 +4,7 @@
 // an assembler or an element, never in a servo loop: it allocates.  Exceptions: only at construction.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Cholesky>
@@ -27,6 +28,7 @@ class Dense {
     if (e == 0) {
       K_.setZero();
       x_.setZero();
+      held_energy_ = 0;
     }
     K_.template block<6, 6>(3 * e, 3 * e) += K;
     x_.template segment<6>(3 * e) -= r;
@@ -47,6 +49,7 @@ class Dense {
     held_by_ = K_.col(k);
     held_by_[k] = 0;
     held_by_loads_ = K_(k, k) * increment - x_[k];
+    held_energy_ = K_(k, k) * increment * increment;
     prescribe(node, component, increment);
   }
 
@@ -56,6 +59,7 @@ class Dense {
     const Eigen::LDLT<Matrix> factor(K_);
     x_ = factor.solve(rhs);
     energy_ = rhs.dot(x_);
+    if (held_energy_ > std::abs(energy_)) energy_ = held_energy_;
     negative_pivots_ = static_cast<int>((factor.vectorD().array() < 0).count());
     // Its order of elimination is not the beam's, so a pivot that should be zero holds the round-off of all rows.
     const Scalar epsilon = std::numeric_limits<Scalar>::epsilon() * static_cast<Scalar>(K_.rows());
@@ -73,7 +77,7 @@ class Dense {
   Matrix K_;
   Vector x_, held_by_;
   Scalar held_by_loads_ = 0;
-  Scalar energy_ = 0;
+  Scalar energy_ = 0, held_energy_ = 0;
   int negative_pivots_ = 0;
 };
 

@@ -1,9 +1,12 @@
 // Newton–Raphson with load stepping (thesis eq. 3.34–3.37) for any system that can take one Newton step.
 //
 // The path to the wanted state is a number t in [0, 1] that scales loads and prescribed displacements together.
-// The first try goes all the way (t = 1); a step that does not converge is taken back and cut to a quarter, and a
-// budget that ends before the way does leaves the size of the next step, so that any budget gets there in the end.  The
-// first iteration of a step carries the prescribed increment through the tangent, so it is also the predictor.
+// The first try goes all the way (t = 1); a step that does not converge is taken back and cut to an eighth, the next is four
+// times the last that did, and a budget that ends before the way does leaves the size of the next step, so that any
+// budget gets there in the end.  The first iteration of a step carries the prescribed increment through the tangent, so it
+// is also the predictor.  Where that overshoots, the next ones come back by a factor of about 1.5 each until they are near, so a
+// step that still halves its increments when its iterations are used up goes on, and one whose eighth increment is still
+// nine tenths of the state is given up.
 //
 // Increments are measured in the norm of the tangent, |Δ|² = ΔᵀKΔ, where metres and radians, stretching and bending
 // weigh what they cost, and which bounds the relative error of the contact force: |δF|/F <= about |Δ|/√(2V).
@@ -60,7 +63,7 @@ struct SolveReport {
 struct NewtonRaphson {
   double relative_tolerance = 1e-8;   ///< of the force
   double absolute_tolerance = 1e-12;  ///< [rad] a rotation that is nothing
-  int max_iterations = 12;            ///< per load step
+  int max_iterations = 16;            ///< per load step, and more while each halves the increment
   int max_solves = 48;                ///< in all, 3 or more: what bounds a tick
   double smallest_step = 1e-4;        ///< of the path
 
@@ -80,12 +83,12 @@ struct NewtonRaphson {
         report.reached = t;
         ++report.steps;
         system.save();
-        step *= 2;
+        step *= 4;
       } else {
         system.restore();
         const bool out_of_budget = report.solves >= max_solves;
         // A step that the budget cut short says nothing of its size, unless it had the budget for itself.
-        if (!out_of_budget || report.steps == 0) step /= 4;
+        if (!out_of_budget || report.steps == 0) step /= 8;
         if (step < S(smallest_step) || out_of_budget) break;
       }
     }
@@ -101,7 +104,8 @@ struct NewtonRaphson {
     const S noise = n * std::sqrt(std::numeric_limits<S>::epsilon()) / 20;
     const S lost = 10 * std::sqrt(std::numeric_limits<S>::epsilon());
     S before = 0, measured_before = 0;
-    for (int k = 1; k <= max_iterations && report.solves < max_solves; ++k) {
+    bool shrinks = false;
+    for (int k = 1; (k <= max_iterations || shrinks) && report.solves < max_solves; ++k) {
       const Iteration<S> iteration = system.iterate();
       ++report.solves;
       if (iteration.status != Status::ok) return iteration.status;
@@ -115,6 +119,8 @@ struct NewtonRaphson {
       report.error = state > 0 ? next / state : S(0);
       if (!std::isfinite(state)) return Status::non_finite;
       if (next <= std::max(tolerance, floor) || iteration.size <= noise * state) return Status::ok;
+      if (k == 8 && iteration.size > S(0.9) * state) return Status::iteration_limit;
+      shrinks = iteration.size <= before / 2;
       before = iteration.size;
       measured_before = measured;
     }

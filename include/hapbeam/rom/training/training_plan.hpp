@@ -50,6 +50,7 @@ struct TrainingPlan {
           "beam: must be straight, with its ends where they are in the straight beam, to train a model of "
           "it");
     detail::check_range(BeamData<double>::of(beam), s_min, s_max, depth, positions);
+    if (!(depth < beam.length())) detail::reject("depth", depth, "m", "less than the beam's length");
     return *this;
   }
 };
