@@ -298,7 +298,8 @@ TEST_CASE("a budget of three solves a tick: the loop goes on, and says when it h
   short_of_time.max_solves = 3;
   const Beam strip(0.5, Section::rectangle(0.02, 1e-4), Material{thesis_young}, Support::pinned,
                    Support::pinned);
-  FemModel<VonKarman<FullIntegration>> model(strip, 16, short_of_time);  // one unknown would be solved for in three
+  FemModel<VonKarman<FullIntegration>> model(strip, 16,
+                                             short_of_time);  // one unknown would be solved for in three
   VirtualPhantom<> device(HandPath({0, 0.01}).press(0.03, 0.3).slide(0.05, 0.3).release(0.03, 0.2));
   ServoLoop loop(device, model, above(0.25, 5e-3));
   device.run(loop.servo(), 1.5);
