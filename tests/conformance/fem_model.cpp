@@ -1,4 +1,4 @@
-// FemModel as a ForceModel: each element, scalar, kind of size and assembler.
+// FemModel as a ForceModel: each element, scalar, kind of size and assembler; those of any rotation in corotational.cpp.
 #include <string>
 
 #include "conformance/force_model_suite.hpp"
@@ -27,25 +27,11 @@ using Bounded = FemModel<VonKarman<>, double, any, 12>;
 using FixedFloat = FemModel<VonKarman<ReducedIntegration>, float, 8>;
 
 using Turning = FemModel<Corotational<>>;
-using TurningLinear = FemModel<Corotational<Linear>>;
-using TurningReduced = FemModel<Corotational<VonKarman<ReducedIntegration>>>;
-using TurningFull = FemModel<Corotational<VonKarman<FullIntegration>>>;
-using TurningFloat = FemModel<Corotational<>, float>;
-using TurningLinearFloat = FemModel<Corotational<Linear>, float>;
-using TurningFixed = FemModel<Corotational<>, double, 8>;
-using TurningBounded = FemModel<Corotational<>, float, any, 12>;
 
 }  // namespace
 
 TEMPLATE_TEST_CASE("FemModel keeps the contract of a ForceModel between hinges", "[contract]", Default, Full,
                    Reduced, LinearModel, Float, LinearFloat, Fixed, Bounded, FixedFloat) {
-  check_force_model([] { return TestType(thesis_beam(Support::pinned, Support::pinned), 8); });
-}
-
-TEMPLATE_TEST_CASE("FemModel of any rotation keeps the contract of a ForceModel between hinges", "[contract]",
-                   Turning, TurningLinear, TurningReduced, TurningFull, TurningFloat, TurningLinearFloat,
-                   TurningFixed, TurningBounded) {
-  static_assert(takes_push<TestType>);
   check_force_model([] { return TestType(thesis_beam(Support::pinned, Support::pinned), 8); });
 }
 
