@@ -55,7 +55,7 @@ measure() {
     where_methods_fail) bash "$top/benchmarks/$1.sh" --program "$programs/$1" ;;
     *)
       "$programs/$1" --benchmark_out="$scratch/$1.json" --benchmark_out_format=json &&
-        ! grep error_message "$scratch/$1.json" && "csv_$1" && cp "$scratch/$1.json" "$kept/$1.json"
+        ! grep error_message "$scratch/$1.json" && "csv_$1" && sed "s|\"$top/|\"|" "$scratch/$1.json" >"$kept/$1.json"
       ;;
   esac
 }
