@@ -4,7 +4,6 @@
 #include "support/error.hpp"
 #include "support/global_modes.hpp"
 #include "support/solver.hpp"
-#include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 
@@ -266,32 +265,4 @@ TEST_CASE("equidistant tensions may be trained, if the snapshots have them", "[g
   GalerkinModel<double, EquispacedNodes> model(
       trained_equispaced_galerkin(take_snapshots_at_tensions<EquispacedNodes>(pinned(), full, plan)));
   CHECK(relative_error(model.press({1.0, 0.015}).force, pinned_closed_form(1.0, 0.015)) <= 1e-3);
-}
-
-TEST_CASE("pressed far beyond its range the beam is touched where the whole shape is nearest", "[galerkin]") {
-  // There the shape grows with the square of the depth along x and turns back.
-  GalerkinModel<> model(trained_galerkin(pinned(), TrainingPlan::anywhere(pinned(), 0.01), 32));
-  const double radius = 0.05 * L, thickness = model.thickness();
-  Random random(4);
-  int compared = 0;
-  for (int stroke = 0; stroke < 40; ++stroke) {
-    Touch touch(model, radius);
-    BoundingVolumes<double> volumes(model.shape().segments());
-    Vector2<double> hand(L * random(0.05, 0.95), 1.2 * radius);
-    const Vector2<double> step(L * random(2e-3), -L * random(1e-3, 6e-3));
-    for (int tick = 0; tick < 150; ++tick) {
-      hand += step;
-      ContactMemory<double> memory{hand, true, true, true, 1};
-      volumes.refit(model.shape());
-      const bool pressing = touch.pressing();
-      const Contact<double> whole = find_contact({hand, radius}, model.shape(), volumes, thickness, memory);
-      const TouchResult<double> result = touch.tick(hand);
-      if (!pressing || !result.pressing || whole.past_end) continue;
-      INFO("stroke " << stroke << ", tick " << tick << ", at " << result.contact.s << " m, nearest "
-                     << whole.s << " m");
-      REQUIRE(std::abs(result.contact.s - whole.s) <= radius);  // a kink may shift it by as much
-      ++compared;
-    }
-  }
-  CHECK(compared > 1000);
 }
