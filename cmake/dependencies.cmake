@@ -1,8 +1,17 @@
-# Each third party is found on the system first and fetched at a pinned release second.
+# Each third party is found on the system first and fetched at a pinned release second, if HAPBEAM_FETCH allows it.
 # Version ranges stand here and nowhere else; what each is for stands in the README.
 include_guard()
-include(FetchContent)
 include(${CMAKE_CURRENT_LIST_DIR}/jansson.cmake)
+
+# Fetches what hapbeam_find_... has not found, or says how to go on.
+macro(hapbeam_fetch name what)
+  if(NOT HAPBEAM_FETCH)
+    message(FATAL_ERROR "hapbeam: ${what} is not installed; install it, or let it be fetched with -DHAPBEAM_FETCH=ON")
+  endif()
+  include(FetchContent)
+  FetchContent_Declare(${name} ${ARGN})
+  FetchContent_MakeAvailable(${name})
+endmacro()
 
 # Eigen 3.4 or later.  Its version file accepts its own major version alone, hence one call for each.
 function(hapbeam_find_eigen)
@@ -19,20 +28,22 @@ function(hapbeam_find_eigen)
     return()
   endif()
   # SOURCE_SUBDIR names no folder of Eigen's, so that its own tests, documentation and BLAS are not added.
-  FetchContent_Declare(eigen
+  hapbeam_fetch(eigen "Eigen 3.4 or later"
     GIT_REPOSITORY https://gitlab.com/libeigen/eigen GIT_TAG 3.4.0 GIT_SHALLOW TRUE
     SOURCE_SUBDIR headers-alone)
-  FetchContent_MakeAvailable(eigen)
   if(NOT TARGET Eigen3::Eigen)
     add_library(Eigen3::Eigen INTERFACE IMPORTED GLOBAL)
     target_include_directories(Eigen3::Eigen INTERFACE ${eigen_SOURCE_DIR})
   endif()
 endfunction()
 
-# jansson 2.10 or later, where it is installed or may be fetched; without it there is no hapbeam::model_file.
+# jansson 2.10 or later, as HAPBEAM_WITH_JANSSON says: ON must have it, AUTO has it where it is installed or fetched.
 function(hapbeam_find_or_fetch_jansson)
+  if(NOT HAPBEAM_WITH_JANSSON)
+    return()
+  endif()
   hapbeam_find_jansson()
-  if(TARGET jansson::jansson OR NOT HAPBEAM_FETCH_JANSSON)
+  if(TARGET jansson::jansson OR (HAPBEAM_WITH_JANSSON STREQUAL "AUTO" AND NOT HAPBEAM_FETCH))
     return()
   endif()
   set(CMAKE_POLICY_DEFAULT_CMP0077 NEW)
@@ -41,19 +52,23 @@ function(hapbeam_find_or_fetch_jansson)
   set(JANSSON_EXAMPLES OFF)
   set(JANSSON_INSTALL OFF)
   set(JANSSON_WITHOUT_TESTS ON)
-  FetchContent_Declare(jansson
+  hapbeam_fetch(jansson "jansson 2.10 or later, which HAPBEAM_WITH_JANSSON=ON needs,"
     GIT_REPOSITORY https://github.com/akheron/jansson GIT_TAG v2.15.1 GIT_SHALLOW TRUE)
-  FetchContent_MakeAvailable(jansson)
   if(NOT TARGET jansson::jansson)
     add_library(jansson::jansson ALIAS jansson)
   endif()
 endfunction()
 
-# OpenHaptics 3.0 or later, where it is installed; without it there is no hapbeam::openhaptics.  Its licence leaves nothing
-# to fetch.
+# OpenHaptics 3.0 or later, as HAPBEAM_WITH_OPENHAPTICS says.  Its licence leaves nothing to fetch.
 function(hapbeam_find_openhaptics)
+  if(NOT HAPBEAM_WITH_OPENHAPTICS)
+    return()
+  endif()
   list(PREPEND CMAKE_MODULE_PATH ${PROJECT_SOURCE_DIR}/cmake)
   find_package(OpenHaptics MODULE QUIET)
+  if(NOT HAPBEAM_WITH_OPENHAPTICS STREQUAL "AUTO" AND NOT TARGET OpenHaptics::HD)
+    message(FATAL_ERROR "hapbeam: HAPBEAM_WITH_OPENHAPTICS=ON, but the OpenHaptics developer kit is not found; OpenHaptics_ROOT says where it is")
+  endif()
 endfunction()
 
 # What the window of an example needs: GLFW 3.3, OpenGL, Dear ImGui 1.86 or later as a library with its GLFW and OpenGL 3
@@ -91,9 +106,8 @@ macro(hapbeam_find_catch2)
     find_package(Catch2 2.13 CONFIG QUIET)
   endif()
   if(NOT Catch2_FOUND)
-    FetchContent_Declare(catch2
+    hapbeam_fetch(catch2 "Catch2 2.13 or 3, which the tests need (HAPBEAM_BUILD_TESTS),"
       GIT_REPOSITORY https://github.com/catchorg/Catch2 GIT_TAG v2.13.10 GIT_SHALLOW TRUE)
-    FetchContent_MakeAvailable(catch2)
     list(APPEND CMAKE_MODULE_PATH ${catch2_SOURCE_DIR}/contrib)
   endif()
 endmacro()
@@ -105,8 +119,7 @@ function(hapbeam_find_benchmark)
     set(BENCHMARK_ENABLE_TESTING OFF)
     set(BENCHMARK_ENABLE_INSTALL OFF)
     set(CMAKE_POLICY_DEFAULT_CMP0077 NEW)
-    FetchContent_Declare(benchmark
+    hapbeam_fetch(benchmark "Google Benchmark 1.7 or later, which the benchmarks need (HAPBEAM_BUILD_BENCHMARKS),"
       GIT_REPOSITORY https://github.com/google/benchmark GIT_TAG v1.7.1 GIT_SHALLOW TRUE)
-    FetchContent_MakeAvailable(benchmark)
   endif()
 endfunction()

@@ -22,3 +22,4 @@
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/guarded.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
+#include <hapbeam/version.hpp>
