@@ -37,7 +37,7 @@ Options filled_in(Options options, const hapbeam::DeviceInfo& device) {
 template <typename Coupling>
 Coupling make_coupling(const Options& options, const hapbeam::DeviceInfo& device) {
   if constexpr (std::is_same_v<Coupling, hapbeam::Direct>) return {};
-  else return Coupling({options.stiffness, options.damping}, device.period);
+  else return Coupling({options.stiffness, options.damping});
 }
 
 /// What all bodies are made of, but for the model.
