@@ -8,6 +8,7 @@
 #include "support/thesis_beam.hpp"
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/haptics/device/known_devices.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
 #include <hapbeam/rom/training/train.hpp>
@@ -143,6 +144,29 @@ TEST_CASE("so it is at any rate from 500 Hz to 8 kHz, with ticks that come 30 % 
     CHECK(r.speed <= at_rest);
     CHECK(r.least_energy >= -round_off);
     CHECK(r.generated == 0);
+  }
+}
+
+// Arms without any damping of their own, which is less than any has, in hands of the published fits: a hand of 0.8 N·s/m rings
+// for some seconds by itself.
+TEST_CASE("through the coupling of a known device, whose damping is unknown, a hand is at rest as well",
+          "[servo loop]") {
+  FemModel<> bar(pinned(), 16);
+  Random random(10);
+  for (const DeviceInfo& device : known_devices()) {
+    if (device.damping > 0) continue;
+    for (int i = 0; i < 8; ++i) {
+      Situation who;
+      who.hand_stiffness = random(380, 770), who.hand_damping = random(0.8, 1.8),
+      who.grip_mass = random(0.2, 0.22);
+      who.damping = 0, who.friction = device.friction, who.resolution = device.position_resolution;
+      who.apparent_mass = device.apparent_mass > 0 ? device.apparent_mass : random(0.05, 0.3);
+      who.push = 0.8 * device.continuous_force;
+      CAPTURE(device.name, who.hand_stiffness, who.hand_damping, who.grip_mass, who.apparent_mass);
+      const StepResponse r = step_response(bar, tenth, VirtualCoupling::for_device(device), who, 12, 10);
+      CHECK(r.speed <= at_rest);
+      CHECK(r.force > 0);
+    }
   }
 }
 

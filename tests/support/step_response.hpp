@@ -24,7 +24,7 @@ struct Situation {
   double jitter = 0;                                                 ///< as ArmOptions
   int delay = 0;                                                     ///< [ticks]
   double resolution = 7e-6;                                          ///< [m]
-  double damping = 5, friction = 0.2;                                ///< of the arm [N·s/m], [N]
+  double damping = 5, friction = 0.2, apparent_mass = 0.21;          ///< of the arm [N·s/m], [N], [kg]
   double push = 3;                                                   ///< [N]
   bool dissipate = false;                                            ///< as ServoOptions
   int missed = 0,
@@ -33,6 +33,7 @@ struct Situation {
   VirtualPhantomOptions options() const {
     VirtualPhantomOptions o;
     o.arm.damping = damping, o.arm.friction = friction, o.arm.resolution = resolution;
+    o.arm.apparent_mass = apparent_mass;
     o.arm.period = period, o.arm.delay_ticks = delay, o.arm.jitter = jitter;
     o.hand = {hand_stiffness, hand_damping, grip_mass};
     return o;
