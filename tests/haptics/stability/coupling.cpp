@@ -171,9 +171,9 @@ TEST_CASE("a damper feels the speed of the hand and not the rate of the loop", "
     }
     return force;
   };
-  for (const double T : {1e-4, 1e-3, 4e-3}) {
-    CHECK(force_after(T, T) == Approx(B * speed).epsilon(0.01));
-    CHECK(force_after(0.7 * T, 1.3 * T) == Approx(B * speed).epsilon(0.01));
+  for (const double period : {1e-4, 1e-3, 4e-3}) {
+    CHECK(force_after(period, period) == Approx(B * speed).epsilon(0.01));
+    CHECK(force_after(0.7 * period, 1.3 * period) == Approx(B * speed).epsilon(0.01));
   }
 }
 
