@@ -60,7 +60,7 @@ CouplingFigures default_figures(const Situation& who) {
 StepResponse unsampled(FemModel<>& model, double s, const CouplingFigures& figures, Situation who,
                        double seconds) {
   who.period = 1e-4, who.delay = 0, who.resolution = 0;
-  return step_response(model, s, VirtualCoupling(figures, who.period), who, seconds);
+  return step_response(model, s, VirtualCoupling(figures), who, seconds);
 }
 
 void sweep(double seconds) {
@@ -82,7 +82,7 @@ void sweep(double seconds) {
                   who.push = push;
                   const CouplingFigures figures = default_figures(who);
                   const StepResponse r =
-                      step_response(model, scene.s, VirtualCoupling(figures, period), who, seconds);
+                      step_response(model, scene.s, VirtualCoupling(figures), who, seconds);
                   const bool moves = r.speed > at_rest, gives = r.least_energy < -round_off;
                   const bool lost = !(r.force > 0);
                   const StepResponse best =
@@ -107,7 +107,7 @@ bool stable(FemModel<>& model, double s, const CouplingFigures& figures, Situati
   for (const double k : {0.0, 1000.0})
     for (const double grip : {0.05, 0.4}) {
       who.hand_stiffness = k, who.hand_damping = 0, who.grip_mass = grip;
-      const StepResponse r = step_response(model, s, VirtualCoupling(figures, who.period), who, 4, 3);
+      const StepResponse r = step_response(model, s, VirtualCoupling(figures), who, 4, 3);
       if (r.speed > at_rest || r.least_energy < -round_off) return false;
     }
   return true;

@@ -61,7 +61,7 @@ bool stable(FemModel<>& model, const CouplingFigures& figures, Situation who) {
   for (const double k : {0.0, 1000.0})
     for (const double grip : {0.05, 0.4}) {
       who.hand_stiffness = k, who.hand_damping = 0, who.grip_mass = grip;
-      const StepResponse r = step_response(model, tenth, VirtualCoupling(figures, who.period), who, 4, 3);
+      const StepResponse r = step_response(model, tenth, VirtualCoupling(figures), who, 4, 3);
       if (r.speed > at_rest || r.least_energy < -1e-9) return false;
     }
   return true;
@@ -84,8 +84,8 @@ void stiffness_and_delay(Report& report) {
                                   number(passive_stiffness(who.damping, who.period, 0) / 1e3) + " kN/m");
   report.row("pressed at a tenth of the span, 163 kN/m, directly",
              mm_per_s(speed(model, tenth, Direct(), who)),
-             mm_per_s(speed(model, tenth, VirtualCoupling(default_figures(who, 0), who.period), who)) +
-                 ", through " + number(default_figures(who, 0).stiffness / 1e3) + " kN/m");
+             mm_per_s(speed(model, tenth, VirtualCoupling(default_figures(who, 0)), who)) + ", through " +
+                 number(default_figures(who, 0).stiffness / 1e3) + " kN/m");
   report.failure("delay", "bar at mid-span, 21 kN/m: one tick");
   for (const int delay : {1, 2, 3}) {
     who.delay = delay;
@@ -104,7 +104,7 @@ void stiffness_and_delay(Report& report) {
       found[k].push_back(1e3 * y);
     });
   };
-  const auto coupled = [&](int delay) { return VirtualCoupling(default_figures(who, delay), who.period); };
+  const auto coupled = [&](int delay) { return VirtualCoupling(default_figures(who, delay)); };
   trace(0, tenth, Direct(), 0);
   trace(1, middle, Direct(), 2);
   trace(2, tenth, coupled(0), 0);
@@ -116,14 +116,14 @@ void stiffness_and_delay(Report& report) {
 void encoders(Report& report) {
   FemModel<> model(pinned(), 16);
   Situation who;
-  const VirtualCoupling fine({passive_stiffness(who.damping, who.period, 0), 0}, who.period);
+  const VirtualCoupling fine({passive_stiffness(who.damping, who.period, 0), 0});
   Series series = report.series("quantisation", "resolution_um,fine_mm_per_s,default_mm_per_s");
   const auto at = [&](double resolution, bool knows) {
     who.resolution = resolution;
     double worst = 0;
     for (const double push : {1.0, 3.0, 6.0}) {
       who.push = push;
-      const VirtualCoupling coupling = knows ? VirtualCoupling(default_figures(who, 0), who.period) : fine;
+      const VirtualCoupling coupling = knows ? VirtualCoupling(default_figures(who, 0)) : fine;
       worst = std::max(worst, speed(model, tenth, coupling, who));
     }
     return worst;
@@ -151,9 +151,7 @@ void missed_ticks(Report& report) {
     who.missed = missed;
     return speed(model, s, coupling, who);
   };
-  const auto told = [&](int missed) {
-    return VirtualCoupling(default_figures(who, std::min(missed, 16)), who.period);
-  };
+  const auto told = [&](int missed) { return VirtualCoupling(default_figures(who, std::min(missed, 16))); };
   Series series = report.series("missed", "missed,direct_mm_per_s,default_mm_per_s,told_mm_per_s");
   int direct_begins = 0, default_begins = 0;
   for (int missed = 0; missed <= 25; ++missed) {

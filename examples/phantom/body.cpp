@@ -35,9 +35,9 @@ Options filled_in(Options options, const hapbeam::DeviceInfo& device) {
 }
 
 template <typename Coupling>
-Coupling make_coupling(const Options& options, const hapbeam::DeviceInfo& device) {
+Coupling make_coupling(const Options& options) {
   if constexpr (std::is_same_v<Coupling, hapbeam::Direct>) return {};
-  else return Coupling({options.stiffness, options.damping}, device.period);
+  else return Coupling({options.stiffness, options.damping});
 }
 
 /// What all bodies are made of, but for the model.
@@ -57,7 +57,7 @@ class Live final : public Body {
         model_(std::move(model)),
         rest_(model_.shape()),
         servo_(model_, parts_.device, servo_options(parts_.options),
-               make_coupling<Coupling>(parts_.options, parts_.device)) {}
+               make_coupling<Coupling>(parts_.options)) {}
 
   Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept override { return servo_.tick(state); }
   const hapbeam::ServoRecord& record() const noexcept override { return servo_.record(); }

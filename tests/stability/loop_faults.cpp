@@ -30,13 +30,13 @@ TEST_CASE("a coupling that is right for fine encoders buzzes with coarse ones; t
           "[servo loop]") {
   Situation who;
   const double bound = passive_stiffness(who.damping, who.period, 0);
-  CHECK(comes_to_rest(tenth, VirtualCoupling({bound, 0}, who.period), who));
+  CHECK(comes_to_rest(tenth, VirtualCoupling({bound, 0}), who));
   for (const double resolution : {200e-6, 400e-6}) {
     who.resolution = resolution;
     CHECK(bound > 2 * who.friction / resolution);  // Abbott and Okamura
-    CHECK_FALSE(comes_to_rest(tenth, VirtualCoupling({bound, 0}, who.period), who));
+    CHECK_FALSE(comes_to_rest(tenth, VirtualCoupling({bound, 0}), who));
     CHECK(default_figures(who).stiffness <= who.friction / resolution * (1 + 1e-12));
-    CHECK(comes_to_rest(tenth, VirtualCoupling(default_figures(who), who.period), who));
+    CHECK(comes_to_rest(tenth, VirtualCoupling(default_figures(who)), who));
   }
 }
 
@@ -48,16 +48,16 @@ TEST_CASE(
   CHECK(comes_to_rest(middle, Direct(), who));
   who.missed = 1, who.of = 4;
   CHECK_FALSE(comes_to_rest(middle, Direct(), who));
-  CHECK(comes_to_rest(tenth, VirtualCoupling(default_figures(who), who.period), who));
+  CHECK(comes_to_rest(tenth, VirtualCoupling(default_figures(who)), who));
   // The default, made for none, bears some: three of four, eight of thirty at once.  Twenty of thirty are too many for it.
   who.missed = 3;
-  CHECK(comes_to_rest(tenth, VirtualCoupling(default_figures(who), who.period), who));
+  CHECK(comes_to_rest(tenth, VirtualCoupling(default_figures(who)), who));
   who.of = 30, who.missed = 8;
-  CHECK(comes_to_rest(tenth, VirtualCoupling(default_figures(who), who.period), who));
+  CHECK(comes_to_rest(tenth, VirtualCoupling(default_figures(who)), who));
   who.missed = 20;
-  CHECK_FALSE(comes_to_rest(tenth, VirtualCoupling(default_figures(who), who.period), who));
+  CHECK_FALSE(comes_to_rest(tenth, VirtualCoupling(default_figures(who)), who));
   for (const int missed : {3, 8, 16}) {
     who.missed = missed;
-    CHECK(comes_to_rest(tenth, VirtualCoupling(default_figures(who, missed), who.period), who));
+    CHECK(comes_to_rest(tenth, VirtualCoupling(default_figures(who, missed)), who));
   }
 }

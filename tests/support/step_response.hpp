@@ -21,9 +21,10 @@ namespace hapbeam::testing {
 struct Situation {
   double hand_stiffness = 500, hand_damping = 1.3, grip_mass = 0.2;  ///< [N/m], [N·s/m], [kg]
   double period = 1e-3;                                              ///< [s]
+  double jitter = 0;                                                 ///< as ArmOptions
   int delay = 0;                                                     ///< [ticks]
   double resolution = 7e-6;                                          ///< [m]
-  double damping = 5, friction = 0.2;                                ///< of the arm [N·s/m], [N]
+  double damping = 5, friction = 0.2, apparent_mass = 0.21;          ///< of the arm [N·s/m], [N], [kg]
   double push = 3;                                                   ///< [N]
   bool dissipate = false;                                            ///< as ServoOptions
   int missed = 0,
@@ -32,7 +33,8 @@ struct Situation {
   VirtualPhantomOptions options() const {
     VirtualPhantomOptions o;
     o.arm.damping = damping, o.arm.friction = friction, o.arm.resolution = resolution;
-    o.arm.period = period, o.arm.delay_ticks = delay;
+    o.arm.apparent_mass = apparent_mass;
+    o.arm.period = period, o.arm.delay_ticks = delay, o.arm.jitter = jitter;
     o.hand = {hand_stiffness, hand_damping, grip_mass};
     return o;
   }
@@ -102,8 +104,8 @@ StepResponse step_response(Model& model, double s, const Coupling& coupling, con
     const double moved = tip.position.y() - y, speed = tip.velocity.y();
     y = tip.position.y();
     watch(static_cast<double>(tick + 1) * who.period, y);
-    energy += -held[static_cast<std::size_t>(who.delay)] * moved + who.damping * moved * moved / who.period +
-              who.friction * std::abs(moved);
+    energy += -held[static_cast<std::size_t>(who.delay)] * moved +
+              who.damping * moved * moved / (who.period * (1 + who.jitter)) + who.friction * std::abs(moved);
     response.least_energy = std::min(response.least_energy, energy);
     still = moved == 0 && speed == 0 ? still + 1 : 0;
     if (tick < first) continue;

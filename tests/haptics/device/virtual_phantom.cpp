@@ -85,10 +85,10 @@ TEST_CASE("positions lie on the grid of the encoders, half a step from the truth
 
 TEST_CASE("the velocity is a low pass of the readings' differences", "[phantom]") {
   const double period = 1e-3, cutoff = 100, speed = 0.1;
-  Encoders exact(0, cutoff, period), coarse(7e-6, cutoff, period);
+  Encoders exact(0, cutoff), coarse(7e-6, cutoff);
   for (int n = 1; n <= 200; ++n) {
-    exact.read({speed * n * period, 0, 0});
-    coarse.read({speed * n * period, 0, 0});
+    exact.read({speed * n * period, 0, 0}, period);
+    coarse.read({speed * n * period, 0, 0}, period);
     const double expected = speed * (1 - std::exp(-2 * 3.14159265358979 * cutoff * period * n));
     REQUIRE(exact.velocity().x() == Approx(expected).epsilon(1e-10));
     // A reading is half a step off; so is their sum, through gain and decay of the filter.

@@ -49,7 +49,7 @@ DeviceState state(double y, int tick) {
 /// A closed-form beam of 1 m, EI = 1 Nm²: 48 N/m at its middle.
 struct Closed {
   ClosedFormBeam<double> beam{Ends::simply_supported};
-  Servo<ClosedFormBeam<double>> servo{beam, phantom(), above(0.5, 6e-3), VirtualCoupling({200, 0}, 1e-3)};
+  Servo<ClosedFormBeam<double>> servo{beam, phantom(), above(0.5, 6e-3), VirtualCoupling({200, 0})};
   int tick = 0;
 
   Closed() { press(-0.01, 10); }  // from above: where the hand begins is the side that it touches
@@ -62,6 +62,35 @@ struct Closed {
 };
 
 }  // namespace
+
+TEST_CASE(
+    "a clock that says nothing is taken for a period, and no interval is taken as it is beyond all bounds",
+    "[servo]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  LoopClock clock(1e-3);
+  CHECK(clock.passed(1) == 0.1);
+  CHECK(clock.passed(1.0013) == Approx(1.3e-3));
+  CHECK(clock.passed(1.0014) == 0.5e-3);
+  for (const double wrong : {1.0014, 1.0, nan, inf, -inf}) CHECK(clock.passed(wrong) == 1e-3);
+  CHECK(clock.passed(1.002) == Approx(2e-3));  // since 1.0
+  CHECK_THROWS_WITH(LoopClock(0), ContainsSubstring("period = 0 s"));
+}
+
+TEST_CASE("a host that hands over time steps feels what a device with a clock feels", "[servo]") {
+  Closed device, host, broken;
+  Random random(1);
+  double time = 1e-3 * device.tick;
+  for (int tick = 0; tick < 2000; ++tick) {
+    const double dt = 1e-3 * random(0.7, 1.3), y = 5e-3 * std::sin(tick * 0.01);
+    DeviceState now = state(y, 1);
+    now.time = time += dt;
+    const Vector felt = device.servo.tick(now);
+    REQUIRE((felt - host.servo.tick(now.position, now.velocity, dt)).norm() <= 1e-12);
+    const double wrong[] = {std::numeric_limits<double>::quiet_NaN(), -dt, 0, 1e300};
+    REQUIRE(broken.servo.tick(now.position, now.velocity, wrong[tick % 4]).allFinite());
+  }
+  CHECK(device.record().contact_ticks > 500);
+}
 
 TEST_CASE("free, touching, free again: the record says so and counts", "[servo]") {
   Closed c;
@@ -105,7 +134,7 @@ TEST_CASE("the picture draws a beam of any rotation as its model does", "[servo]
   using Turning = FemModel<Corotational<>>;
   Turning ruler(
       Beam(0.3, Section::rectangle(0.025, 0.0005), Material{200e9}, Support::clamped, Support::free), 4);
-  Servo<Turning> servo(ruler, phantom(), above(0.15, 5.25e-3, 3), VirtualCoupling({2000, 0}, 1e-3));
+  Servo<Turning> servo(ruler, phantom(), above(0.15, 5.25e-3, 3), VirtualCoupling({2000, 0}));
   for (int tick = 0; tick < 1000; ++tick) {
     DeviceState now = state(0.001 - 5e-5 * tick, tick);
     (void)servo.tick(now);
@@ -254,7 +283,7 @@ TEST_CASE("pressing while the force comes in lends energy, and the record counts
   for (const double scale : {1.0, 4.0})
     for (const int ticks : {50, 150}) {
       FemModel<> model(thesis_beam(Support::pinned, Support::pinned), 16);
-      Servo<FemModel<>> servo(model, lossless, above(1.27, reach, scale), VirtualCoupling({1000, 1}, 1e-3));
+      Servo<FemModel<>> servo(model, lossless, above(1.27, reach, scale), VirtualCoupling({1000, 1}));
       const double depth = 0.005, K = 1 / (1 / 1000.0 + 1 / (21e3 * scale)),
                    step = depth / std::min(ticks, 200);
       const ServoRecord record = press(servo, ticks, depth);
@@ -286,7 +315,7 @@ TEST_CASE("in a scene of another scale the hand feels the coupling that its devi
   for (const double scale : {0.5, 1.0, 5.0}) {
     FemModel<> model(thesis_beam(Support::pinned, Support::pinned), 8);
     Servo<FemModel<>> servo(model, phantom(), above(0.02, thesis_length / 200 + 5e-3, scale),
-                            VirtualCoupling({1000, 0}, 1e-3));
+                            VirtualCoupling({1000, 0}));
     double force = 0;
     for (int tick = 0; tick < 500; ++tick) force = servo.tick(state(-3e-3, tick)).y();
     CHECK(force == Approx(3.0).epsilon(1e-3));
@@ -338,7 +367,9 @@ TEST_CASE("an impossible servo is refused", "[servo]") {
   options.delay_ticks = 17;
   CHECK_THROWS_WITH((Servo<FemModel<>>(model, phantom(), options)), ContainsSubstring("delay_ticks = 17"));
   DeviceInfo unknown = phantom();
+  unknown.damping = -1;
+  CHECK_THROWS_WITH((Servo<FemModel<>>(model, unknown)), ContainsSubstring("device damping = -1 N·s/m"));
   unknown.damping = 0;
-  CHECK_THROWS_WITH((Servo<FemModel<>>(model, unknown)), ContainsSubstring("device damping = 0 N·s/m"));
+  CHECK_NOTHROW(Servo<FemModel<>>(model, unknown));
   CHECK_NOTHROW(Servo<FemModel<>, Direct>(model, unknown));
 }

@@ -14,9 +14,11 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
+constexpr double period = 1e-3;  // [s]
+
 DeviceInfo device(double damping, double friction = 0, double resolution = 0) {
   DeviceInfo info{};
-  info.period = 1e-3;
+  info.period = period;
   info.damping = damping;
   info.friction = friction;
   info.position_resolution = resolution;
@@ -27,11 +29,11 @@ DeviceInfo device(double damping, double friction = 0, double resolution = 0) {
 double through_a_spring(const DeviceInfo& info, double stiffness, double step, int steps, int delay) {
   EnergyMonitor monitor(info, delay);
   int depth = 0;
-  monitor.observe(Vector::Zero(), Vector::Zero());
+  monitor.observe(Vector::Zero(), Vector::Zero(), period);
   for (int tick = 0; tick < 2 * steps + delay + 2; ++tick) {
     const double force = stiffness * step * depth;
     depth += tick < steps ? 1 : tick < 2 * steps ? -1 : 0;
-    monitor.observe(Vector(0, -step * depth, 0), Vector(0, force, 0));
+    monitor.observe(Vector(0, -step * depth, 0), Vector(0, force, 0), period);
   }
   CHECK(monitor.net() == 0);  // the contact has ended
   return monitor.generated();
@@ -71,7 +73,9 @@ TEST_CASE("friction takes f |Δx|, and both count only what was surely travelled
 
 TEST_CASE("each contact is judged by itself: what one took the next has not earned", "[energy]") {
   EnergyMonitor monitor(device(0));
-  const auto move = [&](double force, double to) { monitor.observe(Vector(0, to, 0), Vector(0, force, 0)); };
+  const auto move = [&](double force, double to) {
+    monitor.observe(Vector(0, to, 0), Vector(0, force, 0), period);
+  };
   move(0, 0);
   move(2, -0.01);  // takes 20 mJ
   CHECK(monitor.net() == Approx(-0.02));
@@ -95,8 +99,8 @@ TEST_CASE("the controller brakes while energy is owed, never pushes, and no more
   EnergyMonitor monitor(device(5));
   const Vector v(0.1, -0.2, 0.3);
   CHECK(monitor.dissipation(v).isZero(0));
-  monitor.observe(Vector::Zero(), Vector::Zero());
-  monitor.observe(Vector(0, 1e-6, 0), Vector(0, 10, 0));
+  monitor.observe(Vector::Zero(), Vector::Zero(), period);
+  monitor.observe(Vector(0, 1e-6, 0), Vector(0, 10, 0), period);
   REQUIRE(monitor.net() > 0);
   for (int i = 0; i < 10000; ++i) {
     const Vector velocity = Vector(random(1), random(1), random(1)) * std::pow(10, random(-6, 2));
@@ -113,11 +117,11 @@ TEST_CASE("the controller brakes while energy is owed, never pushes, and no more
 
 TEST_CASE("readings and forces that are no numbers leave the account as it is", "[energy]") {
   EnergyMonitor monitor(device(5));
-  monitor.observe(Vector::Zero(), Vector::Zero());
-  monitor.observe(Vector(0, 1e-3, 0), Vector(0, 10, 0));
+  monitor.observe(Vector::Zero(), Vector::Zero(), period);
+  monitor.observe(Vector(0, 1e-3, 0), Vector(0, 10, 0), period);
   const double net = monitor.net();
-  monitor.observe(Vector(0, NAN, 0), Vector(0, 10, 0));
-  monitor.observe(Vector(0, 1e-3, 0), Vector(0, INFINITY, 0));
+  monitor.observe(Vector(0, NAN, 0), Vector(0, 10, 0), period);
+  monitor.observe(Vector(0, 1e-3, 0), Vector(0, INFINITY, 0), period);
   CHECK(std::isfinite(monitor.net()));
   CHECK(monitor.net() == net);
 }
@@ -130,16 +134,16 @@ TEST_CASE("a monitor of a device that cannot be is refused", "[energy]") {
 
 TEST_CASE("positions and forces that no device has leave the account finite and as it was", "[energy]") {
   EnergyMonitor monitor(device(5));
-  monitor.observe(Vector::Zero(), Vector::Zero());
-  monitor.observe(Vector(0, 1e-3, 0), Vector(0, 10, 0));
+  monitor.observe(Vector::Zero(), Vector::Zero(), period);
+  monitor.observe(Vector(0, 1e-3, 0), Vector(0, 10, 0), period);
   const double net = monitor.net();
   for (const double garbage : {1e300, -1e300, 1e160, 20.0}) {
-    monitor.observe(Vector(0, garbage, 0), Vector(0, 10, 0));
-    monitor.observe(Vector(0, 1e-3, 0), Vector(0, 10, 0));
+    monitor.observe(Vector(0, garbage, 0), Vector(0, 10, 0), period);
+    monitor.observe(Vector(0, 1e-3, 0), Vector(0, 10, 0), period);
     CHECK(monitor.net() == net);
   }
-  for (int i = 0; i < 1000; ++i) monitor.observe(Vector(0, i % 2 * 5.0, 0), Vector(0, 1.7e308, 0));
-  monitor.observe(Vector::Zero(), Vector::Zero());
+  for (int i = 0; i < 1000; ++i) monitor.observe(Vector(0, i % 2 * 5.0, 0), Vector(0, 1.7e308, 0), period);
+  monitor.observe(Vector::Zero(), Vector::Zero(), period);
   CHECK(std::isfinite(monitor.generated()));
 }
 
@@ -153,7 +157,7 @@ TEST_CASE("a spring whose force comes in while it is pressed has lent its energy
     double force = 0, share = 0;
     for (int i = 0; i <= 2 * ticks; ++i) {
       const double x = depth * std::min(i, 2 * ticks - i) / ticks;
-      monitor.observe(Vector(0, -x, 0), Vector(0, force, 0));
+      monitor.observe(Vector(0, -x, 0), Vector(0, force, 0), period);
       const double before = share;
       share = std::min(1.0, i / (0.7 * ticks));
       force = share * K * x;

@@ -17,11 +17,9 @@ namespace hapbeam {
 
 class Encoders {
  public:
-  /// @param resolution [m]; 0: positions are read as they are   @param cutoff f [Hz]   @param period T [s]
-  Encoders(double resolution, double cutoff, double period) noexcept
-      : resolution_(resolution),
-        period_(period),
-        gain_(-std::expm1(-2 * 3.141592653589793 * cutoff * period)) {}
+  /// @param resolution [m]; 0: positions are read as they are   @param cutoff f [Hz]
+  Encoders(double resolution, double cutoff) noexcept
+      : resolution_(resolution), cutoff_(2 * 3.141592653589793 * cutoff) {}
 
   const Eigen::Vector3d& position() const noexcept { return position_; }  ///< [m]
   const Eigen::Vector3d& velocity() const noexcept { return velocity_; }  ///< [m/s]
@@ -31,10 +29,10 @@ class Encoders {
     position_ = on_grid(tip);
     velocity_.setZero();
   }
-  /// Reads the tip, one period after the last reading.  @param tip [m]
-  void read(const Eigen::Vector3d& tip) noexcept {
+  /// Reads the tip.  @param tip [m]   @param period [s] since the last reading
+  void read(const Eigen::Vector3d& tip, double period) noexcept {
     const Eigen::Vector3d reading = on_grid(tip);
-    velocity_ += gain_ * ((reading - position_) / period_ - velocity_);
+    velocity_ += -std::expm1(-cutoff_ * period) * ((reading - position_) / period - velocity_);
     position_ = reading;
   }
 
@@ -46,7 +44,7 @@ class Encoders {
             resolution_ * std::nearbyint(tip.z() / resolution_)};
   }
 
-  double resolution_, period_, gain_;
+  double resolution_, cutoff_;  // [m], [rad/s]
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero(), velocity_ = Eigen::Vector3d::Zero();
 };
 

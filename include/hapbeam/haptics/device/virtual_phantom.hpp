@@ -38,6 +38,7 @@ struct ArmOptions {
   double peak_force = 37.5;      ///< [N] positive
   double period = 1e-3;          ///< [s] of the servo loop, 1e-5 to 1
   int delay_ticks = 0;           ///< whole periods between a force and the motors, 0 to 16
+  double jitter = 0;  ///< share of a period by which the time between two ticks differs from it, 0 to 0.9
 };
 
 /// The hand that holds the arm, a spring and a damper between path and grip; within the published fits.
@@ -122,6 +123,7 @@ class VirtualPhantom {
   /// Back to the beginning of the path, at rest there, all counts zero.  Only while it does not run.
   void reset() noexcept {
     periods_ = 0;
+    time_ = 0;
     ticks_ = missed_ticks_ = force_cut_ticks_ = 0;
     force_.setZero();
     late_.fill(force_);
@@ -142,9 +144,9 @@ class VirtualPhantom {
 
   template <typename Servo>
   void tick(Servo& servo) noexcept {
-    Eigen::Vector3d force = servo(DeviceState{
-        encoders_.position(), encoders_.velocity(), static_cast<double>(periods_) * options_.arm.period, cut_,
-        force_, DeviceStatus::running, ticks_.load(std::memory_order_relaxed) == 0});
+    Eigen::Vector3d force =
+        servo(DeviceState{encoders_.position(), encoders_.velocity(), time_, cut_, force_,
+                          DeviceStatus::running, ticks_.load(std::memory_order_relaxed) == 0});
     cut_ = limit_force(force, options_.arm.peak_force);
     force_ = force;
     ticks_.fetch_add(1, std::memory_order_relaxed);
@@ -153,9 +155,9 @@ class VirtualPhantom {
 
   /// One period under the last force.
   void advance() noexcept {
-    const double period = options_.arm.period;
+    const double begun = std::exchange(time_, next_time()), period = time_ - begun;
     const HandTarget from = target_;
-    target_ = path_(static_cast<double>(++periods_) * period);
+    target_ = path_(time_);
     std::move_backward(late_.begin(), late_.end() - 1, late_.end());
     late_[0] = force_;
     const Eigen::Vector3d force = late_[static_cast<std::size_t>(options_.arm.delay_ticks)] + from.push;
@@ -163,7 +165,17 @@ class VirtualPhantom {
       axes_[i].advance(axes_[i].drive(force[i], from.position[i], from.velocity[i], target_.position[i],
                                       target_.velocity[i], options_.hand.damping, period),
                        period);
-    encoders_.read(tip().position);
+    encoders_.read(tip().position, period);
+  }
+
+  /// [s] of the next tick: up to half the jitter to either side of where it should be, the same every time.
+  double next_time() noexcept {
+    // SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
+    std::uint64_t bits = ++periods_ * 0x9E3779B97F4A7C15u;
+    bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9u;
+    bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBu;
+    const double random = static_cast<double>((bits ^ (bits >> 31)) >> 11) * 0x1p-53 - 0.5;
+    return (static_cast<double>(periods_) + options_.arm.jitter * random) * options_.arm.period;
   }
 
   template <typename Servo>
@@ -199,6 +211,7 @@ class VirtualPhantom {
     if (!(arm.period >= 1e-5 && arm.period <= 1)) detail::reject("period", arm.period, "s", "1e-5 to 1");
     if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= max_delay))
       detail::reject("delay_ticks", arm.delay_ticks, "", "0 to 16");
+    if (!(arm.jitter >= 0 && arm.jitter <= 0.9)) detail::reject("jitter", arm.jitter, "", "0 to 0.9");
     not_negative("hand stiffness", hand.stiffness, "N/m");
     not_negative("hand damping", hand.damping, "N·s/m");
     not_negative("grip_mass", hand.grip_mass, "kg");
@@ -238,12 +251,13 @@ class VirtualPhantom {
   VirtualPhantomOptions options_;
   DeviceInfo info_;
   ArmAxis axes_[3] = {axis(options_), axis(options_), axis(options_)};
-  Encoders encoders_{options_.arm.resolution, options_.arm.velocity_cutoff, options_.arm.period};
+  Encoders encoders_{options_.arm.resolution, options_.arm.velocity_cutoff};
   HandTarget target_{};
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
   std::array<Eigen::Vector3d, max_delay + 1> late_;  // newest first
   ForceCut cut_ = ForceCut::none;
   std::uint64_t periods_ = 0;
+  double time_ = 0;  // [s]
   std::atomic<std::uint64_t> ticks_{0}, missed_ticks_{0}, force_cut_ticks_{0};
   std::atomic<bool> running_{false}, stopping_{false};
   std::thread thread_;

@@ -12,12 +12,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/haptics/servo/exchange.hpp>
+#include <hapbeam/haptics/servo/loop_clock.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo_record.hpp>
 #include <hapbeam/haptics/servo/tick_times.hpp>
@@ -66,10 +68,10 @@ class ServoPicture {
 
 template <typename Model, typename Coupling = VirtualCoupling>
 class Servo {
-  static_assert(
-      is_coupling<Coupling>,
-      "a coupling has: tick(touch, hand) noexcept -> CoupledForce<Scalar>; in_scene(scale) const noexcept -> "
-      "itself; reset() noexcept; static for_device(info, delay_ticks) -> itself");
+  static_assert(is_coupling<Coupling>,
+                "a coupling has: tick(touch, hand, dt) noexcept -> CoupledForce<Scalar>; in_scene(scale) "
+                "const noexcept -> "
+                "itself; reset() noexcept; static for_device(info, delay_ticks) -> itself");
 
  public:
   using Scalar = typename Model::Scalar;
@@ -84,6 +86,7 @@ class Servo {
         options_(options),
         touch_(model, static_cast<Scalar>(options.avatar_radius)),
         coupling_(coupling.in_scene(options.placement.scale())),
+        clock_(device.period),
         energy_(device, options.delay_ticks),
         guard_(ForceGuard::for_device(device)),
         times_(device.period),
@@ -98,9 +101,10 @@ class Servo {
   [[nodiscard]] Eigen::Vector3d tick(const DeviceState& state) noexcept {
     if (state.reset) times_.pause();  // the device had no ticks for it meanwhile
     times_.begin();
-    energy_.observe(state.position, state.cut == ForceCut::none ? guard_.force() : state.sent);
+    const double dt = clock_.passed(state.time);
+    energy_.observe(state.position, state.cut == ForceCut::none ? guard_.force() : state.sent, dt);
     if (state.reset) release();
-    const auto coupled = coupling_.tick(touch_, options_.placement.beam_position(state.position));
+    const auto coupled = coupling_.tick(touch_, options_.placement.beam_position(state.position), dt);
     const bool safe = is_answer(coupled.touch.status) || coupled.continued;
     Eigen::Vector3d force = options_.placement.device_force_of_beam(coupled.force);
     if (options_.dissipate && coupled.touch.pressing) force += energy_.dissipation(state.velocity);
@@ -113,6 +117,18 @@ class Servo {
     return guarded.force;
   }
   Eigen::Vector3d operator()(const DeviceState& state) noexcept { return tick(state); }
+
+  /// For a host that hands over its own time step, or runs free.
+  /// @param position [m] of the device   @param velocity [m/s]   @param dt [s] since the tick before; another than a positive
+  /// number counts as a clock that stands   @return as above
+  [[nodiscard]] Eigen::Vector3d tick(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity,
+                                     double dt) noexcept {
+    DeviceState state;
+    state.position = position, state.velocity = velocity;
+    state.time = record_.time + (dt > 0 && std::isfinite(dt) ? dt : 0);
+    state.reset = record_.ticks == 0;
+    return tick(state);
+  }
 
   /// As new, but for the motors' heat.  While no tick runs.
   void reset() noexcept {
@@ -202,6 +218,7 @@ class Servo {
   ServoOptions options_;
   Touch<Model> touch_;
   Coupling coupling_;
+  LoopClock clock_;
   EnergyMonitor energy_;
   ForceGuard guard_;
   TickTimes times_;

@@ -1,7 +1,8 @@
 // What connects the hand to the beam: nothing, or a spring and a damper that the device can render.
 //
 //   a coupling C
-//   c.tick(touch, hand)   CoupledForce   noexcept, no allocation; one touch.tick(), whose result it hands on
+//   c.tick(touch, hand, dt)   CoupledForce   noexcept, no allocation; one touch.tick(), whose result it hands on; dt [s] since the
+//                                            tick before, positive
 //   c.in_scene(scale)     C              noexcept; the same between positions in metres of a scene, `scale` of them to
 //                                        one of the device's
 //   C::for_device(info, delay_ticks)   C   its default; may throw std::invalid_argument
@@ -64,14 +65,14 @@ struct IsCoupling : std::false_type {};
 template <typename C>
 struct IsCoupling<
     C, std::void_t<decltype(std::declval<C&>().tick(std::declval<AnyTouch&>(),
-                                                    std::declval<const Vector2<double>&>())),
+                                                    std::declval<const Vector2<double>&>(), 0.0)),
                    decltype(std::declval<const C&>().in_scene(1.0)), decltype(std::declval<C&>().reset()),
                    decltype(C::for_device(std::declval<const DeviceInfo&>(), 0))>>
     : std::bool_constant<
-          noexcept(
-              std::declval<C&>().tick(std::declval<AnyTouch&>(), std::declval<const Vector2<double>&>())) &&
+          noexcept(std::declval<C&>().tick(std::declval<AnyTouch&>(), std::declval<const Vector2<double>&>(),
+                                           0.0)) &&
           std::is_same_v<decltype(std::declval<C&>().tick(std::declval<AnyTouch&>(),
-                                                          std::declval<const Vector2<double>&>())),
+                                                          std::declval<const Vector2<double>&>(), 0.0)),
                          CoupledForce<double>>&& noexcept(std::declval<const C&>()
                                                               .in_scene(1.0))&& noexcept(std::declval<C&>()
                                                                                              .reset()) &&
@@ -93,7 +94,7 @@ class Direct {
 
   /// @param touch  of the same beam each tick   @param hand [m]
   template <typename Touch>
-  [[nodiscard]] auto tick(Touch& touch, const Vector2<double>& hand) noexcept
+  [[nodiscard]] auto tick(Touch& touch, const Vector2<double>& hand, double) noexcept
       -> CoupledForce<typename Touch::Scalar> {
     CoupledForce<typename Touch::Scalar> result;
     result.avatar = hand;
@@ -115,26 +116,25 @@ class Direct {
 /// The spring and the damper above.
 class VirtualCoupling {
  public:
-  /// @param figures  K [N/m] and B [N·s/m]   @param period [s] of the loop
-  /// @throws std::invalid_argument unless K is positive, B not negative, both finite, and the period 1e-6 to 1e3 s
-  VirtualCoupling(const CouplingFigures& figures, double period)
+  /// @param figures  K [N/m] and B [N·s/m]
+  /// @throws std::invalid_argument unless K is positive, B not negative and both finite
+  explicit VirtualCoupling(const CouplingFigures& figures)
       : stiffness_(detail::positive("coupling stiffness", figures.stiffness, "N/m")),
-        period_(detail::loop_period("period", period)),
-        damper_(figures.damping / period) {
+        damping_(figures.damping) {
     if (!(figures.damping >= 0 && std::isfinite(figures.damping)))
       detail::reject("coupling damping", figures.damping, "N·s/m", "finite and not negative");
   }
   /// What the device can render, with the margin of safe_coupling().   @throws as that
   static VirtualCoupling for_device(const DeviceInfo& device, int delay_ticks = 0) {
-    return {safe_coupling(device, delay_ticks), device.period};
+    return VirtualCoupling(safe_coupling(device, delay_ticks));
   }
 
-  CouplingFigures figures() const noexcept { return {stiffness_, damper_ * period_}; }
+  CouplingFigures figures() const noexcept { return {stiffness_, damping_}; }
   /// Longer metres, softer springs: force over displacement is divided by the scale.
   VirtualCoupling in_scene(double scale) const noexcept {
     VirtualCoupling scaled = *this;
     scaled.stiffness_ /= scale;
-    scaled.damper_ /= scale;
+    scaled.damping_ /= scale;
     return scaled;
   }
   void reset() noexcept {
@@ -142,12 +142,12 @@ class VirtualCoupling {
     gap_ = 0;
   }
 
-  /// Once a period.  @param touch  of the same beam each tick   @param hand [m]
+  /// Once a period.  @param touch  of the same beam each tick   @param hand [m]   @param dt [s] since the tick before, positive
   template <typename Touch>
-  [[nodiscard]] auto tick(Touch& touch, const Vector2<double>& hand) noexcept
+  [[nodiscard]] auto tick(Touch& touch, const Vector2<double>& hand, double dt) noexcept
       -> CoupledForce<typename Touch::Scalar> {
     CoupledForce<typename Touch::Scalar> result;
-    result.avatar = hand + last_.tangent().normal() * solve(hand).gap;
+    result.avatar = hand + last_.tangent().normal() * solve(hand, dt).gap;
     result.touch = touch.tick(result.avatar.template cast<typename Touch::Scalar>());
     last_.learn(result.touch, result.avatar);
     // Where the hand itself would not touch it either, the beam has not been missed: it is gone.
@@ -155,7 +155,7 @@ class VirtualCoupling {
         !touch.meets(hand.template cast<typename Touch::Scalar>()))
       last_.forget();
 
-    const Balance balance = solve(hand);
+    const Balance balance = solve(hand, dt);
     if (!std::isfinite(balance.force)) {
       reset();
       return result;
@@ -174,10 +174,10 @@ class VirtualCoupling {
     double force;  // K g + B g' [N]
   };
 
-  /// (K + B/T) g - B/T g_before = f(p0) - k n·(h + n g - p0), g where neither side pulls.
-  Balance solve(const Vector2<double>& hand) const noexcept {
+  /// (K + B/dt) g - B/dt g_before = f(p0) - k n·(h + n g - p0), g where neither side pulls.
+  Balance solve(const Vector2<double>& hand, double dt) const noexcept {
     const ContactTangent& beam = last_.tangent();
-    const double given = damper_ * gap_, own = stiffness_ + damper_;
+    const double damper = damping_ / dt, given = damper * gap_, own = stiffness_ + damper;
     if (beam.known()) {
       const double gap = (beam.force_at(hand) + given) / (own + beam.stiffness());
       const double force = own * gap - given;
@@ -190,8 +190,7 @@ class VirtualCoupling {
   static constexpr double least_gap = 1e-12;  // [m] is none
 
   double stiffness_;  // K [N/m]
-  double period_;     // T [s]
-  double damper_;     // B/T [N/m]
+  double damping_;    // B [N·s/m]
   LastResponse last_;
   double gap_ = 0;  // g [m], how far the hand is below the point
 };

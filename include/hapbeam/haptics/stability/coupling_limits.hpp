@@ -33,20 +33,22 @@ inline double passive_stiffness(double damping, double period, int delay_ticks) 
   return damping / (period * (0.5 + delay_ticks));
 }
 
+/// [N·s/m]  Taken for an arm of which nothing is known.  A hand on a stylus has 0.8 to 1.8 (published fits; docs/haptics.md), so that
+/// arm and hand together have more even where the arm has none.
+inline constexpr double least_damping = 0.5;
+
 /// What a device can render with a margin of a quarter of (1): the spring takes two fifths of the arm's damping, or less
 /// where it is as stiff as the maker names; the damper takes the rest up to three quarters.  Of (2) and (3), half.  With half
 /// for the spring it would be a quarter stiffer, and four times as many heavy hands not at rest half a second after a step.
+/// Of an arm whose damping is 0, that is unknown, least_damping is taken.
 /// @param delay_ticks  whole periods between the servo's answer and the motors, besides the one that holds it; 0 to 16
-/// @throws std::invalid_argument where the device's damping, friction, resolution, stiffness or period cannot be, or
-///         its damping is 0, that is unknown: there is no safe stiffness then
+/// @throws std::invalid_argument where the device's damping, friction, resolution, stiffness or period cannot be
 inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks = 0) {
   constexpr double spring_share = 0.4, both_share = 0.75, friction_share = 0.5;
-  const double b = device.damping;
-  if (!(std::isfinite(b) && b > 0))
-    detail::reject(
-        "device damping", b, "N·s/m",
-        "positive, the arm's own: set HdapiOptions::damping or DeviceInfo::damping, or give the loop a "
-        "VirtualCoupling of your own");
+  if (!(std::isfinite(device.damping) && device.damping >= 0))
+    detail::reject("device damping", device.damping, "N·s/m",
+                   "finite and not negative; 0 where it is unknown");
+  const double b = device.damping > 0 ? device.damping : least_damping;
   const double T = detail::loop_period("device period", device.period);
   const double hardest = detail::positive("device max_stiffness", device.max_stiffness, "N/m");
   if (!(device.friction >= 0)) detail::reject("device friction", device.friction, "N", "not negative");

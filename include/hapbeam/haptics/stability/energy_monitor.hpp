@@ -61,8 +61,8 @@ class EnergyMonitor {
     sent_ = zeros();
   }
 
-  /// A period has ended.   @param position [m] now   @param sent [N] by the loop in the tick before
-  void observe(const Eigen::Vector3d& position, const Eigen::Vector3d& sent) noexcept {
+  /// A period has ended.   @param position [m] now   @param sent [N] by the loop in the tick before   @param dt [s] since, positive
+  void observe(const Eigen::Vector3d& position, const Eigen::Vector3d& sent, double dt) noexcept {
     // Newest first: what the motors held is `delay` ticks older.
     std::move_backward(sent_.begin(), sent_.end() - 1, sent_.end());
     sent_[0] = sent;
@@ -77,7 +77,7 @@ class EnergyMonitor {
     }
     const Eigen::Array3d way(moved_along(moved[0]), moved_along(moved[1]), moved_along(moved[2]));
     const double work = held.dot(moved);
-    const double taken = damping_ * way.square().sum() / period_ + friction_ * way.sum();
+    const double taken = damping_ * way.square().sum() / dt + friction_ * way.sum();
     add(work - taken);
   }
 
