@@ -21,14 +21,14 @@ namespace hapbeam::testing {
 struct Situation {
   double hand_stiffness = 500, hand_damping = 1.3, grip_mass = 0.2;  ///< [N/m], [N·s/m], [kg]
   double period = 1e-3;                                              ///< [s]
-  double jitter = 0;                                                 ///< as ArmOptions
   int delay = 0;                                                     ///< [ticks]
   double resolution = 7e-6;                                          ///< [m]
   double damping = 5, friction = 0.2, apparent_mass = 0.21;          ///< of the arm [N·s/m], [N], [kg]
   double push = 3;                                                   ///< [N]
   bool dissipate = false;                                            ///< as ServoOptions
   int missed = 0,
-      of = 1;  ///< so many ticks of as many are missed in a row: the force stays, the arm moves on
+      of = 1;         ///< so many ticks of as many are missed in a row: the force stays, the arm moves on
+  double jitter = 0;  ///< as ArmOptions
 
   VirtualPhantomOptions options() const {
     VirtualPhantomOptions o;
