@@ -10,7 +10,7 @@ else()
 endif()
 
 # g++ collects its garbage from 128 MB on, an eighth of the time of a test with many models; left alone it takes a seventh more memory.
-target_compile_options(hapbeam_checks INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=4000000>)
+target_compile_options(hapbeam_checks INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=4000000>)
 
 if(HAPBEAM_SANITIZE)
   target_compile_options(hapbeam_checks INTERFACE

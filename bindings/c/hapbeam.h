@@ -1,0 +1,114 @@
+/* hapbeam for programs in C and for what calls C: Python, Unity, Unreal, MATLAB.
+
+     hapbeam_beam ruler = hapbeam_rectangle(0.3, 0.025, 0.001, 210e9, HAPBEAM_CLAMPED, HAPBEAM_FREE);
+     char why[HAPBEAM_MESSAGE];
+     hapbeam_touch* touch = hapbeam_touch_create(&ruler, HAPBEAM_COROTATIONAL, 8, 0.005, why);
+     if (!touch) puts(why);
+     hapbeam_contact felt = hapbeam_touch_tick(touch, 0.25, 0.004);      each millisecond
+     hapbeam_touch_destroy(touch);
+
+   SI throughout: m, N, rad, s, Pa.  x runs along the beam from its left end, w across it, up.
+   Creating and destroying allocate; no exception leaves the library, and a null pointer with a message says what was wrong.
+   A tick allocates nothing, waits for nobody and ends after a bounded amount of work.  Its force is finite whatever came in.
+   An object belongs to one thread at a time.  A null object is accepted and gives zeros and HAPBEAM_INVALID_REQUEST. */
+#ifndef HAPBEAM_H
+#define HAPBEAM_H
+
+#if defined(_WIN32) && defined(HAPBEAM_BUILDS_C)
+#define HAPBEAM_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define HAPBEAM_API __declspec(dllimport)
+#else
+#define HAPBEAM_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Room for a message, its final zero included. */
+#define HAPBEAM_MESSAGE 512
+
+enum { HAPBEAM_FREE, HAPBEAM_CLAMPED, HAPBEAM_PINNED, HAPBEAM_ROLLER, HAPBEAM_GUIDED }; /* how an end is held */
+enum { HAPBEAM_LINEAR, HAPBEAM_VON_KARMAN, HAPBEAM_COROTATIONAL };                      /* kinematics */
+
+/* Negative: the answer is not the requested one.  Positive: it belongs to the nearest request in range. */
+enum {
+  HAPBEAM_OK = 0,
+  HAPBEAM_OUT_OF_RANGE = 1,
+  HAPBEAM_SNAPPED = 2,
+  HAPBEAM_INVALID_REQUEST = -1,
+  HAPBEAM_ITERATION_LIMIT = -2,
+  HAPBEAM_SINGULAR = -3,
+  HAPBEAM_NON_FINITE = -4
+};
+/* Short lower-case name of a status. */
+HAPBEAM_API const char* hapbeam_status_name(int status);
+
+/* 100 is 0.1.0. */
+HAPBEAM_API int hapbeam_version(void);
+
+typedef struct hapbeam_beam {
+  double length;            /* [m] */
+  double axial_stiffness;   /* EA [N] */
+  double bending_stiffness; /* EI [N m^2] */
+  double thickness;         /* [m] across the beam, in the plane of bending */
+  double transverse_load;   /* [N/m] dead, along w */
+  double axial_load;        /* [N/m] dead, along x */
+  int left, right;          /* how the ends are held */
+} hapbeam_beam;
+
+/* Without dead loads.  What makes no sense is said when something is created with it.
+   width: out of the plane of bending, height: in it [m]; young [Pa] */
+HAPBEAM_API hapbeam_beam hapbeam_rectangle(double length, double width, double height, double young, int left,
+                                           int right);
+HAPBEAM_API hapbeam_beam hapbeam_circle(double length, double diameter, double young, int left, int right);
+
+/* ---- A round avatar that touches a beam ---- */
+
+typedef struct hapbeam_touch hapbeam_touch;
+
+typedef struct hapbeam_contact {
+  double force[2]; /* [N] on the hand, x and w */
+  double s;        /* [m] arc position of the press; 0 where nothing is touched */
+  double d;        /* [m] w of the centreline there */
+  int pressing;    /* 1 where the beam is touched */
+  int status;
+} hapbeam_contact;
+
+/* kinematics: one of the three; elements: 2 to 4096; avatar_radius [m]; message: HAPBEAM_MESSAGE characters, or null */
+HAPBEAM_API hapbeam_touch* hapbeam_touch_create(const hapbeam_beam* beam, int kinematics, int elements,
+                                                double avatar_radius, char* message);
+/* A trained model from its file, if the library was built with model files. */
+HAPBEAM_API hapbeam_touch* hapbeam_touch_load(const char* path, double avatar_radius, char* message);
+HAPBEAM_API void hapbeam_touch_destroy(hapbeam_touch* touch);
+/* x, w [m]: the avatar's centre */
+HAPBEAM_API hapbeam_contact hapbeam_touch_tick(hapbeam_touch* touch, double x, double w);
+/* The hand is elsewhere: nothing is touched. */
+HAPBEAM_API void hapbeam_touch_reset(hapbeam_touch* touch);
+/* The centreline at `count` places from end to end, x_w: 2 count numbers [m].  Returns how many were written. */
+HAPBEAM_API int hapbeam_touch_shape(const hapbeam_touch* touch, double* x_w, int count);
+
+/* ---- The whole loop: coupling, energy monitor and force guard for a device ---- */
+
+typedef struct hapbeam_servo hapbeam_servo;
+
+/* The device's figures are those of hapbeam's table (docs/devices.md) under its name.  The device's origin lies at (x, w) in the
+   scene, its x along the beam and its y along w; `scale` metres of the scene are one of the device's.  period: [s] of the loop,
+   on average.  The servo has a beam of its own, like that of the touch, which stays yours. */
+HAPBEAM_API hapbeam_servo* hapbeam_servo_create(const hapbeam_touch* touch, const char* device, double period, double x,
+                                                double w, double scale, char* message);
+HAPBEAM_API void hapbeam_servo_destroy(hapbeam_servo* servo);
+/* position [m], velocity [m/s] of the device; dt [s] since the tick before; force [N] for the device.  Returns the model's
+   status. */
+HAPBEAM_API int hapbeam_servo_tick(hapbeam_servo* servo, const double position[3], const double velocity[3], double dt,
+                                   double force[3]);
+HAPBEAM_API void hapbeam_servo_reset(hapbeam_servo* servo);
+/* As hapbeam_touch_shape(), of a recent tick; from any one thread, while another ticks. */
+HAPBEAM_API int hapbeam_servo_shape(hapbeam_servo* servo, double* x_w, int count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
