@@ -4,6 +4,7 @@
 #include "support/error.hpp"
 #include "support/global_modes.hpp"
 #include "support/solver.hpp"
+#include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 
