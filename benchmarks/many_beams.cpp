@@ -2,8 +2,10 @@
 //
 // Nylon bristles, 60 mm long and 2 mm thick, stand side by side, so close that a hand of 5 mm radius lies on about as many tips as
 // the name says.  It strokes 1 mm to and fro at 5 Hz, 0.15 mm below the tips: bristles bend, slip off and are touched anew.
+// With no contact it is between bristles, in a gap that is a little wider than the hand and its way.
 //
 //   MODEL/N/CONTACTS    N bristles in a row; fem: FemModel<> with 8 elements, pod: a PodModel of 16 × 12 presses
+//                       whose shape has 8 pieces
 //   single/MODEL/1      one Touch on one bristle, pressed all the time: what each contact costs at least
 //   press/MODEL/N       a press of N copies of one model in turn, without contact
 //
@@ -48,6 +50,7 @@ Beam bristle() { return {length, Section::circle(0.002), Material{3e9}, Support:
 TrainingPlan plan() {
   TrainingPlan plan = TrainingPlan::anywhere(bristle(), 0.005);
   plan.s_min = length / 2;
+  plan.segments = 8;
   return plan;
 }
 
@@ -66,17 +69,24 @@ template <class Model>
 struct Bed {
   Bed(const Model& model, int beams, int contacts)
       : pitch(contact_width / std::max(contacts, 1)),
-        height(length + bristle().thickness() / 2 + radius + (contacts > 0 ? -overlap : overlap)),
-        array(model, row(beams, pitch), 512),
+        height(contacts > 0 ? length + bristle().thickness() / 2 + radius - overlap : length / 2),
+        array(model, row(beams, pitch, contacts > 0 ? pitch : 2 * radius + 0.005), 512),
         touch(array, radius) {}
   Bed(const Bed&) = delete;
 
-  static std::vector<BeamPlace> row(int beams, double pitch) {
+  /// @param gap  [m] in the middle
+  static std::vector<BeamPlace> row(int beams, double pitch, double gap) {
     std::vector<BeamPlace> places;
-    for (int i = 0; i < beams; ++i) places.push_back({{pitch * i, 0}, M_PI / 2, 0});
+    for (int i = 0; i < beams; ++i) {
+      const double x = pitch * i;
+      places.push_back({{2 * i < beams ? x : x + gap - pitch, 0}, M_PI / 2, 0});
+    }
     return places;
   }
-  double middle() const { return pitch * array.size() / 2; }
+  double middle() const {
+    const int half = array.size() / 2;
+    return (array.frame(half - 1).origin.x() + array.frame(half).origin.x()) / 2;
+  }
   std::vector<Press<double>> stroke() const {
     std::vector<Press<double>> path;
     for (int k = 0; k < ticks; ++k) path.push_back({middle() + 0.001 * std::sin(2 * M_PI * k / 200), height});
