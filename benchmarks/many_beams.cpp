@@ -74,22 +74,22 @@ struct Bed {
         touch(array, radius) {}
   Bed(const Bed&) = delete;
 
-  /// @param gap  [m] in the middle
+  /// @param gap  [m] in a third of its length
   static std::vector<BeamPlace> row(int beams, double pitch, double gap) {
     std::vector<BeamPlace> places;
     for (int i = 0; i < beams; ++i) {
       const double x = pitch * i;
-      places.push_back({{2 * i < beams ? x : x + gap - pitch, 0}, M_PI / 2, 0});
+      places.push_back({{i < beams / 3 ? x : x + gap - pitch, 0}, M_PI / 2, 0});
     }
     return places;
   }
-  double middle() const {
-    const int half = array.size() / 2;
-    return (array.frame(half - 1).origin.x() + array.frame(half).origin.x()) / 2;
+  double place() const {
+    const int third = array.size() / 3;
+    return (array.frame(third - 1).origin.x() + array.frame(third).origin.x()) / 2;
   }
   std::vector<Press<double>> stroke() const {
     std::vector<Press<double>> path;
-    for (int k = 0; k < ticks; ++k) path.push_back({middle() + 0.001 * std::sin(2 * M_PI * k / 200), height});
+    for (int k = 0; k < ticks; ++k) path.push_back({place() + 0.001 * std::sin(2 * M_PI * k / 200), height});
     return path;
   }
   Response<double> operator()(const Press<double>& hand) noexcept {
@@ -109,7 +109,7 @@ template <class Model>
 Counters check(Bed<Model>& bed, const std::vector<Press<double>>& path) {
   std::vector<std::pair<int, std::unique_ptr<Alone<Model>>>> near;
   for (int i = 0; i < bed.array.size(); ++i)
-    if (std::abs(bed.array.frame(i).origin.x() - bed.middle()) < length + 2 * radius)
+    if (std::abs(bed.array.frame(i).origin.x() - bed.place()) < length + 2 * radius)
       near.emplace_back(i, std::make_unique<Alone<Model>>(bed.array.kind(0).model));
   double worst = 0, largest = 0, touched = 0;
   for (const Press<double>& hand : path) {
