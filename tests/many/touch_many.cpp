@@ -133,7 +133,7 @@ TEST_CASE("each bristle is touched once a pass and let go once") {
   for (int i = 0; i < 15; ++i) CHECK(touch.shape(i)[8].w == 0);
 }
 
-TEST_CASE("contact and press are those of the beam that is touched deepest, in the array's axes") {
+TEST_CASE("contact and press are those of the beam that pushes hardest, in the array's axes") {
   const BeamArray<Full> array(Full(bristle(), 8), row(2, 0.01));
   Touch<BeamArray<Full>> touch(array, radius);
   // From the left onto the first: 5 mm to the left of its axis the surfaces meet.
@@ -150,6 +150,13 @@ TEST_CASE("contact and press are those of the beam that is touched deepest, in t
   CHECK(felt.press.s == Approx(0.04));
   CHECK(touch.touches().front().force == felt.force);
   CHECK(touch.meets({-0.0045, 0.04}));
+  // Squeezed between both from the start: the nearer one pushes harder.
+  Touch<BeamArray<Full>> wide(array, 0.005);
+  const auto between = wide.tick({0.0055, 0.04});
+  CHECK(wide.touches().size() == 2);
+  CHECK(between.beam == 1);
+  CHECK(between.contact.normal.x() == Approx(-1));
+  CHECK(between.force.x() < 0);
   CHECK_FALSE(touch.meets({-0.05, 0.04}));
 }
 

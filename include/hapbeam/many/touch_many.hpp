@@ -20,11 +20,11 @@
 
 namespace hapbeam {
 
-/// What one tick says: the sum of all forces, the worst status, and as contact and press those of the beam that is touched deepest,
+/// What one tick says: the sum of all forces, the worst status, and as contact and press those of the beam that pushes hardest,
 /// the contact in the array's axes.
 template <typename Scalar>
 struct ArrayTouchResult : TouchResult<Scalar> {
-  int beam = -1;  ///< that is touched deepest; -1: none
+  int beam = -1;  ///< that pushes hardest; -1: none
   bool complete =
       true;  ///< false: more were met than were taken, or looked at; the status is out_of_range at least
 };
@@ -210,7 +210,9 @@ class Touch<BeamArray<Model>> {
     const Vector2<Scalar> force = beam.frame.turned(felt.force);
     touches_.push_back({beam.index, force, felt});
     result.force += force;
-    if (result.pressing && !(felt.contact.depth > result.contact.depth)) return;
+    const Scalar size = force.squaredNorm();
+    if (result.pressing && !(size > hardest_)) return;
+    hardest_ = size;
     result.pressing = true;
     result.beam = beam.index;
     result.press = felt.press;
@@ -231,6 +233,7 @@ class Touch<BeamArray<Model>> {
   Vector2<Scalar> last_{0, 0};
   bool known_ = false;  // last_ is where the avatar was
   bool pressing_ = false;
+  Scalar hardest_ = 0;  // [N²] in this tick
 };
 
 }  // namespace hapbeam

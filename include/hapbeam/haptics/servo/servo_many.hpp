@@ -6,7 +6,7 @@
 //
 // Coupling, monitor and guard are those of one beam: they see the sum of the forces and the point from which all are pressed.
 // The placement maps the device to the array's plane.
-// Real-time: as Servo.  The shapes are those of a tick up to Servo's shape_period before the last look.
+// Real-time: as Servo.
 #pragma once
 
 #include <algorithm>
@@ -76,7 +76,7 @@ class ArrayPicture {
 template <typename Model>
 struct Drawn<BeamArray<Model>> {
   using Picture = ArrayPicture<typename Model::Scalar>;
-  static constexpr bool for_who_looks = true;
+  static constexpr bool for_who_looks = detail::OffersPart<Model>::value;
   static const auto& of(const BeamArray<Model>&, const Touch<BeamArray<Model>>& touch) noexcept {
     return touch;
   }
