@@ -66,6 +66,12 @@ PodModel<> trained_wire() {
   return PodModel<>(train_pod(take_snapshots(wire(), full_model(wire(), 32), plan)));
 }
 
+static_assert(std::is_same_v<decltype(BeamArray(std::declval<const Full&>(), std::vector<BeamPlace>())),
+                             BeamArray<Full>>);
+static_assert(std::is_same_v<decltype(Touch(std::declval<BeamArray<Full>&>(), 1.0)), Touch<BeamArray<Full>>>);
+static_assert(
+    std::is_same_v<decltype(Touch(std::declval<const BeamArray<Full>&>(), 1.0)), Touch<BeamArray<Full>>>);
+
 Path stroke(const Vector& from, const Vector& to, int ticks) {
   Path path;
   for (int k = 0; k <= ticks; ++k) path.emplace_back(from + (to - from) * (double(k) / ticks));
@@ -243,6 +249,30 @@ TEST_CASE("a beam of an array takes less than 80 bytes, and a copy of a trained 
   const double before = second.press({0.2, 0.002}).force;
   first.press({0.05, -0.008});
   CHECK(second.press({0.2, 0.002}).force == before);
+}
+
+// FemModel's own bound in float: 100 eps n² of a force, here of each of the beams that are touched.
+TEST_CASE("an array in float feels what one in double does") {
+  using Single = FemModel<VonKarman<>, float>;
+  const BeamArray<Full> array(Full(bristle(), 8), row(40, 0.002));
+  const BeamArray<Single> single(Single(bristle(), 8), row(40, 0.002));
+  Touch touch(array, radius);
+  Touch float_touch(single, static_cast<float>(radius));
+  double worst = 0, largest = 0;
+  int pressing = 0;
+  for (const Vector& hand : stroke({0.03, 0.07}, {0.0305, 0.0645}, 500)) {
+    const auto felt = touch.tick(hand);
+    const auto in_float = float_touch.tick(hand.cast<float>());
+    double sizes = 0;
+    for (const auto& touched : touch.touches()) sizes += touched.force.norm();
+    worst = std::max(worst, (felt.force - in_float.force.cast<double>()).norm());
+    largest = std::max(largest, sizes);
+    pressing += felt.pressing;
+  }
+  CHECK(pressing > 20);
+  // The hand's own place is rounded, too: eps of 60 mm over a depth of half a millimetre.
+  const double eps = std::numeric_limits<float>::epsilon();
+  CHECK(worst <= (100 * eps * 64 + 120 * eps) * largest);
 }
 
 TEST_CASE("an array that makes no sense is rejected by name") {

@@ -1,8 +1,8 @@
 // Many beams in one plane: hair, a brush, grass, the strings of a harp.
 //
-//   BeamArray<FemModel<>> brush(FemModel<>(bristle, 8), places);       // all alike; or a list of kinds
-//   Touch<BeamArray<FemModel<>>> touch(brush, 0.005);                  // one hand: many/touch_many.hpp
-//   const auto felt = touch.tick(hand);                                // the sum of what all beams do to it
+//   BeamArray brush(FemModel<>(bristle, 8), places);   // all alike; or a list of kinds
+//   Touch touch(brush, 0.005);                         // one hand: many/touch_many.hpp
+//   const auto felt = touch.tick(hand);                // the sum of what all beams do to it
 //
 // Beams are of a few kinds, and each kind is one model at rest: a beam adds its place to it, and no model of its own.  A model is
 // needed where a beam is touched; the touch has as many as it may hold at once.

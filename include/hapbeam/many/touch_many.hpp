@@ -236,4 +236,7 @@ class Touch<BeamArray<Model>> {
   Scalar hardest_ = 0;  // [N²] in this tick
 };
 
+template <typename Model>
+Touch(const BeamArray<Model>&, typename Model::Scalar) -> Touch<BeamArray<Model>>;
+
 }  // namespace hapbeam
