@@ -125,7 +125,7 @@ do for [format in 'svg png'] {
 
   # Beams.
   eval begin('beams', format)
-  eval head('Many beams: tables leave the cache, elements stay')
+  eval head('Many beams, pressed in turn')
   eval whole
   set xtics ('1' 1, '4' 4, '16' 16, '64' 64, '256' 256, '1024' 1024)
   set xrange [0.85:1250]

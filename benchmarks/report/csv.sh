@@ -55,6 +55,9 @@ csv_reduced_press() {
   csv reduced_press path/model/what p50_us p99_us max_us force_error_median force_error_max shape_error_max snapshots_ms pod_ms
 }
 csv_any_rotation() { csv any_rotation scene/model/elements p50_us p99_us ratio force_error; }
+csv_many_beams() {
+  csv many_beams model/beams/contacts p50_us p99_us touched per_contact_us force_error bytes_a_beam bytes_a_model
+}
 csv_fem_press() { csv fem_press path/solver/membrane/elements p50_us p99_us solves solve_ns force_error; }
 csv_kinematics() {
   csv kinematics study/ends/section/element slope_1 deflection_1 press_1 slope_5 deflection_5 press_5 slope_10 deflection_10 \

@@ -31,5 +31,5 @@ animation() {
 }
 
 mkdir -p "$top/tests/examples/pictures"
-picture thesis 3.5 && picture ruler 1.5 && picture strip 3.5 && picture string 4.5 && picture arch 1.75 &&
+picture thesis 3.5 && picture ruler 1.5 && picture strip 3.5 && picture string 4.5 && picture arch 1.75 && picture comb 1.4 &&
   step arch.gif animation

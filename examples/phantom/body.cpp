@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -10,7 +11,7 @@
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/haptics/servo/servo.hpp>
+#include <hapbeam/haptics/servo/servo_many.hpp>
 
 namespace phantom {
 
@@ -49,20 +50,44 @@ struct Parts {
   std::unique_ptr<Count> full_answers = nullptr;
 };
 
+template <typename Model>
+hapbeam::Centreline<double> rest_of(const Model& model) {
+  return model.shape();
+}
+template <typename Model>
+hapbeam::Centreline<double> rest_of(const hapbeam::BeamArray<Model>& array) {
+  return array.rest(0);
+}
+
+void show(const hapbeam::ServoPicture<double>& picture, std::vector<DrawnBeam>& beams) noexcept {
+  beams[0].shape = picture.shape();
+}
+/// Those that are not pressed are at rest.
+void show(const hapbeam::ArrayPicture<double>& picture, std::vector<DrawnBeam>& beams) noexcept {
+  for (int i = 0; i < picture.size(); ++i)
+    beams[static_cast<std::size_t>(picture.beam(i))].shape = picture.shape(i);
+}
+
 template <typename Model, typename Coupling>
 class Live final : public Body {
  public:
   Live(Model model, Parts parts)
       : parts_(std::move(parts)),
         model_(std::move(model)),
-        rest_(model_.shape()),
+        rest_(rest_of(model_)),
         servo_(model_, parts_.device, servo_options(parts_.options),
-               make_coupling<Coupling>(parts_.options)) {}
+               make_coupling<Coupling>(parts_.options)) {
+    for (int i = 0; i < parts_.options.beams; ++i) beams_.push_back({rest(), -parts_.options.pitch * i});
+  }
 
   Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept override { return servo_.tick(state); }
   const hapbeam::ServoRecord& record() const noexcept override { return servo_.record(); }
   void reset() noexcept override { servo_.reset(); }
-  hapbeam::Centreline<double> shape() noexcept override { return servo_.picture().shape(); }
+  const std::vector<DrawnBeam>& beams() noexcept override {
+    for (DrawnBeam& beam : beams_) beam.shape = rest();
+    show(servo_.picture(), beams_);
+    return beams_;
+  }
   hapbeam::Centreline<double> rest() const noexcept override { return rest_.shape(); }
   const hapbeam::TickTimes& times() const noexcept override { return servo_.times(); }
   std::uint64_t full_answers() const noexcept override {
@@ -77,6 +102,7 @@ class Live final : public Body {
   Model model_;
   hapbeam::ServoPicture<double> rest_;
   hapbeam::Servo<Model, Coupling> servo_;
+  std::vector<DrawnBeam> beams_;
 };
 
 template <typename Model>
@@ -90,6 +116,18 @@ template <typename Element>
 std::unique_ptr<Body> couple_full(Parts parts) {
   hapbeam::FemModel<Element> model(parts.beam, parts.options.elements);
   return couple(std::move(model), std::move(parts));
+}
+
+/// Below one another.  Teeth that bend far slip off the hand; other elements are for small turns.
+std::unique_ptr<Body> couple_many(Parts parts) {
+  const Options& options = parts.options;
+  if (options.model_choice != ModelChoice::finite_elements || options.element != ElementChoice::corotational)
+    throw cli::UsageError("--beams " + std::to_string(options.beams) + ": must be of --element corotational");
+  std::vector<hapbeam::BeamPlace> places;
+  for (int i = 0; i < options.beams; ++i) places.push_back({{0, -options.pitch * i}, 0, 0});
+  using Tooth = hapbeam::FemModel<hapbeam::Corotational<>>;
+  hapbeam::BeamArray<Tooth> array(Tooth(parts.beam, options.elements), places);
+  return couple(std::move(array), std::move(parts));
 }
 
 std::unique_ptr<Body> couple_trained(Parts parts) {
@@ -112,6 +150,7 @@ std::unique_ptr<Body> make_body(const Options& options, std::shared_ptr<const Tr
                                 const hapbeam::DeviceInfo& device) {
   using namespace hapbeam;
   const Beam beam = options.model.empty() ? options.beam.make() : trained->make_beam();
+  if (options.beams > 1) return couple_many({filled_in(options, device), beam, nullptr, device});
   if (options.model_choice != ModelChoice::finite_elements)
     return couple_trained({filled_in(options, device), beam, std::move(trained), device});
   if (!options.model.empty() && trained->loaded)

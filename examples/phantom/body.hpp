@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "options.hpp"
 #include "trained.hpp"
@@ -16,6 +17,12 @@
 
 namespace phantom {
 
+/// One of the beams, as it is drawn.
+struct DrawnBeam {
+  hapbeam::Centreline<double> shape;
+  double above;  ///< [m] of its axis, over that of the first
+};
+
 class Body {
  public:
   virtual ~Body() = default;
@@ -23,9 +30,9 @@ class Body {
   virtual Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept = 0;
   virtual const hapbeam::ServoRecord& record() const noexcept = 0;  ///< of the last tick, the same thread's
   virtual void reset() noexcept = 0;                                ///< while no tick runs
-  /// Of the newest tick, from one other thread: wait-free.  It stays until the next call.
-  virtual hapbeam::Centreline<double> shape() noexcept = 0;
-  virtual hapbeam::Centreline<double> rest() const noexcept = 0;  ///< before it is touched
+  /// Of the newest tick, from one other thread: wait-free.  They stay until the next call.
+  virtual const std::vector<DrawnBeam>& beams() noexcept = 0;
+  virtual hapbeam::Centreline<double> rest() const noexcept = 0;  ///< one of them, before it is touched
   virtual const hapbeam::TickTimes& times() const noexcept = 0;
   virtual std::uint64_t full_answers() const noexcept = 0;  ///< of the full model of a guarded one
   virtual const Options& options() const noexcept = 0;      ///< the coupling's figures filled in

@@ -35,6 +35,12 @@ cli::Entries entries(Options& o) {
       file("--model",
            "a model that train has made takes the place of finite elements; the beam is the file's", o.model),
       flag("--guarded", "with --model: finite elements answer what is out of the trained range", o.guarded),
+      count("--beams",
+            "so many beams below one another, 1 to 1000, with --element corotational; the scene's by "
+            "default, or 1",
+            o.beams, 1, 1000),
+      figure("--pitch", "M", "from one of them to the next [m]; the scene's by default, or 0.012", o.pitch,
+             1e-6, 1, "m"),
       {"--script", "NAME",
        "what the hand does, the scene's by default:  slide: press, slide to and fro, let go;  press;  tap",
        [&o](const std::string& v) { o.script = one_of(scripts, "--script", v); }},
@@ -113,6 +119,7 @@ void check_model(const Options& o, const std::vector<std::string>& given) {
   for (const cli::Entry& entry : cli::beam_entries(unused))
     cli::exclude(given, entry.option, "--model", "whose file says which beam it is");
   cli::exclude(given, "--element", "--model", "which was trained with one");
+  cli::exclude(given, "--beams", "--model", "which is of a single one");
   if (o.guarded) return;
   cli::exclude(given, "--elements", "--model", "unless --guarded is given too");
 }

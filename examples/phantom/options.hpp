@@ -28,8 +28,10 @@ struct Options {
   DeviceChoice device = DeviceChoice::simulated;
 
   Script script = Script::slide;
-  double place;     ///< [m] from the left end
-  double from, to;  ///< [m] the hand slides in between
+  int beams = 1;         ///< below one another, alike
+  double pitch = 0.012;  ///< [m] from one to the next
+  double place;          ///< [m] from the left end
+  double from, to;       ///< [m] the hand slides in between
   double depth =
       0.012;  ///< [m] that the hand aims below the beam's surface; at 500 N/m no beam is too stiff then
   double duration = 10;   ///< [s]

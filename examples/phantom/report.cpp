@@ -59,6 +59,7 @@ void print_scene(const Options& o, const Trained* trained, const hapbeam::Device
     print_trained(o, *trained);
   } else {
     std::printf("beam     %s\n", cli::describe(o.beam).c_str());
+    if (o.beams > 1) std::printf("beams    %d, each %g mm below the one before\n", o.beams, o.pitch * 1e3);
     if (!o.scene.empty()) std::printf("feels    %s\n", feels(o.scene));
     std::printf("model    finite elements, %s, %d elements\n", name(o.element), o.elements);
   }

@@ -14,6 +14,7 @@ struct NamedScene {
   double depth;  ///< [m, device]
   double scale;
   const char* feels;  ///< what one feels, and why
+  int beams = 1;
 };
 
 constexpr double middle = std::numeric_limits<double>::quiet_NaN();
@@ -34,6 +35,8 @@ constexpr NamedScene scenes[] = {
      "a spring that is soft in the middle and hard at the ends: its tension, not its stiffness, pushes back"},
     {"arch", ElementChoice::corotational, Script::press, middle, 0.04, 0.5,
      "a click: it resists, tilts, gives way under the finger and is gone, to stand on the other side"},
+    {"comb", ElementChoice::corotational, Script::press, 0.096, 0.1, 1.6,
+     "tooth after tooth: each bends, two or three push back together, and one after the other slips off", 9},
 };
 
 const char* name(const NamedScene& scene) { return scene.label; }
@@ -49,6 +52,8 @@ void set_scene(Options& o, const std::string& label) {
   o.place = scene.place;
   o.depth = scene.depth;
   o.scale = scene.scale;
+  o.beams = scene.beams;
+  o.pitch = Options{}.pitch;
 }
 
 const char* feels(const std::string& label) {

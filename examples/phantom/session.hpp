@@ -16,10 +16,10 @@ namespace phantom {
 
 class Session {
  public:
-  /// The newest tick; the shape stays until the next call of picture().
+  /// The newest tick; the beams stay until the next call of picture().
   struct Picture {
     const hapbeam::ServoRecord& record;
-    hapbeam::Centreline<double> shape;
+    const std::vector<DrawnBeam>& beams;
   };
 
   /// @param trained  as for make_body   @param hand, tape  kept by reference
@@ -42,7 +42,7 @@ class Session {
   // Of the newest tick that was taken.
   Body& body() noexcept;                                    ///< that is felt
   int changes() const noexcept { return newest_.changes; }  ///< until it was
-  Picture picture() noexcept { return {newest_.record, body().shape()}; }
+  Picture picture() noexcept { return {newest_.record, body().beams()}; }
 
   const Device& device() const noexcept { return *device_; }
 

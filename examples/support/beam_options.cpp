@@ -24,13 +24,14 @@ struct NamedBeam {
 // thesis: the textbook beam of its chapter 3, 100 in long, 1 in square, E = 30e6 psi.
 // ruler: a steel ruler of 30 cm held at one end; soft enough for the device.
 // strip: steel, so thin that stretching stiffens it at once.  string: steel wire under the tension of a guitar's.
-// arch: a strip of steel, bent by nature, that snaps through.
+// arch: a strip of steel, bent by nature, that snaps through.  comb: one of its teeth, of nylon.
 constexpr NamedBeam beams[] = {
     {"thesis", 2.54, 0.0254, 0.0254, 206.8427e9, Support::pinned, Support::pinned},
     {"ruler", 0.3, 0.025, 0.001, 200e9, Support::clamped, Support::free},
     {"strip", 0.4, 0.02, 0.0005, 200e9, Support::pinned, Support::pinned},
     {"string", 0.65, 0.0008, 0.0008, 200e9, Support::pinned, Support::pinned, true, 0, 80},
     {"arch", 0.2, 0.01, 0.0005, 200e9, Support::pinned, Support::pinned, false, 0.012},
+    {"comb", 0.1, 0.003, 0.003, 3e9, Support::clamped, Support::free, true},
 };
 constexpr Support supports[] = {Support::free, Support::clamped, Support::pinned, Support::roller,
                                 Support::guided};
@@ -114,7 +115,8 @@ Entries beam_entries(BeamOptions& b) {
        "thesis: steel, 2.54 m, 25.4 mm square, pinned;  ruler: steel, 0.3 m x 25 mm x 1 mm, "
        "clamped-free;  strip: 0.4 m x 20 mm x 0.5 mm, pinned;  string: 0.65 m of 0.8 mm wire under 80 N;  "
        "arch: "
-       "0.2 m wide, 12 mm high, 10 mm x 0.5 mm, pinned;  " +
+       "0.2 m wide, 12 mm high, 10 mm x 0.5 mm, pinned;  comb: a tooth of nylon, 0.1 m x 3 mm, round, "
+       "clamped-free;  " +
            b.name + " by default",
        [&b](const std::string& v) { set_beam(b, v); }, true},
       customised(b, figure("--length", "M", "length of the beam [m]", b.length, 1e-3, 100, "m")),

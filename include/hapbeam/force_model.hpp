@@ -69,6 +69,12 @@ enum class Status : std::int8_t {
 /// True where force and shape may be used as what they claim to be.
 constexpr bool is_answer(Status status) noexcept { return static_cast<int>(status) >= 0; }
 
+/// One is worse than another: failures before answers that were moved into range, those before ok.
+constexpr bool worse(Status a, Status b) noexcept {
+  const auto rank = [](Status s) { return is_answer(s) ? static_cast<int>(s) : 100 - static_cast<int>(s); };
+  return rank(a) > rank(b);
+}
+
 /// Short lower-case name, for messages and reports.
 constexpr const char* name(Status status) noexcept {
   switch (status) {

@@ -18,7 +18,9 @@
 #include <hapbeam/haptics/servo/exchange.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo_loop.hpp>
+#include <hapbeam/haptics/servo/servo_many.hpp>
 #include <hapbeam/haptics/servo/tick_times.hpp>
+#include <hapbeam/many/touch_many.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/guarded.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>

@@ -10,7 +10,7 @@ namespace phantom {
 
 namespace {
 
-constexpr const char* scene_labels[] = {"thesis", "ruler", "strip", "string", "arch"};
+constexpr const char* scene_labels[] = {"thesis", "ruler", "strip", "string", "arch", "comb"};
 constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::full, ElementChoice::reduced,
                                       ElementChoice::assumed_strain, ElementChoice::corotational};
 constexpr const char* element_labels[] = {"linear", "von Karman, full", "von Karman, reduced",

@@ -35,7 +35,7 @@ std::string metres(double length) {
 }  // namespace
 
 double default_exaggeration(const Options& o) {
-  if (o.scene == "ruler" || o.scene == "arch") return 1;
+  if (o.scene == "ruler" || o.scene == "arch" || o.beams > 1) return 1;
   if (o.scene == "strip") return 10;
   if (o.scene == "string") return 5;
   return o.beam.rise == 0 && o.beam.length > 1 ? 20 : 1;
@@ -65,7 +65,8 @@ void SceneDrawing::fit(const ImVec2& low, const ImVec2& high) {
     top = std::max(top, sample.rest_w), bottom = std::min(bottom, sample.rest_w);
   }
   const double span = right - left, above = 0.03 * o.scale * exaggeration;
-  const double below = std::min(1.1 * o.depth * o.scale * exaggeration, 1.1 * span);
+  const double below = o.beams > 1 ? o.pitch * (o.beams - 1) + 0.4 * span
+                                   : std::min(1.1 * o.depth * o.scale * exaggeration, 1.1 * span);
   top += above + o.radius, bottom -= std::max(below, bottom < top ? 0.8 * (top - bottom) : 0);
   const double width = static_cast<double>(high.x - low.x), height = static_cast<double>(high.y - low.y);
   view_ = {low,
@@ -75,17 +76,18 @@ void SceneDrawing::fit(const ImVec2& low, const ImVec2& high) {
            exaggeration};
 }
 
-void SceneDrawing::sample(const hapbeam::Centreline<double>& shape) {
+void SceneDrawing::sample(const DrawnBeam& beam) {
+  above_ = beam.above;
   for (Sample& sample : samples_) {
-    const auto d = shape.at(std::min(sample.s, shape.length()));
+    const auto d = beam.shape.at(std::min(sample.s, beam.shape.length()));
     sample.x = sample.s + d.u, sample.w = d.w, sample.theta = d.theta;
   }
 }
 
-void SceneDrawing::draw_axis(ImDrawList& list, float unit) const {
+void SceneDrawing::draw_axis(ImDrawList& list, double above, float unit) const {
+  const auto at = [&](const Sample& p) { return view_({p.rest_x, p.rest_w + above}); };
   for (std::size_t i = 0; i + 4 < samples_.size(); i += 6)
-    dashed(list, view_({samples_[i].rest_x, samples_[i].rest_w}),
-           view_({samples_[i + 4].rest_x, samples_[i + 4].rest_w}), colour::faint, 2 * unit);
+    dashed(list, at(samples_[i]), at(samples_[i + 4]), colour::faint, 2 * unit);
 }
 
 void SceneDrawing::draw_workspace(ImDrawList& list, float unit) const {
@@ -119,7 +121,7 @@ void SceneDrawing::draw_beam(ImDrawList& list, float unit) {
   std::vector<ImVec2> upper, lower;
   for (const Sample& p : samples_) {
     const double x = p.rest_x + view_.exaggeration * (p.x - p.rest_x);
-    const double w = p.rest_w + view_.exaggeration * (p.w - p.rest_w);
+    const double w = above_ + p.rest_w + view_.exaggeration * (p.w - p.rest_w);
     const double turn = p.theta;
     // The normal of the exaggerated curve is that of a displacement so much larger.
     const double slope = std::atan(view_.exaggeration * std::tan(std::clamp(turn, -1.5, 1.5)));
@@ -149,6 +151,12 @@ void SceneDrawing::draw_beam(ImDrawList& list, float unit) {
   list.AddPolyline(lower.data(), static_cast<int>(n), colour::ink, ImDrawFlags_None, thin);
   list.AddLine(upper[0], lower[0], colour::ink, thin);
   list.AddLine(upper[n - 1], lower[n - 1], colour::ink, thin);
+  const auto middle = [](const ImVec2& a, const ImVec2& b) {
+    return ImVec2{(a.x + b.x) / 2, (a.y + b.y) / 2};
+  };
+  const float size = 1.3f * unit, drawn = static_cast<float>(half * view_.pixels);
+  draw_support(list, options_.beam.left, middle(upper[0], lower[0]), -1, drawn, size);
+  draw_support(list, options_.beam.right, middle(upper[n - 1], lower[n - 1]), 1, drawn, size);
 }
 
 void SceneDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, const Point& target,
@@ -215,7 +223,6 @@ void SceneDrawing::draw_legend(ImDrawList& list, float unit) const {
 void SceneDrawing::draw(ImDrawList& list, const Session::Picture& picture, const Point& target,
                         const ImVec2& low, const ImVec2& high, float unit) {
   fit(low, high);
-  sample(picture.shape);
   const hapbeam::ServoRecord& r = picture.record;
   if (r.pressing) side_ = r.force.y() < 0 ? -1 : 1;
   else side_ = r.avatar.y() < options_.beam.rest(r.avatar.x()) ? -1 : 1;
@@ -225,15 +232,11 @@ void SceneDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
   list.PushClipRect(low, high, true);
   list.AddRectFilled(low, high, colour::paper);
   draw_workspace(list, unit);
-  draw_axis(list, unit);
-  const float half = static_cast<float>(drawn_half(unit) * view_.pixels);
-  const auto end = [&](const Sample& p) {
-    return view_(
-        {p.rest_x + view_.exaggeration * (p.x - p.rest_x), p.rest_w + view_.exaggeration * (p.w - p.rest_w)});
-  };
-  draw_beam(list, unit);
-  draw_support(list, options_.beam.left, end(samples_.front()), -1, half, 1.3f * unit);
-  draw_support(list, options_.beam.right, end(samples_.back()), 1, half, 1.3f * unit);
+  for (const DrawnBeam& beam : picture.beams) draw_axis(list, beam.above, unit);
+  for (const DrawnBeam& beam : picture.beams) {
+    sample(beam);
+    draw_beam(list, unit);
+  }
   draw_hand(list, r, target, unit);
   draw_legend(list, unit);
   list.PopClipRect();

@@ -36,11 +36,11 @@ class SceneDrawing {
   };
 
   void fit(const ImVec2& low, const ImVec2& high);
-  void sample(const hapbeam::Centreline<double>& shape);
-  void draw_axis(ImDrawList& list, float unit) const;
+  void sample(const DrawnBeam& beam);
+  void draw_axis(ImDrawList& list, double above, float unit) const;
   void draw_workspace(ImDrawList& list, float unit) const;
-  double drawn_half(float unit) const;  ///< [m] of the thickness, which can be seen
-  void draw_beam(ImDrawList& list, float unit);
+  double drawn_half(float unit) const;           ///< [m] of the thickness, which can be seen
+  void draw_beam(ImDrawList& list, float unit);  ///< with its supports
   void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Point& target, float unit);
   void draw_legend(ImDrawList& list, float unit) const;
 
@@ -51,6 +51,7 @@ class SceneDrawing {
   Across across_{};
   double side_ = 1;
   double largest_strain_;
+  double above_ = 0;  // [m] of the axis of the beam that is sampled
   std::vector<Sample> samples_;
   std::vector<double> rest_theta_;
 };

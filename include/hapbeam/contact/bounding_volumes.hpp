@@ -11,6 +11,7 @@
 #include <limits>
 #include <vector>
 
+#include <hapbeam/contact/box.hpp>
 #include <hapbeam/contact/closest_point.hpp>
 #include <hapbeam/contact/crossing.hpp>
 
@@ -127,30 +128,7 @@ class BoundingVolumes {
  private:
   static constexpr int max_depth = 32;  // of the stacks: one entry a level, and an int has 31 levels
 
-  struct Box {
-    // Scalars: packets of two would be loaded right after their halves were stored, which stalls.
-    Scalar x_low = std::numeric_limits<Scalar>::infinity(), x_high = -x_low, y_low = x_low, y_high = -x_low;
-
-    void include(Scalar x, Scalar y) noexcept {
-      x_low = std::min(x_low, x), x_high = std::max(x_high, x);
-      y_low = std::min(y_low, y), y_high = std::max(y_high, y);
-    }
-    void include(const CubicSegment<Scalar>& b) noexcept {
-      for (int k = 0; k < 4; ++k) include(b(0, k), b(1, k));
-    }
-    void include(const Box& other) noexcept {
-      x_low = std::min(x_low, other.x_low), x_high = std::max(x_high, other.x_high);
-      y_low = std::min(y_low, other.y_low), y_high = std::max(y_high, other.y_high);
-    }
-    [[nodiscard]] Scalar distance_squared(const Vector2<Scalar>& q) const noexcept {
-      const Scalar x = std::max(std::max(x_low - q.x(), q.x() - x_high), Scalar(0));
-      const Scalar y = std::max(std::max(y_low - q.y(), q.y() - y_high), Scalar(0));
-      return x * x + y * y;
-    }
-    [[nodiscard]] bool overlaps(const Box& other) const noexcept {
-      return x_low <= other.x_high && other.x_low <= x_high && y_low <= other.y_high && other.y_low <= y_high;
-    }
-  };
+  using Box = detail::Box<Scalar>;
 
   static std::size_t index(int node) noexcept { return static_cast<std::size_t>(node); }
 

@@ -121,6 +121,8 @@ class Touch {
   }
 
   [[nodiscard]] bool pressing() const noexcept { return pressing_; }
+  /// Nothing is left of the last touch: the beam is at rest, and whoever comes next touches it anew.
+  [[nodiscard]] bool resting() const noexcept { return !pressing_ && !falling_ && !inside_; }
 
   /// Whether the beam as it lies now would be touched on the straight way from the last tick's position to this one.
   /// Real-time: noexcept, no allocation, bounded; no press.

@@ -49,13 +49,20 @@ class ServoPicture {
   ServoRecord record;
   Centreline<Scalar> shape() const noexcept { return {nodes_.data(), size_, any_rotation_}; }
 
-  /// Of a shape with more nodes than there is room for, every second one is taken, or third, …, and the last.
   void take(const Centreline<Scalar>& shape) noexcept {
-    const int last = shape.size() - 1, step = 1 + (last - 1) / (static_cast<int>(nodes_.size()) - 1);
-    size_ = 0;
+    size_ = copy(shape, nodes_.data(), static_cast<int>(nodes_.size()));
     any_rotation_ = shape.any_rotation();
-    for (int i = 0; i < last; i += step) nodes_[static_cast<std::size_t>(size_++)] = shape[i];
-    nodes_[static_cast<std::size_t>(size_++)] = shape[last];
+  }
+  void take(const ServoPicture& other) noexcept { take(other.shape()); }
+
+  /// Of a shape with more nodes than there is room for, every second one is taken, or third, …, and the last.
+  /// @param room  two or more   @return how many
+  static int copy(const Centreline<Scalar>& shape, CentrelineNode<Scalar>* nodes, int room) noexcept {
+    const int last = shape.size() - 1, step = 1 + (last - 1) / (room - 1);
+    int size = 0;
+    for (int i = 0; i < last; i += step) nodes[size++] = shape[i];
+    nodes[size++] = shape[last];
+    return size;
   }
 
  private:
@@ -64,6 +71,14 @@ class ServoPicture {
   std::vector<CentrelineNode<Scalar>> nodes_;
   int size_ = 0;
   bool any_rotation_ = false;
+};
+
+/// What is drawn of a model: its shape.  Arrays have another (servo_many.hpp).
+template <typename Model>
+struct Drawn {
+  using Picture = ServoPicture<typename Model::Scalar>;
+  static constexpr bool for_who_looks = detail::OffersPart<Model>::value;  ///< it costs more than the force
+  static auto of(const Model& model, const Touch<Model>&) noexcept { return model.shape(); }
 };
 
 template <typename Model, typename Coupling = VirtualCoupling>
@@ -75,7 +90,7 @@ class Servo {
 
  public:
   using Scalar = typename Model::Scalar;
-  using Picture = ServoPicture<Scalar>;
+  using Picture = typename Drawn<Model>::Picture;
 
   /// @param model   kept by reference; nobody else presses it
   /// @param device  what the loop's device can do; its limits are the guard's
@@ -90,7 +105,7 @@ class Servo {
         energy_(device, options.delay_ticks),
         guard_(ForceGuard::for_device(device)),
         times_(device.period),
-        seen_(model.shape()),
+        seen_(Drawn<Model>::of(model, touch_)),
         pictures_(seen_) {}
 
   /// With the coupling that the device can render.   @throws as Coupling::for_device, too
@@ -202,12 +217,12 @@ class Servo {
   void publish() noexcept {
     Picture& draft = pictures_.draft();
     draft.record = record_;
-    if constexpr (detail::OffersPart<Model>::value) {
+    if constexpr (Drawn<Model>::for_who_looks) {
       if (record_.ticks % shape_period == 0 && looked_.exchange(false, std::memory_order_relaxed))
-        seen_.take(model_.shape());
-      draft.take(seen_.shape());
+        seen_.take(Drawn<Model>::of(model_, touch_));
+      draft.take(seen_);
     } else {
-      draft.take(model_.shape());
+      draft.take(Drawn<Model>::of(model_, touch_));
     }
     pictures_.publish();
   }

@@ -41,12 +41,6 @@ constexpr const char* name(LoopStatus status) noexcept {
   return "unknown";
 }
 
-/// One is worse than another: failures before answers that were moved into range, those before ok.
-constexpr bool worse(Status a, Status b) noexcept {
-  const auto rank = [](Status s) { return is_answer(s) ? static_cast<int>(s) : 100 - static_cast<int>(s); };
-  return rank(a) > rank(b);
-}
-
 struct ServoRecord {
   LoopStatus status = LoopStatus::free;
   Status model = Status::ok;                           ///< what the beam said

@@ -14,12 +14,15 @@
 // Beyond the largest tension that was trained, k' falls to that of a string, 1/A, as N^(-1/2), which is what its
 // boundary layers do: A = s(L - s)/L between two ends that hold w.
 // Where no tension arises (an end slides, or the element is linear) it has no unknown and k depends on s alone.
+// Copies share what was trained, and have a state of their own: a copy costs the nodes of a shape.
 // Offline: construction allocates and throws.  Servo: noexcept, allocation-free, at most max_iterations iterations.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <hapbeam/force_model.hpp>
@@ -40,29 +43,9 @@ class GalerkinModel {
   static constexpr int max_iterations = 40;
 
   /// @throws std::invalid_argument where the data do not make a model
-  explicit GalerkinModel(const Data& data)
-      : data_(check(data)),
-        position_(data.beam),
-        tension_(data.beam),
-        x_(data.positions, position_(data.s_min), position_(data.s_max)),
-        z_(data.tensions, 0, tension_(data.tension)),
-        table_(static_cast<std::size_t>(data.positions * row_size() + detail::padded(1))),
-        shape_(data.beam, data.shape) {
-    const int m = data.tensions;
-    Scalar* row = table_.data();
-    for (int i = 0; i < data.positions; ++i, row += row_size()) {
-      for (int j = 0; j < m; ++j) {
-        row[4 * j] = data.log_stiffness[static_cast<std::size_t>(i * m + j)];
-        Shape::tabulate(data.shape, i * m + j, near(row, j));
-      }
-      z_.differentiate(row, 4, row + 1, 4);
-      z_.differentiate(row + 1, 4, row + 2, 4);
-    }
-    row = table_.data();
-    for (int j = 0; j < m; ++j) {
-      x_.differentiate(row + 4 * j, row_size(), near(row, j) + Shape::own, row_size());
-      x_.differentiate(row + 4 * j + 1, row_size(), row + 4 * j + 3, row_size());
-    }
+  [[gnu::cold]] explicit GalerkinModel(Data data)
+      : trained_(std::make_shared<const Trained>(std::move(data))),
+        shape_(trained_->data.beam, trained_->data.shape, trained_->data.positions, trained_->data.tensions) {
   }
 
   /// The force alone; shape() stays.  @return as press()
@@ -80,40 +63,40 @@ class GalerkinModel {
     const Response<Scalar> response = respond(request, at);
     if (!is_answer(response.status)) return response;
     const Scalar s = at.press.s, d = at.press.d;
-    const int m = data_.tensions;
+    const int m = trained_->data.tensions;
     Scalar by_tension[Shape::near_size * max_size], near[Shape::near_size];
-    detail::combine(table_.data() + 4 * m, row_size(), Shape::near_size * m, at.lx, data_.positions,
-                    by_tension);
+    detail::combine(trained_->table.data() + 4 * m, row_size(m), Shape::near_size * m, at.lx,
+                    trained_->data.positions, by_tension);
     detail::combine(by_tension, Shape::near_size, Shape::near_size, at.lz, m, near);
     const Scalar theta = rotation(at, near[Shape::own]);
-    if (data_.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
-    shape_.press(s, d, d, data_.positions > 1 ? &theta : nullptr, at.lx, data_.positions, at.lz, m, near);
+    if (trained_->data.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
+    shape_.press(s, d, d, trained_->data.positions > 1 ? &theta : nullptr, at.lx, at.lz, near);
     return response;
   }
 
   /// Computed when it is first asked for: by one thread at a time.
-  Centreline<Scalar> shape() const noexcept { return shape_.all(data_.shape); }
+  Centreline<Scalar> shape() const noexcept { return shape_.all(trained_->data.shape); }
   /// The pieces of shape() that hold arc positions s0 to s1; beside the contact without the others.
   CentrelinePart<Scalar> part(Scalar s0, Scalar s1) const noexcept {
-    return shape_.part(data_.shape, s0, s1);
+    return shape_.part(trained_->data.shape, s0, s1);
   }
   /// Where it was trained.
-  Range<Scalar> range() const noexcept { return detail::trained_range(data_); }
-  Scalar thickness() const noexcept { return data_.beam.thickness; }
+  Range<Scalar> range() const noexcept { return detail::trained_range(trained_->data); }
+  Scalar thickness() const noexcept { return trained_->data.beam.thickness; }
   void reset() noexcept {
-    shape_.reset(data_.shape);
+    shape_.reset(trained_->data.shape);
     last_ = 0;
   }
 
-  const Data& data() const noexcept { return data_; }
+  const Data& data() const noexcept { return trained_->data; }
   /// Of presses that it was not trained with.
-  const ErrorReport& errors() const noexcept { return data_.errors; }
+  const ErrorReport& errors() const noexcept { return trained_->data.errors; }
   /// Newton iterations of the last press.
   int iterations() const noexcept { return iterations_; }
 
  private:
   static constexpr int max_size = Lagrange<Nodes, Scalar>::max_size;
-  using Shape = ShapeTable<Scalar, max_size>;
+  using Shape = ShapeTable<Scalar>;
 
   struct Point {
     Press<Scalar> press;
@@ -123,24 +106,58 @@ class GalerkinModel {
     Scalar beyond;  // √(N/Nm), 1 where the tension was trained
   };
 
-  int row_size() const noexcept { return (4 + Shape::near_size) * data_.tensions; }
-  Scalar* near(Scalar* row, int tension) const noexcept {
-    return row + 4 * data_.tensions + Shape::near_size * tension;
-  }
+  /// What training made, and what follows from it: the same for all copies.
+  struct Trained {
+    Data data;
+    PositionCoordinate<Scalar> position;
+    TensionCoordinate<Scalar> tension;
+    Lagrange<Nodes, Scalar> x, z;
+    // Position by position: by tension f, df/dz, d²f/dz² and d²f/dxdz; what makes the nodes near the contact, with df/dx for its own.
+    std::vector<Scalar> table;
+
+    [[gnu::cold]] explicit Trained(Data given)
+        : data((check(given), std::move(given))),
+          position(data.beam),
+          tension(data.beam),
+          x(data.positions, position(data.s_min), position(data.s_max)),
+          z(data.tensions, 0, tension(data.tension)),
+          table(static_cast<std::size_t>(data.positions * row_size(data.tensions) + detail::padded(1))) {
+      const int m = data.tensions, size = row_size(m);
+      const auto near = [m](Scalar* row, int j) { return row + 4 * m + Shape::near_size * j; };
+      Scalar* row = table.data();
+      for (int i = 0; i < data.positions; ++i, row += size) {
+        for (int j = 0; j < m; ++j) {
+          row[4 * j] = data.log_stiffness[static_cast<std::size_t>(i * m + j)];
+          Shape::tabulate(data.shape, i * m + j, near(row, j));
+        }
+        z.differentiate(row, 4, row + 1, 4);
+        z.differentiate(row + 1, 4, row + 2, 4);
+      }
+      row = table.data();
+      for (int j = 0; j < m; ++j) {
+        x.differentiate(row + 4 * j, size, near(row, j) + Shape::own, size);
+        x.differentiate(row + 4 * j + 1, size, row + 4 * j + 3, size);
+      }
+    }
+  };
+
+  static int row_size(int tensions) noexcept { return (4 + Shape::near_size) * tensions; }
 
   Response<Scalar> respond(const Press<Scalar>& request, Point& at) noexcept {
     using std::exp;
     using std::isfinite;
     iterations_ = 0;
     at.beyond = 1;
-    if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 || request.s > data_.beam.length)
+    if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 ||
+        request.s > trained_->data.beam.length)
       return {0, Status::invalid_request};
     const Press<Scalar> nearest = range().nearest(request);
-    at.press = {nearest.s, detail::bounded(request.d, data_.beam.length)};
-    const int m = data_.tensions;
-    x_.weights(data_.positions > 1 ? position_(at.press.s) : Scalar(0), at.lx);
-    detail::combine(table_.data(), row_size(), detail::padded(4 * m), at.lx, data_.positions, at.column);
-    const Scalar scale = position_.scale(at.press.s);
+    at.press = {nearest.s, detail::bounded(request.d, trained_->data.beam.length)};
+    const int m = trained_->data.tensions;
+    trained_->x.weights(trained_->data.positions > 1 ? trained_->position(at.press.s) : Scalar(0), at.lx);
+    detail::combine(trained_->table.data(), row_size(m), detail::padded(4 * m), at.lx,
+                    trained_->data.positions, at.column);
+    const Scalar scale = trained_->position.scale(at.press.s);
     const Scalar stiffness = m == 1 ? (along(at, 0), exp(at.f) / scale) : balance(at, scale);
     const Scalar force = stiffness * at.press.d;
     if (!isfinite(force)) return {0, Status::non_finite};
@@ -150,8 +167,8 @@ class GalerkinModel {
 
   /// f and its derivatives at z.
   void along(Point& at, Scalar z) const noexcept {
-    const int m = data_.tensions;
-    z_.weights(z, at.lz);
+    const int m = trained_->data.tensions;
+    trained_->z.weights(z, at.lz);
     Eigen::Array<Scalar, 4, 1> sum = Eigen::Array<Scalar, 4, 1>::Zero();
     for (int j = 0; j < m; ++j)
       sum += at.lz[j] * Eigen::Map<const Eigen::Array<Scalar, 4, 1>>(at.column + 4 * j);
@@ -166,8 +183,8 @@ class GalerkinModel {
     using std::exp;
     using std::expm1;
     using std::sqrt;
-    const Scalar d = at.press.d, N0 = tension_.unit(), z_max = z_.high();
-    const Scalar flexibility = data_.beam.length / data_.beam.axial_stiffness;
+    const Scalar d = at.press.d, N0 = trained_->tension.unit(), z_max = trained_->z.high();
+    const Scalar flexibility = trained_->data.beam.length / trained_->data.beam.axial_stiffness;
     const Scalar q = d * d / (2 * flexibility * N0 * N0 * scale);
     // Newton's method, and near the root Halley's, of third order: what a step that small leaves is round-off.
     const Scalar settled = std::cbrt(std::numeric_limits<Scalar>::epsilon()) / 16;
@@ -190,7 +207,7 @@ class GalerkinModel {
         at.by_z += way * at.by_zz;
         k *= 1 + change * (1 + change / 2);
         z = next;
-        z_.weights(z, at.lz);
+        trained_->z.weights(z, at.lz);
         break;
       }
       z = next > low && next < high ? next : (std::max(low, Scalar(0)) + std::min(high, z_max)) / 2;
@@ -199,7 +216,7 @@ class GalerkinModel {
     if (low != z_max) return k;
 
     // N = Nm r²:  k' = 1/A + b/r,  hence r³ - P r - Q = 0, convex where r > 0; Newton comes down to its only root there.
-    const Scalar Nm = data_.tension, string = 1 / string_compliance(at.press.s);
+    const Scalar Nm = trained_->data.tension, string = 1 / string_compliance(at.press.s);
     const Scalar b = k * at.by_z / (N0 + Nm) - string, half = d * d / (2 * flexibility * Nm);
     const Scalar P = half * string, Q = half * b;
     Scalar r = std::max(sqrt(P) + std::cbrt(std::max(Q, Scalar(0))), Scalar(1));
@@ -216,19 +233,20 @@ class GalerkinModel {
   /// What ∂k/∂N = 1/A + b √(Nm/N) adds to k from Nm to N.
   Scalar beyond(const Point& at, Scalar string, Scalar b) const noexcept {
     const Scalar r = at.beyond;
-    return data_.tension * (string * (r - 1) * (r + 1) + 2 * b * (r - 1));
+    return trained_->data.tension * (string * (r - 1) * (r + 1) + 2 * b * (r - 1));
   }
 
   /// θ at the contact: (∂V/∂s)/F = ½ d (∂k/∂s)/k, N being stationary [rad].
   /// @param by_x  df/dx
   Scalar rotation(const Point& at, Scalar by_x) const noexcept {
-    const Scalar s = at.press.s, x_by_s = position_.derivative(s);
-    const Scalar log_by_s = by_x * x_by_s - position_.log_scale_derivative(s);  // of k, or of k at Nm
+    const Scalar s = at.press.s, x_by_s = trained_->position.derivative(s);
+    const Scalar log_by_s =
+        by_x * x_by_s - trained_->position.log_scale_derivative(s);  // of k, or of k at Nm
     if (!(at.beyond > 1)) return at.press.d / 2 * log_by_s;
-    const Scalar k = std::exp(at.f) / position_.scale(s), k_by_s = k * log_by_s;
+    const Scalar k = std::exp(at.f) / trained_->position.scale(s), k_by_s = k * log_by_s;
     const Scalar string = 1 / string_compliance(s),
                  string_by_s = -string * string * string_compliance_by_s(s);
-    const Scalar span = tension_.unit() + data_.tension;  // N0 + Nm
+    const Scalar span = trained_->tension.unit() + trained_->data.tension;  // N0 + Nm
     const Scalar b = k * at.by_z / span - string;
     const Scalar b_by_s = (k_by_s * at.by_z + k * at.by_xz * x_by_s) / span - string_by_s;
     return at.press.d / 2 * (k_by_s + beyond(at, string_by_s, b_by_s)) / (k + beyond(at, string, b));
@@ -236,23 +254,18 @@ class GalerkinModel {
 
   /// Deflection under a unit force of a string under unit tension with these ends [m].
   Scalar string_compliance(Scalar s) const noexcept {
-    const Scalar L = data_.beam.length;
-    if (!fixes_w(data_.beam.left)) return L - s;
-    return fixes_w(data_.beam.right) ? s * (L - s) / L : s;
+    const Scalar L = trained_->data.beam.length;
+    if (!fixes_w(trained_->data.beam.left)) return L - s;
+    return fixes_w(trained_->data.beam.right) ? s * (L - s) / L : s;
   }
 
   Scalar string_compliance_by_s(Scalar s) const noexcept {
-    const Scalar L = data_.beam.length;
-    if (!fixes_w(data_.beam.left)) return -1;
-    return fixes_w(data_.beam.right) ? (L - 2 * s) / L : Scalar(1);
+    const Scalar L = trained_->data.beam.length;
+    if (!fixes_w(trained_->data.beam.left)) return -1;
+    return fixes_w(trained_->data.beam.right) ? (L - 2 * s) / L : Scalar(1);
   }
 
-  Data data_;
-  PositionCoordinate<Scalar> position_;
-  TensionCoordinate<Scalar> tension_;
-  Lagrange<Nodes, Scalar> x_, z_;
-  // Position by position: by tension f, df/dz, d²f/dz² and d²f/dxdz; what makes the nodes near the contact, with df/dx for its own.
-  std::vector<Scalar> table_;
+  std::shared_ptr<const Trained> trained_;
   mutable Shape shape_;  // of the last press, as far as it was asked for
   Scalar last_ = 0;      // z of the last press
   int iterations_ = 0;

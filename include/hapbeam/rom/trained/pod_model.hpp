@@ -4,6 +4,7 @@
 // derivative, F = ∂V/∂d: no path of the contact that closes gains or loses energy, whatever the error.  The rotation at the
 // contact follows from the same V, ∂V/∂s = F θ, and the rest of the shape from POD modes (thesis eq. 3.54, 3.67).
 // The cost knows nothing of elements: positions × depths for the force, and points × modes more for the shape.
+// Copies share what was trained, and have a state of their own: a copy costs the nodes of a shape.
 // Outside range() nothing is extrapolated.  Deeper presses take the force at the end of the range and its tangent
 // stiffness there, held constant; s is that of the nearest press in range.  Only inside do closed paths close.
 // Offline: construction allocates and throws std::invalid_argument.  Servo: all else is noexcept and allocation-free.
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -32,26 +34,8 @@ class PodModel {
 
   /// @throws std::invalid_argument where the data do not make a model
   [[gnu::cold]] explicit PodModel(Data data)
-      : data_((check(data), std::move(data))),
-        position_(data_.beam),
-        depth_(data_.beam, data_.symmetric),
-        x_(data_.positions, position_(data_.s_min), position_(data_.s_max)),
-        y_(data_.depths, data_.y_low, data_.y_high),
-        table_(static_cast<std::size_t>(data_.positions * row_size() + detail::padded(1))),
-        rest_by_x_(static_cast<std::size_t>(data_.positions)),
-        shape_(data_.beam, data_.shape) {
-    const int m = data_.depths, n = data_.positions;
-    Scalar* row = table_.data();
-    for (int i = 0; i < n; ++i, row += row_size()) {
-      std::copy_n(data_.potential.data() + i * m, m, row + m);
-      y_.differentiate(row + m, 1, row, 1);
-      for (int j = 0; j < m; ++j) Shape::tabulate(data_.shape, i * m + j, near(row, j));
-    }
-    row = table_.data();
-    for (int j = 0; j < m; ++j)
-      x_.differentiate(row + m + j, row_size(), near(row, j) + Shape::own, row_size());
-    x_.differentiate(data_.rest.data(), 1, rest_by_x_.data(), 1);
-  }
+      : trained_(std::make_shared<const Trained>(std::move(data))),
+        shape_(trained_->data.beam, trained_->data.shape, trained_->data.positions, trained_->data.depths) {}
 
   /// The force alone; shape() stays.  @return as press()
   [[nodiscard]] Response<Scalar> force(const Press<Scalar>& request) const noexcept {
@@ -65,37 +49,37 @@ class PodModel {
     Point at;
     const Response<Scalar> response = respond(request, at);
     if (!is_answer(response.status)) return response;
-    const Scalar unit = data_.symmetric ? at.press.d : data_.depth;
-    const int m = data_.depths;
+    const Data& data = trained_->data;
+    const Scalar unit = data.symmetric ? at.press.d : data.depth;
+    const int m = data.depths;
     Scalar by_depth[Shape::near_size * max_size], near[Shape::near_size];
-    detail::combine(table_.data() + 2 * m, row_size(), Shape::near_size * m, at.lx, data_.positions,
+    detail::combine(trained_->table.data() + 2 * m, row_size(m), Shape::near_size * m, at.lx, data.positions,
                     by_depth);
     detail::combine(by_depth, Shape::near_size, Shape::near_size, at.ly, m, near);
     const Scalar theta = rotation(at, near[Shape::own]);
-    if (data_.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
-    shape_.press(at.press.s, at.press.d, unit, data_.positions > 1 ? &theta : nullptr, at.lx, data_.positions,
-                 at.ly, m, near);
+    if (data.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
+    shape_.press(at.press.s, at.press.d, unit, data.positions > 1 ? &theta : nullptr, at.lx, at.ly, near);
     return response;
   }
 
   /// Computed when it is first asked for: by one thread at a time.
-  Centreline<Scalar> shape() const noexcept { return shape_.all(data_.shape); }
+  Centreline<Scalar> shape() const noexcept { return shape_.all(trained_->data.shape); }
   /// The pieces of shape() that hold arc positions s0 to s1; beside the contact without the others.
   CentrelinePart<Scalar> part(Scalar s0, Scalar s1) const noexcept {
-    return shape_.part(data_.shape, s0, s1);
+    return shape_.part(trained_->data.shape, s0, s1);
   }
   /// Where it was trained.
-  Range<Scalar> range() const noexcept { return detail::trained_range(data_); }
-  Scalar thickness() const noexcept { return data_.beam.thickness; }
-  void reset() noexcept { shape_.reset(data_.shape); }
+  Range<Scalar> range() const noexcept { return detail::trained_range(trained_->data); }
+  Scalar thickness() const noexcept { return trained_->data.beam.thickness; }
+  void reset() noexcept { shape_.reset(trained_->data.shape); }
 
-  const Data& data() const noexcept { return data_; }
+  const Data& data() const noexcept { return trained_->data; }
   /// Of presses that it was not trained with.
-  const ErrorReport& errors() const noexcept { return data_.errors; }
+  const ErrorReport& errors() const noexcept { return trained_->data.errors; }
 
  private:
   static constexpr int max_size = Lagrange<Nodes, Scalar>::max_size;
-  using Shape = ShapeTable<Scalar, max_size>;
+  using Shape = ShapeTable<Scalar>;
 
   /// A press in range and what is interpolated there.
   struct Point {
@@ -108,14 +92,44 @@ class PodModel {
     Scalar force() const noexcept { return e * (work + half_slope * work_by_y) / scale; }
   };
 
-  int row_size() const noexcept { return (2 + Shape::near_size) * data_.depths; }
-  Scalar* near(Scalar* row, int depth) const noexcept {
-    return row + 2 * data_.depths + Shape::near_size * depth;
-  }
+  /// What training made, and what follows from it: the same for all copies.
+  struct Trained {
+    Data data;
+    PositionCoordinate<Scalar> position;
+    DepthCoordinate<Scalar> depth;
+    Lagrange<Nodes, Scalar> x, y;
+    // Position by position: derivative of the potential in y by depth, the potential, and by depth what makes the nodes near the
+    // contact, the last of which is the derivative of the potential in x.
+    std::vector<Scalar> table, rest_by_x;
+
+    [[gnu::cold]] explicit Trained(Data given)
+        : data((check(given), std::move(given))),
+          position(data.beam),
+          depth(data.beam, data.symmetric),
+          x(data.positions, position(data.s_min), position(data.s_max)),
+          y(data.depths, data.y_low, data.y_high),
+          table(static_cast<std::size_t>(data.positions * row_size(data.depths) + detail::padded(1))),
+          rest_by_x(static_cast<std::size_t>(data.positions)) {
+      const int m = data.depths, n = data.positions, size = row_size(m);
+      const auto near = [m](Scalar* row, int j) { return row + 2 * m + Shape::near_size * j; };
+      Scalar* row = table.data();
+      for (int i = 0; i < n; ++i, row += size) {
+        std::copy_n(data.potential.data() + i * m, m, row + m);
+        y.differentiate(row + m, 1, row, 1);
+        for (int j = 0; j < m; ++j) Shape::tabulate(data.shape, i * m + j, near(row, j));
+      }
+      row = table.data();
+      for (int j = 0; j < m; ++j) x.differentiate(row + m + j, size, near(row, j) + Shape::own, size);
+      x.differentiate(data.rest.data(), 1, rest_by_x.data(), 1);
+    }
+  };
+
+  static int row_size(int depths) noexcept { return (2 + Shape::near_size) * depths; }
 
   Response<Scalar> respond(const Press<Scalar>& request, Point& at) const noexcept {
     using std::isfinite;
-    if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 || request.s > data_.beam.length)
+    if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 ||
+        request.s > trained_->data.beam.length)
       return {0, Status::invalid_request};
     at.press = range().nearest(request);
     locate(at);
@@ -130,28 +144,30 @@ class PodModel {
     Scalar stiffness = near.force();
     near.press.d = at.press.d - step, descend(near);
     stiffness = std::max((stiffness - near.force()) / (2 * step), Scalar(0));
-    force += stiffness * (detail::bounded(request.d, data_.beam.length) - at.press.d);
+    force += stiffness * (detail::bounded(request.d, trained_->data.beam.length) - at.press.d);
     if (!isfinite(force)) return {0, Status::non_finite};
     return {force, Status::out_of_range};
   }
 
   void locate(Point& at) const noexcept {
-    x_.weights(data_.positions > 1 ? position_(at.press.s) : Scalar(0), at.lx);
-    at.scale = position_.scale(at.press.s);
+    const Trained& t = *trained_;
+    t.x.weights(t.data.positions > 1 ? t.position(at.press.s) : Scalar(0), at.lx);
+    at.scale = t.position.scale(at.press.s);
     descend(at);
   }
 
   /// The rest of locate(), for another depth at the same position.
   [[gnu::noinline]] void descend(Point& at) const noexcept {
-    const int n = data_.positions, m = data_.depths;
+    const Trained& t = *trained_;
+    const int n = t.data.positions, m = t.data.depths;
     at.e = at.press.d;
-    if (!data_.symmetric) at.e -= detail::dot(at.lx, data_.rest.data(), n);
-    at.y = depth_(at.e);
-    at.half_slope = depth_.half_log_derivative(at.e, at.y);
-    y_.weights(at.y, at.ly);
+    if (!t.data.symmetric) at.e -= detail::dot(at.lx, t.data.rest.data(), n);
+    at.y = t.depth(at.e);
+    at.half_slope = t.depth.half_log_derivative(at.e, at.y);
+    t.y.weights(at.y, at.ly);
     Scalar sum[2 * max_size];
-    if (n > 1) detail::combine(table_.data(), row_size(), detail::padded(2 * m), at.lx, n, sum);
-    const Scalar* column = n > 1 ? sum : table_.data();
+    if (n > 1) detail::combine(t.table.data(), row_size(m), detail::padded(2 * m), at.lx, n, sum);
+    const Scalar* column = n > 1 ? sum : t.table.data();
     at.work = detail::dot(at.ly, column + m, m);
     at.work_by_y = detail::dot(at.ly, column, m);
   }
@@ -159,21 +175,16 @@ class PodModel {
   /// θ at the contact: (∂V/∂s at constant d)/F [rad].
   /// @param by_x  ∂/∂x of the potential
   Scalar rotation(const Point& at, Scalar by_x) const noexcept {
+    const Trained& t = *trained_;
     const Scalar rest_by_x =
-        data_.symmetric ? Scalar(0) : detail::dot(at.lx, rest_by_x_.data(), data_.positions);
-    const Scalar s = at.press.s, x_by_s = position_.derivative(s);
-    return at.e / 2 * (by_x * x_by_s - at.work * position_.log_scale_derivative(s)) /
+        t.data.symmetric ? Scalar(0) : detail::dot(at.lx, t.rest_by_x.data(), t.data.positions);
+    const Scalar s = at.press.s, x_by_s = t.position.derivative(s);
+    return at.e / 2 * (by_x * x_by_s - at.work * t.position.log_scale_derivative(s)) /
                (at.work + at.half_slope * at.work_by_y) -
            rest_by_x * x_by_s;
   }
 
-  Data data_;
-  PositionCoordinate<Scalar> position_;
-  DepthCoordinate<Scalar> depth_;
-  Lagrange<Nodes, Scalar> x_, y_;
-  // Position by position: derivative of the potential in y by depth, the potential, and by depth what makes the nodes near the
-  // contact, the last of which is the derivative of the potential in x.
-  std::vector<Scalar> table_, rest_by_x_;
+  std::shared_ptr<const Trained> trained_;
   mutable Shape shape_;  // of the last press, as far as it was asked for
 };
 

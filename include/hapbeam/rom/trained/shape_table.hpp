@@ -79,8 +79,7 @@ struct ShapeData {
 
 /// The shape of the last press.  The contact's node and its neighbours, which is where contact looks, come with the press;
 /// the others when they are asked for.  What was trained stays with the model, which passes it in.
-/// @tparam MaxSize  of either axis of the grid
-template <typename Scalar, int MaxSize>
+template <typename Scalar>
 class ShapeTable {
  public:
   using Node = CentrelineNode<Scalar>;
@@ -90,10 +89,15 @@ class ShapeTable {
   static constexpr int near_size = 8, own = 7;
 
   /// Allocates.  @param data  sizes that fit each other, as check() in model_data.hpp sees to
-  [[gnu::cold]] ShapeTable(const BeamData<Scalar>& beam, const ShapeData<Scalar>& data)
+  /// @param positions, others  sizes of the grid
+  [[gnu::cold]] ShapeTable(const BeamData<Scalar>& beam, const ShapeData<Scalar>& data, int positions,
+                           int others)
       : frame_(beam, data.segments, data.contact_node),
         length_(beam.length),
-        work_(data.coefficients.size() + static_cast<std::size_t>(data.modes) + data.rest.size()),
+        positions_(positions),
+        others_(others),
+        weights_(index(positions + others)),
+        work_(index((others + 1) * data.modes) + data.rest.size()),
         nodes_(static_cast<std::size_t>(data.segments) + 1) {
     reset(data);
   }
@@ -123,17 +127,15 @@ class ShapeTable {
   }
 
   /// The shape of a press by d at s.   O(1)
-  /// @param lx, positions, ly, others  interpolation weights along both axes of the grid
+  /// @param lx, ly  interpolation weights along both axes of the grid
   /// @param unit [m]  what w is stored in units of   @param theta  rotation at the contact [rad], or null: by the modes
   /// @param near  interpolated
-  void press(Scalar s, Scalar d, Scalar unit, const Scalar* theta, const Scalar* lx, int positions,
-             const Scalar* ly, int others, const Scalar* near) noexcept {
+  void press(Scalar s, Scalar d, Scalar unit, const Scalar* theta, const Scalar* lx, const Scalar* ly,
+             const Scalar* near) noexcept {
     s_ = s, d_ = d, unit_ = unit;
     theta_known_ = theta != nullptr;
     if (theta) theta_ = *theta;
-    std::copy_n(lx, positions, lx_);
-    std::copy_n(ly, others, ly_);
-    positions_ = positions, others_ = others;
+    std::copy_n(ly, others_, std::copy_n(lx, positions_, weights_.data()));
     const int middle = frame_.contact_node(), end = frame_.segments();
     first_ = std::max(middle - 1, 0), last_ = std::min(middle + 1, end);
     if (!theta || frame_.contact(s) != s) {
@@ -166,8 +168,9 @@ class ShapeTable {
   [[gnu::noinline]] void evaluate(const ShapeData<Scalar>& data) noexcept {
     const int modes = data.modes, rows = 3 * (data.segments + 1);
     Scalar *const row = work_.data(), *const mode = row + rows, *const column = mode + modes;
-    detail::combine(data.coefficients.data(), others_ * modes, others_ * modes, lx_, positions_, column);
-    detail::combine(column, modes, modes, ly_, others_, mode);
+    detail::combine(data.coefficients.data(), others_ * modes, others_ * modes, weights_.data(), positions_,
+                    column);
+    detail::combine(column, modes, modes, weights_.data() + positions_, others_, mode);
     detail::combine(data.basis.data(), rows, rows, mode, modes, row);
 
     const Scalar contact = frame_.contact(s_);
@@ -206,15 +209,15 @@ class ShapeTable {
 
   ContactFrame<Scalar> frame_;
   Scalar length_;
-  std::vector<Scalar> work_;  // displacements of the last shape, freed of units; its modes; these by depth
+  int positions_, others_;
+  std::vector<Scalar> weights_;  // of the last press, along both axes
+  std::vector<Scalar> work_;     // displacements of the last shape, freed of units; its modes; these by depth
   std::vector<Node> nodes_;
   int first_ = 0,
       last_ = 0;  // of the nodes that are those of the last press; none where the last is before the first
   // The last press.
   Scalar s_ = 0, d_ = 0, unit_ = 1, theta_ = 0;
   bool theta_known_ = false;
-  Scalar lx_[MaxSize] = {}, ly_[MaxSize] = {};
-  int positions_ = 0, others_ = 0;
 };
 
 }  // namespace hapbeam

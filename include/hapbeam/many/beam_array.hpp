@@ -1,0 +1,176 @@
+// Many beams in one plane: hair, a brush, grass, the strings of a harp.
+//
+//   BeamArray brush(FemModel<>(bristle, 8), places);   // all alike; or a list of kinds
+//   Touch touch(brush, 0.005);                         // one hand: many/touch_many.hpp
+//   const auto felt = touch.tick(hand);                // the sum of what all beams do to it
+//
+// Beams are of a few kinds, and each kind is one model at rest: a beam adds its place to it, and no model of its own.  A model is
+// needed where a beam is touched; the touch has as many as it may hold at once.
+// Nothing here changes after construction, which allocates and throws.  All else is noexcept and allocation-free.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <hapbeam/check.hpp>
+#include <hapbeam/contact/bounding_volumes.hpp>
+#include <hapbeam/contact/box.hpp>
+#include <hapbeam/force_model.hpp>
+#include <hapbeam/many/box_tree.hpp>
+
+namespace hapbeam {
+
+/// Where one beam of an array lies.
+struct BeamPlace {
+  Vector2<double> origin{0, 0};  ///< [m] of its left end, s = 0, w = 0, in the plane of the array
+  double angle = 0;              ///< [rad] of its x axis, counterclockwise from the array's
+  int kind = 0;                  ///< which of the array's models
+};
+
+namespace detail {
+
+/// The axes of one beam in those of the array.
+template <typename Scalar>
+struct BeamFrame {
+  Vector2<Scalar> origin, along;  // [m], unit
+
+  Vector2<Scalar> local(const Vector2<Scalar>& place) const noexcept {
+    const Scalar x = place.x() - origin.x(), y = place.y() - origin.y();
+    return {along.x() * x + along.y() * y, along.x() * y - along.y() * x};
+  }
+  /// Of a direction or force.
+  Vector2<Scalar> turned(const Vector2<Scalar>& v) const noexcept {
+    return {along.x() * v.x() - along.y() * v.y(), along.y() * v.x() + along.x() * v.y()};
+  }
+  Vector2<Scalar> place(const Vector2<Scalar>& local) const noexcept { return origin + turned(local); }
+};
+
+}  // namespace detail
+
+/// @tparam Model  a ForceModel that can be copied; copies of a trained model share what was trained
+template <typename Model>
+class BeamArray {
+  static_assert(is_force_model<Model>,
+                "BeamArray<Model>: Model must fulfil the contract of hapbeam/force_model.hpp");
+
+ public:
+  using Scalar = typename Model::Scalar;
+  using Frame = detail::BeamFrame<Scalar>;
+
+  /// One kind of beams, as all of them are at rest.
+  struct Kind {
+    Model model;
+    BoundingVolumes<Scalar> volumes;
+    detail::Box<Scalar> box;  ///< [m] around the beam, and what round-off could explain
+    int beams = 0;
+
+    explicit Kind(const Model& given) : model(given), volumes((model.reset(), model.shape().segments())) {
+      volumes.refit(model.shape());
+      model.shape().visit_segments([&](int, const CubicSegment<Scalar>& segment) { box.include(segment); });
+      box = box.grown(model.thickness() / 2 + slack(box));
+    }
+  };
+
+  /// Beams that are alike.   @param most_touched  by a hand at once, 1 to 4096   @throws as below
+  BeamArray(const Model& model, const std::vector<BeamPlace>& places, int most_touched = 64)
+      : BeamArray(std::vector<Model>{model}, places, most_touched) {}
+
+  /// @param kinds  one or more; their shapes at rest are those of the beams
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  BeamArray(const std::vector<Model>& kinds, const std::vector<BeamPlace>& places, int most_touched = 64)
+      : most_touched_(most_touched),
+        kinds_(make_kinds(kinds, places, most_touched)),
+        tree_(boxes(places), order_) {
+    beams_.reserve(places.size());
+    where_.resize(places.size());
+    for (const std::int32_t i : order_) {
+      const BeamPlace& place = places[static_cast<std::size_t>(i)];
+      where_[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(beams_.size());
+      beams_.push_back({frame_of(place), i, static_cast<std::int32_t>(place.kind)});
+    }
+    order_ = {};
+  }
+
+  int size() const noexcept { return static_cast<int>(beams_.size()); }
+  int most_touched() const noexcept { return most_touched_; }
+  int kinds() const noexcept { return static_cast<int>(kinds_.size()); }
+  const Kind& kind(int i) const noexcept { return kinds_[static_cast<std::size_t>(i)]; }
+  /// @param beam  its index in the list that the array was made of
+  int kind_of(int beam) const noexcept { return sorted(where(beam)).kind; }
+  const Frame& frame(int beam) const noexcept { return sorted(where(beam)).frame; }
+  /// Of an untouched beam, in its own axes.
+  Centreline<Scalar> rest(int beam) const noexcept { return kind(kind_of(beam)).model.shape(); }
+
+  /// Heap of all beams together, without that of the kinds' models.
+  std::size_t bytes() const noexcept {
+    return beams_.capacity() * sizeof(Beam) + where_.capacity() * sizeof(std::int32_t) + tree_.bytes();
+  }
+
+ private:
+  template <typename>
+  friend class Touch;
+
+  struct Beam {
+    Frame frame;
+    std::int32_t index, kind;
+  };
+
+  static std::vector<Kind> make_kinds(const std::vector<Model>& models, const std::vector<BeamPlace>& places,
+                                      int most_touched) {
+    const auto count = [](const char* field, std::size_t n, double most, const char* allowed) {
+      if (n < 1 || static_cast<double>(n) > most) detail::reject(field, static_cast<double>(n), "", allowed);
+    };
+    count("most_touched", static_cast<std::size_t>(most_touched < 0 ? 0 : most_touched), 4096, "1 to 4096");
+    count("kinds", models.size(), 1 << 20, "1 to a million");
+    count("places", places.size(), 1 << 30, "1 to 2^30");
+    std::vector<Kind> kinds(models.begin(), models.end());
+    for (const BeamPlace& place : places) {
+      if (place.kind < 0 || static_cast<std::size_t>(place.kind) >= models.size())
+        detail::reject("place kind", place.kind, "", "the index of one of the kinds");
+      detail::finite("place origin", place.origin.x() + place.origin.y(), "m");
+      detail::finite("place angle", place.angle, "rad");
+      ++kinds[static_cast<std::size_t>(place.kind)].beams;
+    }
+    return kinds;
+  }
+
+  static Frame frame_of(const BeamPlace& place) noexcept {
+    return {place.origin.template cast<Scalar>(),
+            {static_cast<Scalar>(std::cos(place.angle)), static_cast<Scalar>(std::sin(place.angle))}};
+  }
+  static Scalar slack(const detail::Box<Scalar>& box) noexcept {
+    return 16 * std::numeric_limits<Scalar>::epsilon() *
+           std::max(std::max(-box.x_low, box.x_high), std::max(-box.y_low, box.y_high));
+  }
+  std::vector<detail::Box<Scalar>> boxes(const std::vector<BeamPlace>& places) const {
+    std::vector<detail::Box<Scalar>> all(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const detail::Box<Scalar>& own = kind(places[i].kind).box;
+      const Frame frame = frame_of(places[i]);
+      for (const Scalar x : {own.x_low, own.x_high})
+        for (const Scalar y : {own.y_low, own.y_high}) {
+          const Vector2<Scalar> corner = frame.place({x, y});
+          all[i].include(corner.x(), corner.y());
+        }
+      all[i] = all[i].grown(slack(all[i]));
+    }
+    return all;
+  }
+
+  int where(int beam) const noexcept { return where_[static_cast<std::size_t>(beam)]; }
+  const Beam& sorted(int i) const noexcept { return beams_[static_cast<std::size_t>(i)]; }
+
+  int most_touched_;
+  std::vector<Kind> kinds_;
+  std::vector<std::int32_t> order_;  // while it is built
+  detail::BoxTree<Scalar> tree_;
+  std::vector<Beam> beams_;          // as the tree has sorted them
+  std::vector<std::int32_t> where_;  // there, by index
+};
+
+}  // namespace hapbeam
