@@ -119,7 +119,7 @@ function trained() {
   rule(5)
   trained_row("fem", "8", "`FemModel<>`, 8 elements", "solves, to a tenth of the length")
   trained_row("fem", "64", "`FemModel<>`, 64 elements", "the same")
-  trained_row("pod_2", "shape", "`PodModel<>`: interpolated work, POD shapes", "goes on with constant stiffness, and says so")
+  trained_row("pod_2", "shape", "`PodModel<>`: interpolated work, POD shapes", "continues with constant stiffness and status `out_of_range`")
   trained_row("galerkin_2", "shape", "`GalerkinModel<>`: one unknown, the tension", "solves on")
 }
 function hand_over(  k, e, kind, what) {
