@@ -15,6 +15,8 @@
 
 #include <Eigen/Core>
 
+#include <hapbeam/angle.hpp>
+
 namespace hapbeam {
 
 template <typename Scalar>
@@ -72,6 +74,24 @@ class Centreline {
     }
   }
 
+  /// Curvature at node i of a centreline of any rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.
+  Scalar curvature(int i) const noexcept {
+    using std::nearbyint;
+    using std::sqrt;
+    constexpr Scalar turn = Scalar(6.283185307179586476925);
+    Scalar sum = 0, pieces = 0;
+    for (int k = i > 0 ? i - 1 : 0; k <= i && k < segments(); ++k) {
+      const Node &a = nodes_[k], &b = nodes_[k + 1];
+      const Scalar x = b.s + b.u - a.s - a.u, y = b.w - a.w;
+      const Scalar chord = detail::angle(y, x, sqrt(x * x + y * y));
+      const Scalar turns = turn * nearbyint(((a.theta + b.theta) / 2 + chord) * (1 / turn));
+      const Scalar p = a.theta + chord - turns, q = b.theta + chord - turns;
+      sum += (k == i ? 4 * p + 2 * q : -2 * p - 4 * q) / (b.s - a.s);
+      ++pieces;
+    }
+    return sum / pieces;
+  }
+
   /// Index of the piece that holds arc position s; the first or last one where s lies off the beam.
   int segment_at(Scalar s) const noexcept {
     int low = 0, high = segments() - 1;
@@ -104,9 +124,7 @@ class Centreline {
   Vector2<Scalar> direction(int i) const noexcept {
     const Scalar theta = nodes_[i].theta;
     if (!any_rotation_) return {1, -theta};
-    using std::cos;
-    using std::sin;
-    return {cos(theta), -sin(theta)};
+    return detail::direction(-theta);
   }
 
   CubicSegment<Scalar> segment(int i, const Vector2<Scalar>& from, const Vector2<Scalar>& to) const noexcept {
@@ -138,7 +156,6 @@ class Centreline {
 
   /// θ is the angle of the tangent, in the turn in which the piece begins.
   Displacement<Scalar> on_curve(int i, Scalar s, Scalar t) const noexcept {
-    using std::atan2;
     const Node& a = nodes_[i];
     const Vector2<Scalar> from = direction(i);
     const CubicSegment<Scalar> b = segment(i, from, direction(i + 1));
@@ -146,7 +163,8 @@ class Centreline {
     const Vector2<Scalar> c0 = b.col(1) - b.col(0), c1 = b.col(2) - b.col(1), c2 = b.col(3) - b.col(2);
     const Vector2<Scalar> velocity = r * r * c0 + 2 * r * t * c1 + t * t * c2;
     const Vector2<Scalar> way = t * ((1 + r + r * r) * c0 + t * (1 + 2 * r) * c1 + t * t * c2);
-    const Scalar turned = atan2(from.x() * velocity.y() - from.y() * velocity.x(), from.dot(velocity));
+    const Scalar turned =
+        detail::angle(from.x() * velocity.y() - from.y() * velocity.x(), from.dot(velocity), velocity.norm());
     return {a.u + (way.x() - (s - a.s)), a.w + way.y(), a.theta - turned};
   }
 

@@ -15,7 +15,7 @@
 //
 // A model of large rotation may offer two more, which contact then takes instead of press() and reset():
 //
-//   m.push(p)            Response<Scalar>       of a Push<Scalar>; promises as press(), whose work the pushes of a tick share
+//   m.push(c)            Pushed<Scalar>         of a Circle<Scalar>; promises as press()
 //   m.release()          Status                 noexcept, bounded; lets go: the beam falls from its present shape to where
 //                                               it rests, which may be another shape than before (snapped), and may
 //                                               take more than one call (iteration_limit)
@@ -30,7 +30,7 @@
 // After a press with ok a centreline of moderate rotation does not turn back: x = s + u grows along it.
 //
 // Bounded work is a number that the model states, of what it repeats: FemModel solves at most solver.max_solves (48) linear
-// systems a press, all pushes of a tick, or a release; then it says iteration_limit and goes on in the next call, and until
+// systems a press, a push, or a release; then it says iteration_limit and goes on in the next call, and until
 // it has arrived its force is that of the last equilibrium.
 //
 // No allocation, no exception, no dependency but the standard library.
@@ -97,14 +97,22 @@ struct Press {
       d;  ///< [m] displacement w(s), from the x axis, along which the unloaded straight beam lies; either sign
 };
 
-/// A frictionless surface that the centreline touches at one point: there its displacement along n is d, and the force
+/// A frictionless plane that the centreline touches at one point: there its displacement along n is d, and the force
 /// acts along n.
 template <typename Scalar>
 struct Push {
   Scalar s;                ///< [m] arc position of the point
   Scalar d;                ///< [m] n · (u, w) at s
   Vector2<Scalar> normal;  ///< n, unit
-  bool goes_on = false;    ///< in the tick of the push before, with what that has left of the tick's work
+};
+
+/// A frictionless circle that the centreline touches at one point, which is part of the answer.
+template <typename Scalar>
+struct Circle {
+  Scalar s;                ///< [m] arc position beside which the point is sought
+  Vector2<Scalar> centre;  ///< [m]
+  Scalar reach;            ///< [m] radius of the circle, from its centre to the centreline
+  Scalar side;             ///< of the centreline on which the centre lies: +1 left of its direction, -1
 };
 
 /// What a press takes.
@@ -112,6 +120,19 @@ template <typename Scalar>
 struct Response {
   Scalar force;   ///< [N] force on the beam along the direction of d; the hand feels -force.  Always finite.
   Status status;  ///< whether force belongs to the request
+};
+
+/// What a push by a circle takes, and where they touch.
+template <typename Scalar>
+struct Pushed {
+  Scalar force;   ///< [N] on the beam along the normal; negative where the circle pushes.  Always finite.
+  Status status;  ///< as Response::status
+  Scalar miss =
+      0;  ///< [m] how far from where they touch s may be; 0 where that is within the model's tolerance
+  bool past_end = false;  ///< they touch at an end of the beam, which the centre has passed
+  Scalar s = 0;           ///< [m] arc position of the point
+  Vector2<Scalar> point = Vector2<Scalar>::Zero();   ///< [m] of the centreline
+  Vector2<Scalar> normal = Vector2<Scalar>::Zero();  ///< unit, from there to the centre
 };
 
 /// Where a model answers with Status::ok: s_min <= s <= s_max and |d| <= depth_at(s).
@@ -165,9 +186,9 @@ struct TakesPush : std::false_type {};
 template <typename M>
 struct TakesPush<
     M, std::void_t<decltype(std::declval<M&>().release()),
-                   decltype(std::declval<M&>().push(std::declval<const Push<typename M::Scalar>&>()))>>
+                   decltype(std::declval<M&>().push(std::declval<const Circle<typename M::Scalar>&>()))>>
     : std::bool_constant<noexcept(std::declval<M&>().release())&& noexcept(
-          std::declval<M&>().push(std::declval<const Push<typename M::Scalar>&>()))> {};
+          std::declval<M&>().push(std::declval<const Circle<typename M::Scalar>&>()))> {};
 
 template <typename M, typename = void>
 struct OffersPart : std::false_type {};

@@ -33,7 +33,7 @@ class AnyModel {
   struct Holder {
     virtual ~Holder() = default;
     virtual Response<Scalar> press(const Press<Scalar>&) noexcept = 0;
-    virtual Response<Scalar> push(const Push<Scalar>&) noexcept = 0;
+    virtual Pushed<Scalar> push(const Circle<Scalar>&) noexcept = 0;
     virtual Centreline<Scalar> shape() const noexcept = 0;
     virtual Range<Scalar> range() const noexcept = 0;
     virtual Scalar thickness() const noexcept = 0;
@@ -45,8 +45,8 @@ class AnyModel {
   struct Held final : Holder {
     explicit Held(Model&& moved) : model(std::move(moved)) {}
     Response<Scalar> press(const Press<Scalar>& press) noexcept override { return model.press(press); }
-    Response<Scalar> push([[maybe_unused]] const Push<Scalar>& push) noexcept override {
-      if constexpr (takes_push<Model>) return model.push(push);
+    Pushed<Scalar> push([[maybe_unused]] const Circle<Scalar>& circle) noexcept override {
+      if constexpr (takes_push<Model>) return model.push(circle);
       else return {0, Status::invalid_request};
     }
     Centreline<Scalar> shape() const noexcept override { return model.shape(); }
@@ -70,7 +70,7 @@ class AnyPushedModel : public AnyModel<Scalar> {
   explicit AnyPushedModel(Model model) : AnyModel<Scalar>(std::move(model)) {
     static_assert(takes_push<Model>);
   }
-  Response<Scalar> push(const Push<Scalar>& push) noexcept { return this->held_->push(push); }
+  Pushed<Scalar> push(const Circle<Scalar>& circle) noexcept { return this->held_->push(circle); }
   Status release() noexcept { return this->held_->release(); }
 };
 

@@ -70,9 +70,9 @@ class Touch {
 
   /// One tick.
   /// @param position  [m] centre of the avatar
-  /// Real-time: noexcept, no allocation, bounded: at most one press or four pushes, which share the work of one, and one
-  /// release; nothing without contact but for a beam that falls to rest.  With FemModel that is 96 linear solves, and two looks
-  /// more for each of the five: with 64 elements at 0.1 µs an element and solve 0.68 ms.
+  /// Real-time: noexcept, no allocation, bounded: at most one press or push and one release; nothing without contact but for a
+  /// beam that falls to rest.  With FemModel that is 96 linear solves, and two looks more for each of the four meshes of a push and
+  /// for the release: with 64 elements at 0.1 µs an element and solve 0.68 ms.
   [[nodiscard]] TouchResult<Scalar> tick(const Vector2<Scalar>& position) noexcept {
     TouchResult<Scalar> result;
     Contact<Scalar>& contact = result.contact;

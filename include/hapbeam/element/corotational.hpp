@@ -18,6 +18,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include <hapbeam/angle.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/element/von_karman.hpp>
 
@@ -84,18 +85,6 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
   }
 
  private:
-  /// atan2(y, x).  A chord mostly rises by less than 0.17 of its run, 9.6 degrees; there its angle is a short power
-  /// series, whose next term is less than 4e-18, in half the time of the library's function.
-  template <typename S>
-  static S atan(S y, S x) noexcept {
-    using std::abs;
-    using std::atan2;
-    if (!(abs(y) < S(0.17) * x)) return atan2(y, x);
-    const S r = y / x, q = r * r, q2 = q * q, q4 = q2 * q2;
-    const auto pair = [q](double a, double b) { return S(1 / a) - q * S(1 / b); };
-    return r * (pair(1, 3) + q2 * pair(5, 7) + q4 * (pair(9, 11) + q2 * pair(13, 15) + q4 * pair(17, 19)));
-  }
-
   template <typename S>
   struct Chord {
     S x, w;     // [m]
@@ -112,7 +101,7 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
       length = sqrt(x * x + w * w);
       stretch = (u * (p.length + x) + w * w) / (length + p.length);
       constexpr S turn = S(6.283185307179586476925);
-      angle = atan(w, x);
+      angle = detail::angle(w, x, length);
       angle -= turn * nearbyint((angle + (d[2] + d[5]) / 2) * (1 / turn));
     }
     Deformation<S> local(const ElementProperties<S>& p, const Vector6<S>& d) const noexcept {

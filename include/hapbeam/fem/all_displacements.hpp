@@ -4,8 +4,8 @@
 // rest, whichever is closer.  A beam with more than one shape at rest keeps to the branch on which it is; where that ends or
 // gives way it falls to a stable one (Descent), and the status says snapped.
 // Offline: construction allocates, finds the shape at rest and may throw.  Servo: every other member is noexcept and
-// allocation-free where the assembler is; the presses of a tick together, or a release, take at most solver.max_solves linear
-// solves of O(elements), a fall included, and two more each where the beam gives way.
+// allocation-free where the assembler is; a press, a push or a release takes at most solver.max_solves linear solves of
+// O(elements), a fall included, and two more on each mesh where the beam gives way.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,9 @@
 
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/contact_search.hpp>
 #include <hapbeam/fem/load_path.hpp>
+#include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/solver/descent.hpp>
 
 namespace hapbeam {
@@ -45,45 +47,57 @@ class AllDisplacements {
   /// @return force [N], not always finite, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
   Response<Scalar> press(const Push<Scalar>& request, Scalar node, bool valid) noexcept {
     using std::abs;
-    if (!request.goes_on) left_ = solver_.max_solves;
-    const Scalar first_step = report_.step;
-    report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
-    if (!valid) return {0, Status::invalid_request};
-    if (!is_answer(rest_.status)) return {0, rest_.status};
-    if (left_ <= 0) return {system_.linear_reaction(), report_.status = Status::iteration_limit};
-    const Scalar s = request.s;
     const auto along = [&](const Displacement<Scalar>& at) {
       return request.normal.x() * at.u + request.normal.y() * at.w;
     };
-    const Scalar last = system_.linear_reaction();
+    if (!begins(valid)) return {0, report_.status};
+    const Scalar last = system_.linear_reaction(), s = request.s;
     const Scalar jump = request.d - along(shape().at(s)), from_rest = request.d - along(rest_shape().at(s));
     if (single_valued_ && abs(from_rest) < abs(jump)) reset();
     const ContactMesh<Scalar> mesh = uniform_.at(node);
     system_.remesh(mesh);
-    const auto aim = [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); };
-    aim();
-    if (descending_) report_.status = Status::iteration_limit;
-    else report_ = solve_within(left_, first_step);
-    // A straight beam pressed across gives way in no element but those that lock.
-    const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
-    Descent descent;
-    descent.max_solves = left_ - report_.solves;
-    if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_)) {
-      if (!fall(on_ridge, descent, aim)) {
-        reset();
-        falling_ = true;
+    return settle(last, 1, [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); });
+  }
+
+  /// Of the beam's length: so far from its node a contact is as exact as at it, to a few 1e-6 of the force.
+  static constexpr Scalar beside = Scalar(1.5e-4);
+  /// And so is the force, in units of the solver's tolerance.
+  static constexpr int slack = 100;
+  /// So often the node follows the contact in a push.
+  static constexpr int most_meshes = 4;
+
+  /// Lays the beam on a circle.  The mesh has its node where they were thought to touch, and follows where they do if that is
+  /// not beside it.
+  /// @param range  says where a node can be   @param valid  whether there is a request   @return as press()
+  Pushed<Scalar> push(const Circle<Scalar>& request, const PressRange<Element, Scalar>& range,
+                      bool valid) noexcept {
+    using std::abs;
+    if (!begins(valid)) return {0, report_.status};
+    // On a curve that is too sharp for it the law holds at the node alone.
+    const Scalar near = beside * system_.length(), exactly = Scalar(1e-5) * request.reach;
+    detail::ContactSearch<Scalar> search;
+    Vector2<Scalar> normal = Vector2<Scalar>::Zero();
+    Scalar s = request.s;
+    bool snapped = false;
+    for (int meshes = 1;; ++meshes) {
+      Trial trial{s, normal};
+      Pushed<Scalar> pushed = push_at(request, range, trial);
+      snapped = snapped || pushed.status == Status::snapped;
+      const Scalar off = std::max(abs(trial.ahead), trial.miss);
+      const bool there = off <= (trial.by_plane ? exactly : near);
+      if (there || meshes == most_meshes || !is_answer(pushed.status) || pushed.force >= 0) {
+        pushed.miss = there ? Scalar(0) : off;
+        if (snapped && pushed.status == Status::ok) pushed.status = Status::snapped;
+        return pushed;
       }
-    } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0 &&
-               left_ == solver_.max_solves) {
-      reset();  // what the last request has left leads nowhere: the next one begins at rest
-    } else if (falling_ && report_.status == Status::ok) {
-      falling_ = false;
-      report_.status = Status::snapped;
+      typename detail::ContactSearch<Scalar>::Aim next{s + trial.ahead, normal};
+      if (trial.by_plane)
+        next = search.after({next.s, pushed.normal},
+                            {trial.ahead, request.reach * (trial.normal.x() * pushed.normal.y() -
+                                                           trial.normal.y() * pushed.normal.x())});
+      s = std::clamp(next.s, Scalar(0), system_.length());
+      normal = next.normal;
     }
-    left_ -= report_.solves;
-    // A beam that was set back to rest on the way has none yet.
-    const Scalar now = system_.linear_reaction();
-    return {is_answer(report_.status) || now != 0 ? now : last, report_.status};
   }
 
   /// Falls to the shape at rest on whose slope the beam is.   @return ok | snapped | iteration_limit
@@ -111,7 +125,7 @@ class AllDisplacements {
   void reset() noexcept {
     system_.set_state(uniform_, rest_nodes_.data());
     home_ = middle();
-    falling_ = descending_ = false;
+    falling_ = descending_ = sharp_ = false;
   }
 
   int elements() const noexcept { return system_.elements(); }
@@ -124,10 +138,117 @@ class AllDisplacements {
 
  private:
   using System = BeamSystem<Element, Scalar, Elements, MaxElements, Assembler>;
+  using Node = CentrelineNode<Scalar>;
 
   Centreline<Scalar> rest_shape() const noexcept { return system_.view(rest_nodes_); }
   /// Where the middle of the beam is [m].
   Scalar middle() const noexcept { return shape().at(system_.length() / 2).w; }
+
+  /// @return whether there is a request to answer; if not, report() has its status
+  bool begins(bool valid) noexcept {
+    left_ = solver_.max_solves;
+    report_ = {Status::invalid_request, 0, 0, 0, 0, report_.step};
+    if (valid && !is_answer(rest_.status)) report_.status = rest_.status;
+    return valid && is_answer(rest_.status);
+  }
+
+  struct Trial {
+    Scalar s;  ///< [m] where the node goes
+    Vector2<Scalar>
+        normal;  ///< in: of the plane that stands for the circle, zero: of the node;  out: the one that was taken
+    bool by_plane = false;  ///< whether a plane stood for the circle
+    Scalar ahead = 0;       ///< [m] from there to the contact
+    Scalar miss = 0;        ///< [m] from the circle's centre to where it should be
+  };
+
+  /// A push with the node at trial.s, or at the end beside it.  At an end that slides along a wall the wall takes what does not
+  /// act along it.
+  Pushed<Scalar> push_at(const Circle<Scalar>& request, const PressRange<Element, Scalar>& range,
+                         Trial& trial) noexcept {
+    using std::abs;
+    using Round = detail::CircleOnCurve<Scalar>;
+    const Scalar s = range.range().nearest({trial.s, 0}).s, length = system_.length();
+    const ContactMesh<Scalar> mesh = uniform_.at(range.node(s));
+    const int c = mesh.node(), end = c == 0 ? -1 : c == elements() ? 1 : 0;
+    const bool wall = range.on_wall(mesh.s()), outside = s != trial.s;
+    const Scalar last = system_.linear_reaction();
+    system_.remesh(mesh);
+    // The contact's node; beside a support, where there is none, the place that takes its displacement.
+    const auto at = [](const Centreline<Scalar>& line, Scalar position) {
+      const Displacement<Scalar> moved = line.at(position);
+      return Node{position, moved.u, moved.w, moved.theta};
+    };
+    const auto node = [&] { return outside ? at(shape(), trial.s) : system_.node(c); };
+    const auto look = [&](const Node& seen) { return Round(request.centre, request.side, 0, end).at(seen); };
+    const auto start = look(node());
+    const Scalar jump = abs(start.distance - request.reach);
+    if (single_valued_ && jump > length / 1000 &&
+        abs(look(at(rest_shape(), mesh.s())).distance - request.reach) < jump) {
+      reset();
+      system_.remesh(mesh);
+    }
+    Scalar across = 1;  // component of the force that the beam takes
+    const Response<Scalar> response = settle(last, slack, [&] {
+      const Round circle(request.centre, request.side, shape().curvature(c), end);
+      trial.by_plane = wall || outside || sharp_ || circle.sharp(request.reach);
+      if (!trial.by_plane) return system_.set_goal(c, -request.reach, circle);
+      if (trial.normal.isZero(0) || wall) trial.normal = look(node()).normal;
+      const Vector2<Scalar>& normal = trial.normal;
+      const Scalar d =
+          normal.x() * (request.centre.x() - trial.s) + normal.y() * request.centre.y() - request.reach;
+      if (!wall) return system_.set_goal(c, d, 0, normal);
+      across = std::copysign(std::max(Scalar(0.5), abs(normal.y())), normal.y());
+      system_.set_goal(c, (d - normal.x() * system_.node(c).u) / across);
+    });
+    const bool answer = is_answer(response.status);
+    sharp_ = answer && Round(request.centre, request.side, shape().curvature(c), end).sharp(request.reach);
+    // What is no answer may have left that mesh.
+    const Node now = answer ? node() : at(shape(), trial.s);
+    const auto view = answer && !trial.by_plane ? system_.contact() : look(now);
+    Pushed<Scalar> pushed{response.force / across, response.status};
+    pushed.past_end = answer ? view.past_end : start.past_end;
+    pushed.point = request.centre - view.distance * view.normal;
+    pushed.normal = view.normal;
+    const Scalar touched = std::clamp(now.s + request.side * view.lever, Scalar(0), length);
+    trial.ahead = touched - trial.s;
+    pushed.s = trial.by_plane || !answer ? trial.s : touched;
+    if (trial.by_plane) {
+      const Scalar x = (request.centre.x() - now.s) - now.u, y = request.centre.y() - now.w;
+      trial.miss = abs(trial.normal.x() * y - trial.normal.y() * x);
+    }
+    return pushed;
+  }
+
+  /// Solves for what aim() sets as the system's goal.  @param last  the force before [N]   @param slack  of the solver's tolerance
+  /// @return as press()
+  template <class Aim>
+  Response<Scalar> settle(Scalar last, int slack, Aim&& aim) noexcept {
+    const Scalar first_step = report_.step;
+    report_ = {Status::iteration_limit, 0, 0, 0, 0, first_step};
+    if (left_ <= 0) return {system_.linear_reaction(), report_.status};
+    aim();
+    if (!descending_) report_ = solve_within(left_, first_step, slack);
+    // A straight beam pressed across gives way in no element but those that lock.
+    const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
+    Descent descent;
+    descent.max_solves = left_ - report_.solves;
+    if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_)) {
+      if (!fall(on_ridge, descent, aim)) {
+        reset();
+        falling_ = true;
+      }
+    } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0 &&
+               left_ == solver_.max_solves) {
+      reset();  // what the last request has left leads nowhere: the next one begins at rest
+    } else if (falling_ && report_.status == Status::ok) {
+      falling_ = false;
+      report_.status = Status::snapped;
+    }
+    left_ -= report_.solves;
+    // A beam that was set back to rest on the way has none yet.
+    const Scalar now = system_.linear_reaction();
+    return {is_answer(report_.status) || now != 0 ? now : last, report_.status};
+  }
 
   /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
   /// the model computes in: round-off would hide which way a branch goes on.
@@ -190,6 +311,7 @@ class AllDisplacements {
     int solves = report_.solves;
     const int budget = solves + descent.max_solves;
     bool any_way = true;
+    system_.forget_force();
     descending_ = !descent.solve(system_, solves);
     if (!descending_) {
       aim();
@@ -214,10 +336,11 @@ class AllDisplacements {
     return false;
   }
 
-  /// Newton's method with no more than so many linear solves.
-  SolveReport<Scalar> solve_within(int most, Scalar first_step = 1) noexcept {
+  /// Newton's method with no more than so many linear solves.  @param slack  of the solver's tolerance
+  SolveReport<Scalar> solve_within(int most, Scalar first_step = 1, int slack = 1) noexcept {
     Solver solver = solver_;
     solver.max_solves = std::min(solver.max_solves, most);
+    solver.relative_tolerance *= slack;
     return solver.solve(system_, first_step);
   }
 
@@ -226,7 +349,8 @@ class AllDisplacements {
   ContactMesh<Scalar> uniform_;
   Solver solver_;
   bool single_valued_;       // one shape for each press, as far as is known
-  int left_ = 0;             // linear solves that this tick may still take
+  int left_ = 0;             // linear solves that this request may still take
+  bool sharp_ = false;       // where the last circle touched
   bool falling_ = false;     // off the shape that gave way, and not yet at a stable one
   bool descending_ = false;  // and not yet near one
   Scalar home_ = 0;          // middle() of the shape from which the beam is pressed

@@ -64,18 +64,15 @@ class BeamElements {
     take(mesh);
   }
 
-  /// What one element has to say.
-  struct Energies {
-    Scalar strain;  ///< [J]
-    Scalar work;    ///< of λ times the loads on it [J]
-  };
-
-  /// Residual and tangent of V - λW in element e.
-  [[gnu::always_inline]] Energies tangent(int e, Scalar lambda, Vector6<Scalar>& r,
-                                          Matrix6<Scalar>& K) const noexcept {
-    const Vector6<Scalar> d = displacements(e);
-    const Scalar energy = Element::tangent(properties_[e], d, r, K);
-    return {energy, subtract_loads(e, lambda, d, r, &K)};
+  /// Residual and tangent of V in element e.   @return V [J]
+  [[gnu::always_inline]] Scalar tangent(int e, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
+    return Element::tangent(properties_[e], displacements(e), r, K);
+  }
+  /// Whether λ times the loads are any.
+  bool loaded(Scalar lambda) const noexcept { return lambda != 0 && !loads_.empty(); }
+  /// Takes those of λW off residual and tangent.   @return work of λ times the loads on element e [J]
+  Scalar subtract_loads(int e, Scalar lambda, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
+    return subtract_loads(e, lambda, displacements(e), r, &K);
   }
   /// The residual alone.
   void residual(int e, Scalar lambda, Vector6<Scalar>& r) const noexcept {
@@ -103,7 +100,7 @@ class BeamElements {
 
   Scalar subtract_loads(int e, Scalar lambda, const Vector6<Scalar>& d, Vector6<Scalar>& r,
                         Matrix6<Scalar>* K) const noexcept {
-    if (lambda == 0 || loads_.empty()) return 0;
+    if (!loaded(lambda)) return 0;
     return loads_.template subtract<Element>(nodes_[e].s, nodes_[e + 1].s, e + 1 == size(), lambda,
                                              properties_[e], d, r, K);
   }

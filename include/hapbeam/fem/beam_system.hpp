@@ -58,7 +58,7 @@ class BeamSystem {
   /// Sets the whole state.  @param nodes those of the given mesh
   void set_state(const ContactMesh<Scalar>& mesh, const Node* nodes) noexcept {
     beam_.set(mesh, nodes);
-    linear_reaction_ = 0;
+    force_ = linear_reaction_ = 0;
   }
 
   /// Where the path ends: all of the dead loads, the ends where they are placed, and no contact.
@@ -71,10 +71,21 @@ class BeamSystem {
   /// @param normal n, a unit vector; other than (0, 1) where the element is right at any rotation
   void set_goal(int contact, Scalar d, Scalar lever = 0, const Vector2<Scalar>& normal = {0, 1}) noexcept {
     contact_ = {contact, lever, normal};
-    start_d_ = contact_.displacement(node(contact));
+    start_d_ = contact_displacement();
     goal_d_ = d;
     begin_path();
   }
+
+  /// The same with a circle that the beam touches beside the node: d = -reach is then the wanted distance of its centre.
+  void set_goal(int contact, Scalar d, const detail::CircleOnCurve<Scalar>& circle) noexcept {
+    contact_ = {contact, circle};
+    start_d_ = contact_displacement();
+    goal_d_ = d;
+    begin_path();
+  }
+
+  /// How that circle lies to the contact's node.
+  auto contact() const noexcept { return contact_.view(node(contact_.node())); }
 
   // What NewtonRaphson asks of a system.
 
@@ -92,7 +103,7 @@ class BeamSystem {
   void restore() noexcept {
     for (int i = 0; i <= elements(); ++i) beam_.nodes()[i] = saved_[i];
     load_ = saved_load_;
-    linear_reaction_ = saved_reaction_;
+    force_ = linear_reaction_ = saved_reaction_;
   }
   Scalar size() const noexcept { return size_; }
   Scalar unit() const noexcept { return unit_; }
@@ -100,7 +111,7 @@ class BeamSystem {
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
-    linear_reaction_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
+    force_ = linear_reaction_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
     advance();
     return {status, increment()};
   }
@@ -111,6 +122,8 @@ class BeamSystem {
   /// @param shift  what is added to the tangent: so many times EI/L³ on each displacement and EI/L on each rotation,
   ///               shared out over the nodes   @return ok | singular | non_finite
   Status factor(Scalar shift) noexcept { return assemble_and_solve<false>(shift); }
+  /// The tangent holds what the contact's force makes of a circle.  On the way down the force of before is no longer there.
+  void forget_force() noexcept { force_ = 0; }
   /// Adds the increment to the state.
   void advance() noexcept {
     const auto change = [this](int i) { return increment(i); };
@@ -208,6 +221,10 @@ class BeamSystem {
  private:
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
 
+  Scalar contact_displacement() noexcept {
+    contact_.look(node(contact_.node()), force_);
+    return contact_.displacement();
+  }
   void begin_path() noexcept {
     start_load_ = load_;
     for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
@@ -216,18 +233,30 @@ class BeamSystem {
   /// @tparam Rate  whether the right-hand side is that of load_rate()
   template <bool Rate>
   Status assemble_and_solve(Scalar shift) noexcept {
-    Matrix6<Scalar> K;
-    Vector6<Scalar> r;
     Scalar energy = 0, work = 0;
-    for (int e = 0; e < elements(); ++e) {
-      const auto [strain, by_loads] = beam_.tangent(e, load_, r, K);
-      energy += strain;
-      work += by_loads;
-      if (Rate) beam_.load_rate(e, r);
-      if (shift != 0) add_shift(shift, e, K);
-      if (contact_.holds(e)) contact_.transform(node(e), true, r, K);
-      if (contact_.holds(e + 1)) contact_.transform(node(e + 1), false, r, K);
+    const int c = contact_.node();
+    if (c >= 0) contact_.look(node(c), force_);
+    // What most elements need takes no address of their tangent: it stays in registers.
+    const auto add = [&](int e, auto&& change) {
+      Matrix6<Scalar> K;
+      Vector6<Scalar> r;
+      energy += beam_.tangent(e, r, K);
+      change(r, K);
       assembler_.add(e, K, r);
+    };
+    const bool plain = !Rate && shift == 0 && !beam_.loaded(load_);
+    for (int e = 0; e < elements(); ++e) {
+      if (plain && !contact_.holds(e) && !contact_.holds(e + 1)) {
+        add(e, [](auto&, auto&) {});
+        continue;
+      }
+      add(e, [&](Vector6<Scalar>& r, Matrix6<Scalar>& K) {
+        work += beam_.subtract_loads(e, load_, r, K);
+        if (Rate) beam_.load_rate(e, r);
+        if (shift != 0) add_shift(shift, e, K);
+        if (contact_.holds(e)) contact_.transform(node(e), true, e == 0, r, K);
+        if (contact_.holds(e + 1)) contact_.transform(node(e + 1), false, true, r, K);
+      });
     }
     size_ = std::sqrt(2 * energy);
     potential_ = energy - work;
@@ -235,8 +264,7 @@ class BeamSystem {
       ends_[k].visit(node(end(k)), [&](int component, Scalar now, Scalar target) {
         assembler_.prescribe(end(k), component, target - now);
       });
-    const int c = contact_.node();
-    if (c >= 0) assembler_.hold(c, 1, d_ - contact_.displacement(node(c)));
+    if (c >= 0) assembler_.hold(c, 1, d_ - contact_.displacement());
     return assembler_.solve();
   }
 
@@ -267,6 +295,7 @@ class BeamSystem {
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;
   Scalar size_ = 0, potential_ = 0, linear_reaction_ = 0, saved_reaction_ = 0, unit_;
+  Scalar force_ = 0;  // of the last tangent's contact
 };
 
 }  // namespace hapbeam

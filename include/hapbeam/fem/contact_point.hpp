@@ -6,6 +6,8 @@
 //   u = n_w p + n_x q,   w = n_w q - n_x p,   q = d + arm θ
 //
 // where the arm is that of a contact at a distance, the lever, on a straight tip beyond the node.
+// Where a circle is touched, n and the lever are those of the present shape, -d is the distance of its centre, and the force
+// along n adds F ∂²d to the tangent, so that Newton's method finds place and direction of the contact with the equilibrium.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
@@ -13,6 +15,7 @@
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/circle_on_curve.hpp>
 #include <hapbeam/fem/solver/ldlt3.hpp>
 
 namespace hapbeam::detail {
@@ -27,32 +30,47 @@ class ContactPoint {
   /// @param node   @param lever [m] from the node to the contact along the beam   @param normal n, unit
   ContactPoint(int node, Scalar lever, const Vector2<Scalar>& normal) noexcept
       : node_(node), lever_(lever), normal_(normal) {}
+  ContactPoint(int node, const CircleOnCurve<Scalar>& circle) noexcept
+      : node_(node), round_(true), circle_(circle) {}
 
   int node() const noexcept { return node_; }  ///< -1: there is no contact
   bool holds(int node) const noexcept { return node == node_; }
   const Vector2<Scalar>& normal() const noexcept { return normal_; }
 
-  /// d that the node has now [m].
-  Scalar displacement(const Node& node) const noexcept {
-    const Scalar at_node = normal_.x() * node.u + normal_.y() * node.w;
-    if (lever_ == 0) return at_node;
-    if constexpr (AnyRotation) {
-      using std::cos;
-      using std::sin;
-      return at_node + lever_ * (normal_.x() * (cos(node.theta) - 1) - normal_.y() * sin(node.theta));
-    }
-    return at_node - lever_ * node.theta;
-  }
+  /// How a circle lies to a node.
+  typename CircleOnCurve<Scalar>::View view(const Node& node) const noexcept { return circle_.at(node); }
 
-  /// Moves the node along n until d is what it should be.
+  /// To be called where the node has moved, before all below.  @param force  along n [N]
+  void look(const Node& node, Scalar force) noexcept {
+    if (!round_) {
+      now_ = plane_displacement(node);
+      return;
+    }
+    const auto view = circle_.at(node);
+    now_ = -view.distance;
+    normal_ = view.normal;
+    lever_ = view.lever;
+    const Scalar turning = -force * (1 + view.bend * view.height);
+    along_ = -force * view.bend, along_theta_ = turning, theta_ = turning * view.height;
+  }
+  /// d that the node has [m].
+  Scalar displacement() const noexcept { return now_; }
+
+  /// Moves a node along n until d is what it should be.
   void correct(Node& node, Scalar d) const noexcept {
-    const Scalar miss = d - displacement(node);
-    node.u += normal_.x() * miss;
-    node.w += normal_.y() * miss;
+    const auto move = [&node](const Vector2<Scalar>& normal, Scalar miss) {
+      node.u += normal.x() * miss;
+      node.w += normal.y() * miss;
+    };
+    if (!round_) return move(normal_, d - plane_displacement(node));
+    const auto view = circle_.at(node);
+    move(view.normal, d + view.distance);
   }
 
   /// To the contact's unknowns in an element: its residual and tangent.  @param first whether it is the element's first node
-  void transform(const Node& node, bool first, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
+  /// @param only  whether no other element holds the node, or none before has been asked
+  void transform(const Node& node, bool first, bool only, Vector6<Scalar>& r,
+                 Matrix6<Scalar>& K) const noexcept {
     const int u = first ? 0 : 3, w = u + 1, theta = u + 2;
     if (AnyRotation && normal_.y() != 1) {
       const Scalar c = normal_.y(), s = normal_.x();
@@ -73,6 +91,11 @@ class ContactPoint {
       K.col(theta) += a * K.col(w);
       K.row(theta) += a * K.row(w);
     }
+    if (round_ && only) {
+      K(u, u) += along_;
+      K(u, theta) += along_theta_, K(theta, u) += along_theta_;
+      K(theta, theta) += theta_;
+    }
   }
   /// A force on the node, the same way.
   Vector3<Scalar> transform(const Node& node, const Vector3<Scalar>& f) const noexcept {
@@ -85,13 +108,21 @@ class ContactPoint {
   }
 
  private:
+  Scalar plane_displacement(const Node& node) const noexcept {
+    const Scalar at_node = normal_.x() * node.u + normal_.y() * node.w;
+    if (lever_ == 0) return at_node;
+    if constexpr (AnyRotation) {
+      const Vector2<Scalar> along = direction(-node.theta);
+      return at_node + lever_ * (normal_.x() * (along.x() - 1) + normal_.y() * along.y());
+    }
+    return at_node - lever_ * node.theta;
+  }
   /// -∂d/∂θ [m]
   Scalar arm(const Node& node) const noexcept {
-    if (lever_ == 0) return 0;
+    if (lever_ == 0 || round_) return lever_;
     if constexpr (AnyRotation) {
-      using std::cos;
-      using std::sin;
-      return lever_ * (normal_.x() * sin(node.theta) + normal_.y() * cos(node.theta));
+      const Vector2<Scalar> along = direction(-node.theta);
+      return lever_ * (normal_.y() * along.x() - normal_.x() * along.y());
     }
     return lever_;
   }
@@ -99,6 +130,10 @@ class ContactPoint {
   int node_ = -1;
   Scalar lever_ = 0;
   Vector2<Scalar> normal_{0, 1};
+  bool round_ = false;  // whether a circle is touched
+  CircleOnCurve<Scalar> circle_;
+  Scalar now_ = 0;                                  // d [m]
+  Scalar along_ = 0, along_theta_ = 0, theta_ = 0;  // F ∂²d by p, p and θ, θ
 };
 
 }  // namespace hapbeam::detail

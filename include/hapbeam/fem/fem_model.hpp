@@ -5,7 +5,8 @@
 //
 // press() moves the mesh so that a node lies at the contact, prescribes its transverse displacement, solves by
 // Newton–Raphson with the tangent as predictor, from the last press or from rest, whichever is closer, and returns
-// the reaction (thesis eq. 3.40–3.42).  Elements of any rotation take a push() along any direction as well.  A beam with
+// the reaction (thesis eq. 3.40–3.42).  Elements of any rotation take a push() along any direction as well, and
+// one by a circle.  A beam with
 // more than one shape at rest keeps to the branch on which it is; where that ends or gives way it falls to a stable one,
 // and the status says snapped.
 // There are two ways to the answer, and the beam decides when it is built.  A straight beam without dead loads whose ends stand
@@ -15,8 +16,8 @@
 // Composed of policies: Element × Assembler × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
-// and allocation-free; a press, the pushes of a tick together, or a release take at most solver.max_solves linear solves of
-// O(elements), the way of a beam that falls included, and two more each where it gives way.  What is not done then is
+// and allocation-free; a press, a push or a release takes at most solver.max_solves linear solves of O(elements), the way of
+// a beam that falls included, and two more on each mesh where it gives way.  What is not done then is
 // iteration_limit: the force is that of the last equilibrium, and the next call goes on.
 #pragma once
 
@@ -84,14 +85,26 @@ class FemModel {
   Response<Scalar> push(const Push<Scalar>& request) noexcept {
     const Scalar s = range().nearest({request.s, 0}).s, node = range_.node(s);
     const bool valid = std::isfinite(request.d) && request.normal.allFinite() && range_.on_beam(request.s);
-    if (!range_.on_wall(node))
-      return solve({s, request.d, request.normal, request.goes_on}, valid, s == request.s);
+    if (!range_.on_wall(node)) return solve({s, request.d, request.normal}, valid, s == request.s);
     const Scalar u = shape()[node == 0 ? 0 : elements()].u;
     const Scalar n_w = std::copysign(std::max(Scalar(0.5), std::abs(request.normal.y())), request.normal.y());
     const Scalar d = (request.d - request.normal.x() * u) / n_w;
-    const Response<Scalar> across =
-        solve({s, d, {0, 1}, request.goes_on}, valid && std::isfinite(d), s == request.s);
+    const Response<Scalar> across = solve({s, d, {0, 1}}, valid && std::isfinite(d), s == request.s);
     return finite({across.force / n_w, across.status});
+  }
+
+  /// Lays the centreline on a circle that touches it beside request.s: the point of contact and the equilibrium are found
+  /// together.  out_of_range: they touch nearer to a support than range() says.
+  /// @return as press()
+  template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
+  Pushed<Scalar> push(const Circle<Scalar>& request) noexcept {
+    const bool valid =
+        request.centre.allFinite() && std::isfinite(request.reach) && range_.on_beam(request.s);
+    Pushed<Scalar> pushed = std::get_if<General>(&ways_)->push(request, range_, valid);
+    if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;
+    if (pushed.status == Status::ok && range().nearest({pushed.s, 0}).s != pushed.s)
+      pushed.status = Status::out_of_range;
+    return pushed;
   }
 
   Centreline<Scalar> shape() const noexcept {
