@@ -22,7 +22,7 @@
 namespace hapbeam {
 
 template <class Element, typename ScalarType, int Elements, int MaxElements,
-          template <typename, int, int> class Assembler, class Solver>
+          template <typename, int, int, int> class Assembler, class Solver>
 class AllDisplacements {
  public:
   using Scalar = ScalarType;

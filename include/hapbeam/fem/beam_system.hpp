@@ -23,7 +23,7 @@
 namespace hapbeam {
 
 template <class Element, typename ScalarType, int Elements, int MaxElements,
-          template <typename, int, int> class Assembler>
+          template <typename, int, int, int> class Assembler>
 class BeamSystem {
  public:
   using Scalar = ScalarType;
@@ -260,7 +260,7 @@ class BeamSystem {
 
   BeamElements<Element, Scalar, Elements, MaxElements> beam_;
   Nodes saved_;
-  Assembler<Scalar, Elements, MaxElements> assembler_;
+  Assembler<Scalar, Elements, MaxElements, 3> assembler_;
   std::array<detail::EndSupport<Scalar>, 2> ends_;
   detail::ContactPoint<Scalar, any_rotation<Element>> contact_;
   Scalar length_;

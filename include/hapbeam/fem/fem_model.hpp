@@ -41,7 +41,7 @@ namespace hapbeam {
 /// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates, and always of all displacements)   @tparam Solver  NewtonRaphson
 template <class Element = VonKarman<AssumedStrain>, typename ScalarType = double,
           int Elements = Eigen::Dynamic, int MaxElements = Elements,
-          template <typename, int, int> class Assembler = BlockTridiagonal, class Solver = NewtonRaphson>
+          template <typename, int, int, int> class Assembler = BlockTridiagonal, class Solver = NewtonRaphson>
 class FemModel {
  public:
   using Scalar = ScalarType;
@@ -139,7 +139,7 @@ class FemModel {
   using General = AllDisplacements<Element, Scalar, Elements, MaxElements, Assembler, Solver>;
   using Taut = OneTension<Element, Scalar, Elements, MaxElements, Solver>;
   static constexpr bool may_be_taut =
-      one_strain<Element> && std::is_same_v<Assembler<Scalar, Elements, MaxElements>,
+      one_strain<Element> && std::is_same_v<Assembler<Scalar, Elements, MaxElements, 3>,
                                             BlockTridiagonal<Scalar, Elements, MaxElements>>;
   using Ways = std::conditional_t<may_be_taut, std::variant<General, Taut>, std::variant<General>>;
 
