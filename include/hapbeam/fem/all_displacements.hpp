@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
@@ -26,24 +27,26 @@ template <class Element, typename ScalarType, int Elements, int MaxElements,
 class AllDisplacements {
  public:
   using Scalar = ScalarType;
+  using Body = typename detail::SystemOf<Element>::Body;
+  static constexpr int dimension = dimension_of<Element>;
 
   /// Finds the shape at rest.
   /// @throws std::invalid_argument as BeamSystem, and where the scalar cannot tell so many elements apart
-  AllDisplacements(const Beam& beam, int elements, const Solver& solver)
+  AllDisplacements(const Body& beam, int elements, const Solver& solver)
       : system_(beam, elements),
-        rest_nodes_(elements),
+        rest_state_(elements),
         uniform_(elements, system_.length()),
         solver_(solver),
         single_valued_(beam.straight()) {
     find_rest(beam);
-    for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
-    home_ = middle();
+    system_.keep(rest_state_);
+    home_ = system_.middle();
   }
 
   /// Prescribes the displacement along request.normal at request.s.
   /// @param node  [m] where the mesh has its node: at request.s, or at an end beside it   @param valid  whether there is a request
   /// @return force [N], not always finite, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
-  Response<Scalar> press(const Push<Scalar>& request, Scalar node, bool valid) noexcept {
+  Response<Scalar> press(const Push<Scalar, dimension>& request, Scalar node, bool valid) noexcept {
     using std::abs;
     if (!request.goes_on) left_ = solver_.max_solves;
     const Scalar first_step = report_.step;
@@ -52,11 +55,9 @@ class AllDisplacements {
     if (!is_answer(rest_.status)) return {0, rest_.status};
     if (left_ <= 0) return {system_.linear_reaction(), report_.status = Status::iteration_limit};
     const Scalar s = request.s;
-    const auto along = [&](const Displacement<Scalar>& at) {
-      return request.normal.x() * at.u + request.normal.y() * at.w;
-    };
     const Scalar last = system_.linear_reaction();
-    const Scalar jump = request.d - along(shape().at(s)), from_rest = request.d - along(rest_shape().at(s));
+    const Scalar jump = request.d - system_.displacement(s, request.normal),
+                 from_rest = request.d - system_.displacement(rest_state_, s, request.normal);
     if (single_valued_ && abs(from_rest) < abs(jump)) reset();
     const ContactMesh<Scalar> mesh = uniform_.at(node);
     system_.remesh(mesh);
@@ -86,7 +87,8 @@ class AllDisplacements {
     return {is_answer(report_.status) || now != 0 ? now : last, report_.status};
   }
 
-  /// Falls to the shape at rest on whose slope the beam is.   @return ok | snapped | iteration_limit
+  /// Falls to the shape at rest on whose slope the beam is; one that is folded, which only a request beyond all reach leaves,
+  /// and which may be stable, goes back to where it began.   @return ok | snapped | iteration_limit
   Status release() noexcept {
     if (single_valued_) {
       reset();
@@ -97,25 +99,25 @@ class AllDisplacements {
     report_ = {Status::ok, 0, 0, 0, 0, 1};
     Descent descent;
     descent.max_solves = solver_.max_solves;
-    if (!fall(false, descent, aim) || folded()) {
+    if (!fall(false, descent, aim) || system_.folded()) {
       reset();
       return report_.status = Status::snapped;
     }
     if (report_.status != Status::snapped) return report_.status;
-    const Scalar before = home_;
-    home_ = middle();
-    return std::abs(home_ - before) > system_.length() / 1000 ? Status::snapped : Status::ok;
+    const Middle before = home_;
+    home_ = system_.middle();
+    return (home_ - before).norm() > system_.length() / 1000 ? Status::snapped : Status::ok;
   }
 
   /// Back to the shape that construction has found.
   void reset() noexcept {
-    system_.set_state(uniform_, rest_nodes_.data());
-    home_ = middle();
+    system_.set_state(uniform_, rest_state_);
+    home_ = system_.middle();
     falling_ = descending_ = false;
   }
 
   int elements() const noexcept { return system_.elements(); }
-  Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
+  Centreline<Scalar, dimension> shape() const noexcept { return system_.centreline(); }
   Scalar strain_energy() const noexcept { return system_.strain_energy(); }
   /// How the search for the shape at rest ended.
   const SolveReport<Scalar>& rest() const noexcept { return rest_; }
@@ -123,24 +125,20 @@ class AllDisplacements {
   const SolveReport<Scalar>& report() const noexcept { return report_; }
 
  private:
-  using System = BeamSystem<Element, Scalar, Elements, MaxElements, Assembler>;
-
-  Centreline<Scalar> rest_shape() const noexcept { return system_.view(rest_nodes_); }
-  /// Where the middle of the beam is [m].
-  Scalar middle() const noexcept { return shape().at(system_.length() / 2).w; }
+  template <typename S>
+  using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements, Assembler>;
+  using System = SystemIn<Scalar>;
+  using Middle = decltype(std::declval<const System&>().middle());
 
   /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
   /// the model computes in: round-off would hide which way a branch goes on.
-  void find_rest(const Beam& beam) {
+  void find_rest(const Body& beam) {
     if constexpr (std::is_same_v<Scalar, double>) {
       follow_loads(system_);
     } else {
-      BeamSystem<Element, double, Elements, MaxElements, Assembler> exact(beam, elements());
+      SystemIn<double> exact(beam, elements());
       follow_loads(exact);
-      for (int i = 0; i <= elements(); ++i)
-        rest_nodes_[i] = {uniform_.position(i), static_cast<Scalar>(exact.node(i).u),
-                          static_cast<Scalar>(exact.node(i).w), static_cast<Scalar>(exact.node(i).theta)};
-      system_.set_state(uniform_, rest_nodes_.data());
+      system_.take_state(exact);
       system_.set_goal();
       system_.set_target(1);
       // Whether so many elements can be told apart in this scalar at all.
@@ -206,14 +204,6 @@ class AllDisplacements {
     return any_way;
   }
 
-  /// Whether an element has turned so far in itself that it no longer stands for a beam: what only a request beyond all
-  /// reach leaves, and what may be at rest and stable.
-  bool folded() const noexcept {
-    for (int i = 0; i < elements(); ++i)
-      if (std::abs(system_.node(i + 1).theta - system_.node(i).theta) > 2) return true;
-    return false;
-  }
-
   /// Newton's method with no more than so many linear solves.
   SolveReport<Scalar> solve_within(int most, Scalar first_step = 1) noexcept {
     Solver solver = solver_;
@@ -222,14 +212,14 @@ class AllDisplacements {
   }
 
   System system_;
-  typename System::Nodes rest_nodes_;
+  typename System::State rest_state_;
   ContactMesh<Scalar> uniform_;
   Solver solver_;
   bool single_valued_;       // one shape for each press, as far as is known
   int left_ = 0;             // linear solves that this tick may still take
   bool falling_ = false;     // off the shape that gave way, and not yet at a stable one
   bool descending_ = false;  // and not yet near one
-  Scalar home_ = 0;          // middle() of the shape from which the beam is pressed
+  Middle home_;              // where the middle is in the shape from which the beam is pressed
   SolveReport<Scalar> rest_{}, report_{};
 };
 
