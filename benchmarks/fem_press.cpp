@@ -38,7 +38,7 @@ constexpr double force_at_50_mm = 11105.121222;  // [N] closed form: tests/data/
 template <class Membrane>
 struct NodeByNode : VonKarman<Membrane> {};
 
-template <class Membrane, template <typename, int, int> class Assembler>
+template <class Membrane, template <typename, int, int, int> class Assembler>
 using Model = FemModel<VonKarman<Membrane>, double, Eigen::Dynamic, Eigen::Dynamic, Assembler>;
 
 /// solve_ns of every run, by solver and number of elements.

@@ -23,7 +23,7 @@ template <class Model, class... Arguments>
 std::unique_ptr<Contender> contender(const Arguments&... arguments);
 
 /// FemModel over another assembler.
-template <class Element, template <typename, int, int> class Assembler>
+template <class Element, template <typename, int, int, int> class Assembler>
 using Solved = FemModel<Element, double, Eigen::Dynamic, Eigen::Dynamic, Assembler>;
 
 }  // namespace hapbeam::benchmarks

@@ -115,13 +115,13 @@ class SimplicialLdlt {
   Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Ordering> solver_;
 };
 
-template <typename Scalar, int, int>
+template <typename Scalar, int, int, int>
 using SimplicialLdltNatural = SimplicialLdlt<Scalar, Eigen::NaturalOrdering<int>>;
-template <typename Scalar, int, int>
+template <typename Scalar, int, int, int>
 using SimplicialLdltAmd = SimplicialLdlt<Scalar, Eigen::AMDOrdering<int>>;
 
 /// A list of triplets, a matrix of it, a new factorisation: everything anew in each iteration.
-template <typename Scalar, int, int>
+template <typename Scalar, int, int, int>
 class SparseLuFromTriplets {
   using Matrix = Eigen::SparseMatrix<Scalar>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include <Eigen/Core>
 
@@ -19,8 +20,10 @@
 
 namespace hapbeam {
 
+template <typename Scalar, int D>
+using Vector = Eigen::Matrix<Scalar, D, 1>;
 template <typename Scalar>
-using Vector2 = Eigen::Matrix<Scalar, 2, 1>;
+using Vector2 = Vector<Scalar, 2>;
 
 /// One node: where it was and how it moved.  theta = -dw/dx.
 template <typename Scalar>
@@ -31,9 +34,28 @@ struct CentrelineNode {
   Scalar theta;  ///< [rad] rotation, -dw/dx
 };
 
-/// Control points of one piece, b0 … b3: the curve is sum of b_k B_k(t), t in [0, 1], in Bernstein form.
+namespace detail {
+
+template <class M, typename = void>
+struct Dimension : std::integral_constant<int, 2> {};
+template <class M>
+struct Dimension<M, std::void_t<decltype(M::dimension)>> : std::integral_constant<int, M::dimension> {};
+
+}  // namespace detail
+
+/// Of the space in which M bends, a model or an element: 2, unless it says so.
+template <class M>
+inline constexpr int dimension_of = detail::Dimension<M>::value;
+
+/// Whether all of a node is a number.
 template <typename Scalar>
-using CubicSegment = Eigen::Matrix<Scalar, 2, 4>;
+bool is_finite(const CentrelineNode<Scalar>& node) noexcept {
+  return std::isfinite(node.s) && std::isfinite(node.u) && std::isfinite(node.w) && std::isfinite(node.theta);
+}
+
+/// Control points of one piece, b0 … b3: the curve is sum of b_k B_k(t), t in [0, 1], in Bernstein form.
+template <typename Scalar, int D = 2>
+using CubicSegment = Eigen::Matrix<Scalar, D, 4>;
 
 /// Displacements at one arc position.
 template <typename Scalar>
@@ -43,8 +65,11 @@ struct Displacement {
   Scalar theta;  ///< [rad]
 };
 
-template <typename Scalar>
+/// @tparam D  2 | 3, which rod_centreline.hpp has
+template <typename Scalar, int D = 2>
 class Centreline {
+  static_assert(D == 2, "#include <hapbeam/rod_centreline.hpp> for centrelines in space");
+
  public:
   using Node = CentrelineNode<Scalar>;
 

@@ -20,6 +20,9 @@
 //                                               it rests, which may be another shape than before (snapped), and may
 //                                               take more than one call (iteration_limit)
 //
+// A model in space says `static constexpr int dimension = 3`.  It has no press(), and its push() takes a Push<Scalar, 3> and
+// its shape() is a Centreline<Scalar, 3>.
+//
 // A model whose shape costs more than its force may offer a part of it, which is all that a touch that goes on looks at:
 //
 //   m.part(s0, s1)       CentrelinePart<Scalar> noexcept; the pieces of shape() that hold arc positions s0 to s1, both
@@ -99,11 +102,12 @@ struct Press {
 
 /// A frictionless plane that the centreline touches at one point: there its displacement along n is d, and the force
 /// acts along n.
-template <typename Scalar>
+/// @tparam D  of the space in which the model bends: 2 | 3
+template <typename Scalar, int D = 2>
 struct Push {
-  Scalar s;                ///< [m] arc position of the point
-  Scalar d;                ///< [m] n · (u, w) at s
-  Vector2<Scalar> normal;  ///< n, unit
+  Scalar s;                  ///< [m] arc position of the point
+  Scalar d;                  ///< [m] n · (u, w) at s; in space n · r, of the place
+  Vector<Scalar, D> normal;  ///< n, unit
 };
 
 /// A frictionless circle that the centreline touches at one point, which is part of the answer.
@@ -165,20 +169,44 @@ struct IsForceModel : std::false_type {};
 template <typename M>
 struct IsForceModel<M, std::void_t<typename M::Scalar>> {
   using S = typename M::Scalar;
+  static constexpr int D = dimension_of<M>;
   template <typename T>
-  static auto check(int) -> std::bool_constant<
+  static auto press(int) -> std::bool_constant<
       noexcept(std::declval<T&>().press(std::declval<const Press<S>&>())) &&
-      std::is_same_v<decltype(std::declval<T&>().press(std::declval<const Press<S>&>())),
-                     Response<S>>&& noexcept(std::declval<const T&>().shape()) &&
-      std::is_same_v<decltype(std::declval<const T&>().shape()), Centreline<S>>&& noexcept(
-          std::declval<const T&>().range()) &&
-      std::is_same_v<decltype(std::declval<const T&>().range()), Range<S>>&& noexcept(
-          std::declval<const T&>().thickness()) &&
-      std::is_same_v<decltype(std::declval<const T&>().thickness()), S>&& noexcept(
-          std::declval<T&>().reset())>;
+      std::is_same_v<decltype(std::declval<T&>().press(std::declval<const Press<S>&>())), Response<S>>>;
+  template <typename T>
+  static auto push(int) -> std::bool_constant<
+      noexcept(std::declval<T&>().push(std::declval<const Push<S, D>&>())) && noexcept(
+          std::declval<T&>().release()) &&
+      std::is_same_v<decltype(std::declval<T&>().push(std::declval<const Push<S, D>&>())), Response<S>>>;
+  template <typename T>
+  static auto rest(int)
+      -> std::bool_constant<noexcept(std::declval<const T&>().shape()) &&
+                            std::is_same_v<decltype(std::declval<const T&>().shape()),
+                                           Centreline<S, D>>&& noexcept(std::declval<const T&>().range()) &&
+                            std::is_same_v<decltype(std::declval<const T&>().range()), Range<S>>&& noexcept(
+                                std::declval<const T&>().thickness()) &&
+                            std::is_same_v<decltype(std::declval<const T&>().thickness()), S>&& noexcept(
+                                std::declval<T&>().reset())>;
   template <typename>
-  static std::false_type check(long);
-  static constexpr bool value = decltype(check<M>(0))::value;
+  static std::false_type press(long);
+  template <typename>
+  static std::false_type push(long);
+  template <typename>
+  static std::false_type rest(long);
+  static constexpr bool value =
+      std::conditional_t<D == 2, decltype(press<M>(0)), decltype(push<M>(0))>::value &&
+      decltype(rest<M>(0))::value;
+};
+
+/// What contact asks of a model that can be pushed: in the plane the point of contact is found by the model.
+template <typename M, int = dimension_of<M>>
+struct PushOf {
+  using Type = Circle<typename M::Scalar>;
+};
+template <typename M>
+struct PushOf<M, 3> {
+  using Type = Push<typename M::Scalar, 3>;
 };
 
 template <typename M, typename = void>
@@ -186,9 +214,9 @@ struct TakesPush : std::false_type {};
 template <typename M>
 struct TakesPush<
     M, std::void_t<decltype(std::declval<M&>().release()),
-                   decltype(std::declval<M&>().push(std::declval<const Circle<typename M::Scalar>&>()))>>
+                   decltype(std::declval<M&>().push(std::declval<const typename PushOf<M>::Type&>()))>>
     : std::bool_constant<noexcept(std::declval<M&>().release())&& noexcept(
-          std::declval<M&>().push(std::declval<const Circle<typename M::Scalar>&>()))> {};
+          std::declval<M&>().push(std::declval<const typename PushOf<M>::Type&>()))> {};
 
 template <typename M, typename = void>
 struct OffersPart : std::false_type {};

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
@@ -24,35 +25,35 @@
 namespace hapbeam {
 
 template <class Element, typename ScalarType, int Elements, int MaxElements,
-          template <typename, int, int> class Assembler, class Solver>
+          template <typename, int, int, int> class Assembler, class Solver>
 class AllDisplacements {
  public:
   using Scalar = ScalarType;
+  using Body = typename detail::SystemOf<Element>::Body;
+  static constexpr int dimension = dimension_of<Element>;
 
   /// Finds the shape at rest.
   /// @throws std::invalid_argument as BeamSystem, and where the scalar cannot tell so many elements apart
-  AllDisplacements(const Beam& beam, int elements, const Solver& solver)
+  AllDisplacements(const Body& beam, int elements, const Solver& solver)
       : system_(beam, elements),
-        rest_nodes_(elements),
+        rest_state_(elements),
         uniform_(elements, system_.length()),
         solver_(solver),
         single_valued_(beam.straight()) {
     find_rest(beam);
-    for (int i = 0; i <= elements; ++i) rest_nodes_[i] = system_.node(i);
-    home_ = middle();
+    system_.keep(rest_state_);
+    home_ = system_.middle();
   }
 
   /// Prescribes the displacement along request.normal at request.s.
   /// @param node  [m] where the mesh has its node: at request.s, or at an end beside it   @param valid  whether there is a request
   /// @return force [N], not always finite, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
-  Response<Scalar> press(const Push<Scalar>& request, Scalar node, bool valid) noexcept {
+  Response<Scalar> press(const Push<Scalar, dimension>& request, Scalar node, bool valid) noexcept {
     using std::abs;
-    const auto along = [&](const Displacement<Scalar>& at) {
-      return request.normal.x() * at.u + request.normal.y() * at.w;
-    };
     if (!begins(valid)) return {0, report_.status};
     const Scalar last = system_.linear_reaction(), s = request.s;
-    const Scalar jump = request.d - along(shape().at(s)), from_rest = request.d - along(rest_shape().at(s));
+    const Scalar jump = request.d - system_.displacement(s, request.normal),
+                 from_rest = request.d - system_.displacement(rest_state_, s, request.normal);
     if (single_valued_ && abs(from_rest) < abs(jump)) reset();
     const ContactMesh<Scalar> mesh = uniform_.at(node);
     system_.remesh(mesh);
@@ -100,7 +101,8 @@ class AllDisplacements {
     }
   }
 
-  /// Falls to the shape at rest on whose slope the beam is.   @return ok | snapped | iteration_limit
+  /// Falls to the shape at rest on whose slope the beam is; one that is folded, which only a request beyond all reach leaves,
+  /// and which may be stable, goes back to where it began.   @return ok | snapped | iteration_limit
   Status release() noexcept {
     if (single_valued_) {
       reset();
@@ -111,25 +113,25 @@ class AllDisplacements {
     report_ = {Status::ok, 0, 0, 0, 0, 1};
     Descent descent;
     descent.max_solves = solver_.max_solves;
-    if (!fall(false, descent, aim) || folded()) {
+    if (!fall(false, descent, aim) || system_.folded()) {
       reset();
       return report_.status = Status::snapped;
     }
     if (report_.status != Status::snapped) return report_.status;
-    const Scalar before = home_;
-    home_ = middle();
-    return std::abs(home_ - before) > system_.length() / 1000 ? Status::snapped : Status::ok;
+    const Middle before = home_;
+    home_ = system_.middle();
+    return (home_ - before).norm() > system_.length() / 1000 ? Status::snapped : Status::ok;
   }
 
   /// Back to the shape that construction has found.
   void reset() noexcept {
-    system_.set_state(uniform_, rest_nodes_.data());
-    home_ = middle();
+    system_.set_state(uniform_, rest_state_);
+    home_ = system_.middle();
     falling_ = descending_ = sharp_ = false;
   }
 
   int elements() const noexcept { return system_.elements(); }
-  Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
+  Centreline<Scalar, dimension> shape() const noexcept { return system_.centreline(); }
   Scalar strain_energy() const noexcept { return system_.strain_energy(); }
   /// How the search for the shape at rest ended.
   const SolveReport<Scalar>& rest() const noexcept { return rest_; }
@@ -137,12 +139,11 @@ class AllDisplacements {
   const SolveReport<Scalar>& report() const noexcept { return report_; }
 
  private:
-  using System = BeamSystem<Element, Scalar, Elements, MaxElements, Assembler>;
-  using Node = CentrelineNode<Scalar>;
-
-  Centreline<Scalar> rest_shape() const noexcept { return system_.view(rest_nodes_); }
-  /// Where the middle of the beam is [m].
-  Scalar middle() const noexcept { return shape().at(system_.length() / 2).w; }
+  template <typename S>
+  using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements, Assembler>;
+  using System = SystemIn<Scalar>;
+  using Node = typename System::Node;
+  using Middle = decltype(std::declval<const System&>().middle());
 
   /// @return whether there is a request to answer; if not, report() has its status
   bool begins(bool valid) noexcept {
@@ -183,7 +184,7 @@ class AllDisplacements {
     const auto start = look(node());
     const Scalar jump = abs(start.distance - request.reach);
     if (single_valued_ && jump > length / 1000 &&
-        abs(look(at(rest_shape(), mesh.s())).distance - request.reach) < jump) {
+        abs(look(at(system_.view(rest_state_), mesh.s())).distance - request.reach) < jump) {
       reset();
       system_.remesh(mesh);
     }
@@ -252,16 +253,13 @@ class AllDisplacements {
 
   /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
   /// the model computes in: round-off would hide which way a branch goes on.
-  void find_rest(const Beam& beam) {
+  void find_rest(const Body& beam) {
     if constexpr (std::is_same_v<Scalar, double>) {
       follow_loads(system_);
     } else {
-      BeamSystem<Element, double, Elements, MaxElements, Assembler> exact(beam, elements());
+      SystemIn<double> exact(beam, elements());
       follow_loads(exact);
-      for (int i = 0; i <= elements(); ++i)
-        rest_nodes_[i] = {uniform_.position(i), static_cast<Scalar>(exact.node(i).u),
-                          static_cast<Scalar>(exact.node(i).w), static_cast<Scalar>(exact.node(i).theta)};
-      system_.set_state(uniform_, rest_nodes_.data());
+      system_.take_state(exact);
       system_.set_goal();
       system_.set_target(1);
       // Whether so many elements can be told apart in this scalar at all.
@@ -328,14 +326,6 @@ class AllDisplacements {
     return any_way;
   }
 
-  /// Whether an element has turned so far in itself that it no longer stands for a beam: what only a request beyond all
-  /// reach leaves, and what may be at rest and stable.
-  bool folded() const noexcept {
-    for (int i = 0; i < elements(); ++i)
-      if (std::abs(system_.node(i + 1).theta - system_.node(i).theta) > 2) return true;
-    return false;
-  }
-
   /// Newton's method with no more than so many linear solves.  @param slack  of the solver's tolerance
   SolveReport<Scalar> solve_within(int most, Scalar first_step = 1, int slack = 1) noexcept {
     Solver solver = solver_;
@@ -345,7 +335,7 @@ class AllDisplacements {
   }
 
   System system_;
-  typename System::Nodes rest_nodes_;
+  typename System::State rest_state_;
   ContactMesh<Scalar> uniform_;
   Solver solver_;
   bool single_valued_;       // one shape for each press, as far as is known
@@ -353,7 +343,7 @@ class AllDisplacements {
   bool sharp_ = false;       // where the last circle touched
   bool falling_ = false;     // off the shape that gave way, and not yet at a stable one
   bool descending_ = false;  // and not yet near one
-  Scalar home_ = 0;          // middle() of the shape from which the beam is pressed
+  Middle home_;              // where the middle is in the shape from which the beam is pressed
   SolveReport<Scalar> rest_{}, report_{};
 };
 

@@ -15,6 +15,7 @@
 #include <hapbeam/fem/beam_elements.hpp>
 #include <hapbeam/fem/chain.hpp>
 #include <hapbeam/fem/contact_point.hpp>
+#include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/starting_shapes.hpp>
@@ -23,12 +24,13 @@
 namespace hapbeam {
 
 template <class Element, typename ScalarType, int Elements, int MaxElements,
-          template <typename, int, int> class Assembler>
+          template <typename, int, int, int> class Assembler>
 class BeamSystem {
  public:
   using Scalar = ScalarType;
   using Node = CentrelineNode<Scalar>;
   using Nodes = detail::PerNode<Node, Elements, MaxElements>;
+  using State = Nodes;
 
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or elements does not fit the type
   BeamSystem(const Beam& beam, int elements)
@@ -86,6 +88,43 @@ class BeamSystem {
 
   /// How that circle lies to the contact's node.
   auto contact() const noexcept { return contact_.view(node(contact_.node())); }
+
+  // What AllDisplacements asks beyond a system.
+
+  /// The state as it is.  @param state  out
+  void keep(State& state) const noexcept {
+    for (int i = 0; i <= elements(); ++i) state[i] = node(i);
+  }
+  void set_state(const ContactMesh<Scalar>& mesh, const State& state) noexcept {
+    set_state(mesh, state.data());
+  }
+  /// That of the same system in another scalar.
+  template <class Other>
+  void take_state(const Other& other) noexcept {
+    const ContactMesh<Scalar> uniform(elements(), length_);
+    for (int i = 0; i <= elements(); ++i)
+      saved_[i] = {uniform.position(i), static_cast<Scalar>(other.node(i).u),
+                   static_cast<Scalar>(other.node(i).w), static_cast<Scalar>(other.node(i).theta)};
+    set_state(uniform, saved_);
+  }
+  /// n · (u, w) of a state at s [m].
+  Scalar displacement(const State& state, Scalar s, const Vector2<Scalar>& normal) const noexcept {
+    const Displacement<Scalar> at = view(state).at(s);
+    return normal.x() * at.u + normal.y() * at.w;
+  }
+  Scalar displacement(Scalar s, const Vector2<Scalar>& normal) const noexcept {
+    return displacement(beam_.nodes(), s, normal);
+  }
+  /// Where the middle of the beam is, across [m].
+  Vector<Scalar, 1> middle() const noexcept {
+    return Vector<Scalar, 1>::Constant(centreline().at(length_ / 2).w);
+  }
+  /// Whether an element has turned so far in itself that it no longer stands for a beam.
+  bool folded() const noexcept {
+    for (int i = 0; i < elements(); ++i)
+      if (std::abs(node(i + 1).theta - node(i).theta) > 2) return true;
+    return false;
+  }
 
   // What NewtonRaphson asks of a system.
 
@@ -288,7 +327,7 @@ class BeamSystem {
 
   BeamElements<Element, Scalar, Elements, MaxElements> beam_;
   Nodes saved_;
-  Assembler<Scalar, Elements, MaxElements> assembler_;
+  Assembler<Scalar, Elements, MaxElements, 3> assembler_;
   std::array<detail::EndSupport<Scalar>, 2> ends_;
   detail::ContactPoint<Scalar, any_rotation<Element>> contact_;
   Scalar length_;
@@ -297,5 +336,21 @@ class BeamSystem {
   Scalar size_ = 0, potential_ = 0, linear_reaction_ = 0, saved_reaction_ = 0, unit_;
   Scalar force_ = 0;  // of the last tangent's contact
 };
+
+namespace detail {
+
+/// What a model is made of that has such an element.  Elements in space have theirs in rod_system.hpp.
+template <class Element, typename = void>
+struct SystemOf {
+  static_assert(dimension_of<Element> == 2, "#include <hapbeam/fem/rod_system.hpp> for elements in space");
+  using Body = Beam;
+  template <typename Scalar, int Elements, int MaxElements,
+            template <typename, int, int, int> class Assembler>
+  using System = BeamSystem<Element, Scalar, Elements, MaxElements, Assembler>;
+  template <typename Scalar>
+  using Range = PressRange<Element, Scalar>;
+};
+
+}  // namespace detail
 
 }  // namespace hapbeam

@@ -13,7 +13,7 @@
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/element/element.hpp>
-#include <hapbeam/fem/solver/ldlt3.hpp>
+#include <hapbeam/fem/solver/ldlt.hpp>
 #include <hapbeam/fem/supports.hpp>
 
 namespace hapbeam::detail {

@@ -16,7 +16,7 @@
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/fem/circle_on_curve.hpp>
-#include <hapbeam/fem/solver/ldlt3.hpp>
+#include <hapbeam/fem/solver/ldlt.hpp>
 
 namespace hapbeam::detail {
 

@@ -42,16 +42,21 @@ namespace hapbeam {
 /// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates, and always of all displacements)   @tparam Solver  NewtonRaphson
 template <class Element = VonKarman<AssumedStrain>, typename ScalarType = double,
           int Elements = Eigen::Dynamic, int MaxElements = Elements,
-          template <typename, int, int> class Assembler = BlockTridiagonal, class Solver = NewtonRaphson>
+          template <typename, int, int, int> class Assembler = BlockTridiagonal, class Solver = NewtonRaphson>
 class FemModel {
+  using Of = detail::SystemOf<Element>;
+  using Extent = typename Of::template Range<ScalarType>;
+
  public:
   using Scalar = ScalarType;
+  using Body = typename Of::Body;  ///< Beam, or Rod in space
+  static constexpr int dimension = dimension_of<Element>;
   using ElementType = Element;
 
   /// Builds the beam and finds its shape at rest, the one that it reaches when its dead loads rise from nothing.  Look at
   /// rest() for how that went.
   /// @param elements two to most_elements(beam)   @throws std::invalid_argument naming field, value and what is allowed
-  FemModel(const Beam& beam, int elements, const Solver& solver = {})
+  FemModel(const Body& beam, int elements, const Solver& solver = {})
       : ways_(make_way(beam, at_most(most_elements(beam), elements), solver)),
         range_(beam),
         thickness_(static_cast<Scalar>(beam.thickness())) {
@@ -61,9 +66,9 @@ class FemModel {
   /// Elements that round-off allows.  The condition of the bending stiffness grows with their fourth power, and eps times it
   /// may be 32: in double 19483 elements, in float 128.  A beam with an end that does not hold w bends as one of twice the
   /// length, and has half as many.
-  static int most_elements(const Beam& beam) noexcept {
+  static int most_elements(const Body& beam) noexcept {
     const double most = std::pow(32 / static_cast<double>(std::numeric_limits<Scalar>::epsilon()), 0.25);
-    return static_cast<int>(fixes_w(beam.left()) && fixes_w(beam.right()) ? most : most / 2);
+    return static_cast<int>(Extent::holds_both(beam) ? most : most / 2);
   }
 
   /// Prescribes the centreline's transverse displacement d [m] at arc position s [m]: its w, from the x axis.
@@ -72,6 +77,7 @@ class FemModel {
   /// would lose the force to round-off; there the end's node is pressed through a straight tip, which is off by about
   /// (δ/L)³ at a free end and (δ/L)² at a guided one.
   /// @return force [N] and ok | out_of_range | snapped | invalid_request | iteration_limit | singular | non_finite
+  template <int D = dimension, std::enable_if_t<D == 2, int> = 0>
   Response<Scalar> press(const Press<Scalar>& request) noexcept {
     const Press<Scalar> press = range().nearest(request);
     const bool valid = std::isfinite(request.d) && range_.on_beam(request.s);
@@ -82,21 +88,18 @@ class FemModel {
   /// it has turned.  At an end that slides along a wall the wall takes what does not act along it.
   /// @return as press()
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
-  Response<Scalar> push(const Push<Scalar>& request) noexcept {
+  Response<Scalar> push(const Push<Scalar, dimension>& request) noexcept {
     const Scalar s = range().nearest({request.s, 0}).s, node = range_.node(s);
     const bool valid = std::isfinite(request.d) && request.normal.allFinite() && range_.on_beam(request.s);
-    if (!range_.on_wall(node)) return solve({s, request.d, request.normal}, valid, s == request.s);
-    const Scalar u = shape()[node == 0 ? 0 : elements()].u;
-    const Scalar n_w = std::copysign(std::max(Scalar(0.5), std::abs(request.normal.y())), request.normal.y());
-    const Scalar d = (request.d - request.normal.x() * u) / n_w;
-    const Response<Scalar> across = solve({s, d, {0, 1}}, valid && std::isfinite(d), s == request.s);
-    return finite({across.force / n_w, across.status});
+    if constexpr (dimension == 2)
+      if (range_.on_wall(node)) return push_wall(request, s, node, valid);
+    return solve({s, request.d, request.normal}, valid, s == request.s);
   }
 
   /// Lays the centreline on a circle that touches it beside request.s: the point of contact and the equilibrium are found
   /// together.  out_of_range: they touch nearer to a support than range() says.
   /// @return as press()
-  template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
+  template <class E = Element, std::enable_if_t<any_rotation<E> && dimension_of<E> == 2, int> = 0>
   Pushed<Scalar> push(const Circle<Scalar>& request) noexcept {
     const bool valid =
         request.centre.allFinite() && std::isfinite(request.reach) && range_.on_beam(request.s);
@@ -107,7 +110,7 @@ class FemModel {
     return pushed;
   }
 
-  Centreline<Scalar> shape() const noexcept {
+  Centreline<Scalar, dimension> shape() const noexcept {
     return take(ways_, [](const auto& way) { return way.shape(); });
   }
 
@@ -152,11 +155,11 @@ class FemModel {
   using General = AllDisplacements<Element, Scalar, Elements, MaxElements, Assembler, Solver>;
   using Taut = OneTension<Element, Scalar, Elements, MaxElements, Solver>;
   static constexpr bool may_be_taut =
-      one_strain<Element> && std::is_same_v<Assembler<Scalar, Elements, MaxElements>,
+      one_strain<Element> && std::is_same_v<Assembler<Scalar, Elements, MaxElements, 3>,
                                             BlockTridiagonal<Scalar, Elements, MaxElements>>;
   using Ways = std::conditional_t<may_be_taut, std::variant<General, Taut>, std::variant<General>>;
 
-  static Ways make_way(const Beam& beam, int elements, const Solver& solver) {
+  static Ways make_way(const Body& beam, int elements, const Solver& solver) {
     if constexpr (may_be_taut)
       if (is_taut(beam)) return Ways(std::in_place_type<Taut>, beam, elements, solver);
     return Ways(std::in_place_type<General>, beam, elements, solver);
@@ -181,8 +184,7 @@ class FemModel {
   /// @throws std::invalid_argument where the scalar does not hold the shape at rest
   [[gnu::cold]] void check_rest() const {
     bool finite = range_.length() >= std::numeric_limits<Scalar>::min();
-    for (const CentrelineNode<Scalar>& node : shape())
-      for (const Scalar value : {node.s, node.u, node.w, node.theta}) finite = finite && std::isfinite(value);
+    for (const auto& node : shape()) finite = finite && is_finite(node);
     if (!finite)
       throw std::invalid_argument(
           "beam: sizes, loads and placed ends must leave it a length and a shape at rest that the model's "
@@ -190,18 +192,26 @@ class FemModel {
   }
 
   /// @param nearest  request in range   @param valid  whether the request was one   @param in_range  whether it was the nearest
-  Response<Scalar> solve(const Push<Scalar>& nearest, bool valid, bool in_range) noexcept {
+  Response<Scalar> solve(const Push<Scalar, dimension>& nearest, bool valid, bool in_range) noexcept {
     const Scalar node = range_.node(nearest.s);
     const Response<Scalar> response = take(ways_, [&](auto& way) { return way.press(nearest, node, valid); });
     return finite({response.force,
                    response.status == Status::ok && !in_range ? Status::out_of_range : response.status});
+  }
+  /// Along a wall, which takes what does not act along it.
+  Response<Scalar> push_wall(const Push<Scalar>& request, Scalar s, Scalar node, bool valid) noexcept {
+    const Scalar u = shape()[node == 0 ? 0 : elements()].u;
+    const Scalar n_w = std::copysign(std::max(Scalar(0.5), std::abs(request.normal.y())), request.normal.y());
+    const Scalar d = (request.d - request.normal.x() * u) / n_w;
+    const Response<Scalar> across = solve({s, d, {0, 1}}, valid && std::isfinite(d), s == request.s);
+    return finite({across.force / n_w, across.status});
   }
   static Response<Scalar> finite(const Response<Scalar>& response) noexcept {
     return std::isfinite(response.force) ? response : Response<Scalar>{0, Status::non_finite};
   }
 
   Ways ways_;
-  PressRange<Element, Scalar> range_;
+  Extent range_;
   Scalar thickness_;
 };
 

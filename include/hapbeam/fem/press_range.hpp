@@ -43,6 +43,9 @@ class PressRange {
     }
   }
 
+  /// Whether neither end moves across.
+  static bool holds_both(const Beam& beam) noexcept { return fixes_w(beam.left()) && fixes_w(beam.right()); }
+
   Scalar length() const noexcept { return length_; }
   /// Whether s is a place on the beam.
   bool on_beam(Scalar s) const noexcept { return std::isfinite(s) && s >= 0 && s <= length_; }

@@ -268,3 +268,79 @@ TEST_CASE("a tangent or residual that is not finite is reported as such", "[asse
         CHECK(problem.solve(dense) == Status::non_finite);
       }
 }
+
+namespace {
+
+/// Random symmetric elements of so many unknowns a node, one prescribed and one held: both assemblers against Eigen's
+/// eigenvalues and each other.
+template <int Block>
+void check_block(Random& random, double shift) {
+  const int elements = random.integer(2, 9), size = Block * (elements + 1);
+  BlockTridiagonal<double, Eigen::Dynamic, Eigen::Dynamic, Block> chain(elements);
+  Dense<double, Eigen::Dynamic, Eigen::Dynamic, Block> dense(elements);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(size);
+  for (int e = 0; e < elements; ++e) {
+    Eigen::Matrix<double, 2 * Block, 2 * Block> K;
+    Eigen::Matrix<double, 2 * Block, 1> r;
+    for (int i = 0; i < 2 * Block; ++i) {
+      r[i] = random(1.0);
+      for (int j = 0; j <= i; ++j) K(i, j) = K(j, i) = random(1.0);
+      K(i, i) += shift;
+    }
+    chain.add(e, K, r);
+    dense.add(e, K, r);
+    all.block<2 * Block, 2 * Block>(Block * e, Block * e) += K;
+    b.segment<2 * Block>(Block * e) -= r;
+  }
+  const int node = random.integer(1, elements), component = random.integer(0, Block - 1), p = Block - 1,
+            h = Block * node + component;
+  const double at_0 = random(1.0), at_h = random(1.0);
+  const auto solve = [&](auto& assembler) {
+    assembler.prescribe(0, p, at_0);
+    assembler.hold(node, component, at_h);
+    return assembler.solve();
+  };
+  Eigen::MatrixXd K = all;
+  for (const int k : {p, h}) {
+    K.row(k).setZero();
+    K.col(k).setZero();
+    K(k, k) = 1;
+  }
+  const Spectrum spectrum(K);
+  if (spectrum.smallest() < 1e-3) return;  // near to singular: nothing to compare
+  REQUIRE(solve(chain) == Status::ok);
+  REQUIRE(solve(dense) == Status::ok);
+  Eigen::VectorXd x(size);
+  for (int i = 0; i <= elements; ++i) {
+    x.segment<Block>(Block * i) = chain.increment(i);
+    // LDLᵀ without pivoting of an indefinite matrix loses what its pivots grow by.
+    CHECK((chain.increment(i) - dense.increment(i)).norm() <= 1e-8 * (1 + dense.increment(i).norm()));
+  }
+  CHECK(x[p] == 0);
+  CHECK(x[h] == 0);
+  const Eigen::VectorXd rhs = b - at_0 * all.col(p) - at_h * all.col(h);
+  double energy = 0;
+  for (int k = 0; k < size; ++k)
+    if (k != p && k != h) energy += rhs[k] * x[k];
+  x[p] = at_0, x[h] = at_h;
+  CHECK(chain.reaction() == Approx(all.row(h).dot(x) - b[h]).margin(1e-8));
+  CHECK(dense.reaction() == Approx(chain.reaction()).margin(1e-8));
+  CHECK(std::abs(chain.energy()) ==
+        Approx(std::max(std::abs(energy), std::abs(all(h, h) * at_h * at_h))).epsilon(1e-8));
+  CHECK(chain.negative_pivots() == spectrum.negative());
+}
+
+}  // namespace
+
+TEST_CASE("a node may have any number of unknowns", "[assembler]") {
+  Random random(6);
+  for (int trial = 0; trial < 60; ++trial) {
+    const double shift = random(0, 20);
+    check_block<1>(random, shift);
+    check_block<2>(random, shift);
+    check_block<3>(random, shift);
+    check_block<6>(random, shift);
+    check_block<7>(random, shift);
+  }
+}

@@ -20,7 +20,7 @@
 #include <cmath>
 #include <vector>
 
-#include <hapbeam/fem/solver/ldlt3.hpp>
+#include <hapbeam/fem/solver/ldlt.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam {

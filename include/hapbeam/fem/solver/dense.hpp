@@ -9,33 +9,33 @@
 
 #include <Eigen/Cholesky>
 
-#include <hapbeam/element/element.hpp>
-#include <hapbeam/fem/solver/ldlt3.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam {
 
-template <typename Scalar, int Elements = Eigen::Dynamic, int MaxElements = Elements>
+template <typename Scalar, int Elements = Eigen::Dynamic, int MaxElements = Elements, int Block = 3>
 class Dense {
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
  public:
-  explicit Dense(int elements) : K_(3 * (elements + 1), 3 * (elements + 1)), x_(3 * (elements + 1)) {}
+  explicit Dense(int elements)
+      : K_(Block * (elements + 1), Block * (elements + 1)), x_(Block * (elements + 1)) {}
 
   /// Members do what those of BlockTridiagonal of the same name do.
-  void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
+  void add(int e, const Eigen::Matrix<Scalar, 2 * Block, 2 * Block>& K,
+           const Eigen::Matrix<Scalar, 2 * Block, 1>& r) noexcept {
     if (e == 0) {
       K_.setZero();
       x_.setZero();
       held_energy_ = 0;
     }
-    K_.template block<6, 6>(3 * e, 3 * e) += K;
-    x_.template segment<6>(3 * e) -= r;
+    K_.template block<2 * Block, 2 * Block>(Block * e, Block * e) += K;
+    x_.template segment<2 * Block>(Block * e) -= r;
   }
 
   void prescribe(int node, int component, Scalar increment) noexcept {
-    const int k = 3 * node + component;
+    const int k = Block * node + component;
     const Scalar pivot = K_(k, k);
     x_ -= increment * K_.col(k);
     x_[k] = 0;
@@ -45,7 +45,7 @@ class Dense {
   }
 
   void hold(int node, int component, Scalar increment) noexcept {
-    const int k = 3 * node + component;
+    const int k = Block * node + component;
     held_by_ = K_.col(k);
     held_by_[k] = 0;
     held_by_loads_ = K_(k, k) * increment - x_[k];
@@ -71,7 +71,9 @@ class Dense {
   Scalar energy() const noexcept { return energy_; }
   Scalar reaction() const noexcept { return held_by_loads_ + held_by_.dot(x_); }
   int negative_pivots() const noexcept { return negative_pivots_; }
-  Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
+  Eigen::Matrix<Scalar, Block, 1> increment(int node) const noexcept {
+    return x_.template segment<Block>(Block * node);
+  }
 
  private:
   Matrix K_;

@@ -1,0 +1,65 @@
+// What elements of a rod in space share: properties, and the cubic between two nodes.
+//
+//   r(ξ) = cubic of Hermite with r and r' = dr/ds of both nodes,   s the arc length of the rod when it is not loaded
+//
+// Real-time: no allocation, noexcept, O(1).
+#pragma once
+
+#include <hapbeam/rod_centreline.hpp>
+
+namespace hapbeam {
+
+/// What an element of a rod is made of.  Stiffnesses and natural strains stand at its Gauss points, two or three.
+template <typename Scalar>
+struct RodProperties {
+  Scalar length = 0;          ///< l [m]
+  Scalar inverse_length = 0;  ///< [1/m]
+  Scalar axial = 0;           ///< EA [N]
+  struct Point {
+    Scalar bending1 = 0;            ///< EI against curvature about d1 [N·m²]
+    Scalar bending2 = 0;            ///< EI against curvature about d2 [N·m²]
+    Scalar torsion = 0;             ///< GJ [N·m²]
+    Scalar natural[3] = {0, 0, 0};  ///< curvature about d1, about d2, and twist, that cost nothing [1/m]
+  } points[3];
+  Scalar natural_strain[3] = {0, 0, 0};  ///< ε of the interpolated natural shape at ξ = 0, ½, 1
+};
+
+namespace detail {
+
+/// Gauss points of an element, ξ, and their weights.
+template <int Points>
+struct Gauss;
+template <>
+struct Gauss<2> {
+  static constexpr double x[2] = {0.21132486540518711775, 0.78867513459481288225}, weight[2] = {0.5, 0.5};
+};
+template <>
+struct Gauss<3> {
+  static constexpr double x[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852},
+                          weight[3] = {5. / 18, 8. / 18, 5. / 18};
+};
+
+/// r' and r'' at ξ as combinations of Δ = r2 - r1, r1' and r2'.
+template <typename S>
+struct CubicWeights {
+  S a, a1, a2;  ///< of r': [1/m, 1, 1]
+  S b, b1, b2;  ///< of r'': [1/m², 1/m, 1/m]
+
+  CubicWeights(S x, S inverse_length) noexcept
+      : a(6 * x * (1 - x) * inverse_length),
+        a1(1 + x * (3 * x - 4)),
+        a2(x * (3 * x - 2)),
+        b(6 * (1 - 2 * x) * inverse_length * inverse_length),
+        b1((6 * x - 4) * inverse_length),
+        b2((6 * x - 2) * inverse_length) {}
+};
+
+/// Mass matrix of the quadratic through ξ = 0, ½, 1.
+template <typename S>
+inline constexpr S quadratic_mass[3][3] = {{S(4. / 30), S(2. / 30), S(-1. / 30)},
+                                           {S(2. / 30), S(16. / 30), S(2. / 30)},
+                                           {S(-1. / 30), S(2. / 30), S(4. / 30)}};
+
+}  // namespace detail
+
+}  // namespace hapbeam

@@ -1,0 +1,520 @@
+// The element of a rod in space of any section and natural shape: exact derivatives of an energy that no rigid motion changes.
+//
+// Centreline: the cubic of rod_properties.hpp.  Frame: the director of node 1 is carried to the tangent at ξ by the smallest
+// rotation, and turned there by
+//
+//   θ(ξ) = φ1 (1 - ξ) + (φ2 + m) ξ + 4 ψ ξ (1 - ξ)
+//
+// with m the angle that takes the carried director to that of node 2, and ψ a twist of the element's own, which is condensed
+// away: without it torsion is of second order.  φ1 and φ2 turn the directors of the nodes; they are zero in each state and
+// the unknowns of its increment.  While a tangent moves, its director is carried along by the smallest rotation.
+//
+//   V = ½ l εᵀ EA M ε + ½ l Σ w (EI1 (κ1 - κ1°)² + EI2 (κ2 - κ2°)² + GJ (τ - τ°)²)        sum over two Gauss points
+//
+// ε = |r'| - 1 - ε° at ξ = 0, ½, 1, interpolated (M): integrated fully it locks, and its mean leaves a mechanism.  κ° is of
+// the natural shape, interpolated the same way, so that this shape has no energy.
+//
+// In the axes of node 1, (d1, d2, tangent), with a = r' = (x, y, z), b = r'' = (p, q, s), n = |a|, D = n (n + z):
+//
+//   K1 = -q/n + y g,   K2 = p/n - x g,   c = (xq - yp)/D,   g = (s + a·b/n)/D          carried frame, which twists by -c
+//   κ1 + iκ2 = e^(-iθ) (K1 + iK2),   τ = θ' - c
+//
+// and with u, v the directions of both ends' tangents,  ∂m = k·(∂u + ∂v),  k = u × v/(1 + u·v).
+// The state has no angle that is counted from a state before: an equilibrium does not depend on the path to it.  Right
+// while an element's tangent turns and twists by less than half a turn from one end to the other.
+// Real-time: no allocation, noexcept, O(1).
+// Source: carried frames, Bergou and others, Discrete elastic rods, ACM Trans. Graph. 27 (2008); the derivatives are ours.
+#pragma once
+
+#include <cmath>
+
+#include <hapbeam/element/rod_properties.hpp>
+
+namespace hapbeam {
+
+struct TwistedRod {
+  static constexpr int dimension = 3;
+  static constexpr bool any_rotation = true;
+  static constexpr int unknowns = 7;  ///< of a node: r, r', φ
+  static constexpr const char* name() noexcept { return "twisted-rod"; }
+
+  template <typename S>
+  using Vector14 = Eigen::Matrix<S, 14, 1>;
+  template <typename S>
+  using Matrix14 = Eigen::Matrix<S, 14, 14>;
+
+  /// The twist that is an element's own, and how it follows the nodes.
+  template <typename S>
+  struct Inner {
+    S twist = 0;                            ///< ψ [rad]
+    S residual = 0;                         ///< ∂V/∂ψ [N·m]
+    S stiffness = 1;                        ///< ∂²V/∂ψ² [N·m]
+    Vector14<S> row = Vector14<S>::Zero();  ///< ∂²V/∂ψ∂(unknowns)
+
+    /// Energy of the increment that it makes on its own [J].
+    S energy() const noexcept { return residual * residual / stiffness; }
+    void advance(const Vector14<S>& x) noexcept { twist -= (residual + row.dot(x)) / stiffness; }
+  };
+
+  /// Strains at one point of an element in node 1's axes, and of them and θ all that an energy needs.
+  template <typename S>
+  static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
+                  const Inner<S>& inner) noexcept {
+    const Frame<S> f(p, n1, n2);
+    S sum = 0;
+    const S m = f.mismatch;
+    for (int g = 0; g < 2; ++g) {
+      const auto& at = p.points[g];
+      const S x = S(Points::x[g]);
+      const Point<S> point(detail::CubicWeights<S>(x, p.inverse_length), f);
+      S k[3];
+      point.strains(m * x + 4 * inner.twist * x * (1 - x),
+                    (m + 4 * inner.twist * (1 - 2 * x)) * p.inverse_length, k);
+      const S e1 = k[0] - at.natural[0], e2 = k[1] - at.natural[1], e3 = k[2] - at.natural[2];
+      sum += at.bending1 * e1 * e1 + at.bending2 * e2 * e2 + at.torsion * e3 * e3;
+    }
+    S e[3];
+    f.stretches(p, e);
+    S axial = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) axial += detail::quadratic_mass<S>[i][j] * e[i] * e[j];
+    return p.length * (sum / 4 + p.axial * axial / 2);
+  }
+
+  /// The director at ξ.   @param twist  ψ
+  template <typename S>
+  static Vector<S, 3> director(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, S twist,
+                               S x) noexcept {
+    const Frame<S> f(p, n1, n2);
+    const V3<S> v = detail::unit(f.tangent(p, x));
+    return detail::turn(detail::carry(n1.director, f.u, v), v, f.mismatch * x + 4 * twist * x * (1 - x));
+  }
+  /// ψ with which the director in the middle is along the given one.
+  template <typename S>
+  static S twist_to(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
+                    const Vector<S, 3>& middle) noexcept {
+    const Frame<S> f(p, n1, n2);
+    const V3<S> v = detail::unit(f.tangent(p, S(0.5)));
+    const V3<S> half = detail::turn(detail::carry(n1.director, f.u, v), v, f.mismatch / 2);
+    return detail::angle_about(v, half, detail::across(middle, v));
+  }
+
+  /// Curvatures and twist at both Gauss points and |r'| - 1 at ξ = 0, ½, 1 of a shape: what is natural in it.
+  template <typename S>
+  static void take_natural(const RodNode<S>& n1, const RodNode<S>& n2, S twist,
+                           RodProperties<S>& p) noexcept {
+    for (S& e : p.natural_strain) e = 0;
+    const Frame<S> f(p, n1, n2);
+    for (int g = 0; g < 2; ++g) {
+      const S x = S(Points::x[g]);
+      const Point<S> point(detail::CubicWeights<S>(x, p.inverse_length), f);
+      point.strains(f.mismatch * x + 4 * twist * x * (1 - x),
+                    (f.mismatch + 4 * twist * (1 - 2 * x)) * p.inverse_length, p.points[g].natural);
+    }
+    S e[3];
+    f.stretches(p, e);
+    for (int i = 0; i < 3; ++i) p.natural_strain[i] = e[i];
+  }
+
+  /// Residual and tangent, the element's own twist condensed away.
+  /// @param r  out [N, N·m of r', N·m]   @param K  out, symmetric, both triangles   @param inner  its derivatives are set
+  template <typename S>
+  static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
+                   Vector14<S>& r, Matrix14<S>& K) noexcept {
+    const Frame<S> f(p, n1, n2);
+    Core<S> core;
+    const S energy = respond(p, f, inner.twist, core);
+    expand(f, core, inner, r, K);
+    return energy;
+  }
+
+ private:
+  using Points = detail::Gauss<2>;
+  template <typename S>
+  using V3 = Vector<S, 3>;
+
+  /// The element seen in the axes of node 1.
+  template <typename S>
+  struct Frame {
+    V3<S> e1, e2, u;     // the axes
+    V3<S> chord, t2, v;  // Δ, r2', its direction
+    S l1, l2;            // |r1'|, |r2'|
+    S mismatch;          // m
+
+    Frame(const RodProperties<S>&, const RodNode<S>& a, const RodNode<S>& b) noexcept {
+      using std::atan2;
+      using std::sqrt;
+      l1 = sqrt(a.tangent.squaredNorm());
+      u = a.tangent / l1;
+      e1 = a.director;
+      e2 = detail::cross(u, e1);
+      chord = in(V3<S>(b.r - a.r));
+      t2 = in(b.tangent);
+      l2 = sqrt(t2.squaredNorm());
+      v = t2 / l2;
+      const V3<S> d = in(b.director);
+      const S share = d[2] / (1 + v[2]);
+      mismatch = atan2(d[1] - v[1] * share, d[0] - v[0] * share);
+    }
+    V3<S> in(const V3<S>& x) const noexcept { return {e1.dot(x), e2.dot(x), u.dot(x)}; }
+    V3<S> out(S x, S y, S z) const noexcept { return x * e1 + y * e2 + z * u; }
+    /// r' or r'' of these weights.
+    V3<S> combine(S w, S w1, S w2) const noexcept {
+      V3<S> a = w * chord + w2 * t2;
+      a[2] += w1 * l1;
+      return a;
+    }
+    /// r' at ξ, in space.
+    V3<S> tangent(const RodProperties<S>& p, S x) const noexcept {
+      const detail::CubicWeights<S> w(x, p.inverse_length);
+      const V3<S> a = combine(w.a, w.a1, w.a2);
+      return out(a[0], a[1], a[2]);
+    }
+    V3<S> middle(const RodProperties<S>& p) const noexcept {
+      return combine(S(1.5) * p.inverse_length, S(-0.25), S(-0.25));
+    }
+    void stretches(const RodProperties<S>& p, S (&e)[3]) const noexcept {
+      using std::sqrt;
+      e[0] = l1 - 1 - p.natural_strain[0];
+      e[1] = sqrt(middle(p).squaredNorm()) - 1 - p.natural_strain[1];
+      e[2] = l2 - 1 - p.natural_strain[2];
+    }
+  };
+
+  /// Curvatures of the carried frame at a point.
+  template <typename S>
+  struct Point {
+    detail::CubicWeights<S> weights;
+    V3<S> a, b, v;
+    S n, i, h, w, C;  // i = 1/n, h = 1/D, w = s + v·b, C = xq - yp
+    S K1, K2, c;
+
+    Point(const detail::CubicWeights<S>& ws, const Frame<S>& f) noexcept
+        : weights(ws), a(f.combine(ws.a, ws.a1, ws.a2)), b(f.combine(ws.b, ws.b1, ws.b2)) {
+      using std::sqrt;
+      n = sqrt(a.squaredNorm());
+      i = 1 / n;
+      v = a * i;
+      h = 1 / (n * (n + a[2]));
+      w = b[2] + v.dot(b);
+      C = a[0] * b[1] - a[1] * b[0];
+      K1 = -b[1] * i + a[1] * w * h;
+      K2 = b[0] * i - a[0] * w * h;
+      c = C * h;
+    }
+    void strains(S theta, S rate, S (&k)[3]) const noexcept {
+      using std::cos;
+      using std::sin;
+      const S co = cos(theta), si = sin(theta);
+      k[0] = co * K1 + si * K2;
+      k[1] = co * K2 - si * K1;
+      k[2] = rate - c;
+    }
+  };
+
+  /// Gradient and Hessian in (Δ, |r1'|, r2', φ1, φ2 + m, ψ), node 1's axes.
+  template <typename S>
+  struct Core {
+    S g[10];
+    S H[10][10];  // lower triangle
+  };
+
+  template <typename S>
+  static S respond(const RodProperties<S>& p, const Frame<S>& f, S psi, Core<S>& core) noexcept {
+    using std::cos;
+    using std::sin;
+    using std::sqrt;
+    for (int i = 0; i < 10; ++i) {
+      core.g[i] = 0;
+      for (int j = 0; j <= i; ++j) core.H[i][j] = 0;
+    }
+    S energy = 0;
+    for (int point = 0; point < 2; ++point) add_point(p, f, psi, point, core, energy);
+    add_stretch(p, f, core, energy);
+    return energy;
+  }
+
+  template <typename S>
+  [[gnu::always_inline]] static void add_point(const RodProperties<S>& p, const Frame<S>& f, S psi, int point,
+                                               Core<S>& core, S& energy) noexcept {
+    using std::cos;
+    using std::sin;
+    const auto& at = p.points[point];
+    const S x = S(Points::x[point]), weight = p.length / 2, m = f.mismatch;
+    const Point<S> q(detail::CubicWeights<S>(x, p.inverse_length), f);
+    const auto& w = q.weights;
+    // θ and θ' by φ1, φ2 + m, ψ
+    const S t[3] = {1 - x, x, 4 * x * (1 - x)},
+            d[3] = {-p.inverse_length, p.inverse_length, 4 * (1 - 2 * x) * p.inverse_length};
+    const S theta = t[1] * m + t[2] * psi, co = cos(theta), si = sin(theta);
+    const S k1 = co * q.K1 + si * q.K2, k2 = co * q.K2 - si * q.K1, tau = d[1] * m + d[2] * psi - q.c;
+    const S E1 = weight * at.bending1, E2 = weight * at.bending2, GJ = weight * at.torsion;
+    const S e1 = k1 - at.natural[0], e2 = k2 - at.natural[1], e3 = tau - at.natural[2];
+    const S m1 = E1 * e1, m2 = E2 * e2, T = GJ * e3;
+    energy += (m1 * e1 + m2 * e2 + T * e3) / 2;
+    const S M1 = co * m1 - si * m2, M2 = si * m1 + co * m2;
+
+    const S X = q.a[0], Y = q.a[1], i = q.i, h = q.h;
+    const V3<S>&a = q.a, &b = q.b, &v = q.v;
+    const S vb = v.dot(b);
+    const V3<S> wa = (b - vb * v) * i;  // ∂w/∂a
+    V3<S> Da = a * (2 + v[2]);          // ∂D/∂a
+    Da[2] += q.n;
+    const V3<S> ha = -h * h * Da;  // ∂h/∂a
+    V3<S> vz = v;                  // ∂w/∂b
+    vz[2] += 1;
+    const S g = q.w * h, ii = i * i;
+    const V3<S> ga = h * wa + q.w * ha;  // ∂g/∂a
+    V3<S> K1a = b[1] * ii * v + Y * ga, K2a = -b[0] * ii * v - X * ga, ca = q.C * ha;
+    K1a[1] += g, K2a[0] -= g, ca[0] += h * b[1], ca[1] -= h * b[0];
+    V3<S> K1b = Y * h * vz, K2b = -X * h * vz;
+    K1b[1] -= i, K2b[0] += i;
+    const V3<S> cb(-h * Y, h * X, 0);
+
+    // In the section's axes, by (Δ, |r1'|, r2', φ1, φ2 + m, ψ).
+    S R1[10], R2[10], R3[10];
+    const V3<S> k1a = co * K1a + si * K2a, k1b = co * K1b + si * K2b, k2a = co * K2a - si * K1a,
+                k2b = co * K2b - si * K1b;
+    const auto chain = [&w](const V3<S>& by_a, const V3<S>& by_b, S(&R)[10]) {
+      for (int k = 0; k < 3; ++k) {
+        R[k] = w.a * by_a[k] + w.b * by_b[k];
+        R[4 + k] = w.a2 * by_a[k] + w.b2 * by_b[k];
+      }
+      R[3] = w.a1 * by_a[2] + w.b1 * by_b[2];
+    };
+    chain(k1a, k1b, R1);
+    chain(k2a, k2b, R2);
+    chain(-ca, -cb, R3);
+    for (int k = 0; k < 3; ++k) {
+      R1[7 + k] = k2 * t[k];
+      R2[7 + k] = -k1 * t[k];
+      R3[7 + k] = d[k];
+    }
+    for (int r = 0; r < 10; ++r) {
+      core.g[r] += m1 * R1[r] + m2 * R2[r] + T * R3[r];
+      const S s1 = E1 * R1[r], s2 = E2 * R2[r], s3 = GJ * R3[r];
+      for (int c = 0; c <= r; ++c) core.H[r][c] += s1 * R1[c] + s2 * R2[c] + s3 * R3[c];
+    }
+    // θ with the rest, and with itself.
+    const S turn = m1 * k1 + m2 * k2;
+    for (int k = 0; k < 3; ++k) {
+      for (int c = 0; c < 7; ++c) core.H[7 + k][c] += t[k] * (m1 * R2[c] - m2 * R1[c]);
+      for (int c = 0; c <= k; ++c) core.H[7 + k][7 + c] -= turn * t[k] * t[c];
+    }
+    // M1 K1 + M2 K2 - T c = Q/n + h F with F = P w - T C, by a twice and by a and b.
+    const S Q = M2 * b[0] - M1 * b[1], P = M1 * Y - M2 * X, F = P * q.w - T * q.C;
+    const V3<S> Pa(-M2, M1, 0);
+    V3<S> Fa = q.w * Pa + P * wa;
+    Fa[0] -= T * b[1], Fa[1] += T * b[0];
+    V3<S> Fb = P * vz;
+    Fb[0] += T * Y, Fb[1] -= T * X;
+    const S cubed = Q * ii * i, hh = h * h, hw = h * P * ii;
+    // ∇²h = 2h³ DaDaᵀ - h² (2I + vẑᵀ + ẑvᵀ + z (I - vvᵀ)/n),  ∇²w = (3 v·b vvᵀ - v·b I - bvᵀ - vbᵀ)/n²
+    const S on_diagonal = -cubed - F * hh * (2 + v[2]) - hw * vb,
+            vv = 3 * cubed + F * hh * v[2] + 3 * hw * vb, DD = 2 * F * hh * h, zv = -F * hh;
+    S Aa[3][3], Ab[3][3];
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c <= r; ++c)
+        Aa[r][c] = vv * v[r] * v[c] + DD * Da[r] * Da[c] + ha[r] * Fa[c] + Fa[r] * ha[c] +
+                   h * (Pa[r] * wa[c] + wa[r] * Pa[c]) - hw * (b[r] * v[c] + v[r] * b[c]);
+    for (int r = 0; r < 3; ++r) Aa[r][r] += on_diagonal;
+    for (int c = 0; c < 3; ++c) Aa[2][c] += zv * v[c];
+    Aa[2][2] += zv * v[2];
+    Aa[0][1] = Aa[1][0], Aa[0][2] = Aa[2][0], Aa[1][2] = Aa[2][1];
+    const S hPi = h * P * i;
+    const V3<S> Qb(M2 * ii, -M1 * ii, 0);
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        Ab[r][c] = ha[r] * Fb[c] - v[r] * Qb[c] + h * Pa[r] * vz[c] - hPi * v[r] * v[c];
+    for (int r = 0; r < 3; ++r) Ab[r][r] += hPi;
+    Ab[0][1] -= h * T, Ab[1][0] += h * T;
+    const S aa = w.a * w.a, ab = w.a * w.b, a2 = w.a * w.a2, ab2 = w.a * w.b2, ba2 = w.b * w.a2,
+            a22 = w.a2 * w.a2, b22 = w.a2 * w.b2, a1 = w.a * w.a1, ab1 = w.a * w.b1, ba1 = w.b * w.a1,
+            a12 = w.a1 * w.a2, a2b1 = w.a2 * w.b1, b2a1 = w.b2 * w.a1;
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c <= r; ++c) {
+        const S both = Ab[r][c] + Ab[c][r];
+        core.H[r][c] += aa * Aa[r][c] + ab * both;
+        core.H[4 + r][4 + c] += a22 * Aa[r][c] + b22 * both;
+      }
+      for (int c = 0; c < 3; ++c) core.H[4 + r][c] += a2 * Aa[r][c] + ba2 * Ab[r][c] + ab2 * Ab[c][r];
+      core.H[3][r] += a1 * Aa[2][r] + ab1 * Ab[r][2] + ba1 * Ab[2][r];
+      core.H[4 + r][3] += a12 * Aa[2][r] + a2b1 * Ab[r][2] + b2a1 * Ab[2][r];
+    }
+    core.H[3][3] += w.a1 * w.a1 * Aa[2][2] + 2 * w.a1 * w.b1 * Ab[2][2];
+  }
+
+  template <typename S>
+  [[gnu::always_inline]] static void add_stretch(const RodProperties<S>& p, const Frame<S>& f, Core<S>& core,
+                                                 S& energy) noexcept {
+    using std::sqrt;
+    S e[3], N[3];
+    const V3<S> a = f.middle(p);
+    const S n = sqrt(a.squaredNorm()), i = 1 / n, EA = p.axial * p.length;
+    e[0] = f.l1 - 1 - p.natural_strain[0];
+    e[1] = n - 1 - p.natural_strain[1];
+    e[2] = f.l2 - 1 - p.natural_strain[2];
+    for (int r = 0; r < 3; ++r) {
+      const auto& M = detail::quadratic_mass<S>[r];
+      N[r] = EA * (M[0] * e[0] + M[1] * e[1] + M[2] * e[2]);
+      energy += N[r] * e[r] / 2;
+    }
+    const V3<S> v = a * i;
+    const S w = S(1.5) * p.inverse_length, w1 = S(-0.25);
+    // By (Δ, |r1'|, r2'): ε at the middle and at node 2.
+    const S R[7] = {w * v[0], w * v[1], w * v[2], w1 * v[2], w1 * v[0], w1 * v[1], w1 * v[2]};
+    const S m0 = EA * detail::quadratic_mass<S>[0][0], m1 = EA * detail::quadratic_mass<S>[1][1],
+            c01 = EA * detail::quadratic_mass<S>[0][1], c02 = EA * detail::quadratic_mass<S>[0][2];
+    for (int r = 0; r < 7; ++r) core.g[r] += N[1] * R[r];
+    core.g[3] += N[0];
+    for (int k = 0; k < 3; ++k) core.g[4 + k] += N[2] * f.v[k];
+    // The middle's second derivative is N (I - vvᵀ)/n: its last part joins the product of gradients.
+    const S bend = N[1] * i, mm = m1 - bend;
+    for (int r = 0; r < 7; ++r)
+      for (int c = 0; c <= r; ++c) core.H[r][c] += mm * R[r] * R[c];
+    for (int k = 0; k < 3; ++k) {
+      core.H[k][k] += bend * w * w;
+      core.H[4 + k][4 + k] += bend * w1 * w1;
+      core.H[4 + k][k] += bend * w * w1;
+    }
+    core.H[3][2] += bend * w * w1;
+    core.H[6][3] += bend * w1 * w1;
+    core.H[3][3] += bend * w1 * w1 + m0;
+    // Node 1 with the middle and with node 2, node 2 with the middle and itself.
+    for (int c = 0; c < 7; ++c) {
+      if (c < 3) core.H[3][c] += c01 * R[c];
+      if (c == 3) core.H[3][3] += 2 * c01 * R[3];
+      if (c > 3) core.H[c][3] += c01 * R[c];
+    }
+    const S straight = N[2] / f.l2, vv = m0 - straight;
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 4; ++c) core.H[4 + r][c] += c01 * f.v[r] * R[c];
+      core.H[4 + r][3] += c02 * f.v[r];
+      for (int c = 0; c <= r; ++c)
+        core.H[4 + r][4 + c] += c01 * (f.v[r] * R[4 + c] + R[4 + r] * f.v[c]) + vv * f.v[r] * f.v[c];
+      core.H[4 + r][4 + r] += straight;
+    }
+  }
+
+  /// From the core to the unknowns of both nodes, ψ condensed away.
+  template <typename S>
+  static void expand(const Frame<S>& f, Core<S>& core, Inner<S>& inner, Vector14<S>& r,
+                     Matrix14<S>& K) noexcept {
+    // Full symmetric, in the order Δ 0-2, r1' 3-5, r2' 6-8, φ1 9, φ2 10, ψ 11; a node's tangent turns its axes, by ω = ẑ × r1'/λ.
+    const auto H = [&core](int i, int j) { return i < j ? core.H[j][i] : core.H[i][j]; };
+    const S i1 = 1 / f.l1, i2 = 1 / f.l2, sigma = 1 + f.v[2], is = 1 / sigma;
+    const V3<S>&D = f.chord, &t = f.t2, &v = f.v;
+    const S kx = -v[1] * is, ky = v[0] * is;
+    // J: columns of r1' are combinations of the core's columns.
+    S A[10][12];
+    for (int row = 0; row < 10; ++row) {
+      const S by_phi = H(row, 8);
+      A[row][0] = H(row, 0), A[row][1] = H(row, 1), A[row][2] = H(row, 2);
+      A[row][3] =
+          i1 * (D[0] * H(row, 2) - D[2] * H(row, 0) + t[0] * H(row, 6) - t[2] * H(row, 4) + kx * by_phi);
+      A[row][4] =
+          i1 * (D[1] * H(row, 2) - D[2] * H(row, 1) + t[1] * H(row, 6) - t[2] * H(row, 5) + ky * by_phi);
+      A[row][5] = H(row, 3);
+      A[row][6] = H(row, 4) + i2 * kx * by_phi, A[row][7] = H(row, 5) + i2 * ky * by_phi,
+      A[row][8] = H(row, 6);
+      A[row][9] = H(row, 7), A[row][10] = by_phi, A[row][11] = H(row, 9);
+    }
+    S B[12][12];
+    for (int c = 0; c < 12; ++c) {
+      const S by_phi = A[8][c];
+      B[0][c] = A[0][c], B[1][c] = A[1][c], B[2][c] = A[2][c];
+      B[3][c] = i1 * (D[0] * A[2][c] - D[2] * A[0][c] + t[0] * A[6][c] - t[2] * A[4][c] + kx * by_phi);
+      B[4][c] = i1 * (D[1] * A[2][c] - D[2] * A[1][c] + t[1] * A[6][c] - t[2] * A[5][c] + ky * by_phi);
+      B[5][c] = A[3][c];
+      B[6][c] = A[4][c] + i2 * kx * by_phi, B[7][c] = A[5][c] + i2 * ky * by_phi, B[8][c] = A[6][c];
+      B[9][c] = A[7][c], B[10][c] = by_phi, B[11][c] = A[9][c];
+    }
+    const S* const g = core.g;
+    const V3<S> gD(g[0], g[1], g[2]), g2(g[4], g[5], g[6]);
+    const S gl = g[3], gp = g[8];
+    S G[12];
+    G[0] = g[0], G[1] = g[1], G[2] = g[2];
+    G[3] = i1 * (D[0] * g[2] - D[2] * g[0] + t[0] * g[6] - t[2] * g[4] + kx * gp);
+    G[4] = i1 * (D[1] * g[2] - D[2] * g[1] + t[1] * g[6] - t[2] * g[5] + ky * gp);
+    G[5] = gl;
+    G[6] = g[4] + i2 * kx * gp, G[7] = g[5] + i2 * ky * gp, G[8] = g[6];
+    G[9] = g[7], G[10] = gp, G[11] = g[9];
+    // Second derivatives of the turn.
+    const auto add = [&B](int i, int j, S value) {
+      B[i][j] += value;
+      if (i != j) B[j][i] += value;
+    };
+    for (int k = 0; k < 2; ++k) {
+      add(k, 3 + k, i1 * gD[2]), add(2, 3 + k, -i1 * gD[k]);
+      add(6 + k, 3 + k, i1 * g2[2]), add(8, 3 + k, -i1 * g2[k]);
+    }
+    const S ii = i1 * i1, work = D.dot(gD) + t.dot(g2);
+    const V3<S> N = detail::cross(D, gD) + detail::cross(t, g2);
+    add(3, 3, ii * (D[1] * gD[1] + t[1] * g2[1] - work) + i1 * gl);
+    add(4, 4, ii * (D[0] * gD[0] + t[0] * g2[0] - work) + i1 * gl);
+    add(4, 3, -ii * (D[1] * gD[0] + D[0] * gD[1] + t[1] * g2[0] + t[0] * g2[1]) / 2);
+    add(5, 3, ii * N[1]), add(5, 4, -ii * N[0]);
+    // Those of m.
+    const S k[3] = {kx, ky, 0}, q1[3] = {v[0] * is, v[1] * is, 2},
+            q2[3] = {v[0] * is + v[0], v[1] * is + v[1], 1 + v[2]};
+    const S half1 = -gp * ii / 2, half2 = -gp * i2 * i2 / 2, cross = gp * is * i1 * i2 / 2;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b <= a; ++b) {
+        add(3 + a, 3 + b, half1 * (k[a] * q1[b] + k[b] * q1[a]));
+        add(6 + a, 6 + b, half2 * (k[a] * q2[b] + k[b] * q2[a]));
+      }
+    const S z = v[2], p1[3] = {v[0], v[1], 0}, p2[3] = {-z * v[0], -z * v[1], 1 - z * z};
+    const S turn[3][3] = {{0, -(1 + z), v[1]}, {1 + z, 0, -v[0]}, {-v[1], v[0], 0}};  // (u + v) ×
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) {
+        S value = turn[a][b] - sigma * k[a] * v[b] - k[a] * p2[b] - p1[a] * k[b];
+        if (a == 2) value -= sigma * k[b];
+        add(3 + a, 6 + b, cross * value);
+      }
+    // ψ
+    inner.residual = G[11];
+    inner.stiffness = B[11][11];
+    const S share = 1 / inner.stiffness;
+    for (int a = 0; a < 11; ++a) {
+      const S part = B[11][a] * share;
+      for (int b = 0; b < 11; ++b) B[a][b] -= part * B[11][b];
+      G[a] -= part * G[11];
+    }
+    // To the axes of space.
+    Eigen::Matrix<S, 3, 3> F;
+    F.col(0) = f.e1, F.col(1) = f.e2, F.col(2) = f.u;
+    const auto vector = [&F](const S* x) -> V3<S> { return F * V3<S>(x[0], x[1], x[2]); };
+    const auto block = [&](int i, int j) -> Eigen::Matrix<S, 3, 3> {
+      Eigen::Matrix<S, 3, 3> m;
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) m(a, b) = B[i + a][j + b];
+      return F * m * F.transpose();
+    };
+    const V3<S> rD = vector(G), r1 = vector(G + 3), r2 = vector(G + 6);
+    r.template segment<3>(0) = -rD, r.template segment<3>(3) = r1, r[6] = G[9];
+    r.template segment<3>(7) = rD, r.template segment<3>(10) = r2, r[13] = G[10];
+    const Eigen::Matrix<S, 3, 3> DD = block(0, 0), D1 = block(0, 3), D2 = block(0, 6), b11 = block(3, 3),
+                                 b12 = block(3, 6), b22 = block(6, 6);
+    const V3<S> Dp = vector(B[9]), Dq = vector(B[10]), p1v = vector(B[9] + 3), q1v = vector(B[10] + 3),
+                p2v = vector(B[9] + 6), q2v = vector(B[10] + 6);
+    const auto set = [&K](int i, int j, const Eigen::Matrix<S, 3, 3>& m) {
+      K.template block<3, 3>(i, j) = m;
+      if (i != j) K.template block<3, 3>(j, i) = m.transpose();
+    };
+    set(0, 0, DD), set(0, 7, -DD), set(7, 7, DD);
+    set(0, 3, -D1), set(7, 3, D1), set(0, 10, -D2), set(7, 10, D2);
+    set(3, 3, b11), set(3, 10, b12), set(10, 10, b22);
+    const auto beside = [&K](int i, int j, const V3<S>& x) {
+      K.template block<3, 1>(i, j) = x;
+      K.template block<1, 3>(j, i) = x.transpose();
+    };
+    beside(0, 6, -Dp), beside(7, 6, Dp), beside(0, 13, -Dq), beside(7, 13, Dq);
+    beside(3, 6, p1v), beside(3, 13, q1v), beside(10, 6, p2v), beside(10, 13, q2v);
+    K(6, 6) = B[9][9], K(6, 13) = K(13, 6) = B[10][9], K(13, 13) = B[10][10];
+    const V3<S> iD = vector(B[11]), i1v = vector(B[11] + 3), i2v = vector(B[11] + 6);
+    inner.row.template segment<3>(0) = -iD, inner.row.template segment<3>(3) = i1v, inner.row[6] = B[11][9];
+    inner.row.template segment<3>(7) = iD, inner.row.template segment<3>(10) = i2v, inner.row[13] = B[11][10];
+  }
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,54 @@
+// Where a push of a finite-element rod is answered, and at which place its mesh takes the contact.
+//
+// A support that holds its place is rigid: the shortest element keeps its distance from it.  A push has no limit of depth.
+// Real-time: noexcept, no allocation, O(1).
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/force_model.hpp>
+#include <hapbeam/rod.hpp>
+
+namespace hapbeam {
+
+template <typename Scalar>
+class RodRange {
+ public:
+  explicit RodRange(const Rod& rod) noexcept
+      : length_(static_cast<Scalar>(rod.length())),
+        shortest_(ContactMesh<Scalar>::shortest(length_)),
+        left_yields_(rod.left() == RodSupport::free),
+        right_yields_(rod.right() == RodSupport::free) {}
+
+  /// Whether neither end moves.
+  static bool holds_both(const Rod& rod) noexcept {
+    return rod.left() != RodSupport::free && rod.right() != RodSupport::free;
+  }
+
+  Scalar length() const noexcept { return length_; }
+  /// Whether s is a place on the rod.
+  bool on_beam(Scalar s) const noexcept { return std::isfinite(s) && s >= 0 && s <= length_; }
+
+  Range<Scalar> range() const noexcept {
+    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+    return {left_yields_ ? Scalar(0) : shortest_,
+            right_yields_ ? length_ : length_ - shortest_,
+            infinity,
+            infinity,
+            left_yields_ ? -infinity : Scalar(0),
+            right_yields_ ? infinity : length_};
+  }
+
+  /// Where the node of a contact at s goes: s, or the end beside which an element would be too short for round-off.
+  Scalar node(Scalar s) const noexcept {
+    return s < shortest_ && left_yields_ ? Scalar(0) : length_ - s < shortest_ && right_yields_ ? length_ : s;
+  }
+
+ private:
+  Scalar length_, shortest_;
+  bool left_yields_, right_yields_;
+};
+
+}  // namespace hapbeam

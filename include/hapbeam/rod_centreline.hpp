@@ -1,0 +1,139 @@
+// The deformed centreline of a rod in space, as the models hand it out: nodes joined by cubics.
+//
+// A view: it owns nothing and is valid until the model that gave it is called again.  Each piece is the cubic that its
+// elements compute with, whose ends have the places r and the tangents dr/ds of both nodes.
+// No allocation, noexcept, O(1) but for the search of the piece, which is O(log n).
+#pragma once
+
+#include <cmath>
+
+#include <hapbeam/centreline.hpp>
+
+namespace hapbeam {
+
+/// One node of a rod.
+template <typename Scalar>
+struct RodNode {
+  Scalar s;                    ///< [m] arc position along the rod when it is not loaded
+  Vector<Scalar, 3> r;         ///< [m] place
+  Vector<Scalar, 3> tangent;   ///< dr/ds: 1 + ε long
+  Vector<Scalar, 3> director;  ///< d1 of the section, a unit vector across the tangent; d2 = tangent × d1
+};
+
+/// A point of the centreline.
+template <typename Scalar>
+struct RodPoint {
+  Vector<Scalar, 3> r;        ///< [m]
+  Vector<Scalar, 3> tangent;  ///< dr/ds
+};
+
+template <typename Scalar>
+class Centreline<Scalar, 3> {
+ public:
+  using Node = RodNode<Scalar>;
+
+  Centreline(const Node* nodes, int size) noexcept : nodes_(nodes), size_(size) {}
+
+  int size() const noexcept { return size_; }
+  int segments() const noexcept { return size_ - 1; }
+  const Node& operator[](int i) const noexcept { return nodes_[i]; }
+  const Node* begin() const noexcept { return nodes_; }
+  const Node* end() const noexcept { return nodes_ + size_; }
+  Scalar length() const noexcept { return nodes_[size_ - 1].s; }
+
+  /// The piece between nodes i and i + 1 [m].
+  CubicSegment<Scalar, 3> segment(int i) const noexcept {
+    const Node &a = nodes_[i], &b = nodes_[i + 1];
+    const Scalar third = (b.s - a.s) / 3;
+    CubicSegment<Scalar, 3> control;
+    control.col(0) = a.r;
+    control.col(1) = a.r + third * a.tangent;
+    control.col(2) = b.r - third * b.tangent;
+    control.col(3) = b.r;
+    return control;
+  }
+  /// Calls visit(i, segment(i)) for each piece, in order.
+  template <class Visitor>
+  void visit_segments(Visitor&& visitor) const noexcept {
+    for (int i = 0; i < segments(); ++i) visitor(i, segment(i));
+  }
+
+  /// Index of the piece that holds arc position s; the first or last one where s lies off the rod.
+  int segment_at(Scalar s) const noexcept {
+    int low = 0, high = segments() - 1;
+    while (low < high) {
+      const int middle = (low + high + 1) / 2;
+      if (nodes_[middle].s <= s) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+
+  /// The point at arc position s [m].
+  RodPoint<Scalar> at(Scalar s) const noexcept { return at(segment_at(s), s); }
+  /// The same, in a piece that is known to hold s.
+  RodPoint<Scalar> at(int i, Scalar s) const noexcept {
+    const Node &a = nodes_[i], &b = nodes_[i + 1];
+    const Scalar l = b.s - a.s, t = (s - a.s) / l, u = 1 - t;
+    const Vector<Scalar, 3> chord = b.r - a.r;
+    return {a.r + t * t * (3 - 2 * t) * chord + l * t * u * (u * a.tangent - t * b.tangent),
+            6 * t * u / l * chord + u * (1 - 3 * t) * a.tangent + t * (3 * t - 2) * b.tangent};
+  }
+
+ private:
+  const Node* nodes_;
+  int size_;
+};
+
+/// Whether all of a node is a number.
+template <typename Scalar>
+bool is_finite(const RodNode<Scalar>& node) noexcept {
+  return std::isfinite(node.s) && node.r.allFinite() && node.tangent.allFinite() && node.director.allFinite();
+}
+
+namespace detail {
+
+/// a × b, without Eigen's geometry, which takes longer to compile than all of the elements.
+template <typename S>
+[[gnu::always_inline]] inline Vector<S, 3> cross(const Vector<S, 3>& a, const Vector<S, 3>& b) noexcept {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// x after the smallest rotation that takes u to v, both unit and not opposite; x is across u.
+template <typename S>
+Vector<S, 3> carry(const Vector<S, 3>& x, const Vector<S, 3>& u, const Vector<S, 3>& v) noexcept {
+  return x - v.dot(x) / (1 + u.dot(v)) * (u + v);
+}
+
+/// x, which is across the unit vector v, turned about it.
+template <typename S>
+Vector<S, 3> turn(const Vector<S, 3>& x, const Vector<S, 3>& v, S angle) noexcept {
+  using std::cos;
+  using std::sin;
+  return cos(angle) * x + sin(angle) * cross(v, x);
+}
+
+/// A unit vector along x, less its part along the unit vector v.
+template <typename S>
+Vector<S, 3> across(const Vector<S, 3>& x, const Vector<S, 3>& v) noexcept {
+  using std::sqrt;
+  const Vector<S, 3> y = x - v.dot(x) * v;
+  return y / sqrt(y.squaredNorm());
+}
+
+template <typename S>
+Vector<S, 3> unit(const Vector<S, 3>& x) noexcept {
+  using std::sqrt;
+  return x / sqrt(x.squaredNorm());
+}
+
+/// The angle by which `from` has to be turned about the unit vector v to lie along `to`; all three are perpendicular.
+template <typename S>
+S angle_about(const Vector<S, 3>& v, const Vector<S, 3>& from, const Vector<S, 3>& to) noexcept {
+  using std::atan2;
+  return atan2(v.dot(cross(from, to)), from.dot(to));
+}
+
+}  // namespace detail
+
+}  // namespace hapbeam

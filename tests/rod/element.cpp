@@ -1,0 +1,165 @@
+// What every element of a rod in space promises: exact derivatives, and nothing for rigid motion or the natural shape.
+#include "rod/elements.hpp"
+#include "support/catch.hpp"
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+template <class E>
+typename E::template Inner<Long> inner_of(const RandomElement& of) {
+  typename E::template Inner<Long> inner;
+  if constexpr (E::unknowns == 7) inner.twist = of.twist;
+  return inner;
+}
+
+/// Energy, and its derivatives by differences of long double: five-point rules of step 1e-4 leave about 1e-10.
+template <class E>
+struct Differences {
+  static constexpr int n = E::unknowns, size = 2 * n + (n == 7);  // the last is the element's own twist
+  const RandomElement& of;
+
+  Long energy(const Long* x) const {
+    auto inner = inner_of<E>(of);
+    if constexpr (n == 7) inner.twist += x[14];
+    return E::energy(of.p, moved(of.a, x, n == 7), moved(of.b, x + n, n == 7), inner);
+  }
+  Long at(int i, Long s, int j, Long t) const {
+    Long x[15] = {};
+    x[i] += s, x[j] += t;
+    return energy(x);
+  }
+  Long first(int i, Long h = 1e-4L) const {
+    return (8 * (at(i, h, i, 0) - at(i, -h, i, 0)) - at(i, 2 * h, i, 0) + at(i, -2 * h, i, 0)) / (12 * h);
+  }
+  Long second(int i, int j) const {
+    const auto rough = [&](Long h) {
+      return i == j ? (at(i, h, i, 0) - 2 * at(i, 0, i, 0) + at(i, -h, i, 0)) / (h * h)
+                    : (at(i, h, j, h) - at(i, h, j, -h) - at(i, -h, j, h) + at(i, -h, j, -h)) / (4 * h * h);
+    };
+    return (4 * rough(1e-4L) - rough(2e-4L)) / 3;
+  }
+};
+
+template <class E>
+void check_derivatives() {
+  constexpr int n = 2 * E::unknowns;
+  Random random(31);
+  for (int trial = 0; trial < 30; ++trial) {
+    const RandomElement of(random);
+    const Differences<E> differences{of};
+    auto inner = inner_of<E>(of);
+    Vector<Long, n> r, gradient;
+    Eigen::Matrix<Long, n, n> K, hessian;
+    const Long energy = E::tangent(of.p, of.a, of.b, inner, r, K);
+    CHECK(std::abs(energy - differences.at(0, 0, 0, 0)) <= 1e-15L * energy);
+    for (int i = 0; i < n; ++i) {
+      gradient[i] = differences.first(i);
+      for (int j = 0; j <= i; ++j) hessian(i, j) = hessian(j, i) = differences.second(i, j);
+    }
+    if constexpr (E::unknowns == 7) {
+      Vector<Long, n> by_twist;
+      for (int i = 0; i < n; ++i) by_twist[i] = differences.second(i, 14);
+      const Long g = differences.first(14), k = differences.second(14, 14);
+      CHECK(std::abs(g - inner.residual) <= 1e-9L);
+      CHECK(std::abs(k - inner.stiffness) <= 1e-8L * k);
+      CHECK((by_twist - inner.row).norm() <= 1e-8L * by_twist.norm());
+      gradient -= by_twist * (g / k);
+      hessian -= by_twist * by_twist.transpose() / k;
+    }
+    CHECK((r - gradient).norm() <= 1e-9L * gradient.norm());
+    CHECK((K - hessian).norm() <= 1e-9L * hessian.norm());
+    CHECK((K - K.transpose()).norm() <= 1e-16L * K.norm());
+  }
+}
+
+/// The element's own strains, tangent and residual turn with it.
+template <class E>
+void check_rigid() {
+  constexpr int n = E::unknowns;
+  Random random(32);
+  for (int trial = 0; trial < 100; ++trial) {
+    const RandomElement of(random);
+    const Axis axis = detail::unit(random_vector(random)), by = random_vector(random);
+    const Long angle = random(20.0);  // three turns
+    auto inner = inner_of<E>(of), same = inner;
+    Vector<Long, 2 * n> r, turned;
+    Eigen::Matrix<Long, 2 * n, 2 * n> K;
+    const Long before = E::tangent(of.p, of.a, of.b, inner, r, K);
+    const Long after =
+        E::tangent(of.p, rotated(of.a, axis, angle, by), rotated(of.b, axis, angle, by), same, turned, K);
+    CHECK(std::abs(after - before) <= 1e-15L * before);
+    RodNode<Long> force{0, Axis::Zero(), Axis::Zero(), Axis::Zero()};
+    for (const int k : {0, 3, n, n + 3}) {
+      force.r = r.template segment<3>(k);
+      force = rotated(force, axis, angle, Axis::Zero().eval());
+      CHECK((force.r - turned.template segment<3>(k)).norm() <= 1e-15L * r.norm());
+    }
+    // No force, and no moment about the origin, of what is free.
+    Axis sum = r.template segment<3>(0) + r.template segment<3>(n), moment = Axis::Zero();
+    for (const int k : {0, n}) {
+      const RodNode<Long>& node = k == 0 ? of.a : of.b;
+      moment += detail::cross<Long>(node.r, r.template segment<3>(k)) +
+                detail::cross<Long>(node.tangent, r.template segment<3>(k + 3));
+      if (n == 7) moment += r[k + 6] * detail::unit(node.tangent);
+    }
+    CHECK(sum.norm() <= 1e-16L * r.norm());
+    CHECK(moment.norm() <= 1e-15L * r.norm());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("residual and tangent of a rod are the derivatives of its energy", "[rod]") {
+  check_derivatives<RoundRod>();
+  check_derivatives<TwistedRod>();
+}
+
+TEST_CASE("rigid motion of a rod does no work, three turns included", "[rod]") {
+  check_rigid<RoundRod>();
+  check_rigid<TwistedRod>();
+}
+
+TEST_CASE("the natural shape of a rod has no energy and no forces", "[rod]") {
+  Random random(33);
+  for (int trial = 0; trial < 100; ++trial) {
+    RandomElement of(random);
+    TwistedRod::take_natural(of.a, of.b, of.twist, of.p);
+    auto inner = inner_of<TwistedRod>(of);
+    TwistedRod::Vector14<Long> r;
+    TwistedRod::Matrix14<Long> K;
+    CHECK(TwistedRod::tangent(of.p, of.a, of.b, inner, r, K) <= 1e-34L);
+    CHECK(r.norm() <= 1e-17L * K.norm());
+  }
+}
+
+TEST_CASE("a director inside an element is what its own twist says", "[rod]") {
+  Random random(34);
+  for (int trial = 0; trial < 100; ++trial) {
+    const RandomElement of(random);
+    const auto at = [&](Long x) { return TwistedRod::director(of.p, of.a, of.b, of.twist, x); };
+    CHECK((at(0) - of.a.director).norm() <= 1e-17L);
+    CHECK((at(1) - of.b.director).norm() <= 1e-17L);
+    CHECK(std::abs(TwistedRod::twist_to(of.p, of.a, of.b, at(0.5L)) - of.twist) <= 1e-17L);
+  }
+}
+
+TEST_CASE("without twist a round rod has the energy of one that may twist", "[rod]") {
+  // Both are of fourth order; half the length, and the difference falls by 2⁴ an element's share of the energy.
+  const auto difference = [](double l) {
+    const auto node = [](double s) {
+      RodNode<double> n{s, {s, s * s / 2, 0}, {1, s, 0}, {0, 0, 1}};
+      n.tangent /= 1 + s * s / 6;
+      return n;
+    };
+    RodProperties<double> p;
+    p.length = l, p.inverse_length = 1 / l, p.axial = 1e3;
+    for (auto& point : p.points) point.bending1 = point.bending2 = point.torsion = 1;
+    const auto a = node(0), b = node(l);
+    const double round = RoundRod::energy(p, a, b, {}), twisted = TwistedRod::energy(p, a, b, {});
+    return std::abs(round - twisted) / l;
+  };
+  CHECK(difference(0.1) <= 1e-5);
+  CHECK(difference(0.05) <= difference(0.1) / 14);
+}
