@@ -57,7 +57,7 @@ class AllDisplacements {
     };
     const Scalar last = system_.linear_reaction();
     const Scalar jump = request.d - along(shape().at(s)), from_rest = request.d - along(rest_shape().at(s));
-    if (single_valued_ && abs(from_rest) < abs(jump)) reset();
+    if (single_valued_ && abs(from_rest) < abs(jump)) to_rest();
     const ContactMesh<Scalar> mesh = uniform_.at(node);
     system_.remesh(mesh);
     const auto aim = [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); };
@@ -70,12 +70,12 @@ class AllDisplacements {
     descent.max_solves = left_ - report_.solves;
     if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_)) {
       if (!fall(on_ridge, descent, aim)) {
-        reset();
+        to_rest();
         falling_ = true;
       }
     } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0 &&
                left_ == solver_.max_solves) {
-      reset();  // what the last request has left leads nowhere: the next one begins at rest
+      to_rest();  // what the last request has left leads nowhere: the next one begins at rest
     } else if (falling_ && report_.status == Status::ok) {
       falling_ = false;
       report_.status = Status::snapped;
@@ -98,7 +98,7 @@ class AllDisplacements {
     Descent descent;
     descent.max_solves = solver_.max_solves;
     if (!fall(false, descent, aim) || folded()) {
-      reset();
+      to_rest();
       return report_.status = Status::snapped;
     }
     if (report_.status != Status::snapped) return report_.status;
@@ -107,11 +107,10 @@ class AllDisplacements {
     return std::abs(home_ - before) > system_.length() / 1000 ? Status::snapped : Status::ok;
   }
 
-  /// Back to the shape that construction has found.
+  /// Back to the shape that construction has found, and to steps of the size that a new model takes.
   void reset() noexcept {
-    system_.set_state(uniform_, rest_nodes_.data());
-    home_ = middle();
-    falling_ = descending_ = false;
+    to_rest();
+    report_.step = 1;
   }
 
   int elements() const noexcept { return system_.elements(); }
@@ -125,6 +124,11 @@ class AllDisplacements {
  private:
   using System = BeamSystem<Element, Scalar, Elements, MaxElements, Assembler>;
 
+  void to_rest() noexcept {
+    system_.set_state(uniform_, rest_nodes_.data());
+    home_ = middle();
+    falling_ = descending_ = false;
+  }
   Centreline<Scalar> rest_shape() const noexcept { return system_.view(rest_nodes_); }
   /// Where the middle of the beam is [m].
   Scalar middle() const noexcept { return shape().at(system_.length() / 2).w; }
