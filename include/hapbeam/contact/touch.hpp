@@ -98,7 +98,7 @@ class Touch {
     }
 
     const Scalar reach = avatar_radius_ + model_.thickness() / 2;
-    if (!pressing_) unanswered_ = 0, support_.begin(model_);
+    if (!pressing_) unanswered_ = 0, across_ = true, support_.begin(model_);
     const detail::Held<Scalar> held = hold(contact, position, reach, result.press);
     result.status = held.status;
     if (takes_push<Model> && across_ && held.status == Status::ok) result.status = Status::out_of_range;

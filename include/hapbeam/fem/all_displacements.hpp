@@ -54,7 +54,7 @@ class AllDisplacements {
     const Scalar last = system_.linear_reaction(), s = request.s;
     const Scalar jump = request.d - system_.displacement(s, request.normal),
                  from_rest = request.d - system_.displacement(rest_state_, s, request.normal);
-    if (single_valued_ && abs(from_rest) < abs(jump)) reset();
+    if (single_valued_ && abs(from_rest) < abs(jump)) to_rest();
     const ContactMesh<Scalar> mesh = uniform_.at(node);
     system_.remesh(mesh);
     return settle(last, 1, [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); });
@@ -114,7 +114,7 @@ class AllDisplacements {
     Descent descent;
     descent.max_solves = solver_.max_solves;
     if (!fall(false, descent, aim) || system_.folded()) {
-      reset();
+      to_rest();
       return report_.status = Status::snapped;
     }
     if (report_.status != Status::snapped) return report_.status;
@@ -123,11 +123,10 @@ class AllDisplacements {
     return (home_ - before).norm() > system_.length() / 1000 ? Status::snapped : Status::ok;
   }
 
-  /// Back to the shape that construction has found.
+  /// Back to the shape that construction has found, and to steps of the size that a new model takes.
   void reset() noexcept {
-    system_.set_state(uniform_, rest_state_);
-    home_ = system_.middle();
-    falling_ = descending_ = sharp_ = false;
+    to_rest();
+    report_.step = 1;
   }
 
   int elements() const noexcept { return system_.elements(); }
@@ -144,6 +143,12 @@ class AllDisplacements {
   using System = SystemIn<Scalar>;
   using Node = typename System::Node;
   using Middle = decltype(std::declval<const System&>().middle());
+
+  void to_rest() noexcept {
+    system_.set_state(uniform_, rest_state_);
+    home_ = system_.middle();
+    falling_ = descending_ = sharp_ = false;
+  }
 
   /// @return whether there is a request to answer; if not, report() has its status
   bool begins(bool valid) noexcept {
@@ -185,7 +190,7 @@ class AllDisplacements {
     const Scalar jump = abs(start.distance - request.reach);
     if (single_valued_ && jump > length / 1000 &&
         abs(look(at(system_.view(rest_state_), mesh.s())).distance - request.reach) < jump) {
-      reset();
+      to_rest();
       system_.remesh(mesh);
     }
     Scalar across = 1;  // component of the force that the beam takes
@@ -220,27 +225,27 @@ class AllDisplacements {
     return pushed;
   }
 
-  /// Solves for what aim() sets as the system's goal.  @param last  the force before [N]   @param slack  of the solver's tolerance
+  /// Solves for what aim() sets as the system's goal.  @param last  the force before [N]   @param loose  in units of the solver's tolerance
   /// @return as press()
   template <class Aim>
-  Response<Scalar> settle(Scalar last, int slack, Aim&& aim) noexcept {
+  Response<Scalar> settle(Scalar last, int loose, Aim&& aim) noexcept {
     const Scalar first_step = report_.step;
     report_ = {Status::iteration_limit, 0, 0, 0, 0, first_step};
     if (left_ <= 0) return {system_.linear_reaction(), report_.status};
     aim();
-    if (!descending_) report_ = solve_within(left_, first_step, slack);
+    if (!descending_) report_ = solve_within(left_, first_step, loose);
     // A straight beam pressed across gives way in no element but those that lock.
     const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
     Descent descent;
     descent.max_solves = left_ - report_.solves;
     if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_)) {
       if (!fall(on_ridge, descent, aim)) {
-        reset();
+        to_rest();
         falling_ = true;
       }
     } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0 &&
                left_ == solver_.max_solves) {
-      reset();  // what the last request has left leads nowhere: the next one begins at rest
+      to_rest();  // what the last request has left leads nowhere: the next one begins at rest
     } else if (falling_ && report_.status == Status::ok) {
       falling_ = false;
       report_.status = Status::snapped;
@@ -326,11 +331,11 @@ class AllDisplacements {
     return any_way;
   }
 
-  /// Newton's method with no more than so many linear solves.  @param slack  of the solver's tolerance
-  SolveReport<Scalar> solve_within(int most, Scalar first_step = 1, int slack = 1) noexcept {
+  /// Newton's method with no more than so many linear solves.  @param loose  in units of the solver's tolerance
+  SolveReport<Scalar> solve_within(int most, Scalar first_step = 1, int loose = 1) noexcept {
     Solver solver = solver_;
     solver.max_solves = std::min(solver.max_solves, most);
-    solver.relative_tolerance *= slack;
+    solver.relative_tolerance *= loose;
     return solver.solve(system_, first_step);
   }
 

@@ -44,7 +44,10 @@ class OneTension {
     reset();
     return Status::ok;
   }
-  void reset() noexcept { system_.rest(); }
+  void reset() noexcept {
+    system_.rest();
+    report_.step = 1;
+  }
 
   int elements() const noexcept { return system_.elements(); }
   Centreline<Scalar> shape() const noexcept { return system_.centreline(); }

@@ -68,7 +68,7 @@ class TautSystem {
     const ContactMesh<Scalar> mesh(elements(), length_);
     set_goal(mesh, 0, 0);
     tension_ = between_ends_ ? drawn_ : Scalar(0);
-    known_ = {contact_s_, tension_, 0, 0};
+    known_ = before_ = {contact_s_, tension_, 0, 0};
     d_ = 0;
     for (int i = 0; i <= elements(); ++i) nodes_[i].s = mesh.position(i);
     lay();

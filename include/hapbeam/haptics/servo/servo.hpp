@@ -56,9 +56,9 @@ class ServoPicture {
   void take(const ServoPicture& other) noexcept { take(other.shape()); }
 
   /// Of a shape with more nodes than there is room for, every second one is taken, or third, …, and the last.
-  /// @param room  two or more   @return how many
-  static int copy(const Centreline<Scalar>& shape, CentrelineNode<Scalar>* nodes, int room) noexcept {
-    const int last = shape.size() - 1, step = 1 + (last - 1) / (room - 1);
+  /// @param most  two or more   @return how many
+  static int copy(const Centreline<Scalar>& shape, CentrelineNode<Scalar>* nodes, int most) noexcept {
+    const int last = shape.size() - 1, step = 1 + (last - 1) / (most - 1);
     int size = 0;
     for (int i = 0; i < last; i += step) nodes[size++] = shape[i];
     nodes[size++] = shape[last];

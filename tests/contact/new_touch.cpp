@@ -1,0 +1,52 @@
+// A touch after others is that of a new hand on a new beam, to the bit: nothing that was learnt before is left.
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include "support/ruler.hpp"
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+// Strokes from anywhere to anywhere, over the ends and past them, each as a new touch of an old beam and of a new one.
+TEMPLATE_TEST_CASE("strokes on a beam that has been touched before are those on a new one", "", VonKarman<>,
+                   Corotational<>) {
+  using Model = FemModel<TestType>;
+  using Vector = Vector2<double>;
+  Random random(23);
+  int strokes = 0;
+  for (const auto& [left, right] : {std::pair{Support::free, Support::clamped},
+                                    {Support::clamped, Support::pinned},
+                                    {Support::pinned, Support::roller}}) {
+    const Model fresh(steel_ruler(left, right), 8);
+    Model used = fresh;
+    for (const double radius : {0.0, 0.004, 0.02}) {
+      Touch<Model> again(used, radius);
+      for (int stroke = 0; stroke < 60; ++stroke) {
+        Model next = fresh;
+        Touch<Model> anew(next, radius);
+        again.reset();
+        Vector hand(random(-0.01, 0.31), random(0.002, 0.03) + radius);
+        Vector step(random(0.0015), -random(0.0002, 0.002));
+        if (stroke % 2 != 0) {  // begun past an end, and on through the beam in a tick
+          const double reach = radius + ruler_thickness / 2, beyond = random(0, reach);
+          const bool at_right = stroke % 4 == 1;
+          hand = {at_right ? ruler_length + beyond : -beyond, random(0, reach)};
+          step = {random(0, 2 * reach) * (at_right ? -1 : 1), -random(reach, 3 * reach)};
+        }
+        bool touched = false;
+        for (int tick = 0; tick < (stroke % 2 != 0 ? 8 : 80); ++tick, hand += step) {
+          const auto felt = again.tick(hand), expected = anew.tick(hand);
+          CAPTURE(radius, stroke, tick);
+          REQUIRE(felt.pressing == expected.pressing);
+          REQUIRE(felt.status == expected.status);
+          REQUIRE(felt.force == expected.force);
+          touched = touched || felt.pressing;
+        }
+        strokes += touched;
+      }
+    }
+  }
+  CHECK(strokes > 200);
+}
