@@ -1,5 +1,6 @@
 // The trained models as ForceModels: both kinds, both scalars, one position or many, guarded or not.
 #include "conformance/force_model_suite.hpp"
+#include "once_training.hpp"
 #include "support/catch.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/rom/trained/galerkin_model.hpp>

@@ -1,5 +1,6 @@
 // What a scene chooses is a ForceModel, whichever it is.
 #include "conformance/force_model_suite.hpp"
+#include "once_training.hpp"
 #include "support/catch.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/scene/build.hpp>

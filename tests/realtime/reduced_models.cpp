@@ -3,6 +3,7 @@
 #include <realtime/heap_watch.hpp>
 #include <utility>
 
+#include "once_training.hpp"
 #include "realtime/requests.hpp"
 #include "support/catch.hpp"
 #include "support/instructions.hpp"

@@ -1,6 +1,7 @@
 // A scene's model in a servo loop: one switch more than the model itself, and no heap.
 #include <realtime/heap_watch.hpp>
 
+#include "once_training.hpp"
 #include "realtime/requests.hpp"
 #include "support/catch.hpp"
 #include "support/thesis_beam.hpp"

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "once_training.hpp"
 #include "support/catch.hpp"
 #include "support/random_scene.hpp"
 #include "support/thesis_beam.hpp"

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "once_training.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/step_response.hpp"

@@ -3,6 +3,7 @@
 // of XXᵀ (pod.cpp), too few modes (galerkin_model.cpp), too few depths (pod_model.cpp).
 #include <cmath>
 
+#include "once_training.hpp"
 #include "support/catch.hpp"
 #include "support/closed_form.hpp"
 #include "support/closed_path.hpp"

@@ -73,52 +73,7 @@ class Touch {
   /// Real-time: noexcept, no allocation, bounded: at most one press or push and one release; nothing without contact but for a
   /// beam that falls to rest.  With FemModel that is 96 linear solves, and two looks more for each of the four meshes of a push and
   /// for the release: with 64 elements at 0.1 µs an element and solve 0.68 ms.
-  [[nodiscard]] TouchResult<Scalar> tick(const Vector2<Scalar>& position) noexcept {
-    TouchResult<Scalar> result;
-    Contact<Scalar>& contact = result.contact;
-    const Avatar<Scalar> avatar{position, avatar_radius_};
-    if (!pressing_ && !falling_ && out_of_reach(avatar, volumes_, model_.thickness(), memory_)) return result;
-    // A pressed beam moves with the hand, which cannot have gone round its end.  Only a beam that has stopped at the
-    // end of its range can be passed, and that must not turn the press into one from the other side.  A rigid end is gone round.
-    if (pressing_) memory_.touching = true, memory_.through = !on_support_, memory_.side = side_;
-    if (inside_) memory_ = {};
-    if (!pressing_ || !in_range_ || !detail::find_contact_near(model_, s_, avatar, memory_, contact))
-      contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory_);
-    if (contact.segment < 0) {
-      result.status = Status::invalid_request;
-      result.pressing = pressing_;
-      return result;
-    }
-    // A pressed beam follows a hand that draws back, until it would have to pull.
-    inside_ = inside_ && contact.touching;
-    if (!pressing_ && (inside_ || !contact.touching)) {
-      if (falling_) release(result);
-      if (inside_) result.status = Status::out_of_range;
-      return result;
-    }
-
-    const Scalar reach = avatar_radius_ + model_.thickness() / 2;
-    if (!pressing_) unanswered_ = 0, across_ = true, support_.begin(model_);
-    const detail::Held<Scalar> held = hold(contact, position, reach, result.press);
-    result.status = held.status;
-    if (takes_push<Model> && across_ && held.status == Status::ok) result.status = Status::out_of_range;
-    if (is_answer(held.status)) unanswered_ = 0;
-    else if (!(held.force > 0)) ++unanswered_;
-    if (held.hold != detail::Hold::pressing || unanswered_ > patience) {
-      let_go(avatar, held.hold, result);
-      return result;
-    }
-    falling_ = false;
-    if (on_support_ && support_.slid(contact, model_)) spring_back();
-    moved_ = true;
-    s_ = contact.s;
-    in_range_ = held.status == Status::ok;
-    pressing_ = true;
-    result.pressing = true;
-    if (std::isfinite(held.force)) result.force = contact.normal * held.force;
-    else result.status = Status::non_finite;
-    return result;
-  }
+  [[nodiscard]] TouchResult<Scalar> tick(const Vector2<Scalar>& position) noexcept;
 
   [[nodiscard]] bool pressing() const noexcept { return pressing_; }
   /// Nothing is left of the last touch: the beam is at rest, and whoever comes next touches it anew.
@@ -226,5 +181,54 @@ class Touch {
   int side_ = 1;             // of the press, as Contact::side
   int unanswered_ = 0;       // ticks without a force since the last answer
 };
+
+// Outside of the class: only so does "extern template class Touch<…>;" keep a compiler from it.
+template <typename Model>
+auto Touch<Model>::tick(const Vector2<Scalar>& position) noexcept -> TouchResult<Scalar> {
+  TouchResult<Scalar> result;
+  Contact<Scalar>& contact = result.contact;
+  const Avatar<Scalar> avatar{position, avatar_radius_};
+  if (!pressing_ && !falling_ && out_of_reach(avatar, volumes_, model_.thickness(), memory_)) return result;
+  // A pressed beam moves with the hand, which cannot have gone round its end.  Only a beam that has stopped at the
+  // end of its range can be passed, and that must not turn the press into one from the other side.  A rigid end is gone round.
+  if (pressing_) memory_.touching = true, memory_.through = !on_support_, memory_.side = side_;
+  if (inside_) memory_ = {};
+  if (!pressing_ || !in_range_ || !detail::find_contact_near(model_, s_, avatar, memory_, contact))
+    contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory_);
+  if (contact.segment < 0) {
+    result.status = Status::invalid_request;
+    result.pressing = pressing_;
+    return result;
+  }
+  // A pressed beam follows a hand that draws back, until it would have to pull.
+  inside_ = inside_ && contact.touching;
+  if (!pressing_ && (inside_ || !contact.touching)) {
+    if (falling_) release(result);
+    if (inside_) result.status = Status::out_of_range;
+    return result;
+  }
+
+  const Scalar reach = avatar_radius_ + model_.thickness() / 2;
+  if (!pressing_) unanswered_ = 0, across_ = true, support_.begin(model_);
+  const detail::Held<Scalar> held = hold(contact, position, reach, result.press);
+  result.status = held.status;
+  if (takes_push<Model> && across_ && held.status == Status::ok) result.status = Status::out_of_range;
+  if (is_answer(held.status)) unanswered_ = 0;
+  else if (!(held.force > 0)) ++unanswered_;
+  if (held.hold != detail::Hold::pressing || unanswered_ > patience) {
+    let_go(avatar, held.hold, result);
+    return result;
+  }
+  falling_ = false;
+  if (on_support_ && support_.slid(contact, model_)) spring_back();
+  moved_ = true;
+  s_ = contact.s;
+  in_range_ = held.status == Status::ok;
+  pressing_ = true;
+  result.pressing = true;
+  if (std::isfinite(held.force)) result.force = contact.normal * held.force;
+  else result.status = Status::non_finite;
+  return result;
+}
 
 }  // namespace hapbeam

@@ -122,14 +122,10 @@ class FemModel {
   /// Lets go: the beam falls from its present shape to where it is at rest, which need not be rest() where it has more
   /// than one such shape.
   /// @return ok | snapped, where it has left the one that it was pressed from | iteration_limit, on its way: call again
-  Status release() noexcept {
-    return take(ways_, [](auto& way) { return way.release(); });
-  }
+  Status release() noexcept;
 
   /// Back to rest().
-  void reset() noexcept {
-    take(ways_, [](auto& way) { way.reset(); });
-  }
+  void reset() noexcept;
 
   /// How the search for the shape under the dead loads ended: ok | snapped, where the branch on which the beam was ended
   /// before the loads had risen to their size, and rest() is the stable shape to which it then falls | iteration_limit,
@@ -159,11 +155,7 @@ class FemModel {
                                             BlockTridiagonal<Scalar, Elements, MaxElements>>;
   using Ways = std::conditional_t<may_be_taut, std::variant<General, Taut>, std::variant<General>>;
 
-  static Ways make_way(const Body& beam, int elements, const Solver& solver) {
-    if constexpr (may_be_taut)
-      if (is_taut(beam)) return Ways(std::in_place_type<Taut>, beam, elements, solver);
-    return Ways(std::in_place_type<General>, beam, elements, solver);
-  }
+  static Ways make_way(const Body& beam, int elements, const Solver& solver);
 
   /// f of the way that this beam goes.
   template <class AnyWays, class F>
@@ -192,12 +184,7 @@ class FemModel {
   }
 
   /// @param nearest  request in range   @param valid  whether the request was one   @param in_range  whether it was the nearest
-  Response<Scalar> solve(const Push<Scalar, dimension>& nearest, bool valid, bool in_range) noexcept {
-    const Scalar node = range_.node(nearest.s);
-    const Response<Scalar> response = take(ways_, [&](auto& way) { return way.press(nearest, node, valid); });
-    return finite({response.force,
-                   response.status == Status::ok && !in_range ? Status::out_of_range : response.status});
-  }
+  Response<Scalar> solve(const Push<Scalar, dimension>& nearest, bool valid, bool in_range) noexcept;
   /// Along a wall, which takes what does not act along it.
   Response<Scalar> push_wall(const Push<Scalar>& request, Scalar s, Scalar node, bool valid) noexcept {
     const Scalar u = shape()[node == 0 ? 0 : elements()].u;
@@ -214,5 +201,40 @@ class FemModel {
   Extent range_;
   Scalar thickness_;
 };
+
+// What costs a compiler seconds is defined outside of the class: only so does "extern template class FemModel<>;" keep it
+// out of all files but one.
+template <class Element, typename Scalar, int Elements, int MaxElements,
+          template <typename, int, int, int> class Assembler, class Solver>
+auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::make_way(const Body& beam,
+                                                                                   int elements,
+                                                                                   const Solver& solver)
+    -> Ways {
+  if constexpr (may_be_taut)
+    if (is_taut(beam)) return Ways(std::in_place_type<Taut>, beam, elements, solver);
+  return Ways(std::in_place_type<General>, beam, elements, solver);
+}
+
+template <class Element, typename Scalar, int Elements, int MaxElements,
+          template <typename, int, int, int> class Assembler, class Solver>
+Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::solve(
+    const Push<Scalar, dimension>& nearest, bool valid, bool in_range) noexcept {
+  const Scalar node = range_.node(nearest.s);
+  const Response<Scalar> response = take(ways_, [&](auto& way) { return way.press(nearest, node, valid); });
+  return finite(
+      {response.force, response.status == Status::ok && !in_range ? Status::out_of_range : response.status});
+}
+
+template <class Element, typename Scalar, int Elements, int MaxElements,
+          template <typename, int, int, int> class Assembler, class Solver>
+Status FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::release() noexcept {
+  return take(ways_, [](auto& way) { return way.release(); });
+}
+
+template <class Element, typename Scalar, int Elements, int MaxElements,
+          template <typename, int, int, int> class Assembler, class Solver>
+void FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::reset() noexcept {
+  take(ways_, [](auto& way) { way.reset(); });
+}
 
 }  // namespace hapbeam

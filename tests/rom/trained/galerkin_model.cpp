@@ -1,4 +1,5 @@
 // GalerkinModel: one unknown, right inside the trained range and beyond it.
+#include "once_training.hpp"
 #include "rom/training/press_errors.hpp"
 #include "rom/training/trained.hpp"
 #include "support/error.hpp"

@@ -1,4 +1,5 @@
 // Guarded: the fast model inside its range, the full one outside, and no step between them larger than their difference.
+#include "once_training.hpp"
 #include "rom/training/trained.hpp"
 #include "support/catch.hpp"
 #include "support/status.hpp"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "once_training.hpp"
 #include "rom/training/press_errors.hpp"
 #include "rom/training/trained.hpp"
 #include "support/error.hpp"

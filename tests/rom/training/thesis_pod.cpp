@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "once_training.hpp"
 #include "rom/training/trained.hpp"
 #include "support/catch.hpp"
 #include "support/noisy_force.hpp"

@@ -1,4 +1,5 @@
 // What training makes of snapshots: the matrix of shapes, its stiffness, and the work of a press from its forces.
+#include "once_training.hpp"
 #include "support/catch.hpp"
 #include "support/closed_form.hpp"
 #include "support/error.hpp"

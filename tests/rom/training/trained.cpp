@@ -1,5 +1,6 @@
 #include "rom/training/trained.hpp"
 
+#include "once_training.hpp"
 #include <hapbeam/rom/training/train.hpp>
 
 namespace hapbeam::testing {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "once_training.hpp"
 #include "rom/training/trained.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"

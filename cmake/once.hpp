@@ -1,0 +1,21 @@
+// Models that the project's own programs would compile again and again, two seconds each and file, are compiled once:
+// cmake/once/*.inc has a line for each, and each of these files is a unit of the library hapbeam_once.
+// The programs' precompiled headers include this file, which keeps them from compiling these models themselves.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SVD>
+
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/element/linear.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/rom/trained/galerkin_model.hpp>
+#include <hapbeam/rom/trained/pod_model.hpp>
+
+#define HAPBEAM_ONCE extern
+#include "once/corotational.inc"
+#include "once/svd.inc"
+#include "once/touch.inc"
+#include "once/von_karman.inc"
+#undef HAPBEAM_ONCE

@@ -1,3 +1,0 @@
-#include "svd.hpp"
-
-template class Eigen::JacobiSVD<Eigen::MatrixXd>;
