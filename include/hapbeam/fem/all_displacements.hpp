@@ -177,6 +177,10 @@ class AllDisplacements {
     const ContactMesh<Scalar> mesh = uniform_.at(range.node(s));
     const int c = mesh.node(), end = c == 0 ? -1 : c == elements() ? 1 : 0;
     const bool wall = range.on_wall(mesh.s()), outside = s != trial.s;
+    // There a hand soon bends the beam more sharply than the mesh can show.
+    const Scalar clear = 2 * request.reach;
+    const bool beside_support =
+        outside || s - range.range().left_support < clear || range.range().right_support - s < clear;
     const Scalar last = system_.linear_reaction();
     system_.remesh(mesh);
     // The contact's node; beside a support, where there is none, the place that takes its displacement.
@@ -196,7 +200,7 @@ class AllDisplacements {
     Scalar across = 1;  // component of the force that the beam takes
     const Response<Scalar> response = settle(last, slack, [&] {
       const Round circle(request.centre, request.side, shape().curvature(c), end);
-      trial.by_plane = wall || outside || sharp_ || circle.sharp(request.reach);
+      trial.by_plane = wall || beside_support || sharp_ || circle.sharp(request.reach);
       if (!trial.by_plane) return system_.set_goal(c, -request.reach, circle);
       if (trial.normal.isZero(0) || wall) trial.normal = look(node()).normal;
       const Vector2<Scalar>& normal = trial.normal;
@@ -225,15 +229,15 @@ class AllDisplacements {
     return pushed;
   }
 
-  /// Solves for what aim() sets as the system's goal.  @param last  the force before [N]   @param loose  in units of the solver's tolerance
+  /// Solves for what aim() sets as the system's goal.  @param last  the force before [N]   @param looser  than the solver's tolerance
   /// @return as press()
   template <class Aim>
-  Response<Scalar> settle(Scalar last, int loose, Aim&& aim) noexcept {
+  Response<Scalar> settle(Scalar last, int looser, Aim&& aim) noexcept {
     const Scalar first_step = report_.step;
     report_ = {Status::iteration_limit, 0, 0, 0, 0, first_step};
     if (left_ <= 0) return {system_.linear_reaction(), report_.status};
     aim();
-    if (!descending_) report_ = solve_within(left_, first_step, loose);
+    if (!descending_) report_ = solve_within(left_, first_step, looser);
     // A straight beam pressed across gives way in no element but those that lock.
     const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
     Descent descent;
@@ -331,11 +335,11 @@ class AllDisplacements {
     return any_way;
   }
 
-  /// Newton's method with no more than so many linear solves.  @param loose  in units of the solver's tolerance
-  SolveReport<Scalar> solve_within(int most, Scalar first_step = 1, int loose = 1) noexcept {
+  /// Newton's method with no more than so many linear solves.  @param looser  than the solver's tolerance
+  SolveReport<Scalar> solve_within(int most, Scalar first_step = 1, int looser = 1) noexcept {
     Solver solver = solver_;
     solver.max_solves = std::min(solver.max_solves, most);
-    solver.relative_tolerance *= loose;
+    solver.relative_tolerance *= looser;
     return solver.solve(system_, first_step);
   }
 
