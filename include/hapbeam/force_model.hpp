@@ -105,9 +105,9 @@ struct Press {
 /// @tparam D  of the space in which the model bends: 2 | 3
 template <typename Scalar, int D = 2>
 struct Push {
-  Scalar s;                  ///< [m] arc position of the point
-  Scalar d;                  ///< [m] n · (u, w) at s; in space n · r, of the place
-  Vector<Scalar, D> normal;  ///< n, unit
+  Scalar s;                    ///< [m] arc position of the point
+  Scalar d;                    ///< [m] n · (u, w) at s; in space n · r, of the place
+  VectorOf<Scalar, D> normal;  ///< n, unit
 };
 
 /// A frictionless circle that the centreline touches at one point, which is part of the answer.

@@ -148,6 +148,8 @@ class Touch {
   /// What the contact remembers belongs to the touch.  A beam that has sprung back is a new beam: whoever stands behind it
   /// is on its other side, and whoever is inside it has to leave before touching it.
   void let_go(const Avatar<Scalar>& avatar, detail::Hold why, TouchResult<Scalar>& result) noexcept {
+    // A support that is no longer touched says nothing of the beam beside it, which lies elsewhere once it has sprung back.
+    const bool off_beam = why == detail::Hold::released && !on_support_;
     release(result);
     ContactMemory<Scalar> nothing;
     const Contact<Scalar> contact =
@@ -155,7 +157,7 @@ class Touch {
     const Scalar reach = avatar_radius_ + model_.thickness() / 2;
     inside_ = contact.touching && (why == detail::Hold::slipped ||
                                    (contact.side != side_ && support_.near(contact, model_, 2 * reach)));
-    if (!contact.touching || inside_ || why == detail::Hold::released) return;
+    if (!contact.touching || inside_ || off_beam) return;
     // Lost, and at rest beneath the avatar: it has not slipped off, and the touch goes on from there.
     begin(contact);
     falling_ = false;

@@ -75,7 +75,7 @@ struct RoundRod {
   static constexpr int points = 3;
   using Points = detail::Gauss<points>;
   template <typename S>
-  using V3 = Vector<S, 3>;
+  using V3 = VectorOf<S, 3>;
   template <typename S>
   using M3 = Eigen::Matrix<S, 3, 3>;
 

@@ -83,8 +83,8 @@ struct TwistedRod {
 
   /// The director at ξ.   @param twist  ψ
   template <typename S>
-  static Vector<S, 3> director(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, S twist,
-                               S x) noexcept {
+  static VectorOf<S, 3> director(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
+                                 S twist, S x) noexcept {
     const Frame<S> f(p, n1, n2);
     const V3<S> v = detail::unit(f.tangent(p, x));
     return detail::turn(detail::carry(n1.director, f.u, v), v, f.mismatch * x + 4 * twist * x * (1 - x));
@@ -92,7 +92,7 @@ struct TwistedRod {
   /// ψ with which the director in the middle is along the given one.
   template <typename S>
   static S twist_to(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
-                    const Vector<S, 3>& middle) noexcept {
+                    const VectorOf<S, 3>& middle) noexcept {
     const Frame<S> f(p, n1, n2);
     const V3<S> v = detail::unit(f.tangent(p, S(0.5)));
     const V3<S> half = detail::turn(detail::carry(n1.director, f.u, v), v, f.mismatch / 2);
@@ -131,7 +131,7 @@ struct TwistedRod {
  private:
   using Points = detail::Gauss<2>;
   template <typename S>
-  using V3 = Vector<S, 3>;
+  using V3 = VectorOf<S, 3>;
 
   /// The element seen in the axes of node 1.
   template <typename S>

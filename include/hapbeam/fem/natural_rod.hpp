@@ -17,7 +17,7 @@ namespace hapbeam {
 
 template <typename Scalar>
 class NaturalRod {
-  using Vector3 = Vector<Scalar, 3>;
+  using Vector3 = VectorOf<Scalar, 3>;
 
  public:
   /// Laid from the left end's pose.
@@ -25,7 +25,7 @@ class NaturalRod {
     const RodPose& pose = rod.left_pose();
     RodNode<double> at{0, pose.at, pose.along, pose.director};
     NaturalRod<double>::lay(
-        rod, at, [this](double end, const Vector<double, 3>& omega, const RodNode<double>& from) {
+        rod, at, [this](double end, const VectorOf<double, 3>& omega, const RodNode<double>& from) {
           pieces_.push_back({static_cast<Scalar>(end), omega.template cast<Scalar>(), cast(from)});
         });
     straight_ = rod.arcs().empty();

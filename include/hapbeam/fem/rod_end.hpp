@@ -11,7 +11,7 @@ namespace hapbeam::detail {
 
 template <typename Scalar>
 class RodEnd {
-  using Vector3 = Vector<Scalar, 3>;
+  using Vector3 = VectorOf<Scalar, 3>;
   using Node = RodNode<Scalar>;
 
  public:

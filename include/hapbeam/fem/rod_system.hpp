@@ -32,9 +32,9 @@ class RodSystem {
   using Node = RodNode<Scalar>;
   using Nodes = typename Parts::Nodes;
   using Inners = typename Parts::Inners;
-  using Vector3 = Vector<Scalar, 3>;
+  using Vector3 = VectorOf<Scalar, 3>;
   static constexpr int unknowns = Element::unknowns;
-  using Increment = Vector<Scalar, unknowns>;
+  using Increment = VectorOf<Scalar, unknowns>;
 
   /// @throws std::invalid_argument as RodElements
   RodSystem(const Rod& rod, int elements)
