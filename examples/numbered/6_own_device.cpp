@@ -14,7 +14,7 @@ struct MyDevice {
   DeviceInfo info() const { return known_device("omega.3"); }  // or figures of your own
   bool running() const noexcept { return run; }
   DeviceStatus status() const noexcept { return run ? DeviceStatus::running : DeviceStatus::stopped; }
-  DeviceCounts counts() const noexcept { return {ticks, 0, cut}; }
+  DeviceCounts counts() const noexcept { return {ticks, 0, 0}; }
   template <typename Servo>
   void start(Servo& servo) {
     run = true;
@@ -25,7 +25,6 @@ struct MyDevice {
         state.position.y() = 0.01 * std::cos(3 * state.time);  // [m]: here the encoders are read
         state.sent = servo(state);
         state.cut = limit_force(state.sent, 12);  // finite, 12 N at most: here state.sent goes to the motors
-        cut += state.cut != ForceCut::none;
       }
     });
   }
@@ -33,7 +32,7 @@ struct MyDevice {
     if (run.exchange(false)) thread.join();
   }
   std::atomic<bool> run{false};
-  std::atomic<std::uint64_t> ticks{0}, cut{0};
+  std::atomic<std::uint64_t> ticks{0};
   std::thread thread;
 };
 
@@ -41,8 +40,7 @@ int main() {
   const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{210e9}, Support::clamped, Support::free);
   FemModel<Corotational<>> model(ruler, 8);
   MyDevice device;
-  ServoOptions options;
-  options.placement = Placement::in_plane({0.25, 0.0055});
+  const ServoOptions options{Placement::in_plane({0.25, 0.0055})};
   ServoLoop<MyDevice, FemModel<Corotational<>>> loop(device, model, options);
   loop.start();
   while (device.ticks < 1000) std::this_thread::sleep_for(std::chrono::milliseconds(10));
