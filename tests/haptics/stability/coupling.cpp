@@ -333,6 +333,26 @@ TEST_CASE("an arm of which nothing is known is taken for one with little damping
   }
 }
 
+// Past a support the beam is let go where its tangent still has a force.
+TEST_CASE("pressed directly, a hand that touches nothing feels nothing", "[coupling]") {
+  const Beam strip(0.3, Section::rectangle(0.03, 3e-3), Material{3e9}, Support::pinned, Support::pinned);
+  FemModel<> model(strip, 8), alone(strip, 8);
+  Touch<FemModel<>> touch(model, 5e-3), same(alone, 5e-3);
+  Direct direct;
+  bool pressed = false;
+  int released = 0;
+  for (int tick = 0; tick < 20000; ++tick) {
+    const double t = tick * T;
+    const Vector hand(0.19 + 0.12 * std::sin(0.7 * t),
+                      0.004 + 0.016 * std::cos(1.9 * t) + 0.01 * std::cos(0.3 * t));
+    const auto felt = direct.tick(touch, hand, T);
+    released += pressed && !felt.touch.pressing;
+    pressed = felt.touch.pressing;
+    REQUIRE(felt.force == same.tick(hand).force);
+  }
+  CHECK(released > 5);
+}
+
 TEST_CASE("what cannot be a coupling is refused by name, value and unit", "[coupling]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(VirtualCoupling({0, 1}), ContainsSubstring("coupling stiffness = 0 N/m"));

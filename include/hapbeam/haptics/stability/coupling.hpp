@@ -100,6 +100,8 @@ class Direct {
     result.avatar = hand;
     result.touch = touch.tick(hand.cast<typename Touch::Scalar>());
     last_.learn(result.touch, hand);
+    // The hand itself is where the beam was sought: an answer that it is not touched is one.
+    if (is_answer(result.touch.status) && !result.touch.pressing) last_.forget();
     result.continued = last_.continued();
     if (result.continued)
       result.force = last_.tangent().normal() * std::max(0.0, last_.tangent().force_at(hand));

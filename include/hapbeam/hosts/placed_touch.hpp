@@ -1,0 +1,113 @@
+// A beam that lies somewhere in a host's space, for hosts that ask an object for the force at a position and couple, limit and
+// send it themselves: CHAI3D, SOFA, HAPI, HLAPI.
+//
+//   PlacedTouch<FemModel<>> beam(model, 0.005, Placement::in_plane({0.15, 0.02}));
+//   const Eigen::Vector3d force = beam.tick(position);        // haptic thread
+//   draw(beam.picture().shape());                             // graphics thread
+//
+// The force is that of Touch, to the bit where the placement only exchanges axes, and zero where the status says that there is no
+// answer.  There is no coupling and no guard in it: a beam stiffer than the device can render goes into a Servo.
+// tick(): no allocation, noexcept, wait-free, bounded as Touch::tick().  picture(): one other thread, wait-free.
+#pragma once
+
+#include <atomic>
+
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/haptics/servo/exchange.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
+#include <hapbeam/haptics/servo/servo.hpp>
+
+namespace hapbeam {
+
+template <typename Model>
+class PlacedTouch {
+ public:
+  using Scalar = typename Model::Scalar;
+  using Picture = ServoPicture<Scalar>;
+
+  /// @param model  kept by reference; nobody else presses it   @param avatar_radius  [m] of the beam's
+  /// @param placement  of the host's positions in the plane of the beam: it also turns axes and scales units
+  /// Allocates.   @throws std::invalid_argument as Touch
+  PlacedTouch(Model& model, double avatar_radius, const Placement& placement = {})
+      : model_(model),
+        placement_(placement),
+        touch_(model, static_cast<Scalar>(avatar_radius)),
+        seen_(model.shape()),
+        pictures_(seen_) {}
+
+  /// @param position  in the host's axes and units of length   @return [N] on the hand, host's axes; always finite
+  [[nodiscard]] Eigen::Vector3d tick(const Eigen::Vector3d& position) noexcept {
+    const Vector2<double> hand = placement_.beam_position(position);
+    felt_ = touch_.tick(hand.template cast<Scalar>());
+    Eigen::Vector3d force(0, 0, 0);
+    if (is_answer(felt_.status)) force = placement_.device_force_of_beam(felt_.force.template cast<double>());
+    keep(position, hand, force);
+    publish();
+    return force;
+  }
+
+  /// The hand touches nothing.  While no tick runs.
+  void reset() noexcept {
+    touch_.reset();
+    felt_ = {};
+  }
+
+  const Placement& placement() const noexcept { return placement_; }
+
+  /// What the last tick said, in the plane of the beam.  From the haptic thread.
+  const TouchResult<Scalar>& felt() const noexcept { return felt_; }
+
+  /// The newest shape and what was felt with it; of the record, status, model, position, hand, avatar, force, press, pressing and
+  /// the counts of ticks are filled in.  One reader, from any thread: wait-free.  They stay until the next call.
+  /// A shape that costs more than its force is that of the first tick after the last look.
+  const Picture& picture() noexcept {
+    looked_.store(true, std::memory_order_relaxed);
+    pictures_.update();
+    return pictures_.value();
+  }
+
+ private:
+  LoopStatus status() const noexcept {
+    if (!is_answer(felt_.status)) return LoopStatus::no_answer;
+    if (!felt_.pressing) return LoopStatus::free;
+    return felt_.status == Status::out_of_range ? LoopStatus::out_of_range : LoopStatus::touching;
+  }
+
+  void keep(const Eigen::Vector3d& position, const Vector2<double>& hand,
+            const Eigen::Vector3d& force) noexcept {
+    ServoRecord& r = record_;
+    r.status = status();
+    r.model = felt_.status;
+    r.position = position;
+    r.hand = r.avatar = hand;
+    r.force = force;
+    r.press = {static_cast<double>(felt_.press.s), static_cast<double>(felt_.press.d)};
+    r.pressing = felt_.pressing;
+    ++r.ticks;
+    r.contact_ticks += r.pressing;
+    r.failed_ticks += r.status == LoopStatus::no_answer;
+  }
+
+  void publish() noexcept {
+    Picture& draft = pictures_.draft();
+    draft.record = record_;
+    if constexpr (Drawn<Model>::for_who_looks) {
+      if (looked_.exchange(false, std::memory_order_relaxed)) seen_.take(model_.shape());
+      draft.take(seen_);
+    } else {
+      draft.take(model_.shape());
+    }
+    pictures_.publish();
+  }
+
+  const Model& model_;
+  Placement placement_;
+  Touch<Model> touch_;
+  TouchResult<Scalar> felt_;
+  ServoRecord record_;
+  Picture seen_;
+  std::atomic<bool> looked_{true};
+  Exchange<Picture> pictures_;
+};
+
+}  // namespace hapbeam
