@@ -112,6 +112,14 @@ struct Response {
   Status status;  ///< whether force belongs to the request
 };
 
+/// What holding an end of a rod takes.
+template <typename Scalar>
+struct HeldEnd {
+  Vector<Scalar, 3> force;   ///< [N] on the rod; the hand feels -force.  Always finite.
+  Vector<Scalar, 3> moment;  ///< [N·m] on the rod, about the end
+  Status status;
+};
+
 /// Where a model answers with Status::ok: s_min <= s <= s_max and |d| <= depth_at(s).
 template <typename Scalar>
 struct Range {
