@@ -51,7 +51,7 @@ struct Tip {
 
 /// Of the inextensible cantilever under a tip load α = PL²/EI, shot from its clamp; there M² = 2α sin φ(L) < 2α.
 Tip elastica(double alpha) {
-  const Rod rod{1e9, 1};
+  const PlanarRod rod{1e9, 1};
   double low = 0, high = std::sqrt(2 * alpha);
   RodState end;
   for (int k = 0; k < 50; ++k) {

@@ -139,6 +139,14 @@ struct Pushed {
   Vector2<Scalar> normal = Vector2<Scalar>::Zero();  ///< unit, from there to the centre
 };
 
+/// What holding an end of a rod takes.
+template <typename Scalar>
+struct HeldEnd {
+  VectorOf<Scalar, 3> force;   ///< [N] on the rod; the hand feels -force.  Always finite.
+  VectorOf<Scalar, 3> moment;  ///< [N·m] on the rod, about the end
+  Status status;
+};
+
 /// Where a model answers with Status::ok: s_min <= s <= s_max and |d| <= depth_at(s).
 template <typename Scalar>
 struct Range {

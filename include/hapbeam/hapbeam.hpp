@@ -10,8 +10,11 @@
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
+#include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/fem/solver/dense.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/haptics/device/virtual_phantom.hpp>

@@ -114,7 +114,18 @@ struct RodPose {
   VectorOf<double, 3> at{0, 0, 0};     ///< [m]
   VectorOf<double, 3> along{1, 0, 0};  ///< d3: direction of the tangent, from the left end to the right one
   VectorOf<double, 3> director{0, 1, 0};  ///< d1
+
+  /// Makes both directions unit and perpendicular.  @return false where there are none
+  bool make_valid() noexcept {
+    along /= std::sqrt(along.squaredNorm());
+    director -= along * along.dot(director);
+    director /= std::sqrt(director.squaredNorm());
+    return at.allFinite() && along.allFinite() && director.allFinite();
+  }
 };
+
+/// Which end.
+enum class RodSide { left, right };
 
 /// A part of the rod with a natural curvature and twist: an arc, a ring or a helix.
 struct RodArc {
@@ -231,15 +242,15 @@ class Rod {
   static void finite(const char* field, const VectorOf<double, 3>& x, const char* unit) {
     for (int k = 0; k < 3; ++k) detail::finite(field, x[k], unit);
   }
-  static RodPose checked(RodPose pose) {
+  static RodPose checked(const RodPose& pose) {
     finite("pose at", pose.at, "m");
     finite("pose along", pose.along, "");
     finite("pose director", pose.director, "");
-    pose.along /= detail::positive("pose along", std::sqrt(pose.along.squaredNorm()), "");
-    pose.director -= pose.along * pose.along.dot(pose.director);
-    pose.director /=
-        detail::positive("pose director across along", std::sqrt(pose.director.squaredNorm()), "");
-    return pose;
+    detail::positive("pose along", std::sqrt(pose.along.squaredNorm()), "");
+    RodPose unit = pose;
+    if (!unit.make_valid())
+      detail::reject("pose director", std::sqrt(pose.director.squaredNorm()), "", "across along");
+    return unit;
   }
 
   double length_;

@@ -81,7 +81,7 @@ TEST_CASE("what makes no sense of a rod is rejected by name", "[rod]") {
         }) == "pose along = 0: must be positive and finite");
   CHECK(rejection([&] {
           wire().place_left({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
-        }) == "pose director across along = 0: must be positive and finite");
+        }) == "pose director = 2: must be across along");
 }
 
 TEST_CASE("an element rejects the rods that it does not model", "[rod]") {

@@ -20,7 +20,7 @@ struct RodState {
   double x = 0, y = 0, phi = 0, moment = 0;
 };
 
-struct Rod {
+struct PlanarRod {
   double EA, EI;
 
   /// From one section to the one `length` further on, between which the force (H, V) acts.

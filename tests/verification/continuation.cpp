@@ -27,7 +27,7 @@ struct LimitPoint {
 /// Half of a symmetric frame under a load P in its middle, shot from its left end; unknown are the end's moment or angle,
 /// the thrust H, and P.
 struct HalfFrame {
-  Rod rod;
+  PlanarRod rod;
   double length, span, rise, angle, curvature;  // of the half; the angle at its left
   bool hinged;
   double middle_angle;
@@ -94,7 +94,7 @@ Beam arch() {
 
 // The rod's own error, halving its steps: nothing at the precision that is asked for here.
 TEST_CASE("the reference by shooting has converged", "[continuation]") {
-  const Rod rod{toggle_EA, toggle_EI};
+  const PlanarRod rod{toggle_EA, toggle_EI};
   const RodState once = rod.along({0, 0, 0.03, -60}, 12.95, -630, -17),
                  finer = rod.along({0, 0, 0.03, -60}, 12.95, -630, -17, 0, 400);
   CHECK(std::abs(once.x - finer.x) <= 1e-10);

@@ -27,7 +27,7 @@ struct FrameTurns {
 /// Unknown: the left hinge's angle, its force (H, V), P, and how far down the loaded point is.
 FrameTurns shot_turns() {
   using Unknowns = Eigen::Matrix<double, 5, 1>;
-  const Rod rod{EA, EI};
+  const PlanarRod rod{EA, EI};
   const auto equations = [&](const Unknowns& z) -> Eigen::Vector4d {
     RodState end = rod.along({0, 0, z[0], 0}, leg, z[1], z[2], 0, 80);
     end.phi -= pi / 2;

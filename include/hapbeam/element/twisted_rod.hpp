@@ -29,6 +29,7 @@
 #include <cmath>
 
 #include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
 
@@ -290,9 +291,11 @@ struct TwistedRod {
       R2[7 + k] = -k1 * t[k];
       R3[7 + k] = d[k];
     }
+    HAPBEAM_UNROLL
     for (int r = 0; r < 10; ++r) {
       core.g[r] += m1 * R1[r] + m2 * R2[r] + T * R3[r];
       const S s1 = E1 * R1[r], s2 = E2 * R2[r], s3 = GJ * R3[r];
+      HAPBEAM_UNROLL
       for (int c = 0; c <= r; ++c) core.H[r][c] += s1 * R1[c] + s2 * R2[c] + s3 * R3[c];
     }
     // θ with the rest, and with itself.
@@ -400,45 +403,45 @@ struct TwistedRod {
   template <typename S>
   static void expand(const Frame<S>& f, Core<S>& core, Inner<S>& inner, Vector14<S>& r,
                      Matrix14<S>& K) noexcept {
-    // Full symmetric, in the order Δ 0-2, r1' 3-5, r2' 6-8, φ1 9, φ2 10, ψ 11; a node's tangent turns its axes, by ω = ẑ × r1'/λ.
-    const auto H = [&core](int i, int j) { return i < j ? core.H[j][i] : core.H[i][j]; };
+    // ψ first: H - hhᵀ/k, full.
+    const S* const g = core.g;
+    const S k_psi = core.H[9][9], share = 1 / k_psi;
+    S H[9][9], condensed[9];
+    HAPBEAM_UNROLL
+    for (int i = 0; i < 9; ++i) {
+      const S part = core.H[9][i] * share;
+      condensed[i] = g[i] - part * g[9];
+      HAPBEAM_UNROLL
+      for (int j = 0; j <= i; ++j) H[i][j] = H[j][i] = core.H[i][j] - part * core.H[9][j];
+    }
+    inner.residual = g[9];
+    inner.stiffness = k_psi;
+    // Then the turn, to Δ 0-2, r1' 3-5, r2' 6-8, φ1 9, φ2 10: r1' turns the axes, by ω = ẑ × r1'/λ.
     const S i1 = 1 / f.l1, i2 = 1 / f.l2, sigma = 1 + f.v[2], is = 1 / sigma;
     const V3<S>&D = f.chord, &t = f.t2, &v = f.v;
     const S kx = -v[1] * is, ky = v[0] * is;
-    // J: columns of r1' are combinations of the core's columns.
-    S A[10][12];
-    for (int row = 0; row < 10; ++row) {
-      const S by_phi = H(row, 8);
-      A[row][0] = H(row, 0), A[row][1] = H(row, 1), A[row][2] = H(row, 2);
-      A[row][3] =
-          i1 * (D[0] * H(row, 2) - D[2] * H(row, 0) + t[0] * H(row, 6) - t[2] * H(row, 4) + kx * by_phi);
-      A[row][4] =
-          i1 * (D[1] * H(row, 2) - D[2] * H(row, 1) + t[1] * H(row, 6) - t[2] * H(row, 5) + ky * by_phi);
-      A[row][5] = H(row, 3);
-      A[row][6] = H(row, 4) + i2 * kx * by_phi, A[row][7] = H(row, 5) + i2 * ky * by_phi,
-      A[row][8] = H(row, 6);
-      A[row][9] = H(row, 7), A[row][10] = by_phi, A[row][11] = H(row, 9);
+    const auto by_turn = [&](const S* x, S* y) {
+      y[0] = x[0], y[1] = x[1], y[2] = x[2];
+      y[3] = i1 * (D[0] * x[2] - D[2] * x[0] + t[0] * x[6] - t[2] * x[4] + kx * x[8]);
+      y[4] = i1 * (D[1] * x[2] - D[2] * x[1] + t[1] * x[6] - t[2] * x[5] + ky * x[8]);
+      y[5] = x[3];
+      y[6] = x[4] + i2 * kx * x[8], y[7] = x[5] + i2 * ky * x[8], y[8] = x[6];
+      y[9] = x[7], y[10] = x[8];
+    };
+    S A[9][11], At[11][9], B[11][11], G[11], row[11];
+    by_turn(condensed, G);
+    by_turn(core.H[9], row);
+    HAPBEAM_UNROLL
+    for (int i = 0; i < 9; ++i) by_turn(H[i], A[i]);
+    HAPBEAM_UNROLL
+    for (int i = 0; i < 9; ++i) {
+      HAPBEAM_UNROLL
+      for (int j = 0; j < 11; ++j) At[j][i] = A[i][j];
     }
-    S B[12][12];
-    for (int c = 0; c < 12; ++c) {
-      const S by_phi = A[8][c];
-      B[0][c] = A[0][c], B[1][c] = A[1][c], B[2][c] = A[2][c];
-      B[3][c] = i1 * (D[0] * A[2][c] - D[2] * A[0][c] + t[0] * A[6][c] - t[2] * A[4][c] + kx * by_phi);
-      B[4][c] = i1 * (D[1] * A[2][c] - D[2] * A[1][c] + t[1] * A[6][c] - t[2] * A[5][c] + ky * by_phi);
-      B[5][c] = A[3][c];
-      B[6][c] = A[4][c] + i2 * kx * by_phi, B[7][c] = A[5][c] + i2 * ky * by_phi, B[8][c] = A[6][c];
-      B[9][c] = A[7][c], B[10][c] = by_phi, B[11][c] = A[9][c];
-    }
-    const S* const g = core.g;
+    HAPBEAM_UNROLL
+    for (int j = 0; j < 11; ++j) by_turn(At[j], B[j]);
     const V3<S> gD(g[0], g[1], g[2]), g2(g[4], g[5], g[6]);
     const S gl = g[3], gp = g[8];
-    S G[12];
-    G[0] = g[0], G[1] = g[1], G[2] = g[2];
-    G[3] = i1 * (D[0] * g[2] - D[2] * g[0] + t[0] * g[6] - t[2] * g[4] + kx * gp);
-    G[4] = i1 * (D[1] * g[2] - D[2] * g[1] + t[1] * g[6] - t[2] * g[5] + ky * gp);
-    G[5] = gl;
-    G[6] = g[4] + i2 * kx * gp, G[7] = g[5] + i2 * ky * gp, G[8] = g[6];
-    G[9] = g[7], G[10] = gp, G[11] = g[9];
     // Second derivatives of the turn.
     const auto add = [&B](int i, int j, S value) {
       B[i][j] += value;
@@ -471,15 +474,6 @@ struct TwistedRod {
         if (a == 2) value -= sigma * k[b];
         add(3 + a, 6 + b, cross * value);
       }
-    // ψ
-    inner.residual = G[11];
-    inner.stiffness = B[11][11];
-    const S share = 1 / inner.stiffness;
-    for (int a = 0; a < 11; ++a) {
-      const S part = B[11][a] * share;
-      for (int b = 0; b < 11; ++b) B[a][b] -= part * B[11][b];
-      G[a] -= part * G[11];
-    }
     // To the axes of space.
     Eigen::Matrix<S, 3, 3> F;
     F.col(0) = f.e1, F.col(1) = f.e2, F.col(2) = f.u;
@@ -511,9 +505,9 @@ struct TwistedRod {
     beside(0, 6, -Dp), beside(7, 6, Dp), beside(0, 13, -Dq), beside(7, 13, Dq);
     beside(3, 6, p1v), beside(3, 13, q1v), beside(10, 6, p2v), beside(10, 13, q2v);
     K(6, 6) = B[9][9], K(6, 13) = K(13, 6) = B[10][9], K(13, 13) = B[10][10];
-    const V3<S> iD = vector(B[11]), i1v = vector(B[11] + 3), i2v = vector(B[11] + 6);
-    inner.row.template segment<3>(0) = -iD, inner.row.template segment<3>(3) = i1v, inner.row[6] = B[11][9];
-    inner.row.template segment<3>(7) = iD, inner.row.template segment<3>(10) = i2v, inner.row[13] = B[11][10];
+    const V3<S> iD = vector(row), i1v = vector(row + 3), i2v = vector(row + 6);
+    inner.row.template segment<3>(0) = -iD, inner.row.template segment<3>(3) = i1v, inner.row[6] = row[9];
+    inner.row.template segment<3>(7) = iD, inner.row.template segment<3>(10) = i2v, inner.row[13] = row[10];
   }
 };
 

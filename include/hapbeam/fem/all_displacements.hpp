@@ -101,6 +101,28 @@ class AllDisplacements {
     }
   }
 
+  /// Moves a clamped end of a rod, without a contact.
+  template <class Side, class Pose>
+  HeldEnd<Scalar> hold(Side side, const Pose& pose) noexcept {
+    const auto k = static_cast<std::size_t>(side);
+    const auto take = [&] {
+      const auto [force, moment] = system_.reaction(k);
+      return HeldEnd<Scalar>{force, moment, report_.status};
+    };
+    report_ = {Status::invalid_request, 0, 0, 0, 0, report_.step};
+    if (!is_answer(rest_.status)) return report_.status = rest_.status, take();
+    if (!system_.place_end(k, pose)) return take();
+    single_valued_ = false;
+    const auto aim = [this] { system_.set_goal(); };
+    aim();
+    report_ = solve_within(solver_.max_solves, descending_ ? Scalar(1) : report_.step);
+    Descent descent;
+    descent.max_solves = solver_.max_solves - report_.solves;
+    const bool on_ridge = gives_way();
+    if ((on_ridge || report_.status == Status::iteration_limit) && !fall(on_ridge, descent, aim)) reset();
+    return take();
+  }
+
   /// Falls to the shape at rest on whose slope the beam is; one that is folded, which only a request beyond all reach leaves,
   /// and which may be stable, goes back to where it began.   @return ok | snapped | iteration_limit
   Status release() noexcept {

@@ -114,6 +114,13 @@ class FemModel {
     return take(ways_, [](const auto& way) { return way.shape(); });
   }
 
+  /// Holds a clamped end of a rod elsewhere, and otherwise turned: what a hand does that has taken hold of it.
+  /// @return force and moment that takes, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
+  template <class InSpace = Of>
+  HeldEnd<Scalar> hold(typename InSpace::Side side, const typename InSpace::Pose& pose) noexcept {
+    return std::get<General>(ways_).hold(side, pose);
+  }
+
   /// Where press() answers with ok: press_range.hpp says how far that is.  A push() has no limit of depth.
   Range<Scalar> range() const noexcept { return range_.range(); }
 

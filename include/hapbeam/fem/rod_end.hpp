@@ -76,6 +76,7 @@ class RodEnd {
     const Vector3 u = unit(node.tangent);
     visitor(6, angle_about(u, node.director, across(carry(target_.director, target_.tangent, u), u)));
   }
+  bool is_clamped() const noexcept { return direction_; }
   bool holds_place() const noexcept { return place_; }
   /// How far the node is from where it is held; nothing where it is not.
   Vector3 miss(const Node& node) const noexcept {

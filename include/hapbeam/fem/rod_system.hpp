@@ -102,7 +102,12 @@ class RodSystem {
     return false;
   }
   /// Places an end anew: where the next path leads.  @param k  0: left, 1: right
-  void place_end(std::size_t k, const RodPose& pose) noexcept { ends_[k].place(pose); }
+  /// @return false where it is not clamped, or the pose is none: nothing has changed
+  bool place_end(std::size_t k, RodPose pose) noexcept {
+    const bool valid = ends_[k].is_clamped() && pose.make_valid();
+    if (valid) ends_[k].place(pose);
+    return valid;
+  }
 
   /// Where the path ends: all of the dead loads, the ends where they are placed, and no contact.
   void set_goal() noexcept {
@@ -412,6 +417,8 @@ namespace detail {
 template <class Element>
 struct SystemOf<Element, std::enable_if_t<dimension_of<Element> == 3>> {
   using Body = Rod;
+  using Side = RodSide;
+  using Pose = RodPose;
   template <typename Scalar, int Elements, int MaxElements,
             template <typename, int, int, int> class Assembler>
   using System = RodSystem<Element, Scalar, Elements, MaxElements, Assembler>;

@@ -10,13 +10,7 @@
 
 #include <Eigen/Core>
 
-#if defined(__clang__)
-#define HAPBEAM_UNROLL _Pragma("unroll")
-#elif defined(__GNUC__)
-#define HAPBEAM_UNROLL _Pragma("GCC unroll 16")
-#else
-#define HAPBEAM_UNROLL
-#endif
+#include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
 
