@@ -19,9 +19,9 @@
 namespace hapbeam {
 
 template <typename Scalar, int D>
-using Vector = Eigen::Matrix<Scalar, D, 1>;
+using VectorOf = Eigen::Matrix<Scalar, D, 1>;
 template <typename Scalar>
-using Vector2 = Vector<Scalar, 2>;
+using Vector2 = VectorOf<Scalar, 2>;
 
 /// One node: where it was and how it moved.  theta = -dw/dx.
 template <typename Scalar>

@@ -99,10 +99,10 @@ struct Press {
 /// @tparam D  of the space in which the model bends: 2 | 3
 template <typename Scalar, int D = 2>
 struct Push {
-  Scalar s;                  ///< [m] arc position of the point
-  Scalar d;                  ///< [m] n · (u, w) at s; in space n · r, of the place
-  Vector<Scalar, D> normal;  ///< n, unit
-  bool goes_on = false;      ///< in the tick of the push before, with what that has left of the tick's work
+  Scalar s;                    ///< [m] arc position of the point
+  Scalar d;                    ///< [m] n · (u, w) at s; in space n · r, of the place
+  VectorOf<Scalar, D> normal;  ///< n, unit
+  bool goes_on = false;        ///< in the tick of the push before, with what that has left of the tick's work
 };
 
 /// What a press takes.
@@ -115,8 +115,8 @@ struct Response {
 /// What holding an end of a rod takes.
 template <typename Scalar>
 struct HeldEnd {
-  Vector<Scalar, 3> force;   ///< [N] on the rod; the hand feels -force.  Always finite.
-  Vector<Scalar, 3> moment;  ///< [N·m] on the rod, about the end
+  VectorOf<Scalar, 3> force;   ///< [N] on the rod; the hand feels -force.  Always finite.
+  VectorOf<Scalar, 3> moment;  ///< [N·m] on the rod, about the end
   Status status;
 };
 

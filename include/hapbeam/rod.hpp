@@ -111,9 +111,9 @@ constexpr const char* name(RodSupport support) noexcept {
 
 /// Where an end is, and how its section is turned.
 struct RodPose {
-  Vector<double, 3> at{0, 0, 0};        ///< [m]
-  Vector<double, 3> along{1, 0, 0};     ///< d3: direction of the tangent, from the left end to the right one
-  Vector<double, 3> director{0, 1, 0};  ///< d1
+  VectorOf<double, 3> at{0, 0, 0};     ///< [m]
+  VectorOf<double, 3> along{1, 0, 0};  ///< d3: direction of the tangent, from the left end to the right one
+  VectorOf<double, 3> director{0, 1, 0};  ///< d1
 
   /// Makes both directions unit and perpendicular.  @return false where there are none
   bool make_valid() noexcept {
@@ -137,12 +137,12 @@ struct RodArc {
 
 /// A dead force at one point of the rod.
 struct RodForce {
-  double s;                 ///< [m] arc position
-  Vector<double, 3> force;  ///< [N]
+  double s;                   ///< [m] arc position
+  VectorOf<double, 3> force;  ///< [N]
 };
 
 /// A dead load per unit length, as a function of arc position s [m] -> [N/m].
-using RodLoad = std::function<Vector<double, 3>(double)>;
+using RodLoad = std::function<VectorOf<double, 3>(double)>;
 
 /// A rod, its ends and its loads; straight, unless it is given a natural shape, and its right end where that shape puts it,
 /// unless it is placed elsewhere.  An immutable value but for what is added to it.
@@ -205,17 +205,17 @@ class Rod {
 
   /// Sets the distributed dead load [N/m]; it must be finite on all of the rod.
   Rod& load(RodLoad f) { return load_ = std::move(f), *this; }
-  Rod& load(const Vector<double, 3>& f) {
+  Rod& load(const VectorOf<double, 3>& f) {
     return finite("load", f, "N/m"), load([f](double) { return f; });
   }
   /// Its own weight.   @param density [kg/m³]   @param gravity [m/s²] direction and size
-  Rod& weight(double density, const Vector<double, 3>& gravity) {
+  Rod& weight(double density, const VectorOf<double, 3>& gravity) {
     detail::positive("density", density, "kg/m³");
     finite("gravity", gravity, "m/s²");
     if (!(area_ > 0))
       detail::reject("area", area_, "m²",
                      "known for a weight: a rod that is given by its stiffness has load()");
-    return load(Vector<double, 3>(density * area_ * gravity));
+    return load(VectorOf<double, 3>(density * area_ * gravity));
   }
   Rod& add(const RodForce& force) {
     if (!(force.s >= 0 && force.s <= length_))
@@ -239,7 +239,7 @@ class Rod {
   bool straight() const noexcept { return arcs_.empty() && !right_is_placed_ && !load_ && forces_.empty(); }
 
  private:
-  static void finite(const char* field, const Vector<double, 3>& x, const char* unit) {
+  static void finite(const char* field, const VectorOf<double, 3>& x, const char* unit) {
     for (int k = 0; k < 3; ++k) detail::finite(field, x[k], unit);
   }
   static RodPose checked(const RodPose& pose) {

@@ -14,17 +14,17 @@ namespace hapbeam {
 /// One node of a rod.
 template <typename Scalar>
 struct RodNode {
-  Scalar s;                    ///< [m] arc position along the rod when it is not loaded
-  Vector<Scalar, 3> r;         ///< [m] place
-  Vector<Scalar, 3> tangent;   ///< dr/ds: 1 + ε long
-  Vector<Scalar, 3> director;  ///< d1 of the section, a unit vector across the tangent; d2 = tangent × d1
+  Scalar s;                      ///< [m] arc position along the rod when it is not loaded
+  VectorOf<Scalar, 3> r;         ///< [m] place
+  VectorOf<Scalar, 3> tangent;   ///< dr/ds: 1 + ε long
+  VectorOf<Scalar, 3> director;  ///< d1 of the section, a unit vector across the tangent; d2 = tangent × d1
 };
 
 /// A point of the centreline.
 template <typename Scalar>
 struct RodPoint {
-  Vector<Scalar, 3> r;        ///< [m]
-  Vector<Scalar, 3> tangent;  ///< dr/ds
+  VectorOf<Scalar, 3> r;        ///< [m]
+  VectorOf<Scalar, 3> tangent;  ///< dr/ds
 };
 
 template <typename Scalar>
@@ -75,7 +75,7 @@ class Centreline<Scalar, 3> {
   RodPoint<Scalar> at(int i, Scalar s) const noexcept {
     const Node &a = nodes_[i], &b = nodes_[i + 1];
     const Scalar l = b.s - a.s, t = (s - a.s) / l, u = 1 - t;
-    const Vector<Scalar, 3> chord = b.r - a.r;
+    const VectorOf<Scalar, 3> chord = b.r - a.r;
     return {a.r + t * t * (3 - 2 * t) * chord + l * t * u * (u * a.tangent - t * b.tangent),
             6 * t * u / l * chord + u * (1 - 3 * t) * a.tangent + t * (3 * t - 2) * b.tangent};
   }
@@ -95,43 +95,44 @@ namespace detail {
 
 /// a × b, without Eigen's geometry, which takes longer to compile than all of the elements.
 template <typename S>
-[[gnu::always_inline]] inline Vector<S, 3> cross(const Vector<S, 3>& a, const Vector<S, 3>& b) noexcept {
+[[gnu::always_inline]] inline VectorOf<S, 3> cross3(const VectorOf<S, 3>& a,
+                                                    const VectorOf<S, 3>& b) noexcept {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// x after the smallest rotation that takes u to v, both unit and not opposite; x is across u.
 template <typename S>
-Vector<S, 3> carry(const Vector<S, 3>& x, const Vector<S, 3>& u, const Vector<S, 3>& v) noexcept {
+VectorOf<S, 3> carry(const VectorOf<S, 3>& x, const VectorOf<S, 3>& u, const VectorOf<S, 3>& v) noexcept {
   return x - v.dot(x) / (1 + u.dot(v)) * (u + v);
 }
 
 /// x, which is across the unit vector v, turned about it.
 template <typename S>
-Vector<S, 3> turn(const Vector<S, 3>& x, const Vector<S, 3>& v, S angle) noexcept {
+VectorOf<S, 3> turn(const VectorOf<S, 3>& x, const VectorOf<S, 3>& v, S angle) noexcept {
   using std::cos;
   using std::sin;
-  return cos(angle) * x + sin(angle) * cross(v, x);
+  return cos(angle) * x + sin(angle) * cross3(v, x);
 }
 
 /// A unit vector along x, less its part along the unit vector v.
 template <typename S>
-Vector<S, 3> across(const Vector<S, 3>& x, const Vector<S, 3>& v) noexcept {
+VectorOf<S, 3> across(const VectorOf<S, 3>& x, const VectorOf<S, 3>& v) noexcept {
   using std::sqrt;
-  const Vector<S, 3> y = x - v.dot(x) * v;
+  const VectorOf<S, 3> y = x - v.dot(x) * v;
   return y / sqrt(y.squaredNorm());
 }
 
 template <typename S>
-Vector<S, 3> unit(const Vector<S, 3>& x) noexcept {
+VectorOf<S, 3> unit(const VectorOf<S, 3>& x) noexcept {
   using std::sqrt;
   return x / sqrt(x.squaredNorm());
 }
 
 /// The angle by which `from` has to be turned about the unit vector v to lie along `to`; all three are perpendicular.
 template <typename S>
-S angle_about(const Vector<S, 3>& v, const Vector<S, 3>& from, const Vector<S, 3>& to) noexcept {
+S angle_about(const VectorOf<S, 3>& v, const VectorOf<S, 3>& from, const VectorOf<S, 3>& to) noexcept {
   using std::atan2;
-  return atan2(v.dot(cross(from, to)), from.dot(to));
+  return atan2(v.dot(cross3(from, to)), from.dot(to));
 }
 
 }  // namespace detail

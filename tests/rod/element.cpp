@@ -50,7 +50,7 @@ void check_derivatives() {
     const RandomElement of(random);
     const Differences<E> differences{of};
     auto inner = inner_of<E>(of);
-    Vector<Long, n> r, gradient;
+    VectorOf<Long, n> r, gradient;
     Eigen::Matrix<Long, n, n> K, hessian;
     const Long energy = E::tangent(of.p, of.a, of.b, inner, r, K);
     CHECK(std::abs(energy - differences.at(0, 0, 0, 0)) <= 1e-15L * energy);
@@ -59,7 +59,7 @@ void check_derivatives() {
       for (int j = 0; j <= i; ++j) hessian(i, j) = hessian(j, i) = differences.second(i, j);
     }
     if constexpr (E::unknowns == 7) {
-      Vector<Long, n> by_twist;
+      VectorOf<Long, n> by_twist;
       for (int i = 0; i < n; ++i) by_twist[i] = differences.second(i, 14);
       const Long g = differences.first(14), k = differences.second(14, 14);
       CHECK(std::abs(g - inner.residual) <= 1e-9L);
@@ -84,7 +84,7 @@ void check_rigid() {
     const Axis axis = detail::unit(random_vector(random)), by = random_vector(random);
     const Long angle = random(20.0);  // three turns
     auto inner = inner_of<E>(of), same = inner;
-    Vector<Long, 2 * n> r, turned;
+    VectorOf<Long, 2 * n> r, turned;
     Eigen::Matrix<Long, 2 * n, 2 * n> K;
     const Long before = E::tangent(of.p, of.a, of.b, inner, r, K);
     const Long after =
@@ -100,8 +100,8 @@ void check_rigid() {
     Axis sum = r.template segment<3>(0) + r.template segment<3>(n), moment = Axis::Zero();
     for (const int k : {0, n}) {
       const RodNode<Long>& node = k == 0 ? of.a : of.b;
-      moment += detail::cross<Long>(node.r, r.template segment<3>(k)) +
-                detail::cross<Long>(node.tangent, r.template segment<3>(k + 3));
+      moment += detail::cross3<Long>(node.r, r.template segment<3>(k)) +
+                detail::cross3<Long>(node.tangent, r.template segment<3>(k + 3));
       if (n == 7) moment += r[k + 6] * detail::unit(node.tangent);
     }
     CHECK(sum.norm() <= 1e-16L * r.norm());

@@ -10,7 +10,7 @@
 namespace hapbeam::testing {
 
 using Long = long double;
-using Axis = Vector<Long, 3>;
+using Axis = VectorOf<Long, 3>;
 
 inline Axis random_vector(Random& random) {
   const double x = random(1.0), y = random(1.0);
@@ -20,10 +20,10 @@ inline Axis random_vector(Random& random) {
 /// A node after an increment of its unknowns: r, r', φ.
 template <typename S>
 RodNode<S> moved(RodNode<S> node, const S* x, bool twist) {
-  const Vector<S, 3> u = detail::unit(node.tangent);
-  node.r += Vector<S, 3>(x[0], x[1], x[2]);
-  node.tangent += Vector<S, 3>(x[3], x[4], x[5]);
-  const Vector<S, 3> v = detail::unit(node.tangent);
+  const VectorOf<S, 3> u = detail::unit(node.tangent);
+  node.r += VectorOf<S, 3>(x[0], x[1], x[2]);
+  node.tangent += VectorOf<S, 3>(x[3], x[4], x[5]);
+  const VectorOf<S, 3> v = detail::unit(node.tangent);
   node.director = detail::across<S>(detail::carry(node.director, u, v), v);
   if (twist) node.director = detail::turn(node.director, v, x[6]);
   return node;
@@ -31,10 +31,10 @@ RodNode<S> moved(RodNode<S> node, const S* x, bool twist) {
 
 /// A node after a rotation about a unit axis through the origin, and a translation.
 template <typename S>
-RodNode<S> rotated(RodNode<S> node, const Vector<S, 3>& axis, S angle, const Vector<S, 3>& by) {
-  const auto turn = [&](const Vector<S, 3>& x) -> Vector<S, 3> {
-    const Vector<S, 3> along = axis.dot(x) * axis;
-    return along + std::cos(angle) * (x - along) + std::sin(angle) * detail::cross(axis, x);
+RodNode<S> rotated(RodNode<S> node, const VectorOf<S, 3>& axis, S angle, const VectorOf<S, 3>& by) {
+  const auto turn = [&](const VectorOf<S, 3>& x) -> VectorOf<S, 3> {
+    const VectorOf<S, 3> along = axis.dot(x) * axis;
+    return along + std::cos(angle) * (x - along) + std::sin(angle) * detail::cross3(axis, x);
   };
   return {node.s, turn(node.r) + by, turn(node.tangent), turn(node.director)};
 }

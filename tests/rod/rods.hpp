@@ -11,7 +11,7 @@
 
 namespace hapbeam::testing {
 
-using Point = Vector<double, 3>;
+using Point = VectorOf<double, 3>;
 
 inline constexpr double pi = 3.141592653589793238462643;
 inline constexpr RodMaterial spring_steel{200e9, 77e9};

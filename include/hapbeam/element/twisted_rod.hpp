@@ -84,8 +84,8 @@ struct TwistedRod {
 
   /// The director at ξ.   @param twist  ψ
   template <typename S>
-  static Vector<S, 3> director(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, S twist,
-                               S x) noexcept {
+  static VectorOf<S, 3> director(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
+                                 S twist, S x) noexcept {
     const Frame<S> f(p, n1, n2);
     const V3<S> v = detail::unit(f.tangent(p, x));
     return detail::turn(detail::carry(n1.director, f.u, v), v, f.mismatch * x + 4 * twist * x * (1 - x));
@@ -93,7 +93,7 @@ struct TwistedRod {
   /// ψ with which the director in the middle is along the given one.
   template <typename S>
   static S twist_to(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
-                    const Vector<S, 3>& middle) noexcept {
+                    const VectorOf<S, 3>& middle) noexcept {
     const Frame<S> f(p, n1, n2);
     const V3<S> v = detail::unit(f.tangent(p, S(0.5)));
     const V3<S> half = detail::turn(detail::carry(n1.director, f.u, v), v, f.mismatch / 2);
@@ -132,7 +132,7 @@ struct TwistedRod {
  private:
   using Points = detail::Gauss<2>;
   template <typename S>
-  using V3 = Vector<S, 3>;
+  using V3 = VectorOf<S, 3>;
 
   /// The element seen in the axes of node 1.
   template <typename S>
@@ -148,7 +148,7 @@ struct TwistedRod {
       l1 = sqrt(a.tangent.squaredNorm());
       u = a.tangent / l1;
       e1 = a.director;
-      e2 = detail::cross(u, e1);
+      e2 = detail::cross3(u, e1);
       chord = in(V3<S>(b.r - a.r));
       t2 = in(b.tangent);
       l2 = sqrt(t2.squaredNorm());
@@ -452,7 +452,7 @@ struct TwistedRod {
       add(6 + k, 3 + k, i1 * g2[2]), add(8, 3 + k, -i1 * g2[k]);
     }
     const S ii = i1 * i1, work = D.dot(gD) + t.dot(g2);
-    const V3<S> N = detail::cross(D, gD) + detail::cross(t, g2);
+    const V3<S> N = detail::cross3(D, gD) + detail::cross3(t, g2);
     add(3, 3, ii * (D[1] * gD[1] + t[1] * g2[1] - work) + i1 * gl);
     add(4, 4, ii * (D[0] * gD[0] + t[0] * g2[0] - work) + i1 * gl);
     add(4, 3, -ii * (D[1] * gD[0] + D[0] * gD[1] + t[1] * g2[0] + t[0] * g2[1]) / 2);

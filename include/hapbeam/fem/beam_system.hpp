@@ -105,8 +105,8 @@ class BeamSystem {
     return displacement(beam_.nodes(), s, normal);
   }
   /// Where the middle of the beam is, across [m].
-  Vector<Scalar, 1> middle() const noexcept {
-    return Vector<Scalar, 1>::Constant(centreline().at(length_ / 2).w);
+  VectorOf<Scalar, 1> middle() const noexcept {
+    return VectorOf<Scalar, 1>::Constant(centreline().at(length_ / 2).w);
   }
   /// Whether an element has turned so far in itself that it no longer stands for a beam.
   bool folded() const noexcept {

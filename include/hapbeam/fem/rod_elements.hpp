@@ -89,7 +89,7 @@ class RodElements {
     };
     nodes_[0] = look(0);
     for (int e = 0; e < size(); ++e) {
-      Vector<Scalar, 3> director = nodes_[e].director;
+      VectorOf<Scalar, 3> director = nodes_[e].director;
       if constexpr (has_twist) director = look((mesh.position(e) + mesh.position(e + 1)) / 2).director;
       nodes_[e + 1] = look(mesh.position(e + 1));
       set_length(e, nodes_[e + 1].s - nodes_[e].s);
@@ -135,18 +135,18 @@ class RodElements {
 
  private:
   static constexpr bool has_twist = unknowns == 7;
-  using Force = Vector<Scalar, 12>;  // on r1, r1', r2, r2'
+  using Force = VectorOf<Scalar, 12>;  // on r1, r1', r2, r2'
 
   /// A force at a point, and what works on the tangent there.
   struct PointLoad {
     Scalar s;
-    Vector<Scalar, 3> force, couple;
+    VectorOf<Scalar, 3> force, couple;
   };
 
   bool loaded() const noexcept { return !loads_.empty(); }
   Scalar middle(int e) const noexcept { return (nodes_[e].s + nodes_[e + 1].s) / 2; }
 
-  void find_twist(int e, const Vector<Scalar, 3>& director) noexcept {
+  void find_twist(int e, const VectorOf<Scalar, 3>& director) noexcept {
     if constexpr (has_twist)
       inners_[e].twist = Element::twist_to(properties_[e], nodes_[e], nodes_[e + 1], director);
   }
@@ -157,7 +157,7 @@ class RodElements {
   }
 
   [[gnu::cold]] void collect_loads(const Rod& rod, int elements) {
-    using Vector3 = Vector<double, 3>;
+    using Vector3 = VectorOf<double, 3>;
     const double h = rod.length() / elements;
     const auto add = [this](double s, const Vector3& force, const Vector3& couple) {
       loads_.push_back(
@@ -222,7 +222,7 @@ class RodElements {
       const int e = view(nodes_).segment_at(load.s);
       const Scalar l = properties_[e].length, t = (load.s - nodes_[e].s) / l, u = 1 - t;
       Force& f = forces_[e];
-      const Vector<Scalar, 3> slope = 6 * t * u / l * load.couple;
+      const VectorOf<Scalar, 3> slope = 6 * t * u / l * load.couple;
       f.template segment<3>(0) += u * u * (1 + 2 * t) * load.force - slope;
       f.template segment<3>(3) += l * t * u * u * load.force + u * (1 - 3 * t) * load.couple;
       f.template segment<3>(6) += t * t * (3 - 2 * t) * load.force + slope;
