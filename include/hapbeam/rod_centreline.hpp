@@ -95,8 +95,8 @@ namespace detail {
 
 /// a × b, without Eigen's geometry, which takes longer to compile than all of the elements.
 template <typename S>
-[[gnu::always_inline]] inline VectorOf<S, 3> cross(const VectorOf<S, 3>& a,
-                                                   const VectorOf<S, 3>& b) noexcept {
+[[gnu::always_inline]] inline VectorOf<S, 3> cross3(const VectorOf<S, 3>& a,
+                                                    const VectorOf<S, 3>& b) noexcept {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
@@ -111,7 +111,7 @@ template <typename S>
 VectorOf<S, 3> turn(const VectorOf<S, 3>& x, const VectorOf<S, 3>& v, S angle) noexcept {
   using std::cos;
   using std::sin;
-  return cos(angle) * x + sin(angle) * cross(v, x);
+  return cos(angle) * x + sin(angle) * cross3(v, x);
 }
 
 /// A unit vector along x, less its part along the unit vector v.
@@ -132,7 +132,7 @@ VectorOf<S, 3> unit(const VectorOf<S, 3>& x) noexcept {
 template <typename S>
 S angle_about(const VectorOf<S, 3>& v, const VectorOf<S, 3>& from, const VectorOf<S, 3>& to) noexcept {
   using std::atan2;
-  return atan2(v.dot(cross(from, to)), from.dot(to));
+  return atan2(v.dot(cross3(from, to)), from.dot(to));
 }
 
 }  // namespace detail

@@ -100,8 +100,8 @@ void check_rigid() {
     Axis sum = r.template segment<3>(0) + r.template segment<3>(n), moment = Axis::Zero();
     for (const int k : {0, n}) {
       const RodNode<Long>& node = k == 0 ? of.a : of.b;
-      moment += detail::cross<Long>(node.r, r.template segment<3>(k)) +
-                detail::cross<Long>(node.tangent, r.template segment<3>(k + 3));
+      moment += detail::cross3<Long>(node.r, r.template segment<3>(k)) +
+                detail::cross3<Long>(node.tangent, r.template segment<3>(k + 3));
       if (n == 7) moment += r[k + 6] * detail::unit(node.tangent);
     }
     CHECK(sum.norm() <= 1e-16L * r.norm());

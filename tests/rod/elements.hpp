@@ -34,7 +34,7 @@ template <typename S>
 RodNode<S> rotated(RodNode<S> node, const VectorOf<S, 3>& axis, S angle, const VectorOf<S, 3>& by) {
   const auto turn = [&](const VectorOf<S, 3>& x) -> VectorOf<S, 3> {
     const VectorOf<S, 3> along = axis.dot(x) * axis;
-    return along + std::cos(angle) * (x - along) + std::sin(angle) * detail::cross(axis, x);
+    return along + std::cos(angle) * (x - along) + std::sin(angle) * detail::cross3(axis, x);
   };
   return {node.s, turn(node.r) + by, turn(node.tangent), turn(node.director)};
 }

@@ -11,7 +11,7 @@ namespace {
 RodPose turned(RodPose pose, const Point& axis, double angle) {
   const auto turn = [&](const Point& x) -> Point {
     const Point along = axis.dot(x) * axis;
-    return along + std::cos(angle) * (x - along) + std::sin(angle) * detail::cross(axis, x);
+    return along + std::cos(angle) * (x - along) + std::sin(angle) * detail::cross3(axis, x);
   };
   return {pose.at, turn(pose.along), turn(pose.director)};
 }

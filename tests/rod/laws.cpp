@@ -79,7 +79,7 @@ TEST_CASE("a rod answers the same wherever it stands and however it is turned", 
     const double angle = random(20.0);  // three turns
     const auto turn = [&](const Point& x) -> Point {
       const Point along = axis.dot(x) * axis;
-      return along + std::cos(angle) * (x - along) + std::sin(angle) * detail::cross(axis, x);
+      return along + std::cos(angle) * (x - along) + std::sin(angle) * detail::cross3(axis, x);
     };
     const auto there =
         answers({{random(1.0), random(1.0), random(1.0)}, turn({1, 0, 0}), turn({0, 1, 0})}, turn);

@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
 
@@ -119,7 +120,9 @@ struct RoundRod {
               ba = 2 * fAC * ag + fCC * ad + 4 * fAB * bg, bb = fCC * ag;
       const V3<S> x = aa * a + ba * b, y = ab * a + bb * b;
       const S diagonal = 2 * fA * ag + fC * (ad + bg) + 2 * fB * bd;
+      HAPBEAM_UNROLL
       for (int col = 0; col < 3; ++col) {
+        HAPBEAM_UNROLL
         for (int row = 0; row < 3; ++row) H(row, col) += x[row] * a[col] + y[row] * b[col];
         H(col, col) += diagonal;
       }
@@ -155,7 +158,9 @@ struct RoundRod {
     const V3<S> mm = (EA * M[1][1] - s1) * m, um = beside * u, vm = beside * v;
     // The middle's own part, s1 I + mm mᵀ, by weights; and what the three strains have in common.
     const V3<S> Du = w * um, Dv = w * vm, left = (own - s0) * u, right = (own - s2) * v;
+    HAPBEAM_UNROLL
     for (int c = 0; c < 3; ++c) {
+      HAPBEAM_UNROLL
       for (int r = 0; r < 3; ++r) {
         const S middle = mm[r] * m[c];
         core.DD(r, c) += w * w * middle;
@@ -181,8 +186,9 @@ struct RoundRod {
     r.template segment<3>(6) = core.D;
     r.template segment<3>(9) = core.t2;
     const auto set = [&K](int i, int j, const M3<S>& m, S sign) {
-      for (int c = 0; c < 3; ++c)
-        for (int row = 0; row < 3; ++row) K(i + row, j + c) = K(j + c, i + row) = sign * m(row, c);
+      HAPBEAM_UNROLL
+      for (int c = 0; c < 3; ++c) HAPBEAM_UNROLL
+      for (int row = 0; row < 3; ++row) K(i + row, j + c) = K(j + c, i + row) = sign * m(row, c);
     };
     set(0, 0, core.DD, 1), set(0, 6, core.DD, -1), set(6, 6, core.DD, 1);
     set(0, 3, core.D1, -1), set(6, 3, core.D1, 1), set(0, 9, core.D2, -1), set(6, 9, core.D2, 1);

@@ -148,7 +148,7 @@ struct TwistedRod {
       l1 = sqrt(a.tangent.squaredNorm());
       u = a.tangent / l1;
       e1 = a.director;
-      e2 = detail::cross(u, e1);
+      e2 = detail::cross3(u, e1);
       chord = in(V3<S>(b.r - a.r));
       t2 = in(b.tangent);
       l2 = sqrt(t2.squaredNorm());
@@ -452,7 +452,7 @@ struct TwistedRod {
       add(6 + k, 3 + k, i1 * g2[2]), add(8, 3 + k, -i1 * g2[k]);
     }
     const S ii = i1 * i1, work = D.dot(gD) + t.dot(g2);
-    const V3<S> N = detail::cross(D, gD) + detail::cross(t, g2);
+    const V3<S> N = detail::cross3(D, gD) + detail::cross3(t, g2);
     add(3, 3, ii * (D[1] * gD[1] + t[1] * g2[1] - work) + i1 * gl);
     add(4, 4, ii * (D[0] * gD[0] + t[0] * g2[0] - work) + i1 * gl);
     add(4, 3, -ii * (D[1] * gD[0] + D[0] * gD[1] + t[1] * g2[0] + t[0] * g2[1]) / 2);

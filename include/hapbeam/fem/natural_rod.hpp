@@ -53,11 +53,11 @@ class NaturalRod {
     const Scalar a = sin(angle) / angle, b = 2 * half * half / x,
                  c = x < Scalar(0.01) ? (1 - x / 20 * (1 - x / 42)) / 6 : (1 - a) / x;
     const auto turned = [&](const Vector3& v) -> Vector3 {
-      const Vector3 w = s * detail::cross(omega, v);
-      return v + a * w + b * s * detail::cross(omega, w);
+      const Vector3 w = s * detail::cross3(omega, v);
+      return v + a * w + b * s * detail::cross3(omega, w);
     };
-    const Vector3 w = s * detail::cross(omega, from.tangent);
-    to.r += s * (b * w + c * s * detail::cross(omega, w));
+    const Vector3 w = s * detail::cross3(omega, from.tangent);
+    to.r += s * (b * w + c * s * detail::cross3(omega, w));
     to.tangent = turned(from.tangent);
     to.director = turned(from.director);
     return to;
@@ -68,7 +68,7 @@ class NaturalRod {
   static void lay(const Rod& rod, RodNode<Scalar> at, Add&& add) {
     const auto go = [&](double end, double k1, double k2, double twist) {
       const Vector3 omega =
-          k1 * at.director + k2 * detail::cross(at.tangent, at.director) + twist * at.tangent;
+          k1 * at.director + k2 * detail::cross3(at.tangent, at.director) + twist * at.tangent;
       add(end, omega, at);
       at = along(at, omega, end - at.s);
     };

@@ -36,13 +36,13 @@ class RodEnd {
     start_ = node;
     start_.tangent = unit(node.tangent);
     // The rotation from start to goal: its sine and axis are in the antisymmetric part.
-    const Vector3 *a[3], *b[3], s2 = cross(start_.tangent, start_.director),
-                                g2 = cross(goal_.tangent, goal_.director);
+    const Vector3 *a[3], *b[3], s2 = cross3(start_.tangent, start_.director),
+                                g2 = cross3(goal_.tangent, goal_.director);
     a[0] = &start_.tangent, a[1] = &start_.director, a[2] = &s2;
     b[0] = &goal_.tangent, b[1] = &goal_.director, b[2] = &g2;
     Vector3 twice = Vector3::Zero();
     Scalar trace = 0;
-    for (int k = 0; k < 3; ++k) twice += cross(*a[k], *b[k]), trace += a[k]->dot(*b[k]);
+    for (int k = 0; k < 3; ++k) twice += cross3(*a[k], *b[k]), trace += a[k]->dot(*b[k]);
     const Scalar sine = sqrt(twice.squaredNorm()) / 2;
     using std::atan2;
     const Scalar angle = atan2(sine, (trace - 1) / 2);
@@ -60,7 +60,7 @@ class RodEnd {
   Eigen::Matrix<Scalar, 3, 3> axes() const noexcept {
     Eigen::Matrix<Scalar, 3, 3> axes;
     axes.col(0) = target_.director;
-    axes.col(1) = cross(target_.tangent, target_.director);
+    axes.col(1) = cross3(target_.tangent, target_.director);
     axes.col(2) = target_.tangent;
     return axes;
   }
@@ -88,7 +88,7 @@ class RodEnd {
     using std::sqrt;
     const Scalar i = 1 / sqrt(node.tangent.squaredNorm());
     const Vector3 u = i * node.tangent;
-    return cross(target_.tangent, u) * (i / (1 + target_.tangent.dot(u)));
+    return cross3(target_.tangent, u) * (i / (1 + target_.tangent.dot(u)));
   }
   /// ∂²φ/∂r'², by the same.
   Eigen::Matrix<Scalar, 3, 3> bow(const Node& node) const noexcept {
@@ -118,8 +118,8 @@ class RodEnd {
     using std::sqrt;
     const Scalar angle = sqrt(by.squaredNorm());
     if (angle == 0) return v;
-    const Vector3 axis = by / angle, w = cross(axis, v);
-    return v + sin(angle) * w + (1 - cos(angle)) * cross(axis, w);
+    const Vector3 axis = by / angle, w = cross3(axis, v);
+    return v + sin(angle) * w + (1 - cos(angle)) * cross3(axis, w);
   }
 
   bool place_, direction_, twist_;

@@ -127,7 +127,7 @@ class RodSystem {
     Vector3 e = Vector3::Zero();
     e[least] = 1;
     axes_.col(0) = detail::across(e, normal);
-    axes_.col(1) = detail::cross<Scalar>(normal, axes_.col(0));
+    axes_.col(1) = detail::cross3<Scalar>(normal, axes_.col(0));
     axes_.col(2) = normal;
     start_d_ = displacement();
     goal_d_ = d;
@@ -236,7 +236,7 @@ class RodSystem {
   /// across that.  @param size  [m]
   void nudge(Scalar size) noexcept {
     const Node& middle = node(elements() / 2);
-    const Vector3 e = middle.director + detail::cross(middle.tangent, middle.director) / 2;
+    const Vector3 e = middle.director + detail::cross3(middle.tangent, middle.director) / 2;
     const Scalar c = contact_ < 0 ? Scalar(-1) : node(contact_).s / length_;
     for (Node& node : rod_.nodes()) {
       const Scalar t = node.s / length_, q = 1 - t, f = 16 * size * t * t * q * q,
@@ -293,7 +293,7 @@ class RodSystem {
     rod_.residual(k == 0 ? 0 : elements() - 1, load_, r);
     const Increment at = r.template segment<unknowns>(k == 0 ? 0 : unknowns);
     const Vector3 t = node(end(k)).tangent;
-    Vector3 moment = detail::cross<Scalar>(t, at.template segment<3>(3));
+    Vector3 moment = detail::cross3<Scalar>(t, at.template segment<3>(3));
     if constexpr (unknowns == 7) moment += at[6] * detail::unit(t);
     return {at.template segment<3>(0), moment};
   }

@@ -1,0 +1,39 @@
+// Any rod finds its rest: sections, natural shapes, ends and loads at random, up to forty times the load EI/L³.
+#include "rod/rods.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include "support/status.hpp"
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+TEST_CASE("five hundred random rods find their rest", "[rod]") {
+  Random random(7);
+  int most = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const double length = random(0.1, 1.0), d = length * random(0.003, 0.02);
+    const bool flat = random(1.0) > 0, free = random(1.0) > 0, hinged = random(1.0) > 0,
+               curved = random(1.0) > 0;
+    const RodSection section = flat ? RodSection::rectangle(d * random(0.5, 4), d) : RodSection::circle(d);
+    Rod rod(length, section, RodMaterial::isotropic(std::pow(10, random(7.5, 11.3)), 0.3),
+            RodSupport::clamped,
+            free     ? RodSupport::free
+            : hinged ? RodSupport::hinged
+                     : RodSupport::clamped);
+    const auto rate = [&] { return random(6) / length; };
+    if (curved) {
+      const RodArc first{length * random(0.2, 0.8), rate(), rate(), rate()},
+          second{length, rate(), rate(), rate()};
+      rod.naturally({first, second});
+    }
+    const double EI = std::min(rod.stiffness().bending1, rod.stiffness().bending2);
+    const double load = std::pow(10, random(-1, 1.6)) * EI / (length * length * length);
+    const double x = random(1.0), y = random(1.0), z = random(1.0);
+    rod.load(Point(load * detail::unit(Point(x, y, z))));
+    const FemModel<TwistedRod> model(rod, random.integer(8, 24));
+    INFO("trial " << trial);
+    CHECK(is_answer(model.rest().status));
+    most = std::max(most, model.rest().solves);
+  }
+  CHECK(most <= 10000);  // LoadPath's own bound
+}
