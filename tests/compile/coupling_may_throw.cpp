@@ -1,5 +1,5 @@
 // A coupling is called in each tick: what it throws would end the program.
-// expect: a coupling has: tick\(touch, hand\) noexcept -> CoupledForce
+// expect: a coupling has: tick\(touch, hand, dt\) noexcept -> CoupledForce
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/haptics/servo/servo.hpp>
 
@@ -14,7 +14,8 @@ struct Coupling {
   Coupling in_scene(double) const noexcept { return {}; }
   void reset() noexcept {}
   template <typename Touch>
-  hapbeam::CoupledForce<typename Touch::Scalar> tick(Touch&, const hapbeam::Vector2<double>&) PROMISE {
+  hapbeam::CoupledForce<typename Touch::Scalar> tick(Touch&, const hapbeam::Vector2<double>&,
+                                                     double) PROMISE {
     return {};
   }
 };
