@@ -21,7 +21,7 @@ commands=$(sed -nE 's/^  "command": "(.*)",$/\1/p' compile_commands.json | sed '
 mapfile -t made < <(
   { grep -oE -- '[^ ]*cmake_pch\.hxx\.pch' <<<"$commands"
     grep -oE -- '-Winvalid-pch -include [^ ]*' <<<"$commands" | sed 's/.* //; s/$/.gch/'
-    grep -oE -- "-c $build/[^ ]*/units/[^ ]*" <<<"$commands" | sed 's/^-c //'; } | sort -u | sed "s|^$build/||")
+    grep -oE -- "-c $build/tests/units/[^ ]*" <<<"$commands" | sed 's/^-c //'; } | sort -u | sed "s|^$build/||")
 [[ ${#made[@]} == 0 ]] || ninja "${made[@]}" >/dev/null || exit 1
 
 sed -E 's/ -o [^ ]+( -c )/ -fsyntax-only\1/; s/$/ || exit 255/' <<<"$commands" |
