@@ -41,7 +41,7 @@ array lowest[5] = [3e-9, 6e-6, 1e-5, 2e-8, 4e-8]
 set logscale xy
 unset mxtics
 unset mytics
-set xrange [60:4e6]
+set xrange [20:4e6]
 set xtics ('0.1 µs' 100, '1 µs' 1e3, '10 µs' 1e4, '100 µs' 1e5, '1 ms' 1e6)
 set ytics ('100 %%' 1, '10 %%' 0.1, '1 %%' 0.01, '0.1 %%' 1e-3, '10^{-4}' 1e-4, '10^{-5}' 1e-5, '10^{-6}' 1e-6, \
   '10^{-7}' 1e-7, '10^{-8}' 1e-8)
@@ -52,8 +52,8 @@ set ylabel 'largest error of the force' offset 0.5
 set arrow 1 from 1e6, graph 0 to 1e6, graph 1 nohead lc rgb grey dt (8, 5)
 set arrow 2 from graph 0, first 0.07 to graph 1, first 0.07 nohead lc rgb grey dt (8, 5)
 set label 1 '1 kHz' at 8.5e5, graph 0.02 right textcolor rgb grey font ',17'
-set label 2 'just felt' at graph 0.01, first 0.095 left textcolor rgb grey font ',17'
-set label 3 'down and left is better; yellow: nothing is better at both' at screen 0.5, 0.915 center textcolor rgb grey font ',17'
+set label 2 'just noticeable' at graph 0.01, first 0.095 left textcolor rgb grey font ',17'
+set label 3 'down and left is better; yellow: Pareto front' at screen 0.5, 0.915 center textcolor rgb grey font ',17'
 
 do for [format in 'svg png'] {
   do for [k = 1:words(scenes)] {
