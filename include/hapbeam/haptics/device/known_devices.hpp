@@ -6,7 +6,8 @@
 // 3D Systems: Phantom Omni, Desktop, Premium 1.5 and 3.0, Touch, Touch X; Force Dimension: omega.3, .6, .7, sigma.7; Novint:
 // Falcon), the Premium's with high force those of the thesis, Table 2.1.  Stiffness is the softest of the three axes, and no more
 // than what CHAI3D 3.3.0 allows for the device.  Where a sheet names one force only, half of it is taken to last.
-// Not published: friction of the parallel arms (taken for 0, no force relies on it), viscous damping (0: unknown, see
+// The figures were not checked against the sheets: compare them with the one that came with the device before a force is sent.
+// Not found: friction of the parallel arms (taken for 0, no force relies on it), viscous damping (0: unknown, see
 // safe_coupling()), and any figure of the Inverse3 but that it is read and driven in SI: what stands here is low on purpose.
 // docs/devices.md has the table.  The rate is a kilohertz: set `period` where a loop runs at another.
 // Offline: allocates.
