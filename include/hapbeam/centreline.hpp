@@ -41,6 +41,18 @@ struct Dimension : std::integral_constant<int, 2> {};
 template <class M>
 struct Dimension<M, std::void_t<decltype(M::dimension)>> : std::integral_constant<int, M::dimension> {};
 
+/// Index of the piece between nodes that holds arc position s; the first or last one where s lies off.
+template <class Node, typename Scalar>
+int piece_at(const Node* nodes, int pieces, Scalar s) noexcept {
+  int low = 0, high = pieces - 1;
+  while (low < high) {
+    const int middle = (low + high + 1) / 2;
+    if (nodes[middle].s <= s) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
 }  // namespace detail
 
 /// Of the space in which M bends, a model or an element: 2, unless it says so.
@@ -118,15 +130,7 @@ class Centreline {
   }
 
   /// Index of the piece that holds arc position s; the first or last one where s lies off the beam.
-  int segment_at(Scalar s) const noexcept {
-    int low = 0, high = segments() - 1;
-    while (low < high) {
-      const int middle = (low + high + 1) / 2;
-      if (nodes_[middle].s <= s) low = middle;
-      else high = middle - 1;
-    }
-    return low;
-  }
+  int segment_at(Scalar s) const noexcept { return detail::piece_at(nodes_, segments(), s); }
 
   /// Displacements at arc position s [m].
   Displacement<Scalar> at(Scalar s) const noexcept { return at(segment_at(s), s); }

@@ -59,15 +59,7 @@ class Centreline<Scalar, 3> {
   }
 
   /// Index of the piece that holds arc position s; the first or last one where s lies off the rod.
-  int segment_at(Scalar s) const noexcept {
-    int low = 0, high = segments() - 1;
-    while (low < high) {
-      const int middle = (low + high + 1) / 2;
-      if (nodes_[middle].s <= s) low = middle;
-      else high = middle - 1;
-    }
-    return low;
-  }
+  int segment_at(Scalar s) const noexcept { return detail::piece_at(nodes_, segments(), s); }
 
   /// The point at arc position s [m].
   RodPoint<Scalar> at(Scalar s) const noexcept { return at(segment_at(s), s); }
