@@ -215,9 +215,9 @@ function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst
   line("of " rows " scenes", "")
   rule(2)
   line("a model was chosen", rows - none ": " text)
-  line("none was, though one would have done", overlooked + 0 " of " none + 0)
-  line("error beyond the tolerated one, on 60 presses that were held out", sprintf("%d; at worst %.2f of it", missed, worst))
-  line("costs more than twice the cheapest that is right", sprintf("%d; at most %s times", dear, digits(dearest)))
+  line("none was chosen, though one would have done", overlooked + 0 " of " none + 0)
+  line("error above the tolerance, on 60 presses outside the pilot", sprintf("%d; at worst %.2f of it", missed, worst))
+  line("costs more than twice the cheapest accurate model", sprintf("%d; at most %s times", dear, digits(dearest)))
   line("longest choice", sprintf("%.0f ms", slowest))
 }
 
