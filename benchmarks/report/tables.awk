@@ -153,7 +153,7 @@ function solvers(  k, n, s, e, solver, text) {
 
 # Of any_rotation.csv.
 function rotation(  k, text) {
-  line("any rotation, 16 elements", "a tick", "times moderate rotation", "error")
+  line("finite rotation, 16 elements", "a tick", "times moderate rotation", "error")
   rule(4)
   for (k = 1; k <= rows; ++k)
     if (cell[k, "elements"] == 16 && cell[k, "model"] != "von_karman")
