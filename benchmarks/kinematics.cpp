@@ -1,4 +1,4 @@
-// How far each kinematics is right: where the force of a press is off by 1, 5 and 10 %.
+// How accurate each kinematics is: where the error of the force of a press is 1, 5 and 10 %.
 //
 // A steel beam of 2.54 m, square 25.4 mm (thick) or 25.4 mm wide and a tenth as high (thin), pressed across the middle or,
 // with a free end, across that end.  All have 64 elements, so that what is off is the kinematics; the truth is

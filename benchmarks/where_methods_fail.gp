@@ -63,7 +63,7 @@ do for [format in 'svg png'] {
   plot file('locking') every ::1 using 1:2 with linespoints ls 1 title 'full integration', \
        '' every ::1 using 1:($3 > 1e-16 ? $3 : 1e-16) with linespoints ls 3 title 'assumed strain: round-off'
   eval next_panel
-  set title "A cantilever under a tip load:\nmoderate rotation has no end to its deflection" font title_font
+  set title "A cantilever under a tip load:\nmoderate rotation does not limit the deflection" font title_font
   set xlabel 'PL²/EI'
   set ylabel 'deflection of the tip, lengths'
   set yrange [0:2]
@@ -79,7 +79,7 @@ do for [format in 'svg png'] {
   rows = 2; row = 1; column = 1
   set multiplot
   eval panel
-  set title "From rest to a deflection of 0.81 lengths:\nthe finer, the worse, or all the same" font title_font
+  set title "Solves from rest to a deflection of 0.81 lengths:\nplain Newton depends on the mesh" font title_font
   set xlabel 'number of elements'
   set ylabel 'linear solves'
   eval doubling
@@ -90,7 +90,7 @@ do for [format in 'svg png'] {
   plot file('newton_far') every ::1 using 1:3 with linespoints ls 1 title 'plain Newton, fewest load steps', \
        '' every ::1 using 1:4 with linespoints ls 3 title 'chain laid'
   eval next_panel
-  set title "A shallow arch: no load holds it between\nits limit points, a hand does" font title_font
+  set title "A shallow arch: load control fails\nbetween its limit points" font title_font
   set xlabel 'middle pressed down, rises'
   set ylabel 'load, EI/L²'
   set xrange [0:2.5]
@@ -107,7 +107,7 @@ do for [format in 'svg png'] {
   plot file('buckling') every ::1 using 1:2 with lines ls 1 title 'from straight', \
        '' every ::1 using 1:3 with linespoints ls 3 title 'FemModel'
   eval next_panel
-  set title "… and pulls the hand that presses it" font title_font
+  set title "… and its stiffness is negative" font title_font
   set ylabel 'stiffness of a press, EI/L³'
   set yrange [-300:700]
   set xrange [0:6]
@@ -140,21 +140,21 @@ do for [format in 'svg png'] {
        '' every ::1 using 1:3 with linespoints ls 3 title "50 of Chebyshev's", \
        '' every ::1 using 1:4 with linespoints ls 4 title "14 of Chebyshev's"
   eval next_panel
-  set title 'Deeper than trained a polynomial is lost' font title_font
-  set xlabel 'depth, of the trained one'
+  set title 'Deeper than trained, a polynomial diverges' font title_font
+  set xlabel 'depth / trained depth'
   set ylabel 'relative error of the force'
   eval powers_y
   set yrange [1e-11:1e16]
   set xrange [0.8:3]
   plot file('extrapolation') every ::1 using 1:2 with lines ls 2 title '50 equidistant', \
        '' every ::1 using 1:3 with lines ls 1 title "14 of Chebyshev's", \
-       '' every ::1 using 1:4 with lines ls 5 lc rgb library dt solid title 'PodModel: says so, tangent', \
+       '' every ::1 using 1:4 with lines ls 5 lc rgb library dt solid title 'PodModel: tangent', \
        '' every ::1 using 1:6 with lines ls 3 title 'Guarded: finite elements', \
-       '' every ::1 using 1:5 with lines ls 4 title 'GalerkinModel: says so, solves'
+       '' every ::1 using 1:5 with lines ls 4 title 'GalerkinModel: solves'
   eval next_panel
-  set title 'Around a table of forces work is left over' font title_font
+  set title 'Interpolated forces do work on a closed path' font title_font
   set xlabel 'rounds'
-  set ylabel 'work of the hand, of what is stored'
+  set ylabel 'work of the hand / stored energy'
   set xrange [0:5]
   set yrange [*:*]
   plot file('potential') every ::1 using 1:2 with lines ls 1 title 'table of forces', \
@@ -166,7 +166,7 @@ do for [format in 'svg png'] {
   rows = 2; row = 1; column = 1
   set multiplot
   eval panel
-  set title "The kink moves with the contact:\nit takes many modes that do not" font title_font
+  set title "The jump of w''' moves with the contact:\nglobal modes converge slowly" font title_font
   set xlabel 'number of modes'
   set ylabel 'relative error of the force'
   eval powers_x
@@ -176,21 +176,21 @@ do for [format in 'svg png'] {
   set xrange [1:100]
   set key top right
   plot file('modes') every ::1 using 1:2 with lines ls 1 title 'global modes', \
-       '' every ::1 using 1:3 with lines ls 3 title 'one that moves along'
+       '' every ::1 using 1:3 with lines ls 3 title 'one that moves with it'
   eval next_panel
   set title 'Units decide which modes are kept' font title_font
-  set ylabel 'largest left over of u, w or θ'
+  set ylabel 'largest error of u, w or θ'
   eval powers_y
   set yrange [1e-5:100]
   set xrange [0:80]
   set key top right
   plot file('units') every ::1 using 1:2 with lines ls 1 title 'in m and rad', \
        '' every ::1 using 1:3 with lines ls 2 title 'in mm and rad', \
-       '' every ::1 using 1:4 with lines ls 3 title 'freed of units'
+       '' every ::1 using 1:4 with lines ls 3 title 'dimensionless'
   eval next_panel
   set title 'Squares lose half of the digits' font title_font
   set xlabel 'mode'
-  set ylabel 'singular value, of the first'
+  set ylabel 'singular value / the first'
   eval powers_y
   set yrange [1e-14:10]
   set xrange [0:100]
@@ -198,7 +198,7 @@ do for [format in 'svg png'] {
   plot file('spectrum') every ::1 using 1:($3 > 0 ? $3 : NaN) with lines ls 1 title 'eigenvalues of XXᵀ', \
        '' every ::1 using 1:($2 > 0 ? $2 : NaN) with lines ls 3 title 'SVD'
   eval next_panel
-  set title 'Fine meshes cost digits' font title_font
+  set title 'The residual of fine meshes loses digits' font title_font
   set xlabel 'number of elements'
   set ylabel 'relative'
   eval doubling
@@ -217,7 +217,7 @@ do for [format in 'svg png'] {
   rows = 2; row = 1; column = 1
   set multiplot
   eval panel
-  set title '8 linear elements: a node has to follow' font title_font
+  set title '8 linear elements: a node must follow' font title_font
   set xlabel 'where, of the span'
   set ylabel 'relative error of the force'
   eval powers_y
@@ -227,7 +227,7 @@ do for [format in 'svg png'] {
        '' every ::1 using 1:($3 > 1e-14 ? $3 : NaN) with lines ls 1 title 'inside the element', \
        '' every ::1 using 1:($4 > 1e-16 ? $4 : 1e-16) with lines ls 3 title 'at a node that follows'
   eval next_panel
-  set title 'Near a support float has no digits left' font title_font
+  set title 'Near a support float loses its digits' font title_font
   set xlabel 'distance, lengths'
   eval powers_x
   eval powers_y
@@ -259,7 +259,7 @@ do for [format in 'svg png'] {
   set ytics 0, 20, 100
   plot file('tunnelling') every ::1 using 1:3 with lines ls 1 title 'not found', \
        '' every ::1 using 1:2 with lines ls 2 title 'found on the wrong side', \
-       '' every ::1 using 1:4 with lines ls 3 title 'either, with a memory'
+       '' every ::1 using 1:4 with lines ls 3 title 'either, with the side stored'
   unset multiplot
 
   # The loop
@@ -279,7 +279,7 @@ do for [format in 'svg png'] {
        file('mass_spring') every ::1 using 1:2 with linespoints ls 1 title 'largest that is stable', \
        '' every ::1 using 1:3 with linespoints ls 2 title 'that K_c of eq. 2.2 allows'
   eval next_panel
-  set title "A hand leans on the bar with 3 N:\ndirectly it is thrown about" font title_font
+  set title "A hand leans on the bar with 3 N:\nthe direct force oscillates" font title_font
   set xlabel 'time, s'
   set ylabel 'position of the hand, mm'
   set xrange [-0.1:0.7]
@@ -290,7 +290,7 @@ do for [format in 'svg png'] {
        '' every ::1 using 1:4 with lines ls 3 title 'beside a support, coupled', \
        '' every ::1 using 1:5 with lines ls 4 title 'mid-span, 2 ticks late, coupled'
   eval next_panel
-  set title "Coarse encoders want a softer coupling" font title_font
+  set title "Coarse encoders require a softer coupling" font title_font
   set xlabel 'step of the encoders, µm'
   set ylabel 'speed that should be 0, mm/s'
   set logscale x
@@ -300,14 +300,14 @@ do for [format in 'svg png'] {
   set arrow from 40, 0 to 40, 60 nohead lc rgb grey lw 1.5 dt (6, 4)
   set label '2f/K' at 43, 45 textcolor rgb grey
   plot file('quantisation') every ::1 using 1:2 with linespoints ls 1 title '10 kN/m', \
-       '' every ::1 using 1:3 with linespoints ls 3 title 'the default, which knows the step'
+       '' every ::1 using 1:3 with linespoints ls 3 title 'default for this step'
   eval next_panel
   set title "Missed ticks are delay" font title_font
   set xlabel 'of 30 ticks missed, in a row'
   set yrange [-20:600]
   plot file('missed') every ::1 using 1:2 with linespoints ls 1 title 'directly, mid-span', \
        '' every ::1 using 1:3 with linespoints ls 2 title 'default, beside a support', \
-       '' every ::1 using 1:4 with linespoints ls 3 title 'the same, told of the delay'
+       '' every ::1 using 1:4 with linespoints ls 3 title 'the same, gap as delay'
   unset multiplot
   set output
 }

@@ -42,8 +42,8 @@ void inside(Report& report) {
     worst = std::max(worst, follows);
   }
   report.failure("inside-an-element", "everywhere but at a node");
-  report.row("force at the nearest of 8 elements' nodes, off by", percent(worst_nearest), number(worst));
-  report.row("force inside one of 8 elements, off by", percent(worst_inside), number(worst));
+  report.row("error of the force at the nearest node of 8 elements", percent(worst_nearest), number(worst));
+  report.row("error of the force inside one of 8 elements", percent(worst_inside), number(worst));
 }
 
 /// A press from rest at s by s/100 and less, with a node there however near the support is: the worst of ten.
@@ -86,9 +86,9 @@ void next_to_support(Report& report) {
     return std::abs(system.node(8).u) / L;
   };
   const double steep = first_beyond([&](double times) { return far_end(1 / times, false); }, 1, 3, 1000);
-  report.failure("next-to-a-support", "pressed by a tenth of the length: " + number(1 / steep) +
-                                          " lengths from it; in `float`: 1 % at " + number(begins));
-  report.row("a tenth of the length deep, a thousandth from a hinge: shortening, in lengths",
+  report.failure("next-to-a-support", "a tenth of the length deep: " + number(1 / steep) +
+                                          " lengths from it; in `float`: error 1 % at " + number(begins));
+  report.row("shortening of a press a tenth of the length deep, a thousandth from a hinge, in lengths",
              number(far_end(1e-3, false)), number(far_end(1e-3, true)) + ", `out_of_range`");
   FemModel<Linear> in_double(pinned(), 8);
   FemModel<Linear, float> in_float(pinned(), 8);
@@ -97,10 +97,10 @@ void next_to_support(Report& report) {
     return relative_error(static_cast<double>(model.press({s, d}).force),
                           stiffness(static_cast<double>(s)) * static_cast<double>(d));
   };
-  report.row("where its range ends, from the support", "–",
+  report.row("distance from the support at which the range ends", "–",
              number(in_double.range().s_min / L) + " lengths, in float " +
                  number(static_cast<double>(in_float.range().s_min) / L));
-  report.row("force there, off by", "–",
+  report.row("error of the force there", "–",
              number(at_edge(in_double)) + ", in float " + number(at_edge(in_float)));
 }
 
@@ -120,8 +120,8 @@ void past_end(Report& report) {
   }
   report.failure("past-the-end", "at the end");
   report.row("force 30 mm past the end of a ruler, N", number(ghost), "0");
-  report.row("contact ends so far past the end, mm (avatar and half of the ruler: 5.5)", "never",
-             number(1e3 * last));
+  report.row("distance past the end at which contact ends, mm (avatar radius and half of the thickness: 5.5)",
+             "never", number(1e3 * last));
 }
 
 void tunnelling(Report& report) {
@@ -155,7 +155,7 @@ void tunnelling(Report& report) {
   report.failure("tunnelling", number(begins) + " m/s: half a ruler's thickness, 0.5 mm, in a tick");
   for (const double speed : {1.0, 5.0}) {
     lost(speed, wrong, nothing, library);
-    report.row("touches at " + number(speed) + " m/s with the wrong side, not at all",
+    report.row("contacts at " + number(speed) + " m/s found on the wrong side, not found",
                number(100.0 * wrong / phases) + " %, " + number(100.0 * nothing / phases) + " %",
                number(100.0 * library / phases) + " %");
   }

@@ -39,10 +39,10 @@ void locking(Report& report) {
   const double begins = first_beyond([](double q) { return locking_error<Full>(q, 4); }, 0.01, 1e-3, load);
   const double depth = 5 * begins * std::pow(thesis_length, 4) / (384 * thesis_EI);
   report.failure("membrane-locking",
-                 "1 % at a deflection of " + number(depth / inch) + " heights, 4 elements");
-  report.row("deflection of 5.2 heights, 4 elements, off by", percent(locking_error<Full>(load, 4)),
+                 "error 1 % at a deflection of " + number(depth / inch) + " heights, 4 elements");
+  report.row("error of a deflection of 5.2 heights, 4 elements", percent(locking_error<Full>(load, 4)),
              percent(locking_error<VonKarman<>>(load, 4)));
-  report.row("elements for 1 %", std::to_string(enough), "2");
+  report.row("elements for an error of 1 %", std::to_string(enough), "2");
 }
 
 struct Tip {
@@ -77,10 +77,11 @@ void rotation(Report& report) {
     return relative_error(tip<VonKarman<>>(alpha, 8), elastica(alpha).w);
   };
   const double begins = first_beyond(error, 0.01, 0.01, 1);
-  report.failure("large-rotation", "1 % at " + number(elastica(begins).angle * 57.29578) + "°, " +
-                                       number(elastica(begins).w) + " lengths of deflection");
+  report.failure("large-rotation", "error 1 % at " + number(elastica(begins).angle * 57.29578) +
+                                       "°, a deflection of " + number(elastica(begins).w) + " lengths");
   for (const double alpha : {1.0, 10.0})
-    report.row("tip at " + number(elastica(alpha).angle * 57.29578) + "°, off by", percent(error(alpha)),
+    report.row("error of the deflection, tip at " + number(elastica(alpha).angle * 57.29578) + "°",
+               percent(error(alpha)),
                percent(relative_error(tip<Corotational<>>(alpha, 8), elastica(alpha).w)));
 }
 

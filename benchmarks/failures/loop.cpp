@@ -48,11 +48,11 @@ void mass_spring(Report& report) {
     series.add(pieces, 1e6 * largest, 1e6 * chain.critical_step());
     if (pieces != 16) continue;
     report.failure("masses-and-springs", "steps of " + number(1e6 * largest) + " µs with 16 masses, " +
-                                             number(std::ceil(1e-3 / largest)) + " of them a tick");
-    report.row("spring at 16 masses over K_c (eq. 2.2) at 1 kHz",
-               number(chain.spring() / (chain.mass() / (9.8696 * 1e-6))), "has no step");
-    report.row("largest stable step, µs; that K_c allows", number(1e6 * largest),
-               number(1e6 * chain.critical_step()));
+                                             number(std::ceil(1e-3 / largest)) + " steps per tick");
+    report.row("spring of a chain of 16 masses, over K_c (eq. 2.2) at 1 kHz",
+               number(chain.spring() / (chain.mass() / (9.8696 * 1e-6))), "no time step");
+    report.row("largest stable step; step by eq. 2.2, µs",
+               number(1e6 * largest) + "; " + number(1e6 * chain.critical_step()), "no time step");
   }
 }
 
@@ -80,17 +80,17 @@ void stiffness_and_delay(Report& report) {
         0.5, 100, 3e5);
   };
   Situation who;
-  report.failure("too-stiff", number(border(0) / 1e3) + " kN/m; the bound b/(T/2) is " +
+  report.failure("too-stiff", number(border(0) / 1e3) + " kN/m; the passivity bound b/(T/2) is " +
                                   number(passive_stiffness(who.damping, who.period, 0) / 1e3) + " kN/m");
-  report.row("pressed at a tenth of the span, 163 kN/m, directly",
+  report.row("speed of the arm, pressed at a tenth of the span, 163 kN/m: direct; coupled",
              mm_per_s(speed(model, tenth, Direct(), who)),
              mm_per_s(speed(model, tenth, VirtualCoupling(default_figures(who, 0)), who)) + ", through " +
                  number(default_figures(who, 0).stiffness / 1e3) + " kN/m");
-  report.failure("delay", "bar at mid-span, 21 kN/m: one tick");
+  report.failure("delay", "at one tick, bar at mid-span, 21 kN/m");
   for (const int delay : {1, 2, 3}) {
     who.delay = delay;
     report.row(std::to_string(delay) + (delay == 1 ? " tick" : " ticks") +
-                   " late: bar pressed directly at mid-span; largest stable coupling, default",
+                   " late: speed at mid-span, direct; largest stable coupling, default coupling",
                mm_per_s(speed(model, middle, Direct(), who)),
                number(border(delay)) + ", " + number(default_figures(who, delay).stiffness) + " N/m");
   }
@@ -138,8 +138,8 @@ void encoders(Report& report) {
                                         number(1e6 * 2 * who.friction / fine.figures().stiffness) + " µm");
   for (const double resolution : {7e-6, 200e-6, 400e-6}) {
     const double buzz = at(resolution, false), rest = at(resolution, true);
-    report.row("steps of " + number(1e6 * resolution) + " µm: 10 kN/m; default", mm_per_s(buzz),
-               mm_per_s(rest) + ", " + number(default_figures(who, 0).stiffness) + " N/m");
+    report.row("steps of " + number(1e6 * resolution) + " µm: coupling of 10 kN/m; default coupling",
+               mm_per_s(buzz), mm_per_s(rest) + ", " + number(default_figures(who, 0).stiffness) + " N/m");
   }
 }
 
@@ -160,13 +160,14 @@ void missed_ticks(Report& report) {
     if (default_begins == 0 && by_default > at_rest) default_begins = missed;
     series.add(missed, 1e3 * direct, 1e3 * by_default, 1e3 * at(missed, tenth, told(missed)));
   }
-  report.failure("missed-ticks", "directly " + std::to_string(direct_begins) +
-                                     " of 30 ticks in a row, by default " + std::to_string(default_begins));
+  report.failure("missed-ticks", "at " + std::to_string(direct_begins) + " of 30 ticks in a row direct, at " +
+                                     std::to_string(default_begins) + " with the default coupling");
   for (const int missed : {8, 20})
-    report.row(std::to_string(missed) +
-                   " of 30 ticks missed: bar pressed directly at mid-span; default, told of the delay",
-               mm_per_s(at(missed, middle, Direct())),
-               mm_per_s(at(missed, tenth, told(0))) + ", " + mm_per_s(at(missed, tenth, told(missed))));
+    report.row(
+        std::to_string(missed) +
+            " of 30 ticks missed: direct at mid-span; default coupling, coupling with the gap as delay",
+        mm_per_s(at(missed, middle, Direct())),
+        mm_per_s(at(missed, tenth, told(0))) + ", " + mm_per_s(at(missed, tenth, told(missed))));
 }
 
 }  // namespace

@@ -40,9 +40,9 @@ void far(Report& report) {
     series.add(n, effort.steps, effort.naive, effort.library);
   }
   const Effort coarse = far_effort(1e4, 8), fine = far_effort(1e4, 1024), thin = far_effort(1e6, 1024);
-  report.failure("newton-from-far-away", "one load step fails; " + std::to_string(coarse.steps) +
-                                             " are enough for 8 elements, " + std::to_string(fine.steps) +
-                                             " for 1024");
+  report.failure("newton-from-far-away", "with one load step; 8 elements require " +
+                                             std::to_string(coarse.steps) + " steps, 1024 elements " +
+                                             std::to_string(fine.steps));
   report.row("linear solves from rest to 0.81 lengths of deflection, 8 elements",
              std::to_string(coarse.naive), std::to_string(coarse.library));
   report.row("1024 elements", std::to_string(fine.naive), std::to_string(fine.library));
@@ -89,11 +89,10 @@ void limit_points(Report& report) {
     solves = std::max(solves, model.report().solves);
     before = force;
   }
-  report.failure("limit-points", "at the limit load, " + number(limits.front().extreme, 4) + ", " +
+  report.failure("limit-points", "at the limit load, " + number(limits.front().extreme, 4) + " EI/L², " +
                                      number(limits.front().other, 2) + " rises down");
-  report.row("largest move of the middle from one step to the next, in rises", number(jump),
-             "0.01, the hand's own");
-  report.row("linear solves of a step, at most", "does not converge, or some hundred",
+  report.row("largest movement of the middle in a step, in rises", number(jump), "0.01, as prescribed");
+  report.row("largest number of linear solves in a step", "some hundred, or no convergence",
              std::to_string(solves));
 }
 
@@ -125,16 +124,16 @@ void buckling(Report& report) {
   for (const double times : {0.5, 2.0, 10.0}) {
     at(times, naive, aside, naive_k, k);
     report.row("ends moved together by " + number(times) +
-                   " times what Euler's load takes: aside by so much of the length",
+                   " times the shortening at Euler's load: deflection of the middle, in lengths",
                number(naive), number(std::abs(aside) < 1e-12 ? 0 : aside));
-    report.row("and stiffness of a press there, in EI/L³", number(naive_k), number(k));
+    report.row("the same: stiffness of a press, in EI/L³", number(naive_k), number(k));
   }
 }
 
 void zero(Report& report) {
   const double s = 0.3 * thesis_length;
   const Beam beam = thesis_beam(Support::pinned, Support::pinned);
-  report.failure("a-press-to-zero", "at a press that takes no force");
+  report.failure("a-press-to-zero", "at a press whose force is zero");
   for (const double d : {1e-3, 1e-12, 0.0}) {
     System<VonKarman<>> system(beam, 16);
     const auto mesh = ContactMesh<double>(16, thesis_length).at(s);
@@ -147,7 +146,7 @@ void zero(Report& report) {
     model.press({s, 1e-2});
     model.press({s, d});
     report.row("linear solves from a press of 10 mm to one of " + number(1e3 * d) + " mm",
-               naive.converged ? std::to_string(naive.solves) : "never ends",
+               naive.converged ? std::to_string(naive.solves) : "no convergence",
                std::to_string(model.report().solves));
   }
 }

@@ -32,7 +32,7 @@ void interpolation(Report& report) {
     by_nodes.add(n, error, worst_error<EquispacedNodes>(n, 1e-10, 200),
                  worst_error<ChebyshevNodes>(n, 1e-10, 200));
   }
-  report.failure("equidistant-snapshots", "more than " + std::to_string(best) + " snapshots make it worse");
+  report.failure("equidistant-snapshots", "above " + std::to_string(best) + " snapshots the error grows");
   for (const int n : {14, 50, 64})
     report.row("largest error of the force, " + std::to_string(n) + " exact snapshots",
                number(worst_error<EquispacedNodes>(n, 0, 200)),
@@ -44,7 +44,7 @@ void interpolation(Report& report) {
     by_noise.add(noise, worst_error<EquispacedNodes>(50, noise, 200),
                  worst_error<ChebyshevNodes>(50, noise, 200), worst_error<ChebyshevNodes>(14, noise, 200));
   }
-  report.failure("noise", "1 % from a noise of " +
+  report.failure("noise", "error 1 % from a relative noise of " +
                               number(first_beyond(
                                   [](double noise) { return worst_error<EquispacedNodes>(50, noise, 200); },
                                   0.01, 1e-16, 1)));
@@ -77,13 +77,13 @@ void extrapolation(Report& report) {
     };
     return percent(first_beyond(error_beyond, 0.01, 1e-9, 2));
   };
-  report.failure("beyond-the-snapshots", "1 % at " + beyond(thesis) +
-                                             " beyond 50 equidistant snapshots, at " + beyond(polynomial) +
-                                             " beyond 14 of Chebyshev's");
+  report.failure("beyond-the-snapshots", "error 1 % at " + beyond(thesis) +
+                                             " beyond the depth of 50 equidistant snapshots, at " +
+                                             beyond(polynomial) + " beyond that of 14 Chebyshev snapshots");
   for (const double ratio : {1.6, 2.0, 3.0}) {
     const double d = ratio * deepest;
-    report.row("force at " + number(ratio) +
-                   " times the trained depth, off by (`PodModel`, `GalerkinModel`, `Guarded`)",
+    report.row("error of the force at " + number(ratio) +
+                   " times the trained depth (`PodModel`, `GalerkinModel`, `Guarded`)",
                percent(error(polynomial(d), d)),
                percent(pressed(pod, d)) + ", " + percent(pressed(galerkin, d)) + ", " +
                    percent(pressed(guarded, d)));
@@ -111,11 +111,11 @@ void modes(Report& report) {
     if (error > 0.01) enough = n + 1;
     series.add(n, error, moving);
   }
-  report.failure("too-few-modes", "1 % takes " + std::to_string(enough) + " global modes");
+  report.failure("too-few-modes", "error 1 % requires " + std::to_string(enough) + " global modes");
   for (const int n : {3, 8})
-    report.row(
-        "force at 6 to 30 % of the span off by, " + std::to_string(n) + " global modes; one that moves along",
-        percent(global(n)), percent(moving));
+    report.row("error of the force at 6 to 30 % of the span: " + std::to_string(n) +
+                   " global modes; one mode that moves with the contact",
+               percent(global(n)), percent(moving));
 }
 
 void decomposition(Report& report) {
@@ -135,7 +135,7 @@ void decomposition(Report& report) {
   report.failure("metres-and-radians", "with any unit of length");
   const char* kinds[] = {"axial displacements", "deflections", "rotations"};
   for (std::size_t k = 0; k < 3; ++k)
-    report.row(std::string("modes for 1 % of all ") + kinds[k] + ": in m, in mm; freed of units",
+    report.row(std::string("modes for an error of 1 % of all ") + kinds[k] + ": in m, in mm; dimensionless",
                std::to_string(in_m[k]) + ", " + std::to_string(in_mm[k]), std::to_string(free_of[k]));
 
   const Eigen::MatrixXd X = snapshot_matrix(snapshots);
@@ -152,8 +152,8 @@ void decomposition(Report& report) {
     if (relative_error(sigma(squared, i), sigma(svd, i)) <= 0.01) first = sigma(svd, i);
     if (sigma(svd, i) > 1e-14) last = sigma(svd, i);
   }
-  report.failure("squares", "1 % of a singular value below " + number(first) + " of the first");
-  report.row("smallest singular value that is still known, of the first", number(first), number(last));
+  report.failure("squares", "error 1 % in singular values below " + number(first) + " of the first");
+  report.row("smallest accurate singular value, over the first", number(first), number(last));
 }
 
 void potential(Report& report) {
@@ -183,9 +183,9 @@ void potential(Report& report) {
                  (round * by_table.back() + by_table[k]) / stored,
                  (round * by_model.back() + by_model[k]) / stored);
   report.failure("no-potential", "with any table: " + percent(least) + " to " + percent(most) +
-                                     " of the stored energy a round");
-  report.row("energy gained or lost on ten closed paths, of what is stored, at most", number(most),
-             number(library));
+                                     " of the stored energy in each round");
+  report.row("largest energy gained or lost in a round of ten closed paths, over the stored energy",
+             number(most), number(library));
 }
 
 }  // namespace

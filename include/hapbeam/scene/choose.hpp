@@ -76,7 +76,8 @@ class Chooser {
     Candidate candidate{kinematics, reduction, 2 * full.candidate.elements, false, 1, 2};
     Verdict verdict{candidate, nothing, candidate.tick(costs_, scene_.shape), false, {}};
     if (!full.right)
-      verdict.refusal = std::string(name(kinematics)) + ", which would train it, is not right itself";
+      verdict.refusal =
+          std::string(name(kinematics)) + ", which would train it, is not accurate enough itself";
     const auto grow = [&] {
       const Verdict larger = judge(candidate);
       if (larger.error < verdict.error || verdict.refusal.empty()) verdict = larger;
