@@ -10,11 +10,16 @@
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
+#include <hapbeam/haptics/servo/servo.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
 
 #define HAPBEAM_ONCE extern
 #include "once/corotational.inc"
+#include "once/rare.inc"
+#include "once/reduced.inc"
+#include "once/servo.inc"
 #include "once/svd.inc"
 #include "once/touch.inc"
 #include "once/von_karman.inc"

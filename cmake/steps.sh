@@ -41,10 +41,12 @@ install_packages() {
 # build PRESET TARGET...: installs what the build needs, configures and builds.
 # What tests, benchmarks and the example's window need comes along: one build folder serves all.
 build() {
-  local preset=$1 compiler=g++
+  local preset=$1 compiler=(g++)
   shift
-  [[ $preset != *clang* ]] || compiler=clang
-  need "$compiler" cmake ninja-build libeigen3-dev libjansson-dev catch2 libbenchmark-dev \
+  [[ $preset != *clang* ]] || compiler=(clang)
+  # With its sanitizers, and what finds names for their reports.
+  [[ $preset != asan-ubsan ]] || compiler=(clang libclang-rt-dev llvm)
+  need "${compiler[@]}" cmake ninja-build libeigen3-dev libjansson-dev catch2 libbenchmark-dev \
     libglfw3-dev libimgui-dev libgl-dev fonts-dejavu-core &&
     step "configure ($preset)" cmake -S "$top" --preset "$preset" &&
     step "build $*" cmake --build "$top/build/$preset" --parallel "$(nproc)" --target "$@"

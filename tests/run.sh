@@ -29,7 +29,7 @@ case $preset in
   *) wrong "--preset '$preset': must be release, debug, asan-ubsan, tsan, strict-gcc or strict-clang" ;;
 esac
 
-targets=(hapbeam_tests hapbeam_examples) select=()
+targets=(hapbeam_tests) select=()
 if [[ -n $folders ]]; then
   read -ra names <<<"$folders"
   targets=("${names[@]/#/test_}") select=(-L "^($(IFS='|'; echo "${names[*]}"))$")

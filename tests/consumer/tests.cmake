@@ -22,7 +22,7 @@ function(hapbeam_test_consumer name)
   add_test(NAME "consumer/${name}" COMMAND ${CMAKE_CTEST_COMMAND}
     --build-and-test ${source} ${binary}/${name}
     --build-generator ${CMAKE_GENERATOR}
-    --build-options -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_BUILD_TYPE=Debug
+    --build-options -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0
       -DHAPBEAM_MODEL_FILES=${model_files} ${ARGN}
     --test-command consumer)
   set_tests_properties("consumer/${name}" PROPERTIES COST 10)

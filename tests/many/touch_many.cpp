@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "many/rows.hpp"
+#include "once_training.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include <hapbeam/element/corotational.hpp>

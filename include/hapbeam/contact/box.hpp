@@ -48,8 +48,9 @@ struct Box {
     if (!overlaps(way)) return false;
     const Scalar dx = b.x() - a.x(), dy = b.y() - a.y();
     const Scalar off = dx * (y_low + y_high - 2 * a.y()) - dy * (x_low + x_high - 2 * a.x());
-    // Not the other way round: what is too large to be multiplied counts as met.
-    return !(std::abs(off) > std::abs(dx) * (y_high - y_low) + std::abs(dy) * (x_high - x_low));
+    // What is too large to be multiplied counts as met.  It is infinite, not NaN, where the compiler fuses product and difference.
+    return !(std::isfinite(off) &&
+             std::abs(off) > std::abs(dx) * (y_high - y_low) + std::abs(dy) * (x_high - x_low));
   }
 };
 

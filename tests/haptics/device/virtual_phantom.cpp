@@ -196,7 +196,7 @@ TEST_CASE("arm, hand and script that cannot be are refused by name, value and un
                     ContainsSubstring("hand path y = -0.14 m"));
 }
 
-TEST_CASE("the servo is told what was sent, and to begin anew in the first tick alone", "[phantom]") {
+TEST_CASE("the servo is told what was sent, and to begin anew in the first tick alone", "[phantom][thread]") {
   VirtualPhantom<> phantom(press_and_slide);
   struct {
     std::vector<DeviceState> states;

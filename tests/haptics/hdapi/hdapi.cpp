@@ -213,8 +213,8 @@ TEST_CASE("whatever a servo asks for, what is sent is finite and within the limi
 TEST_CASE("ticks that come late are counted, and time goes on", "[hdapi]") {
   HdWorld world;
   world.plug("one", press_and_hold());
-  LockStepHdapi device;
   Floor floor;
+  LockStepHdapi device;
   device.start(floor);
   world.run(10);
   CHECK(floor.last.time == Approx(9e-3).epsilon(1e-12));
@@ -311,8 +311,8 @@ TEST_CASE("a scheduler without room is an error, and room found later is used", 
   HdWorld world;
   world.plug("one", press_and_hold());
   world.slots_allowed = 0;
-  LockStepHdapi device;
   Floor floor;
+  LockStepHdapi device;
   CHECK_THROWS_WITH(device.start(floor), ContainsSubstring("is not scheduled") && ContainsSubstring("0x501"));
   CHECK_FALSE(device.running());
   world.slots_allowed = 1;

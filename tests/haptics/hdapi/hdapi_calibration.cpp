@@ -63,8 +63,8 @@ TEST_CASE("encoders are set to zero only where somebody says that the arm is in 
   auto& phantom = world.plug("one", press_and_hold());
   phantom.calibration =
       GENERATE(as<unsigned>(), HdCode::calibration_needs_update, HdCode::calibration_needs_manual_input);
-  LockStepHdapi device;
   Floor floor;
+  LockStepHdapi device;
   for (int attempt = 0; attempt < 2; ++attempt) {
     try {
       device.start(floor);
@@ -187,8 +187,8 @@ TEST_CASE("motors that were warm before a calibration are warm after it", "[hdap
 TEST_CASE("a calibration that only a person can make ends the loop where it is lost", "[hdapi]") {
   HdWorld world;
   auto& phantom = world.plug("one", press_and_hold());
-  LockStepHdapi device;
   Floor floor;
+  LockStepHdapi device;
   device.start(floor);
   world.run(ticks_to_rest);
   REQUIRE(world.motors(phantom).y() > 5);
@@ -213,12 +213,12 @@ TEST_CASE("a device that waits for its inkwell leaves another alone", "[hdapi]")
   auto& right = world.plug("right", press_and_hold());
   left.styles = Code::calibration_inkwell;
   left.calibration = Code::calibration_needs_manual_input;
+  Floor left_floor, right_floor;  // pressed until the devices are gone
   HdapiOptions named;
   named.device = "left";
   LockStepHdapi on_left(named);
   named.device = "right";
   LockStepHdapi on_right(named);
-  Floor left_floor, right_floor;
   on_left.start(left_floor);
   on_right.start(right_floor);
   world.run(ticks_to_rest);

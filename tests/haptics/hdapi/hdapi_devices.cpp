@@ -25,8 +25,8 @@ struct Two {
   HdWorld world;
   HdWorld::Device& left = world.plug("left", press_and_hold());
   HdWorld::Device& right = world.plug("right", press_and_hold());
-  LockStepHdapi on_left{named("left")}, on_right{named("right")};
   Floor left_floor{1000}, right_floor{2000};
+  LockStepHdapi on_left{named("left")}, on_right{named("right")};
   Two() {
     on_left.start(left_floor);
     on_right.start(right_floor);
@@ -206,8 +206,8 @@ TEST_CASE("a second loop that cannot be had leaves the first alone", "[hdapi]") 
   auto& right = world.plug("right", press_and_hold());
   HdapiOptions slow = named("right");
   slow.rate = 500;
-  LockStepHdapi on_left(named("left"));
   Floor floor, second;
+  LockStepHdapi on_left(named("left"));
   SECTION("another rate") {
     LockStepHdapi on_right(slow);
     on_left.start(floor);

@@ -22,8 +22,8 @@ const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
 struct Holding {
   HdWorld world;
   HdWorld::Device& phantom = world.plug("one", press_and_hold());
-  LockStepHdapi device;
   Floor floor;
+  LockStepHdapi device;
   double steady = 0;
   Holding() {
     device.start(floor);
@@ -194,8 +194,8 @@ TEST_CASE("a report of warm motors without a temperature gives them ten seconds"
   HdWorld world;
   auto& phantom = world.plug("one", press_and_hold());
   phantom.has_sensor = false;
-  LockStepHdapi device;
   Floor floor;
+  LockStepHdapi device;
   device.start(floor);
   world.run(ticks_to_rest);
   // A device that does not measure it must not raise an error in each tick.
@@ -217,8 +217,8 @@ TEST_CASE("an arm that is torn away faster than it may go is let go, then caught
   auto& phantom = world.plug(
       "one", HandPath({0, 0.05}).press(0.055, 0.5).rest(0.5).release(0.06, 0.04).press(0.06, 1).rest(9));
   phantom.top_speed = 0.5;
-  LockStepHdapi device;
   Floor floor;
+  LockStepHdapi device;
   device.start(floor);
   world.run(1000);
   CHECK(device.status() == DeviceStatus::running);

@@ -339,7 +339,7 @@ TEST_CASE("a budget of three solves a tick: the loop goes on, and says when it h
   CHECK(record.status == LoopStatus::free);
 }
 
-TEST_CASE("a loop runs, stops, and runs again from the beginning", "[servo]") {
+TEST_CASE("a loop runs, stops, and runs again from the beginning", "[servo][thread]") {
   FemModel<> model(thesis_beam(Support::pinned, Support::pinned), 8);
   VirtualPhantom<> device(HandPath({0, 0.01}).press(0.015, 0.05));
   ServoLoop loop(device, model, above(1.27, thesis_length / 200 + 5e-3));

@@ -1,6 +1,7 @@
 // Training: the plan is carried out as it stands, on as many threads as there are, or fails with a reason.
 #include <set>
 
+#include "once_training.hpp"
 #include "support/catch.hpp"
 #include "support/error.hpp"
 #include "support/solver.hpp"

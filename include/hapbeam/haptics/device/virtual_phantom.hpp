@@ -121,17 +121,7 @@ class VirtualPhantom {
     for (auto left = std::llround(duration / options_.arm.period); left > 0; --left) step(servo);
   }
   /// Back to the beginning of the path, at rest there, all counts zero.  Only while it does not run.
-  void reset() noexcept {
-    periods_ = 0;
-    time_ = 0;
-    ticks_ = missed_ticks_ = force_cut_ticks_ = 0;
-    force_.setZero();
-    late_.fill(force_);
-    cut_ = ForceCut::none;
-    target_ = path_(0);
-    for (int i = 0; i < 3; ++i) axes_[i].place(target_.position[i]);
-    encoders_.reset(tip().position);
-  }
+  void reset() noexcept;
   /// Where the tip really is.  Only while it does not run, or from the servo.
   Tip tip() const noexcept {
     return {{axes_[0].position(), axes_[1].position(), axes_[2].position()},
@@ -154,19 +144,7 @@ class VirtualPhantom {
   }
 
   /// One period under the last force.
-  void advance() noexcept {
-    const double begun = std::exchange(time_, next_time()), period = time_ - begun;
-    const HandTarget from = target_;
-    target_ = path_(time_);
-    std::move_backward(late_.begin(), late_.end() - 1, late_.end());
-    late_[0] = force_;
-    const Eigen::Vector3d force = late_[static_cast<std::size_t>(options_.arm.delay_ticks)] + from.push;
-    for (int i = 0; i < 3; ++i)
-      axes_[i].advance(axes_[i].drive(force[i], from.position[i], from.velocity[i], target_.position[i],
-                                      target_.velocity[i], options_.hand.damping, period),
-                       period);
-    encoders_.read(tip().position, period);
-  }
+  void advance() noexcept;
 
   /// [s] of the next tick: up to half the jitter to either side of where it should be, the same every time.
   double next_time() noexcept {
@@ -195,57 +173,13 @@ class VirtualPhantom {
     }
   }
 
-  static VirtualPhantomOptions checked(const VirtualPhantomOptions& options) {
-    const ArmOptions& arm = options.arm;
-    const HandOptions& hand = options.hand;
-    const auto not_negative = [](const char* field, double value, const char* unit) {
-      if (!(std::isfinite(value) && value >= 0))
-        detail::reject(field, value, unit, "finite and not negative");
-    };
-    detail::positive("apparent_mass", arm.apparent_mass, "kg");
-    not_negative("arm damping", arm.damping, "N·s/m");
-    not_negative("friction", arm.friction, "N");
-    not_negative("resolution", arm.resolution, "m");
-    detail::positive("velocity_cutoff", arm.velocity_cutoff, "Hz");
-    detail::positive("peak_force", arm.peak_force, "N");
-    if (!(arm.period >= 1e-5 && arm.period <= 1)) detail::reject("period", arm.period, "s", "1e-5 to 1");
-    if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= max_delay))
-      detail::reject("delay_ticks", arm.delay_ticks, "", "0 to 16");
-    if (!(arm.jitter >= 0 && arm.jitter <= 0.9)) detail::reject("jitter", arm.jitter, "", "0 to 0.9");
-    not_negative("hand stiffness", hand.stiffness, "N/m");
-    not_negative("hand damping", hand.damping, "N·s/m");
-    not_negative("grip_mass", hand.grip_mass, "kg");
-    // Bounded work: an arm that settles a thousand times within a period is a mistake in a unit.
-    if (arm.period > 500 * axis(options).longest_piece())
-      detail::reject("apparent_mass", arm.apparent_mass, "kg",
-                     "large enough that the arm does not settle in 1/1000 period");
-    return options;
-  }
+  static VirtualPhantomOptions checked(const VirtualPhantomOptions& options);
   static ArmAxis axis(const VirtualPhantomOptions& o) noexcept {
     return ArmAxis({o.arm.apparent_mass + o.hand.grip_mass, o.arm.damping + o.hand.damping, o.hand.stiffness,
                     o.arm.friction});
   }
-  static DeviceInfo describe(const ArmOptions& arm) {
-    return {"virtual Phantom Premium 1.5/6DOF High Force",
-            {0.381, 0.267, 0.191},
-            arm.peak_force,
-            6.2,
-            3500,
-            arm.resolution,
-            arm.friction,
-            arm.period,
-            arm.damping,
-            arm.apparent_mass};
-  }
-  void check_workspace() const {
-    if constexpr (std::is_same_v<Path, HandPath>)
-      for (const HandPath::WayPoint& point : path_.points())
-        for (int i = 0; i < 2; ++i)
-          if (std::abs(point.position[i]) > info_.workspace[i] / 2)
-            detail::reject(
-                i == 0 ? "hand path x" : "hand path y", point.position[i], "m",
-                i == 0 ? "in the workspace, -0.1905 to 0.1905" : "in the workspace, -0.1335 to 0.1335");
-  }
+  static DeviceInfo describe(const ArmOptions& arm);
+  void check_workspace() const;
 
   Path path_;
   VirtualPhantomOptions options_;
@@ -263,5 +197,86 @@ class VirtualPhantom {
   std::thread thread_;
   static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "counting in a tick must not lock");
 };
+
+// Outside of the class: only so does "extern template class VirtualPhantom<>;" keep a compiler from it.
+template <typename Path>
+void VirtualPhantom<Path>::reset() noexcept {
+  periods_ = 0;
+  time_ = 0;
+  ticks_ = missed_ticks_ = force_cut_ticks_ = 0;
+  force_.setZero();
+  late_.fill(force_);
+  cut_ = ForceCut::none;
+  target_ = path_(0);
+  for (int i = 0; i < 3; ++i) axes_[i].place(target_.position[i]);
+  encoders_.reset(tip().position);
+}
+
+template <typename Path>
+void VirtualPhantom<Path>::advance() noexcept {
+  const double begun = std::exchange(time_, next_time()), period = time_ - begun;
+  const HandTarget from = target_;
+  target_ = path_(time_);
+  std::move_backward(late_.begin(), late_.end() - 1, late_.end());
+  late_[0] = force_;
+  const Eigen::Vector3d force = late_[static_cast<std::size_t>(options_.arm.delay_ticks)] + from.push;
+  for (int i = 0; i < 3; ++i)
+    axes_[i].advance(axes_[i].drive(force[i], from.position[i], from.velocity[i], target_.position[i],
+                                    target_.velocity[i], options_.hand.damping, period),
+                     period);
+  encoders_.read(tip().position, period);
+}
+
+template <typename Path>
+VirtualPhantomOptions VirtualPhantom<Path>::checked(const VirtualPhantomOptions& options) {
+  const ArmOptions& arm = options.arm;
+  const HandOptions& hand = options.hand;
+  const auto not_negative = [](const char* field, double value, const char* unit) {
+    if (!(std::isfinite(value) && value >= 0)) detail::reject(field, value, unit, "finite and not negative");
+  };
+  detail::positive("apparent_mass", arm.apparent_mass, "kg");
+  not_negative("arm damping", arm.damping, "N·s/m");
+  not_negative("friction", arm.friction, "N");
+  not_negative("resolution", arm.resolution, "m");
+  detail::positive("velocity_cutoff", arm.velocity_cutoff, "Hz");
+  detail::positive("peak_force", arm.peak_force, "N");
+  if (!(arm.period >= 1e-5 && arm.period <= 1)) detail::reject("period", arm.period, "s", "1e-5 to 1");
+  if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= max_delay))
+    detail::reject("delay_ticks", arm.delay_ticks, "", "0 to 16");
+  if (!(arm.jitter >= 0 && arm.jitter <= 0.9)) detail::reject("jitter", arm.jitter, "", "0 to 0.9");
+  not_negative("hand stiffness", hand.stiffness, "N/m");
+  not_negative("hand damping", hand.damping, "N·s/m");
+  not_negative("grip_mass", hand.grip_mass, "kg");
+  // Bounded work: an arm that settles a thousand times within a period is a mistake in a unit.
+  if (arm.period > 500 * axis(options).longest_piece())
+    detail::reject("apparent_mass", arm.apparent_mass, "kg",
+                   "large enough that the arm does not settle in 1/1000 period");
+  return options;
+}
+
+template <typename Path>
+DeviceInfo VirtualPhantom<Path>::describe(const ArmOptions& arm) {
+  return {"virtual Phantom Premium 1.5/6DOF High Force",
+          {0.381, 0.267, 0.191},
+          arm.peak_force,
+          6.2,
+          3500,
+          arm.resolution,
+          arm.friction,
+          arm.period,
+          arm.damping,
+          arm.apparent_mass};
+}
+
+template <typename Path>
+void VirtualPhantom<Path>::check_workspace() const {
+  if constexpr (std::is_same_v<Path, HandPath>)
+    for (const HandPath::WayPoint& point : path_.points())
+      for (int i = 0; i < 2; ++i)
+        if (std::abs(point.position[i]) > info_.workspace[i] / 2)
+          detail::reject(
+              i == 0 ? "hand path x" : "hand path y", point.position[i], "m",
+              i == 0 ? "in the workspace, -0.1905 to 0.1905" : "in the workspace, -0.1335 to 0.1335");
+}
 
 }  // namespace hapbeam

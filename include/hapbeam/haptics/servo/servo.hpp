@@ -96,41 +96,14 @@ class Servo {
   /// @param device  what the loop's device can do; its limits are the guard's
   /// @param coupling  in the device's metres; its figures, too, are for placement.scale() to change
   /// @throws std::invalid_argument naming field, value, unit and what is allowed
-  Servo(Model& model, const DeviceInfo& device, const ServoOptions& options, const Coupling& coupling)
-      : model_(model),
-        options_(options),
-        touch_(model, static_cast<Scalar>(options.avatar_radius)),
-        coupling_(coupling.in_scene(options.placement.scale())),
-        clock_(device.period),
-        energy_(device, options.delay_ticks),
-        guard_(ForceGuard::for_device(device)),
-        times_(device.period),
-        seen_(Drawn<Model>::of(model, touch_)),
-        pictures_(seen_) {}
+  Servo(Model& model, const DeviceInfo& device, const ServoOptions& options, const Coupling& coupling);
 
   /// With the coupling that the device can render.   @throws as Coupling::for_device, too
   Servo(Model& model, const DeviceInfo& device, const ServoOptions& options = {})
       : Servo(model, device, options, Coupling::for_device(device, options.delay_ticks)) {}
 
   /// @param state  of the device, at the beginning of a period   @return [N] on the hand, device axes
-  [[nodiscard]] Eigen::Vector3d tick(const DeviceState& state) noexcept {
-    if (state.reset) times_.pause();  // the device had no ticks for it meanwhile
-    times_.begin();
-    const double dt = clock_.passed(state.time);
-    energy_.observe(state.position, state.cut == ForceCut::none ? guard_.force() : state.sent, dt);
-    if (state.reset) release();
-    const auto coupled = coupling_.tick(touch_, options_.placement.beam_position(state.position), dt);
-    const bool safe = is_answer(coupled.touch.status) || coupled.continued;
-    Eigen::Vector3d force = options_.placement.device_force_of_beam(coupled.force);
-    if (options_.dissipate && coupled.touch.pressing) force += energy_.dissipation(state.velocity);
-    const double engaged = guard_.engaged();
-    const GuardedForce guarded = guard_.limit(force, state.time, safe);
-    energy_.lend((guard_.engaged() - engaged) * coupled.energy / options_.placement.scale());
-    keep(state, coupled, guarded, safe);
-    publish();
-    times_.end();
-    return guarded.force;
-  }
+  [[nodiscard]] Eigen::Vector3d tick(const DeviceState& state) noexcept;
   Eigen::Vector3d operator()(const DeviceState& state) noexcept { return tick(state); }
 
   /// For a host that hands over its own time step, or runs free.
@@ -189,43 +162,9 @@ class Servo {
   }
 
   void keep(const DeviceState& state, const CoupledForce<Scalar>& coupled, const GuardedForce& guarded,
-            bool safe) noexcept {
-    ServoRecord& r = record_;
-    const bool pressing = coupled.touch.pressing || coupled.continued, touched = pressing && !r.pressing;
-    r.status = status(state, coupled, guarded, safe);
-    r.model = coupled.touch.status;
-    r.time = state.time;
-    r.position = state.position;
-    r.hand = options_.placement.beam_position(state.position);
-    r.avatar = coupled.avatar;
-    r.force = guarded.force;
-    r.press = {static_cast<double>(coupled.touch.press.s), static_cast<double>(coupled.touch.press.d)};
-    r.pressing = pressing;
-    r.heat = guard_.heat();
-    ++r.ticks;
-    r.contact_ticks += pressing;
-    r.touches += touched;
-    r.saturated_ticks += guarded.limited || state.cut != ForceCut::none;
-    r.continued_ticks += coupled.continued;
-    r.failed_ticks += !safe;
-    if (pressing) r.max_press = std::max(r.max_press, std::abs(r.press.d));
-    r.max_force = std::max(r.max_force, guarded.force.norm());
-    r.energy_generated = energy_.generated();
-    if (worse(r.model, r.worst)) r.worst = r.model;
-  }
+            bool safe) noexcept;
 
-  void publish() noexcept {
-    Picture& draft = pictures_.draft();
-    draft.record = record_;
-    if constexpr (Drawn<Model>::for_who_looks) {
-      if (record_.ticks % shape_period == 0 && looked_.exchange(false, std::memory_order_relaxed))
-        seen_.take(Drawn<Model>::of(model_, touch_));
-      draft.take(seen_);
-    } else {
-      draft.take(Drawn<Model>::of(model_, touch_));
-    }
-    pictures_.publish();
-  }
+  void publish() noexcept;
 
   static constexpr int shape_period = 8;  // [ticks]
 
@@ -242,5 +181,82 @@ class Servo {
   std::atomic<bool> looked_{true};
   Exchange<Picture> pictures_;
 };
+
+// What costs a compiler time is defined outside of the class: only so does "extern template class Servo<FemModel<>>;" keep it out of
+// all files but one.
+template <typename Model, typename Coupling>
+Servo<Model, Coupling>::Servo(Model& model, const DeviceInfo& device, const ServoOptions& options,
+                              const Coupling& coupling)
+    : model_(model),
+      options_(options),
+      touch_(model, static_cast<Scalar>(options.avatar_radius)),
+      coupling_(coupling.in_scene(options.placement.scale())),
+      clock_(device.period),
+      energy_(device, options.delay_ticks),
+      guard_(ForceGuard::for_device(device)),
+      times_(device.period),
+      seen_(Drawn<Model>::of(model, touch_)),
+      pictures_(seen_) {}
+
+template <typename Model, typename Coupling>
+Eigen::Vector3d Servo<Model, Coupling>::tick(const DeviceState& state) noexcept {
+  if (state.reset) times_.pause();  // the device had no ticks for it meanwhile
+  times_.begin();
+  const double dt = clock_.passed(state.time);
+  energy_.observe(state.position, state.cut == ForceCut::none ? guard_.force() : state.sent, dt);
+  if (state.reset) release();
+  const auto coupled = coupling_.tick(touch_, options_.placement.beam_position(state.position), dt);
+  const bool safe = is_answer(coupled.touch.status) || coupled.continued;
+  Eigen::Vector3d force = options_.placement.device_force_of_beam(coupled.force);
+  if (options_.dissipate && coupled.touch.pressing) force += energy_.dissipation(state.velocity);
+  const double engaged = guard_.engaged();
+  const GuardedForce guarded = guard_.limit(force, state.time, safe);
+  energy_.lend((guard_.engaged() - engaged) * coupled.energy / options_.placement.scale());
+  keep(state, coupled, guarded, safe);
+  publish();
+  times_.end();
+  return guarded.force;
+}
+
+template <typename Model, typename Coupling>
+void Servo<Model, Coupling>::keep(const DeviceState& state, const CoupledForce<Scalar>& coupled,
+                                  const GuardedForce& guarded, bool safe) noexcept {
+  ServoRecord& r = record_;
+  const bool pressing = coupled.touch.pressing || coupled.continued, touched = pressing && !r.pressing;
+  r.status = status(state, coupled, guarded, safe);
+  r.model = coupled.touch.status;
+  r.time = state.time;
+  r.position = state.position;
+  r.hand = options_.placement.beam_position(state.position);
+  r.avatar = coupled.avatar;
+  r.force = guarded.force;
+  r.press = {static_cast<double>(coupled.touch.press.s), static_cast<double>(coupled.touch.press.d)};
+  r.pressing = pressing;
+  r.heat = guard_.heat();
+  ++r.ticks;
+  r.contact_ticks += pressing;
+  r.touches += touched;
+  r.saturated_ticks += guarded.limited || state.cut != ForceCut::none;
+  r.continued_ticks += coupled.continued;
+  r.failed_ticks += !safe;
+  if (pressing) r.max_press = std::max(r.max_press, std::abs(r.press.d));
+  r.max_force = std::max(r.max_force, guarded.force.norm());
+  r.energy_generated = energy_.generated();
+  if (worse(r.model, r.worst)) r.worst = r.model;
+}
+
+template <typename Model, typename Coupling>
+void Servo<Model, Coupling>::publish() noexcept {
+  Picture& draft = pictures_.draft();
+  draft.record = record_;
+  if constexpr (Drawn<Model>::for_who_looks) {
+    if (record_.ticks % shape_period == 0 && looked_.exchange(false, std::memory_order_relaxed))
+      seen_.take(Drawn<Model>::of(model_, touch_));
+    draft.take(seen_);
+  } else {
+    draft.take(Drawn<Model>::of(model_, touch_));
+  }
+  pictures_.publish();
+}
 
 }  // namespace hapbeam

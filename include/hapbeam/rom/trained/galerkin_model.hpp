@@ -58,21 +58,7 @@ class GalerkinModel {
   /// Deeper than range() the equation is solved all the same, with a tension that may be beyond what was trained; s is
   /// that of the nearest press in range.
   /// @return force [N] and ok | out_of_range | invalid_request | non_finite
-  Response<Scalar> press(const Press<Scalar>& request) noexcept {
-    Point at;
-    const Response<Scalar> response = respond(request, at);
-    if (!is_answer(response.status)) return response;
-    const Scalar s = at.press.s, d = at.press.d;
-    const int m = trained_->data.tensions;
-    Scalar by_tension[Shape::near_size * max_size], near[Shape::near_size];
-    detail::combine(trained_->table.data() + 4 * m, row_size(m), Shape::near_size * m, at.lx,
-                    trained_->data.positions, by_tension);
-    detail::combine(by_tension, Shape::near_size, Shape::near_size, at.lz, m, near);
-    const Scalar theta = rotation(at, near[Shape::own]);
-    if (trained_->data.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
-    shape_.press(s, d, d, trained_->data.positions > 1 ? &theta : nullptr, at.lx, at.lz, near);
-    return response;
-  }
+  Response<Scalar> press(const Press<Scalar>& request) noexcept;
 
   /// Computed when it is first asked for: by one thread at a time.
   Centreline<Scalar> shape() const noexcept { return shape_.all(trained_->data.shape); }
@@ -115,55 +101,12 @@ class GalerkinModel {
     // Position by position: by tension f, df/dz, d²f/dz² and d²f/dxdz; what makes the nodes near the contact, with df/dx for its own.
     std::vector<Scalar> table;
 
-    [[gnu::cold]] explicit Trained(Data given)
-        : data((check(given), std::move(given))),
-          position(data.beam),
-          tension(data.beam),
-          x(data.positions, position(data.s_min), position(data.s_max)),
-          z(data.tensions, 0, tension(data.tension)),
-          table(static_cast<std::size_t>(data.positions * row_size(data.tensions) + detail::padded(1))) {
-      const int m = data.tensions, size = row_size(m);
-      const auto near = [m](Scalar* row, int j) { return row + 4 * m + Shape::near_size * j; };
-      Scalar* row = table.data();
-      for (int i = 0; i < data.positions; ++i, row += size) {
-        for (int j = 0; j < m; ++j) {
-          row[4 * j] = data.log_stiffness[static_cast<std::size_t>(i * m + j)];
-          Shape::tabulate(data.shape, i * m + j, near(row, j));
-        }
-        z.differentiate(row, 4, row + 1, 4);
-        z.differentiate(row + 1, 4, row + 2, 4);
-      }
-      row = table.data();
-      for (int j = 0; j < m; ++j) {
-        x.differentiate(row + 4 * j, size, near(row, j) + Shape::own, size);
-        x.differentiate(row + 4 * j + 1, size, row + 4 * j + 3, size);
-      }
-    }
+    [[gnu::cold]] explicit Trained(Data given);
   };
 
   static int row_size(int tensions) noexcept { return (4 + Shape::near_size) * tensions; }
 
-  Response<Scalar> respond(const Press<Scalar>& request, Point& at) noexcept {
-    using std::exp;
-    using std::isfinite;
-    iterations_ = 0;
-    at.beyond = 1;
-    if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 ||
-        request.s > trained_->data.beam.length)
-      return {0, Status::invalid_request};
-    const Press<Scalar> nearest = range().nearest(request);
-    at.press = {nearest.s, detail::bounded(request.d, trained_->data.beam.length)};
-    const int m = trained_->data.tensions;
-    trained_->x.weights(trained_->data.positions > 1 ? trained_->position(at.press.s) : Scalar(0), at.lx);
-    detail::combine(trained_->table.data(), row_size(m), detail::padded(4 * m), at.lx,
-                    trained_->data.positions, at.column);
-    const Scalar scale = trained_->position.scale(at.press.s);
-    const Scalar stiffness = m == 1 ? (along(at, 0), exp(at.f) / scale) : balance(at, scale);
-    const Scalar force = stiffness * at.press.d;
-    if (!isfinite(force)) return {0, Status::non_finite};
-    const bool in_range = nearest.s == request.s && nearest.d == request.d;
-    return {force, in_range ? Status::ok : Status::out_of_range};
-  }
+  Response<Scalar> respond(const Press<Scalar>& request, Point& at) noexcept;
 
   /// f and its derivatives at z.
   void along(Point& at, Scalar z) const noexcept {
@@ -178,57 +121,7 @@ class GalerkinModel {
   /// k(s, N) [N/m] with N the tension of the press.  In z the equation is
   ///   φ(z) = q exp(f - z) f' - (exp(z) - 1) = 0,     q = d² EA/(2 L N0² scale)
   /// with φ falling, for k is concave in N.
-  Scalar balance(Point& at, Scalar scale) noexcept {
-    using std::abs;
-    using std::exp;
-    using std::expm1;
-    using std::sqrt;
-    const Scalar d = at.press.d, N0 = trained_->tension.unit(), z_max = trained_->z.high();
-    const Scalar flexibility = trained_->data.beam.length / trained_->data.beam.axial_stiffness;
-    const Scalar q = d * d / (2 * flexibility * N0 * N0 * scale);
-    // Newton's method, and near the root Halley's, of third order: what a step that small leaves is round-off.
-    const Scalar settled = std::cbrt(std::numeric_limits<Scalar>::epsilon()) / 16;
-    Scalar low = -1, high = 2 * z_max, z = std::min(last_, z_max);  // both open: no end has been looked at
-    Scalar k = 0;
-    for (; iterations_ < max_iterations; ++iterations_) {
-      along(at, z);
-      const Scalar ratio = exp(at.f - z), part = q * ratio, growth = expm1(z), phi = part * at.by_z - growth;
-      (phi > 0 ? low : high) = z;
-      k = ratio * (growth + 1) / scale;
-      if (low == z_max) break;
-      const Scalar less = at.by_z - 1, falls = growth + 1 - part * (at.by_z * less + at.by_zz),
-                   bends = growth + 1 - part * (at.by_z * less * less + at.by_zz * (3 * at.by_z - 2));
-      const Scalar newton = phi / falls, curve = newton * bends / (2 * falls);
-      const Scalar step = abs(curve) < Scalar(0.25) ? newton / (1 + curve) : newton;
-      const Scalar next = std::min(std::max(z + step, Scalar(0)), z_max);
-      if (abs(step) <= settled) {
-        const Scalar way = next - z, change = way * (at.by_z + way / 2 * at.by_zz);
-        at.f += change;
-        at.by_z += way * at.by_zz;
-        k *= 1 + change * (1 + change / 2);
-        z = next;
-        trained_->z.weights(z, at.lz);
-        break;
-      }
-      z = next > low && next < high ? next : (std::max(low, Scalar(0)) + std::min(high, z_max)) / 2;
-    }
-    last_ = z;
-    if (low != z_max) return k;
-
-    // N = Nm r²:  k' = 1/A + b/r,  hence r³ - P r - Q = 0, convex where r > 0; Newton comes down to its only root there.
-    const Scalar Nm = trained_->data.tension, string = 1 / string_compliance(at.press.s);
-    const Scalar b = k * at.by_z / (N0 + Nm) - string, half = d * d / (2 * flexibility * Nm);
-    const Scalar P = half * string, Q = half * b;
-    Scalar r = std::max(sqrt(P) + std::cbrt(std::max(Q, Scalar(0))), Scalar(1));
-    for (; iterations_ < max_iterations; ++iterations_) {
-      const Scalar step = (r * (r * r - P) - Q) / (3 * r * r - P);
-      if (!(step > 0)) break;
-      r -= step;
-      if (step <= settled * r) break;
-    }
-    at.beyond = std::max(r, Scalar(1));
-    return k + beyond(at, string, b);
-  }
+  Scalar balance(Point& at, Scalar scale) noexcept;
 
   /// What ∂k/∂N = 1/A + b √(Nm/N) adds to k from Nm to N.
   Scalar beyond(const Point& at, Scalar string, Scalar b) const noexcept {
@@ -238,19 +131,7 @@ class GalerkinModel {
 
   /// θ at the contact: (∂V/∂s)/F = ½ d (∂k/∂s)/k, N being stationary [rad].
   /// @param by_x  df/dx
-  Scalar rotation(const Point& at, Scalar by_x) const noexcept {
-    const Scalar s = at.press.s, x_by_s = trained_->position.derivative(s);
-    const Scalar log_by_s =
-        by_x * x_by_s - trained_->position.log_scale_derivative(s);  // of k, or of k at Nm
-    if (!(at.beyond > 1)) return at.press.d / 2 * log_by_s;
-    const Scalar k = std::exp(at.f) / trained_->position.scale(s), k_by_s = k * log_by_s;
-    const Scalar string = 1 / string_compliance(s),
-                 string_by_s = -string * string * string_compliance_by_s(s);
-    const Scalar span = trained_->tension.unit() + trained_->data.tension;  // N0 + Nm
-    const Scalar b = k * at.by_z / span - string;
-    const Scalar b_by_s = (k_by_s * at.by_z + k * at.by_xz * x_by_s) / span - string_by_s;
-    return at.press.d / 2 * (k_by_s + beyond(at, string_by_s, b_by_s)) / (k + beyond(at, string, b));
-  }
+  Scalar rotation(const Point& at, Scalar by_x) const noexcept;
 
   /// Deflection under a unit force of a string under unit tension with these ends [m].
   Scalar string_compliance(Scalar s) const noexcept {
@@ -270,5 +151,138 @@ class GalerkinModel {
   Scalar last_ = 0;      // z of the last press
   int iterations_ = 0;
 };
+
+// What costs a compiler time is defined outside of the class: only so does "extern template class GalerkinModel<>;" keep it out of all
+// files but one.
+template <typename Scalar, class Nodes>
+GalerkinModel<Scalar, Nodes>::Trained::Trained(Data given)
+    : data((check(given), std::move(given))),
+      position(data.beam),
+      tension(data.beam),
+      x(data.positions, position(data.s_min), position(data.s_max)),
+      z(data.tensions, 0, tension(data.tension)),
+      table(static_cast<std::size_t>(data.positions * row_size(data.tensions) + detail::padded(1))) {
+  const int m = data.tensions, size = row_size(m);
+  const auto near = [m](Scalar* row, int j) { return row + 4 * m + Shape::near_size * j; };
+  Scalar* row = table.data();
+  for (int i = 0; i < data.positions; ++i, row += size) {
+    for (int j = 0; j < m; ++j) {
+      row[4 * j] = data.log_stiffness[static_cast<std::size_t>(i * m + j)];
+      Shape::tabulate(data.shape, i * m + j, near(row, j));
+    }
+    z.differentiate(row, 4, row + 1, 4);
+    z.differentiate(row + 1, 4, row + 2, 4);
+  }
+  row = table.data();
+  for (int j = 0; j < m; ++j) {
+    x.differentiate(row + 4 * j, size, near(row, j) + Shape::own, size);
+    x.differentiate(row + 4 * j + 1, size, row + 4 * j + 3, size);
+  }
+}
+
+template <typename Scalar, class Nodes>
+Response<Scalar> GalerkinModel<Scalar, Nodes>::press(const Press<Scalar>& request) noexcept {
+  Point at;
+  const Response<Scalar> response = respond(request, at);
+  if (!is_answer(response.status)) return response;
+  const Scalar s = at.press.s, d = at.press.d;
+  const int m = trained_->data.tensions;
+  Scalar by_tension[Shape::near_size * max_size], near[Shape::near_size];
+  detail::combine(trained_->table.data() + 4 * m, row_size(m), Shape::near_size * m, at.lx,
+                  trained_->data.positions, by_tension);
+  detail::combine(by_tension, Shape::near_size, Shape::near_size, at.lz, m, near);
+  const Scalar theta = rotation(at, near[Shape::own]);
+  if (trained_->data.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
+  shape_.press(s, d, d, trained_->data.positions > 1 ? &theta : nullptr, at.lx, at.lz, near);
+  return response;
+}
+
+template <typename Scalar, class Nodes>
+Response<Scalar> GalerkinModel<Scalar, Nodes>::respond(const Press<Scalar>& request, Point& at) noexcept {
+  using std::exp;
+  using std::isfinite;
+  iterations_ = 0;
+  at.beyond = 1;
+  if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 || request.s > trained_->data.beam.length)
+    return {0, Status::invalid_request};
+  const Press<Scalar> nearest = range().nearest(request);
+  at.press = {nearest.s, detail::bounded(request.d, trained_->data.beam.length)};
+  const int m = trained_->data.tensions;
+  trained_->x.weights(trained_->data.positions > 1 ? trained_->position(at.press.s) : Scalar(0), at.lx);
+  detail::combine(trained_->table.data(), row_size(m), detail::padded(4 * m), at.lx, trained_->data.positions,
+                  at.column);
+  const Scalar scale = trained_->position.scale(at.press.s);
+  const Scalar stiffness = m == 1 ? (along(at, 0), exp(at.f) / scale) : balance(at, scale);
+  const Scalar force = stiffness * at.press.d;
+  if (!isfinite(force)) return {0, Status::non_finite};
+  const bool in_range = nearest.s == request.s && nearest.d == request.d;
+  return {force, in_range ? Status::ok : Status::out_of_range};
+}
+
+template <typename Scalar, class Nodes>
+Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
+  using std::abs;
+  using std::exp;
+  using std::expm1;
+  using std::sqrt;
+  const Scalar d = at.press.d, N0 = trained_->tension.unit(), z_max = trained_->z.high();
+  const Scalar flexibility = trained_->data.beam.length / trained_->data.beam.axial_stiffness;
+  const Scalar q = d * d / (2 * flexibility * N0 * N0 * scale);
+  // Newton's method, and near the root Halley's, of third order: what a step that small leaves is round-off.
+  const Scalar settled = std::cbrt(std::numeric_limits<Scalar>::epsilon()) / 16;
+  Scalar low = -1, high = 2 * z_max, z = std::min(last_, z_max);  // both open: no end has been looked at
+  Scalar k = 0;
+  for (; iterations_ < max_iterations; ++iterations_) {
+    along(at, z);
+    const Scalar ratio = exp(at.f - z), part = q * ratio, growth = expm1(z), phi = part * at.by_z - growth;
+    (phi > 0 ? low : high) = z;
+    k = ratio * (growth + 1) / scale;
+    if (low == z_max) break;
+    const Scalar less = at.by_z - 1, falls = growth + 1 - part * (at.by_z * less + at.by_zz),
+                 bends = growth + 1 - part * (at.by_z * less * less + at.by_zz * (3 * at.by_z - 2));
+    const Scalar newton = phi / falls, curve = newton * bends / (2 * falls);
+    const Scalar step = abs(curve) < Scalar(0.25) ? newton / (1 + curve) : newton;
+    const Scalar next = std::min(std::max(z + step, Scalar(0)), z_max);
+    if (abs(step) <= settled) {
+      const Scalar way = next - z, change = way * (at.by_z + way / 2 * at.by_zz);
+      at.f += change;
+      at.by_z += way * at.by_zz;
+      k *= 1 + change * (1 + change / 2);
+      z = next;
+      trained_->z.weights(z, at.lz);
+      break;
+    }
+    z = next > low && next < high ? next : (std::max(low, Scalar(0)) + std::min(high, z_max)) / 2;
+  }
+  last_ = z;
+  if (low != z_max) return k;
+
+  // N = Nm r²:  k' = 1/A + b/r,  hence r³ - P r - Q = 0, convex where r > 0; Newton comes down to its only root there.
+  const Scalar Nm = trained_->data.tension, string = 1 / string_compliance(at.press.s);
+  const Scalar b = k * at.by_z / (N0 + Nm) - string, half = d * d / (2 * flexibility * Nm);
+  const Scalar P = half * string, Q = half * b;
+  Scalar r = std::max(sqrt(P) + std::cbrt(std::max(Q, Scalar(0))), Scalar(1));
+  for (; iterations_ < max_iterations; ++iterations_) {
+    const Scalar step = (r * (r * r - P) - Q) / (3 * r * r - P);
+    if (!(step > 0)) break;
+    r -= step;
+    if (step <= settled * r) break;
+  }
+  at.beyond = std::max(r, Scalar(1));
+  return k + beyond(at, string, b);
+}
+
+template <typename Scalar, class Nodes>
+Scalar GalerkinModel<Scalar, Nodes>::rotation(const Point& at, Scalar by_x) const noexcept {
+  const Scalar s = at.press.s, x_by_s = trained_->position.derivative(s);
+  const Scalar log_by_s = by_x * x_by_s - trained_->position.log_scale_derivative(s);  // of k, or of k at Nm
+  if (!(at.beyond > 1)) return at.press.d / 2 * log_by_s;
+  const Scalar k = std::exp(at.f) / trained_->position.scale(s), k_by_s = k * log_by_s;
+  const Scalar string = 1 / string_compliance(s), string_by_s = -string * string * string_compliance_by_s(s);
+  const Scalar span = trained_->tension.unit() + trained_->data.tension;  // N0 + Nm
+  const Scalar b = k * at.by_z / span - string;
+  const Scalar b_by_s = (k_by_s * at.by_z + k * at.by_xz * x_by_s) / span - string_by_s;
+  return at.press.d / 2 * (k_by_s + beyond(at, string_by_s, b_by_s)) / (k + beyond(at, string, b));
+}
 
 }  // namespace hapbeam

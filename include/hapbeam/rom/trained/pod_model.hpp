@@ -45,22 +45,7 @@ class PodModel {
 
   /// Force and shape of a transverse displacement d [m] at arc position s [m] of the unloaded beam.
   /// @return force [N] and ok | out_of_range | invalid_request | non_finite
-  Response<Scalar> press(const Press<Scalar>& request) noexcept {
-    Point at;
-    const Response<Scalar> response = respond(request, at);
-    if (!is_answer(response.status)) return response;
-    const Data& data = trained_->data;
-    const Scalar unit = data.symmetric ? at.press.d : data.depth;
-    const int m = data.depths;
-    Scalar by_depth[Shape::near_size * max_size], near[Shape::near_size];
-    detail::combine(trained_->table.data() + 2 * m, row_size(m), Shape::near_size * m, at.lx, data.positions,
-                    by_depth);
-    detail::combine(by_depth, Shape::near_size, Shape::near_size, at.ly, m, near);
-    const Scalar theta = rotation(at, near[Shape::own]);
-    if (data.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
-    shape_.press(at.press.s, at.press.d, unit, data.positions > 1 ? &theta : nullptr, at.lx, at.ly, near);
-    return response;
-  }
+  Response<Scalar> press(const Press<Scalar>& request) noexcept;
 
   /// Computed when it is first asked for: by one thread at a time.
   Centreline<Scalar> shape() const noexcept { return shape_.all(trained_->data.shape); }
@@ -102,52 +87,12 @@ class PodModel {
     // contact, the last of which is the derivative of the potential in x.
     std::vector<Scalar> table, rest_by_x;
 
-    [[gnu::cold]] explicit Trained(Data given)
-        : data((check(given), std::move(given))),
-          position(data.beam),
-          depth(data.beam, data.symmetric),
-          x(data.positions, position(data.s_min), position(data.s_max)),
-          y(data.depths, data.y_low, data.y_high),
-          table(static_cast<std::size_t>(data.positions * row_size(data.depths) + detail::padded(1))),
-          rest_by_x(static_cast<std::size_t>(data.positions)) {
-      const int m = data.depths, n = data.positions, size = row_size(m);
-      const auto near = [m](Scalar* row, int j) { return row + 2 * m + Shape::near_size * j; };
-      Scalar* row = table.data();
-      for (int i = 0; i < n; ++i, row += size) {
-        std::copy_n(data.potential.data() + i * m, m, row + m);
-        y.differentiate(row + m, 1, row, 1);
-        for (int j = 0; j < m; ++j) Shape::tabulate(data.shape, i * m + j, near(row, j));
-      }
-      row = table.data();
-      for (int j = 0; j < m; ++j) x.differentiate(row + m + j, size, near(row, j) + Shape::own, size);
-      x.differentiate(data.rest.data(), 1, rest_by_x.data(), 1);
-    }
+    [[gnu::cold]] explicit Trained(Data given);
   };
 
   static int row_size(int depths) noexcept { return (2 + Shape::near_size) * depths; }
 
-  Response<Scalar> respond(const Press<Scalar>& request, Point& at) const noexcept {
-    using std::isfinite;
-    if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 ||
-        request.s > trained_->data.beam.length)
-      return {0, Status::invalid_request};
-    at.press = range().nearest(request);
-    locate(at);
-    Scalar force = at.force();
-    if (at.press.d == request.d) {
-      if (!isfinite(force)) return {0, Status::non_finite};
-      return {force, at.press.s == request.s ? Status::ok : Status::out_of_range};
-    }
-    Point near = at;
-    const Scalar step = at.press.d / 256;
-    near.press.d = at.press.d + step, descend(near);
-    Scalar stiffness = near.force();
-    near.press.d = at.press.d - step, descend(near);
-    stiffness = std::max((stiffness - near.force()) / (2 * step), Scalar(0));
-    force += stiffness * (detail::bounded(request.d, trained_->data.beam.length) - at.press.d);
-    if (!isfinite(force)) return {0, Status::non_finite};
-    return {force, Status::out_of_range};
-  }
+  Response<Scalar> respond(const Press<Scalar>& request, Point& at) const noexcept;
 
   void locate(Point& at) const noexcept {
     const Trained& t = *trained_;
@@ -157,35 +102,106 @@ class PodModel {
   }
 
   /// The rest of locate(), for another depth at the same position.
-  [[gnu::noinline]] void descend(Point& at) const noexcept {
-    const Trained& t = *trained_;
-    const int n = t.data.positions, m = t.data.depths;
-    at.e = at.press.d;
-    if (!t.data.symmetric) at.e -= detail::dot(at.lx, t.data.rest.data(), n);
-    at.y = t.depth(at.e);
-    at.half_slope = t.depth.half_log_derivative(at.e, at.y);
-    t.y.weights(at.y, at.ly);
-    Scalar sum[2 * max_size];
-    if (n > 1) detail::combine(t.table.data(), row_size(m), detail::padded(2 * m), at.lx, n, sum);
-    const Scalar* column = n > 1 ? sum : t.table.data();
-    at.work = detail::dot(at.ly, column + m, m);
-    at.work_by_y = detail::dot(at.ly, column, m);
-  }
+  [[gnu::noinline]] void descend(Point& at) const noexcept;
 
   /// θ at the contact: (∂V/∂s at constant d)/F [rad].
   /// @param by_x  ∂/∂x of the potential
-  Scalar rotation(const Point& at, Scalar by_x) const noexcept {
-    const Trained& t = *trained_;
-    const Scalar rest_by_x =
-        t.data.symmetric ? Scalar(0) : detail::dot(at.lx, t.rest_by_x.data(), t.data.positions);
-    const Scalar s = at.press.s, x_by_s = t.position.derivative(s);
-    return at.e / 2 * (by_x * x_by_s - at.work * t.position.log_scale_derivative(s)) /
-               (at.work + at.half_slope * at.work_by_y) -
-           rest_by_x * x_by_s;
-  }
+  Scalar rotation(const Point& at, Scalar by_x) const noexcept;
 
   std::shared_ptr<const Trained> trained_;
   mutable Shape shape_;  // of the last press, as far as it was asked for
 };
+
+// What costs a compiler time is defined outside of the class: only so does "extern template class PodModel<>;" keep it out of all
+// files but one.
+template <typename Scalar, class Nodes>
+PodModel<Scalar, Nodes>::Trained::Trained(Data given)
+    : data((check(given), std::move(given))),
+      position(data.beam),
+      depth(data.beam, data.symmetric),
+      x(data.positions, position(data.s_min), position(data.s_max)),
+      y(data.depths, data.y_low, data.y_high),
+      table(static_cast<std::size_t>(data.positions * row_size(data.depths) + detail::padded(1))),
+      rest_by_x(static_cast<std::size_t>(data.positions)) {
+  const int m = data.depths, n = data.positions, size = row_size(m);
+  const auto near = [m](Scalar* row, int j) { return row + 2 * m + Shape::near_size * j; };
+  Scalar* row = table.data();
+  for (int i = 0; i < n; ++i, row += size) {
+    std::copy_n(data.potential.data() + i * m, m, row + m);
+    y.differentiate(row + m, 1, row, 1);
+    for (int j = 0; j < m; ++j) Shape::tabulate(data.shape, i * m + j, near(row, j));
+  }
+  row = table.data();
+  for (int j = 0; j < m; ++j) x.differentiate(row + m + j, size, near(row, j) + Shape::own, size);
+  x.differentiate(data.rest.data(), 1, rest_by_x.data(), 1);
+}
+
+template <typename Scalar, class Nodes>
+Response<Scalar> PodModel<Scalar, Nodes>::press(const Press<Scalar>& request) noexcept {
+  Point at;
+  const Response<Scalar> response = respond(request, at);
+  if (!is_answer(response.status)) return response;
+  const Data& data = trained_->data;
+  const Scalar unit = data.symmetric ? at.press.d : data.depth;
+  const int m = data.depths;
+  Scalar by_depth[Shape::near_size * max_size], near[Shape::near_size];
+  detail::combine(trained_->table.data() + 2 * m, row_size(m), Shape::near_size * m, at.lx, data.positions,
+                  by_depth);
+  detail::combine(by_depth, Shape::near_size, Shape::near_size, at.ly, m, near);
+  const Scalar theta = rotation(at, near[Shape::own]);
+  if (data.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
+  shape_.press(at.press.s, at.press.d, unit, data.positions > 1 ? &theta : nullptr, at.lx, at.ly, near);
+  return response;
+}
+
+template <typename Scalar, class Nodes>
+Response<Scalar> PodModel<Scalar, Nodes>::respond(const Press<Scalar>& request, Point& at) const noexcept {
+  using std::isfinite;
+  if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 || request.s > trained_->data.beam.length)
+    return {0, Status::invalid_request};
+  at.press = range().nearest(request);
+  locate(at);
+  Scalar force = at.force();
+  if (at.press.d == request.d) {
+    if (!isfinite(force)) return {0, Status::non_finite};
+    return {force, at.press.s == request.s ? Status::ok : Status::out_of_range};
+  }
+  Point near = at;
+  const Scalar step = at.press.d / 256;
+  near.press.d = at.press.d + step, descend(near);
+  Scalar stiffness = near.force();
+  near.press.d = at.press.d - step, descend(near);
+  stiffness = std::max((stiffness - near.force()) / (2 * step), Scalar(0));
+  force += stiffness * (detail::bounded(request.d, trained_->data.beam.length) - at.press.d);
+  if (!isfinite(force)) return {0, Status::non_finite};
+  return {force, Status::out_of_range};
+}
+
+template <typename Scalar, class Nodes>
+void PodModel<Scalar, Nodes>::descend(Point& at) const noexcept {
+  const Trained& t = *trained_;
+  const int n = t.data.positions, m = t.data.depths;
+  at.e = at.press.d;
+  if (!t.data.symmetric) at.e -= detail::dot(at.lx, t.data.rest.data(), n);
+  at.y = t.depth(at.e);
+  at.half_slope = t.depth.half_log_derivative(at.e, at.y);
+  t.y.weights(at.y, at.ly);
+  Scalar sum[2 * max_size];
+  if (n > 1) detail::combine(t.table.data(), row_size(m), detail::padded(2 * m), at.lx, n, sum);
+  const Scalar* column = n > 1 ? sum : t.table.data();
+  at.work = detail::dot(at.ly, column + m, m);
+  at.work_by_y = detail::dot(at.ly, column, m);
+}
+
+template <typename Scalar, class Nodes>
+Scalar PodModel<Scalar, Nodes>::rotation(const Point& at, Scalar by_x) const noexcept {
+  const Trained& t = *trained_;
+  const Scalar rest_by_x =
+      t.data.symmetric ? Scalar(0) : detail::dot(at.lx, t.rest_by_x.data(), t.data.positions);
+  const Scalar s = at.press.s, x_by_s = t.position.derivative(s);
+  return at.e / 2 * (by_x * x_by_s - at.work * t.position.log_scale_derivative(s)) /
+             (at.work + at.half_slope * at.work_by_y) -
+         rest_by_x * x_by_s;
+}
 
 }  // namespace hapbeam
