@@ -63,14 +63,17 @@ class BoundingVolumes {
   }
 
   /// Square of the distance from q to the box around the whole centreline [m²]: a lower bound, in O(1).
-  [[nodiscard]] Scalar distance_squared(const VectorOf<Scalar, D>& q) const noexcept {
+  /// @param q  a point or, in space, a Shaft
+  template <class Query>
+  [[nodiscard]] Scalar distance_squared(const Query& q) const noexcept {
     return boxes_[1].distance_squared(q);
   }
 
   /// The nearest point of the centreline to q; among equals the one with the smallest index.
-  /// @param centreline  the one of the last refit     Real-time: noexcept, no allocation, bounded.
-  [[nodiscard]] NearestPoint<Scalar, D> nearest(const Line& centreline,
-                                                const VectorOf<Scalar, D>& q) const noexcept {
+  /// @param centreline  the one of the last refit   @param q  a point or, in space, a Shaft
+  /// Real-time: noexcept, no allocation, bounded.
+  template <class Query>
+  [[nodiscard]] NearestPoint<Scalar, D> nearest(const Line& centreline, const Query& q) const noexcept {
     // A box is skipped only if it is farther than round-off can explain, so that the answer is the same as
     // without boxes.
     constexpr Scalar slack = 1 + 16 * std::numeric_limits<Scalar>::epsilon();

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/shaft.hpp>
 
 namespace hapbeam::detail {
 
@@ -47,6 +48,22 @@ struct Box {
       sum += away * away;
     }
     return sum;
+  }
+  /// In space: a lower bound of that to a shaft, from the box around the shaft and from the ball around this one.
+  [[nodiscard]] Scalar distance_squared(const Shaft<Scalar>& shaft) const noexcept {
+    if (shaft.way.isZero(0)) return distance_squared(shaft.tip);
+    VectorOf<Scalar, D> centre, half;
+    Scalar sum = 0;
+    for (int k = 0; k < D; ++k) {
+      const Scalar end = shaft.tip[k] + shaft.way[k], lowest = std::min(shaft.tip[k], end),
+                   highest = std::max(shaft.tip[k], end),
+                   away = std::max(std::max(low[k] - highest, lowest - high[k]), Scalar(0));
+      sum += away * away;
+      centre[k] = (low[k] + high[k]) / 2, half[k] = (high[k] - low[k]) / 2;
+    }
+    const Scalar gap =
+        std::sqrt((shaft.at(shaft.nearest(centre)) - centre).squaredNorm()) - std::sqrt(half.squaredNorm());
+    return gap > 0 ? std::max(sum, gap * gap) : sum;
   }
   [[nodiscard]] bool overlaps(const Box& other) const noexcept {
     for (int k = 0; k < D; ++k)

@@ -1,4 +1,5 @@
-// The point of a cubic, in a plane or in space, that is nearest to a given point: the global minimum over t in [0, 1].
+// The point of a cubic, in a plane or in space, that is nearest to a given point, or in space to a shaft: the global minimum
+// over t in [0, 1].
 //
 // With p(t) = C(t) - q the distance is stationary where g(t) = p . p' = 0, a polynomial of degree five.  Its
 // Bernstein coefficients are short sums of dot products of control points, and their signs isolate the
@@ -8,15 +9,17 @@
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/contact/bernstein.hpp>
+#include <hapbeam/shaft.hpp>
 
 namespace hapbeam {
 
 /// A point of one piece, seen from a query point.
 template <typename Scalar, int D = 2>
 struct ClosestPoint {
-  Scalar t;                    ///< parameter in [0, 1]; exactly 0 or 1 at an end
-  VectorOf<Scalar, D> offset;  ///< [m] from the point of the curve to the query point
-  Scalar distance_squared;     ///< [m²] offset . offset
+  Scalar t;  ///< parameter in [0, 1]; exactly 0 or 1 at an end
+  VectorOf<Scalar, D>
+      offset;               ///< [m] from the point of the curve to the query point, or to that of the shaft
+  Scalar distance_squared;  ///< [m²] offset . offset
 };
 
 /// Derivative dC/dt of a piece [m], for its direction: where it vanishes, the chord's.
@@ -72,6 +75,34 @@ ClosestPoint<Scalar, D> closest_point(const CubicSegment<Scalar, D>& b,
   detail::for_each_foot(p0, p1, p2, p3, [&](Scalar t, const Vector& p) {
     const Scalar d = p.squaredNorm();
     if (d < best.distance_squared) best = {t, -p, d};
+  });
+  return best;
+}
+
+/// The same to a shaft.  Nearest are the points nearest to its ends, and between them those of the curve as seen along it.
+template <typename Scalar>
+ClosestPoint<Scalar, 3> closest_point(const CubicSegment<Scalar, 3>& b, const Shaft<Scalar>& shaft) noexcept {
+  using Vector = VectorOf<Scalar, 3>;
+  ClosestPoint<Scalar, 3> best = closest_point(b, shaft.tip);
+  const Scalar squared = shaft.way.squaredNorm();
+  if (!(squared > 0)) return best;
+  const ClosestPoint<Scalar, 3> other = closest_point(b, Vector(shaft.tip + shaft.way));
+  if (other.distance_squared < best.distance_squared) best = other;
+  const auto see = [&](Scalar t, const Vector& point) {
+    const Vector offset = shaft.at(shaft.nearest(point)) - point;
+    const Scalar d = offset.squaredNorm();
+    if (d < best.distance_squared) best = {t, offset, d};
+  };
+  Vector p[4];
+  for (int k = 0; k < 4; ++k) {
+    p[k] = b.col(k) - shaft.tip;
+    p[k] -= shaft.way.dot(p[k]) / squared * shaft.way;
+  }
+  see(0, b.col(0));
+  see(1, b.col(3));
+  detail::for_each_foot(p[0], p[1], p[2], p[3], [&](Scalar t, const Vector&) {
+    const Scalar r = 1 - t;
+    see(t, r * r * (r * b.col(0) + 3 * t * b.col(1)) + t * t * (3 * r * b.col(2) + t * b.col(3)));
   });
   return best;
 }
