@@ -349,6 +349,8 @@ struct SystemOf {
   using System = BeamSystem<Element, Scalar, Elements, MaxElements, Assembler>;
   template <typename Scalar>
   using Range = PressRange<Element, Scalar>;
+  template <typename Scalar>
+  using Round = Circle<Scalar>;
 };
 
 }  // namespace detail
