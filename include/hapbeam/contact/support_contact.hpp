@@ -15,7 +15,8 @@
 
 namespace hapbeam::detail {
 
-template <typename Scalar>
+/// @tparam D  2 | 3
+template <typename Scalar, int D = 2>
 class SupportContact {
  public:
   /// @param model  before it is touched
@@ -36,7 +37,8 @@ class SupportContact {
 
   /// Whether the avatar reaches over an end that holds w.
   template <class Model>
-  static bool over(const Model& model, const Vector2<Scalar>& position, Scalar reach) noexcept {
+  static bool over(const Model& model, const Avatar<Scalar>& avatar, Scalar reach) noexcept {
+    const Vector2<Scalar>& position = avatar.position;
     const Centreline<Scalar> line = model.shape();
     const Range<Scalar> range = model.range();
     const auto within = [&](const CentrelineNode<Scalar>& end, Scalar support) {
@@ -76,6 +78,56 @@ class SupportContact {
     Scalar w;  // of the nearest place in range [m]
   };
   End ends_[2] = {{0, 0}, {0, 0}};
+};
+
+/// An end of a rod in space that is held does not move, nor does what is beside it.
+template <typename Scalar>
+class SupportContact<Scalar, 3> {
+ public:
+  template <class Model>
+  void begin(const Model& model) noexcept {
+    const Centreline<Scalar, 3> line = model.shape();
+    const Range<Scalar> range = model.range();
+    across_[0] = line[0].director, across_[1] = line[line.segments()].director;
+    home_[0] = across_[0].dot(line.at(range.s_min).r), home_[1] = across_[1].dot(line.at(range.s_max).r);
+  }
+
+  /// Whether the contact is past an end that is held, or nearer to it than a push is answered.
+  template <class Model>
+  static bool past(const Contact<Scalar, 3>& contact, const Model& model) noexcept {
+    const Range<Scalar> range = model.range();
+    return (contact.s < range.s_min && std::isfinite(range.left_support)) ||
+           (contact.s > range.s_max && std::isfinite(range.right_support));
+  }
+  template <class Model>
+  static bool near(const Contact<Scalar, 3>& contact, const Model& model, Scalar distance) noexcept {
+    const Range<Scalar> range = model.range();
+    return contact.s - range.left_support < distance || range.right_support - contact.s < distance;
+  }
+  template <class Model>
+  static bool slid(const Contact<Scalar, 3>&, const Model&) noexcept {
+    return false;
+  }
+
+  /// As PressContact::hold().  So near to the end the rod is pushed across by half of the way to it at most; deeper contacts
+  /// take as many times the force.
+  template <class Model>
+  Held<Scalar> hold(Model& model, const Contact<Scalar, 3>& contact, Press<Scalar>& asked) const noexcept {
+    if (!contact.touching) return {Hold::released, 0, Status::ok};
+    const Range<Scalar> range = model.range();
+    const bool right = std::isfinite(range.right_support) && contact.s > range.s_max;
+    const Scalar s = right ? range.s_max : range.s_min,
+                 most = (right ? range.right_support - s : s - range.left_support) / 2,
+                 depth = std::min(contact.depth, most);
+    asked = {s, home_[right] - depth};
+    const Response<Scalar> response = model.push(Push<Scalar, 3>{s, asked.d, across_[right]});
+    const Status status = response.status == Status::ok ? Status::out_of_range : response.status;
+    return {Hold::pressing, std::abs(response.force) * (contact.depth / depth), status};
+  }
+
+ private:
+  VectorOf<Scalar, 3> across_[2] = {VectorOf<Scalar, 3>::Zero(), VectorOf<Scalar, 3>::Zero()};
+  Scalar home_[2] = {0, 0};  // of the nearest place in range, at rest, along that [m]
 };
 
 }  // namespace hapbeam::detail
