@@ -22,6 +22,13 @@ struct ClosestPoint {
   Scalar distance_squared;  ///< [m²] offset . offset
 };
 
+/// A point of a piece [m].
+template <typename Scalar, int D>
+VectorOf<Scalar, D> point_at(const CubicSegment<Scalar, D>& b, Scalar t) noexcept {
+  const Scalar r = 1 - t;
+  return r * r * (r * b.col(0) + 3 * t * b.col(1)) + t * t * (3 * r * b.col(2) + t * b.col(3));
+}
+
 /// Derivative dC/dt of a piece [m], for its direction: where it vanishes, the chord's.
 template <typename Scalar, int D>
 VectorOf<Scalar, D> tangent(const CubicSegment<Scalar, D>& b, Scalar t) noexcept {
@@ -100,10 +107,7 @@ ClosestPoint<Scalar, 3> closest_point(const CubicSegment<Scalar, 3>& b, const Sh
   }
   see(0, b.col(0));
   see(1, b.col(3));
-  detail::for_each_foot(p[0], p[1], p[2], p[3], [&](Scalar t, const Vector&) {
-    const Scalar r = 1 - t;
-    see(t, r * r * (r * b.col(0) + 3 * t * b.col(1)) + t * t * (3 * r * b.col(2) + t * b.col(3)));
-  });
+  detail::for_each_foot(p[0], p[1], p[2], p[3], [&](Scalar t, const Vector&) { see(t, point_at(b, t)); });
   return best;
 }
 

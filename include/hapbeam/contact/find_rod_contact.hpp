@@ -48,10 +48,9 @@ Contact<Scalar, 3> rod_contact_at(const NearestPoint<Scalar, 3>& nearest, const 
   const Scalar t = nearest.at.t;
   const CubicSegment<Scalar, 3> piece = line.segment(i);
   const Vector &offset = nearest.at.offset, along = unit(tangent(piece, t));
-  const Scalar distance = std::sqrt(nearest.at.distance_squared), r = 1 - t, ahead = along.dot(offset);
+  const Scalar distance = std::sqrt(nearest.at.distance_squared), ahead = along.dot(offset);
   contact.segment = i;
-  contact.foot =
-      r * r * (r * piece.col(0) + 3 * t * piece.col(1)) + t * t * (3 * r * piece.col(2) + t * piece.col(3));
+  contact.foot = point_at(piece, t);
   contact.past_end = (i == 0 && t == 0 && ahead < 0) || (i == line.segments() - 1 && t == 1 && ahead > 0);
   contact.s = t < 1 ? std::min(line[i].s + t * (line[i + 1].s - line[i].s), line[i + 1].s) : line[i + 1].s;
   contact.depth = reach - distance;

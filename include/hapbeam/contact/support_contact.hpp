@@ -7,11 +7,13 @@
 // Real-time: noexcept, no allocation; at most one press.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <hapbeam/contact/find_contact.hpp>
 #include <hapbeam/contact/press_contact.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam::detail {
 
@@ -80,24 +82,46 @@ class SupportContact {
   End ends_[2] = {{0, 0}, {0, 0}};
 };
 
-/// An end of a rod in space that is held does not move, nor does what is beside it.
+/// An end of a rod in space that is held does not move, nor does much beside it: deeper than half of the distance to the end a
+/// contact bends the rod beyond all sense.  There the rod counts as it lay before the touch: it is pushed across by half of that
+/// distance, and deeper contacts take as many times the force.
 template <typename Scalar>
 class SupportContact<Scalar, 3> {
+  using Vector = VectorOf<Scalar, 3>;
+
  public:
   template <class Model>
   void begin(const Model& model) noexcept {
     const Centreline<Scalar, 3> line = model.shape();
-    const Range<Scalar> range = model.range();
-    across_[0] = line[0].director, across_[1] = line[line.segments()].director;
-    home_[0] = across_[0].dot(line.at(range.s_min).r), home_[1] = across_[1].dot(line.at(range.s_max).r);
+    const int last = line.segments() - 1;
+    ends_[0] = {line.segment(0), line[1].s - line[0].s, line[0].director};
+    ends_[1] = {line.segment(last).rowwise().reverse(), line[last + 1].s - line[last].s,
+                line[last + 1].director};
   }
 
-  /// Whether the contact is past an end that is held, or nearer to it than a push is answered.
+  /// Whether the contact is past an end that is held, or deeper than half of the distance to it.
   template <class Model>
-  static bool past(const Contact<Scalar, 3>& contact, const Model& model) noexcept {
+  bool past(const Contact<Scalar, 3>& contact, const Model& model, const Avatar<Scalar, 3>& avatar,
+            Scalar reach) noexcept {
     const Range<Scalar> range = model.range();
-    return (contact.s < range.s_min && std::isfinite(range.left_support)) ||
-           (contact.s > range.s_max && std::isfinite(range.right_support));
+    for (const bool right : {false, true}) {
+      const End& end = ends_[right];
+      const Scalar support = right ? range.right_support : range.left_support,
+                   distance = std::abs(contact.s - support);
+      if (!(distance < end.length)) continue;
+      const ClosestPoint<Scalar, 3> at = closest_point(end.piece, avatar.axis());
+      const Scalar gap = std::sqrt(at.distance_squared),
+                   nearest = right ? support - range.s_max : range.s_min;
+      depth_ = reach - gap;
+      distance_ = std::max(at.t * end.length, nearest);
+      if (!(distance < nearest || 2 * depth_ > distance_)) continue;
+      right_ = right;
+      tangent_ = detail::unit(tangent(end.piece, at.t));
+      normal_ = gap > 0 ? Vector(at.offset / gap) : detail::across(end.director, tangent_);
+      foot_ = point_at(end.piece, at.t);
+      return true;
+    }
+    return false;
   }
   template <class Model>
   static bool near(const Contact<Scalar, 3>& contact, const Model& model, Scalar distance) noexcept {
@@ -109,25 +133,40 @@ class SupportContact<Scalar, 3> {
     return false;
   }
 
-  /// As PressContact::hold().  So near to the end the rod is pushed across by half of the way to it at most; deeper contacts
-  /// take as many times the force.
+  /// As PressContact::hold().
   template <class Model>
-  Held<Scalar> hold(Model& model, const Contact<Scalar, 3>& contact, Press<Scalar>& asked) const noexcept {
+  Held<Scalar> hold(Model& model, Contact<Scalar, 3>& contact, Press<Scalar>& asked) const noexcept {
+    contact.touching = depth_ > 0;
     if (!contact.touching) return {Hold::released, 0, Status::ok};
     const Range<Scalar> range = model.range();
-    const bool right = std::isfinite(range.right_support) && contact.s > range.s_max;
-    const Scalar s = right ? range.s_max : range.s_min,
-                 most = (right ? range.right_support - s : s - range.left_support) / 2,
-                 depth = std::min(contact.depth, most);
-    asked = {s, home_[right] - depth};
-    const Response<Scalar> response = model.push(Push<Scalar, 3>{s, asked.d, across_[right]});
+    const Scalar s = right_ ? range.right_support - distance_ : range.left_support + distance_,
+                 depth = std::min(depth_, distance_ / 2);
+    const Vector side = normal_ - tangent_ * tangent_.dot(normal_),
+                 across = side.squaredNorm() > Scalar(0.01)
+                              ? detail::unit(side)
+                              : detail::across(ends_[right_].director, tangent_);
+    asked = {s, across.dot(foot_) - depth};
+    const Response<Scalar> response = model.push(Push<Scalar, 3>{s, asked.d, across});
     const Status status = response.status == Status::ok ? Status::out_of_range : response.status;
-    return {Hold::pressing, std::abs(response.force) * (contact.depth / depth), status};
+    contact.s = s;
+    contact.foot = foot_;
+    contact.normal = normal_;
+    contact.point = foot_ + normal_ * (model.thickness() / 2);
+    contact.depth = depth_;
+    return {Hold::pressing, std::abs(response.force) * (depth_ / depth), status};
   }
 
  private:
-  VectorOf<Scalar, 3> across_[2] = {VectorOf<Scalar, 3>::Zero(), VectorOf<Scalar, 3>::Zero()};
-  Scalar home_[2] = {0, 0};  // of the nearest place in range, at rest, along that [m]
+  struct End {
+    CubicSegment<Scalar, 3> piece;  // from the end inward, before the touch
+    Scalar length;                  // of it [m]
+    Vector director;
+  };
+
+  End ends_[2] = {};
+  bool right_ = false;
+  Scalar distance_ = 0, depth_ = 0;  // of the last contact, from the end and into the rod [m]
+  Vector tangent_ = Vector::Zero(), normal_ = Vector::Zero(), foot_ = Vector::Zero();
 };
 
 }  // namespace hapbeam::detail

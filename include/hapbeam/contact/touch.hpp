@@ -141,7 +141,8 @@ class Touch {
   detail::Held<Scalar> hold(Contact& contact, const Avatar& avatar, Scalar reach,
                             Press<Scalar>& asked) noexcept {
     const bool was_on_support = on_support_, was_across = across_;
-    on_support_ = support_.past(contact, model_);
+    if constexpr (planar) on_support_ = support_.past(contact, model_);
+    else on_support_ = support_.past(contact, model_, avatar, reach);
     if (on_support_) {
       side_ = contact.side;
       return support_.hold(model_, contact, asked);
