@@ -1,6 +1,8 @@
 #include "options.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "scenes.hpp"
@@ -84,7 +86,8 @@ cli::Entries entries(Options& o) {
            o.screenshot),
       figure("--zoom", "X", "size of the window and of its text, 1 to 4; 1 by default, 1280 x 720 pixels",
              o.zoom, 1, 4, ""),
-      figure("--at", "S", "when the screenshot is taken [s]; 3 by default", o.at, 0, 86400, "s"),
+      figure("--at", "S", "when the screenshot is taken [s]; 3 by default, or the end of a shorter duration",
+             o.at, 0, 86400, "s"),
       count("--frames",
             "so many screenshots, 0.05 s apart, 1 to 1000; FILE.png becomes FILE_000.png, FILE_001.png and "
             "so on",
@@ -122,6 +125,16 @@ void check_model(const Options& o, const std::vector<std::string>& given) {
   cli::exclude(given, "--beams", "--model", "which is of a single one");
   if (o.guarded) return;
   cli::exclude(given, "--elements", "--model", "unless --guarded is given too");
+}
+
+/// The window closes after the duration, and the pictures come before.
+void take_pictures_in_time(Options& o, const std::vector<std::string>& given) {
+  const double latest = o.duration - 0.05 * o.frames;
+  if (!cli::contains(given, "--at")) o.at = std::min(o.at, std::max(latest, 0.0));
+  if (o.at <= latest) return;
+  char text[128];
+  std::snprintf(text, sizeof text, "--at %g: must be at most %g s with this duration", o.at, latest);
+  throw cli::UsageError(text);
 }
 
 }  // namespace
@@ -171,6 +184,7 @@ Options parse(const std::vector<std::string>& arguments) {
     throw cli::UsageError("--guarded: must stand beside --model, whose range it guards");
   check_model(options, given);
   options.timed = cli::contains(given, "--duration");
+  if (options.timed && !options.screenshot.empty()) take_pictures_in_time(options, given);
   if (!options.replay.empty()) {
     for (const char* path : {"--script", "--depth", "--duration"})
       cli::exclude(given, path, "--replay", "whose file says what the hand does");

@@ -46,7 +46,7 @@ if(NOT HAPBEAM_SANITIZE)
   hapbeam_test_file(picture_of_another_scene NEEDS hapbeam_picture_strip REFUSED
     COMMAND compare_pictures same window_strip.png ${CMAKE_CURRENT_SOURCE_DIR}/pictures/string.png ${times})
   hapbeam_test_example(phantom window_later STATUS 0 OUTPUT "^$" BEFORE ${display} MAKES hapbeam_picture_later
-    OPTIONS --scene arch --screenshot window_later.png --at 2)
+    OPTIONS --scene arch --screenshot window_later.png --duration 2)
   hapbeam_test_file(picture_of_another_time NEEDS hapbeam_picture_later REFUSED
     COMMAND compare_pictures same window_later.png ${CMAKE_CURRENT_SOURCE_DIR}/pictures/arch.png ${times})
 endif()

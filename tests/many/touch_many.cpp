@@ -157,7 +157,10 @@ TEST_CASE("contact and press are those of the beam that pushes hardest, in the a
   CHECK(felt.contact.depth == Approx(0.0005));
   CHECK(felt.press.s == Approx(0.04));
   CHECK(touch.touches().front().force == felt.force);
-  CHECK(touch.meets({-0.0045, 0.04}));
+  const auto deeper = touch.contact_at({-0.004, 0.04});  // of the beam as it is pressed
+  CHECK(deeper.depth == Approx(0.0005).epsilon(0.005));
+  CHECK(deeper.normal.x() == Approx(-1).epsilon(1e-3));
+  CHECK(deeper.foot.x() == Approx(0.0005).epsilon(0.005));
   // Squeezed between both from the start: the nearer one pushes harder.
   Touch<BeamArray<Full>> wide(array, 0.005);
   const auto between = wide.tick({0.0055, 0.04});
@@ -165,7 +168,7 @@ TEST_CASE("contact and press are those of the beam that pushes hardest, in the a
   CHECK(between.beam == 1);
   CHECK(between.contact.normal.x() == Approx(-1));
   CHECK(between.force.x() < 0);
-  CHECK_FALSE(touch.meets({-0.05, 0.04}));
+  CHECK_FALSE(touch.contact_at({-0.05, 0.04}).touching);
 }
 
 TEST_CASE("of more beams than the pool holds the deepest are taken, and the status says so") {
@@ -216,7 +219,7 @@ TEST_CASE("what a hand without a place may ask: the force is finite, and a reset
     REQUIRE(touch.touches().size() <= 4);
     REQUIRE((hand.allFinite() || felt.status == Status::invalid_request));
     pressing += felt.pressing;
-    (void)touch.meets({pick(), pick()});
+    (void)touch.contact_at({pick(), pick()});
   }
   CHECK(pressing > 100);
   touch.reset();

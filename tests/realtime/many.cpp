@@ -20,7 +20,7 @@ namespace {
 using Array = BeamArray<FemModel<>>;
 
 static_assert(noexcept(std::declval<Touch<Array>&>().tick(std::declval<const Vector2<double>&>())) && noexcept(
-    std::declval<Touch<Array>&>().meets(
+    std::declval<Touch<Array>&>().contact_at(
         std::declval<const Vector2<
             double>&>())) && noexcept(std::declval<Touch<Array>&>()
                                           .reset()) && noexcept(std::declval<Touch<Array>&>()
@@ -47,7 +47,7 @@ TEST_CASE("many beams: strokes, jumps and wild places use no heap") {
             pressing += felt.pressing;
             incomplete += !felt.complete;
             not_finite += !felt.force.allFinite();
-            (void)touch.meets(hand);
+            (void)touch.contact_at(hand);
           }
           touch.reset();
         }) == HeapUse{});

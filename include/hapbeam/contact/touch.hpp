@@ -96,14 +96,13 @@ class Touch {
   /// Nothing is left of the last touch: the beam is at rest, and whoever comes next touches it anew.
   [[nodiscard]] bool resting() const noexcept { return !pressing_ && !falling_ && !inside_; }
 
-  /// Whether the beam as it lies now would be touched on the straight way from the last tick's position to this one.
-  /// Real-time: noexcept, no allocation, bounded; no press.
-  [[nodiscard]] bool meets(const Vector& position) noexcept {
-    if (inside_) return false;
-    Memory memory = memory_;
+  /// The contact of the beam as it lies now with the avatar, gone straight to a place from that of the last tick.
+  /// @param position [m]   Real-time: noexcept, no allocation, bounded; no press.
+  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position) noexcept {
+    if (inside_) return {};
+    auto memory = memory_;
     return find_contact(Avatar{position, avatar_radius_}, model_.shape(), volumes(), model_.thickness(),
-                        memory)
-        .touching;
+                        memory);
   }
 
   /// Of the avatar's radius, in lengths of the beam.  Seen from the beam a larger disc is a plane, and in `float` the depth

@@ -111,14 +111,20 @@ class Touch<BeamArray<Model>> {
     return slot == none ? array_.rest(beam) : slots_[static_cast<std::size_t>(slot)]->model.shape();
   }
 
-  /// Whether any beam as it lies now would be touched on the straight way from the last tick's position to this one.
-  /// Real-time: noexcept, no allocation, bounded; no press.
-  [[nodiscard]] bool meets(const Vector2<Scalar>& position) noexcept {
+  /// The deepest contact of the beams as they lie now with the avatar, gone straight to a place from that of the last tick.
+  /// @param position [m]   Real-time: noexcept, no allocation, bounded; no press.
+  [[nodiscard]] Contact<Scalar> contact_at(const Vector2<Scalar>& position) noexcept {
+    Contact<Scalar> deepest;
+    const auto take = [&](const Contact<Scalar>& contact, const typename Array::Beam& beam) {
+      if (contact.touching && !(deepest.depth > contact.depth)) deepest = in_scene(contact, beam);
+    };
     for (const std::int32_t held : held_) {
       Slot& slot = this->slot(held);
-      if (slot.touch.meets(beam(slot).frame.local(position))) return true;
+      take(slot.touch.contact_at(beam(slot).frame.local(position)), beam(slot));
     }
-    return !meet(position) || !met_.empty();
+    meet(position);
+    for (const Met& met : met_) take(met.contact, array_.sorted(met.beam));
+    return deepest;
   }
 
  private:
@@ -135,7 +141,7 @@ class Touch<BeamArray<Model>> {
   };
   /// A beam at rest that the avatar's last step has met.
   struct Met {
-    Scalar depth;
+    Contact<Scalar> contact;  // in its axes
     int beam;
   };
 
@@ -165,13 +171,13 @@ class Touch<BeamArray<Model>> {
       if (!contact.touching) return true;
       ContactMemory<Scalar> nothing;
       if (known_ && look(kind, before, nothing).touching) complete = false;  // left out before
-      else met_.push_back({contact.depth, i});
+      else met_.push_back({contact, i});
       return true;
     });
     const std::size_t room = static_cast<std::size_t>(array_.most_touched()) - held_.size();
     if (met_.size() <= room) return complete;
     std::nth_element(met_.begin(), met_.begin() + static_cast<std::ptrdiff_t>(room), met_.end(),
-                     [](const Met& a, const Met& b) { return a.depth > b.depth; });
+                     [](const Met& a, const Met& b) { return a.contact.depth > b.contact.depth; });
     met_.erase(met_.begin() + static_cast<std::ptrdiff_t>(room), met_.end());
     return false;
   }
@@ -216,10 +222,13 @@ class Touch<BeamArray<Model>> {
     result.pressing = true;
     result.beam = beam.index;
     result.press = felt.press;
-    result.contact = felt.contact;
-    result.contact.foot = beam.frame.place(felt.contact.foot);
-    result.contact.point = beam.frame.place(felt.contact.point);
-    result.contact.normal = beam.frame.turned(felt.contact.normal);
+    result.contact = in_scene(felt.contact, beam);
+  }
+  static Contact<Scalar> in_scene(Contact<Scalar> contact, const typename Array::Beam& beam) noexcept {
+    contact.foot = beam.frame.place(contact.foot);
+    contact.point = beam.frame.place(contact.point);
+    contact.normal = beam.frame.turned(contact.normal);
+    return contact;
   }
 
   const Array& array_;

@@ -101,9 +101,15 @@ TEST_CASE("where the tangent was wrong, the response is believed", "[tangent]") 
   // Stiff without having been pressed deeper, as on the way to a support: by the force, at least.
   tangent.learn({0, -2.9e-3}, {0, 10 * 15.0625}, 0);
   CHECK(tangent.stiffness() == Approx(10 * 1.25 * 12500 / 4));
-  tangent.steepen();
-  CHECK(tangent.stiffness() == Approx(10 * 1.25 * 12500));
-  CHECK(tangent.force_at({0, -2.9e-3}) == Approx(150.625));
+  // Nothing there: the force begins at the surface, as stiff as it was, and the next response goes on from there.
+  const double stiffness = tangent.stiffness();
+  tangent.begin_at({1e-3, -2.5e-3}, {0.6, 0.8});
+  CHECK(tangent.stiffness() == stiffness);
+  CHECK(tangent.energy() == 0);
+  CHECK(tangent.force_at({1e-3, -2.5e-3}) == 0);
+  CHECK(tangent.force_at(Vector(1e-3, -2.5e-3) - 1e-4 * Vector(0.6, 0.8)) == Approx(1e-4 * stiffness));
+  tangent.learn(Vector(1e-3, -2.5e-3) - 1e-4 * Vector(0.6, 0.8), 1e-4 * stiffness * Vector(0.6, 0.8), 0);
+  CHECK(tangent.stiffness() == Approx(stiffness));
 }
 
 TEST_CASE("no sequence of answers makes it anything but a finite number", "[tangent]") {
@@ -115,7 +121,7 @@ TEST_CASE("no sequence of answers makes it anything but a finite number", "[tang
     force *= size / force.norm();
     const Vector place(random(scale), random(scale));
     if (random(0, 1) < 0.05) tangent.forget();
-    else if (tangent.known() && random(0, 1) < 0.2) tangent.steepen();
+    else if (tangent.known() && random(0, 1) < 0.2) tangent.begin_at(place, force / size);
     else tangent.learn(place, force, random(0, 1) < 0.1 ? 0 : random(scale));
     REQUIRE(std::isfinite(tangent.force_at(place)));
     REQUIRE((tangent.stiffness() >= 0 && tangent.stiffness() <= 1e12));

@@ -34,6 +34,27 @@ double series(const PowerWall& wall, double K, double x) {
   return low;
 }
 
+/// A round post, as rigid as the fixed end of a beam.
+struct Post {
+  using Scalar = double;
+  double stiffness, reach;  // [N/m], [m]
+
+  Contact<double> contact_at(const Vector& position) const noexcept {
+    Contact<double> contact;
+    contact.depth = reach - position.norm();
+    contact.touching = contact.depth > 0;
+    contact.normal = position / position.norm();
+    return contact;
+  }
+  TouchResult<double> tick(const Vector& position) noexcept {
+    TouchResult<double> result;
+    result.contact = contact_at(position);
+    result.pressing = result.contact.touching;
+    if (result.pressing) result.force = stiffness * result.contact.depth * result.contact.normal;
+    return result;
+  }
+};
+
 /// A fresh touch led straight to a place: what the beam says to an avatar there, without any coupling.
 Vector force_at(const Beam& beam, const Vector& avatar, double side) {
   FemModel<> model(beam, 16);
@@ -135,6 +156,37 @@ TEST_CASE(
           CHECK(late <= 1e-4);
           CHECK(settled <= 40 + 7 * slow);
         }
+}
+
+// On its way a hand v bends the surface away by (v T)²/2 reach, which is more than a rigid post is pressed in.
+TEST_CASE("led past a rigid post, the hand feels the spring to the nearest point of it, in one touch",
+          "[coupling]") {
+  const double K = 3500, reach = 5e-3;
+  for (const double stiffness : {1e5, 1e7, 1e9, 1e11})
+    for (const double step : {2e-5, 1e-4, 3e-4})
+      for (const double beside : {0.1, 0.5, 0.9}) {
+        Post post{stiffness, reach};
+        VirtualCoupling coupling({K, 0});
+        const double series = K * stiffness / (K + stiffness);
+        int touches = 0, ticks = 0;
+        double worst = 0;
+        bool before = false;
+        for (double y = 2 * reach; y > -2 * reach; y -= step) {
+          const Vector hand(beside * reach, y);
+          const auto felt = coupling.tick(post, hand, T);
+          const bool pressing = felt.touch.pressing || felt.continued;
+          touches += pressing && !before;
+          before = pressing;
+          const Contact<double> contact = post.contact_at(hand);
+          if (contact.touching && ++ticks > 10)
+            worst = std::max(worst, (felt.force - series * contact.depth * contact.normal).norm());
+        }
+        CAPTURE(stiffness, step, beside);
+        CHECK(touches == 1);
+        // In a tick the normal at the hand turns by a step over its distance from the axis; the point follows within reach over
+        // that distance.  The tangent may be 1.25 times as stiff as the post.
+        CHECK(worst <= 1.25 * K * reach * (1 - beside) * step / (beside * reach) / beside);
+      }
 }
 
 TEST_CASE("one touch a tick, from in front of the hand and never behind it", "[coupling]") {

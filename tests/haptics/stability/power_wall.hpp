@@ -33,7 +33,13 @@ struct PowerWall {
     result.press = {0, -y};
     return result;
   }
-  bool meets(const Vector2<double>& position) const noexcept { return normal.dot(position) < 0; }
+  Contact<double> contact_at(const Vector2<double>& position) const noexcept {
+    Contact<double> contact;
+    contact.depth = -normal.dot(position);
+    contact.touching = contact.depth > 0;
+    contact.normal = normal;
+    return contact;
+  }
 };
 
 }  // namespace hapbeam::testing

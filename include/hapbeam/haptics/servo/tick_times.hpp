@@ -36,23 +36,25 @@ class TimeHistogram {
   void add(std::int64_t nanoseconds) noexcept {
     const auto time = static_cast<std::uint64_t>(std::max<std::int64_t>(nanoseconds, 0));
     std::atomic<std::uint64_t>& count = bins_[bin(time)];
-    count.store(count.load(relaxed) + 1, relaxed);
+    // Whoever sees a time counted sees that the longest is no shorter.
     if (time > longest_.load(relaxed)) longest_.store(time, relaxed);
+    count.store(count.load(relaxed) + 1, std::memory_order_release);
   }
 
-  /// The time that a fraction of all do not exceed.  Each of several quantiles may be of a different moment.
+  /// The time that a fraction of all do not exceed.
   /// @param fraction  0 to 1   @return [s], 0 where nothing has been added
   /// From any thread: noexcept, wait-free, O(bins).
-  double quantile(double fraction) const noexcept { return quantile_of(fraction, count()); }
+  double quantile(double fraction) const noexcept { return Moment(*this).quantile(fraction); }
   double longest() const noexcept { return static_cast<double>(longest_.load(relaxed)) * 1e-9; }  ///< [s]
   std::uint64_t count() const noexcept {
     std::uint64_t total = 0;
     for (const auto& bin : bins_) total += bin.load(relaxed);
     return total;
   }
+  /// All of one moment.
   TimeSummary summary() const noexcept {
-    const std::uint64_t total = count();
-    return {total, quantile_of(0.5, total), quantile_of(0.99, total), quantile_of(0.999, total), longest()};
+    const Moment now(*this);
+    return {now.total, now.quantile(0.5), now.quantile(0.99), now.quantile(0.999), now.longest};
   }
 
  private:
@@ -71,19 +73,31 @@ class TimeHistogram {
     const std::size_t octave = bin / per_octave - 1, within = bin - octave * per_octave;
     return static_cast<double>(((within + 1) << octave) - 1) * 1e-9;
   }
-  /// Bins only grow: what `total` counted is found at the latest in the last one.
-  double quantile_of(double fraction, std::uint64_t total) const noexcept {
-    if (total == 0) return 0;
-    std::uint64_t below = 0;
-    for (std::size_t i = 0; i + 1 < bins_.size(); ++i) {
-      below += bins_[i].load(relaxed);
-      if (below > 0 && static_cast<double>(below) >= fraction * static_cast<double>(total))
-        return std::min(upper_end(i), longest());
-    }
-    return longest();
-  }
+  static constexpr std::size_t bins = per_octave * octaves;
 
-  std::array<std::atomic<std::uint64_t>, per_octave * octaves> bins_{};
+  /// What was counted when it was read, while the servo goes on adding.
+  struct Moment {
+    std::array<std::uint64_t, bins> counts;
+    std::uint64_t total = 0;
+    double longest;  // [s]
+
+    explicit Moment(const TimeHistogram& histogram) noexcept {
+      for (std::size_t i = 0; i < bins; ++i)
+        total += counts[i] = histogram.bins_[i].load(std::memory_order_acquire);
+      longest = histogram.longest();
+    }
+    double quantile(double fraction) const noexcept {
+      std::uint64_t below = 0;
+      for (std::size_t i = 0; i + 1 < bins && total > 0; ++i) {
+        below += counts[i];
+        if (below > 0 && static_cast<double>(below) >= fraction * static_cast<double>(total))
+          return std::min(upper_end(i), longest);
+      }
+      return total > 0 ? longest : 0;
+    }
+  };
+
+  std::array<std::atomic<std::uint64_t>, bins> bins_{};
   std::atomic<std::uint64_t> longest_{0};
   static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "counting in a tick must not lock");
 };

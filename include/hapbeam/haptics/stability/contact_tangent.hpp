@@ -54,8 +54,11 @@ class ContactTangent {
     set_stiffness(safety * size * size / (2 * energy_));
   }
 
-  /// Nothing was touched where the tangent still had a force: it falls more steeply.
-  void steepen() noexcept { set_stiffness(most_change * stiffness_); }
+  /// Nothing was touched where the tangent had a force: it begins at the surface.
+  /// @param place [m] on it   @param normal  unit, out of the beam
+  void begin_at(const Vector2<double>& place, const Vector2<double>& normal) noexcept {
+    place_ = place, normal_ = normal, force_ = 0, energy_ = 0;
+  }
 
  private:
   static constexpr double safety = 1.25;      // over f²/2U
@@ -85,9 +88,10 @@ class ContactTangent {
       energy_ += work;
     } else {
       // Too stiff is slow, too soft overshoots: up at once, down with care.
-      const double factor = agrees      ? 1
-                            : ratio > 0 ? std::max(safety * ratio, 1 / most_change)
-                                        : std::max(force / force_, 1.0);
+      const double factor = agrees       ? 1
+                            : ratio > 0  ? std::max(safety * ratio, 1 / most_change)
+                            : force_ > 0 ? std::max(force / force_, 1.0)
+                                         : 1;
       energy_ = safety * force * force / (2 * factor * stiffness_);
     }
   }

@@ -8,7 +8,7 @@
 //   C::for_device(info, delay_ticks)   C   its default; may throw std::invalid_argument
 //   c.reset()             void           noexcept; the hand touches nothing
 //
-// Touch is Touch<Model>, or what has its tick(position) and meets(position).
+// Touch is Touch<Model>, or what has its tick(position) and contact_at(position).
 //
 // VirtualCoupling: a steel beam is stiffer than a sampled loop can render.  So it is not the hand h that presses the
 // beam but a point p without mass, to which the hand is tied by a spring K and a damper B.  Hand and beam share
@@ -57,7 +57,7 @@ namespace detail {
 struct AnyTouch {
   using Scalar = double;
   TouchResult<double> tick(const Vector2<double>&) noexcept;
-  bool meets(const Vector2<double>&) const noexcept;
+  Contact<double> contact_at(const Vector2<double>&) const noexcept;
 };
 
 template <typename C, typename = void>
@@ -152,10 +152,8 @@ class VirtualCoupling {
     result.avatar = hand + last_.tangent().normal() * solve(hand, dt).gap;
     result.touch = touch.tick(result.avatar.template cast<typename Touch::Scalar>());
     last_.learn(result.touch, result.avatar);
-    // Where the hand itself would not touch it either, the beam has not been missed: it is gone.
-    if (!result.touch.pressing && last_.tangent().known() &&
-        !touch.meets(hand.template cast<typename Touch::Scalar>()))
-      last_.forget();
+    if (!result.touch.pressing && last_.tangent().known())
+      last_.look_again(touch.contact_at(hand.template cast<typename Touch::Scalar>()), hand);
 
     const Balance balance = solve(hand, dt);
     if (!std::isfinite(balance.force)) {

@@ -1,9 +1,8 @@
 // What is left of the beam's good answers when it gives none.
 //
-// Keeps the tangent of the last good response through ticks in which the model ran out of its budget, for
-// max_continued of them, and through ticks that missed the beam though the tangent still had a force there:
-// there the tangent was too flat and the point from which the beam is pressed was taken too far out.  (Where the beam is gone
-// the coupling forgets it.)
+// Keeps the tangent of the last good response through ticks in which the model ran out of its budget, for max_continued of them.
+// A tick may also miss the beam where the tangent had a force: on a rigid surface that is curved the point from which the
+// beam is pressed comes out of it by more than it was pressed in.  The hand itself then says where the surface is.
 // Any other failure ends the contact.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 #pragma once
@@ -18,16 +17,14 @@ class LastResponse {
  public:
   /// Ticks in a row that go on without an answer.
   static constexpr int max_continued = 20;
-  /// Ticks in a row that may miss the beam.
-  static constexpr int max_missed = 3;
 
   const ContactTangent& tangent() const noexcept { return tangent_; }
   /// The last response was none, or missed the beam, and the tangent stands for it.
-  bool continued() const noexcept { return (continued_ > 0 || missed_ > 0) && tangent_.known(); }
+  bool continued() const noexcept { return (continued_ > 0 || missed_) && tangent_.known(); }
 
   void forget() noexcept {
     tangent_.forget();
-    continued_ = missed_ = 0;
+    continued_ = 0, missed_ = false;
   }
 
   /// @param touch  the beam's answer   @param place [m] from where it was pressed
@@ -40,17 +37,27 @@ class LastResponse {
       forget();
     } else if (touch.pressing && force.squaredNorm() > 0) {
       tangent_.learn(place, force, static_cast<double>(touch.contact.depth));
-      continued_ = missed_ = 0;
+      continued_ = 0, missed_ = false;
     } else if (tangent_.known()) {
       continued_ = 0;
-      if (++missed_ > max_missed) forget();
-      else tangent_.steepen();
+      missed_ = true;
     }
+  }
+
+  /// Nothing was pressed.  Where the hand itself would touch nothing either, the beam has not been missed: it is gone.
+  /// @param contact  of the hand with the beam as it lies now   @param hand [m]
+  template <typename Scalar>
+  void look_again(const Contact<Scalar>& contact, const Vector2<double>& hand) noexcept {
+    if (!contact.touching) return forget();
+    if (!missed_) return;
+    const Vector2<double> normal = contact.normal.template cast<double>();
+    tangent_.begin_at(hand + normal * static_cast<double>(contact.depth), normal);
   }
 
  private:
   ContactTangent tangent_;
-  int continued_ = 0, missed_ = 0;
+  int continued_ = 0;
+  bool missed_ = false;
 };
 
 }  // namespace hapbeam
