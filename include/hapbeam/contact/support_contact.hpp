@@ -83,7 +83,7 @@ class SupportContact {
 };
 
 /// An end of a rod in space that is held does not move, nor does much beside it: deeper than half of the distance to the end a
-/// contact bends the rod beyond all sense.  There the rod counts as it lay before the touch: it is pushed across by half of that
+/// contact bends the rod beyond all sense.  There the rod counts as it lay before the touch: it is pushed across by a little of that
 /// distance, and deeper contacts take as many times the force.
 template <typename Scalar>
 class SupportContact<Scalar, 3> {
@@ -140,7 +140,7 @@ class SupportContact<Scalar, 3> {
     if (!contact.touching) return {Hold::released, 0, Status::ok};
     const Range<Scalar> range = model.range();
     const Scalar s = right_ ? range.right_support - distance_ : range.left_support + distance_,
-                 depth = std::min(depth_, distance_ / 2);
+                 depth = std::min(depth_, distance_ / 20);
     const Vector side = normal_ - tangent_ * tangent_.dot(normal_),
                  across = side.squaredNorm() > Scalar(0.01)
                               ? detail::unit(side)
