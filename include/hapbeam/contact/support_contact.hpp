@@ -82,9 +82,10 @@ class SupportContact {
   End ends_[2] = {{0, 0}, {0, 0}};
 };
 
-/// An end of a rod in space that is held does not move, nor does much beside it: deeper than half of the distance to the end a
-/// contact bends the rod beyond all sense.  There the rod counts as it lay before the touch: it is pushed across by half of that
-/// distance, and deeper contacts take as many times the force.
+/// An end of a rod in space that is held does not move, nor does much beside it: a contact that is deeper there than σ²/6 reach, at
+/// the distance σ from the end, bends the rod half as sharply as the avatar, 3d/σ², and a hand soon more so than a mesh can show.  There
+/// the rod counts as it lay before the touch: it is pushed across by a little of that distance, and deeper contacts take as many
+/// times the force.
 template <typename Scalar>
 class SupportContact<Scalar, 3> {
   using Vector = VectorOf<Scalar, 3>;
@@ -99,7 +100,7 @@ class SupportContact<Scalar, 3> {
                 line[last + 1].director};
   }
 
-  /// Whether the contact is past an end that is held, or deeper than half of the distance to it.
+  /// Whether the contact is past an end that is held, or as deep as that beside it.
   template <class Model>
   bool past(const Contact<Scalar, 3>& contact, const Model& model, const Avatar<Scalar, 3>& avatar,
             Scalar reach) noexcept {
@@ -114,7 +115,7 @@ class SupportContact<Scalar, 3> {
                    nearest = right ? support - range.s_max : range.s_min;
       depth_ = reach - gap;
       distance_ = std::max(at.t * end.length, nearest);
-      if (!(distance < nearest || 2 * depth_ > distance_)) continue;
+      if (!(distance < nearest || 6 * reach * depth_ > distance_ * distance_)) continue;
       right_ = right;
       tangent_ = detail::unit(tangent(end.piece, at.t));
       normal_ = gap > 0 ? Vector(at.offset / gap) : detail::across(end.director, tangent_);
@@ -140,7 +141,7 @@ class SupportContact<Scalar, 3> {
     if (!contact.touching) return {Hold::released, 0, Status::ok};
     const Range<Scalar> range = model.range();
     const Scalar s = right_ ? range.right_support - distance_ : range.left_support + distance_,
-                 depth = std::min(depth_, distance_ / 2);
+                 depth = std::min(depth_, distance_ / 20);
     const Vector side = normal_ - tangent_ * tangent_.dot(normal_),
                  across = side.squaredNorm() > Scalar(0.01)
                               ? detail::unit(side)

@@ -268,7 +268,9 @@ class AllDisplacements {
     const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
     Descent descent;
     descent.max_solves = left_ - report_.solves;
-    if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_)) {
+    // A straight rod has one shape for each press, but it slips around a capsule.
+    const bool slips = dimension == 3 && looser != 1;
+    if (on_ridge || (report_.status == Status::iteration_limit && (!single_valued_ || slips))) {
       if (!fall(on_ridge, descent, aim)) {
         to_rest();
         falling_ = true;
