@@ -29,7 +29,8 @@ struct Situation {
   int missed = 0,
       of = 1;         ///< so many ticks of as many are missed in a row: the force stays, the arm moves on
   double jitter = 0;  ///< as ArmOptions
-  Eigen::Vector3d from = Eigen::Vector3d::UnitY();  ///< out of a rod in space, unit: where it is pressed from
+  Eigen::Vector3d from =
+      Eigen::Vector3d::UnitY();  ///< out of a rod in space, unit, across x: the side it is pressed from
 
   VirtualPhantomOptions options() const {
     VirtualPhantomOptions o;
@@ -72,7 +73,8 @@ Placement above(const Model& model, double s, const Eigen::Vector3d& from, doubl
     return Placement::in_plane({s, static_cast<double>(place.w) + reach});
   } else {
     Eigen::Matrix3d axes;
-    axes.col(0) = Eigen::Vector3d::UnitX(), axes.col(1) = from, axes.col(2) = axes.col(0).cross(from);
+    axes.col(0) = Eigen::Vector3d::UnitX(), axes.col(1) = from,
+    axes.col(2) = Eigen::Vector3d(0, -from.z(), from.y());
     return Placement(axes, place.r.template cast<double>() + reach * from);
   }
 }

@@ -20,7 +20,6 @@
 #include <hapbeam/fem/contact_search.hpp>
 #include <hapbeam/fem/load_path.hpp>
 #include <hapbeam/fem/press_range.hpp>
-#include <hapbeam/fem/round_contact.hpp>
 #include <hapbeam/fem/solver/descent.hpp>
 
 namespace hapbeam {
@@ -32,6 +31,7 @@ class AllDisplacements {
   using Scalar = ScalarType;
   using Body = typename detail::SystemOf<Element>::Body;
   using Round = typename detail::SystemOf<Element>::template Round<Scalar>;
+  using RoundContact = typename detail::SystemOf<Element>::template RoundContact<Scalar>;
   using Extent = typename detail::SystemOf<Element>::template Range<Scalar>;
   static constexpr int dimension = dimension_of<Element>;
 
@@ -75,7 +75,7 @@ class AllDisplacements {
   /// @param range  says where a node can be   @param valid  whether there is a request   @return as press()
   Pushed<Scalar, dimension> push(const Round& request, const Extent& range, bool valid) noexcept {
     using std::abs;
-    const auto round = detail::round_contact(request);
+    const RoundContact round{request};
     using Search = detail::ContactSearch<Scalar, dimension>;
     if (!begins(valid)) return {0, report_.status};
     // On a curve that is too sharp for it the law holds at the node alone.
@@ -198,7 +198,7 @@ class AllDisplacements {
   Pushed<Scalar, dimension> push_at(const Round& request, const Extent& range, Trial& trial) noexcept {
     using std::abs;
     constexpr bool planar = dimension == 2;
-    const auto round = detail::round_contact(request);
+    const RoundContact round{request};
     const Scalar s = range.range().nearest({trial.s, 0}).s, length = system_.length();
     const ContactMesh<Scalar> mesh = uniform_.at(range.node(s));
     const int c = mesh.node(), end = c == 0 ? -1 : c == elements() ? 1 : 0;

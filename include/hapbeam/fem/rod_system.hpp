@@ -17,6 +17,7 @@
 #include <hapbeam/fem/rod_elements.hpp>
 #include <hapbeam/fem/rod_end.hpp>
 #include <hapbeam/fem/rod_range.hpp>
+#include <hapbeam/fem/rod_round_contact.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 
@@ -430,6 +431,8 @@ struct SystemOf<Element, std::enable_if_t<dimension_of<Element> == 3>> {
   using Range = RodRange<Scalar>;
   template <typename Scalar>
   using Round = Capsule<Scalar>;
+  template <typename Scalar>
+  using RoundContact = RodRoundContact<Scalar>;
 };
 
 }  // namespace detail

@@ -46,8 +46,7 @@ class ServoPicture {
 
  public:
   /// @param shape  as many nodes as it has, and `room` at least, are kept in later ones
-  explicit ServoPicture(const Shape& shape)
-      : nodes_(std::max(room, static_cast<std::size_t>(shape.size()))) {
+  explicit ServoPicture(const Shape& shape) : nodes_(std::max(room, static_cast<std::size_t>(shape.size()))) {
     take(shape);
   }
 
@@ -189,8 +188,8 @@ class Servo {
     guard_.reset();
   }
 
-  static LoopStatus status(const DeviceState& state, const Coupled& coupled,
-                           const GuardedForce& guarded, bool safe) noexcept {
+  static LoopStatus status(const DeviceState& state, const Coupled& coupled, const GuardedForce& guarded,
+                           bool safe) noexcept {
     if (state.reset || state.status != DeviceStatus::running) return LoopStatus::device;
     if (!safe) return LoopStatus::no_answer;
     if (coupled.continued) return LoopStatus::continued;

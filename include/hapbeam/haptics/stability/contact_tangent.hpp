@@ -31,7 +31,7 @@ class ContactTangent {
  public:
   bool known() const noexcept { return known_; }
   const Vector& normal() const noexcept { return normal_; }  ///< unit; out of the beam when last touched
-  double stiffness() const noexcept { return stiffness_; }  ///< k [N/m] along the normal
+  double stiffness() const noexcept { return stiffness_; }   ///< k [N/m] along the normal
 
   double energy() const noexcept { return known_ ? energy_ : 0; }  ///< U [J]
 

@@ -47,8 +47,8 @@ template <typename Scalar, int D = 2>
 struct CoupledForce {
   VectorOf<double, D> force = VectorOf<double, D>::Zero();   ///< [N] on the hand; always finite
   VectorOf<double, D> avatar = VectorOf<double, D>::Zero();  ///< [m] from where the beam was pressed
-  bool continued = false;     ///< by the tangent: the beam gave no answer, or was missed
-  double energy = 0;          ///< [J] that beam and coupling would give back, in metres of the scene
+  bool continued = false;        ///< by the tangent: the beam gave no answer, or was missed
+  double energy = 0;             ///< [J] that beam and coupling would give back, in metres of the scene
   TouchResult<Scalar, D> touch;  ///< what the beam said
 };
 
@@ -117,8 +117,8 @@ class Direct {
     if (is_answer(result.touch.status) && !result.touch.pressing) last_.forget();
     result.continued = last_.continued();
     if (result.continued)
-      result.force = detail::of_beam<double, D>(last_.tangent().normal() *
-                                                std::max(0.0, last_.tangent().force_at(detail::in_scene(hand))));
+      result.force = detail::of_beam<double, D>(
+          last_.tangent().normal() * std::max(0.0, last_.tangent().force_at(detail::in_scene(hand))));
     else if (is_answer(result.touch.status)) result.force = result.touch.force.template cast<double>();
     if (!result.force.allFinite()) result.force.setZero();
     else if (!result.force.isZero(0)) result.energy = last_.tangent().energy();
