@@ -20,8 +20,8 @@
 //                                               it rests, which may be another shape than before (snapped), and may
 //                                               take more than one call (iteration_limit)
 //
-// A model in space says `static constexpr int dimension = 3`.  It has no press(), and its push() takes a Push<Scalar, 3> and
-// its shape() is a Centreline<Scalar, 3>.
+// A model in space says `static constexpr int dimension = 3`.  It has no press(), its shape() is a Centreline<Scalar, 3>, its push()
+// takes a Push<Scalar, 3>, and for contact a Capsule<Scalar>, which it answers with a Pushed<Scalar, 3>.
 //
 // A model whose shape costs more than its force may offer a part of it, which is all that a touch that goes on looks at:
 //
@@ -40,11 +40,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
 
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/shaft.hpp>
 
 namespace hapbeam {
 
@@ -119,6 +121,26 @@ struct Circle {
   Scalar side;             ///< of the centreline on which the centre lies: +1 left of its direction, -1
 };
 
+/// A frictionless capsule, or a sphere, that the centreline of a rod touches at one point, which is part of the answer.
+template <typename Scalar>
+struct Capsule {
+  Scalar s;            ///< [m] arc position beside which the point is sought
+  Shaft<Scalar> axis;  ///< of the capsule; a sphere's is a point
+  Scalar reach;        ///< [m] from the axis to the centreline
+  VectorOf<Scalar, 3>
+      normal;  ///< about from the centreline to the axis, unit: from where the capsule has come
+};
+
+template <typename Scalar>
+bool is_finite(const Circle<Scalar>& circle) noexcept {
+  return circle.centre.allFinite() && std::isfinite(circle.reach);
+}
+template <typename Scalar>
+bool is_finite(const Capsule<Scalar>& capsule) noexcept {
+  return capsule.axis.tip.allFinite() && capsule.axis.way.allFinite() && capsule.normal.allFinite() &&
+         std::isfinite(capsule.reach);
+}
+
 /// What a press takes.
 template <typename Scalar>
 struct Response {
@@ -126,8 +148,8 @@ struct Response {
   Status status;  ///< whether force belongs to the request
 };
 
-/// What a push by a circle takes, and where they touch.
-template <typename Scalar>
+/// What a push by a circle or a capsule takes, and where they touch.
+template <typename Scalar, int D = 2>
 struct Pushed {
   Scalar force;   ///< [N] on the beam along the normal; negative where the circle pushes.  Always finite.
   Status status;  ///< as Response::status
@@ -135,8 +157,8 @@ struct Pushed {
       0;  ///< [m] how far from where they touch s may be; 0 where that is within the model's tolerance
   bool past_end = false;  ///< they touch at an end of the beam, which the centre has passed
   Scalar s = 0;           ///< [m] arc position of the point
-  Vector2<Scalar> point = Vector2<Scalar>::Zero();   ///< [m] of the centreline
-  Vector2<Scalar> normal = Vector2<Scalar>::Zero();  ///< unit, from there to the centre
+  VectorOf<Scalar, D> point = VectorOf<Scalar, D>::Zero();   ///< [m] of the centreline
+  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< unit, from there to the centre
 };
 
 /// What holding an end of a rod takes.
@@ -207,14 +229,14 @@ struct IsForceModel<M, std::void_t<typename M::Scalar>> {
       decltype(rest<M>(0))::value;
 };
 
-/// What contact asks of a model that can be pushed: in the plane the point of contact is found by the model.
+/// What contact asks of a model that can be pushed: the point of contact is found by the model.
 template <typename M, int = dimension_of<M>>
 struct PushOf {
   using Type = Circle<typename M::Scalar>;
 };
 template <typename M>
 struct PushOf<M, 3> {
-  using Type = Push<typename M::Scalar, 3>;
+  using Type = Capsule<typename M::Scalar>;
 };
 
 template <typename M, typename = void>

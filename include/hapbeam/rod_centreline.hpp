@@ -58,6 +58,23 @@ class Centreline<Scalar, 3> {
     for (int i = 0; i < segments(); ++i) visitor(i, segment(i));
   }
 
+  /// Curvature at node i, across its tangent and toward the centre of curvature [1/m]: the mean of both pieces.
+  VectorOf<Scalar, 3> curvature(int i) const noexcept {
+    VectorOf<Scalar, 3> sum = VectorOf<Scalar, 3>::Zero();
+    int pieces = 0;
+    for (int k = i > 0 ? i - 1 : 0; k <= i && k < segments(); ++k) {
+      const Node &a = nodes_[k], &b = nodes_[k + 1];
+      const Scalar l = b.s - a.s;
+      const VectorOf<Scalar, 3> chord = (6 / l) * (b.r - a.r);
+      if (k == i) sum += (chord - 4 * a.tangent - 2 * b.tangent) / l;
+      else sum += (2 * a.tangent + 4 * b.tangent - chord) / l;
+      ++pieces;
+    }
+    const VectorOf<Scalar, 3>& t = nodes_[i].tangent;
+    const Scalar squared = t.squaredNorm();
+    return (sum - t * (t.dot(sum) / squared)) / (static_cast<Scalar>(pieces) * squared);
+  }
+
   /// Index of the piece that holds arc position s; the first or last one where s lies off the rod.
   int segment_at(Scalar s) const noexcept { return detail::piece_at(nodes_, segments(), s); }
 

@@ -15,7 +15,12 @@ using Bounds = detail::Box<double>;
 using Step = detail::Step<double>;
 using Tree = detail::BoxTree<double>;
 
-Bounds at(double x, double y, double width, double height) { return {x, x + width, y, y + height}; }
+Bounds at(double x, double y, double width, double height) {
+  Bounds box;
+  box.include(Vector2<double>(x, y));
+  box.include(Vector2<double>(x + width, y + height));
+  return box;
+}
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include <hapbeam/contact/touch.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -71,6 +72,63 @@ TEST_CASE("a rod that is pushed takes nothing from the heap", "[realtime][rod]")
   check_servo<TwistedRod>("strip_askew");
   check_servo<TwistedRod>("hook");
   check_servo<TwistedRod>("spring");
+}
+
+namespace {
+
+/// A sphere and a stylus: around the rod, through it, off its end, into its clamp, elsewhere, nowhere.
+template <class Model>
+void check_touch(Model& model, double radius) {
+  const double length = model.shape().length();
+  Touch<Model> touch(model, radius);
+  Random random(52);
+  std::vector<Shaft<double>> path;
+  for (int k = 0; k < 400; ++k) {
+    const double a = 0.05 * k;
+    path.push_back(
+        {length * Point(0.3 + 0.002 * k, 0.03 * std::sin(a), 0.05 * std::cos(0.37 * a)), {0, 0, 0}});
+  }
+  for (int k = 0; k < 400; ++k) {
+    const double a = 0.05 * k;
+    path.push_back(
+        {length * Point(0.9 - 0.003 * k, -0.2, 0.3 * std::cos(0.2 * a)), length * Point(0, 0.5, 0.1)});
+  }
+  for (int k = 0; k < 200; ++k)
+    path.push_back({length * Point(random(-0.2, 1.2), random(0.3), random(0.3)),
+                    (k % 2) * length * Point(random(0.3), random(0.3), random(0.3))});
+  path.push_back({{std::nan(""), 0, 0}, {0, 0, 0}});
+  path.push_back({{0, 0, 0}, {INFINITY, 0, 0}});
+  path.push_back({{1e300, 0, 0}, {0, 0, 0}});
+  path.push_back({length * Point(0.7, 0, 0.005), {0, 0, 0}});
+  int pressing = 0, not_finite = 0, most = 0;
+  const HeapUse use = heap_use([&]() noexcept {
+    for (const auto& axis : path) {
+      const auto felt = touch.tick(axis.tip, axis.way);
+      (void)touch.meets(axis.tip);
+      pressing += felt.pressing;
+      not_finite += !felt.force.allFinite();
+      most = std::max(most, model.report().solves);
+      for (const auto& node : model.shape()) not_finite += !is_finite(node);
+    }
+    touch.reset();
+  });
+  INFO(pressing << " of " << path.size() << " pressing, at most " << most << " solves");
+  CHECK(use == HeapUse{});
+  CHECK(not_finite == 0);
+  CHECK(most <= 48 + 2 * 4);
+  CHECK(pressing > 150);
+  STATIC_REQUIRE(noexcept(touch.tick(std::declval<const Point&>())));
+  STATIC_REQUIRE(noexcept(touch.tick(std::declval<const Point&>(), std::declval<const Point&>())));
+}
+
+}  // namespace
+
+TEST_CASE("a rod that is touched takes nothing from the heap", "[realtime][rod]") {
+  const Rod wire(0.2, RodSection::circle(0.001), spring_steel, RodSupport::clamped, RodSupport::free);
+  FemModel<RoundRod> round(wire, 8);
+  check_touch(round, 0.005);
+  FemModel<TwistedRod> twisted(pressed_rod("wire_under_load").rod, 8);
+  check_touch(twisted, 0.005);
 }
 
 TEST_CASE("models of rods promise what a force model has to", "[realtime][rod]") {

@@ -29,6 +29,8 @@ struct Situation {
   int missed = 0,
       of = 1;         ///< so many ticks of as many are missed in a row: the force stays, the arm moves on
   double jitter = 0;  ///< as ArmOptions
+  Eigen::Vector3d from =
+      Eigen::Vector3d::UnitY();  ///< out of a rod in space, unit, across x: the side it is pressed from
 
   VirtualPhantomOptions options() const {
     VirtualPhantomOptions o;
@@ -62,6 +64,21 @@ struct StepResponse {
   double position = 0;   ///< [m] of the tip at the end, along y
 };
 
+/// The device's origin where the avatar touches the beam at s, and its y out of the beam.
+template <typename Model>
+Placement above(const Model& model, double s, const Eigen::Vector3d& from, double radius) {
+  const auto place = model.shape().at(static_cast<typename Model::Scalar>(s));
+  const double reach = static_cast<double>(model.thickness()) / 2 + radius;
+  if constexpr (dimension_of<Model> == 2) {
+    return Placement::in_plane({s, static_cast<double>(place.w) + reach});
+  } else {
+    Eigen::Matrix3d axes;
+    axes.col(0) = Eigen::Vector3d::UnitX(), axes.col(1) = from,
+    axes.col(2) = Eigen::Vector3d(0, -from.z(), from.y());
+    return Placement(axes, place.r.template cast<double>() + reach * from);
+  }
+}
+
 /// @param s [m] where the beam is pressed, from above   @param duration [s] after the step   @param settling [s] as well
 /// A run ends early once the arm has stood still, to the bit, for two seconds: nothing moves it any more.
 /// Energy: -F·Δx of the force that the motors held, exactly, and b Δx²/T + f |Δx| of the arm, at least.
@@ -72,9 +89,7 @@ StepResponse step_response(Model& model, double s, const Coupling& coupling, con
   model.reset();
   VirtualPhantom<Leaning> device(Leaning{who.push}, who.options());
   ServoOptions options;
-  const double surface =
-      static_cast<double>(model.shape().at(static_cast<typename Model::Scalar>(s)).w + model.thickness() / 2);
-  options.placement = Placement::in_plane({s, surface + options.avatar_radius});
+  options.placement = above(model, s, who.from, options.avatar_radius);
   options.delay_ticks = who.delay;
   options.dissipate = who.dissipate;
   ServoLoop<VirtualPhantom<Leaning>, Model, Coupling> loop(device, model, options, coupling);

@@ -161,7 +161,8 @@ void SceneDrawing::draw_beam(ImDrawList& list, float unit) {
 
 void SceneDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, const Point& target,
                              float unit) {
-  const ImVec2 avatar = view_(across_.drawn(r.avatar)), hand = view_(across_.drawn(r.hand));
+  const ImVec2 avatar = view_(across_.drawn(r.avatar.head<2>())),
+               hand = view_(across_.drawn(r.hand.head<2>()));
   const ImVec2 wanted = view_(across_.drawn(placement_.beam_position({target.x(), target.y(), 0})));
   const float radius = std::max(static_cast<float>(options_.radius * view_.pixels), 0.25f * unit);
   spring(list, wanted, hand, colour::faint, unit);

@@ -1,17 +1,44 @@
-// The avatar: the disc that stands for the hand in the plane of the beam.
+// The avatar: what stands for the hand, a disc in the plane of a beam, a sphere or a capsule beside a rod in space.
 //
 // A plain value.  No allocation, noexcept.
 #pragma once
 
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/shaft.hpp>
 
 namespace hapbeam {
 
 /// A disc in the plane (x along the beam, w across).
-template <typename Scalar>
+/// @tparam D  of the space in which the beam bends: 2 | 3
+template <typename Scalar, int D = 2>
 struct Avatar {
-  Vector2<Scalar> position;  ///< [m] centre
-  Scalar radius;             ///< [m] >= 0
+  VectorOf<Scalar, D> position;  ///< [m] centre
+  Scalar radius;                 ///< [m] >= 0
 };
+
+/// A sphere or, where it has a shaft, a capsule.
+template <typename Scalar>
+struct Avatar<Scalar, 3> {
+  VectorOf<Scalar, 3> position;  ///< [m] centre of the sphere, tip of the capsule's axis
+  Scalar radius;                 ///< [m] >= 0
+  VectorOf<Scalar, 3> shaft = VectorOf<Scalar, 3>::Zero();  ///< [m] from the tip to the other end of the axis
+
+  [[nodiscard]] Shaft<Scalar> axis() const noexcept { return {position, shaft}; }
+};
+
+namespace detail {
+
+/// From a point to the avatar's centre, or to the nearest point of its axis [m].
+template <typename Scalar>
+Vector2<Scalar> way_to(const Avatar<Scalar>& avatar, const Vector2<Scalar>& point) noexcept {
+  return avatar.position - point;
+}
+template <typename Scalar>
+VectorOf<Scalar, 3> way_to(const Avatar<Scalar, 3>& avatar, const VectorOf<Scalar, 3>& point) noexcept {
+  const Shaft<Scalar> axis = avatar.axis();
+  return axis.at(axis.nearest(point)) - point;
+}
+
+}  // namespace detail
 
 }  // namespace hapbeam

@@ -18,15 +18,18 @@
 namespace hapbeam {
 
 /// Nearest point of a whole centreline.
-template <typename Scalar>
+template <typename Scalar, int D = 2>
 struct NearestPoint {
   int segment = -1;  ///< -1: none, the query or the curve is not finite
-  ClosestPoint<Scalar> at{0, Vector2<Scalar>::Zero(), std::numeric_limits<Scalar>::infinity()};
+  ClosestPoint<Scalar, D> at{0, VectorOf<Scalar, D>::Zero(), std::numeric_limits<Scalar>::infinity()};
 };
 
-template <typename Scalar>
+/// @tparam D  2 | 3
+template <typename Scalar, int D = 2>
 class BoundingVolumes {
  public:
+  using Line = Centreline<Scalar, D>;
+
   /// @param segments  how many pieces the centreline has.  More are taken too: a leaf then holds several.
   /// Allocates.
   explicit BoundingVolumes(int segments) {
@@ -36,14 +39,14 @@ class BoundingVolumes {
 
   /// Takes the boxes from the present shape.  To be called whenever the centreline has changed.
   /// Real-time: noexcept, no allocation, O(n).
-  void refit(const Centreline<Scalar>& centreline) noexcept {
+  void refit(const Line& centreline) noexcept {
     segments_ = centreline.segments();
     run_ = (segments_ + capacity_ - 1) / capacity_;
     int used = (segments_ + run_ - 1) / run_;
     for (leaves_ = 1; leaves_ < used;) leaves_ *= 2;
     for (int leaf = 0; leaf < used; ++leaf) boxes_[index(leaves_ + leaf)] = Box();
     int leaf = 0, end = run_;
-    centreline.visit_segments([&](int i, const CubicSegment<Scalar>& segment) {
+    centreline.visit_segments([&](int i, const CubicSegment<Scalar, D>& segment) {
       if (i == end) ++leaf, end += run_;
       boxes_[index(leaves_ + leaf)].include(segment);
     });
@@ -60,14 +63,17 @@ class BoundingVolumes {
   }
 
   /// Square of the distance from q to the box around the whole centreline [m²]: a lower bound, in O(1).
-  [[nodiscard]] Scalar distance_squared(const Vector2<Scalar>& q) const noexcept {
+  /// @param q  a point or, in space, a Shaft
+  template <class Query = VectorOf<Scalar, D>>
+  [[nodiscard]] Scalar distance_squared(const Query& q) const noexcept {
     return boxes_[1].distance_squared(q);
   }
 
   /// The nearest point of the centreline to q; among equals the one with the smallest index.
-  /// @param centreline  the one of the last refit     Real-time: noexcept, no allocation, bounded.
-  [[nodiscard]] NearestPoint<Scalar> nearest(const Centreline<Scalar>& centreline,
-                                             const Vector2<Scalar>& q) const noexcept {
+  /// @param centreline  the one of the last refit   @param q  a point or, in space, a Shaft
+  /// Real-time: noexcept, no allocation, bounded.
+  template <class Query = VectorOf<Scalar, D>>
+  [[nodiscard]] NearestPoint<Scalar, D> nearest(const Line& centreline, const Query& q) const noexcept {
     // A box is skipped only if it is farther than round-off can explain, so that the answer is the same as
     // without boxes.
     constexpr Scalar slack = 1 + 16 * std::numeric_limits<Scalar>::epsilon();
@@ -77,7 +83,7 @@ class BoundingVolumes {
     };
     Entry stack[max_depth];
     int size = 0;
-    NearestPoint<Scalar> best;
+    NearestPoint<Scalar, D> best;
     if (segments_ > 0) stack[size++] = {1, 0};
     while (size > 0) {
       Entry entry = stack[--size];
@@ -92,7 +98,7 @@ class BoundingVolumes {
       }
       const int begin = (entry.node - leaves_) * run_, end = std::min(begin + run_, segments_);
       for (int i = begin; i < end; ++i) {
-        const ClosestPoint<Scalar> candidate = closest_point(centreline.segment(i), q);
+        const ClosestPoint<Scalar, D> candidate = closest_point(centreline.segment(i), q);
         const Scalar a = candidate.distance_squared, b = best.at.distance_squared;
         if (a < b || (a == b && i < best.segment)) best = {i, candidate};
       }
@@ -100,13 +106,13 @@ class BoundingVolumes {
     return best;
   }
 
-  /// How often the straight path p0 -> p1 crosses the centreline.
+  /// In a plane: how often the straight path p0 -> p1 crosses the centreline.
   /// @param centreline  the one of the last refit     Real-time: noexcept, no allocation, bounded.
-  [[nodiscard]] Crossings crossings(const Centreline<Scalar>& centreline, const Vector2<Scalar>& p0,
+  [[nodiscard]] Crossings crossings(const Line& centreline, const Vector2<Scalar>& p0,
                                     const Vector2<Scalar>& p1) const noexcept {
     Box path;
-    path.include(p0.x(), p0.y());
-    path.include(p1.x(), p1.y());
+    path.include(p0);
+    path.include(p1);
     Crossings total;
     int stack[max_depth];
     int size = 0;
@@ -128,7 +134,7 @@ class BoundingVolumes {
  private:
   static constexpr int max_depth = 32;  // of the stacks: one entry a level, and an int has 31 levels
 
-  using Box = detail::Box<Scalar>;
+  using Box = detail::Box<Scalar, D>;
 
   static std::size_t index(int node) noexcept { return static_cast<std::size_t>(node); }
 

@@ -1,4 +1,5 @@
-// The point of a plane cubic that is nearest to a given point: the global minimum over t in [0, 1].
+// The point of a cubic, in a plane or in space, that is nearest to a given point, or in space to a shaft: the global minimum
+// over t in [0, 1].
 //
 // With p(t) = C(t) - q the distance is stationary where g(t) = p . p' = 0, a polynomial of degree five.  Its
 // Bernstein coefficients are short sums of dot products of control points, and their signs isolate the
@@ -8,58 +9,105 @@
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/contact/bernstein.hpp>
+#include <hapbeam/shaft.hpp>
 
 namespace hapbeam {
 
 /// A point of one piece, seen from a query point.
-template <typename Scalar>
+template <typename Scalar, int D = 2>
 struct ClosestPoint {
-  Scalar t;                 ///< parameter in [0, 1]; exactly 0 or 1 at an end
-  Vector2<Scalar> offset;   ///< [m] from the point of the curve to the query point
+  Scalar t;  ///< parameter in [0, 1]; exactly 0 or 1 at an end
+  VectorOf<Scalar, D>
+      offset;               ///< [m] from the point of the curve to the query point, or to that of the shaft
   Scalar distance_squared;  ///< [m²] offset . offset
 };
 
-/// Derivative dC/dt of a piece [m], for its direction: where it vanishes, the chord's.
-template <typename Scalar>
-Vector2<Scalar> tangent(const CubicSegment<Scalar>& b, Scalar t) noexcept {
+/// A point of a piece [m].
+template <typename Scalar, int D>
+VectorOf<Scalar, D> point_at(const CubicSegment<Scalar, D>& b, Scalar t) noexcept {
   const Scalar r = 1 - t;
-  Vector2<Scalar> velocity =
+  return r * r * (r * b.col(0) + 3 * t * b.col(1)) + t * t * (3 * r * b.col(2) + t * b.col(3));
+}
+
+/// Derivative dC/dt of a piece [m], for its direction: where it vanishes, the chord's.
+template <typename Scalar, int D>
+VectorOf<Scalar, D> tangent(const CubicSegment<Scalar, D>& b, Scalar t) noexcept {
+  const Scalar r = 1 - t;
+  VectorOf<Scalar, D> velocity =
       3 * (r * r * (b.col(1) - b.col(0)) + 2 * r * t * (b.col(2) - b.col(1)) + t * t * (b.col(3) - b.col(2)));
   if (velocity.squaredNorm() > 0) return velocity;
   return b.col(3) - b.col(0);
 }
 
-/// Nearest point of the piece to q, of all t in [0, 1]; among equals an end, and the start before the end.
-/// @param b  [m] control points   @param q  [m]
-/// Real-time: noexcept, no allocation, bounded.
-template <typename Scalar>
-ClosestPoint<Scalar> closest_point(const CubicSegment<Scalar>& b, const Vector2<Scalar>& q) noexcept {
-  using Vector = Vector2<Scalar>;
-  const Vector p0 = b.col(0) - q, p1 = b.col(1) - q, p2 = b.col(2) - q, p3 = b.col(3) - q;
+namespace detail {
+
+/// Calls visit(t, p(t)) for each t within (0, 1) at which a cubic p comes nearest to the origin, of all beside it.
+/// @param p0, p1, p2, p3  [m] its control points
+template <typename Scalar, int D, class Visit>
+void for_each_foot(const VectorOf<Scalar, D>& p0, const VectorOf<Scalar, D>& p1,
+                   const VectorOf<Scalar, D>& p2, const VectorOf<Scalar, D>& p3, Visit&& visit) noexcept {
+  using Vector = VectorOf<Scalar, D>;
   const Vector e0 = p1 - p0, e1 = p2 - p1, e2 = p3 - p2;  // p' / 3 in Bernstein form
-
-  ClosestPoint<Scalar> best{0, -p0, p0.squaredNorm()};
-  const Scalar end = p3.squaredNorm();
-  if (end < best.distance_squared) best = {1, -p3, end};
-
-  const detail::Bernstein<Scalar, 5> g = {p0.dot(e0),
-                                          (2 * p0.dot(e1) + 3 * p1.dot(e0)) / 5,
-                                          (p0.dot(e2) + 6 * p1.dot(e1) + 3 * p2.dot(e0)) / 10,
-                                          (3 * p1.dot(e2) + 6 * p2.dot(e1) + p3.dot(e0)) / 10,
-                                          (3 * p2.dot(e2) + 2 * p3.dot(e1)) / 5,
-                                          p3.dot(e2)};
-  detail::for_each_sign_change(g, [&](const detail::SignChange<Scalar>& change) {
+  const Bernstein<Scalar, 5> g = {p0.dot(e0),
+                                  (2 * p0.dot(e1) + 3 * p1.dot(e0)) / 5,
+                                  (p0.dot(e2) + 6 * p1.dot(e1) + 3 * p2.dot(e0)) / 10,
+                                  (3 * p1.dot(e2) + 6 * p2.dot(e1) + p3.dot(e0)) / 10,
+                                  (3 * p2.dot(e2) + 2 * p3.dot(e1)) / 5,
+                                  p3.dot(e2)};
+  for_each_sign_change(g, [&](const SignChange<Scalar>& change) {
     if (!change.rising) return;  // a maximum
     const Vector a1 = 3 * e0, a2 = 3 * (e1 - e0), a3 = e2 - 2 * e1 + e0;
     const auto position = [&](Scalar t) -> Vector { return p0 + t * (a1 + t * (a2 + t * a3)); };
-    const Scalar t = detail::polish_root(change, [&](Scalar at) -> detail::ValueSlope<Scalar> {
+    const Scalar t = polish_root(change, [&](Scalar at) -> ValueSlope<Scalar> {
       const Vector p = position(at), v = a1 + at * (2 * a2 + 3 * at * a3), a = 2 * a2 + 6 * at * a3;
       return {p.dot(v), v.dot(v) + p.dot(a)};
     });
-    const Vector p = position(t);
+    visit(t, position(t));
+  });
+}
+
+}  // namespace detail
+
+/// Nearest point of the piece to q, of all t in [0, 1]; among equals an end, and the start before the end.
+/// @param b  [m] control points   @param q  [m]
+/// Real-time: noexcept, no allocation, bounded.
+template <typename Scalar, int D>
+ClosestPoint<Scalar, D> closest_point(const CubicSegment<Scalar, D>& b,
+                                      const VectorOf<Scalar, D>& q) noexcept {
+  using Vector = VectorOf<Scalar, D>;
+  const Vector p0 = b.col(0) - q, p1 = b.col(1) - q, p2 = b.col(2) - q, p3 = b.col(3) - q;
+  ClosestPoint<Scalar, D> best{0, -p0, p0.squaredNorm()};
+  const Scalar end = p3.squaredNorm();
+  if (end < best.distance_squared) best = {1, -p3, end};
+  detail::for_each_foot(p0, p1, p2, p3, [&](Scalar t, const Vector& p) {
     const Scalar d = p.squaredNorm();
     if (d < best.distance_squared) best = {t, -p, d};
   });
+  return best;
+}
+
+/// The same to a shaft.  Nearest are the points nearest to its ends, and between them those of the curve as seen along it.
+template <typename Scalar>
+ClosestPoint<Scalar, 3> closest_point(const CubicSegment<Scalar, 3>& b, const Shaft<Scalar>& shaft) noexcept {
+  using Vector = VectorOf<Scalar, 3>;
+  ClosestPoint<Scalar, 3> best = closest_point(b, shaft.tip);
+  const Scalar squared = shaft.way.squaredNorm();
+  if (!(squared > 0)) return best;
+  const ClosestPoint<Scalar, 3> other = closest_point(b, Vector(shaft.tip + shaft.way));
+  if (other.distance_squared < best.distance_squared) best = other;
+  const auto see = [&](Scalar t, const Vector& point) {
+    const Vector offset = shaft.at(shaft.nearest(point)) - point;
+    const Scalar d = offset.squaredNorm();
+    if (d < best.distance_squared) best = {t, offset, d};
+  };
+  Vector p[4];
+  for (int k = 0; k < 4; ++k) {
+    p[k] = b.col(k) - shaft.tip;
+    p[k] -= shaft.way.dot(p[k]) / squared * shaft.way;
+  }
+  see(0, b.col(0));
+  see(1, b.col(3));
+  detail::for_each_foot(p[0], p[1], p[2], p[3], [&](Scalar t, const Vector&) { see(t, point_at(b, t)); });
   return best;
 }
 

@@ -17,21 +17,23 @@
 namespace hapbeam {
 
 /// What the avatar and the beam have to do with each other.  Without contact it describes the nearest point.
-template <typename Scalar>
+/// @tparam D  2 | 3
+template <typename Scalar, int D = 2>
 struct Contact {
   bool touching = false;
   bool past_end = false;  ///< the avatar's centre lies beyond an end of the centreline
-  int side = 1;           ///< +1 or -1: where the beam is touched from
+  int side = 1;           ///< +1 or -1: where the beam is touched from; a rod has one side, +1
   int segment = -1;       ///< piece of the centreline; -1: no answer, all else is zero
   Scalar s = 0;           ///< [m] arc position of the foot point
   Scalar depth = 0;       ///< [m] penetration; negative: the gap
-  Vector2<Scalar> foot = Vector2<Scalar>::Zero();    ///< [m] nearest point of the centreline
-  Vector2<Scalar> point = Vector2<Scalar>::Zero();   ///< [m] on the beam's surface, foot + normal thickness/2
-  Vector2<Scalar> normal = Vector2<Scalar>::Zero();  ///< unit, out of the beam on the touched side
+  VectorOf<Scalar, D> foot = VectorOf<Scalar, D>::Zero();   ///< [m] nearest point of the centreline
+  VectorOf<Scalar, D> point = VectorOf<Scalar, D>::Zero();  ///< [m] on the surface, foot + normal thickness/2
+  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< unit, out of the beam on the touched side
 };
 
 /// What must be known of the tick before.  Starts empty.
-template <typename Scalar>
+/// @tparam D  2 | 3, which find_rod_contact.hpp has
+template <typename Scalar, int D = 2>
 struct ContactMemory {
   Vector2<Scalar> position = Vector2<Scalar>::Zero();  ///< [m] where the avatar was
   bool known = false;                                  ///< position is valid

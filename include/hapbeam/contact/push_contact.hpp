@@ -1,6 +1,7 @@
-// How contact asks a model that can be pushed along any direction: the avatar is a circle on a curve that yields.
+// How contact asks a model that can be pushed along any direction: the avatar is a circle on a curve that yields, in space a
+// capsule.
 //
-// The model lays its centreline on the circle with radius `reach` around the avatar's centre and says where the two touch.  It
+// The model lays its centreline at the distance `reach` from the avatar's centre or axis and says where the two touch.  It
 // begins beside the nearest point, moved on as the point has moved in the two ticks before while the beam yielded: there its
 // mesh has a node already.
 // Real-time: noexcept, no allocation; one push.
@@ -15,25 +16,28 @@
 
 namespace hapbeam::detail {
 
-template <typename Scalar>
+/// @tparam D  2 | 3
+template <typename Scalar, int D = 2>
 class PushContact {
+  using Vector = VectorOf<Scalar, D>;
+
  public:
   /// Farther than this from where they touch, in units of reach, the contact has not been found.
   static constexpr Scalar far = Scalar(1e-2);
 
-  void begin(const Contact<Scalar>&) noexcept { slid_ = before_ = 0; }
+  void begin(const Contact<Scalar, D>&) noexcept { slid_ = before_ = 0; }
 
   /// As PressContact::hold(); contact comes back as it is on the new shape.  out_of_range: the circle touches at two points,
   /// and force and shape are those of one.
   template <class Model>
-  Held<Scalar> hold(Model& model, Contact<Scalar>& contact, const Vector2<Scalar>& position, Scalar reach,
-                    bool, Press<Scalar>& asked) noexcept {
+  Held<Scalar> hold(Model& model, Contact<Scalar, D>& contact, const Avatar<Scalar, D>& avatar, Scalar reach,
+                    Press<Scalar>& asked) noexcept {
     const Scalar length = model.shape().length(), first = contact.s;
     // No beam goes along with a hand farther than it is long.
     if (contact.depth > reach + length) return {Hold::lost, 0, Status::iteration_limit};
     const Scalar s = std::clamp(first + (2 * slid_ - before_), Scalar(0), length);
-    const Pushed<Scalar> pushed = model.push({s, position, reach, static_cast<Scalar>(contact.side)});
-    asked = {pushed.s, pushed.point.y()};
+    const Pushed<Scalar, D> pushed = push(model, s, avatar, reach, contact);
+    asked = {pushed.s, D == 2 ? pushed.point.y() : pushed.normal.dot(pushed.point)};
     const bool answer = is_answer(pushed.status), found = pushed.miss <= far * reach, lost = answer && !found;
     // What pulls beside the contact, or on the way to it, may press there.
     if (pushed.force > 0 || (answer && pushed.force == 0))
@@ -50,19 +54,29 @@ class PushContact {
     contact.point = pushed.point + pushed.normal * (model.thickness() / 2);
     contact.past_end = pushed.past_end;
     Status status = lost ? Status::iteration_limit : pushed.status;
-    if (status == Status::ok && !pushed.past_end && pinched(model.shape(), pushed.s, position, reach))
+    if (status == Status::ok && !pushed.past_end && pinched(model.shape(), pushed.s, avatar, reach))
       status = Status::out_of_range;
     return {Hold::pressing, -pushed.force, status};
   }
 
  private:
+  template <class Model>
+  static Pushed<Scalar, D> push(Model& model, Scalar s, const Avatar<Scalar, D>& avatar, Scalar reach,
+                                const Contact<Scalar, D>& contact) noexcept {
+    if constexpr (D == 2) return model.push({s, avatar.position, reach, static_cast<Scalar>(contact.side)});
+    else return model.push(Capsule<Scalar>{s, avatar.axis(), reach, contact.normal});
+  }
+  static Vector place(const Centreline<Scalar, D>& line, Scalar s) noexcept {
+    const auto at = line.at(s);
+    if constexpr (D == 2) return {s + at.u, at.w};
+    else return at.r;
+  }
   /// Whether the beam beside s lies within the circle, because it bends more sharply there and touches at two points.
-  static bool pinched(const Centreline<Scalar>& line, Scalar s, const Vector2<Scalar>& position,
+  static bool pinched(const Centreline<Scalar, D>& line, Scalar s, const Avatar<Scalar, D>& avatar,
                       Scalar reach) noexcept {
     for (const Scalar way : {-reach / 2, reach / 2}) {
       const Scalar beside = std::clamp(s + way, Scalar(0), line.length());
-      const Displacement<Scalar> at = line.at(beside);
-      if ((position - Vector2<Scalar>(beside + at.u, at.w)).norm() < Scalar(0.99) * reach) return true;
+      if (way_to(avatar, place(line, beside)).norm() < Scalar(0.99) * reach) return true;
     }
     return false;
   }

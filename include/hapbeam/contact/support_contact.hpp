@@ -7,15 +7,18 @@
 // Real-time: noexcept, no allocation; at most one press.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <hapbeam/contact/find_contact.hpp>
 #include <hapbeam/contact/press_contact.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam::detail {
 
-template <typename Scalar>
+/// @tparam D  2 | 3
+template <typename Scalar, int D = 2>
 class SupportContact {
  public:
   /// @param model  before it is touched
@@ -36,7 +39,8 @@ class SupportContact {
 
   /// Whether the avatar reaches over an end that holds w.
   template <class Model>
-  static bool over(const Model& model, const Vector2<Scalar>& position, Scalar reach) noexcept {
+  static bool over(const Model& model, const Avatar<Scalar>& avatar, Scalar reach) noexcept {
+    const Vector2<Scalar>& position = avatar.position;
     const Centreline<Scalar> line = model.shape();
     const Range<Scalar> range = model.range();
     const auto within = [&](const CentrelineNode<Scalar>& end, Scalar support) {
@@ -76,6 +80,94 @@ class SupportContact {
     Scalar w;  // of the nearest place in range [m]
   };
   End ends_[2] = {{0, 0}, {0, 0}};
+};
+
+/// An end of a rod in space that is held does not move, nor does much beside it: a contact that is deeper there than σ²/6 reach, at
+/// the distance σ from the end, bends the rod half as sharply as the avatar, 3d/σ², and a hand soon more so than a mesh can show.  There
+/// the rod counts as it lay before the touch: it is pushed across by a little of that distance, and deeper contacts take as many
+/// times the force.
+template <typename Scalar>
+class SupportContact<Scalar, 3> {
+  using Vector = VectorOf<Scalar, 3>;
+
+ public:
+  template <class Model>
+  void begin(const Model& model) noexcept {
+    const Centreline<Scalar, 3> line = model.shape();
+    const int last = line.segments() - 1;
+    ends_[0] = {line.segment(0), line[1].s - line[0].s, line[0].director};
+    ends_[1] = {line.segment(last).rowwise().reverse(), line[last + 1].s - line[last].s,
+                line[last + 1].director};
+  }
+
+  /// Whether the contact is past an end that is held, or as deep as that beside it.
+  template <class Model>
+  bool past(const Contact<Scalar, 3>& contact, const Model& model, const Avatar<Scalar, 3>& avatar,
+            Scalar reach) noexcept {
+    const Range<Scalar> range = model.range();
+    for (const bool right : {false, true}) {
+      const End& end = ends_[right];
+      const Scalar support = right ? range.right_support : range.left_support,
+                   distance = std::abs(contact.s - support);
+      if (!(distance < end.length)) continue;
+      const ClosestPoint<Scalar, 3> at = closest_point(end.piece, avatar.axis());
+      const Scalar gap = std::sqrt(at.distance_squared),
+                   nearest = right ? support - range.s_max : range.s_min;
+      depth_ = reach - gap;
+      distance_ = std::max(at.t * end.length, nearest);
+      if (!(distance < nearest || 6 * reach * depth_ > distance_ * distance_)) continue;
+      right_ = right;
+      tangent_ = detail::unit(tangent(end.piece, at.t));
+      normal_ = gap > 0 ? Vector(at.offset / gap) : detail::across(end.director, tangent_);
+      foot_ = point_at(end.piece, at.t);
+      return true;
+    }
+    return false;
+  }
+  template <class Model>
+  static bool near(const Contact<Scalar, 3>& contact, const Model& model, Scalar distance) noexcept {
+    const Range<Scalar> range = model.range();
+    return contact.s - range.left_support < distance || range.right_support - contact.s < distance;
+  }
+  template <class Model>
+  static bool slid(const Contact<Scalar, 3>&, const Model&) noexcept {
+    return false;
+  }
+
+  /// As PressContact::hold().
+  template <class Model>
+  Held<Scalar> hold(Model& model, Contact<Scalar, 3>& contact, Press<Scalar>& asked) const noexcept {
+    contact.touching = depth_ > 0;
+    if (!contact.touching) return {Hold::released, 0, Status::ok};
+    const Range<Scalar> range = model.range();
+    const Scalar s = right_ ? range.right_support - distance_ : range.left_support + distance_,
+                 depth = std::min(depth_, distance_ / 20);
+    const Vector side = normal_ - tangent_ * tangent_.dot(normal_),
+                 across = side.squaredNorm() > Scalar(0.01)
+                              ? detail::unit(side)
+                              : detail::across(ends_[right_].director, tangent_);
+    asked = {s, across.dot(foot_) - depth};
+    const Response<Scalar> response = model.push(Push<Scalar, 3>{s, asked.d, across});
+    const Status status = response.status == Status::ok ? Status::out_of_range : response.status;
+    contact.s = s;
+    contact.foot = foot_;
+    contact.normal = normal_;
+    contact.point = foot_ + normal_ * (model.thickness() / 2);
+    contact.depth = depth_;
+    return {Hold::pressing, std::abs(response.force) * (depth_ / depth), status};
+  }
+
+ private:
+  struct End {
+    CubicSegment<Scalar, 3> piece;  // from the end inward, before the touch
+    Scalar length;                  // of it [m]
+    Vector director;
+  };
+
+  End ends_[2] = {};
+  bool right_ = false;
+  Scalar distance_ = 0, depth_ = 0;  // of the last contact, from the end and into the rod [m]
+  Vector tangent_ = Vector::Zero(), normal_ = Vector::Zero(), foot_ = Vector::Zero();
 };
 
 }  // namespace hapbeam::detail

@@ -1,4 +1,4 @@
-// From the hand's position to the force on the hand: contact, press and unilateral law, one call a tick.
+// From the hand's position to the force on the hand: contact, press and unilateral law, one call a tick, in a plane or in space.
 //
 // Knows the ForceModel contract and no particular model.  Each tick finds the contact on the shape of the
 // last press and asks the model for the displacement that would just end the penetration: along the normal where the
@@ -14,6 +14,7 @@
 
 #include <hapbeam/contact/find_contact.hpp>
 #include <hapbeam/contact/find_contact_near.hpp>
+#include <hapbeam/contact/find_rod_contact.hpp>
 #include <hapbeam/contact/press_contact.hpp>
 #include <hapbeam/contact/push_contact.hpp>
 #include <hapbeam/contact/support_contact.hpp>
@@ -22,14 +23,17 @@
 namespace hapbeam {
 
 /// What one tick says.
-template <typename Scalar>
+/// @tparam D  of the space in which the beam bends: 2 | 3
+template <typename Scalar, int D = 2>
 struct TouchResult {
-  Vector2<Scalar> force = Vector2<Scalar>::Zero();  ///< [N] on the hand, (along x, along w); always finite
+  /// [N] on the hand, in a plane (along x, along w); always finite
+  VectorOf<Scalar, D> force = VectorOf<Scalar, D>::Zero();
   Status status = Status::ok;  ///< of the press; invalid_request for a position that is not finite
   bool pressing = false;       ///< the hand holds the beam; read this, not contact.touching
-  Contact<Scalar>
+  Contact<Scalar, D>
       contact;  ///< on the shape before this tick's press; segment -1: out of reach, or not finite
-  Press<Scalar> press{0, 0};  ///< what was asked of the model; zero where nothing was
+  Press<Scalar> press{0,
+                      0};  ///< what was asked of the model, in space along the normal; zero where nothing was
 };
 
 /// One avatar on one beam.  Between ticks the model may be read by others but pressed by nobody else.
@@ -42,6 +46,12 @@ class Touch {
 
  public:
   using Scalar = typename Model::Scalar;
+  static constexpr int dimension = dimension_of<Model>;
+  static_assert(
+      dimension == 2 || takes_push<Model>,
+      "Touch<Model>: a Model in space must offer push(const Capsule<Scalar>&) and release(), each noexcept");
+  using Vector = VectorOf<Scalar, dimension>;
+  using Result = TouchResult<Scalar, dimension>;
 
   /// @param model   kept by reference   @param avatar_radius  [m]
   /// Allocates.   @throws std::invalid_argument unless avatar_radius is 0 to most_radius lengths of the beam
@@ -73,7 +83,14 @@ class Touch {
   /// Real-time: noexcept, no allocation, bounded: at most one press or push and one release; nothing without contact but for a
   /// beam that falls to rest.  With FemModel that is 96 linear solves, and two looks more for each of the four meshes of a push and
   /// for the release: with 64 elements at 0.1 µs an element and solve 0.68 ms.
-  [[nodiscard]] TouchResult<Scalar> tick(const Vector2<Scalar>& position) noexcept;
+  [[nodiscard]] Result tick(const Vector& position) noexcept {
+    return tick(Avatar{position, avatar_radius_});
+  }
+  /// The same in space, with a capsule.  @param position  [m] of the tip of its axis   @param shaft  [m] from there to the other end
+  template <int D = dimension, std::enable_if_t<D == 3, int> = 0>
+  [[nodiscard]] Result tick(const Vector& position, const Vector& shaft) noexcept {
+    return tick(Avatar{position, avatar_radius_, shaft});
+  }
 
   [[nodiscard]] bool pressing() const noexcept { return pressing_; }
   /// Nothing is left of the last touch: the beam is at rest, and whoever comes next touches it anew.
@@ -81,10 +98,11 @@ class Touch {
 
   /// The contact of the beam as it lies now with the avatar, gone straight to a place from that of the last tick.
   /// @param position [m]   Real-time: noexcept, no allocation, bounded; no press.
-  [[nodiscard]] Contact<Scalar> contact_at(const Vector2<Scalar>& position) noexcept {
+  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position) noexcept {
     if (inside_) return {};
-    ContactMemory<Scalar> memory = memory_;
-    return find_contact({position, avatar_radius_}, model_.shape(), volumes(), model_.thickness(), memory);
+    auto memory = memory_;
+    return find_contact(Avatar{position, avatar_radius_}, model_.shape(), volumes(), model_.thickness(),
+                        memory);
   }
 
   /// Of the avatar's radius, in lengths of the beam.  Seen from the beam a larger disc is a plane, and in `float` the depth
@@ -94,8 +112,16 @@ class Touch {
   static constexpr int patience = 20;
 
  private:
+  static constexpr bool planar = dimension == 2;
+  using Avatar = hapbeam::Avatar<Scalar, dimension>;
+  using Contact = hapbeam::Contact<Scalar, dimension>;
+  using Memory = ContactMemory<Scalar, dimension>;
+  using Volumes = BoundingVolumes<Scalar, dimension>;
+
+  Result tick(const Avatar& avatar) noexcept;
+
   /// Fitted to the present shape.  A touch that goes on seldom needs them.
-  const BoundingVolumes<Scalar>& volumes() noexcept {
+  const Volumes& volumes() noexcept {
     if (moved_) refit();
     return volumes_;
   }
@@ -104,26 +130,47 @@ class Touch {
     moved_ = false;
   }
 
-  detail::Held<Scalar> hold(Contact<Scalar>& contact, const Vector2<Scalar>& position, Scalar reach,
+  /// The contact of a touch that goes on, where it was: in space it may come from anywhere.
+  bool find_near([[maybe_unused]] const Avatar& avatar, [[maybe_unused]] Contact& contact) noexcept {
+    if constexpr (planar)
+      return pressing_ && in_range_ && detail::find_contact_near(model_, s_, avatar, memory_, contact);
+    else return false;
+  }
+
+  detail::Held<Scalar> hold(Contact& contact, const Avatar& avatar, Scalar reach,
                             Press<Scalar>& asked) noexcept {
     const bool was_on_support = on_support_, was_across = across_;
-    on_support_ = support_.past(contact, model_);
+    if constexpr (planar) on_support_ = support_.past(contact, model_);
+    else on_support_ = support_.past(contact, model_, avatar, reach);
     if (on_support_) {
       side_ = contact.side;
       return support_.hold(model_, contact, asked);
     }
     // Beside a rigid end, which no push moves, the beam is pressed across, and that ends with its range.
-    across_ = !takes_push<Model> || support_.over(model_, position, reach) ||
-              (pressing_ && was_across && contact.depth > reach);
+    if constexpr (planar)
+      across_ = !takes_push<Model> || support_.over(model_, avatar, reach) ||
+                (pressing_ && was_across && contact.depth > reach);
+    else across_ = false;
     if (!pressing_ || was_on_support) side_ = contact.side;
     if (!pressing_ || was_on_support || across_ != was_across) begin(contact);
     if constexpr (takes_push<Model>)
-      if (!across_) return pusher_.hold(model_, contact, position, reach, pressing_, asked);
-    return presser_.hold(model_, contact, position, reach, pressing_, asked);
+      if (!across_) return pusher_.hold(model_, contact, avatar, reach, asked);
+    if constexpr (planar) return presser_.hold(model_, contact, avatar.position, reach, pressing_, asked);
+    else return {detail::Hold::lost, 0, Status::invalid_request};
   }
-  void begin(const Contact<Scalar>& contact) noexcept {
-    presser_.begin(contact);
+  void begin(const Contact& contact) noexcept {
+    if constexpr (planar) presser_.begin(contact);
     pusher_.begin(contact);
+  }
+  /// A pressed beam moves with the hand, which cannot have gone round its end.  Only a beam that has stopped at the
+  /// end of its range can be passed, and that must not turn the press into one from the other side.  A rigid end is gone round.
+  void remember() noexcept {
+    memory_.touching = true;
+    if constexpr (planar) memory_.through = !on_support_, memory_.side = side_;
+  }
+  void forget_touch() noexcept {
+    memory_.touching = false;
+    if constexpr (planar) memory_.through = false;
   }
 
   /// The beam springs back, or falls to where it rests.
@@ -137,22 +184,22 @@ class Touch {
       return Status::ok;
     }
   }
-  void release(TouchResult<Scalar>& result) noexcept {
+  void release(Result& result) noexcept {
     const Status status = spring_back();
     // Nobody holds it: that no force is felt is the whole answer, wherever the beam is on its way.
     if (takes_push<Model>) result.status = falling_ ? Status::ok : status;
     refit();
-    pressing_ = on_support_ = memory_.touching = memory_.through = false;
+    pressing_ = on_support_ = false;
+    forget_touch();
   }
   /// What the contact remembers belongs to the touch.  A beam that has sprung back is a new beam: whoever stands behind it
   /// is on its other side, and whoever is inside it has to leave before touching it.
-  void let_go(const Avatar<Scalar>& avatar, detail::Hold why, TouchResult<Scalar>& result) noexcept {
+  void let_go(const Avatar& avatar, detail::Hold why, Result& result) noexcept {
     // A support that is no longer touched says nothing of the beam beside it, which lies elsewhere once it has sprung back.
     const bool off_beam = why == detail::Hold::released && !on_support_;
     release(result);
-    ContactMemory<Scalar> nothing;
-    const Contact<Scalar> contact =
-        find_contact(avatar, model_.shape(), volumes(), model_.thickness(), nothing);
+    Memory nothing;
+    const Contact contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), nothing);
     const Scalar reach = avatar_radius_ + model_.thickness() / 2;
     inside_ = contact.touching && (why == detail::Hold::slipped ||
                                    (contact.side != side_ && support_.near(contact, model_, 2 * reach)));
@@ -166,11 +213,11 @@ class Touch {
 
   Model& model_;
   Scalar avatar_radius_;
-  BoundingVolumes<Scalar> volumes_;
-  ContactMemory<Scalar> memory_;
+  Volumes volumes_;
+  Memory memory_;
   detail::PressContact<Scalar> presser_;
-  detail::PushContact<Scalar> pusher_;
-  detail::SupportContact<Scalar> support_;
+  detail::PushContact<Scalar, dimension> pusher_;
+  detail::SupportContact<Scalar, dimension> support_;
   Scalar s_ = 0;           // of the last contact [m]
   bool in_range_ = false;  // there: beyond its range a shape of moderate rotation may turn back
   bool moved_ = false;     // since the volumes were fitted
@@ -185,16 +232,13 @@ class Touch {
 
 // Outside of the class: only so does "extern template class Touch<…>;" keep a compiler from it.
 template <typename Model>
-auto Touch<Model>::tick(const Vector2<Scalar>& position) noexcept -> TouchResult<Scalar> {
-  TouchResult<Scalar> result;
-  Contact<Scalar>& contact = result.contact;
-  const Avatar<Scalar> avatar{position, avatar_radius_};
+auto Touch<Model>::tick(const Avatar& avatar) noexcept -> Result {
+  Result result;
+  Contact& contact = result.contact;
   if (!pressing_ && !falling_ && out_of_reach(avatar, volumes_, model_.thickness(), memory_)) return result;
-  // A pressed beam moves with the hand, which cannot have gone round its end.  Only a beam that has stopped at the
-  // end of its range can be passed, and that must not turn the press into one from the other side.  A rigid end is gone round.
-  if (pressing_) memory_.touching = true, memory_.through = !on_support_, memory_.side = side_;
+  if (pressing_) remember();
   if (inside_) memory_ = {};
-  if (!pressing_ || !in_range_ || !detail::find_contact_near(model_, s_, avatar, memory_, contact))
+  if (!find_near(avatar, contact))
     contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory_);
   if (contact.segment < 0) {
     result.status = Status::invalid_request;
@@ -211,9 +255,10 @@ auto Touch<Model>::tick(const Vector2<Scalar>& position) noexcept -> TouchResult
 
   const Scalar reach = avatar_radius_ + model_.thickness() / 2;
   if (!pressing_) unanswered_ = 0, across_ = true, support_.begin(model_);
-  const detail::Held<Scalar> held = hold(contact, position, reach, result.press);
+  const detail::Held<Scalar> held = hold(contact, avatar, reach, result.press);
   result.status = held.status;
-  if (takes_push<Model> && across_ && held.status == Status::ok) result.status = Status::out_of_range;
+  if (takes_push<Model> && planar && across_ && held.status == Status::ok)
+    result.status = Status::out_of_range;
   if (is_answer(held.status)) unanswered_ = 0;
   else if (!(held.force > 0)) ++unanswered_;
   if (held.hold != detail::Hold::pressing || unanswered_ > patience) {
@@ -224,6 +269,7 @@ auto Touch<Model>::tick(const Vector2<Scalar>& position) noexcept -> TouchResult
   if (on_support_ && support_.slid(contact, model_)) spring_back();
   moved_ = true;
   s_ = contact.s;
+  if constexpr (!planar) memory_.s = contact.s, memory_.normal = contact.normal;
   in_range_ = held.status == Status::ok;
   pressing_ = true;
   result.pressing = true;

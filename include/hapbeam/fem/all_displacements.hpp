@@ -30,6 +30,9 @@ class AllDisplacements {
  public:
   using Scalar = ScalarType;
   using Body = typename detail::SystemOf<Element>::Body;
+  using Round = typename detail::SystemOf<Element>::template Round<Scalar>;
+  using RoundContact = typename detail::SystemOf<Element>::template RoundContact<Scalar>;
+  using Extent = typename detail::SystemOf<Element>::template Range<Scalar>;
   static constexpr int dimension = dimension_of<Element>;
 
   /// Finds the shape at rest.
@@ -67,22 +70,23 @@ class AllDisplacements {
   /// So often the node follows the contact in a push.
   static constexpr int most_meshes = 4;
 
-  /// Lays the beam on a circle.  The mesh has its node where they were thought to touch, and follows where they do if that is
+  /// Lays the beam on a circle, a rod on a capsule.  The mesh has its node where they were thought to touch, and follows where they do if that is
   /// not beside it.
   /// @param range  says where a node can be   @param valid  whether there is a request   @return as press()
-  Pushed<Scalar> push(const Circle<Scalar>& request, const PressRange<Element, Scalar>& range,
-                      bool valid) noexcept {
+  Pushed<Scalar, dimension> push(const Round& request, const Extent& range, bool valid) noexcept {
     using std::abs;
+    const RoundContact round{request};
+    using Search = detail::ContactSearch<Scalar, dimension>;
     if (!begins(valid)) return {0, report_.status};
     // On a curve that is too sharp for it the law holds at the node alone.
     const Scalar near = beside * system_.length(), exactly = Scalar(1e-5) * request.reach;
-    detail::ContactSearch<Scalar> search;
-    Vector2<Scalar> normal = Vector2<Scalar>::Zero();
+    Search search;
+    Vector normal = Vector::Zero();
     Scalar s = request.s;
     bool snapped = false;
     for (int meshes = 1;; ++meshes) {
       Trial trial{s, normal};
-      Pushed<Scalar> pushed = push_at(request, range, trial);
+      Pushed<Scalar, dimension> pushed = push_at(request, range, trial);
       snapped = snapped || pushed.status == Status::snapped;
       const Scalar off = std::max(abs(trial.ahead), trial.miss);
       const bool there = off <= (trial.by_plane ? exactly : near);
@@ -91,11 +95,10 @@ class AllDisplacements {
         if (snapped && pushed.status == Status::ok) pushed.status = Status::snapped;
         return pushed;
       }
-      typename detail::ContactSearch<Scalar>::Aim next{s + trial.ahead, normal};
+      typename Search::Aim next{s + trial.ahead, normal};
       if (trial.by_plane)
-        next = search.after({next.s, pushed.normal},
-                            {trial.ahead, request.reach * (trial.normal.x() * pushed.normal.y() -
-                                                           trial.normal.y() * pushed.normal.x())});
+        next =
+            search.after({next.s, pushed.normal}, round.residual(trial.ahead, trial.normal, pushed.normal));
       s = std::clamp(next.s, Scalar(0), system_.length());
       normal = next.normal;
     }
@@ -164,6 +167,7 @@ class AllDisplacements {
   using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements, Assembler>;
   using System = SystemIn<Scalar>;
   using Node = typename System::Node;
+  using Vector = VectorOf<Scalar, dimension>;
   using Middle = decltype(std::declval<const System&>().middle());
 
   void to_rest() noexcept {
@@ -182,7 +186,7 @@ class AllDisplacements {
 
   struct Trial {
     Scalar s;  ///< [m] where the node goes
-    Vector2<Scalar>
+    Vector
         normal;  ///< in: of the plane that stands for the circle, zero: of the node;  out: the one that was taken
     bool by_plane = false;  ///< whether a plane stood for the circle
     Scalar ahead = 0;       ///< [m] from there to the contact
@@ -191,63 +195,63 @@ class AllDisplacements {
 
   /// A push with the node at trial.s, or at the end beside it.  At an end that slides along a wall the wall takes what does not
   /// act along it.
-  Pushed<Scalar> push_at(const Circle<Scalar>& request, const PressRange<Element, Scalar>& range,
-                         Trial& trial) noexcept {
+  Pushed<Scalar, dimension> push_at(const Round& request, const Extent& range, Trial& trial) noexcept {
     using std::abs;
-    using Round = detail::CircleOnCurve<Scalar>;
+    constexpr bool planar = dimension == 2;
+    const RoundContact round{request};
     const Scalar s = range.range().nearest({trial.s, 0}).s, length = system_.length();
     const ContactMesh<Scalar> mesh = uniform_.at(range.node(s));
     const int c = mesh.node(), end = c == 0 ? -1 : c == elements() ? 1 : 0;
-    const bool wall = range.on_wall(mesh.s()), outside = s != trial.s;
-    // There a hand soon bends the beam more sharply than the mesh can show.
-    const Scalar clear = 2 * request.reach;
-    const bool beside_support =
-        outside || s - range.range().left_support < clear || range.range().right_support - s < clear;
+    const bool outside = planar && s != trial.s;
+    bool wall = false, beside_support = false;
+    if constexpr (planar) {
+      wall = range.on_wall(mesh.s());
+      // There a hand soon bends the beam more sharply than the mesh can show.
+      const Scalar clear = 2 * request.reach;
+      beside_support =
+          outside || s - range.range().left_support < clear || range.range().right_support - s < clear;
+    }
     const Scalar last = system_.linear_reaction();
     system_.remesh(mesh);
     // The contact's node; beside a support, where there is none, the place that takes its displacement.
-    const auto at = [](const Centreline<Scalar>& line, Scalar position) {
-      const Displacement<Scalar> moved = line.at(position);
-      return Node{position, moved.u, moved.w, moved.theta};
-    };
-    const auto node = [&] { return outside ? at(shape(), trial.s) : system_.node(c); };
-    const auto look = [&](const Node& seen) { return Round(request.centre, request.side, 0, end).at(seen); };
+    const auto node = [&] { return outside ? round.node_at(shape(), trial.s) : system_.node(c); };
+    const auto look = [&](const Node& seen) { return round.look(seen, end); };
     const auto start = look(node());
-    const Scalar jump = abs(start.distance - request.reach);
+    const Scalar jump = abs(round.distance(start) - request.reach);
     if (single_valued_ && jump > length / 1000 &&
-        abs(look(at(system_.view(rest_state_), mesh.s())).distance - request.reach) < jump) {
+        abs(round.distance(look(round.node_at(system_.view(rest_state_), mesh.s()))) - request.reach) <
+            jump) {
       to_rest();
       system_.remesh(mesh);
     }
     Scalar across = 1;  // component of the force that the beam takes
     const Response<Scalar> response = settle(last, slack, [&] {
-      const Round circle(request.centre, request.side, shape().curvature(c), end);
-      trial.by_plane = wall || beside_support || sharp_ || circle.sharp(request.reach);
-      if (!trial.by_plane) return system_.set_goal(c, -request.reach, circle);
-      if (trial.normal.isZero(0) || wall) trial.normal = look(node()).normal;
-      const Vector2<Scalar>& normal = trial.normal;
-      const Scalar d =
-          normal.x() * (request.centre.x() - trial.s) + normal.y() * request.centre.y() - request.reach;
+      const auto law = round.beside(shape(), c, end);
+      const auto now = look(node());
+      trial.by_plane = wall || beside_support || sharp_ || law.sharp(request.reach) || round.is_through(now);
+      if (!trial.by_plane) return system_.set_goal(c, -request.reach, law);
+      if (trial.normal.isZero(0) || wall) trial.normal = round.normal(now);
+      const Vector& normal = trial.normal;
+      const Scalar d = round.plane(normal, trial.s, node());
       if (!wall) return system_.set_goal(c, d, 0, normal);
-      across = std::copysign(std::max(Scalar(0.5), abs(normal.y())), normal.y());
-      system_.set_goal(c, (d - normal.x() * system_.node(c).u) / across);
+      if constexpr (planar) {
+        across = std::copysign(std::max(Scalar(0.5), abs(normal.y())), normal.y());
+        system_.set_goal(c, (d - normal.x() * system_.node(c).u) / across);
+      }
     });
     const bool answer = is_answer(response.status);
-    sharp_ = answer && Round(request.centre, request.side, shape().curvature(c), end).sharp(request.reach);
+    sharp_ = answer && round.beside(shape(), c, end).sharp(request.reach);
     // What is no answer may have left that mesh.
-    const Node now = answer ? node() : at(shape(), trial.s);
+    const Node now = answer ? node() : round.node_at(shape(), trial.s);
     const auto view = answer && !trial.by_plane ? system_.contact() : look(now);
-    Pushed<Scalar> pushed{response.force / across, response.status};
+    Pushed<Scalar, dimension> pushed{response.force / across, response.status};
     pushed.past_end = answer ? view.past_end : start.past_end;
-    pushed.point = request.centre - view.distance * view.normal;
+    pushed.point = round.point(view, now);
     pushed.normal = view.normal;
-    const Scalar touched = std::clamp(now.s + request.side * view.lever, Scalar(0), length);
+    const Scalar touched = std::clamp(now.s + round.ahead(view), Scalar(0), length);
     trial.ahead = touched - trial.s;
     pushed.s = trial.by_plane || !answer ? trial.s : touched;
-    if (trial.by_plane) {
-      const Scalar x = (request.centre.x() - now.s) - now.u, y = request.centre.y() - now.w;
-      trial.miss = abs(trial.normal.x() * y - trial.normal.y() * x);
-    }
+    if (trial.by_plane) trial.miss = round.miss(trial.normal, now);
     return pushed;
   }
 
@@ -264,7 +268,9 @@ class AllDisplacements {
     const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
     Descent descent;
     descent.max_solves = left_ - report_.solves;
-    if (on_ridge || (report_.status == Status::iteration_limit && !single_valued_)) {
+    // A straight rod has one shape for each press, but it slips around a capsule.
+    const bool slips = dimension == 3 && looser != 1;
+    if (on_ridge || (report_.status == Status::iteration_limit && (!single_valued_ || slips))) {
       if (!fall(on_ridge, descent, aim)) {
         to_rest();
         falling_ = true;

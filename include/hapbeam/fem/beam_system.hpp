@@ -16,6 +16,7 @@
 #include <hapbeam/fem/chain.hpp>
 #include <hapbeam/fem/contact_point.hpp>
 #include <hapbeam/fem/press_range.hpp>
+#include <hapbeam/fem/round_contact.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/starting_shapes.hpp>
@@ -349,6 +350,10 @@ struct SystemOf {
   using System = BeamSystem<Element, Scalar, Elements, MaxElements, Assembler>;
   template <typename Scalar>
   using Range = PressRange<Element, Scalar>;
+  template <typename Scalar>
+  using Round = Circle<Scalar>;
+  template <typename Scalar>
+  using RoundContact = detail::RoundContact<Scalar>;
 };
 
 }  // namespace detail

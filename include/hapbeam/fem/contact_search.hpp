@@ -12,18 +12,21 @@
 namespace hapbeam::detail {
 
 /// The search for x = g(x), of x = (s, normal), from the last two images g and the residuals g - x.
-template <typename Scalar>
+/// @tparam D  2 | 3
+template <typename Scalar, int D = 2>
 class ContactSearch {
  public:
+  using Residual = VectorOf<Scalar, D == 2 ? 2 : 4>;
+
   /// Where a push goes.
   struct Aim {
-    Scalar s;                // [m]
-    Vector2<Scalar> normal;  // unit
+    Scalar s;                    // [m]
+    VectorOf<Scalar, D> normal;  // unit
   };
 
   /// @param image  where the last push says that the next one goes   @param residual  how far that is, along and across [m]
-  Aim after(const Aim& image, const Vector2<Scalar>& residual) noexcept {
-    const Vector2<Scalar> change = residual - residual_;
+  Aim after(const Aim& image, const Residual& residual) noexcept {
+    const Residual change = residual - residual_;
     Scalar share = known_ ? residual.dot(change) / change.squaredNorm() : Scalar(0);
     if (!(std::abs(share) < most_share)) share = 0;
     Aim next = image;
@@ -39,8 +42,8 @@ class ContactSearch {
 
  private:
   static constexpr Scalar most_share = 2;  // of the last step that is taken back or taken again
-  Aim image_{0, {0, 1}};
-  Vector2<Scalar> residual_{0, 0};
+  Aim image_{0, VectorOf<Scalar, D>::Zero()};
+  Residual residual_ = Residual::Zero();
   bool known_ = false;
 };
 

@@ -96,14 +96,13 @@ class FemModel {
     return solve({s, request.d, request.normal}, valid, s == request.s);
   }
 
-  /// Lays the centreline on a circle that touches it beside request.s: the point of contact and the equilibrium are found
-  /// together.  out_of_range: they touch nearer to a support than range() says.
+  /// Lays the centreline on a circle that touches it beside request.s, in space on a capsule: the point of contact and the
+  /// equilibrium are found together.  out_of_range: they touch nearer to a support than range() says.
   /// @return as press()
-  template <class E = Element, std::enable_if_t<any_rotation<E> && dimension_of<E> == 2, int> = 0>
-  Pushed<Scalar> push(const Circle<Scalar>& request) noexcept {
-    const bool valid =
-        request.centre.allFinite() && std::isfinite(request.reach) && range_.on_beam(request.s);
-    Pushed<Scalar> pushed = std::get_if<General>(&ways_)->push(request, range_, valid);
+  template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
+  Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request) noexcept {
+    const bool valid = is_finite(request) && range_.on_beam(request.s);
+    Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid);
     if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;
     if (pushed.status == Status::ok && range().nearest({pushed.s, 0}).s != pushed.s)
       pushed.status = Status::out_of_range;

@@ -4,7 +4,7 @@
 //
 // The expressions are those of BeamSystem, so that Newton's method, descents and load paths are the same.  The unknowns of an
 // end are those in its own axes, d1, d2 and tangent, where what a clamp holds are components; the unknowns of the contact's
-// node are those along two directions across n, and n·r + lever n·r', which is d.
+// node are those of rod_contact.hpp.
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
 #pragma once
 
@@ -13,9 +13,11 @@
 #include <cmath>
 
 #include <hapbeam/fem/beam_system.hpp>
+#include <hapbeam/fem/rod_contact.hpp>
 #include <hapbeam/fem/rod_elements.hpp>
 #include <hapbeam/fem/rod_end.hpp>
 #include <hapbeam/fem/rod_range.hpp>
+#include <hapbeam/fem/rod_round_contact.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 
@@ -66,13 +68,14 @@ class RodSystem {
     Nodes nodes;
     Inners inners;
   };
+  Centreline<Scalar, 3> view(const State& state) const noexcept { return view(state.nodes); }
   /// The state as it is.  @param state  out
   void keep(State& state) const noexcept {
     for (int i = 0; i <= elements(); ++i) state.nodes[i] = node(i), state.inners[i] = rod_.inners()[i];
   }
   void set_state(const ContactMesh<Scalar>& mesh, const State& state) noexcept {
     rod_.set(mesh, state.nodes, state.inners);
-    linear_reaction_ = 0;
+    force_ = linear_reaction_ = 0;
   }
   /// That of the same system in another scalar, on the uniform mesh.
   template <class Other>
@@ -88,7 +91,7 @@ class RodSystem {
   }
   /// n · r of a state at s [m].
   Scalar displacement(const State& state, Scalar s, const Vector3& normal) const noexcept {
-    return normal.dot(rod_.view(state.nodes).at(s).r);
+    return normal.dot(view(state).at(s).r);
   }
   Scalar displacement(Scalar s, const Vector3& normal) const noexcept {
     return normal.dot(centreline().at(s).r);
@@ -111,28 +114,26 @@ class RodSystem {
 
   /// Where the path ends: all of the dead loads, the ends where they are placed, and no contact.
   void set_goal() noexcept {
-    contact_ = -1;
+    contact_ = {};
     begin_path();
   }
   /// The same with a contact: d = n · r at its node or, beside an end that yields, at a distance on a straight tip.
   /// @param contact node   @param d [m]   @param lever [m] from the node to the contact along the rod   @param normal n, unit
   void set_goal(int contact, Scalar d, Scalar lever, const Vector3& normal) noexcept {
-    contact_ = contact;
-    lever_ = lever;
-    normal_ = normal;
-    // Two directions across n, the first across its smallest component.
-    int least = 0;
-    for (int k = 1; k < 3; ++k)
-      if (std::abs(normal[k]) < std::abs(normal[least])) least = k;
-    Vector3 e = Vector3::Zero();
-    e[least] = 1;
-    axes_.col(0) = detail::across(e, normal);
-    axes_.col(1) = detail::cross3<Scalar>(normal, axes_.col(0));
-    axes_.col(2) = normal;
-    start_d_ = displacement();
+    contact_ = {contact, lever, normal};
+    start_d_ = contact_displacement();
     goal_d_ = d;
     begin_path();
   }
+  /// The same with a capsule that the rod touches beside the node: d = -reach is then the wanted distance of its axis.
+  void set_goal(int contact, Scalar d, const detail::CapsuleOnCurve<Scalar>& capsule) noexcept {
+    contact_ = {contact, capsule};
+    start_d_ = contact_displacement();
+    goal_d_ = d;
+    begin_path();
+  }
+  /// How that capsule lies to the contact's node.
+  auto contact() const noexcept { return contact_.view(node(contact_.node())); }
 
   // What NewtonRaphson asks of a system.
 
@@ -151,18 +152,19 @@ class RodSystem {
     for (int i = 0; i <= elements(); ++i)
       rod_.nodes()[i] = saved_.nodes[i], rod_.inners()[i] = saved_.inners[i];
     load_ = saved_load_;
-    linear_reaction_ = saved_reaction_;
+    force_ = linear_reaction_ = saved_reaction_;
   }
   Scalar size() const noexcept { return size_; }
   Scalar unit() const noexcept { return unit_; }
 
-  void forget_force() noexcept {}  // no contact of a rod bends with its force
+  /// The tangent holds what the contact's force makes of a capsule, on the way down as well: there a rod slips around a sphere.
+  void forget_force() noexcept {}
 
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
-    linear_reaction_ = contact_ < 0 ? Scalar(0) : assembler_.reaction();
     advance();
+    linear_reaction_ = force_;
     return {status, increment()};
   }
 
@@ -176,12 +178,16 @@ class RodSystem {
     typename Parts::Residual r;
     Scalar energy = 0, work = 0;
     inner_energy_ = 0;
+    const int c = contact_.node();
+    if (c >= 0) contact_.look(node(c), force_);
     for (int e = 0; e < elements(); ++e) {
       const auto [strain, by_loads] = rod_.tangent(e, load_, r, K);
       energy += strain;
       work += by_loads;
       inner_energy_ += rod_.inners()[e].energy();
       if (shift != 0) add_shift(shift, e, K);
+      if (contact_.holds(e + 1)) contact_.bend(unknowns, K);
+      else if (e == 0 && contact_.holds(0)) contact_.bend(0, K);
       if (own_axes(e)) transform(e, 0, r, K);
       if (own_axes(e + 1)) transform(e + 1, unknowns, r, K);
       assembler_.add(e, K, r);
@@ -197,12 +203,13 @@ class RodSystem {
       });
     }
     moves_ = 0;
-    if (contact_ >= 0) assembler_.hold(contact_, 2, moves_ = d_ - displacement());
+    if (c >= 0) assembler_.hold(c, 2, moves_ = d_ - contact_.displacement());
     return assembler_.solve();
   }
   /// Adds the increment to the state: what turns keeps its length.  Without a contact, which would be missed, the chords turn
   /// as the tangents do, from the left end on (as chain.hpp says of the plane).
   void advance() noexcept {
+    force_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
     Increment before = increment(0);
     Vector3 way = before.template segment<3>(0),
             r = node(0).r;  // that the last node has gone, and where it was
@@ -215,15 +222,15 @@ class RodSystem {
       rod_.inners()[i - 1].advance(both);
       Node& node = rod_.nodes()[i];
       const Vector3 chord = node.r - r, change = x.template segment<3>(0) - before.template segment<3>(0);
-      way += contact_ < 0 ? Vector3(turned(chord, change) - chord) : change;
+      way += contact_.node() < 0 ? Vector3(turned(chord, change) - chord) : change;
       r = node.r;
       node.r += way;
       turn(node, x);
       before = x;
     }
-    if (contact_ < 0) close_chain();
+    if (contact_.node() < 0) close_chain();
     for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
-    if (contact_ >= 0) rod_.nodes()[contact_].r += (d_ - displacement()) * normal_;
+    if (contact_.node() >= 0) contact_.correct(rod_.nodes()[contact_.node()], d_);
   }
   /// Size of the last increment in the norm of the tangent [√J].
   Scalar increment() const noexcept {
@@ -237,7 +244,7 @@ class RodSystem {
   void nudge(Scalar size) noexcept {
     const Node& middle = node(elements() / 2);
     const Vector3 e = middle.director + detail::cross3(middle.tangent, middle.director) / 2;
-    const Scalar c = contact_ < 0 ? Scalar(-1) : node(contact_).s / length_;
+    const Scalar c = contact_.node() < 0 ? Scalar(-1) : node(contact_.node()).s / length_;
     for (Node& node : rod_.nodes()) {
       const Scalar t = node.s / length_, q = 1 - t, f = 16 * size * t * t * q * q,
                    g = c < 0 ? (3 + t) / Scalar(3.5) : 4 * (t - c),
@@ -268,10 +275,10 @@ class RodSystem {
     Increment x = assembler_.increment(i);
     for (std::size_t k = 0; k < 2; ++k)
       if (i == end(k)) x += prescribed_[k];
-    if (i == contact_) x[2] += moves_;
+    if (contact_.holds(i)) x[2] += moves_;
     if (own_axes(i)) {
       const auto [R, T, arm] = axes(i);
-      if (i == contact_) x[2] -= arm.dot(x.template segment<3>(3));
+      if (contact_.holds(i)) x[2] -= arm.dot(x.template segment<3>(3));
       if constexpr (unknowns == 7)
         if (const auto* const joint = this->joint(i))
           x[6] -= (T.transpose() * joint->arm(node(i))).dot(x.template segment<3>(3));
@@ -305,22 +312,21 @@ class RodSystem {
   using Matrix = Eigen::Matrix<Scalar, 3, 3>;
   struct Axes {
     Matrix R, T;  // of place and tangent
-    Vector3 arm;  // lever n, in T
+    Vector3 arm;  // of the contact, in T
   };
 
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
-  bool own_axes(int i) const noexcept { return i == contact_ || i == 0 || i == elements(); }
+  bool own_axes(int i) const noexcept { return contact_.holds(i) || i == 0 || i == elements(); }
   Axes axes(int i) const noexcept {
     Axes a{Matrix::Identity(), Matrix::Identity(), Vector3::Zero()};
     for (std::size_t k = 0; k < 2; ++k)
       if (i == end(k)) a.R = a.T = ends_[k].axes();
-    if (i == contact_) a.R = axes_, a.arm = lever_ * (a.T.transpose() * normal_);
+    if (contact_.holds(i)) a.R = contact_.axes(), a.arm = a.T.transpose() * contact_.arm();
     return a;
   }
-  /// n · r of the contact [m].
-  Scalar displacement() const noexcept {
-    const Node& at = node(contact_);
-    return normal_.dot(at.r) + lever_ * normal_.dot(at.tangent);
+  Scalar contact_displacement() noexcept {
+    contact_.look(node(contact_.node()), force_);
+    return contact_.displacement();
   }
 
   void begin_path() noexcept {
@@ -351,7 +357,7 @@ class RodSystem {
       }
     turn(at, R);
     turn(at + 3, T);
-    if (i == contact_ && lever_ != 0) lean(2, arm);
+    if (contact_.holds(i) && contact_.leans()) lean(2, arm);
   }
   /// The end at node i where it is a joint that holds the twist.
   const detail::RodEnd<Scalar>* joint(int i) const noexcept {
@@ -402,14 +408,13 @@ class RodSystem {
   Assembler<Scalar, Elements, MaxElements, unknowns> assembler_;
   std::array<detail::RodEnd<Scalar>, 2> ends_;
   Increment prescribed_[2] = {Increment::Zero(), Increment::Zero()};
-  int contact_ = -1;
-  Scalar lever_ = 0, moves_ = 0;
-  Vector3 normal_ = Vector3::Zero();
-  Matrix axes_ = Matrix::Identity();
+  detail::RodContact<Scalar> contact_;
+  Scalar moves_ = 0;
   Scalar length_;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;
   Scalar size_ = 0, potential_ = 0, inner_energy_ = 0, linear_reaction_ = 0, saved_reaction_ = 0, unit_;
+  Scalar force_ = 0;  // of the last tangent's contact
 };
 
 namespace detail {
@@ -424,6 +429,10 @@ struct SystemOf<Element, std::enable_if_t<dimension_of<Element> == 3>> {
   using System = RodSystem<Element, Scalar, Elements, MaxElements, Assembler>;
   template <typename Scalar>
   using Range = RodRange<Scalar>;
+  template <typename Scalar>
+  using Round = Capsule<Scalar>;
+  template <typename Scalar>
+  using RoundContact = RodRoundContact<Scalar>;
 };
 
 }  // namespace detail

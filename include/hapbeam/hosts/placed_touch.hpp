@@ -16,6 +16,7 @@
 #include <hapbeam/haptics/servo/exchange.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo.hpp>
+#include <hapbeam/haptics/stability/in_scene.hpp>
 
 namespace hapbeam {
 
@@ -23,10 +24,11 @@ template <typename Model>
 class PlacedTouch {
  public:
   using Scalar = typename Model::Scalar;
-  using Picture = ServoPicture<Scalar>;
+  static constexpr int dimension = Touch<Model>::dimension;
+  using Picture = ServoPicture<Scalar, dimension>;
 
   /// @param model  kept by reference; nobody else presses it   @param avatar_radius  [m] of the beam's
-  /// @param placement  of the host's positions in the plane of the beam: it also turns axes and scales units
+  /// @param placement  of the host's positions in the plane of the beam, or in the space of the rod: it also turns axes and scales units
   /// Allocates.   @throws std::invalid_argument as Touch
   PlacedTouch(Model& model, double avatar_radius, const Placement& placement = {})
       : model_(model),
@@ -37,10 +39,10 @@ class PlacedTouch {
 
   /// @param position  in the host's axes and units of length   @return [N] on the hand, host's axes; always finite
   [[nodiscard]] Eigen::Vector3d tick(const Eigen::Vector3d& position) noexcept {
-    const Vector2<double> hand = placement_.beam_position(position);
+    const VectorOf<double, dimension> hand = placement_.template position_of<dimension>(position);
     felt_ = touch_.tick(hand.template cast<Scalar>());
     Eigen::Vector3d force(0, 0, 0);
-    if (is_answer(felt_.status)) force = placement_.device_force_of_beam(felt_.force.template cast<double>());
+    if (is_answer(felt_.status)) force = placement_.device_force(detail::in_scene(felt_.force));
     keep(position, hand, force);
     publish();
     return force;
@@ -54,8 +56,8 @@ class PlacedTouch {
 
   const Placement& placement() const noexcept { return placement_; }
 
-  /// What the last tick said, in the plane of the beam.  From the haptic thread.
-  const TouchResult<Scalar>& felt() const noexcept { return felt_; }
+  /// What the last tick said, in the axes of the beam.  From the haptic thread.
+  const TouchResult<Scalar, dimension>& felt() const noexcept { return felt_; }
 
   /// The newest shape and what was felt with it; of the record, status, model, position, hand, avatar, force, press, pressing and
   /// the counts of ticks are filled in.  One reader, from any thread: wait-free.  They stay until the next call.
@@ -73,13 +75,13 @@ class PlacedTouch {
     return felt_.status == Status::out_of_range ? LoopStatus::out_of_range : LoopStatus::touching;
   }
 
-  void keep(const Eigen::Vector3d& position, const Vector2<double>& hand,
+  void keep(const Eigen::Vector3d& position, const VectorOf<double, dimension>& hand,
             const Eigen::Vector3d& force) noexcept {
     ServoRecord& r = record_;
     r.status = status();
     r.model = felt_.status;
     r.position = position;
-    r.hand = r.avatar = hand;
+    r.hand = r.avatar = detail::in_scene(hand);
     r.force = force;
     r.press = {static_cast<double>(felt_.press.s), static_cast<double>(felt_.press.d)};
     r.pressing = felt_.pressing;
@@ -103,7 +105,7 @@ class PlacedTouch {
   const Model& model_;
   Placement placement_;
   Touch<Model> touch_;
-  TouchResult<Scalar> felt_;
+  TouchResult<Scalar, dimension> felt_;
   ServoRecord record_;
   Picture seen_;
   std::atomic<bool> looked_{true};

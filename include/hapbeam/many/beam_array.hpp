@@ -145,18 +145,15 @@ class BeamArray {
   }
   static Scalar slack(const detail::Box<Scalar>& box) noexcept {
     return 16 * std::numeric_limits<Scalar>::epsilon() *
-           std::max(std::max(-box.x_low, box.x_high), std::max(-box.y_low, box.y_high));
+           std::max(std::max(-box.low[0], box.high[0]), std::max(-box.low[1], box.high[1]));
   }
   std::vector<detail::Box<Scalar>> boxes(const std::vector<BeamPlace>& places) const {
     std::vector<detail::Box<Scalar>> all(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
       const detail::Box<Scalar>& own = kind(places[i].kind).box;
       const Frame frame = frame_of(places[i]);
-      for (const Scalar x : {own.x_low, own.x_high})
-        for (const Scalar y : {own.y_low, own.y_high}) {
-          const Vector2<Scalar> corner = frame.place({x, y});
-          all[i].include(corner.x(), corner.y());
-        }
+      for (const Scalar x : {own.low[0], own.high[0]})
+        for (const Scalar y : {own.low[1], own.high[1]}) all[i].include(frame.place({x, y}));
       all[i] = all[i].grown(slack(all[i]));
     }
     return all;

@@ -88,9 +88,10 @@ class BoxTree {
       return;
     }
     Bounds centres;  // twice as far out as they are
-    for (auto i = begin; i != end; ++i) centres.include(twice_x(box(*i)), twice_y(box(*i)));
+    for (auto i = begin; i != end; ++i)
+      centres.include(VectorOf<Scalar, 2>(twice_x(box(*i)), twice_y(box(*i))));
     const std::size_t middle = (low + high) / 2;
-    const bool along_x = centres.x_high - centres.x_low >= centres.y_high - centres.y_low;
+    const bool along_x = centres.high[0] - centres.low[0] >= centres.high[1] - centres.low[1];
     std::nth_element(begin, at(middle), end, [&](std::int32_t a, std::int32_t b) {
       const Scalar of_a = along_x ? twice_x(box(a)) : twice_y(box(a)),
                    of_b = along_x ? twice_x(box(b)) : twice_y(box(b));
@@ -101,8 +102,8 @@ class BoxTree {
     nodes_[node] = nodes_[2 * node];
     nodes_[node].include(nodes_[2 * node + 1]);
   }
-  static Scalar twice_x(const Bounds& b) noexcept { return b.x_low + b.x_high; }
-  static Scalar twice_y(const Bounds& b) noexcept { return b.y_low + b.y_high; }
+  static Scalar twice_x(const Bounds& b) noexcept { return b.low[0] + b.high[0]; }
+  static Scalar twice_y(const Bounds& b) noexcept { return b.low[1] + b.high[1]; }
 
   std::size_t size_, leaves_ = 1;
   std::vector<Bounds> nodes_;

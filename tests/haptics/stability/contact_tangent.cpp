@@ -29,7 +29,7 @@ struct Beam {
 }  // namespace
 
 TEST_CASE("nothing known, nothing forced", "[tangent]") {
-  ContactTangent tangent;
+  ContactTangent<2> tangent;
   CHECK_FALSE(tangent.known());
   CHECK(tangent.force_at({0.3, -5}) == 0);
   tangent.learn({0, -0.1}, {0, 3}, 0.1);
@@ -47,7 +47,7 @@ TEST_CASE("pressed straight down, the stiffness is the tangent's within a fifth,
           "[tangent]") {
   for (const double q : {1.0, 1.5, 2.0, 3.0}) {
     const Beam beam{q};
-    ContactTangent tangent;
+    ContactTangent<2> tangent;
     double y = 1e-6;
     tangent.learn({0.5, -y}, beam.force({0.5, -y}), y);
     for (; y < 1; y *= 1.05) tangent.learn({0.5, -y}, beam.force({0.5, -y}), y);
@@ -68,7 +68,7 @@ TEST_CASE(
     const Beam beam{q};
     for (int path = 0; path < 50; ++path) {
       Vector p(0.5, -1e-3);
-      ContactTangent tangent;
+      ContactTangent<2> tangent;
       tangent.learn(p, beam.force(p), 1e-3 * 2 / (q + 1));  // V = f y/(q + 1)
       double largest = beam.energy(p);
       for (int leg = 0; leg < 5; ++leg) {
@@ -89,7 +89,7 @@ TEST_CASE(
 }
 
 TEST_CASE("where the tangent was wrong, the response is believed", "[tangent]") {
-  ContactTangent tangent;
+  ContactTangent<2> tangent;
   tangent.learn({0, -1e-3}, {0, 1}, 1e-3);
   CHECK(tangent.stiffness() == Approx(1250));
   // Ten times as stiff as it seemed, at once: too soft overshoots.
@@ -114,7 +114,7 @@ TEST_CASE("where the tangent was wrong, the response is believed", "[tangent]") 
 
 TEST_CASE("no sequence of answers makes it anything but a finite number", "[tangent]") {
   Random random(9);
-  ContactTangent tangent;
+  ContactTangent<2> tangent;
   for (int i = 0; i < 200000; ++i) {
     const double size = std::pow(10, random(-9, 9)), scale = std::pow(10, random(-12, 1));
     Vector force(random(1), random(1));

@@ -93,6 +93,13 @@ class Placement {
     const Eigen::Vector3d scene = scene_velocity(device);
     return {scene[0], scene[1]};
   }
+  /// Of a rod in space, whose axes are the scene's, all is seen.
+  /// @tparam D  of the space in which the beam bends: 2 | 3   @param device [m]   @return [m]
+  template <int D>
+  VectorOf<double, D> position_of(const Eigen::Vector3d& device) const noexcept {
+    if constexpr (D == 2) return beam_position(device);
+    else return scene_position(device);
+  }
   /// @param beam [N] on the hand, along x and w; nothing across the plane   @return [N] on the hand
   Eigen::Vector3d device_force_of_beam(const Vector2<double>& beam) const noexcept {
     return device_force({beam.x(), beam.y(), 0});

@@ -26,6 +26,7 @@
 #include <hapbeam/haptics/stability/coupling.hpp>
 #include <hapbeam/haptics/stability/energy_monitor.hpp>
 #include <hapbeam/haptics/stability/force_guard.hpp>
+#include <hapbeam/haptics/stability/in_scene.hpp>
 
 namespace hapbeam {
 
@@ -37,27 +38,33 @@ struct ServoOptions {
 };
 
 /// What is drawn: the record and the centreline of one tick.
-template <typename Scalar>
+/// @tparam D  of the space in which the beam bends: 2 | 3
+template <typename Scalar, int D = 2>
 class ServoPicture {
+  using Shape = Centreline<Scalar, D>;
+  using Node = typename Shape::Node;
+
  public:
   /// @param shape  as many nodes as it has, and `room` at least, are kept in later ones
-  explicit ServoPicture(const Centreline<Scalar>& shape)
-      : nodes_(std::max(room, static_cast<std::size_t>(shape.size()))) {
+  explicit ServoPicture(const Shape& shape) : nodes_(std::max(room, static_cast<std::size_t>(shape.size()))) {
     take(shape);
   }
 
   ServoRecord record;
-  Centreline<Scalar> shape() const noexcept { return {nodes_.data(), size_, any_rotation_}; }
+  Shape shape() const noexcept {
+    if constexpr (D == 2) return {nodes_.data(), size_, any_rotation_};
+    else return {nodes_.data(), size_};
+  }
 
-  void take(const Centreline<Scalar>& shape) noexcept {
+  void take(const Shape& shape) noexcept {
     size_ = copy(shape, nodes_.data(), static_cast<int>(nodes_.size()));
-    any_rotation_ = shape.any_rotation();
+    if constexpr (D == 2) any_rotation_ = shape.any_rotation();
   }
   void take(const ServoPicture& other) noexcept { take(other.shape()); }
 
   /// Of a shape with more nodes than there is room for, every second one is taken, or third, …, and the last.
   /// @param most  two or more   @return how many
-  static int copy(const Centreline<Scalar>& shape, CentrelineNode<Scalar>* nodes, int most) noexcept {
+  static int copy(const Shape& shape, Node* nodes, int most) noexcept {
     const int last = shape.size() - 1, step = 1 + (last - 1) / (most - 1);
     int size = 0;
     for (int i = 0; i < last; i += step) nodes[size++] = shape[i];
@@ -68,15 +75,15 @@ class ServoPicture {
  private:
   static constexpr std::size_t room = 513;  // models that hand over to others change their number of nodes
 
-  std::vector<CentrelineNode<Scalar>> nodes_;
+  std::vector<Node> nodes_;
   int size_ = 0;
-  bool any_rotation_ = false;
+  bool any_rotation_ = false;  // of a planar one
 };
 
 /// What is drawn of a model: its shape.  Arrays have another (servo_many.hpp).
 template <typename Model>
 struct Drawn {
-  using Picture = ServoPicture<typename Model::Scalar>;
+  using Picture = ServoPicture<typename Model::Scalar, detail::dimension_of_touch<Touch<Model>>>;
   static constexpr bool for_who_looks = detail::OffersPart<Model>::value;  ///< it costs more than the force
   static auto of(const Model& model, const Touch<Model>&) noexcept { return model.shape(); }
 };
@@ -91,6 +98,7 @@ class Servo {
  public:
   using Scalar = typename Model::Scalar;
   using Picture = typename Drawn<Model>::Picture;
+  static constexpr int dimension = detail::dimension_of_touch<Touch<Model>>;
 
   /// @param model   kept by reference; nobody else presses it
   /// @param device  what the loop's device can do; its limits are the guard's
@@ -142,6 +150,8 @@ class Servo {
   }
 
  private:
+  using Coupled = CoupledForce<Scalar, dimension>;
+
   /// The hand is where nobody knows: it touches nothing.
   void release() noexcept {
     touch_.reset();
@@ -150,8 +160,8 @@ class Servo {
     guard_.reset();
   }
 
-  static LoopStatus status(const DeviceState& state, const CoupledForce<Scalar>& coupled,
-                           const GuardedForce& guarded, bool safe) noexcept {
+  static LoopStatus status(const DeviceState& state, const Coupled& coupled, const GuardedForce& guarded,
+                           bool safe) noexcept {
     if (state.reset || state.status != DeviceStatus::running) return LoopStatus::device;
     if (!safe) return LoopStatus::no_answer;
     if (coupled.continued) return LoopStatus::continued;
@@ -161,7 +171,7 @@ class Servo {
     return coupled.touch.status == Status::out_of_range ? LoopStatus::out_of_range : LoopStatus::touching;
   }
 
-  void keep(const DeviceState& state, const CoupledForce<Scalar>& coupled, const GuardedForce& guarded,
+  void keep(const DeviceState& state, const Coupled& coupled, const GuardedForce& guarded,
             bool safe) noexcept;
 
   void publish() noexcept;
@@ -205,9 +215,10 @@ Eigen::Vector3d Servo<Model, Coupling>::tick(const DeviceState& state) noexcept 
   const double dt = clock_.passed(state.time);
   energy_.observe(state.position, state.cut == ForceCut::none ? guard_.force() : state.sent, dt);
   if (state.reset) release();
-  const auto coupled = coupling_.tick(touch_, options_.placement.beam_position(state.position), dt);
+  const Coupled coupled =
+      coupling_.tick(touch_, options_.placement.template position_of<dimension>(state.position), dt);
   const bool safe = is_answer(coupled.touch.status) || coupled.continued;
-  Eigen::Vector3d force = options_.placement.device_force_of_beam(coupled.force);
+  Eigen::Vector3d force = options_.placement.device_force(detail::in_scene(coupled.force));
   if (options_.dissipate && coupled.touch.pressing) force += energy_.dissipation(state.velocity);
   const double engaged = guard_.engaged();
   const GuardedForce guarded = guard_.limit(force, state.time, safe);
@@ -219,7 +230,7 @@ Eigen::Vector3d Servo<Model, Coupling>::tick(const DeviceState& state) noexcept 
 }
 
 template <typename Model, typename Coupling>
-void Servo<Model, Coupling>::keep(const DeviceState& state, const CoupledForce<Scalar>& coupled,
+void Servo<Model, Coupling>::keep(const DeviceState& state, const Coupled& coupled,
                                   const GuardedForce& guarded, bool safe) noexcept {
   ServoRecord& r = record_;
   const bool pressing = coupled.touch.pressing || coupled.continued, touched = pressing && !r.pressing;
@@ -227,8 +238,8 @@ void Servo<Model, Coupling>::keep(const DeviceState& state, const CoupledForce<S
   r.model = coupled.touch.status;
   r.time = state.time;
   r.position = state.position;
-  r.hand = options_.placement.beam_position(state.position);
-  r.avatar = coupled.avatar;
+  r.hand = detail::in_scene(options_.placement.template position_of<dimension>(state.position));
+  r.avatar = detail::in_scene(coupled.avatar);
   r.force = guarded.force;
   r.press = {static_cast<double>(coupled.touch.press.s), static_cast<double>(coupled.touch.press.d)};
   r.pressing = pressing;

@@ -46,9 +46,10 @@ struct ServoRecord {
   Status model = Status::ok;                           ///< what the beam said
   double time = 0;                                     ///< [s] of the device's clock
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] of the hand, device axes
-  Vector2<double> hand = Vector2<double>::Zero();      ///< [m] the same in the plane of the beam
-  Vector2<double> avatar =
-      Vector2<double>::Zero();  ///< [m] from where the beam is pressed; the hand, where free
+  Eigen::Vector3d hand =
+      Eigen::Vector3d::Zero();  ///< [m] the same in the scene; a beam's plane is its x and y
+  Eigen::Vector3d avatar =
+      Eigen::Vector3d::Zero();  ///< [m] from where the beam is pressed; the hand, where free
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N] sent, device axes
   Press<double> press{0, 0};                        ///< asked of the model; zero where nothing was
   bool pressing = false;  ///< the hand holds the beam: it is touched, or its force goes on

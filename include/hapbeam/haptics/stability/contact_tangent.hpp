@@ -23,18 +23,20 @@
 
 namespace hapbeam {
 
+/// @tparam D  of the space in which the beam bends: 2 | 3
+template <int D>
 class ContactTangent {
+  using Vector = VectorOf<double, D>;
+
  public:
   bool known() const noexcept { return known_; }
-  const Vector2<double>& normal() const noexcept {
-    return normal_;
-  }                                                         ///< unit; out of the beam when last touched
-  double stiffness() const noexcept { return stiffness_; }  ///< k [N/m] along the normal
+  const Vector& normal() const noexcept { return normal_; }  ///< unit; out of the beam when last touched
+  double stiffness() const noexcept { return stiffness_; }   ///< k [N/m] along the normal
 
   double energy() const noexcept { return known_ ? energy_ : 0; }  ///< U [J]
 
   /// f0 - k n·(p - p0), below zero too where p lies outside; 0 while nothing is known.  @param place [m]   @return [N]
-  double force_at(const Vector2<double>& place) const noexcept {
+  double force_at(const Vector& place) const noexcept {
     return known_ ? force_ - stiffness_ * normal_.dot(way(place)) : 0;
   }
 
@@ -44,9 +46,9 @@ class ContactTangent {
   /// A good response.
   /// @param place [m] from which the beam is pressed   @param force [N] on the hand, finite, not zero
   /// @param depth [m] of the penetration that the first touch ended
-  void learn(const Vector2<double>& place, const Vector2<double>& force, double depth) noexcept {
+  void learn(const Vector& place, const Vector& force, double depth) noexcept {
     const double size = force.norm();
-    const Vector2<double> normal(force.x() / size, force.y() / size);
+    const Vector normal = force / size;
     if (known_) follow(place, normal, size);
     else energy_ = size * std::max(depth, least_depth) / 2;
     known_ = true;
@@ -56,7 +58,7 @@ class ContactTangent {
 
   /// Nothing was touched where the tangent had a force: it begins at the surface.
   /// @param place [m] on it   @param normal  unit, out of the beam
-  void begin_at(const Vector2<double>& place, const Vector2<double>& normal) noexcept {
+  void begin_at(const Vector& place, const Vector& normal) noexcept {
     place_ = place, normal_ = normal, force_ = 0, energy_ = 0;
   }
 
@@ -72,14 +74,12 @@ class ContactTangent {
   static constexpr double rigid = 1e12;         // [N/m]
 
   /// From the last good response to a place [m].
-  Vector2<double> way(const Vector2<double>& place) const noexcept {
-    return {place.x() - place_.x(), place.y() - place_.y()};
-  }
+  Vector way(const Vector& place) const noexcept { return place - place_; }
 
-  void follow(const Vector2<double>& place, const Vector2<double>& normal, double force) noexcept {
-    const Vector2<double> step = way(place);
+  void follow(const Vector& place, const Vector& normal, double force) noexcept {
+    const Vector step = way(place);
     const double deeper = -normal.dot(step), work = (force * deeper - force_ * normal_.dot(step)) / 2;
-    const double along = std::abs(normal.x() * step.y() - normal.y() * step.x());
+    const double along = (step + deeper * normal).norm();
     const double expected = stiffness_ * deeper, change = force - force_, ratio = change / expected;
     const bool agrees = ratio > least_ratio && ratio < most_ratio;
     const double noise = along > std::abs(deeper) ? slide : loud;
@@ -103,7 +103,7 @@ class ContactTangent {
   }
 
   bool known_ = false;
-  Vector2<double> place_{0, 0}, normal_{0, 1};
+  Vector place_ = Vector::Zero(), normal_ = Vector::UnitY();
   double force_ = 0;      // f0 [N]
   double stiffness_ = 0;  // k [N/m]
   double energy_ = 0;     // U [J]

@@ -42,16 +42,29 @@
 namespace hapbeam {
 
 /// What a coupling makes of a tick.
-template <typename Scalar>
+/// @tparam D  of the space in which the beam bends: 2 | 3
+template <typename Scalar, int D = 2>
 struct CoupledForce {
-  Vector2<double> force = Vector2<double>::Zero();   ///< [N] on the hand; always finite
-  Vector2<double> avatar = Vector2<double>::Zero();  ///< [m] from where the beam was pressed
-  bool continued = false;     ///< by the tangent: the beam gave no answer, or was missed
-  double energy = 0;          ///< [J] that beam and coupling would give back, in metres of the scene
-  TouchResult<Scalar> touch;  ///< what the beam said
+  VectorOf<double, D> force = VectorOf<double, D>::Zero();   ///< [N] on the hand; always finite
+  VectorOf<double, D> avatar = VectorOf<double, D>::Zero();  ///< [m] from where the beam was pressed
+  bool continued = false;        ///< by the tangent: the beam gave no answer, or was missed
+  double energy = 0;             ///< [J] that beam and coupling would give back, in metres of the scene
+  TouchResult<Scalar, D> touch;  ///< what the beam said
 };
 
 namespace detail {
+
+/// Of the space in which a touch's beam bends; 2 for one that does not say.
+template <typename Touch, typename = void>
+inline constexpr int dimension_of_touch = 2;
+template <typename Touch>
+inline constexpr int dimension_of_touch<Touch, std::void_t<decltype(Touch::dimension)>> = Touch::dimension;
+
+/// Where the hand of a touch is [m].
+template <typename Touch>
+using HandOf = VectorOf<double, dimension_of_touch<Touch>>;
+template <typename Touch>
+using CoupledForceOf = CoupledForce<typename Touch::Scalar, dimension_of_touch<Touch>>;
 
 /// A beam to call a coupling with.
 struct AnyTouch {
@@ -94,17 +107,18 @@ class Direct {
 
   /// @param touch  of the same beam each tick   @param hand [m]
   template <typename Touch>
-  [[nodiscard]] auto tick(Touch& touch, const Vector2<double>& hand, double) noexcept
-      -> CoupledForce<typename Touch::Scalar> {
-    CoupledForce<typename Touch::Scalar> result;
+  [[nodiscard]] auto tick(Touch& touch, const detail::HandOf<Touch>& hand, double) noexcept {
+    constexpr int D = detail::dimension_of_touch<Touch>;
+    detail::CoupledForceOf<Touch> result;
     result.avatar = hand;
-    result.touch = touch.tick(hand.cast<typename Touch::Scalar>());
-    last_.learn(result.touch, hand);
+    result.touch = touch.tick(hand.template cast<typename Touch::Scalar>());
+    last_.learn(result.touch, detail::in_scene(hand));
     // The hand itself is where the beam was sought: an answer that it is not touched is one.
     if (is_answer(result.touch.status) && !result.touch.pressing) last_.forget();
     result.continued = last_.continued();
     if (result.continued)
-      result.force = last_.tangent().normal() * std::max(0.0, last_.tangent().force_at(hand));
+      result.force = detail::of_beam<double, D>(
+          last_.tangent().normal() * std::max(0.0, last_.tangent().force_at(detail::in_scene(hand))));
     else if (is_answer(result.touch.status)) result.force = result.touch.force.template cast<double>();
     if (!result.force.allFinite()) result.force.setZero();
     else if (!result.force.isZero(0)) result.energy = last_.tangent().energy();
@@ -146,22 +160,25 @@ class VirtualCoupling {
 
   /// Once a period.  @param touch  of the same beam each tick   @param hand [m]   @param dt [s] since the tick before, positive
   template <typename Touch>
-  [[nodiscard]] auto tick(Touch& touch, const Vector2<double>& hand, double dt) noexcept
-      -> CoupledForce<typename Touch::Scalar> {
-    CoupledForce<typename Touch::Scalar> result;
-    result.avatar = hand + last_.tangent().normal() * solve(hand, dt).gap;
-    result.touch = touch.tick(result.avatar.template cast<typename Touch::Scalar>());
-    last_.learn(result.touch, result.avatar);
+  [[nodiscard]] auto tick(Touch& touch, const detail::HandOf<Touch>& hand, double dt) noexcept {
+    using Scalar = typename Touch::Scalar;
+    constexpr int D = detail::dimension_of_touch<Touch>;
+    const Eigen::Vector3d from = detail::in_scene(hand);
+    const auto normal = [&] { return detail::of_beam<double, D>(last_.tangent().normal()); };
+    detail::CoupledForceOf<Touch> result;
+    result.avatar = hand + normal() * solve(from, dt).gap;
+    result.touch = touch.tick(result.avatar.template cast<Scalar>());
+    last_.learn(result.touch, detail::in_scene(result.avatar));
     if (!result.touch.pressing && last_.tangent().known())
-      last_.look_again(touch.contact_at(hand.template cast<typename Touch::Scalar>()), hand);
+      last_.look_again(touch.contact_at(hand.template cast<Scalar>()), from);
 
-    const Balance balance = solve(hand, dt);
+    const Balance balance = solve(from, dt);
     if (!std::isfinite(balance.force)) {
       reset();
       return result;
     }
     gap_ = balance.gap;
-    result.force = last_.tangent().normal() * balance.force;
+    result.force = normal() * balance.force;
     result.continued = last_.continued() && (balance.force > 0 || result.touch.pressing);
     if (balance.force > 0) result.energy = last_.tangent().energy() + stiffness_ * gap_ * gap_ / 2;
     if (balance.force == 0 && !result.touch.pressing) last_.forget();
@@ -175,8 +192,8 @@ class VirtualCoupling {
   };
 
   /// (K + B/dt) g - B/dt g_before = f(p0) - k n·(h + n g - p0), g where neither side pulls.
-  Balance solve(const Vector2<double>& hand, double dt) const noexcept {
-    const ContactTangent& beam = last_.tangent();
+  Balance solve(const Eigen::Vector3d& hand, double dt) const noexcept {
+    const ContactTangent<3>& beam = last_.tangent();
     const double damper = damping_ / dt, given = damper * gap_, own = stiffness_ + damper;
     if (beam.known()) {
       const double gap = (beam.force_at(hand) + given) / (own + beam.stiffness());

@@ -10,6 +10,7 @@
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/haptics/stability/contact_tangent.hpp>
+#include <hapbeam/haptics/stability/in_scene.hpp>
 
 namespace hapbeam {
 
@@ -18,7 +19,7 @@ class LastResponse {
   /// Ticks in a row that go on without an answer.
   static constexpr int max_continued = 20;
 
-  const ContactTangent& tangent() const noexcept { return tangent_; }
+  const ContactTangent<3>& tangent() const noexcept { return tangent_; }
   /// The last response was none, or missed the beam, and the tangent stands for it.
   bool continued() const noexcept { return (continued_ > 0 || missed_) && tangent_.known(); }
 
@@ -28,9 +29,9 @@ class LastResponse {
   }
 
   /// @param touch  the beam's answer   @param place [m] from where it was pressed
-  template <typename Scalar>
-  void learn(const TouchResult<Scalar>& touch, const Vector2<double>& place) noexcept {
-    const Vector2<double> force = touch.force.template cast<double>();
+  template <typename Scalar, int D>
+  void learn(const TouchResult<Scalar, D>& touch, const Eigen::Vector3d& place) noexcept {
+    const Eigen::Vector3d force = detail::in_scene(touch.force);
     if (touch.status == Status::iteration_limit && continued_ < max_continued) {
       ++continued_;
     } else if (!is_answer(touch.status)) {
@@ -46,16 +47,16 @@ class LastResponse {
 
   /// Nothing was pressed.  Where the hand itself would touch nothing either, the beam has not been missed: it is gone.
   /// @param contact  of the hand with the beam as it lies now   @param hand [m]
-  template <typename Scalar>
-  void look_again(const Contact<Scalar>& contact, const Vector2<double>& hand) noexcept {
+  template <typename Scalar, int D>
+  void look_again(const Contact<Scalar, D>& contact, const Eigen::Vector3d& hand) noexcept {
     if (!contact.touching) return forget();
     if (!missed_) return;
-    const Vector2<double> normal = contact.normal.template cast<double>();
+    const Eigen::Vector3d normal = detail::in_scene(contact.normal);
     tangent_.begin_at(hand + normal * static_cast<double>(contact.depth), normal);
   }
 
  private:
-  ContactTangent tangent_;
+  ContactTangent<3> tangent_;
   int continued_ = 0;
   bool missed_ = false;
 };

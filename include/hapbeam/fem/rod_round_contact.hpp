@@ -1,0 +1,55 @@
+// What a push by a capsule in space asks of its geometry, in the words of round_contact.hpp, which has a circle in a plane.
+//
+// Real-time: noexcept, no allocation, O(1) but for the search of a place, which is O(log n).
+#pragma once
+
+#include <cmath>
+
+#include <hapbeam/fem/capsule_on_curve.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+/// A capsule, seen from a rod.
+template <typename Scalar>
+struct RodRoundContact {
+  using Node = RodNode<Scalar>;
+  using Vector = VectorOf<Scalar, 3>;
+  using Law = CapsuleOnCurve<Scalar>;
+  using View = typename Law::View;
+  const Capsule<Scalar>& capsule;
+
+  Law beside(const Centreline<Scalar, 3>& line, int node, int end) const noexcept {
+    return {capsule.axis, line[node], line.curvature(node), end};
+  }
+  View look(const Node& node, int end) const noexcept {
+    return Law(capsule.axis, node, Vector::Zero(), end).at(node);
+  }
+  Scalar distance(const View& view) const noexcept {
+    return std::copysign(view.distance, view.normal.dot(capsule.normal));
+  }
+  /// The way round the axis is not the way that the capsule has come.
+  bool is_through(const View& view) const noexcept { return !(2 * distance(view) > capsule.reach); }
+  Vector normal(const View&) const noexcept { return capsule.normal; }
+  Scalar plane(const Vector& n, Scalar, const Node& node) const noexcept {
+    return n.dot(capsule.axis.at(capsule.axis.nearest(node.r))) - capsule.reach;
+  }
+  Scalar ahead(const View& view) const noexcept { return view.lever / view.length; }
+  Vector point(const View& view, const Node& node) const noexcept { return node.r + view.f; }
+  Scalar miss(const Vector& n, const Node& node) const noexcept {
+    using std::sqrt;
+    const Vector way = capsule.axis.at(capsule.axis.nearest(node.r)) - node.r;
+    return sqrt((way - n.dot(way) * n).squaredNorm());
+  }
+  VectorOf<Scalar, 4> residual(Scalar ahead, const Vector& from, const Vector& to) const noexcept {
+    const Vector turned = capsule.reach * (to - from);
+    return {ahead, turned.x(), turned.y(), turned.z()};
+  }
+  static Node node_at(const Centreline<Scalar, 3>& line, Scalar s) noexcept {
+    const int i = line.segment_at(s);
+    const RodPoint<Scalar> at = line.at(i, s);
+    return {s, at.r, at.tangent, line[i].director};
+  }
+};
+
+}  // namespace hapbeam::detail
