@@ -64,7 +64,7 @@ class BoundingVolumes {
 
   /// Square of the distance from q to the box around the whole centreline [m²]: a lower bound, in O(1).
   /// @param q  a point or, in space, a Shaft
-  template <class Query>
+  template <class Query = VectorOf<Scalar, D>>
   [[nodiscard]] Scalar distance_squared(const Query& q) const noexcept {
     return boxes_[1].distance_squared(q);
   }
@@ -72,7 +72,7 @@ class BoundingVolumes {
   /// The nearest point of the centreline to q; among equals the one with the smallest index.
   /// @param centreline  the one of the last refit   @param q  a point or, in space, a Shaft
   /// Real-time: noexcept, no allocation, bounded.
-  template <class Query>
+  template <class Query = VectorOf<Scalar, D>>
   [[nodiscard]] NearestPoint<Scalar, D> nearest(const Line& centreline, const Query& q) const noexcept {
     // A box is skipped only if it is farther than round-off can explain, so that the answer is the same as
     // without boxes.
