@@ -224,13 +224,16 @@ class AllDisplacements {
       to_rest();
       system_.remesh(mesh);
     }
+    const auto through = [&] {
+      if constexpr (planar) return false;
+      else return round.is_through(look(node()));
+    };
     Scalar across = 1;  // component of the force that the beam takes
     const Response<Scalar> response = settle(last, slack, [&] {
       const auto law = round.beside(shape(), c, end);
-      const auto now = look(node());
-      trial.by_plane = wall || beside_support || sharp_ || law.sharp(request.reach) || round.is_through(now);
+      trial.by_plane = wall || beside_support || sharp_ || law.sharp(request.reach) || through();
       if (!trial.by_plane) return system_.set_goal(c, -request.reach, law);
-      if (trial.normal.isZero(0) || wall) trial.normal = round.normal(now);
+      if (trial.normal.isZero(0) || wall) trial.normal = round.normal(look(node()));
       const Vector& normal = trial.normal;
       const Scalar d = round.plane(normal, trial.s, node());
       if (!wall) return system_.set_goal(c, d, 0, normal);

@@ -29,8 +29,6 @@ struct RoundContact {
   }
   /// From the curve, negative from its other side [m].
   Scalar distance(const View& view) const noexcept { return view.distance; }
-  /// Whether nothing but a plane leads to where the circle is.
-  bool is_through(const View&) const noexcept { return false; }
   Vector normal(const View& view) const noexcept { return view.normal; }
   /// n · (u, w) of a plane at s that touches the circle [m].
   Scalar plane(const Vector& n, Scalar s, const Node&) const noexcept {

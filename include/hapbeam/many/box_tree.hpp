@@ -88,8 +88,7 @@ class BoxTree {
       return;
     }
     Bounds centres;  // twice as far out as they are
-    for (auto i = begin; i != end; ++i)
-      centres.include(VectorOf<Scalar, 2>(twice_x(box(*i)), twice_y(box(*i))));
+    for (auto i = begin; i != end; ++i) centres.include(Vector2<Scalar>(twice_x(box(*i)), twice_y(box(*i))));
     const std::size_t middle = (low + high) / 2;
     const bool along_x = centres.high[0] - centres.low[0] >= centres.high[1] - centres.low[1];
     std::nth_element(begin, at(middle), end, [&](std::int32_t a, std::int32_t b) {
