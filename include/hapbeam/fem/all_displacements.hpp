@@ -16,8 +16,8 @@
 #include <utility>
 
 #include <hapbeam/fem/beam_system.hpp>
+#include <hapbeam/fem/circle_push.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
-#include <hapbeam/fem/contact_search.hpp>
 #include <hapbeam/fem/load_path.hpp>
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/solver/descent.hpp>
@@ -51,6 +51,7 @@ class AllDisplacements {
   Response<Scalar> press(const Push<Scalar, dimension>& request, Scalar node, bool valid) noexcept {
     using std::abs;
     if (!begins(valid)) return {0, report_.status};
+    circle_.forget();
     const Scalar last = system_.linear_reaction(), s = request.s;
     const Scalar jump = request.d - system_.displacement(s, request.normal),
                  from_rest = request.d - system_.displacement(rest_state_, s, request.normal);
@@ -60,45 +61,11 @@ class AllDisplacements {
     return settle(last, 1, [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); });
   }
 
-  /// Of the beam's length: so far from its node a contact is as exact as at it, to a few 1e-6 of the force.
-  static constexpr Scalar beside = Scalar(1.5e-4);
-  /// And so is the force, in units of the solver's tolerance.
-  static constexpr int slack = 100;
-  /// So often the node follows the contact in a push.
-  static constexpr int most_meshes = 4;
-
-  /// Lays the beam on a circle.  The mesh has its node where they were thought to touch, and follows where they do if that is
-  /// not beside it.
-  /// @param range  says where a node can be   @param valid  whether there is a request   @return as press()
+  /// Lays the beam on a circle.   @param range  says where a node can be   @param valid  whether there is a request   @return as press()
   Pushed<Scalar> push(const Circle<Scalar>& request, const PressRange<Element, Scalar>& range,
                       bool valid) noexcept {
-    using std::abs;
     if (!begins(valid)) return {0, report_.status};
-    // On a curve that is too sharp for it the law holds at the node alone.
-    const Scalar near = beside * system_.length(), exactly = Scalar(1e-5) * request.reach;
-    detail::ContactSearch<Scalar> search;
-    Vector2<Scalar> normal = Vector2<Scalar>::Zero();
-    Scalar s = request.s;
-    bool snapped = false;
-    for (int meshes = 1;; ++meshes) {
-      Trial trial{s, normal};
-      Pushed<Scalar> pushed = push_at(request, range, trial);
-      snapped = snapped || pushed.status == Status::snapped;
-      const Scalar off = std::max(abs(trial.ahead), trial.miss);
-      const bool there = off <= (trial.by_plane ? exactly : near);
-      if (there || meshes == most_meshes || !is_answer(pushed.status) || pushed.force >= 0) {
-        pushed.miss = there ? Scalar(0) : off;
-        if (snapped && pushed.status == Status::ok) pushed.status = Status::snapped;
-        return pushed;
-      }
-      typename detail::ContactSearch<Scalar>::Aim next{s + trial.ahead, normal};
-      if (trial.by_plane)
-        next = search.after({next.s, pushed.normal},
-                            {trial.ahead, request.reach * (trial.normal.x() * pushed.normal.y() -
-                                                           trial.normal.y() * pushed.normal.x())});
-      s = std::clamp(next.s, Scalar(0), system_.length());
-      normal = next.normal;
-    }
+    return circle_.push(*this, request, range);
   }
 
   /// Moves a clamped end of a rod, without a contact.
@@ -126,6 +93,7 @@ class AllDisplacements {
   /// Falls to the shape at rest on whose slope the beam is; one that is folded, which only a request beyond all reach leaves,
   /// and which may be stable, goes back to where it began.   @return ok | snapped | iteration_limit
   Status release() noexcept {
+    circle_.forget();
     if (single_valued_) {
       reset();
       return Status::ok;
@@ -163,92 +131,36 @@ class AllDisplacements {
   template <typename S>
   using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements, Assembler>;
   using System = SystemIn<Scalar>;
-  using Node = typename System::Node;
+  using Circled = std::conditional_t<any_rotation<Element> && dimension == 2, detail::CirclePush<System>,
+                                     detail::NoCircle>;
+  friend Circled;
   using Middle = decltype(std::declval<const System&>().middle());
 
   void to_rest() noexcept {
     system_.set_state(uniform_, rest_state_);
     home_ = system_.middle();
-    falling_ = descending_ = sharp_ = false;
+    falling_ = descending_ = false;
+    circle_.forget();
   }
 
   /// @return whether there is a request to answer; if not, report() has its status
   bool begins(bool valid) noexcept {
     left_ = solver_.max_solves;
+    first_ = true;
     report_ = {Status::invalid_request, 0, 0, 0, 0, report_.step};
     if (valid && !is_answer(rest_.status)) report_.status = rest_.status;
     return valid && is_answer(rest_.status);
   }
 
-  struct Trial {
-    Scalar s;  ///< [m] where the node goes
-    Vector2<Scalar>
-        normal;  ///< in: of the plane that stands for the circle, zero: of the node;  out: the one that was taken
-    bool by_plane = false;  ///< whether a plane stood for the circle
-    Scalar ahead = 0;       ///< [m] from there to the contact
-    Scalar miss = 0;        ///< [m] from the circle's centre to where it should be
-  };
-
-  /// A push with the node at trial.s, or at the end beside it.  At an end that slides along a wall the wall takes what does not
-  /// act along it.
-  Pushed<Scalar> push_at(const Circle<Scalar>& request, const PressRange<Element, Scalar>& range,
-                         Trial& trial) noexcept {
-    using std::abs;
-    using Round = detail::CircleOnCurve<Scalar>;
-    const Scalar s = range.range().nearest({trial.s, 0}).s, length = system_.length();
-    const ContactMesh<Scalar> mesh = uniform_.at(range.node(s));
-    const int c = mesh.node(), end = c == 0 ? -1 : c == elements() ? 1 : 0;
-    const bool wall = range.on_wall(mesh.s()), outside = s != trial.s;
-    // There a hand soon bends the beam more sharply than the mesh can show.
-    const Scalar clear = 2 * request.reach;
-    const bool beside_support =
-        outside || s - range.range().left_support < clear || range.range().right_support - s < clear;
-    const Scalar last = system_.linear_reaction();
-    system_.remesh(mesh);
-    // The contact's node; beside a support, where there is none, the place that takes its displacement.
-    const auto at = [](const Centreline<Scalar>& line, Scalar position) {
-      const Displacement<Scalar> moved = line.at(position);
-      return Node{position, moved.u, moved.w, moved.theta};
-    };
-    const auto node = [&] { return outside ? at(shape(), trial.s) : system_.node(c); };
-    const auto look = [&](const Node& seen) { return Round(request.centre, request.side, 0, end).at(seen); };
-    const auto start = look(node());
-    const Scalar jump = abs(start.distance - request.reach);
-    if (single_valued_ && jump > length / 1000 &&
-        abs(look(at(system_.view(rest_state_), mesh.s())).distance - request.reach) < jump) {
-      to_rest();
-      system_.remesh(mesh);
-    }
-    Scalar across = 1;  // component of the force that the beam takes
-    const Response<Scalar> response = settle(last, slack, [&] {
-      const Round circle(request.centre, request.side, shape().curvature(c), end);
-      trial.by_plane = wall || beside_support || sharp_ || circle.sharp(request.reach);
-      if (!trial.by_plane) return system_.set_goal(c, -request.reach, circle);
-      if (trial.normal.isZero(0) || wall) trial.normal = look(node()).normal;
-      const Vector2<Scalar>& normal = trial.normal;
-      const Scalar d =
-          normal.x() * (request.centre.x() - trial.s) + normal.y() * request.centre.y() - request.reach;
-      if (!wall) return system_.set_goal(c, d, 0, normal);
-      across = std::copysign(std::max(Scalar(0.5), abs(normal.y())), normal.y());
-      system_.set_goal(c, (d - normal.x() * system_.node(c).u) / across);
-    });
-    const bool answer = is_answer(response.status);
-    sharp_ = answer && Round(request.centre, request.side, shape().curvature(c), end).sharp(request.reach);
-    // What is no answer may have left that mesh.
-    const Node now = answer ? node() : at(shape(), trial.s);
-    const auto view = answer && !trial.by_plane ? system_.contact() : look(now);
-    Pushed<Scalar> pushed{response.force / across, response.status};
-    pushed.past_end = answer ? view.past_end : start.past_end;
-    pushed.point = request.centre - view.distance * view.normal;
-    pushed.normal = view.normal;
-    const Scalar touched = std::clamp(now.s + request.side * view.lever, Scalar(0), length);
-    trial.ahead = touched - trial.s;
-    pushed.s = trial.by_plane || !answer ? trial.s : touched;
-    if (trial.by_plane) {
-      const Scalar x = (request.centre.x() - now.s) - now.u, y = request.centre.y() - now.w;
-      trial.miss = abs(trial.normal.x() * y - trial.normal.y() * x);
-    }
-    return pushed;
+  /// settle() in a few iterations, for a beam that is on its branch and nearly there.  @return ok, or the system may be anywhere
+  template <class Aim>
+  Response<Scalar> settle_at_once(int looser, Aim&& aim) noexcept {
+    aim();
+    report_ = solve_within(std::min(left_, 6), 1, looser);
+    const bool stable = !gives_way();
+    left_ -= report_.solves;
+    if (report_.status != Status::ok || !stable) report_ = {Status::iteration_limit, 0, 0, 0, 0, 1};
+    return {system_.linear_reaction(), report_.status};
   }
 
   /// Solves for what aim() sets as the system's goal.  @param last  the force before [N]   @param looser  than the solver's tolerance
@@ -270,13 +182,14 @@ class AllDisplacements {
         falling_ = true;
       }
     } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0 &&
-               left_ == solver_.max_solves) {
+               first_) {
       to_rest();  // what the last request has left leads nowhere: the next one begins at rest
     } else if (falling_ && report_.status == Status::ok) {
       falling_ = false;
       report_.status = Status::snapped;
     }
     left_ -= report_.solves;
+    first_ = false;
     // A beam that was set back to rest on the way has none yet.
     const Scalar now = system_.linear_reaction();
     return {is_answer(report_.status) || now != 0 ? now : last, report_.status};
@@ -369,9 +282,10 @@ class AllDisplacements {
   typename System::State rest_state_;
   ContactMesh<Scalar> uniform_;
   Solver solver_;
-  bool single_valued_;       // one shape for each press, as far as is known
+  bool single_valued_;  // one shape for each press, as far as is known
+  Circled circle_{system_};
+  bool first_ = true;        // nothing has been solved for this request
   int left_ = 0;             // linear solves that this request may still take
-  bool sharp_ = false;       // where the last circle touched
   bool falling_ = false;     // off the shape that gave way, and not yet at a stable one
   bool descending_ = false;  // and not yet near one
   Middle home_;              // where the middle is in the shape from which the beam is pressed
