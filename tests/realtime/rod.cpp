@@ -104,7 +104,7 @@ void check_touch(Model& model, double radius) {
   const HeapUse use = heap_use([&]() noexcept {
     for (const auto& axis : path) {
       const auto felt = touch.tick(axis.tip, axis.way);
-      (void)touch.meets(axis.tip);
+      (void)touch.contact_at(axis.tip);
       pressing += felt.pressing;
       not_finite += !felt.force.allFinite();
       most = std::max(most, model.report().solves);

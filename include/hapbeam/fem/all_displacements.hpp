@@ -16,8 +16,8 @@
 #include <utility>
 
 #include <hapbeam/fem/beam_system.hpp>
+#include <hapbeam/fem/round_push.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
-#include <hapbeam/fem/contact_search.hpp>
 #include <hapbeam/fem/load_path.hpp>
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/solver/descent.hpp>
@@ -31,7 +31,6 @@ class AllDisplacements {
   using Scalar = ScalarType;
   using Body = typename detail::SystemOf<Element>::Body;
   using Round = typename detail::SystemOf<Element>::template Round<Scalar>;
-  using RoundContact = typename detail::SystemOf<Element>::template RoundContact<Scalar>;
   using Extent = typename detail::SystemOf<Element>::template Range<Scalar>;
   static constexpr int dimension = dimension_of<Element>;
 
@@ -54,6 +53,7 @@ class AllDisplacements {
   Response<Scalar> press(const Push<Scalar, dimension>& request, Scalar node, bool valid) noexcept {
     using std::abs;
     if (!begins(valid)) return {0, report_.status};
+    round_.forget();
     const Scalar last = system_.linear_reaction(), s = request.s;
     const Scalar jump = request.d - system_.displacement(s, request.normal),
                  from_rest = request.d - system_.displacement(rest_state_, s, request.normal);
@@ -63,45 +63,11 @@ class AllDisplacements {
     return settle(last, 1, [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); });
   }
 
-  /// Of the beam's length: so far from its node a contact is as exact as at it, to a few 1e-6 of the force.
-  static constexpr Scalar beside = Scalar(1.5e-4);
-  /// And so is the force, in units of the solver's tolerance.
-  static constexpr int slack = 100;
-  /// So often the node follows the contact in a push.
-  static constexpr int most_meshes = 4;
-
-  /// Lays the beam on a circle, a rod on a capsule.  The mesh has its node where they were thought to touch, and follows where they do if that is
-  /// not beside it.
-  /// @param range  says where a node can be   @param valid  whether there is a request   @return as press()
+  /// Lays the beam on a circle, a rod on a capsule.   @param range  says where a node can be   @param valid  whether there is a request
+  /// @return as press()
   Pushed<Scalar, dimension> push(const Round& request, const Extent& range, bool valid) noexcept {
-    using std::abs;
-    const RoundContact round{request};
-    using Search = detail::ContactSearch<Scalar, dimension>;
     if (!begins(valid)) return {0, report_.status};
-    // On a curve that is too sharp for it the law holds at the node alone.
-    const Scalar near = beside * system_.length(), exactly = Scalar(1e-5) * request.reach;
-    Search search;
-    Vector normal = Vector::Zero();
-    Scalar s = request.s;
-    bool snapped = false;
-    for (int meshes = 1;; ++meshes) {
-      Trial trial{s, normal};
-      Pushed<Scalar, dimension> pushed = push_at(request, range, trial);
-      snapped = snapped || pushed.status == Status::snapped;
-      const Scalar off = std::max(abs(trial.ahead), trial.miss);
-      const bool there = off <= (trial.by_plane ? exactly : near);
-      if (there || meshes == most_meshes || !is_answer(pushed.status) || pushed.force >= 0) {
-        pushed.miss = there ? Scalar(0) : off;
-        if (snapped && pushed.status == Status::ok) pushed.status = Status::snapped;
-        return pushed;
-      }
-      typename Search::Aim next{s + trial.ahead, normal};
-      if (trial.by_plane)
-        next =
-            search.after({next.s, pushed.normal}, round.residual(trial.ahead, trial.normal, pushed.normal));
-      s = std::clamp(next.s, Scalar(0), system_.length());
-      normal = next.normal;
-    }
+    return round_.push(*this, request, range);
   }
 
   /// Moves a clamped end of a rod, without a contact.
@@ -129,6 +95,7 @@ class AllDisplacements {
   /// Falls to the shape at rest on whose slope the beam is; one that is folded, which only a request beyond all reach leaves,
   /// and which may be stable, goes back to where it began.   @return ok | snapped | iteration_limit
   Status release() noexcept {
+    round_.forget();
     if (single_valued_) {
       reset();
       return Status::ok;
@@ -166,96 +133,36 @@ class AllDisplacements {
   template <typename S>
   using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements, Assembler>;
   using System = SystemIn<Scalar>;
-  using Node = typename System::Node;
-  using Vector = VectorOf<Scalar, dimension>;
+  using Rounds = std::conditional_t<any_rotation<Element> || dimension == 3, detail::RoundPush<Element, System>,
+                                    detail::NoRound>;
+  friend Rounds;
   using Middle = decltype(std::declval<const System&>().middle());
 
   void to_rest() noexcept {
     system_.set_state(uniform_, rest_state_);
     home_ = system_.middle();
-    falling_ = descending_ = sharp_ = false;
+    falling_ = descending_ = false;
+    round_.forget();
   }
 
   /// @return whether there is a request to answer; if not, report() has its status
   bool begins(bool valid) noexcept {
     left_ = solver_.max_solves;
+    first_ = true;
     report_ = {Status::invalid_request, 0, 0, 0, 0, report_.step};
     if (valid && !is_answer(rest_.status)) report_.status = rest_.status;
     return valid && is_answer(rest_.status);
   }
 
-  struct Trial {
-    Scalar s;  ///< [m] where the node goes
-    Vector
-        normal;  ///< in: of the plane that stands for the circle, zero: of the node;  out: the one that was taken
-    bool by_plane = false;  ///< whether a plane stood for the circle
-    Scalar ahead = 0;       ///< [m] from there to the contact
-    Scalar miss = 0;        ///< [m] from the circle's centre to where it should be
-  };
-
-  /// A push with the node at trial.s, or at the end beside it.  At an end that slides along a wall the wall takes what does not
-  /// act along it.
-  Pushed<Scalar, dimension> push_at(const Round& request, const Extent& range, Trial& trial) noexcept {
-    using std::abs;
-    constexpr bool planar = dimension == 2;
-    const RoundContact round{request};
-    const Scalar s = range.range().nearest({trial.s, 0}).s, length = system_.length();
-    const ContactMesh<Scalar> mesh = uniform_.at(range.node(s));
-    const int c = mesh.node(), end = c == 0 ? -1 : c == elements() ? 1 : 0;
-    const bool outside = planar && s != trial.s;
-    bool wall = false, beside_support = false;
-    if constexpr (planar) {
-      wall = range.on_wall(mesh.s());
-      // There a hand soon bends the beam more sharply than the mesh can show.
-      const Scalar clear = 2 * request.reach;
-      beside_support =
-          outside || s - range.range().left_support < clear || range.range().right_support - s < clear;
-    }
-    const Scalar last = system_.linear_reaction();
-    system_.remesh(mesh);
-    // The contact's node; beside a support, where there is none, the place that takes its displacement.
-    const auto node = [&] { return outside ? round.node_at(shape(), trial.s) : system_.node(c); };
-    const auto look = [&](const Node& seen) { return round.look(seen, end); };
-    const auto start = look(node());
-    const Scalar jump = abs(round.distance(start) - request.reach);
-    if (single_valued_ && jump > length / 1000 &&
-        abs(round.distance(look(round.node_at(system_.view(rest_state_), mesh.s()))) - request.reach) <
-            jump) {
-      to_rest();
-      system_.remesh(mesh);
-    }
-    const auto through = [&] {
-      if constexpr (planar) return false;
-      else return round.is_through(look(node()));
-    };
-    Scalar across = 1;  // component of the force that the beam takes
-    const Response<Scalar> response = settle(last, slack, [&] {
-      const auto law = round.beside(shape(), c, end);
-      trial.by_plane = wall || beside_support || sharp_ || law.sharp(request.reach) || through();
-      if (!trial.by_plane) return system_.set_goal(c, -request.reach, law);
-      if (trial.normal.isZero(0) || wall) trial.normal = round.normal(look(node()));
-      const Vector& normal = trial.normal;
-      const Scalar d = round.plane(normal, trial.s, node());
-      if (!wall) return system_.set_goal(c, d, 0, normal);
-      if constexpr (planar) {
-        across = std::copysign(std::max(Scalar(0.5), abs(normal.y())), normal.y());
-        system_.set_goal(c, (d - normal.x() * system_.node(c).u) / across);
-      }
-    });
-    const bool answer = is_answer(response.status);
-    sharp_ = answer && round.beside(shape(), c, end).sharp(request.reach);
-    // What is no answer may have left that mesh.
-    const Node now = answer ? node() : round.node_at(shape(), trial.s);
-    const auto view = answer && !trial.by_plane ? system_.contact() : look(now);
-    Pushed<Scalar, dimension> pushed{response.force / across, response.status};
-    pushed.past_end = answer ? view.past_end : start.past_end;
-    pushed.point = round.point(view, now);
-    pushed.normal = view.normal;
-    const Scalar touched = std::clamp(now.s + round.ahead(view), Scalar(0), length);
-    trial.ahead = touched - trial.s;
-    pushed.s = trial.by_plane || !answer ? trial.s : touched;
-    if (trial.by_plane) trial.miss = round.miss(trial.normal, now);
-    return pushed;
+  /// settle() in a few iterations, for a beam that is on its branch and nearly there.  @return ok, or the system may be anywhere
+  template <class Aim>
+  Response<Scalar> settle_at_once(int looser, Aim&& aim) noexcept {
+    aim();
+    report_ = solve_within(std::min(left_, 6), 1, looser);
+    const bool stable = !gives_way();
+    left_ -= report_.solves;
+    if (report_.status != Status::ok || !stable) report_ = {Status::iteration_limit, 0, 0, 0, 0, 1};
+    return {system_.linear_reaction(), report_.status};
   }
 
   /// Solves for what aim() sets as the system's goal.  @param last  the force before [N]   @param looser  than the solver's tolerance
@@ -279,13 +186,14 @@ class AllDisplacements {
         falling_ = true;
       }
     } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0 &&
-               left_ == solver_.max_solves) {
+               first_) {
       to_rest();  // what the last request has left leads nowhere: the next one begins at rest
     } else if (falling_ && report_.status == Status::ok) {
       falling_ = false;
       report_.status = Status::snapped;
     }
     left_ -= report_.solves;
+    first_ = false;
     // A beam that was set back to rest on the way has none yet.
     const Scalar now = system_.linear_reaction();
     return {is_answer(report_.status) || now != 0 ? now : last, report_.status};
@@ -378,9 +286,10 @@ class AllDisplacements {
   typename System::State rest_state_;
   ContactMesh<Scalar> uniform_;
   Solver solver_;
-  bool single_valued_;       // one shape for each press, as far as is known
+  bool single_valued_;  // one shape for each press, as far as is known
+  Rounds round_{system_};
+  bool first_ = true;        // nothing has been solved for this request
   int left_ = 0;             // linear solves that this request may still take
-  bool sharp_ = false;       // where the last circle touched
   bool falling_ = false;     // off the shape that gave way, and not yet at a stable one
   bool descending_ = false;  // and not yet near one
   Middle home_;              // where the middle is in the shape from which the beam is pressed

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 
+#include <hapbeam/angle.hpp>
 #include <hapbeam/beam.hpp>
 #include <hapbeam/fem/beam_elements.hpp>
 #include <hapbeam/fem/chain.hpp>
@@ -57,6 +58,31 @@ class BeamSystem {
   /// Moves to another mesh of as many elements and carries the displacements over.
   void remesh(const ContactMesh<Scalar>& mesh) noexcept {
     if (!(mesh == beam_.mesh())) beam_.remesh(mesh, saved_);
+  }
+  const ContactMesh<Scalar>& mesh() const noexcept { return beam_.mesh(); }
+  /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
+  /// @param before  becomes what the state is now
+  void go_on(State& before, const ContactMesh<Scalar>& mesh, Scalar ratio) noexcept {
+    const int n = elements();
+    for (int i = 0; i <= n; ++i) {
+      const Node &x = node(i), &b = before[i];
+      Node& ahead = saved_[i];
+      ahead = {mesh.position(i), x.u + ratio * (x.u - b.u), x.w + ratio * (x.w - b.w),
+               x.theta + ratio * (x.theta - b.theta)};
+      const Scalar along = ahead.s - x.s - ratio * (x.s - b.s);
+      if (i == 0 || i == n || along == 0) continue;
+      const Vector2<Scalar> tangent = detail::direction(-ahead.theta);
+      ahead.u += along * (tangent.x() - 1);
+      ahead.w += along * tangent.y();
+      ahead.theta += along * (node(i + 1).theta - node(i - 1).theta) / (node(i + 1).s - node(i - 1).s);
+    }
+    keep(before);
+    beam_.set(mesh, saved_.data());
+  }
+  /// Back to an equilibrium that was left.  @param force  of its contact [N]
+  void go_back(const ContactMesh<Scalar>& mesh, const State& state, Scalar force) noexcept {
+    beam_.set(mesh, state.data());
+    force_ = linear_reaction_ = force;
   }
   /// Sets the whole state.  @param nodes those of the given mesh
   void set_state(const ContactMesh<Scalar>& mesh, const Node* nodes) noexcept {

@@ -62,6 +62,7 @@ class RodSystem {
   void remesh(const ContactMesh<Scalar>& mesh) noexcept {
     if (!(mesh == rod_.mesh())) rod_.remesh(mesh, saved_.nodes, saved_.inners);
   }
+  const ContactMesh<Scalar>& mesh() const noexcept { return rod_.mesh(); }
   /// What changes as the rod moves.
   struct State {
     explicit State(int elements) : nodes(elements), inners(elements) {}

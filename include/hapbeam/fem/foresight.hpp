@@ -1,0 +1,77 @@
+// Where a beam will lie that a hand goes on pressing: each node goes on as it went in the push before.
+//
+//   x₊ = x + r (x - x₋) + e ∂x/∂s        e = s₊ - s - r (s - s₋)
+//
+// x are place and rotation of a node, s is where it is along the beam, for the mesh follows the contact, and r is the hand's step in units of the
+// step before.  From there the error is of second order in the step, and Newton's method takes one solve less; nor is the shape carried over to the
+// mesh by its cubics.  A hand that turns aside or hurries has nothing foreseen.
+// Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(elements).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+template <class System>
+class Foresight {
+  using Scalar = typename System::Scalar;
+
+ public:
+  explicit Foresight(const System& system) : before_(system.elements()), mesh_(system.mesh()) {}
+
+  /// To be called before each push, which moves the system.  @param mesh  of this push   @param request  of it
+  /// @return whether the system is where the beam will be about, on that mesh; else it has not moved
+  bool go_on(System& system, const ContactMesh<Scalar>& mesh, const Circle<Scalar>& request) noexcept {
+    const Vector2<Scalar>& hand = request.centre;
+    const Vector2<Scalar> step = hand - hand_;
+    const Scalar ratio = step.dot(step_) / step_.squaredNorm();
+    const bool straight_on = std::abs(ratio) < fastest &&
+                             (step - ratio * step_).squaredNorm() <= aside * aside * step.squaredNorm();
+    const bool same_node = mesh.node() == system.mesh().node() && mesh.node() == mesh_.node();
+    const bool goes_on = known_ > 1 && straight_on && same_node;
+    hand_ = hand;
+    step_ = step;
+    mesh_ = system.mesh();
+    if (goes_on) system.go_on(before_, mesh, ratio);
+    else system.keep(before_);
+    return goes_on;
+  }
+  /// To be called after each push.  @param found  whether it was answered on the branch on which the beam was
+  void know(bool found) noexcept { known_ = found ? std::min(known_ + 1, 2) : 0; }
+  /// Back to where the system was before go_on().  @param force  of then [N]
+  void go_back(System& system, Scalar force) noexcept {
+    system.go_back(mesh_, before_, force);
+    forget();
+  }
+  void forget() noexcept { known_ = 0; }
+
+ private:
+  static constexpr Scalar fastest = 2,
+                          aside = Scalar(0.1);  // of a step, in units of the one before and of itself
+
+  typename System::State before_;
+  ContactMesh<Scalar> mesh_;                 // of before_
+  Vector2<Scalar> hand_{0, 0}, step_{0, 0};  // of the last push [m]
+  int known_ = 0;                            // pushes without a break, as far as they matter
+};
+
+/// Of a rod in space.
+struct NoForesight {
+  template <class System>
+  explicit NoForesight(const System&) noexcept {}
+  template <class System, class Mesh, class Request>
+  bool go_on(const System&, const Mesh&, const Request&) noexcept {
+    return false;
+  }
+  void know(bool) noexcept {}
+  template <class System, typename Scalar>
+  void go_back(const System&, Scalar) noexcept {}
+  void forget() noexcept {}
+};
+
+}  // namespace hapbeam::detail

@@ -1,0 +1,188 @@
+// A beam is laid on a circle, a rod on a capsule: a push whose place and direction are found with the equilibrium.
+//
+// The mesh has its node where the two were thought to touch, and follows where they do if that is not beside it.  A hand that goes on as it went finds
+// a beam where it was foreseen.  Where the beam bends as sharply as the circle, or may, beside a support, a plane stands for the circle and turns
+// from push to push.
+// Allocates at construction.  Real-time: all else is noexcept and allocation-free; a push takes at most the linear solves of AllDisplacements.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/contact_search.hpp>
+#include <hapbeam/fem/foresight.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+template <class Element, class System>
+class RoundPush {
+  using Scalar = typename System::Scalar;
+  using Node = typename System::Node;
+  using Round = typename SystemOf<Element>::template Round<Scalar>;
+  using RoundContact = typename SystemOf<Element>::template RoundContact<Scalar>;
+  static constexpr int dimension = dimension_of<Element>;
+  static constexpr bool planar = dimension == 2;
+  using Vector = VectorOf<Scalar, dimension>;
+  using Result = Pushed<Scalar, dimension>;
+  using Search = ContactSearch<Scalar, dimension>;
+
+ public:
+  /// Of the beam's length: so far from its node a contact is as exact as at it, to a few 1e-6 of the force.
+  static constexpr Scalar beside = Scalar(1.5e-4);
+  /// And so is the force, in units of the solver's tolerance.
+  static constexpr int slack = 100;
+  /// So often the node follows the contact in a push.
+  static constexpr int most_meshes = 4;
+
+  explicit RoundPush(const System& system) : foresight_(system) {}
+
+  /// To be called where something else moves the beam.
+  void forget() noexcept {
+    foresight_.forget();
+    sharp_ = false;
+  }
+
+  /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
+  template <class Way, class Extent>
+  Result push(Way& way, const Round& request, const Extent& range) noexcept {
+    const System& system = way.system_;
+    const RoundContact round{request};
+    // On a curve that is too sharp for it the law holds at the node alone.
+    const Scalar near = beside * system.length(), exactly = Scalar(1e-5) * request.reach;
+    Search search;
+    Vector normal = Vector::Zero();
+    Scalar s = request.s;
+    bool snapped = false;
+    for (int meshes = 1;; ++meshes) {
+      Trial trial{s, normal, meshes == 1};
+      Result pushed = push_at(way, request, range, trial);
+      snapped = snapped || pushed.status == Status::snapped;
+      const Scalar off = std::max(std::abs(trial.ahead), trial.miss);
+      const bool there = off <= (trial.by_plane ? exactly : near);
+      if (there || meshes == most_meshes || !is_answer(pushed.status) || pushed.force >= 0) {
+        pushed.miss = there ? Scalar(0) : off;
+        if (snapped && pushed.status == Status::ok) pushed.status = Status::snapped;
+        foresight_.know(pushed.status == Status::ok);
+        return pushed;
+      }
+      typename Search::Aim next{s + trial.ahead, normal};
+      if (trial.by_plane)
+        next =
+            search.after({next.s, pushed.normal}, round.residual(trial.ahead, trial.normal, pushed.normal));
+      s = std::clamp(next.s, Scalar(0), system.length());
+      normal = next.normal;
+    }
+  }
+
+ private:
+  struct Trial {
+    Scalar s;  ///< [m] where the node goes
+    Vector
+        normal;  ///< in: of the plane that stands for the circle, zero: of the node;  out: the one that was taken
+    bool first;             ///< of its push
+    bool by_plane = false;  ///< whether a plane stood for the circle
+    Scalar ahead = 0;       ///< [m] from there to the contact
+    Scalar miss = 0;        ///< [m] from the circle's centre to where it should be
+  };
+
+  /// A push with the node at trial.s, or at the end beside it.  At an end that slides along a wall the wall takes what does not
+  /// act along it.
+  template <class Way, class Extent>
+  Result push_at(Way& way, const Round& request, const Extent& range, Trial& trial) noexcept {
+    using std::abs;
+    System& system = way.system_;
+    const RoundContact round{request};
+    const Scalar s = range.range().nearest({trial.s, 0}).s, length = system.length();
+    const ContactMesh<Scalar> mesh = way.uniform_.at(range.node(s));
+    const int c = mesh.node(), end = c == 0 ? -1 : c == system.elements() ? 1 : 0;
+    const bool outside = planar && s != trial.s;
+    bool wall = false, beside_support = false;
+    if constexpr (planar) {
+      wall = range.on_wall(mesh.s());
+      // There a hand soon bends the beam more sharply than the mesh can show.
+      const Scalar clear = 2 * request.reach;
+      beside_support =
+          outside || s - range.range().left_support < clear || range.range().right_support - s < clear;
+    }
+    const Scalar last = system.linear_reaction();
+    // The contact's node; beside a support, where there is none, the place that takes its displacement.
+    const auto node = [&] { return outside ? round.node_at(system.centreline(), trial.s) : system.node(c); };
+    const auto look = [&](const Node& seen) { return round.look(seen, end); };
+    const auto law_at = [&](int i) { return round.beside(system.centreline(), i, end); };
+    const auto last_law = law_at(system.mesh().node());
+    bool foreseen = trial.first && foresight_.go_on(system, mesh, request);
+    const auto through = [&] {
+      if constexpr (planar) return false;
+      else return round.is_through(look(node()));
+    };
+    Scalar across = 1;  // component of the force that the beam takes
+    const auto aim = [&] {
+      const auto law = foreseen ? last_law : law_at(c);  // what is foreseen has no second derivative
+      trial.by_plane = wall || beside_support || sharp_ || law.sharp(request.reach) || through();
+      if (!trial.by_plane) return system.set_goal(c, -request.reach, law);
+      if (trial.normal.isZero(0) || wall) trial.normal = round.normal(look(node()));
+      const Vector& normal = trial.normal;
+      const Scalar d = round.plane(normal, trial.s, node());
+      if (!wall) return system.set_goal(c, d, 0, normal);
+      if constexpr (planar) {
+        across = std::copysign(std::max(Scalar(0.5), abs(normal.y())), normal.y());
+        system.set_goal(c, (d - normal.x() * system.node(c).u) / across);
+      }
+    };
+
+    Response<Scalar> response{0, Status::iteration_limit};
+    bool past_end = false;
+    if (foreseen) {
+      response = way.settle_at_once(slack, aim);
+      foreseen = response.status == Status::ok;
+      if (!foreseen) {
+        foresight_.go_back(system, last);
+        trial.normal.setZero();
+      }
+    }
+    if (!foreseen) {
+      system.remesh(mesh);
+      const auto start = look(node());
+      past_end = start.past_end;
+      const Scalar jump = abs(round.distance(start) - request.reach);
+      if (way.single_valued_ && jump > length / 1000 &&
+          abs(round.distance(look(round.node_at(system.view(way.rest_state_), mesh.s()))) - request.reach) <
+              jump) {
+        way.to_rest();
+        system.remesh(mesh);
+      }
+      response = way.settle(last, slack, aim);
+    }
+
+    const bool answer = is_answer(response.status);
+    sharp_ = answer && law_at(c).sharp(request.reach);
+    // What is no answer may have left that mesh.
+    const Node now = answer ? node() : round.node_at(system.centreline(), trial.s);
+    const auto view = answer && !trial.by_plane ? system.contact() : look(now);
+    Result pushed{response.force / across, response.status};
+    pushed.past_end = answer ? view.past_end : past_end;
+    pushed.point = round.point(view, now);
+    pushed.normal = view.normal;
+    const Scalar touched = std::clamp(now.s + round.ahead(view), Scalar(0), length);
+    trial.ahead = touched - trial.s;
+    pushed.s = trial.by_plane || !answer ? trial.s : touched;
+    if (trial.by_plane) trial.miss = round.miss(trial.normal, now);
+    return pushed;
+  }
+
+  std::conditional_t<planar, Foresight<System>, NoForesight> foresight_;
+  bool sharp_ = false;  // where the last circle touched
+};
+
+/// Of a beam that is not laid on circles.
+struct NoRound {
+  template <class System>
+  explicit NoRound(const System&) noexcept {}
+  void forget() noexcept {}
+};
+
+}  // namespace hapbeam::detail
