@@ -45,11 +45,11 @@ struct RoundRod {
     const V3<S> chord = n2.r - n1.r;
     S sum = 0, axial = 0;
     for (int g = 0; g < points; ++g) {
-      const detail::CubicWeights<S> w(S(Points::x[g]), p.inverse_length);
+      const detail::CubicWeights<S> w(S(rule.x[g]), p.inverse_length);
       const V3<S> a = w.a * chord + w.a1 * n1.tangent + w.a2 * n2.tangent,
                   b = w.b * chord + w.b1 * n1.tangent + w.b2 * n2.tangent;
       const S A = 1 / a.squaredNorm(), C = a.dot(b) * A;
-      sum += S(Points::weight[g]) * p.points[g].bending1 * (b.squaredNorm() * A - C * C);
+      sum += S(rule.weight[g]) * p.points[g].bending1 * (b.squaredNorm() * A - C * C);
     }
     const S e[3] = {sqrt(n1.tangent.squaredNorm()) - 1, sqrt(middle(p, chord, n1, n2).squaredNorm()) - 1,
                     sqrt(n2.tangent.squaredNorm()) - 1};
@@ -74,7 +74,7 @@ struct RoundRod {
 
  private:
   static constexpr int points = 3;
-  using Points = detail::Gauss<points>;
+  static constexpr const detail::GaussRule& rule = detail::three_points;
   template <typename S>
   using V3 = VectorOf<S, 3>;
   template <typename S>
@@ -99,10 +99,10 @@ struct RoundRod {
   [[gnu::always_inline]] static void bend(const RodProperties<S>& p, int g, const V3<S>& chord,
                                           const V3<S>& t1, const V3<S>& t2, Core<S>& core,
                                           S& energy) noexcept {
-    const detail::CubicWeights<S> w(S(Points::x[g]), p.inverse_length);
+    const detail::CubicWeights<S> w(S(rule.x[g]), p.inverse_length);
     const V3<S> a = w.a * chord + w.a1 * t1 + w.a2 * t2, b = w.b * chord + w.b1 * t1 + w.b2 * t2;
     const S i = 1 / a.squaredNorm(), B = b.squaredNorm() * i, c = a.dot(b) * i, cc = c * c;
-    const S k = S(Points::weight[g]) * p.points[g].bending1 * p.length / 2;
+    const S k = S(rule.weight[g]) * p.points[g].bending1 * p.length / 2;
     energy += k * (B - cc);
     // f = B/A - C²/A²:  by A, B, C once and twice
     const S ki = k * i, fA = ki * (2 * cc - B), fB = ki, fC = -2 * ki * c, fAA = ki * i * (2 * B - 6 * cc),

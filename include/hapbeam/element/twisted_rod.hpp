@@ -9,7 +9,10 @@
 // away: without it torsion is of second order.  φ1 and φ2 turn the directors of the nodes; they are zero in each state and
 // the unknowns of its increment.  While a tangent moves, its director is carried along by the smallest rotation.
 //
-//   V = ½ l εᵀ EA M ε + ½ l Σ w (EI1 (κ1 - κ1°)² + EI2 (κ2 - κ2°)² + GJ (τ - τ°)²)        sum over two Gauss points
+//   V = ½ l εᵀ EA M ε + ½ l Σ w (EI1 (κ1 - κ1°)² + EI2 (κ2 - κ2°)² + GJ (τ - τ°)²)        sum over Gauss points
+//
+// Three points for round rods that are straight by nature, two for all others (rod_elements.hpp): three resolve large bends, and
+// lock where bending and twist are coupled.
 //
 // ε = |r'| - 1 - ε° at ξ = 0, ½, 1, interpolated (M): integrated fully it locks, and its mean leaves a mechanism.  κ° is of
 // the natural shape, interpolated the same way, so that this shape has no energy.
@@ -64,22 +67,23 @@ struct TwistedRod {
     const Frame<S> f(p, n1, n2);
     S sum = 0;
     const S m = f.mismatch;
-    for (int g = 0; g < 2; ++g) {
+    const detail::GaussRule& rule = detail::gauss_rule(p.number);
+    for (int g = 0; g < p.number; ++g) {
       const auto& at = p.points[g];
-      const S x = S(Points::x[g]);
+      const S x = S(rule.x[g]);
       const Point<S> point(detail::CubicWeights<S>(x, p.inverse_length), f);
       S k[3];
       point.strains(m * x + 4 * inner.twist * x * (1 - x),
                     (m + 4 * inner.twist * (1 - 2 * x)) * p.inverse_length, k);
       const S e1 = k[0] - at.natural[0], e2 = k[1] - at.natural[1], e3 = k[2] - at.natural[2];
-      sum += at.bending1 * e1 * e1 + at.bending2 * e2 * e2 + at.torsion * e3 * e3;
+      sum += S(rule.weight[g]) * (at.bending1 * e1 * e1 + at.bending2 * e2 * e2 + at.torsion * e3 * e3);
     }
     S e[3];
     f.stretches(p, e);
     S axial = 0;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) axial += detail::quadratic_mass<S>[i][j] * e[i] * e[j];
-    return p.length * (sum / 4 + p.axial * axial / 2);
+    return p.length * (sum + p.axial * axial) / 2;
   }
 
   /// The director at ξ.   @param twist  ψ
@@ -100,14 +104,15 @@ struct TwistedRod {
     return detail::angle_about(v, half, detail::across(middle, v));
   }
 
-  /// Curvatures and twist at both Gauss points and |r'| - 1 at ξ = 0, ½, 1 of a shape: what is natural in it.
+  /// Curvatures and twist at the Gauss points and |r'| - 1 at ξ = 0, ½, 1 of a shape: what is natural in it.
   template <typename S>
   static void take_natural(const RodNode<S>& n1, const RodNode<S>& n2, S twist,
                            RodProperties<S>& p) noexcept {
     for (S& e : p.natural_strain) e = 0;
     const Frame<S> f(p, n1, n2);
-    for (int g = 0; g < 2; ++g) {
-      const S x = S(Points::x[g]);
+    const detail::GaussRule& rule = detail::gauss_rule(p.number);
+    for (int g = 0; g < p.number; ++g) {
+      const S x = S(rule.x[g]);
       const Point<S> point(detail::CubicWeights<S>(x, p.inverse_length), f);
       point.strains(f.mismatch * x + 4 * twist * x * (1 - x),
                     (f.mismatch + 4 * twist * (1 - 2 * x)) * p.inverse_length, p.points[g].natural);
@@ -130,7 +135,6 @@ struct TwistedRod {
   }
 
  private:
-  using Points = detail::Gauss<2>;
   template <typename S>
   using V3 = VectorOf<S, 3>;
 
@@ -230,7 +234,7 @@ struct TwistedRod {
       for (int j = 0; j <= i; ++j) core.H[i][j] = 0;
     }
     S energy = 0;
-    for (int point = 0; point < 2; ++point) add_point(p, f, psi, point, core, energy);
+    for (int point = 0; point < p.number; ++point) add_point(p, f, psi, point, core, energy);
     add_stretch(p, f, core, energy);
     return energy;
   }
@@ -241,7 +245,8 @@ struct TwistedRod {
     using std::cos;
     using std::sin;
     const auto& at = p.points[point];
-    const S x = S(Points::x[point]), weight = p.length / 2, m = f.mismatch;
+    const detail::GaussRule& rule = detail::gauss_rule(p.number);
+    const S x = S(rule.x[point]), weight = S(rule.weight[point]) * p.length, m = f.mismatch;
     const Point<S> q(detail::CubicWeights<S>(x, p.inverse_length), f);
     const auto& w = q.weights;
     // θ and θ' by φ1, φ2 + m, ψ

@@ -51,6 +51,8 @@ class RodElements {
       if (!holds_twist(rod.left()) && !holds_twist(rod.right()))
         throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
                                     ": TwistedRod turns about its axis, hold its twist at one end");
+    const bool two = has_twist && !(natural_.straight() && stiffness_.bending1 == stiffness_.bending2);
+    for (int e = 0; e < elements; ++e) properties_[e].number = two ? 2 : 3;
     collect_loads(rod, elements);
     for (int i = 0; i <= elements; ++i) nodes_[i] = natural_.at(mesh_.position(i));
     take(mesh_);
