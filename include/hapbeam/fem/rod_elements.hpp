@@ -15,6 +15,8 @@
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
 #include <hapbeam/fem/natural_rod.hpp>
+#include <hapbeam/fem/rod_bed.hpp>
+#include <hapbeam/fem/rod_profile.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 
 namespace hapbeam {
@@ -31,8 +33,8 @@ class RodElements {
   using Residual = Eigen::Matrix<Scalar, 2 * unknowns, 1>;
   using Tangent = Eigen::Matrix<Scalar, 2 * unknowns, 2 * unknowns>;
 
-  /// In its natural shape.  @throws std::invalid_argument where a load is not finite somewhere on the rod, or elements does
-  /// not fit the type, or the element does not model such a rod
+  /// In its natural shape.  @throws std::invalid_argument where a load or a section makes no sense somewhere on the rod, or
+  /// elements does not fit the type, or the element does not model such a rod
   RodElements(const Rod& rod, int elements)
       : nodes_(elements),
         inners_(elements),
@@ -40,9 +42,10 @@ class RodElements {
         forces_(elements),
         natural_(rod),
         mesh_(elements, static_cast<Scalar>(rod.length())),
-        stiffness_(rod.stiffness()) {
+        profile_(rod),
+        bed_(rod, elements) {
     if constexpr (!has_twist)
-      if (!rod.arcs().empty() || stiffness_.bending1 != stiffness_.bending2)
+      if (!rod.arcs().empty() || !profile_.round())
         throw std::invalid_argument(
             "rod: RoundRod takes rods that are straight by nature, with one bending stiffness for all "
             "directions; take "
@@ -51,7 +54,7 @@ class RodElements {
       if (!holds_twist(rod.left()) && !holds_twist(rod.right()))
         throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
                                     ": TwistedRod turns about its axis, hold its twist at one end");
-    const bool two = has_twist && !(natural_.straight() && stiffness_.bending1 == stiffness_.bending2);
+    const bool two = has_twist && !(natural_.straight() && profile_.round() && profile_.smooth());
     for (int e = 0; e < elements; ++e) properties_[e].number = two ? 2 : 3;
     collect_loads(rod, elements);
     for (int i = 0; i <= elements; ++i) nodes_[i] = natural_.at(mesh_.position(i));
@@ -113,7 +116,8 @@ class RodElements {
   /// Residual and tangent of V - λW in element e; its inner twist's derivatives with them.
   [[gnu::always_inline]] Energies tangent(int e, Scalar lambda, Residual& r, Tangent& K) noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
-    const Scalar energy = Element::tangent(properties_[e], a, b, inners_[e], r, K);
+    Scalar energy = Element::tangent(properties_[e], a, b, inners_[e], r, K);
+    if (!bed_.empty()) energy += bed_.template add<unknowns>(e, a, b, r, K);
     if (!loaded()) return {energy, 0};
     subtract_loads(e, lambda, r);
     const Force& f = forces_[e];
@@ -125,13 +129,16 @@ class RodElements {
     Tangent K;
     Inner inner = inners_[e];
     Element::tangent(properties_[e], nodes_[e], nodes_[e + 1], inner, r, K);
+    if (!bed_.empty()) bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, K);
     if (loaded()) subtract_loads(e, lambda, r);
   }
   /// [J]
   Scalar strain_energy() const noexcept {
     Scalar energy = 0;
-    for (int e = 0; e < size(); ++e)
+    for (int e = 0; e < size(); ++e) {
       energy += Element::energy(properties_[e], nodes_[e], nodes_[e + 1], inners_[e]);
+      if (!bed_.empty()) energy += bed_.energy(e, nodes_[e], nodes_[e + 1]);
+    }
     return energy;
   }
 
@@ -165,13 +172,13 @@ class RodElements {
       loads_.push_back(
           {static_cast<Scalar>(s), force.template cast<Scalar>(), couple.template cast<Scalar>()});
     };
-    if (rod.load()) {
+    if (const RodLoad distributed = rod.load()) {
       std::vector<std::array<Vector3, 2>> on(static_cast<std::size_t>(elements) + 1,
                                              {Vector3(0, 0, 0), Vector3(0, 0, 0)});
       for (int e = 0; e < elements; ++e)
         for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
           const double t = detail::gauss_points[k], u = 1 - t, weight = h * detail::gauss_weights[k];
-          Vector3 f = rod.load()((e + t) * h);
+          Vector3 f = distributed((e + t) * h);
           for (int c = 0; c < 3; ++c) detail::finite("load", f[c], "N/m");
           f *= weight;
           auto &a = on[static_cast<std::size_t>(e)], &b = on[static_cast<std::size_t>(e) + 1];
@@ -196,16 +203,13 @@ class RodElements {
     for (int e = 0; e < size(); ++e) {
       const Scalar length = nodes_[e + 1].s - nodes_[e].s;
       RodProperties<Scalar>& p = properties_[e];
-      const bool same = p.length == length && p.axial != 0;
+      // The same length is the same element where all elements are the same.
+      const bool same = p.length == length && p.axial != 0 && profile_.constant();
       if (!same) {
         set_length(e, length);
-        p.axial = static_cast<Scalar>(stiffness_.axial);
-        for (auto& point : p.points) {
-          point.bending1 = static_cast<Scalar>(stiffness_.bending1);
-          point.bending2 = static_cast<Scalar>(stiffness_.bending2);
-          point.torsion = static_cast<Scalar>(stiffness_.torsion);
-        }
+        profile_.apply(nodes_[e].s, nodes_[e + 1].s, p);
       }
+      if (!bed_.empty()) bed_.take(e, nodes_[e].s, nodes_[e + 1].s, natural_);
       if constexpr (has_twist)
         if (!natural_.straight()) take_natural(e);
     }
@@ -239,7 +243,8 @@ class RodElements {
   std::vector<PointLoad> loads_;
   NaturalRod<Scalar> natural_;
   ContactMesh<Scalar> mesh_;
-  RodStiffness stiffness_;
+  RodProfile<Scalar> profile_;
+  RodBed<Scalar> bed_;
 };
 
 }  // namespace hapbeam

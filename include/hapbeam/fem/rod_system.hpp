@@ -182,6 +182,8 @@ class RodSystem {
       work += by_loads;
       inner_energy_ += rod_.inners()[e].energy();
       if (shift != 0) add_shift(shift, e, K);
+      if (e == 0) energy += add_springs(ends_[0], node(0), 0, r, K);
+      if (e + 1 == elements()) energy += add_springs(ends_[1], node(e + 1), unknowns, r, K);
       if (own_axes(e)) transform(e, 0, r, K);
       if (own_axes(e + 1)) transform(e + 1, unknowns, r, K);
       assembler_.add(e, K, r);
@@ -269,15 +271,17 @@ class RodSystem {
     for (std::size_t k = 0; k < 2; ++k)
       if (i == end(k)) x += prescribed_[k];
     if (i == contact_) x[2] += moves_;
-    if (own_axes(i)) {
-      const auto [R, T, arm] = axes(i);
-      if (i == contact_) x[2] -= arm.dot(x.template segment<3>(3));
-      if constexpr (unknowns == 7)
-        if (const auto* const joint = this->joint(i))
-          x[6] -= (T.transpose() * joint->arm(node(i))).dot(x.template segment<3>(3));
-      x.template segment<3>(0) = (R * x.template segment<3>(0)).eval();
-      x.template segment<3>(3) = (T * x.template segment<3>(3)).eval();
-    }
+    if (!own_axes(i)) return x;
+    const Matrix *const R = place_axes(i), *const T = tangent_axes(i);
+    if (i == contact_ && lever_ != 0) x[2] -= arm(T).dot(x.template segment<3>(3));
+    const auto turn = [&x](int at, const Matrix& Q) {
+      const Vector3 v(x[at], x[at + 1], x[at + 2]);
+      for (int k = 0; k < 3; ++k) x[at + k] = Q(k, 0) * v[0] + Q(k, 1) * v[1] + Q(k, 2) * v[2];
+    };
+    if (R) turn(0, *R);
+    if (T) turn(3, *T);
+    if constexpr (unknowns == 7)
+      if (const auto* const joint = this->joint(i)) x[6] -= joint->arm(node(i)).dot(x.template segment<3>(3));
     return x;
   }
 
@@ -298,24 +302,29 @@ class RodSystem {
     return {at.template segment<3>(0), moment};
   }
 
-  /// Strain energy [J].
-  Scalar strain_energy() const noexcept { return rod_.strain_energy(); }
+  /// Strain energy, that of the springs that hold it included [J].
+  Scalar strain_energy() const noexcept {
+    Scalar energy = rod_.strain_energy();
+    typename Parts::Residual r = Parts::Residual::Zero();
+    typename Parts::Tangent K = Parts::Tangent::Zero();
+    for (std::size_t k = 0; k < 2; ++k) energy += add_springs(ends_[k], node(end(k)), 0, r, K);
+    return energy;
+  }
 
  private:
   using Matrix = Eigen::Matrix<Scalar, 3, 3>;
-  struct Axes {
-    Matrix R, T;  // of place and tangent
-    Vector3 arm;  // lever n, in T
-  };
-
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
   bool own_axes(int i) const noexcept { return i == contact_ || i == 0 || i == elements(); }
-  Axes axes(int i) const noexcept {
-    Axes a{Matrix::Identity(), Matrix::Identity(), Vector3::Zero()};
-    for (std::size_t k = 0; k < 2; ++k)
-      if (i == end(k)) a.R = a.T = ends_[k].axes();
-    if (i == contact_) a.R = axes_, a.arm = lever_ * (a.T.transpose() * normal_);
-    return a;
+  /// The axes along which a node's unknowns of place are counted, and those of r'; null: those of space.
+  const Matrix* place_axes(int i) const noexcept {
+    return i == contact_ ? &axes_ : i == 0 ? ends_[0].place_axes() : ends_[1].place_axes();
+  }
+  const Matrix* tangent_axes(int i) const noexcept {
+    return i == 0 ? ends_[0].tangent_axes() : i == elements() ? ends_[1].tangent_axes() : nullptr;
+  }
+  /// lever n, in the axes of r'.
+  Vector3 arm(const Matrix* T) const noexcept {
+    return lever_ * (T ? Vector3(T->transpose() * normal_) : normal_);
   }
   /// n · r of the contact [m].
   Scalar displacement() const noexcept {
@@ -330,11 +339,13 @@ class RodSystem {
 
   /// To a node's own axes.  @param at  its first row in the element
   void transform(int i, int at, typename Parts::Residual& r, typename Parts::Tangent& K) const noexcept {
-    const auto [R, T, arm] = axes(i);
     const auto turn = [&](int k, const Matrix& Q) {
-      r.template segment<3>(k) = (Q.transpose() * r.template segment<3>(k)).eval();
-      K.template middleCols<3>(k) = (K.template middleCols<3>(k) * Q).eval();
-      K.template middleRows<3>(k) = (Q.transpose() * K.template middleRows<3>(k)).eval();
+      r.template segment<3>(k) = Q.transpose().lazyProduct(r.template segment<3>(k)).eval();
+      const Eigen::Matrix<Scalar, 2 * unknowns, 3> columns = K.template middleCols<3>(k).lazyProduct(Q);
+      const Matrix own = Q.transpose().lazyProduct(columns.template middleRows<3>(k));
+      K.template middleCols<3>(k) = columns;
+      K.template middleRows<3>(k) = columns.transpose();
+      K.template block<3, 3>(k, k) = own;
     };
     // An unknown that is its old self and a part of the tangent: what it was is what it is, less that part.
     const auto lean = [&](int unknown, const Vector3& part) {
@@ -349,9 +360,17 @@ class RodSystem {
         K.template block<3, 3>(at + 3, at + 3) += r[at + 6] * joint->bow(node(i));
         lean(6, joint->arm(node(i)));
       }
-    turn(at, R);
-    turn(at + 3, T);
-    if (i == contact_ && lever_ != 0) lean(2, arm);
+    const Matrix *const R = place_axes(i), *const T = tangent_axes(i);
+    if (R) turn(at, *R);
+    if (T) turn(at + 3, *T);
+    if (i == contact_ && lever_ != 0) lean(2, arm(T));
+  }
+  /// @param at  the end's first row in the element   @return [J]
+  static Scalar add_springs(const detail::RodEnd<Scalar>& end, const Node& node, int at,
+                            typename Parts::Residual& r, typename Parts::Tangent& K) noexcept {
+    if (!end.has_springs()) return 0;
+    return end.add_springs(node, r.template segment<unknowns>(at),
+                           K.template block<unknowns, unknowns>(at, at));
   }
   /// The end at node i where it is a joint that holds the twist.
   const detail::RodEnd<Scalar>* joint(int i) const noexcept {
@@ -386,7 +405,7 @@ class RodSystem {
   /// Shares out what the chain misses of a held right end.  A left end that is not held moves all of it.
   void close_chain() noexcept {
     const Vector3 miss = ends_[1].miss(node(elements()));
-    const bool left = ends_[0].holds_place();
+    const bool left = ends_[0].is_anchored();
     for (Node& node : rod_.nodes()) node.r += left ? Vector3(miss * (node.s / length_)) : miss;
   }
 
