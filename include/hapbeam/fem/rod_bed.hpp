@@ -30,6 +30,7 @@ class RodBed {
     Spring& spring = springs_[static_cast<std::size_t>(e)];
     spring = {};
     const Scalar l = to - from;
+    spring.home = unknowns(natural.at(from), natural.at(to));
     for (const RodFoundation& foundation : foundations_) {
       const Scalar a = std::max(from, static_cast<Scalar>(foundation.from)),
                    b = std::min(to, static_cast<Scalar>(foundation.to));
@@ -43,12 +44,15 @@ class RodBed {
         const RodNode<Scalar> home = natural.at(s);
         const Eigen::Matrix<Scalar, 3, 3> k = weight * (across * Eigen::Matrix<Scalar, 3, 3>::Identity() +
                                                         more * home.tangent * home.tangent.transpose());
-        const VectorOf<Scalar, 3> force = k * home.r;
+        // How far the cubic of the natural nodes is from the natural shape, and what that takes.
+        VectorOf<Scalar, 3> miss = -home.r;
+        for (int i = 0; i < 4; ++i) miss += N[i] * spring.home.template segment<3>(3 * i);
+        const VectorOf<Scalar, 3> force = k * miss;
         for (int i = 0; i < 4; ++i) {
           for (int j = 0; j < 4; ++j) spring.K.template block<3, 3>(3 * i, 3 * j) += N[i] * N[j] * k;
           spring.force.template segment<3>(3 * i) += N[i] * force;
         }
-        spring.rest += home.r.dot(force);
+        spring.energy += miss.dot(force) / 2;
       }
     }
   }
@@ -56,29 +60,30 @@ class RodBed {
   /// [J]
   Scalar energy(int e, const RodNode<Scalar>& a, const RodNode<Scalar>& b) const noexcept {
     const Spring& spring = springs_[static_cast<std::size_t>(e)];
-    const Vector12 x = unknowns(a, b), Kx = spring.K * x;
-    return (x.dot(Kx) + spring.rest) / 2 - spring.force.dot(x);
+    const Vector12 x = unknowns(a, b) - spring.home, Kx = spring.K * x;
+    return spring.energy + x.dot(Kx / 2 + spring.force);
   }
   /// Adds its residual and tangent.   @tparam Unknowns  of a node   @return [J]
   template <int Unknowns, class Residual, class Tangent>
   Scalar add(int e, const RodNode<Scalar>& a, const RodNode<Scalar>& b, Residual& r,
              Tangent& K) const noexcept {
     const Spring& spring = springs_[static_cast<std::size_t>(e)];
-    const Vector12 x = unknowns(a, b), Kx = spring.K * x;
+    const Vector12 x = unknowns(a, b) - spring.home, Kx = spring.K * x;
     for (int i = 0; i < 12; i += 6) {
       const int row = i == 0 ? 0 : Unknowns;
-      r.template segment<6>(row) += (Kx - spring.force).template segment<6>(i);
+      r.template segment<6>(row) += (Kx + spring.force).template segment<6>(i);
       for (int j = 0; j < 12; j += 6)
         K.template block<6, 6>(row, j == 0 ? 0 : Unknowns) += spring.K.template block<6, 6>(i, j);
     }
-    return (x.dot(Kx) + spring.rest) / 2 - spring.force.dot(x);
+    return spring.energy + x.dot(Kx / 2 + spring.force);
   }
 
  private:
   struct Spring {
     Eigen::Matrix<Scalar, 12, 12> K = Eigen::Matrix<Scalar, 12, 12>::Zero();
-    Vector12 force = Vector12::Zero();  // K x° of where it pulls to
-    Scalar rest = 0;                    // its energy where all unknowns are nothing, twice
+    // Of the natural shape's nodes, their unknowns, and residual and energy there.
+    Vector12 home = Vector12::Zero(), force = Vector12::Zero();
+    Scalar energy = 0;
   };
   static Vector12 unknowns(const RodNode<Scalar>& a, const RodNode<Scalar>& b) noexcept {
     Vector12 x;
