@@ -52,10 +52,8 @@ struct CubicWeights {
 };
 
 /// Mass matrix of the quadratic through ξ = 0, ½, 1.
-template <typename S>
-inline constexpr S quadratic_mass[3][3] = {{S(4. / 30), S(2. / 30), S(-1. / 30)},
-                                           {S(2. / 30), S(16. / 30), S(2. / 30)},
-                                           {S(-1. / 30), S(2. / 30), S(4. / 30)}};
+inline constexpr double quadratic_mass[3][3] = {
+    {4. / 30, 2. / 30, -1. / 30}, {2. / 30, 16. / 30, 2. / 30}, {-1. / 30, 2. / 30, 4. / 30}};
 
 }  // namespace detail
 

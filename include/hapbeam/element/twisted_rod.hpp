@@ -82,7 +82,7 @@ struct TwistedRod {
     f.stretches(p, e);
     S axial = 0;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) axial += detail::quadratic_mass<S>[i][j] * e[i] * e[j];
+      for (int j = 0; j < 3; ++j) axial += S(detail::quadratic_mass[i][j]) * e[i] * e[j];
     return p.length * (sum + p.axial * axial) / 2;
   }
 
@@ -363,16 +363,16 @@ struct TwistedRod {
     e[1] = n - 1 - p.natural_strain[1];
     e[2] = f.l2 - 1 - p.natural_strain[2];
     for (int r = 0; r < 3; ++r) {
-      const auto& M = detail::quadratic_mass<S>[r];
-      N[r] = EA * (M[0] * e[0] + M[1] * e[1] + M[2] * e[2]);
+      const auto& M = detail::quadratic_mass[r];
+      N[r] = EA * (S(M[0]) * e[0] + S(M[1]) * e[1] + S(M[2]) * e[2]);
       energy += N[r] * e[r] / 2;
     }
     const V3<S> v = a * i;
     const S w = S(1.5) * p.inverse_length, w1 = S(-0.25);
     // By (Δ, |r1'|, r2'): ε at the middle and at node 2.
     const S R[7] = {w * v[0], w * v[1], w * v[2], w1 * v[2], w1 * v[0], w1 * v[1], w1 * v[2]};
-    const S m0 = EA * detail::quadratic_mass<S>[0][0], m1 = EA * detail::quadratic_mass<S>[1][1],
-            c01 = EA * detail::quadratic_mass<S>[0][1], c02 = EA * detail::quadratic_mass<S>[0][2];
+    const S m0 = EA * S(detail::quadratic_mass[0][0]), m1 = EA * S(detail::quadratic_mass[1][1]),
+            c01 = EA * S(detail::quadratic_mass[0][1]), c02 = EA * S(detail::quadratic_mass[0][2]);
     for (int r = 0; r < 7; ++r) core.g[r] += N[1] * R[r];
     core.g[3] += N[0];
     for (int k = 0; k < 3; ++k) core.g[4 + k] += N[2] * f.v[k];

@@ -7,10 +7,12 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 #include <vector>
 
+#include <hapbeam/element/pack.hpp>
 #include <hapbeam/element/rod_properties.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
@@ -39,6 +41,7 @@ class RodElements {
       : nodes_(elements),
         inners_(elements),
         properties_(elements),
+        wide_(elements),
         forces_(elements),
         natural_(rod),
         mesh_(elements, static_cast<Scalar>(rod.length())),
@@ -113,24 +116,31 @@ class RodElements {
     Scalar work;    ///< of λ times the loads on it [J]
   };
 
-  /// Residual and tangent of V - λW in element e; its inner twist's derivatives with them.
-  [[gnu::always_inline]] Energies tangent(int e, Scalar lambda, Residual& r, Tangent& K) noexcept {
-    const Node &a = nodes_[e], &b = nodes_[e + 1];
-    Scalar energy = Element::tangent(properties_[e], a, b, inners_[e], r, K);
-    if (!bed_.empty()) energy += bed_.template add<unknowns>(e, a, b, r, K);
-    if (!loaded()) return {energy, 0};
-    subtract_loads(e, lambda, r);
-    const Force& f = forces_[e];
-    return {energy, lambda * (f.template segment<3>(0).dot(a.r) + f.template segment<3>(3).dot(a.tangent) +
-                              f.template segment<3>(6).dot(b.r) + f.template segment<3>(9).dot(b.tangent))};
+  /// Residual and tangent of V - λW in each element, and the derivatives of its inner twist.  Elements are computed a few at a time,
+  /// side by side.   @param visit  called with (e, Energies, Residual&, Tangent&), in order
+  template <class Visit>
+  [[gnu::always_inline]] void visit_tangents(Scalar lambda, Visit&& visit) noexcept {
+    Residual r;
+    Tangent K;
+    for (int first = 0; first < size(); first += lanes) {
+      Group group;
+      compute(first, group);
+      for (int e = first; e < first + lanes && e < size(); ++e) {
+        group.get(e - first, r, K);
+        if constexpr (has_twist) group.get(e - first, inners_[e]);
+        const Scalar energy = group.energy[e - first];
+        visit(e, with_bed_and_loads(e, energy, lambda, r, K), r, K);
+      }
+    }
   }
-  /// The residual alone.
+  /// The residual alone of one element.
   void residual(int e, Scalar lambda, Residual& r) const noexcept {
     Tangent K;
-    Inner inner = inners_[e];
-    Element::tangent(properties_[e], nodes_[e], nodes_[e + 1], inner, r, K);
-    if (!bed_.empty()) bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, K);
-    if (loaded()) subtract_loads(e, lambda, r);
+    Group group;
+    const int first = e - e % lanes;
+    compute(first, group);
+    group.get(e - first, r, K);
+    (void)with_bed_and_loads(e, group.energy[e - first], lambda, r, K);
   }
   /// [J]
   Scalar strain_energy() const noexcept {
@@ -145,6 +155,72 @@ class RodElements {
  private:
   static constexpr bool has_twist = unknowns == 7;
   using Force = VectorOf<Scalar, 12>;  // on r1, r1', r2, r2'
+
+  using Wide = detail::Pack<Scalar>;
+  static constexpr int lanes = Wide::size;
+
+  /// Elements side by side.
+  struct Group {
+    Eigen::Matrix<Wide, 2 * unknowns, 1> r;
+    Eigen::Matrix<Wide, 2 * unknowns, 2 * unknowns> K;
+    typename Element::template Inner<Wide> inner;
+    Wide energy;
+
+    [[gnu::always_inline]] void get(int lane, Residual& to, Tangent& tangent) const noexcept {
+      for (int i = 0; i < 2 * unknowns; ++i) to[i] = r[i][lane];
+      for (int j = 0; j < 2 * unknowns; ++j)
+        for (int i = 0; i < 2 * unknowns; ++i) tangent(i, j) = K(i, j)[lane];
+    }
+    [[gnu::always_inline]] void get(int lane, Inner& to) const noexcept {
+      to.residual = inner.residual[lane];
+      to.stiffness = inner.stiffness[lane];
+      for (int i = 0; i < 2 * unknowns; ++i) to.row[i] = inner.row[i][lane];
+    }
+  };
+  /// @param first  of the elements; beyond the last one that one stands again
+  void compute(int first, Group& group) const noexcept {
+    int of[lanes];
+    for (int k = 0; k < lanes; ++k) of[k] = std::min(first + k, size() - 1);
+    const auto gather = [&](int beyond) {
+      const auto vector = [&](auto member) {
+        const auto entry = [&](int i) {
+          return Wide::of([&](int k) { return (nodes_[of[k] + beyond].*member)[i]; });
+        };
+        return VectorOf<Wide, 3>(entry(0), entry(1), entry(2));
+      };
+      return RodNode<Wide>{Wide(0), vector(&Node::r), vector(&Node::tangent), vector(&Node::director)};
+    };
+    if constexpr (has_twist) group.inner.twist = Wide::of([&](int k) { return inners_[of[k]].twist; });
+    const RodNode<Wide> a = gather(0), b = gather(1);
+    group.energy = Element::tangent(wide_[first / lanes], a, b, group.inner, group.r, group.K);
+  }
+  Energies with_bed_and_loads(int e, Scalar energy, Scalar lambda, Residual& r, Tangent& K) const noexcept {
+    const Node &a = nodes_[e], &b = nodes_[e + 1];
+    if (!bed_.empty()) energy += bed_.template add<unknowns>(e, a, b, r, K);
+    if (!loaded()) return {energy, 0};
+    subtract_loads(e, lambda, r);
+    const Force& f = forces_[e];
+    return {energy, lambda * (f.template segment<3>(0).dot(a.r) + f.template segment<3>(3).dot(a.tangent) +
+                              f.template segment<3>(6).dot(b.r) + f.template segment<3>(9).dot(b.tangent))};
+  }
+  /// Lays an element's properties beside those of its neighbours.
+  void widen(int e) noexcept {
+    const RodProperties<Scalar>& from = properties_[e];
+    RodProperties<Wide>& to = wide_[e / lanes];
+    to.number = from.number;
+    for (int k = e % lanes; k < lanes; ++k) {
+      const auto set = [k](Wide& wide, Scalar value) { wide.set(k, value); };
+      set(to.length, from.length), set(to.inverse_length, from.inverse_length), set(to.axial, from.axial);
+      for (int i = 0; i < 3; ++i) {
+        auto& point = to.points[i];
+        set(point.bending1, from.points[i].bending1), set(point.bending2, from.points[i].bending2);
+        set(point.torsion, from.points[i].torsion);
+        for (int j = 0; j < 3; ++j) set(point.natural[j], from.points[i].natural[j]);
+        set(to.natural_strain[i], from.natural_strain[i]);
+      }
+      if (e + 1 < size()) break;  // the last one fills its group
+    }
+  }
 
   /// A force at a point, and what works on the tangent there.
   struct PointLoad {
@@ -204,7 +280,7 @@ class RodElements {
       const Scalar length = nodes_[e + 1].s - nodes_[e].s;
       RodProperties<Scalar>& p = properties_[e];
       // The same length is the same element where all elements are the same.
-      const bool same = p.length == length && p.axial != 0 && profile_.constant();
+      const bool same = wide_[e / lanes].length[e % lanes] == length && profile_.constant();
       if (!same) {
         set_length(e, length);
         profile_.apply(nodes_[e].s, nodes_[e + 1].s, p);
@@ -212,6 +288,7 @@ class RodElements {
       if (!bed_.empty()) bed_.take(e, nodes_[e].s, nodes_[e + 1].s, natural_);
       if constexpr (has_twist)
         if (!natural_.straight()) take_natural(e);
+      if (!same || !natural_.straight()) widen(e);
     }
     if (loaded()) take_loads();
   }
@@ -239,6 +316,7 @@ class RodElements {
   Nodes nodes_;
   Inners inners_;
   detail::PerNode<RodProperties<Scalar>, Elements, MaxElements> properties_;
+  detail::PerNode<RodProperties<Wide>, Elements, MaxElements> wide_;
   detail::PerNode<Force, Elements, MaxElements> forces_;
   std::vector<PointLoad> loads_;
   NaturalRod<Scalar> natural_;

@@ -172,14 +172,13 @@ class RodSystem {
   /// @param shift  what is added to the tangent: so many times EI/L³ on each place and EI/L on each rotation, shared out
   /// over the nodes   @return ok | singular | non_finite
   Status factor(Scalar shift) noexcept {
-    typename Parts::Tangent K;
-    typename Parts::Residual r;
+    using Residual = typename Parts::Residual;
+    using Tangent = typename Parts::Tangent;
     Scalar energy = 0, work = 0;
     inner_energy_ = 0;
-    for (int e = 0; e < elements(); ++e) {
-      const auto [strain, by_loads] = rod_.tangent(e, load_, r, K);
-      energy += strain;
-      work += by_loads;
+    rod_.visit_tangents(load_, [&](int e, const auto& energies, Residual& r, Tangent& K) {
+      energy += energies.strain;
+      work += energies.work;
       inner_energy_ += rod_.inners()[e].energy();
       if (shift != 0) add_shift(shift, e, K);
       if (e == 0) energy += add_springs(ends_[0], node(0), 0, r, K);
@@ -187,7 +186,7 @@ class RodSystem {
       if (own_axes(e)) transform(e, 0, r, K);
       if (own_axes(e + 1)) transform(e + 1, unknowns, r, K);
       assembler_.add(e, K, r);
-    }
+    });
     size_ = std::sqrt(2 * energy);
     potential_ = energy - work;
     for (std::size_t k = 0; k < 2; ++k) {
