@@ -15,6 +15,7 @@
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/rod_elements.hpp>
 #include <hapbeam/fem/rod_end.hpp>
+#include <hapbeam/fem/rod_motion.hpp>
 #include <hapbeam/fem/rod_range.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
@@ -208,7 +209,7 @@ class RodSystem {
     Vector3 way = before.template segment<3>(0),
             r = node(0).r;  // that the last node has gone, and where it was
     rod_.nodes()[0].r += way;
-    turn(rod_.nodes()[0], before);
+    detail::move_tangent(rod_.nodes()[0], before);
     for (int i = 1; i <= elements(); ++i) {
       const Increment x = increment(i);
       typename Parts::Residual both;
@@ -216,10 +217,10 @@ class RodSystem {
       rod_.inners()[i - 1].advance(both);
       Node& node = rod_.nodes()[i];
       const Vector3 chord = node.r - r, change = x.template segment<3>(0) - before.template segment<3>(0);
-      way += contact_ < 0 ? Vector3(turned(chord, change) - chord) : change;
+      way += contact_ < 0 ? Vector3(detail::turned(chord, change) - chord) : change;
       r = node.r;
       node.r += way;
-      turn(node, x);
+      detail::move_tangent(node, x);
       before = x;
     }
     if (contact_ < 0) close_chain();
@@ -244,7 +245,7 @@ class RodSystem {
                    g = c < 0 ? (3 + t) / Scalar(3.5) : 4 * (t - c),
                    slope = 32 * size * t * q * (1 - 2 * t) * g + f * (c < 0 ? 1 / Scalar(3.5) : Scalar(4));
       node.r += f * g * e;
-      set_tangent(node, node.tangent + slope / length_ * e);
+      detail::set_tangent<Scalar>(node, node.tangent + slope / length_ * e);
     }
     for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
   }
@@ -378,29 +379,6 @@ class RodSystem {
     return nullptr;
   }
 
-  static void set_tangent(Node& node, const Vector3& tangent) noexcept {
-    const Vector3 u = detail::unit(node.tangent), v = detail::unit(tangent);
-    node.tangent = tangent;
-    node.director = detail::across<Scalar>(detail::carry(node.director, u, v), v);
-  }
-  /// v + change, but as long as the part of the change along v makes it, and turned by the angle that the rest means.
-  static Vector3 turned(const Vector3& v, const Vector3& change) noexcept {
-    using std::cos;
-    using std::sin;
-    using std::sqrt;
-    const Scalar length = sqrt(v.squaredNorm());
-    const Vector3 u = v / length;
-    const Scalar extends = u.dot(change);
-    const Vector3 aside = change - extends * u;
-    const Scalar size = sqrt(aside.squaredNorm()), angle = size / length;
-    if (size == 0) return v + change;
-    return (length + extends) * (cos(angle) * u + (sin(angle) / size) * aside);
-  }
-  static void turn(Node& node, const Increment& x) noexcept {
-    set_tangent(node, turned(node.tangent, x.template segment<3>(3)));
-    if constexpr (unknowns == 7)
-      node.director = detail::turn(node.director, detail::unit(node.tangent), x[6]);
-  }
   /// Shares out what the chain misses of a held right end.  A left end that is not held moves all of it.
   void close_chain() noexcept {
     const Vector3 miss = ends_[1].miss(node(elements()));
