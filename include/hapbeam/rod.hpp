@@ -1,4 +1,4 @@
-// What is modelled in space: a slender rod, its section and material, its natural shape, its two ends and its dead loads.
+// What is modelled in space: a slender rod, its section and material, its natural shape, its two ends, its bed and its dead loads.
 //
 //   Rod wire(0.2, RodSection::circle(0.001), RodMaterial{200e9, 77e9}, RodSupport::clamped, RodSupport::free);
 //   wire.weight(7850, {0, -9.81, 0});
@@ -12,120 +12,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include <hapbeam/check.hpp>
-#include <hapbeam/rod_centreline.hpp>
+#include <hapbeam/rod_section.hpp>
+#include <hapbeam/rod_support.hpp>
 
 namespace hapbeam {
-
-/// Cross-section of a rod, with its principal axes along d1 and d2.
-struct RodSection {
-  double area;       ///< A [m²]
-  double inertia1;   ///< I about d1 [m⁴]
-  double inertia2;   ///< I about d2 [m⁴]
-  double torsion;    ///< Saint-Venant's J [m⁴]
-  double thickness;  ///< [m] diameter of the round surface that an avatar touches: the smallest extent
-
-  /// @param width [m] along d1   @param height [m] along d2
-  /// J of a × b, a >= b, is ab³/3 (1 - 192 b/(π⁵ a) Σ tanh(kπa/2b)/k⁵) over odd k: Timoshenko and Goodier, Theory of
-  /// Elasticity, 109.
-  static RodSection rectangle(double width, double height) {
-    const double a = std::max(detail::positive("section width", width, "m"), height),
-                 b = std::min(width, detail::positive("section height", height, "m"));
-    double sum = 0;
-    for (int k = 1; k < 200; k += 2) sum += std::tanh(k * pi * a / (2 * b)) / std::pow(k, 5);
-    return {width * height, width * height * height * height / 12, height * width * width * width / 12,
-            a * b * b * b / 3 * (1 - 192 * b / (std::pow(pi, 5) * a) * sum), b};
-  }
-  static RodSection circle(double diameter) {
-    return ellipse(detail::positive("section diameter", diameter, "m"), diameter);
-  }
-  static RodSection tube(double outer_diameter, double inner_diameter) {
-    RodSection tube = circle(detail::positive("section outer_diameter", outer_diameter, "m"));
-    detail::positive("section inner_diameter", inner_diameter, "m");
-    if (!(inner_diameter < outer_diameter))
-      detail::reject("section inner_diameter", inner_diameter, "m", "less than outer_diameter");
-    const RodSection hole = circle(inner_diameter);
-    tube.area -= hole.area, tube.inertia1 -= hole.inertia1, tube.inertia2 -= hole.inertia2;
-    return tube.torsion -= hole.torsion, tube;
-  }
-  /// @param width [m] diameter along d1   @param height [m] along d2.   J = πa³b³/(a² + b²), Timoshenko and Goodier, 107
-  static RodSection ellipse(double width, double height) {
-    const double a = detail::positive("section width", width, "m") / 2,
-                 b = detail::positive("section height", height, "m") / 2;
-    return {pi * a * b, pi * a * b * b * b / 4, pi * a * a * a * b / 4,
-            pi * a * a * a * b * b * b / (a * a + b * b), std::min(width, height)};
-  }
-
- private:
-  static constexpr double pi = 3.141592653589793238462643;
-};
-
-/// Linear elastic material.
-struct RodMaterial {
-  double young;  ///< Young's modulus E [Pa]
-  double shear;  ///< shear modulus G [Pa]
-
-  /// @param poisson  ν, more than -1 and at most 0.5; G = E/(2 (1 + ν))
-  static RodMaterial isotropic(double young, double poisson) {
-    if (!(poisson > -1 && poisson <= 0.5))
-      detail::reject("poisson", poisson, "", "more than -1 and at most 0.5");
-    return {young, young / (2 * (1 + poisson))};
-  }
-};
-
-/// Stiffness of a section.
-struct RodStiffness {
-  double axial;     ///< EA [N]
-  double bending1;  ///< EI about d1 [N·m²]
-  double bending2;  ///< EI about d2 [N·m²]
-  double torsion;   ///< GJ [N·m²]
-};
-
-/// How an end of a rod is held.
-enum class RodSupport {
-  free,     ///< not at all
-  clamped,  ///< place, direction and twist
-  hinged,   ///< place: a ball joint
-  cardan,  ///< place and twist: a universal joint, whose director follows the tangent by the smallest rotation
-};
-
-/// Whether the end holds the section against turning about the tangent.
-constexpr bool holds_twist(RodSupport support) noexcept {
-  return support == RodSupport::clamped || support == RodSupport::cardan;
-}
-
-constexpr const char* name(RodSupport support) noexcept {
-  switch (support) {
-    case RodSupport::free: return "free";
-    case RodSupport::clamped: return "clamped";
-    case RodSupport::hinged: return "hinged";
-    case RodSupport::cardan: return "cardan";
-  }
-  return "unknown";
-}
-
-/// Where an end is, and how its section is turned.
-struct RodPose {
-  VectorOf<double, 3> at{0, 0, 0};     ///< [m]
-  VectorOf<double, 3> along{1, 0, 0};  ///< d3: direction of the tangent, from the left end to the right one
-  VectorOf<double, 3> director{0, 1, 0};  ///< d1
-
-  /// Makes both directions unit and perpendicular.  @return false where there are none
-  bool make_valid() noexcept {
-    along /= std::sqrt(along.squaredNorm());
-    director -= along * along.dot(director);
-    director /= std::sqrt(director.squaredNorm());
-    return at.allFinite() && along.allFinite() && director.allFinite();
-  }
-};
-
-/// Which end.
-enum class RodSide { left, right };
 
 /// A part of the rod with a natural curvature and twist: an arc, a ring or a helix.
 struct RodArc {
@@ -133,6 +27,24 @@ struct RodArc {
   double curvature1;  ///< [1/m] about d1: positive turns the tangent from d3 toward -d2
   double curvature2;  ///< [1/m] about d2: positive turns it toward d1
   double twist;       ///< [1/m] of d1 and d2 about d3
+};
+
+/// A part of the rod with a section of its own, which may change along it: a taper, a step.
+struct RodPart {
+  double end;                                 ///< [m] arc position at which it ends
+  std::function<RodSection(double)> section;  ///< by arc position s [m]; smooth within the part
+
+  RodPart(double part_end, std::function<RodSection(double)> by_s)
+      : end(part_end), section(std::move(by_s)) {}
+  RodPart(double part_end, const RodSection& same)
+      : end(part_end), section([same](double) { return same; }) {}
+};
+
+/// Springs along a part of the rod that pull each point back to where it is in the natural shape: a needle in tissue.
+struct RodFoundation {
+  double from, to;  ///< [m] arc positions
+  double across;    ///< [N/m²] force per length and displacement, across the natural tangent
+  double along;     ///< [N/m²] along it
 };
 
 /// A dead force at one point of the rod.
@@ -149,21 +61,16 @@ using RodLoad = std::function<VectorOf<double, 3>(double)>;
 class Rod {
  public:
   /// @param length [m], positive
-  [[gnu::cold]] Rod(double length, const RodSection& section, const RodMaterial& material, RodSupport left,
-                    RodSupport right)
-      : Rod(length,
-            {detail::positive("young", material.young, "Pa") * detail::positive("area", section.area, "m²"),
-             material.young * detail::positive("inertia1", section.inertia1, "m⁴"),
-             material.young * detail::positive("inertia2", section.inertia2, "m⁴"),
-             detail::positive("shear", material.shear, "Pa") *
-                 detail::positive("torsion", section.torsion, "m⁴")},
-            section.thickness, left, right) {
-    area_ = section.area;
+  [[gnu::cold]] Rod(double length, const RodSection& section, const RodMaterial& material,
+                    const RodSupport& left, const RodSupport& right)
+      : Rod(length, stiffness(section, material), section.thickness, left, right) {
+    material_ = material;
+    area_ = [area = section.area](double) { return area; };
   }
 
   /// For a section known by its stiffness.   @param length [m]   @param thickness [m]
-  [[gnu::cold]] Rod(double length, const RodStiffness& stiffness, double thickness, RodSupport left,
-                    RodSupport right)
+  [[gnu::cold]] Rod(double length, const RodStiffness& stiffness, double thickness, const RodSupport& left,
+                    const RodSupport& right)
       : length_(detail::positive("length", length, "m")),
         stiffness_(stiffness),
         thickness_(detail::positive("thickness", thickness, "m")),
@@ -173,11 +80,7 @@ class Rod {
     detail::positive("bending1 stiffness", stiffness.bending1, "N·m²");
     detail::positive("bending2 stiffness", stiffness.bending2, "N·m²");
     detail::positive("torsion stiffness", stiffness.torsion, "N·m²");
-    if (left != RodSupport::clamped && right != RodSupport::clamped &&
-        (left == RodSupport::free || right == RodSupport::free))
-      throw std::invalid_argument(
-          std::string("supports = ") + name(left) + ", " + name(right) +
-          ": the rod is a mechanism, hold the direction of one end or the place of both");
+    detail::check_supports(left, right);
   }
 
   /// Gives the rod a natural shape, from the left end on; straight and without twist where the parts end.
@@ -195,6 +98,47 @@ class Rod {
     return arcs_ = std::move(arcs), *this;
   }
 
+  /// Gives parts of the rod sections of their own, from the left end on.
+  /// The avatar touches a round surface of the thickness that the rod was built with.
+  /// @throws std::invalid_argument unless the ends increase, up to the length, and the material is known
+  Rod& sections(std::vector<RodPart> parts) {
+    if (!(material_.young > 0))
+      detail::reject("young", material_.young, "Pa",
+                     "known for sections: build the rod of a section and a material");
+    double from = 0;
+    for (const RodPart& part : parts) {
+      if (!(part.end > from && part.end <= length_ * (1 + 1e-12)))
+        detail::reject("part end", part.end, "m", "beyond the part before it and on the rod");
+      from = part.end;
+    }
+    if (!(from >= length_ * (1 - 1e-12)))
+      detail::reject("part end", from, "m", "the rod's length for the last part");
+    parts_ = std::move(parts);
+    area_ = [parts = parts_](double s) {
+      std::size_t k = 0;
+      while (k + 1 < parts.size() && parts[k].end <= s) ++k;
+      return parts[k].section(s).area;
+    };
+    return *this;
+  }
+  /// The same with one section that changes along all of the rod.
+  Rod& section(std::function<RodSection(double)> by_s) {
+    return sections({RodPart(length_, std::move(by_s))});
+  }
+
+  /// Lays a part of the rod in an elastic foundation.
+  Rod& add(const RodFoundation& foundation) {
+    if (!(foundation.from >= 0 && foundation.from < length_))
+      detail::reject("foundation from", foundation.from, "m", "on the rod, 0 to its length");
+    if (!(foundation.to > foundation.from && foundation.to <= length_ * (1 + 1e-12)))
+      detail::reject("foundation to", foundation.to, "m", "beyond where it begins and on the rod");
+    if (!(std::isfinite(foundation.across) && foundation.across >= 0))
+      detail::reject("foundation across", foundation.across, "N/m²", "0 or positive, and finite");
+    if (!(std::isfinite(foundation.along) && foundation.along >= 0))
+      detail::reject("foundation along", foundation.along, "N/m²", "0 or positive, and finite");
+    return foundations_.push_back(foundation), *this;
+  }
+
   /// Places the left end; the rod is laid from there.
   Rod& place_left(const RodPose& pose) { return left_pose_ = checked(pose), *this; }
   /// Places the right end elsewhere than where the natural shape has it.
@@ -204,18 +148,17 @@ class Rod {
   }
 
   /// Sets the distributed dead load [N/m]; it must be finite on all of the rod.
-  Rod& load(RodLoad f) { return load_ = std::move(f), *this; }
+  Rod& load(RodLoad f) { return load_ = std::move(f), specific_weight_.setZero(), *this; }
   Rod& load(const VectorOf<double, 3>& f) {
     return finite("load", f, "N/m"), load([f](double) { return f; });
   }
-  /// Its own weight.   @param density [kg/m³]   @param gravity [m/s²] direction and size
+  /// Its own weight, in place of another distributed load.   @param density [kg/m³]   @param gravity [m/s²] direction and size
   Rod& weight(double density, const VectorOf<double, 3>& gravity) {
     detail::positive("density", density, "kg/m³");
     finite("gravity", gravity, "m/s²");
-    if (!(area_ > 0))
-      detail::reject("area", area_, "m²",
-                     "known for a weight: a rod that is given by its stiffness has load()");
-    return load(VectorOf<double, 3>(density * area_ * gravity));
+    if (!area_)
+      detail::reject("area", 0, "m²", "known for a weight: a rod that is given by its stiffness has load()");
+    return specific_weight_ = density * gravity, load_ = nullptr, *this;
   }
   Rod& add(const RodForce& force) {
     if (!(force.s >= 0 && force.s <= length_))
@@ -227,18 +170,38 @@ class Rod {
   double length() const noexcept { return length_; }  ///< L [m]
   const RodStiffness& stiffness() const noexcept { return stiffness_; }
   double thickness() const noexcept { return thickness_; }  ///< [m]
-  RodSupport left() const noexcept { return left_; }
-  RodSupport right() const noexcept { return right_; }
+  const RodSupport& left() const noexcept { return left_; }
+  const RodSupport& right() const noexcept { return right_; }
+  const std::vector<RodPart>& parts() const noexcept {
+    return parts_;
+  }  ///< empty where all of it has one section
+  /// That of a section of its parts.   @throws std::invalid_argument where it makes no sense
+  RodStiffness stiffness(const RodSection& section) const { return stiffness(section, material_); }
+  const std::vector<RodFoundation>& foundations() const noexcept { return foundations_; }
   const std::vector<RodArc>& arcs() const noexcept { return arcs_; }  ///< empty where naturally straight
   const RodPose& left_pose() const noexcept { return left_pose_; }
   /// Null where the natural shape places it.
   const RodPose* right_pose() const noexcept { return right_is_placed_ ? &right_pose_ : nullptr; }
-  const RodLoad& load() const noexcept { return load_; }  ///< empty where there is none
+  /// Empty where there is none.
+  RodLoad load() const {
+    if (specific_weight_.isZero(0)) return load_;
+    return
+        [area = area_, weight = specific_weight_](double s) { return VectorOf<double, 3>(area(s) * weight); };
+  }
   const std::vector<RodForce>& forces() const noexcept { return forces_; }
   /// Whether it has one natural shape, straight, from which nothing bends it.
-  bool straight() const noexcept { return arcs_.empty() && !right_is_placed_ && !load_ && forces_.empty(); }
+  bool straight() const noexcept {
+    return arcs_.empty() && !right_is_placed_ && !load_ && specific_weight_.isZero(0) && forces_.empty();
+  }
 
  private:
+  static RodStiffness stiffness(const RodSection& section, const RodMaterial& material) {
+    return {
+        detail::positive("young", material.young, "Pa") * detail::positive("area", section.area, "m²"),
+        material.young * detail::positive("inertia1", section.inertia1, "m⁴"),
+        material.young * detail::positive("inertia2", section.inertia2, "m⁴"),
+        detail::positive("shear", material.shear, "Pa") * detail::positive("torsion", section.torsion, "m⁴")};
+  }
   static void finite(const char* field, const VectorOf<double, 3>& x, const char* unit) {
     for (int k = 0; k < 3; ++k) detail::finite(field, x[k], unit);
   }
@@ -255,12 +218,17 @@ class Rod {
 
   double length_;
   RodStiffness stiffness_;
-  double thickness_, area_ = 0;
+  RodMaterial material_{0, 0};  // not known where the stiffness is given
+  std::function<double(double)> area_;
+  double thickness_;
   RodSupport left_, right_;
+  std::vector<RodPart> parts_;
+  std::vector<RodFoundation> foundations_;
   std::vector<RodArc> arcs_;
   RodPose left_pose_, right_pose_;
   bool right_is_placed_ = false;
   RodLoad load_;
+  VectorOf<double, 3> specific_weight_{0, 0, 0};
   std::vector<RodForce> forces_;
 };
 

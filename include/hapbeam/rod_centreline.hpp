@@ -109,10 +109,11 @@ template <typename S>
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// x after the smallest rotation that takes u to v, both unit and not opposite; x is across u.
+/// x after the smallest rotation that takes u to v, both unit; x is across u.  Where they are opposite, half a turn about x.
 template <typename S>
 VectorOf<S, 3> carry(const VectorOf<S, 3>& x, const VectorOf<S, 3>& u, const VectorOf<S, 3>& v) noexcept {
-  return x - v.dot(x) / (1 + u.dot(v)) * (u + v);
+  const S whole = 1 + u.dot(v);
+  return whole > 0 ? VectorOf<S, 3>(x - v.dot(x) / whole * (u + v)) : x;
 }
 
 /// x, which is across the unit vector v, turned about it.

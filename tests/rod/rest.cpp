@@ -1,4 +1,4 @@
-// Any rod finds its rest: sections, natural shapes, ends and loads at random, up to forty times the load EI/L³.
+// Any rod finds its rest: sections, tapers, natural shapes, ends, foundations and loads at random, up to forty times the load EI/L³.
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
@@ -26,7 +26,19 @@ TEST_CASE("five hundred random rods find their rest", "[rod]") {
           second{length, rate(), rate(), rate()};
       rod.naturally({first, second});
     }
+    if (random(1.0) > 0) {
+      const double taper = random(0.5) / length;  // up to half of the thickness, or half more
+      rod.section([=](double s) {
+        return flat ? RodSection::rectangle(section.thickness * (1 + taper * s), section.thickness)
+                    : RodSection::circle(d * (1 + taper * s));
+      });
+    }
     const double EI = std::min(rod.stiffness().bending1, rod.stiffness().bending2);
+    if (random(1.0) > 0.5) {
+      const double from = length * random(0.0, 0.5),
+                   k = std::pow(10, random(0, 3)) * EI / std::pow(length, 4);
+      rod.add(RodFoundation{from, from + 0.3 * length, k, k * random(0.0, 1.0)});
+    }
     const double load = std::pow(10, random(-1, 1.6)) * EI / (length * length * length);
     const double x = random(1.0), y = random(1.0), z = random(1.0);
     rod.load(Point(load * detail::unit(Point(x, y, z))));

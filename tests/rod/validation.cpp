@@ -84,6 +84,36 @@ TEST_CASE("what makes no sense of a rod is rejected by name", "[rod]") {
         }) == "pose director = 2: must be across along");
 }
 
+TEST_CASE("ends, sections and foundations that make no sense are rejected by name", "[rod]") {
+  const RodSection round = RodSection::circle(0.001);
+  CHECK(rejection([&] { RodSupport::elastic(1, -2, 0, 0, 0, 0); }) ==
+        "support place2 = -2 N/m: must be 0 (free), positive, or infinity (held)");
+  CHECK(rejection([&] { RodSupport::elastic(1, 1, 1, INFINITY, 0, 0); }) ==
+        "support turn2 = 0 N·m/rad: must be held where turn1 is, and only there");
+  CHECK(rejection([&] { Rod(1, round, spring_steel, RodSupport::sliding, RodSupport::free); }) ==
+        "supports = sliding, free: the rod is a mechanism, it slides along its axis; hold that at one end");
+  CHECK(rejection([&] {
+          wire().sections({{0.1, round}, {0.15, round}});
+        }) == "part end = 0.15 m: must be the rod's length for the last part");
+  CHECK(rejection([&] {
+          wire().sections({{0.1, round}, {0.1, round}});
+        }) == "part end = 0.1 m: must be beyond the part before it and on the rod");
+  CHECK(rejection([&] {
+          Rod(1, RodStiffness{1, 1, 1, 1}, 0.1, RodSupport::clamped, RodSupport::free).sections({{1, round}});
+        }) == "young = 0 Pa: must be known for sections: build the rod of a section and a material");
+  CHECK(rejection([&] {
+          Rod thin = wire();
+          FemModel<TwistedRod>(thin.section([](double s) { return RodSection::circle(0.001 - 0.01 * s); }),
+                               8);
+        }).find("section diameter = ") == 0);
+  CHECK(rejection([&] {
+          wire().add(RodFoundation{0.1, 0.3, 1, 1});
+        }) == "foundation to = 0.3 m: must be beyond where it begins and on the rod");
+  CHECK(rejection([&] {
+          wire().add(RodFoundation{0, 0.1, -1, 1});
+        }) == "foundation across = -1 N/m²: must be 0 or positive, and finite");
+}
+
 TEST_CASE("an element rejects the rods that it does not model", "[rod]") {
   Rod arc = wire(),
       flat(0.2, RodSection::rectangle(0.01, 0.001), spring_steel, RodSupport::clamped, RodSupport::free);

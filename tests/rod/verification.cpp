@@ -38,36 +38,42 @@ Errors errors(const std::string& name, int elements) {
   return worst;
 }
 
-/// Errors at n and 2n elements within bounds, and of an order between them.
+/// Errors at n and 2n elements within bounds, places of the pressed point within those of the force, and the order from there.
 template <class Element>
-void check(const std::string& name, int n, double at_n, double at_2n, double order, double place) {
+void check(const std::string& name, int n, double at_n, double at_2n, double place_2n, int from) {
   const Errors coarse = errors<Element>(name, n), fine = errors<Element>(name, 2 * n);
   INFO(name << ": " << coarse.force << ", " << fine.force << ", places " << coarse.place << ", "
             << fine.place);
   CHECK(coarse.force <= at_n);
   CHECK(fine.force <= at_2n);
-  CHECK(std::log2(coarse.force / fine.force) >= order);
-  CHECK(fine.place <= place);
+  CHECK(coarse.place <= std::max(at_n, place_2n));
+  CHECK(fine.place <= place_2n);
+  const double order =
+      std::log2(from == n ? coarse.force / fine.force
+                          : errors<Element>(name, from).force / errors<Element>(name, 2 * from).force);
+  INFO("order from " << from << ": " << order);
+  CHECK(order >= 3.8);
 }
 
 }  // namespace
 
 TEST_CASE("a wire that hangs one way and is pushed another", "[rod]") {
-  // The place of the first row is known to 1e-9 of 1e-3 m, and to the digits that collocation had.
-  check<RoundRod>("wire_under_load", 8, 1e-4, 1e-5, 3.4, 1e-5);
-  check<TwistedRod>("wire_under_load", 8, 3e-4, 3e-5, 3.4, 1e-5);
+  // The largest rows, whose rod bends by a radian in three elements, are in the asymptotic range from 16 elements on.
+  check<RoundRod>("wire_under_load", 8, 1e-4, 1e-5, 1e-5, 16);
+  check<TwistedRod>("wire_under_load", 8, 1e-4, 1e-5, 1e-5, 16);
 }
 TEST_CASE("a bar between hinges that hangs one way and is pushed another", "[rod]") {
-  check<RoundRod>("bar_two_ways", 16, 2.5e-3, 2e-4, 3.7, 1e-5);
-  check<TwistedRod>("bar_two_ways", 16, 2.5e-3, 2e-4, 3.7, 1e-5);
+  check<RoundRod>("bar_two_ways", 16, 2.5e-3, 2e-4, 1e-5, 32);
+  check<TwistedRod>("bar_two_ways", 16, 2.5e-3, 2e-4, 1e-5, 32);
 }
 TEST_CASE("a flat strip pushed askew bends and twists", "[rod]") {
-  check<TwistedRod>("strip_askew", 8, 1.5e-3, 1e-4, 3.8, 1e-5);
+  check<TwistedRod>("strip_askew", 8, 1.5e-3, 1e-4, 1e-5, 8);
 }
+// The reference's places are known to 2e-7 m, and the least depths are 0.5 and 1 mm.
 TEST_CASE("a hook pushed out of its plane twists", "[rod]") {
-  check<TwistedRod>("hook", 8, 2e-4, 1e-5, 3.8, 5e-4);
+  check<TwistedRod>("hook", 8, 2e-4, 1e-5, 5e-4, 8);
 }
-TEST_CASE("a spring compressed", "[rod]") { check<TwistedRod>("spring", 8, 2.5e-3, 2e-4, 3.8, 1e-3); }
+TEST_CASE("a spring compressed", "[rod]") { check<TwistedRod>("spring", 8, 2.5e-3, 2e-4, 1e-3, 8); }
 
 // Bathe and Bolourchi, Large displacement analysis of three-dimensional beam structures, Int. J. Numer. Meth. Eng. 14 (1979): an
 // arc of 45° under a force across its plane.  Tips by collocation of the same rod.

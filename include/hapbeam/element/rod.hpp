@@ -45,16 +45,16 @@ struct RoundRod {
     const V3<S> chord = n2.r - n1.r;
     S sum = 0, axial = 0;
     for (int g = 0; g < points; ++g) {
-      const detail::CubicWeights<S> w(S(Points::x[g]), p.inverse_length);
+      const detail::CubicWeights<S> w(S(rule.x[g]), p.inverse_length);
       const V3<S> a = w.a * chord + w.a1 * n1.tangent + w.a2 * n2.tangent,
                   b = w.b * chord + w.b1 * n1.tangent + w.b2 * n2.tangent;
       const S A = 1 / a.squaredNorm(), C = a.dot(b) * A;
-      sum += S(Points::weight[g]) * p.points[g].bending1 * (b.squaredNorm() * A - C * C);
+      sum += S(rule.weight[g]) * p.points[g].bending1 * (b.squaredNorm() * A - C * C);
     }
     const S e[3] = {sqrt(n1.tangent.squaredNorm()) - 1, sqrt(middle(p, chord, n1, n2).squaredNorm()) - 1,
                     sqrt(n2.tangent.squaredNorm()) - 1};
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) axial += detail::quadratic_mass<S>[i][j] * e[i] * e[j];
+      for (int j = 0; j < 3; ++j) axial += S(detail::quadratic_mass[i][j]) * e[i] * e[j];
     return p.length * (sum + p.axial * axial) / 2;
   }
 
@@ -74,7 +74,7 @@ struct RoundRod {
 
  private:
   static constexpr int points = 3;
-  using Points = detail::Gauss<points>;
+  static constexpr const detail::GaussRule& rule = detail::three_points;
   template <typename S>
   using V3 = VectorOf<S, 3>;
   template <typename S>
@@ -99,10 +99,10 @@ struct RoundRod {
   [[gnu::always_inline]] static void bend(const RodProperties<S>& p, int g, const V3<S>& chord,
                                           const V3<S>& t1, const V3<S>& t2, Core<S>& core,
                                           S& energy) noexcept {
-    const detail::CubicWeights<S> w(S(Points::x[g]), p.inverse_length);
+    const detail::CubicWeights<S> w(S(rule.x[g]), p.inverse_length);
     const V3<S> a = w.a * chord + w.a1 * t1 + w.a2 * t2, b = w.b * chord + w.b1 * t1 + w.b2 * t2;
     const S i = 1 / a.squaredNorm(), B = b.squaredNorm() * i, c = a.dot(b) * i, cc = c * c;
-    const S k = S(Points::weight[g]) * p.points[g].bending1 * p.length / 2;
+    const S k = S(rule.weight[g]) * p.points[g].bending1 * p.length / 2;
     energy += k * (B - cc);
     // f = B/A - C²/A²:  by A, B, C once and twice
     const S ki = k * i, fA = ki * (2 * cc - B), fB = ki, fC = -2 * ki * c, fAA = ki * i * (2 * B - 6 * cc),
@@ -143,8 +143,8 @@ struct RoundRod {
     const S e[3] = {n[0] - 1, n[1] - 1, n[2] - 1}, EA = p.axial * p.length;
     S N[3];
     for (int i = 0; i < 3; ++i) {
-      const auto& M = detail::quadratic_mass<S>[i];
-      N[i] = EA * (M[0] * e[0] + M[1] * e[1] + M[2] * e[2]);
+      const auto& M = detail::quadratic_mass[i];
+      N[i] = EA * (S(M[0]) * e[0] + S(M[1]) * e[1] + S(M[2]) * e[2]);
       energy += N[i] * e[i] / 2;
     }
     const V3<S> u = t1 / n[0], m = a / n[1], v = t2 / n[2];
@@ -152,10 +152,10 @@ struct RoundRod {
     core.D += w * N[1] * m;
     core.t1 += q * N[1] * m + N[0] * u;
     core.t2 += q * N[1] * m + N[2] * v;
-    const auto& M = detail::quadratic_mass<S>;
-    const S own = EA * M[0][0], beside = EA * M[0][1], across = EA * M[0][2];
+    const auto& M = detail::quadratic_mass;
+    const S own = EA * S(M[0][0]), beside = EA * S(M[0][1]), across = EA * S(M[0][2]);
     const S s0 = N[0] / n[0], s1 = N[1] / n[1], s2 = N[2] / n[2];
-    const V3<S> mm = (EA * M[1][1] - s1) * m, um = beside * u, vm = beside * v;
+    const V3<S> mm = (EA * S(M[1][1]) - s1) * m, um = beside * u, vm = beside * v;
     // The middle's own part, s1 I + mm mᵀ, by weights; and what the three strains have in common.
     const V3<S> Du = w * um, Dv = w * vm, left = (own - s0) * u, right = (own - s2) * v;
     HAPBEAM_UNROLL

@@ -9,12 +9,13 @@
 
 namespace hapbeam {
 
-/// What an element of a rod is made of.  Stiffnesses and natural strains stand at its Gauss points, two or three.
+/// What an element of a rod is made of.  Stiffnesses and natural strains stand at its Gauss points.
 template <typename Scalar>
 struct RodProperties {
   Scalar length = 0;          ///< l [m]
   Scalar inverse_length = 0;  ///< [1/m]
   Scalar axial = 0;           ///< EA [N]
+  int number = 3;             ///< of Gauss points: 2 | 3
   struct Point {
     Scalar bending1 = 0;            ///< EI against curvature about d1 [N·m²]
     Scalar bending2 = 0;            ///< EI against curvature about d2 [N·m²]
@@ -27,17 +28,13 @@ struct RodProperties {
 namespace detail {
 
 /// Gauss points of an element, ξ, and their weights.
-template <int Points>
-struct Gauss;
-template <>
-struct Gauss<2> {
-  static constexpr double x[2] = {0.21132486540518711775, 0.78867513459481288225}, weight[2] = {0.5, 0.5};
+struct GaussRule {
+  double x[3], weight[3];
 };
-template <>
-struct Gauss<3> {
-  static constexpr double x[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852},
-                          weight[3] = {5. / 18, 8. / 18, 5. / 18};
-};
+inline constexpr GaussRule two_points{{0.21132486540518711775, 0.78867513459481288225, 0}, {0.5, 0.5, 0}},
+    three_points{{0.11270166537925831148, 0.5, 0.88729833462074168852}, {5. / 18, 8. / 18, 5. / 18}};
+/// @param number  2 | 3
+constexpr const GaussRule& gauss_rule(int number) noexcept { return number == 2 ? two_points : three_points; }
 
 /// r' and r'' at ξ as combinations of Δ = r2 - r1, r1' and r2'.
 template <typename S>
@@ -55,10 +52,8 @@ struct CubicWeights {
 };
 
 /// Mass matrix of the quadratic through ξ = 0, ½, 1.
-template <typename S>
-inline constexpr S quadratic_mass[3][3] = {{S(4. / 30), S(2. / 30), S(-1. / 30)},
-                                           {S(2. / 30), S(16. / 30), S(2. / 30)},
-                                           {S(-1. / 30), S(2. / 30), S(4. / 30)}};
+inline constexpr double quadratic_mass[3][3] = {
+    {4. / 30, 2. / 30, -1. / 30}, {2. / 30, 16. / 30, 2. / 30}, {-1. / 30, 2. / 30, 4. / 30}};
 
 }  // namespace detail
 

@@ -9,7 +9,10 @@
 // away: without it torsion is of second order.  φ1 and φ2 turn the directors of the nodes; they are zero in each state and
 // the unknowns of its increment.  While a tangent moves, its director is carried along by the smallest rotation.
 //
-//   V = ½ l εᵀ EA M ε + ½ l Σ w (EI1 (κ1 - κ1°)² + EI2 (κ2 - κ2°)² + GJ (τ - τ°)²)        sum over two Gauss points
+//   V = ½ l εᵀ EA M ε + ½ l Σ w (EI1 (κ1 - κ1°)² + EI2 (κ2 - κ2°)² + GJ (τ - τ°)²)        sum over Gauss points
+//
+// Three points for round rods that are straight by nature, two for all others (rod_elements.hpp): three resolve large bends, and
+// lock where bending and twist are coupled.
 //
 // ε = |r'| - 1 - ε° at ξ = 0, ½, 1, interpolated (M): integrated fully it locks, and its mean leaves a mechanism.  κ° is of
 // the natural shape, interpolated the same way, so that this shape has no energy.
@@ -28,7 +31,9 @@
 
 #include <cmath>
 
+#include <hapbeam/element/carried_frame.hpp>
 #include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/element/twisted_core.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
@@ -64,22 +69,23 @@ struct TwistedRod {
     const Frame<S> f(p, n1, n2);
     S sum = 0;
     const S m = f.mismatch;
-    for (int g = 0; g < 2; ++g) {
+    const detail::GaussRule& rule = detail::gauss_rule(p.number);
+    for (int g = 0; g < p.number; ++g) {
       const auto& at = p.points[g];
-      const S x = S(Points::x[g]);
+      const S x = S(rule.x[g]);
       const Point<S> point(detail::CubicWeights<S>(x, p.inverse_length), f);
       S k[3];
       point.strains(m * x + 4 * inner.twist * x * (1 - x),
                     (m + 4 * inner.twist * (1 - 2 * x)) * p.inverse_length, k);
       const S e1 = k[0] - at.natural[0], e2 = k[1] - at.natural[1], e3 = k[2] - at.natural[2];
-      sum += at.bending1 * e1 * e1 + at.bending2 * e2 * e2 + at.torsion * e3 * e3;
+      sum += S(rule.weight[g]) * (at.bending1 * e1 * e1 + at.bending2 * e2 * e2 + at.torsion * e3 * e3);
     }
     S e[3];
     f.stretches(p, e);
     S axial = 0;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) axial += detail::quadratic_mass<S>[i][j] * e[i] * e[j];
-    return p.length * (sum / 4 + p.axial * axial / 2);
+      for (int j = 0; j < 3; ++j) axial += S(detail::quadratic_mass[i][j]) * e[i] * e[j];
+    return p.length * (sum + p.axial * axial) / 2;
   }
 
   /// The director at ξ.   @param twist  ψ
@@ -100,14 +106,15 @@ struct TwistedRod {
     return detail::angle_about(v, half, detail::across(middle, v));
   }
 
-  /// Curvatures and twist at both Gauss points and |r'| - 1 at ξ = 0, ½, 1 of a shape: what is natural in it.
+  /// Curvatures and twist at the Gauss points and |r'| - 1 at ξ = 0, ½, 1 of a shape: what is natural in it.
   template <typename S>
   static void take_natural(const RodNode<S>& n1, const RodNode<S>& n2, S twist,
                            RodProperties<S>& p) noexcept {
     for (S& e : p.natural_strain) e = 0;
     const Frame<S> f(p, n1, n2);
-    for (int g = 0; g < 2; ++g) {
-      const S x = S(Points::x[g]);
+    const detail::GaussRule& rule = detail::gauss_rule(p.number);
+    for (int g = 0; g < p.number; ++g) {
+      const S x = S(rule.x[g]);
       const Point<S> point(detail::CubicWeights<S>(x, p.inverse_length), f);
       point.strains(f.mismatch * x + 4 * twist * x * (1 - x),
                     (f.mismatch + 4 * twist * (1 - 2 * x)) * p.inverse_length, p.points[g].natural);
@@ -125,100 +132,20 @@ struct TwistedRod {
     const Frame<S> f(p, n1, n2);
     Core<S> core;
     const S energy = respond(p, f, inner.twist, core);
-    expand(f, core, inner, r, K);
+    detail::expand(f, core, inner, r, K);
     return energy;
   }
 
  private:
-  using Points = detail::Gauss<2>;
   template <typename S>
   using V3 = VectorOf<S, 3>;
 
-  /// The element seen in the axes of node 1.
   template <typename S>
-  struct Frame {
-    V3<S> e1, e2, u;     // the axes
-    V3<S> chord, t2, v;  // Δ, r2', its direction
-    S l1, l2;            // |r1'|, |r2'|
-    S mismatch;          // m
-
-    Frame(const RodProperties<S>&, const RodNode<S>& a, const RodNode<S>& b) noexcept {
-      using std::atan2;
-      using std::sqrt;
-      l1 = sqrt(a.tangent.squaredNorm());
-      u = a.tangent / l1;
-      e1 = a.director;
-      e2 = detail::cross3(u, e1);
-      chord = in(V3<S>(b.r - a.r));
-      t2 = in(b.tangent);
-      l2 = sqrt(t2.squaredNorm());
-      v = t2 / l2;
-      const V3<S> d = in(b.director);
-      const S share = d[2] / (1 + v[2]);
-      mismatch = atan2(d[1] - v[1] * share, d[0] - v[0] * share);
-    }
-    V3<S> in(const V3<S>& x) const noexcept { return {e1.dot(x), e2.dot(x), u.dot(x)}; }
-    V3<S> out(S x, S y, S z) const noexcept { return x * e1 + y * e2 + z * u; }
-    /// r' or r'' of these weights.
-    V3<S> combine(S w, S w1, S w2) const noexcept {
-      V3<S> a = w * chord + w2 * t2;
-      a[2] += w1 * l1;
-      return a;
-    }
-    /// r' at ξ, in space.
-    V3<S> tangent(const RodProperties<S>& p, S x) const noexcept {
-      const detail::CubicWeights<S> w(x, p.inverse_length);
-      const V3<S> a = combine(w.a, w.a1, w.a2);
-      return out(a[0], a[1], a[2]);
-    }
-    V3<S> middle(const RodProperties<S>& p) const noexcept {
-      return combine(S(1.5) * p.inverse_length, S(-0.25), S(-0.25));
-    }
-    void stretches(const RodProperties<S>& p, S (&e)[3]) const noexcept {
-      using std::sqrt;
-      e[0] = l1 - 1 - p.natural_strain[0];
-      e[1] = sqrt(middle(p).squaredNorm()) - 1 - p.natural_strain[1];
-      e[2] = l2 - 1 - p.natural_strain[2];
-    }
-  };
-
-  /// Curvatures of the carried frame at a point.
+  using Frame = detail::CarriedFrame<S>;
   template <typename S>
-  struct Point {
-    detail::CubicWeights<S> weights;
-    V3<S> a, b, v;
-    S n, i, h, w, C;  // i = 1/n, h = 1/D, w = s + v·b, C = xq - yp
-    S K1, K2, c;
-
-    Point(const detail::CubicWeights<S>& ws, const Frame<S>& f) noexcept
-        : weights(ws), a(f.combine(ws.a, ws.a1, ws.a2)), b(f.combine(ws.b, ws.b1, ws.b2)) {
-      using std::sqrt;
-      n = sqrt(a.squaredNorm());
-      i = 1 / n;
-      v = a * i;
-      h = 1 / (n * (n + a[2]));
-      w = b[2] + v.dot(b);
-      C = a[0] * b[1] - a[1] * b[0];
-      K1 = -b[1] * i + a[1] * w * h;
-      K2 = b[0] * i - a[0] * w * h;
-      c = C * h;
-    }
-    void strains(S theta, S rate, S (&k)[3]) const noexcept {
-      using std::cos;
-      using std::sin;
-      const S co = cos(theta), si = sin(theta);
-      k[0] = co * K1 + si * K2;
-      k[1] = co * K2 - si * K1;
-      k[2] = rate - c;
-    }
-  };
-
-  /// Gradient and Hessian in (Δ, |r1'|, r2', φ1, φ2 + m, ψ), node 1's axes.
+  using Point = detail::CarriedPoint<S>;
   template <typename S>
-  struct Core {
-    S g[10];
-    S H[10][10];  // lower triangle
-  };
+  using Core = detail::TwistedCore<S>;
 
   template <typename S>
   static S respond(const RodProperties<S>& p, const Frame<S>& f, S psi, Core<S>& core) noexcept {
@@ -230,7 +157,7 @@ struct TwistedRod {
       for (int j = 0; j <= i; ++j) core.H[i][j] = 0;
     }
     S energy = 0;
-    for (int point = 0; point < 2; ++point) add_point(p, f, psi, point, core, energy);
+    for (int point = 0; point < p.number; ++point) add_point(p, f, psi, point, core, energy);
     add_stretch(p, f, core, energy);
     return energy;
   }
@@ -241,7 +168,8 @@ struct TwistedRod {
     using std::cos;
     using std::sin;
     const auto& at = p.points[point];
-    const S x = S(Points::x[point]), weight = p.length / 2, m = f.mismatch;
+    const detail::GaussRule& rule = detail::gauss_rule(p.number);
+    const S x = S(rule.x[point]), weight = S(rule.weight[point]) * p.length, m = f.mismatch;
     const Point<S> q(detail::CubicWeights<S>(x, p.inverse_length), f);
     const auto& w = q.weights;
     // θ and θ' by φ1, φ2 + m, ψ
@@ -358,16 +286,16 @@ struct TwistedRod {
     e[1] = n - 1 - p.natural_strain[1];
     e[2] = f.l2 - 1 - p.natural_strain[2];
     for (int r = 0; r < 3; ++r) {
-      const auto& M = detail::quadratic_mass<S>[r];
-      N[r] = EA * (M[0] * e[0] + M[1] * e[1] + M[2] * e[2]);
+      const auto& M = detail::quadratic_mass[r];
+      N[r] = EA * (S(M[0]) * e[0] + S(M[1]) * e[1] + S(M[2]) * e[2]);
       energy += N[r] * e[r] / 2;
     }
     const V3<S> v = a * i;
     const S w = S(1.5) * p.inverse_length, w1 = S(-0.25);
     // By (Δ, |r1'|, r2'): ε at the middle and at node 2.
     const S R[7] = {w * v[0], w * v[1], w * v[2], w1 * v[2], w1 * v[0], w1 * v[1], w1 * v[2]};
-    const S m0 = EA * detail::quadratic_mass<S>[0][0], m1 = EA * detail::quadratic_mass<S>[1][1],
-            c01 = EA * detail::quadratic_mass<S>[0][1], c02 = EA * detail::quadratic_mass<S>[0][2];
+    const S m0 = EA * S(detail::quadratic_mass[0][0]), m1 = EA * S(detail::quadratic_mass[1][1]),
+            c01 = EA * S(detail::quadratic_mass[0][1]), c02 = EA * S(detail::quadratic_mass[0][2]);
     for (int r = 0; r < 7; ++r) core.g[r] += N[1] * R[r];
     core.g[3] += N[0];
     for (int k = 0; k < 3; ++k) core.g[4 + k] += N[2] * f.v[k];
@@ -397,117 +325,6 @@ struct TwistedRod {
         core.H[4 + r][4 + c] += c01 * (f.v[r] * R[4 + c] + R[4 + r] * f.v[c]) + vv * f.v[r] * f.v[c];
       core.H[4 + r][4 + r] += straight;
     }
-  }
-
-  /// From the core to the unknowns of both nodes, ψ condensed away.
-  template <typename S>
-  static void expand(const Frame<S>& f, Core<S>& core, Inner<S>& inner, Vector14<S>& r,
-                     Matrix14<S>& K) noexcept {
-    // ψ first: H - hhᵀ/k, full.
-    const S* const g = core.g;
-    const S k_psi = core.H[9][9], share = 1 / k_psi;
-    S H[9][9], condensed[9];
-    HAPBEAM_UNROLL
-    for (int i = 0; i < 9; ++i) {
-      const S part = core.H[9][i] * share;
-      condensed[i] = g[i] - part * g[9];
-      HAPBEAM_UNROLL
-      for (int j = 0; j <= i; ++j) H[i][j] = H[j][i] = core.H[i][j] - part * core.H[9][j];
-    }
-    inner.residual = g[9];
-    inner.stiffness = k_psi;
-    // Then the turn, to Δ 0-2, r1' 3-5, r2' 6-8, φ1 9, φ2 10: r1' turns the axes, by ω = ẑ × r1'/λ.
-    const S i1 = 1 / f.l1, i2 = 1 / f.l2, sigma = 1 + f.v[2], is = 1 / sigma;
-    const V3<S>&D = f.chord, &t = f.t2, &v = f.v;
-    const S kx = -v[1] * is, ky = v[0] * is;
-    const auto by_turn = [&](const S* x, S* y) {
-      y[0] = x[0], y[1] = x[1], y[2] = x[2];
-      y[3] = i1 * (D[0] * x[2] - D[2] * x[0] + t[0] * x[6] - t[2] * x[4] + kx * x[8]);
-      y[4] = i1 * (D[1] * x[2] - D[2] * x[1] + t[1] * x[6] - t[2] * x[5] + ky * x[8]);
-      y[5] = x[3];
-      y[6] = x[4] + i2 * kx * x[8], y[7] = x[5] + i2 * ky * x[8], y[8] = x[6];
-      y[9] = x[7], y[10] = x[8];
-    };
-    S A[9][11], At[11][9], B[11][11], G[11], row[11];
-    by_turn(condensed, G);
-    by_turn(core.H[9], row);
-    HAPBEAM_UNROLL
-    for (int i = 0; i < 9; ++i) by_turn(H[i], A[i]);
-    HAPBEAM_UNROLL
-    for (int i = 0; i < 9; ++i) {
-      HAPBEAM_UNROLL
-      for (int j = 0; j < 11; ++j) At[j][i] = A[i][j];
-    }
-    HAPBEAM_UNROLL
-    for (int j = 0; j < 11; ++j) by_turn(At[j], B[j]);
-    const V3<S> gD(g[0], g[1], g[2]), g2(g[4], g[5], g[6]);
-    const S gl = g[3], gp = g[8];
-    // Second derivatives of the turn.
-    const auto add = [&B](int i, int j, S value) {
-      B[i][j] += value;
-      if (i != j) B[j][i] += value;
-    };
-    for (int k = 0; k < 2; ++k) {
-      add(k, 3 + k, i1 * gD[2]), add(2, 3 + k, -i1 * gD[k]);
-      add(6 + k, 3 + k, i1 * g2[2]), add(8, 3 + k, -i1 * g2[k]);
-    }
-    const S ii = i1 * i1, work = D.dot(gD) + t.dot(g2);
-    const V3<S> N = detail::cross3(D, gD) + detail::cross3(t, g2);
-    add(3, 3, ii * (D[1] * gD[1] + t[1] * g2[1] - work) + i1 * gl);
-    add(4, 4, ii * (D[0] * gD[0] + t[0] * g2[0] - work) + i1 * gl);
-    add(4, 3, -ii * (D[1] * gD[0] + D[0] * gD[1] + t[1] * g2[0] + t[0] * g2[1]) / 2);
-    add(5, 3, ii * N[1]), add(5, 4, -ii * N[0]);
-    // Those of m.
-    const S k[3] = {kx, ky, 0}, q1[3] = {v[0] * is, v[1] * is, 2},
-            q2[3] = {v[0] * is + v[0], v[1] * is + v[1], 1 + v[2]};
-    const S half1 = -gp * ii / 2, half2 = -gp * i2 * i2 / 2, cross = gp * is * i1 * i2 / 2;
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b <= a; ++b) {
-        add(3 + a, 3 + b, half1 * (k[a] * q1[b] + k[b] * q1[a]));
-        add(6 + a, 6 + b, half2 * (k[a] * q2[b] + k[b] * q2[a]));
-      }
-    const S z = v[2], p1[3] = {v[0], v[1], 0}, p2[3] = {-z * v[0], -z * v[1], 1 - z * z};
-    const S turn[3][3] = {{0, -(1 + z), v[1]}, {1 + z, 0, -v[0]}, {-v[1], v[0], 0}};  // (u + v) ×
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) {
-        S value = turn[a][b] - sigma * k[a] * v[b] - k[a] * p2[b] - p1[a] * k[b];
-        if (a == 2) value -= sigma * k[b];
-        add(3 + a, 6 + b, cross * value);
-      }
-    // To the axes of space.
-    Eigen::Matrix<S, 3, 3> F;
-    F.col(0) = f.e1, F.col(1) = f.e2, F.col(2) = f.u;
-    const auto vector = [&F](const S* x) -> V3<S> { return F * V3<S>(x[0], x[1], x[2]); };
-    const auto block = [&](int i, int j) -> Eigen::Matrix<S, 3, 3> {
-      Eigen::Matrix<S, 3, 3> m;
-      for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b) m(a, b) = B[i + a][j + b];
-      return F * m * F.transpose();
-    };
-    const V3<S> rD = vector(G), r1 = vector(G + 3), r2 = vector(G + 6);
-    r.template segment<3>(0) = -rD, r.template segment<3>(3) = r1, r[6] = G[9];
-    r.template segment<3>(7) = rD, r.template segment<3>(10) = r2, r[13] = G[10];
-    const Eigen::Matrix<S, 3, 3> DD = block(0, 0), D1 = block(0, 3), D2 = block(0, 6), b11 = block(3, 3),
-                                 b12 = block(3, 6), b22 = block(6, 6);
-    const V3<S> Dp = vector(B[9]), Dq = vector(B[10]), p1v = vector(B[9] + 3), q1v = vector(B[10] + 3),
-                p2v = vector(B[9] + 6), q2v = vector(B[10] + 6);
-    const auto set = [&K](int i, int j, const Eigen::Matrix<S, 3, 3>& m) {
-      K.template block<3, 3>(i, j) = m;
-      if (i != j) K.template block<3, 3>(j, i) = m.transpose();
-    };
-    set(0, 0, DD), set(0, 7, -DD), set(7, 7, DD);
-    set(0, 3, -D1), set(7, 3, D1), set(0, 10, -D2), set(7, 10, D2);
-    set(3, 3, b11), set(3, 10, b12), set(10, 10, b22);
-    const auto beside = [&K](int i, int j, const V3<S>& x) {
-      K.template block<3, 1>(i, j) = x;
-      K.template block<1, 3>(j, i) = x.transpose();
-    };
-    beside(0, 6, -Dp), beside(7, 6, Dp), beside(0, 13, -Dq), beside(7, 13, Dq);
-    beside(3, 6, p1v), beside(3, 13, q1v), beside(10, 6, p2v), beside(10, 13, q2v);
-    K(6, 6) = B[9][9], K(6, 13) = K(13, 6) = B[10][9], K(13, 13) = B[10][10];
-    const V3<S> iD = vector(row), i1v = vector(row + 3), i2v = vector(row + 6);
-    inner.row.template segment<3>(0) = -iD, inner.row.template segment<3>(3) = i1v, inner.row[6] = row[9];
-    inner.row.template segment<3>(7) = iD, inner.row.template segment<3>(10) = i2v, inner.row[13] = row[10];
   }
 };
 

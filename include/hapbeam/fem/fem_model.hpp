@@ -192,6 +192,7 @@ class FemModel {
   /// @param nearest  request in range   @param valid  whether the request was one   @param in_range  whether it was the nearest
   Response<Scalar> solve(const Push<Scalar, dimension>& nearest, bool valid, bool in_range) noexcept;
   /// Along a wall, which takes what does not act along it.
+  template <int D = dimension, std::enable_if_t<D == 2, int> = 0>
   Response<Scalar> push_wall(const Push<Scalar>& request, Scalar s, Scalar node, bool valid) noexcept {
     const Scalar u = shape()[node == 0 ? 0 : elements()].u;
     const Scalar n_w = std::copysign(std::max(Scalar(0.5), std::abs(request.normal.y())), request.normal.y());

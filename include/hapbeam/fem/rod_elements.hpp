@@ -7,14 +7,18 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 #include <vector>
 
+#include <hapbeam/element/pack.hpp>
 #include <hapbeam/element/rod_properties.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
 #include <hapbeam/fem/natural_rod.hpp>
+#include <hapbeam/fem/rod_bed.hpp>
+#include <hapbeam/fem/rod_profile.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 
 namespace hapbeam {
@@ -31,18 +35,20 @@ class RodElements {
   using Residual = Eigen::Matrix<Scalar, 2 * unknowns, 1>;
   using Tangent = Eigen::Matrix<Scalar, 2 * unknowns, 2 * unknowns>;
 
-  /// In its natural shape.  @throws std::invalid_argument where a load is not finite somewhere on the rod, or elements does
-  /// not fit the type, or the element does not model such a rod
+  /// In its natural shape.  @throws std::invalid_argument where a load or a section makes no sense somewhere on the rod, or
+  /// elements does not fit the type, or the element does not model such a rod
   RodElements(const Rod& rod, int elements)
       : nodes_(elements),
         inners_(elements),
         properties_(elements),
+        wide_(elements),
         forces_(elements),
         natural_(rod),
         mesh_(elements, static_cast<Scalar>(rod.length())),
-        stiffness_(rod.stiffness()) {
+        profile_(rod),
+        bed_(rod, elements) {
     if constexpr (!has_twist)
-      if (!rod.arcs().empty() || stiffness_.bending1 != stiffness_.bending2)
+      if (!rod.arcs().empty() || !profile_.round())
         throw std::invalid_argument(
             "rod: RoundRod takes rods that are straight by nature, with one bending stiffness for all "
             "directions; take "
@@ -51,6 +57,8 @@ class RodElements {
       if (!holds_twist(rod.left()) && !holds_twist(rod.right()))
         throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
                                     ": TwistedRod turns about its axis, hold its twist at one end");
+    const bool two = has_twist && !(natural_.straight() && profile_.round() && profile_.smooth());
+    for (int e = 0; e < elements; ++e) properties_[e].number = two ? 2 : 3;
     collect_loads(rod, elements);
     for (int i = 0; i <= elements; ++i) nodes_[i] = natural_.at(mesh_.position(i));
     take(mesh_);
@@ -108,34 +116,111 @@ class RodElements {
     Scalar work;    ///< of λ times the loads on it [J]
   };
 
-  /// Residual and tangent of V - λW in element e; its inner twist's derivatives with them.
-  [[gnu::always_inline]] Energies tangent(int e, Scalar lambda, Residual& r, Tangent& K) noexcept {
-    const Node &a = nodes_[e], &b = nodes_[e + 1];
-    const Scalar energy = Element::tangent(properties_[e], a, b, inners_[e], r, K);
-    if (!loaded()) return {energy, 0};
-    subtract_loads(e, lambda, r);
-    const Force& f = forces_[e];
-    return {energy, lambda * (f.template segment<3>(0).dot(a.r) + f.template segment<3>(3).dot(a.tangent) +
-                              f.template segment<3>(6).dot(b.r) + f.template segment<3>(9).dot(b.tangent))};
+  /// Residual and tangent of V - λW in each element, and the derivatives of its inner twist.  Elements are computed a few at a time,
+  /// side by side.   @param visit  called with (e, Energies, Residual&, Tangent&), in order
+  template <class Visit>
+  [[gnu::always_inline]] void visit_tangents(Scalar lambda, Visit&& visit) noexcept {
+    Residual r;
+    Tangent K;
+    for (int first = 0; first < size(); first += lanes) {
+      Group group;
+      compute(first, group);
+      for (int e = first; e < first + lanes && e < size(); ++e) {
+        group.get(e - first, r, K);
+        if constexpr (has_twist) group.get(e - first, inners_[e]);
+        const Scalar energy = group.energy[e - first];
+        visit(e, with_bed_and_loads(e, energy, lambda, r, K), r, K);
+      }
+    }
   }
-  /// The residual alone.
+  /// The residual alone of one element.
   void residual(int e, Scalar lambda, Residual& r) const noexcept {
     Tangent K;
-    Inner inner = inners_[e];
-    Element::tangent(properties_[e], nodes_[e], nodes_[e + 1], inner, r, K);
-    if (loaded()) subtract_loads(e, lambda, r);
+    Group group;
+    const int first = e - e % lanes;
+    compute(first, group);
+    group.get(e - first, r, K);
+    (void)with_bed_and_loads(e, group.energy[e - first], lambda, r, K);
   }
   /// [J]
   Scalar strain_energy() const noexcept {
     Scalar energy = 0;
-    for (int e = 0; e < size(); ++e)
+    for (int e = 0; e < size(); ++e) {
       energy += Element::energy(properties_[e], nodes_[e], nodes_[e + 1], inners_[e]);
+      if (!bed_.empty()) energy += bed_.energy(e, nodes_[e], nodes_[e + 1]);
+    }
     return energy;
   }
 
  private:
   static constexpr bool has_twist = unknowns == 7;
   using Force = VectorOf<Scalar, 12>;  // on r1, r1', r2, r2'
+
+  using Wide = detail::Pack<Scalar>;
+  static constexpr int lanes = Wide::size;
+
+  /// Elements side by side.
+  struct Group {
+    Eigen::Matrix<Wide, 2 * unknowns, 1> r;
+    Eigen::Matrix<Wide, 2 * unknowns, 2 * unknowns> K;
+    typename Element::template Inner<Wide> inner;
+    Wide energy;
+
+    [[gnu::always_inline]] void get(int lane, Residual& to, Tangent& tangent) const noexcept {
+      for (int i = 0; i < 2 * unknowns; ++i) to[i] = r[i][lane];
+      for (int j = 0; j < 2 * unknowns; ++j)
+        for (int i = 0; i < 2 * unknowns; ++i) tangent(i, j) = K(i, j)[lane];
+    }
+    [[gnu::always_inline]] void get(int lane, Inner& to) const noexcept {
+      to.residual = inner.residual[lane];
+      to.stiffness = inner.stiffness[lane];
+      for (int i = 0; i < 2 * unknowns; ++i) to.row[i] = inner.row[i][lane];
+    }
+  };
+  /// @param first  of the elements; beyond the last one that one stands again
+  void compute(int first, Group& group) const noexcept {
+    int of[lanes];
+    for (int k = 0; k < lanes; ++k) of[k] = std::min(first + k, size() - 1);
+    const auto gather = [&](int beyond) {
+      const auto vector = [&](auto member) {
+        const auto entry = [&](int i) {
+          return Wide::of([&](int k) { return (nodes_[of[k] + beyond].*member)[i]; });
+        };
+        return VectorOf<Wide, 3>(entry(0), entry(1), entry(2));
+      };
+      return RodNode<Wide>{Wide(0), vector(&Node::r), vector(&Node::tangent), vector(&Node::director)};
+    };
+    if constexpr (has_twist) group.inner.twist = Wide::of([&](int k) { return inners_[of[k]].twist; });
+    const RodNode<Wide> a = gather(0), b = gather(1);
+    group.energy = Element::tangent(wide_[first / lanes], a, b, group.inner, group.r, group.K);
+  }
+  Energies with_bed_and_loads(int e, Scalar energy, Scalar lambda, Residual& r, Tangent& K) const noexcept {
+    const Node &a = nodes_[e], &b = nodes_[e + 1];
+    if (!bed_.empty()) energy += bed_.template add<unknowns>(e, a, b, r, K);
+    if (!loaded()) return {energy, 0};
+    subtract_loads(e, lambda, r);
+    const Force& f = forces_[e];
+    return {energy, lambda * (f.template segment<3>(0).dot(a.r) + f.template segment<3>(3).dot(a.tangent) +
+                              f.template segment<3>(6).dot(b.r) + f.template segment<3>(9).dot(b.tangent))};
+  }
+  /// Lays an element's properties beside those of its neighbours.
+  void widen(int e) noexcept {
+    const RodProperties<Scalar>& from = properties_[e];
+    RodProperties<Wide>& to = wide_[e / lanes];
+    to.number = from.number;
+    for (int k = e % lanes; k < lanes; ++k) {
+      const auto set = [k](Wide& wide, Scalar value) { wide.set(k, value); };
+      set(to.length, from.length), set(to.inverse_length, from.inverse_length), set(to.axial, from.axial);
+      for (int i = 0; i < 3; ++i) {
+        auto& point = to.points[i];
+        set(point.bending1, from.points[i].bending1), set(point.bending2, from.points[i].bending2);
+        set(point.torsion, from.points[i].torsion);
+        for (int j = 0; j < 3; ++j) set(point.natural[j], from.points[i].natural[j]);
+        set(to.natural_strain[i], from.natural_strain[i]);
+      }
+      if (e + 1 < size()) break;  // the last one fills its group
+    }
+  }
 
   /// A force at a point, and what works on the tangent there.
   struct PointLoad {
@@ -163,13 +248,13 @@ class RodElements {
       loads_.push_back(
           {static_cast<Scalar>(s), force.template cast<Scalar>(), couple.template cast<Scalar>()});
     };
-    if (rod.load()) {
+    if (const RodLoad distributed = rod.load()) {
       std::vector<std::array<Vector3, 2>> on(static_cast<std::size_t>(elements) + 1,
                                              {Vector3(0, 0, 0), Vector3(0, 0, 0)});
       for (int e = 0; e < elements; ++e)
         for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
           const double t = detail::gauss_points[k], u = 1 - t, weight = h * detail::gauss_weights[k];
-          Vector3 f = rod.load()((e + t) * h);
+          Vector3 f = distributed((e + t) * h);
           for (int c = 0; c < 3; ++c) detail::finite("load", f[c], "N/m");
           f *= weight;
           auto &a = on[static_cast<std::size_t>(e)], &b = on[static_cast<std::size_t>(e) + 1];
@@ -194,18 +279,16 @@ class RodElements {
     for (int e = 0; e < size(); ++e) {
       const Scalar length = nodes_[e + 1].s - nodes_[e].s;
       RodProperties<Scalar>& p = properties_[e];
-      const bool same = p.length == length && p.axial != 0;
+      // The same length is the same element where all elements are the same.
+      const bool same = wide_[e / lanes].length[e % lanes] == length && profile_.constant();
       if (!same) {
         set_length(e, length);
-        p.axial = static_cast<Scalar>(stiffness_.axial);
-        for (auto& point : p.points) {
-          point.bending1 = static_cast<Scalar>(stiffness_.bending1);
-          point.bending2 = static_cast<Scalar>(stiffness_.bending2);
-          point.torsion = static_cast<Scalar>(stiffness_.torsion);
-        }
+        profile_.apply(nodes_[e].s, nodes_[e + 1].s, p);
       }
+      if (!bed_.empty()) bed_.take(e, nodes_[e].s, nodes_[e + 1].s, natural_);
       if constexpr (has_twist)
         if (!natural_.straight()) take_natural(e);
+      if (!same || !natural_.straight()) widen(e);
     }
     if (loaded()) take_loads();
   }
@@ -233,11 +316,13 @@ class RodElements {
   Nodes nodes_;
   Inners inners_;
   detail::PerNode<RodProperties<Scalar>, Elements, MaxElements> properties_;
+  detail::PerNode<RodProperties<Wide>, Elements, MaxElements> wide_;
   detail::PerNode<Force, Elements, MaxElements> forces_;
   std::vector<PointLoad> loads_;
   NaturalRod<Scalar> natural_;
   ContactMesh<Scalar> mesh_;
-  RodStiffness stiffness_;
+  RodProfile<Scalar> profile_;
+  RodBed<Scalar> bed_;
 };
 
 }  // namespace hapbeam

@@ -1,4 +1,9 @@
-// One end of a rod: what its support holds, in the axes of the support, and where, on the way to where it belongs.
+// One end of a rod: what its support holds, in the axes of the support, and where, on the way to where it belongs; and its
+// springs.
+//
+// With displacement x, unit tangent u, axes d1, d2, d3 and twist φ against the carried director of the support
+//
+//   V = ½ Σ k (d·x)² + Σ k (d·u)²/(1 + d3·u) + ½ k φ²        for a turn by α in one plane, 2 k sin² α/2
 //
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
@@ -12,15 +17,22 @@ namespace hapbeam::detail {
 template <typename Scalar>
 class RodEnd {
   using Vector3 = VectorOf<Scalar, 3>;
+  using Matrix = Eigen::Matrix<Scalar, 3, 3>;
   using Node = RodNode<Scalar>;
 
  public:
   /// Where the rod's natural shape has the end.
-  RodEnd(RodSupport support, const Node& natural) noexcept
-      : place_(support != RodSupport::free),
-        direction_(support == RodSupport::clamped),
-        twist_(holds_twist(support)),
-        goal_(natural) {
+  RodEnd(const RodSupport& support, const Node& natural) noexcept
+      : held_{std::isinf(support.place1), std::isinf(support.place2), std::isinf(support.along)},
+        direction_(std::isinf(support.turn1)),
+        twist_(std::isinf(support.twist)) {
+    const auto spring = [](double k) { return std::isinf(k) ? Scalar(0) : static_cast<Scalar>(k); };
+    // A turn about d1 moves the tangent along d2.
+    across_[0] = spring(support.turn2), across_[1] = spring(support.turn1);
+    place_[0] = spring(support.place1), place_[1] = spring(support.place2), place_[2] = spring(support.along);
+    torsion_ = spring(support.twist);
+    springs_ = !place_.isZero(0) || across_[0] > 0 || across_[1] > 0 || torsion_ > 0;
+    goal_ = natural;
     begin(natural);
     set_target(1);
   }
@@ -50,37 +62,46 @@ class RodEnd {
   }
   void set_target(Scalar t) noexcept {
     target_ = goal_;
-    if (!(t < 1)) return;
-    target_.r = start_.r + t * (goal_.r - start_.r);
-    const Vector3 turn = t * rotation_;
-    target_.tangent = rotate(turn, start_.tangent);
-    target_.director = rotate(turn, start_.director);
+    if (t < 1) {
+      target_.r = start_.r + t * (goal_.r - start_.r);
+      const Vector3 turn = t * rotation_;
+      target_.tangent = rotate(turn, start_.tangent);
+      target_.director = rotate(turn, start_.director);
+    }
+    axes_.col(0) = target_.director;
+    axes_.col(1) = cross3(target_.tangent, target_.director);
+    axes_.col(2) = target_.tangent;
   }
-  /// d1, d2 and tangent of the target.
-  Eigen::Matrix<Scalar, 3, 3> axes() const noexcept {
-    Eigen::Matrix<Scalar, 3, 3> axes;
-    axes.col(0) = target_.director;
-    axes.col(1) = cross3(target_.tangent, target_.director);
-    axes.col(2) = target_.tangent;
-    return axes;
-  }
-  /// Calls visit(component, increment) for what is held: r 0-2 and r' 3-4 in axes(), φ 6.
+  /// d1, d2 and tangent of the target where the unknowns of place are those along them, else null: along those of space.
+  const Matrix* place_axes() const noexcept { return holds_place() || !holds_any_place() ? nullptr : &axes_; }
+  /// The same for those of r'.
+  const Matrix* tangent_axes() const noexcept { return direction_ ? &axes_ : nullptr; }
+  /// Calls visit(component, increment) for what is held: r 0-2 in place_axes(), r' 3-4 in tangent_axes(), φ 6.
   template <class Visitor>
   void visit(const Node& node, Visitor&& visitor) const noexcept {
-    const auto axes = this->axes();
-    if (place_)
-      for (int k = 0; k < 3; ++k) visitor(k, axes.col(k).dot(target_.r - node.r));
+    const Vector3 way = target_.r - node.r;
+    const bool all = holds_place();
+    for (int k = 0; k < 3; ++k)
+      if (held_[k]) visitor(k, all ? way[k] : axes_.col(k).dot(way));
     if (direction_)
-      for (int k = 0; k < 2; ++k) visitor(3 + k, -axes.col(k).dot(node.tangent));
+      for (int k = 0; k < 2; ++k) visitor(3 + k, -axes_.col(k).dot(node.tangent));
     if (!twist_) return;
     const Vector3 u = unit(node.tangent);
     visitor(6, angle_about(u, node.director, across(carry(target_.director, target_.tangent, u), u)));
   }
-  bool is_clamped() const noexcept { return direction_; }
-  bool holds_place() const noexcept { return place_; }
+  bool is_clamped() const noexcept { return direction_ && holds_place(); }
+  /// Whether its place is one.
+  bool holds_place() const noexcept { return held_[0] && held_[1] && held_[2]; }
+  /// Whether something keeps its place, springs too.
+  bool is_anchored() const noexcept { return holds_any_place() || !place_.isZero(0); }
   /// How far the node is from where it is held; nothing where it is not.
   Vector3 miss(const Node& node) const noexcept {
-    return place_ ? Vector3(target_.r - node.r) : Vector3(Vector3::Zero());
+    const Vector3 way = target_.r - node.r;
+    if (holds_place()) return way;
+    Vector3 miss = Vector3::Zero();
+    for (int k = 0; k < 3; ++k)
+      if (held_[k]) miss += axes_.col(k).dot(way) * axes_.col(k);
+    return miss;
   }
   /// A joint that holds the twist alone: what the director turns by when the tangent moves, -∂φ/∂r' at held twist, in space.
   bool is_joint() const noexcept { return twist_ && !direction_; }
@@ -100,17 +121,67 @@ class RodEnd {
   }
   /// Puts the node exactly where it belongs.
   void correct(Node& node) const noexcept {
-    if (place_) node.r = target_.r;
+    if (holds_place()) node.r = target_.r;
+    else node.r += miss(node);
     if (is_joint()) {
       const Vector3 u = unit(node.tangent);
       node.director = across(carry(target_.director, target_.tangent, u), u);
     }
     if (!direction_) return;
     node.tangent = target_.tangent.dot(node.tangent) * target_.tangent;
-    node.director = target_.director;
+    node.director = twist_ ? target_.director : across(node.director, target_.tangent);
+  }
+
+  bool has_springs() const noexcept { return springs_; }
+  /// Energy of the springs [J]; adds its derivatives.
+  /// @param r  of the node's unknowns, out   @param K  the same; r' and φ after r
+  template <class Residual, class Block>
+  Scalar add_springs(const Node& node, Residual&& r, Block&& K) const noexcept {
+    using std::sqrt;
+    constexpr bool has_twist = std::decay_t<Residual>::RowsAtCompileTime == 7;
+    const Vector3 x = axes_.transpose() * (node.r - target_.r), force = place_.cwiseProduct(x);
+    r.template segment<3>(0) += axes_ * force;
+    K.template block<3, 3>(0, 0) += axes_ * place_.asDiagonal() * axes_.transpose();
+    Scalar energy = force.dot(x) / 2;
+    const Scalar i = 1 / sqrt(node.tangent.squaredNorm());
+    const Vector3 u = i * node.tangent, d3 = axes_.col(2);
+    if (across_[0] > 0 || across_[1] > 0) {
+      // V = s q by u; then u = r'/|r'|.
+      const Scalar q = 1 / (1 + d3.dot(u));
+      Vector3 m = Vector3::Zero();
+      Matrix H = Matrix::Zero();
+      for (int k = 0; k < 2; ++k) {
+        m += across_[k] * axes_.col(k).dot(u) * axes_.col(k);
+        H += 2 * q * across_[k] * axes_.col(k) * axes_.col(k).transpose();
+      }
+      const Scalar s = m.dot(u);
+      const Vector3 by_u = 2 * q * m - s * q * q * d3;
+      H += 2 * s * q * q * q * d3 * d3.transpose() - 2 * q * q * (m * d3.transpose() + d3 * m.transpose());
+      const Matrix P = Matrix::Identity() - u * u.transpose();
+      const Vector3 g = P * by_u;
+      energy += s * q;
+      r.template segment<3>(3) += i * g;
+      K.template block<3, 3>(3, 3) +=
+          i * i * (P * H * P - u.dot(by_u) * P - (g * u.transpose() + u * g.transpose()));
+    }
+    if constexpr (has_twist)
+      if (torsion_ > 0) {
+        const Scalar twist = -angle_about(u, node.director, across(carry(target_.director, d3, u), u)),
+                     moment = torsion_ * twist;
+        const Vector3 k = arm(node);
+        energy += moment * twist / 2;
+        r.template segment<3>(3) += moment * k;
+        r[6] += moment;
+        K.template block<3, 3>(3, 3) += torsion_ * k * k.transpose() - moment * bow(node);
+        K.template block<3, 1>(3, 6) += torsion_ * k;
+        K.template block<1, 3>(6, 3) += torsion_ * k.transpose();
+        K(6, 6) += torsion_;
+      }
+    return energy;
   }
 
  private:
+  bool holds_any_place() const noexcept { return held_[0] || held_[1] || held_[2]; }
   /// Rodrigues.
   static Vector3 rotate(const Vector3& by, const Vector3& v) noexcept {
     using std::cos;
@@ -122,8 +193,11 @@ class RodEnd {
     return v + sin(angle) * w + (1 - cos(angle)) * cross3(axis, w);
   }
 
-  bool place_, direction_, twist_;
+  bool held_[3], direction_, twist_, springs_;
+  Vector3 place_;               // springs along the axes [N/m]
+  Scalar across_[2], torsion_;  // against the tangent's turn along d1 and d2, and against twist [N·m/rad]
   Node goal_, start_, target_;
+  Matrix axes_;
   Vector3 rotation_ = Vector3::Zero();
 };
 

@@ -19,13 +19,11 @@ class RodRange {
   explicit RodRange(const Rod& rod) noexcept
       : length_(static_cast<Scalar>(rod.length())),
         shortest_(ContactMesh<Scalar>::shortest(length_)),
-        left_yields_(rod.left() == RodSupport::free),
-        right_yields_(rod.right() == RodSupport::free) {}
+        left_yields_(yields(rod.left())),
+        right_yields_(yields(rod.right())) {}
 
   /// Whether neither end moves.
-  static bool holds_both(const Rod& rod) noexcept {
-    return rod.left() != RodSupport::free && rod.right() != RodSupport::free;
-  }
+  static bool holds_both(const Rod& rod) noexcept { return !yields(rod.left()) && !yields(rod.right()); }
 
   Scalar length() const noexcept { return length_; }
   /// Whether s is a place on the rod.
@@ -47,6 +45,11 @@ class RodRange {
   }
 
  private:
+  /// Whether nothing holds its place; a spring does not.
+  static bool yields(const RodSupport& support) noexcept {
+    return !std::isinf(support.place1) && !std::isinf(support.place2) && !std::isinf(support.along);
+  }
+
   Scalar length_, shortest_;
   bool left_yields_, right_yields_;
 };

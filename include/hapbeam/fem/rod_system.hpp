@@ -16,6 +16,7 @@
 #include <hapbeam/fem/rod_contact.hpp>
 #include <hapbeam/fem/rod_elements.hpp>
 #include <hapbeam/fem/rod_end.hpp>
+#include <hapbeam/fem/rod_motion.hpp>
 #include <hapbeam/fem/rod_range.hpp>
 #include <hapbeam/fem/rod_round_contact.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
@@ -175,24 +176,25 @@ class RodSystem {
   /// @param shift  what is added to the tangent: so many times EI/L³ on each place and EI/L on each rotation, shared out
   /// over the nodes   @return ok | singular | non_finite
   Status factor(Scalar shift) noexcept {
-    typename Parts::Tangent K;
-    typename Parts::Residual r;
+    using Residual = typename Parts::Residual;
+    using Tangent = typename Parts::Tangent;
     Scalar energy = 0, work = 0;
     inner_energy_ = 0;
     const int c = contact_.node();
     if (c >= 0) contact_.look(node(c), force_);
-    for (int e = 0; e < elements(); ++e) {
-      const auto [strain, by_loads] = rod_.tangent(e, load_, r, K);
-      energy += strain;
-      work += by_loads;
+    rod_.visit_tangents(load_, [&](int e, const auto& energies, Residual& r, Tangent& K) {
+      energy += energies.strain;
+      work += energies.work;
       inner_energy_ += rod_.inners()[e].energy();
       if (shift != 0) add_shift(shift, e, K);
+      if (e == 0) energy += add_springs(ends_[0], node(0), 0, r, K);
+      if (e + 1 == elements()) energy += add_springs(ends_[1], node(e + 1), unknowns, r, K);
       if (contact_.holds(e + 1)) contact_.bend(unknowns, K);
       else if (e == 0 && contact_.holds(0)) contact_.bend(0, K);
       if (own_axes(e)) transform(e, 0, r, K);
       if (own_axes(e + 1)) transform(e + 1, unknowns, r, K);
       assembler_.add(e, K, r);
-    }
+    });
     size_ = std::sqrt(2 * energy);
     potential_ = energy - work;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -215,7 +217,7 @@ class RodSystem {
     Vector3 way = before.template segment<3>(0),
             r = node(0).r;  // that the last node has gone, and where it was
     rod_.nodes()[0].r += way;
-    turn(rod_.nodes()[0], before);
+    detail::move_tangent(rod_.nodes()[0], before);
     for (int i = 1; i <= elements(); ++i) {
       const Increment x = increment(i);
       typename Parts::Residual both;
@@ -223,10 +225,10 @@ class RodSystem {
       rod_.inners()[i - 1].advance(both);
       Node& node = rod_.nodes()[i];
       const Vector3 chord = node.r - r, change = x.template segment<3>(0) - before.template segment<3>(0);
-      way += contact_.node() < 0 ? Vector3(turned(chord, change) - chord) : change;
+      way += contact_.node() < 0 ? Vector3(detail::turned(chord, change) - chord) : change;
       r = node.r;
       node.r += way;
-      turn(node, x);
+      detail::move_tangent(node, x);
       before = x;
     }
     if (contact_.node() < 0) close_chain();
@@ -251,7 +253,7 @@ class RodSystem {
                    g = c < 0 ? (3 + t) / Scalar(3.5) : 4 * (t - c),
                    slope = 32 * size * t * q * (1 - 2 * t) * g + f * (c < 0 ? 1 / Scalar(3.5) : Scalar(4));
       node.r += f * g * e;
-      set_tangent(node, node.tangent + slope / length_ * e);
+      detail::set_tangent<Scalar>(node, node.tangent + slope / length_ * e);
     }
     for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
   }
@@ -277,15 +279,17 @@ class RodSystem {
     for (std::size_t k = 0; k < 2; ++k)
       if (i == end(k)) x += prescribed_[k];
     if (contact_.holds(i)) x[2] += moves_;
-    if (own_axes(i)) {
-      const auto [R, T, arm] = axes(i);
-      if (contact_.holds(i)) x[2] -= arm.dot(x.template segment<3>(3));
-      if constexpr (unknowns == 7)
-        if (const auto* const joint = this->joint(i))
-          x[6] -= (T.transpose() * joint->arm(node(i))).dot(x.template segment<3>(3));
-      x.template segment<3>(0) = (R * x.template segment<3>(0)).eval();
-      x.template segment<3>(3) = (T * x.template segment<3>(3)).eval();
-    }
+    if (!own_axes(i)) return x;
+    const Matrix *const R = place_axes(i), *const T = tangent_axes(i);
+    if (contact_.holds(i) && contact_.leans()) x[2] -= arm(T).dot(x.template segment<3>(3));
+    const auto turn = [&x](int at, const Matrix& Q) {
+      const Vector3 v(x[at], x[at + 1], x[at + 2]);
+      for (int k = 0; k < 3; ++k) x[at + k] = Q(k, 0) * v[0] + Q(k, 1) * v[1] + Q(k, 2) * v[2];
+    };
+    if (R) turn(0, *R);
+    if (T) turn(3, *T);
+    if constexpr (unknowns == 7)
+      if (const auto* const joint = this->joint(i)) x[6] -= joint->arm(node(i)).dot(x.template segment<3>(3));
     return x;
   }
 
@@ -306,24 +310,29 @@ class RodSystem {
     return {at.template segment<3>(0), moment};
   }
 
-  /// Strain energy [J].
-  Scalar strain_energy() const noexcept { return rod_.strain_energy(); }
+  /// Strain energy, that of the springs that hold it included [J].
+  Scalar strain_energy() const noexcept {
+    Scalar energy = rod_.strain_energy();
+    typename Parts::Residual r = Parts::Residual::Zero();
+    typename Parts::Tangent K = Parts::Tangent::Zero();
+    for (std::size_t k = 0; k < 2; ++k) energy += add_springs(ends_[k], node(end(k)), 0, r, K);
+    return energy;
+  }
 
  private:
   using Matrix = Eigen::Matrix<Scalar, 3, 3>;
-  struct Axes {
-    Matrix R, T;  // of place and tangent
-    Vector3 arm;  // of the contact, in T
-  };
-
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
   bool own_axes(int i) const noexcept { return contact_.holds(i) || i == 0 || i == elements(); }
-  Axes axes(int i) const noexcept {
-    Axes a{Matrix::Identity(), Matrix::Identity(), Vector3::Zero()};
-    for (std::size_t k = 0; k < 2; ++k)
-      if (i == end(k)) a.R = a.T = ends_[k].axes();
-    if (contact_.holds(i)) a.R = contact_.axes(), a.arm = a.T.transpose() * contact_.arm();
-    return a;
+  /// The axes along which a node's unknowns of place are counted, and those of r'; null: those of space.
+  const Matrix* place_axes(int i) const noexcept {
+    return contact_.holds(i) ? &contact_.axes() : i == 0 ? ends_[0].place_axes() : ends_[1].place_axes();
+  }
+  const Matrix* tangent_axes(int i) const noexcept {
+    return i == 0 ? ends_[0].tangent_axes() : i == elements() ? ends_[1].tangent_axes() : nullptr;
+  }
+  /// Of the contact, in the axes of r'.
+  Vector3 arm(const Matrix* T) const noexcept {
+    return T ? Vector3(T->transpose() * contact_.arm()) : contact_.arm();
   }
   Scalar contact_displacement() noexcept {
     contact_.look(node(contact_.node()), force_);
@@ -337,11 +346,13 @@ class RodSystem {
 
   /// To a node's own axes.  @param at  its first row in the element
   void transform(int i, int at, typename Parts::Residual& r, typename Parts::Tangent& K) const noexcept {
-    const auto [R, T, arm] = axes(i);
     const auto turn = [&](int k, const Matrix& Q) {
-      r.template segment<3>(k) = (Q.transpose() * r.template segment<3>(k)).eval();
-      K.template middleCols<3>(k) = (K.template middleCols<3>(k) * Q).eval();
-      K.template middleRows<3>(k) = (Q.transpose() * K.template middleRows<3>(k)).eval();
+      r.template segment<3>(k) = Q.transpose().lazyProduct(r.template segment<3>(k)).eval();
+      const Eigen::Matrix<Scalar, 2 * unknowns, 3> columns = K.template middleCols<3>(k).lazyProduct(Q);
+      const Matrix own = Q.transpose().lazyProduct(columns.template middleRows<3>(k));
+      K.template middleCols<3>(k) = columns;
+      K.template middleRows<3>(k) = columns.transpose();
+      K.template block<3, 3>(k, k) = own;
     };
     // An unknown that is its old self and a part of the tangent: what it was is what it is, less that part.
     const auto lean = [&](int unknown, const Vector3& part) {
@@ -356,9 +367,17 @@ class RodSystem {
         K.template block<3, 3>(at + 3, at + 3) += r[at + 6] * joint->bow(node(i));
         lean(6, joint->arm(node(i)));
       }
-    turn(at, R);
-    turn(at + 3, T);
-    if (contact_.holds(i) && contact_.leans()) lean(2, arm);
+    const Matrix *const R = place_axes(i), *const T = tangent_axes(i);
+    if (R) turn(at, *R);
+    if (T) turn(at + 3, *T);
+    if (contact_.holds(i) && contact_.leans()) lean(2, arm(T));
+  }
+  /// @param at  the end's first row in the element   @return [J]
+  static Scalar add_springs(const detail::RodEnd<Scalar>& end, const Node& node, int at,
+                            typename Parts::Residual& r, typename Parts::Tangent& K) noexcept {
+    if (!end.has_springs()) return 0;
+    return end.add_springs(node, r.template segment<unknowns>(at),
+                           K.template block<unknowns, unknowns>(at, at));
   }
   /// The end at node i where it is a joint that holds the twist.
   const detail::RodEnd<Scalar>* joint(int i) const noexcept {
@@ -367,33 +386,10 @@ class RodSystem {
     return nullptr;
   }
 
-  static void set_tangent(Node& node, const Vector3& tangent) noexcept {
-    const Vector3 u = detail::unit(node.tangent), v = detail::unit(tangent);
-    node.tangent = tangent;
-    node.director = detail::across<Scalar>(detail::carry(node.director, u, v), v);
-  }
-  /// v + change, but as long as the part of the change along v makes it, and turned by the angle that the rest means.
-  static Vector3 turned(const Vector3& v, const Vector3& change) noexcept {
-    using std::cos;
-    using std::sin;
-    using std::sqrt;
-    const Scalar length = sqrt(v.squaredNorm());
-    const Vector3 u = v / length;
-    const Scalar extends = u.dot(change);
-    const Vector3 aside = change - extends * u;
-    const Scalar size = sqrt(aside.squaredNorm()), angle = size / length;
-    if (size == 0) return v + change;
-    return (length + extends) * (cos(angle) * u + (sin(angle) / size) * aside);
-  }
-  static void turn(Node& node, const Increment& x) noexcept {
-    set_tangent(node, turned(node.tangent, x.template segment<3>(3)));
-    if constexpr (unknowns == 7)
-      node.director = detail::turn(node.director, detail::unit(node.tangent), x[6]);
-  }
   /// Shares out what the chain misses of a held right end.  A left end that is not held moves all of it.
   void close_chain() noexcept {
     const Vector3 miss = ends_[1].miss(node(elements()));
-    const bool left = ends_[0].holds_place();
+    const bool left = ends_[0].is_anchored();
     for (Node& node : rod_.nodes()) node.r += left ? Vector3(miss * (node.s / length_)) : miss;
   }
 

@@ -1,0 +1,98 @@
+// The frame of an element of a rod that twists: the director of its first node, carried along the cubic by the smallest rotation.
+//
+// In the axes of node 1, (d1, d2, tangent), with a = r' = (x, y, z), b = r'' = (p, q, s), n = |a|, D = n (n + z):
+//
+//   K1 = -q/n + y g,   K2 = p/n - x g,   c = (xq - yp)/D,   g = (s + a·b/n)/D          curvatures; the frame twists by -c
+//
+// Real-time: no allocation, noexcept, O(1).
+#pragma once
+
+#include <cmath>
+
+#include <hapbeam/element/rod_properties.hpp>
+
+namespace hapbeam::detail {
+
+template <typename S>
+using V3 = VectorOf<S, 3>;
+
+/// The element seen in the axes of node 1.
+template <typename S>
+struct CarriedFrame {
+  V3<S> e1, e2, u;     // the axes
+  V3<S> chord, t2, v;  // Δ, r2', its direction
+  S l1, l2;            // |r1'|, |r2'|
+  S mismatch;          // m
+
+  CarriedFrame(const RodProperties<S>&, const RodNode<S>& a, const RodNode<S>& b) noexcept {
+    using std::atan2;
+    using std::sqrt;
+    l1 = sqrt(a.tangent.squaredNorm());
+    u = a.tangent / l1;
+    e1 = a.director;
+    e2 = detail::cross3(u, e1);
+    chord = in(V3<S>(b.r - a.r));
+    t2 = in(b.tangent);
+    l2 = sqrt(t2.squaredNorm());
+    v = t2 / l2;
+    const V3<S> d = in(b.director);
+    const S share = d[2] / (1 + v[2]);
+    mismatch = atan2(d[1] - v[1] * share, d[0] - v[0] * share);
+  }
+  V3<S> in(const V3<S>& x) const noexcept { return {e1.dot(x), e2.dot(x), u.dot(x)}; }
+  V3<S> out(S x, S y, S z) const noexcept { return x * e1 + y * e2 + z * u; }
+  /// r' or r'' of these weights.
+  V3<S> combine(S w, S w1, S w2) const noexcept {
+    V3<S> a = w * chord + w2 * t2;
+    a[2] += w1 * l1;
+    return a;
+  }
+  /// r' at ξ, in space.
+  V3<S> tangent(const RodProperties<S>& p, S x) const noexcept {
+    const detail::CubicWeights<S> w(x, p.inverse_length);
+    const V3<S> a = combine(w.a, w.a1, w.a2);
+    return out(a[0], a[1], a[2]);
+  }
+  V3<S> middle(const RodProperties<S>& p) const noexcept {
+    return combine(S(1.5) * p.inverse_length, S(-0.25), S(-0.25));
+  }
+  void stretches(const RodProperties<S>& p, S (&e)[3]) const noexcept {
+    using std::sqrt;
+    e[0] = l1 - 1 - p.natural_strain[0];
+    e[1] = sqrt(middle(p).squaredNorm()) - 1 - p.natural_strain[1];
+    e[2] = l2 - 1 - p.natural_strain[2];
+  }
+};
+
+/// Curvatures of the carried frame at a point.
+template <typename S>
+struct CarriedPoint {
+  detail::CubicWeights<S> weights;
+  V3<S> a, b, v;
+  S n, i, h, w, C;  // i = 1/n, h = 1/D, w = s + v·b, C = xq - yp
+  S K1, K2, c;
+
+  CarriedPoint(const detail::CubicWeights<S>& ws, const CarriedFrame<S>& f) noexcept
+      : weights(ws), a(f.combine(ws.a, ws.a1, ws.a2)), b(f.combine(ws.b, ws.b1, ws.b2)) {
+    using std::sqrt;
+    n = sqrt(a.squaredNorm());
+    i = 1 / n;
+    v = a * i;
+    h = 1 / (n * (n + a[2]));
+    w = b[2] + v.dot(b);
+    C = a[0] * b[1] - a[1] * b[0];
+    K1 = -b[1] * i + a[1] * w * h;
+    K2 = b[0] * i - a[0] * w * h;
+    c = C * h;
+  }
+  void strains(S theta, S rate, S (&k)[3]) const noexcept {
+    using std::cos;
+    using std::sin;
+    const S co = cos(theta), si = sin(theta);
+    k[0] = co * K1 + si * K2;
+    k[1] = co * K2 - si * K1;
+    k[2] = rate - c;
+  }
+};
+
+}  // namespace hapbeam::detail

@@ -1,0 +1,98 @@
+// The elastic foundations of a rod on a mesh whose nodes move.
+//
+//   V = ½ ∫ (r - r°)ᵀ (k⊥ I + (k∥ - k⊥) t° t°ᵀ) (r - r°) ds        ° of the natural shape, t° its tangent
+//
+// The cubic has r as a linear function of the nodes: V is a quadratic form of an element's places and tangents, integrated exactly
+// where the natural shape is straight, and once for each mesh.
+// Allocates at construction; all else is noexcept and allocation-free.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <hapbeam/fem/loads.hpp>
+#include <hapbeam/fem/natural_rod.hpp>
+
+namespace hapbeam {
+
+template <typename Scalar>
+class RodBed {
+  using Vector12 = VectorOf<Scalar, 12>;  // r1, r1', r2, r2'
+
+ public:
+  RodBed(const Rod& rod, int elements) : foundations_(rod.foundations()) {
+    if (!foundations_.empty()) springs_.resize(static_cast<std::size_t>(elements));
+  }
+  bool empty() const noexcept { return springs_.empty(); }
+
+  /// Takes an element's share on its mesh.
+  void take(int e, Scalar from, Scalar to, const NaturalRod<Scalar>& natural) noexcept {
+    Spring& spring = springs_[static_cast<std::size_t>(e)];
+    spring = {};
+    const Scalar l = to - from;
+    spring.home = unknowns(natural.at(from), natural.at(to));
+    for (const RodFoundation& foundation : foundations_) {
+      const Scalar a = std::max(from, static_cast<Scalar>(foundation.from)),
+                   b = std::min(to, static_cast<Scalar>(foundation.to));
+      if (!(b > a)) continue;
+      const Scalar across = static_cast<Scalar>(foundation.across),
+                   more = static_cast<Scalar>(foundation.along) - across;
+      for (std::size_t g = 0; g < detail::gauss_points.size(); ++g) {
+        const Scalar s = a + static_cast<Scalar>(detail::gauss_points[g]) * (b - a), t = (s - from) / l,
+                     u = 1 - t, weight = static_cast<Scalar>(detail::gauss_weights[g]) * (b - a);
+        const Scalar N[4] = {u * u * (1 + 2 * t), l * t * u * u, t * t * (3 - 2 * t), -l * t * t * u};
+        const RodNode<Scalar> home = natural.at(s);
+        const Eigen::Matrix<Scalar, 3, 3> k = weight * (across * Eigen::Matrix<Scalar, 3, 3>::Identity() +
+                                                        more * home.tangent * home.tangent.transpose());
+        // How far the cubic of the natural nodes is from the natural shape, and what that takes.
+        VectorOf<Scalar, 3> miss = -home.r;
+        for (int i = 0; i < 4; ++i) miss += N[i] * spring.home.template segment<3>(3 * i);
+        const VectorOf<Scalar, 3> force = k * miss;
+        for (int i = 0; i < 4; ++i) {
+          for (int j = 0; j < 4; ++j) spring.K.template block<3, 3>(3 * i, 3 * j) += N[i] * N[j] * k;
+          spring.force.template segment<3>(3 * i) += N[i] * force;
+        }
+        spring.energy += miss.dot(force) / 2;
+      }
+    }
+  }
+
+  /// [J]
+  Scalar energy(int e, const RodNode<Scalar>& a, const RodNode<Scalar>& b) const noexcept {
+    const Spring& spring = springs_[static_cast<std::size_t>(e)];
+    const Vector12 x = unknowns(a, b) - spring.home, Kx = spring.K * x;
+    return spring.energy + x.dot(Kx / 2 + spring.force);
+  }
+  /// Adds its residual and tangent.   @tparam Unknowns  of a node   @return [J]
+  template <int Unknowns, class Residual, class Tangent>
+  Scalar add(int e, const RodNode<Scalar>& a, const RodNode<Scalar>& b, Residual& r,
+             Tangent& K) const noexcept {
+    const Spring& spring = springs_[static_cast<std::size_t>(e)];
+    const Vector12 x = unknowns(a, b) - spring.home, Kx = spring.K * x;
+    for (int i = 0; i < 12; i += 6) {
+      const int row = i == 0 ? 0 : Unknowns;
+      r.template segment<6>(row) += (Kx + spring.force).template segment<6>(i);
+      for (int j = 0; j < 12; j += 6)
+        K.template block<6, 6>(row, j == 0 ? 0 : Unknowns) += spring.K.template block<6, 6>(i, j);
+    }
+    return spring.energy + x.dot(Kx / 2 + spring.force);
+  }
+
+ private:
+  struct Spring {
+    Eigen::Matrix<Scalar, 12, 12> K = Eigen::Matrix<Scalar, 12, 12>::Zero();
+    // Of the natural shape's nodes, their unknowns, and residual and energy there.
+    Vector12 home = Vector12::Zero(), force = Vector12::Zero();
+    Scalar energy = 0;
+  };
+  static Vector12 unknowns(const RodNode<Scalar>& a, const RodNode<Scalar>& b) noexcept {
+    Vector12 x;
+    x << a.r, a.tangent, b.r, b.tangent;
+    return x;
+  }
+
+  std::vector<RodFoundation> foundations_;
+  std::vector<Spring> springs_;
+};
+
+}  // namespace hapbeam
