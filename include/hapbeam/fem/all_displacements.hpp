@@ -16,10 +16,10 @@
 #include <utility>
 
 #include <hapbeam/fem/beam_system.hpp>
-#include <hapbeam/fem/round_push.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/load_path.hpp>
 #include <hapbeam/fem/press_range.hpp>
+#include <hapbeam/fem/round_push.hpp>
 #include <hapbeam/fem/solver/descent.hpp>
 
 namespace hapbeam {
@@ -133,8 +133,8 @@ class AllDisplacements {
   template <typename S>
   using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements, Assembler>;
   using System = SystemIn<Scalar>;
-  using Rounds = std::conditional_t<any_rotation<Element> || dimension == 3, detail::RoundPush<Element, System>,
-                                    detail::NoRound>;
+  using Rounds = std::conditional_t<any_rotation<Element> || dimension == 3,
+                                    detail::RoundPush<Element, System>, detail::NoRound>;
   friend Rounds;
   using Middle = decltype(std::declval<const System&>().middle());
 

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/contact_search.hpp>
 #include <hapbeam/fem/foresight.hpp>
