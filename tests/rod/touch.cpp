@@ -221,7 +221,7 @@ TEST_CASE("closed paths of a sphere and of a stylus on a wire take no work", "[r
       };
       move(touch, at(0) + Point(0, 0, 0.06), at(0), shaft, 300, [](auto&&...) {});
       Point force = rest_at(touch, at(0), shaft).force;
-      const int steps = 2000;
+      const int steps = 1000;
       double work = 0, peak = model.strain_energy();
       int not_ok = 0;
       for (int k = 0; k < steps; ++k) {

@@ -10,8 +10,8 @@
 //
 // where σ and λ drop out of v and H as far as they do not move: σ at an end of the curve that the capsule has passed, λ at an end
 // of the axis.  So a sphere is a capsule without a length, and across a plane a capsule is what a circle is in it.
-// A force that keeps D acts along n through the point of contact.  Only the parabola is approximate: the force is wrong by the
-// third order in the distance from node to contact.
+// A force that keeps D acts along n through the point of contact.  Only the parabola is approximate, and that smallest rotations
+// around a loop add up to a spin, which is left out: the force is wrong by the third order in the distance from node to contact.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
