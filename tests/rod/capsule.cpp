@@ -57,6 +57,10 @@ TEST_CASE("distance of a capsule from a curve: its derivatives are those of its 
       bend.col(i) = (gradient(up) - gradient(down)) / (2 * h);
     }
     if (!same || view.k.norm() < 0.999 * bent.norm()) continue;  // or too sharp, and taken for less
+    // Nearly parallel to the rod a shaft touches anywhere: derivatives grow with the inverse square of the sine.
+    if (view.follows && view.slides &&
+        detail::cross3(axis.way, view.t).squaredNorm() < 0.1 * axis.way.squaredNorm() * view.t.squaredNorm())
+      continue;
     CAPTURE(trial, view.follows, view.slides, view.lever);
     CHECK((slope - gradient(view)).norm() <= 1e-5);
     const Matrix6<double> exact = law.bend(view);

@@ -88,6 +88,8 @@ class CapsuleOnCurve {
         break;
     }
     look(node, along, place, v);
+    // Where curve and axis are parallel beside an end of the axis, that end is touched.
+    v.slides = v.slides && place > 0 && place < 1;
     v.lever = along;
     v.distance = sqrt(v.w.squaredNorm());
     v.normal = v.distance > 0 ? Vector3(v.w / v.distance) : Vector3::Zero();
