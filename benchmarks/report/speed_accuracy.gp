@@ -51,7 +51,7 @@ set xlabel 'time of a servo tick, from position to force'
 set ylabel 'largest error of the force' offset 0.5
 set arrow 1 from 1e6, graph 0 to 1e6, graph 1 nohead lc rgb grey dt (8, 5)
 set arrow 2 from graph 0, first 0.07 to graph 1, first 0.07 nohead lc rgb grey dt (8, 5)
-set label 1 '1 kHz' at 8.5e5, graph 0.02 right textcolor rgb grey font ',17'
+set label 1 '1 kHz' at 8.5e5, graph 0.97 right textcolor rgb grey font ',17'
 set label 2 'just noticeable' at graph 0.01, first 0.095 left textcolor rgb grey font ',17'
 set label 3 'down and left is better; yellow: Pareto front' at screen 0.5, 0.915 center textcolor rgb grey font ',17'
 
