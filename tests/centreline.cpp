@@ -97,7 +97,7 @@ TEST_CASE("at a node the displacements are the node's, its turns included", "[ce
 
 // Hermite's cubic is off by h⁴/384 of the fourth derivative, which is k³ on a circle, and its derivative by √3/216 h³ of
 // it; the next terms are smaller by (kh)².
-TEST_CASE("against a circle of three turns the curve is off by k³h⁴/384 and its angle by k³h³√3/216",
+TEST_CASE("the error against a circle of three turns is k³h⁴/384 of the curve and k³h³√3/216 of its angle",
           "[centreline]") {
   const double length = 2, k = 3 * 2 * pi / length;
   std::vector<double> places;
@@ -122,9 +122,8 @@ TEST_CASE("against a circle of three turns the curve is off by k³h⁴/384 and i
 }
 
 // A circle that is stretched evenly is a larger one, whose points keep their arc positions.
-TEST_CASE(
-    "the curve of a stretched circle is off by fourth order, too, and a stretched straight one by nothing",
-    "[centreline]") {
+TEST_CASE("the error of a stretched circle is of fourth order, too, and of a stretched straight line none",
+          "[centreline]") {
   const double length = 2, k = 3 * 2 * pi / length;
   for (const double stretch : {-0.05, 0.002, 0.1, 0.5}) {
     std::vector<double> places;

@@ -1,4 +1,4 @@
-// What is modelled: a straight slender beam, its section and material, its two ends and its dead loads.
+// What is modelled: a slender beam, its section and material, its two ends and its dead loads.
 //
 // Plain values in SI, checked where they enter: every function here throws std::invalid_argument naming field,
 // value, unit and what is allowed.  Offline only; nothing here is called in a servo tick.

@@ -1,4 +1,4 @@
-// Beams that are not straight, or not at ease: through given nodes, an arch, stretched or pressed together.
+// Beams that are curved or prestressed: through given points, an arch, a string, a buckled strip.
 //
 // All of them are made of what Beam offers: a natural shape of arcs, and ends that are placed.
 // Offline: allocates, throws std::invalid_argument naming field, value and unit.

@@ -4,7 +4,7 @@
 // contact and drawing see one kind of curve.  Which cubic depends on the kinematics of the model:
 //   moderate rotation   u is linear, w takes both nodes' displacement and slope (thesis eq. 3.17): exactly the curve
 //                       that the elements compute with
-//   any rotation        the ends' tangents are (cos θ, -sin θ) and a third as long as the piece is now, stretched and bent:
+//   finite rotation     the ends' tangents are (cos θ, -sin θ) and a third as long as the piece is now, stretched and bent:
 //                       its direction is continuous at nodes.  Its error is of fourth order in the length l of a piece that
 //                       stretches evenly; where the strain varies along it, by ε', l² ε'/8 along the beam is added
 // No allocation, noexcept, O(1) but for the search of the piece, which is O(log n).
@@ -111,7 +111,7 @@ class Centreline {
     }
   }
 
-  /// Curvature at node i of a centreline of any rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.
+  /// Curvature at node i of a centreline of finite rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.
   Scalar curvature(int i) const noexcept {
     using std::nearbyint;
     using std::sqrt;

@@ -1,4 +1,4 @@
-// How a number that makes no sense is refused where it enters.
+// Checks of input values, made where a value enters the library.
 //
 // Offline: each check throws std::invalid_argument naming field, value, unit and what is allowed.
 #pragma once

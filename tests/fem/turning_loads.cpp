@@ -165,7 +165,7 @@ TEST_CASE("dead forces keep their resultant, however the element has turned", "[
 
 // ∫(f u + q w) ds on a circle, θ = k s, by the forces and arms of a mesh: Euler and Maclaurin's remainder is
 // l⁴/720 [w'''] <= l⁴/720 k³ (1 + ...), and a fourth of that again for an uneven load's slope.
-TEST_CASE("the work of an uneven load on a bent beam is off by the fourth power of the element", "[load]") {
+TEST_CASE("the error of the work of an uneven load on a bent beam is of fourth order", "[load]") {
   const double length = 2, k = 1.7;
   Beam beam(length, 1, 1, 0.1, Support::clamped, Support::free);
   beam.transverse([](double s) { return 2 - s; }).axial([](double s) { return 1 + s * s; });

@@ -85,7 +85,7 @@ TEST_CASE("in float a tolerance of 1e-8 is never met; the library ends where inc
 
 // What is accepted is right, whatever the way there.  In float the tangent of a slender free end has lost its softest digits:
 // Newton's method then wanders, blows up and comes back, and must not be believed on the way.
-TEMPLATE_TEST_CASE("in float no press that is ok is off by more than 100 eps n²", "[round-off][float]",
+TEMPLATE_TEST_CASE("in float no press that is ok has an error above 100 eps n²", "[round-off][float]",
                    VonKarman<>, Corotational<>) {
   const Beam ruler(0.3, Section::rectangle(0.025, 1e-3), Material{2e11}, Support::clamped, Support::free);
   Random random(3);

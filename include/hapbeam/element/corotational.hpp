@@ -1,4 +1,4 @@
-// An element that is right at any rotation: a local element in a frame that turns with the chord.
+// An element of finite rotation: a local element in a frame that turns with the chord.
 //
 //   l = |x2 - x1|,  α = angle of the chord (up is positive),  stretch = l - L,  θi' = θi + α
 //
@@ -10,7 +10,7 @@
 // tangent are the exact derivatives of V, so the tangent is symmetric, and rigid motion, several turns included, does
 // no work.  The order in the element's length is the local element's: with Linear (the textbooks' element) two, with
 // VonKarman<AssumedStrain>, whose strain knows that a bent piece is longer than its chord, four.
-// Right while the two ends of one element turn by less than half a turn against its chord.
+// Valid while the two ends of one element turn by less than half a turn against its chord.
 // Source: Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1, ch. 7.3; the tangent is
 // derived anew.
 #pragma once

@@ -8,7 +8,7 @@
 //   E::residual(p, d, r)       void     r = ∂V/∂d, overwritten [N, N, N·m, N, N, N·m]
 //   E::tangent(p, d, r, K)     S        V, r as above and K = ∂r/∂d, symmetric, both triangles, overwritten
 //   E::name()                  const char*
-//   E::any_rotation            bool, true: right at any rotation; may be left out, which says no
+//   E::any_rotation            bool, true: valid at finite rotation; false where it is left out
 //   E::membrane_feels_slope    bool, true: ε holds ½ w'², and an axial load on the element bends it; may be left out, too
 //   E::OneStrain               type, E itself: the membrane strain is one number, (u2-u1)/l and a quadratic form of rise, lθ1
 //                              and lθ2 that is positive unless all are zero, and E has respond(p, e) as below; may be left out, too.  A class that inherits from E
@@ -164,7 +164,7 @@ struct OneStrain<E, std::void_t<typename E::OneStrain>> : std::is_same<typename 
 
 }  // namespace detail
 
-/// True where L has what an element needs of its membrane policy, and an element of any rotation of its local element:
+/// True where L has what an element needs of its membrane policy, and an element of finite rotation of its local element:
 ///   L::respond(const ElementProperties<S>&, const Deformation<S>&) noexcept -> CoreResponse<S>,   L::name() -> const char*
 template <typename L, typename S>
 inline constexpr bool responds_to_deformation = detail::RespondsToDeformation<L, S>::value;
@@ -204,11 +204,11 @@ struct ElementFromCore {
   }
 };
 
-/// True where E says that it is right at any rotation.
+/// True where E says that it is valid at finite rotation.
 template <class E>
 inline constexpr bool any_rotation = detail::AnyRotation<E>::value;
 
-/// True where E, or a membrane policy, says of itself that its membrane strain is one number.
+/// True where E, or a membrane policy, has a membrane strain of one number.
 template <class E>
 inline constexpr bool one_strain = detail::OneStrain<E>::value;
 

@@ -5,7 +5,7 @@
 //
 // press() moves the mesh so that a node lies at the contact, prescribes its transverse displacement, solves by
 // Newton–Raphson with the tangent as predictor, from the last press or from rest, whichever is closer, and returns
-// the reaction (thesis eq. 3.40–3.42).  Elements of any rotation take a push() along any direction as well, and
+// the reaction (thesis eq. 3.40–3.42).  Elements of finite rotation take a push() along any direction as well, and
 // one by a circle.  A beam with
 // more than one shape at rest keeps to the branch on which it is; where that ends or gives way it falls to a stable one,
 // and the status says snapped.
@@ -74,7 +74,7 @@ class FemModel {
   /// Prescribes the centreline's transverse displacement d [m] at arc position s [m]: its w, from the x axis.
   /// Within range() the answer is that of the request; else, out_of_range, that of the nearest request in range.
   /// Beside an end that yields, closer than a thousandth of the length (3 % in float), an element up to the contact
-  /// would lose the force to round-off; there the end's node is pressed through a straight tip, which is off by about
+  /// would lose the force to round-off; there the end's node is pressed through a straight tip, whose error is about
   /// (δ/L)³ at a free end and (δ/L)² at a guided one.
   /// @return force [N] and ok | out_of_range | snapped | invalid_request | iteration_limit | singular | non_finite
   template <int D = dimension, std::enable_if_t<D == 2, int> = 0>
@@ -84,7 +84,7 @@ class FemModel {
     return solve({press.s, press.d, {0, 1}}, valid, press.s == request.s && press.d == request.d);
   }
 
-  /// Prescribes the displacement along any direction, by a force along it: what an element of any rotation needs where
+  /// Prescribes the displacement along any direction, by a force along it: what an element of finite rotation needs where
   /// it has turned.  At an end that slides along a wall the wall takes what does not act along it.
   /// @return as press()
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>

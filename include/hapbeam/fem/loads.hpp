@@ -2,14 +2,14 @@
 //
 // A distributed load becomes the consistent nodal forces of the uniform mesh (thesis eq. 3.31), once; point loads stay
 // where they are.  Each is then given to whichever element holds it.  On the uniform mesh that is the consistent load
-// itself; where the mesh has moved it is statically exact and off by O(l⁴) in the deflection.
+// itself; where the mesh has moved it is statically exact, and the error of the deflection is O(l⁴).
 //
 // What a distributed load gives a node beside a force is its first moment about the node.  The forces stay dead while
 // their arms, which lie along the beam, turn with it:
 //
 //   ∫f u + q w ds = Σ f u + q w + p (cos θ - 1) - q_arm sin θ         for one element and even loads p = ± f l²/12
 //
-// (Euler and Maclaurin's formula: off by O(l⁵) an element.)  Taken for a moment, which works on θ whatever θ is, it
+// (Euler and Maclaurin's formula: an error of O(l⁵) an element.)  Taken for a moment, which works on θ whatever θ is, it
 // leaves second order at large rotation; moderate rotation has -p θ²/2 for the first and -q_arm θ for the second.
 //
 // A force inside an element, where its mesh has moved, acts on a point of a bent piece.  The piece stretches evenly, but its

@@ -2,7 +2,7 @@
 //
 // A support that holds w is rigid: the shortest element keeps its distance from it.
 // Moderate rotation: |d| up to a tenth of the length and half of the distance to such a support, where it has ended,
-// though the solver has not.  Any rotation: where the ends hold the beam along its axis, as far beyond what its length
+// though the solver has not.  Finite rotation: where the ends hold the beam along its axis, as far beyond what its length
 // allows; where it can slide, 0.3 of the length and of the distance, the deepest that one call reaches from rest.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once

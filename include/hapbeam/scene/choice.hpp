@@ -16,7 +16,7 @@ namespace hapbeam {
 
 /// What became of one family of models.
 struct Verdict {
-  Candidate candidate;  ///< its least size that is right enough; where none is, the best that was tried
+  Candidate candidate;  ///< its least size that is accurate enough; where none is, the best that was tried
   double error;  ///< [-] largest relative error of the force that was seen; infinite where it did not answer
   double tick;   ///< [s] expected time of a press
   bool right;    ///< whether the error is small enough
@@ -51,7 +51,7 @@ struct Choice {
     const bool elements = verdict.candidate.reduction == Reduction::none;
     if (!std::isfinite(verdict.error)) std::snprintf(text, sizeof text, "does not answer all presses");
     else if (!verdict.right)
-      std::snprintf(text, sizeof text, "force off by %.2g %% %s; allowed %.2g %%", percent,
+      std::snprintf(text, sizeof text, "force error %.2g %% %s; allowed %.2g %%", percent,
                     elements ? "with any number of elements" : "at best", 100 * force_error);
     else if (verdict.tick > tick)
       std::snprintf(text, sizeof text, "force within %.2g %%, but %.2g us a press; allowed %.2g us", percent,

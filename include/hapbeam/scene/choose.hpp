@@ -8,7 +8,7 @@
 //
 // Each family of models (three kinematics, halves of the beam where the scene is symmetric, two reductions) is tried at
 // growing size on the presses of a Pilot until its error is well below the tolerated one; of those that get there within the
-// time, the cheapest is chosen.  No rule knows a beam: what is known of the scene is what these presses say.
+// time, the cheapest is chosen.  There are no rules for kinds of beams: these presses are all that is known of a scene.
 // Offline: allocates; takes tens of milliseconds, seconds for thin beams under dead loads; throws std::invalid_argument for a scene that makes no sense.
 #pragma once
 
@@ -32,7 +32,7 @@ class Chooser {
   /// The pilot's presses do not meet the worst press of all, so a model has to do better on them than is tolerated.
   /// Finite elements are at their worst at the corners of the range, which the pilot meets, and interpolation is between.
   static constexpr double elements_margin = 0.85, trained_margin = 0.6;
-  /// Where nothing is that much better, what is right on the pilot is taken at its word, almost.
+  /// Where no candidate is that much better, one is taken whose error on the pilot is just below the tolerated one.
   static constexpr double elements_least = 0.97, trained_least = 0.85;
 
   Chooser(const Scene& scene, const TickCosts& costs) : scene_(scene), costs_(costs), pilot_(scene) {
@@ -45,7 +45,7 @@ class Chooser {
       elements(kinematics, false);
       if (scene_.mirrored() && kinematics != Kinematics::linear) elements(kinematics, true);
     }
-    // What trains a model costs nothing in a tick, so it is the one that is right.  Galerkin's equation is von Kármán's.
+    // The model that trains costs nothing in a tick, so the most accurate one is taken.  Galerkin's equation is von Kármán's.
     trained(Reduction::pod, Kinematics::corotational);
     trained(Reduction::galerkin, Kinematics::von_karman);
     decide();
@@ -55,7 +55,7 @@ class Chooser {
  private:
   static constexpr double nothing = std::numeric_limits<double>::infinity();
 
-  /// Finite elements: where many are right, the fewest that are.
+  /// Finite elements: the fewest that are accurate enough, if many are.
   void elements(Kinematics kinematics, bool mirrored) {
     Verdict verdict = judge({kinematics, Reduction::none, pilot_.elements(), mirrored});
     for (const int n : {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384}) {

@@ -1,6 +1,6 @@
 // Presses by which candidates are judged: a few lines of increasing depth, answered by a reference whose error is known.
 //
-// The reference is Corotational<>, with as many elements as it takes until half of them say the same to a twentieth of the
+// The reference is Corotational<>, with as many elements as it takes until half of them give the same force to a twentieth of the
 // tolerated error, or with 512.  own_error() is a third of what they differ by then: the error of the reference where it is
 // of second order or better.  Lines stand at both ends of the range and between, closer toward supports, where every method
 // is at its worst; along a line the beam is pressed from rest ever deeper, as a hand would.

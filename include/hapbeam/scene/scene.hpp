@@ -30,7 +30,7 @@ struct Scene {
 
   bool one_place() const noexcept { return s_min == s_max; }
 
-  /// Whether half of the beam says all: pressed in the middle, alike on both sides.
+  /// Whether half of the beam is enough: pressed in the middle, alike on both sides.
   bool mirrored() const noexcept {
     const EndPlace &a = beam.left_place(), &b = beam.right_place();
     return one_place() && std::abs(2 * s_min - beam.length()) < 1e-9 * beam.length() &&

@@ -4,7 +4,7 @@
 //   model.press({s, d});                             // one switch and the model's own press: nothing virtual
 //   model.visit([](auto& chosen) { … });             // or a loop that is compiled for the one that was chosen
 //
-// A model of any rotation is pushed along the normal by Touch and ServoLoop where they are given it itself, through visit().
+// Touch and ServoLoop push a model of finite rotation along the normal if they are given that model itself, through visit().
 // Servo: noexcept, allocation-free, bounded as the model that it holds.
 #pragma once
 

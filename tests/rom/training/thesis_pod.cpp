@@ -112,8 +112,8 @@ TEST_CASE("the thesis' recipe fails near the ends of its load cases and outside"
 
 // What such a training is worth is decided by the accuracy of its snapshots.  1e-10 is that of a good solver.
 TEST_CASE(
-    "with 1e-10 of noise in the snapshots 50 equidistant ones are off by more than a percent, 50 Chebyshev "
-    "ones by 1e-10",
+    "with 1e-10 of noise in the snapshots the error of 50 equidistant ones is above a percent, of 50 "
+    "Chebyshev ones 1e-10",
     "[thesis]") {
   const auto force_error = [](auto nodes) {
     FemModel<> model(thesis_beam(Support::pinned, Support::pinned), 64, tight_solver());

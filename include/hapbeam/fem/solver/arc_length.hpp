@@ -7,7 +7,7 @@
 //
 // with ⟨,⟩ the mean over the nodes of (Δu² + Δw²)/L² + Δθ².  With v' of the present tangent the corrections are Newton's;
 // with v for it they shrink by a factor only, and the paths of frames take 6 to 15 times the solves.  The length counts how
-// far the beam moves and turns, and not the load (Crisfield's cylinder): no scale of the load is right both before a limit
+// far the beam moves and turns, and not the load (Crisfield's cylinder): no scale of the load serves both before a limit
 // point and at it, where counting it makes the steps shrink.  A plane (Riks) and not the cylinder itself: one linear
 // equation for dλ instead of a quadratic one with roots to choose from.  Which way is on is what goes on from the step
 // before.

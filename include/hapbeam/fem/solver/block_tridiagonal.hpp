@@ -11,7 +11,7 @@
 // the one before it, and most of a sweep is waiting, so two chains side by side take hardly longer than one.
 // With Di' = LPLᵀ the update is  Yᵀ(P⁻¹Y),  Y = L⁻¹C:  symmetric, and free of the second half of a solve.
 // No pivoting: the pivots of LDLᵀ carry the inertia of K, so an indefinite tangent (a beam beyond its buckling load)
-// is solved and counted, not refused.
+// is solved and counted, not rejected.
 // Real-time: noexcept, no allocation after construction, about 75 multiply-adds and 3 divisions a node of 3 unknowns.
 // Source: Golub and Van Loan, Matrix Computations, 4.5.1; from both ends: Dongarra and others, LINPACK Users' Guide, 7.
 #pragma once

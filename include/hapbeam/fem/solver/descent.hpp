@@ -2,7 +2,7 @@
 //
 // Each step solves (K + μM) Δ = -r.  With μ so large that all pivots are positive that leads downhill; a step that
 // raises the potential, or a tangent that is not positive, is taken back and μ grows tenfold; a step that lowers it lets
-// μ fall tenfold, to zero in the end, where the step is Newton's.  It is the way of a beam in honey, which comes to rest
+// μ fall tenfold, to zero in the end, where the step is Newton's.  It is the path of a beam in a viscous fluid, which settles
 // in the hollow on whose slope it was let go; where it stands on a ridge, whoever calls must have nudged it.
 //
 //   expression of a system, beyond those of NewtonRaphson

@@ -19,7 +19,7 @@
 // An increment that is 1/(10 √eps) times the one before ends a step without: where the energy has grown by the square of
 // that, round-off keeps nothing of the state that it was, and where Newton's method then arrives is anywhere.
 // An increment below n √eps/20 √(2V) also ends a step.  Increments stop shrinking at round-off, √eps n² of the state where
-// bending is worst, of which no C can be measured; with C = 100/√(2V) the step that was taken is right to eps n²/4.  That
+// bending is worst, of which no C can be measured; with C = 100/√(2V) the error of the step that was taken is eps n²/4.  That
 // holds for the linear equations' force and not for one that is computed anew from rounded nodes.
 //
 //   expression of a system       meaning
@@ -57,7 +57,7 @@ struct SolveReport {
   int steps;       ///< load steps that converged
   Scalar reached;  ///< path position t that the state stands for, 1 where status is ok
   Scalar error;  ///< |Δ| of the increment that would come next, estimated, over √(2V): relative force error
-  Scalar step;   ///< of the path, to be tried first by whoever goes on from here
+  Scalar step;   ///< of the path, to be tried first when the path is continued from here
 };
 
 struct NewtonRaphson {
@@ -87,7 +87,7 @@ struct NewtonRaphson {
       } else {
         system.restore();
         const bool out_of_budget = report.solves >= max_solves;
-        // A step that the budget cut short says nothing of its size, unless it had the budget for itself.
+        // A step that the budget cut short does not show that it was too large, unless it had the whole budget.
         if (!out_of_budget || report.steps == 0) step /= 8;
         if (step < S(smallest_step) || out_of_budget) break;
       }

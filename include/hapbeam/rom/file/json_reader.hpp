@@ -4,7 +4,7 @@
 // A name says where the member is: "beam.length" is the member length of the object beam.  The units stand in a member of
 // their own, {"beam.length": "m", …}: one for each real number, "1" where it has none.
 // Nothing is skipped, guessed or converted: a member that is missing, of another type, in another unit, out of the scalar's
-// range, or one that nobody asked for, throws ModelFileError with its name, value, unit and what is allowed.
+// range, or unknown, throws ModelFileError with its name, value, unit and what is allowed.
 // Offline: allocates, throws.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace hapbeam::detail {
 
-/// What has been read is taken out of the object: what is left at the end is what nobody asked for.
+/// A member that has been read is taken out of the object: what is left at the end is unknown.
 class JsonReader {
  public:
   /// @param root  emptied; outlives this   @param source  the file's name, for messages; outlives this

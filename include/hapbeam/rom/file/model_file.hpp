@@ -11,7 +11,7 @@
 // The checksum goes over every byte after the first line feed.  The members of the second line are those of PodModelData
 // and GalerkinModelData; model_fields.hpp is their list.  Reals have as many digits as bring back every bit.
 // A file makes a whole model or a ModelFileError: each member must be there, be of its type and in its unit, and no other
-// may; the model's own check has the last word.  The error names the file, the field, its value, unit and what is allowed.
+// may; the model's own check comes last.  The error names the file, the field, its value, unit and what is allowed.
 // Offline: allocates and throws.  Needs jansson: link hapbeam::model_file.  hapbeam.hpp does not include this file.
 #pragma once
 
@@ -46,7 +46,7 @@ struct ModelFileInfo {
 namespace detail {
 
 inline constexpr int model_file_version = 2;
-/// A larger file is refused, unread.  A million numbers and more: a servo loop has no time for them.
+/// Largest file that is read.  It holds more than a million numbers, too many for a tick.
 inline constexpr std::size_t largest_model_file = std::size_t(1) << 25;
 
 struct Checksum {
@@ -81,7 +81,7 @@ struct Checksum {
 /// A test measures that 20 times and 64 kB are never exceeded.
 inline constexpr std::size_t memory_per_byte = 16, memory_to_begin = 1 << 15;
 
-/// Refuses what would take more, before it is parsed: three bytes can make an empty object of 250.
+/// Rejects text that would take more memory, before it is parsed: three bytes can make an empty object of 250.
 /// What stands in strings counts as well; a model has few.
 [[gnu::cold]] inline void check_memory(const char* text, std::size_t size, const std::string& source,
                                        int line) {
@@ -110,7 +110,7 @@ inline constexpr std::size_t memory_per_byte = 16, memory_to_begin = 1 << 15;
   return root;
 }
 
-/// The payload, parsed, of a text whose header is right.   @param info  out, of it the version, kind and scalar
+/// The payload, parsed, of a text whose header is valid.   @param info  out, of it the version, kind and scalar
 [[gnu::cold]] inline Json parse_model_file(const std::string& text, const std::string& source,
                                            ModelFileInfo& info) {
   check_size(text.size(), source);
@@ -132,7 +132,7 @@ inline constexpr std::size_t memory_per_byte = 16, memory_to_begin = 1 << 15;
   return parse_json(payload, size, source, 2);
 }
 
-/// The file is of another type than is asked for.
+/// The file holds another type of model than the program loads.
 [[gnu::cold]] inline void check_type(const char* field, const std::string& found, const char* wanted,
                                      const std::string& source) {
   if (found != wanted)
@@ -149,7 +149,7 @@ inline constexpr std::size_t memory_per_byte = 16, memory_to_begin = 1 << 15;
   if (!file) reject_file(path, "cannot be opened");
   std::string text;
   char part[1 << 12];
-  // One byte too many is enough to be refused.
+  // One byte beyond the limit is enough to reject the file.
   for (std::size_t size = 1; size > 0 && text.size() <= largest_model_file; text.append(part, size))
     size = std::fread(part, 1, sizeof part, file);
   const bool failed = std::ferror(file);

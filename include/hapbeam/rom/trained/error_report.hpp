@@ -1,4 +1,4 @@
-// How far a trained model is from the beam that it was trained for, as measured on presses that it was not trained with.
+// The errors of a trained model, measured on presses that it was not trained with.
 //
 // Kept with the model and in its file.  Plain data.
 #pragma once
@@ -35,8 +35,8 @@ struct ErrorReport {
   std::vector<RegionError> regions;
   /// No press in range() has a larger relative error of its force: a tenth more than the largest difference to the full
   /// model that a search from the worst presses found, and reference_error; 1e-8 at least, which round-off may be.  Within a
-  /// thousandth of the length from an end that yields finite elements are no judge, and the bound is that of the places beside.
-  /// What a search finds is no proof; of 250 000 presses of 50 beams at random none was beyond it.
+  /// thousandth of the length from an end that yields finite elements are no reference, and the bound is that of the places beside.
+  /// A search is no proof; of 250 000 random presses of 50 beams none was beyond the bound.
   double force_bound = 0;
   double reference_error =
       0;  ///< largest relative error of the full model's force, by one with twice its elements

@@ -9,8 +9,8 @@
 //
 // k = 1/g(s; s, N) is interpolated, ln(scale k) over x(s) and z = ln(1 + N/N0), N0 = 10 EI/L².  For the von Kármán beam no
 // other error is made.  k grows with N and is concave, so the equation has one root: Newton, kept in a bracket.
-// A fixed basis does worse, because the kink moves with the contact: with 8 global modes the force beside a support is off
-// by more than a tenth, with this one by 1e-5.
+// A fixed basis does worse, because the kink moves with the contact: with 8 global modes the error of the force beside a
+// support is more than a tenth, with this one it is 1e-5.
 // Beyond the largest tension that was trained, k' falls to that of a string, 1/A, as N^(-1/2), which is what its
 // boundary layers do: A = s(L - s)/L between two ends that hold w.
 // Where no tension arises (an end slides, or the element is linear) it has no unknown and k depends on s alone.
@@ -60,7 +60,7 @@ class GalerkinModel {
   /// @return force [N] and ok | out_of_range | invalid_request | non_finite
   Response<Scalar> press(const Press<Scalar>& request) noexcept;
 
-  /// Computed when it is first asked for: by one thread at a time.
+  /// Computed at the first call after a press; one thread at a time.
   Centreline<Scalar> shape() const noexcept { return shape_.all(trained_->data.shape); }
   /// The pieces of shape() that hold arc positions s0 to s1; beside the contact without the others.
   CentrelinePart<Scalar> part(Scalar s0, Scalar s1) const noexcept {
@@ -147,7 +147,7 @@ class GalerkinModel {
   }
 
   std::shared_ptr<const Trained> trained_;
-  mutable Shape shape_;  // of the last press, as far as it was asked for
+  mutable Shape shape_;  // of the last press, as far as it was computed
   Scalar last_ = 0;      // z of the last press
   int iterations_ = 0;
 };

@@ -1,4 +1,4 @@
-// A fast model where it may be trusted, a full one elsewhere, as one ForceModel.
+// A fast model in its trained range, a full one elsewhere, as one ForceModel.
 //
 //   Guarded<PodModel<>, FemModel<>> model(load_model<PodModel<>>("bar.json"), FemModel<>(beam, 32));
 //
@@ -37,7 +37,7 @@ class Guarded {
       if (response.status == Status::ok) return full_answers_ = false, response;
     }
     const Response<Scalar> response = full_.press(request);
-    // A request that is none leaves everything as it was.
+    // An invalid request leaves everything as it was.
     if (response.status != Status::invalid_request) full_answers_ = true;
     return response;
   }

@@ -59,7 +59,7 @@ namespace detail {
 template <class Nodes = ChebyshevNodes, typename Scalar = double>
 class Lagrange {
  public:
-  /// More are of no use to the first policy and poison to the second.
+  /// More nodes do not help the first policy and ruin the second.
   static constexpr int max_size = 64;
   static constexpr int block = 4;  // numbers of a register
 

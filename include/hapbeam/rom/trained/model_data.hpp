@@ -1,6 +1,6 @@
 // What training makes and a file keeps: the numbers of a trained model, and the check that they are one.
 //
-// Plain data in SI.  The models are constructed from it, and refuse what check() refuses.
+// Plain data in SI.  The models are constructed from it, and reject what check() rejects.
 // Offline: allocates; check() throws std::invalid_argument naming field, value and what is allowed.
 #pragma once
 
@@ -61,7 +61,7 @@ auto trained_range(const Data& data) noexcept {
                        fixes_w(data.beam.right) ? data.beam.length : infinity};
 }
 
-/// A displacement of more than a thousand lengths is as good as one of a thousand, and its square does not overflow.
+/// A displacement of more than a thousand lengths is replaced by one of a thousand, whose square does not overflow.
 template <typename Scalar>
 Scalar bounded(Scalar d, Scalar length) noexcept {
   const Scalar most = 1000 * length;

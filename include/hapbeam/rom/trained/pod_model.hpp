@@ -3,7 +3,7 @@
 // What is interpolated is the work V of a press, 2V/e² in the coordinates of coordinates.hpp, and the force is its
 // derivative, F = ∂V/∂d: no path of the contact that closes gains or loses energy, whatever the error.  The rotation at the
 // contact follows from the same V, ∂V/∂s = F θ, and the rest of the shape from POD modes (thesis eq. 3.54, 3.67).
-// The cost knows nothing of elements: positions × depths for the force, and points × modes more for the shape.
+// The cost does not depend on elements: positions × depths for the force, and points × modes more for the shape.
 // Copies share what was trained, and have a state of their own: a copy costs the nodes of a shape.
 // Outside range() nothing is extrapolated.  Deeper presses take the force at the end of the range and its tangent
 // stiffness there, held constant; s is that of the nearest press in range.  Only inside do closed paths close.
@@ -47,7 +47,7 @@ class PodModel {
   /// @return force [N] and ok | out_of_range | invalid_request | non_finite
   Response<Scalar> press(const Press<Scalar>& request) noexcept;
 
-  /// Computed when it is first asked for: by one thread at a time.
+  /// Computed at the first call after a press; one thread at a time.
   Centreline<Scalar> shape() const noexcept { return shape_.all(trained_->data.shape); }
   /// The pieces of shape() that hold arc positions s0 to s1; beside the contact without the others.
   CentrelinePart<Scalar> part(Scalar s0, Scalar s1) const noexcept {
@@ -109,7 +109,7 @@ class PodModel {
   Scalar rotation(const Point& at, Scalar by_x) const noexcept;
 
   std::shared_ptr<const Trained> trained_;
-  mutable Shape shape_;  // of the last press, as far as it was asked for
+  mutable Shape shape_;  // of the last press, as far as it was computed
 };
 
 // What costs a compiler time is defined outside of the class: only so does "extern template class PodModel<>;" keep it out of all

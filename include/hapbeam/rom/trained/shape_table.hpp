@@ -1,7 +1,7 @@
 // The deformed shape of a trained model: POD modes, and their coefficients on a grid of presses.
 //
-// A fixed mesh would be of little use.  At the contact w''' jumps, and the jump moves with the contact: shapes at fixed
-// places are not smooth in s, and interpolating them between 16 positions leaves slopes wrong by a fifth.  Snapshots are
+// Nodes at fixed places do not serve.  At the contact w''' jumps, and the jump moves with the contact: shapes at fixed
+// places are not smooth in s, and interpolation between 16 positions leaves an error of a fifth in the slopes.  Snapshots are
 // therefore taken where the contact is always the same node, the others sharing both sides evenly, and freed of units:
 //
 //   w/d,   θ h/d,   u h/d²,    h the length of the node's side of the beam
@@ -78,7 +78,7 @@ struct ShapeData {
 };
 
 /// The shape of the last press.  The contact's node and its neighbours, which is where contact looks, come with the press;
-/// the others when they are asked for.  What was trained stays with the model, which passes it in.
+/// the others at the first call that reads them.  What was trained stays with the model, which passes it in.
 template <typename Scalar>
 class ShapeTable {
  public:

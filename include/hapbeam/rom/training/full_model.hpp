@@ -29,7 +29,7 @@ class FullModel : public FemModel<Element> {
 };
 
 /// Its discretisation error is of fourth order, and 256 elements leave 1e-6 of the force of a bar.  Where tension bends a
-/// strip within an element, k h = √(N/EI) h > 1, they leave up to 1e-3; validate() says how much.
+/// strip within an element, k h = √(N/EI) h > 1, they leave up to 1e-3; validate() measures it.
 template <class Element = VonKarman<AssumedStrain>>
 FullModel<Element> full_model(const Beam& beam, int elements = 256) {
   return FullModel<Element>(beam, elements);

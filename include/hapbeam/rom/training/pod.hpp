@@ -4,7 +4,7 @@
 //
 // Policies: how the basis is found (Svd, or the thesis' eigenvalues of XXᵀ) and in which inner product it is orthonormal
 // (plain, or a matrix: with snapshots in metres and radians a stiffness, whose norm is an energy).
-// This is the one header that includes an SVD; a program that loads a trained model never compiles it.
+// This header alone includes an SVD; a program that loads a trained model does not compile it.
 // Offline: allocates and throws std::invalid_argument.
 #pragma once
 

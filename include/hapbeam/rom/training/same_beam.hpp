@@ -1,4 +1,4 @@
-// Whether a full model is one of the beam that is trained: what both say of themselves, and what they answer.
+// Whether a full model and a trained model are of the same beam: their data and their forces are compared.
 //
 // Offline: allocates; throws std::invalid_argument.
 #pragma once

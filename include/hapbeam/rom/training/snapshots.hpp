@@ -1,7 +1,7 @@
 // Presses of a full model, taken for training: on a grid of depths, or of tensions.
 //
 // Positions are shared out to threads, each with its own copy of the model.  A press that the full model does not answer
-// with ok fails the training: none is left out, none is used with a doubt.
+// with ok fails the training: none is left out, and none is used with another status.
 // Offline: allocates; throws std::invalid_argument for a plan that cannot be carried out and TrainingError for a press.
 #pragma once
 
@@ -84,7 +84,7 @@ class SnapshotTaker {
     bool loaded = false;
     for (int i = 0; i <= plan.segments; ++i) {
       const auto at = shape.at(shape.length() * static_cast<S>(i) / static_cast<S>(plan.segments));
-      // Between the nodes of an element of any rotation there is round-off.
+      // Between the nodes of an element of finite rotation there is round-off.
       const double least = 1e-9 * plan.depth, length = out_.beam.length;
       for (const S value : {at.u, at.w, at.theta * static_cast<S>(length)})
         loaded = loaded || std::abs(static_cast<double>(value)) > least;
@@ -222,7 +222,7 @@ class SnapshotTaker {
                         " N; the full model's solver may be too loose, or its range too small");
   }
 
-  /// A depth that is as good as none [m]: F/e is off by (e/ρ)².
+  /// A depth that stands for zero [m]: the error of F/e is (e/ρ)².
   double nothing() const {
     return std::min(3e-3 * std::sqrt(out_.beam.bending_stiffness / out_.beam.axial_stiffness),
                     1e-3 * out_.plan.depth);

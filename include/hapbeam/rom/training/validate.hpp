@@ -1,4 +1,4 @@
-// How wrong is a trained model?  Measured on presses that it was not trained with, against a full one.
+// The error of a trained model, measured on presses that it was not trained with, against a full model.
 //
 //   data.errors = validate(PodModel<>(data), full_model(beam));
 //   data.errors.force_bound;                 // no press in range has a larger relative error of its force
@@ -112,7 +112,7 @@ ErrorReport report_errors(const Fast& fast, const Full& full, const std::vector<
   return report;
 }
 
-/// Both: how wrong a model is.
+/// Both: the errors of a model.
 /// @param full  of full_model(); any other ForceModel counts as exact   @param reference  what it is called in the report
 template <class Fast, class Full>
 ErrorReport validate(const Fast& fast, const Full& full, const ValidationOptions& options = {},

@@ -56,7 +56,7 @@ class PressComparison {
   /// From rest to the end of the range [m].
   double reach(double s, bool up) const noexcept { return deepest(s) + (up ? -rest(s) : rest(s)); }
 
-  /// Whether two presses are about as deep.  What is untouched at rest errs alike on both sides.
+  /// Whether two presses are about as deep.  The error at rest is the same on both sides.
   bool alike(const PressError& a, const PressError& b) const noexcept {
     const double ratio = (a.d - rest(a.s)) / (b.d - rest(b.s));
     const double size = rest(a.s) == 0 ? std::abs(ratio) : ratio;
