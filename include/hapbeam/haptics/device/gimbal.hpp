@@ -31,7 +31,7 @@ struct GimbalOptions {
   double friction = 2e-3;            ///< [N·m] Coulomb, on each axis
   double resolution = 1e-4;          ///< [rad] of the encoders; 0: exact
   double peak_torque = 0.15;         ///< [N·m] 0: it renders none, and reads the orientation alone
-  double continuous_torque = 0.05;   ///< [N·m] at most the peak
+  double continuous_torque = 0.05;   ///< [N·m] positive
   double hand_stiffness = 0.45;      ///< [N·m/rad] of the hand, 500 N/m at the 30 mm where fingers hold a pen
   double hand_damping = 1.2e-3;      ///< [N·m·s/rad] the same of 1.3 N·s/m
   double grip_inertia = 1.8e-4;      ///< [kg·m²] the same of 0.2 kg
@@ -42,16 +42,19 @@ inline Eigen::Matrix3d gimbal_orientation(const Eigen::Vector3d& angles) noexcep
   const double sa = std::sin(angles[0]), ca = std::cos(angles[0]), sb = std::sin(angles[1]),
                cb = std::cos(angles[1]), sc = std::sin(angles[2]), cc = std::cos(angles[2]);
   Eigen::Matrix3d R;
-  R << ca * cc + sa * sb * sc, sa * sb * cc - ca * sc, sa * cb,  //
-      cb * sc, cb * cc, -sb,                                     //
-      ca * sb * sc - sa * cc, sa * sc + ca * sb * cc, ca * cb;
+  const double columns[9] = {ca * cc + sa * sb * sc, cb * sc, ca * sb * sc - sa * cc,
+                             sa * sb * cc - ca * sc, cb * cc, sa * sc + ca * sb * cc,
+                             sa * cb,                -sb,     ca * cb};
+  for (int k = 0; k < 9; ++k) R(k % 3, k / 3) = columns[k];
   return R;
 }
 
 class Gimbal {
  public:
   Gimbal(const GimbalOptions& options, double velocity_cutoff) noexcept
-      : o_(options), encoders_(options.resolution, velocity_cutoff) {}
+      : axes_{axis(options), axis(options), axis(options)},
+        hand_damping_(options.hand_damping),
+        encoders_(options.resolution, velocity_cutoff) {}
 
   static ArmAxis axis(const GimbalOptions& o) noexcept {
     return ArmAxis({o.inertia + o.grip_inertia, o.damping + o.hand_damping, o.hand_stiffness, o.friction});
@@ -92,14 +95,14 @@ class Gimbal {
                double period) noexcept {
     for (int i = 0; i < 3; ++i)
       axes_[i].advance(axes_[i].drive(motors[i] + from.twist[i], from.turn[i], from.spin[i], to.turn[i],
-                                      to.spin[i], o_.hand_damping, period),
+                                      to.spin[i], hand_damping_, period),
                        period);
     encoders_.read(angles(), period);
   }
 
  private:
-  GimbalOptions o_;
-  ArmAxis axes_[3] = {axis(o_), axis(o_), axis(o_)};
+  ArmAxis axes_[3];
+  double hand_damping_;
   Encoders encoders_;
 };
 

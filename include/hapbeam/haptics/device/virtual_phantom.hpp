@@ -291,8 +291,7 @@ VirtualPhantomOptions VirtualPhantom<Path>::checked(const VirtualPhantomOptions&
   not_negative("gimbal friction", gimbal.friction, "N·m");
   not_negative("gimbal resolution", gimbal.resolution, "rad");
   not_negative("gimbal peak_torque", gimbal.peak_torque, "N·m");
-  if (!(gimbal.continuous_torque >= 0 && gimbal.continuous_torque <= gimbal.peak_torque))
-    detail::reject("gimbal continuous_torque", gimbal.continuous_torque, "N·m", "0 to the peak torque");
+  detail::positive("gimbal continuous_torque", gimbal.continuous_torque, "N·m");
   not_negative("gimbal hand_stiffness", gimbal.hand_stiffness, "N·m/rad");
   not_negative("gimbal hand_damping", gimbal.hand_damping, "N·m·s/rad");
   not_negative("gimbal grip_inertia", gimbal.grip_inertia, "kg·m²");
