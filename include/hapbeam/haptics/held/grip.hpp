@@ -23,8 +23,6 @@
 #include <atomic>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include <hapbeam/haptics/servo/servo.hpp>
 #include <hapbeam/haptics/stability/coupling_limits.hpp>
 #include <hapbeam/rod_support.hpp>
@@ -217,8 +215,15 @@ class GripCoupling {
 
   static Eigen::Matrix3d turn_by(const Eigen::Vector3d& by) noexcept {
     const double angle = by.norm();
-    if (!(angle > 0)) return Eigen::Matrix3d::Identity();
-    return Eigen::AngleAxisd(angle, by / angle).toRotationMatrix();
+    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+    if (!(angle > 0)) return R;
+    const Eigen::Vector3d axis = by / angle;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d e = R.col(k);
+      R.col(k) = std::cos(angle) * e + std::sin(angle) * detail::cross3<double>(axis, e) +
+                 ((1 - std::cos(angle)) * axis[k]) * axis;
+    }
+    return R;
   }
   static Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R) noexcept {
     const Eigen::Vector3d twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));

@@ -70,6 +70,12 @@ using HandOf = VectorOf<double, dimension_of_touch<Touch>>;
 template <typename Touch>
 using CoupledForceOf = CoupledForce<typename Touch::Scalar, dimension_of_touch<Touch>>;
 
+/// Whether a touch turns the hand, and says by which lever ρ [m].
+template <typename Touch, typename = void>
+struct TurnsHand : std::false_type {};
+template <typename Touch>
+struct TurnsHand<Touch, std::void_t<decltype(&Touch::lever)>> : std::true_type {};
+
 /// A beam to call a coupling with.
 struct AnyTouch {
   using Scalar = double;
@@ -108,6 +114,8 @@ class Direct {
   static Direct for_device(const DeviceInfo&, int) noexcept { return {}; }
   Direct in_scene(double) const noexcept { return *this; }
   void reset() noexcept { last_.forget(); }
+  /// As VirtualCoupling's.
+  void move(const Eigen::Vector3d& by) noexcept { last_.move(by); }
 
   /// @param touch  of the same beam each tick   @param hand [m]
   template <typename Touch>
@@ -161,17 +169,8 @@ class VirtualCoupling {
   CouplingFigures figures() const noexcept { return straight_; }
   /// K_r and B_r; zero where no torque is rendered.
   CouplingFigures turning() const noexcept { return turning_; }
-  /// From the next tick on the line of the force passes the hand at a distance.   @param lever ρ [m]
-  void lean(double lever) noexcept {
-    const auto in_series = [squared = lever * lever](double straight, double turning) {
-      return straight * turning / (turning + squared * straight);
-    };
-    if (!(turning_.stiffness > 0 && std::isfinite(lever))) return;
-    stiffness_ = in_series(straight_.stiffness, turning_.stiffness);
-    damping_ = turning_.damping > 0   ? in_series(straight_.damping, turning_.damping)
-               : lever * lever == 0.0 ? straight_.damping
-                                      : 0;
-  }
+  /// From the next tick on the hand is another point of a body that turns.   @param by [m] from the old one
+  void move(const Eigen::Vector3d& by) noexcept { last_.move(by); }
   /// Longer metres, softer springs: force over displacement is divided by the scale.
   VirtualCoupling in_scene(double scale) const noexcept {
     VirtualCoupling scaled = *this;
@@ -197,6 +196,8 @@ class VirtualCoupling {
     result.avatar = hand + normal() * solve(from, dt).gap;
     result.touch = touch.tick(result.avatar.template cast<Scalar>());
     last_.learn(result.touch, detail::in_scene(result.avatar));
+    if constexpr (detail::TurnsHand<Touch>::value)
+      if (result.touch.pressing) lean(touch.lever(result.touch, result.avatar));
     if (!result.touch.pressing && last_.tangent().known())
       last_.look_again(touch.contact_at(hand.template cast<Scalar>()), from);
 
@@ -214,6 +215,18 @@ class VirtualCoupling {
   }
 
  private:
+  /// The line of the force passes the hand.   @param lever ρ [m]
+  void lean(double lever) noexcept {
+    const auto in_series = [squared = lever * lever](double straight, double turning) {
+      return straight * turning / (turning + squared * straight);
+    };
+    if (!(turning_.stiffness > 0 && std::isfinite(lever))) return;
+    stiffness_ = in_series(straight_.stiffness, turning_.stiffness);
+    damping_ = turning_.damping > 0 ? in_series(straight_.damping, turning_.damping)
+               : lever == 0         ? straight_.damping
+                                    : 0;
+  }
+
   struct Balance {
     double gap;    // g [m]
     double force;  // K g + B g' [N]
