@@ -91,8 +91,8 @@ class RodEnd {
   }
   /// Whether a pose says all of where it is: clamped, or on springs against each of its motions but twist.
   bool takes_pose() const noexcept {
-    return (direction_ && holds_place()) ||
-           (on_springs() && across_[0] > 0 && across_[1] > 0 && place_[0] > 0 && place_[1] > 0 && place_[2] > 0);
+    return (direction_ && holds_place()) || (on_springs() && across_[0] > 0 && across_[1] > 0 &&
+                                             place_[0] > 0 && place_[1] > 0 && place_[2] > 0);
   }
   /// Whether its place is one.
   bool holds_place() const noexcept { return held_[0] && held_[1] && held_[2]; }

@@ -72,9 +72,11 @@ TEST_CASE("a steady torque turns the stylus to where hand and friction hold it",
   VirtualPhantom<> phantom(HandPath({0, 0}), options);
   Steady servo{{{0, 0, 0}, {0.02, -0.03, 0.01}}};
   phantom.run(servo, 2);
-  const Eigen::Vector3d by_axes = phantom.gimbal().by_axes(servo.wrench.torque), q = phantom.gimbal().angles();
+  const Eigen::Vector3d by_axes = phantom.gimbal().by_axes(servo.wrench.torque),
+                        q = phantom.gimbal().angles();
   for (int i = 0; i < 3; ++i)
-    CHECK(std::abs(options.gimbal.hand_stiffness * q[i] - by_axes[i]) <= options.gimbal.friction * (1 + 1e-6));
+    CHECK(std::abs(options.gimbal.hand_stiffness * q[i] - by_axes[i]) <=
+          options.gimbal.friction * (1 + 1e-6));
   CHECK(servo.last.sent_torque == servo.wrench.torque);
   CHECK((servo.last.orientation - gimbal_orientation(q)).norm() <= 2 * options.gimbal.resolution);
   CHECK(servo.plain == 0);
@@ -114,15 +116,18 @@ TEST_CASE("a device of three axes moves as one of six that gives no torque, to t
   CHECK(six.info().gimbal.reads);
 }
 
-TEST_CASE("no torque is sent beyond the peak, none that is no number, and none that is not rendered", "[gimbal]") {
+TEST_CASE("no torque is sent beyond the peak, none that is no number, and none that is not rendered",
+          "[gimbal]") {
   VirtualPhantomOptions options = six_axes();
   VirtualPhantom<> phantom(HandPath({0, 0}), options);
   Steady servo{{{0, 1, 0}, {3, -4, 0}}};
   phantom.step(servo), phantom.step(servo);
   CHECK(servo.last.cut == ForceCut::peak);
-  CHECK((servo.last.sent_torque - Eigen::Vector3d(0.6, -0.8, 0) * options.gimbal.peak_torque).norm() <= 1e-15);
+  CHECK((servo.last.sent_torque - Eigen::Vector3d(0.6, -0.8, 0) * options.gimbal.peak_torque).norm() <=
+        1e-15);
   CHECK(servo.last.sent == Eigen::Vector3d(0, 1, 0));
-  for (const Wrench& bad : {Wrench{{0, 1, 0}, {not_a_number, 0, 0}}, Wrench{{0, not_a_number, 0}, {0.01, 0, 0}}}) {
+  for (const Wrench& bad :
+       {Wrench{{0, 1, 0}, {not_a_number, 0, 0}}, Wrench{{0, not_a_number, 0}, {0.01, 0, 0}}}) {
     servo.wrench = bad;
     phantom.step(servo), phantom.step(servo);
     CHECK(servo.last.cut == ForceCut::not_finite);

@@ -39,11 +39,11 @@ struct HdCode {
                             nominal_max_stiffness = 0x2602, current_transform = 0x2052,
                             current_torque = 0x2701, input_dof = 0x2553, output_dof = 0x2554,
                             nominal_max_torque = 0x2622, nominal_max_continuous_torque = 0x2623,
-                            nominal_max_torque_stiffness = 0x2620, force_output = 0x4000, calibration_ok = 0x5000,
-                            calibration_needs_update = 0x5001, calibration_needs_manual_input = 0x5002,
-                            calibration_style = 0x2555, calibration_encoder_reset = 1, calibration_auto = 2,
-                            calibration_inkwell = 4, callback_done = 0, callback_continue = 1,
-                            invalid_handle = 0xffffffff;
+                            nominal_max_torque_stiffness = 0x2620, force_output = 0x4000,
+                            calibration_ok = 0x5000, calibration_needs_update = 0x5001,
+                            calibration_needs_manual_input = 0x5002, calibration_style = 0x2555,
+                            calibration_encoder_reset = 1, calibration_auto = 2, calibration_inkwell = 4,
+                            callback_done = 0, callback_continue = 1, invalid_handle = 0xffffffff;
   static constexpr unsigned short default_priority = 32767;
   static constexpr unsigned success = 0, invalid_enum = 0x100, invalid_value = 0x101,
                             invalid_operation = 0x102, bad_handle = 0x104, warm_motors = 0x200,
@@ -66,14 +66,15 @@ class HdWorld : public HdCode {
 
   /// What a test may set while no tick runs, and read.
   struct Device {
-    Device(const char* called, const HandPath& path, const VirtualPhantomOptions& options, int reads, int drives)
+    Device(const char* called, const HandPath& path, const VirtualPhantomOptions& options, int reads,
+           int drives)
         : name(called), arm(path, options), axes_read(reads), axes_driven(drives) {}
     std::string name;
     VirtualPhantom<> arm;
-    int axes_read, axes_driven;  // 3 or 6
+    int axes_read, axes_driven;                                                // 3 or 6
     double peak_torque = 170, continuous_torque = 48, torque_stiffness = 500;  // [mN·m], [mN·m/rad]
-    bool tells_axes = true;    // else that is an error
-    double transform_by = 1;   // times what it reads of its orientation
+    bool tells_axes = true;                                                    // else that is an error
+    double transform_by = 1;  // times what it reads of its orientation
     Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity(), seen_orientation = orientation;
     Eigen::Vector3d staged_torque{0, 0, 0}, committed_torque{0, 0, 0};  // [mN·m]
     int torques = 0;                                                    // sent
@@ -280,9 +281,10 @@ class HdWorld : public HdCode {
         if (!device->has_readings) return;
         for (int column = 0; column < 4; ++column)
           for (int row = 0; row < 4; ++row)
-            values[4 * column + row] = row == 3      ? column == 3
-                                       : column == 3 ? device->seen_position[row]
-                                                     : device->transform_by * device->seen_orientation(row, column);
+            values[4 * column + row] = row == 3 ? column == 3
+                                       : column == 3
+                                           ? device->seen_position[row]
+                                           : device->transform_by * device->seen_orientation(row, column);
         return;
       case nominal_max_torque:
         return device->axes_driven == 6 ? void(*values = device->peak_torque) : push(invalid_enum, current_);

@@ -102,7 +102,8 @@ TEST_CASE("torque ramps in with the force, and goes with warm motors", "[hdapi][
   CHECK(servo.last.reset);
 }
 
-TEST_CASE("torque goes to no device that renders none, and to a deaf servo's device goes zero", "[hdapi][torque]") {
+TEST_CASE("torque goes to no device that renders none, and to a deaf servo's device goes zero",
+          "[hdapi][torque]") {
   HdWorld world;
   auto& reads = world.plug_turning("reads", turning(), 3);
   auto& three = world.plug("three", turning());
@@ -154,8 +155,9 @@ TEST_CASE("a transform that is no rotation ends the loop without a force or a to
     device.start(servo);
     world.run(20);
     CHECK(device.running());
-    CHECK((servo.last.orientation.transpose() * servo.last.orientation - Eigen::Matrix3d::Identity()).norm() <=
-          1e-14);
+    CHECK(
+        (servo.last.orientation.transpose() * servo.last.orientation - Eigen::Matrix3d::Identity()).norm() <=
+        1e-14);
   }
 }
 

@@ -249,8 +249,9 @@ template <typename S>
 constexpr void require_servo() noexcept {
   static_assert(is_servo<S>, "a servo is called as: Eigen::Vector3d servo(const DeviceState&) noexcept");
   if constexpr (takes_orientation<S>)
-    static_assert(noexcept(std::declval<S&>()(std::declval<const OrientedState&>())),
-                  "a servo that takes an orientation is called as: Wrench servo(const OrientedState&) noexcept");
+    static_assert(
+        noexcept(std::declval<S&>()(std::declval<const OrientedState&>())),
+        "a servo that takes an orientation is called as: Wrench servo(const OrientedState&) noexcept");
 }
 
 /// Stops compilation with the contract that is not met.

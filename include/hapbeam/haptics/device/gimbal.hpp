@@ -25,16 +25,16 @@ namespace hapbeam {
 
 /// No figure of it is published where it was looked for: these are chosen, and the torque is low for such a device.
 struct GimbalOptions {
-  bool present = false;              ///< false: a device of three axes
-  double inertia = 1e-4;             ///< [kg·m²] positive; of a pen of 50 g and 150 mm
-  double damping = 1e-3;             ///< [N·m·s/rad]
-  double friction = 2e-3;            ///< [N·m] Coulomb, on each axis
-  double resolution = 1e-4;          ///< [rad] of the encoders; 0: exact
-  double peak_torque = 0.15;         ///< [N·m] 0: it renders none, and reads the orientation alone
-  double continuous_torque = 0.05;   ///< [N·m] positive
-  double hand_stiffness = 0.45;      ///< [N·m/rad] of the hand, 500 N/m at the 30 mm where fingers hold a pen
-  double hand_damping = 1.2e-3;      ///< [N·m·s/rad] the same of 1.3 N·s/m
-  double grip_inertia = 1.8e-4;      ///< [kg·m²] the same of 0.2 kg
+  bool present = false;             ///< false: a device of three axes
+  double inertia = 1e-4;            ///< [kg·m²] positive; of a pen of 50 g and 150 mm
+  double damping = 1e-3;            ///< [N·m·s/rad]
+  double friction = 2e-3;           ///< [N·m] Coulomb, on each axis
+  double resolution = 1e-4;         ///< [rad] of the encoders; 0: exact
+  double peak_torque = 0.15;        ///< [N·m] 0: it renders none, and reads the orientation alone
+  double continuous_torque = 0.05;  ///< [N·m] positive
+  double hand_stiffness = 0.45;     ///< [N·m/rad] of the hand, 500 N/m at the 30 mm where fingers hold a pen
+  double hand_damping = 1.2e-3;     ///< [N·m·s/rad] the same of 1.3 N·s/m
+  double grip_inertia = 1.8e-4;     ///< [kg·m²] the same of 0.2 kg
 };
 
 /// How a stylus is turned by its gimbal.   @param angles [rad] yaw, pitch, roll
@@ -42,9 +42,15 @@ inline Eigen::Matrix3d gimbal_orientation(const Eigen::Vector3d& angles) noexcep
   const double sa = std::sin(angles[0]), ca = std::cos(angles[0]), sb = std::sin(angles[1]),
                cb = std::cos(angles[1]), sc = std::sin(angles[2]), cc = std::cos(angles[2]);
   Eigen::Matrix3d R;
-  const double columns[9] = {ca * cc + sa * sb * sc, cb * sc, ca * sb * sc - sa * cc,
-                             sa * sb * cc - ca * sc, cb * cc, sa * sc + ca * sb * cc,
-                             sa * cb,                -sb,     ca * cb};
+  const double columns[9] = {ca * cc + sa * sb * sc,
+                             cb * sc,
+                             ca * sb * sc - sa * cc,
+                             sa * sb * cc - ca * sc,
+                             cb * cc,
+                             sa * sc + ca * sb * cc,
+                             sa * cb,
+                             -sb,
+                             ca * cb};
   for (int k = 0; k < 9; ++k) R(k % 3, k / 3) = columns[k];
   return R;
 }

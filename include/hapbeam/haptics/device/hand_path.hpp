@@ -33,8 +33,8 @@ class HandPath {
  public:
   /// One way-point, passed at rest.
   struct WayPoint {
-    double time;               ///< [s] since the beginning
-    Vector2<double> position;  ///< [m] x to the right, y up
+    double time;                                     ///< [s] since the beginning
+    Vector2<double> position;                        ///< [m] x to the right, y up
     Eigen::Vector3d turn = Eigen::Vector3d::Zero();  ///< [rad] yaw, pitch and roll of the stylus
   };
 

@@ -36,12 +36,12 @@ struct HdapiOptions {
   double apparent_mass = 0;        ///< [kg] at the tip
 
   // Of a device of six axes.
-  double torque_limit =
-      std::numeric_limits<double>::infinity();  ///< [N·m] not negative, 0: no torque; the device's own peak applies too
-  double gimbal_resolution = 0;                 ///< [rad]
-  double gimbal_friction = 0;                   ///< [N·m] to turn the stylus by hand
-  double gimbal_damping = 0;                    ///< [N·m·s/rad] viscous, of the gimbal
-  double gimbal_inertia = 0;                    ///< [kg·m²] of gimbal and stylus
+  double torque_limit = std::numeric_limits<
+      double>::infinity();       ///< [N·m] not negative, 0: no torque; the device's own peak applies too
+  double gimbal_resolution = 0;  ///< [rad]
+  double gimbal_friction = 0;    ///< [N·m] to turn the stylus by hand
+  double gimbal_damping = 0;     ///< [N·m·s/rad] viscous, of the gimbal
+  double gimbal_inertia = 0;     ///< [kg·m²] of gimbal and stylus
 };
 
 /// A device that cannot be used; why() is what its status() says.

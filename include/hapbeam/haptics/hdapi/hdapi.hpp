@@ -200,11 +200,11 @@ class Hdapi {
     const detail::HdErrors errors = std::exchange(device_.client.errors, {});
 
     const DeviceStatus end =
-        errors.worst == HdErrorClass::communication ? DeviceStatus::communication_lost
+        errors.worst == HdErrorClass::communication                     ? DeviceStatus::communication_lost
         : errors.worst == HdErrorClass::fault || !(current && readable) ? DeviceStatus::device_fault
-        : !calibrated && !device_.calibration.automatic() ? DeviceStatus::calibration_needed
-        : stopping_.load(relaxed)                         ? DeviceStatus::stopped
-                                                          : DeviceStatus::running;
+        : !calibrated && !device_.calibration.automatic()               ? DeviceStatus::calibration_needed
+        : stopping_.load(relaxed)                                       ? DeviceStatus::stopped
+                                                                        : DeviceStatus::running;
     Wrench wrench;
     if (is_running(end)) {
       const bool force_error = errors.worst == HdErrorClass::force;

@@ -92,7 +92,8 @@ class Touch<Grip<Model>> {
     from_hand_.turn = hand.turn.transpose() * by * hand.turn * from_hand_.turn;
   }
   HeldEnd<Scalar> hold(const HandPose& aim) noexcept {
-    const HeldEnd<Scalar> held = grip_.model().hold(grip_.side(), {aim.place, aim.turn.col(2), aim.turn.col(0)});
+    const HeldEnd<Scalar> held =
+        grip_.model().hold(grip_.side(), {aim.place, aim.turn.col(2), aim.turn.col(0)});
     if (is_answer(held.status)) aim_ = aim;
     return held;
   }
@@ -210,7 +211,9 @@ class GripCoupling {
     return figures.stiffness + figures.damping / period_;
   }
   /// β
-  double share(const CouplingFigures& figures) const noexcept { return 1 - figures.stiffness / stiff(figures); }
+  double share(const CouplingFigures& figures) const noexcept {
+    return 1 - figures.stiffness / stiff(figures);
+  }
   void forget() noexcept { gap_.setZero(), turn_.setZero(); }
 
   static Eigen::Matrix3d turn_by(const Eigen::Vector3d& by) noexcept {

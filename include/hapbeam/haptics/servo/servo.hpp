@@ -38,7 +38,8 @@ struct ServoOptions {
   double avatar_radius = 0.005;  ///< [m] in the scene, not negative
   int delay_ticks = 0;           ///< whole periods between the servo's answer and the motors, 0 to 16
   bool dissipate = false;        ///< energy that the loop has generated is taken back by damping
-  StylusOptions stylus = {};     ///< what touches a rod in space, where the device reads its orientation; else a sphere
+  StylusOptions stylus =
+      {};  ///< what touches a rod in space, where the device reads its orientation; else a sphere
 };
 
 /// What is drawn: the record and the centreline of one tick.
@@ -195,8 +196,8 @@ class Servo {
     const bool whole = state.cut == ForceCut::none;
     const Eigen::Vector3d& force = whole ? guard_.force() : state.sent;
     if constexpr (oriented<State>)
-      energy_.observe(state.position, state.orientation,
-                      {force, whole ? guard_.torque() : state.sent_torque}, dt);
+      energy_.observe(state.position, state.orientation, {force, whole ? guard_.torque() : state.sent_torque},
+                      dt);
     else energy_.observe(state.position, force, dt);
   }
 

@@ -51,11 +51,13 @@ struct ServoRecord {
   Eigen::Vector3d avatar =
       Eigen::Vector3d::Zero();  ///< [m] from where the beam is pressed; the hand, where free
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N] sent, device axes
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m] sent, device axes; zero for a device of three axes
-  Eigen::Vector3d shaft = Eigen::Vector3d::Zero();  ///< [m] from the avatar to the other end of its axis, in the scene; zero: a sphere
-  Press<double> press{0, 0};                        ///< asked of the model; zero where nothing was
-  bool pressing = false;  ///< the hand holds the beam: it is touched, or its force goes on
-  double heat = 0;        ///< of the motors, 1: only the continuous force is left
+  Eigen::Vector3d torque =
+      Eigen::Vector3d::Zero();  ///< [N·m] sent, device axes; zero for a device of three axes
+  Eigen::Vector3d shaft = Eigen::Vector3d::
+      Zero();  ///< [m] from the avatar to the other end of its axis, in the scene; zero: a sphere
+  Press<double> press{0, 0};  ///< asked of the model; zero where nothing was
+  bool pressing = false;      ///< the hand holds the beam: it is touched, or its force goes on
+  double heat = 0;            ///< of the motors, 1: only the continuous force is left
 
   std::uint64_t ticks = 0;            ///< since the start
   std::uint64_t contact_ticks = 0;    ///< the beam was touched

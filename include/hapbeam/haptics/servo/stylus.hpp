@@ -57,7 +57,8 @@ struct CapsuleTouch {
 template <typename C, typename = void>
 struct Moves : std::false_type {};
 template <typename C>
-struct Moves<C, std::void_t<decltype(std::declval<C&>().move(std::declval<const Eigen::Vector3d&>()))>> : std::true_type {};
+struct Moves<C, std::void_t<decltype(std::declval<C&>().move(std::declval<const Eigen::Vector3d&>()))>>
+    : std::true_type {};
 
 /// @tparam Scalar  of the rod
 template <typename Scalar>
@@ -107,8 +108,9 @@ class Stylus {
 
  private:
   StylusOptions o_;
-  Eigen::Vector3d tied_ = Eigen::Vector3d::Zero();  // from the hand to the tied point, in the stylus' axes [m]
-  Eigen::Vector3d arm_ = Eigen::Vector3d::Zero();   // from the hand to the contact, in the scene [m]
+  Eigen::Vector3d tied_ =
+      Eigen::Vector3d::Zero();                     // from the hand to the tied point, in the stylus' axes [m]
+  Eigen::Vector3d arm_ = Eigen::Vector3d::Zero();  // from the hand to the contact, in the scene [m]
 };
 
 }  // namespace detail

@@ -28,16 +28,16 @@
 namespace hapbeam {
 
 struct ForceGuardOptions {
-  double peak_force;           ///< [N] positive
-  double continuous_force;     ///< Fc [N] positive, at most the peak
-  double period;               ///< [s] of the loop, 1e-6 to 1e3
-  double slew_rate = 1e4;      ///< [N/s] positive; 10 N a millisecond is faster than any hand and no blow
-  double thermal_time = 10;    ///< τ [s] positive; of small motors' windings, of housings minutes
-  double engage_time = 0.2;    ///< [s] not negative
-  double longest_pause = 0.1;  ///< [s] not negative
-  double peak_torque = 0;      ///< [N·m] not negative; 0: no torque is sent
-  double continuous_torque = 0;    ///< [N·m] positive, at most the peak, where there is one
-  double torque_slew_rate = 100;   ///< [N·m/s] positive; at a lever of 0.1 m a tenth of the force's
+  double peak_force;              ///< [N] positive
+  double continuous_force;        ///< Fc [N] positive, at most the peak
+  double period;                  ///< [s] of the loop, 1e-6 to 1e3
+  double slew_rate = 1e4;         ///< [N/s] positive; 10 N a millisecond is faster than any hand and no blow
+  double thermal_time = 10;       ///< τ [s] positive; of small motors' windings, of housings minutes
+  double engage_time = 0.2;       ///< [s] not negative
+  double longest_pause = 0.1;     ///< [s] not negative
+  double peak_torque = 0;         ///< [N·m] not negative; 0: no torque is sent
+  double continuous_torque = 0;   ///< [N·m] positive, at most the peak, where there is one
+  double torque_slew_rate = 100;  ///< [N·m/s] positive; at a lever of 0.1 m a tenth of the force's
 };
 
 /// What the guard did to a force.

@@ -33,8 +33,8 @@ template <typename C, typename Touch, typename = void>
 struct CouplesPose : std::false_type {};
 template <typename C, typename Touch>
 struct CouplesPose<C, Touch,
-                   std::void_t<decltype(std::declval<C&>().tick(
-                       std::declval<Touch&>(), std::declval<const HandPose&>(), 0.0))>>
+                   std::void_t<decltype(std::declval<C&>().tick(std::declval<Touch&>(),
+                                                                std::declval<const HandPose&>(), 0.0))>>
     : std::bool_constant<noexcept(
           std::declval<C&>().tick(std::declval<Touch&>(), std::declval<const HandPose&>(), 0.0))> {};
 
