@@ -99,10 +99,13 @@ class Touch {
   /// The contact of the beam as it lies now with the avatar, gone straight to a place from that of the last tick.
   /// @param position [m]   Real-time: noexcept, no allocation, bounded; no press.
   [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position) noexcept {
-    if (inside_) return {};
-    auto memory = memory_;
-    return find_contact(Avatar{position, avatar_radius_}, model_.shape(), volumes(), model_.thickness(),
-                        memory);
+    return contact_at(Avatar{position, avatar_radius_});
+  }
+  /// The same of a capsule, as tick().
+  template <int D = dimension, std::enable_if_t<D == 3, int> = 0>
+  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position,
+                                                               const Vector& shaft) noexcept {
+    return contact_at(Avatar{position, avatar_radius_, shaft});
   }
 
   /// Of the avatar's radius, in lengths of the beam.  Seen from the beam a larger disc is a plane, and in `float` the depth
@@ -119,6 +122,12 @@ class Touch {
   using Volumes = BoundingVolumes<Scalar, dimension>;
 
   Result tick(const Avatar& avatar) noexcept;
+
+  Contact contact_at(const Avatar& avatar) noexcept {
+    if (inside_) return {};
+    auto memory = memory_;
+    return find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory);
+  }
 
   /// Fitted to the present shape.  A touch that goes on seldom needs them.
   const Volumes& volumes() noexcept {

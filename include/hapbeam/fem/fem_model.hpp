@@ -113,7 +113,8 @@ class FemModel {
     return take(ways_, [](const auto& way) { return way.shape(); });
   }
 
-  /// Holds a clamped end of a rod elsewhere, and otherwise turned: what a hand does that has taken hold of it.
+  /// Holds a clamped end of a rod elsewhere, and otherwise turned: what a hand does that has taken hold of it.  Of an end on springs
+  /// the pose is theirs.
   /// @return force and moment that takes, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
   template <class InSpace = Of>
   HeldEnd<Scalar> hold(typename InSpace::Side side, const typename InSpace::Pose& pose) noexcept {

@@ -32,7 +32,7 @@ class RodEnd {
     place_[0] = spring(support.place1), place_[1] = spring(support.place2), place_[2] = spring(support.along);
     torsion_ = spring(support.twist);
     springs_ = !place_.isZero(0) || across_[0] > 0 || across_[1] > 0 || torsion_ > 0;
-    goal_ = natural;
+    goal_ = target_ = natural;
     begin(natural);
     set_target(1);
   }
@@ -42,11 +42,11 @@ class RodEnd {
     goal_.director = pose.director.template cast<Scalar>();
   }
 
-  /// A path to the goal begins where the end is.
+  /// A path to the goal begins where the end is, or where its springs were.
   void begin(const Node& node) noexcept {
     using std::sqrt;
-    start_ = node;
-    start_.tangent = unit(node.tangent);
+    start_ = on_springs() ? target_ : node;
+    start_.tangent = unit(start_.tangent);
     // The rotation from start to goal: its sine and axis are in the antisymmetric part.
     const Vector3 *a[3], *b[3], s2 = cross3(start_.tangent, start_.director),
                                 g2 = cross3(goal_.tangent, goal_.director);
@@ -89,7 +89,11 @@ class RodEnd {
     const Vector3 u = unit(node.tangent);
     visitor(6, angle_about(u, node.director, across(carry(target_.director, target_.tangent, u), u)));
   }
-  bool is_clamped() const noexcept { return direction_ && holds_place(); }
+  /// Whether a pose says all of where it is: clamped, or on springs against each of its motions but twist.
+  bool takes_pose() const noexcept {
+    return (direction_ && holds_place()) || (on_springs() && across_[0] > 0 && across_[1] > 0 &&
+                                             place_[0] > 0 && place_[1] > 0 && place_[2] > 0);
+  }
   /// Whether its place is one.
   bool holds_place() const noexcept { return held_[0] && held_[1] && held_[2]; }
   /// Whether something keeps its place, springs too.
@@ -182,6 +186,8 @@ class RodEnd {
 
  private:
   bool holds_any_place() const noexcept { return held_[0] || held_[1] || held_[2]; }
+  /// Nothing is held but by springs.
+  bool on_springs() const noexcept { return springs_ && !holds_any_place() && !direction_ && !twist_; }
   /// Rodrigues.
   static Vector3 rotate(const Vector3& by, const Vector3& v) noexcept {
     using std::cos;

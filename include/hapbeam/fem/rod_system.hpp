@@ -107,9 +107,9 @@ class RodSystem {
     return false;
   }
   /// Places an end anew: where the next path leads.  @param k  0: left, 1: right
-  /// @return false where it is not clamped, or the pose is none: nothing has changed
+  /// @return false where it is neither clamped nor on springs, or the pose is none: nothing has changed
   bool place_end(std::size_t k, RodPose pose) noexcept {
-    const bool valid = ends_[k].is_clamped() && pose.make_valid();
+    const bool valid = ends_[k].takes_pose() && pose.make_valid();
     if (valid) ends_[k].place(pose);
     return valid;
   }

@@ -5,7 +5,8 @@
 //     a device from anywhere else is an error.  In lock step a test's tick() is that thread.
 //   - A frame belongs to one device, once a tick.  Beginning it makes the device current and its force zero,
 //     ending it commits the force.  Nesting, ending what did not begin, and leaving one open are errors.
-//   - The last force persists when nothing new is sent.  Motors are off until force output is enabled.
+//   - The last force persists when nothing new is sent, the last torque too.  Motors are off until force output is enabled.
+//   - A device reads three axes or six, and drives three or six.  Torque, in mN·m, is an error where it drives three.
 //   - Errors are one stack for all, the newest first, each with the handle of its device.
 //   - A device that was unplugged has a dead handle for ever; it is initialised anew after it was disabled.
 //   - Encoders are reset wherever a device may be called.  A device with an inkwell or automatic calibration is
@@ -35,11 +36,14 @@ struct HdCode {
   static constexpr unsigned current_position = 0x2050, current_velocity = 0x2051, current_force = 0x2700,
                             motor_temperature = 0x2605, device_model_type = 0x2501, usable_workspace = 0x2551,
                             nominal_max_force = 0x2603, nominal_max_continuous_force = 0x2604,
-                            nominal_max_stiffness = 0x2602, force_output = 0x4000, calibration_ok = 0x5000,
-                            calibration_needs_update = 0x5001, calibration_needs_manual_input = 0x5002,
-                            calibration_style = 0x2555, calibration_encoder_reset = 1, calibration_auto = 2,
-                            calibration_inkwell = 4, callback_done = 0, callback_continue = 1,
-                            invalid_handle = 0xffffffff;
+                            nominal_max_stiffness = 0x2602, current_transform = 0x2052,
+                            current_torque = 0x2701, input_dof = 0x2553, output_dof = 0x2554,
+                            nominal_max_torque = 0x2622, nominal_max_continuous_torque = 0x2623,
+                            nominal_max_torque_stiffness = 0x2620, force_output = 0x4000,
+                            calibration_ok = 0x5000, calibration_needs_update = 0x5001,
+                            calibration_needs_manual_input = 0x5002, calibration_style = 0x2555,
+                            calibration_encoder_reset = 1, calibration_auto = 2, calibration_inkwell = 4,
+                            callback_done = 0, callback_continue = 1, invalid_handle = 0xffffffff;
   static constexpr unsigned short default_priority = 32767;
   static constexpr unsigned success = 0, invalid_enum = 0x100, invalid_value = 0x101,
                             invalid_operation = 0x102, bad_handle = 0x104, warm_motors = 0x200,
@@ -62,9 +66,18 @@ class HdWorld : public HdCode {
 
   /// What a test may set while no tick runs, and read.
   struct Device {
-    Device(const char* called, const HandPath& path) : name(called), arm(path) {}
+    Device(const char* called, const HandPath& path, const VirtualPhantomOptions& options, int reads,
+           int drives)
+        : name(called), arm(path, options), axes_read(reads), axes_driven(drives) {}
     std::string name;
     VirtualPhantom<> arm;
+    int axes_read, axes_driven;                                                // 3 or 6
+    double peak_torque = 170, continuous_torque = 48, torque_stiffness = 500;  // [mN·m], [mN·m/rad]
+    bool tells_axes = true;                                                    // else that is an error
+    double transform_by = 1;  // times what it reads of its orientation
+    Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity(), seen_orientation = orientation;
+    Eigen::Vector3d staged_torque{0, 0, 0}, committed_torque{0, 0, 0};  // [mN·m]
+    int torques = 0;                                                    // sent
     bool plugged = true, has_sensor = true, has_readings = true;
     double temperature = 0, peak = 37.5, top_speed = 5;  // of the hottest motor; [N]; [m/s]
     unsigned calibration = calibration_ok, styles = calibration_encoder_reset, init_error = success,
@@ -92,7 +105,14 @@ class HdWorld : public HdCode {
   static HdWorld& here() noexcept { return *here_; }
 
   Device& plug(const char* name, const HandPath& path) {
-    devices_.push_back(std::make_unique<Device>(name, path));
+    devices_.push_back(std::make_unique<Device>(name, path, VirtualPhantomOptions(), 3, 3));
+    return *devices_.back();
+  }
+  /// One that reads how its stylus is turned.   @param drives  3, or 6 where it renders torque as well
+  Device& plug_turning(const char* name, const HandPath& path, int drives) {
+    VirtualPhantomOptions options;
+    options.gimbal.present = true, options.gimbal.peak_torque = 10;  // its world says what is too much
+    devices_.push_back(std::make_unique<Device>(name, path, options, 6, drives));
     return *devices_.back();
   }
   void unplug(Device& device) {
@@ -100,7 +120,7 @@ class HdWorld : public HdCode {
     device.plugged = false;
     device.dead = true;
     device.enabled = false;
-    device.committed.setZero();
+    device.committed.setZero(), device.committed_torque.setZero();
   }
   void plug(Device& device) {
     const Lock lock(mutex_);
@@ -115,6 +135,11 @@ class HdWorld : public HdCode {
   Eigen::Vector3d motors(const Device& device) {
     const Lock lock(mutex_);
     return device.motors();
+  }
+
+  Eigen::Vector3d torque(const Device& device) {  // [N·m]
+    const Lock lock(mutex_);
+    return torque_of(device);
   }
 
   /// Lock step: one tick, with the callbacks where the scheduler has been started.
@@ -202,6 +227,7 @@ class HdWorld : public HdCode {
     if (device->dead) return push(comm_error, handle);
     device->seen_position = device->position + device->misplaced;
     device->seen_velocity = device->velocity;
+    device->seen_orientation = device->orientation;
   }
   void end_frame(unsigned handle) noexcept {
     const Lock lock(mutex_);
@@ -215,6 +241,11 @@ class HdWorld : public HdCode {
       device->committed.setZero();
       broken("a force beyond the peak", exceeded_max_force, handle);
     }
+    device->committed_torque = device->staged_torque;
+    if (device->committed_torque.norm() > device->peak_torque * (1 + 1e-12)) {
+      device->committed_torque.setZero();
+      broken("a torque beyond the peak", exceeded_max_force, handle);
+    }
   }
   void set_capability(unsigned name, bool on) noexcept {
     const Lock lock(mutex_);
@@ -224,13 +255,15 @@ class HdWorld : public HdCode {
     if (name != force_output) return push(invalid_enum, current_);
     if (on && device->enable_error != success) return push(device->enable_error, current_);
     device->enabled = on && !device->dead;
-    if (!on) device->committed.setZero();
+    if (!on) device->committed.setZero(), device->committed_torque.setZero();
   }
   void get_integerv(unsigned name, int* values) noexcept {
     const Lock lock(mutex_);
     Device* device = device_call("get_integerv") ? find(current_) : nullptr;
     if (!device) return;
     if (name == calibration_style) *values = static_cast<int>(device->styles);
+    else if (name == input_dof && device->tells_axes) *values = device->axes_read;
+    else if (name == output_dof && device->tells_axes) *values = device->axes_driven;
     else push(invalid_enum, current_);
   }
   void get_doublev(unsigned name, double* values) noexcept {
@@ -244,6 +277,23 @@ class HdWorld : public HdCode {
     switch (name) {
       case current_position: return give(device->seen_position);
       case current_velocity: return give(device->seen_velocity);
+      case current_transform:
+        if (!device->has_readings) return;
+        for (int column = 0; column < 4; ++column)
+          for (int row = 0; row < 4; ++row)
+            values[4 * column + row] = row == 3 ? column == 3
+                                       : column == 3
+                                           ? device->seen_position[row]
+                                           : device->transform_by * device->seen_orientation(row, column);
+        return;
+      case nominal_max_torque:
+        return device->axes_driven == 6 ? void(*values = device->peak_torque) : push(invalid_enum, current_);
+      case nominal_max_continuous_torque:
+        return device->axes_driven == 6 ? void(*values = device->continuous_torque)
+                                        : push(invalid_enum, current_);
+      case nominal_max_torque_stiffness:
+        return device->axes_driven == 6 ? void(*values = device->torque_stiffness)
+                                        : push(invalid_enum, current_);
       case nominal_max_force: *values = device->peak; return;
       case nominal_max_continuous_force: *values = 6.2; return;
       case nominal_max_stiffness: *values = 3.5; return;
@@ -262,9 +312,12 @@ class HdWorld : public HdCode {
     const Lock lock(mutex_);
     Device* device = device_call("set_doublev") ? find(current_) : nullptr;
     if (!device) return;
-    if (name != current_force) return push(invalid_enum, current_);
+    if (name != current_force && name != current_torque) return push(invalid_enum, current_);
     if (!device->open) return broken("a force outside a frame", frame_error, current_);
-    device->staged = {values[0], values[1], values[2]};
+    if (name == current_torque && device->axes_driven != 6)
+      return broken("a torque to a device that renders none", invalid_operation, current_);
+    (name == current_force ? device->staged : device->staged_torque) = {values[0], values[1], values[2]};
+    device->torques += name == current_torque;
   }
   const char* get_string(unsigned name) noexcept {
     const Lock lock(mutex_);
@@ -370,6 +423,19 @@ class HdWorld : public HdCode {
   using Lock = std::lock_guard<std::mutex>;
   static constexpr int most_slots = 8;
 
+  /// What an arm calls, with an orientation or without.
+  template <class Plain, class Turned>
+  struct Both {
+    const Plain& plain;
+    const Turned& turned;
+    Eigen::Vector3d operator()(const DeviceState& state) noexcept { return plain(state); }
+    Wrench operator()(const OrientedState& state) noexcept { return turned(state); }
+  };
+  static Eigen::Vector3d torque_of(const Device& device) {
+    return device.plugged && device.enabled ? Eigen::Vector3d(device.committed_torque * 1e-3)
+                                            : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  }
+
   struct Slot {
     Callback callback = nullptr;
     void* data = nullptr;
@@ -385,7 +451,7 @@ class HdWorld : public HdCode {
       return;
     }
     Device& device = *devices_[i];
-    auto servo = [&](const DeviceState& state) noexcept -> Eigen::Vector3d {
+    const auto ask = [&](const DeviceState& state) noexcept -> Eigen::Vector3d {
       {
         const Lock lock(mutex_);
         device.position = state.position * 1e3 + middle;
@@ -395,6 +461,16 @@ class HdWorld : public HdCode {
       const Lock lock(mutex_);
       return device.motors();
     };
+    const auto turned = [&](const OrientedState& state) noexcept -> Wrench {
+      {
+        const Lock lock(mutex_);
+        device.orientation = state.orientation;
+      }
+      const Eigen::Vector3d force = ask(state);
+      const Lock lock(mutex_);
+      return {force, torque_of(device)};
+    };
+    Both<decltype(ask), decltype(turned)> servo{ask, turned};
     for (int k = 0; k < 1000 / rate_; ++k) device.arm.step(servo), with_callbacks = false;
   }
 

@@ -7,6 +7,8 @@
 //   a servo S
 //   s(state)      Eigen::Vector3d   noexcept; the force on the hand [N], device axes; no allocation or waiting
 //                                   (called only in ticks in which the device knows where its arm is)
+//   s(oriented)   Wrench            optional, noexcept; of an OrientedState, force and torque: a device that reads the orientation of
+//                                   its stylus (DeviceInfo::gimbal) calls this instead where the servo has it
 //
 //   a device D
 //   d.info()      DeviceInfo        (or a const reference) what the device can do
@@ -17,7 +19,7 @@
 //   d.status()    DeviceStatus      noexcept, wait-free, from any thread: how it is, or what ended the loop
 //   d.counts()    DeviceCounts      noexcept, wait-free, from any thread, while running and after
 //
-// A device sends no force that is not finite and none beyond its peak, whatever the servo says, and tells the
+// A device sends no force or torque that is not finite and none beyond its peak, whatever the servo says, and tells the
 // next tick so.  Where the device itself is in trouble it sends less than it is asked for, or nothing; the
 // servo is told (DeviceState::status), and told when to forget the contact (DeviceState::reset).  Axes: x
 // right, y up, z toward the user, as OpenHaptics' HDAPI has them; SI here, millimetres nowhere.
@@ -93,6 +95,31 @@ struct DeviceState {
   bool reset = false;
 };
 
+/// What the servo learns besides from a device that reads how its stylus is turned.
+struct OrientedState : DeviceState {
+  /// The axes of the stylus, one a column, in the device's axes; z along its shaft, from the tip to the hand.  A rotation.
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d sent_torque = Eigen::Vector3d::Zero();  ///< [N·m] of the tick before, as it was sent
+};
+
+/// A force and a torque about where the device's position is, on the hand.
+struct Wrench {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m]
+};
+
+/// What a device can do that turns; by default nothing.
+struct GimbalInfo {
+  bool reads = false;            ///< the orientation of the stylus
+  double peak_torque = 0;        ///< [N·m] magnitude, for a moment; 0: it renders no torque
+  double continuous_torque = 0;  ///< [N·m] for as long as one likes
+  double max_stiffness = 0;      ///< [N·m/rad] the hardest that the maker names; 0 where unknown
+  double resolution = 0;         ///< [rad]
+  double friction = 0;           ///< [N·m] to turn the stylus by hand
+  double damping = 0;            ///< [N·m·s/rad] viscous, of the gimbal itself; 0 where unknown
+  double inertia = 0;            ///< [kg·m²] of gimbal and stylus; 0 where unknown
+};
+
 /// What a device can do.
 struct DeviceInfo {
   std::string name;
@@ -105,6 +132,7 @@ struct DeviceInfo {
   double period;               ///< [s] of the servo loop
   double damping;              ///< [N·s/m] viscous, of the arm itself; 0 where unknown
   double apparent_mass;        ///< [kg] of the arm at its tip; 0 where unknown
+  GimbalInfo gimbal = {};      ///< of a device that turns
 };
 
 namespace detail {
@@ -150,6 +178,19 @@ inline bool all_finite(const Eigen::Vector3d& v) noexcept {
   return ForceCut::peak;
 }
 
+/// The same for force and torque together.  Where one is not finite neither is sent; a torque that the device does not render is none.
+/// @param peak_torque [N·m]; 0: it renders none
+[[nodiscard]] inline ForceCut limit_wrench(Wrench& wrench, double peak_force, double peak_torque) noexcept {
+  if (!detail::all_finite(wrench.force) || !detail::all_finite(wrench.torque)) {
+    wrench = {};
+    return ForceCut::not_finite;
+  }
+  if (!(peak_torque > 0)) wrench.torque.setZero();
+  const ForceCut force = limit_force(wrench.force, peak_force),
+                 torque = limit_force(wrench.torque, peak_torque);
+  return force != ForceCut::none ? force : torque;
+}
+
 namespace detail {
 
 template <typename S, typename = void>
@@ -161,6 +202,12 @@ struct IsServo<S, std::void_t<decltype(std::declval<S&>()(std::declval<const Dev
           noexcept(std::declval<S&>()(std::declval<const DeviceState&>())) &&
           std::is_same_v<decltype(std::declval<S&>()(std::declval<const DeviceState&>())), Eigen::Vector3d>> {
 };
+
+template <typename S, typename = void>
+struct TakesOrientation : std::false_type {};
+template <typename S>
+struct TakesOrientation<S, std::void_t<decltype(std::declval<S&>()(std::declval<const OrientedState&>()))>>
+    : std::is_same<decltype(std::declval<S&>()(std::declval<const OrientedState&>())), Wrench> {};
 
 struct AnyServo {
   Eigen::Vector3d operator()(const DeviceState&) noexcept;
@@ -189,6 +236,10 @@ struct IsDevice<
 template <typename S>
 inline constexpr bool is_servo = detail::IsServo<S>::value;
 
+/// True where S takes an orientation and answers with a torque besides.
+template <typename S>
+inline constexpr bool takes_orientation = detail::TakesOrientation<S>::value;
+
 /// True where D fulfils the contract above, every noexcept included.
 template <typename D>
 inline constexpr bool is_device = detail::IsDevice<D>::value;
@@ -197,6 +248,10 @@ inline constexpr bool is_device = detail::IsDevice<D>::value;
 template <typename S>
 constexpr void require_servo() noexcept {
   static_assert(is_servo<S>, "a servo is called as: Eigen::Vector3d servo(const DeviceState&) noexcept");
+  if constexpr (takes_orientation<S>)
+    static_assert(
+        noexcept(std::declval<S&>()(std::declval<const OrientedState&>())),
+        "a servo that takes an orientation is called as: Wrench servo(const OrientedState&) noexcept");
 }
 
 /// Stops compilation with the contract that is not met.

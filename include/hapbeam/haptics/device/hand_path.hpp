@@ -21,6 +21,10 @@ struct HandTarget {
   Eigen::Vector3d position;                        ///< [m] device axes
   Eigen::Vector3d velocity;                        ///< [m/s]
   Eigen::Vector3d push = Eigen::Vector3d::Zero();  ///< [N] held until the next target; a weight, for example
+  // Of a device with a gimbal: about its axes of yaw, pitch and roll (gimbal.hpp).
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();   ///< [rad] any number of turns
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();   ///< [rad/s]
+  Eigen::Vector3d twist = Eigen::Vector3d::Zero();  ///< [N·m] held until the next target
 };
 
 /// A script for the hand in the device's x-y plane (z = 0): it begins at rest at a place and is told what to
@@ -29,8 +33,9 @@ class HandPath {
  public:
   /// One way-point, passed at rest.
   struct WayPoint {
-    double time;               ///< [s] since the beginning
-    Vector2<double> position;  ///< [m] x to the right, y up
+    double time;                                     ///< [s] since the beginning
+    Vector2<double> position;                        ///< [m] x to the right, y up
+    Eigen::Vector3d turn = Eigen::Vector3d::Zero();  ///< [rad] yaw, pitch and roll of the stylus
   };
 
   /// A hand that rests at a place.
@@ -47,14 +52,23 @@ class HandPath {
     for (const WayPoint& point : points) {
       if (!points_.empty() && !(std::isfinite(point.time) && point.time > points_.back().time))
         detail::reject("hand path time", point.time, "s", "finite and after the one before it");
-      go_to({point.time, checked("hand path position", point.position)});
+      for (int i = 0; i < 3; ++i) detail::finite("hand path turn", point.turn[i], "rad");
+      go_to({point.time, checked("hand path position", point.position), point.turn});
     }
   }
 
   /// Reaches for a place.  @param place [m]   @param duration [s], positive
   HandPath& move_to(const Vector2<double>& place, double duration) {
     detail::positive("hand path duration", duration, "s");
-    go_to({points_.back().time + duration, checked("hand path place", place)});
+    go_to({points_.back().time + duration, checked("hand path place", place), points_.back().turn});
+    return *this;
+  }
+  /// Turns the stylus where it is.  @param by [rad] yaw, pitch and roll   @param duration [s]
+  HandPath& turn(const Eigen::Vector3d& by, double duration) {
+    detail::positive("hand path duration", duration, "s");
+    for (int i = 0; i < 3; ++i) detail::finite("hand path turn", by[i], "rad");
+    const WayPoint& last = points_.back();
+    go_to({last.time + duration, last.position, last.turn + by});
     return *this;
   }
   /// Moves along the beam.  @param distance [m] to the right, either sign   @param duration [s]
@@ -83,10 +97,14 @@ class HandPath {
     if (next == points_.end()) return at_rest(points_.back());
     const WayPoint &a = *(next - 1), &b = *next;
     const double span = b.time - a.time, t = (time - a.time) / span, r = 1 - t;
+    const double share = t * t * t * (10 + t * (6 * t - 15)), rate = 30 * t * t * r * r / span;
     const Vector2<double> way = b.position - a.position;
-    const Vector2<double> position = a.position + way * (t * t * t * (10 + t * (6 * t - 15)));
-    const Vector2<double> velocity = way * (30 * t * t * r * r / span);
-    return {{position.x(), position.y(), 0}, {velocity.x(), velocity.y(), 0}};
+    const Vector2<double> position = a.position + way * share;
+    const Vector2<double> velocity = way * rate;
+    const Eigen::Vector3d turn = b.turn - a.turn;
+    HandTarget target{{position.x(), position.y(), 0}, {velocity.x(), velocity.y(), 0}};
+    target.turn = a.turn + turn * share, target.spin = turn * rate;
+    return target;
   }
 
  private:
@@ -100,17 +118,21 @@ class HandPath {
       const WayPoint& last = points_.back();
       const double speed = 1.875 * (next.position - last.position).norm() / (next.time - last.time);
       if (!(speed <= fastest)) detail::reject("hand path speed", speed, "m/s", "at most 1e9");
+      const double spin = 1.875 * (next.turn - last.turn).norm() / (next.time - last.time);
+      if (!(spin <= fastest)) detail::reject("hand path spin", spin, "rad/s", "at most 1e9");
     }
     points_.push_back(next);
   }
   static HandTarget at_rest(const WayPoint& point) noexcept {
-    return {{point.position.x(), point.position.y(), 0}, Eigen::Vector3d::Zero()};
+    HandTarget target{{point.position.x(), point.position.y(), 0}, Eigen::Vector3d::Zero()};
+    target.turn = point.turn;
+    return target;
   }
   HandPath& move_by(double x, double y, double duration) {
     return move_to(points_.back().position + Vector2<double>(x, y), duration);
   }
 
-  static constexpr double fastest = 1e9;  // [m/s]
+  static constexpr double fastest = 1e9;  // [m/s], [rad/s]
 
   std::vector<WayPoint> points_;
 };

@@ -2,7 +2,8 @@
 //
 // The arm is a mass with viscous damping and Coulomb friction on each axis (arm_axis.hpp), read by encoders
 // (encoders.hpp), its force held over the period and limited to the peak; a hand of mass, spring and damper
-// pulls it along a path (hand_path.hpp).  Figures: thesis Table 2.1.  Three translations, no end stops.
+// pulls it along a path (hand_path.hpp).  Figures: thesis Table 2.1.  Three translations and, where it is asked for, a
+// gimbal (gimbal.hpp), which that torque turns; no end stops.
 //
 // It fulfils the device contract (device.hpp) with a thread of its own, in real time, or runs in lock step
 // with simulated time, as fast as the machine can and the same bits every time.
@@ -24,6 +25,7 @@
 #include <hapbeam/haptics/device/arm_axis.hpp>
 #include <hapbeam/haptics/device/device.hpp>
 #include <hapbeam/haptics/device/encoders.hpp>
+#include <hapbeam/haptics/device/gimbal.hpp>
 #include <hapbeam/haptics/device/hand_path.hpp>
 
 namespace hapbeam {
@@ -51,6 +53,7 @@ struct HandOptions {
 struct VirtualPhantomOptions {
   ArmOptions arm;
   HandOptions hand;
+  GimbalOptions gimbal = {};
 };
 
 /// True position and velocity of the arm's tip, which no device would tell.
@@ -69,7 +72,7 @@ class VirtualPhantom {
  public:
   /// @throws std::invalid_argument naming field, value and unit; also where a HandPath leaves the workspace
   explicit VirtualPhantom(Path path, const VirtualPhantomOptions& options = {})
-      : path_(std::move(path)), options_(checked(options)), info_(describe(options.arm)) {
+      : path_(std::move(path)), options_(checked(options)), info_(describe(options)) {
     check_workspace();
     reset();
   }
@@ -127,6 +130,8 @@ class VirtualPhantom {
     return {{axes_[0].position(), axes_[1].position(), axes_[2].position()},
             {axes_[0].velocity(), axes_[1].velocity(), axes_[2].velocity()}};
   }
+  /// How the stylus really is turned.  As tip().
+  const Gimbal& gimbal() const noexcept { return gimbal_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -134,13 +139,34 @@ class VirtualPhantom {
 
   template <typename Servo>
   void tick(Servo& servo) noexcept {
-    Eigen::Vector3d force =
-        servo(DeviceState{encoders_.position(), encoders_.velocity(), time_, cut_, force_,
-                          DeviceStatus::running, ticks_.load(std::memory_order_relaxed) == 0});
-    cut_ = limit_force(force, options_.arm.peak_force);
-    force_ = force;
+    const DeviceState state{encoders_.position(),
+                            encoders_.velocity(),
+                            time_,
+                            cut_,
+                            force_,
+                            DeviceStatus::running,
+                            ticks_.load(std::memory_order_relaxed) == 0};
+    if constexpr (takes_orientation<Servo>) {
+      if (options_.gimbal.present) ask_oriented(servo, state);
+      else ask(servo, state);
+    } else {
+      ask(servo, state);
+    }
     ticks_.fetch_add(1, std::memory_order_relaxed);
     if (cut_ != ForceCut::none) force_cut_ticks_.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  template <typename Servo>
+  void ask(Servo& servo, const DeviceState& state) noexcept {
+    Eigen::Vector3d force = servo(state);
+    cut_ = limit_force(force, options_.arm.peak_force);
+    force_ = force;
+  }
+  template <typename Servo>
+  void ask_oriented(Servo& servo, const DeviceState& state) noexcept {
+    Wrench wrench = servo(OrientedState{state, gimbal_.orientation(), torque_});
+    cut_ = limit_wrench(wrench, options_.arm.peak_force, info_.gimbal.peak_torque);
+    force_ = wrench.force, torque_ = wrench.torque;
   }
 
   /// One period under the last force.
@@ -178,7 +204,7 @@ class VirtualPhantom {
     return ArmAxis({o.arm.apparent_mass + o.hand.grip_mass, o.arm.damping + o.hand.damping, o.hand.stiffness,
                     o.arm.friction});
   }
-  static DeviceInfo describe(const ArmOptions& arm);
+  static DeviceInfo describe(const VirtualPhantomOptions& options);
   void check_workspace() const;
 
   Path path_;
@@ -186,9 +212,12 @@ class VirtualPhantom {
   DeviceInfo info_;
   ArmAxis axes_[3] = {axis(options_), axis(options_), axis(options_)};
   Encoders encoders_{options_.arm.resolution, options_.arm.velocity_cutoff};
+  Gimbal gimbal_{options_.gimbal, options_.arm.velocity_cutoff};
   HandTarget target_{};
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
-  std::array<Eigen::Vector3d, max_delay + 1> late_;  // newest first
+  Eigen::Vector3d torque_ = Eigen::Vector3d::Zero();
+  std::array<Eigen::Vector3d, max_delay + 1> late_;         // newest first
+  std::array<Eigen::Vector3d, max_delay + 1> late_motors_;  // of the gimbal
   ForceCut cut_ = ForceCut::none;
   std::uint64_t periods_ = 0;
   double time_ = 0;  // [s]
@@ -204,12 +233,13 @@ void VirtualPhantom<Path>::reset() noexcept {
   periods_ = 0;
   time_ = 0;
   ticks_ = missed_ticks_ = force_cut_ticks_ = 0;
-  force_.setZero();
-  late_.fill(force_);
+  force_.setZero(), torque_.setZero();
+  late_.fill(force_), late_motors_.fill(torque_);
   cut_ = ForceCut::none;
   target_ = path_(0);
   for (int i = 0; i < 3; ++i) axes_[i].place(target_.position[i]);
   encoders_.reset(tip().position);
+  gimbal_.reset(target_);
 }
 
 template <typename Path>
@@ -225,6 +255,10 @@ void VirtualPhantom<Path>::advance() noexcept {
                                     target_.velocity[i], options_.hand.damping, period),
                      period);
   encoders_.read(tip().position, period);
+  if (!options_.gimbal.present) return;
+  std::move_backward(late_motors_.begin(), late_motors_.end() - 1, late_motors_.end());
+  late_motors_[0] = gimbal_.by_axes(torque_);
+  gimbal_.advance(late_motors_[static_cast<std::size_t>(options_.arm.delay_ticks)], from, target_, period);
 }
 
 template <typename Path>
@@ -251,11 +285,25 @@ VirtualPhantomOptions VirtualPhantom<Path>::checked(const VirtualPhantomOptions&
   if (arm.period > 500 * axis(options).longest_piece())
     detail::reject("apparent_mass", arm.apparent_mass, "kg",
                    "large enough that the arm does not settle in 1/1000 period");
+  const GimbalOptions& gimbal = options.gimbal;
+  detail::positive("gimbal inertia", gimbal.inertia, "kg·m²");
+  not_negative("gimbal damping", gimbal.damping, "N·m·s/rad");
+  not_negative("gimbal friction", gimbal.friction, "N·m");
+  not_negative("gimbal resolution", gimbal.resolution, "rad");
+  not_negative("gimbal peak_torque", gimbal.peak_torque, "N·m");
+  detail::positive("gimbal continuous_torque", gimbal.continuous_torque, "N·m");
+  not_negative("gimbal hand_stiffness", gimbal.hand_stiffness, "N·m/rad");
+  not_negative("gimbal hand_damping", gimbal.hand_damping, "N·m·s/rad");
+  not_negative("gimbal grip_inertia", gimbal.grip_inertia, "kg·m²");
+  if (arm.period > 500 * Gimbal::axis(gimbal).longest_piece())
+    detail::reject("gimbal inertia", gimbal.inertia, "kg·m²",
+                   "large enough that the gimbal does not settle in 1/1000 period");
   return options;
 }
 
 template <typename Path>
-DeviceInfo VirtualPhantom<Path>::describe(const ArmOptions& arm) {
+DeviceInfo VirtualPhantom<Path>::describe(const VirtualPhantomOptions& options) {
+  const ArmOptions& arm = options.arm;
   return {"virtual Phantom Premium 1.5/6DOF High Force",
           {0.381, 0.267, 0.191},
           arm.peak_force,
@@ -265,7 +313,8 @@ DeviceInfo VirtualPhantom<Path>::describe(const ArmOptions& arm) {
           arm.friction,
           arm.period,
           arm.damping,
-          arm.apparent_mass};
+          arm.apparent_mass,
+          Gimbal::describe(options.gimbal)};
 }
 
 template <typename Path>

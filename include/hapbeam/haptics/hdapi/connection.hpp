@@ -1,7 +1,8 @@
 // One device of HDAPI: connected, asked what it is, calibrated, read, let go.
 //
-// mm become m and N/mm become N/m here and nowhere else; the origin becomes the middle of the workspace.
-// Forces are in N on both sides, axes are the same.
+// mm become m, N/mm N/m and mN·m N·m here and nowhere else; the origin becomes the middle of the workspace.
+// Forces are in N on both sides, axes are the same.  The stylus' axes are the first three columns of the vendor's transform,
+// made a rotation; its z points from the tip to the hand.
 // Offline but for read(): throws and allocates.  A message names the device, what was asked of it and the
 // vendor's error.
 #pragma once
@@ -33,6 +34,14 @@ struct HdapiOptions {
   double friction = 0;             ///< [N] to drive the arm back by hand
   double damping = 0;              ///< [N·s/m] viscous, of the arm
   double apparent_mass = 0;        ///< [kg] at the tip
+
+  // Of a device of six axes.
+  double torque_limit = std::numeric_limits<
+      double>::infinity();       ///< [N·m] not negative, 0: no torque; the device's own peak applies too
+  double gimbal_resolution = 0;  ///< [rad]
+  double gimbal_friction = 0;    ///< [N·m] to turn the stylus by hand
+  double gimbal_damping = 0;     ///< [N·m·s/rad] viscous, of the gimbal
+  double gimbal_inertia = 0;     ///< [kg·m²] of gimbal and stylus
 };
 
 /// A device that cannot be used; why() is what its status() says.
@@ -62,6 +71,11 @@ class HdConnection {
     not_negative("friction", options.friction, "N");
     not_negative("damping", options.damping, "N·s/m");
     not_negative("apparent_mass", options.apparent_mass, "kg");
+    if (!(options.torque_limit >= 0)) reject("torque_limit", options.torque_limit, "N·m", "not negative");
+    not_negative("gimbal_resolution", options.gimbal_resolution, "rad");
+    not_negative("gimbal_friction", options.gimbal_friction, "N·m");
+    not_negative("gimbal_damping", options.gimbal_damping, "N·m·s/rad");
+    not_negative("gimbal_inertia", options.gimbal_inertia, "kg·m²");
   }
 
   const HdapiOptions& options() const noexcept { return options_; }
@@ -145,12 +159,46 @@ class HdConnection {
     return {(position - middle_) * 1e-3, velocity * 1e-3, hottest};
   }
 
+  /// How the stylus is turned, as read() says where it is: in a frame.
+  /// @param orientation  out   @return false where the vendor's functions give no rotation
+  bool read(Eigen::Matrix3d& orientation) const noexcept {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    double transform[16];  // column by column
+    for (double& entry : transform) entry = none;
+    Api::get_doublev(Api::current_transform, transform);
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column) orientation(row, column) = transform[4 * column + row];
+    return make_rotation(orientation);
+  }
+
+  /// Whether the device renders torque: it has to be sent then, zero included.
+  bool has_torque() const noexcept { return has_torque_; }
+  /// @param torque [N·m]   In a frame.
+  static void send_torque(const Eigen::Vector3d& torque) noexcept {
+    const Eigen::Vector3d sent = torque * 1e3;
+    Api::set_doublev(Api::current_torque, sent.data());
+  }
+
   HdClient client;                       ///< its handle, and the errors that are its own
   HdCalibration<Api> calibration{0, 1};  ///< of the connected device
 
  private:
   static void not_negative(const char* field, double value, const char* unit) {
     if (!(std::isfinite(value) && value >= 0)) reject(field, value, unit, "finite and not negative");
+  }
+
+  /// What is a rotation but for the last digits of the vendor's becomes one.   @return false where it is none
+  static bool make_rotation(Eigen::Matrix3d& R) noexcept {
+    constexpr double most = 1e-2;
+    const double skew = (R.transpose() * R - Eigen::Matrix3d::Identity()).norm();
+    if (!(skew <= most)) return false;
+    const Eigen::Vector3d z = R.col(2) / R.col(2).norm();
+    Eigen::Vector3d x = R.col(0) - z * z.dot(R.col(0));
+    x /= x.norm();
+    const Eigen::Vector3d y(z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]);
+    if (!(y.dot(R.col(1)) > 0)) return false;
+    R.col(0) = x, R.col(1) = y, R.col(2) = z;
+    return true;
   }
 
   std::string title() const {
@@ -184,11 +232,41 @@ class HdConnection {
              options_.friction,
              1.0 / options_.rate,
              options_.damping,
-             options_.apparent_mass};
+             options_.apparent_mass,
+             describe_gimbal()};
     // Not every device measures it; what is an error here must not be one in each tick.
     double temperatures[most_motors] = {};
     Api::get_doublev(Api::motor_temperature, temperatures);
     has_temperature_ = Scheduler::drain().worst == HdErrorClass::none;
+  }
+
+  /// A device that does not say how many axes it reads and drives has three.
+  GimbalInfo describe_gimbal() {
+    const auto ask = [](unsigned name) {
+      int axes = 0;
+      Api::get_integerv(name, &axes);
+      return Scheduler::drain().worst == HdErrorClass::none ? axes : 0;
+    };
+    GimbalInfo gimbal;
+    has_torque_ = false;
+    if (ask(Api::input_dof) < 6) return gimbal;
+    gimbal.reads = true;
+    gimbal.resolution = options_.gimbal_resolution, gimbal.friction = options_.gimbal_friction;
+    gimbal.damping = options_.gimbal_damping, gimbal.inertia = options_.gimbal_inertia;
+    if (ask(Api::output_dof) < 6) return gimbal;
+    double peak = 0, continuous = 0, stiffness = 0;  // mN·m, mN·m, mN·m/rad
+    Api::get_doublev(Api::nominal_max_torque, &peak);
+    Api::get_doublev(Api::nominal_max_continuous_torque, &continuous);
+    const bool limits = Scheduler::drain().worst == HdErrorClass::none;
+    Api::get_doublev(Api::nominal_max_torque_stiffness, &stiffness);
+    const bool hardest = Scheduler::drain().worst == HdErrorClass::none;
+    has_torque_ = true;
+    // Without a limit of the device's own none is sent.
+    if (!(limits && std::isfinite(peak) && peak > 0 && continuous > 0)) return gimbal;
+    gimbal.peak_torque = std::min(peak * 1e-3, options_.torque_limit);
+    gimbal.continuous_torque = std::min(continuous * 1e-3, gimbal.peak_torque);
+    if (hardest && std::isfinite(stiffness) && stiffness > 0) gimbal.max_stiffness = stiffness * 1e-3;
+    return gimbal;
   }
 
   static constexpr int most_motors = 16;
@@ -196,7 +274,7 @@ class HdConnection {
   HdapiOptions options_;
   DeviceInfo info_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  // [mm] of the workspace, in the vendor's axes
-  bool has_temperature_ = false, connected_ = false;
+  bool has_temperature_ = false, has_torque_ = false, connected_ = false;
 };
 
 }  // namespace detail

@@ -68,6 +68,8 @@ struct HdApiConstants<
         (Api::success | Api::current_position | Api::current_velocity | Api::current_force |
          Api::motor_temperature | Api::device_model_type | Api::usable_workspace | Api::nominal_max_force |
          Api::nominal_max_continuous_force | Api::nominal_max_stiffness | Api::force_output |
+         Api::current_transform | Api::current_torque | Api::input_dof | Api::output_dof |
+         Api::nominal_max_torque | Api::nominal_max_continuous_torque | Api::nominal_max_torque_stiffness |
          Api::calibration_ok | Api::calibration_needs_update | Api::calibration_style |
          Api::calibration_auto | Api::calibration_inkwell | Api::calibration_encoder_reset |
          Api::callback_done | Api::callback_continue | Api::default_priority | Api::warm_motors |

@@ -4,7 +4,8 @@
 //   device.start(servo);                // or throws: a person has to calibrate it, no communication …
 //
 // A tick is one frame: the device is read, the shared stack of errors emptied, the servo asked, its force
-// limited, ramped and sent, zero included, because a force that nobody replaces persists.
+// limited, ramped and sent, zero included, because a force that nobody replaces persists.  Where the device reads how its stylus
+// is turned, and the servo takes that, it is read as well; torque goes to devices that render it, and to no other.
 //
 //   found in a tick                          what follows
 //   a force or speed was refused             zero is sent, DeviceState::reset, the force ramps in
@@ -12,8 +13,9 @@
 //   calibration missing or lost              the servo is not asked, zero is sent until the device has calibrated
 //                                            itself, then reset and ramp; one that a person calibrates: the loop ends
 //   communication lost; any other error, a   the servo is not asked, zero is sent, forces are switched off,
-//   position that is not a number, a frame   the loop ends and status() says why; start() connects anew
-//   that is not this device's
+//   position that is no number, a transform  the loop ends and status() says why; start() connects anew
+//   that is no rotation, a frame that is
+//   not this device's
 //
 // Several devices share one scheduler (hdapi_scheduler.hpp): one is constructed, or started again after its loop
 // was lost, while no other runs; a healthy one starts and stops whenever it likes.  Units and origin are the
@@ -94,9 +96,14 @@ class Hdapi {
       detail::reject("rate", rate, "Hz", "that of the devices that run already");
     prepare([this] { device_.calibrate(false); });
     servo_ = &servo;
-    ask_ = [](void* object, const DeviceState& state) noexcept {
-      return (*static_cast<Servo*>(object))(state);
+    ask_ = [](void* object, const OrientedState& state, bool oriented) noexcept -> Wrench {
+      Servo& asked = *static_cast<Servo*>(object);
+      if constexpr (takes_orientation<Servo>)
+        if (oriented) return asked(state);
+      (void)oriented;
+      return {asked(static_cast<const DeviceState&>(state))};
     };
+    oriented_ = takes_orientation<Servo> && info().gimbal.reads;
     prepare([this] { begin(); });
   }
 
@@ -125,7 +132,7 @@ class Hdapi {
   void begin() {
     ticks_ = missed_ticks_ = force_cut_ticks_ = 0;
     stopping_ = ended_ = false;
-    sent_.setZero();
+    sent_ = {};
     cut_ = ForceCut::none;
     ramp_.start();
     device_.calibration.start();
@@ -186,32 +193,37 @@ class Hdapi {
     // force.
     const bool current = Api::get_current_device() == handle;
     const auto reading = device_.read();
+    OrientedState state;
+    const bool readable = reading.finite() && (!oriented_ || device_.read(state.orientation));
     const bool calibrated = current && device_.calibration.ask();
     Scheduler::drain();
     const detail::HdErrors errors = std::exchange(device_.client.errors, {});
 
     const DeviceStatus end =
-        errors.worst == HdErrorClass::communication ? DeviceStatus::communication_lost
-        : errors.worst == HdErrorClass::fault || !(current && reading.finite()) ? DeviceStatus::device_fault
-        : !calibrated && !device_.calibration.automatic() ? DeviceStatus::calibration_needed
-        : stopping_.load(relaxed)                         ? DeviceStatus::stopped
-                                                          : DeviceStatus::running;
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+        errors.worst == HdErrorClass::communication                     ? DeviceStatus::communication_lost
+        : errors.worst == HdErrorClass::fault || !(current && readable) ? DeviceStatus::device_fault
+        : !calibrated && !device_.calibration.automatic()               ? DeviceStatus::calibration_needed
+        : stopping_.load(relaxed)                                       ? DeviceStatus::stopped
+                                                                        : DeviceStatus::running;
+    Wrench wrench;
     if (is_running(end)) {
       const bool force_error = errors.worst == HdErrorClass::force;
       ramp_.advance(reading.temperature, errors.warm, force_error);
-      DeviceState state{reading.position, reading.velocity, elapsed(now), cut_, sent_};
+      state.position = reading.position, state.velocity = reading.velocity;
+      state.time = elapsed(now), state.cut = cut_;
+      state.sent = sent_.force, state.sent_torque = sent_.torque;
       state.status = !calibrated          ? DeviceStatus::calibrating
                      : ramp_.warm()       ? DeviceStatus::warm
                      : ramp_.recovering() ? DeviceStatus::force_error
                                           : DeviceStatus::running;
       state.reset = force_error || anew_;
       status_.store(state.status, std::memory_order_release);
-      if (calibrated) force = ask(state);
-      else sent_.setZero(), cut_ = ForceCut::none, ramp_.restart();
+      if (calibrated) wrench = ask(state);
+      else sent_ = {}, cut_ = ForceCut::none, ramp_.restart();
       anew_ = !calibrated;
     }
-    if (current) Api::set_doublev(Api::current_force, force.data());
+    if (current) Api::set_doublev(Api::current_force, wrench.force.data());
+    if (current && device_.has_torque()) device_.send_torque(wrench.torque);
     Api::end_frame(handle);
     if (is_running(end)) {
       device_.calibration.update();
@@ -224,17 +236,17 @@ class Hdapi {
     return false;
   }
 
-  /// The servo's force, as it may be sent [N].
-  Eigen::Vector3d ask(const DeviceState& state) noexcept {
-    Eigen::Vector3d force = ask_(servo_, state);
-    cut_ = limit_force(force, info().peak_force);
-    if (cut_ == ForceCut::none && ramp_.gain() < 1 && force != Eigen::Vector3d::Zero())
+  /// The servo's force and torque, as they may be sent.
+  Wrench ask(const OrientedState& state) noexcept {
+    Wrench wrench = ask_(servo_, state, oriented_);
+    cut_ = limit_wrench(wrench, info().peak_force, info().gimbal.peak_torque);
+    if (cut_ == ForceCut::none && ramp_.gain() < 1 && !(wrench.force.isZero(0) && wrench.torque.isZero(0)))
       cut_ = ForceCut::ramped;
-    force *= ramp_.gain();
-    sent_ = force;
+    wrench.force *= ramp_.gain(), wrench.torque *= ramp_.gain();
+    sent_ = wrench;
     ticks_.fetch_add(1, relaxed);
     if (cut_ != ForceCut::none) force_cut_ticks_.fetch_add(1, relaxed);
-    return force;
+    return wrench;
   }
 
   /// Time since the first tick [s]; counts the ticks that should have been since the last one.
@@ -250,12 +262,13 @@ class Hdapi {
   detail::HdConnection<Api> device_;
   ForceRamp ramp_;
   void* servo_ = nullptr;
-  Eigen::Vector3d (*ask_)(void*, const DeviceState&) noexcept = nullptr;
+  Wrench (*ask_)(void*, const OrientedState&, bool oriented) noexcept = nullptr;
+  bool oriented_ = false;  // the servo takes what the device reads of its orientation
   unsigned long schedule_ = 0;
   bool scheduled_ = false, counted_ = false;
   bool anew_ = true;    // the servo has not been asked since the arm's place is known
   bool timed_ = false;  // the clock runs
-  Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();
+  Wrench sent_;
   ForceCut cut_ = ForceCut::none;
   typename Clock::time_point first_{}, last_{};
   std::atomic<DeviceStatus> status_{DeviceStatus::stopped};

@@ -73,6 +73,13 @@ struct OpenHaptics {
   static constexpr HDenum nominal_max_force = HD_NOMINAL_MAX_FORCE;
   static constexpr HDenum nominal_max_continuous_force = HD_NOMINAL_MAX_CONTINUOUS_FORCE;
   static constexpr HDenum nominal_max_stiffness = HD_NOMINAL_MAX_STIFFNESS;
+  static constexpr HDenum current_transform = HD_CURRENT_TRANSFORM;
+  static constexpr HDenum current_torque = HD_CURRENT_TORQUE;
+  static constexpr HDenum input_dof = HD_INPUT_DOF;
+  static constexpr HDenum output_dof = HD_OUTPUT_DOF;
+  static constexpr HDenum nominal_max_torque = HD_NOMINAL_MAX_TORQUE_FORCE;
+  static constexpr HDenum nominal_max_continuous_torque = HD_NOMINAL_MAX_TORQUE_CONTINUOUS_FORCE;
+  static constexpr HDenum nominal_max_torque_stiffness = HD_NOMINAL_MAX_TORQUE_STIFFNESS;
   static constexpr HDenum force_output = HD_FORCE_OUTPUT;
   static constexpr HDenum calibration_ok = HD_CALIBRATION_OK;
   static constexpr HDenum calibration_needs_update = HD_CALIBRATION_NEEDS_UPDATE;

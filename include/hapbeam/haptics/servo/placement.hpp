@@ -12,6 +12,9 @@
 //   const Vector2<double> hand = placement.beam_position(state.position);
 //   const Eigen::Vector3d force = placement.device_force_of_beam(touch.tick(hand).force);
 //
+// What is turned in the device is turned by R in the scene.  Torques are divided by the scale, as levers are: with a scale of 2 a
+// lever of the scene is half as long in the hand.
+//
 // Real-time: no allocation, noexcept, wait-free, O(1), but for the constructors.
 #pragma once
 
@@ -80,6 +83,20 @@ class Placement {
   /// @param scene [N] on the hand   @return [N] on the hand
   Eigen::Vector3d device_force(const Eigen::Vector3d& scene) const noexcept {
     return {turned_back(0, scene), turned_back(1, scene), turned_back(2, scene)};
+  }
+
+  /// @param device  a rotation, of the stylus' axes in the device's   @return the same in the scene's
+  Eigen::Matrix3d scene_orientation(const Eigen::Matrix3d& device) const noexcept {
+    Eigen::Matrix3d scene;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k)
+        scene(i, k) = turn_(i, 0) * device(0, k) + turn_(i, 1) * device(1, k) + turn_(i, 2) * device(2, k);
+    return scene;
+  }
+  /// @param scene [N·m] on the hand   @return [N·m] on the hand
+  Eigen::Vector3d device_torque(const Eigen::Vector3d& scene) const noexcept {
+    const Eigen::Vector3d torque = device_force(scene);
+    return {torque[0] / scale_, torque[1] / scale_, torque[2] / scale_};
   }
 
   /// In the plane of the beam: what the hand does across that plane is not seen.

@@ -6,7 +6,8 @@
 //   device ─► Placement ─► Coupling (Touch ─► model) ─► EnergyMonitor ─► ForceGuard ─► device
 //                                   └─► newest record and shape, wait-free ─► graphics
 //
-// It is a servo of the device contract too: device.start(servo), or a ServoLoop, which does that.
+// It is a servo of the device contract too: device.start(servo), or a ServoLoop, which does that.  Of a rod in space it takes the
+// orientation of the stylus and answers with a torque where the device has them: Wrench wrench = servo.tick(oriented).
 // tick(): no allocation, noexcept, wait-free but for the clock; at most one press of the model, whose work is bounded.
 #pragma once
 
@@ -22,10 +23,12 @@
 #include <hapbeam/haptics/servo/loop_clock.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo_record.hpp>
+#include <hapbeam/haptics/servo/stylus.hpp>
 #include <hapbeam/haptics/servo/tick_times.hpp>
 #include <hapbeam/haptics/stability/coupling.hpp>
 #include <hapbeam/haptics/stability/energy_monitor.hpp>
 #include <hapbeam/haptics/stability/force_guard.hpp>
+#include <hapbeam/haptics/stability/hand_pose.hpp>
 #include <hapbeam/haptics/stability/in_scene.hpp>
 
 namespace hapbeam {
@@ -35,6 +38,8 @@ struct ServoOptions {
   double avatar_radius = 0.005;  ///< [m] in the scene, not negative
   int delay_ticks = 0;           ///< whole periods between the servo's answer and the motors, 0 to 16
   bool dissipate = false;        ///< energy that the loop has generated is taken back by damping
+  StylusOptions stylus =
+      {};  ///< what touches a rod in space, where the device reads its orientation; else a sphere
 };
 
 /// What is drawn: the record and the centreline of one tick.
@@ -88,9 +93,15 @@ struct Drawn {
   static auto of(const Model& model, const Touch<Model>&) noexcept { return model.shape(); }
 };
 
-template <typename Model, typename Coupling = VirtualCoupling>
+/// The coupling of a servo that is given none.
+template <typename Model>
+struct CouplingOf {
+  using Type = VirtualCoupling;
+};
+
+template <typename Model, typename Coupling = typename CouplingOf<Model>::Type>
 class Servo {
-  static_assert(is_coupling<Coupling>,
+  static_assert(is_coupling<Coupling> || detail::CouplesPose<Coupling, Touch<Model>>::value,
                 "a coupling has: tick(touch, hand, dt) noexcept -> CoupledForce<Scalar>; in_scene(scale) "
                 "const noexcept -> "
                 "itself; reset() noexcept; static for_device(info, delay_ticks) -> itself");
@@ -113,6 +124,18 @@ class Servo {
   /// @param state  of the device, at the beginning of a period   @return [N] on the hand, device axes
   [[nodiscard]] Eigen::Vector3d tick(const DeviceState& state) noexcept;
   Eigen::Vector3d operator()(const DeviceState& state) noexcept { return tick(state); }
+
+  /// The same with the orientation of the stylus, of a rod in space.   @return on the hand, device axes
+  template <typename State, int D = dimension,
+            std::enable_if_t<D == 3 && std::is_same_v<State, OrientedState>, int> = 0>
+  [[nodiscard]] Wrench tick(const State& state) noexcept {
+    return run(state);
+  }
+  template <typename State, int D = dimension,
+            std::enable_if_t<D == 3 && std::is_same_v<State, OrientedState>, int> = 0>
+  Wrench operator()(const State& state) noexcept {
+    return run(state);
+  }
 
   /// For a host that hands over its own time step, or runs free.
   /// @param position [m] of the device   @param velocity [m/s]   @param dt [s] since the tick before; another than a positive
@@ -151,11 +174,38 @@ class Servo {
 
  private:
   using Coupled = CoupledForce<Scalar, dimension>;
+  static constexpr bool couples_pose = detail::CouplesPose<Coupling, Touch<Model>>::value;
+  struct NoStylus {
+    explicit NoStylus(const StylusOptions& options) {
+      if (options.length != 0 || options.ahead != 0)
+        detail::reject("stylus length", options.length, "m", "0 for a beam in a plane, as ahead");
+    }
+    void reset() noexcept {}
+  };
+  using Stylus = std::conditional_t<dimension == 3, detail::Stylus<Scalar>, NoStylus>;
+
+  template <typename State>
+  [[nodiscard]] auto run(const State& state) noexcept;
+  template <typename State>
+  static constexpr bool oriented = std::is_same_v<State, OrientedState>;
+
+  template <typename State>
+  [[nodiscard]] auto couple(const State& state, double dt) noexcept;
+  template <typename State>
+  void observe(const State& state, double dt) noexcept {
+    const bool whole = state.cut == ForceCut::none;
+    const Eigen::Vector3d& force = whole ? guard_.force() : state.sent;
+    if constexpr (oriented<State>)
+      energy_.observe(state.position, state.orientation, {force, whole ? guard_.torque() : state.sent_torque},
+                      dt);
+    else energy_.observe(state.position, force, dt);
+  }
 
   /// The hand is where nobody knows: it touches nothing.
   void release() noexcept {
     touch_.reset();
     coupling_.reset();
+    stylus_.reset();
     energy_.reset();
     guard_.reset();
   }
@@ -182,6 +232,7 @@ class Servo {
   ServoOptions options_;
   Touch<Model> touch_;
   Coupling coupling_;
+  Stylus stylus_;
   LoopClock clock_;
   EnergyMonitor energy_;
   ForceGuard guard_;
@@ -201,6 +252,7 @@ Servo<Model, Coupling>::Servo(Model& model, const DeviceInfo& device, const Serv
       options_(options),
       touch_(model, static_cast<Scalar>(options.avatar_radius)),
       coupling_(coupling.in_scene(options.placement.scale())),
+      stylus_(options.stylus),
       clock_(device.period),
       energy_(device, options.delay_ticks),
       guard_(ForceGuard::for_device(device)),
@@ -210,23 +262,59 @@ Servo<Model, Coupling>::Servo(Model& model, const DeviceInfo& device, const Serv
 
 template <typename Model, typename Coupling>
 Eigen::Vector3d Servo<Model, Coupling>::tick(const DeviceState& state) noexcept {
+  return run(state);
+}
+
+template <typename Model, typename Coupling>
+template <typename State>
+auto Servo<Model, Coupling>::couple(const State& state, double dt) noexcept {
+  const VectorOf<double, dimension> place =
+      options_.placement.template position_of<dimension>(state.position);
+  if constexpr (oriented<State>) {
+    const HandPose hand{place, options_.placement.scene_orientation(state.orientation)};
+    if constexpr (couples_pose) return coupling_.tick(touch_, hand, dt);
+    else return stylus_.tick(coupling_, touch_, hand, dt);
+  } else if constexpr (couples_pose) {
+    return coupling_.tick(touch_, HandPose{place}, dt);
+  } else {
+    return coupling_.tick(touch_, place, dt);
+  }
+}
+
+template <typename Model, typename Coupling>
+template <typename State>
+auto Servo<Model, Coupling>::run(const State& state) noexcept {
   if (state.reset) times_.pause();  // the device had no ticks for it meanwhile
   times_.begin();
   const double dt = clock_.passed(state.time);
-  energy_.observe(state.position, state.cut == ForceCut::none ? guard_.force() : state.sent, dt);
+  observe(state, dt);
   if (state.reset) release();
-  const Coupled coupled =
-      coupling_.tick(touch_, options_.placement.template position_of<dimension>(state.position), dt);
+  const auto coupled = couple(state, dt);
   const bool safe = is_answer(coupled.touch.status) || coupled.continued;
   Eigen::Vector3d force = options_.placement.device_force(detail::in_scene(coupled.force));
   if (options_.dissipate && coupled.touch.pressing) force += energy_.dissipation(state.velocity);
+  if constexpr (couples_pose)
+    if (!coupled.touch.pressing) guard_.reset();  // the hand has let go: what it takes again comes in anew
   const double engaged = guard_.engaged();
-  const GuardedForce guarded = guard_.limit(force, state.time, safe);
+  const auto guarded = [&] {
+    if constexpr (oriented<State>)
+      return guard_.limit(Wrench{force, options_.placement.device_torque(coupled.torque)}, state.time, safe);
+    else return guard_.limit(force, state.time, safe);
+  }();
   energy_.lend((guard_.engaged() - engaged) * coupled.energy / options_.placement.scale());
   keep(state, coupled, guarded, safe);
+  if constexpr (oriented<State>) {
+    record_.torque = guarded.torque;
+    record_.max_torque = std::max(record_.max_torque, guarded.torque.norm());
+    if constexpr (!couples_pose) {
+      const HandPose hand{record_.hand, options_.placement.scene_orientation(state.orientation)};
+      record_.avatar += stylus_.tip(hand), record_.shaft = stylus_.shaft(hand);
+    }
+  }
   publish();
   times_.end();
-  return guarded.force;
+  if constexpr (oriented<State>) return Wrench{guarded.force, guarded.torque};
+  else return guarded.force;
 }
 
 template <typename Model, typename Coupling>

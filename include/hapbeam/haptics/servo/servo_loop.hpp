@@ -15,7 +15,7 @@
 
 namespace hapbeam {
 
-template <typename Device, typename Model, typename Coupling = VirtualCoupling>
+template <typename Device, typename Model, typename Coupling = typename CouplingOf<Model>::Type>
 class ServoLoop {
  public:
   using Picture = typename Servo<Model, Coupling>::Picture;

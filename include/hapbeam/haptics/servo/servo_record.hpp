@@ -49,11 +49,15 @@ struct ServoRecord {
   Eigen::Vector3d hand =
       Eigen::Vector3d::Zero();  ///< [m] the same in the scene; a beam's plane is its x and y
   Eigen::Vector3d avatar =
-      Eigen::Vector3d::Zero();  ///< [m] from where the beam is pressed; the hand, where free
+      Eigen::Vector3d::Zero();  ///< [m] from where the beam is pressed; the hand, where free; a stylus' tip, a held end
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N] sent, device axes
-  Press<double> press{0, 0};                        ///< asked of the model; zero where nothing was
-  bool pressing = false;  ///< the hand holds the beam: it is touched, or its force goes on
-  double heat = 0;        ///< of the motors, 1: only the continuous force is left
+  Eigen::Vector3d torque =
+      Eigen::Vector3d::Zero();  ///< [N·m] sent, device axes; zero for a device of three axes
+  Eigen::Vector3d shaft = Eigen::Vector3d::
+      Zero();  ///< [m] from the avatar to the other end of its axis, in the scene; zero: a sphere
+  Press<double> press{0, 0};  ///< asked of the model; zero where nothing was
+  bool pressing = false;      ///< the hand holds the beam: it is touched, or its force goes on
+  double heat = 0;            ///< of the motors, 1: only the continuous force is left
 
   std::uint64_t ticks = 0;            ///< since the start
   std::uint64_t contact_ticks = 0;    ///< the beam was touched
@@ -63,6 +67,7 @@ struct ServoRecord {
   std::uint64_t failed_ticks = 0;     ///< the force was zero because something failed
   double max_press = 0;               ///< [m] magnitude
   double max_force = 0;               ///< [N] sent
+  double max_torque = 0;              ///< [N·m] sent
   double energy_generated = 0;        ///< [J] that nobody put in (energy_monitor.hpp)
   Status worst = Status::ok;          ///< of the model
 };

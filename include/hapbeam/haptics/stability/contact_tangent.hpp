@@ -40,6 +40,9 @@ class ContactTangent {
     return known_ ? force_ - stiffness_ * normal_.dot(way(place)) : 0;
   }
 
+  /// Places are counted from another point of a body that turns.   @param by [m] from the old one
+  void move(const Vector& by) noexcept { place_ += by; }
+
   /// The beam is touched no more.
   void forget() noexcept { known_ = false, stiffness_ = 0; }
 

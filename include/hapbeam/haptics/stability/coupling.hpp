@@ -16,6 +16,10 @@
 //
 //   K g + B g' = f(p),   p = h + n g,   g >= 0        n: normal of the contact, f: the beam's force along it
 //
+// A beam that is touched by the shaft of a stylus, at ρ from the hand, turns the hand too.  Where the device renders the torque a spring
+// K_r and a damper B_r about the hand are in series with those: 1/K becomes 1/K + ρ²/K_r, and 1/B the same.  What all of it takes of the
+// damping of arm and gimbal is no more than each takes of its own.
+//
 // Steady, that is the series of coupling and beam, exactly.  It is solved implicitly (backward Euler in g), with f
 // continued along its tangent: once to place p, from where the beam is pressed, and once more with what the beam
 // has answered there, for the force.  So p does not oscillate by itself: the stiffer the beam, the less p moves.
@@ -66,6 +70,12 @@ using HandOf = VectorOf<double, dimension_of_touch<Touch>>;
 template <typename Touch>
 using CoupledForceOf = CoupledForce<typename Touch::Scalar, dimension_of_touch<Touch>>;
 
+/// Whether a touch turns the hand, and says by which lever ρ [m].
+template <typename Touch, typename = void>
+struct TurnsHand : std::false_type {};
+template <typename Touch>
+struct TurnsHand<Touch, std::void_t<decltype(&Touch::lever)>> : std::true_type {};
+
 /// A beam to call a coupling with.
 struct AnyTouch {
   using Scalar = double;
@@ -104,6 +114,8 @@ class Direct {
   static Direct for_device(const DeviceInfo&, int) noexcept { return {}; }
   Direct in_scene(double) const noexcept { return *this; }
   void reset() noexcept { last_.forget(); }
+  /// As VirtualCoupling's.
+  void move(const Eigen::Vector3d& by) noexcept { last_.move(by); }
 
   /// @param touch  of the same beam each tick   @param hand [m]
   template <typename Touch>
@@ -135,27 +147,42 @@ class VirtualCoupling {
   /// @param figures  K [N/m] and B [N·s/m]
   /// @throws std::invalid_argument unless K is positive, B not negative and both finite
   explicit VirtualCoupling(const CouplingFigures& figures)
-      : stiffness_(detail::positive("coupling stiffness", figures.stiffness, "N/m")),
-        damping_(figures.damping) {
+      : straight_(figures), stiffness_(figures.stiffness), damping_(figures.damping) {
+    detail::positive("coupling stiffness", figures.stiffness, "N/m");
     if (!(figures.damping >= 0 && std::isfinite(figures.damping)))
       detail::reject("coupling damping", figures.damping, "N·s/m", "finite and not negative");
   }
+  /// @param turning  K_r [N·m/rad] and B_r [N·m·s/rad] about the hand   @throws as above
+  VirtualCoupling(const CouplingFigures& figures, const CouplingFigures& turning) : VirtualCoupling(figures) {
+    detail::positive("turning coupling stiffness", turning.stiffness, "N·m/rad");
+    if (!(turning.damping >= 0 && std::isfinite(turning.damping)))
+      detail::reject("turning coupling damping", turning.damping, "N·m·s/rad", "finite and not negative");
+    turning_ = turning;
+  }
   /// What the device can render, with the margin of safe_coupling().   @throws as that
   static VirtualCoupling for_device(const DeviceInfo& device, int delay_ticks = 0) {
-    return VirtualCoupling(safe_coupling(device, delay_ticks));
+    const CouplingFigures figures = safe_coupling(device, delay_ticks);
+    if (!(device.gimbal.peak_torque > 0)) return VirtualCoupling(figures);
+    return VirtualCoupling(figures, safe_turning_coupling(device, delay_ticks));
   }
 
-  CouplingFigures figures() const noexcept { return {stiffness_, damping_}; }
+  CouplingFigures figures() const noexcept { return straight_; }
+  /// K_r and B_r; zero where no torque is rendered.
+  CouplingFigures turning() const noexcept { return turning_; }
+  /// From the next tick on the hand is another point of a body that turns.   @param by [m] from the old one
+  void move(const Eigen::Vector3d& by) noexcept { last_.move(by); }
   /// Longer metres, softer springs: force over displacement is divided by the scale.
   VirtualCoupling in_scene(double scale) const noexcept {
     VirtualCoupling scaled = *this;
-    scaled.stiffness_ /= scale;
-    scaled.damping_ /= scale;
+    scaled.straight_ = {straight_.stiffness / scale, straight_.damping / scale};
+    scaled.turning_ = {turning_.stiffness * scale, turning_.damping * scale};
+    scaled.reset();
     return scaled;
   }
   void reset() noexcept {
     last_.forget();
     gap_ = 0;
+    stiffness_ = straight_.stiffness, damping_ = straight_.damping;
   }
 
   /// Once a period.  @param touch  of the same beam each tick   @param hand [m]   @param dt [s] since the tick before, positive
@@ -169,6 +196,8 @@ class VirtualCoupling {
     result.avatar = hand + normal() * solve(from, dt).gap;
     result.touch = touch.tick(result.avatar.template cast<Scalar>());
     last_.learn(result.touch, detail::in_scene(result.avatar));
+    if constexpr (detail::TurnsHand<Touch>::value)
+      if (result.touch.pressing) lean(touch.lever(result.touch, result.avatar));
     if (!result.touch.pressing && last_.tangent().known())
       last_.look_again(touch.contact_at(hand.template cast<Scalar>()), from);
 
@@ -186,6 +215,18 @@ class VirtualCoupling {
   }
 
  private:
+  /// The line of the force passes the hand.   @param lever ρ [m]
+  void lean(double lever) noexcept {
+    const auto in_series = [squared = lever * lever](double straight, double turning) {
+      return straight * turning / (turning + squared * straight);
+    };
+    if (!(turning_.stiffness > 0 && std::isfinite(lever))) return;
+    stiffness_ = in_series(straight_.stiffness, turning_.stiffness);
+    damping_ = turning_.damping > 0 ? in_series(straight_.damping, turning_.damping)
+               : lever == 0         ? straight_.damping
+                                    : 0;
+  }
+
   struct Balance {
     double gap;    // g [m]
     double force;  // K g + B g' [N]
@@ -206,7 +247,8 @@ class VirtualCoupling {
 
   static constexpr double least_gap = 1e-12;  // [m] is none
 
-  double stiffness_;  // K [N/m]
+  CouplingFigures straight_, turning_{0, 0};
+  double stiffness_;  // K [N/m], with what turns
   double damping_;    // B [N·s/m]
   LastResponse last_;
   double gap_ = 0;  // g [m], how far the hand is below the point

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <hapbeam/check.hpp>
 #include <hapbeam/haptics/device/device.hpp>
@@ -65,6 +66,30 @@ inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks =
     damping = held * T;
   }
   return {stiffness, std::min(damping, (both_share - stiffness / bound) * b)};
+}
+
+/// [m]  Where fingers hold a stylus, from the point about which it turns: what a hand has for the translation it has for the rotation times
+/// the square of that.
+inline constexpr double grip_lever = 0.03;
+
+/// The same for the rotation: K [N·m/rad] and B [N·m·s/rad], by the same inequalities.  Of a gimbal whose damping is 0, that is unknown,
+/// least_damping at grip_lever is taken: 4.5e-4 N·m·s/rad.
+/// @throws as safe_coupling(), for the figures of the device's gimbal
+inline CouplingFigures safe_turning_coupling(const DeviceInfo& device, int delay_ticks = 0) {
+  const GimbalInfo& gimbal = device.gimbal;
+  const auto not_negative = [](const char* field, double value, const char* unit) {
+    if (!(std::isfinite(value) && value >= 0))
+      detail::reject(field, value, unit, "finite and not negative; 0 where it is unknown");
+    return value;
+  };
+  DeviceInfo turning = device;  // with radians for metres
+  turning.damping = not_negative("gimbal damping", gimbal.damping, "N·m·s/rad");
+  if (turning.damping == 0) turning.damping = least_damping * grip_lever * grip_lever;
+  turning.friction = not_negative("gimbal friction", gimbal.friction, "N·m");
+  turning.position_resolution = not_negative("gimbal resolution", gimbal.resolution, "rad");
+  turning.max_stiffness = not_negative("gimbal max_stiffness", gimbal.max_stiffness, "N·m/rad");
+  if (turning.max_stiffness == 0) turning.max_stiffness = std::numeric_limits<double>::max();
+  return safe_coupling(turning, delay_ticks);
 }
 
 }  // namespace hapbeam

@@ -2,6 +2,7 @@
 //
 //   W += F·Δx - b |Δx|²/T - f |Δx|      over each period of a contact
 //
+// A device that turns adds τ·Δθ - b_r |Δθ|²/T - f_r |Δθ|, of the torque that the motors held and the rotation from one reading to the next.
 // F is the force that the motors held over the period, Δx how far the hand went: the work done on hand and arm, exactly.
 // What the arm's own damping b and friction f have taken meanwhile, at least, is counted off, from a path shortened by
 // one step of the encoders, which may not have been travelled.  A beam gives back what pressing it has cost: at the
@@ -39,6 +40,9 @@ class EnergyMonitor {
         damping_(detail::finite("device damping", device.damping, "N·s/m")),
         friction_(detail::finite("device friction", device.friction, "N")),
         step_(detail::finite("device position_resolution", device.position_resolution, "m")),
+        gimbal_damping_(detail::finite("gimbal damping", device.gimbal.damping, "N·m·s/rad")),
+        gimbal_friction_(detail::finite("gimbal friction", device.gimbal.friction, "N·m")),
+        gimbal_step_(detail::finite("gimbal resolution", device.gimbal.resolution, "rad")),
         delay_(delay_ticks) {
     if (!(delay_ticks >= 0 && delay_ticks <= max_delay))
       detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
@@ -57,28 +61,24 @@ class EnergyMonitor {
   /// The hand has been moved by hand, so to speak: a contact that was is not judged.
   void reset() noexcept {
     net_ = 0;
-    known_ = false;
-    sent_ = zeros();
+    known_ = turn_known_ = false;
+    sent_ = zeros(), sent_torque_ = zeros();
   }
 
   /// A period has ended.   @param position [m] now   @param sent [N] by the loop in the tick before   @param dt [s] since, positive
   void observe(const Eigen::Vector3d& position, const Eigen::Vector3d& sent, double dt) noexcept {
-    // Newest first: what the motors held is `delay` ticks older.
-    std::move_backward(sent_.begin(), sent_.end() - 1, sent_.end());
-    sent_[0] = sent;
-    const Eigen::Vector3d held = sent_[static_cast<std::size_t>(delay_)];
-    const bool finite = detail::all_finite(position);
-    Eigen::Vector3d moved = known_ && finite ? position - position_ : zero();
-    if (!(moved.norm() <= longest_step)) moved.setZero();
-    if (finite) position_ = position, known_ = true;
-    if (held.isZero(0)) {
-      end_contact();
-      return;
-    }
-    const Eigen::Array3d way(moved_along(moved[0]), moved_along(moved[1]), moved_along(moved[2]));
-    const double work = held.dot(moved);
-    const double taken = damping_ * way.square().sum() / dt + friction_ * way.sum();
-    add(work - taken);
+    const Eigen::Vector3d held = hold(sent_, sent);
+    const double work = of_way(position, held, dt);
+    if (held.isZero(0)) end_contact();
+    else add(work);
+  }
+  /// The same of a device that turns.   @param orientation  now   @param sent  by the loop in the tick before
+  void observe(const Eigen::Vector3d& position, const Eigen::Matrix3d& orientation, const Wrench& sent,
+               double dt) noexcept {
+    const Eigen::Vector3d held = hold(sent_, sent.force), torque = hold(sent_torque_, sent.torque);
+    const double work = of_way(position, held, dt) + of_turn(orientation, torque, dt);
+    if (held.isZero(0) && torque.isZero(0)) end_contact();
+    else add(work);
   }
 
   /// A share of the beam's energy that has come in [J]; what has gone out again is lost.
@@ -92,8 +92,46 @@ class EnergyMonitor {
   }
 
  private:
-  /// The least that the arm has moved along an axis where it was read to have moved so far.
-  double moved_along(double moved) const noexcept { return std::max(std::abs(moved) - step_, 0.0); }
+  using Sent = std::array<Eigen::Vector3d, max_delay + 1>;
+
+  /// Newest first: what the motors held is `delay` ticks older.
+  Eigen::Vector3d hold(Sent& all, const Eigen::Vector3d& sent) const noexcept {
+    std::move_backward(all.begin(), all.end() - 1, all.end());
+    all[0] = sent;
+    return all[static_cast<std::size_t>(delay_)];
+  }
+  /// [J]  Work of a held force since the reading before, less what the arm took.
+  double of_way(const Eigen::Vector3d& position, const Eigen::Vector3d& held, double dt) noexcept {
+    const bool finite = detail::all_finite(position);
+    Eigen::Vector3d moved = known_ && finite ? position - position_ : zero();
+    if (!(moved.norm() <= longest_step)) moved.setZero();
+    if (finite) position_ = position, known_ = true;
+    const Eigen::Array3d way(least(moved[0], step_), least(moved[1], step_), least(moved[2], step_));
+    const double work = held.dot(moved);
+    const double taken = damping_ * way.square().sum() / dt + friction_ * way.sum();
+    return work - taken;
+  }
+  /// [J]  The same of a torque, by the rotation vector.
+  double of_turn(const Eigen::Matrix3d& orientation, const Eigen::Vector3d& held, double dt) noexcept {
+    // Of the rotation R Sᵀ from the last orientation S to R.
+    const auto by = [&](int i, int j) {
+      double sum = 0;
+      for (int k = 0; k < 3; ++k) sum += orientation(i, k) * orientation_(j, k);
+      return sum;
+    };
+    const double trace = by(0, 0) + by(1, 1) + by(2, 2);
+    Eigen::Vector3d turned(by(2, 1) - by(1, 2), by(0, 2) - by(2, 0), by(1, 0) - by(0, 1));
+    const double sine = turned.norm() / 2;
+    const bool finite = std::isfinite(sine) && std::isfinite(trace);
+    if (turn_known_ && finite && sine > 0) turned *= std::atan2(sine, (trace - 1) / 2) / (2 * sine);
+    else turned.setZero();
+    if (finite) orientation_ = orientation, turn_known_ = true;
+    const double way = least(turned.norm(), gimbal_step_);
+    return held.dot(turned) - gimbal_damping_ * way * way / dt - gimbal_friction_ * way;
+  }
+
+  /// The least that was moved where it was read to have moved so far, in steps of the encoders.
+  static double least(double moved, double step) noexcept { return std::max(std::abs(moved) - step, 0.0); }
   static Eigen::Vector3d zero() noexcept { return Eigen::Vector3d::Zero(); }
 
   static constexpr double longest_step = 10;  // [m] between two readings: longer is a fault, and no way
@@ -109,14 +147,16 @@ class EnergyMonitor {
   }
 
   double period_, damping_, friction_, step_;
+  double gimbal_damping_, gimbal_friction_, gimbal_step_;
   int delay_;
   double ended_ = 0, net_ = 0;
-  bool known_ = false;
+  bool known_ = false, turn_known_ = false;
   Eigen::Vector3d position_ = zero();
-  std::array<Eigen::Vector3d, max_delay + 1> sent_ = zeros();
+  Eigen::Matrix3d orientation_ = Eigen::Matrix3d::Identity();
+  Sent sent_ = zeros(), sent_torque_ = zeros();
 
-  static std::array<Eigen::Vector3d, max_delay + 1> zeros() noexcept {
-    std::array<Eigen::Vector3d, max_delay + 1> all;
+  static Sent zeros() noexcept {
+    Sent all;
     all.fill(zero());
     return all;
   }

@@ -13,6 +13,7 @@
 // no more than two periods would.  After longest_pause the hand may be anywhere: the force engages anew.
 // Holds for every input: the force is finite and no longer than the peak, and lies within slew_rate · 2 periods of the way
 // from the last force to zero; q <= 1 while ticks are on time.
+// A torque goes the same way beside the force, with limits and motors of its own; what fails or engages does so for both.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 #pragma once
 
@@ -27,13 +28,16 @@
 namespace hapbeam {
 
 struct ForceGuardOptions {
-  double peak_force;           ///< [N] positive
-  double continuous_force;     ///< Fc [N] positive, at most the peak
-  double period;               ///< [s] of the loop, 1e-6 to 1e3
-  double slew_rate = 1e4;      ///< [N/s] positive; 10 N a millisecond is faster than any hand and no blow
-  double thermal_time = 10;    ///< τ [s] positive; of small motors' windings, of housings minutes
-  double engage_time = 0.2;    ///< [s] not negative
-  double longest_pause = 0.1;  ///< [s] not negative
+  double peak_force;              ///< [N] positive
+  double continuous_force;        ///< Fc [N] positive, at most the peak
+  double period;                  ///< [s] of the loop, 1e-6 to 1e3
+  double slew_rate = 1e4;         ///< [N/s] positive; 10 N a millisecond is faster than any hand and no blow
+  double thermal_time = 10;       ///< τ [s] positive; of small motors' windings, of housings minutes
+  double engage_time = 0.2;       ///< [s] not negative
+  double longest_pause = 0.1;     ///< [s] not negative
+  double peak_torque = 0;         ///< [N·m] not negative; 0: no torque is sent
+  double continuous_torque = 0;   ///< [N·m] positive, at most the peak, where there is one
+  double torque_slew_rate = 100;  ///< [N·m/s] positive; at a lever of 0.1 m a tenth of the force's
 };
 
 /// What the guard did to a force.
@@ -42,78 +46,134 @@ struct GuardedForce {
   bool limited;           ///< cut by peak, heat or slew
   bool engaging;          ///< held back because the loop has just begun, or begun again
 };
+/// The same of force and torque.
+struct GuardedWrench : GuardedForce {
+  Eigen::Vector3d torque;  ///< [N·m] to be sent
+};
+
+namespace detail {
+
+/// Motors of one kind, of a force or a torque: how warm they are, and what was sent last.
+class GuardedMotors {
+ public:
+  struct Limits {
+    double peak, lasting, slew_rate, period, thermal_time;
+  };
+
+  explicit GuardedMotors(const Limits& limits) noexcept : o_(limits) {}
+
+  double heat() const noexcept { return heat_; }
+  const Eigen::Vector3d& sent() const noexcept { return sent_; }
+  void stop() noexcept { sent_.setZero(); }
+
+  /// Heats the motors by what was sent in the period that has ended.   @param dt [s] its length; 0 where the clock is wrong
+  void warm_up(double dt) noexcept {
+    const double ratio = sent_.norm() / o_.lasting;
+    heat_ += -std::expm1(-(dt > 0 ? dt : o_.period) / o_.thermal_time) * (ratio * ratio - heat_);
+  }
+  /// @param asked  finite   @param dt [s] 0 where nothing may grow   @return whether it was cut; sent() is what is left
+  bool limit(const Eigen::Vector3d& asked, double dt) noexcept {
+    Eigen::Vector3d force = asked;
+    bool limited = limit_force(force, allowed()) != ForceCut::none;
+    limited |= limit_growth(force, o_.slew_rate * std::min(dt, 2 * o_.period));
+    sent_ = force;
+    return limited;
+  }
+
+ private:
+  static constexpr double warm = 0.5;  // heat from which on the peak is not allowed
+
+  /// At most what heats the motors to 1 in a period, however short τ is.
+  double allowed() const noexcept {
+    const double peak = o_.peak * o_.peak, lasting = o_.lasting * o_.lasting;
+    const double cool = std::clamp((1 - heat_) / (1 - warm), 0.0, 1.0);
+    const double gain = -std::expm1(-o_.period / o_.thermal_time);
+    const double at_once = lasting * std::max(1.0, heat_ + (1 - heat_) / gain);
+    return std::sqrt(std::min(lasting + (peak - lasting) * cool, at_once));
+  }
+  /// To within `most` of the nearest point between what was sent last and zero.   @return true where it was farther
+  bool limit_growth(Eigen::Vector3d& force, double most) const noexcept {
+    const double size = sent_.squaredNorm();
+    const double along = size > 0 ? std::clamp(force.dot(sent_) / size, 0.0, 1.0) : 0;
+    const Eigen::Vector3d from = along * sent_;
+    const Eigen::Vector3d growth(force[0] - from[0], force[1] - from[1], force[2] - from[2]);
+    const double length = growth.norm();
+    if (!(length > most)) return false;
+    for (int i = 0; i < 3; ++i) force[i] = from[i] + growth[i] * (most / length);
+    return true;
+  }
+
+  Limits o_;
+  Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();
+  double heat_ = 0;
+};
+
+}  // namespace detail
 
 class ForceGuard {
  public:
   /// @throws std::invalid_argument naming field, value, unit and what is allowed
-  explicit ForceGuard(const ForceGuardOptions& options) : o_(checked(options)) {}
+  explicit ForceGuard(const ForceGuardOptions& options)
+      : o_(checked(options)),
+        force_({o_.peak_force, o_.continuous_force, o_.slew_rate, o_.period, o_.thermal_time}),
+        torque_({o_.peak_torque, o_.peak_torque > 0 ? o_.continuous_torque : 1, o_.torque_slew_rate,
+                 o_.period, o_.thermal_time}) {}
 
   /// The device's own limits, the rest by default.
   static ForceGuardOptions for_device(const DeviceInfo& device) {
-    return {device.peak_force, std::min(device.continuous_force, device.peak_force), device.period};
+    ForceGuardOptions options{device.peak_force, std::min(device.continuous_force, device.peak_force),
+                              device.period};
+    options.peak_torque = device.gimbal.peak_torque;
+    options.continuous_torque = std::min(device.gimbal.continuous_torque, device.gimbal.peak_torque);
+    return options;
   }
 
-  double heat() const noexcept { return heat_; }  ///< q, 0 cold to 1: the continuous force is all there is
-  const Eigen::Vector3d& force() const noexcept { return force_; }  ///< [N] sent last
+  /// q, 0 cold to 1: the continuous force, or torque, is all there is.  Of those motors that are warmer.
+  double heat() const noexcept { return std::max(force_.heat(), torque_.heat()); }
+  const Eigen::Vector3d& force() const noexcept { return force_.sent(); }    ///< [N] sent last
+  const Eigen::Vector3d& torque() const noexcept { return torque_.sent(); }  ///< [N·m] sent last
 
   /// Share of the force that has come in, 0 to 1.
   double engaged() const noexcept { return engaged_; }
 
   /// Zero, and engage anew.  The motors stay as warm as they are.
   void reset() noexcept {
-    force_.setZero();
+    force_.stop(), torque_.stop();
     engaged_ = 0;
   }
 
   /// @param wanted [N]   @param time [s] of the device's clock   @param safe  false: zero, whatever is wanted
   GuardedForce limit(const Eigen::Vector3d& wanted, double time, bool safe) noexcept {
     const double dt = step(time);
-    if (dt > o_.longest_pause) reset();
-    if (!safe || !detail::all_finite(wanted)) {
-      reset();
-      return {force_, false, true};
-    }
-    engaged_ = o_.engage_time > 0 ? std::min(1.0, engaged_ + dt / o_.engage_time) : 1;
-    const Eigen::Vector3d asked = engaged_ * wanted;
-    Eigen::Vector3d force = asked;
-    bool limited = limit_force(force, allowed()) != ForceCut::none;
-    limited |= limit_growth(force, o_.slew_rate * std::min(dt, 2 * o_.period));
-    force_ = force;
-    return {force, limited, engaged_ < 1};
+    force_.warm_up(dt);
+    if (!engage(dt, safe && detail::all_finite(wanted))) return {force(), false, true};
+    const bool limited = force_.limit(engaged_ * wanted, dt);
+    return {force(), limited, engaged_ < 1};
+  }
+  /// The same of both.
+  GuardedWrench limit(const Wrench& wanted, double time, bool safe) noexcept {
+    const double dt = step(time);
+    force_.warm_up(dt), torque_.warm_up(dt);
+    if (!engage(dt, safe && detail::all_finite(wanted.force) && detail::all_finite(wanted.torque)))
+      return {{force(), false, true}, torque()};
+    bool limited = force_.limit(engaged_ * wanted.force, dt);
+    if (o_.peak_torque > 0) limited |= torque_.limit(engaged_ * wanted.torque, dt);
+    return {{force(), limited, engaged_ < 1}, torque()};
   }
 
  private:
-  static constexpr double warm = 0.5;  // heat from which on the peak is not allowed
-
-  /// Heats the motors by the force of the period that has ended.   @return its length [s]; 0 where the clock is wrong
+  /// @return [s] since the tick before; 0 where the clock is wrong
   double step(double time) noexcept {
     const double dt = time - time_;
     const bool good = dt > 0 && std::isfinite(dt);
     if (std::isfinite(time)) time_ = time;
-    const double ratio = force_.norm() / o_.continuous_force;
-    heat_ += -std::expm1(-(good ? dt : o_.period) / o_.thermal_time) * (ratio * ratio - heat_);
     return good ? dt : 0;
   }
-
-  /// [N]  At most what heats the motors to 1 in a period, however short τ is.
-  double allowed() const noexcept {
-    const double peak = o_.peak_force * o_.peak_force, lasting = o_.continuous_force * o_.continuous_force;
-    const double cool = std::clamp((1 - heat_) / (1 - warm), 0.0, 1.0);
-    const double gain = -std::expm1(-o_.period / o_.thermal_time);
-    const double at_once = lasting * std::max(1.0, heat_ + (1 - heat_) / gain);
-    return std::sqrt(std::min(lasting + (peak - lasting) * cool, at_once));
-  }
-
-  /// To within `most` of the nearest point between the last force and zero.   @return true where it was farther
-  bool limit_growth(Eigen::Vector3d& force, double most) const noexcept {
-    const double size = force_.squaredNorm();
-    const double along = size > 0 ? std::clamp(force.dot(force_) / size, 0.0, 1.0) : 0;
-    const Eigen::Vector3d from = along * force_;
-    const Eigen::Vector3d growth(force[0] - from[0], force[1] - from[1], force[2] - from[2]);
-    const double length = growth.norm();
-    if (!(length > most)) return false;
-    for (int i = 0; i < 3; ++i) force[i] = from[i] + growth[i] * (most / length);
-    return true;
+  /// @return whether anything may be sent
+  bool engage(double dt, bool good) noexcept {
+    if (dt > o_.longest_pause || !good) reset();
+    if (good) engaged_ = o_.engage_time > 0 ? std::min(1.0, engaged_ + dt / o_.engage_time) : 1;
+    return good;
   }
 
   static ForceGuardOptions checked(const ForceGuardOptions& o) {
@@ -128,14 +188,18 @@ class ForceGuard {
       detail::reject("engage_time", o.engage_time, "s", "finite and not negative");
     if (!(o.longest_pause >= 0 && std::isfinite(o.longest_pause)))
       detail::reject("longest_pause", o.longest_pause, "s", "finite and not negative");
+    if (!(o.peak_torque >= 0 && std::isfinite(o.peak_torque)))
+      detail::reject("peak_torque", o.peak_torque, "N·m", "finite and not negative");
+    if (o.peak_torque > 0 && !(o.continuous_torque > 0 && o.continuous_torque <= o.peak_torque))
+      detail::reject("continuous_torque", o.continuous_torque, "N·m", "positive, at most the peak torque");
+    detail::positive("torque_slew_rate", o.torque_slew_rate, "N·m/s");
     return o;
   }
 
   ForceGuardOptions o_;
-  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  detail::GuardedMotors force_, torque_;
   double time_ = 0;
   double engaged_ = 0;
-  double heat_ = 0;
 };
 
 }  // namespace hapbeam

@@ -23,6 +23,9 @@ class LastResponse {
   /// The last response was none, or missed the beam, and the tangent stands for it.
   bool continued() const noexcept { return (continued_ > 0 || missed_) && tangent_.known(); }
 
+  /// As ContactTangent's.
+  void move(const Eigen::Vector3d& by) noexcept { tangent_.move(by); }
+
   void forget() noexcept {
     tangent_.forget();
     continued_ = 0, missed_ = false;

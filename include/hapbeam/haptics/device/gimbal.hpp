@@ -1,0 +1,115 @@
+// The gimbal that turns a simulated stylus, in a simulated hand.
+//
+// Three axes, one within the other: yaw a about the device's y, pitch b about x, roll c about the stylus' own z,
+//
+//   R = Ry(a) Rx(b) Rz(c)        the columns are the axes of the stylus; at zero they are those of the device
+//
+// Each is an ArmAxis with radians for metres: inertia, viscous damping, Coulomb friction, a hand that pulls toward where it wants
+// to be, and encoders.  A torque τ acts on an axis e by e·τ, which its motor holds over the period.  Roll has any number of turns; at a
+// pitch of a quarter turn yaw and roll are one axis.  No gyroscopic moments.
+// Real-time: no allocation, noexcept, wait-free, bounded as ArmAxis.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include <hapbeam/haptics/device/arm_axis.hpp>
+#include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/device/encoders.hpp>
+#include <hapbeam/haptics/device/hand_path.hpp>
+
+namespace hapbeam {
+
+/// No figure of it is published where it was looked for: these are chosen, and the torque is low for such a device.
+struct GimbalOptions {
+  bool present = false;             ///< false: a device of three axes
+  double inertia = 1e-4;            ///< [kg·m²] positive; of a pen of 50 g and 150 mm
+  double damping = 1e-3;            ///< [N·m·s/rad]
+  double friction = 2e-3;           ///< [N·m] Coulomb, on each axis
+  double resolution = 1e-4;         ///< [rad] of the encoders; 0: exact
+  double peak_torque = 0.15;        ///< [N·m] 0: it renders none, and reads the orientation alone
+  double continuous_torque = 0.05;  ///< [N·m] positive
+  double hand_stiffness = 0.45;     ///< [N·m/rad] of the hand, 500 N/m at the 30 mm where fingers hold a pen
+  double hand_damping = 1.2e-3;     ///< [N·m·s/rad] the same of 1.3 N·s/m
+  double grip_inertia = 1.8e-4;     ///< [kg·m²] the same of 0.2 kg
+};
+
+/// How a stylus is turned by its gimbal.   @param angles [rad] yaw, pitch, roll
+inline Eigen::Matrix3d gimbal_orientation(const Eigen::Vector3d& angles) noexcept {
+  const double sa = std::sin(angles[0]), ca = std::cos(angles[0]), sb = std::sin(angles[1]),
+               cb = std::cos(angles[1]), sc = std::sin(angles[2]), cc = std::cos(angles[2]);
+  Eigen::Matrix3d R;
+  const double columns[9] = {ca * cc + sa * sb * sc,
+                             cb * sc,
+                             ca * sb * sc - sa * cc,
+                             sa * sb * cc - ca * sc,
+                             cb * cc,
+                             sa * sc + ca * sb * cc,
+                             sa * cb,
+                             -sb,
+                             ca * cb};
+  for (int k = 0; k < 9; ++k) R(k % 3, k / 3) = columns[k];
+  return R;
+}
+
+class Gimbal {
+ public:
+  Gimbal(const GimbalOptions& options, double velocity_cutoff) noexcept
+      : axes_{axis(options), axis(options), axis(options)},
+        hand_damping_(options.hand_damping),
+        encoders_(options.resolution, velocity_cutoff) {}
+
+  static ArmAxis axis(const GimbalOptions& o) noexcept {
+    return ArmAxis({o.inertia + o.grip_inertia, o.damping + o.hand_damping, o.hand_stiffness, o.friction});
+  }
+  /// As a device says it.
+  static GimbalInfo describe(const GimbalOptions& o) noexcept {
+    GimbalInfo info;
+    if (!o.present) return info;
+    info.reads = true;
+    info.peak_torque = o.peak_torque, info.continuous_torque = o.continuous_torque;
+    info.resolution = o.resolution, info.friction = o.friction;
+    info.damping = o.damping, info.inertia = o.inertia;
+    return info;
+  }
+
+  Eigen::Vector3d angles() const noexcept {
+    return {axes_[0].position(), axes_[1].position(), axes_[2].position()};
+  }  ///< [rad] as they are
+  Eigen::Vector3d rates() const noexcept {
+    return {axes_[0].velocity(), axes_[1].velocity(), axes_[2].velocity()};
+  }  ///< [rad/s]
+  /// As the encoders read it.
+  Eigen::Matrix3d orientation() const noexcept { return gimbal_orientation(encoders_.position()); }
+
+  void reset(const HandTarget& target) noexcept {
+    for (int i = 0; i < 3; ++i) axes_[i].place(target.turn[i]);
+    encoders_.reset(angles());
+  }
+  /// A torque of the device [N·m], in its axes, by axes of the gimbal as they are.
+  Eigen::Vector3d by_axes(const Eigen::Vector3d& torque) const noexcept {
+    const Eigen::Vector3d q = angles();
+    const double sa = std::sin(q[0]), ca = std::cos(q[0]), sb = std::sin(q[1]), cb = std::cos(q[1]);
+    return {torque[1], ca * torque[0] - sa * torque[2],
+            sa * cb * torque[0] - sb * torque[1] + ca * cb * torque[2]};
+  }
+  /// One period.   @param motors [N·m] by axes
+  void advance(const Eigen::Vector3d& motors, const HandTarget& from, const HandTarget& to,
+               double period) noexcept {
+    for (int i = 0; i < 3; ++i)
+      axes_[i].advance(axes_[i].drive(motors[i] + from.twist[i], from.turn[i], from.spin[i], to.turn[i],
+                                      to.spin[i], hand_damping_, period),
+                       period);
+    encoders_.read(angles(), period);
+  }
+
+ private:
+  ArmAxis axes_[3];
+  double hand_damping_;
+  Encoders encoders_;
+};
+
+}  // namespace hapbeam

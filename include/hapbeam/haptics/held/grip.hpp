@@ -1,0 +1,257 @@
+// A hand that holds an end of a rod: a fishing rod, a whip, a catheter.
+//
+//   const auto coupling = GripCoupling::for_device(device.info());
+//   const Rod rod(0.6, section, material, coupling.support(), RodSupport::free);     // the hand's springs are the rod's support
+//   FemModel<TwistedRod> model(rod, 16);
+//   Grip<FemModel<TwistedRod>> grip(model, RodSide::left);
+//   ServoLoop loop(device, grip, options);
+//
+// In the first tick the hand takes hold of the end where it is.  From then on the end goes where the hand goes, and turns as
+// it turns, any number of turns.  A wrist has no three turns: grip.let_go() leaves the end in a vice, grip.take() takes it again.
+// What is felt is the force on the hand and the torque about the end; a device of three axes gets the force alone.
+//
+// The coupling is K, B between places and K_r, B_r between orientations.  Its springs belong to the rod, so that the end's
+// equilibrium is Newton's: implicit, whatever is stiffer.  With the hand at h and the end at x, g = x - h, and by backward Euler
+//
+//   F = K g + B (g - g0)/T = K' (x - h'),   K' = K + B/T,   h' = h + β g0,   β = 1 - K/K'
+//
+// K' are the springs' stiffnesses, h' is where they are placed.  Orientations go the same way by the rotation vector.  In a tick of another
+// length than T the damper is K' β dt.  Where the end is turned against the hand by more than `slip` the grip slips.
+// Real-time: no allocation, noexcept, wait-free; one hold() of the model a tick.
+#pragma once
+
+#include <atomic>
+#include <cmath>
+
+#include <hapbeam/haptics/servo/servo.hpp>
+#include <hapbeam/haptics/stability/coupling_limits.hpp>
+#include <hapbeam/rod_support.hpp>
+
+namespace hapbeam {
+
+/// A rod, and the end of it that the hand holds; given to a Servo in place of the model.
+template <typename Model>
+class Grip {
+ public:
+  using Scalar = typename Model::Scalar;
+  static constexpr int dimension = 3;
+
+  /// @param model  kept by reference; its end at `side` is clamped, or has GripCoupling::support()
+  Grip(Model& model, RodSide side) noexcept : model_(model), side_(side) {}
+
+  /// From any thread: the end stays where it is, and the hand feels nothing.
+  void let_go() noexcept { held_.store(false, std::memory_order_relaxed); }
+  void take() noexcept { held_.store(true, std::memory_order_relaxed); }
+  bool held() const noexcept { return held_.load(std::memory_order_relaxed); }
+
+  Model& model() noexcept { return model_; }
+  const Model& model() const noexcept { return model_; }
+  RodSide side() const noexcept { return side_; }
+  auto shape() const noexcept { return model_.shape(); }
+  const RodNode<Scalar>& end() const noexcept {
+    const auto line = model_.shape();
+    return line[side_ == RodSide::left ? 0 : line.segments()];
+  }
+
+ private:
+  Model& model_;
+  RodSide side_;
+  std::atomic<bool> held_{true};
+};
+
+/// The end as a hand has taken it.
+template <typename Model>
+class Touch<Grip<Model>> {
+ public:
+  using Scalar = typename Model::Scalar;
+  static constexpr int dimension = 3;
+
+  explicit Touch(Grip<Model>& grip, Scalar = 0) noexcept : grip_(grip) { reset(); }
+
+  /// The rod goes back to rest, and the hand takes hold of it anew.
+  void reset() noexcept {
+    grip_.model().reset();
+    aim_ = end();
+    taken_ = false;
+  }
+  /// Whether the hand holds it.
+  bool pressing() const noexcept { return taken_; }
+  bool held() const noexcept { return grip_.held(); }
+  void let_go() noexcept { taken_ = false; }
+
+  /// Where a hand has the end; the first one takes it as it is held.
+  HandPose follow(const HandPose& hand) noexcept {
+    if (!taken_ && hand.place.allFinite() && hand.turn.allFinite()) {
+      from_hand_ = {aim_.place - hand.place, hand.turn.transpose() * aim_.turn};
+      taken_ = true;
+    }
+    return {hand.place + from_hand_.place, hand.turn * from_hand_.turn};
+  }
+  /// The grip slips: the end is turned in the hand.   @param by  a rotation, in the scene
+  void slip(const HandPose& hand, const Eigen::Matrix3d& by) noexcept {
+    from_hand_.turn = hand.turn.transpose() * by * hand.turn * from_hand_.turn;
+  }
+  HeldEnd<Scalar> hold(const HandPose& aim) noexcept {
+    const HeldEnd<Scalar> held =
+        grip_.model().hold(grip_.side(), {aim.place, aim.turn.col(2), aim.turn.col(0)});
+    if (is_answer(held.status)) aim_ = aim;
+    return held;
+  }
+  /// Where it is; the columns are d1, d2 and the tangent.
+  HandPose end() const noexcept {
+    const auto& node = grip_.end();
+    HandPose pose;
+    pose.place = detail::in_scene(node.r);
+    const Eigen::Vector3d d3 = detail::unit(detail::in_scene(node.tangent)),
+                          d1 = detail::across<double>(detail::in_scene(node.director), d3);
+    pose.turn.col(0) = d1, pose.turn.col(1) = detail::cross3<double>(d3, d1), pose.turn.col(2) = d3;
+    return pose;
+  }
+  Scalar s() const noexcept { return grip_.end().s; }
+  double energy() const noexcept { return static_cast<double>(grip_.model().strain_energy()); }
+
+ private:
+  Grip<Model>& grip_;
+  HandPose aim_, from_hand_;
+  bool taken_ = false;
+};
+
+/// Between a hand that turns and the end that it holds.
+class GripCoupling {
+ public:
+  /// Ticks in a row that go on without an answer, with the last one.
+  static constexpr int max_continued = 20;
+  /// [rad]  A spring against a turn has its largest moment at a quarter turn.
+  static constexpr double slip = 1;
+
+  /// @param place  K [N/m] and B [N·s/m]   @param turning  K_r [N·m/rad] and B_r [N·m·s/rad]   @param period T [s]
+  /// @throws std::invalid_argument unless stiffnesses are positive, dampings not negative and all finite
+  GripCoupling(const CouplingFigures& place, const CouplingFigures& turning, double period)
+      : place_(checked(place, "grip stiffness", "N/m", "grip damping", "N·s/m")),
+        turning_(checked(turning, "grip turning stiffness", "N·m/rad", "grip turning damping", "N·m·s/rad")),
+        period_(detail::loop_period("grip period", period)) {}
+  /// What the device can render.   @throws as safe_coupling()
+  static GripCoupling for_device(const DeviceInfo& device, int delay_ticks = 0) {
+    return {safe_coupling(device, delay_ticks), safe_turning_coupling(device, delay_ticks), device.period};
+  }
+
+  CouplingFigures place() const noexcept { return place_; }
+  CouplingFigures turning() const noexcept { return turning_; }
+  /// Between places and torques of a scene of so many metres to one of the device's.
+  GripCoupling in_scene(double scale) const noexcept {
+    GripCoupling scaled = *this;
+    scaled.place_ = {place_.stiffness / scale, place_.damping / scale};
+    scaled.turning_ = {turning_.stiffness * scale, turning_.damping * scale};
+    return scaled;
+  }
+  /// How the held end of the rod is supported: K' and K_r'.   @throws std::invalid_argument where the scene's scale overflows them
+  RodSupport support() const {
+    const double k = stiff(place_), t = stiff(turning_);
+    return RodSupport::elastic(detail::positive("grip stiffness", k, "N/m"), k, k,
+                               detail::positive("grip turning stiffness", t, "N·m/rad"), t, t);
+  }
+  void reset() noexcept {
+    forget();
+    continued_ = 0, last_ = {};
+  }
+
+  /// Once a period.   @param hand  in the scene   @param dt [s]
+  template <typename Model>
+  [[nodiscard]] CoupledWrench<typename Model::Scalar> tick(Touch<Grip<Model>>& touch, const HandPose& hand,
+                                                           double) noexcept {
+    using Scalar = typename Model::Scalar;
+    CoupledWrench<Scalar> result;
+    result.avatar = touch.end().place;
+    if (!touch.held()) {
+      touch.let_go();
+      reset();
+      return result;
+    }
+    const HandPose at = touch.follow(hand);
+    const HeldEnd<Scalar> held =
+        touch.hold({at.place + share(place_) * gap_, turn_by(share(turning_) * turn_) * at.turn});
+    result.touch.status = held.status;
+    result.touch.press = {touch.s(), 0};
+    if (is_answer(held.status)) {
+      const HandPose end = touch.end();
+      gap_ = end.place - at.place, turn_ = rotation_vector(end.turn * at.turn.transpose());
+      last_ = {-detail::in_scene(held.force), -detail::in_scene(held.moment)};
+      continued_ = 0;
+      const double angle = turn_.norm();
+      if (angle > slip) {
+        touch.slip(hand, turn_by(turn_ * (1 - slip / angle)));
+        turn_ *= slip / angle;
+      }
+    } else if (held.status == Status::iteration_limit && continued_ < max_continued) {
+      ++continued_;
+    } else {
+      reset();
+    }
+    result.continued = continued_ > 0;
+    result.touch.pressing = touch.pressing();
+    result.avatar = touch.end().place;
+    if (!(last_.force.allFinite() && last_.torque.allFinite() && gap_.allFinite() && turn_.allFinite())) {
+      reset();
+      result.touch.status = Status::non_finite;
+    }
+    result.force = last_.force, result.torque = last_.torque;
+    if (!result.force.isZero(0)) result.energy = touch.energy();
+    return result;
+  }
+
+ private:
+  static CouplingFigures checked(const CouplingFigures& figures, const char* stiffness, const char* k,
+                                 const char* damping, const char* b) {
+    detail::positive(stiffness, figures.stiffness, k);
+    if (!(figures.damping >= 0 && std::isfinite(figures.damping)))
+      detail::reject(damping, figures.damping, b, "finite and not negative");
+    return figures;
+  }
+  double stiff(const CouplingFigures& figures) const noexcept {
+    return figures.stiffness + figures.damping / period_;
+  }
+  /// β
+  double share(const CouplingFigures& figures) const noexcept {
+    return 1 - figures.stiffness / stiff(figures);
+  }
+  void forget() noexcept { gap_.setZero(), turn_.setZero(); }
+
+  static Eigen::Matrix3d turn_by(const Eigen::Vector3d& by) noexcept {
+    const double angle = by.norm();
+    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+    if (!(angle > 0)) return R;
+    const Eigen::Vector3d axis = by / angle;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d e = R.col(k);
+      R.col(k) = std::cos(angle) * e + std::sin(angle) * detail::cross3<double>(axis, e) +
+                 ((1 - std::cos(angle)) * axis[k]) * axis;
+    }
+    return R;
+  }
+  static Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R) noexcept {
+    const Eigen::Vector3d twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+    const double sine = twice.norm() / 2;
+    if (!(sine > 0)) return Eigen::Vector3d::Zero();
+    return twice * (std::atan2(sine, (R.trace() - 1) / 2) / (2 * sine));
+  }
+
+  CouplingFigures place_, turning_;
+  double period_;
+  Eigen::Vector3d gap_ = Eigen::Vector3d::Zero();   // g [m]
+  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();  // of the end against the hand [rad]
+  Wrench last_;                                     // of the last answer
+  int continued_ = 0;
+};
+
+template <typename Model>
+struct CouplingOf<Grip<Model>> {
+  using Type = GripCoupling;
+};
+template <typename Model>
+struct Drawn<Grip<Model>> {
+  using Picture = ServoPicture<typename Model::Scalar, 3>;
+  static constexpr bool for_who_looks = false;
+  static auto of(const Grip<Model>& grip, const Touch<Grip<Model>>&) noexcept { return grip.shape(); }
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,118 @@
+// A stylus that touches with all of its shaft: the avatar is a capsule that turns with the hand, and what presses on it at a
+// distance from the hand turns the hand.
+//
+//   tip   p - ahead z        other end   tip + length z        z: the axis of the stylus, from the tip to the hand
+//   τ = (c - p) × F                                            p: where the device's position is, c: where rod and capsule touch
+//
+// What the coupling ties to the hand is the point of the capsule's axis beside the contact, which turns with the hand.  It moves the
+// capsule along the normal of the contact and does not turn it.  Where the device renders the torque the coupling is softened by the
+// square of the lever (coupling.hpp).
+// Real-time: no allocation, noexcept, wait-free; as the coupling's tick and O(1).
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include <hapbeam/check.hpp>
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/haptics/stability/coupling.hpp>
+#include <hapbeam/haptics/stability/hand_pose.hpp>
+#include <hapbeam/haptics/stability/in_scene.hpp>
+#include <hapbeam/shaft.hpp>
+
+namespace hapbeam {
+
+/// The capsule that touches a rod, in metres of the scene; a sphere at the device's position by default.
+struct StylusOptions {
+  double length = 0;  ///< [m] of the axis, not negative
+  double ahead = 0;   ///< [m] of its tip before the device's position, where the gimbal turns
+};
+
+namespace detail {
+
+/// A touch whose avatar is a capsule with a place and a direction of its own in each tick.
+template <class Touch>
+struct CapsuleTouch {
+  using Scalar = typename Touch::Scalar;
+  static constexpr int dimension = 3;
+  using Vector = VectorOf<Scalar, 3>;
+
+  Touch& touch;
+  Vector tip, shaft;     // from the tied point to the tip, from there to the other end [m]
+  Eigen::Vector3d tied;  // from the hand to the tied point [m]
+
+  auto tick(const Vector& hand) noexcept { return touch.tick(Vector(hand + tip), shaft); }
+  auto contact_at(const Vector& hand) noexcept { return touch.contact_at(Vector(hand + tip), shaft); }
+  /// From the hand to the contact [m].   @param at  where the tied point is
+  template <class Felt>
+  Eigen::Vector3d arm(const Felt& felt, const Eigen::Vector3d& at) const noexcept {
+    return in_scene(felt.contact.foot) - (at - tied);
+  }
+  double lever(const TouchResult<Scalar, 3>& felt, const Eigen::Vector3d& at) const noexcept {
+    return cross3<double>(arm(felt, at), in_scene(felt.contact.normal)).norm();
+  }
+};
+
+template <typename C, typename = void>
+struct Moves : std::false_type {};
+template <typename C>
+struct Moves<C, std::void_t<decltype(std::declval<C&>().move(std::declval<const Eigen::Vector3d&>()))>>
+    : std::true_type {};
+
+/// @tparam Scalar  of the rod
+template <typename Scalar>
+class Stylus {
+ public:
+  explicit Stylus(const StylusOptions& options) : o_(options) {
+    if (!(std::isfinite(o_.length) && o_.length >= 0))
+      reject("stylus length", o_.length, "m", "finite and not negative");
+    finite("stylus ahead", o_.ahead, "m");
+  }
+
+  void reset() noexcept { tied_.setZero(), arm_.setZero(); }
+
+  /// From its tip to its other end, as it is turned [m].
+  Eigen::Vector3d shaft(const HandPose& hand) const noexcept { return o_.length * hand.turn.col(2); }
+  /// From the hand to its tip [m].
+  Eigen::Vector3d tip(const HandPose& hand) const noexcept { return -o_.ahead * hand.turn.col(2); }
+
+  /// One tick of the coupling with a capsule.   @return with the torque on the hand
+  template <class Coupling, class Touch>
+  CoupledWrench<Scalar> tick(Coupling& coupling, Touch& touch, const HandPose& hand, double dt) noexcept {
+    const Eigen::Vector3d tied = hand.turn * tied_;
+    const Shaft<double> axis{tip(hand), shaft(hand)};
+    CapsuleTouch<Touch> capsule{touch, (axis.tip - tied).template cast<Scalar>(),
+                                axis.way.template cast<Scalar>(), tied};
+    CoupledWrench<Scalar> felt{coupling.tick(capsule, hand.place + tied, dt)};
+    // Without an answer of this tick the force goes on along the line on which it was.
+    const auto& contact = felt.touch.contact;
+    if (felt.touch.pressing && !felt.continued && contact.segment >= 0) {
+      arm_ = capsule.arm(felt.touch, felt.avatar);
+      if constexpr (Moves<Coupling>::value) {
+        const Eigen::Vector3d now = axis.at(axis.nearest(arm_));
+        coupling.move(now - tied);
+        tied_ = hand.turn.transpose() * now;
+      }
+    }
+    felt.avatar -= tied;
+    felt.torque = cross3<double>(arm_, felt.force);
+    if (!felt.torque.allFinite() || !tied_.allFinite()) {
+      felt.force.setZero(), felt.torque.setZero();
+      coupling.reset(), reset();
+    } else if (!felt.touch.pressing && felt.force.isZero(0)) {
+      reset();
+    }
+    return felt;
+  }
+
+ private:
+  StylusOptions o_;
+  Eigen::Vector3d tied_ =
+      Eigen::Vector3d::Zero();                     // from the hand to the tied point, in the stylus' axes [m]
+  Eigen::Vector3d arm_ = Eigen::Vector3d::Zero();  // from the hand to the contact, in the scene [m]
+};
+
+}  // namespace detail
+
+}  // namespace hapbeam
