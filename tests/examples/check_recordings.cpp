@@ -16,7 +16,7 @@
 namespace {
 
 struct Row {
-  double time, hand_x, x, y;  ///< [s, m, N, N]
+  double time, hand_x, x, y, z;  ///< [s, m, N, N, N]
 };
 
 std::vector<Row> read(const char* path) {
@@ -26,8 +26,8 @@ std::vector<Row> read(const char* path) {
   std::vector<Row> rows;
   while (std::getline(file, line)) {
     Row row{};
-    if (std::sscanf(line.c_str(), "%lf,%lf,%*f,%*f,%*f,%*f,%*f,%lf,%lf", &row.time, &row.hand_x, &row.x,
-                    &row.y) != 4) {
+    if (std::sscanf(line.c_str(), "%lf,%lf,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%lf,%lf,%lf", &row.time,
+                    &row.hand_x, &row.x, &row.y, &row.z) != 5) {
       std::fprintf(stderr, "%s: is no recording\n", path);
       std::exit(2);
     }
@@ -40,7 +40,8 @@ int slew(const char* path, double rate) {
   const std::vector<Row> rows = read(path);
   double most = 0, at = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const double change = std::hypot(rows[i].x - rows[i - 1].x, rows[i].y - rows[i - 1].y);
+    const double change =
+        std::hypot(rows[i].x - rows[i - 1].x, rows[i].y - rows[i - 1].y, rows[i].z - rows[i - 1].z);
     const double speed = change / (rows[i].time - rows[i - 1].time);
     if (speed > most) most = speed, at = rows[i].time;
   }
@@ -51,7 +52,8 @@ int slew(const char* path, double rate) {
 
 int beside(const char* path, double distance) {
   int ticks = 0;
-  for (const Row& row : read(path)) ticks += std::abs(row.hand_x) >= distance && std::hypot(row.x, row.y) > 0;
+  for (const Row& row : read(path))
+    ticks += std::abs(row.hand_x) >= distance && std::hypot(row.x, row.y, row.z) > 0;
   std::printf("in contact beside the line in %d ticks\n", ticks);
   return ticks > 0 ? 0 : 1;
 }
@@ -62,8 +64,8 @@ int same(const char* path_a, const char* path_b, double tolerance) {
   int pressed = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     if (a[i].time != b[i].time) return std::printf("other times\n"), 1;
-    const double force = std::hypot(a[i].x, a[i].y);
-    most = std::max(most, std::hypot(a[i].x - b[i].x, a[i].y - b[i].y));
+    const double force = std::hypot(a[i].x, a[i].y, a[i].z);
+    most = std::max(most, std::hypot(a[i].x - b[i].x, a[i].y - b[i].y, a[i].z - b[i].z));
     largest = std::max(largest, force);
     pressed += force > 0;
   }
