@@ -3,6 +3,7 @@
 //   check_recordings slew FILE RATE [N/s]            the force never changes faster, up or down
 //   check_recordings beside FILE DISTANCE [m]       the beam is felt where the hand is so far from the line of a script that
 //                                                    presses straight down
+//   check_recordings sides FILE                     the hand is pushed up by half a newton, and toward who looks, at different times
 //   check_recordings same FILE FILE TOLERANCE [N]    the same forces at the same times, in contact a tenth of a second at least
 #include <algorithm>
 #include <cmath>
@@ -58,6 +59,14 @@ int beside(const char* path, double distance) {
   return ticks > 0 ? 0 : 1;
 }
 
+int sides(const char* path) {
+  int up = 0, out = 0;
+  for (const Row& row : read(path))
+    up += row.y > 0.5 && row.y > 3 * row.z, out += row.z > 0.5 && row.z > 3 * row.y;
+  std::printf("pushed up in %d ticks, toward who looks in %d\n", up, out);
+  return up > 0 && out > 0 ? 0 : 1;
+}
+
 int same(const char* path_a, const char* path_b, double tolerance) {
   const std::vector<Row> a = read(path_a), b = read(path_b);
   double most = 0, largest = 0;
@@ -79,6 +88,7 @@ int same(const char* path_a, const char* path_b, double tolerance) {
 int main(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "slew") == 0) return slew(argv[2], std::atof(argv[3]));
   if (argc == 4 && std::strcmp(argv[1], "beside") == 0) return beside(argv[2], std::atof(argv[3]));
+  if (argc == 3 && std::strcmp(argv[1], "sides") == 0) return sides(argv[2]);
   if (argc == 5 && std::strcmp(argv[1], "same") == 0) return same(argv[2], argv[3], std::atof(argv[4]));
   return 2;
 }

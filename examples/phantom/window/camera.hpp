@@ -55,11 +55,19 @@ class Camera {
     return {centre_.x + static_cast<float>(scale * right_.dot(way)),
             centre_.y - static_cast<float>(scale * up_.dot(way))};
   }
-  /// The place that is seen there and is as near as another.
-  Eigen::Vector3d inverse(const ImVec2& at, const Eigen::Vector3d& as_near) const {
-    const double scale = pixels(as_near);
-    return middle_ + nearness(as_near) * toward_ + static_cast<double>(at.x - centre_.x) / scale * right_ -
-           static_cast<double>(at.y - centre_.y) / scale * up_;
+  // The plane in which a cursor leads the hand: that of the picture, but upright unless it is seen from above.  So what goes
+  // up in the picture goes up in the scene, and a hand that is led down presses down.
+  bool upright() const { return toward_.y() < 0.7; }
+  Eigen::Vector3d hand_up() const { return upright() ? Eigen::Vector3d(0, 1, 0) : up_; }
+  Eigen::Vector3d hand_toward() const {
+    return upright() ? Eigen::Vector3d(-right_.z(), 0, right_.x()) : toward_;
+  }
+  /// What is seen there in that plane through a place.
+  Eigen::Vector3d inverse(const ImVec2& at, const Eigen::Vector3d& through) const {
+    const Eigen::Vector3d eye = middle_ + distance_ * toward_, normal = hand_toward();
+    const Eigen::Vector3d ray = static_cast<double>(at.x - centre_.x) / pixels_ * right_ -
+                                static_cast<double>(at.y - centre_.y) / pixels_ * up_ - distance_ * toward_;
+    return eye + normal.dot(through - eye) / normal.dot(ray) * ray;
   }
   /// From a place to who looks, unit.
   Eigen::Vector3d sight(const Eigen::Vector3d& p) const {

@@ -211,6 +211,7 @@ void SpaceDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, co
   list.AddCircleFilled(hand, 0.2f * unit, colour::blue);
   const double force = r.force.norm();
   const auto beside = static_cast<float>(options_.radius * camera_.pixels(r.avatar));
+  const ImVec2 free{avatar.x + 0.8f * beside + 0.4f * unit, avatar.y + 0.7f * beside};
   if (force > 0.02) {
     const Vector along = r.force / force, from = r.avatar + options_.radius * along;
     const double length = static_cast<double>(arrow_length(force, unit)) / camera_.pixels(r.avatar);
@@ -218,16 +219,13 @@ void SpaceDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, co
     arrow(list, camera_(from), to, colour::vermilion, unit);
     // Beside the avatar where the arrow looks at who looks.
     const bool hidden = std::hypot(to.x - avatar.x, to.y - avatar.y) < beside + unit;
-    label(list,
-          hidden ? ImVec2{avatar.x + beside + 0.5f * unit, avatar.y - 0.5f * unit}
-                 : ImVec2{to.x + 0.6f * unit, to.y - 0.3f * unit},
-          colour::vermilion, text("%.2f N", force));
+    label(list, hidden ? free : ImVec2{to.x + 0.6f * unit, to.y - 0.3f * unit}, colour::vermilion,
+          text("%.2f N", force));
   } else if (!r.pressing) {
     const Nearest rod = nearest(r.avatar);
     const Vector way = (rod.place - r.avatar).normalized();
     dashed(list, camera_(r.avatar + options_.radius * way), camera_(rod.place), colour::blue, 0.2f * unit);
-    label(list, {avatar.x + beside + 0.5f * unit, avatar.y - 0.5f * unit}, colour::blue,
-          metres(std::round(std::max(0.0, rod.gap) * 1e4) / 1e4) + " to the rod");
+    label(list, free, colour::blue, metres(std::round(std::max(0.0, rod.gap) * 1e4) / 1e4) + " to the rod");
   }
 }
 
@@ -275,7 +273,7 @@ Eigen::Vector3d SpaceDrawing::device_position(const ImVec2& cursor, const Vector
 }
 
 Eigen::Vector3d SpaceDrawing::device_way(const Vector& way) const {
-  return way.x() * camera_.right() + way.y() * camera_.up() + way.z() * camera_.toward();
+  return way.x() * camera_.right() + way.y() * camera_.hand_up() + way.z() * camera_.hand_toward();
 }
 
 void SpaceDrawing::look(bool hovered) {

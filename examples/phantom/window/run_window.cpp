@@ -85,15 +85,16 @@ class Window {
 
   /// The next scene, model and coupling of a tour, in a window of another size now and then.
   void tour(int step) {
-    constexpr const char* scenes[] = {"thesis", "ruler", "strip", "string", "arch"};
+    constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip", "string", "hook", "arch"};
     constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::corotational,
                                           ElementChoice::assumed_strain, ElementChoice::reduced,
                                           ElementChoice::full};
     Options options = first_;
     // Two changes under the hand that presses, then another scene.
-    set_scene(options, scenes[step / 3 % 5]);
+    set_scene(options, scenes[step / 3 % 7]);
     settle(options, 0, options.beam.length);
-    options.element = elements[step % 5];
+    if (!options.beam.in_space()) options.element = elements[step % 5];
+    else if (step % 2 == 1) options.element = ElementChoice::twisted_rod;
     options.elements = 4 << step / 25 % 3;
     // What is stiffer than the device can render throws the hand about without a coupling.
     const bool soft = options.scene == "strip" || options.scene == "string";
