@@ -85,13 +85,13 @@ class Window {
 
   /// The next scene, model and coupling of a tour, in a window of another size now and then.
   void tour(int step) {
-    constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip", "string", "hook", "arch"};
+    constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip", "string", "arch"};
     constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::corotational,
                                           ElementChoice::assumed_strain, ElementChoice::reduced,
                                           ElementChoice::full};
     Options options = first_;
     // Two changes under the hand that presses, then another scene.
-    set_scene(options, scenes[step / 3 % 7]);
+    set_scene(options, scenes[step / 3 % 6]);
     settle(options, 0, options.beam.length);
     if (!options.beam.in_space()) options.element = elements[step % 5];
     else if (step % 2 == 1) options.element = ElementChoice::twisted_rod;
