@@ -21,7 +21,7 @@ array names[17] = ['Linear', 'full integration', 'reduced integration', 'textboo
 name(scene, i) = scene eq 'ruler' && (i == 2 || i == 3) ? '' : scene eq 'ruler' && i == 13 ? 'VonKarman, any membrane' : names[i]
 # Where a name stands: at which point of its series, from there aside and up by so many characters, and which side of it.
 array places[17] = ['9 0.8 0.5 l', '9 0.8 0.5 l', '9 0.8 0.3 l', '9 0.8 0.4 l', '3 0.8 0.6 l', '9 0.8 0 l', '9 -0.8 -0.6 r', \
-  '9 0.8 -0.4 l', '9 0.9 0.4 l', '0 -1 0 r', '0 -1 0.3 r', '1 -0.9 -0.7 r', '9 0.8 -0.4 l', '3 -2.5 -0.2 r', '2 -1.2 -0.5 r', '2 1 0.5 l', '2 0.8 0.6 l']
+  '9 0.8 -0.4 l', '9 0.9 0.4 l', '0 -1 0 r', '0 -1 0.3 r', '1 -0.9 -0.7 r', '9 0.8 -0.4 l', '3 -2.5 -0.2 r', '2 -2.6 -0.2 r', '2 1 0.5 l', '2 0.8 0.6 l']
 array exceptions[7]
 exceptions[1] = '02=9 0.6 -0.9 l;04=9 0.8 0.6 l;07=2 0.8 0.4 l;08=3 0.8 0.4 l;06=9 0.8 0.6 l;13=4 -0.9 -0.6 r;14=9 0.8 -0.4 l;'
 exceptions[2] = '12=1 -2.6 0.3 r;09=9 0.6 1.1 l;02=9 0.8 0.9 l;14=9 0.8 -0.7 l;'
@@ -29,7 +29,7 @@ exceptions[3] = '01=1 0 0.7 l;02=9 0.8 -0.4 l;03=9 0.8 0.9 l;04=9 0.8 -0.5 l;05=
 exceptions[4] = '01=1 0 0.7 l;04=5 0.8 0.4 l;05=2 0.8 0.6 l;06=2 0.8 0.4 l;08=9 0.9 0.5 l;13=9 -1 -0.9 l;'
 exceptions[5] = '04=5 0.8 0.4 l;05=1 0.8 0.6 l;07=9 0.8 0 l;'
 exceptions[6] = ''
-exceptions[7] = '16=2 -1.2 -0.5 r;'
+exceptions[7] = '16=2 -2.6 -0.2 r;'
 at(k, i) = strstrt(exceptions[k], sprintf('%02d=', i))
 place(k, i) = at(k, i) ? substr(exceptions[k], at(k, i) + 3, at(k, i) + 1 + strstrt(substr(exceptions[k], at(k, i), 999), ';') - 3) : places[i]
 anchor(i, side) = word(place(k, i), 4) eq side && there[i] ? row(scene, models[i], word(place(k, i), 1)) : '/dev/null'
