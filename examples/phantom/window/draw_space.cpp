@@ -16,7 +16,6 @@ namespace phantom {
 
 namespace {
 
-constexpr int pieces = 240;
 constexpr ImU32 shade = IM_COL32(70, 76, 88, 60);
 
 }  // namespace
@@ -28,96 +27,23 @@ std::unique_ptr<Drawing> make_drawing(const Body& body, const hapbeam::DeviceInf
 
 SpaceDrawing::SpaceDrawing(const Body& body, const hapbeam::DeviceInfo& device)
     : options_(body.options()),
-      rod_(std::get<hapbeam::Rod>(body.slender())),
+      line_(std::get<hapbeam::Rod>(body.slender())),
       placement_(body.placement()),
-      workspace_(device.workspace * options_.scale / 2),
-      samples_(pieces + 1) {
-  for (int i = 0; i <= pieces; ++i) samples_[static_cast<std::size_t>(i)].s = rod_.length() * i / pieces;
+      workspace_(device.workspace * options_.scale / 2) {
   const Shape rest = body.rest();
-  sample(std::get<Line>(rest));
+  line_.take(std::get<RodLine::Shape>(rest));
   // The rod, and the hand around it.
   const double reach = options_.radius + options_.beam.touched() / 2;
   const Vector pressed = placement_.origin() - Vector(0, reach, 0);
   const double around = hand_away(options_) * options_.scale + options_.radius;
   low_ = pressed - Vector(options_.radius, around, around),
   high_ = pressed + Vector(options_.radius, around, around);
-  for (const Sample& sample : samples_)
+  for (const RodLine::Sample& sample : line_.samples())
     low_ = low_.cwiseMin(sample.ring.middle), high_ = high_.cwiseMax(sample.ring.middle);
-  low_.y() -= rod_.forces().empty() ? 0 : 0.15 * rod_.length();
+  low_.y() -= line_.rod().forces().empty() ? 0 : 0.15 * line_.rod().length();
   size_ = (high_ - low_).norm();
   floor_ = low_.y() - 0.02 * size_;
   square_ = rounded_up(size_ / 14);
-}
-
-double SpaceDrawing::radius(double s) const {
-  for (const hapbeam::RodPart& part : rod_.parts())
-    if (s <= part.end) return part.section(s).thickness / 2;
-  return rod_.thickness() / 2;
-}
-
-std::vector<double> SpaceDrawing::mean_curvatures(const Line& shape) const {
-  // ∫ of a natural curvature up to s.
-  const auto natural = [this](double s, double hapbeam::RodArc::*curvature) {
-    double sum = 0, from = 0;
-    for (const hapbeam::RodArc& arc : rod_.arcs()) {
-      sum += arc.*curvature * std::clamp(s - from, 0.0, arc.end - from);
-      from = arc.end;
-    }
-    return sum;
-  };
-  std::vector<double> means;
-  for (int i = 0; i < shape.segments(); ++i) {
-    const auto &a = shape[i], &b = shape[i + 1];
-    const Vector t = a.tangent.normalized(), to = b.tangent.normalized();
-    const double x = to.dot(a.director), y = to.dot(hapbeam::detail::cross3(t, a.director));
-    const double sine = std::sqrt(std::max(0.0, 1 - to.dot(t) * to.dot(t))),
-                 angle = std::atan2(sine, to.dot(t));
-    const double l = b.s - a.s;
-    if (rod_.arcs().empty()) {
-      means.push_back(angle / l);
-      continue;
-    }
-    const double factor = sine > 0 ? angle / sine : 1;
-    means.push_back(std::hypot(factor * x - (natural(b.s, &hapbeam::RodArc::curvature2) -
-                                             natural(a.s, &hapbeam::RodArc::curvature2)),
-                               factor * y + (natural(b.s, &hapbeam::RodArc::curvature1) -
-                                             natural(a.s, &hapbeam::RodArc::curvature1))) /
-                    l);
-  }
-  return means;
-}
-
-void SpaceDrawing::sample(const Line& shape) {
-  const std::vector<double> means = mean_curvatures(shape);
-  const auto middle = [&shape](int i) { return (shape[i].s + shape[i + 1].s) / 2; };
-  Vector across(0, 1, 0);
-  double largest = 0;
-  int e = 0;
-  for (Sample& sample : samples_) {
-    const auto point = shape.at(std::min(sample.s, shape.length()));
-    const Vector tangent = point.tangent.normalized();
-    if (std::abs(across.dot(tangent)) > 0.99) across = {0, 0, 1};
-    across = (across - tangent.dot(across) * tangent).normalized();
-    sample.ring = {point.r, tangent, across, radius(sample.s)};
-    // Linear from one element's middle to the next one's.
-    while (e + 2 < shape.segments() && middle(e + 1) < sample.s) ++e;
-    const auto k = static_cast<std::size_t>(e);
-    const double t = (sample.s - middle(e)) / (middle(e + 1) - middle(e));
-    sample.strain = sample.ring.radius * std::max(0.0, means[k] + t * (means[k + 1] - means[k]));
-    largest = std::max(largest, sample.strain);
-  }
-  if (largest > largest_strain_) largest_strain_ = rounded_up(largest);
-}
-
-SpaceDrawing::Nearest SpaceDrawing::nearest(const Vector& avatar) const {
-  Nearest best{samples_[0].ring.middle, 1e9};
-  for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
-    const Vector &a = samples_[i].ring.middle, way = samples_[i + 1].ring.middle - a;
-    const Vector place = a + std::clamp((avatar - a).dot(way) / way.squaredNorm(), 0.0, 1.0) * way;
-    const double gap = (avatar - place).norm() - options_.radius - rod_.thickness() / 2;
-    if (gap < best.gap) best = {place, gap};
-  }
-  return best;
 }
 
 void SpaceDrawing::aim(const ImVec2& low, const ImVec2& high) {
@@ -157,8 +83,8 @@ void SpaceDrawing::draw_floor(ImDrawList& list, float unit) const {
 
 void SpaceDrawing::draw_shadows(ImDrawList& list, const Vector& avatar, float unit) const {
   std::vector<ImVec2> line;
-  for (const Sample& sample : samples_) line.push_back(camera_(on_floor(sample.ring.middle)));
-  const Ring& middle = samples_[samples_.size() / 2].ring;
+  for (const RodLine::Sample& sample : line_.samples()) line.push_back(camera_(on_floor(sample.ring.middle)));
+  const Ring& middle = line_.samples()[line_.samples().size() / 2].ring;
   const auto width = static_cast<float>(2 * middle.radius * camera_.pixels(on_floor(middle.middle)));
   list.AddPolyline(line.data(), static_cast<int>(line.size()), shade, ImDrawFlags_None,
                    std::max(0.2f * unit, width));
@@ -184,14 +110,14 @@ void SpaceDrawing::draw_ends(Solids& solids) const {
     block.col(2) = half * hapbeam::detail::cross3<double>(end.tangent, end.across);
     solids.block(end.middle + side * block.col(0), block, IM_COL32(200, 204, 210, 255));
   };
-  hold(rod_.left(), samples_.front().ring, -1);
-  hold(rod_.right(), samples_.back().ring, 1);
+  hold(line_.rod().left(), line_.samples().front().ring, -1);
+  hold(line_.rod().right(), line_.samples().back().ring, 1);
 }
 
 void SpaceDrawing::draw_hanging(ImDrawList& list, float unit) const {
-  for (const hapbeam::RodForce& force : rod_.forces()) {
-    const Vector tip = samples_.back().ring.middle,
-                 end = tip + 0.1 * rod_.length() * force.force.normalized();
+  for (const hapbeam::RodForce& force : line_.rod().forces()) {
+    const Vector tip = line_.samples().back().ring.middle,
+                 end = tip + 0.1 * line_.rod().length() * force.force.normalized();
     const ImVec2 at = camera_(end);
     list.AddLine(camera_(tip), at, colour::ink, unit / 12);
     list.AddTriangleFilled(at, {at.x - 0.4f * unit, at.y + unit}, {at.x + 0.4f * unit, at.y + unit},
@@ -222,10 +148,11 @@ void SpaceDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, co
     label(list, hidden ? free : ImVec2{to.x + 0.6f * unit, to.y - 0.3f * unit}, colour::vermilion,
           text("%.2f N", force));
   } else if (!r.pressing) {
-    const Nearest rod = nearest(r.avatar);
+    const RodLine::Nearest rod = line_.nearest(r.avatar);
+    const double gap = rod.distance - options_.radius - line_.rod().thickness() / 2;
     const Vector way = (rod.place - r.avatar).normalized();
     dashed(list, camera_(r.avatar + options_.radius * way), camera_(rod.place), colour::blue, 0.2f * unit);
-    label(list, free, colour::blue, metres(std::round(std::max(0.0, rod.gap) * 1e4) / 1e4) + " to the rod");
+    label(list, free, colour::blue, metres(std::round(std::max(0.0, gap) * 1e4) / 1e4) + " to the rod");
   }
 }
 
@@ -253,12 +180,14 @@ void SpaceDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
   list.PushClipRect(low, high, true);
   list.AddRectFilled(low, high, colour::paper);
   draw_floor(list, unit);
-  sample(std::get<Line>(picture.beams.front().shape));
+  line_.take(std::get<RodLine::Shape>(picture.beams.front().shape));
+  if (line_.largest_strain() > largest_strain_) largest_strain_ = rounded_up(line_.largest_strain());
   draw_shadows(list, r.avatar, unit);
   Solids solids(camera_);
-  for (std::size_t i = 0; i + 1 < samples_.size(); ++i)
-    solids.tube(samples_[i].ring, samples_[i + 1].ring,
-                colour::viridis((samples_[i].strain + samples_[i + 1].strain) / 2 / largest_strain_));
+  const auto& samples = line_.samples();
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+    solids.tube(samples[i].ring, samples[i + 1].ring,
+                colour::viridis((samples[i].strain + samples[i + 1].strain) / 2 / largest_strain_));
   draw_ends(solids);
   solids.ball(r.avatar, options_.radius, colour::with_alpha(colour::orange, 225));
   solids.paint(list);

@@ -4,12 +4,10 @@
 // down to its shadow, and the distance of avatar and rod in figures.  All lengths are true to scale.
 #pragma once
 
-#include <vector>
-
 #include "../options.hpp"
 #include "drawing.hpp"
+#include "rod_line.hpp"
 #include "solids.hpp"
-#include <hapbeam/rod.hpp>
 
 namespace phantom {
 
@@ -29,21 +27,6 @@ class SpaceDrawing final : public Drawing {
 
  private:
   using Vector = Eigen::Vector3d;
-  using Line = hapbeam::Centreline<double, 3>;
-  struct Sample {
-    double s, strain;
-    Ring ring;
-  };
-  struct Nearest {
-    Vector place;  ///< [m] of the centreline
-    double gap;    ///< [m] between the surfaces; negative: they overlap
-  };
-
-  void sample(const Line& shape);
-  std::vector<double> mean_curvatures(
-      const Line& shape) const;   ///< [1/m] of elements, less their natural ones
-  double radius(double s) const;  ///< [m]
-  Nearest nearest(const Vector& avatar) const;
   void aim(const ImVec2& low, const ImVec2& high);
   void draw_floor(ImDrawList& list, float unit) const;
   void draw_shadows(ImDrawList& list, const Vector& avatar, float unit) const;
@@ -55,7 +38,7 @@ class SpaceDrawing final : public Drawing {
   Vector on_floor(const Vector& p) const { return {p.x(), floor_, p.z()}; }
 
   Options options_;
-  hapbeam::Rod rod_;
+  RodLine line_;
   hapbeam::Placement placement_;
   Vector workspace_;             // [m] scene, half of it
   Vector low_, high_;            // [m] of what is looked at
@@ -64,7 +47,6 @@ class SpaceDrawing final : public Drawing {
   double largest_strain_ = 1e-6;
   bool orbits_ = false;
   Camera camera_;
-  std::vector<Sample> samples_;
 };
 
 }  // namespace phantom
