@@ -8,7 +8,8 @@
 //   bytes                 what the method holds for one beam
 //
 // All methods are compiled alike, each in a file of its own, start each tick from the one before, and share contact detection, but for the chain of masses,
-// which has its own.  What differs from FemModel in its linear solver alone is called Newton + solver.
+// which has its own, and MuJoCo, which is measured where libmujoco-dev is installed.  What differs from FemModel in its linear solver
+// alone is called Newton + solver.
 // HAPBEAM_QUICK=1 in the environment takes fewer stops and rounds.
 #include <algorithm>
 #include <cmath>
@@ -29,12 +30,18 @@
 #include "support/mass_spring.hpp"
 #include "support/sparse_assemblers.hpp"
 #include "support/tick_times.hpp"
+#ifdef HAPBEAM_BENCHMARKS_MUJOCO
+#include "support/mujoco_chain.hpp"
+#endif
 #include "support/touch_scenes.hpp"
 #include "support/training.hpp"
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
+#include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/fem/solver/dense.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
@@ -86,6 +93,20 @@ class Contest {
       trained(scene);
       add(scene, "closed form", {}, [&scene] { return contender<ClosedFormModel>(scene.beam); });
     }
+    for (const TouchSceneIn<3>& scene : touch_scenes_in_space(stops)) {
+      const std::vector<int> sizes = quick ? std::vector<int>{4, 8, 16} : std::vector<int>{4, 8, 16, 32, 64};
+      if (scene.beam.arcs().empty()) fem<FemModel<RoundRod>>(scene, "RoundRod", sizes);
+      fem<FemModel<TwistedRod>>(scene, "TwistedRod", sizes);
+#ifdef HAPBEAM_BENCHMARKS_MUJOCO
+      for (const int n : quick ? std::vector<int>{8, 16} : std::vector<int>{8, 16, 32, 64})
+        add(
+            scene, "MuJoCo", {n, 0, 0},
+            [&scene, n] {
+              return contender<MujocoChain>(scene.beam, n, radius_in<3>, scene.mass_per_length);
+            },
+            static_cast<std::size_t>(n / 8));
+#endif
+    }
     times_.run(rounds);
   }
 
@@ -93,8 +114,8 @@ class Contest {
   const TickTimes& times(const std::string& name) const { return times_.of(name); }
 
  private:
-  template <class Model>
-  void fem(const TouchScene& scene, const std::string& model, const std::vector<int>& sizes) {
+  template <class Model, class Scene>
+  void fem(const Scene& scene, const std::string& model, const std::vector<int>& sizes) {
     for (const int n : sizes)
       add(scene, model, {n, 0, 0}, [&scene, n] { return contender<Model>(scene.beam, n); });
   }
@@ -150,19 +171,20 @@ class Contest {
     }
   }
 
-  /// @param make  () -> std::unique_ptr<Contender>   @param every  so many stops one is asked
-  template <class Make>
-  void add(const TouchScene& scene, const std::string& model, const Size& size, const Make& make,
+  /// @param make  () -> std::unique_ptr<Contender<D>>   @param every  so many stops one is asked
+  template <int D, class Make>
+  void add(const TouchSceneIn<D>& scene, const std::string& model, const Size& size, const Make& make,
            std::size_t every = 1) {
     const std::string name = scene.name + "/" + model + "/" + std::to_string(size.elements) + "/" +
                              std::to_string(size.modes) + "/" + std::to_string(size.snapshots);
-    const std::shared_ptr<Contender> own = make();
-    const auto errors = [&own, every](const std::vector<Stop>& known) {
+    using Position = VectorOf<double, D>;
+    const std::shared_ptr<Contender<D>> own = make();
+    const auto errors = [&own, every](const std::vector<StopIn<D>>& known) {
       std::vector<double> all;
       for (std::size_t k = 0; k < known.size(); k += every) {
-        const Stop& stop = known[k];
+        const StopIn<D>& stop = known[k];
         own->reset();
-        const auto felt = come_down([&own](const Point& position) { return own->tick(position); }, stop);
+        const auto felt = come_down([&own](const Position& position) { return own->tick(position); }, stop);
         all.push_back((felt.force - stop.force).norm() / stop.force.norm());
       }
       return all;
@@ -176,17 +198,17 @@ class Contest {
                          {"force_error_median", quantile(inside, 0.5)},
                          {"outside_error_max", quantile(outside, 1)},
                          {"bytes", bytes_of(make)}}});
-    times_.add(name, [own, path = scene.path, height = 2 * scene.depth, round = 0,
+    times_.add(name, [own, path = scene.path, away = scene.away, round = 0,
                       slow = false](std::vector<double>& ns) mutable {
       if (slow && ++round > 2) return Status::ok;
-      TouchResult<double> felt;
-      auto act = [&own](const Point& position) { return own->tick(position); };
+      TouchResult<double, D> felt;
+      auto act = [&own](const Position& position) { return own->tick(position); };
       // Onto the beam; caches, and the branches that a processor learns.
       own->reset();
       const std::size_t first = path.size() - path.size() / 20;
-      come_down(act, {path[first], height, {}});
+      come_down(act, StopIn<D>{path[first], away, {}});
       for (std::size_t k = first; k < path.size(); ++k) time_tick(path[k], act, felt);
-      for (const Point& position : path) ns.push_back(time_tick(position, act, felt));
+      for (const Position& position : path) ns.push_back(time_tick(position, act, felt));
       slow = middle(ns) > 1e3 * slow_us;
       return Status::ok;
     });

@@ -11,16 +11,18 @@
 
 namespace hapbeam::benchmarks {
 
+/// @tparam D  of the space in which it bends: 2 | 3
+template <int D>
 class Contender {
  public:
   virtual ~Contender() = default;
-  virtual TouchResult<double> tick(const Vector2<double>& position) noexcept = 0;
+  virtual TouchResult<double, D> tick(const VectorOf<double, D>& position) noexcept = 0;
   virtual void reset() noexcept = 0;
 };
 
 /// @tparam Model  one of those that benchmarks/CMakeLists.txt lists   @param arguments  of its constructor, as listed there
 template <class Model, class... Arguments>
-std::unique_ptr<Contender> contender(const Arguments&... arguments);
+std::unique_ptr<Contender<dimension_of<Model>>> contender(const Arguments&... arguments);
 
 /// FemModel over another assembler.
 template <class Element, template <typename, int, int, int> class Assembler>

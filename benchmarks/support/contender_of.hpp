@@ -10,7 +10,10 @@
 #include "touch_scenes.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
+#include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/fem/solver/dense.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
@@ -18,12 +21,14 @@
 namespace hapbeam::benchmarks {
 
 template <class Model>
-class Touched final : public Contender {
+class Touched final : public Contender<dimension_of<Model>> {
+  static constexpr int D = dimension_of<Model>;
+
  public:
   template <class... Arguments>
-  explicit Touched(const Arguments&... arguments) : model_(arguments...), touch_(model_, avatar_radius) {}
+  explicit Touched(const Arguments&... arguments) : model_(arguments...), touch_(model_, radius_in<D>) {}
   Touched(const Touched&) = delete;
-  TouchResult<double> tick(const Vector2<double>& position) noexcept override {
+  TouchResult<double, D> tick(const VectorOf<double, D>& position) noexcept override {
     return touch_.tick(position);
   }
   void reset() noexcept override { touch_.reset(); }
@@ -33,23 +38,29 @@ class Touched final : public Contender {
   Touch<Model> touch_;
 };
 
-/// It has a contact of its own.
-template <>
-class Touched<MassSpring> final : public Contender {
+/// What has a contact of its own.
+template <class Chain>
+class TouchedChain : public Contender<dimension_of<Chain>> {
+  static constexpr int D = dimension_of<Chain>;
+
  public:
   template <class... Arguments>
-  explicit Touched(const Arguments&... arguments) : chain_(arguments...) {}
-  TouchResult<double> tick(const Vector2<double>& position) noexcept override {
+  explicit TouchedChain(const Arguments&... arguments) : chain_(arguments...) {}
+  TouchResult<double, D> tick(const VectorOf<double, D>& position) noexcept override {
     return chain_.tick(position);
   }
   void reset() noexcept override { chain_.reset(); }
 
  private:
-  MassSpring chain_;
+  Chain chain_;
+};
+template <>
+class Touched<MassSpring> final : public TouchedChain<MassSpring> {
+  using TouchedChain::TouchedChain;
 };
 
 template <class Model, class... Arguments>
-std::unique_ptr<Contender> contender(const Arguments&... arguments) {
+std::unique_ptr<Contender<dimension_of<Model>>> contender(const Arguments&... arguments) {
   return std::make_unique<Touched<Model>>(arguments...);
 }
 

@@ -1,10 +1,9 @@
 #include "touch_scenes.hpp"
 
 #include <cmath>
-#include <cstdint>
-#include <random>
 
 #include "closed_form.hpp"
+#include "random_stops.hpp"
 #include "thesis_beam.hpp"
 #include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/element/corotational.hpp>
@@ -14,40 +13,20 @@ namespace hapbeam::benchmarks {
 
 namespace {
 
-constexpr double steel = 7850;      // [kg/m³]
-constexpr double beyond = 1.6;      // of the depth
-constexpr double shallowest = 0.1;  // of the depth
+constexpr double steel = 7850;  // [kg/m³]
 constexpr Material spring_steel{200e9};
-
-struct Interval {
-  double low, high;
-};
-
-/// So many stops at random.   @param stop  (where, depth) -> Stop
-template <class MakeStop>
-std::vector<Stop> random_stops(int count, const Interval& where, const Interval& depth, std::uint64_t seed,
-                               const MakeStop& stop) {
-  // The standard fixes the generator but not its distributions.
-  std::mt19937_64 generator(seed);
-  const auto random = [&generator](const Interval& range) {
-    return range.low + (range.high - range.low) * static_cast<double>(generator() >> 11) * 0x1p-53;
-  };
-  std::vector<Stop> stops;
-  for (int k = 0; k < count; ++k) {
-    const double x = random(where), d = random(depth);
-    stops.push_back(stop(x, d));
-  }
-  return stops;
-}
-
-/// In and out twice a second, to and fro once.   @param t  [s]
-double in(double t) { return shallowest + (1 - shallowest) * (1 - std::cos(4 * M_PI * t)) / 2; }
-double aside(double t) { return std::sin(2 * M_PI * t); }
 
 TouchScene begin(const char* name, const Beam& beam, double young, double depth, double wave_number) {
   const double mass = steel * beam.axial_stiffness() / young;
-  return {name, beam, depth, mass, wave_number * wave_number * std::sqrt(beam.bending_stiffness() / mass),
-          {},   {},   {}};
+  return {name,
+          beam,
+          depth,
+          mass,
+          wave_number * wave_number * std::sqrt(beam.bending_stiffness() / mass),
+          {},
+          {0, 2 * depth},
+          {},
+          {}};
 }
 
 TouchScene between_hinges(const char* name, const Beam& beam, double young, double depth, int stops) {
@@ -56,11 +35,11 @@ TouchScene between_hinges(const char* name, const Beam& beam, double young, doub
   const auto stop = [&](double s, double d) {
     const PinnedClosedForm::Contact at = exact.contact({s, -d});
     const Point normal = Point(-at.tangent.y(), at.tangent.x()).normalized();
-    return Stop{at.point + reach * normal, d + reach, -at.force / normal.y() * normal};
+    return Stop{at.point + reach * normal, {0, d + reach}, -at.force / normal.y() * normal};
   };
   TouchScene scene = begin(name, beam, young, depth, M_PI / L);
-  scene.stops = random_stops(stops, {0.06 * L, 0.94 * L}, {shallowest * depth, depth}, 2008, stop);
-  scene.outside = random_stops(stops / 2, {0.2 * L, 0.8 * L}, {1.05 * depth, beyond * depth}, 2009, stop);
+  scene.stops = random_stops<2>(stops, {0.06 * L, 0.94 * L}, {shallowest * depth, depth}, 2008, stop);
+  scene.outside = random_stops<2>(stops / 2, {0.2 * L, 0.8 * L}, {1.05 * depth, beyond * depth}, 2009, stop);
   for (int k = 0; k < 1000; ++k)
     scene.path.push_back(stop(0.3 * L + 0.02 * aside(k * 1e-3), in(k * 1e-3) * depth).position);
   return scene;
@@ -76,14 +55,14 @@ TouchScene turning(const char* name, const Beam& beam, double depth, double wave
   Touch<Reference> touch(model, avatar_radius);
   const double reach = avatar_radius + beam.thickness() / 2;
   const auto stop = [&](double x, double d) {
-    Stop there{{x, top(x) + reach - d}, d + reach, {}};
+    Stop there{{x, top(x) + reach - d}, {0, d + reach}, {}};
     touch.reset();
     there.force = come_down([&](const Point& position) { return touch.tick(position); }, there).force;
     return there;
   };
   TouchScene scene = begin(name, beam, spring_steel.young, depth, wave_number);
-  scene.stops = random_stops(stops, {from, to}, {shallowest * depth, depth}, 2008, stop);
-  scene.outside = random_stops(stops / 2, {from, to}, {1.05 * depth, beyond * depth}, 2009, stop);
+  scene.stops = random_stops<2>(stops, {from, to}, {shallowest * depth, depth}, 2008, stop);
+  scene.outside = random_stops<2>(stops / 2, {from, to}, {1.05 * depth, beyond * depth}, 2009, stop);
   for (int k = 0; k < 1000; ++k) {
     const double x = (from + to + (to - from) * aside(k * 1e-3)) / 2;
     scene.path.emplace_back(x, top(x) + reach - in(k * 1e-3) * depth);

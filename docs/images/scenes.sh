@@ -30,6 +30,18 @@ animation() {
   return "$status"
 }
 
+# The needle is pressed from three sides, in 6 s: every second picture, at their own pace; the drawing alone.
+around() {
+  local frames
+  frames=$(mktemp -d)
+  draw needle "$frames/frame.png" --duration 7 --at 0.1 --frames 120 &&
+    convert -loop 0 -delay 10 "$frames"/frame_*[02468].png -crop 990x466+5+5 +repage -resize 640x -dither None -colors 64 \
+      -layers Optimize "$images/needle.gif"
+  local status=$?
+  rm -r "$frames"
+  return "$status"
+}
+
 mkdir -p "$top/tests/examples/pictures"
 picture thesis 3.5 && picture ruler 1.5 && picture strip 3.5 && picture string 4.5 && picture arch 1.75 && picture comb 1.4 &&
-  step arch.gif animation
+  picture needle 1.2 && picture hook 4.1 && picture fishing-rod 7.2 && step arch.gif animation && step needle.gif around

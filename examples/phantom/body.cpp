@@ -1,5 +1,6 @@
 #include "body.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <string>
@@ -10,7 +11,10 @@
 #include "scene.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
+#include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/haptics/servo/servo_many.hpp>
 
 namespace phantom {
@@ -19,9 +23,21 @@ namespace {
 
 using Count = std::atomic<std::uint64_t>;
 
-hapbeam::ServoOptions servo_options(const Options& options) {
+/// From the centreline to the avatar's centre [m].
+double reach_of(const Options& options) { return options.radius + options.beam.touched() / 2; }
+
+/// Where the centreline is at rest that is to be pressed [m].
+Eigen::Vector3d pressed(const Options& options, const hapbeam::Centreline<double>&) {
+  return {options.place, options.beam.rest(options.place), 0};
+}
+Eigen::Vector3d pressed(const Options& options, const hapbeam::Centreline<double, 3>& rest) {
+  return rest.at(options.place).r;
+}
+
+template <int D>
+hapbeam::ServoOptions servo_options(const Options& options, const hapbeam::Centreline<double, D>& rest) {
   hapbeam::ServoOptions servo;
-  servo.placement = placement(options);
+  servo.placement = placement(pressed(options, rest), reach_of(options), options.scale);
   servo.avatar_radius = options.radius;
   return servo;
 }
@@ -44,14 +60,14 @@ Coupling make_coupling(const Options& options) {
 /// What all bodies are made of, but for the model.
 struct Parts {
   Options options;
-  hapbeam::Beam beam;
+  Slender slender;
   std::shared_ptr<const Trained> trained;
   hapbeam::DeviceInfo device;
   std::unique_ptr<Count> full_answers = nullptr;
 };
 
 template <typename Model>
-hapbeam::Centreline<double> rest_of(const Model& model) {
+auto rest_of(const Model& model) {
   return model.shape();
 }
 template <typename Model>
@@ -59,7 +75,8 @@ hapbeam::Centreline<double> rest_of(const hapbeam::BeamArray<Model>& array) {
   return array.rest(0);
 }
 
-void show(const hapbeam::ServoPicture<double>& picture, std::vector<DrawnBeam>& beams) noexcept {
+template <int D>
+void show(const hapbeam::ServoPicture<double, D>& picture, std::vector<DrawnBeam>& beams) noexcept {
   beams[0].shape = picture.shape();
 }
 /// Those that are not pressed are at rest.
@@ -70,39 +87,61 @@ void show(const hapbeam::ArrayPicture<double>& picture, std::vector<DrawnBeam>& 
 
 template <typename Model, typename Coupling>
 class Live final : public Body {
+  static constexpr int dimension = hapbeam::dimension_of<Model>;
+
  public:
   Live(Model model, Parts parts)
       : parts_(std::move(parts)),
         model_(std::move(model)),
         rest_(rest_of(model_)),
-        servo_(model_, parts_.device, servo_options(parts_.options),
-               make_coupling<Coupling>(parts_.options)) {
+        servo_options_(servo_options(parts_.options, rest_.shape())),
+        servo_(model_, parts_.device, servo_options_, make_coupling<Coupling>(parts_.options)) {
     for (int i = 0; i < parts_.options.beams; ++i) beams_.push_back({rest(), -parts_.options.pitch * i});
   }
 
-  Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept override { return servo_.tick(state); }
+  Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept override {
+    const Eigen::Vector3d force = servo_.tick(state);
+    if constexpr (dimension == 3) deepest_ = std::max(deepest_, depth(record()));
+    return force;
+  }
   const hapbeam::ServoRecord& record() const noexcept override { return servo_.record(); }
-  void reset() noexcept override { servo_.reset(); }
+  void reset() noexcept override {
+    servo_.reset();
+    deepest_ = 0;
+  }
   const std::vector<DrawnBeam>& beams() noexcept override {
     for (DrawnBeam& beam : beams_) beam.shape = rest();
     show(servo_.picture(), beams_);
     return beams_;
   }
-  hapbeam::Centreline<double> rest() const noexcept override { return rest_.shape(); }
+  Shape rest() const noexcept override { return rest_.shape(); }
+  const hapbeam::Placement& placement() const noexcept override { return servo_options_.placement; }
+  double depth(const hapbeam::ServoRecord& r) const noexcept override {
+    const Options& o = parts_.options;
+    if (!r.pressing) return 0;
+    if constexpr (dimension == 2) return o.beam.rest(r.press.s) - r.press.d;
+    // Along the normal; the device's axes are the scene's.
+    else if (const double force = r.force.norm(); force > 0)
+      return r.force.dot(rest_.shape().at(r.press.s).r - r.avatar) / force + reach_of(o);
+    return 0;
+  }
+  double deepest() const noexcept override { return dimension == 3 ? deepest_ : record().max_press; }
   const hapbeam::TickTimes& times() const noexcept override { return servo_.times(); }
   std::uint64_t full_answers() const noexcept override {
     return parts_.full_answers ? parts_.full_answers->load() : 0;
   }
   const Options& options() const noexcept override { return parts_.options; }
-  const hapbeam::Beam& beam() const noexcept override { return parts_.beam; }
+  const Slender& slender() const noexcept override { return parts_.slender; }
   const Trained* trained() const noexcept override { return parts_.trained.get(); }
 
  private:
   Parts parts_;
   Model model_;
-  hapbeam::ServoPicture<double> rest_;
+  hapbeam::ServoPicture<double, dimension> rest_;
+  hapbeam::ServoOptions servo_options_;
   hapbeam::Servo<Model, Coupling> servo_;
   std::vector<DrawnBeam> beams_;
+  double deepest_ = 0;  // [m] of a rod
 };
 
 template <typename Model>
@@ -114,7 +153,8 @@ std::unique_ptr<Body> couple(Model model, Parts parts) {
 
 template <typename Element>
 std::unique_ptr<Body> couple_full(Parts parts) {
-  hapbeam::FemModel<Element> model(parts.beam, parts.options.elements);
+  using Model = hapbeam::FemModel<Element>;
+  Model model(std::get<typename Model::Body>(parts.slender), parts.options.elements);
   return couple(std::move(model), std::move(parts));
 }
 
@@ -126,7 +166,7 @@ std::unique_ptr<Body> couple_many(Parts parts) {
   std::vector<hapbeam::BeamPlace> places;
   for (int i = 0; i < options.beams; ++i) places.push_back({{0, -options.pitch * i}, 0, 0});
   using Tooth = hapbeam::FemModel<hapbeam::Corotational<>>;
-  hapbeam::BeamArray<Tooth> array(Tooth(parts.beam, options.elements), places);
+  hapbeam::BeamArray<Tooth> array(Tooth(std::get<hapbeam::Beam>(parts.slender), options.elements), places);
   return couple(std::move(array), std::move(parts));
 }
 
@@ -138,10 +178,22 @@ std::unique_ptr<Body> couple_trained(Parts parts) {
         using Fast = std::decay_t<decltype(fast)>;
         if (!parts.options.guarded) return couple(fast, std::move(parts));
         parts.full_answers = std::make_unique<Count>(0);
-        Counted<Fast, Full> guarded(fast, Full(parts.beam, parts.options.elements), *parts.full_answers);
+        Counted<Fast, Full> guarded(
+            fast, Full(std::get<hapbeam::Beam>(parts.slender), parts.options.elements), *parts.full_answers);
         return couple(std::move(guarded), std::move(parts));
       },
       trained->model);
+}
+
+std::unique_ptr<Body> couple_rod(Parts parts) {
+  const Options& options = parts.options;
+  if (options.beams > 1) cli::refuse("--beams", std::to_string(options.beams), "1 for a rod in space");
+  if (options.model_choice != ModelChoice::finite_elements)
+    throw cli::UsageError("a rod in space has no trained model");
+  if (!bends_in_space(options.element))
+    cli::refuse("--element", name(options.element), "round-rod or twisted-rod for a rod in space");
+  if (options.element == ElementChoice::round_rod) return couple_full<hapbeam::RoundRod>(std::move(parts));
+  return couple_full<hapbeam::TwistedRod>(std::move(parts));
 }
 
 }  // namespace
@@ -149,6 +201,10 @@ std::unique_ptr<Body> couple_trained(Parts parts) {
 std::unique_ptr<Body> make_body(const Options& options, std::shared_ptr<const Trained> trained,
                                 const hapbeam::DeviceInfo& device) {
   using namespace hapbeam;
+  if (options.beam.in_space())
+    return couple_rod({filled_in(options, device), options.beam.make_rod(), nullptr, device});
+  if (bends_in_space(options.element))
+    cli::refuse("--element", name(options.element), "one of a beam that bends in its plane");
   const Beam beam = options.model.empty() ? options.beam.make() : trained->make_beam();
   if (options.beams > 1) return couple_many({filled_in(options, device), beam, nullptr, device});
   if (options.model_choice != ModelChoice::finite_elements)
@@ -162,7 +218,9 @@ std::unique_ptr<Body> make_body(const Options& options, std::shared_ptr<const Tr
     case ElementChoice::full: return couple_full<VonKarman<FullIntegration>>(std::move(parts));
     case ElementChoice::reduced: return couple_full<VonKarman<ReducedIntegration>>(std::move(parts));
     case ElementChoice::corotational: return couple_full<Corotational<>>(std::move(parts));
-    case ElementChoice::assumed_strain: break;
+    case ElementChoice::assumed_strain:
+    case ElementChoice::round_rod:
+    case ElementChoice::twisted_rod: break;
   }
   return couple_full<VonKarman<AssumedStrain>>(std::move(parts));
 }

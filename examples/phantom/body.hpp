@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "options.hpp"
@@ -12,14 +13,20 @@
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo_record.hpp>
 #include <hapbeam/haptics/servo/tick_times.hpp>
+#include <hapbeam/rod.hpp>
 
 namespace phantom {
 
+/// Of what bends in its plane, or in space.
+using Shape = std::variant<hapbeam::Centreline<double>, hapbeam::Centreline<double, 3>>;
+using Slender = std::variant<hapbeam::Beam, hapbeam::Rod>;
+
 /// One of the beams, as it is drawn.
 struct DrawnBeam {
-  hapbeam::Centreline<double> shape;
+  Shape shape;
   double above;  ///< [m] of its axis, over that of the first
 };
 
@@ -32,11 +39,15 @@ class Body {
   virtual void reset() noexcept = 0;                                ///< while no tick runs
   /// Of the newest tick, from one other thread: wait-free.  They stay until the next call.
   virtual const std::vector<DrawnBeam>& beams() noexcept = 0;
-  virtual hapbeam::Centreline<double> rest() const noexcept = 0;  ///< one of them, before it is touched
+  virtual Shape rest() const noexcept = 0;                           ///< one of them, before it is touched
+  virtual const hapbeam::Placement& placement() const noexcept = 0;  ///< of the device in the scene
+  /// How far the beam is pressed from where it rests there [m]; 0 where it is not.
+  virtual double depth(const hapbeam::ServoRecord& record) const noexcept = 0;
+  virtual double deepest() const noexcept = 0;  ///< [m] magnitude that was asked, as the report has it
   virtual const hapbeam::TickTimes& times() const noexcept = 0;
   virtual std::uint64_t full_answers() const noexcept = 0;  ///< of the full model of a guarded one
   virtual const Options& options() const noexcept = 0;      ///< the coupling's figures filled in
-  virtual const hapbeam::Beam& beam() const noexcept = 0;
+  virtual const Slender& slender() const noexcept = 0;
   virtual const Trained* trained() const noexcept = 0;  ///< or null: finite elements
 };
 

@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "reach_path.hpp"
 #include <hapbeam/haptics/device/hand_path.hpp>
 #include <hapbeam/haptics/servo/exchange.hpp>
 
@@ -31,24 +32,24 @@ struct Replay {
   static constexpr double period = 1e-3;  ///< [s] the simulated Phantom's
 };
 
-using Way = std::variant<hapbeam::HandPath, Replay>;
+using Way = std::variant<hapbeam::HandPath, ReachPath, Replay>;
 
 class Hand {
  public:
   /// @param repeat  begins a script anew when it has ended
   explicit Hand(Way script, bool repeat = false)
       : repeat_(repeat),
-        wish_{0, false, {0, 0}, std::make_shared<const Way>(std::move(script))},
+        wish_{0, false, {0, 0, 0}, std::make_shared<const Way>(std::move(script))},
         wishes_(wish_) {}
 
   /// Pulls the hand to a place, where it stays.  @param place [m] device axes
-  void pull(const hapbeam::Vector2<double>& place) {
+  void pull(const Eigen::Vector3d& place) {
     wish_.pulled = true, wish_.place = place;
     wishes_.publish(wish_);
   }
   /// Goes to where the script begins, and follows it.
   void follow(Way script) {
-    wish_ = {wish_.scripts + 1, false, {0, 0}, std::make_shared<const Way>(std::move(script))};
+    wish_ = {wish_.scripts + 1, false, {0, 0, 0}, std::make_shared<const Way>(std::move(script))};
     wishes_.publish(wish_);
   }
   double duration() const noexcept { return length(*wish_.script); }  ///< [s] of the script
@@ -69,7 +70,7 @@ class Hand {
   struct Wish {
     int scripts;  // before this one
     bool pulled;
-    hapbeam::Vector2<double> place;
+    Eigen::Vector3d place;
     // Copied and dropped by the window alone, so that the servo's thread frees nothing.
     std::shared_ptr<const Way> script;
   };
@@ -81,13 +82,11 @@ class Hand {
     return std::visit(
         [&](const auto& script) { return script(repeat_ ? std::fmod(time, script.duration()) : time); }, way);
   }
-  hapbeam::Vector2<double> start(const Way& way) const noexcept {
-    return scripted(way, 0).position.head<2>();
-  }
+  Eigen::Vector3d start(const Way& way) const noexcept { return scripted(way, 0).position; }
 
   /// x'' = ω² (to - x) - 2 ω x', implicit in x', so that it is stable with any step.
-  void lead(const hapbeam::Vector2<double>& to, double step) noexcept {
-    for (int i = 0; i < 2; ++i) {
+  void lead(const Eigen::Vector3d& to, double step) noexcept {
+    for (int i = 0; i < 3; ++i) {
       const double far = 2 * fastest / omega, way = std::clamp(to[i] - last_.position[i], -far, far);
       double& v = last_.velocity[i];
       v = (v + step * omega * omega * way) / (1 + 2 * omega * step);

@@ -48,7 +48,7 @@ void watch(Session& session, double duration, const Write& write) {
     write();
     if (Clock::now() < at(next_row)) continue;
     session.update();
-    print_row(session.picture().record, session.body().times(), session.device());
+    print_row(session);
     next_row += 1;
   }
   session.stop();
@@ -61,7 +61,7 @@ void simulate(Session& session, double duration, const Write& write) {
     session.run(std::min(left, 1.0));
     write();
     session.update();
-    print_row(session.picture().record, session.body().times(), session.device());
+    print_row(session);
   }
 }
 

@@ -13,9 +13,11 @@ namespace {
 
 using cli::count, cli::figure, cli::file, cli::flag, cli::one_of;
 
-constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::full, ElementChoice::reduced,
-                                      ElementChoice::assumed_strain, ElementChoice::corotational};
-constexpr Script scripts[] = {Script::slide, Script::press, Script::tap};
+constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice::full,
+                                      ElementChoice::reduced,      ElementChoice::assumed_strain,
+                                      ElementChoice::corotational, ElementChoice::round_rod,
+                                      ElementChoice::twisted_rod};
+constexpr Script scripts[] = {Script::slide, Script::press, Script::tap, Script::around};
 constexpr CouplingChoice couplings[] = {CouplingChoice::direct, CouplingChoice::virtual_coupling};
 constexpr DeviceChoice devices[] = {DeviceChoice::simulated, DeviceChoice::phantom};
 
@@ -32,7 +34,8 @@ cli::Entries entries(Options& o) {
       {"--element", "KIND",
        "linear, or von Karman with a membrane: full, reduced, assumed-strain (default), or right at any "
        "rotation: "
-       "corotational",
+       "corotational.  Of a rod in space: round-rod, which no one twists (its default where it is straight), "
+       "or twisted-rod",
        [&o](const std::string& v) { o.element = one_of(elements, "--element", v); }},
       file("--model",
            "a model that train has made takes the place of finite elements; the beam is the file's", o.model),
@@ -44,7 +47,9 @@ cli::Entries entries(Options& o) {
       figure("--pitch", "M", "from one of them to the next [m]; the scene's by default, or 0.012", o.pitch,
              1e-6, 1, "m"),
       {"--script", "NAME",
-       "what the hand does, the scene's by default:  slide: press, slide to and fro, let go;  press;  tap",
+       "what the hand does, the scene's by default:  slide: press, slide to and fro, let go;  press;  tap;  "
+       "around: press a "
+       "rod in space from above, from the front and from below",
        [&o](const std::string& v) { o.script = one_of(scripts, "--script", v); }},
       figure("--place", "M",
              "where it presses, from the beam's left end [m]; by default the middle of the beam, or of the "
@@ -115,6 +120,14 @@ Options opening() {
   return options;
 }
 
+/// A rod that is named without a scene gets an element that can bend as it does, and the hand goes around a rod alone.
+void suit_beam(Options& o, const std::vector<std::string>& given) {
+  if (o.beam.in_space() && !cli::contains(given, "--element") && !bends_in_space(o.element))
+    o.element = o.beam.rod == cli::RodShape::hook ? ElementChoice::twisted_rod : ElementChoice::round_rod;
+  if (!o.beam.in_space() && o.script == Script::around)
+    cli::refuse("--script", name(o.script), "one of slide, press, tap for what bends in a plane");
+}
+
 /// What a file decides cannot be chosen as well.
 void check_model(const Options& o, const std::vector<std::string>& given) {
   cli::exclude(given, "--scene", "--model", "whose file says which beam it is");
@@ -146,6 +159,8 @@ const char* name(ElementChoice element) {
     case ElementChoice::reduced: return "reduced";
     case ElementChoice::assumed_strain: return "assumed-strain";
     case ElementChoice::corotational: return "corotational";
+    case ElementChoice::round_rod: return "round-rod";
+    case ElementChoice::twisted_rod: return "twisted-rod";
   }
   return "unknown";
 }
@@ -155,6 +170,7 @@ const char* name(Script script) {
     case Script::slide: return "slide";
     case Script::press: return "press";
     case Script::tap: return "tap";
+    case Script::around: return "around";
   }
   return "unknown";
 }
@@ -183,6 +199,7 @@ Options parse(const std::vector<std::string>& arguments) {
   if (options.guarded && options.model.empty())
     throw cli::UsageError("--guarded: must stand beside --model, whose range it guards");
   check_model(options, given);
+  suit_beam(options, given);
   options.timed = cli::contains(given, "--duration");
   if (options.timed && !options.screenshot.empty()) take_pictures_in_time(options, given);
   if (!options.replay.empty()) {
@@ -201,7 +218,8 @@ Options parse(const std::vector<std::string>& arguments) {
       throw cli::UsageError(std::string(figure) +
                             ": must not stand beside --coupling direct, which has no spring");
   if (!options.model.empty()) return options;
-  options.beam.make();
+  if (options.beam.in_space()) options.beam.make_rod();
+  else options.beam.make();
   settle(options, 0, options.beam.length);
   return options;
 }

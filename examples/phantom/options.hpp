@@ -9,8 +9,8 @@
 
 namespace phantom {
 
-enum class ElementChoice { linear, full, reduced, assumed_strain, corotational };
-enum class Script { slide, press, tap };
+enum class ElementChoice { linear, full, reduced, assumed_strain, corotational, round_rod, twisted_rod };
+enum class Script { slide, press, tap, around };
 enum class CouplingChoice { direct, virtual_coupling };
 enum class ModelChoice { finite_elements, pod, galerkin };
 enum class DeviceChoice { simulated, phantom };
@@ -52,6 +52,11 @@ struct Options {
   int frames = 1;          ///< so many, one a picture; more than one are numbered
   int tour = 0;            ///< switches of scene and model, one a picture, after which the window closes
 };
+
+/// Of a rod in space.
+constexpr bool bends_in_space(ElementChoice element) {
+  return element == ElementChoice::round_rod || element == ElementChoice::twisted_rod;
+}
 
 /// Names as they are typed.
 const char* name(ElementChoice element);

@@ -12,8 +12,8 @@ namespace phantom {
 namespace {
 
 constexpr const char* head =
-    "time_s,hand_x_m,hand_y_m,hand_vx_m_per_s,hand_vy_m_per_s,x_m,y_m,force_x_N,force_y_N,place_m,depth_m,"
-    "status,model";
+    "time_s,hand_x_m,hand_y_m,hand_z_m,hand_vx_m_per_s,hand_vy_m_per_s,hand_vz_m_per_s,x_m,y_m,z_m,force_x_N,"
+    "force_y_N,force_z_N,place_m,depth_m,status,model";
 constexpr double longest = 86400;  // [s]
 
 }  // namespace
@@ -25,11 +25,10 @@ Recording::Recording(const std::string& path) : path_(path), file_(std::fopen(pa
 
 void Recording::write(const Tick& tick) {
   const hapbeam::ServoRecord& r = tick.record;
-  const auto& hand = tick.hand;
-  std::fprintf(file_.get(), "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%s,%s\n",
-               r.time, hand.position.x(), hand.position.y(), hand.velocity.x(), hand.velocity.y(),
-               r.position.x(), r.position.y(), r.force.x(), r.force.y(), r.press.s, r.press.d, name(r.status),
-               name(r.model));
+  std::fprintf(file_.get(), "%.17g,", r.time);
+  for (const Eigen::Vector3d& v : {tick.hand.position, tick.hand.velocity, r.position, r.force})
+    std::fprintf(file_.get(), "%.17g,%.17g,%.17g,", v.x(), v.y(), v.z());
+  std::fprintf(file_.get(), "%.17g,%.17g,%s,%s\n", r.press.s, r.press.d, name(r.status), name(r.model));
 }
 
 void Recording::close() {
@@ -46,13 +45,14 @@ Replay read_recording(const std::string& path) {
     throw std::runtime_error(path + ": is no recording, its first line must be " + head);
   Replay replay;
   for (int number = 2; std::getline(file, line); ++number) {
-    double time, x, y, vx, vy;
-    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", &time, &x, &y, &vx, &vy) != 5 ||
-        !(time >= 0 && time < longest) || !(std::abs(x) < 1 && std::abs(y) < 1) ||
-        !(std::abs(vx) < 100 && std::abs(vy) < 100))
+    double time;
+    Eigen::Vector3d x, v;
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &time, &x[0], &x[1], &x[2], &v[0], &v[1],
+                    &v[2]) != 7 ||
+        !(time >= 0 && time < longest) || !(x.array().abs() < 1).all() || !(v.array().abs() < 100).all())
       throw std::runtime_error(path + ", line " + std::to_string(number) +
                                ": must begin with time [s], place [m] and velocity [m/s] of a hand");
-    const hapbeam::HandTarget target{{x, y, 0}, {vx, vy, 0}};
+    const hapbeam::HandTarget target{x, v};
     const auto tick = static_cast<std::size_t>(std::llround(time / Replay::period));
     if (tick < replay.targets.size())
       throw std::runtime_error(path + ", line " + std::to_string(number) +

@@ -45,6 +45,7 @@ Run Run::of(Session& session, bool interrupted, const hapbeam::TimeSummary& pict
           session.device().info(),
           session.picture().record,
           body.times(),
+          body.deepest(),
           session.device().counts(),
           body.full_answers(),
           session.device().priority(),
@@ -64,7 +65,8 @@ void print_scene(const Options& o, const Trained* trained, const hapbeam::Device
     std::printf("model    finite elements, %s, %d elements\n", name(o.element), o.elements);
   }
   std::printf("hand     %s, at %g m, aims %g mm below the surface, %g s; avatar of radius %g mm\n",
-              name(o.script), o.place, o.depth * 1e3, o.duration, o.radius * 1e3);
+              o.script == Script::around ? "around: from above, the front and below" : name(o.script),
+              o.place, o.depth * 1e3, o.duration, o.radius * 1e3);
   std::printf("scale    %g m of the scene for 1 m of the device; forces 1 : 1\n", o.scale);
   if (o.coupling == CouplingChoice::direct)
     std::printf("coupling direct: the hand presses the beam itself\n");
@@ -74,15 +76,22 @@ void print_scene(const Options& o, const Trained* trained, const hapbeam::Device
   if (o.script == Script::slide)
     std::printf("slide    %.4g m to either side in the scene, within the beam and the device's %g mm\n",
                 reach(o) * o.scale, device.workspace.x() * 1e3);
-  std::printf("\n%7s %9s %9s %9s %9s %8s %7s %7s %10s  %s\n", "time s", "hand x mm", "hand y mm", "press mm",
-              "force N", "ticks", "missed", "cut", "p99 µs", "status");
+  std::printf("\n%7s %9s %9s %s%9s %9s %8s %7s %7s %10s  %s\n", "time s", "hand x mm", "hand y mm",
+              o.beam.in_space() ? "hand z mm " : "", "press mm", "force N", "ticks", "missed", "cut",
+              "p99 µs", "status");
 }
 
-void print_row(const hapbeam::ServoRecord& r, const hapbeam::TickTimes& times, const Device& device) {
+void print_row(Session& session) {
+  const hapbeam::ServoRecord& r = session.picture().record;
+  const Device& device = session.device();
+  const Body& body = session.body();
   const hapbeam::DeviceCounts counts = device.counts();
-  std::printf("%7.2f %9.2f %9.2f %9.3f %9.2f %8llu %7llu %7llu %9.1f  %s\n", r.time, r.position.x() * 1e3,
-              r.position.y() * 1e3, r.press.d * 1e3, r.force.norm(), number(counts.ticks),
-              number(counts.missed_ticks), number(r.saturated_ticks), times.compute().quantile(0.99) * 1e6,
+  const bool in_space = body.options().beam.in_space();
+  std::printf("%7.2f %9.2f %9.2f ", r.time, r.position.x() * 1e3, r.position.y() * 1e3);
+  if (in_space) std::printf("%9.2f ", r.position.z() * 1e3);
+  std::printf("%9.3f %9.2f %8llu %7llu %7llu %9.1f  %s\n", 1e3 * (in_space ? body.depth(r) : r.press.d),
+              r.force.norm(), number(counts.ticks), number(counts.missed_ticks), number(r.saturated_ticks),
+              body.times().compute().quantile(0.99) * 1e6,
               asks(device) ? name(r.status) : name(device.status()));
   std::fflush(stdout);
 }
@@ -101,7 +110,7 @@ void print_summary(const Run& run) {
   std::printf(
       "contact  in %llu ticks, begun %llu times; deepest press %.3f mm, largest force %.2f N; worst status "
       "%s\n",
-      number(r.contact_ticks), number(r.touches), r.max_press * 1e3, r.max_force, name(r.worst));
+      number(r.contact_ticks), number(r.touches), run.deepest * 1e3, r.max_force, name(r.worst));
   if (run.options.guarded)
     std::printf("model    %s answered %llu of them, finite elements %llu\n", run.trained->kind,
                 number(r.contact_ticks - std::min(run.full_answers, r.contact_ticks)),
@@ -199,7 +208,7 @@ std::string json(const Run& run) {
       .add("tick_us_max", compute.max * 1e6)
       .add("period_us_p99", period_p99 * 1e6)
       .add("deadline_misses", o.lock_step ? run.counts.missed_ticks : run.times.missed())
-      .add("max_press_mm", r.max_press * 1e3)
+      .add("max_press_mm", run.deepest * 1e3)
       .add("max_force_N", r.max_force)
       .add("force_cut_ticks", run.counts.force_cut_ticks)
       .add("force_saturated_ticks", r.saturated_ticks)

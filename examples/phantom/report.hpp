@@ -24,6 +24,7 @@ struct Run {
   const hapbeam::DeviceInfo& device;
   const hapbeam::ServoRecord record;
   const hapbeam::TickTimes& times;
+  double deepest;  ///< [m]
   hapbeam::DeviceCounts counts;
   std::uint64_t full_answers;  ///< of the full model of a guarded one
   hapbeam::RealTime priority;  ///< of the servo's thread
@@ -33,7 +34,8 @@ struct Run {
 
 /// @param trained  or null
 void print_scene(const Options& options, const Trained* trained, const hapbeam::DeviceInfo& device);
-void print_row(const hapbeam::ServoRecord& record, const hapbeam::TickTimes& times, const Device& device);
+/// Of the newest tick that the session took.
+void print_row(Session& session);
 void print_summary(const Run& run);
 std::string json(const Run& run);
 

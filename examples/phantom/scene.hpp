@@ -1,22 +1,22 @@
 // Where the beam lies in the device's workspace, and what the hand does with it.
 //
 // The beam lies along the device's x axis, the place to be pressed below the middle of the workspace: the
-// avatar touches the undeformed beam there when the device reads (0, 0).  The scene is larger than the
+// avatar touches the beam at rest there from above when the device reads (0, 0, 0).  The scene is larger than the
 // workspace.  Displacements are mapped with a scale (1: true to size), forces are not scaled; with a scale of
 // two, say, the hand therefore feels a beam twice as stiff.
 #pragma once
 
 #include <algorithm>
 
+#include "hand.hpp"
 #include "options.hpp"
-#include <hapbeam/haptics/device/hand_path.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
 
 namespace phantom {
 
-inline hapbeam::Placement placement(const Options& options) {
-  const double surface = options.beam.rest(options.place) + options.beam.height / 2;
-  return hapbeam::Placement::in_plane({options.place, surface + options.radius}, options.scale);
+/// @param pressed  [m] of the centreline at rest, at the place to be pressed   @param reach  [m] from there to the avatar's centre
+inline hapbeam::Placement placement(const Eigen::Vector3d& pressed, double reach, double scale) {
+  return {Eigen::Matrix3d::Identity(), pressed + Eigen::Vector3d(0, reach, 0), scale};
 }
 
 /// How far the hand slides to either side of the place [m, device]: 0.15 m of the half width of 0.19 m, or less
@@ -26,8 +26,30 @@ inline double reach(const Options& options) {
   return std::min(0.15, 0.8 * std::max(to_end, 0.0) / options.scale);
 }
 
+/// [m, device] How far the hand keeps from a rod's axis on its way to another side of it: farther than it touches.
+inline double hand_away(const Options& options) {
+  const double touching = (options.radius + options.beam.touched() / 2) / options.scale;
+  return touching + std::max(0.02, 0.6 * touching);
+}
+
+/// Presses a rod from above, from the front and from below, and goes back the way it came.
+inline ReachPath make_path_around(const Options& options) {
+  const Eigen::Vector3d sides[] = {{0, 1, 0}, {0, 0, 1}, {0, -1, 0}};
+  const double T = options.duration, touching = (options.radius + options.beam.touched() / 2) / options.scale;
+  const double away = hand_away(options);
+  const Eigen::Vector3d axis(0, -touching, 0);
+  ReachPath path(axis + away * sides[0]);
+  for (const Eigen::Vector3d& side : sides) {
+    if (&side != sides) path.move_to(axis + away * side, 0.07 * T);
+    path.move_to(axis + (touching - options.depth) * side, 0.1 * T).rest(0.06 * T);
+    path.move_to(axis + away * side, 0.08 * T);
+  }
+  return path.move_to(axis + away * sides[1], 0.07 * T).move_to(axis + away * sides[0], 0.07 * T);
+}
+
 /// The script in the device's axes; its parts take fixed fractions of the duration.
-inline hapbeam::HandPath make_path(const Options& options) {
+inline Way make_path(const Options& options) {
+  if (options.script == Script::around) return make_path_around(options);
   const double above = 0.02, down = above + options.depth, T = options.duration;
   hapbeam::HandPath path({0, above});
   switch (options.script) {
@@ -38,6 +60,7 @@ inline hapbeam::HandPath make_path(const Options& options) {
       break;
     }
     case Script::press: path.press(down, 0.3 * T).rest(0.4 * T).release(down, 0.25 * T).rest(0.05 * T); break;
+    case Script::around: break;
     case Script::tap:
       for (int i = 0; i < 5; ++i) path.press(down, 0.08 * T).release(down, 0.08 * T).rest(0.04 * T);
       break;

@@ -15,6 +15,7 @@ struct NamedScene {
   double scale;
   const char* feels;  ///< what one feels, and why
   int beams = 1;
+  double radius = 0.005;  ///< [m] of the avatar
 };
 
 constexpr double middle = std::numeric_limits<double>::quiet_NaN();
@@ -37,6 +38,13 @@ constexpr NamedScene scenes[] = {
      "a click: it resists, tilts, gives way under the finger and is gone, to stand on the other side"},
     {"comb", ElementChoice::corotational, Script::press, 0.096, 0.1, 1.6,
      "tooth after tooth: each bends, two or three push back together, and one after the other slips off", 9},
+    {"needle", ElementChoice::round_rod, Script::around, 0.11, 0.022, 0.5,
+     "the same spring from every side: pressed deeper than the ball's radius, it slips around the ball", 1,
+     0.01},
+    {"hook", ElementChoice::twisted_rod, Script::around, 0.17, 0.014, 0.5,
+     "a spring that is another one from each side: from the front its stem twists", 1, 0.01},
+    {"fishing-rod", ElementChoice::round_rod, Script::around, 0.9, 0.02, 3,
+     "soft at the tip and hard at the butt, and a weight on its line that comes along", 1, 0.06},
 };
 
 const char* name(const NamedScene& scene) { return scene.label; }
@@ -53,6 +61,7 @@ void set_scene(Options& o, const std::string& label) {
   o.depth = scene.depth;
   o.scale = scene.scale;
   o.beams = scene.beams;
+  o.radius = scene.radius;
   o.pitch = Options{}.pitch;
 }
 

@@ -19,12 +19,15 @@ struct NamedBeam {
   Support left, right;
   bool round = false;
   double rise = 0, tension = 0;
+  RodShape rod = RodShape::none;
+  double hanging = 0;
 };
 
 // thesis: the textbook beam of its chapter 3, 100 in long, 1 in square, E = 30e6 psi.
 // ruler: a steel ruler of 30 cm held at one end; soft enough for the device.
 // strip: steel, so thin that stretching stiffens it at once.  string: steel wire under the tension of a guitar's.
 // arch: a strip of steel, bent by nature, that snaps through.  comb: one of its teeth, of nylon.
+// needle: for knitting.  hook: of spring wire.  fishing-rod: of glass fibre, with 100 g on its line.
 constexpr NamedBeam beams[] = {
     {"thesis", 2.54, 0.0254, 0.0254, 206.8427e9, Support::pinned, Support::pinned},
     {"ruler", 0.3, 0.025, 0.001, 200e9, Support::clamped, Support::free},
@@ -32,6 +35,10 @@ constexpr NamedBeam beams[] = {
     {"string", 0.65, 0.0008, 0.0008, 200e9, Support::pinned, Support::pinned, true, 0, 80},
     {"arch", 0.2, 0.01, 0.0005, 200e9, Support::pinned, Support::pinned, false, 0.012},
     {"comb", 0.1, 0.003, 0.003, 3e9, Support::clamped, Support::free, true},
+    {"needle", 0.15, 0.0025, 0.0025, 200e9, Support::clamped, Support::free, true, 0, 0, RodShape::straight},
+    {"hook", 0.2, 0.0025, 0.0025, 200e9, Support::clamped, Support::free, true, 0, 0, RodShape::hook},
+    {"fishing-rod", 1.2, 0.008, 0.008, 40e9, Support::clamped, Support::free, true, 0, 0, RodShape::tapered,
+     1},
 };
 constexpr Support supports[] = {Support::free, Support::clamped, Support::pinned, Support::roller,
                                 Support::guided};
@@ -43,6 +50,7 @@ void set(BeamOptions& o, const NamedBeam& beam) {
   o.length = beam.length, o.width = beam.width, o.height = beam.height, o.young = beam.young;
   o.left = beam.left, o.right = beam.right;
   o.round = beam.round, o.rise = beam.rise, o.tension = beam.tension;
+  o.rod = beam.rod, o.hanging = beam.hanging;
 }
 
 void set_ends(BeamOptions& o, const std::string& value) {
@@ -71,6 +79,7 @@ void set_beam(BeamOptions& options, const std::string& label) {
 BeamOptions::BeamOptions() { set(*this, beams[0]); }
 
 hapbeam::Beam BeamOptions::make() const {
+  if (in_space()) refuse("--beam", name, "one that bends in a plane: this is a rod in space");
   const hapbeam::Material material{young};
   try {
     const auto section =
@@ -104,6 +113,9 @@ std::string describe(const BeamOptions& b) {
   if (b.round)
     line.replace(line.find("section"), line.find(", E") - line.find("section"),
                  "round, " + digits(b.height * 1e3) + " mm");
+  if (b.rod == RodShape::tapered) line += ", tapered to " + digits(b.height / 4 * 1e3) + " mm";
+  if (b.rod == RodShape::hook) line += ", naturally bent to a hook";
+  if (b.hanging != 0) line += ", with " + digits(b.hanging) + " N hanging from its tip";
   if (b.rise != 0) line += ", an arch that rises " + digits(b.rise * 1e3) + " mm";
   if (b.tension != 0) line += ", under " + digits(b.tension) + " N";
   return line;
@@ -116,7 +128,9 @@ Entries beam_entries(BeamOptions& b) {
        "clamped-free;  strip: 0.4 m x 20 mm x 0.5 mm, pinned;  string: 0.65 m of 0.8 mm wire under 80 N;  "
        "arch: "
        "0.2 m wide, 12 mm high, 10 mm x 0.5 mm, pinned;  comb: a tooth of nylon, 0.1 m x 3 mm, round, "
-       "clamped-free;  " +
+       "clamped-free.  Rods in space, round and clamped-free:  needle: steel, 0.15 m x 2.5 mm;  hook: steel "
+       "wire, 0.2 m x "
+       "2.5 mm, naturally bent;  fishing-rod: glass fibre, 1.2 m x 8 mm, tapered, 1 N on its line;  " +
            b.name + " by default",
        [&b](const std::string& v) { set_beam(b, v); }, true},
       customised(b, figure("--length", "M", "length of the beam [m]", b.length, 1e-3, 100, "m")),

@@ -3,6 +3,7 @@
 //   check_recordings slew FILE RATE [N/s]            the force never changes faster, up or down
 //   check_recordings beside FILE DISTANCE [m]       the beam is felt where the hand is so far from the line of a script that
 //                                                    presses straight down
+//   check_recordings sides FILE                     the hand is pushed up by half a newton, and toward who looks, at different times
 //   check_recordings same FILE FILE TOLERANCE [N]    the same forces at the same times, in contact a tenth of a second at least
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@
 namespace {
 
 struct Row {
-  double time, hand_x, x, y;  ///< [s, m, N, N]
+  double time, hand_x, x, y, z;  ///< [s, m, N, N, N]
 };
 
 std::vector<Row> read(const char* path) {
@@ -26,8 +27,8 @@ std::vector<Row> read(const char* path) {
   std::vector<Row> rows;
   while (std::getline(file, line)) {
     Row row{};
-    if (std::sscanf(line.c_str(), "%lf,%lf,%*f,%*f,%*f,%*f,%*f,%lf,%lf", &row.time, &row.hand_x, &row.x,
-                    &row.y) != 4) {
+    if (std::sscanf(line.c_str(), "%lf,%lf,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%lf,%lf,%lf", &row.time,
+                    &row.hand_x, &row.x, &row.y, &row.z) != 5) {
       std::fprintf(stderr, "%s: is no recording\n", path);
       std::exit(2);
     }
@@ -40,7 +41,8 @@ int slew(const char* path, double rate) {
   const std::vector<Row> rows = read(path);
   double most = 0, at = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const double change = std::hypot(rows[i].x - rows[i - 1].x, rows[i].y - rows[i - 1].y);
+    const double change =
+        std::hypot(rows[i].x - rows[i - 1].x, rows[i].y - rows[i - 1].y, rows[i].z - rows[i - 1].z);
     const double speed = change / (rows[i].time - rows[i - 1].time);
     if (speed > most) most = speed, at = rows[i].time;
   }
@@ -51,9 +53,18 @@ int slew(const char* path, double rate) {
 
 int beside(const char* path, double distance) {
   int ticks = 0;
-  for (const Row& row : read(path)) ticks += std::abs(row.hand_x) >= distance && std::hypot(row.x, row.y) > 0;
+  for (const Row& row : read(path))
+    ticks += std::abs(row.hand_x) >= distance && std::hypot(row.x, row.y, row.z) > 0;
   std::printf("in contact beside the line in %d ticks\n", ticks);
   return ticks > 0 ? 0 : 1;
+}
+
+int sides(const char* path) {
+  int up = 0, out = 0;
+  for (const Row& row : read(path))
+    up += row.y > 0.5 && row.y > 3 * row.z, out += row.z > 0.5 && row.z > 3 * row.y;
+  std::printf("pushed up in %d ticks, toward who looks in %d\n", up, out);
+  return up > 0 && out > 0 ? 0 : 1;
 }
 
 int same(const char* path_a, const char* path_b, double tolerance) {
@@ -62,8 +73,8 @@ int same(const char* path_a, const char* path_b, double tolerance) {
   int pressed = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     if (a[i].time != b[i].time) return std::printf("other times\n"), 1;
-    const double force = std::hypot(a[i].x, a[i].y);
-    most = std::max(most, std::hypot(a[i].x - b[i].x, a[i].y - b[i].y));
+    const double force = std::hypot(a[i].x, a[i].y, a[i].z);
+    most = std::max(most, std::hypot(a[i].x - b[i].x, a[i].y - b[i].y, a[i].z - b[i].z));
     largest = std::max(largest, force);
     pressed += force > 0;
   }
@@ -77,6 +88,7 @@ int same(const char* path_a, const char* path_b, double tolerance) {
 int main(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "slew") == 0) return slew(argv[2], std::atof(argv[3]));
   if (argc == 4 && std::strcmp(argv[1], "beside") == 0) return beside(argv[2], std::atof(argv[3]));
+  if (argc == 3 && std::strcmp(argv[1], "sides") == 0) return sides(argv[2]);
   if (argc == 5 && std::strcmp(argv[1], "same") == 0) return same(argv[2], argv[3], std::atof(argv[4]));
   return 2;
 }

@@ -5,29 +5,26 @@
 #include <limits>
 
 #include "../scenes.hpp"
+#include "strokes.hpp"
 
 namespace phantom {
 
 namespace {
 
-constexpr const char* scene_labels[] = {"thesis", "ruler", "strip", "string", "arch", "comb"};
-constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::full, ElementChoice::reduced,
-                                      ElementChoice::assumed_strain, ElementChoice::corotational};
-constexpr const char* element_labels[] = {"linear", "von Karman, full", "von Karman, reduced",
-                                          "von Karman, assumed strain", "corotational"};
+constexpr const char* scene_labels[] = {"thesis", "ruler",  "strip", "string",     "arch",
+                                        "comb",   "needle", "hook",  "fishing-rod"};
+constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice::full,
+                                      ElementChoice::reduced,      ElementChoice::assumed_strain,
+                                      ElementChoice::corotational, ElementChoice::round_rod,
+                                      ElementChoice::twisted_rod};
+constexpr const char* element_labels[] = {
+    "linear",       "von Karman, full",    "von Karman, reduced", "von Karman, assumed strain",
+    "corotational", "round rod, no twist", "twisted rod"};
 
 void caption(const char* text) {
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
-}
-
-bool begin_choice(const char* title, const char* id, const char* chosen) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(title);
-  ImGui::SameLine(4.6f * ImGui::GetFontSize());
-  ImGui::SetNextItemWidth(-1);
-  return ImGui::BeginCombo(id, chosen);
 }
 
 /// As high as the choice of elements, which it takes the place of.
@@ -76,20 +73,22 @@ void choose_model(Running& running, const Options* file, Wish& wish) {
   const char* now =
       elements_answer ? element_labels[static_cast<int>(felt.element)] : label_of(felt.model_choice);
   if (begin_choice("model", "##model", now)) {
-    for (int i = 0; i < 5; ++i)
-      if (ImGui::Selectable(element_labels[i], elements_answer && felt.element == elements[i])) {
+    for (int i = 0; i < 7; ++i)
+      if (bends_in_space(elements[i]) == felt.beam.in_space() &&
+          ImGui::Selectable(element_labels[i], elements_answer && felt.element == elements[i])) {
         wish.options.element = elements[i], wish.options.model_choice = ModelChoice::finite_elements;
         wish.options.guarded = false;
         wish.change = true;
       }
-    for (const ModelChoice choice : {ModelChoice::pod, ModelChoice::galerkin}) {
-      // A file holds one model, and not the beam's section, which training another would take.
-      if (!felt.model.empty() && file->model_choice != choice) continue;
-      if (ImGui::Selectable(label_of(choice), felt.model_choice == choice)) {
-        if (!felt.model.empty()) wish.options.guarded = file->guarded;
-        wish.options.model_choice = choice, wish.change = true;
+    if (!felt.beam.in_space())
+      for (const ModelChoice choice : {ModelChoice::pod, ModelChoice::galerkin}) {
+        // A file holds one model, and not the beam's section, which training another would take.
+        if (!felt.model.empty() && file->model_choice != choice) continue;
+        if (ImGui::Selectable(label_of(choice), felt.model_choice == choice)) {
+          if (!felt.model.empty()) wish.options.guarded = file->guarded;
+          wish.options.model_choice = choice, wish.change = true;
+        }
       }
-    }
     ImGui::EndCombo();
   }
   if (elements_answer) choose_elements(felt, wish);
@@ -119,18 +118,6 @@ void choose_device(Running& running, Wish& wish) {
     wish.options.device = DeviceChoice::simulated, wish.change = true;
   if (ImGui::Selectable("Phantom, its arm in its inkwell or reset position now", !simulated))
     wish.options.device = DeviceChoice::phantom, wish.change = true;
-  ImGui::EndCombo();
-}
-
-void choose_exaggeration(SceneDrawing& drawing) {
-  char now[40];
-  std::snprintf(now, sizeof now, drawing.exaggeration == 1 ? "true to scale" : "%g times",
-                drawing.exaggeration);
-  if (!begin_choice("drawn", "##exaggeration", now)) return;
-  for (const double x : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
-    std::snprintf(now, sizeof now, x == 1 ? "true to scale" : "displacements %g times", x);
-    if (ImGui::Selectable(now, drawing.exaggeration == x)) drawing.exaggeration = x;
-  }
   ImGui::EndCombo();
 }
 
@@ -187,13 +174,12 @@ Wish draw_controls(Running& running, const Options* file, const std::string& not
   choose_model(running, file, wish);
   choose_coupling(running, wish);
   choose_device(running, wish);
-  choose_exaggeration(running.drawing());
+  running.drawing().choose();
   ImGui::Spacing();
   if (ImGui::Button("play the script", {-1, 0})) wish.play = true;
   caption(!running.session().device().simulated() ? "The hand is yours, on the device."
-          : running.pulled()
-              ? "Press the mouse in the drawing and pull. Arrow keys move the hand, space lifts it."
-              : "A script leads the hand, until you press the mouse in the drawing and pull.");
+          : running.pulled()                      ? running.drawing().help()
+                             : "A script leads the hand, until you press the mouse in the drawing and pull.");
   if (running.options().model.empty()) ImGui::Separator();
   ImGui::PushTextWrapPos(0);
   if (const Options& felt = running.options(); *feels(felt.scene))

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <hapbeam/beam.hpp>
+#include "../body.hpp"
 
 namespace phantom {
 
@@ -12,8 +12,10 @@ struct Curve {
   std::vector<float> depth, force;  ///< [m] down from rest, [N] up on the hand
 };
 
-/// Linear, von Karman and corotational, pressed straight down; one that cannot answer ends where it could.
-/// @param place  [m] along the beam   @param depth  [m] how far
-std::vector<Curve> force_curves(const hapbeam::Beam& beam, int elements, double place, double depth);
+/// Of a beam linear, von Karman and corotational, pressed straight down; of a rod in space what it would be if it stayed as stiff
+/// as at first, and each element, pressed along a direction.  One that cannot answer ends where it could.
+/// @param place  [m] along the beam   @param along  unit   @param depth  [m] how far
+std::vector<Curve> force_curves(const Slender& slender, int elements, double place,
+                                const Eigen::Vector3d& along, double depth);
 
 }  // namespace phantom

@@ -4,35 +4,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <string>
+#include <variant>
 
-#include "../scene.hpp"
 #include "colours.hpp"
 #include "draw_supports.hpp"
 #include "strokes.hpp"
 
 namespace phantom {
-
-namespace {
-
-/// The next of 1, 2, 5, 10, … that is not less.
-double rounded_up(double x) {
-  const double decade = std::pow(10, std::floor(std::log10(x)));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (step * decade >= x * (1 - 1e-9)) return step * decade;
-  return 10 * decade;
-}
-
-std::string text(const char* format, double value) {
-  char line[80];
-  std::snprintf(line, sizeof line, format, value);
-  return line;
-}
-
-std::string metres(double length) {
-  return length < 1 ? text("%g mm", std::round(length * 1e6) / 1e3) : text("%g m", length);
-}
-
-}  // namespace
 
 double default_exaggeration(const Options& o) {
   if (o.scene == "ruler" || o.scene == "arch" || o.beams > 1) return 1;
@@ -41,14 +20,15 @@ double default_exaggeration(const Options& o) {
   return o.beam.rise == 0 && o.beam.length > 1 ? 20 : 1;
 }
 
-SceneDrawing::SceneDrawing(const Options& options, const hapbeam::DeviceInfo& device,
-                           const hapbeam::Centreline<double>& rest)
-    : exaggeration(default_exaggeration(options)),
-      options_(options),
-      placement_(placement(options)),
-      workspace_(device.workspace.head<2>() * options.scale / 2),
+SceneDrawing::SceneDrawing(const Body& body, const hapbeam::DeviceInfo& device)
+    : exaggeration_(default_exaggeration(body.options())),
+      options_(body.options()),
+      placement_(body.placement()),
+      workspace_(device.workspace.head<2>() * options_.scale / 2),
       largest_strain_(1e-6) {
   constexpr int pieces = 240;
+  const Shape shape = body.rest();
+  const auto& rest = std::get<hapbeam::Centreline<double>>(shape);
   for (int i = 0; i <= pieces; ++i) {
     const double s = rest.length() * i / pieces;
     const auto d = rest.at(s);
@@ -64,22 +44,23 @@ void SceneDrawing::fit(const ImVec2& low, const ImVec2& high) {
     left = std::min(left, sample.rest_x), right = std::max(right, sample.rest_x);
     top = std::max(top, sample.rest_w), bottom = std::min(bottom, sample.rest_w);
   }
-  const double span = right - left, above = 0.03 * o.scale * exaggeration;
+  const double span = right - left, above = 0.03 * o.scale * exaggeration_;
   const double below = o.beams > 1 ? o.pitch * (o.beams - 1) + 0.4 * span
-                                   : std::min(1.1 * o.depth * o.scale * exaggeration, 1.1 * span);
+                                   : std::min(1.1 * o.depth * o.scale * exaggeration_, 1.1 * span);
   top += above + o.radius, bottom -= std::max(below, bottom < top ? 0.8 * (top - bottom) : 0);
   const double width = static_cast<double>(high.x - low.x), height = static_cast<double>(high.y - low.y);
   view_ = {low,
            high,
            std::min(width / (1.2 * span), height / (1.12 * (top - bottom))),
            {(left + right) / 2, (top + bottom) / 2},
-           exaggeration};
+           exaggeration_};
 }
 
 void SceneDrawing::sample(const DrawnBeam& beam) {
+  const auto& shape = std::get<hapbeam::Centreline<double>>(beam.shape);
   above_ = beam.above;
   for (Sample& sample : samples_) {
-    const auto d = beam.shape.at(std::min(sample.s, beam.shape.length()));
+    const auto d = shape.at(std::min(sample.s, shape.length()));
     sample.x = sample.s + d.u, sample.w = d.w, sample.theta = d.theta;
   }
 }
@@ -159,15 +140,14 @@ void SceneDrawing::draw_beam(ImDrawList& list, float unit) {
   draw_support(list, options_.beam.right, middle(upper[n - 1], lower[n - 1]), 1, drawn, size);
 }
 
-void SceneDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, const Point& target,
+void SceneDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, const Eigen::Vector3d& target,
                              float unit) {
   const ImVec2 avatar = view_(across_.drawn(r.avatar.head<2>())),
                hand = view_(across_.drawn(r.hand.head<2>()));
-  const ImVec2 wanted = view_(across_.drawn(placement_.beam_position({target.x(), target.y(), 0})));
+  const ImVec2 wanted = view_(across_.drawn(placement_.beam_position(target)));
   const float radius = std::max(static_cast<float>(options_.radius * view_.pixels), 0.25f * unit);
   spring(list, wanted, hand, colour::faint, unit);
-  list.AddLine({wanted.x - 0.5f * unit, wanted.y}, {wanted.x + 0.5f * unit, wanted.y}, colour::ink, unit / 9);
-  list.AddLine({wanted.x, wanted.y - 0.5f * unit}, {wanted.x, wanted.y + 0.5f * unit}, colour::ink, unit / 9);
+  cross(list, wanted, unit);
   // The arm's tip is where the device is; the avatar is where the coupling lets it press.
   list.AddLine(hand, avatar, colour::blue, unit / 9);
   list.AddCircleFilled(hand, 0.2f * unit, colour::blue);
@@ -177,15 +157,11 @@ void SceneDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, co
   const double force = r.force.norm();
   if (!(force > 0.02)) return;
   const Point along = r.force.head<2>() / force;
-  const auto length = static_cast<float>((1.5 + 4.5 * std::min(force / 20, 1.5)) * static_cast<double>(unit));
+  const float length = arrow_length(force, unit);
   const auto ax = static_cast<float>(along.x()), ay = static_cast<float>(-along.y());
   const ImVec2 from{avatar.x + ax * radius, avatar.y + ay * radius};
   const ImVec2 to{from.x + ax * length, from.y + ay * length};
-  const float head = 0.55f * unit;
-  const ImVec2 neck{to.x - ax * head, to.y - ay * head};
-  list.AddLine(from, neck, colour::vermilion, std::max(2.0f, unit / 6));
-  list.AddTriangleFilled(to, {neck.x - ay * head * 0.5f, neck.y + ax * head * 0.5f},
-                         {neck.x + ay * head * 0.5f, neck.y - ax * head * 0.5f}, colour::vermilion);
+  arrow(list, from, to, colour::vermilion, unit);
   label(list, {to.x + 0.6f * unit, to.y - 0.3f * unit}, colour::vermilion, text("%.2f N", force));
 }
 
@@ -206,22 +182,10 @@ void SceneDrawing::draw_legend(ImDrawList& list, float unit) const {
         view_.exaggeration == 1 ? "displacements true to scale"
                                 : text("displacements exaggerated %g times", view_.exaggeration));
 
-  // Strain: a bar of colours with its ends.
-  const float width = 13.5f * unit, right = view_.high.x - unit, top = bottom - 0.7f * unit;
-  constexpr int steps = 64;
-  for (int i = 0; i < steps; ++i) {
-    const float a = right - width + width * static_cast<float>(i) / steps;
-    list.AddRectFilled({a, top}, {a + width / steps + 1, bottom + 0.1f * unit},
-                       colour::viridis((i + 0.5) / steps));
-  }
-  list.AddRect({right - width, top}, {right + 1, bottom + 0.1f * unit}, colour::ink);
-  label(list, {right - width, top - line}, colour::ink, "0");
-  const std::string most = text("%g", largest_strain_ * 1e6) + " µm/m";
-  label(list, {right - ImGui::CalcTextSize(most.c_str()).x, top - line}, colour::ink, most);
-  label(list, {right - width, top - 2 * line}, colour::ink, "bending strain at the surface");
+  strain_bar(list, view_.high.x - unit, bottom, largest_strain_, unit);
 }
 
-void SceneDrawing::draw(ImDrawList& list, const Session::Picture& picture, const Point& target,
+void SceneDrawing::draw(ImDrawList& list, const Session::Picture& picture, const Eigen::Vector3d& target,
                         const ImVec2& low, const ImVec2& high, float unit) {
   fit(low, high);
   const hapbeam::ServoRecord& r = picture.record;
@@ -243,9 +207,20 @@ void SceneDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
   list.PopClipRect();
 }
 
-Point SceneDrawing::device_position(const ImVec2& cursor) const {
+Eigen::Vector3d SceneDrawing::device_position(const ImVec2& cursor, const Eigen::Vector3d&) const {
   const Point scene = across_.real(view_.inverse(cursor));
-  return placement_.device_position({scene.x(), scene.y(), 0}).head<2>();
+  return placement_.device_position({scene.x(), scene.y(), 0});
+}
+
+void SceneDrawing::choose() {
+  char now[40];
+  std::snprintf(now, sizeof now, exaggeration_ == 1 ? "true to scale" : "%g times", exaggeration_);
+  if (!begin_choice("drawn", "##exaggeration", now)) return;
+  for (const double x : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
+    std::snprintf(now, sizeof now, x == 1 ? "true to scale" : "displacements %g times", x);
+    if (ImGui::Selectable(now, exaggeration_ == x)) exaggeration_ = x;
+  }
+  ImGui::EndCombo();
 }
 
 }  // namespace phantom

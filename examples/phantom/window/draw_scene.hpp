@@ -1,34 +1,27 @@
-// The beam, its supports, what the hand does and what it feels, as a drawing with a scale.
+// A beam in its plane: its supports, what the hand does and what it feels, as a drawing with a scale.
 #pragma once
 
 #include <imgui.h>
 #include <string>
 #include <vector>
 
-#include "../hand.hpp"
 #include "../options.hpp"
-#include "../session.hpp"
+#include "drawing.hpp"
 #include "view.hpp"
-#include <hapbeam/haptics/servo/placement.hpp>
 
 namespace phantom {
 
-/// What stays the same while one session runs: how the beam rests, and what is drawn of the largest strain.
-class SceneDrawing {
+class SceneDrawing final : public Drawing {
  public:
-  /// @param rest  of a session that has not run
-  SceneDrawing(const Options& options, const hapbeam::DeviceInfo& device,
-               const hapbeam::Centreline<double>& rest);
+  /// @param body  of a beam, one that has not run
+  SceneDrawing(const Body& body, const hapbeam::DeviceInfo& device);
 
-  /// @param target  [m] device axes: where the hand wants to be   @param unit  [pixel] height of a line of text
-  void draw(ImDrawList& list, const Session::Picture& picture, const Point& target, const ImVec2& low,
-            const ImVec2& high, float unit);
-
-  /// What a cursor points at, in the device's axes.  After draw().
-  Point device_position(const ImVec2& cursor) const;
-  bool contains(const ImVec2& cursor) const { return view_.contains(cursor); }
-
-  double exaggeration;  ///< of displacements, to be changed as one likes
+  void draw(ImDrawList& list, const Session::Picture& picture, const Eigen::Vector3d& target,
+            const ImVec2& low, const ImVec2& high, float unit) override;
+  Eigen::Vector3d device_position(const ImVec2& cursor, const Eigen::Vector3d& target) const override;
+  Eigen::Vector3d device_way(const Eigen::Vector3d& way) const override { return {way.x(), way.y(), 0}; }
+  void look(bool) override {}
+  void choose() override;
 
  private:
   struct Sample {
@@ -41,9 +34,11 @@ class SceneDrawing {
   void draw_workspace(ImDrawList& list, float unit) const;
   double drawn_half(float unit) const;           ///< [m] of the thickness, which can be seen
   void draw_beam(ImDrawList& list, float unit);  ///< with its supports
-  void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Point& target, float unit);
+  void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Eigen::Vector3d& target,
+                 float unit);
   void draw_legend(ImDrawList& list, float unit) const;
 
+  double exaggeration_;  // of displacements
   Options options_;
   hapbeam::Placement placement_;
   Point workspace_;  // [m] scene, half of it

@@ -13,18 +13,18 @@ namespace phantom {
 class History {
  public:
   struct Moment {
-    float time, force_up, force, depth, place,
-        energy;          ///< [s, N, N, m, m, J]; depth is down from the beam at rest
+    float time, force_against, force, depth, place,
+        energy;          ///< [s, N, N, m, m, J]; depth is from the beam at rest, in a plane down
     bool pressing, cut;  ///< cut: the force is the device's limit
   };
 
-  /// @param rest  [m] where the beam's centreline is at rest there
-  void add(const Tick& tick, double rest) {
+  /// @param depth  [m] of the press   @param force  [N] against it
+  void add(const Tick& tick, double depth, double force) {
     const hapbeam::ServoRecord& r = tick.record;
     const Moment moment{static_cast<float>(r.time),
-                        static_cast<float>(r.force.y()),
+                        static_cast<float>(force),
                         static_cast<float>(r.force.norm()),
-                        static_cast<float>(r.pressing ? rest - r.press.d : 0.0),
+                        static_cast<float>(depth),
                         static_cast<float>(r.press.s),
                         static_cast<float>(r.energy_generated),
                         r.pressing,

@@ -48,7 +48,7 @@ struct Trace {
     while (end > 0 && !history[end - 1].pressing) --end;
     for (begin = end; begin > 0 && history[begin - 1].pressing;) --begin;
     for (std::size_t i = begin; i < end; ++i) {
-      const auto force = static_cast<double>(history[i].force_up),
+      const auto force = static_cast<double>(history[i].force_against),
                  depth = static_cast<double>(history[i].depth);
       most = std::max(most, force), least = std::min(least, force), above = std::min(above, depth);
       seen[static_cast<int>(felt(i))] = true;
@@ -66,12 +66,13 @@ struct Trace {
       plot.line(
           std::min(next + 1, end) - i,
           [&](std::size_t k) { return static_cast<double>(history[i + k].depth); },
-          [&](std::size_t k) { return static_cast<double>(history[i + k].force_up); },
+          [&](std::size_t k) { return static_cast<double>(history[i + k].force_against); },
           felt_colours[static_cast<int>(felt(i))], 2);
       i = next;
     }
     if (end > begin && end == history.size())
-      plot.point(static_cast<double>(history[end - 1].depth), static_cast<double>(history[end - 1].force_up),
+      plot.point(static_cast<double>(history[end - 1].depth),
+                 static_cast<double>(history[end - 1].force_against),
                  felt_colours[static_cast<int>(felt(end - 1))]);
   }
 

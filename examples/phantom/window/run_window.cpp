@@ -85,21 +85,22 @@ class Window {
 
   /// The next scene, model and coupling of a tour, in a window of another size now and then.
   void tour(int step) {
-    constexpr const char* scenes[] = {"thesis", "ruler", "strip", "string", "arch"};
+    constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip", "string", "arch"};
     constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::corotational,
                                           ElementChoice::assumed_strain, ElementChoice::reduced,
                                           ElementChoice::full};
     Options options = first_;
     // Two changes under the hand that presses, then another scene.
-    set_scene(options, scenes[step / 3 % 5]);
+    set_scene(options, scenes[step / 3 % 6]);
     settle(options, 0, options.beam.length);
-    options.element = elements[step % 5];
+    if (!options.beam.in_space()) options.element = elements[step % 5];
+    else if (step % 2 == 1) options.element = ElementChoice::twisted_rod;
     options.elements = 4 << step / 25 % 3;
     // What is stiffer than the device can render throws the hand about without a coupling.
     const bool soft = options.scene == "strip" || options.scene == "string";
     options.coupling = soft && step % 4 == 1 ? CouplingChoice::direct : CouplingChoice::virtual_coupling;
     change(options);
-    if (step % 3 == 1) running_->pull({0.01, -0.02});
+    if (step % 3 == 1) running_->pull({0.01, -0.02, 0});
     if (step % 10 == 0) display_.resize(800 + 50 * (step / 10 % 10), 500 + 30 * (step / 10 % 7));
   }
 
@@ -126,31 +127,44 @@ class Window {
   void draw_scene(const ImVec2& low, const ImVec2& high, float unit) {
     ImGui::SetCursorPos(low);
     ImGui::InvisibleButton("scene", {high.x - low.x, high.y - low.y});
-    SceneDrawing& drawing = running_->drawing();
-    if (ImGui::IsItemActive()) running_->pull(drawing.device_position(ImGui::GetIO().MousePos)), held_ = true;
-    else if (held_) running_->lift(), held_ = false;
-    arrows();
+    Drawing& drawing = running_->drawing();
+    const bool hovered = ImGui::IsItemHovered(), in_space = running_->options().beam.in_space();
+    drawing.look(hovered);
+    if (ImGui::IsItemActive()) {
+      if (!held_) wanted_ = running_->target();
+      wanted_ = running_->pull(drawing.device_position(ImGui::GetIO().MousePos, wanted_));
+      held_ = true;
+    } else if (held_) {
+      // In space the hand stays: it has to be led around the rod.
+      if (!in_space) running_->lift();
+      held_ = false;
+    }
+    keys(in_space && hovered && !ImGui::GetIO().KeyCtrl ? static_cast<double>(ImGui::GetIO().MouseWheel) : 0);
     drawing.draw(*ImGui::GetWindowDrawList(), running_->session().picture(), running_->target(), low, high,
                  unit);
-    if (!running_->pulled() && running_->session().device().simulated()) hint(low, high);
+    if (!running_->pulled() && running_->session().device().simulated()) hint(low, high, drawing.hint());
   }
 
   /// Until it has been done.
-  static void hint(const ImVec2& low, const ImVec2& high) {
-    constexpr const char* text = "hold the mouse button here and pull";
+  static void hint(const ImVec2& low, const ImVec2& high, const char* text) {
     const ImVec2 size = ImGui::CalcTextSize(text);
     label(*ImGui::GetWindowDrawList(), {(low.x + high.x - size.x) / 2, low.y + 0.5f * size.y}, colour::faint,
           text);
   }
 
-  /// A tenth of a metre in a second.
-  void arrows() {
+  /// A tenth of a metre in a second; the wheel's notches are of 4 mm.
+  void keys(double notches) {
     const double step = 0.1 * static_cast<double>(ImGui::GetIO().DeltaTime);
-    const Point way((display_.pressed(GLFW_KEY_RIGHT) - display_.pressed(GLFW_KEY_LEFT)) * step,
-                    (display_.pressed(GLFW_KEY_UP) - display_.pressed(GLFW_KEY_DOWN)) * step);
-    if (way.x() != 0 || way.y() != 0) {
-      if (!led_) wanted_ = running_->target(), led_ = true;
-      running_->pull(wanted_ += way);
+    const auto pressed = [this](int more, int less) {
+      return display_.pressed(more) - display_.pressed(less);
+    };
+    const Eigen::Vector3d way = running_->drawing().device_way(
+        {pressed(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) * step, pressed(GLFW_KEY_UP, GLFW_KEY_DOWN) * step,
+         pressed(GLFW_KEY_PAGE_DOWN, GLFW_KEY_PAGE_UP) * step - 0.004 * notches});
+    if (!way.isZero(0)) {
+      if (!led_ && !held_) wanted_ = running_->target();
+      led_ = true;
+      wanted_ = running_->pull(wanted_ + way);
     } else if (led_ && (held_ || !running_->pulled())) {
       led_ = false;
     }
@@ -220,7 +234,7 @@ class Window {
   std::unique_ptr<Running> running_;
   std::optional<Training> training_;
   std::string note_;
-  Point wanted_{0, 0};
+  Eigen::Vector3d wanted_{0, 0, 0};
   bool held_ = false;  // by the mouse
   bool led_ = false;   // by the arrow keys
 };

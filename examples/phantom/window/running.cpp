@@ -39,10 +39,15 @@ Eigen::Vector3d Running::beside(const Options& next) {
   const hapbeam::ServoRecord& r = session_.picture().record;
   if (!session_.device().simulated() || (same_scene(next, options()) && !r.pressing)) return r.position;
   if (!same_scene(next, options())) return {0, height_above, 0};
-  const double side = r.force.y() < 0 ? -1 : 1, reach = next.radius + next.beam.height / 2;
+  const double side = r.force.y() < 0 ? -1 : 1, reach = next.radius + next.beam.touched() / 2;
+  const hapbeam::Placement& placement = session_.body().placement();
+  if (next.beam.in_space() && !(r.force.norm() > 0)) return r.position;
+  if (next.beam.in_space())
+    return placement.device_position(r.avatar +
+                                     (session_.body().depth(r) + 0.1 * reach) * r.force.normalized());
   const double clear = next.beam.rest(std::clamp(r.hand.x(), 0.0, next.beam.length)) + side * 1.1 * reach;
   const double y = side > 0 ? std::max(clear, r.hand.y()) : std::min(clear, r.hand.y());
-  return placement(next).device_position({r.hand.x(), y, 0});
+  return placement.device_position({r.hand.x(), y, 0});
 }
 
 void Running::show_newest() {
@@ -57,7 +62,7 @@ void Running::show_newest() {
 
 void Running::show_body() {
   drawn_ = options();
-  drawing_.emplace(drawn_, session_.device().info(), session_.body().rest());
+  drawing_ = make_drawing(session_.body(), session_.device().info());
   curve_place_ = -1;
   deepest_ = first_depth();
   refresh_curves();
@@ -68,11 +73,25 @@ void Running::play() {
   pulled_ = false;
 }
 
-void Running::pull(Point place) {
+Eigen::Vector3d Running::pull(Eigen::Vector3d place) {
   const Eigen::Vector3d reach = session_.device().info().workspace / 2;
-  for (int i = 0; i < 2; ++i) place[i] = std::clamp(place[i], -reach[i], reach[i]);
+  for (int i = 0; i < 3; ++i) place[i] = std::clamp(place[i], -reach[i], reach[i]);
   hand_.pull(place);
   pulled_ = true;
+  return place;
+}
+
+void Running::lift() {
+  const hapbeam::ServoRecord& r = session_.picture().record;
+  const double force = r.force.norm();
+  if (!options().beam.in_space()) pull({target_.x(), height_above, 0});
+  else if (force > 0) pull(r.position + height_above * r.force / force);
+  else pull(target_);
+}
+
+void Running::remember(const Tick& tick) {
+  const hapbeam::ServoRecord& r = tick.record;
+  history_.add(tick, session_.body().depth(r), options().beam.in_space() ? r.force.norm() : r.force.y());
 }
 
 /// Half of what the hand presses a beam that stays as stiff as it is at first; a stiff one gives way by less than the hand
@@ -80,7 +99,8 @@ void Running::pull(Point place) {
 double Running::first_depth() {
   constexpr double press = 1e-6;  // [m]
   const Options& o = options();
-  const auto curves = force_curves(session_.body().beam(), o.elements, place_of_curves(), press);
+  const auto curves =
+      force_curves(session_.body().slender(), o.elements, place_of_curves(), curve_along_, press);
   const double k = curves.empty() ? 0 : std::abs(static_cast<double>(curves[0].force.back())) / press;
   const double hand = hapbeam::HandOptions{}.stiffness;
   return std::max({0.5 * hand * o.depth / (k + hand / o.scale), o.beam.rise, 1e-4});
@@ -98,10 +118,15 @@ void Running::refresh_curves() {
   for (std::size_t i = 0; i < history_.size(); ++i)
     deepest_ = std::max(deepest_, static_cast<double>(history_[i].depth));
   const double place = place_of_curves(), depth = rounded_end(deepest_);
-  if (place == curve_place_ && depth == curve_depth_) return;
+  const hapbeam::ServoRecord& r = session_.picture().record;
+  const double force = r.force.norm();
+  // A rod is pressed from any side; eight degrees are another.
+  const bool turned = options().beam.in_space() && force > 0.02 && -r.force.dot(curve_along_) < 0.99 * force;
+  if (place == curve_place_ && depth == curve_depth_ && !turned) return;
+  if (turned) curve_along_ = -r.force / force;
   curve_depth_ = depth;
   curve_place_ = place;
-  curves_ = force_curves(session_.body().beam(), options().elements, place, depth);
+  curves_ = force_curves(session_.body().slender(), options().elements, place, curve_along_, depth);
 }
 
 }  // namespace phantom

@@ -5,14 +5,13 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "../hand.hpp"
 #include "../options.hpp"
 #include "../session.hpp"
 #include "curves.hpp"
-#include "draw_scene.hpp"
+#include "drawing.hpp"
 #include "history.hpp"
 
 namespace phantom {
@@ -29,8 +28,8 @@ class Running {
     session_.update();
     show_newest();
     tape_.take([&](const Tick& tick) {
-      if (tick.changes >= scene_since_) history_.add(tick, options().beam.rest(tick.record.press.s));
-      target_ = tick.hand.position.head<2>();
+      if (tick.changes >= scene_since_) remember(tick);
+      target_ = tick.hand.position;
       visit(tick);
     });
     refresh_curves();
@@ -39,10 +38,11 @@ class Running {
   void change(const Options& options, std::shared_ptr<const Trained> trained);
   /// The hand plays the script of the scene.
   void play();
-  /// @param place  [m] device axes; kept within its reach
-  void pull(Point place);
-  /// The hand is led to a place above the beam, as it was at the start, where it stays until it is pulled.
-  void lift() { pull({target_.x(), height_above}); }
+  /// @param place  [m] device axes; kept within its reach   @return where that is
+  Eigen::Vector3d pull(Eigen::Vector3d place);
+  /// The hand is led to a place above the beam, as it was at the start, off a rod the way that its force goes; there it stays
+  /// until it is pulled.
+  void lift();
 
   Session& session() { return session_; }
   const Options& options() { return session_.body().options(); }
@@ -53,13 +53,14 @@ class Running {
   double curve_place() const { return curve_place_; }
   double curve_step() { return options().beam.length / 50; }  ///< [m] between places of curves
   double curve_depth() const { return curve_depth_; }
-  const Point& target() const { return target_; }  ///< [m] device axes, newest
-  bool pulled() const { return pulled_; }          ///< the script has been left
-  SceneDrawing& drawing() { return *drawing_; }
+  const Eigen::Vector3d& target() const { return target_; }  ///< [m] device axes, newest
+  bool pulled() const { return pulled_; }                    ///< the script has been left
+  Drawing& drawing() { return *drawing_; }
 
  private:
   static constexpr double height_above = 0.02;  // [m]
 
+  void remember(const Tick& tick);
   void show_newest();  ///< once another body is felt
   void show_body();
   void refresh_curves();
@@ -74,11 +75,12 @@ class Running {
   std::shared_ptr<const Trained> asked_trained_;
   int shown_ = 0;        // changes of the session
   int scene_since_ = 0;  // changes
-  std::optional<SceneDrawing> drawing_;
+  std::unique_ptr<Drawing> drawing_;
   History history_;
   std::vector<Curve> curves_;
   double curve_place_ = -1, curve_depth_ = 0, deepest_ = 0;
-  Point target_{0, height_above};
+  Eigen::Vector3d curve_along_{0, -1, 0};
+  Eigen::Vector3d target_{0, height_above, 0};
   bool pulled_ = false;
 };
 

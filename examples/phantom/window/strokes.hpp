@@ -12,5 +12,20 @@ void label(ImDrawList& list, ImVec2 at, ImU32 colour, const std::string& line);
 void dashed(ImDrawList& list, const ImVec2& a, const ImVec2& b, ImU32 colour, float dash);
 /// @param unit  [pixel] height of a line of text
 void spring(ImDrawList& list, const ImVec2& a, const ImVec2& b, ImU32 colour, float unit);
+/// Of the size that arrows of a force have [N].   @return [pixel]
+float arrow_length(double force, float unit);
+void arrow(ImDrawList& list, const ImVec2& from, const ImVec2& to, ImU32 colour, float unit);
+/// The arm's tip and where the hand wants it, as marks in the picture.
+void cross(ImDrawList& list, const ImVec2& at, float unit);
+/// A bar of colours with its ends.   @param right, bottom  [pixel] where it stands   @param largest  strain of its last colour
+void strain_bar(ImDrawList& list, float right, float bottom, double largest, float unit);
+
+/// A row of the column on the right: its title, and the list that ImGui::EndCombo() ends where this is true.
+bool begin_choice(const char* title, const char* id, const char* chosen);
+
+/// The next of 1, 2, 5, 10, … that is not less.
+double rounded_up(double x);
+std::string text(const char* format, double value);
+std::string metres(double length);
 
 }  // namespace phantom

@@ -1,0 +1,237 @@
+#include "draw_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <variant>
+
+#include "../scene.hpp"
+#include "colours.hpp"
+#include "draw_scene.hpp"
+#include "strokes.hpp"
+
+namespace phantom {
+
+namespace {
+
+constexpr ImU32 shade = IM_COL32(70, 76, 88, 60);
+
+}  // namespace
+
+std::unique_ptr<Drawing> make_drawing(const Body& body, const hapbeam::DeviceInfo& device) {
+  if (body.options().beam.in_space()) return std::make_unique<SpaceDrawing>(body, device);
+  return std::make_unique<SceneDrawing>(body, device);
+}
+
+SpaceDrawing::SpaceDrawing(const Body& body, const hapbeam::DeviceInfo& device)
+    : options_(body.options()),
+      line_(std::get<hapbeam::Rod>(body.slender())),
+      placement_(body.placement()),
+      workspace_(device.workspace * options_.scale / 2) {
+  const Shape rest = body.rest();
+  line_.take(std::get<RodLine::Shape>(rest));
+  // The rod, and the hand around it.
+  const double reach = options_.radius + options_.beam.touched() / 2;
+  const Vector pressed = placement_.origin() - Vector(0, reach, 0);
+  const double around = hand_away(options_) * options_.scale + options_.radius;
+  low_ = pressed - Vector(options_.radius, around, around),
+  high_ = pressed + Vector(options_.radius, around, around);
+  for (const RodLine::Sample& sample : line_.samples())
+    low_ = low_.cwiseMin(sample.ring.middle), high_ = high_.cwiseMax(sample.ring.middle);
+  low_.y() -= line_.rod().forces().empty() ? 0 : 0.15 * line_.rod().length();
+  size_ = (high_ - low_).norm();
+  floor_ = low_.y() - 0.02 * size_;
+  square_ = rounded_up(size_ / 14);
+}
+
+void SpaceDrawing::aim(const ImVec2& low, const ImVec2& high) {
+  const Vector middle = (low_ + high_) / 2;
+  // As large as the box fits that is looked at, from where the camera stands at first.
+  Camera first;
+  first.aim(middle, size_, {0, 0}, {0, 0}, 1);
+  ImVec2 least{0, 0}, most{0, 0};
+  for (int i = 0; i < 8; ++i) {
+    const ImVec2 at =
+        first({i & 1 ? low_.x() : high_.x(), i & 2 ? floor_ : high_.y(), i & 4 ? low_.z() : high_.z()});
+    least = {std::min(least.x, at.x), std::min(least.y, at.y)};
+    most = {std::max(most.x, at.x), std::max(most.y, at.y)};
+  }
+  const double fits = std::min(static_cast<double>((high.x - low.x) / (most.x - least.x)),
+                               static_cast<double>((high.y - low.y) / (most.y - least.y)));
+  camera_.aim(middle, size_, low, high, 1.05 * fits);
+}
+
+void SpaceDrawing::draw_floor(ImDrawList& list, float unit) const {
+  const auto down = [&](double x) { return square_ * std::floor(x / square_ - 0.5); };
+  const auto up = [&](double x) { return square_ * std::ceil(x / square_ + 0.5); };
+  const double left = down(low_.x()), right = up(high_.x()), back = down(low_.z()), front = up(high_.z());
+  const auto at = [&](double x, double z) { return camera_({x, floor_, z}); };
+  const ImVec2 corners[] = {at(left, back), at(right, back), at(right, front), at(left, front)};
+  list.AddConvexPolyFilled(corners, 4, IM_COL32(242, 243, 241, 255));
+  for (double x = left; x < right + square_ / 2; x += square_)
+    list.AddLine(at(x, back), at(x, front), colour::grid, 1);
+  for (double z = back; z < front + square_ / 2; z += square_)
+    list.AddLine(at(left, z), at(right, z), colour::grid, 1);
+  const Vector o = placement_.origin(), w = workspace_;
+  const ImVec2 reach[] = {at(o.x() - w.x(), o.z() - w.z()), at(o.x() + w.x(), o.z() - w.z()),
+                          at(o.x() + w.x(), o.z() + w.z()), at(o.x() - w.x(), o.z() + w.z())};
+  for (int i = 0; i < 4; ++i)
+    dashed(list, reach[i], reach[(i + 1) % 4], colour::with_alpha(colour::blue, 90), 0.4f * unit);
+}
+
+void SpaceDrawing::draw_shadows(ImDrawList& list, const Vector& avatar, float unit) const {
+  std::vector<ImVec2> line;
+  for (const RodLine::Sample& sample : line_.samples()) line.push_back(camera_(on_floor(sample.ring.middle)));
+  const Ring& middle = line_.samples()[line_.samples().size() / 2].ring;
+  const auto width = static_cast<float>(2 * middle.radius * camera_.pixels(on_floor(middle.middle)));
+  list.AddPolyline(line.data(), static_cast<int>(line.size()), shade, ImDrawFlags_None,
+                   std::max(0.2f * unit, width));
+  ImVec2 rim[32];
+  for (int k = 0; k < 32; ++k) {
+    const double angle = 2 * 3.141592653589793 * k / 32;
+    rim[k] = camera_(on_floor(avatar + options_.radius * Vector(std::cos(angle), 0, std::sin(angle))));
+  }
+  list.AddConvexPolyFilled(rim, 32, shade);
+  dashed(list, camera_(avatar), camera_(on_floor(avatar)), colour::faint, 0.3f * unit);
+  list.AddCircleFilled(camera_(on_floor(avatar)), 0.15f * unit, colour::faint);
+}
+
+/// A wall behind a clamp, a ball in a hinge.
+void SpaceDrawing::draw_ends(Solids& solids) const {
+  const auto hold = [&](const hapbeam::RodSupport& support, const Ring& end, double side) {
+    if (support == hapbeam::RodSupport::free) return solids.cap(end, side, colour::viridis(0));
+    const double half = std::max(0.035 * size_, 2.5 * end.radius);
+    if (support == hapbeam::RodSupport::hinged) return solids.ball(end.middle, 2 * end.radius, colour::grid);
+    Eigen::Matrix3d block;
+    block.col(0) = 0.3 * half * end.tangent;
+    block.col(1) = half * end.across;
+    block.col(2) = half * hapbeam::detail::cross3<double>(end.tangent, end.across);
+    solids.block(end.middle + side * block.col(0), block, IM_COL32(200, 204, 210, 255));
+  };
+  hold(line_.rod().left(), line_.samples().front().ring, -1);
+  hold(line_.rod().right(), line_.samples().back().ring, 1);
+}
+
+void SpaceDrawing::draw_hanging(ImDrawList& list, float unit) const {
+  for (const hapbeam::RodForce& force : line_.rod().forces()) {
+    const Vector tip = line_.samples().back().ring.middle,
+                 end = tip + 0.1 * line_.rod().length() * force.force.normalized();
+    const ImVec2 at = camera_(end);
+    list.AddLine(camera_(tip), at, colour::ink, unit / 12);
+    list.AddTriangleFilled(at, {at.x - 0.4f * unit, at.y + unit}, {at.x + 0.4f * unit, at.y + unit},
+                           colour::ink);
+    label(list, {at.x + 0.7f * unit, at.y + 0.2f * unit}, colour::ink, text("%g N", force.force.norm()));
+  }
+}
+
+void SpaceDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, const Vector& target,
+                             float unit) const {
+  const ImVec2 avatar = camera_(r.avatar), hand = camera_(r.hand),
+               wanted = camera_(placement_.scene_position(target));
+  spring(list, wanted, hand, colour::faint, unit);
+  cross(list, wanted, unit);
+  // The arm's tip is where the device is; the avatar is where the coupling lets it press.
+  list.AddLine(hand, avatar, colour::blue, unit / 9);
+  list.AddCircleFilled(hand, 0.2f * unit, colour::blue);
+  const double force = r.force.norm();
+  const auto beside = static_cast<float>(options_.radius * camera_.pixels(r.avatar));
+  const ImVec2 free{avatar.x + 0.8f * beside + 0.4f * unit, avatar.y + 0.7f * beside};
+  if (force > 0.02) {
+    const Vector along = r.force / force, from = r.avatar + options_.radius * along;
+    const double length = static_cast<double>(arrow_length(force, unit)) / camera_.pixels(r.avatar);
+    const ImVec2 to = camera_(from + length * along);
+    arrow(list, camera_(from), to, colour::vermilion, unit);
+    // Beside the avatar where the arrow looks at who looks.
+    const bool hidden = std::hypot(to.x - avatar.x, to.y - avatar.y) < beside + unit;
+    label(list, hidden ? free : ImVec2{to.x + 0.6f * unit, to.y - 0.3f * unit}, colour::vermilion,
+          text("%.2f N", force));
+  } else if (!r.pressing) {
+    const RodLine::Nearest rod = line_.nearest(r.avatar);
+    const double gap = rod.distance - options_.radius - line_.rod().thickness() / 2;
+    const Vector way = (rod.place - r.avatar).normalized();
+    dashed(list, camera_(r.avatar + options_.radius * way), camera_(rod.place), colour::blue, 0.2f * unit);
+    label(list, free, colour::blue, metres(std::round(std::max(0.0, gap) * 1e4) / 1e4) + " to the rod");
+  }
+}
+
+void SpaceDrawing::draw_legend(ImDrawList& list, const ImVec2& low, const ImVec2& high, float unit) const {
+  const float line = 1.25f * unit, left = low.x + unit, bottom = high.y - unit;
+  label(list, {left, bottom - 0.6f * unit}, colour::ink, "squares on the floor: " + metres(square_));
+  label(list, {left, bottom - 0.6f * unit - line}, colour::ink, "displacements true to scale");
+  strain_bar(list, high.x - unit, bottom, largest_strain_, unit);
+  // The scene's axes, which are the device's.
+  const ImVec2 at{high.x - 3.2f * unit, low.y + 3.2f * unit};
+  const char* const names[] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i) {
+    const Vector axis = Vector::Unit(i);
+    const float x = static_cast<float>(camera_.right().dot(axis)) * 1.7f * unit,
+                y = static_cast<float>(-camera_.up().dot(axis)) * 1.7f * unit;
+    list.AddLine(at, {at.x + x, at.y + y}, colour::faint, unit / 10);
+    list.AddText({at.x + 1.35f * x - 0.25f * unit, at.y + 1.35f * y - 0.5f * unit}, colour::faint, names[i]);
+  }
+}
+
+void SpaceDrawing::draw(ImDrawList& list, const Session::Picture& picture, const Vector& target,
+                        const ImVec2& low, const ImVec2& high, float unit) {
+  aim({low.x, low.y + 1.5f * unit}, {high.x, high.y - 2.5f * unit});  // not behind words
+  const hapbeam::ServoRecord& r = picture.record;
+  list.PushClipRect(low, high, true);
+  list.AddRectFilled(low, high, colour::paper);
+  draw_floor(list, unit);
+  line_.take(std::get<RodLine::Shape>(picture.beams.front().shape));
+  if (line_.largest_strain() > largest_strain_) largest_strain_ = rounded_up(line_.largest_strain());
+  draw_shadows(list, r.avatar, unit);
+  Solids solids(camera_);
+  const auto& samples = line_.samples();
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+    solids.tube(samples[i].ring, samples[i + 1].ring,
+                colour::viridis((samples[i].strain + samples[i + 1].strain) / 2 / largest_strain_));
+  draw_ends(solids);
+  solids.ball(r.avatar, options_.radius, colour::with_alpha(colour::orange, 225));
+  solids.paint(list);
+  draw_hanging(list, unit);
+  draw_hand(list, r, target, unit);
+  draw_legend(list, low, high, unit);
+  list.PopClipRect();
+}
+
+Eigen::Vector3d SpaceDrawing::device_position(const ImVec2& cursor, const Vector& target) const {
+  return placement_.device_position(camera_.inverse(cursor, placement_.scene_position(target)));
+}
+
+Eigen::Vector3d SpaceDrawing::device_way(const Vector& way) const {
+  return way.x() * camera_.right() + way.y() * camera_.hand_up() + way.z() * camera_.hand_toward();
+}
+
+void SpaceDrawing::look(bool hovered) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) orbits_ = true;
+  orbits_ = orbits_ && ImGui::IsMouseDown(ImGuiMouseButton_Right);
+  if (orbits_)
+    camera_.orbit(0.008 * static_cast<double>(io.MouseDelta.x), 0.008 * static_cast<double>(io.MouseDelta.y));
+  if (hovered && io.KeyCtrl) camera_.zoom(std::pow(1.12, static_cast<double>(io.MouseWheel)));
+  if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Middle)) camera_.reset();
+}
+
+void SpaceDrawing::choose() {
+  if (!begin_choice("view", "##view", "drag it with the right button")) return;
+  if (ImGui::Selectable("as it was at first")) camera_.reset();
+  if (ImGui::Selectable("from the front")) camera_.face(0, 0.03);
+  if (ImGui::Selectable("from the end")) camera_.face(1.5708, 0.03);
+  if (ImGui::Selectable("from above")) camera_.face(0, 1.54);
+  ImGui::EndCombo();
+}
+
+const char* SpaceDrawing::help() const {
+  return "Left button: pull the hand; wheel: nearer or farther. Arrow and page keys move it, space takes it "
+         "off. Right "
+         "button: turn the view; Ctrl + wheel: zoom; middle button: reset.";
+}
+const char* SpaceDrawing::hint() const {
+  return "left button: pull the hand, wheel: its depth · right button: turn the view, Ctrl + wheel: zoom, "
+         "middle: reset";
+}
+
+}  // namespace phantom

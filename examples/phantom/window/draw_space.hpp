@@ -1,0 +1,52 @@
+// A rod in space: lit, over a floor with its shadows, seen through a camera that turns about it.
+//
+// Depth is to be judged by three things: the shadow of rod and avatar on the floor straight below them, the line from the avatar
+// down to its shadow, and the distance of avatar and rod in figures.  All lengths are true to scale.
+#pragma once
+
+#include "../options.hpp"
+#include "drawing.hpp"
+#include "rod_line.hpp"
+#include "solids.hpp"
+
+namespace phantom {
+
+class SpaceDrawing final : public Drawing {
+ public:
+  /// @param body  of a rod, one that has not run
+  SpaceDrawing(const Body& body, const hapbeam::DeviceInfo& device);
+
+  void draw(ImDrawList& list, const Session::Picture& picture, const Eigen::Vector3d& target,
+            const ImVec2& low, const ImVec2& high, float unit) override;
+  Eigen::Vector3d device_position(const ImVec2& cursor, const Eigen::Vector3d& target) const override;
+  Eigen::Vector3d device_way(const Eigen::Vector3d& way) const override;
+  void look(bool hovered) override;
+  void choose() override;
+  const char* help() const override;
+  const char* hint() const override;
+
+ private:
+  using Vector = Eigen::Vector3d;
+  void aim(const ImVec2& low, const ImVec2& high);
+  void draw_floor(ImDrawList& list, float unit) const;
+  void draw_shadows(ImDrawList& list, const Vector& avatar, float unit) const;
+  void draw_ends(Solids& solids) const;
+  void draw_hanging(ImDrawList& list, float unit) const;
+  void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Vector& target,
+                 float unit) const;
+  void draw_legend(ImDrawList& list, const ImVec2& low, const ImVec2& high, float unit) const;
+  Vector on_floor(const Vector& p) const { return {p.x(), floor_, p.z()}; }
+
+  Options options_;
+  RodLine line_;
+  hapbeam::Placement placement_;
+  Vector workspace_;             // [m] scene, half of it
+  Vector low_, high_;            // [m] of what is looked at
+  double floor_ = 0, size_ = 1;  // [m]
+  double square_;                // [m] on the floor
+  double largest_strain_ = 1e-6;
+  bool orbits_ = false;
+  Camera camera_;
+};
+
+}  // namespace phantom
