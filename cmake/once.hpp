@@ -9,7 +9,10 @@
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
+#include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 #include <hapbeam/haptics/servo/servo.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
@@ -19,8 +22,10 @@
 #include "once/corotational.inc"
 #include "once/rare.inc"
 #include "once/reduced.inc"
+#include "once/round_rod.inc"
 #include "once/servo.inc"
 #include "once/svd.inc"
 #include "once/touch.inc"
+#include "once/twisted_rod.inc"
 #include "once/von_karman.inc"
 #undef HAPBEAM_ONCE

@@ -35,8 +35,9 @@ if [[ -n $folders ]]; then
   targets=("${names[@]/#/test_}") select=(-L "^($(IFS='|'; echo "${names[*]}"))$")
 fi
 
+# One test more than there are processors: those in real time wait for most of theirs.
 run_tests() {
-  (cd "$top" && ctest --preset "$preset" --parallel "$(nproc)" "${select[@]}") | grep -vE '^ +Start +[0-9]+:| +Passed +[0-9.]+ sec$'
+  (cd "$top" && ctest --preset "$preset" --parallel $(($(nproc) + 1)) "${select[@]}") | grep -vE '^ +Start +[0-9]+:| +Passed +[0-9.]+ sec$'
   return "${PIPESTATUS[0]}"
 }
 

@@ -46,9 +46,9 @@ function(hapbeam_compare_instructions name percent)
   set_tests_properties(instructions/${name} PROPERTIES LABELS instructions FIXTURES_REQUIRED instructions ${ARGN})
 endfunction()
 hapbeam_compare_instructions(no_more_than_before 100)
-# The comparison is able to fail, and sees what takes fewer.
-hapbeam_compare_instructions(more_than_before 94 PASS_REGULAR_EXPRESSION "more instructions a tick than .*PodModel: slides")
-hapbeam_compare_instructions(fewer_than_before 106 PASS_REGULAR_EXPRESSION "fewer instructions a tick: .*PodModel: slides")
+# The comparison is able to fail, and sees what takes fewer, wherever within 5 % a tick is.
+hapbeam_compare_instructions(more_than_before 90 PASS_REGULAR_EXPRESSION "more instructions a tick than .*PodModel: slides")
+hapbeam_compare_instructions(fewer_than_before 111 PASS_REGULAR_EXPRESSION "fewer instructions a tick: .*PodModel: slides")
 
 # After a run of instructions/count: its figures become those of this compiler.
 add_custom_target(instructions_write COMMAND ${compare} -D PERCENT=100 -D WRITE=ON -P ${script} VERBATIM)

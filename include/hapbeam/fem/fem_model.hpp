@@ -100,14 +100,7 @@ class FemModel {
   /// equilibrium are found together.  out_of_range: they touch nearer to a support than range() says.
   /// @return as press()
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
-  Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request) noexcept {
-    const bool valid = is_finite(request) && range_.on_beam(request.s);
-    Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid);
-    if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;
-    if (pushed.status == Status::ok && range().nearest({pushed.s, 0}).s != pushed.s)
-      pushed.status = Status::out_of_range;
-    return pushed;
-  }
+  Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request) noexcept;
 
   Centreline<Scalar, dimension> shape() const noexcept {
     return take(ways_, [](const auto& way) { return way.shape(); });
@@ -117,9 +110,7 @@ class FemModel {
   /// the pose is theirs.
   /// @return force and moment that takes, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
   template <class InSpace = Of>
-  HeldEnd<Scalar> hold(typename InSpace::Side side, const typename InSpace::Pose& pose) noexcept {
-    return std::get<General>(ways_).hold(side, pose);
-  }
+  HeldEnd<Scalar> hold(typename InSpace::Side side, const typename InSpace::Pose& pose) noexcept;
 
   /// Where press() answers with ok: press_range.hpp says how far that is.  A push() has no limit of depth.
   Range<Scalar> range() const noexcept { return range_.range(); }
@@ -231,6 +222,27 @@ Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Assembler, Sol
   const Response<Scalar> response = take(ways_, [&](auto& way) { return way.press(nearest, node, valid); });
   return finite(
       {response.force, response.status == Status::ok && !in_range ? Status::out_of_range : response.status});
+}
+
+template <class Element, typename Scalar, int Elements, int MaxElements,
+          template <typename, int, int, int> class Assembler, class Solver>
+template <class E, std::enable_if_t<any_rotation<E>, int>>
+auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::push(
+    const typename Of::template Round<Scalar>& request) noexcept -> Pushed<Scalar, dimension> {
+  const bool valid = is_finite(request) && range_.on_beam(request.s);
+  Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid);
+  if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;
+  if (pushed.status == Status::ok && range().nearest({pushed.s, 0}).s != pushed.s)
+    pushed.status = Status::out_of_range;
+  return pushed;
+}
+
+template <class Element, typename Scalar, int Elements, int MaxElements,
+          template <typename, int, int, int> class Assembler, class Solver>
+template <class InSpace>
+auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::hold(
+    typename InSpace::Side side, const typename InSpace::Pose& pose) noexcept -> HeldEnd<Scalar> {
+  return std::get<General>(ways_).hold(side, pose);
 }
 
 template <class Element, typename Scalar, int Elements, int MaxElements,

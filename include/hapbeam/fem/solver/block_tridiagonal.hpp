@@ -95,29 +95,7 @@ class BlockTridiagonal {
   }
 
   /// Factors and solves.  @return ok | singular | non_finite
-  Status solve() noexcept {
-    const int last = rows_.size() - 1, pairs = last / 2, middle = pairs;
-    Pivots p, q;
-    Front left{rows_[0].block, rows_[0].x}, right{rows_[last].block, rows_[last].x};
-    // An even number of nodes has one more on the right.
-    if (last % 2 != 0) eliminate<true>(last, right, q);
-    for (int k = 0; k < pairs; ++k) {
-      eliminate<false>(k, left, p);
-      eliminate<true>(2 * middle - k, right, q);
-    }
-    Vector x = join(rows_[middle], left, right, p), y = x;
-    for (int k = 1; k <= pairs; ++k) {
-      x = substitute<false>(middle - k, x);
-      y = substitute<true>(middle + k, y);
-    }
-    if (last % 2 != 0) substitute<true>(last, y);
-    energy_ = p.energy + q.energy;
-    if (held_energy_ > std::abs(energy_)) energy_ = held_energy_;
-    negative_pivots_ = p.negative + q.negative;
-    if (p.lowest <= 0 || q.lowest <= 0) return Status::singular;
-    const bool finite = std::isfinite(p.lowest) && std::isfinite(q.lowest) && std::isfinite(energy_);
-    return finite ? Status::ok : Status::non_finite;
-  }
+  Status solve() noexcept;
 
   /// xᵀKx of the last solve() [J]: the increment's length in the norm of the tangent, squared; negative where K is not
   /// positive along it.  No less than what the increment of hold() costs while all else stays: in two elements between
@@ -238,5 +216,31 @@ class BlockTridiagonal {
       Eigen::Matrix<Scalar, 3,
                     Block>::Zero();  // and the entries of the node before, of its own and of the node after
 };
+
+// Outside of the class: only so does "extern template class BlockTridiagonal<…>;" keep a compiler from it.
+template <typename Scalar, int Elements, int MaxElements, int Block>
+Status BlockTridiagonal<Scalar, Elements, MaxElements, Block>::solve() noexcept {
+  const int last = rows_.size() - 1, pairs = last / 2, middle = pairs;
+  Pivots p, q;
+  Front left{rows_[0].block, rows_[0].x}, right{rows_[last].block, rows_[last].x};
+  // An even number of nodes has one more on the right.
+  if (last % 2 != 0) eliminate<true>(last, right, q);
+  for (int k = 0; k < pairs; ++k) {
+    eliminate<false>(k, left, p);
+    eliminate<true>(2 * middle - k, right, q);
+  }
+  Vector x = join(rows_[middle], left, right, p), y = x;
+  for (int k = 1; k <= pairs; ++k) {
+    x = substitute<false>(middle - k, x);
+    y = substitute<true>(middle + k, y);
+  }
+  if (last % 2 != 0) substitute<true>(last, y);
+  energy_ = p.energy + q.energy;
+  if (held_energy_ > std::abs(energy_)) energy_ = held_energy_;
+  negative_pivots_ = p.negative + q.negative;
+  if (p.lowest <= 0 || q.lowest <= 0) return Status::singular;
+  const bool finite = std::isfinite(p.lowest) && std::isfinite(q.lowest) && std::isfinite(energy_);
+  return finite ? Status::ok : Status::non_finite;
+}
 
 }  // namespace hapbeam

@@ -67,7 +67,8 @@ struct PlainInnerProduct {
 class StiffnessInnerProduct {
  public:
   /// @throws std::invalid_argument unless K is positive definite
-  explicit StiffnessInnerProduct(const Eigen::MatrixXd& K) : factor_(K) {
+  template <class Derived>  // so that a program compiles Cholesky's factors only where it takes this product
+  explicit StiffnessInnerProduct(const Eigen::MatrixBase<Derived>& K) : factor_(K.derived()) {
     if (factor_.info() != Eigen::Success)
       throw std::invalid_argument("K: must be symmetric and positive definite");
   }
