@@ -17,7 +17,6 @@
 #include <utility>
 #include <vector>
 
-#include "contender_of.hpp"
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/rod.hpp>
 
@@ -162,11 +161,6 @@ class MujocoChain {
   std::unique_ptr<mjData, Free> data_;
   std::vector<mjtNum> rest_, applied_;
   int avatar_ = -1;
-};
-
-template <>
-class Touched<MujocoChain> final : public TouchedChain<MujocoChain> {
-  using TouchedChain::TouchedChain;
 };
 
 }  // namespace hapbeam::benchmarks
