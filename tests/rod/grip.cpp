@@ -174,7 +174,7 @@ TEST_CASE("a loop of the held end that closes takes no work", "[rod][grip]") {
 
 TEST_CASE("a hand that leans and twists on an end that it holds comes to rest", "[rod][grip]") {
   Random random(31);
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 16; ++i) {
     VirtualPhantomOptions who = six_axes();
     who.hand = {random(300, 1000), random(0, 2), random(0.05, 0.4)};
     const double square = grip_lever * grip_lever;
