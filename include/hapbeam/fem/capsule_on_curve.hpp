@@ -98,7 +98,7 @@ class CapsuleOnCurve {
     v.lever = along;
     v.distance = sqrt(v.w.squaredNorm());
     v.normal = v.distance > 0 ? Vector3(v.w / v.distance) : Vector3::Zero();
-    v.past_end = end_ != 0 && along == 0 && end_ * v.w.dot(v.u) > 0;
+    v.past_end = end_ != 0 && along == 0 && Scalar(end_) * v.w.dot(v.u) > 0;
     v.arm = (v.normal * v.f.dot(v.u) - v.f * v.normal.dot(v.u)) / v.length;
     return v;
   }
