@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -145,7 +146,12 @@ class TurningPlane {
     if (!drawn_) draw();
     return {nodes_.data(), static_cast<int>(nodes_.size())};
   }
-  Range<Scalar> range() const noexcept { return model_.range(); }
+  /// Where push() answers with ok: in depth without a limit where that of the planar model has none.
+  Range<Scalar> range() const noexcept {
+    Range<Scalar> range = model_.range();
+    if constexpr (any_direction) range.depth = range.slope = std::numeric_limits<Scalar>::infinity();
+    return range;
+  }
   Scalar thickness() const noexcept { return model_.thickness(); }
   Status release() noexcept {
     drawn_ = false;

@@ -49,3 +49,28 @@ TEST_CASE("five hundred random rods find their rest", "[rod]") {
   }
   CHECK(most <= 10000);  // LoadPath's own bound
 }
+
+// Its energy is round-off, of either sign, and Newton's increments are the round-off of places: eps |r| √(EA/l).
+TEST_CASE("a rod without stress answers a push that leaves it where it is", "[rod]") {
+  Random random(1);
+  int not_ok = 0;
+  double largest = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    Rod wire(0.2, RodSection::circle(0.001), spring_steel, RodSupport::clamped, RodSupport::free);
+    const auto direction = [&] { return detail::unit(Point(random(1.0), random(1.0), random(1.0))); };
+    const bool turned = trial % 2 != 0;
+    const Point along = turned ? direction() : Point(1, 0, 0);
+    if (turned)
+      wire.place_left({{random(0.1), random(0.1), random(0.1)}, along, detail::across(direction(), along)});
+    FemModel<RoundRod> model(wire, 8);
+    for (int k = 0; k < 5; ++k) {
+      const double s = random(0.02, 0.2);
+      const Point n = detail::across(direction(), along);
+      const auto response = model.push({s, n.dot(model.shape().at(s).r), n});
+      not_ok += response.status != Status::ok;
+      largest = std::max(largest, std::abs(response.force));
+    }
+  }
+  CHECK(not_ok == 0);
+  CHECK(largest <= 1e-9);  // of 4 N/mm at the clamp
+}

@@ -86,7 +86,7 @@ TEST_CASE("random ticks with jumps: never a pull, never a miss that is not said,
     check(wander(*rod, 0.005, 0.1, 1e-3, true, 10000), 0.05, 0.05);
   }
   FemModel<TwistedRod> bar(pressed_rod("bar_two_ways").rod, 8);
-  check(wander(bar, 0.02, 0.3, 5e-3, true, 5000), 0.02, 0.05);
+  check(wander(bar, 0.02, 0.3, 5e-3, true, 10000), 0.02, 0.05);
   // Nothing is left of all that.
   model.reset();
   Touch<FemModel<RoundRod>> touch(model, 0.005);

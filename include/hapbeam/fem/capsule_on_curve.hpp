@@ -8,11 +8,15 @@
 //   d²D = (|p|² - w·(θ×(θ×f)) - v·H⁻¹v - (n·p)²)/D + 2 (u·dτ)(n·(θ×f))/|τ|
 //   v   = (p·t - w·(θ×t), -p·a),   H = [t·t - w·k, -t·a; -t·a, a·a],   t = u + σk
 //
-// where σ and λ drop out of v and H as far as they do not move: σ at an end of the curve that the capsule has passed, λ at an end
-// of the axis.  So a sphere is a capsule without a length, and across a plane a capsule is what a circle is in it.
-// A force that keeps D acts along n through the point of contact.  Only the parabola is approximate, and that smallest rotations
-// around a loop add up to a spin, which is left out: the force is wrong by the third order in the distance from node to contact.
-// Real-time: noexcept, no allocation, O(1).
+// where σ and λ drop out of v and H as far as they do not move: σ at an end of the curve that the capsule has passed or of the piece
+// in which it is sought, λ at an end of the axis.  So a sphere is a capsule without a length, and across a plane a capsule is what a
+// circle is in it.  A force that keeps D acts along n through the point of contact.  Only the parabola is approximate, and that
+// smallest rotations around a loop add up to a spin, which is left out: the force is wrong by the third order in the distance from
+// node to contact.
+//
+// With the best λ at each σ, |w|²/2 has the slope -w·t and the second derivative |t|² - w·k, less (t·a)²/|a|² where λ moves.  Along an
+// axis that does not end that is at least half of what it is at the node, as far as σ is sought: there is one minimum.
+// Real-time: noexcept, no allocation; each step of the projection halves the one before or the bracket.
 #pragma once
 
 #include <algorithm>
@@ -31,14 +35,23 @@ class CapsuleOnCurve {
   using Node = RodNode<Scalar>;
 
  public:
-  /// Of curvature times distance: a sharper curve is taken for one that is as sharp as that.  At 1 the capsule touches it in two points.
+  /// Of curvature times distance, at which a curve is too sharp for this.  At 1 the capsule touches it in two points.
   static constexpr Scalar sharpest = Scalar(0.5);
 
   CapsuleOnCurve() = default;
   /// @param node  as it is   @param curvature  there, across its tangent [1/m]
   /// @param end  -1 or +1 where the curve begins or ends at the node, 0 within
   CapsuleOnCurve(const Shaft<Scalar>& axis, const Node& node, const Vector3& curvature, int end) noexcept
-      : axis_(axis), node_(node.r), direction_(unit(node.tangent)), curvature_(curvature), end_(end) {}
+      : axis_(axis), node_(node.r), direction_(unit(node.tangent)), curvature_(curvature), end_(end) {
+    using std::sqrt;
+    View v;
+    v.u = direction_, v.k = curvature_;
+    const Derivatives at_node = look(node, 0, v);
+    if (!(at_node.second > parallel)) return;
+    const Scalar squared = axis.way.squaredNorm(), farthest = sqrt(v.w.squaredNorm()) + sqrt(squared);
+    const Scalar third = v.slides ? 3 * std::abs(axis.way.dot(v.u) * axis.way.dot(v.k)) / squared : Scalar(0);
+    within_ = std::min({farthest, 1 / sqrt(curvature.squaredNorm()), at_node.second / (2 * third)});
+  }
 
   /// Whether the curve is too sharp for all this.  @param distance  from it [m]
   bool sharp(Scalar distance) const noexcept {
@@ -64,36 +77,28 @@ class CapsuleOnCurve {
     v.length = sqrt(node.tangent.squaredNorm());
     v.u = node.tangent / v.length;
     v.k = carry(curvature_, direction_, v.u);
-    const Scalar squared = axis_.way.squaredNorm();
-    Scalar place = axis_.nearest(node.r), along = 0;
-    for (int step = 0; step < 12; ++step) {
-      look(node, along, place, v);
-      const Scalar bend = v.w.dot(v.k), stiff = v.t.squaredNorm();
-      if (bend > sharpest * stiff) v.k *= sharpest * stiff / bend;
-      const Scalar g = -v.w.dot(v.t), h = v.w.dot(axis_.way), a = v.t.squaredNorm() - v.w.dot(v.k),
-                   b = -v.t.dot(axis_.way);
-      v.follows = !(end_ * along >= 0 && end_ != 0 && end_ * g <= 0);
-      v.slides = squared > 0 && !(place <= 0 && h >= 0) && !(place >= 1 && h <= 0);
-      const Scalar det = a * squared - b * b;
-      Scalar along_by = v.follows ? -g / a : Scalar(0), place_by = v.slides ? -h / squared : Scalar(0);
-      if (v.follows && v.slides && det > parallel * a * squared)
-        along_by = (b * h - squared * g) / det, place_by = (b * g - a * h) / det;
-      else if (v.follows && v.slides) v.follows = false, along_by = -along;
-      const Scalar before = along, was = place;
-      along += along_by;
-      if (end_ != 0 && end_ * along > 0) along = 0;
-      place = std::clamp(place + place_by, Scalar(0), Scalar(1));
-      const Scalar moved = std::abs(along - before) + std::abs(place - was) * sqrt(squared);
-      if (moved <= Scalar(1e-3) * std::sqrt(std::numeric_limits<Scalar>::epsilon()) * sqrt(v.w.squaredNorm()))
-        break;
+    const Scalar bottom = end_ < 0 ? Scalar(0) : -within_, top = end_ > 0 ? Scalar(0) : within_;
+    const Scalar fine = Scalar(1e-3) * sqrt(std::numeric_limits<Scalar>::epsilon());
+    Scalar along = 0, low = bottom, high = top, before = std::numeric_limits<Scalar>::infinity();
+    bool seen[2] = {false, false};  // what the slope is at bottom and top
+    for (int step = 0; step < most_steps; ++step) {
+      const Derivatives d = look(node, along, v);
+      const bool ahead = d.first < 0;
+      v.follows = along != (ahead ? top : bottom);
+      if (!v.follows) break;
+      (ahead ? low : high) = along;
+      const Scalar middle = (low + high) / 2;
+      Scalar next = d.second > 0 ? std::clamp(along - d.first / d.second, low, high) : middle;
+      if (next == (ahead ? top : bottom) && !seen[ahead]) seen[ahead] = true;
+      else if (!(std::abs(next - along) <= before / 2)) next = middle;
+      before = std::abs(next - along);
+      if (before <= fine * sqrt(v.w.squaredNorm())) break;
+      along = next;
     }
-    look(node, along, place, v);
-    // Where curve and axis are parallel beside an end of the axis, that end is touched.
-    v.slides = v.slides && place > 0 && place < 1;
     v.lever = along;
     v.distance = sqrt(v.w.squaredNorm());
     v.normal = v.distance > 0 ? Vector3(v.w / v.distance) : Vector3::Zero();
-    v.past_end = end_ != 0 && along == 0 && end_ * v.w.dot(v.u) > 0;
+    v.past_end = end_ != 0 && along == 0 && Scalar(end_) * v.w.dot(v.u) > 0;
     v.arm = (v.normal * v.f.dot(v.u) - v.f * v.normal.dot(v.u)) / v.length;
     return v;
   }
@@ -135,17 +140,31 @@ class CapsuleOnCurve {
 
  private:
   using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
-  /// Sine squared of the angle between curve and axis below which they count as parallel: the node itself is then touched.
+  /// Of the second derivative at the node: below that curve and axis count as parallel, and the node itself is touched.
   static constexpr Scalar parallel = Scalar(1e-3);
+  /// As many as halve any bracket to its last place.
+  static constexpr int most_steps = 2 * std::numeric_limits<Scalar>::digits;
 
-  void look(const Node& node, Scalar along, Scalar place, View& v) const noexcept {
+  /// Of |w|²/2 by σ.
+  struct Derivatives {
+    Scalar first, second;
+  };
+  Derivatives look(const Node& node, Scalar along, View& v) const noexcept {
     v.t = v.u + along * v.k;
     v.f = along * (v.u + along / 2 * v.k);
-    v.w = axis_.at(place) - node.r - v.f;
+    const Vector3 from_tip = node.r + v.f - axis_.tip;
+    const Scalar squared = axis_.way.squaredNorm();
+    const Scalar place = squared > 0 ? axis_.way.dot(from_tip) / squared : Scalar(0);
+    v.slides = place > 0 && place < 1;
+    v.w = std::clamp(place, Scalar(0), Scalar(1)) * axis_.way - from_tip;
+    const Scalar leaning = v.slides ? v.t.dot(axis_.way) : Scalar(0);
+    return {-v.w.dot(v.t),
+            v.t.squaredNorm() - v.w.dot(v.k) - (v.slides ? leaning * leaning / squared : Scalar(0))};
   }
 
   Shaft<Scalar> axis_{Vector3::Zero(), Vector3::Zero()};
   Vector3 node_ = Vector3::Zero(), direction_ = Vector3::UnitX(), curvature_ = Vector3::Zero();
+  Scalar within_ = 0;  // [m] of the node: there σ is sought
   int end_ = 0;
 };
 

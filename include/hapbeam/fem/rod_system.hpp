@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/rod_contact.hpp>
@@ -47,6 +48,7 @@ class RodSystem {
         ends_{detail::RodEnd<Scalar>(rod.left(), node(0)),
               detail::RodEnd<Scalar>(rod.right(), node(elements))},
         length_(static_cast<Scalar>(rod.length())),
+        axial_(static_cast<Scalar>(rod.stiffness().axial)),
         unit_(static_cast<Scalar>(
             std::sqrt(std::min(rod.stiffness().bending1, rod.stiffness().bending2) / rod.length()))) {
     if (rod.right_pose()) ends_[1].place(*rod.right_pose());
@@ -158,6 +160,14 @@ class RodSystem {
   }
   Scalar size() const noexcept { return size_; }
   Scalar unit() const noexcept { return unit_; }
+  /// |Δ| of an increment that is the round-off of places, which stretches the shortest element [√J].
+  Scalar round_off() const noexcept {
+    const int n = elements();
+    const Scalar shortest = std::min(mesh().position(1), length_ - mesh().position(n - 1)),
+                 farthest = std::sqrt(node(0).r.squaredNorm()) + length_;
+    return std::numeric_limits<Scalar>::epsilon() * farthest *
+           std::sqrt(axial_ * static_cast<Scalar>(n) / shortest);
+  }
 
   /// The tangent holds what the contact's force makes of a capsule, on the way down as well: there a rod slips around a sphere.
   void forget_force() noexcept {}
@@ -195,7 +205,7 @@ class RodSystem {
       if (own_axes(e + 1)) transform(e + 1, unknowns, r, K);
       assembler_.add(e, K, r);
     });
-    size_ = std::sqrt(2 * energy);
+    size_ = std::sqrt(2 * std::max(energy, Scalar(0)));  // of a rod without stress round-off has either sign
     potential_ = energy - work;
     for (std::size_t k = 0; k < 2; ++k) {
       prescribed_[k].setZero();
@@ -407,7 +417,7 @@ class RodSystem {
   Increment prescribed_[2] = {Increment::Zero(), Increment::Zero()};
   detail::RodContact<Scalar> contact_;
   Scalar moves_ = 0;
-  Scalar length_;
+  Scalar length_, axial_;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;
   Scalar size_ = 0, potential_ = 0, inner_energy_ = 0, linear_reaction_ = 0, saved_reaction_ = 0, unit_;

@@ -1,0 +1,40 @@
+// Models in space as ForceModels: pushed along one direction each keeps the contract of a planar one.
+#include "conformance/force_model_suite.hpp"
+#include "rod/rods.hpp"
+#include "support/catch.hpp"
+#include "support/pushed_along.hpp"
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/turning_plane.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+const Point across{0, 0.6, 0.8};
+
+Rod straight(const RodSupport& left, const RodSupport& right) {
+  return {0.5, RodSection::circle(0.005), spring_steel, left, right};
+}
+
+template <class Model>
+void check(const Model& model, const Point& normal = across) {
+  check_force_model([&] { return PushedAlong<Model>(model, normal); });
+}
+
+}  // namespace
+
+TEST_CASE("a rod keeps the contract of a ForceModel", "[contract][rod]") {
+  const RodSupport c = RodSupport::clamped, f = RodSupport::free, h = RodSupport::hinged;
+  SECTION("without twist, as a cantilever") { check(FemModel<RoundRod>(straight(c, f), 8)); }
+  SECTION("without twist, between hinges") { check(FemModel<RoundRod>(straight(h, h), 8)); }
+  SECTION("with twist, between clamps") { check(FemModel<TwistedRod>(straight(c, c), 8)); }
+  SECTION("with twist, as a cantilever") { check(FemModel<TwistedRod>(straight(c, f), 8)); }
+}
+
+TEST_CASE("a planar model that turns keeps the contract of a ForceModel", "[contract][rod]") {
+  const Rod rod = straight(RodSupport::clamped, RodSupport::free);
+  const Beam beam = beam_in_any_plane(rod);
+  SECTION("pressed") { check(TurningPlane<FemModel<>>(rod, FemModel<>(beam, 8))); }
+  SECTION("pushed") { check(TurningPlane<FemModel<Corotational<>>>(rod, {beam, 8})); }
+}
