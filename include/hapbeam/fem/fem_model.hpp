@@ -101,12 +101,13 @@ class FemModel {
   /// @return as press()
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request) noexcept {
-    const bool valid = is_finite(request) && range_.on_beam(request.s);
-    Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid);
-    if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;
-    if (pushed.status == Status::ok && range().nearest({pushed.s, 0}).s != pushed.s)
-      pushed.status = Status::out_of_range;
-    return pushed;
+    return push_round(request, nullptr);
+  }
+  /// The same with friction.  @param grip  of the touch: grip.hpp
+  template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
+  Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request,
+                                 Grip<Scalar, dimension>& grip) noexcept {
+    return push_round(request, &grip);
   }
 
   Centreline<Scalar, dimension> shape() const noexcept {
@@ -199,6 +200,16 @@ class FemModel {
     const Scalar d = (request.d - request.normal.x() * u) / n_w;
     const Response<Scalar> across = solve({s, d, {0, 1}}, valid && std::isfinite(d), s == request.s);
     return finite({across.force / n_w, across.status});
+  }
+  template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
+  Pushed<Scalar, dimension> push_round(const typename Of::template Round<Scalar>& request,
+                                       Grip<Scalar, dimension>* grip) noexcept {
+    const bool valid = is_finite(request) && range_.on_beam(request.s);
+    Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid, grip);
+    if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;
+    if (pushed.status == Status::ok && range().nearest({pushed.s, 0}).s != pushed.s)
+      pushed.status = Status::out_of_range;
+    return pushed;
   }
   static Response<Scalar> finite(const Response<Scalar>& response) noexcept {
     return std::isfinite(response.force) ? response : Response<Scalar>{0, Status::non_finite};
