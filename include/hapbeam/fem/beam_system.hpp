@@ -126,13 +126,17 @@ class BeamSystem {
     touched_ = round;
     const Scalar per_length = unit_ / length_;
     grip_.begin(grip, first, round.reach,
-                per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()), length_ / 1000, normal_force);
+                per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()), length_ / 1000,
+                normal_force);
   }
   void let_slip() noexcept { grip_.off(); }
-  /// As the state is now.
-  detail::GripLaw<Scalar, 2>& grip() noexcept {
-    look_at_grip();
-    return grip_;
+  detail::GripLaw<Scalar, 2>& grip() noexcept { return grip_; }
+  /// To be called where the beam has moved.
+  void look_at_grip() noexcept {
+    const int c = contact_.node();
+    const detail::RoundContact<Scalar> seen{touched_};
+    grip_.look(contact_.round() ? seen.place(contact_.view(node(c)), node(c))
+                                : seen.place(contact_.normal(), node(c)));
   }
 
   // What AllDisplacements asks beyond a system.
@@ -313,12 +317,6 @@ class BeamSystem {
   Scalar contact_displacement() noexcept {
     contact_.look(node(contact_.node()), force_);
     return contact_.displacement();
-  }
-  void look_at_grip() noexcept {
-    const int c = contact_.node();
-    const detail::RoundContact<Scalar> seen{touched_};
-    grip_.look(contact_.round() ? seen.place(contact_.view(node(c)), node(c))
-                                : seen.place(contact_.normal(), node(c)));
   }
   void begin_path() noexcept {
     start_load_ = load_;

@@ -61,13 +61,15 @@ class GripLaw {
     now_ = first;
     shear();
     // A hand that hurries slides: what stuck to it would be torn along.
-    far_ = norm(sheared_);
-    const bool hurries = far_ > hurry;
+    far_shear_ = sheared_;
+    const Scalar far = norm(sheared_);
+    const bool hurries = far > hurry;
     slides_ = !known_ || ((grip.slides || hurries) && bound_ > 0);
-    if (slides_) aim(sheared_, hurries ? far_ : grip.slip);
+    if (slides_) aim(sheared_, hurries ? far : grip.slip);
     // In its first tick a contact slides without friction to where the touch begins.
     fallen_ = !known_;
     if (fallen_) bound_ = used_ = 0;
+    let_go_ = slides_;
     tries_ = 0;
     pairs_ = false;
   }
@@ -123,9 +125,9 @@ class GripLaw {
     torn_ = false;
     if (!slides_) {
       if (!pulls && size <= sticking_ * normal_force) return true;
-      slides_ = torn_ = true;
+      slides_ = torn_ = let_go_ = true;
       used_ = bound_ = before_bound_ > 0 ? before_bound_ : most;
-      aim(elastic, far_);
+      aim(elastic, norm(far_shear_));
       pairs_ = false;
       return false;
     }
@@ -144,7 +146,15 @@ class GripLaw {
     return false;
   }
 
-  /// Whether what was found stuck too fast: the way from there is long, and leads from the state before the push.
+  /// Whether it sticks, and has not slid in this push.
+  bool holds() const noexcept { return on_ && !slides_ && !let_go_; }
+  /// To be called where what sticks has no equilibrium near: a hand that pushes a beam along itself has no end of force.
+  void tear() noexcept {
+    slides_ = torn_ = let_go_ = true;
+    used_ = bound_ = before_bound_;
+    aim(far_shear_, norm(far_shear_));
+  }
+  /// Whether it stuck too fast: the way from there is long, and leads from the state before the push.
   bool torn() const noexcept { return torn_; }
 
   /// What the touch remembers of it.  @param normal_force  [N]
@@ -227,12 +237,12 @@ class GripLaw {
     }
   }
 
-  bool on_ = false, known_ = false, slides_ = false, fallen_ = false, torn_ = false;
+  bool on_ = false, known_ = false, slides_ = false, fallen_ = false, torn_ = false, let_go_ = false;
   Place before_, now_;
   Vector skin_ = Vector::Zero(), carried_ = Vector::Zero(), sheared_ = Vector::Zero();
-  Vector force_ = Vector::Zero(), direction_ = Vector::Zero();
+  Vector force_ = Vector::Zero(), direction_ = Vector::Zero(), far_shear_ = Vector::Zero();
   Scalar reach_ = 0, stiffness_ = 0, damping_ = 0, sticking_ = 0, sliding_ = 0, gain_ = 0;
-  Scalar bound_ = 0, used_ = 0, before_bound_ = 0, length_ = 1, far_ = 0;
+  Scalar bound_ = 0, used_ = 0, before_bound_ = 0, length_ = 1;
   Scalar pair_bound_ = 0, pair_force_ = 0;
   bool pairs_ = false;
   int tries_ = 0;

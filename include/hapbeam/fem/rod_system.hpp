@@ -146,13 +146,17 @@ class RodSystem {
     touched_ = round;
     const Scalar per_length = unit_ / length_;
     grip_.begin(grip, first, round.reach,
-                per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()), length_ / 1000, normal_force);
+                per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()), length_ / 1000,
+                normal_force);
   }
   void let_slip() noexcept { grip_.off(); }
-  /// As the state is now.
-  detail::GripLaw<Scalar, 3>& grip() noexcept {
-    look_at_grip();
-    return grip_;
+  detail::GripLaw<Scalar, 3>& grip() noexcept { return grip_; }
+  /// To be called where the beam has moved.
+  void look_at_grip() noexcept {
+    const int c = contact_.node();
+    const detail::RodRoundContact<Scalar> seen{touched_};
+    grip_.look(contact_.round() ? seen.place(contact_.view(node(c)), node(c))
+                                : seen.place(contact_.normal(), node(c)));
   }
 
   // What NewtonRaphson asks of a system.
@@ -364,12 +368,6 @@ class RodSystem {
     return contact_.displacement();
   }
 
-  void look_at_grip() noexcept {
-    const int c = contact_.node();
-    const detail::RodRoundContact<Scalar> seen{touched_};
-    grip_.look(contact_.round() ? seen.place(contact_.view(node(c)), node(c))
-                                : seen.place(contact_.normal(), node(c)));
-  }
   void begin_path() noexcept {
     start_load_ = load_;
     for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));

@@ -104,8 +104,12 @@ class RoundPush {
   }
   /// What is no answer says nothing of where they touch: friction begins anew.
   static void end(System& system, const Result& pushed, Grip& grip) noexcept {
-    if (is_answer(pushed.status) && pushed.force < 0) system.grip().leave(grip, -pushed.force);
-    else grip.let_go();
+    if (is_answer(pushed.status) && pushed.force < 0) {
+      system.look_at_grip();
+      system.grip().leave(grip, -pushed.force);
+    } else {
+      grip.let_go();
+    }
     system.let_slip();
   }
 
@@ -157,8 +161,16 @@ class RoundPush {
 
     // Whether Coulomb's law holds.
     const auto agrees = [&](const Response<Scalar>& found) {
-      if (!grip || !is_answer(found.status) || system.grip().settled(-found.force)) return true;
-      if (system.grip().torn()) {
+      if (!grip) return true;
+      auto& law = system.grip();
+      if (is_answer(found.status)) {
+        system.look_at_grip();
+        if (law.settled(-found.force)) return true;
+      } else {
+        if (!law.holds()) return true;
+        law.tear();
+      }
+      if (law.torn()) {
         system.set_state(before_mesh_, before_);
         system.remesh(mesh);
       }
@@ -187,7 +199,9 @@ class RoundPush {
         way.to_rest();
         system.remesh(mesh);
       }
-      do response = way.settle(last, slack, aim);
+      do
+        response = grip && system.grip().holds() && !way.descending_ ? way.settle_at_once(slack, aim)
+                                                                     : way.settle(last, slack, aim);
       while (!agrees(response));
     }
 
@@ -208,7 +222,7 @@ class RoundPush {
   }
 
   std::conditional_t<planar, Foresight<System>, NoForesight> foresight_;
-  bool sharp_ = false;  // where the last circle touched
+  bool sharp_ = false;               // where the last circle touched
   typename System::State before_;    // before a push with friction
   ContactMesh<Scalar> before_mesh_;  // of it
 };
