@@ -62,10 +62,10 @@ class GripLaw {
     shear();
     // A hand that hurries slides: what stuck to it would be torn along.
     far_shear_ = sheared_;
-    const Scalar far = norm(sheared_);
+    const Scalar far = norm(sheared_ - carried_);
     const bool hurries = far > hurry;
     slides_ = !known_ || ((grip.slides || hurries) && bound_ > 0);
-    if (slides_) aim(sheared_, hurries ? far : grip.slip);
+    if (slides_) aim(sheared_, hurries ? norm(sheared_) : grip.slip);
     // In its first tick a contact slides without friction to where the touch begins.
     fallen_ = !known_;
     if (fallen_) bound_ = used_ = 0;
