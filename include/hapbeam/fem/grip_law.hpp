@@ -65,11 +65,11 @@ class GripLaw {
     const Scalar far = norm(sheared_ - carried_);
     const bool hurries = far > hurry;
     slides_ = !known_ || ((grip.slides || hurries) && bound_ > 0);
-    if (slides_) aim(sheared_, hurries ? norm(sheared_) : grip.slip);
+    if (slides_) aim(sheared_, std::max(norm(sheared_), grip.slip));
     // In its first tick a contact slides without friction to where the touch begins.
     fallen_ = !known_;
     if (fallen_) bound_ = used_ = 0;
-    let_go_ = slides_;
+    slid_ = slides_, stuck_ = !slides_;
     tries_ = 0;
     pairs_ = false;
   }
@@ -125,7 +125,8 @@ class GripLaw {
     torn_ = false;
     if (!slides_) {
       if (!pulls && size <= sticking_ * normal_force) return true;
-      slides_ = torn_ = let_go_ = true;
+      slides_ = slid_ = true;
+      torn_ = pulls || size > 2 * sticking_ * normal_force;
       used_ = bound_ = before_bound_ > 0 ? before_bound_ : most;
       aim(elastic, norm(far_shear_));
       pairs_ = false;
@@ -142,19 +143,28 @@ class GripLaw {
     const Scalar off = (elastic * (most / size) - force_at(used_)).norm();
     if (off <= exact * most) return true;
     bound_ = std::max(Scalar(0), used_ + (most - used_) / rate());
-    aim(elastic, d.dot(sheared_));
+    aim(elastic, norm(sheared_));
     return false;
   }
 
-  /// Whether it sticks, and has not slid in this push.
-  bool holds() const noexcept { return on_ && !slides_ && !let_go_; }
-  /// To be called where what sticks has no equilibrium near: a hand that pushes a beam along itself has no end of force.
-  void tear() noexcept {
-    slides_ = torn_ = let_go_ = true;
-    used_ = bound_ = before_bound_;
+  /// Whether it slides without friction.
+  bool falls() const noexcept { return fallen_; }
+  /// To be called where no equilibrium is near.  A hand that pushes a beam along itself has no end of force while it sticks, and a beam that
+  /// hardly slides has none while it slides: each way is tried once.
+  /// @return whether there is another way to try; else it slides
+  bool turn() noexcept {
+    torn_ = true;
+    if (slides_ && !fallen_ && !stuck_) {
+      slides_ = false, stuck_ = true;
+      return true;
+    }
+    const bool another = !slides_ && !slid_;
+    slides_ = slid_ = true;
+    used_ = bound_ = fallen_ ? Scalar(0) : before_bound_;
     aim(far_shear_, norm(far_shear_));
+    return another;
   }
-  /// Whether it stuck too fast: the way from there is long, and leads from the state before the push.
+  /// Whether what was found is far: the way from there is long, and leads from the state before the push.
   bool torn() const noexcept { return torn_; }
 
   /// What the touch remembers of it.  @param normal_force  [N]
@@ -207,9 +217,9 @@ class GripLaw {
     const Vector d = across(direction_);
     return bound * d + aside(bound) * (sheared_ - d * d.dot(sheared_));
   }
-  /// The gain, from two equilibria of different bounds.
+  /// The gain, from two equilibria of different bounds.  In space directions change it more.
   void learn(Scalar normal_force) noexcept {
-    if (pairs_ && std::abs(used_ - pair_bound_) > Scalar(1e-3) * used_)
+    if (D == 2 && pairs_ && std::abs(used_ - pair_bound_) > Scalar(1e-3) * used_)
       gain_ = std::clamp((normal_force - pair_force_) / (used_ - pair_bound_), Scalar(-4), Scalar(4));
     pairs_ = true;
     pair_bound_ = used_, pair_force_ = normal_force;
@@ -237,7 +247,8 @@ class GripLaw {
     }
   }
 
-  bool on_ = false, known_ = false, slides_ = false, fallen_ = false, torn_ = false, let_go_ = false;
+  bool on_ = false, known_ = false, slides_ = false, fallen_ = false, torn_ = false, slid_ = false,
+       stuck_ = false;
   Place before_, now_;
   Vector skin_ = Vector::Zero(), carried_ = Vector::Zero(), sheared_ = Vector::Zero();
   Vector force_ = Vector::Zero(), direction_ = Vector::Zero(), far_shear_ = Vector::Zero();

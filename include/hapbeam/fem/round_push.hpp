@@ -159,6 +159,8 @@ class RoundPush {
       }
     };
 
+    // With friction what is near is tried first; `all` of the way may be a fall.
+    bool all = !grip || way.descending_ || system.grip().falls();
     // Whether Coulomb's law holds.
     const auto agrees = [&](const Response<Scalar>& found) {
       if (!grip) return true;
@@ -167,8 +169,8 @@ class RoundPush {
         system.look_at_grip();
         if (law.settled(-found.force)) return true;
       } else {
-        if (!law.holds()) return true;
-        law.tear();
+        if (all) return true;
+        all = !law.turn();
       }
       if (law.torn()) {
         system.set_state(before_mesh_, before_);
@@ -181,7 +183,7 @@ class RoundPush {
     bool past_end = false;
     if (foreseen) {
       do response = way.settle_at_once(slack, aim);
-      while (!agrees(response));
+      while (!agrees(response) && !all);
       foreseen = response.status == Status::ok;
       if (!foreseen) {
         foresight_.go_back(system, last);
@@ -199,9 +201,7 @@ class RoundPush {
         way.to_rest();
         system.remesh(mesh);
       }
-      do
-        response = grip && system.grip().holds() && !way.descending_ ? way.settle_at_once(slack, aim)
-                                                                     : way.settle(last, slack, aim);
+      do response = all ? way.settle(last, slack, aim) : way.settle_at_once(slack, aim);
       while (!agrees(response));
     }
 
