@@ -13,6 +13,7 @@
 #include <hapbeam/contact/find_contact.hpp>
 #include <hapbeam/contact/press_contact.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/friction.hpp>
 
 namespace hapbeam::detail {
 
@@ -25,7 +26,18 @@ class PushContact {
   /// Farther than this from where they touch, in units of reach, the contact has not been found.
   static constexpr Scalar far = Scalar(1e-2);
 
-  void begin(const Contact<Scalar, D>&) noexcept { slid_ = before_ = 0; }
+  void begin(const Contact<Scalar, D>&) noexcept {
+    slid_ = before_ = 0;
+    grip_.begin();
+  }
+  /// Of the touch, where there is friction.
+  FrictionState<Scalar, D>& grip() noexcept { return grip_; }
+  const FrictionState<Scalar, D>& grip() const noexcept { return grip_; }
+  /// Of friction on the hand [N], no more than its share of a normal force.
+  Vector friction(Scalar normal_force) const noexcept {
+    const Scalar most = grip_.sticking * normal_force, size = std::sqrt(grip_.force.squaredNorm());
+    return size > most ? Vector(grip_.force * (-most / size)) : Vector(-grip_.force);
+  }
 
   /// As PressContact::hold(); contact comes back as it is on the new shape.  out_of_range: the circle touches at two points,
   /// and force and shape are those of one.
@@ -61,10 +73,16 @@ class PushContact {
 
  private:
   template <class Model>
-  static Pushed<Scalar, D> push(Model& model, Scalar s, const Avatar<Scalar, D>& avatar, Scalar reach,
-                                const Contact<Scalar, D>& contact) noexcept {
-    if constexpr (D == 2) return model.push({s, avatar.position, reach, static_cast<Scalar>(contact.side)});
-    else return model.push(Capsule<Scalar>{s, avatar.axis(), reach, contact.normal});
+  Pushed<Scalar, D> push(Model& model, Scalar s, const Avatar<Scalar, D>& avatar, Scalar reach,
+                         const Contact<Scalar, D>& contact) noexcept {
+    const auto request = [&] {
+      if constexpr (D == 2)
+        return Circle<Scalar>{s, avatar.position, reach, static_cast<Scalar>(contact.side)};
+      else return Capsule<Scalar>{s, avatar.axis(), reach, contact.normal};
+    };
+    if constexpr (takes_friction<Model>)
+      if (grip_.sticking > 0) return model.push(request(), grip_);
+    return model.push(request());
   }
   static Vector place(const Centreline<Scalar, D>& line, Scalar s) noexcept {
     const auto at = line.at(s);
@@ -81,6 +99,7 @@ class PushContact {
     return false;
   }
 
+  FrictionState<Scalar, D> grip_;
   Scalar slid_ = 0,
          before_ = 0;  // how far the point went while the beam yielded, in the last tick and before [m]
 };

@@ -19,6 +19,7 @@
 #include <hapbeam/contact/push_contact.hpp>
 #include <hapbeam/contact/support_contact.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/friction.hpp>
 
 namespace hapbeam {
 
@@ -30,6 +31,9 @@ struct TouchResult {
   VectorOf<Scalar, D> force = VectorOf<Scalar, D>::Zero();
   Status status = Status::ok;  ///< of the press; invalid_request for a position that is not finite
   bool pressing = false;       ///< the hand holds the beam; read this, not contact.touching
+  bool sliding = false;        ///< with friction: the contact slides, else it sticks
+  Scalar dissipated = 0;       ///< [J] by friction, since the touch began
+  VectorOf<Scalar, D> friction = VectorOf<Scalar, D>::Zero();  ///< [N] what of the force is tangential
   Contact<Scalar, D>
       contact;  ///< on the shape before this tick's press; segment -1: out of reach, or not finite
   Press<Scalar> press{0,
@@ -53,9 +57,10 @@ class Touch {
   using Vector = VectorOf<Scalar, dimension>;
   using Result = TouchResult<Scalar, dimension>;
 
-  /// @param model   kept by reference   @param avatar_radius  [m]
-  /// Allocates.   @throws std::invalid_argument unless avatar_radius is 0 to most_radius lengths of the beam
-  Touch(Model& model, Scalar avatar_radius)
+  /// @param model   kept by reference   @param avatar_radius  [m]   @param friction  none unless it is given
+  /// Allocates.   @throws std::invalid_argument unless avatar_radius is 0 to most_radius lengths of the beam, and the
+  /// friction one that the model offers
+  Touch(Model& model, Scalar avatar_radius, const Friction& friction = {})
       : model_(model), avatar_radius_(avatar_radius), volumes_(model.shape().segments()) {
     const double radius = static_cast<double>(avatar_radius);
     const double largest = most_radius * static_cast<double>(model.shape().length());
@@ -66,6 +71,12 @@ class Touch {
                     largest);
       throw std::invalid_argument(text);
     }
+    friction.check();
+    if (!takes_friction<Model> && !friction.none())
+      detail::reject("friction", friction.sticking, "",
+                     "0 for a model that is pressed across the beam: see docs/friction.md");
+    pusher_.grip().sticking = static_cast<Scalar>(friction.sticking);
+    pusher_.grip().sliding = static_cast<Scalar>(friction.sliding);
     reset();
   }
 
@@ -93,6 +104,14 @@ class Touch {
   }
 
   [[nodiscard]] bool pressing() const noexcept { return pressing_; }
+  /// Whether there is friction.
+  [[nodiscard]] bool rough() const noexcept { return takes_friction<Model> && pusher_.grip().sticking > 0; }
+  /// Where there is friction, the avatar's skin yields along the surface: a hand that cannot render what is stiffer.  From then on.
+  /// @param stiffness  [N/m] positive   @param damping  [N/m] of a damper, N·s/m over the time of a tick
+  void soften(Scalar stiffness, Scalar damping) noexcept {
+    pusher_.grip().stiffness = stiffness;
+    pusher_.grip().damping = damping;
+  }
   /// Nothing is left of the last touch: the beam is at rest, and whoever comes next touches it anew.
   [[nodiscard]] bool resting() const noexcept { return !pressing_ && !falling_ && !inside_; }
 
@@ -127,6 +146,13 @@ class Touch {
     if (inside_) return {};
     auto memory = memory_;
     return find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory);
+  }
+  void feel_friction(Result& result, Scalar normal_force) const noexcept {
+    if (across_ || on_support_ || !std::isfinite(normal_force)) return;
+    result.friction = pusher_.friction(normal_force);
+    result.force += result.friction;
+    result.sliding = pusher_.grip().slides;
+    result.dissipated = pusher_.grip().dissipated;
   }
 
   /// Fitted to the present shape.  A touch that goes on seldom needs them.
@@ -284,6 +310,7 @@ auto Touch<Model>::tick(const Avatar& avatar) noexcept -> Result {
   result.pressing = true;
   if (std::isfinite(held.force)) result.force = contact.normal * held.force;
   else result.status = Status::non_finite;
+  if (rough()) feel_friction(result, held.force);
   return result;
 }
 

@@ -37,6 +37,7 @@ class ContactPoint {
   bool holds(int node) const noexcept { return node == node_; }
   const Vector2<Scalar>& normal() const noexcept { return normal_; }
 
+  bool round() const noexcept { return round_; }
   /// How a circle lies to a node.
   typename CircleOnCurve<Scalar>::View view(const Node& node) const noexcept { return circle_.at(node); }
 

@@ -100,7 +100,15 @@ class FemModel {
   /// equilibrium are found together.  out_of_range: they touch nearer to a support than range() says.
   /// @return as press()
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
-  Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request) noexcept;
+  Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request) noexcept {
+    return push_round(request, nullptr);
+  }
+  /// The same with friction.  @param grip  of the touch: friction.hpp
+  template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
+  Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request,
+                                 FrictionState<Scalar, dimension>& grip) noexcept {
+    return push_round(request, &grip);
+  }
 
   Centreline<Scalar, dimension> shape() const noexcept {
     return take(ways_, [](const auto& way) { return way.shape(); });
@@ -192,6 +200,9 @@ class FemModel {
     const Response<Scalar> across = solve({s, d, {0, 1}}, valid && std::isfinite(d), s == request.s);
     return finite({across.force / n_w, across.status});
   }
+  template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
+  Pushed<Scalar, dimension> push_round(const typename Of::template Round<Scalar>& request,
+                                       FrictionState<Scalar, dimension>* grip) noexcept;
   static Response<Scalar> finite(const Response<Scalar>& response) noexcept {
     return std::isfinite(response.force) ? response : Response<Scalar>{0, Status::non_finite};
   }
@@ -227,10 +238,11 @@ Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Assembler, Sol
 template <class Element, typename Scalar, int Elements, int MaxElements,
           template <typename, int, int, int> class Assembler, class Solver>
 template <class E, std::enable_if_t<any_rotation<E>, int>>
-auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::push(
-    const typename Of::template Round<Scalar>& request) noexcept -> Pushed<Scalar, dimension> {
+auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::push_round(
+    const typename Of::template Round<Scalar>& request, FrictionState<Scalar, dimension>* grip) noexcept
+    -> Pushed<Scalar, dimension> {
   const bool valid = is_finite(request) && range_.on_beam(request.s);
-  Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid);
+  Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid, grip);
   if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;
   if (pushed.status == Status::ok && range().nearest({pushed.s, 0}).s != pushed.s)
     pushed.status = Status::out_of_range;

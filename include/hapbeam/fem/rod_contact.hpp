@@ -30,6 +30,7 @@ class RodContact {
 
   int node() const noexcept { return node_; }  ///< -1: there is no contact
   bool holds(int node) const noexcept { return node == node_; }
+  bool round() const noexcept { return round_; }
   /// How a capsule lies to a node.
   auto view(const Node& node) const noexcept { return capsule_.at(node); }
 
@@ -58,6 +59,7 @@ class RodContact {
     node.r += (d + view.distance) * view.normal;
   }
 
+  Vector3 normal() const noexcept { return Vector3(axes_.col(2)); }
   /// Two directions across n, and n.
   const Matrix3& axes() const noexcept { return axes_; }
   /// ∂d/∂r' [m], in space.

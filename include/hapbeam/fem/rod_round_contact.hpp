@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <hapbeam/fem/capsule_on_curve.hpp>
+#include <hapbeam/fem/friction_law.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
@@ -18,6 +19,7 @@ struct RodRoundContact {
   using Law = CapsuleOnCurve<Scalar>;
   using View = typename Law::View;
   const Capsule<Scalar>& capsule;
+  const Capsule<Scalar>& request() const noexcept { return capsule; }
 
   Law beside(const Centreline<Scalar, 3>& line, int node, int end) const noexcept {
     return {capsule.axis, line[node], line.curvature(node), end};
@@ -36,6 +38,15 @@ struct RodRoundContact {
   }
   Scalar ahead(const View& view) const noexcept { return view.lever / view.length; }
   Vector point(const View& view, const Node& node) const noexcept { return node.r + view.f; }
+  /// For friction, beside a node.
+  FrictionPlace<Scalar, 3> place(const View& view, const Node& node) const noexcept {
+    return place(node.s + ahead(view), view.normal, unit(view.t), node.r + view.f + view.w);
+  }
+  FrictionPlace<Scalar, 3> place(const Vector& n, const Node& node) const noexcept {
+    const Vector on_axis = capsule.axis.at(capsule.axis.nearest(node.r));
+    return place(node.s + node.tangent.dot(on_axis - node.r) / node.tangent.squaredNorm(), n,
+                 unit(node.tangent), on_axis);
+  }
   Scalar miss(const Vector& n, const Node& node) const noexcept {
     using std::sqrt;
     const Vector way = capsule.axis.at(capsule.axis.nearest(node.r)) - node.r;
@@ -49,6 +60,15 @@ struct RodRoundContact {
     const int i = line.segment_at(s);
     const RodPoint<Scalar> at = line.at(i, s);
     return {s, at.r, at.tangent, line[i].director};
+  }
+
+ private:
+  FrictionPlace<Scalar, 3> place(Scalar s, const Vector& n, const Vector& along,
+                             const Vector& on_axis) const noexcept {
+    const Scalar squared = capsule.axis.way.squaredNorm();
+    if (!(squared > 0)) return {s, n, along, 0, Vector::Zero()};
+    const Vector axis = capsule.axis.way / std::sqrt(squared);
+    return {s, n, along, axis.dot(on_axis - capsule.axis.tip), axis};
   }
 };
 

@@ -139,6 +139,28 @@ class RodSystem {
   /// How that capsule lies to the contact's node.
   auto contact() const noexcept { return contact_.view(node(contact_.node())); }
 
+  // What RoundPush asks where there is friction.
+
+  /// The next goals are those of a touch with friction, until let_slip().
+  /// @param first  where it begins, if it does   @param normal_force  of the last tick [N]
+  void take_friction(const FrictionState<Scalar, 3>& grip, const Capsule<Scalar>& round,
+                 const detail::FrictionPlace<Scalar, 3>& first, Scalar normal_force) noexcept {
+    touched_ = round;
+    const Scalar per_length = unit_ / length_;
+    grip_.begin(grip, first, round.reach,
+                per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()), length_ / 1000,
+                normal_force);
+  }
+  void let_slip() noexcept { grip_.off(); }
+  detail::FrictionLaw<Scalar, 3>& grip() noexcept { return grip_; }
+  /// To be called where the beam has moved.
+  void look_at_grip() noexcept {
+    const int c = contact_.node();
+    const detail::RodRoundContact<Scalar> seen{touched_};
+    grip_.look(contact_.round() ? seen.place(contact_.view(node(c)), node(c))
+                                : seen.place(contact_.normal(), node(c)));
+  }
+
   // What NewtonRaphson asks of a system.
 
   void set_target(Scalar t) noexcept {
@@ -170,13 +192,16 @@ class RodSystem {
   }
 
   /// The tangent holds what the contact's force makes of a capsule, on the way down as well: there a rod slips around a sphere.
-  void forget_force() noexcept {}
+  void forget_force() noexcept {
+    if (grip_.on()) grip_.fall();
+  }
 
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
     advance();
     linear_reaction_ = force_;
+    if (grip_.on()) grip_.feel(-force_);
     return {status, increment()};
   }
 
@@ -192,6 +217,7 @@ class RodSystem {
     inner_energy_ = 0;
     const int c = contact_.node();
     if (c >= 0) contact_.look(node(c), force_);
+    if (grip_.on()) look_at_grip();
     rod_.visit_tangents(load_, [&](int e, const auto& energies, Residual& r, Tangent& K) {
       energy += energies.strain;
       work += energies.work;
@@ -201,12 +227,15 @@ class RodSystem {
       if (e + 1 == elements()) energy += add_springs(ends_[1], node(e + 1), unknowns, r, K);
       if (contact_.holds(e + 1)) contact_.bend(unknowns, K);
       else if (e == 0 && contact_.holds(0)) contact_.bend(0, K);
+      if (grip_.on() && contact_.holds(e + 1)) add_friction(unknowns, r, K);
+      else if (grip_.on() && e == 0 && contact_.holds(0)) add_friction(0, r, K);
       if (own_axes(e)) transform(e, 0, r, K);
       if (own_axes(e + 1)) transform(e + 1, unknowns, r, K);
       assembler_.add(e, K, r);
     });
     size_ = std::sqrt(2 * std::max(energy, Scalar(0)));  // of a rod without stress round-off has either sign
     potential_ = energy - work;
+    if (grip_.on()) potential_ += grip_.potential();
     for (std::size_t k = 0; k < 2; ++k) {
       prescribed_[k].setZero();
       ends_[k].visit(node(end(k)), [&](int component, Scalar increment) {
@@ -403,6 +432,22 @@ class RodSystem {
     for (Node& node : rod_.nodes()) node.r += left ? Vector3(miss * (node.s / length_)) : miss;
   }
 
+  /// Friction, at the place that is touched.  @param at  the first row of the contact's node
+  void add_friction(int at, typename Parts::Residual& r, typename Parts::Tangent& K) const noexcept {
+    const Node& n = node(contact_.node());
+    Eigen::Matrix<Scalar, 3, 6> moves;  // that place, by r and r'
+    moves.template leftCols<3>().setIdentity();
+    moves.template rightCols<3>().setZero();
+    if (contact_.round()) {
+      const auto view = contact_.view(n);
+      moves.template rightCols<3>() =
+          (view.u.dot(view.f) * Matrix::Identity() - view.u * view.f.transpose()) / view.length;
+    }
+    r.template segment<6>(at) -= moves.transpose().lazyProduct(grip_.force());
+    const Eigen::Matrix<Scalar, 3, 6> stiff = grip_.tangent().lazyProduct(moves);
+    K.template block<6, 6>(at, at) += moves.transpose().lazyProduct(stiff);
+  }
+
   /// An element's share of the shift, half of it to either node.
   void add_shift(Scalar shift, int e, typename Parts::Tangent& K) const noexcept {
     const Scalar share = shift * unit_ * unit_ * (node(e + 1).s - node(e).s) / (2 * length_),
@@ -416,6 +461,8 @@ class RodSystem {
   std::array<detail::RodEnd<Scalar>, 2> ends_;
   Increment prescribed_[2] = {Increment::Zero(), Increment::Zero()};
   detail::RodContact<Scalar> contact_;
+  detail::FrictionLaw<Scalar, 3> grip_;
+  Capsule<Scalar> touched_{};
   Scalar moves_ = 0;
   Scalar length_, axial_;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;

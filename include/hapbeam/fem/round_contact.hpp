@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <hapbeam/fem/circle_on_curve.hpp>
+#include <hapbeam/fem/friction_law.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
@@ -18,6 +19,7 @@ struct RoundContact {
   using Law = CircleOnCurve<Scalar>;
   using View = typename Law::View;
   const Circle<Scalar>& circle;
+  const Circle<Scalar>& request() const noexcept { return circle; }
 
   /// Beside a node of the present shape.  @param end  as CircleOnCurve
   Law beside(const Centreline<Scalar>& line, int node, int end) const noexcept {
@@ -38,6 +40,15 @@ struct RoundContact {
   Scalar ahead(const View& view) const noexcept { return circle.side * view.lever; }
   Vector point(const View& view, const Node&) const noexcept {
     return circle.centre - view.distance * view.normal;
+  }
+  /// The same for friction, beside a node on whose normal, or that of a plane, the circle lies.
+  FrictionPlace<Scalar, 2> place(const Vector& n, const Node& node) const noexcept {
+    const Vector along(circle.side * n.y(), -circle.side * n.x());
+    const Scalar x = (circle.centre.x() - node.s) - node.u, y = circle.centre.y() - node.w;
+    return {node.s + along.x() * x + along.y() * y, n, along};
+  }
+  FrictionPlace<Scalar, 2> place(const View& view, const Node& node) const noexcept {
+    return place(view.normal, node);
   }
   /// How far the centre is from a normal on the node [m].
   Scalar miss(const Vector& n, const Node& node) const noexcept {

@@ -30,6 +30,7 @@ class RoundPush {
   using Vector = VectorOf<Scalar, dimension>;
   using Result = Pushed<Scalar, dimension>;
   using Search = ContactSearch<Scalar, dimension>;
+  using FrictionState = hapbeam::FrictionState<Scalar, dimension>;
 
  public:
   /// Of the beam's length: so far from its node a contact is as exact as at it, to a few 1e-6 of the force.
@@ -39,7 +40,8 @@ class RoundPush {
   /// So often the node follows the contact in a push.
   static constexpr int most_meshes = 4;
 
-  explicit RoundPush(const System& system) : foresight_(system) {}
+  explicit RoundPush(const System& system)
+      : foresight_(system), before_(system.elements()), before_mesh_(system.mesh()) {}
 
   /// To be called where something else moves the beam.
   void forget() noexcept {
@@ -48,10 +50,12 @@ class RoundPush {
   }
 
   /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
+  /// @param grip  null: without friction
   template <class Way, class Extent>
-  Result push(Way& way, const Round& request, const Extent& range) noexcept {
-    const System& system = way.system_;
+  Result push(Way& way, const Round& request, const Extent& range, FrictionState* grip) noexcept {
+    System& system = way.system_;
     const RoundContact round{request};
+    if (grip) begin(system, round, *grip);
     // On a curve that is too sharp for it the law holds at the node alone.
     const Scalar near = beside * system.length(), exactly = Scalar(1e-5) * request.reach;
     Search search;
@@ -60,7 +64,7 @@ class RoundPush {
     bool snapped = false;
     for (int meshes = 1;; ++meshes) {
       Trial trial{s, normal, meshes == 1};
-      Result pushed = push_at(way, request, range, trial);
+      Result pushed = push_at(way, request, range, trial, grip);
       snapped = snapped || pushed.status == Status::snapped;
       const Scalar off = std::max(std::abs(trial.ahead), trial.miss);
       const bool there = off <= (trial.by_plane ? exactly : near);
@@ -68,6 +72,7 @@ class RoundPush {
         pushed.miss = there ? Scalar(0) : off;
         if (snapped && pushed.status == Status::ok) pushed.status = Status::snapped;
         foresight_.know(pushed.status == Status::ok);
+        if (grip) end(system, pushed, *grip);
         return pushed;
       }
       typename Search::Aim next{s + trial.ahead, normal};
@@ -90,10 +95,29 @@ class RoundPush {
     Scalar miss = 0;        ///< [m] from the circle's centre to where it should be
   };
 
+  void begin(System& system, const RoundContact& round, FrictionState& grip) noexcept {
+    const Node node = round.node_at(system.centreline(), round.request().s);
+    system.keep(before_);
+    before_mesh_ = system.mesh();
+    system.take_friction(grip, round.request(), round.place(round.look(node, 0), node),
+                     -system.linear_reaction());
+  }
+  /// What is no answer says nothing of where they touch: friction begins anew.
+  static void end(System& system, const Result& pushed, FrictionState& grip) noexcept {
+    if (is_answer(pushed.status) && pushed.force < 0) {
+      system.look_at_grip();
+      system.grip().leave(grip, -pushed.force);
+    } else {
+      grip.let_go();
+    }
+    system.let_slip();
+  }
+
   /// A push with the node at trial.s, or at the end beside it.  At an end that slides along a wall the wall takes what does not
   /// act along it.
   template <class Way, class Extent>
-  Result push_at(Way& way, const Round& request, const Extent& range, Trial& trial) noexcept {
+  Result push_at(Way& way, const Round& request, const Extent& range, Trial& trial,
+                 const FrictionState* grip) noexcept {
     using std::abs;
     System& system = way.system_;
     const RoundContact round{request};
@@ -135,10 +159,31 @@ class RoundPush {
       }
     };
 
+    // With friction what is near is tried first; `all` of the way may be a fall.
+    bool all = !grip || way.descending_ || system.grip().falls();
+    // Whether Coulomb's law holds.
+    const auto agrees = [&](const Response<Scalar>& found) {
+      if (!grip) return true;
+      auto& law = system.grip();
+      if (is_answer(found.status)) {
+        system.look_at_grip();
+        if (law.settled(-found.force)) return true;
+      } else {
+        if (all) return true;
+        all = !law.turn();
+      }
+      if (law.torn()) {
+        system.set_state(before_mesh_, before_);
+        system.remesh(mesh);
+      }
+      return false;
+    };
+
     Response<Scalar> response{0, Status::iteration_limit};
     bool past_end = false;
     if (foreseen) {
-      response = way.settle_at_once(slack, aim);
+      do response = way.settle_at_once(slack, aim);
+      while (!agrees(response) && !all);
       foreseen = response.status == Status::ok;
       if (!foreseen) {
         foresight_.go_back(system, last);
@@ -156,7 +201,8 @@ class RoundPush {
         way.to_rest();
         system.remesh(mesh);
       }
-      response = way.settle(last, slack, aim);
+      do response = all ? way.settle(last, slack, aim) : way.settle_at_once(slack, aim);
+      while (!agrees(response));
     }
 
     const bool answer = is_answer(response.status);
@@ -176,7 +222,9 @@ class RoundPush {
   }
 
   std::conditional_t<planar, Foresight<System>, NoForesight> foresight_;
-  bool sharp_ = false;  // where the last circle touched
+  bool sharp_ = false;               // where the last circle touched
+  typename System::State before_;    // before a push with friction
+  ContactMesh<Scalar> before_mesh_;  // of it
 };
 
 /// Of a beam that is not laid on circles.

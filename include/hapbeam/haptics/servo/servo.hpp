@@ -15,6 +15,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct ServoOptions {
   double avatar_radius = 0.005;  ///< [m] in the scene, not negative
   int delay_ticks = 0;           ///< whole periods between the servo's answer and the motors, 0 to 16
   bool dissipate = false;        ///< energy that the loop has generated is taken back by damping
+  Friction friction = {};        ///< between avatar and beam: docs/friction.md
   StylusOptions stylus =
       {};  ///< what touches a rod in space, where the device reads its orientation; else a sphere
 };
@@ -92,6 +94,22 @@ struct Drawn {
   static constexpr bool for_who_looks = detail::OffersPart<Model>::value;  ///< it costs more than the force
   static auto of(const Model& model, const Touch<Model>&) noexcept { return model.shape(); }
 };
+
+namespace detail {
+
+/// @throws std::invalid_argument as Touch, and where the touch of such a model has no friction and one is asked for
+template <typename Model, typename Scalar>
+Touch<Model> make_touch(Model& model, Scalar radius, const Friction& friction) {
+  if constexpr (std::is_constructible_v<Touch<Model>, Model&, Scalar, const Friction&>) {
+    return Touch<Model>(model, radius, friction);
+  } else {
+    friction.check();
+    if (!friction.none()) reject("friction", friction.sticking, "", "0 for this model: see docs/friction.md");
+    return Touch<Model>(model, radius);
+  }
+}
+
+}  // namespace detail
 
 /// The coupling of a servo that is given none.
 template <typename Model>
@@ -250,7 +268,7 @@ Servo<Model, Coupling>::Servo(Model& model, const DeviceInfo& device, const Serv
                               const Coupling& coupling)
     : model_(model),
       options_(options),
-      touch_(model, static_cast<Scalar>(options.avatar_radius)),
+      touch_(detail::make_touch(model, static_cast<Scalar>(options.avatar_radius), options.friction)),
       coupling_(coupling.in_scene(options.placement.scale())),
       stylus_(options.stylus),
       clock_(device.period),

@@ -25,6 +25,9 @@
 // has answered there, for the force.  So p does not oscillate by itself: the stiffer the beam, the less p moves.
 // Off the beam p comes to h at once or within B/K, without a force: free motion is free.  Across n p goes with the hand.
 //
+// Where there is friction the avatar's skin is a spring and a damper of the same figures along the surface, within the model's own
+// equilibrium: what sticks is felt through the coupling in every direction.
+//
 // Where the model runs out of its budget the last good force goes on along its tangent (last_response.hpp); with any
 // other failure the force is zero.  Either way the status is touch.status.
 // Real-time: no allocation, noexcept, wait-free; as touch.tick() and O(1).
@@ -63,6 +66,12 @@ template <typename Touch, typename = void>
 inline constexpr int dimension_of_touch = 2;
 template <typename Touch>
 inline constexpr int dimension_of_touch<Touch, std::void_t<decltype(Touch::dimension)>> = Touch::dimension;
+
+/// Whether a touch may have friction.
+template <typename Touch, typename = void>
+inline constexpr bool may_be_rough = false;
+template <typename Touch>
+inline constexpr bool may_be_rough<Touch, std::void_t<decltype(std::declval<Touch&>().rough())>> = true;
 
 /// Where the hand of a touch is [m].
 template <typename Touch>
@@ -193,6 +202,8 @@ class VirtualCoupling {
     const Eigen::Vector3d from = detail::in_scene(hand);
     const auto normal = [&] { return detail::of_beam<double, D>(last_.tangent().normal()); };
     detail::CoupledForceOf<Touch> result;
+    if constexpr (detail::may_be_rough<Touch>)
+      if (touch.rough()) touch.soften(static_cast<Scalar>(stiffness_), static_cast<Scalar>(damping_ / dt));
     result.avatar = hand + normal() * solve(from, dt).gap;
     result.touch = touch.tick(result.avatar.template cast<Scalar>());
     last_.learn(result.touch, detail::in_scene(result.avatar));
@@ -210,6 +221,8 @@ class VirtualCoupling {
     result.force = normal() * balance.force;
     result.continued = last_.continued() && (balance.force > 0 || result.touch.pressing);
     if (balance.force > 0) result.energy = last_.tangent().energy() + stiffness_ * gap_ * gap_ / 2;
+    if constexpr (detail::may_be_rough<Touch>)
+      if (touch.rough() && balance.force > 0) add_friction(result);
     if (balance.force == 0 && !result.touch.pressing) last_.forget();
     return result;
   }
@@ -243,6 +256,14 @@ class VirtualCoupling {
     }
     const double gap = given / own;
     return {gap > least_gap ? gap : 0, 0};
+  }
+
+  /// What the skin transmits, and what it gives back.
+  template <class Result>
+  void add_friction(Result& result) const noexcept {
+    const auto friction = result.touch.friction.template cast<double>().eval();
+    result.force += friction;
+    result.energy += friction.squaredNorm() / (2 * stiffness_);
   }
 
   static constexpr double least_gap = 1e-12;  // [m] is none

@@ -34,7 +34,8 @@ class LastResponse {
   /// @param touch  the beam's answer   @param place [m] from where it was pressed
   template <typename Scalar, int D>
   void learn(const TouchResult<Scalar, D>& touch, const Eigen::Vector3d& place) noexcept {
-    const Eigen::Vector3d force = detail::in_scene(touch.force);
+    // Friction is not a matter of the way along the normal.
+    const Eigen::Vector3d force = detail::in_scene(VectorOf<Scalar, D>(touch.force - touch.friction));
     if (touch.status == Status::iteration_limit && continued_ < max_continued) {
       ++continued_;
     } else if (!is_answer(touch.status)) {

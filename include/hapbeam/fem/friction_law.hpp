@@ -1,0 +1,262 @@
+// Coulomb friction within a push: backward Euler over the tick, as a potential of which Newton's method finds the minimum.
+//
+//   e  = e₀ + slip                      shear of the avatar's skin, e₀ carried along from the tick before
+//   slip = t Δs + D Δn - a Δλ           s, λ: places of the contact on beam and avatar's axis, t, a: directions of these, n: normal
+//   sticks:  T = k e + b (e - e₀)                                while |T| <= μₛ N
+//   slides:  T = B ê,  ê = e/|e|,  B = μ N                       and then the skin is sheared by what T shears it
+//
+// T is the tangential force on the beam.  With the avatar held, -slip is how the touched point of the beam moves along the surface, so T
+// is work-conjugate to it, and a force field of its own for each mode:  ∂T/∂e = k + b,  or (B/l)(1 - d dᵀ), with d and l what ê and |e|
+// were thought to be.  That is symmetric.  N in B is that of the iteration before, moved on along its secant: what is not symmetric
+// about Coulomb's law is left to the iteration.  Whether the contact sticks or slides is decided where an equilibrium of the one was found
+// (settled()), so that Newton's method meets no kink.
+// Real-time: noexcept, no allocation, O(1).   Source: return mapping, Simo and Laursen 1992; given bounds, Nečas and others 1980.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <hapbeam/friction.hpp>
+#include <hapbeam/rod_centreline.hpp>
+
+namespace hapbeam::detail {
+
+/// Where two bodies touch.
+template <typename Scalar, int D>
+struct FrictionPlace {
+  using Vector = VectorOf<Scalar, D>;
+  Scalar s = 0;                                            ///< [m] on the beam
+  Vector normal = Vector::Zero(), along = Vector::Zero();  ///< unit; along the beam
+  Scalar place = 0;                                        ///< [m] on the avatar's axis
+  Vector axis = Vector::Zero();                            ///< its direction
+};
+
+template <typename Scalar, int D>
+class FrictionLaw {
+ public:
+  using Vector = VectorOf<Scalar, D>;
+  using Matrix = Eigen::Matrix<Scalar, D, D>;
+  using Place = FrictionPlace<Scalar, D>;
+
+  /// Force and direction are as exact as that, in units of the bound.
+  static constexpr Scalar exact = Scalar(1e-6);
+
+  bool on() const noexcept { return on_; }
+  void off() noexcept { on_ = false; }
+
+  /// @param first  where the two would touch before the beam yields: where a touch begins
+  /// @param reach  [m] from the avatar's axis to the centreline   @param stiffest  [N/m] that the scalar allows
+  /// @param hurry  [m] a long way for a tick   @param normal_force  [N] of the last tick
+  void begin(const FrictionState<Scalar, D>& grip, const Place& first, Scalar reach, Scalar stiffest, Scalar hurry,
+             Scalar normal_force) noexcept {
+    on_ = true;
+    known_ = grip.known;
+    before_ = grip.known ? Place{grip.s, grip.normal, grip.along, grip.place, grip.axis} : first;
+    skin_ = grip.skin;
+    reach_ = reach;
+    stiffness_ = std::min(grip.stiffness, stiffest);
+    damping_ = std::min(grip.damping, stiffest);
+    sticking_ = grip.sticking, sliding_ = grip.sliding, gain_ = grip.gain;
+    bound_ = before_bound_ = sliding_ * std::max(normal_force, Scalar(0));
+    now_ = first;
+    shear();
+    // A hand that hurries slides: what stuck to it would be torn along.
+    far_shear_ = sheared_;
+    const Scalar far = norm(sheared_ - carried_);
+    const bool hurries = far > hurry;
+    slides_ = !known_ || ((grip.slides || hurries) && bound_ > 0);
+    if (slides_) aim(sheared_, std::max(norm(sheared_), grip.slip));
+    // In its first tick a contact slides without friction to where the touch begins.
+    fallen_ = !known_;
+    if (fallen_) bound_ = used_ = 0;
+    slid_ = slides_, stuck_ = !slides_;
+    tries_ = 0;
+    pairs_ = false;
+  }
+
+  /// To be called where the beam has moved.
+  void look(const Place& now) noexcept {
+    now_ = now;
+    shear();
+    if (!slides_) {
+      force_ = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
+    } else {
+      force_ = force_at(bound_);
+    }
+  }
+  /// T [N]
+  const Vector& force() const noexcept { return force_; }
+  /// ∂T/∂e [N/m], across the normal.
+  Matrix tangent() const noexcept {
+    Matrix t = Matrix::Identity() - now_.normal * now_.normal.transpose();
+    if (!slides_) return (stiffness_ + damping_) * t;
+    const Vector d = across(direction_);
+    return aside(bound_) * (t - d * d.transpose());
+  }
+  /// In a plane that is a number.
+  Scalar stiffness() const noexcept { return slides_ ? Scalar(0) : stiffness_ + damping_; }
+  /// [J]
+  Scalar potential() const noexcept {
+    if (!slides_)
+      return (stiffness_ + damping_) / 2 * sheared_.squaredNorm() - damping_ * carried_.dot(sheared_);
+    return (force_.dot(sheared_) + bound_ * across(direction_).dot(sheared_)) / 2;
+  }
+
+  /// To be called after each linear solve.  @param normal_force  of it [N]
+  void feel(Scalar normal_force) noexcept {
+    used_ = bound_;
+    if (slides_ && !fallen_) bound_ = std::max(Scalar(0), used_ + (sliding_ * normal_force - used_) / rate());
+  }
+
+  /// The beam falls.  What slides does that without friction, and the touch begins anew where it arrives; what sticks goes along.
+  void fall() noexcept {
+    fallen_ = slides_;
+    if (slides_) bound_ = used_ = 0;
+  }
+
+  /// To be called where an equilibrium was found, after look().  @param normal_force  of it [N]
+  /// @return whether it is one of Coulomb's law, too; else one has to be found anew
+  bool settled(Scalar normal_force) noexcept {
+    const Vector elastic = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
+    const Scalar size = norm(elastic), most = sliding_ * std::max(normal_force, Scalar(0));
+    // What pulls while it sticks may press where it slides.
+    const bool pulls = !(normal_force > 0);
+    if (fallen_ || ++tries_ > most_tries || (pulls && (slides_ || !(size > 0)))) return true;
+    torn_ = false;
+    if (!slides_) {
+      if (!pulls && size <= sticking_ * normal_force) return true;
+      slides_ = slid_ = true;
+      torn_ = pulls || size > 2 * sticking_ * normal_force;
+      used_ = bound_ = before_bound_ > 0 ? before_bound_ : most;
+      aim(elastic, norm(far_shear_));
+      pairs_ = false;
+      return false;
+    }
+    const Vector d = across(direction_);
+    // One that has stopped sticks.  With one coefficient for both that makes no difference.
+    const Scalar stopped = sticking_ > sliding_ ? 1 + exact : 1 - exact;
+    if (d.dot(elastic) < used_ * stopped) {
+      slides_ = false;
+      return false;
+    }
+    learn(normal_force);
+    const Scalar off = (elastic * (most / size) - force_at(used_)).norm();
+    if (off <= exact * most) return true;
+    bound_ = std::max(Scalar(0), used_ + (most - used_) / rate());
+    aim(elastic, norm(sheared_));
+    return false;
+  }
+
+  /// Whether it slides without friction.
+  bool falls() const noexcept { return fallen_; }
+  /// To be called where no equilibrium is near.  A hand that pushes a beam along itself has no end of force while it sticks, and a beam that
+  /// hardly slides has none while it slides: each way is tried once.
+  /// @return whether there is another way to try; else it slides
+  bool turn() noexcept {
+    torn_ = true;
+    if (slides_ && !fallen_ && !stuck_) {
+      slides_ = false, stuck_ = true;
+      return true;
+    }
+    const bool another = !slides_ && !slid_;
+    slides_ = slid_ = true;
+    used_ = bound_ = fallen_ ? Scalar(0) : before_bound_;
+    aim(far_shear_, norm(far_shear_));
+    return another;
+  }
+  /// Whether what was found is far: the way from there is long, and leads from the state before the push.
+  bool torn() const noexcept { return torn_; }
+
+  /// What the touch remembers of it.  @param normal_force  [N]
+  void leave(FrictionState<Scalar, D>& grip, Scalar normal_force) const noexcept {
+    const Vector elastic = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
+    const Scalar size = norm(elastic),
+                 most = (slides_ ? sliding_ : sticking_) * std::max(normal_force, Scalar(0));
+    const bool slid = size > most;
+    const Vector last = grip.slides ? carry_from_before(grip.force) : Vector(Vector::Zero());
+    grip.force = slid ? Vector(elastic * (most / size)) : elastic;
+    grip.skin = slid ? Vector((grip.force + damping_ * carried_) / (stiffness_ + damping_)) : sheared_;
+    grip.slip = norm(sheared_);
+    // A contact that goes on sliding: the mean of both ticks, as of the work that is done on it.
+    const Vector mean = last.dot(grip.force) > 0 ? Vector((last + grip.force) / 2) : grip.force;
+    if (!fallen_)
+      grip.dissipated += mean.dot(sheared_ - grip.skin) + damping_ * (grip.skin - carried_).squaredNorm();
+    if (fallen_) grip.force.setZero(), grip.skin.setZero();
+    grip.known = true;
+    grip.slides = slides_ && !fallen_;
+    grip.s = now_.s, grip.normal = now_.normal, grip.along = now_.along;
+    grip.place = now_.place, grip.axis = now_.axis;
+    grip.gain = gain_;
+  }
+
+ private:
+  static constexpr int most_tries = 8;
+
+  void shear() noexcept {
+    carried_ = carry_from_before(skin_);
+    sheared_ = carried_ + slip();
+  }
+
+  static Scalar norm(const Vector& v) noexcept { return std::sqrt(v.squaredNorm()); }
+  Scalar rate() const noexcept { return std::clamp(1 - sliding_ * gain_, Scalar(0.25), Scalar(4)); }
+  Vector across(const Vector& v) const noexcept {
+    const Vector flat = v - now_.normal * now_.normal.dot(v);
+    const Scalar size = norm(flat);
+    return size > 0 ? Vector(flat / size) : now_.along;
+  }
+  void aim(const Vector& direction, Scalar length) noexcept {
+    direction_ = direction;
+    length_ = std::max(length, Scalar(0));
+  }
+  /// Stiffness across the way of sliding [N/m].
+  Scalar aside(Scalar bound) const noexcept {
+    const Scalar whole = stiffness_ + damping_;
+    return bound < whole * length_ ? bound / length_ : whole;
+  }
+  Vector force_at(Scalar bound) const noexcept {
+    const Vector d = across(direction_);
+    return bound * d + aside(bound) * (sheared_ - d * d.dot(sheared_));
+  }
+  /// The gain, from two equilibria of different bounds.  In space directions change it more.
+  void learn(Scalar normal_force) noexcept {
+    if (D == 2 && pairs_ && std::abs(used_ - pair_bound_) > Scalar(1e-3) * used_)
+      gain_ = std::clamp((normal_force - pair_force_) / (used_ - pair_bound_), Scalar(-4), Scalar(4));
+    pairs_ = true;
+    pair_bound_ = used_, pair_force_ = normal_force;
+  }
+
+  Vector carry_from_before(const Vector& v) const noexcept {
+    if constexpr (D == 2) return v.dot(before_.along) * now_.along;
+    else return carry<Scalar>(v, before_.normal, now_.normal);
+  }
+  Vector slip() const noexcept {
+    const Vector &m = before_.normal, &n = now_.normal;
+    const Scalar moved = now_.s - before_.s, cosine = m.dot(n);
+    if (!(cosine > 0)) return Vector::Zero();  // touched from elsewhere
+    if constexpr (D == 2) {
+      const Scalar turned = std::atan2(m.x() * n.y() - m.y() * n.x(), cosine);
+      return moved * now_.along + reach_ * turned * Vector(-n.y(), n.x());
+    } else {
+      const Vector turn = n - m, middle = unit<Scalar>(m + n);
+      const Scalar half = norm(turn) / 2;
+      Vector v = moved / 2 * (before_.along + now_.along) -
+                 (now_.place - before_.place) / 2 * (before_.axis + now_.axis) +
+                 (half > 0 ? reach_ * std::asin(std::min(half, Scalar(1))) / half : reach_) * turn;
+      v -= middle * middle.dot(v);
+      return carry<Scalar>(v, middle, n);
+    }
+  }
+
+  bool on_ = false, known_ = false, slides_ = false, fallen_ = false, torn_ = false, slid_ = false,
+       stuck_ = false;
+  Place before_, now_;
+  Vector skin_ = Vector::Zero(), carried_ = Vector::Zero(), sheared_ = Vector::Zero();
+  Vector force_ = Vector::Zero(), direction_ = Vector::Zero(), far_shear_ = Vector::Zero();
+  Scalar reach_ = 0, stiffness_ = 0, damping_ = 0, sticking_ = 0, sliding_ = 0, gain_ = 0;
+  Scalar bound_ = 0, used_ = 0, before_bound_ = 0, length_ = 1;
+  Scalar pair_bound_ = 0, pair_force_ = 0;
+  bool pairs_ = false;
+  int tries_ = 0;
+};
+
+}  // namespace hapbeam::detail

@@ -1,0 +1,99 @@
+// Coulomb friction between avatar and beam, and what a touch with friction remembers.
+//
+// The avatar does not turn.  Slip is how far it has gone along the surface of the beam beyond the point of the beam that it touches; a
+// round avatar that rolls on the beam does not slip.  Friction acts at the centreline.
+//
+// A model of finite rotation or in space may offer a push with friction, which contact then takes where there is friction:
+//
+//   m.push(c, grip)      Pushed<Scalar, D>      of a Circle or a Capsule; promises as push(c).  The grip says what was touched in the
+//                                               tick before, and comes back as it is in this one; without an answer friction begins anew.
+//
+// A plain value.  No allocation, noexcept, O(1).
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <hapbeam/check.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam {
+
+/// Coefficients of friction: tangential over normal force.  None by default.
+struct Friction {
+  double sticking = 0;  ///< the contact begins to slide beyond it
+  double sliding = 0;   ///< while it slides, not larger
+
+  constexpr Friction() noexcept = default;
+  constexpr Friction(double both) noexcept : sticking(both), sliding(both) {}
+  constexpr Friction(double when_sticking, double when_sliding) noexcept
+      : sticking(when_sticking), sliding(when_sliding) {}
+
+  bool none() const noexcept { return !(sticking > 0); }
+  /// Beyond it a contact jams in nearly every bend.
+  static constexpr double most = 2;
+  /// @throws std::invalid_argument unless 0 <= sliding <= sticking <= most
+  void check() const {
+    if (!(sticking >= 0 && sticking <= most)) detail::reject("friction sticking", sticking, "", "0 to 2");
+    if (!(sliding >= 0 && sliding <= sticking))
+      detail::reject("friction sliding", sliding, "", "0 to that of sticking");
+  }
+};
+
+/// The contact with friction of one touch.
+/// @tparam D  of the space in which the beam bends: 2 | 3
+template <typename Scalar, int D = 2>
+struct FrictionState {
+  using Vector = VectorOf<Scalar, D>;
+
+  // Of the touch.
+  Scalar sticking = 0, sliding = 0;  ///< coefficients
+  Scalar stiffness =
+      std::numeric_limits<Scalar>::infinity();  ///< [N/m] of the avatar's skin along the surface
+  Scalar damping = 0;                           ///< [N/m] what its damping adds, N·s/m over the tick
+
+  // Of its last contact.
+  bool known = false;              ///< there is one
+  bool slides = false;             ///< it slid
+  Scalar s = 0;                    ///< [m] arc position
+  Scalar place = 0;                ///< [m] of the contact along the avatar's axis
+  Vector normal = Vector::Zero();  ///< unit, out of the beam
+  Vector along = Vector::Zero();   ///< unit, along the beam
+  Vector axis = Vector::Zero();    ///< unit, along the avatar's axis; zero where that is a point
+  Vector skin = Vector::Zero();    ///< [m] how far the skin is sheared
+  Scalar slip = 0;                 ///< [m] how far it would be sheared if nothing slid
+  Vector force = Vector::Zero();   ///< [N] of friction on the beam
+  Scalar gain = 0;                 ///< change of the normal force by a tangential one, as it was
+  Scalar dissipated = 0;           ///< [J] since the touch began
+
+  /// A touch begins: nothing of the one before is left.
+  void begin() noexcept {
+    let_go();
+    gain = dissipated = 0;
+  }
+  /// Nothing is left of its last contact.
+  void let_go() noexcept {
+    known = slides = false;
+    skin.setZero(), force.setZero();
+  }
+};
+
+namespace detail {
+
+template <typename M, typename = void>
+struct TakesFriction : std::false_type {};
+template <typename M>
+struct TakesFriction<M, std::void_t<decltype(std::declval<M&>().push(
+                        std::declval<const typename PushOf<M>::Type&>(),
+                        std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))>>
+    : std::bool_constant<noexcept(
+          std::declval<M&>().push(std::declval<const typename PushOf<M>::Type&>(),
+                                  std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))> {};
+
+}  // namespace detail
+
+/// True where M can be pushed with friction, noexcept included.
+template <typename M>
+inline constexpr bool takes_friction = detail::TakesFriction<M>::value;
+
+}  // namespace hapbeam

@@ -1,0 +1,162 @@
+// Coulomb friction between a sphere or a capsule and a rod in space, and through the loop.
+#include <cmath>
+
+#include "rod/rods.hpp"
+#include "rod/touching.hpp"
+#include "support/csv.hpp"
+#include "support/random.hpp"
+#include "support/ruler.hpp"
+#include "support/step_response.hpp"
+#include <hapbeam/element/corotational.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+using Wire = FemModel<RoundRod>;
+
+void check_friction(const Felt& r, const Friction& friction) {
+  const Point across = r.force - r.friction;
+  REQUIRE(r.force.allFinite());
+  REQUIRE(across.dot(r.contact.normal) >= 0);
+  REQUIRE(r.friction.norm() <= friction.sticking * across.norm() * (1 + 1e-13));
+  REQUIRE(std::abs(r.friction.dot(r.contact.normal)) <= 1e-12 * across.norm());
+  if (!r.pressing) REQUIRE(r.force.isZero(0));
+}
+
+Rod needle() {
+  return Rod(0.2, RodSection::circle(0.002), spring_steel, RodSupport::clamped, RodSupport::free);
+}
+
+/// The hand leans on the beam, then along it and aside.
+struct LeaningAside {
+  Eigen::Vector3d down, aside;  // [N]
+  HandTarget operator()(double time) const noexcept {
+    const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+    return {zero, zero, (time < 0.3 ? zero : down) + (time < 0.8 ? zero : aside)};
+  }
+};
+
+/// [m/s] RMS of a hand half a second after it has leaned aside, the largest over any 0.1 s; infinite where the loop was not passive.
+template <class Model>
+double unrest(Model& model, double s, const Friction& friction, const Situation& who,
+              const Eigen::Vector3d& aside) {
+  model.reset();
+  VirtualPhantom<LeaningAside> device(LeaningAside{{0, -who.push, 0}, aside}, who.options());
+  ServoOptions options;
+  options.avatar_radius = Model::dimension == 2 ? 0.005 : 0.02;
+  options.placement = above(model, s, Eigen::Vector3d::UnitY(), options.avatar_radius);
+  options.delay_ticks = who.delay;
+  options.friction = friction;
+  Servo<Model> servo(model, device.info(), options, VirtualCoupling(safe_coupling(device.info(), who.delay)));
+  device.run(servo, 1.3);
+  double worst = 0;
+  for (int window = 0; window < 5; ++window) {
+    double squares = 0;
+    const int ticks = static_cast<int>(0.1 / who.period);
+    for (int k = 0; k < ticks; ++k) device.step(servo), squares += device.tip().velocity.squaredNorm();
+    worst = std::max(worst, std::sqrt(squares / ticks));
+  }
+  const ServoRecord& r = servo.record();
+  return r.energy_generated == 0 && r.failed_ticks == 0 && r.pressing ? worst : 1e9;
+}
+
+}  // namespace
+
+TEST_CASE("a stylus across a strip slides with friction as the elastica says", "[rod][friction]") {
+  const Csv table("finger_with_friction.csv");
+  const double EA = 200e9 * 0.025 * 0.001, EI = EA * 1e-6 / 12;
+  const Rod strip(0.3, RodStiffness{EA, EI, EI, EI}, 0.001, RodSupport::clamped, RodSupport::free);
+  Wire model(strip, 16);
+  const Point shaft(0, 0, 0.04);
+  double worst = 0;
+  for (std::size_t row = 0; row < table.rows();) {
+    const double mu = table.number(row, "mu"), x = table.number(row, "x_c");
+    model.reset();
+    Touch<Wire> touch(model, 0.005, mu);
+    Point before(x, 0.006, -0.02);
+    for (; row < table.rows() && table.number(row, "mu") == mu && table.number(row, "x_c") == x; ++row) {
+      const Point to(x, table.number(row, "y_c"), -0.02);
+      Felt r;
+      move(touch, before, to, shaft, 40, [&](const Point&, const Felt& now) { check_friction(r = now, mu); });
+      before = to;
+      REQUIRE(r.status == Status::ok);
+      const Point force(table.number(row, "force_x"), table.number(row, "force_y"), 0);
+      worst = std::max(worst, (r.force - force).norm() / force.norm());
+    }
+  }
+  CAPTURE(worst);
+  CHECK(worst <= 1e-5);
+}
+
+TEST_CASE("around a closed path on a wire friction takes the work, along it and aside", "[rod][friction]") {
+  for (const double mu : {0.2}) {
+    Wire model(needle(), 8);
+    Touch<Wire> touch(model, 0.01, mu);
+    const auto hand = [](double t) {
+      const double a = 2 * pi * t, in = std::min(1.0, 4 * t);
+      return Point(0.15 + 0.002 * std::sin(a) * in, 0.0112 - 0.004 * in, 0.002 * std::cos(a) * in);
+    };
+    constexpr int ticks = 3000;
+    Felt before = touch.tick(hand(0));
+    double given = 0, taken = 0, stored = 0;
+    for (int k = 1; k <= 3 * ticks; ++k) {
+      const double t = double(k) / ticks;
+      const Felt now = touch.tick(hand(t));
+      REQUIRE(now.status == Status::ok);
+      check_friction(now, mu);
+      given -= (now.force + before.force).dot(hand(t) - hand(t - 1.0 / ticks)) / 2;
+      before = now;
+      if (k == 2 * ticks) given = 0, taken = now.dissipated, stored = model.strain_energy();
+    }
+    taken = before.dissipated - taken;
+    CAPTURE(mu, given, taken);
+    CHECK(taken > 1e-4);
+    CHECK(std::abs(given - taken - (model.strain_energy() - stored)) <= 3e-5 * taken);
+  }
+}
+
+TEST_CASE("friction on a wire keeps its cone whatever the hand does", "[rod][friction]") {
+  const Friction friction(0.5, 0.3);
+  for (const double mu : {0.0, 1.0}) {
+    Wire model(needle(), 8);
+    const Friction rough(mu * friction.sticking, mu * friction.sliding);
+    Touch<Wire> touch(model, 0.01, rough);
+    Random random(4);
+    Point hand(0.15, 0.02, 0), to = hand;
+    int left = 0, answers = 0;
+    for (int k = 0; k < 6000; ++k) {
+      if (left-- <= 0) {
+        to = Point(0.15, 0.007, 0) + 0.01 * Point(random(1), random(1), random(1));
+        left = random.integer(1, 300);
+        if (random.integer(0, 30) == 0) hand = to;
+      }
+      hand += (to - hand) / (left + 1);
+      const Felt r = touch.tick(hand);
+      check_friction(r, rough);
+      answers += is_answer(r.status);
+    }
+    CAPTURE(mu);
+    CHECK(answers > 5900);
+  }
+}
+
+TEST_CASE("a hand that leans along a beam with friction comes to rest", "[rod][friction][loop]") {
+  Random random(7);
+  FemModel<Corotational<>> ruler(steel_ruler(), 8);
+  Wire wire(needle(), 8);
+  for (int i = 0; i < 24; ++i) {
+    Situation who;
+    who.hand_stiffness = random(300, 1000);
+    who.hand_damping = random(0, 1) < 0.2 ? 0 : random(0, 2);
+    who.grip_mass = random(0.05, 0.4);
+    who.period = random(0.5e-3, 2e-3);
+    who.delay = random.integer(0, 3);
+    who.push = random(0.5, 3);
+    const double mu = random(0.1, 1), aside = random(-1, 1) * who.push;
+    CAPTURE(i, mu, aside, who.hand_stiffness, who.hand_damping, who.grip_mass, who.period, who.delay);
+    CHECK(unrest(ruler, 0.12, Friction(mu, 0.7 * mu), who, {aside, 0, 0}) <= 1e-3);
+    if (i % 4 == 0) CHECK(unrest(wire, 0.16, mu, who, {aside, 0, 0.2 * aside}) <= 1e-3);
+  }
+}
