@@ -175,7 +175,7 @@ class RoundPush {
     return pushed;
   }
 
-  std::conditional_t<planar, Foresight<System>, NoForesight> foresight_;
+  Foresight<System, Round> foresight_;
   bool sharp_ = false;  // where the last circle touched
 };
 
