@@ -26,14 +26,10 @@ inline constexpr float low_quarter<float> = 4.837512969970703125e-4f;
 template <>
 inline constexpr float last_quarter<float> = 7.54978995489188216e-8f;
 
-/// atan2(y, x).  @param length  √(x² + y²)
+/// 2 atan r, |r| <= 1.
 template <typename S>
-[[gnu::always_inline]] inline S angle(S y, S x, S length) noexcept {
-  using std::abs;
-  using std::atan2;
-  const S whole = length + x;
-  if (!(abs(y) < whole)) return atan2(y, x);
-  const S r = y / whole, q = r * r, q2 = q * q, q4 = q2 * q2, q8 = q4 * q4;
+[[gnu::always_inline]] inline S twice_atan(const S& r) noexcept {
+  const S q = r * r, q2 = q * q, q4 = q2 * q2, q8 = q4 * q4;
   const auto four = [q, q2](double a, double b, double c, double d) {
     return (S(a) + q * S(b)) + q2 * (S(c) + q * S(d));
   };
@@ -49,6 +45,37 @@ template <typename S>
   return 2 * (r + r * q * (low + q8 * (high + q8 * last)));
 }
 
+/// atan2(y, x).  @param length  √(x² + y²)
+template <typename S>
+[[gnu::always_inline]] inline S angle(S y, S x, S length) noexcept {
+  using std::abs;
+  using std::atan2;
+  const S whole = length + x;
+  return abs(y) < whole ? twice_atan(y / whole) : atan2(y, x);
+}
+
+/// cos x and sin x, |x| <= 0.79.
+template <typename S>
+[[gnu::always_inline]] inline void small_turn(const S& x, S& cosine, S& sine) noexcept {
+  const S q = x * x, q2 = q * q, q4 = q2 * q2;
+  sine = x + x * q *
+                 ((S(-1. / 6) + q * S(1. / 120)) + q2 * (S(-1. / 5040) + q * S(1. / 362880)) +
+                  q4 * ((S(-1. / 39916800) + q * S(1. / 6227020800.)) - q2 * S(1. / 1307674368000.)));
+  cosine = 1 - q / 2 +
+           q2 * ((S(1. / 24) - q * S(1. / 720)) + q2 * (S(1. / 40320) - q * S(1. / 3628800)) +
+                 q4 * ((S(1. / 479001600) - q * S(1. / 87178291200.)) + q2 * S(1. / 20922789888000.)));
+}
+
+/// cos α and sin α
+template <typename S>
+void cos_and_sin(const S& alpha, S& cosine, S& sine) noexcept {
+  using std::abs;
+  using std::cos;
+  using std::sin;
+  if (sizeof(S) <= sizeof(double) && abs(alpha) < S(0.79)) small_turn(alpha, cosine, sine);
+  else cosine = cos(alpha), sine = sin(alpha);
+}
+
 /// (cos α, sin α).
 template <typename S>
 [[gnu::always_inline]] inline Eigen::Matrix<S, 2, 1> direction(S alpha) noexcept {
@@ -59,14 +86,8 @@ template <typename S>
   if (!(abs(alpha) < 1000)) return {cos(alpha), sin(alpha)};
   const S quarters = nearbyint(alpha * S(0.636619772367581343)),
           x = ((alpha - quarters * high_quarter<S>)-quarters * low_quarter<S>)-quarters * last_quarter<S>;
-  const S q = x * x, q2 = q * q, q4 = q2 * q2;
-  const S sine = x + x * q *
-                         ((S(-1. / 6) + q * S(1. / 120)) + q2 * (S(-1. / 5040) + q * S(1. / 362880)) +
-                          q4 * ((S(-1. / 39916800) + q * S(1. / 6227020800.)) - q2 * S(1. / 1307674368000.)));
-  const S cosine =
-      1 - q / 2 +
-      q2 * ((S(1. / 24) - q * S(1. / 720)) + q2 * (S(1. / 40320) - q * S(1. / 3628800)) +
-            q4 * ((S(1. / 479001600) - q * S(1. / 87178291200.)) + q2 * S(1. / 20922789888000.)));
+  S sine, cosine;
+  small_turn(x, cosine, sine);
   const int turn = static_cast<int>(quarters);
   const S c = turn & 1 ? sine : cosine, s = turn & 1 ? cosine : sine;
   return {(turn + 1) & 2 ? -c : c, turn & 2 ? -s : s};

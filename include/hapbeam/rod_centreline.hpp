@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include <hapbeam/angle.hpp>
 #include <hapbeam/centreline.hpp>
 
 namespace hapbeam {
@@ -119,9 +120,9 @@ VectorOf<S, 3> carry(const VectorOf<S, 3>& x, const VectorOf<S, 3>& u, const Vec
 /// x, which is across the unit vector v, turned about it.
 template <typename S>
 VectorOf<S, 3> turn(const VectorOf<S, 3>& x, const VectorOf<S, 3>& v, S angle) noexcept {
-  using std::cos;
-  using std::sin;
-  return cos(angle) * x + sin(angle) * cross3(v, x);
+  S cosine, sine;
+  cos_and_sin(angle, cosine, sine);
+  return cosine * x + sine * cross3(v, x);
 }
 
 /// A unit vector along x, less its part along the unit vector v.
@@ -142,7 +143,9 @@ VectorOf<S, 3> unit(const VectorOf<S, 3>& x) noexcept {
 template <typename S>
 S angle_about(const VectorOf<S, 3>& v, const VectorOf<S, 3>& from, const VectorOf<S, 3>& to) noexcept {
   using std::atan2;
-  return atan2(v.dot(cross3(from, to)), from.dot(to));
+  using std::sqrt;
+  const S y = v.dot(cross3(from, to)), x = from.dot(to);
+  return sizeof(S) <= sizeof(double) ? angle(y, x, sqrt(x * x + y * y)) : atan2(y, x);
 }
 
 }  // namespace detail

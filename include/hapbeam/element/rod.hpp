@@ -63,11 +63,11 @@ struct RoundRod {
   template <typename S>
   static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>&,
                    Vector12<S>& r, Matrix12<S>& K) noexcept {
-    Core<S> core{};
+    Core<S> core;
     const V3<S> chord = n2.r - n1.r;
     S energy = 0;
-    for (int g = 0; g < points; ++g) bend(p, g, chord, n1.tangent, n2.tangent, core, energy);
     stretch(p, middle(p, chord, n1, n2), n1.tangent, n2.tangent, core, energy);
+    for (int g = 0; g < points; ++g) bend(p, g, chord, n1.tangent, n2.tangent, core, energy);
     expand(core, r, K);
     return energy;
   }
@@ -77,8 +77,6 @@ struct RoundRod {
   static constexpr const detail::GaussRule& rule = detail::three_points;
   template <typename S>
   using V3 = VectorOf<S, 3>;
-  template <typename S>
-  using M3 = Eigen::Matrix<S, 3, 3>;
 
   /// r' in the middle of the element.
   template <typename S>
@@ -87,113 +85,163 @@ struct RoundRod {
     return S(1.5) * p.inverse_length * chord - S(0.25) * (n1.tangent + n2.tangent);
   }
 
-  /// Gradient and Hessian by Δ, r1', r2'.
+  /// Gradient and Hessian by Δ, r1', r2'.  Of what is symmetric the lower triangle, column by column.
   template <typename S>
   struct Core {
-    V3<S> D = V3<S>::Zero(), t1 = V3<S>::Zero(), t2 = V3<S>::Zero();
-    M3<S> DD = M3<S>::Zero(), D1 = M3<S>::Zero(), D2 = M3<S>::Zero(), K11 = M3<S>::Zero(),
-          K12 = M3<S>::Zero(), K22 = M3<S>::Zero();
+    S D[3], t1[3], t2[3];
+    S DD[6], K11[6], K22[6];
+    S D1[9], D2[9], K12[9];  // column by column
   };
 
   template <typename S>
-  [[gnu::always_inline]] static void bend(const RodProperties<S>& p, int g, const V3<S>& chord,
-                                          const V3<S>& t1, const V3<S>& t2, Core<S>& core,
-                                          S& energy) noexcept {
+  static void bend(const RodProperties<S>& p, int g, const V3<S>& chord, const V3<S>& t1, const V3<S>& t2,
+                   Core<S>& core, S& energy) noexcept {
     const detail::CubicWeights<S> w(S(rule.x[g]), p.inverse_length);
-    const V3<S> a = w.a * chord + w.a1 * t1 + w.a2 * t2, b = w.b * chord + w.b1 * t1 + w.b2 * t2;
-    const S i = 1 / a.squaredNorm(), B = b.squaredNorm() * i, c = a.dot(b) * i, cc = c * c;
+    S a[3], b[3];
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 3; ++k) {
+      a[k] = w.a * chord[k] + w.a1 * t1[k] + w.a2 * t2[k];
+      b[k] = w.b * chord[k] + w.b1 * t1[k] + w.b2 * t2[k];
+    }
+    const S i = 1 / (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]),
+            B = (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]) * i,
+            c = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * i, cc = c * c;
     const S k = S(rule.weight[g]) * p.points[g].bending1 * p.length / 2;
     energy += k * (B - cc);
     // f = B/A - C²/A²:  by A, B, C once and twice
-    const S ki = k * i, fA = ki * (2 * cc - B), fB = ki, fC = -2 * ki * c, fAA = ki * i * (2 * B - 6 * cc),
-            fAB = -ki * i, fAC = 4 * ki * i * c, fCC = -2 * ki * i;
-    const V3<S> by_a = 2 * fA * a + fC * b, by_b = 2 * fB * b + fC * a;
-    core.D += w.a * by_a + w.b * by_b;
-    core.t1 += w.a1 * by_a + w.b1 * by_b;
-    core.t2 += w.a2 * by_a + w.b2 * by_b;
+    const S ki = k * i, fA2 = 2 * ki * (2 * cc - B), fB2 = 2 * ki, fC = -2 * ki * c,
+            fAA4 = 8 * ki * i * (B - 3 * cc), fAB4 = -4 * ki * i, fAC2 = 8 * ki * i * c, fCC = -2 * ki * i;
     // Haa = 2fA I + 4fAA aa' + 2fAC (ab' + ba') + fCC bb',  Hbb = 2fB I + fCC aa',
-    // Hab = fC I + 4fAB ab' + 2fAC aa' + fCC ba';  with weights (α, β) and (γ, δ) the sum of
-    // αγ Haa + αδ Hab + βγ Hba + βδ Hbb is  x I + a (y a + z b)' + b (z' a + u b)'
-    const auto add = [&](S alpha, S beta, S gamma, S delta, M3<S>& H) {
-      const S ag = alpha * gamma, ad = alpha * delta, bg = beta * gamma, bd = beta * delta;
-      const S aa = 4 * fAA * ag + 2 * fAC * (ad + bg) + fCC * bd, ab = 2 * fAC * ag + 4 * fAB * ad + fCC * bg,
-              ba = 2 * fAC * ag + fCC * ad + 4 * fAB * bg, bb = fCC * ag;
-      const V3<S> x = aa * a + ba * b, y = ab * a + bb * b;
-      const S diagonal = 2 * fA * ag + fC * (ad + bg) + 2 * fB * bd;
+    // Hab = fC I + 4fAB ab' + 2fAC aa' + fCC ba'
+    S x[3], y[3], z[3], u[3];
+    HAPBEAM_UNROLL
+    for (int r = 0; r < 3; ++r) {
+      const S by_a = fA2 * a[r] + fC * b[r], by_b = fB2 * b[r] + fC * a[r];
+      core.D[r] += w.a * by_a + w.b * by_b;
+      core.t1[r] += w.a1 * by_a + w.b1 * by_b;
+      core.t2[r] += w.a2 * by_a + w.b2 * by_b;
+      x[r] = fAA4 * a[r] + fAC2 * b[r];
+      y[r] = fAC2 * a[r] + fCC * b[r];
+      z[r] = fAB4 * a[r];
+      u[r] = fCC * a[r];
+    }
+    S aa[6], ab[9], bb[6];
+    HAPBEAM_UNROLL
+    for (int col = 0; col < 3; ++col) {
+      HAPBEAM_UNROLL
+      for (int row = 0; row < 3; ++row) ab[3 * col + row] = y[row] * a[col] + z[row] * b[col];
+      ab[4 * col] += fC;
+      HAPBEAM_UNROLL
+      for (int row = col; row < 3; ++row) {
+        aa[half(row, col)] = x[row] * a[col] + y[row] * b[col];
+        bb[half(row, col)] = u[row] * a[col];
+      }
+      aa[half(col, col)] += fA2;
+      bb[half(col, col)] += fB2;
+    }
+    // With weights (α, β) and (γ, δ):  αγ Haa + αδ Hab + βγ Hba + βδ Hbb
+    const auto add_square = [&](const S& alpha, const S& beta, S(&H)[6]) {
+      const S both = alpha * beta, first = alpha * alpha, last = beta * beta;
       HAPBEAM_UNROLL
       for (int col = 0; col < 3; ++col) {
         HAPBEAM_UNROLL
-        for (int row = 0; row < 3; ++row) H(row, col) += x[row] * a[col] + y[row] * b[col];
-        H(col, col) += diagonal;
+        for (int row = col; row < 3; ++row) {
+          const int h = half(row, col);
+          H[h] += first * aa[h] + both * (ab[3 * col + row] + ab[3 * row + col]) + last * bb[h];
+        }
       }
     };
-    add(w.a, w.b, w.a, w.b, core.DD);
+    const auto add = [&](const S& alpha, const S& beta, const S& gamma, const S& delta, S(&H)[9]) {
+      const S ag = alpha * gamma, ad = alpha * delta, bg = beta * gamma, bd = beta * delta;
+      HAPBEAM_UNROLL
+      for (int col = 0; col < 3; ++col) {
+        HAPBEAM_UNROLL
+        for (int row = 0; row < 3; ++row) {
+          const int h = row < col ? half(col, row) : half(row, col);
+          H[3 * col + row] += ag * aa[h] + ad * ab[3 * col + row] + bg * ab[3 * row + col] + bd * bb[h];
+        }
+      }
+    };
+    add_square(w.a, w.b, core.DD);
+    add_square(w.a1, w.b1, core.K11);
+    add_square(w.a2, w.b2, core.K22);
     add(w.a, w.b, w.a1, w.b1, core.D1);
     add(w.a, w.b, w.a2, w.b2, core.D2);
-    add(w.a1, w.b1, w.a1, w.b1, core.K11);
     add(w.a1, w.b1, w.a2, w.b2, core.K12);
-    add(w.a2, w.b2, w.a2, w.b2, core.K22);
   }
 
   template <typename S>
-  [[gnu::always_inline]] static void stretch(const RodProperties<S>& p, const V3<S>& a, const V3<S>& t1,
-                                             const V3<S>& t2, Core<S>& core, S& energy) noexcept {
+  static void stretch(const RodProperties<S>& p, const V3<S>& a, const V3<S>& t1, const V3<S>& t2,
+                      Core<S>& core, S& energy) noexcept {
     using std::sqrt;
     const S n[3] = {sqrt(t1.squaredNorm()), sqrt(a.squaredNorm()), sqrt(t2.squaredNorm())};
     const S e[3] = {n[0] - 1, n[1] - 1, n[2] - 1}, EA = p.axial * p.length;
-    S N[3];
-    for (int i = 0; i < 3; ++i) {
-      const auto& M = detail::quadratic_mass[i];
-      N[i] = EA * (S(M[0]) * e[0] + S(M[1]) * e[1] + S(M[2]) * e[2]);
-      energy += N[i] * e[i] / 2;
-    }
-    const V3<S> u = t1 / n[0], m = a / n[1], v = t2 / n[2];
-    const S w = S(1.5) * p.inverse_length, q = S(-0.25);
-    core.D += w * N[1] * m;
-    core.t1 += q * N[1] * m + N[0] * u;
-    core.t2 += q * N[1] * m + N[2] * v;
+    S N[3], inverse[3];
     const auto& M = detail::quadratic_mass;
+    HAPBEAM_UNROLL
+    for (int i = 0; i < 3; ++i) {
+      N[i] = EA * (S(M[i][0]) * e[0] + S(M[i][1]) * e[1] + S(M[i][2]) * e[2]);
+      energy += N[i] * e[i] / 2;
+      inverse[i] = 1 / n[i];
+    }
+    const S w = S(1.5) * p.inverse_length, q = S(-0.25), wN = w * N[1], qN = q * N[1];
     const S own = EA * S(M[0][0]), beside = EA * S(M[0][1]), across = EA * S(M[0][2]);
-    const S s0 = N[0] / n[0], s1 = N[1] / n[1], s2 = N[2] / n[2];
-    const V3<S> mm = (EA * S(M[1][1]) - s1) * m, um = beside * u, vm = beside * v;
-    // The middle's own part, s1 I + mm mᵀ, by weights; and what the three strains have in common.
-    const V3<S> Du = w * um, Dv = w * vm, left = (own - s0) * u, right = (own - s2) * v;
+    const S s0 = N[0] * inverse[0], s1 = N[1] * inverse[1], s2 = N[2] * inverse[2];
+    const S stiff = EA * S(M[1][1]) - s1, left = own - s0, right = own - s2;
+    S u[3], m[3], v[3];
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 3; ++k) {
+      u[k] = t1[k] * inverse[0], m[k] = a[k] * inverse[1], v[k] = t2[k] * inverse[2];
+      core.D[k] = wN * m[k];
+      core.t1[k] = qN * m[k] + N[0] * u[k];
+      core.t2[k] = qN * m[k] + N[2] * v[k];
+    }
+    // The middle's own part, s1 I + (M11 EA - s1) mmᵀ, by weights; and what the three strains have in common.
+    const S ww = w * w, wq = w * q, qq = q * q, across_w = beside * w, across_q = beside * q;
     HAPBEAM_UNROLL
     for (int c = 0; c < 3; ++c) {
       HAPBEAM_UNROLL
       for (int r = 0; r < 3; ++r) {
-        const S middle = mm[r] * m[c];
-        core.DD(r, c) += w * w * middle;
-        core.D1(r, c) += w * q * middle + m[r] * Du[c];
-        core.D2(r, c) += w * q * middle + m[r] * Dv[c];
-        core.K11(r, c) += q * q * middle + left[r] * u[c] + q * (um[r] * m[c] + m[r] * um[c]);
-        core.K12(r, c) += q * q * middle + q * (um[r] * m[c] + m[r] * vm[c]) + across * u[r] * v[c];
-        core.K22(r, c) += q * q * middle + right[r] * v[c] + q * (vm[r] * m[c] + m[r] * vm[c]);
+        const S part = r == c ? stiff * m[r] * m[c] + s1 : stiff * m[r] * m[c], mu = m[r] * u[c],
+                mv = m[r] * v[c];
+        const int k = 3 * c + r;
+        core.D1[k] = wq * part + across_w * mu;
+        core.D2[k] = wq * part + across_w * mv;
+        core.K12[k] = qq * part + across_q * (u[r] * m[c] + mv) + across * u[r] * v[c];
+        if (r < c) continue;
+        const int h = half(r, c);
+        core.DD[h] = ww * part;
+        core.K11[h] = qq * part + left * u[r] * u[c] + across_q * (u[r] * m[c] + mu);
+        core.K22[h] = qq * part + right * v[r] * v[c] + across_q * (v[r] * m[c] + mv);
       }
-      core.DD(c, c) += w * w * s1;
-      core.D1(c, c) += w * q * s1;
-      core.D2(c, c) += w * q * s1;
-      core.K11(c, c) += q * q * s1 + s0;
-      core.K12(c, c) += q * q * s1;
-      core.K22(c, c) += q * q * s1 + s2;
+      core.K11[half(c, c)] += s0;
+      core.K22[half(c, c)] += s2;
     }
   }
 
   template <typename S>
-  [[gnu::always_inline]] static void expand(const Core<S>& core, Vector12<S>& r, Matrix12<S>& K) noexcept {
-    r.template segment<3>(0) = -core.D;
-    r.template segment<3>(3) = core.t1;
-    r.template segment<3>(6) = core.D;
-    r.template segment<3>(9) = core.t2;
-    const auto set = [&K](int i, int j, const M3<S>& m, S sign) {
+  static void expand(const Core<S>& core, Vector12<S>& r, Matrix12<S>& K) noexcept {
+    const auto set = [&K](int i, int j, const S& value) { K(i, j) = value, K(j, i) = value; };
+    HAPBEAM_UNROLL
+    for (int c = 0; c < 3; ++c) {
+      r[c] = -core.D[c], r[3 + c] = core.t1[c], r[6 + c] = core.D[c], r[9 + c] = core.t2[c];
       HAPBEAM_UNROLL
-      for (int c = 0; c < 3; ++c) HAPBEAM_UNROLL
-      for (int row = 0; row < 3; ++row) K(i + row, j + c) = K(j + c, i + row) = sign * m(row, c);
-    };
-    set(0, 0, core.DD, 1), set(0, 6, core.DD, -1), set(6, 6, core.DD, 1);
-    set(0, 3, core.D1, -1), set(6, 3, core.D1, 1), set(0, 9, core.D2, -1), set(6, 9, core.D2, 1);
-    set(3, 3, core.K11, 1), set(3, 9, core.K12, 1), set(9, 9, core.K22, 1);
+      for (int row = 0; row < 3; ++row) {
+        const int k = 3 * c + row;
+        set(6 + row, 3 + c, core.D1[k]), set(row, 3 + c, -core.D1[k]);
+        set(6 + row, 9 + c, core.D2[k]), set(row, 9 + c, -core.D2[k]);
+        set(3 + row, 9 + c, core.K12[k]);
+        const S DD = core.DD[row < c ? half(c, row) : half(row, c)];
+        K(row, c) = DD, K(6 + row, 6 + c) = DD, K(row, 6 + c) = -DD, K(6 + row, c) = -DD;
+        if (row < c) continue;
+        set(3 + row, 3 + c, core.K11[half(row, c)]);
+        set(9 + row, 9 + c, core.K22[half(row, c)]);
+      }
+    }
   }
+
+  /// Where the lower triangle has (i, j), i >= j.
+  static constexpr int half(int i, int j) noexcept { return j * (5 - j) / 2 + i; }
 };
 
 }  // namespace hapbeam

@@ -149,9 +149,6 @@ struct TwistedRod {
 
   template <typename S>
   static S respond(const RodProperties<S>& p, const Frame<S>& f, S psi, Core<S>& core) noexcept {
-    using std::cos;
-    using std::sin;
-    using std::sqrt;
     for (int i = 0; i < 10; ++i) {
       core.g[i] = 0;
       for (int j = 0; j <= i; ++j) core.H[i][j] = 0;
@@ -165,8 +162,6 @@ struct TwistedRod {
   template <typename S>
   [[gnu::always_inline]] static void add_point(const RodProperties<S>& p, const Frame<S>& f, S psi, int point,
                                                Core<S>& core, S& energy) noexcept {
-    using std::cos;
-    using std::sin;
     const auto& at = p.points[point];
     const detail::GaussRule& rule = detail::gauss_rule(p.number);
     const S x = S(rule.x[point]), weight = S(rule.weight[point]) * p.length, m = f.mismatch;
@@ -175,7 +170,10 @@ struct TwistedRod {
     // θ and θ' by φ1, φ2 + m, ψ
     const S t[3] = {1 - x, x, 4 * x * (1 - x)},
             d[3] = {-p.inverse_length, p.inverse_length, 4 * (1 - 2 * x) * p.inverse_length};
-    const S theta = t[1] * m + t[2] * psi, co = cos(theta), si = sin(theta);
+    using detail::cos_and_sin;
+    const S theta = t[1] * m + t[2] * psi;
+    S co, si;
+    cos_and_sin(theta, co, si);
     const S k1 = co * q.K1 + si * q.K2, k2 = co * q.K2 - si * q.K1, tau = d[1] * m + d[2] * psi - q.c;
     const S E1 = weight * at.bending1, E2 = weight * at.bending2, GJ = weight * at.torsion;
     const S e1 = k1 - at.natural[0], e2 = k2 - at.natural[1], e3 = tau - at.natural[2];

@@ -2,7 +2,7 @@
 //
 //   x₊ = x + r (x - x₋) + e ∂x/∂s        e = s₊ - s - r (s - s₋)
 //
-// x are place and rotation of a node, s is where it is along the beam, for the mesh follows the contact, and r is the hand's step in units of the
+// x are place and rotation of a node, in space place, tangent and director; s is where it is along the beam, for the mesh follows the contact, and r is the hand's step in units of the
 // step before.  From there the error is of second order in the step, and Newton's method takes one solve less; nor is the shape carried over to the
 // mesh by its cubics.  A hand that turns aside or hurries has nothing foreseen.
 // Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(elements).
@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
@@ -17,18 +18,31 @@
 
 namespace hapbeam::detail {
 
-template <class System>
+/// Where a hand is: the centre of a circle, or both ends of a capsule's axis [m].
+template <typename Scalar>
+Vector2<Scalar> hand_of(const Circle<Scalar>& circle) noexcept {
+  return circle.centre;
+}
+template <typename Scalar>
+VectorOf<Scalar, 6> hand_of(const Capsule<Scalar>& capsule) noexcept {
+  VectorOf<Scalar, 6> ends;
+  ends << capsule.axis.tip, capsule.axis.at(1);
+  return ends;
+}
+
+/// @tparam Request  Circle | Capsule
+template <class System, class Request>
 class Foresight {
   using Scalar = typename System::Scalar;
+  using Hand = decltype(hand_of(std::declval<const Request&>()));
 
  public:
   explicit Foresight(const System& system) : before_(system.elements()), mesh_(system.mesh()) {}
 
   /// To be called before each push, which moves the system.  @param mesh  of this push   @param request  of it
   /// @return whether the system is where the beam will be about, on that mesh; else it has not moved
-  bool go_on(System& system, const ContactMesh<Scalar>& mesh, const Circle<Scalar>& request) noexcept {
-    const Vector2<Scalar>& hand = request.centre;
-    const Vector2<Scalar> step = hand - hand_;
+  bool go_on(System& system, const ContactMesh<Scalar>& mesh, const Request& request) noexcept {
+    const Hand hand = hand_of(request), step = hand - hand_;
     const Scalar ratio = step.dot(step_) / step_.squaredNorm();
     const bool straight_on = std::abs(ratio) < fastest &&
                              (step - ratio * step_).squaredNorm() <= aside * aside * step.squaredNorm();
@@ -55,23 +69,9 @@ class Foresight {
                           aside = Scalar(0.1);  // of a step, in units of the one before and of itself
 
   typename System::State before_;
-  ContactMesh<Scalar> mesh_;                 // of before_
-  Vector2<Scalar> hand_{0, 0}, step_{0, 0};  // of the last push [m]
-  int known_ = 0;                            // pushes without a break, as far as they matter
-};
-
-/// Of a rod in space.
-struct NoForesight {
-  template <class System>
-  explicit NoForesight(const System&) noexcept {}
-  template <class System, class Mesh, class Request>
-  bool go_on(const System&, const Mesh&, const Request&) noexcept {
-    return false;
-  }
-  void know(bool) noexcept {}
-  template <class System, typename Scalar>
-  void go_back(const System&, Scalar) noexcept {}
-  void forget() noexcept {}
+  ContactMesh<Scalar> mesh_;                        // of before_
+  Hand hand_ = Hand::Zero(), step_ = Hand::Zero();  // of the last push [m]
+  int known_ = 0;                                   // pushes without a break, as far as they matter
 };
 
 }  // namespace hapbeam::detail

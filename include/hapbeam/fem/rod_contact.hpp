@@ -65,11 +65,9 @@ class RodContact {
   /// ∂d/∂r' [m], in space.
   const Vector3& arm() const noexcept { return arm_; }
   bool leans() const noexcept { return !arm_.isZero(0); }
-  /// Adds what the force makes of the capsule to the tangent of an element.  @param at  the first row of the node
-  template <class Tangent>
-  void bend(int at, Tangent& K) const noexcept {
-    if (round_ && bends_) K.template block<6, 6>(at, at) += bend_;
-  }
+  /// Whether the force makes something of the capsule, and what: to be added to the tangent of the node, by r and r'.
+  bool bends() const noexcept { return round_ && bends_; }
+  const Matrix6<Scalar>& bend() const noexcept { return bend_; }
 
  private:
   void face(const Vector3& normal) noexcept {

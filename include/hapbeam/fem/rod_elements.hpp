@@ -117,30 +117,38 @@ class RodElements {
   };
 
   /// Residual and tangent of V - λW in each element, and the derivatives of its inner twist.  Elements are computed a few at a time,
-  /// side by side.   @param visit  called with (e, Energies, Residual&, Tangent&), in order
+  /// side by side.   @param visit  called with (e, Energies, residual, tangent), in order
   template <class Visit>
   [[gnu::always_inline]] void visit_tangents(Scalar lambda, Visit&& visit) noexcept {
     Residual r;
-    Tangent K;
     for (int first = 0; first < size(); first += lanes) {
       Group group;
       compute(first, group);
       for (int e = first; e < first + lanes && e < size(); ++e) {
-        group.get(e - first, r, K);
-        if constexpr (has_twist) group.get(e - first, inners_[e]);
-        const Scalar energy = group.energy[e - first];
-        visit(e, with_bed_and_loads(e, energy, lambda, r, K), r, K);
+        const int lane = e - first;
+        group.get(lane, r);
+        if constexpr (has_twist) group.get(lane, inners_[e]);
+        Scalar energy = group.energy[lane];
+        if (bed_.empty()) {
+          visit(e, with_loads(e, energy, lambda, r), r, OneOf{group, lane});
+        } else {
+          Tangent K;
+          group.get(lane, K);
+          energy += bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, K);
+          visit(e, with_loads(e, energy, lambda, r), r, K);
+        }
       }
     }
   }
   /// The residual alone of one element.
   void residual(int e, Scalar lambda, Residual& r) const noexcept {
-    Tangent K;
     Group group;
     const int first = e - e % lanes;
     compute(first, group);
-    group.get(e - first, r, K);
-    (void)with_bed_and_loads(e, group.energy[e - first], lambda, r, K);
+    group.get(e - first, r);
+    Tangent unused = Tangent::Zero();
+    if (!bed_.empty()) (void)bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, unused);
+    (void)with_loads(e, 0, lambda, r);
   }
   /// [J]
   Scalar strain_energy() const noexcept {
@@ -166,8 +174,11 @@ class RodElements {
     typename Element::template Inner<Wide> inner;
     Wide energy;
 
-    [[gnu::always_inline]] void get(int lane, Residual& to, Tangent& tangent) const noexcept {
+    [[gnu::always_inline]] void get(int lane, Residual& to) const noexcept {
+      HAPBEAM_UNROLL
       for (int i = 0; i < 2 * unknowns; ++i) to[i] = r[i][lane];
+    }
+    void get(int lane, Tangent& tangent) const noexcept {
       for (int j = 0; j < 2 * unknowns; ++j)
         for (int i = 0; i < 2 * unknowns; ++i) tangent(i, j) = K(i, j)[lane];
     }
@@ -176,6 +187,12 @@ class RodElements {
       to.stiffness = inner.stiffness[lane];
       for (int i = 0; i < 2 * unknowns; ++i) to.row[i] = inner.row[i][lane];
     }
+  };
+  /// The tangent of one of them.
+  struct OneOf {
+    const Group& group;
+    int lane;
+    [[gnu::always_inline]] Scalar operator()(int i, int j) const noexcept { return group.K(i, j)[lane]; }
   };
   /// @param first  of the elements; beyond the last one that one stands again
   void compute(int first, Group& group) const noexcept {
@@ -194,10 +211,9 @@ class RodElements {
     const RodNode<Wide> a = gather(0), b = gather(1);
     group.energy = Element::tangent(wide_[first / lanes], a, b, group.inner, group.r, group.K);
   }
-  Energies with_bed_and_loads(int e, Scalar energy, Scalar lambda, Residual& r, Tangent& K) const noexcept {
-    const Node &a = nodes_[e], &b = nodes_[e + 1];
-    if (!bed_.empty()) energy += bed_.template add<unknowns>(e, a, b, r, K);
+  Energies with_loads(int e, Scalar energy, Scalar lambda, Residual& r) const noexcept {
     if (!loaded()) return {energy, 0};
+    const Node &a = nodes_[e], &b = nodes_[e + 1];
     subtract_loads(e, lambda, r);
     const Force& f = forces_[e];
     return {energy, lambda * (f.template segment<3>(0).dot(a.r) + f.template segment<3>(3).dot(a.tangent) +
@@ -206,11 +222,9 @@ class RodElements {
   /// Lays an element's properties beside those of its neighbours.
   void widen(int e) noexcept {
     const RodProperties<Scalar>& from = properties_[e];
-    RodProperties<Wide>& to = wide_[e / lanes];
-    to.number = from.number;
-    for (int k = e % lanes; k < lanes; ++k) {
-      const auto set = [k](Wide& wide, Scalar value) { wide.set(k, value); };
-      set(to.length, from.length), set(to.inverse_length, from.inverse_length), set(to.axial, from.axial);
+    wide_[e / lanes].number = from.number;
+    fill(e, [&](auto&& set, RodProperties<Wide>& to) {
+      set(to.axial, from.axial);
       for (int i = 0; i < 3; ++i) {
         auto& point = to.points[i];
         set(point.bending1, from.points[i].bending1), set(point.bending2, from.points[i].bending2);
@@ -218,7 +232,21 @@ class RodElements {
         for (int j = 0; j < 3; ++j) set(point.natural[j], from.points[i].natural[j]);
         set(to.natural_strain[i], from.natural_strain[i]);
       }
-      if (e + 1 < size()) break;  // the last one fills its group
+    });
+    widen_length(e);
+  }
+  void widen_length(int e) noexcept {
+    const RodProperties<Scalar>& from = properties_[e];
+    fill(e, [&](auto&& set, RodProperties<Wide>& to) {
+      set(to.length, from.length), set(to.inverse_length, from.inverse_length);
+    });
+  }
+  /// Calls put(set, properties) for an element's lane, and for all after it where it is the last.
+  template <class Put>
+  void fill(int e, Put&& put) noexcept {
+    for (int k = e % lanes; k < lanes; ++k) {
+      put([k](Wide& wide, Scalar value) { wide.set(k, value); }, wide_[e / lanes]);
+      if (e + 1 < size()) break;
     }
   }
 
@@ -276,19 +304,23 @@ class RodElements {
 
   void take(const ContactMesh<Scalar>& mesh) noexcept {
     mesh_ = mesh;
+    // Where all elements are the same their length alone changes.
+    const bool alike = profile_.constant() && natural_.straight() && wide_[0].length[0] > 0;
     for (int e = 0; e < size(); ++e) {
       const Scalar length = nodes_[e + 1].s - nodes_[e].s;
-      RodProperties<Scalar>& p = properties_[e];
-      // The same length is the same element where all elements are the same.
-      const bool same = wide_[e / lanes].length[e % lanes] == length && profile_.constant();
-      if (!same) {
+      if (alike) {
+        if (length != properties_[e].length || length != wide_[e / lanes].length[e % lanes]) {
+          set_length(e, length);
+          widen_length(e);
+        }
+      } else {
         set_length(e, length);
-        profile_.apply(nodes_[e].s, nodes_[e + 1].s, p);
+        profile_.apply(nodes_[e].s, nodes_[e + 1].s, properties_[e]);
+        if constexpr (has_twist)
+          if (!natural_.straight()) take_natural(e);
+        widen(e);
       }
       if (!bed_.empty()) bed_.take(e, nodes_[e].s, nodes_[e + 1].s, natural_);
-      if constexpr (has_twist)
-        if (!natural_.straight()) take_natural(e);
-      if (!same || !natural_.straight()) widen(e);
     }
     if (loaded()) take_loads();
   }

@@ -81,6 +81,25 @@ class RodSystem {
     rod_.set(mesh, state.nodes, state.inners);
     force_ = linear_reaction_ = 0;
   }
+  /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
+  /// @param before  becomes what the state is now
+  void go_on(State& before, const ContactMesh<Scalar>& mesh, Scalar ratio) noexcept {
+    for (int i = 0; i <= elements(); ++i)
+      saved_.nodes[i] =
+          detail::gone_on(rod_.nodes(), before.nodes, i, mesh.position(i), ratio, unknowns == 7);
+    if constexpr (unknowns == 7)
+      for (int e = 0; e < elements(); ++e) {
+        saved_.inners[e] = inners()[e];
+        saved_.inners[e].twist += ratio * (inners()[e].twist - before.inners[e].twist);
+      }
+    keep(before);
+    rod_.set(mesh, saved_.nodes, saved_.inners);
+  }
+  /// Back to an equilibrium that was left.  @param force  of its contact [N]
+  void go_back(const ContactMesh<Scalar>& mesh, const State& state, Scalar force) noexcept {
+    rod_.set(mesh, state.nodes, state.inners);
+    force_ = linear_reaction_ = force;
+  }
   /// That of the same system in another scalar, on the uniform mesh.
   template <class Other>
   void take_state(const Other& other) noexcept {
@@ -211,28 +230,34 @@ class RodSystem {
   /// @param shift  what is added to the tangent: so many times EI/L³ on each place and EI/L on each rotation, shared out
   /// over the nodes   @return ok | singular | non_finite
   Status factor(Scalar shift) noexcept {
-    using Residual = typename Parts::Residual;
-    using Tangent = typename Parts::Tangent;
     Scalar energy = 0, work = 0;
     inner_energy_ = 0;
     const int c = contact_.node();
     if (c >= 0) contact_.look(node(c), force_);
     if (grip_.on()) look_at_grip();
-    rod_.visit_tangents(load_, [&](int e, const auto& energies, Residual& r, Tangent& K) {
+    rod_.visit_tangents(load_, [&](int e, const auto& energies, const auto& r, const auto& K) {
       energy += energies.strain;
       work += energies.work;
       inner_energy_ += rod_.inners()[e].energy();
-      if (shift != 0) add_shift(shift, e, K);
-      if (e == 0) energy += add_springs(ends_[0], node(0), 0, r, K);
-      if (e + 1 == elements()) energy += add_springs(ends_[1], node(e + 1), unknowns, r, K);
-      if (contact_.holds(e + 1)) contact_.bend(unknowns, K);
-      else if (e == 0 && contact_.holds(0)) contact_.bend(0, K);
-      if (grip_.on() && contact_.holds(e + 1)) add_friction(unknowns, r, K);
-      else if (grip_.on() && e == 0 && contact_.holds(0)) add_friction(0, r, K);
-      if (own_axes(e)) transform(e, 0, r, K);
-      if (own_axes(e + 1)) transform(e + 1, unknowns, r, K);
       assembler_.add(e, K, r);
     });
+    if (shift != 0) add_shift(shift);
+    for (std::size_t k = 0; k < 2; ++k)
+      if (ends_[k].has_springs()) {
+        Increment r = Increment::Zero();
+        Block K = Block::Zero();
+        energy += ends_[k].add_springs(node(end(k)), r, K);
+        assembler_.add_at(end(k), K, r);
+      }
+    if (c >= 0 && contact_.bends()) {
+      Block K = Block::Zero();
+      K.template block<6, 6>(0, 0) = contact_.bend();
+      assembler_.add_at(c, K, Increment::Zero());
+    }
+    if (grip_.on() && c >= 0) add_friction(c);
+    transform(0);
+    transform(elements());
+    if (c > 0 && c < elements()) transform(c);
     size_ = std::sqrt(2 * std::max(energy, Scalar(0)));  // of a rod without stress round-off has either sign
     potential_ = energy - work;
     if (grip_.on()) potential_ += grip_.potential();
@@ -352,14 +377,16 @@ class RodSystem {
   /// Strain energy, that of the springs that hold it included [J].
   Scalar strain_energy() const noexcept {
     Scalar energy = rod_.strain_energy();
-    typename Parts::Residual r = Parts::Residual::Zero();
-    typename Parts::Tangent K = Parts::Tangent::Zero();
-    for (std::size_t k = 0; k < 2; ++k) energy += add_springs(ends_[k], node(end(k)), 0, r, K);
+    Increment r = Increment::Zero();
+    Block K = Block::Zero();
+    for (std::size_t k = 0; k < 2; ++k)
+      if (ends_[k].has_springs()) energy += ends_[k].add_springs(node(end(k)), r, K);
     return energy;
   }
 
  private:
   using Matrix = Eigen::Matrix<Scalar, 3, 3>;
+  using Block = Eigen::Matrix<Scalar, unknowns, unknowns>;
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
   bool own_axes(int i) const noexcept { return contact_.holds(i) || i == 0 || i == elements(); }
   /// The axes along which a node's unknowns of place are counted, and those of r'; null: those of space.
@@ -383,40 +410,19 @@ class RodSystem {
     for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
   }
 
-  /// To a node's own axes.  @param at  its first row in the element
-  void transform(int i, int at, typename Parts::Residual& r, typename Parts::Tangent& K) const noexcept {
-    const auto turn = [&](int k, const Matrix& Q) {
-      r.template segment<3>(k) = Q.transpose().lazyProduct(r.template segment<3>(k)).eval();
-      const Eigen::Matrix<Scalar, 2 * unknowns, 3> columns = K.template middleCols<3>(k).lazyProduct(Q);
-      const Matrix own = Q.transpose().lazyProduct(columns.template middleRows<3>(k));
-      K.template middleCols<3>(k) = columns;
-      K.template middleRows<3>(k) = columns.transpose();
-      K.template block<3, 3>(k, k) = own;
-    };
-    // An unknown that is its old self and a part of the tangent: what it was is what it is, less that part.
-    const auto lean = [&](int unknown, const Vector3& part) {
-      for (int j = 0; j < 3; ++j) {
-        r[at + 3 + j] -= part[j] * r[at + unknown];
-        K.col(at + 3 + j) -= part[j] * K.col(at + unknown);
-      }
-      for (int j = 0; j < 3; ++j) K.row(at + 3 + j) -= part[j] * K.row(at + unknown);
-    };
+  /// To a node's own axes.
+  void transform(int i) noexcept {
     if constexpr (unknowns == 7)
       if (const auto* const joint = this->joint(i)) {
-        K.template block<3, 3>(at + 3, at + 3) += r[at + 6] * joint->bow(node(i));
-        lean(6, joint->arm(node(i)));
+        Block K = Block::Zero();
+        K.template block<3, 3>(3, 3) = assembler_.residual(i, 6) * joint->bow(node(i));
+        assembler_.add_at(i, K, Increment::Zero());
+        assembler_.template lean<6, 3>(i, joint->arm(node(i)));
       }
     const Matrix *const R = place_axes(i), *const T = tangent_axes(i);
-    if (R) turn(at, *R);
-    if (T) turn(at + 3, *T);
-    if (contact_.holds(i) && contact_.leans()) lean(2, arm(T));
-  }
-  /// @param at  the end's first row in the element   @return [J]
-  static Scalar add_springs(const detail::RodEnd<Scalar>& end, const Node& node, int at,
-                            typename Parts::Residual& r, typename Parts::Tangent& K) noexcept {
-    if (!end.has_springs()) return 0;
-    return end.add_springs(node, r.template segment<unknowns>(at),
-                           K.template block<unknowns, unknowns>(at, at));
+    if (R) assembler_.template turn<0>(i, *R);
+    if (T) assembler_.template turn<3>(i, *T);
+    if (contact_.holds(i) && contact_.leans()) assembler_.template lean<2, 3>(i, arm(T));
   }
   /// The end at node i where it is a joint that holds the twist.
   const detail::RodEnd<Scalar>* joint(int i) const noexcept {
@@ -432,9 +438,9 @@ class RodSystem {
     for (Node& node : rod_.nodes()) node.r += left ? Vector3(miss * (node.s / length_)) : miss;
   }
 
-  /// Friction, at the place that is touched.  @param at  the first row of the contact's node
-  void add_friction(int at, typename Parts::Residual& r, typename Parts::Tangent& K) const noexcept {
-    const Node& n = node(contact_.node());
+  /// Friction, at the place that is touched.
+  void add_friction(int c) noexcept {
+    const Node& n = node(c);
     Eigen::Matrix<Scalar, 3, 6> moves;  // that place, by r and r'
     moves.template leftCols<3>().setIdentity();
     moves.template rightCols<3>().setZero();
@@ -443,16 +449,23 @@ class RodSystem {
       moves.template rightCols<3>() =
           (view.u.dot(view.f) * Matrix::Identity() - view.u * view.f.transpose()) / view.length;
     }
-    r.template segment<6>(at) -= moves.transpose().lazyProduct(grip_.force());
+    Increment r = Increment::Zero();
+    Block K = Block::Zero();
+    r.template head<6>() = -moves.transpose().lazyProduct(grip_.force());
     const Eigen::Matrix<Scalar, 3, 6> stiff = grip_.tangent().lazyProduct(moves);
-    K.template block<6, 6>(at, at) += moves.transpose().lazyProduct(stiff);
+    K.template block<6, 6>(0, 0) = moves.transpose().lazyProduct(stiff);
+    assembler_.add_at(c, K, r);
   }
 
-  /// An element's share of the shift, half of it to either node.
-  void add_shift(Scalar shift, int e, typename Parts::Tangent& K) const noexcept {
-    const Scalar share = shift * unit_ * unit_ * (node(e + 1).s - node(e).s) / (2 * length_),
-                 across = share / (length_ * length_);
-    for (int k = 0; k < 2 * unknowns; ++k) K(k, k) += k % unknowns < 3 ? across : share;
+  /// An element's share of the shift is half of either node's.
+  void add_shift(Scalar shift) noexcept {
+    for (int i = 0; i <= elements(); ++i) {
+      const Scalar length = node(std::min(i + 1, elements())).s - node(std::max(i - 1, 0)).s,
+                   share = shift * unit_ * unit_ * length / (2 * length_);
+      Increment diagonal = Increment::Constant(share);
+      diagonal.template segment<3>(0) /= length_ * length_;
+      assembler_.add_at(i, Block(diagonal.asDiagonal()), Increment::Zero());
+    }
   }
 
   Parts rod_;

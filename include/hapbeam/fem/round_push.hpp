@@ -221,7 +221,7 @@ class RoundPush {
     return pushed;
   }
 
-  std::conditional_t<planar, Foresight<System>, NoForesight> foresight_;
+  Foresight<System, Round> foresight_;
   bool sharp_ = false;               // where the last circle touched
   typename System::State before_;    // before a push with friction
   ContactMesh<Scalar> before_mesh_;  // of it

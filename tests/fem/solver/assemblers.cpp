@@ -344,3 +344,63 @@ TEST_CASE("a node may have any number of unknowns", "[assembler]") {
     check_block<7>(random, shift);
   }
 }
+
+namespace {
+
+/// A chain whose nodes are seen in other axes, and with something added to one: both assemblers answer alike.
+template <int Block>
+void check_changes(Random& random) {
+  using Tangent = Eigen::Matrix<double, 2 * Block, 2 * Block>;
+  using Own = Eigen::Matrix<double, Block, Block>;
+  using Unknowns = Eigen::Matrix<double, Block, 1>;
+  const int elements = random.integer(2, 9);
+  BlockTridiagonal<double, Eigen::Dynamic, Eigen::Dynamic, Block> chain(elements);
+  Dense<double, Eigen::Dynamic, Eigen::Dynamic, Block> dense(elements);
+  const auto both = [&](auto&& f) { f(chain), f(dense); };
+  for (int e = 0; e < elements; ++e) {
+    Tangent K = Tangent::Identity() * 20;
+    Eigen::Matrix<double, 2 * Block, 1> r;
+    for (int i = 0; i < 2 * Block; ++i) {
+      r[i] = random(1.0);
+      for (int j = 0; j < i; ++j) K(i, j) = K(j, i) = random(1.0);
+    }
+    both([&](auto& assembler) { assembler.add(e, K, r); });
+  }
+  for (const int node : {0, random.integer(0, elements), elements}) {
+    Own K = 5 * Own::Identity();
+    Unknowns r;
+    for (int i = 0; i < Block; ++i) {
+      r[i] = random(1.0);
+      for (int j = 0; j < i; ++j) K(i, j) = K(j, i) = random(1.0);
+    }
+    const Vector3<double> axis = Vector3<double>(random(1.0), random(1.0), random(1.0)).normalized(),
+                          part(random(1.0), random(1.0), random(1.0));
+    const Matrix3<double> mirror = Matrix3<double>::Identity() - 2 * axis * axis.transpose();
+    Matrix3<double> cycle;
+    cycle << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+    both([&](auto& assembler) {
+      assembler.add_at(node, K, r);
+      assembler.template turn<0>(node, mirror * cycle);
+      assembler.template turn<3>(node, cycle * mirror);
+      assembler.template lean<2, 3>(node, part);
+      if constexpr (Block == 7) assembler.template lean<6, 3>(node, part);
+    });
+    CHECK(chain.residual(node, 1) == Approx(dense.residual(node, 1)).epsilon(1e-12).margin(1e-12));
+  }
+  REQUIRE(chain.solve() == Status::ok);
+  REQUIRE(dense.solve() == Status::ok);
+  for (int i = 0; i <= elements; ++i)
+    CHECK((chain.increment(i) - dense.increment(i)).norm() <= 1e-10 * (1 + dense.increment(i).norm()));
+  CHECK(chain.energy() == Approx(dense.energy()).epsilon(1e-10));
+}
+
+}  // namespace
+
+TEST_CASE("unknowns of a node are turned and leant, and something is added to them, in either assembler",
+          "[assembler]") {
+  Random random(7);
+  for (int trial = 0; trial < 40; ++trial) {
+    check_changes<6>(random);
+    check_changes<7>(random);
+  }
+}

@@ -7,8 +7,8 @@
 //    K = | C0ᵀ D1  C1      |       Di' = Di - C(i-1)ᵀ D(i-1)'⁻¹ C(i-1)
 //        |     C1ᵀ D2  ... |
 //
-// and one sweep factors and solves in O(n).  It runs from both ends to the middle node: each elimination waits for
-// the one before it, and most of a sweep is waiting, so two chains side by side take hardly longer than one.
+// and one sweep factors and solves in O(n).  It runs from both ends to the middle node, and each of its operations is done for
+// both chains in the two lanes of a register.
 // With Di' = LPLᵀ the update is  Yᵀ(P⁻¹Y),  Y = L⁻¹C:  symmetric, and free of the second half of a solve.
 // No pivoting: the pivots of LDLᵀ carry the inertia of K, so an indefinite tangent (a beam beyond its buckling load)
 // is solved and counted, not rejected.
@@ -16,6 +16,7 @@
 // Source: Golub and Van Loan, Matrix Computations, 4.5.1; from both ends: Dongarra and others, LINPACK Users' Guide, 7.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <hapbeam/element/element.hpp>
@@ -28,69 +29,160 @@ namespace hapbeam {
 /// @tparam Block  unknowns of a node
 template <typename Scalar, int Elements = Eigen::Dynamic, int MaxElements = Elements, int Block = 3>
 class BlockTridiagonal {
-  using Diagonal = detail::Symmetric<Scalar, Block>;
   using Factor = detail::Ldlt<Scalar, Block>;
-  using Pivots = detail::Pivots<Scalar>;
+  using Lanes = detail::Lanes<Scalar>;
+  using Number = detail::TwoNumbers<Scalar>;
   using Vector = Eigen::Matrix<Scalar, Block, 1>;
-  using Matrix = Eigen::Matrix<Scalar, Block, Block>;
 
  public:
-  explicit BlockTridiagonal(int elements) : rows_(elements) {}
+  explicit BlockTridiagonal(int elements)
+      : last_(elements), odd_(elements % 2), pairs_((elements + odd_) / 2), rows_(half(elements)) {
+    // The left chain of an odd number of elements has one node more, to which nothing is coupled.
+    if (odd_)
+      for (int k = 0; k < Block; ++k) rows_[0].block[triangle(k, k)].a[0] = 1;
+  }
 
   /// Adds element e: its tangent, and its residual to the right-hand side with the sign turned.
   /// Elements come in order, 0 to n - 1; element 0 starts a new system.
-  [[gnu::always_inline]] void add(int e, const Eigen::Matrix<Scalar, 2 * Block, 2 * Block>& K,
-                                  const Eigen::Matrix<Scalar, 2 * Block, 1>& r) noexcept {
-    Row& a = rows_[e];
-    Row& b = rows_[e + 1];
-    if (e == 0) a.block = {}, a.x.setZero(), held_energy_ = 0;
-    // Entry by entry: g++ 12 -O3 miscompiles a = {a.a00 + …, …} where this function is not inlined further.
+  /// @param K  (i, j) -> entry: of the lower triangles of both nodes, and of what couples the first with the second
+  /// @param r  [i] -> entry
+  template <class Tangent, class Residual>
+  [[gnu::always_inline]] void add(int e, const Tangent& K, const Residual& r) noexcept {
+    const Place at = place(e), to = place(e + 1);
+    Row &a = rows_[at.row], &b = rows_[to.row];
+    const int p = at.lane, q = to.lane;
+    if (e == 0) {
+      for (auto& entry : a.block) entry.a[p] = 0;
+      for (auto& entry : a.x) entry.a[p] = 0;
+      held_energy_ = 0;
+    }
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
       HAPBEAM_UNROLL
-      for (int i = j; i < Block; ++i) a.block(i, j) += K(i, j), b.block(i, j) = K(Block + i, Block + j);
+      for (int i = j; i < Block; ++i) {
+        a.block[triangle(i, j)].a[p] += K(i, j);
+        b.block[triangle(i, j)].a[q] = K(Block + i, Block + j);
+      }
+      a.x[j].a[p] -= r[j];
+      b.x[j].a[q] = -r[Block + j];
+    }
+    if (q == 0) {
       HAPBEAM_UNROLL
-      for (int i = 0; i < Block; ++i) a.coupling(i, j) = K(i, Block + j);
-      a.x[j] -= r[j];
-      b.x[j] = -r[Block + j];
+      for (int j = 0; j < Block; ++j) {
+        HAPBEAM_UNROLL
+        for (int i = 0; i < Block; ++i) a.coupling[i][j].a[0] = K(i, Block + j);
+      }
+    } else {
+      HAPBEAM_UNROLL
+      for (int j = 0; j < Block; ++j) {
+        HAPBEAM_UNROLL
+        for (int i = 0; i < Block; ++i) b.coupling[j][i].a[1] = K(i, Block + j);
+      }
+    }
+  }
+
+  /// Adds to the tangent and to the residual of one node, after all elements are in.  @param K  (i, j) -> entry of a lower triangle
+  template <class Tangent, class Residual>
+  void add_at(int node, const Tangent& K, const Residual& r) noexcept {
+    const Own own = own_of(node);
+    HAPBEAM_UNROLL
+    for (int j = 0; j < Block; ++j) {
+      HAPBEAM_UNROLL
+      for (int i = j; i < Block; ++i) own(i, j) += K(i, j);
+      own[j] -= r[j];
+    }
+  }
+  /// Residual of one unknown of a node so far.
+  Scalar residual(int node, int component) noexcept { return -own_of(node)[component]; }
+
+  /// Three unknowns of a node from At on become those along other axes, after all elements are in:  old = Q new.
+  template <int At, class Matrix>
+  void turn(int node, const Matrix& Q) noexcept {
+    const auto times = [&Q](Scalar& a, Scalar& b, Scalar& c) {
+      const Scalar x = a, y = b, z = c;
+      a = x * Q(0, 0) + y * Q(1, 0) + z * Q(2, 0);
+      b = x * Q(0, 1) + y * Q(1, 1) + z * Q(2, 1);
+      c = x * Q(0, 2) + y * Q(1, 2) + z * Q(2, 2);
+    };
+    const Own own = own_of(node);
+    times(own[At], own[At + 1], own[At + 2]);
+    for_each_neighbour(node, [&](const Own&, const Coupling& c) {
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) times(c(At, k), c(At + 1, k), c(At + 2, k));
+    });
+    Scalar square[3][3];
+    HAPBEAM_UNROLL
+    for (int i = 0; i < 3; ++i) {
+      HAPBEAM_UNROLL
+      for (int j = 0; j < 3; ++j) square[i][j] = own(At + i, At + j);
+      times(square[i][0], square[i][1], square[i][2]);
+    }
+    HAPBEAM_UNROLL
+    for (int j = 0; j < 3; ++j) {
+      times(square[0][j], square[1][j], square[2][j]);
+      HAPBEAM_UNROLL
+      for (int i = j; i < 3; ++i) own(At + i, At + j) = square[i][j];
+    }
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k)
+      if (k < At || k >= At + 3) times(own(k, At), own(k, At + 1), own(k, At + 2));
+  }
+  /// An unknown of a node is from now on its old self and a part of three others, after all elements are in:
+  /// old = new - part · (unknowns from Others on).
+  template <int Unknown, int Others, class Part>
+  void lean(int node, const Part& part) noexcept {
+    const Own own = own_of(node);
+    for_each_neighbour(node, [&](const Own&, const Coupling& c) {
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) {
+        const Scalar by = c(Unknown, k);
+        HAPBEAM_UNROLL
+        for (int j = 0; j < 3; ++j) c(Others + j, k) -= part[j] * by;
+      }
+    });
+    HAPBEAM_UNROLL
+    for (int j = 0; j < 3; ++j) {
+      const int other = Others + j;
+      own[other] -= part[j] * own[Unknown];
+      own(other, other) += part[j] * (part[j] * own(Unknown, Unknown) - 2 * own(Unknown, other));
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k)
+        if (k != other) own(k, other) -= part[j] * own(k, Unknown);
     }
   }
 
   /// Prescribes the increment of one degree of freedom (in a plane 0: u, 1: w, 2: θ) of a node, after all elements are in: its
   /// column goes to the right-hand side, its row answers 0.  Inlined by intent, as hold(): the caller knows the component.
   [[gnu::always_inline]] void prescribe(int node, int component, Scalar increment) noexcept {
-    Row& row = rows_[node];
-    const auto take = [&](int k, Scalar& entry) {
-      row.x[k] -= increment * entry;
+    const auto take = [increment](Scalar& rhs, Scalar& entry) {
+      rhs -= increment * entry;
       entry = 0;
     };
-    for (int k = 0; k < component; ++k) take(k, row.block(component, k));
-    for (int k = component + 1; k < Block; ++k) take(k, row.block(k, component));
-    row.block(component, component) = 1;  // not the old entry, whose sign would count as a pivot's
-    row.x[component] = 0;
-    if (node > 0) {
-      Row& before = rows_[node - 1];
-      before.x -= increment * before.coupling.col(component);
-      before.coupling.col(component).setZero();
-    }
-    if (node + 1 < rows_.size()) {
-      rows_[node + 1].x -= increment * row.coupling.row(component).transpose();
-      row.coupling.row(component).setZero();
-    }
+    const Own own = own_of(node);
+    for (int k = 0; k < component; ++k) take(own[k], own(component, k));
+    for (int k = component + 1; k < Block; ++k) take(own[k], own(k, component));
+    own(component, component) = 1;  // not the old entry, whose sign would count as a pivot's
+    own[component] = 0;
+    for_each_neighbour(node, [&](const Own& other, const Coupling& c) {
+      for (int k = 0; k < Block; ++k) take(other[k], c(component, k));
+    });
   }
 
   /// The same for the one degree of freedom whose reaction() is wanted, after all others are prescribed.
   [[gnu::always_inline]] void hold(int node, int component, Scalar increment) noexcept {
-    const Row& row = rows_[node];
-    const Scalar own = row.block(component, component);
+    const Own own = own_of(node);
+    const Scalar diagonal = own(component, component);
     held_ = node;
-    held_by_loads_ = own * increment - row.x[component];
-    held_energy_ = own * increment * increment;
-    held_by_.setZero();
-    if (node > 0) held_by_.row(0) = rows_[node - 1].coupling.col(component).transpose();
-    for (int k = 0; k < component; ++k) held_by_(1, k) = row.block(component, k);
-    for (int k = component + 1; k < Block; ++k) held_by_(1, k) = row.block(k, component);
-    if (node + 1 < rows_.size()) held_by_.row(2) = row.coupling.row(component);
+    held_by_loads_ = diagonal * increment - own[component];
+    held_energy_ = diagonal * increment * increment;
+    for (int k = 0; k < Block; ++k) {
+      held_by_[0][k] = held_by_[2][k] = 0;
+      held_by_[1][k] = k == component ? Scalar(0) : own(k, component);
+    }
+    for_each_neighbour(node, [&](const Own& other, const Coupling& c) {
+      Scalar* const to = other.before ? held_by_[0] : held_by_[2];
+      for (int k = 0; k < Block; ++k) to[k] = c(component, k);
+    });
     prescribe(node, component, increment);
   }
 
@@ -103,13 +195,22 @@ class BlockTridiagonal {
   Scalar energy() const noexcept { return energy_; }
 
   /// Increment of one node, after solve(); 0 where it was prescribed.
-  const Vector& increment(int node) const noexcept { return rows_[node].x; }
+  [[gnu::always_inline]] Vector increment(int node) const noexcept {
+    const Place at = place(node);
+    Vector increment;
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k) increment[k] = rows_[at.row].x[k].a[at.lane];
+    return increment;
+  }
 
   /// What holds the degree of freedom of hold() after the increment, of the linear equations: its row of r + Kx [N].
   Scalar reaction() const noexcept {
     Scalar sum = held_by_loads_;
-    for (int k = -1; k <= 1; ++k)
-      if (held_ + k >= 0 && held_ + k < rows_.size()) sum += held_by_.row(k + 1).dot(rows_[held_ + k].x);
+    for (int k = -1; k <= 1; ++k) {
+      if (held_ + k < 0 || held_ + k > last_) continue;
+      const Vector x = increment(held_ + k);
+      for (int i = 0; i < Block; ++i) sum += held_by_[k + 1][i] * x[i];
+    }
     return sum;
   }
 
@@ -117,130 +218,173 @@ class BlockTridiagonal {
   int negative_pivots() const noexcept { return negative_pivots_; }
 
  private:
-  /// A node.  Eliminating it leaves the diagonal as it is, for the last look at the pivots, and puts L below it, P⁻¹Y
-  /// into the coupling to the node that is eliminated later, and P⁻¹L⁻¹ of the right-hand side into x.
+  static constexpr int triangle_size = detail::triangle_size<Block>;
+  static constexpr int triangle(int i, int j) noexcept { return detail::triangle<Block>(i, j); }
+
+  /// A node of the left chain in lane 0 and one of the right chain in lane 1; the middle node, lane 0, is the last row.
+  /// Eliminating them leaves the diagonal as it is, for the last look at the pivots, and puts L below it, P⁻¹Y into the coupling
+  /// to the node that is eliminated later, and P⁻¹L⁻¹ of the right-hand side into x.
   struct Row {
-    Diagonal block;   ///< Di
-    Matrix coupling;  ///< K(i, i+1)
-    Vector x;         ///< right-hand side, after solve() the increment
+    Number block[triangle_size];
+    Number coupling[Block][Block];  ///< own unknown, that of the next node on the way
+    Number x[Block];                ///< right-hand side, after solve() the increment
   };
-
-  /// The node at which a chain stands: its block and right-hand side, less what the nodes before took away.
-  struct Front {
-    Diagonal block;
-    Vector x;
+  struct Place {
+    int row, lane;
   };
-
-  /// The block that couples a node to the next on its way, (i, j) -> entry.
-  template <bool FromRight>
-  auto coupling(int node) noexcept {
-    Matrix& c = rows_[FromRight ? node - 1 : node].coupling;
-    return [&c](int i, int j) -> Scalar& { return FromRight ? c(j, i) : c(i, j); };
+  [[gnu::always_inline]] Place place(int node) const noexcept {
+    const int from_left = node + odd_;
+    return from_left <= pairs_ ? Place{from_left, 0} : Place{last_ - node, 1};
+  }
+  /// Rows, less one: PerNode has one more than elements, and two elements at least.
+  static constexpr int half(int elements) noexcept {
+    return elements == Eigen::Dynamic ? Eigen::Dynamic : elements < 3 ? 2 : (elements + 1) / 2;
   }
 
-  template <bool FromRight>
-  void eliminate(int node, Front& front, Pivots& pivots) noexcept {
-    using detail::less;
-    Row& row = rows_[node];
-    const Row& next = rows_[FromRight ? node - 1 : node + 1];
-    const Factor factor(front.block);
-    pivots.see(factor, row.block);
-    keep(factor, row.block);
-    const auto c = coupling<FromRight>(node);
-    Vector y[Block], z[Block];
+  /// Block and right-hand side of a node.
+  struct Own {
+    Scalar *block, *x;
+    bool before;  // the node that was asked for
+
+    [[gnu::always_inline]] Scalar& operator()(int i, int j) const noexcept {
+      const int low = std::min(i, j), high = std::max(i, j);
+      return block[2 * triangle(high, low)];
+    }
+    [[gnu::always_inline]] Scalar& operator[](int i) const noexcept { return x[2 * i]; }
+  };
+  [[gnu::always_inline]] Own own_of(int node, bool before = false) noexcept {
+    const Place at = place(node);
+    Row& row = rows_[at.row];
+    return {row.block[0].a + at.lane, row.x[0].a + at.lane, before};
+  }
+  /// What couples a node with another: its own unknown, that of the other.
+  struct Coupling {
+    Scalar* entries;
+    int own, other;
+    [[gnu::always_inline]] Scalar& operator()(int i, int j) const noexcept {
+      return entries[2 * (own * i + other * j)];
+    }
+  };
+  /// Calls f(Own of a neighbour, Coupling) for each of the two.
+  template <class F>
+  [[gnu::always_inline]] void for_each_neighbour(int node, F&& f) noexcept {
+    const int lane = place(node).lane;
+    // A row has what couples it with the next on the way to the middle.
+    if (node > 0) {
+      Row& row = rows_[place(lane == 0 ? node - 1 : node).row];
+      f(own_of(node - 1, true),
+        Coupling{row.coupling[0][0].a + lane, lane == 0 ? 1 : Block, lane == 0 ? Block : 1});
+    }
+    if (node < last_) {
+      const Place next = place(node + 1);
+      Row& row = rows_[next.lane == 0 ? place(node).row : next.row];
+      f(own_of(node + 1),
+        Coupling{row.coupling[0][0].a + next.lane, next.lane == 0 ? Block : 1, next.lane == 0 ? 1 : Block});
+    }
+  }
+
+  /// @param front, f  in: block and right-hand side of the nodes of a row, less what the nodes before took away;  out: of the next
+  void eliminate(int row, Lanes* front, Lanes* f, Lanes& energy, detail::Pivots<Scalar>& pivots) noexcept {
+    Row& at = rows_[row];
+    const Row& next = rows_[row + 1];
+    const Factor factor(front);
+    Lanes y[Block][Block], z[Block], zx[Block];
+    HAPBEAM_UNROLL
+    for (int j = 0; j < Block; ++j) {
+      const Number& assembled = at.block[triangle(j, j)];
+      for (int lane = 0; lane < 2; ++lane) pivots.see(factor.p[j][lane], assembled.a[lane]);
+      HAPBEAM_UNROLL
+      for (int i = j + 1; i < Block; ++i) at.block[triangle(i, j)].set(factor.l[triangle(i, j)]);
+    }
+    factor.forward(f);
+    factor.scale(f, zx);
+    energy = detail::less<Block>(energy, f, zx);
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k) at.x[k].set(zx[k]);
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
       HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) y[j][k] = c(k, j);
-      y[j] = factor.forward(y[j]);
-      z[j] = factor.scale(y[j]);
+      for (int k = 0; k < Block; ++k) y[j][k] = at.coupling[k][j].get();
+      factor.forward(y[j]);
+      f[j] = detail::less<Block>(next.x[j].get(), y[j], zx);
     }
-    const Vector yx = factor.forward(front.x), zx = factor.scale(yx);
-    HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) {
-      HAPBEAM_UNROLL
-      for (int j = 0; j < Block; ++j) c(k, j) = z[j][k];
-      row.x[k] = zx[k];
-    }
-    pivots.energy -= less(Scalar(0), yx, zx);
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
+      factor.scale(y[j], z);
       HAPBEAM_UNROLL
-      for (int i = j; i < Block; ++i) front.block(i, j) = less(next.block(i, j), y[i], z[j]);
-      front.x[j] = less(next.x[j], y[j], zx);
+      for (int k = 0; k < Block; ++k) at.coupling[k][j].set(z[k]);
+      HAPBEAM_UNROLL
+      for (int i = j; i < Block; ++i)
+        front[triangle(i, j)] = detail::less<Block>(next.block[triangle(i, j)].get(), y[i], z);
     }
   }
 
-  /// L goes below the diagonal.
-  [[gnu::always_inline]] static void keep(const Factor& factor, Diagonal& block) noexcept {
+  /// Solves for the node at which both chains end.  @param x  in: right-hand sides of both, out: its increment in both lanes
+  void join(Lanes* front, Lanes* x, Lanes& energy, detail::Pivots<Scalar>& pivots) noexcept {
+    Row& at = rows_[pairs_];
+    for (int k = 0; k < triangle_size; ++k) front[k] = front[k] + front[k].swapped();
+    for (int k = 0; k < Block; ++k) x[k] = x[k] + x[k].swapped();
+    const Factor factor(front);
+    Lanes z[Block];
+    factor.forward(x);
+    factor.scale(x, z);
+    const Lanes twice = detail::less<Block>(Lanes::both(0), x, z);
+    energy = energy + twice * Lanes(1, 0);
     HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) {
+    for (int j = 0; j < Block; ++j) pivots.see(factor.p[j][0], at.block[triangle(j, j)].a[0]);
+    HAPBEAM_UNROLL
+    for (int j = Block - 1; j >= 0; --j) {
       HAPBEAM_UNROLL
-      for (int i = j + 1; i < Block; ++i) block(i, j) = factor.l(i, j);
+      for (int k = Block - 1; k > j; --k) z[j] = subtract_product(z[j], factor.l[triangle(k, j)], z[k]);
     }
+    for (int k = 0; k < Block; ++k) x[k] = z[k], at.x[k].a[0] = z[k][0];
   }
 
-  /// Solves for the node at which both chains end.  Both fronts hold its own block: once is enough.
-  Vector join(Row& row, const Front& l, const Front& r, Pivots& pivots) const noexcept {
-    Diagonal sum;
-    for (int k = 0; k < Block * (Block + 1) / 2; ++k)
-      sum.a[k] = l.block.a[k] + (r.block.a[k] - row.block.a[k]);
-    const Factor factor(sum);
-    pivots.see(factor, row.block);
-    const Vector rhs = l.x + (r.x - row.x), y = factor.forward(rhs), z = factor.scale(y);
-    pivots.energy -= detail::less(Scalar(0), y, z);
-    return row.x = detail::backward(factor.l, z);
-  }
-
-  /// Increment of a node from that of the next on its way, whose components come in the order last to first.
-  template <bool FromRight>
-  Vector substitute(int node, const Vector& next) noexcept {
-    Row& row = rows_[node];
-    const auto c = coupling<FromRight>(node);
-    Vector rest = row.x;
+  /// Increments of a row's nodes from those of the next on their way, whose components come in the order last to first.
+  void substitute(int row, Lanes* x) noexcept {
+    Row& at = rows_[row];
+    Lanes rest[Block];
     HAPBEAM_UNROLL
     for (int i = 0; i < Block; ++i) {
+      rest[i] = at.x[i].get();
       HAPBEAM_UNROLL
-      for (int k = Block - 1; k >= 0; --k) rest[i] -= c(i, k) * next[k];
+      for (int k = Block - 1; k >= 0; --k) rest[i] = subtract_product(rest[i], at.coupling[i][k].get(), x[k]);
     }
-    return row.x = detail::backward(row.block, rest);
+    HAPBEAM_UNROLL
+    for (int j = Block - 1; j >= 0; --j) {
+      HAPBEAM_UNROLL
+      for (int k = Block - 1; k > j; --k)
+        rest[j] = subtract_product(rest[j], at.block[triangle(k, j)].get(), rest[k]);
+    }
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k) at.x[k].set(x[k] = rest[k]);
   }
 
-  detail::PerNode<Row, Elements, MaxElements> rows_;
+  int last_, odd_, pairs_;
+  detail::PerNode<Row, half(Elements), half(MaxElements)> rows_;
   int negative_pivots_ = 0;
   Scalar energy_ = 0;
   int held_ = 0;  // node of hold()
   Scalar held_energy_ = 0;
-  Scalar held_by_loads_ = 0;  // its row: what is known,
-  Eigen::Matrix<Scalar, 3, Block> held_by_ =
-      Eigen::Matrix<Scalar, 3,
-                    Block>::Zero();  // and the entries of the node before, of its own and of the node after
+  Scalar held_by_loads_ = 0;       // its row: what is known,
+  Scalar held_by_[3][Block] = {};  // and the entries of the node before, of its own and of the node after
 };
 
 // Outside of the class: only so does "extern template class BlockTridiagonal<…>;" keep a compiler from it.
 template <typename Scalar, int Elements, int MaxElements, int Block>
 Status BlockTridiagonal<Scalar, Elements, MaxElements, Block>::solve() noexcept {
-  const int last = rows_.size() - 1, pairs = last / 2, middle = pairs;
-  Pivots p, q;
-  Front left{rows_[0].block, rows_[0].x}, right{rows_[last].block, rows_[last].x};
-  // An even number of nodes has one more on the right.
-  if (last % 2 != 0) eliminate<true>(last, right, q);
-  for (int k = 0; k < pairs; ++k) {
-    eliminate<false>(k, left, p);
-    eliminate<true>(2 * middle - k, right, q);
-  }
-  Vector x = join(rows_[middle], left, right, p), y = x;
-  for (int k = 1; k <= pairs; ++k) {
-    x = substitute<false>(middle - k, x);
-    y = substitute<true>(middle + k, y);
-  }
-  if (last % 2 != 0) substitute<true>(last, y);
-  energy_ = p.energy + q.energy;
+  detail::Pivots<Scalar> pivots;
+  Lanes front[triangle_size], f[Block], energy = Lanes::both(0);  // with the sign turned
+  for (int k = 0; k < triangle_size; ++k) front[k] = rows_[0].block[k].get();
+  for (int k = 0; k < Block; ++k) f[k] = rows_[0].x[k].get();
+  for (int row = 0; row < pairs_; ++row) eliminate(row, front, f, energy, pivots);
+  join(front, f, energy, pivots);
+  for (int row = pairs_; row > 0; --row) substitute(row - 1, f);
+  energy_ = -(energy[0] + energy[1]);
   if (held_energy_ > std::abs(energy_)) energy_ = held_energy_;
-  negative_pivots_ = p.negative + q.negative;
-  if (p.lowest <= 0 || q.lowest <= 0) return Status::singular;
-  const bool finite = std::isfinite(p.lowest) && std::isfinite(q.lowest) && std::isfinite(energy_);
-  return finite ? Status::ok : Status::non_finite;
+  negative_pivots_ = pivots.negative;
+  if (pivots.lowest <= 0) return Status::singular;
+  return std::isfinite(pivots.lowest) && std::isfinite(energy_) ? Status::ok : Status::non_finite;
 }
 
 }  // namespace hapbeam

@@ -23,15 +23,45 @@ class Dense {
       : K_(Block * (elements + 1), Block * (elements + 1)), x_(Block * (elements + 1)) {}
 
   /// Members do what those of BlockTridiagonal of the same name do.
-  void add(int e, const Eigen::Matrix<Scalar, 2 * Block, 2 * Block>& K,
-           const Eigen::Matrix<Scalar, 2 * Block, 1>& r) noexcept {
+  template <class Tangent, class Residual>
+  void add(int e, const Tangent& K, const Residual& r) noexcept {
     if (e == 0) {
       K_.setZero();
       x_.setZero();
       held_energy_ = 0;
     }
-    K_.template block<2 * Block, 2 * Block>(Block * e, Block * e) += K;
-    x_.template segment<2 * Block>(Block * e) -= r;
+    for (int i = 0; i < 2 * Block; ++i) {
+      for (int j = 0; j < 2 * Block; ++j) {
+        const bool mirrored = i < Block ? i < j && j < Block : i < j || j < Block;
+        K_(Block * e + i, Block * e + j) += mirrored ? K(j, i) : K(i, j);
+      }
+      x_[Block * e + i] -= r[i];
+    }
+  }
+
+  template <class Tangent, class Residual>
+  void add_at(int node, const Tangent& K, const Residual& r) noexcept {
+    for (int i = 0; i < Block; ++i) {
+      for (int j = 0; j < Block; ++j) K_(Block * node + i, Block * node + j) += i < j ? K(j, i) : K(i, j);
+      x_[Block * node + i] -= r[i];
+    }
+  }
+  Scalar residual(int node, int component) noexcept { return -x_[Block * node + component]; }
+  template <int At, class Three>
+  void turn(int node, const Three& Q) noexcept {
+    const int k = Block * node + At;
+    K_.template middleCols<3>(k) = (K_.template middleCols<3>(k) * Q).eval();
+    K_.template middleRows<3>(k) = (Q.transpose() * K_.template middleRows<3>(k)).eval();
+    x_.template segment<3>(k) = (Q.transpose() * x_.template segment<3>(k)).eval();
+  }
+  template <int Unknown, int Others, class Part>
+  void lean(int node, const Part& part) noexcept {
+    const int from = Block * node + Unknown, to = Block * node + Others;
+    for (int j = 0; j < 3; ++j) {
+      K_.col(to + j) -= part[j] * K_.col(from);
+      x_[to + j] -= part[j] * x_[from];
+    }
+    for (int j = 0; j < 3; ++j) K_.row(to + j) -= part[j] * K_.row(from);
   }
 
   void prescribe(int node, int component, Scalar increment) noexcept {

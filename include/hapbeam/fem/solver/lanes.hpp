@@ -4,6 +4,7 @@
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
+#include <cstring>
 #include <type_traits>
 
 namespace hapbeam::detail {
@@ -44,6 +45,10 @@ class Lanes {
     return {a.left_ / b.left_, a.right_ / b.right_};
   }
   friend Lanes add_product(const Lanes& a, const Lanes& b, const Lanes& c) noexcept { return a + b * c; }
+  friend Lanes subtract_product(const Lanes& a, const Lanes& b, const Lanes& c) noexcept { return a - b * c; }
+
+  static Lanes load(const Scalar* from) noexcept { return {from[0], from[1]}; }
+  void store(Scalar* to) const noexcept { to[0] = left_, to[1] = right_; }
 
  private:
   Scalar left_, right_;
@@ -78,6 +83,21 @@ class Lanes<Scalar, std::void_t<typename PairOf<Scalar>::type>> {
   /// a + bc, in one expression: clang fuses no other.
   [[gnu::always_inline]] friend Lanes add_product(const Lanes& a, const Lanes& b, const Lanes& c) noexcept {
     return Lanes(a.pair_ + b.pair_ * c.pair_);
+  }
+  /// a - bc, likewise.
+  [[gnu::always_inline]] friend Lanes subtract_product(const Lanes& a, const Lanes& b,
+                                                       const Lanes& c) noexcept {
+    return Lanes(a.pair_ - b.pair_ * c.pair_);
+  }
+
+  /// Of two numbers that stand at a multiple of their size.
+  [[gnu::always_inline]] static Lanes load(const Scalar* from) noexcept {
+    Lanes lanes;
+    std::memcpy(&lanes.pair_, __builtin_assume_aligned(from, sizeof(Pair)), sizeof(Pair));
+    return lanes;
+  }
+  [[gnu::always_inline]] void store(Scalar* to) const noexcept {
+    std::memcpy(__builtin_assume_aligned(to, sizeof(Pair)), &pair_, sizeof(Pair));
   }
 
  private:

@@ -1,7 +1,7 @@
 // The small pieces of a block elimination: LDLᵀ of one symmetric block, and what its pivots tell.
 //
-// Blocks are small and their size is known, so each loop is unrolled by intent: g++ -O2 would leave loops, whose entries go
-// through memory.
+// Each is done for two blocks side by side, in the two lanes of a register.  Blocks are small and their size is known, so each loop is
+// unrolled by intent: g++ -O2 would leave loops, whose entries go through memory.
 // Real-time: noexcept, no allocation, O(N³).  Source: Golub and Van Loan, Matrix Computations, 4.1.
 #pragma once
 
@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <hapbeam/fem/solver/lanes.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
@@ -21,95 +22,81 @@ using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
 
 namespace detail {
 
-/// A symmetric N×N matrix, its lower triangle, column by column.
-template <typename S, int N>
-struct Symmetric {
-  S a[N * (N + 1) / 2];
+/// Numbers of two chains side by side, one of which can be reached alone.
+template <typename S>
+struct alignas(2 * sizeof(S)) TwoNumbers {
+  S a[2] = {0, 0};
 
-  static constexpr int index(int i, int j) noexcept { return j * (2 * N - 1 - j) / 2 + i; }
-  /// @param i,j  i >= j
-  S& operator()(int i, int j) noexcept { return a[index(i, j)]; }
-  const S& operator()(int i, int j) const noexcept { return a[index(i, j)]; }
+  [[gnu::always_inline]] Lanes<S> get() const noexcept { return Lanes<S>::load(a); }
+  [[gnu::always_inline]] void set(const Lanes<S>& lanes) noexcept { lanes.store(a); }
 };
 
-/// v - aᵀb.  The last component is known last: it is subtracted last.
-template <typename S, int N>
-[[gnu::always_inline]] inline S less(S v, const Eigen::Matrix<S, N, 1>& a,
-                                     const Eigen::Matrix<S, N, 1>& b) noexcept {
+/// Where the lower triangle of a symmetric N×N matrix has (i, j), i >= j, column by column.
+template <int N>
+constexpr int triangle(int i, int j) noexcept {
+  return j * (2 * N - 1 - j) / 2 + i;
+}
+template <int N>
+inline constexpr int triangle_size = N*(N + 1) / 2;
+
+/// a less bᵀc.  The last component is known last: it is subtracted last.
+template <int N, typename S>
+[[gnu::always_inline]] inline Lanes<S> less(Lanes<S> a, const Lanes<S>* b, const Lanes<S>* c) noexcept {
   HAPBEAM_UNROLL
-  for (int k = 0; k < N; ++k) v -= a[k] * b[k];
-  return v;
+  for (int k = 0; k < N; ++k) a = subtract_product(a, b[k], c[k]);
+  return a;
 }
 
 /// A = L P Lᵀ of a symmetric N×N matrix, L unit lower.
 template <typename S, int N>
 struct Ldlt {
-  using Vector = Eigen::Matrix<S, N, 1>;
-  Symmetric<S, N> l;  ///< below its diagonal: L
-  S p[N];             ///< pivots
-  S i[N];             ///< their inverses
+  using V = Lanes<S>;
+  V l[triangle_size<N>];  ///< below its diagonal: L
+  V p[N];                 ///< pivots
+  V i[N];                 ///< their inverses
 
-  [[gnu::always_inline]] explicit Ldlt(const Symmetric<S, N>& a) noexcept {
-    Symmetric<S, N> c = a;  // LP
+  [[gnu::always_inline]] explicit Ldlt(const V* a) noexcept {
+    const V one = V::both(1);
+    V c[triangle_size<N>];  // LP
     HAPBEAM_UNROLL
     for (int j = 0; j < N; ++j) {
       HAPBEAM_UNROLL
       for (int row = j; row < N; ++row) {
+        V sum = a[triangle<N>(row, j)];
         HAPBEAM_UNROLL
-        for (int k = 0; k < j; ++k) c(row, j) -= l(row, k) * c(j, k);
+        for (int k = 0; k < j; ++k) sum = subtract_product(sum, l[triangle<N>(row, k)], c[triangle<N>(j, k)]);
+        c[triangle<N>(row, j)] = sum;
       }
-      p[j] = c(j, j);
-      i[j] = 1 / p[j];
+      p[j] = c[triangle<N>(j, j)];
+      i[j] = one / p[j];
       HAPBEAM_UNROLL
-      for (int row = j + 1; row < N; ++row) l(row, j) = c(row, j) * i[j];
+      for (int row = j + 1; row < N; ++row) l[triangle<N>(row, j)] = c[triangle<N>(row, j)] * i[j];
     }
   }
 
-  /// L⁻¹ b
-  [[gnu::always_inline]] Vector forward(Vector b) const noexcept {
+  /// b becomes L⁻¹ b.
+  [[gnu::always_inline]] void forward(V* b) const noexcept {
     HAPBEAM_UNROLL
-    for (int row = 1; row < N; ++row) {
+    for (int k = 0; k + 1 < N; ++k) {
       HAPBEAM_UNROLL
-      for (int k = 0; k < row; ++k) b[row] -= l(row, k) * b[k];
+      for (int row = k + 1; row < N; ++row) b[row] = subtract_product(b[row], l[triangle<N>(row, k)], b[k]);
     }
-    return b;
   }
-  /// P⁻¹ y
-  [[gnu::always_inline]] Vector scale(Vector y) const noexcept {
+  /// z is P⁻¹ y.
+  [[gnu::always_inline]] void scale(const V* y, V* z) const noexcept {
     HAPBEAM_UNROLL
-    for (int k = 0; k < N; ++k) y[k] *= i[k];
-    return y;
+    for (int k = 0; k < N; ++k) z[k] = y[k] * i[k];
   }
 };
-
-/// L⁻ᵀ z, from the last component to the first.
-template <typename S, int N>
-[[gnu::always_inline]] inline Eigen::Matrix<S, N, 1> backward(const Symmetric<S, N>& l,
-                                                              Eigen::Matrix<S, N, 1> z) noexcept {
-  HAPBEAM_UNROLL
-  for (int j = N - 2; j >= 0; --j) {
-    HAPBEAM_UNROLL
-    for (int k = N - 1; k > j; --k) z[j] -= l(k, j) * z[k];
-  }
-  return z;
-}
 
 /// What a chain of eliminations has seen.
 template <typename S>
 struct Pivots {
   /// Least |pivot| - eps |its diagonal entry before elimination|; the first that is not positive is kept, NaN too.
   S lowest = std::numeric_limits<S>::max();
-  S energy = 0;  ///< Σ yᵀP⁻¹y of the right-hand side [J]
   int negative = 0;
 
-  template <int N>
-  [[gnu::always_inline]] void see(const Ldlt<S, N>& factor, const Symmetric<S, N>& assembled) noexcept {
-    HAPBEAM_UNROLL
-    for (int k = 0; k < N; ++k) see(factor.p[k], assembled(k, k));
-  }
-
- private:
-  void see(S pivot, S assembled) noexcept {
+  [[gnu::always_inline]] void see(S pivot, S assembled) noexcept {
     using std::abs;
     const S left = abs(pivot) - std::numeric_limits<S>::epsilon() * abs(assembled);
     if (lowest > 0 && !(left >= lowest)) lowest = left;
