@@ -36,7 +36,7 @@
 
 namespace hapbeam {
 
-/// @tparam Element    Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain> | Corotational<…>
+/// @tparam Element    Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain> | Corotational<Local>
 /// @tparam ScalarType double | float
 /// @tparam Elements   number of elements, or Eigen::Dynamic      @tparam MaxElements  largest number, or Eigen::Dynamic
 /// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates, and always of all displacements)   @tparam Solver  NewtonRaphson
