@@ -131,9 +131,9 @@ template <typename Scalar>
   if (memory.touching) return false;
   const Shaft<Scalar> axis = avatar.axis();
   const Scalar distance_squared = volumes.distance_squared(axis);
-  const Scalar far =
+  const Scalar clear =
       avatar.radius + thickness / 2 + (memory.known ? detail::step(memory.axis, axis) : Scalar(0));
-  if (!(distance_squared > far * far && std::isfinite(distance_squared))) return false;
+  if (!(distance_squared > clear * clear && std::isfinite(distance_squared))) return false;
   memory.axis = axis;
   memory.known = true;
   return true;

@@ -51,7 +51,7 @@ class SupportContact {
 
   /// Whether the contact is nearer than so much to an end that holds w.
   template <class Model>
-  static bool near(const Contact<Scalar>& contact, const Model& model, Scalar distance) noexcept {
+  static bool beside(const Contact<Scalar>& contact, const Model& model, Scalar distance) noexcept {
     const Range<Scalar> range = model.range();
     return contact.s - range.left_support < distance || range.right_support - contact.s < distance;
   }
@@ -125,7 +125,7 @@ class SupportContact<Scalar, 3> {
     return false;
   }
   template <class Model>
-  static bool near(const Contact<Scalar, 3>& contact, const Model& model, Scalar distance) noexcept {
+  static bool beside(const Contact<Scalar, 3>& contact, const Model& model, Scalar distance) noexcept {
     const Range<Scalar> range = model.range();
     return contact.s - range.left_support < distance || range.right_support - contact.s < distance;
   }

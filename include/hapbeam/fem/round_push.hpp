@@ -53,7 +53,7 @@ class RoundPush {
     const System& system = way.system_;
     const RoundContact round{request};
     // On a curve that is too sharp for it the law holds at the node alone.
-    const Scalar near = beside * system.length(), exactly = Scalar(1e-5) * request.reach;
+    const Scalar closely = beside * system.length(), exactly = Scalar(1e-5) * request.reach;
     Search search;
     Vector normal = Vector::Zero();
     Scalar s = request.s;
@@ -63,7 +63,7 @@ class RoundPush {
       Result pushed = push_at(way, request, range, trial);
       snapped = snapped || pushed.status == Status::snapped;
       const Scalar off = std::max(std::abs(trial.ahead), trial.miss);
-      const bool there = off <= (trial.by_plane ? exactly : near);
+      const bool there = off <= (trial.by_plane ? exactly : closely);
       if (there || meshes == most_meshes || !is_answer(pushed.status) || pushed.force >= 0) {
         pushed.miss = there ? Scalar(0) : off;
         if (snapped && pushed.status == Status::ok) pushed.status = Status::snapped;

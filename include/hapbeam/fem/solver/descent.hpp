@@ -60,9 +60,9 @@ struct Descent {
         // The first step also brings the contact to its place, from where potentials can be compared.
         if (stepped) least = potential;
         stepped = true;
-        const bool near = shift == 0 && system.increment() <= S(enough) * system.unit();
+        const bool within = shift == 0 && system.increment() <= S(enough) * system.unit();
         system.advance();
-        if (near) return true;
+        if (within) return true;
         good = shift;
         shift = std::max(shift / 10, S(1.2) * bad);
         if (good <= 1 && bad < S(0.1)) shift = 0;

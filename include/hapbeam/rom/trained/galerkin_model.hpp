@@ -163,19 +163,19 @@ GalerkinModel<Scalar, Nodes>::Trained::Trained(Data given)
       z(data.tensions, 0, tension(data.tension)),
       table(static_cast<std::size_t>(data.positions * row_size(data.tensions) + detail::padded(1))) {
   const int m = data.tensions, size = row_size(m);
-  const auto near = [m](Scalar* row, int j) { return row + 4 * m + Shape::near_size * j; };
+  const auto nearby = [m](Scalar* row, int j) { return row + 4 * m + Shape::near_size * j; };
   Scalar* row = table.data();
   for (int i = 0; i < data.positions; ++i, row += size) {
     for (int j = 0; j < m; ++j) {
       row[4 * j] = data.log_stiffness[static_cast<std::size_t>(i * m + j)];
-      Shape::tabulate(data.shape, i * m + j, near(row, j));
+      Shape::tabulate(data.shape, i * m + j, nearby(row, j));
     }
     z.differentiate(row, 4, row + 1, 4);
     z.differentiate(row + 1, 4, row + 2, 4);
   }
   row = table.data();
   for (int j = 0; j < m; ++j) {
-    x.differentiate(row + 4 * j, size, near(row, j) + Shape::own, size);
+    x.differentiate(row + 4 * j, size, nearby(row, j) + Shape::own, size);
     x.differentiate(row + 4 * j + 1, size, row + 4 * j + 3, size);
   }
 }
@@ -187,13 +187,13 @@ Response<Scalar> GalerkinModel<Scalar, Nodes>::press(const Press<Scalar>& reques
   if (!is_answer(response.status)) return response;
   const Scalar s = at.press.s, d = at.press.d;
   const int m = trained_->data.tensions;
-  Scalar by_tension[Shape::near_size * max_size], near[Shape::near_size];
+  Scalar by_tension[Shape::near_size * max_size], nearby[Shape::near_size];
   detail::combine(trained_->table.data() + 4 * m, row_size(m), Shape::near_size * m, at.lx,
                   trained_->data.positions, by_tension);
-  detail::combine(by_tension, Shape::near_size, Shape::near_size, at.lz, m, near);
-  const Scalar theta = rotation(at, near[Shape::own]);
+  detail::combine(by_tension, Shape::near_size, Shape::near_size, at.lz, m, nearby);
+  const Scalar theta = rotation(at, nearby[Shape::own]);
   if (trained_->data.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
-  shape_.press(s, d, d, trained_->data.positions > 1 ? &theta : nullptr, at.lx, at.lz, near);
+  shape_.press(s, d, d, trained_->data.positions > 1 ? &theta : nullptr, at.lx, at.lz, nearby);
   return response;
 }
 

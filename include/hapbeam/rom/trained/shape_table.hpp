@@ -102,17 +102,17 @@ class ShapeTable {
     reset(data);
   }
 
-  /// @param point  of the grid   @param near  out, near_size numbers
-  [[gnu::cold]] static void tabulate(const ShapeData<Scalar>& data, int point, Scalar* near) noexcept {
+  /// @param point  of the grid   @param nearby  out, near_size numbers
+  [[gnu::cold]] static void tabulate(const ShapeData<Scalar>& data, int point, Scalar* nearby) noexcept {
     const int rows = 3 * (data.segments + 1), middle = 3 * data.contact_node;
-    std::fill_n(near, near_size, Scalar(0));
+    std::fill_n(nearby, near_size, Scalar(0));
     for (int mode = 0; mode < data.modes; ++mode) {
       const Scalar share = data.coefficients[static_cast<std::size_t>(point * data.modes + mode)];
       const Scalar* basis = data.basis.data() + mode * rows + middle;
-      near[3] += share * basis[0];
+      nearby[3] += share * basis[0];
       for (int k = 0; k < 3; ++k) {
-        if (middle > 0) near[k] += share * basis[k - 3];
-        if (middle + 3 < rows) near[4 + k] += share * basis[k + 3];
+        if (middle > 0) nearby[k] += share * basis[k - 3];
+        if (middle + 3 < rows) nearby[4 + k] += share * basis[k + 3];
       }
     }
   }
@@ -129,9 +129,9 @@ class ShapeTable {
   /// The shape of a press by d at s.   O(1)
   /// @param lx, ly  interpolation weights along both axes of the grid
   /// @param unit [m]  what w is stored in units of   @param theta  rotation at the contact [rad], or null: by the modes
-  /// @param near  interpolated
+  /// @param nearby  interpolated
   void press(Scalar s, Scalar d, Scalar unit, const Scalar* theta, const Scalar* lx, const Scalar* ly,
-             const Scalar* near) noexcept {
+             const Scalar* nearby) noexcept {
     s_ = s, d_ = d, unit_ = unit;
     theta_known_ = theta != nullptr;
     if (theta) theta_ = *theta;
@@ -142,9 +142,9 @@ class ShapeTable {
       last_ = first_ - 1;
       return;
     }
-    nodes_[index(middle)] = {s, near[3] * unit * (unit / frame_.side(middle, s)), d, *theta};
-    if (first_ < middle) place(first_, middle, near, frame_.left_spacing(s) * Scalar(first_), Scalar(0));
-    if (last_ > middle) place(last_, last_ + 1, near + 4, s + frame_.right_spacing(s), Scalar(0));
+    nodes_[index(middle)] = {s, nearby[3] * unit * (unit / frame_.side(middle, s)), d, *theta};
+    if (first_ < middle) place(first_, middle, nearby, frame_.left_spacing(s) * Scalar(first_), Scalar(0));
+    if (last_ > middle) place(last_, last_ + 1, nearby + 4, s + frame_.right_spacing(s), Scalar(0));
     nodes_.back().s = length_;
   }
 

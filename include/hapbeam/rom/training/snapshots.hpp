@@ -230,8 +230,8 @@ class SnapshotTaker {
 
   void take(Model& model, int i, int j, double rest, double e) {
     // At rest itself a symmetric shape has no size to be freed of.
-    const double near = nothing();
-    if (out_.plan.symmetric) e = std::max(e, near);
+    const double shallow = nothing();
+    if (out_.plan.symmetric) e = std::max(e, shallow);
     const double s = this->s(i), d = e + rest;
     const double force = press_for_training(model, s, d);
     Snapshot& snapshot = out_.grid[static_cast<std::size_t>(i) * static_cast<std::size_t>(out_.columns) +
@@ -244,10 +244,10 @@ class SnapshotTaker {
           {x, static_cast<double>(at.u), static_cast<double>(at.w), static_cast<double>(at.theta)});
     }
     // Nor has force over depth a value: it is the derivative there.
-    if (std::abs(e) < near)
+    if (std::abs(e) < shallow)
       snapshot.stiffness =
-          (press_for_training(model, s, rest + near) - press_for_training(model, s, rest - near)) /
-          (2 * near);
+          (press_for_training(model, s, rest + shallow) - press_for_training(model, s, rest - shallow)) /
+          (2 * shallow);
     if (!options_.progress) return;
     const std::lock_guard<std::mutex> lock(progress_mutex_);
     options_.progress(++done_, static_cast<int>(out_.grid.size()));

@@ -40,8 +40,8 @@ class PressComparison {
       : fast_(fast),
         full_(full),
         rest_(full),
-        s_min_(near(static_cast<double>(range.s_min), static_cast<double>(full.range().s_min), length())),
-        s_max_(near(static_cast<double>(range.s_max), static_cast<double>(full.range().s_max), length())),
+        s_min_(close_to(static_cast<double>(range.s_min), static_cast<double>(full.range().s_min), length())),
+        s_max_(close_to(static_cast<double>(range.s_max), static_cast<double>(full.range().s_max), length())),
         depth_(static_cast<double>(range.depth)) {
     rest_.reset();
   }
@@ -81,12 +81,12 @@ class PressComparison {
   using F = typename Full::Scalar;
 
   /// An edge of the range; the full model's, if they differ by round-off.
-  static double near(double edge, double known, double unit) noexcept {
+  static double close_to(double edge, double known, double unit) noexcept {
     return std::abs(edge - known) <= 1e-6 * unit ? known : edge;
   }
   /// Largest |d| in range [m].
   double deepest(double s) const noexcept {
-    return near(depth_, static_cast<double>(full_.range().depth_at(static_cast<F>(s))), depth_);
+    return close_to(depth_, static_cast<double>(full_.range().depth_at(static_cast<F>(s))), depth_);
   }
 
   /// To the end itself or to the foot of the tip, whichever is nearer.
