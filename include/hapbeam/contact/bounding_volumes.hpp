@@ -96,7 +96,7 @@ class BoundingVolumes {
         if (farther.distance_squared <= best.at.distance_squared * slack) stack[size++] = farther;
         entry = nearer;
       }
-      const int begin = (entry.node - leaves_) * run_, end = std::min(begin + run_, segments_);
+      const int begin = (entry.node - leaves_) * run_, end = (std::min)(begin + run_, segments_);
       for (int i = begin; i < end; ++i) {
         const ClosestPoint<Scalar, D> candidate = closest_point(centreline.segment(i), q);
         const Scalar a = candidate.distance_squared, b = best.at.distance_squared;
@@ -125,7 +125,7 @@ class BoundingVolumes {
         stack[size++] = 2 * node;
         continue;
       }
-      const int begin = (node - leaves_) * run_, end = std::min(begin + run_, segments_);
+      const int begin = (node - leaves_) * run_, end = (std::min)(begin + run_, segments_);
       for (int i = begin; i < end; ++i) total += hapbeam::crossings(centreline.segment(i), p0, p1);
     }
     return total;

@@ -114,7 +114,7 @@ class SupportContact<Scalar, 3> {
       const Scalar gap = std::sqrt(at.distance_squared),
                    nearest = right ? support - range.s_max : range.s_min;
       depth_ = reach - gap;
-      distance_ = std::max(at.t * end.length, nearest);
+      distance_ = (std::max)(at.t * end.length, nearest);
       if (!(distance < nearest || 6 * reach * depth_ > distance_ * distance_)) continue;
       right_ = right;
       tangent_ = detail::unit(tangent(end.piece, at.t));
@@ -141,7 +141,7 @@ class SupportContact<Scalar, 3> {
     if (!contact.touching) return {Hold::released, 0, Status::ok};
     const Range<Scalar> range = model.range();
     const Scalar s = right_ ? range.right_support - distance_ : range.left_support + distance_,
-                 depth = std::min(depth_, distance_ / 20);
+                 depth = (std::min)(depth_, distance_ / 20);
     const Vector side = normal_ - tangent_ * tangent_.dot(normal_),
                  across = side.squaredNorm() > Scalar(0.01)
                               ? detail::unit(side)

@@ -228,7 +228,7 @@ class BeamSystem {
   /// Largest rotation of a node in the last increment [rad].
   Scalar turn() const noexcept {
     Scalar largest = 0;
-    for (int i = 0; i <= elements(); ++i) largest = std::max(largest, std::abs(assembler_.increment(i)[2]));
+    for (int i = 0; i <= elements(); ++i) largest = (std::max)(largest, std::abs(assembler_.increment(i)[2]));
     return largest;
   }
 

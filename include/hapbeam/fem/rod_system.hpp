@@ -48,7 +48,7 @@ class RodSystem {
               detail::RodEnd<Scalar>(rod.right(), node(elements))},
         length_(static_cast<Scalar>(rod.length())),
         unit_(static_cast<Scalar>(
-            std::sqrt(std::min(rod.stiffness().bending1, rod.stiffness().bending2) / rod.length()))) {
+            std::sqrt((std::min)(rod.stiffness().bending1, rod.stiffness().bending2) / rod.length()))) {
     if (rod.right_pose()) ends_[1].place(*rod.right_pose());
   }
 
@@ -268,7 +268,7 @@ class RodSystem {
       const Vector3 u = detail::unit(node(i).tangent), t = x.template segment<3>(3);
       Scalar square = (t - u.dot(t) * u).squaredNorm();
       if constexpr (unknowns == 7) square += x[6] * x[6];
-      largest = std::max(largest, std::sqrt(square));
+      largest = (std::max)(largest, std::sqrt(square));
     }
     return largest;
   }

@@ -62,7 +62,7 @@ class RoundPush {
       Trial trial{s, normal, meshes == 1};
       Result pushed = push_at(way, request, range, trial);
       snapped = snapped || pushed.status == Status::snapped;
-      const Scalar off = std::max(std::abs(trial.ahead), trial.miss);
+      const Scalar off = (std::max)(std::abs(trial.ahead), trial.miss);
       const bool there = off <= (trial.by_plane ? exactly : closely);
       if (there || meshes == most_meshes || !is_answer(pushed.status) || pushed.force >= 0) {
         pushed.miss = there ? Scalar(0) : off;
@@ -130,7 +130,7 @@ class RoundPush {
       const Scalar d = round.plane(normal, trial.s, node());
       if (!wall) return system.set_goal(c, d, 0, normal);
       if constexpr (planar) {
-        across = std::copysign(std::max(Scalar(0.5), abs(normal.y())), normal.y());
+        across = std::copysign((std::max)(Scalar(0.5), abs(normal.y())), normal.y());
         system.set_goal(c, (d - normal.x() * system.node(c).u) / across);
       }
     };

@@ -35,15 +35,15 @@ inline double time_press(SceneModel& model, const Scene& scene, bool shape) {
                                   scene.depth * (0.2 + 0.8 * part)};
         sink = shape ? chosen.press(press).force : force_of(chosen, press).force;
       }
-      least = std::min(least, std::chrono::duration<double>(Clock::now() - begin).count() / presses);
+      least = (std::min)(least, std::chrono::duration<double>(Clock::now() - begin).count() / presses);
     }
   });
   return least;
 }
 
 inline TickCost line_through(int few, double few_time, int many, double many_time) {
-  const double per_unit = std::max((many_time - few_time) / (many - few), 0.0);
-  return {std::max(few_time - per_unit * few, 0.0), per_unit};
+  const double per_unit = (std::max)((many_time - few_time) / (many - few), 0.0);
+  return {(std::max)(few_time - per_unit * few, 0.0), per_unit};
 }
 
 }  // namespace detail

@@ -98,7 +98,7 @@ template <typename S, int N>
 template <typename S>
 struct Pivots {
   /// Least |pivot| - eps |its diagonal entry before elimination|; the first that is not positive is kept, NaN too.
-  S lowest = std::numeric_limits<S>::max();
+  S lowest = (std::numeric_limits<S>::max)();
   S energy = 0;  ///< Σ yᵀP⁻¹y of the right-hand side [J]
   int negative = 0;
 

@@ -141,7 +141,7 @@ class HdConnection {
     Api::get_doublev(Api::current_position, position.data());
     Api::get_doublev(Api::current_velocity, velocity.data());
     if (has_temperature_) Api::get_doublev(Api::motor_temperature, heat);
-    for (const double motor : heat) hottest = std::max(hottest, std::isfinite(motor) ? motor : 1.0);
+    for (const double motor : heat) hottest = (std::max)(hottest, std::isfinite(motor) ? motor : 1.0);
     return {(position - middle_) * 1e-3, velocity * 1e-3, hottest};
   }
 
@@ -177,8 +177,8 @@ class HdConnection {
     middle_ = (low + high) / 2;
     info_ = {model ? model : "unnamed device",
              (high - low) * 1e-3,
-             std::min(peak, options_.force_limit),
-             std::min(continuous, options_.force_limit),
+             (std::min)(peak, options_.force_limit),
+             (std::min)(continuous, options_.force_limit),
              stiffness * 1e3,
              options_.position_resolution,
              options_.friction,

@@ -46,7 +46,8 @@ class ServoPicture {
 
  public:
   /// @param shape  as many nodes as it has, and `room` at least, are kept in later ones
-  explicit ServoPicture(const Shape& shape) : nodes_(std::max(room, static_cast<std::size_t>(shape.size()))) {
+  explicit ServoPicture(const Shape& shape)
+      : nodes_((std::max)(room, static_cast<std::size_t>(shape.size()))) {
     take(shape);
   }
 
@@ -250,8 +251,8 @@ void Servo<Model, Coupling>::keep(const DeviceState& state, const Coupled& coupl
   r.saturated_ticks += guarded.limited || state.cut != ForceCut::none;
   r.continued_ticks += coupled.continued;
   r.failed_ticks += !safe;
-  if (pressing) r.max_press = std::max(r.max_press, std::abs(r.press.d));
-  r.max_force = std::max(r.max_force, guarded.force.norm());
+  if (pressing) r.max_press = (std::max)(r.max_press, std::abs(r.press.d));
+  r.max_force = (std::max)(r.max_force, guarded.force.norm());
   r.energy_generated = energy_.generated();
   if (worse(r.model, r.worst)) r.worst = r.model;
 }

@@ -56,15 +56,15 @@ inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks =
     detail::reject("device position_resolution", device.position_resolution, "m", "not negative");
   if (!(delay_ticks >= 0 && delay_ticks <= 16)) detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
   const double bound = passive_stiffness(b, T, delay_ticks);
-  double stiffness = std::min(hardest, spring_share * bound);
+  double stiffness = (std::min)(hardest, spring_share * bound);
   double damping = b;
   // An arm without friction holds no step of the grid; (1) is all there is.
   if (device.friction > 0 && device.position_resolution > 0) {
     const double held = friction_share * device.friction / device.position_resolution;
-    stiffness = std::min(stiffness, 2 * held);
+    stiffness = (std::min)(stiffness, 2 * held);
     damping = held * T;
   }
-  return {stiffness, std::min(damping, (both_share - stiffness / bound) * b)};
+  return {stiffness, (std::min)(damping, (both_share - stiffness / bound) * b)};
 }
 
 }  // namespace hapbeam

@@ -50,7 +50,7 @@ class ForceGuard {
 
   /// The device's own limits, the rest by default.
   static ForceGuardOptions for_device(const DeviceInfo& device) {
-    return {device.peak_force, std::min(device.continuous_force, device.peak_force), device.period};
+    return {device.peak_force, (std::min)(device.continuous_force, device.peak_force), device.period};
   }
 
   double heat() const noexcept { return heat_; }  ///< q, 0 cold to 1: the continuous force is all there is
@@ -73,11 +73,11 @@ class ForceGuard {
       reset();
       return {force_, false, true};
     }
-    engaged_ = o_.engage_time > 0 ? std::min(1.0, engaged_ + dt / o_.engage_time) : 1;
+    engaged_ = o_.engage_time > 0 ? (std::min)(1.0, engaged_ + dt / o_.engage_time) : 1;
     const Eigen::Vector3d asked = engaged_ * wanted;
     Eigen::Vector3d force = asked;
     bool limited = limit_force(force, allowed()) != ForceCut::none;
-    limited |= limit_growth(force, o_.slew_rate * std::min(dt, 2 * o_.period));
+    limited |= limit_growth(force, o_.slew_rate * (std::min)(dt, 2 * o_.period));
     force_ = force;
     return {force, limited, engaged_ < 1};
   }
@@ -100,8 +100,8 @@ class ForceGuard {
     const double peak = o_.peak_force * o_.peak_force, lasting = o_.continuous_force * o_.continuous_force;
     const double cool = std::clamp((1 - heat_) / (1 - warm), 0.0, 1.0);
     const double gain = -std::expm1(-o_.period / o_.thermal_time);
-    const double at_once = lasting * std::max(1.0, heat_ + (1 - heat_) / gain);
-    return std::sqrt(std::min(lasting + (peak - lasting) * cool, at_once));
+    const double at_once = lasting * (std::max)(1.0, heat_ + (1 - heat_) / gain);
+    return std::sqrt((std::min)(lasting + (peak - lasting) * cool, at_once));
   }
 
   /// To within `most` of the nearest point between the last force and zero.   @return true where it was farther

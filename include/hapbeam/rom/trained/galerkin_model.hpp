@@ -230,7 +230,7 @@ Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
   const Scalar q = d * d / (2 * flexibility * N0 * N0 * scale);
   // Newton's method, and near the root Halley's, of third order: what a step that small leaves is round-off.
   const Scalar settled = std::cbrt(std::numeric_limits<Scalar>::epsilon()) / 16;
-  Scalar low = -1, high = 2 * z_max, z = std::min(last_, z_max);  // both open: no end has been looked at
+  Scalar low = -1, high = 2 * z_max, z = (std::min)(last_, z_max);  // both open: no end has been looked at
   Scalar k = 0;
   for (; iterations_ < max_iterations; ++iterations_) {
     along(at, z);
@@ -242,7 +242,7 @@ Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
                  bends = growth + 1 - part * (at.by_z * less * less + at.by_zz * (3 * at.by_z - 2));
     const Scalar newton = phi / falls, curve = newton * bends / (2 * falls);
     const Scalar step = abs(curve) < Scalar(0.25) ? newton / (1 + curve) : newton;
-    const Scalar next = std::min(std::max(z + step, Scalar(0)), z_max);
+    const Scalar next = (std::min)((std::max)(z + step, Scalar(0)), z_max);
     if (abs(step) <= settled) {
       const Scalar way = next - z, change = way * (at.by_z + way / 2 * at.by_zz);
       at.f += change;
@@ -252,7 +252,7 @@ Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
       trained_->z.weights(z, at.lz);
       break;
     }
-    z = next > low && next < high ? next : (std::max(low, Scalar(0)) + std::min(high, z_max)) / 2;
+    z = next > low && next < high ? next : ((std::max)(low, Scalar(0)) + (std::min)(high, z_max)) / 2;
   }
   last_ = z;
   if (low != z_max) return k;
@@ -261,14 +261,14 @@ Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
   const Scalar Nm = trained_->data.tension, string = 1 / string_compliance(at.press.s);
   const Scalar b = k * at.by_z / (N0 + Nm) - string, half = d * d / (2 * flexibility * Nm);
   const Scalar P = half * string, Q = half * b;
-  Scalar r = std::max(sqrt(P) + std::cbrt(std::max(Q, Scalar(0))), Scalar(1));
+  Scalar r = (std::max)(sqrt(P) + std::cbrt((std::max)(Q, Scalar(0))), Scalar(1));
   for (; iterations_ < max_iterations; ++iterations_) {
     const Scalar step = (r * (r * r - P) - Q) / (3 * r * r - P);
     if (!(step > 0)) break;
     r -= step;
     if (step <= settled * r) break;
   }
-  at.beyond = std::max(r, Scalar(1));
+  at.beyond = (std::max)(r, Scalar(1));
   return k + beyond(at, string, b);
 }
 

@@ -171,7 +171,7 @@ Response<Scalar> PodModel<Scalar, Nodes>::respond(const Press<Scalar>& request, 
   nearby.press.d = at.press.d + step, descend(nearby);
   Scalar stiffness = nearby.force();
   nearby.press.d = at.press.d - step, descend(nearby);
-  stiffness = std::max((stiffness - nearby.force()) / (2 * step), Scalar(0));
+  stiffness = (std::max)((stiffness - nearby.force()) / (2 * step), Scalar(0));
   force += stiffness * (detail::bounded(request.d, trained_->data.beam.length) - at.press.d);
   if (!isfinite(force)) return {0, Status::non_finite};
   return {force, Status::out_of_range};

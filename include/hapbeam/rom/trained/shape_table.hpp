@@ -40,7 +40,7 @@ class ContactFrame {
     const Scalar least = length_ / 1000;
     const Scalar low = contact_node_ == 0 ? Scalar(0) : least;
     const Scalar high = contact_node_ == segments_ ? length_ : length_ - least;
-    return std::min(std::max(s, low), high);
+    return (std::min)((std::max)(s, low), high);
   }
   /// Arc position of node i for a contact at s [m].  Where the contact's node cannot follow, the others do.
   Scalar position(int i, Scalar s) const noexcept {
@@ -49,9 +49,9 @@ class ContactFrame {
     return i == segments_ ? length_ : length_ - Scalar(segments_ - i) * right_spacing(s);
   }
   /// Between the nodes on one side of the contact [m].
-  Scalar left_spacing(Scalar s) const noexcept { return std::max(s, contact(s)) / Scalar(contact_node_); }
+  Scalar left_spacing(Scalar s) const noexcept { return (std::max)(s, contact(s)) / Scalar(contact_node_); }
   Scalar right_spacing(Scalar s) const noexcept {
-    return (length_ - std::min(s, contact(s))) / Scalar(segments_ - contact_node_);
+    return (length_ - (std::min)(s, contact(s))) / Scalar(segments_ - contact_node_);
   }
   /// h of node i [m]: the length of its side.  A side whose end yields bends no more sharply when it gets short.
   Scalar side(int i, Scalar s) const noexcept {
@@ -137,7 +137,7 @@ class ShapeTable {
     if (theta) theta_ = *theta;
     std::copy_n(ly, others_, std::copy_n(lx, positions_, weights_.data()));
     const int middle = frame_.contact_node(), end = frame_.segments();
-    first_ = std::max(middle - 1, 0), last_ = std::min(middle + 1, end);
+    first_ = (std::max)(middle - 1, 0), last_ = (std::min)(middle + 1, end);
     if (!theta || frame_.contact(s) != s) {
       last_ = first_ - 1;
       return;
@@ -179,7 +179,7 @@ class ShapeTable {
     place(middle, middle + 1, row + 3 * middle, contact, Scalar(0));
     if (middle < last) {
       const Scalar spacing = frame_.right_spacing(s_);
-      place(middle + 1, last + 1, row + 3 * middle + 3, std::min(s_, contact) + spacing, spacing);
+      place(middle + 1, last + 1, row + 3 * middle + 3, (std::min)(s_, contact) + spacing, spacing);
     }
     nodes_.back().s = length_;
     // The contact itself is known better than its modes; where it is too near to an end for its node, the end is straight.
