@@ -11,8 +11,8 @@ const scenes = [
   {
     name: 'Ruler', ends: ['clamped', 'free'], magnified: 1, view: [-0.04, 0.36, -0.2, 0.07], model: 2,
     title: 'A steel ruler, 300 × 25 × 1 mm, clamped at the left',
-    feel: 'It resists, turns, and lets the ball slide along it until it slips off. The first two models have moderate ' +
-      'rotations: they end at half of a right angle, and their force is wrong long before.',
+    feel: 'It resists, turns, and lets the ball slide along it until it slips off. The first two models are for moderate ' +
+      'rotations, and the ruler turns further: look at their error.',
   },
   {
     name: 'String', ends: ['pinned', 'pinned'], magnified: 8, view: [-0.045, 0.695, -0.21, 0.14], model: 1,
@@ -21,7 +21,7 @@ const scenes = [
   },
   {
     name: 'Arch', ends: ['pinned', 'pinned'], magnified: 1, view: [-0.016, 0.216, -0.06, 0.052], model: 2,
-    title: 'An arch of spring steel, 200 mm wide and 12 mm high',
+    title: 'An arch of spring steel, span 200 mm, rise 12 mm',
     feel: 'A click. It resists, tilts, gives way and snaps through to its other side. Press it back from below.',
   },
   {
