@@ -3,7 +3,9 @@
 add_library(hapbeam_checks INTERFACE)
 
 if(MSVC)
-  target_compile_options(hapbeam_checks INTERFACE /W4 /permissive- $<$<BOOL:${HAPBEAM_WARNINGS_AS_ERRORS}>:/WX>)
+  # Sources are UTF-8, a unit has more sections than its format counts, and M_PI is asked for.
+  target_compile_options(hapbeam_checks INTERFACE /W4 /permissive- /utf-8 /bigobj $<$<BOOL:${HAPBEAM_WARNINGS_AS_ERRORS}>:/WX>)
+  target_compile_definitions(hapbeam_checks INTERFACE _USE_MATH_DEFINES)
 else()
   target_compile_options(hapbeam_checks INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${HAPBEAM_WARNINGS_AS_ERRORS}>:-Werror>)

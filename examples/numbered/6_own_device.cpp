@@ -19,7 +19,7 @@ struct MyDevice {
   void start(Servo& servo) {
     run = true;
     thread = std::thread([this, &servo] {
-      for (DeviceState state; run; std::this_thread::sleep_for(std::chrono::microseconds(900))) {
+      for (DeviceState state; run; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
         state.time = 1e-3 * static_cast<double>(ticks);  // [s]: a real one reads its clock
         state.reset = ticks++ == 0;
         state.position.y() = 0.01 * std::cos(3 * state.time);  // [m]: here the encoders are read

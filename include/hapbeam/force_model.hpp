@@ -180,7 +180,7 @@ struct Range {
   Scalar right_support;  ///< [m] the same at the right, +infinity where it yields
 
   Scalar depth_at(Scalar s) const noexcept {
-    return std::min(depth, slope * std::min(s - left_support, right_support - s));
+    return (std::min)(depth, slope * (std::min)(s - left_support, right_support - s));
   }
 
   /// The nearest request inside: s first, then d.

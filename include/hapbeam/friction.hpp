@@ -84,8 +84,8 @@ template <typename M, typename = void>
 struct TakesFriction : std::false_type {};
 template <typename M>
 struct TakesFriction<M, std::void_t<decltype(std::declval<M&>().push(
-                        std::declval<const typename PushOf<M>::Type&>(),
-                        std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))>>
+                            std::declval<const typename PushOf<M>::Type&>(),
+                            std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))>>
     : std::bool_constant<noexcept(
           std::declval<M&>().push(std::declval<const typename PushOf<M>::Type&>(),
                                   std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))> {};

@@ -22,8 +22,8 @@ struct RodSection {
   /// J of a × b, a >= b, is ab³/3 (1 - 192 b/(π⁵ a) Σ tanh(kπa/2b)/k⁵) over odd k: Timoshenko and Goodier, Theory of
   /// Elasticity, 109.
   static RodSection rectangle(double width, double height) {
-    const double a = std::max(detail::positive("section width", width, "m"), height),
-                 b = std::min(width, detail::positive("section height", height, "m"));
+    const double a = (std::max)(detail::positive("section width", width, "m"), height),
+                 b = (std::min)(width, detail::positive("section height", height, "m"));
     double sum = 0;
     for (int k = 1; k < 200; k += 2) sum += std::tanh(k * pi * a / (2 * b)) / std::pow(k, 5);
     return {width * height, width * height * height * height / 12, height * width * width * width / 12,
@@ -46,7 +46,7 @@ struct RodSection {
     const double a = detail::positive("section width", width, "m") / 2,
                  b = detail::positive("section height", height, "m") / 2;
     return {pi * a * b, pi * a * b * b * b / 4, pi * a * a * a * b / 4,
-            pi * a * a * a * b * b * b / (a * a + b * b), std::min(width, height)};
+            pi * a * a * a * b * b * b / (a * a + b * b), (std::min)(width, height)};
   }
 
  private:

@@ -90,13 +90,13 @@ class BoundingVolumes {
       if (entry.distance_squared > best.at.distance_squared * slack) continue;
       while (entry.node < leaves_) {
         const int left = 2 * entry.node;
-        Entry near{left, boxes_[index(left)].distance_squared(q)};
-        Entry far{left + 1, boxes_[index(left + 1)].distance_squared(q)};
-        if (far.distance_squared < near.distance_squared) std::swap(near, far);
-        if (far.distance_squared <= best.at.distance_squared * slack) stack[size++] = far;
-        entry = near;
+        Entry nearer{left, boxes_[index(left)].distance_squared(q)};
+        Entry farther{left + 1, boxes_[index(left + 1)].distance_squared(q)};
+        if (farther.distance_squared < nearer.distance_squared) std::swap(nearer, farther);
+        if (farther.distance_squared <= best.at.distance_squared * slack) stack[size++] = farther;
+        entry = nearer;
       }
-      const int begin = (entry.node - leaves_) * run_, end = std::min(begin + run_, segments_);
+      const int begin = (entry.node - leaves_) * run_, end = (std::min)(begin + run_, segments_);
       for (int i = begin; i < end; ++i) {
         const ClosestPoint<Scalar, D> candidate = closest_point(centreline.segment(i), q);
         const Scalar a = candidate.distance_squared, b = best.at.distance_squared;
@@ -125,7 +125,7 @@ class BoundingVolumes {
         stack[size++] = 2 * node;
         continue;
       }
-      const int begin = (node - leaves_) * run_, end = std::min(begin + run_, segments_);
+      const int begin = (node - leaves_) * run_, end = (std::min)(begin + run_, segments_);
       for (int i = begin; i < end; ++i) total += hapbeam::crossings(centreline.segment(i), p0, p1);
     }
     return total;

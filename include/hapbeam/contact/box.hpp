@@ -25,15 +25,16 @@ struct Box {
   }
 
   void include(const VectorOf<Scalar, D>& p) noexcept {
-    for (int k = 0; k < D; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+    for (int k = 0; k < D; ++k) low[k] = (std::min)(low[k], p[k]), high[k] = (std::max)(high[k], p[k]);
   }
   void include(const CubicSegment<Scalar, D>& b) noexcept {
     for (int j = 0; j < 4; ++j)
-      for (int k = 0; k < D; ++k) low[k] = std::min(low[k], b(k, j)), high[k] = std::max(high[k], b(k, j));
+      for (int k = 0; k < D; ++k)
+        low[k] = (std::min)(low[k], b(k, j)), high[k] = (std::max)(high[k], b(k, j));
   }
   void include(const Box& other) noexcept {
     for (int k = 0; k < D; ++k)
-      low[k] = std::min(low[k], other.low[k]), high[k] = std::max(high[k], other.high[k]);
+      low[k] = (std::min)(low[k], other.low[k]), high[k] = (std::max)(high[k], other.high[k]);
   }
   /// So much larger on all sides [m].
   [[nodiscard]] Box grown(Scalar by) const noexcept {
@@ -44,7 +45,7 @@ struct Box {
   [[nodiscard]] Scalar distance_squared(const VectorOf<Scalar, D>& q) const noexcept {
     Scalar sum = 0;
     for (int k = 0; k < D; ++k) {
-      const Scalar away = std::max(std::max(low[k] - q[k], q[k] - high[k]), Scalar(0));
+      const Scalar away = (std::max)((std::max)(low[k] - q[k], q[k] - high[k]), Scalar(0));
       sum += away * away;
     }
     return sum;
@@ -55,15 +56,15 @@ struct Box {
     VectorOf<Scalar, D> centre, half;
     Scalar sum = 0;
     for (int k = 0; k < D; ++k) {
-      const Scalar end = shaft.tip[k] + shaft.way[k], lowest = std::min(shaft.tip[k], end),
-                   highest = std::max(shaft.tip[k], end),
-                   away = std::max(std::max(low[k] - highest, lowest - high[k]), Scalar(0));
+      const Scalar end = shaft.tip[k] + shaft.way[k], lowest = (std::min)(shaft.tip[k], end),
+                   highest = (std::max)(shaft.tip[k], end),
+                   away = (std::max)((std::max)(low[k] - highest, lowest - high[k]), Scalar(0));
       sum += away * away;
       centre[k] = (low[k] + high[k]) / 2, half[k] = (high[k] - low[k]) / 2;
     }
     const Scalar gap =
         std::sqrt((shaft.at(shaft.nearest(centre)) - centre).squaredNorm()) - std::sqrt(half.squaredNorm());
-    return gap > 0 ? std::max(sum, gap * gap) : sum;
+    return gap > 0 ? (std::max)(sum, gap * gap) : sum;
   }
   [[nodiscard]] bool overlaps(const Box& other) const noexcept {
     for (int k = 0; k < D; ++k)

@@ -78,7 +78,7 @@ Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const Centreline
   contact.foot = q - offset;
   contact.past_end = frame.past_end;
   const auto &a = part.line[nearest.segment], &b = part.line[nearest.segment + 1];
-  contact.s = nearest.at.t < 1 ? std::min(a.s + nearest.at.t * (b.s - a.s), b.s) : b.s;
+  contact.s = nearest.at.t < 1 ? (std::min)(a.s + nearest.at.t * (b.s - a.s), b.s) : b.s;
 
   // A step that ends on the centreline itself has crossed it, so the sign of zero does not matter below.
   const int present_side = cross(frame.direction, offset) < 0 ? -1 : 1;

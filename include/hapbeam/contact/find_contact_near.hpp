@@ -24,7 +24,7 @@ NearestPoint<Scalar> nearest_along_x(const Centreline<Scalar>& line, const Vecto
   NearestPoint<Scalar> best;
   const auto x = [&](int i) { return line[i].s + line[i].u; };
   const auto look = [&](int i) {
-    const Scalar away = std::max(std::max(x(i) - q.x(), q.x() - x(i + 1)), Scalar(0));
+    const Scalar away = (std::max)((std::max)(x(i) - q.x(), q.x() - x(i + 1)), Scalar(0));
     if (away * away > best.at.distance_squared * slack) return;
     const ClosestPoint<Scalar> candidate = closest_point(line.segment(i), q);
     const Scalar a = candidate.distance_squared, b = best.at.distance_squared;
@@ -64,8 +64,8 @@ template <class Model>
       contact = contact_at(nearest, part, avatar, model.thickness(), memory, [] { return Crossings{}; });
       return true;
     }
-    if (!left) low = std::min(low, q.x() - d - first.u);
-    if (!right) high = std::max(high, q.x() + d - last.u);
+    if (!left) low = (std::min)(low, q.x() - d - first.u);
+    if (!right) high = (std::max)(high, q.x() + d - last.u);
   }
   return false;
 }

@@ -35,7 +35,7 @@ inline constexpr int most_looks = 16;
 template <typename Scalar>
 Scalar step(const Shaft<Scalar>& from, const Shaft<Scalar>& to) noexcept {
   const VectorOf<Scalar, 3> tip = to.tip - from.tip, end = tip + to.way - from.way;
-  return std::sqrt(std::max(tip.squaredNorm(), end.squaredNorm()));
+  return std::sqrt((std::max)(tip.squaredNorm(), end.squaredNorm()));
 }
 
 template <typename Scalar>
@@ -52,7 +52,7 @@ Contact<Scalar, 3> rod_contact_at(const NearestPoint<Scalar, 3>& nearest, const 
   contact.segment = i;
   contact.foot = point_at(piece, t);
   contact.past_end = (i == 0 && t == 0 && ahead < 0) || (i == line.segments() - 1 && t == 1 && ahead > 0);
-  contact.s = t < 1 ? std::min(line[i].s + t * (line[i + 1].s - line[i].s), line[i + 1].s) : line[i + 1].s;
+  contact.s = t < 1 ? (std::min)(line[i].s + t * (line[i + 1].s - line[i].s), line[i + 1].s) : line[i + 1].s;
   contact.depth = reach - distance;
   contact.touching = contact.depth > 0;
   // On the axis itself every way across the rod is the nearest one.
@@ -95,7 +95,7 @@ template <typename Scalar>
   const Scalar step = memory.known ? detail::step(memory.axis, axis) : Scalar(0);
   // Only a step longer than the present distance can have gone through anything.
   if (step > reach / 2 && step * step >= nearest.at.distance_squared) {
-    const int looks = static_cast<int>(std::min(std::ceil(2 * step / reach), Scalar(detail::most_looks)));
+    const int looks = static_cast<int>((std::min)(std::ceil(2 * step / reach), Scalar(detail::most_looks)));
     for (int k = 1; k < looks; ++k) {
       const Scalar t = Scalar(k) / Scalar(looks);
       const Shaft<Scalar> on_way{memory.axis.tip + t * (axis.tip - memory.axis.tip),
@@ -131,9 +131,9 @@ template <typename Scalar>
   if (memory.touching) return false;
   const Shaft<Scalar> axis = avatar.axis();
   const Scalar distance_squared = volumes.distance_squared(axis);
-  const Scalar far =
+  const Scalar clear =
       avatar.radius + thickness / 2 + (memory.known ? detail::step(memory.axis, axis) : Scalar(0));
-  if (!(distance_squared > far * far && std::isfinite(distance_squared))) return false;
+  if (!(distance_squared > clear * clear && std::isfinite(distance_squared))) return false;
   memory.axis = axis;
   memory.known = true;
   return true;

@@ -53,7 +53,7 @@ class PressContact {
     const Response<Scalar> response = model.press(asked);
     const Scalar n_w = up_ * contact.normal.y();
     if (n_w < 0) contact.normal << (contact.normal.x() < 0 ? Scalar(-1) : Scalar(1)), 0;
-    const Scalar force = -up_ * response.force / std::max(n_w, least_normal);
+    const Scalar force = -up_ * response.force / (std::max)(n_w, least_normal);
     const bool answer = is_answer(response.status);
     if (force < 0 || (answer && force == 0))
       return {answer ? Hold::released : Hold::lost, 0, response.status};
@@ -105,7 +105,7 @@ class PressContact {
       contact.normal << offset.x() / reach, above / reach;
       return true;
     }
-    rise = -up_ * contact.depth / std::max(up_ * contact.normal.y(), least_normal);
+    rise = -up_ * contact.depth / (std::max)(up_ * contact.normal.y(), least_normal);
     return true;
   }
 

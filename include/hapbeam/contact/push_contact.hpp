@@ -24,7 +24,7 @@ class PushContact {
 
  public:
   /// Farther than this from where they touch, in units of reach, the contact has not been found.
-  static constexpr Scalar far = Scalar(1e-2);
+  static constexpr Scalar too_far = Scalar(1e-2);
 
   void begin(const Contact<Scalar, D>&) noexcept {
     slid_ = before_ = 0;
@@ -50,7 +50,8 @@ class PushContact {
     const Scalar s = std::clamp(first + (2 * slid_ - before_), Scalar(0), length);
     const Pushed<Scalar, D> pushed = push(model, s, avatar, reach, contact);
     asked = {pushed.s, D == 2 ? pushed.point.y() : pushed.normal.dot(pushed.point)};
-    const bool answer = is_answer(pushed.status), found = pushed.miss <= far * reach, lost = answer && !found;
+    const bool answer = is_answer(pushed.status), found = pushed.miss <= too_far * reach,
+               lost = answer && !found;
     // What pulls beside the contact, or on the way to it, may press there.
     if (pushed.force > 0 || (answer && pushed.force == 0))
       return {answer && found ? Hold::released : Hold::lost, 0, pushed.status};

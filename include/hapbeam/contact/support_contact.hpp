@@ -51,7 +51,7 @@ class SupportContact {
 
   /// Whether the contact is nearer than so much to an end that holds w.
   template <class Model>
-  static bool near(const Contact<Scalar>& contact, const Model& model, Scalar distance) noexcept {
+  static bool beside(const Contact<Scalar>& contact, const Model& model, Scalar distance) noexcept {
     const Range<Scalar> range = model.range();
     return contact.s - range.left_support < distance || range.right_support - contact.s < distance;
   }
@@ -114,7 +114,7 @@ class SupportContact<Scalar, 3> {
       const Scalar gap = std::sqrt(at.distance_squared),
                    nearest = right ? support - range.s_max : range.s_min;
       depth_ = reach - gap;
-      distance_ = std::max(at.t * end.length, nearest);
+      distance_ = (std::max)(at.t * end.length, nearest);
       if (!(distance < nearest || 6 * reach * depth_ > distance_ * distance_)) continue;
       right_ = right;
       tangent_ = detail::unit(tangent(end.piece, at.t));
@@ -125,7 +125,7 @@ class SupportContact<Scalar, 3> {
     return false;
   }
   template <class Model>
-  static bool near(const Contact<Scalar, 3>& contact, const Model& model, Scalar distance) noexcept {
+  static bool beside(const Contact<Scalar, 3>& contact, const Model& model, Scalar distance) noexcept {
     const Range<Scalar> range = model.range();
     return contact.s - range.left_support < distance || range.right_support - contact.s < distance;
   }
@@ -141,7 +141,7 @@ class SupportContact<Scalar, 3> {
     if (!contact.touching) return {Hold::released, 0, Status::ok};
     const Range<Scalar> range = model.range();
     const Scalar s = right_ ? range.right_support - distance_ : range.left_support + distance_,
-                 depth = std::min(depth_, distance_ / 20);
+                 depth = (std::min)(depth_, distance_ / 20);
     const Vector side = normal_ - tangent_ * tangent_.dot(normal_),
                  across = side.squaredNorm() > Scalar(0.01)
                               ? detail::unit(side)

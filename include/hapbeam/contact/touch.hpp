@@ -237,7 +237,7 @@ class Touch {
     const Contact contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), nothing);
     const Scalar reach = avatar_radius_ + model_.thickness() / 2;
     inside_ = contact.touching && (why == detail::Hold::slipped ||
-                                   (contact.side != side_ && support_.near(contact, model_, 2 * reach)));
+                                   (contact.side != side_ && support_.beside(contact, model_, 2 * reach)));
     if (!contact.touching || inside_ || off_beam) return;
     // Lost, and at rest beneath the avatar: it has not slipped off, and the touch goes on from there.
     begin(contact);

@@ -165,7 +165,7 @@ struct OneStrain<E, std::void_t<typename E::OneStrain>> : std::is_same<typename 
 }  // namespace detail
 
 /// True where L has what an element needs of its membrane policy, and an element of finite rotation of its local element:
-///   L::respond(const ElementProperties<S>&, const Deformation<S>&) noexcept -> CoreResponse<S>,   L::name() -> const char*
+///   `L::respond(const ElementProperties<S>&, const Deformation<S>&) noexcept -> CoreResponse<S>`,   `L::name() -> const char*`
 template <typename L, typename S>
 inline constexpr bool responds_to_deformation = detail::RespondsToDeformation<L, S>::value;
 
@@ -173,7 +173,7 @@ inline constexpr bool responds_to_deformation = detail::RespondsToDeformation<L,
 /// itself, g++ -O2 makes calls of it, whose results go through memory and take a quarter of the tick.
 ///
 /// The contract above for an element that knows its core,
-///   E::respond(p, d) -> CoreResponse<S>,   of the displacements or of the Deformation that they make,
+///   `E::respond(p, d) -> CoreResponse<S>`,   of the displacements or of the Deformation that they make,
 /// from which it inherits with itself as E.
 template <class E>
 struct ElementFromCore {

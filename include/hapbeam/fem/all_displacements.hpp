@@ -160,7 +160,7 @@ class AllDisplacements {
   template <class Aim>
   Response<Scalar> settle_at_once(int looser, Aim&& aim) noexcept {
     aim();
-    report_ = solve_within(std::min(left_, 6), 1, looser);
+    report_ = solve_within((std::min)(left_, 6), 1, looser);
     const bool stable = !gives_way();
     left_ -= report_.solves;
     if (report_.status != Status::ok || !stable) report_ = {Status::iteration_limit, 0, 0, 0, 0, 1};
@@ -279,7 +279,7 @@ class AllDisplacements {
   /// Newton's method with no more than so many linear solves.  @param looser  than the solver's tolerance
   SolveReport<Scalar> solve_within(int most, Scalar first_step = 1, int looser = 1) noexcept {
     Solver solver = solver_;
-    solver.max_solves = std::min(solver.max_solves, most);
+    solver.max_solves = (std::min)(solver.max_solves, most);
     solver.relative_tolerance *= looser;
     return solver.solve(system_, first_step);
   }

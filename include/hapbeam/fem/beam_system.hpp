@@ -122,7 +122,7 @@ class BeamSystem {
   /// The next goals are those of a touch with friction, until let_slip().
   /// @param first  where it begins, if it does   @param normal_force  of the last tick [N]
   void take_friction(const FrictionState<Scalar, 2>& grip, const Circle<Scalar>& round,
-                 const detail::FrictionPlace<Scalar, 2>& first, Scalar normal_force) noexcept {
+                     const detail::FrictionPlace<Scalar, 2>& first, Scalar normal_force) noexcept {
     touched_ = round;
     const Scalar per_length = unit_ / length_;
     grip_.begin(grip, first, round.reach,
@@ -255,7 +255,7 @@ class BeamSystem {
   /// Largest rotation of a node in the last increment [rad].
   Scalar turn() const noexcept {
     Scalar largest = 0;
-    for (int i = 0; i <= elements(); ++i) largest = std::max(largest, std::abs(assembler_.increment(i)[2]));
+    for (int i = 0; i <= elements(); ++i) largest = (std::max)(largest, std::abs(assembler_.increment(i)[2]));
     return largest;
   }
 

@@ -50,7 +50,7 @@ class CapsuleOnCurve {
     if (!(at_node.second > parallel)) return;
     const Scalar squared = axis.way.squaredNorm(), farthest = sqrt(v.w.squaredNorm()) + sqrt(squared);
     const Scalar third = v.slides ? 3 * std::abs(axis.way.dot(v.u) * axis.way.dot(v.k)) / squared : Scalar(0);
-    within_ = std::min({farthest, 1 / sqrt(curvature.squaredNorm()), at_node.second / (2 * third)});
+    within_ = (std::min)({farthest, 1 / sqrt(curvature.squaredNorm()), at_node.second / (2 * third)});
   }
 
   /// Whether the curve is too sharp for all this.  @param distance  from it [m]

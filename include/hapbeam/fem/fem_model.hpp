@@ -36,7 +36,7 @@
 
 namespace hapbeam {
 
-/// @tparam Element    Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain> | Corotational<…>
+/// @tparam Element    Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain> | Corotational<Local>
 /// @tparam ScalarType double | float
 /// @tparam Elements   number of elements, or Eigen::Dynamic      @tparam MaxElements  largest number, or Eigen::Dynamic
 /// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates, and always of all displacements)   @tparam Solver  NewtonRaphson
@@ -181,7 +181,7 @@ class FemModel {
 
   /// @throws std::invalid_argument where the scalar does not hold the shape at rest
   [[gnu::cold]] void check_rest() const {
-    bool finite = range_.length() >= std::numeric_limits<Scalar>::min();
+    bool finite = range_.length() >= (std::numeric_limits<Scalar>::min)();
     for (const auto& node : shape()) finite = finite && is_finite(node);
     if (!finite)
       throw std::invalid_argument(
@@ -195,7 +195,8 @@ class FemModel {
   template <int D = dimension, std::enable_if_t<D == 2, int> = 0>
   Response<Scalar> push_wall(const Push<Scalar>& request, Scalar s, Scalar node, bool valid) noexcept {
     const Scalar u = shape()[node == 0 ? 0 : elements()].u;
-    const Scalar n_w = std::copysign(std::max(Scalar(0.5), std::abs(request.normal.y())), request.normal.y());
+    const Scalar n_w =
+        std::copysign((std::max)(Scalar(0.5), std::abs(request.normal.y())), request.normal.y());
     const Scalar d = (request.d - request.normal.x() * u) / n_w;
     const Response<Scalar> across = solve({s, d, {0, 1}}, valid && std::isfinite(d), s == request.s);
     return finite({across.force / n_w, across.status});

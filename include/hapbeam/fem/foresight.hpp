@@ -56,7 +56,7 @@ class Foresight {
     return goes_on;
   }
   /// To be called after each push.  @param found  whether it was answered on the branch on which the beam was
-  void know(bool found) noexcept { known_ = found ? std::min(known_ + 1, 2) : 0; }
+  void know(bool found) noexcept { known_ = found ? (std::min)(known_ + 1, 2) : 0; }
   /// Back to where the system was before go_on().  @param force  of then [N]
   void go_back(System& system, Scalar force) noexcept {
     system.go_back(mesh_, before_, force);

@@ -47,17 +47,17 @@ class FrictionLaw {
   /// @param first  where the two would touch before the beam yields: where a touch begins
   /// @param reach  [m] from the avatar's axis to the centreline   @param stiffest  [N/m] that the scalar allows
   /// @param hurry  [m] a long way for a tick   @param normal_force  [N] of the last tick
-  void begin(const FrictionState<Scalar, D>& grip, const Place& first, Scalar reach, Scalar stiffest, Scalar hurry,
-             Scalar normal_force) noexcept {
+  void begin(const FrictionState<Scalar, D>& grip, const Place& first, Scalar reach, Scalar stiffest,
+             Scalar hurry, Scalar normal_force) noexcept {
     on_ = true;
     known_ = grip.known;
     before_ = grip.known ? Place{grip.s, grip.normal, grip.along, grip.place, grip.axis} : first;
     skin_ = grip.skin;
     reach_ = reach;
-    stiffness_ = std::min(grip.stiffness, stiffest);
-    damping_ = std::min(grip.damping, stiffest);
+    stiffness_ = (std::min)(grip.stiffness, stiffest);
+    damping_ = (std::min)(grip.damping, stiffest);
     sticking_ = grip.sticking, sliding_ = grip.sliding, gain_ = grip.gain;
-    bound_ = before_bound_ = sliding_ * std::max(normal_force, Scalar(0));
+    bound_ = before_bound_ = sliding_ * (std::max)(normal_force, Scalar(0));
     now_ = first;
     shear();
     // A hand that hurries slides: what stuck to it would be torn along.
@@ -65,7 +65,7 @@ class FrictionLaw {
     const Scalar far = norm(sheared_ - carried_);
     const bool hurries = far > hurry;
     slides_ = !known_ || ((grip.slides || hurries) && bound_ > 0);
-    if (slides_) aim(sheared_, std::max(norm(sheared_), grip.slip));
+    if (slides_) aim(sheared_, (std::max)(norm(sheared_), grip.slip));
     // In its first tick a contact slides without friction to where the touch begins.
     fallen_ = !known_;
     if (fallen_) bound_ = used_ = 0;
@@ -105,7 +105,8 @@ class FrictionLaw {
   /// To be called after each linear solve.  @param normal_force  of it [N]
   void feel(Scalar normal_force) noexcept {
     used_ = bound_;
-    if (slides_ && !fallen_) bound_ = std::max(Scalar(0), used_ + (sliding_ * normal_force - used_) / rate());
+    if (slides_ && !fallen_)
+      bound_ = (std::max)(Scalar(0), used_ + (sliding_ * normal_force - used_) / rate());
   }
 
   /// The beam falls.  What slides does that without friction, and the touch begins anew where it arrives; what sticks goes along.
@@ -118,7 +119,7 @@ class FrictionLaw {
   /// @return whether it is one of Coulomb's law, too; else one has to be found anew
   bool settled(Scalar normal_force) noexcept {
     const Vector elastic = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
-    const Scalar size = norm(elastic), most = sliding_ * std::max(normal_force, Scalar(0));
+    const Scalar size = norm(elastic), most = sliding_ * (std::max)(normal_force, Scalar(0));
     // What pulls while it sticks may press where it slides.
     const bool pulls = !(normal_force > 0);
     if (fallen_ || ++tries_ > most_tries || (pulls && (slides_ || !(size > 0)))) return true;
@@ -142,7 +143,7 @@ class FrictionLaw {
     learn(normal_force);
     const Scalar off = (elastic * (most / size) - force_at(used_)).norm();
     if (off <= exact * most) return true;
-    bound_ = std::max(Scalar(0), used_ + (most - used_) / rate());
+    bound_ = (std::max)(Scalar(0), used_ + (most - used_) / rate());
     aim(elastic, norm(sheared_));
     return false;
   }
@@ -171,7 +172,7 @@ class FrictionLaw {
   void leave(FrictionState<Scalar, D>& grip, Scalar normal_force) const noexcept {
     const Vector elastic = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
     const Scalar size = norm(elastic),
-                 most = (slides_ ? sliding_ : sticking_) * std::max(normal_force, Scalar(0));
+                 most = (slides_ ? sliding_ : sticking_) * (std::max)(normal_force, Scalar(0));
     const bool slid = size > most;
     const Vector last = grip.slides ? carry_from_before(grip.force) : Vector(Vector::Zero());
     grip.force = slid ? Vector(elastic * (most / size)) : elastic;
@@ -206,7 +207,7 @@ class FrictionLaw {
   }
   void aim(const Vector& direction, Scalar length) noexcept {
     direction_ = direction;
-    length_ = std::max(length, Scalar(0));
+    length_ = (std::max)(length, Scalar(0));
   }
   /// Stiffness across the way of sliding [N/m].
   Scalar aside(Scalar bound) const noexcept {
@@ -241,7 +242,7 @@ class FrictionLaw {
       const Scalar half = norm(turn) / 2;
       Vector v = moved / 2 * (before_.along + now_.along) -
                  (now_.place - before_.place) / 2 * (before_.axis + now_.axis) +
-                 (half > 0 ? reach_ * std::asin(std::min(half, Scalar(1))) / half : reach_) * turn;
+                 (half > 0 ? reach_ * std::asin((std::min)(half, Scalar(1))) / half : reach_) * turn;
       v -= middle * middle.dot(v);
       return carry<Scalar>(v, middle, n);
     }

@@ -55,7 +55,7 @@ struct LoadPath {
     system.save();
     while (t < 1) {
       if (report.solves > max_solves) return end;
-      const S to = std::min(t + step, S(1));
+      const S to = (std::min)(t + step, S(1));
       const Step<S> made = go(system, to, report.solves);
       if (made.stays) {
         t = to;
@@ -66,11 +66,11 @@ struct LoadPath {
       }
       system.restore();
       step = made.shorter * (to - t);
-      const S closely = S(made.gives_way ? fork : resolution), here = std::max(t, closely);
+      const S closely = S(made.gives_way ? fork : resolution), here = (std::max)(t, closely);
       if (step > closely * here) continue;
       // The branch ends here.  At t = 0 it has not begun: a beam that is bowed to begin with is in no equilibrium.
-      if (t > 0) beyond = std::max(4 * beyond, 4 * closely);
-      const S past = std::min(t + beyond * here, S(1)), before = potential(system, t, report.solves);
+      if (t > 0) beyond = (std::max)(4 * beyond, 4 * closely);
+      const S past = (std::min)(t + beyond * here, S(1)), before = potential(system, t, report.solves);
       if (t == 0) beyond = closely;
       end.fell = true;
       const auto fall = [&](S at) {
@@ -111,10 +111,10 @@ struct LoadPath {
       if (system.factor(0) != Status::ok) return lost;
       const S turn = system.turn();
       if (!std::isfinite(turn)) return lost;
-      const bool done = turn <= std::max(k == 0 ? S(0) : enough * first, S(nothing));
+      const bool done = turn <= (std::max)(k == 0 ? S(0) : enough * first, S(nothing));
       if (k > 0 && !done) {
-        const S excess = std::max(2 * turn / before, turn / S(largest_correction));
-        if (excess > 1) return {false, false, std::max(S(0.5) / excess, S(0.01))};
+        const S excess = (std::max)(2 * turn / before, turn / S(largest_correction));
+        if (excess > 1) return {false, false, (std::max)(S(0.5) / excess, S(0.01))};
       }
       system.advance();
       if (done) return stable(system, solves, k) ? Step<S>{true, false, 1} : Step<S>{false, true, S(0.25)};

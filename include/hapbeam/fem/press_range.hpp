@@ -33,7 +33,7 @@ class PressRange {
       if (fixes_u(beam.left()) && fixes_u(beam.right())) {
         // How high a beam of this length can stand between its ends, over half the length.
         const auto span = (beam.length() + beam.right_place().u - beam.left_place().u) / beam.length();
-        const Scalar sag = static_cast<Scalar>(std::sqrt(std::max(0.0, 1 - span * span)));
+        const Scalar sag = static_cast<Scalar>(std::sqrt((std::max)(0.0, 1 - span * span)));
         depth_ += sag * length_ / 2;
         slope_ += sag;
       } else {

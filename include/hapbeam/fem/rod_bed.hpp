@@ -32,8 +32,8 @@ class RodBed {
     const Scalar l = to - from;
     spring.home = unknowns(natural.at(from), natural.at(to));
     for (const RodFoundation& foundation : foundations_) {
-      const Scalar a = std::max(from, static_cast<Scalar>(foundation.from)),
-                   b = std::min(to, static_cast<Scalar>(foundation.to));
+      const Scalar a = (std::max)(from, static_cast<Scalar>(foundation.from)),
+                   b = (std::min)(to, static_cast<Scalar>(foundation.to));
       if (!(b > a)) continue;
       const Scalar across = static_cast<Scalar>(foundation.across),
                    more = static_cast<Scalar>(foundation.along) - across;

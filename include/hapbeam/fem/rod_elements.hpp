@@ -197,7 +197,7 @@ class RodElements {
   /// @param first  of the elements; beyond the last one that one stands again
   void compute(int first, Group& group) const noexcept {
     int of[lanes];
-    for (int k = 0; k < lanes; ++k) of[k] = std::min(first + k, size() - 1);
+    for (int k = 0; k < lanes; ++k) of[k] = (std::min)(first + k, size() - 1);
     const auto gather = [&](int beyond) {
       const auto vector = [&](auto member) {
         const auto entry = [&](int i) {

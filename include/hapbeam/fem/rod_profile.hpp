@@ -67,7 +67,7 @@ class RodProfile {
     /// Cubic through the four knots beside s; parabolas where a part ends.
     Values at(double s) const noexcept {
       const double x = std::clamp((s - from) / (end - from), 0.0, 1.0) * cells;
-      const std::size_t k = std::min(static_cast<std::size_t>(x), cells - 1);
+      const std::size_t k = (std::min)(static_cast<std::size_t>(x), cells - 1);
       const double t = x - static_cast<double>(k), u = 1 - t;
       Values value;
       for (std::size_t q = 0; q < value.size(); ++q) {
@@ -105,7 +105,7 @@ class RodProfile {
   Values mean(std::size_t first, std::size_t last, double begin, double end) const noexcept {
     Values compliance{};
     for (std::size_t k = first; k <= last; ++k) {
-      const double a = std::max(begin, parts_[k].from), b = std::min(end, parts_[k].end);
+      const double a = (std::max)(begin, parts_[k].from), b = (std::min)(end, parts_[k].end);
       if (!(b > a)) continue;
       const Values value = parts_[k].at((a + b) / 2);
       for (std::size_t q = 0; q < value.size(); ++q) compliance[q] += (b - a) / ((end - begin) * value[q]);

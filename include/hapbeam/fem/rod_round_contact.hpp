@@ -64,7 +64,7 @@ struct RodRoundContact {
 
  private:
   FrictionPlace<Scalar, 3> place(Scalar s, const Vector& n, const Vector& along,
-                             const Vector& on_axis) const noexcept {
+                                 const Vector& on_axis) const noexcept {
     const Scalar squared = capsule.axis.way.squaredNorm();
     if (!(squared > 0)) return {s, n, along, 0, Vector::Zero()};
     const Vector axis = capsule.axis.way / std::sqrt(squared);

@@ -50,7 +50,7 @@ class RodSystem {
         length_(static_cast<Scalar>(rod.length())),
         axial_(static_cast<Scalar>(rod.stiffness().axial)),
         unit_(static_cast<Scalar>(
-            std::sqrt(std::min(rod.stiffness().bending1, rod.stiffness().bending2) / rod.length()))) {
+            std::sqrt((std::min)(rod.stiffness().bending1, rod.stiffness().bending2) / rod.length()))) {
     if (rod.right_pose()) ends_[1].place(*rod.right_pose());
   }
 
@@ -163,7 +163,7 @@ class RodSystem {
   /// The next goals are those of a touch with friction, until let_slip().
   /// @param first  where it begins, if it does   @param normal_force  of the last tick [N]
   void take_friction(const FrictionState<Scalar, 3>& grip, const Capsule<Scalar>& round,
-                 const detail::FrictionPlace<Scalar, 3>& first, Scalar normal_force) noexcept {
+                     const detail::FrictionPlace<Scalar, 3>& first, Scalar normal_force) noexcept {
     touched_ = round;
     const Scalar per_length = unit_ / length_;
     grip_.begin(grip, first, round.reach,
@@ -204,7 +204,7 @@ class RodSystem {
   /// |Δ| of an increment that is the round-off of places, which stretches the shortest element [√J].
   Scalar round_off() const noexcept {
     const int n = elements();
-    const Scalar shortest = std::min(mesh().position(1), length_ - mesh().position(n - 1)),
+    const Scalar shortest = (std::min)(mesh().position(1), length_ - mesh().position(n - 1)),
                  farthest = std::sqrt(node(0).r.squaredNorm()) + length_;
     return std::numeric_limits<Scalar>::epsilon() * farthest *
            std::sqrt(axial_ * static_cast<Scalar>(n) / shortest);
@@ -258,7 +258,8 @@ class RodSystem {
     transform(0);
     transform(elements());
     if (c > 0 && c < elements()) transform(c);
-    size_ = std::sqrt(2 * std::max(energy, Scalar(0)));  // of a rod without stress round-off has either sign
+    size_ =
+        std::sqrt(2 * (std::max)(energy, Scalar(0)));  // of a rod without stress round-off has either sign
     potential_ = energy - work;
     if (grip_.on()) potential_ += grip_.potential();
     for (std::size_t k = 0; k < 2; ++k) {
@@ -332,7 +333,7 @@ class RodSystem {
       const Vector3 u = detail::unit(node(i).tangent), t = x.template segment<3>(3);
       Scalar square = (t - u.dot(t) * u).squaredNorm();
       if constexpr (unknowns == 7) square += x[6] * x[6];
-      largest = std::max(largest, std::sqrt(square));
+      largest = (std::max)(largest, std::sqrt(square));
     }
     return largest;
   }
@@ -460,7 +461,7 @@ class RodSystem {
   /// An element's share of the shift is half of either node's.
   void add_shift(Scalar shift) noexcept {
     for (int i = 0; i <= elements(); ++i) {
-      const Scalar length = node(std::min(i + 1, elements())).s - node(std::max(i - 1, 0)).s,
+      const Scalar length = node((std::min)(i + 1, elements())).s - node((std::max)(i - 1, 0)).s,
                    share = shift * unit_ * unit_ * length / (2 * length_);
       Increment diagonal = Increment::Constant(share);
       diagonal.template segment<3>(0) /= length_ * length_;

@@ -57,7 +57,7 @@ class RoundPush {
     const RoundContact round{request};
     if (grip) begin(system, round, *grip);
     // On a curve that is too sharp for it the law holds at the node alone.
-    const Scalar near = beside * system.length(), exactly = Scalar(1e-5) * request.reach;
+    const Scalar closely = beside * system.length(), exactly = Scalar(1e-5) * request.reach;
     Search search;
     Vector normal = Vector::Zero();
     Scalar s = request.s;
@@ -66,8 +66,8 @@ class RoundPush {
       Trial trial{s, normal, meshes == 1};
       Result pushed = push_at(way, request, range, trial, grip);
       snapped = snapped || pushed.status == Status::snapped;
-      const Scalar off = std::max(std::abs(trial.ahead), trial.miss);
-      const bool there = off <= (trial.by_plane ? exactly : near);
+      const Scalar off = (std::max)(std::abs(trial.ahead), trial.miss);
+      const bool there = off <= (trial.by_plane ? exactly : closely);
       if (there || meshes == most_meshes || !is_answer(pushed.status) || pushed.force >= 0) {
         pushed.miss = there ? Scalar(0) : off;
         if (snapped && pushed.status == Status::ok) pushed.status = Status::snapped;
@@ -100,7 +100,7 @@ class RoundPush {
     system.keep(before_);
     before_mesh_ = system.mesh();
     system.take_friction(grip, round.request(), round.place(round.look(node, 0), node),
-                     -system.linear_reaction());
+                         -system.linear_reaction());
   }
   /// What is no answer says nothing of where they touch: friction begins anew.
   static void end(System& system, const Result& pushed, FrictionState& grip) noexcept {
@@ -154,7 +154,7 @@ class RoundPush {
       const Scalar d = round.plane(normal, trial.s, node());
       if (!wall) return system.set_goal(c, d, 0, normal);
       if constexpr (planar) {
-        across = std::copysign(std::max(Scalar(0.5), abs(normal.y())), normal.y());
+        across = std::copysign((std::max)(Scalar(0.5), abs(normal.y())), normal.y());
         system.set_goal(c, (d - normal.x() * system.node(c).u) / across);
       }
     };

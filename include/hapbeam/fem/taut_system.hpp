@@ -109,7 +109,7 @@ class TautSystem {
     const detail::Taylor<Scalar> k = spans_.stiffness(tension_);
     const Scalar square = d_ * d_, longer = k.c1 * square / 2;
     const Scalar doubled = k.c0 * square - 2 * tension_ * longer + tension_ * tension_ * flexibility_;
-    size_ = sqrt(std::max(doubled, Scalar(0)));
+    size_ = sqrt((std::max)(doubled, Scalar(0)));
     if (!(std::isfinite(doubled) && std::isfinite(k.c2))) return {Status::non_finite, 0};
     if (!between_ends_) return {Status::ok, 0};
     if (known_.s != contact_s_) before_ = known_;

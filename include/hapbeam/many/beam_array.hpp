@@ -145,7 +145,7 @@ class BeamArray {
   }
   static Scalar slack(const detail::Box<Scalar>& box) noexcept {
     return 16 * std::numeric_limits<Scalar>::epsilon() *
-           std::max(std::max(-box.low[0], box.high[0]), std::max(-box.low[1], box.high[1]));
+           (std::max)((std::max)(-box.low[0], box.high[0]), (std::max)(-box.low[1], box.high[1]));
   }
   std::vector<detail::Box<Scalar>> boxes(const std::vector<BeamPlace>& places) const {
     std::vector<detail::Box<Scalar>> all(places.size());

@@ -59,11 +59,11 @@ class BoxTree {
           if (!look(static_cast<int>(i))) return;
         continue;
       }
-      std::size_t near = 2 * node, far = near + 1;
-      if (nodes_[far].distance_squared(step.to) < nodes_[near].distance_squared(step.to))
-        std::swap(near, far);
-      if (step.meets(nodes_[far])) stack[size++] = far;
-      if (step.meets(nodes_[near])) stack[size++] = near;
+      std::size_t nearer = 2 * node, farther = nearer + 1;
+      if (nodes_[farther].distance_squared(step.to) < nodes_[nearer].distance_squared(step.to))
+        std::swap(nearer, farther);
+      if (step.meets(nodes_[farther])) stack[size++] = farther;
+      if (step.meets(nodes_[nearer])) stack[size++] = nearer;
     }
   }
 

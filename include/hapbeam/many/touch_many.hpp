@@ -51,7 +51,7 @@ class Touch<BeamArray<Model>> {
     const std::size_t most = static_cast<std::size_t>(array.most_touched());
     free_.resize(static_cast<std::size_t>(array.kinds()));
     for (int k = 0; k < array.kinds(); ++k) {
-      const int slots = std::min(std::max(array.kind(k).beams, 1), array.most_touched());
+      const int slots = (std::min)((std::max)(array.kind(k).beams, 1), array.most_touched());
       for (int i = 0; i < slots; ++i) {
         free_[static_cast<std::size_t>(k)].push_back(static_cast<std::int32_t>(slots_.size()));
         slots_.push_back(std::make_unique<Slot>(array.kind(k).model, avatar_radius));

@@ -20,7 +20,7 @@ namespace detail {
 template <class Model>
 double hang_of(const Model& model) noexcept {
   double hang = 0;
-  for (const auto& node : model.shape()) hang = std::max(hang, std::abs(node.w));
+  for (const auto& node : model.shape()) hang = (std::max)(hang, std::abs(node.w));
   return hang;
 }
 

@@ -35,15 +35,15 @@ inline double time_press(SceneModel& model, const Scene& scene, bool shape) {
                                   scene.depth * (0.2 + 0.8 * part)};
         sink = shape ? chosen.press(press).force : force_of(chosen, press).force;
       }
-      least = std::min(least, std::chrono::duration<double>(Clock::now() - begin).count() / presses);
+      least = (std::min)(least, std::chrono::duration<double>(Clock::now() - begin).count() / presses);
     }
   });
   return least;
 }
 
-inline TickCost line_through(int small, double small_time, int large, double large_time) {
-  const double per_unit = std::max((large_time - small_time) / (large - small), 0.0);
-  return {std::max(small_time - per_unit * small, 0.0), per_unit};
+inline TickCost line_through(int few, double few_time, int many, double many_time) {
+  const double per_unit = (std::max)((many_time - few_time) / (many - few), 0.0);
+  return {(std::max)(few_time - per_unit * few, 0.0), per_unit};
 }
 
 }  // namespace detail
@@ -54,18 +54,18 @@ inline TickCosts measure_tick_costs() {
   Scene slide = Scene::anywhere(bar, 0.01), hold = Scene::at(bar, 1.0, 0.01);
   slide.s_min = 1.0, slide.s_max = 1.01;
   const auto elements = [&](Kinematics kinematics) {
-    SceneModel small = build(slide, {kinematics, Reduction::none, 4}),
-               large = build(slide, {kinematics, Reduction::none, 64});
-    return detail::line_through(4, detail::time_press(small, slide, true), 64,
-                                detail::time_press(large, slide, true));
+    SceneModel few = build(slide, {kinematics, Reduction::none, 4}),
+               many = build(slide, {kinematics, Reduction::none, 64});
+    return detail::line_through(4, detail::time_press(few, slide, true), 64,
+                                detail::time_press(many, slide, true));
   };
   const auto trained = [&](Reduction reduction, TickCost& force, TickCost& shape) {
-    SceneModel small = build(hold, {Kinematics::von_karman, reduction, 64, false, 1, 8}),
-               large = build(slide, {Kinematics::von_karman, reduction, 64, false, 16, 12});
-    force = detail::line_through(8, detail::time_press(small, hold, false), 192,
-                                 detail::time_press(large, slide, false));
-    shape = detail::line_through(8, detail::time_press(small, hold, true), 192,
-                                 detail::time_press(large, slide, true));
+    SceneModel few = build(hold, {Kinematics::von_karman, reduction, 64, false, 1, 8}),
+               many = build(slide, {Kinematics::von_karman, reduction, 64, false, 16, 12});
+    force = detail::line_through(8, detail::time_press(few, hold, false), 192,
+                                 detail::time_press(many, slide, false));
+    shape = detail::line_through(8, detail::time_press(few, hold, true), 192,
+                                 detail::time_press(many, slide, true));
   };
   TickCosts costs{elements(Kinematics::linear),
                   elements(Kinematics::von_karman),

@@ -35,7 +35,7 @@ class Pilot {
     const double length = scene.beam.length();
     const double left = fixes_w(scene.beam.left()) ? scene.s_min : length;
     const double right = fixes_w(scene.beam.right()) ? length - scene.s_max : length;
-    for (elements_ = 32; elements_ < 512 && elements_ * std::min(left, right) < 4 * length;) elements_ *= 2;
+    for (elements_ = 32; elements_ < 512 && elements_ * (std::min)(left, right) < 4 * length;) elements_ *= 2;
     for (;; elements_ *= 2) {
       Reference coarse(scene.beam, elements_ / 2), reference(scene.beam, elements_);
       press(reference, scene.depth);
@@ -49,7 +49,7 @@ class Pilot {
   template <class Model>
   double error(Model& model) const {
     double most = 0;
-    for (const Line& line : lines_) most = std::max(most, error(model, line));
+    for (const Line& line : lines_) most = (std::max)(most, error(model, line));
     return most;
   }
   /// The same at one of places().
@@ -57,7 +57,7 @@ class Pilot {
   double error_at(Model& model, double s) const {
     double most = 0;
     for (const Line& line : lines_)
-      if (line.s == s) most = std::max(most, error(model, line));
+      if (line.s == s) most = (std::max)(most, error(model, line));
     return most;
   }
   /// Both ends of the range and its middle [m].
@@ -84,8 +84,8 @@ class Pilot {
     for (std::size_t k = 0; k < line.depths.size(); ++k) {
       const Response<double> response = model.press({line.s, line.depths[k]});
       if (response.status != Status::ok) return std::numeric_limits<double>::infinity();
-      most = std::max(most,
-                      std::abs(response.force - line.forces[k]) / std::max(std::abs(line.forces[k]), floor_));
+      most = (std::max)(
+          most, std::abs(response.force - line.forces[k]) / (std::max)(std::abs(line.forces[k]), floor_));
     }
     return most;
   }
@@ -120,7 +120,7 @@ class Pilot {
       for (const double sign : {1.0, -1.0}) {
         if (flat && sign < 0) continue;
         Line line{s, {}, {}};
-        const double depth = std::min(scene.depth, 0.999 * rest.range().depth_at(s) - sign * w);
+        const double depth = (std::min)(scene.depth, 0.999 * rest.range().depth_at(s) - sign * w);
         for (int k = shallowest; k >= deepest; --k)
           line.depths.push_back(w + sign * depth * std::pow(10.0, -k / 10.0));
         lines_.push_back(line);
@@ -146,7 +146,7 @@ class Pilot {
     double deepest = 0, hangs = 0;
     for (int k = 0; k <= 64; ++k) {
       const double s = scene.s_min + (scene.s_max - scene.s_min) * k / 64, w = std::abs(rest.shape().at(s).w);
-      deepest = std::max(deepest, rest.range().depth_at(s) - w), hangs = std::max(hangs, w);
+      deepest = (std::max)(deepest, rest.range().depth_at(s) - w), hangs = (std::max)(hangs, w);
     }
     if (scene.depth <= deepest) return;
     char allowed[160];

@@ -42,11 +42,11 @@ struct Scene {
   const Scene& check() const {
     detail::finite("s_min", s_min, "m");
     detail::finite("s_max", s_max, "m");
-    const double near = 0.999999 * beam.length() / 1000;
-    if (!(s_min >= (fixes_w(beam.left()) ? near : 0) && s_min <= s_max))
+    const double margin = 0.999999 * beam.length() / 1000;
+    if (!(s_min >= (fixes_w(beam.left()) ? margin : 0) && s_min <= s_max))
       detail::reject("s_min", s_min, "m",
                      "on the beam, at most s_max, a thousandth away from an end that is held");
-    if (!(s_max <= beam.length() - (fixes_w(beam.right()) ? near : 0)))
+    if (!(s_max <= beam.length() - (fixes_w(beam.right()) ? margin : 0)))
       detail::reject("s_max", s_max, "m", "on the beam, a thousandth away from an end that is held");
     detail::positive("depth", depth, "m");
     detail::positive("force_error", force_error, "");

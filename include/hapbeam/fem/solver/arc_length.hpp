@@ -101,7 +101,7 @@ struct ArcLength {
           system.set_load(system.load() + change);
         }
         if (found) {
-          if (k <= enough_iterations) step = std::min(S(1.5) * step, S(largest_step));
+          if (k <= enough_iterations) step = (std::min)(S(1.5) * step, S(largest_step));
         } else {
           system.restore();
           step /= 2;

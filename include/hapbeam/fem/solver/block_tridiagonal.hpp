@@ -247,7 +247,7 @@ class BlockTridiagonal {
     bool before;  // the node that was asked for
 
     [[gnu::always_inline]] Scalar& operator()(int i, int j) const noexcept {
-      const int low = std::min(i, j), high = std::max(i, j);
+      const int low = (std::min)(i, j), high = (std::max)(i, j);
       return block[2 * triangle(high, low)];
     }
     [[gnu::always_inline]] Scalar& operator[](int i) const noexcept { return x[2 * i]; }

@@ -39,7 +39,7 @@ struct Descent {
     // Round-off, of a potential and, where a beam without stress has none, of its shape.
     const S slack = 100 * std::numeric_limits<S>::epsilon(),
             nothing = S(1e-4 * enough * enough) * system.unit() * system.unit();
-    S shift = S(first_shift), good = shift, bad = 0, least = std::numeric_limits<S>::max();
+    S shift = S(first_shift), good = shift, bad = 0, least = (std::numeric_limits<S>::max)();
     system.set_target(t);
     system.save();
     bool stepped = false;
@@ -49,22 +49,22 @@ struct Descent {
       const S potential = system.potential();
       if (!(potential <= least + slack * std::abs(least) + nothing)) {
         system.restore();
-        shift = 10 * std::max(good, S(0.1));
-        least = std::numeric_limits<S>::max();
+        shift = 10 * (std::max)(good, S(0.1));
+        least = (std::numeric_limits<S>::max)();
       } else if (status != Status::ok || system.negative_pivots() > 0) {
         // Just above the least shift that will do, a step goes far along what gives way.
-        bad = std::max(shift, S(0.1));
+        bad = (std::max)(shift, S(0.1));
         shift = good > S(1.3) * bad ? std::sqrt(good * bad) : good > bad ? good : 10 * bad;
       } else {
         system.save();
         // The first step also brings the contact to its place, from where potentials can be compared.
         if (stepped) least = potential;
         stepped = true;
-        const bool near = shift == 0 && system.increment() <= S(enough) * system.unit();
+        const bool within = shift == 0 && system.increment() <= S(enough) * system.unit();
         system.advance();
-        if (near) return true;
+        if (within) return true;
         good = shift;
-        shift = std::max(shift / 10, S(1.2) * bad);
+        shift = (std::max)(shift / 10, S(1.2) * bad);
         if (good <= 1 && bad < S(0.1)) shift = 0;
         bad /= 2;
       }

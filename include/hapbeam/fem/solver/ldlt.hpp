@@ -93,7 +93,7 @@ struct Ldlt {
 template <typename S>
 struct Pivots {
   /// Least |pivot| - eps |its diagonal entry before elimination|; the first that is not positive is kept, NaN too.
-  S lowest = std::numeric_limits<S>::max();
+  S lowest = (std::numeric_limits<S>::max)();
   int negative = 0;
 
   [[gnu::always_inline]] void see(S pivot, S assembled) noexcept {

@@ -90,7 +90,7 @@ struct NewtonRaphson {
     S& step = report.step;
     system.save();
     while (report.reached < 1) {
-      const S t = std::min(report.reached + step, S(1));
+      const S t = (std::min)(report.reached + step, S(1));
       system.set_target(t);
       report.status = iterate(system, report);
       if (report.status == Status::ok) {
@@ -128,12 +128,13 @@ struct NewtonRaphson {
       const S state = system.size(), tolerance = S(relative_tolerance) * state;
       // The first increment holds the jump of the contact, which the tangent's norm overstates: C is measured without it.
       const S measured = k > 2 ? 4 * iteration.size / (before * before) : state > 0 ? 100 / state : S(0);
-      const S curvature = std::max({measured, measured_before, state > 0 ? 10 / state : S(0)});
+      const S curvature = (std::max)({measured, measured_before, state > 0 ? 10 / state : S(0)});
       // No larger than this one, which is what round-off would else make of it.
-      const S next = state > 0 ? std::min(curvature * iteration.size, S(1)) * iteration.size : iteration.size;
+      const S next =
+          state > 0 ? (std::min)(curvature * iteration.size, S(1)) * iteration.size : iteration.size;
       report.error = state > 0 ? next / state : S(0);
       if (!std::isfinite(state)) return Status::non_finite;
-      if (next <= std::max(tolerance, floor) || iteration.size <= std::max(noise * state, least))
+      if (next <= (std::max)(tolerance, floor) || iteration.size <= (std::max)(noise * state, least))
         return Status::ok;
       if (k == 8 && iteration.size > S(0.9) * state) return Status::iteration_limit;
       shrinks = iteration.size <= before / 2;

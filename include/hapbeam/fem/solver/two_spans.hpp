@@ -80,7 +80,7 @@ class TwoSpans {
     const auto& taut = recursion_.taut();
     const Pair r2 = two * taut.r, t2 = two * taut.t12;
     Pair w = Pair::both(at_node), phi = mirror * length_ * Pair::both(theta), shortened = Pair::both(0);
-    const int least = std::min(count_[0], count_[1]), most = std::max(count_[0], count_[1]);
+    const int least = (std::min)(count_[0], count_[1]), most = (std::max)(count_[0], count_[1]);
     const auto outward = [&](int j, auto&& place) {
       const Row& x = rows_[most - j];
       const Pair outer = add_product(Pair(x.ww * w), x.wp, phi),
@@ -152,7 +152,7 @@ class TwoSpans {
   template <class T, class Visit>
   [[gnu::always_inline]] Span<T> condense(const Under<T>& k, Visit&& visit) const noexcept {
     const Span<T> start = supported(k);
-    const int least = std::min(count_[0], count_[1]), most = std::max(count_[0], count_[1]);
+    const int least = (std::min)(count_[0], count_[1]), most = (std::max)(count_[0], count_[1]);
     const int wait = least > 0 ? most - least : 0;
     Span<T> x = start;
     if (wait > 0) {

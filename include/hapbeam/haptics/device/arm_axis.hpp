@@ -115,7 +115,7 @@ class ArmAxis {
   void advance(const Drive& interval, double duration) noexcept {
     Drive drive = interval;
     for (double done = 0; done < duration;) {
-      const double piece = std::min(duration - done, longest_piece());
+      const double piece = (std::min)(duration - done, longest_piece());
       advance_piece(drive, piece);
       if (done + piece == done) break;
       done += piece;
@@ -157,7 +157,7 @@ class ArmAxis {
     const double to_right = detail::first_below_zero(right, duration);
     const double to_left = detail::first_below_zero(left, duration);
     direction = to_right < to_left ? (right(to_right) < 0) : -(left(to_left) < 0);
-    return std::min(to_right, to_left);
+    return (std::min)(to_right, to_left);
   }
 
   /// Moves until x' changes its sign:  x = sum a_n t^n,

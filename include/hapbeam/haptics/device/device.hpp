@@ -169,7 +169,7 @@ inline bool all_finite(const Eigen::Vector3d& v) noexcept {
     return ForceCut::not_finite;
   }
   // In units of the largest component, whose square may overflow.
-  const double largest = std::max({std::abs(force[0]), std::abs(force[1]), std::abs(force[2])});
+  const double largest = (std::max)({std::abs(force[0]), std::abs(force[1]), std::abs(force[2])});
   if (largest == 0) return ForceCut::none;
   const Eigen::Vector3d direction(force[0] / largest, force[1] / largest, force[2] / largest);
   const double allowed = peak / direction.norm();

@@ -21,7 +21,7 @@ class ForceRamp {
 
   /// @param ramp_time [s] from nothing to all, positive   @param period [s] of the loop, positive
   ForceRamp(double ramp_time, double period) noexcept
-      : step_(std::min(1.0, period / ramp_time)),
+      : step_((std::min)(1.0, period / ramp_time)),
         cooling_(static_cast<std::int64_t>(std::ceil(cooling_time / period))) {}
 
   double gain() const noexcept { return gain_; }            ///< of the force, 0 to 1

@@ -24,7 +24,7 @@ class HdCalibration {
 
   /// @param styles  bits of the styles that the device has   @param rate [Hz] of the loop
   HdCalibration(unsigned styles, unsigned rate) noexcept
-      : style_(best(styles)), ticks_(std::max(1, static_cast<int>(std::lround(interval * rate)))) {}
+      : style_(best(styles)), ticks_((std::max)(1, static_cast<int>(std::lround(interval * rate)))) {}
 
   /// The device calibrates itself in the loop; else a person does, before it.
   bool automatic() const noexcept { return style_ != 0 && style_ != encoder_reset; }

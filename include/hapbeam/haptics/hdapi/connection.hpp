@@ -155,7 +155,7 @@ class HdConnection {
     Api::get_doublev(Api::current_position, position.data());
     Api::get_doublev(Api::current_velocity, velocity.data());
     if (has_temperature_) Api::get_doublev(Api::motor_temperature, heat);
-    for (const double motor : heat) hottest = std::max(hottest, std::isfinite(motor) ? motor : 1.0);
+    for (const double motor : heat) hottest = (std::max)(hottest, std::isfinite(motor) ? motor : 1.0);
     return {(position - middle_) * 1e-3, velocity * 1e-3, hottest};
   }
 
@@ -225,8 +225,8 @@ class HdConnection {
     middle_ = (low + high) / 2;
     info_ = {model ? model : "unnamed device",
              (high - low) * 1e-3,
-             std::min(peak, options_.force_limit),
-             std::min(continuous, options_.force_limit),
+             (std::min)(peak, options_.force_limit),
+             (std::min)(continuous, options_.force_limit),
              stiffness * 1e3,
              options_.position_resolution,
              options_.friction,
@@ -263,8 +263,8 @@ class HdConnection {
     has_torque_ = true;
     // Without a limit of the device's own none is sent.
     if (!(limits && std::isfinite(peak) && peak > 0 && continuous > 0)) return gimbal;
-    gimbal.peak_torque = std::min(peak * 1e-3, options_.torque_limit);
-    gimbal.continuous_torque = std::min(continuous * 1e-3, gimbal.peak_torque);
+    gimbal.peak_torque = (std::min)(peak * 1e-3, options_.torque_limit);
+    gimbal.continuous_torque = (std::min)(continuous * 1e-3, gimbal.peak_torque);
     if (hardest && std::isfinite(stiffness) && stiffness > 0) gimbal.max_stiffness = stiffness * 1e-3;
     return gimbal;
   }

@@ -17,7 +17,7 @@ class LoopClock {
  public:
   /// @param period  [s] of the loop, 1e-6 to 1e3   @throws std::invalid_argument
   explicit LoopClock(double period)
-      : period_(detail::loop_period("device period", period)), longest_(std::max(0.1, 2 * period)) {}
+      : period_(detail::loop_period("device period", period)), longest_((std::max)(0.1, 2 * period)) {}
 
   /// @param time [s] now, by a clock that goes on   @return [s]
   double passed(double time) noexcept {

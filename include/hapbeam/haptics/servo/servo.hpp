@@ -53,7 +53,8 @@ class ServoPicture {
 
  public:
   /// @param shape  as many nodes as it has, and `room` at least, are kept in later ones
-  explicit ServoPicture(const Shape& shape) : nodes_(std::max(room, static_cast<std::size_t>(shape.size()))) {
+  explicit ServoPicture(const Shape& shape)
+      : nodes_((std::max)(room, static_cast<std::size_t>(shape.size()))) {
     take(shape);
   }
 
@@ -323,7 +324,7 @@ auto Servo<Model, Coupling>::run(const State& state) noexcept {
   keep(state, coupled, guarded, safe);
   if constexpr (oriented<State>) {
     record_.torque = guarded.torque;
-    record_.max_torque = std::max(record_.max_torque, guarded.torque.norm());
+    record_.max_torque = (std::max)(record_.max_torque, guarded.torque.norm());
     if constexpr (!couples_pose) {
       const HandPose hand{record_.hand, options_.placement.scene_orientation(state.orientation)};
       record_.avatar += stylus_.tip(hand), record_.shaft = stylus_.shaft(hand);
@@ -356,8 +357,8 @@ void Servo<Model, Coupling>::keep(const DeviceState& state, const Coupled& coupl
   r.saturated_ticks += guarded.limited || state.cut != ForceCut::none;
   r.continued_ticks += coupled.continued;
   r.failed_ticks += !safe;
-  if (pressing) r.max_press = std::max(r.max_press, std::abs(r.press.d));
-  r.max_force = std::max(r.max_force, guarded.force.norm());
+  if (pressing) r.max_press = (std::max)(r.max_press, std::abs(r.press.d));
+  r.max_force = (std::max)(r.max_force, guarded.force.norm());
   r.energy_generated = energy_.generated();
   if (worse(r.model, r.worst)) r.worst = r.model;
 }

@@ -26,7 +26,7 @@ class ArrayPicture {
   template <typename Model>
   explicit ArrayPicture(const Touch<BeamArray<Model>>& touch) {
     const BeamArray<Model>& array = touch.array();
-    for (int k = 0; k < array.kinds(); ++k) room_ = std::max(room_, array.kind(k).model.shape().size());
+    for (int k = 0; k < array.kinds(); ++k) room_ = (std::max)(room_, array.kind(k).model.shape().size());
     const std::size_t most = static_cast<std::size_t>(array.most_touched());
     beams_.resize(most);
     nodes_.resize(most * static_cast<std::size_t>(room_));

@@ -48,8 +48,8 @@ struct ServoRecord {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] of the hand, device axes
   Eigen::Vector3d hand =
       Eigen::Vector3d::Zero();  ///< [m] the same in the scene; a beam's plane is its x and y
-  Eigen::Vector3d avatar =
-      Eigen::Vector3d::Zero();  ///< [m] from where the beam is pressed; the hand, where free; a stylus' tip, a held end
+  Eigen::Vector3d avatar = Eigen::Vector3d::
+      Zero();  ///< [m] from where the beam is pressed; the hand, where free; a stylus' tip, a held end
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N] sent, device axes
   Eigen::Vector3d torque =
       Eigen::Vector3d::Zero();  ///< [N·m] sent, device axes; zero for a device of three axes

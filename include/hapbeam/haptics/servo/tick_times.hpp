@@ -65,7 +65,7 @@ class TimeHistogram {
   static std::size_t bin(std::uint64_t time) noexcept {
     std::uint64_t octave = 0;
     while (time >= 2 * per_octave && octave < octaves - 2) time /= 2, ++octave;
-    return static_cast<std::size_t>(octave * per_octave + std::min(time, 2 * per_octave - 1));
+    return static_cast<std::size_t>(octave * per_octave + (std::min)(time, 2 * per_octave - 1));
   }
   /// The longest time in a bin [s].
   static double upper_end(std::size_t bin) noexcept {
@@ -91,7 +91,7 @@ class TimeHistogram {
       for (std::size_t i = 0; i + 1 < bins && total > 0; ++i) {
         below += counts[i];
         if (below > 0 && static_cast<double>(below) >= fraction * static_cast<double>(total))
-          return std::min(upper_end(i), longest);
+          return (std::min)(upper_end(i), longest);
       }
       return total > 0 ? longest : 0;
     }

@@ -53,7 +53,7 @@ class ContactTangent {
     const double size = force.norm();
     const Vector normal = force / size;
     if (known_) follow(place, normal, size);
-    else energy_ = size * std::max(depth, least_depth) / 2;
+    else energy_ = size * (std::max)(depth, least_depth) / 2;
     known_ = true;
     place_ = place, normal_ = normal, force_ = size;
     set_stiffness(safety * size * size / (2 * energy_));
@@ -86,14 +86,14 @@ class ContactTangent {
     const double expected = stiffness_ * deeper, change = force - force_, ratio = change / expected;
     const bool agrees = ratio > least_ratio && ratio < most_ratio;
     const double noise = along > std::abs(deeper) ? slide : loud;
-    const bool quiet = std::max(std::abs(expected), std::abs(change)) <= noise * force;
+    const bool quiet = (std::max)(std::abs(expected), std::abs(change)) <= noise * force;
     if ((agrees || quiet) && std::abs(work) <= most_work * energy_) {
       energy_ += work;
     } else {
       // Too stiff is slow, too soft overshoots: up at once, down with care.
       const double factor = agrees       ? 1
-                            : ratio > 0  ? std::max(safety * ratio, 1 / most_change)
-                            : force_ > 0 ? std::max(force / force_, 1.0)
+                            : ratio > 0  ? (std::max)(safety * ratio, 1 / most_change)
+                            : force_ > 0 ? (std::max)(force / force_, 1.0)
                                          : 1;
       energy_ = safety * force * force / (2 * factor * stiffness_);
     }
@@ -101,7 +101,7 @@ class ContactTangent {
 
   /// Keeps energy and stiffness in step.
   void set_stiffness(double stiffness) noexcept {
-    stiffness_ = std::min(stiffness, rigid);
+    stiffness_ = (std::min)(stiffness, rigid);
     energy_ = safety * force_ * force_ / (2 * stiffness_);
   }
 

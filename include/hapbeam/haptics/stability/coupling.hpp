@@ -139,7 +139,7 @@ class Direct {
     result.continued = last_.continued();
     if (result.continued)
       result.force = detail::of_beam<double, D>(
-          last_.tangent().normal() * std::max(0.0, last_.tangent().force_at(detail::in_scene(hand))));
+          last_.tangent().normal() * (std::max)(0.0, last_.tangent().force_at(detail::in_scene(hand))));
     else if (is_answer(result.touch.status)) result.force = result.touch.force.template cast<double>();
     if (!result.force.allFinite()) result.force.setZero();
     else if (!result.force.isZero(0)) result.energy = last_.tangent().energy();

@@ -57,15 +57,15 @@ inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks =
     detail::reject("device position_resolution", device.position_resolution, "m", "not negative");
   if (!(delay_ticks >= 0 && delay_ticks <= 16)) detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
   const double bound = passive_stiffness(b, T, delay_ticks);
-  double stiffness = std::min(hardest, spring_share * bound);
+  double stiffness = (std::min)(hardest, spring_share * bound);
   double damping = b;
   // An arm without friction holds no step of the grid; (1) is all there is.
   if (device.friction > 0 && device.position_resolution > 0) {
     const double held = friction_share * device.friction / device.position_resolution;
-    stiffness = std::min(stiffness, 2 * held);
+    stiffness = (std::min)(stiffness, 2 * held);
     damping = held * T;
   }
-  return {stiffness, std::min(damping, (both_share - stiffness / bound) * b)};
+  return {stiffness, (std::min)(damping, (both_share - stiffness / bound) * b)};
 }
 
 /// [m]  Where fingers hold a stylus, from the point about which it turns: what a hand has for the translation it has for the rotation times
@@ -88,7 +88,7 @@ inline CouplingFigures safe_turning_coupling(const DeviceInfo& device, int delay
   turning.friction = not_negative("gimbal friction", gimbal.friction, "N·m");
   turning.position_resolution = not_negative("gimbal resolution", gimbal.resolution, "rad");
   turning.max_stiffness = not_negative("gimbal max_stiffness", gimbal.max_stiffness, "N·m/rad");
-  if (turning.max_stiffness == 0) turning.max_stiffness = std::numeric_limits<double>::max();
+  if (turning.max_stiffness == 0) turning.max_stiffness = (std::numeric_limits<double>::max)();
   return safe_coupling(turning, delay_ticks);
 }
 

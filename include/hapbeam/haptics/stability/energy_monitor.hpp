@@ -49,7 +49,7 @@ class EnergyMonitor {
   }
 
   /// [J] generated so far, in contacts that have ended and in this one.
-  double generated() const noexcept { return ended_ + std::max(0.0, net_); }
+  double generated() const noexcept { return ended_ + (std::max)(0.0, net_); }
   /// W [J] of this contact: positive where the loop gave out more than it took.
   double net() const noexcept { return net_; }
 
@@ -82,13 +82,13 @@ class EnergyMonitor {
   }
 
   /// A share of the beam's energy that has come in [J]; what has gone out again is lost.
-  void lend(double energy) noexcept { add(-std::max(0.0, energy)); }
+  void lend(double energy) noexcept { add(-(std::max)(0.0, energy)); }
 
   /// What the controller adds [N].  @param velocity [m/s] as the device says
   Eigen::Vector3d dissipation(const Eigen::Vector3d& velocity) const noexcept {
     const double speed = velocity.squaredNorm();
     if (!(net_ > 0 && speed > 0 && std::isfinite(speed))) return zero();
-    return -std::min(damping_, net_ / (period_ * speed)) * velocity;
+    return -(std::min)(damping_, net_ / (period_ * speed)) * velocity;
   }
 
  private:
@@ -131,7 +131,7 @@ class EnergyMonitor {
   }
 
   /// The least that was moved where it was read to have moved so far, in steps of the encoders.
-  static double least(double moved, double step) noexcept { return std::max(std::abs(moved) - step, 0.0); }
+  static double least(double moved, double step) noexcept { return (std::max)(std::abs(moved) - step, 0.0); }
   static Eigen::Vector3d zero() noexcept { return Eigen::Vector3d::Zero(); }
 
   static constexpr double longest_step = 10;  // [m] between two readings: longer is a fault, and no way
@@ -141,7 +141,7 @@ class EnergyMonitor {
     if (std::isfinite(net_ + energy)) net_ += energy;
   }
   void end_contact() noexcept {
-    const double sum = ended_ + std::max(0.0, net_);
+    const double sum = ended_ + (std::max)(0.0, net_);
     if (std::isfinite(sum)) ended_ = sum;
     net_ = 0;
   }

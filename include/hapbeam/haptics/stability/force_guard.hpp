@@ -75,7 +75,7 @@ class GuardedMotors {
   bool limit(const Eigen::Vector3d& asked, double dt) noexcept {
     Eigen::Vector3d force = asked;
     bool limited = limit_force(force, allowed()) != ForceCut::none;
-    limited |= limit_growth(force, o_.slew_rate * std::min(dt, 2 * o_.period));
+    limited |= limit_growth(force, o_.slew_rate * (std::min)(dt, 2 * o_.period));
     sent_ = force;
     return limited;
   }
@@ -88,8 +88,8 @@ class GuardedMotors {
     const double peak = o_.peak * o_.peak, lasting = o_.lasting * o_.lasting;
     const double cool = std::clamp((1 - heat_) / (1 - warm), 0.0, 1.0);
     const double gain = -std::expm1(-o_.period / o_.thermal_time);
-    const double at_once = lasting * std::max(1.0, heat_ + (1 - heat_) / gain);
-    return std::sqrt(std::min(lasting + (peak - lasting) * cool, at_once));
+    const double at_once = lasting * (std::max)(1.0, heat_ + (1 - heat_) / gain);
+    return std::sqrt((std::min)(lasting + (peak - lasting) * cool, at_once));
   }
   /// To within `most` of the nearest point between what was sent last and zero.   @return true where it was farther
   bool limit_growth(Eigen::Vector3d& force, double most) const noexcept {
@@ -121,15 +121,15 @@ class ForceGuard {
 
   /// The device's own limits, the rest by default.
   static ForceGuardOptions for_device(const DeviceInfo& device) {
-    ForceGuardOptions options{device.peak_force, std::min(device.continuous_force, device.peak_force),
+    ForceGuardOptions options{device.peak_force, (std::min)(device.continuous_force, device.peak_force),
                               device.period};
     options.peak_torque = device.gimbal.peak_torque;
-    options.continuous_torque = std::min(device.gimbal.continuous_torque, device.gimbal.peak_torque);
+    options.continuous_torque = (std::min)(device.gimbal.continuous_torque, device.gimbal.peak_torque);
     return options;
   }
 
   /// q, 0 cold to 1: the continuous force, or torque, is all there is.  Of those motors that are warmer.
-  double heat() const noexcept { return std::max(force_.heat(), torque_.heat()); }
+  double heat() const noexcept { return (std::max)(force_.heat(), torque_.heat()); }
   const Eigen::Vector3d& force() const noexcept { return force_.sent(); }    ///< [N] sent last
   const Eigen::Vector3d& torque() const noexcept { return torque_.sent(); }  ///< [N·m] sent last
 
@@ -172,7 +172,7 @@ class ForceGuard {
   /// @return whether anything may be sent
   bool engage(double dt, bool good) noexcept {
     if (dt > o_.longest_pause || !good) reset();
-    if (good) engaged_ = o_.engage_time > 0 ? std::min(1.0, engaged_ + dt / o_.engage_time) : 1;
+    if (good) engaged_ = o_.engage_time > 0 ? (std::min)(1.0, engaged_ + dt / o_.engage_time) : 1;
     return good;
   }
 

@@ -60,7 +60,7 @@ class JsonReader {
     const char* const allowed = "a whole number from 0 to 2147483647";
     const Json found = take(name, JSON_INTEGER, allowed);
     const json_int_t number = json_integer_value(found.get());
-    if (number < 0 || number > std::numeric_limits<int>::max()) reject(name, found.get(), "", allowed);
+    if (number < 0 || number > (std::numeric_limits<int>::max)()) reject(name, found.get(), "", allowed);
     value = static_cast<int>(number);
   }
   [[gnu::cold, gnu::noinline]] void flag(const char* name, bool& value) {
@@ -171,7 +171,7 @@ class JsonReader {
     json_object_del(units_, key);
   }
   /// What still rounds to a finite number of that type, when it is written with all its digits.
-  static double largest(double) noexcept { return std::numeric_limits<double>::max(); }
+  static double largest(double) noexcept { return (std::numeric_limits<double>::max)(); }
   static double largest(float) noexcept { return 3.4028235e38; }
 
   /// Of a number that is no entry of a table.

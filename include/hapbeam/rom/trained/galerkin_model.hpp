@@ -163,19 +163,19 @@ GalerkinModel<Scalar, Nodes>::Trained::Trained(Data given)
       z(data.tensions, 0, tension(data.tension)),
       table(static_cast<std::size_t>(data.positions * row_size(data.tensions) + detail::padded(1))) {
   const int m = data.tensions, size = row_size(m);
-  const auto near = [m](Scalar* row, int j) { return row + 4 * m + Shape::near_size * j; };
+  const auto nearby = [m](Scalar* row, int j) { return row + 4 * m + Shape::near_size * j; };
   Scalar* row = table.data();
   for (int i = 0; i < data.positions; ++i, row += size) {
     for (int j = 0; j < m; ++j) {
       row[4 * j] = data.log_stiffness[static_cast<std::size_t>(i * m + j)];
-      Shape::tabulate(data.shape, i * m + j, near(row, j));
+      Shape::tabulate(data.shape, i * m + j, nearby(row, j));
     }
     z.differentiate(row, 4, row + 1, 4);
     z.differentiate(row + 1, 4, row + 2, 4);
   }
   row = table.data();
   for (int j = 0; j < m; ++j) {
-    x.differentiate(row + 4 * j, size, near(row, j) + Shape::own, size);
+    x.differentiate(row + 4 * j, size, nearby(row, j) + Shape::own, size);
     x.differentiate(row + 4 * j + 1, size, row + 4 * j + 3, size);
   }
 }
@@ -187,13 +187,13 @@ Response<Scalar> GalerkinModel<Scalar, Nodes>::press(const Press<Scalar>& reques
   if (!is_answer(response.status)) return response;
   const Scalar s = at.press.s, d = at.press.d;
   const int m = trained_->data.tensions;
-  Scalar by_tension[Shape::near_size * max_size], near[Shape::near_size];
+  Scalar by_tension[Shape::near_size * max_size], nearby[Shape::near_size];
   detail::combine(trained_->table.data() + 4 * m, row_size(m), Shape::near_size * m, at.lx,
                   trained_->data.positions, by_tension);
-  detail::combine(by_tension, Shape::near_size, Shape::near_size, at.lz, m, near);
-  const Scalar theta = rotation(at, near[Shape::own]);
+  detail::combine(by_tension, Shape::near_size, Shape::near_size, at.lz, m, nearby);
+  const Scalar theta = rotation(at, nearby[Shape::own]);
   if (trained_->data.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
-  shape_.press(s, d, d, trained_->data.positions > 1 ? &theta : nullptr, at.lx, at.lz, near);
+  shape_.press(s, d, d, trained_->data.positions > 1 ? &theta : nullptr, at.lx, at.lz, nearby);
   return response;
 }
 
@@ -230,7 +230,7 @@ Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
   const Scalar q = d * d / (2 * flexibility * N0 * N0 * scale);
   // Newton's method, and near the root Halley's, of third order: what a step that small leaves is round-off.
   const Scalar settled = std::cbrt(std::numeric_limits<Scalar>::epsilon()) / 16;
-  Scalar low = -1, high = 2 * z_max, z = std::min(last_, z_max);  // both open: no end has been looked at
+  Scalar low = -1, high = 2 * z_max, z = (std::min)(last_, z_max);  // both open: no end has been looked at
   Scalar k = 0;
   for (; iterations_ < max_iterations; ++iterations_) {
     along(at, z);
@@ -242,7 +242,7 @@ Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
                  bends = growth + 1 - part * (at.by_z * less * less + at.by_zz * (3 * at.by_z - 2));
     const Scalar newton = phi / falls, curve = newton * bends / (2 * falls);
     const Scalar step = abs(curve) < Scalar(0.25) ? newton / (1 + curve) : newton;
-    const Scalar next = std::min(std::max(z + step, Scalar(0)), z_max);
+    const Scalar next = (std::min)((std::max)(z + step, Scalar(0)), z_max);
     if (abs(step) <= settled) {
       const Scalar way = next - z, change = way * (at.by_z + way / 2 * at.by_zz);
       at.f += change;
@@ -252,7 +252,7 @@ Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
       trained_->z.weights(z, at.lz);
       break;
     }
-    z = next > low && next < high ? next : (std::max(low, Scalar(0)) + std::min(high, z_max)) / 2;
+    z = next > low && next < high ? next : ((std::max)(low, Scalar(0)) + (std::min)(high, z_max)) / 2;
   }
   last_ = z;
   if (low != z_max) return k;
@@ -261,14 +261,14 @@ Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
   const Scalar Nm = trained_->data.tension, string = 1 / string_compliance(at.press.s);
   const Scalar b = k * at.by_z / (N0 + Nm) - string, half = d * d / (2 * flexibility * Nm);
   const Scalar P = half * string, Q = half * b;
-  Scalar r = std::max(sqrt(P) + std::cbrt(std::max(Q, Scalar(0))), Scalar(1));
+  Scalar r = (std::max)(sqrt(P) + std::cbrt((std::max)(Q, Scalar(0))), Scalar(1));
   for (; iterations_ < max_iterations; ++iterations_) {
     const Scalar step = (r * (r * r - P) - Q) / (3 * r * r - P);
     if (!(step > 0)) break;
     r -= step;
     if (step <= settled * r) break;
   }
-  at.beyond = std::max(r, Scalar(1));
+  at.beyond = (std::max)(r, Scalar(1));
   return k + beyond(at, string, b);
 }
 

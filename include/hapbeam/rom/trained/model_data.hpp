@@ -56,7 +56,7 @@ auto trained_range(const Data& data) noexcept {
   return Range<Scalar>{data.s_min,
                        data.s_max,
                        data.depth,
-                       std::numeric_limits<Scalar>::max(),
+                       (std::numeric_limits<Scalar>::max)(),
                        fixes_w(data.beam.left) ? Scalar(0) : -infinity,
                        fixes_w(data.beam.right) ? data.beam.length : infinity};
 }
@@ -156,8 +156,8 @@ template <typename Scalar>
   finite("y_high", static_cast<double>(data.y_high), "");
   if (!(data.y_low < data.y_high) || (data.symmetric && data.y_low != 0))
     reject_data("y_low", static_cast<double>(data.y_low), "below y_high, 0 where symmetric");
-  check_table("potential", data.potential, positions * depths, Scalar(0), std::numeric_limits<Scalar>::max(),
-              "positive and finite in every entry");
+  check_table("potential", data.potential, positions * depths, Scalar(0),
+              (std::numeric_limits<Scalar>::max)(), "positive and finite in every entry");
   check_table("rest", data.rest, positions);
   // A press in range must not be beyond the grid: there a polynomial grows without bound.
   const DepthCoordinate<Scalar> y(data.beam, data.symmetric);

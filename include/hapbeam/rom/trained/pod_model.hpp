@@ -124,15 +124,15 @@ PodModel<Scalar, Nodes>::Trained::Trained(Data given)
       table(static_cast<std::size_t>(data.positions * row_size(data.depths) + detail::padded(1))),
       rest_by_x(static_cast<std::size_t>(data.positions)) {
   const int m = data.depths, n = data.positions, size = row_size(m);
-  const auto near = [m](Scalar* row, int j) { return row + 2 * m + Shape::near_size * j; };
+  const auto nearby = [m](Scalar* row, int j) { return row + 2 * m + Shape::near_size * j; };
   Scalar* row = table.data();
   for (int i = 0; i < n; ++i, row += size) {
     std::copy_n(data.potential.data() + i * m, m, row + m);
     y.differentiate(row + m, 1, row, 1);
-    for (int j = 0; j < m; ++j) Shape::tabulate(data.shape, i * m + j, near(row, j));
+    for (int j = 0; j < m; ++j) Shape::tabulate(data.shape, i * m + j, nearby(row, j));
   }
   row = table.data();
-  for (int j = 0; j < m; ++j) x.differentiate(row + m + j, size, near(row, j) + Shape::own, size);
+  for (int j = 0; j < m; ++j) x.differentiate(row + m + j, size, nearby(row, j) + Shape::own, size);
   x.differentiate(data.rest.data(), 1, rest_by_x.data(), 1);
 }
 
@@ -144,13 +144,13 @@ Response<Scalar> PodModel<Scalar, Nodes>::press(const Press<Scalar>& request) no
   const Data& data = trained_->data;
   const Scalar unit = data.symmetric ? at.press.d : data.depth;
   const int m = data.depths;
-  Scalar by_depth[Shape::near_size * max_size], near[Shape::near_size];
+  Scalar by_depth[Shape::near_size * max_size], nearby[Shape::near_size];
   detail::combine(trained_->table.data() + 2 * m, row_size(m), Shape::near_size * m, at.lx, data.positions,
                   by_depth);
-  detail::combine(by_depth, Shape::near_size, Shape::near_size, at.ly, m, near);
-  const Scalar theta = rotation(at, near[Shape::own]);
+  detail::combine(by_depth, Shape::near_size, Shape::near_size, at.ly, m, nearby);
+  const Scalar theta = rotation(at, nearby[Shape::own]);
   if (data.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
-  shape_.press(at.press.s, at.press.d, unit, data.positions > 1 ? &theta : nullptr, at.lx, at.ly, near);
+  shape_.press(at.press.s, at.press.d, unit, data.positions > 1 ? &theta : nullptr, at.lx, at.ly, nearby);
   return response;
 }
 
@@ -166,12 +166,12 @@ Response<Scalar> PodModel<Scalar, Nodes>::respond(const Press<Scalar>& request, 
     if (!isfinite(force)) return {0, Status::non_finite};
     return {force, at.press.s == request.s ? Status::ok : Status::out_of_range};
   }
-  Point near = at;
+  Point nearby = at;
   const Scalar step = at.press.d / 256;
-  near.press.d = at.press.d + step, descend(near);
-  Scalar stiffness = near.force();
-  near.press.d = at.press.d - step, descend(near);
-  stiffness = std::max((stiffness - near.force()) / (2 * step), Scalar(0));
+  nearby.press.d = at.press.d + step, descend(nearby);
+  Scalar stiffness = nearby.force();
+  nearby.press.d = at.press.d - step, descend(nearby);
+  stiffness = (std::max)((stiffness - nearby.force()) / (2 * step), Scalar(0));
   force += stiffness * (detail::bounded(request.d, trained_->data.beam.length) - at.press.d);
   if (!isfinite(force)) return {0, Status::non_finite};
   return {force, Status::out_of_range};

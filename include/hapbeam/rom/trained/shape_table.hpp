@@ -40,7 +40,7 @@ class ContactFrame {
     const Scalar least = length_ / 1000;
     const Scalar low = contact_node_ == 0 ? Scalar(0) : least;
     const Scalar high = contact_node_ == segments_ ? length_ : length_ - least;
-    return std::min(std::max(s, low), high);
+    return (std::min)((std::max)(s, low), high);
   }
   /// Arc position of node i for a contact at s [m].  Where the contact's node cannot follow, the others do.
   Scalar position(int i, Scalar s) const noexcept {
@@ -49,9 +49,9 @@ class ContactFrame {
     return i == segments_ ? length_ : length_ - Scalar(segments_ - i) * right_spacing(s);
   }
   /// Between the nodes on one side of the contact [m].
-  Scalar left_spacing(Scalar s) const noexcept { return std::max(s, contact(s)) / Scalar(contact_node_); }
+  Scalar left_spacing(Scalar s) const noexcept { return (std::max)(s, contact(s)) / Scalar(contact_node_); }
   Scalar right_spacing(Scalar s) const noexcept {
-    return (length_ - std::min(s, contact(s))) / Scalar(segments_ - contact_node_);
+    return (length_ - (std::min)(s, contact(s))) / Scalar(segments_ - contact_node_);
   }
   /// h of node i [m]: the length of its side.  A side whose end yields bends no more sharply when it gets short.
   Scalar side(int i, Scalar s) const noexcept {
@@ -102,17 +102,17 @@ class ShapeTable {
     reset(data);
   }
 
-  /// @param point  of the grid   @param near  out, near_size numbers
-  [[gnu::cold]] static void tabulate(const ShapeData<Scalar>& data, int point, Scalar* near) noexcept {
+  /// @param point  of the grid   @param nearby  out, near_size numbers
+  [[gnu::cold]] static void tabulate(const ShapeData<Scalar>& data, int point, Scalar* nearby) noexcept {
     const int rows = 3 * (data.segments + 1), middle = 3 * data.contact_node;
-    std::fill_n(near, near_size, Scalar(0));
+    std::fill_n(nearby, near_size, Scalar(0));
     for (int mode = 0; mode < data.modes; ++mode) {
       const Scalar share = data.coefficients[static_cast<std::size_t>(point * data.modes + mode)];
       const Scalar* basis = data.basis.data() + mode * rows + middle;
-      near[3] += share * basis[0];
+      nearby[3] += share * basis[0];
       for (int k = 0; k < 3; ++k) {
-        if (middle > 0) near[k] += share * basis[k - 3];
-        if (middle + 3 < rows) near[4 + k] += share * basis[k + 3];
+        if (middle > 0) nearby[k] += share * basis[k - 3];
+        if (middle + 3 < rows) nearby[4 + k] += share * basis[k + 3];
       }
     }
   }
@@ -129,22 +129,22 @@ class ShapeTable {
   /// The shape of a press by d at s.   O(1)
   /// @param lx, ly  interpolation weights along both axes of the grid
   /// @param unit [m]  what w is stored in units of   @param theta  rotation at the contact [rad], or null: by the modes
-  /// @param near  interpolated
+  /// @param nearby  interpolated
   void press(Scalar s, Scalar d, Scalar unit, const Scalar* theta, const Scalar* lx, const Scalar* ly,
-             const Scalar* near) noexcept {
+             const Scalar* nearby) noexcept {
     s_ = s, d_ = d, unit_ = unit;
     theta_known_ = theta != nullptr;
     if (theta) theta_ = *theta;
     std::copy_n(ly, others_, std::copy_n(lx, positions_, weights_.data()));
     const int middle = frame_.contact_node(), end = frame_.segments();
-    first_ = std::max(middle - 1, 0), last_ = std::min(middle + 1, end);
+    first_ = (std::max)(middle - 1, 0), last_ = (std::min)(middle + 1, end);
     if (!theta || frame_.contact(s) != s) {
       last_ = first_ - 1;
       return;
     }
-    nodes_[index(middle)] = {s, near[3] * unit * (unit / frame_.side(middle, s)), d, *theta};
-    if (first_ < middle) place(first_, middle, near, frame_.left_spacing(s) * Scalar(first_), Scalar(0));
-    if (last_ > middle) place(last_, last_ + 1, near + 4, s + frame_.right_spacing(s), Scalar(0));
+    nodes_[index(middle)] = {s, nearby[3] * unit * (unit / frame_.side(middle, s)), d, *theta};
+    if (first_ < middle) place(first_, middle, nearby, frame_.left_spacing(s) * Scalar(first_), Scalar(0));
+    if (last_ > middle) place(last_, last_ + 1, nearby + 4, s + frame_.right_spacing(s), Scalar(0));
     nodes_.back().s = length_;
   }
 
@@ -179,7 +179,7 @@ class ShapeTable {
     place(middle, middle + 1, row + 3 * middle, contact, Scalar(0));
     if (middle < last) {
       const Scalar spacing = frame_.right_spacing(s_);
-      place(middle + 1, last + 1, row + 3 * middle + 3, std::min(s_, contact) + spacing, spacing);
+      place(middle + 1, last + 1, row + 3 * middle + 3, (std::min)(s_, contact) + spacing, spacing);
     }
     nodes_.back().s = length_;
     // The contact itself is known better than its modes; where it is too near to an end for its node, the end is straight.

@@ -45,7 +45,7 @@ struct MethodOfSnapshots {
   template <class Matrix>
   static Decomposition<Matrix> decompose(const Matrix& X) {
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(X * X.transpose());
-    const Eigen::Index p = std::min(X.rows(), X.cols());
+    const Eigen::Index p = (std::min)(X.rows(), X.cols());
     return {solver.eigenvectors().rowwise().reverse().leftCols(p),
             solver.eigenvalues().reverse().head(p).cwiseMax(0).cwiseSqrt()};
   }
@@ -106,7 +106,7 @@ class Truncation {
 
   int modes(const Eigen::VectorXd& sigma) const {
     const int all = static_cast<int>(sigma.size());
-    if (count_ > 0) return std::min(count_, all);
+    if (count_ > 0) return (std::min)(count_, all);
     const double allowed = left_out_ * sigma.squaredNorm();
     double left_out = 0;
     int modes = all;

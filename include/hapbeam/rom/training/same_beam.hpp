@@ -43,8 +43,8 @@ void check_same_beam(const Beam& beam, const Model& full, const TrainingPlan& pl
       given.reset(), own.reset();
       const Response<S> a = given.press(press), b = own.press(press);
       if (a.status != Status::ok || b.status != Status::ok) continue;
-      off = std::max(off, std::abs(static_cast<double>(a.force) - static_cast<double>(b.force)));
-      size = std::max(size, std::abs(static_cast<double>(b.force)));
+      off = (std::max)(off, std::abs(static_cast<double>(a.force) - static_cast<double>(b.force)));
+      size = (std::max)(size, std::abs(static_cast<double>(b.force)));
     }
     if (!(off > 1e-3 * size)) return;
     char text[160];

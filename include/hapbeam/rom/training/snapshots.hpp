@@ -142,8 +142,8 @@ class SnapshotTaker {
       const double reached = tension_at(full_, at, most);
       if (reached < reach) reach = reached, nearest_limit = at;
       if (i >= 0) continue;
-      needed = std::max(needed, tension_at(full_, at, std::min(plan.depth, most)));
-      out_.tension = std::max(out_.tension, tension_at(full_, at, std::min(headroom * plan.depth, most)));
+      needed = (std::max)(needed, tension_at(full_, at, (std::min)(plan.depth, most)));
+      out_.tension = (std::max)(out_.tension, tension_at(full_, at, (std::min)(headroom * plan.depth, most)));
     }
     if (needed > reach)
       throw TrainingError(
@@ -152,7 +152,7 @@ class SnapshotTaker {
           detail::number(nearest_limit) +
           " m too: " + detail::number(0.99 * plan.depth * std::sqrt(reach / needed)) + " m would be");
     // A plan so shallow that it stretches nothing gets the tensions where bending still outweighs them.
-    out_.tension = reach > 0 ? std::min(std::max(out_.tension, coordinate.unit()), reach) : 0;
+    out_.tension = reach > 0 ? (std::min)((std::max)(out_.tension, coordinate.unit()), reach) : 0;
     if (out_.tension == 0) out_.columns = 1;
     const Lagrange<Nodes> z(out_.columns, 0, coordinate(out_.tension));
     allocate();
@@ -184,12 +184,12 @@ class SnapshotTaker {
   double edge(double s) const {
     const Range<S> range = full_.range();
     const double inside =
-        std::min(std::max(s, static_cast<double>(range.s_min)), static_cast<double>(range.s_max));
+        (std::min)((std::max)(s, static_cast<double>(range.s_min)), static_cast<double>(range.s_max));
     return std::abs(inside - s) <= 1e-9 * out_.beam.length ? inside : s;
   }
   static double highest(const std::vector<double>& values, double sign) {
     double most = sign * values.front();
-    for (const double value : values) most = std::max(most, sign * value);
+    for (const double value : values) most = (std::max)(most, sign * value);
     return most;
   }
 
@@ -206,10 +206,10 @@ class SnapshotTaker {
     const double most = 0.9999 * static_cast<double>(model.range().depth_at(static_cast<S>(s)));
     const double unit = TensionCoordinate<double>(out_.beam).unit();
     const auto miss = [&](double depth) { return std::log(tension_at(model, s, depth) / N); };
-    double before = std::min(d, most), miss_before = miss(before);
+    double before = (std::min)(d, most), miss_before = miss(before);
     double next = before * std::exp(-miss_before / 2);
     for (int k = 0; k < 40; ++k) {
-      next = std::min(next, most);
+      next = (std::min)(next, most);
       const double now = miss(next);
       // Below N0 a tension changes little, and round-off of the energies leaves it few digits.
       if (std::abs(now) * N / (N + unit) < 1e-7) return next;
@@ -224,14 +224,14 @@ class SnapshotTaker {
 
   /// A depth that stands for zero [m]: the error of F/e is (e/ρ)².
   double nothing() const {
-    return std::min(3e-3 * std::sqrt(out_.beam.bending_stiffness / out_.beam.axial_stiffness),
-                    1e-3 * out_.plan.depth);
+    return (std::min)(3e-3 * std::sqrt(out_.beam.bending_stiffness / out_.beam.axial_stiffness),
+                      1e-3 * out_.plan.depth);
   }
 
   void take(Model& model, int i, int j, double rest, double e) {
     // At rest itself a symmetric shape has no size to be freed of.
-    const double near = nothing();
-    if (out_.plan.symmetric) e = std::max(e, near);
+    const double shallow = nothing();
+    if (out_.plan.symmetric) e = (std::max)(e, shallow);
     const double s = this->s(i), d = e + rest;
     const double force = press_for_training(model, s, d);
     Snapshot& snapshot = out_.grid[static_cast<std::size_t>(i) * static_cast<std::size_t>(out_.columns) +
@@ -244,10 +244,10 @@ class SnapshotTaker {
           {x, static_cast<double>(at.u), static_cast<double>(at.w), static_cast<double>(at.theta)});
     }
     // Nor has force over depth a value: it is the derivative there.
-    if (std::abs(e) < near)
+    if (std::abs(e) < shallow)
       snapshot.stiffness =
-          (press_for_training(model, s, rest + near) - press_for_training(model, s, rest - near)) /
-          (2 * near);
+          (press_for_training(model, s, rest + shallow) - press_for_training(model, s, rest - shallow)) /
+          (2 * shallow);
     if (!options_.progress) return;
     const std::lock_guard<std::mutex> lock(progress_mutex_);
     options_.progress(++done_, static_cast<int>(out_.grid.size()));

@@ -66,7 +66,7 @@ void for_each_position(const Model& full, int positions, int threads, const Work
   const int wanted = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
   std::vector<std::thread> pool;
   try {
-    for (int t = 1; t < std::min(wanted, positions); ++t) pool.emplace_back(run);
+    for (int t = 1; t < (std::min)(wanted, positions); ++t) pool.emplace_back(run);
   } catch (const std::system_error&) {  // a system that has no more threads has these
   }
   run();

@@ -91,7 +91,7 @@ ErrorReport report_errors(const Fast& fast, const Full& full, const std::vector<
   const double worst = detail::worst_error(comparison, std::move(starts), 8),
                own = detail::own_error(full, range, sample);
   ErrorReport report{
-      reference, detail::summarize(sample), {}, std::max(1.1 * worst + own, detail::least_bound), own};
+      reference, detail::summarize(sample), {}, (std::max)(1.1 * worst + own, detail::least_bound), own};
   for (int i = 0; i < options.s_regions; ++i)
     for (int j = 0; j < options.depth_regions; ++j) {
       const auto part = [](double low, double high, int k, int n) { return low + (high - low) * k / n; };

@@ -40,8 +40,8 @@ class PressComparison {
       : fast_(fast),
         full_(full),
         rest_(full),
-        s_min_(near(static_cast<double>(range.s_min), static_cast<double>(full.range().s_min), length())),
-        s_max_(near(static_cast<double>(range.s_max), static_cast<double>(full.range().s_max), length())),
+        s_min_(close_to(static_cast<double>(range.s_min), static_cast<double>(full.range().s_min), length())),
+        s_max_(close_to(static_cast<double>(range.s_max), static_cast<double>(full.range().s_max), length())),
         depth_(static_cast<double>(range.depth)) {
     rest_.reset();
   }
@@ -66,12 +66,12 @@ class PressComparison {
   /// The press at s by e from rest, or the nearest in range that both scalars hold and that finite elements do not make
   /// through a straight tip (FemModel::press).
   PressError operator()(double s, double e) {
-    S at = static_cast<S>(std::min(std::max(off_tips(s), s_min_), s_max_));
+    S at = static_cast<S>((std::min)((std::max)(off_tips(s), s_min_), s_max_));
     // In float an edge of the range may be rounded to the number beyond it.
     if (static_cast<double>(at) > s_max_) at = std::nextafter(at, S(0));
-    if (static_cast<double>(at) < s_min_) at = std::nextafter(at, std::numeric_limits<S>::max());
+    if (static_cast<double>(at) < s_min_) at = std::nextafter(at, (std::numeric_limits<S>::max)());
     const double most = deepest(static_cast<double>(at));
-    S d = static_cast<S>(std::min(std::max(rest(static_cast<double>(at)) + e, -most), most));
+    S d = static_cast<S>((std::min)((std::max)(rest(static_cast<double>(at)) + e, -most), most));
     if (std::abs(static_cast<double>(d)) > most) d = std::nextafter(d, S(0));
     return compare(at, d);
   }
@@ -81,12 +81,12 @@ class PressComparison {
   using F = typename Full::Scalar;
 
   /// An edge of the range; the full model's, if they differ by round-off.
-  static double near(double edge, double known, double unit) noexcept {
+  static double close_to(double edge, double known, double unit) noexcept {
     return std::abs(edge - known) <= 1e-6 * unit ? known : edge;
   }
   /// Largest |d| in range [m].
   double deepest(double s) const noexcept {
-    return near(depth_, static_cast<double>(full_.range().depth_at(static_cast<F>(s))), depth_);
+    return close_to(depth_, static_cast<double>(full_.range().depth_at(static_cast<F>(s))), depth_);
   }
 
   /// To the end itself or to the foot of the tip, whichever is nearer.
@@ -107,8 +107,8 @@ class PressComparison {
     double off = 0, size = error.depth;
     for (const CentrelineNode<S>& node : fast_.shape()) {
       const double height = static_cast<double>(full_.shape().at(static_cast<F>(node.s)).w);
-      off = std::max(off, std::abs(static_cast<double>(node.w) - height));
-      size = std::max(size, std::abs(height));
+      off = (std::max)(off, std::abs(static_cast<double>(node.w) - height));
+      size = (std::max)(size, std::abs(height));
     }
     error.shape = off / size;
     return error;
@@ -120,7 +120,7 @@ class PressComparison {
 };
 
 /// The unit of steps along the beam [m].
-inline double to_the_end(double s, double L) noexcept { return std::max(std::min(s, L - s), L / 50); }
+inline double to_the_end(double s, double L) noexcept { return (std::max)((std::min)(s, L - s), L / 50); }
 
 /// Up the hill on which a press stands.
 template <class Comparison>
@@ -162,7 +162,7 @@ double worst_error(Comparison& comparison, std::vector<PressError> presses, int 
                       comparison.alike(press, other));
     if (same) continue;
     begun.push_back(press);
-    most = std::max(most, climb(comparison, press).force);
+    most = (std::max)(most, climb(comparison, press).force);
     if (static_cast<int>(begun.size()) == climbs) break;
   }
   return most;

@@ -1,0 +1,10 @@
+# What a cross compiler may take from this machine: headers that are the same on every one, Eigen's and Catch2's.
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+foreach(kind LIBRARY INCLUDE PACKAGE)
+  set(CMAKE_FIND_ROOT_PATH_MODE_${kind} ONLY)
+endforeach()
+get_filename_component(compiler ${CMAKE_CXX_COMPILER} NAME)
+string(REGEX REPLACE "-g[+][+].*$" "" triplet ${compiler})
+set(CMAKE_FIND_ROOT_PATH /usr/${triplet} ${CMAKE_CURRENT_LIST_DIR}/packages)
+set(CMAKE_PREFIX_PATH /)
+set(Eigen3_DIR /usr/share/eigen3/cmake)

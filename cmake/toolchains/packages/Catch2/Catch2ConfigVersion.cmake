@@ -1,0 +1,1 @@
+include(/usr/lib/cmake/Catch2/Catch2ConfigVersion.cmake)
