@@ -75,17 +75,17 @@ class Pack {
   }
   friend Pack atan2(Pack y, const Pack& x) noexcept {
     const Pack whole = sqrt(x * x + y * y) + x;
-    bool near = true;
-    for (int i = 0; i < size; ++i) near = near && std::abs(y[i]) < whole[i];
-    if (near) return twice_atan(y / whole);
+    bool small_angles = true;
+    for (int i = 0; i < size; ++i) small_angles = small_angles && std::abs(y[i]) < whole[i];
+    if (small_angles) return twice_atan(y / whole);
     for (int i = 0; i < size; ++i) y.v_[i] = std::atan2(y.v_[i], x.v_[i]);
     return y;
   }
   /// cos α and sin α
   friend void cos_and_sin(const Pack& a, Pack& cosine, Pack& sine) noexcept {
-    bool near = true;
-    for (int i = 0; i < size; ++i) near = near && std::abs(a[i]) < T(0.79);
-    if (near) return small_turn(a, cosine, sine);
+    bool small_angles = true;
+    for (int i = 0; i < size; ++i) small_angles = small_angles && std::abs(a[i]) < T(0.79);
+    if (small_angles) return small_turn(a, cosine, sine);
     for (int i = 0; i < size; ++i) cosine.v_[i] = std::cos(a.v_[i]), sine.v_[i] = std::sin(a.v_[i]);
   }
 

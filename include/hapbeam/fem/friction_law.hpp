@@ -62,8 +62,8 @@ class FrictionLaw {
     shear();
     // A hand that hurries slides: what stuck to it would be torn along.
     far_shear_ = sheared_;
-    const Scalar far = norm(sheared_ - carried_);
-    const bool hurries = far > hurry;
+    const Scalar carried = norm(sheared_ - carried_);
+    const bool hurries = carried > hurry;
     slides_ = !known_ || ((grip.slides || hurries) && bound_ > 0);
     if (slides_) aim(sheared_, (std::max)(norm(sheared_), grip.slip));
     // In its first tick a contact slides without friction to where the touch begins.

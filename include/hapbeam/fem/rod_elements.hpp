@@ -20,6 +20,7 @@
 #include <hapbeam/fem/rod_bed.hpp>
 #include <hapbeam/fem/rod_profile.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
+#include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
 
