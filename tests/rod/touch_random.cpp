@@ -19,11 +19,16 @@ Tally wander(Model& model, double radius, double length, double step, bool jumps
   const double size = model.shape().length(), reach = radius + model.thickness() / 2;
   Touch<Model> touch(model, radius);
   Random random(7);
+  // One by one: the order of arguments is the compiler's.
+  const auto within = [&](double most) {
+    const double z = random(most), y = random(most), x = random(most);
+    return Point(x, y, z);
+  };
   const auto somewhere = [&] {
     const Point r = model.shape().at(random(0.0, size)).r;
-    return Point(r + Point(random(0.1), random(0.1), random(0.1)) * size);
+    return Point(r + within(0.1) * size);
   };
-  const auto direction = [&] { return detail::unit(Point(random(1.0), random(1.0), random(1.0))); };
+  const auto direction = [&] { return detail::unit(within(1.0)); };
   Tally tally;
   Point hand = somewhere(), target = somewhere(), along = direction(), spin = Point::Zero();
   int run = 0;
