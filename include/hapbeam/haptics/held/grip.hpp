@@ -155,7 +155,7 @@ class GripCoupling {
     continued_ = 0, last_ = {};
   }
 
-  /// Once a period.   @param hand  in the scene   @param dt [s]
+  /// Once a period, whose length does not matter.   @param hand  in the scene
   template <typename Model>
   [[nodiscard]] CoupledWrench<typename Model::Scalar> tick(Touch<Grip<Model>>& touch, const HandPose& hand,
                                                            double) noexcept {
