@@ -15,10 +15,9 @@ set(models twisted_rod round_rod rare von_karman touch corotational reduced serv
 if(HAPBEAM_SANITIZE STREQUAL "thread")
   list(REMOVE_ITEM models rare)  # no program that starts threads has them
 endif()
-hapbeam_once_units(HAPBEAM_ONCE_MODELS once.hpp ${models})
-hapbeam_once_units(svd once.hpp svd)
+hapbeam_once_units(models once.hpp ${models} svd)
 hapbeam_once_units(training once_training.hpp training scene)
-add_library(hapbeam_once STATIC ${HAPBEAM_ONCE_MODELS} ${svd} ${training})
+add_library(hapbeam_once STATIC ${models} ${training})
 target_include_directories(hapbeam_once PUBLIC ${CMAKE_CURRENT_LIST_DIR})
 target_link_libraries(hapbeam_once PUBLIC hapbeam::hapbeam Threads::Threads PRIVATE hapbeam_checks)
 target_precompile_headers(hapbeam_once PRIVATE ${CMAKE_CURRENT_LIST_DIR}/once.hpp)

@@ -28,17 +28,13 @@ void count_release(const void* memory) noexcept {
 
 namespace hapbeam::testing {
 
-void count_eigen_failure() noexcept { ++use.eigen_failures; }
-
 void begin_watch() noexcept {
   use = {};
-  Eigen::internal::set_is_malloc_allowed(false);
   watching = true;
 }
 
 HeapUse end_watch() noexcept {
   watching = false;
-  Eigen::internal::set_is_malloc_allowed(true);
   return use;
 }
 

@@ -146,9 +146,7 @@ class FemModel {
         ways_, [](const auto& way) -> auto& { return way.report(); });
   }
   /// Strain energy of the present shape [J].
-  Scalar strain_energy() const noexcept {
-    return take(ways_, [](const auto& way) { return way.strain_energy(); });
-  }
+  Scalar strain_energy() const noexcept;
   int elements() const noexcept {
     return take(ways_, [](const auto& way) { return way.elements(); });
   }
@@ -268,6 +266,12 @@ template <class Element, typename Scalar, int Elements, int MaxElements,
           template <typename, int, int, int> class Assembler, class Solver>
 void FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::reset() noexcept {
   take(ways_, [](auto& way) { way.reset(); });
+}
+
+template <class Element, typename Scalar, int Elements, int MaxElements,
+          template <typename, int, int, int> class Assembler, class Solver>
+Scalar FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::strain_energy() const noexcept {
+  return take(ways_, [](const auto& way) { return way.strain_energy(); });
 }
 
 }  // namespace hapbeam

@@ -48,7 +48,7 @@ class PodModel {
   Response<Scalar> press(const Press<Scalar>& request) noexcept;
 
   /// Computed at the first call after a press; one thread at a time.
-  Centreline<Scalar> shape() const noexcept { return shape_.all(trained_->data.shape); }
+  Centreline<Scalar> shape() const noexcept;
   /// The pieces of shape() that hold arc positions s0 to s1; beside the contact without the others.
   CentrelinePart<Scalar> part(Scalar s0, Scalar s1) const noexcept {
     return shape_.part(trained_->data.shape, s0, s1);
@@ -114,6 +114,11 @@ class PodModel {
 
 // What costs a compiler time is defined outside of the class: only so does "extern template class PodModel<>;" keep it out of all
 // files but one.
+template <typename Scalar, class Nodes>
+Centreline<Scalar> PodModel<Scalar, Nodes>::shape() const noexcept {
+  return shape_.all(trained_->data.shape);
+}
+
 template <typename Scalar, class Nodes>
 PodModel<Scalar, Nodes>::Trained::Trained(Data given)
     : data((check(given), std::move(given))),
