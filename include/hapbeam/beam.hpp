@@ -1,7 +1,7 @@
-// What is modelled: a slender beam, its section and material, its two ends and its dead loads.
+// What is modelled: a slender beam, its section and material, its two ends and its dead loads, which keep their direction.
 //
 // Plain values in SI, checked where they enter: every function here throws std::invalid_argument naming field,
-// value, unit and what is allowed.  Offline only; nothing here is called in a servo tick.
+// value, unit and the permitted range.  Offline only: nothing here is called in a servo tick.
 // x runs along the beam from its left end, w across it (up), theta = -dw/dx.
 #pragma once
 
@@ -15,9 +15,10 @@ namespace hapbeam {
 
 /// Cross-section: area, second moment about the bending axis, and extent in the bending direction.
 struct Section {
-  double area;       ///< A [m²]
-  double inertia;    ///< I [m⁴]
-  double thickness;  ///< [m] across the beam, in the plane of bending; what an avatar touches
+  double area;     ///< A [m²]
+  double inertia;  ///< I [m⁴]
+  double
+      thickness;  ///< [m] across the beam, in the plane of bending; what the avatar, the round tool, touches
 
   /// @param width [m] out of the plane of bending   @param height [m] in it
   static Section rectangle(double width, double height) {
@@ -25,10 +26,12 @@ struct Section {
     detail::positive("section height", height, "m");
     return {width * height, width * height * height * height / 12, height};
   }
+  /// @param diameter [m]
   static Section circle(double diameter) {
     const double r = detail::positive("section diameter", diameter, "m") / 2;
     return {pi * r * r, pi * r * r * r * r / 4, diameter};
   }
+  /// @param outer_diameter [m]   @param inner_diameter [m] of the hole, not the thickness of the wall
   static Section tube(double outer_diameter, double inner_diameter) {
     const Section full = circle(detail::positive("section outer_diameter", outer_diameter, "m"));
     detail::positive("section inner_diameter", inner_diameter, "m");
@@ -47,7 +50,7 @@ struct Material {
   double young;  ///< Young's modulus E [Pa]
 };
 
-/// A dead force and moment at one point of the beam.
+/// A force and a moment at one point of the beam.  They keep their direction as the beam turns (dead, non-follower loads).
 struct PointLoad {
   double s;               ///< [m] arc position
   double axial = 0;       ///< [N] along x
@@ -55,10 +58,10 @@ struct PointLoad {
   double moment = 0;      ///< [N·m] does work on theta
 };
 
-/// A dead load per unit length, as a function of arc position s [m] -> [N/m].
+/// A load per unit length as a function of arc position s [m] -> [N/m].  It keeps its direction.
 using DistributedLoad = std::function<double(double)>;
 
-/// Where a support holds its end.  What the support leaves free says where the end is before anything is loaded.
+/// Where a support holds its end.  A component that the support leaves free is the place of the unloaded end.
 struct EndPlace {
   double u = 0;      ///< [m] from the end's place in the straight beam, along x
   double w = 0;      ///< [m]
@@ -71,8 +74,8 @@ struct Arc {
   double curvature;  ///< dθ/ds [1/m] without load: positive where the beam bulges up
 };
 
-/// A prismatic beam, its ends and its loads; straight, unless it is given a natural curvature, with its ends where they
-/// are in the straight beam, unless they are placed elsewhere.  An immutable value but for what is added to it.
+/// A prismatic beam, its ends and its loads. It is straight unless naturally() gives it a curvature. Its ends are those
+/// of the straight beam unless place() moves them. Immutable but for what is added to it.
 class Beam {
  public:
   /// @param length [m], positive

@@ -1,6 +1,6 @@
 // Beams that are curved or prestressed: through given points, an arch, a string, a buckled strip.
 //
-// All of them are made of what Beam offers: a natural shape of arcs, and ends that are placed.
+// Each is a Beam with a natural shape of arcs, or with ends that are placed.
 // Offline: allocates, throws std::invalid_argument naming field, value and unit.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace hapbeam {
 
-/// A beam that is naturally bent through given points, without force between its ends.  Its first arc is that of the
-/// first three points; the others go on without a kink, so the points should lie on a smooth curve.
+/// A beam that is naturally bent through given points, without force between its ends. Its first arc passes through the
+/// first three points. The others continue it without a kink, so the points should lie on a smooth curve.
 /// @param points  two or more, [m], (x, w); the first is the left end, and the beam's own x axis begins there
 inline Beam beam_through(const std::vector<Vector2<double>>& points, const Section& section,
                          const Material& material, Support left, Support right) {
@@ -54,7 +54,7 @@ inline Beam arch(double span, double rise, const Section& section, const Materia
   return beam.naturally({{length, 2 * half / length}}).place({0, 0, -half}, {span - length, 0, half});
 }
 
-/// The same beam with its ends moved apart by `by` [m], or together where negative: a string, or a strip that buckles.
+/// The same beam with its ends moved apart by `by` [m]; negative: together.  A string, or a strip that buckles.
 inline Beam stretched(Beam beam, double by) {
   EndPlace right = beam.right_place();
   right.u += by;

@@ -1,4 +1,4 @@
-// The deformed centreline of a beam, as the models hand it out: nodes joined by cubics.
+// The deformed centreline of a beam: nodes joined by cubics.
 //
 // A view: it owns nothing and is valid until the model that gave it is called again.  Each piece is a plane cubic, so
 // contact and drawing see one kind of curve.  Which cubic depends on the kinematics of the model:
@@ -55,11 +55,11 @@ int piece_at(const Node* nodes, int pieces, Scalar s) noexcept {
 
 }  // namespace detail
 
-/// Of the space in which M bends, a model or an element: 2, unless it says so.
+/// Dimension of the space in which M, a model or an element, bends: M::dimension, or 2.
 template <class M>
 inline constexpr int dimension_of = detail::Dimension<M>::value;
 
-/// Whether all of a node is a number.
+/// Whether all numbers of a node are finite.
 template <typename Scalar>
 bool is_finite(const CentrelineNode<Scalar>& node) noexcept {
   return std::isfinite(node.s) && std::isfinite(node.u) && std::isfinite(node.w) && std::isfinite(node.theta);
@@ -169,8 +169,8 @@ class Centreline {
     return control;
   }
 
-  /// Length of a piece, from its chord c and the angles α, β of its ends against it:  c (1 + m + 7m²/10) with
-  /// m = (2α² - αβ + 2β²)/30, as the elements have it; the last term is that of a circle.  sin + sin³/6 stands for an angle.
+  /// Length of a piece, from its chord c and the angles α, β of its ends against it:  c (1 + m + 7m²/10) with m = (2α²
+  /// - αβ + 2β²)/30, as in the elements. The last term is that of a circle. sin + sin³/6 approximates an angle.
   static Scalar arc(const Vector2<Scalar>& chord, const Vector2<Scalar>& from,
                     const Vector2<Scalar>& to) noexcept {
     using std::sqrt;

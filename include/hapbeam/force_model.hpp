@@ -1,8 +1,7 @@
 // The contract that every beam model fulfils, and the small types that cross it.
 //
-// A ForceModel answers the servo loop's question: the centreline is pressed by d at arc position s, what
-// force does that take and what shape results?  Contact, haptics, tests and charts are written against
-// this file alone and never against a particular model.
+// A ForceModel answers one question: the centreline is displaced by d at arc position s; which force and which shape
+// result? Contact, haptics, tests and charts are written against this file, never against a particular model.
 //
 //   expression           type                   promise
 //   ------------------   --------------------   ---------------------------------------------------------
@@ -13,28 +12,29 @@
 //   m.thickness()        Scalar [m]             noexcept; what contact adds on either side of the centreline
 //   m.reset()            void                   noexcept; back to the shape that the beam has untouched
 //
-// A model of large rotation may offer two more, which contact then takes instead of press() and reset():
+// A model of finite rotation may offer two more, which contact then calls instead of press() and reset():
 //
 //   m.push(c)            Pushed<Scalar>         of a Circle<Scalar>; promises as press()
-//   m.release()          Status                 noexcept, bounded; lets go: the beam falls from its present shape to where
-//                                               it rests, which may be another shape than before (snapped), and may
-//                                               take more than one call (iteration_limit)
+//   m.release()          Status                 noexcept, bounded; without contact the beam goes from its present shape to
+//                                               equilibrium.  That may be another equilibrium than before (snapped),
+//                                               and may take several calls (iteration_limit)
 //
-// A model in space says `static constexpr int dimension = 3`.  It has no press(), its shape() is a Centreline<Scalar, 3>, its push()
-// takes a Push<Scalar, 3>, and for contact a Capsule<Scalar>, which it answers with a Pushed<Scalar, 3>.
+// A model in space has `static constexpr int dimension = 3`. It has no press(). Its shape() is a Centreline<Scalar, 3>.
+// Its push() takes a Push<Scalar, 3>, or a Capsule<Scalar> for contact, and then returns a Pushed<Scalar, 3>.
 //
-// A model whose shape costs more than its force may offer a part of it, which is all that a touch that goes on looks at:
+// A model whose shape costs more than its force may offer a part of the shape. A lasting contact reads no more than
+// that:
 //
 //   m.part(s0, s1)       CentrelinePart<Scalar> noexcept; the pieces of shape() that hold arc positions s0 to s1, both
 //                                               pieces of a node at either; valid until the next call
 //
-// What shape() and part() cost: FemModel has its nodes from the press, O(1) and O(log n); trained models have the
-// two pieces beside the contact from it, and compute all when another is asked for, O(modes (grid + nodes)).
-// After a press with ok a centreline of moderate rotation does not turn back: x = s + u grows along it.
+// Cost of shape() and part(): FemModel has its nodes from the press, O(1) and O(log n). Trained models have the two
+// pieces beside the contact from it, and compute all others on demand, O(modes (grid + nodes)).
+// After a press with ok a centreline of moderate rotation does not turn back: x = s + u increases along it.
 //
-// Bounded work is a number that the model states, of what it repeats: FemModel solves at most solver.max_solves (48) linear
-// systems a press, a push, or a release; then it says iteration_limit and goes on in the next call, and until
-// it has arrived its force is that of the last equilibrium.
+// The bound on the work is a number that the model states. FemModel solves at most solver.max_solves (48) linear
+// systems a press, push or release. It then returns iteration_limit with the force of the last equilibrium, and
+// continues in the next call.
 //
 // No allocation, no exception, no dependency but the standard library.
 #pragma once
@@ -54,16 +54,16 @@ namespace hapbeam {
 /// Positive: the answer holds, for a request that was moved into the model's range or continued from there.
 enum class Status : std::int8_t {
   ok = 0,
-  /// The request lies outside range(); force and shape belong to the nearest request inside it, or go on from there as
-  /// the model says, pushing no less.
+  /// The request lies outside range(). Force and shape are those of the nearest request inside it, or continue from
+  /// there as the model states, without a smaller force.
   out_of_range = 1,
-  /// The equilibrium on which the beam was has ended or given way: force and shape belong to the stable one to which it
-  /// has jumped.
+  /// The equilibrium of the beam has ended or become unstable. Force and shape are those of the stable one to which the
+  /// beam has jumped.
   snapped = 2,
   /// s or d is not finite, or s lies off the beam (s < 0 or s > L): force 0, the state is kept.
   invalid_request = -1,
-  /// The iteration budget ended with the estimated next increment above the tolerance.  In press() and push(): the force is
-  /// that of the last equilibrium on the way, which may be the last answer; the next call goes on from there.
+  /// The iteration budget ended with the estimated next increment above the tolerance. In press() and push() the force
+  /// is that of the last equilibrium on the way, which may be the last answer. The next call continues from there.
   iteration_limit = -2,
   /// A pivot of the tangent is below round-off: |p| <= eps |k| with k its diagonal entry.  The last good state is kept.
   singular = -3,
@@ -71,7 +71,7 @@ enum class Status : std::int8_t {
   non_finite = -4,
 };
 
-/// True where force and shape may be used as what they claim to be.
+/// True where force and shape may be used: ok, or a positive status.
 constexpr bool is_answer(Status status) noexcept { return static_cast<int>(status) >= 0; }
 
 /// One is worse than another: failures before answers that were moved into range, those before ok.
@@ -141,14 +141,14 @@ bool is_finite(const Capsule<Scalar>& capsule) noexcept {
          std::isfinite(capsule.reach);
 }
 
-/// What a press takes.
+/// The result of a press.
 template <typename Scalar>
 struct Response {
   Scalar force;   ///< [N] force on the beam along the direction of d; the hand feels -force.  Always finite.
   Status status;  ///< whether force belongs to the request
 };
 
-/// What a push by a circle or a capsule takes, and where they touch.
+/// The result of a push by a circle or a capsule, and where they touch.
 template <typename Scalar, int D = 2>
 struct Pushed {
   Scalar force;   ///< [N] on the beam along the normal; negative where the circle pushes.  Always finite.
@@ -161,7 +161,7 @@ struct Pushed {
   VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< unit, from there to the centre
 };
 
-/// What holding an end of a rod takes.
+/// The result of holding an end of a rod.
 template <typename Scalar>
 struct HeldEnd {
   VectorOf<Scalar, 3> force;   ///< [N] on the rod; the hand feels -force.  Always finite.
@@ -172,12 +172,13 @@ struct HeldEnd {
 /// Where a model answers with Status::ok: s_min <= s <= s_max and |d| <= depth_at(s).
 template <typename Scalar>
 struct Range {
-  Scalar s_min;          ///< [m]
-  Scalar s_max;          ///< [m]
-  Scalar depth;          ///< [m] largest |d| anywhere
-  Scalar slope;          ///< [-] largest |d| over the distance to a support that holds w
-  Scalar left_support;   ///< [m] arc position of that support, -infinity where the left end yields
-  Scalar right_support;  ///< [m] the same at the right, +infinity where it yields
+  Scalar s_min;  ///< [m]
+  Scalar s_max;  ///< [m]
+  Scalar depth;  ///< [m] largest |d| anywhere
+  Scalar slope;  ///< [-] largest |d| over the distance to a support that holds w
+  Scalar
+      left_support;  ///< [m] arc position of that support, -infinity if the left end is free to move across
+  Scalar right_support;  ///< [m] the same at the right, or +infinity
 
   Scalar depth_at(Scalar s) const noexcept {
     return (std::min)(depth, slope * (std::min)(s - left_support, right_support - s));
@@ -229,7 +230,7 @@ struct IsForceModel<M, std::void_t<typename M::Scalar>> {
       decltype(rest<M>(0))::value;
 };
 
-/// What contact asks of a model that can be pushed: the point of contact is found by the model.
+/// True where M can be pushed by a circle, or a capsule: the model finds the point of contact.
 template <typename M, int = dimension_of<M>>
 struct PushOf {
   using Type = Circle<typename M::Scalar>;

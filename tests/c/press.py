@@ -1,4 +1,4 @@
-"""The C interface, from Python: python3 press.py LIBRARY PROGRAM...; each program prints the force that it feels."""
+"""The C interface, from Python: python3 press.py LIBRARY [PROGRAM...]; each program prints the force that it feels."""
 
 import ctypes
 import subprocess
@@ -34,6 +34,7 @@ for i in range(1000):
     felt = library.hapbeam_touch_tick(touch, 1.27, 0.03 - 1.73e-5 * i)
 library.hapbeam_touch_destroy(touch)
 assert felt.pressing == 1 and felt.status == 0
+print(f"{felt.force[1]:.3f} N")
 for program in sys.argv[2:]:
     force = float(subprocess.run([program], capture_output=True, check=True).stdout)
     assert force == felt.force[1], (program, force, felt.force[1])

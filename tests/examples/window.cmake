@@ -85,7 +85,7 @@ endif()
 # What a mouse pressed in the window, the hand that is led along its recording presses without one.
 if(HAPBEAM_XDOTOOL)
   add_test(NAME examples/window_mouse WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
-    COMMAND ${display} bash ${CMAKE_CURRENT_SOURCE_DIR}/press_with_mouse.sh $<TARGET_FILE:phantom> mouse.csv ${pace})
+    COMMAND ${display} bash ${CMAKE_CURRENT_SOURCE_DIR}/press_with_mouse.sh $<TARGET_FILE:phantom> mouse.csv ${pace} strip)
   set_tests_properties(examples/window_mouse PROPERTIES LABELS examples TIMEOUT 300 FIXTURES_SETUP hapbeam_mouse)
   hapbeam_test_file(mouse_draws_along NEEDS hapbeam_mouse COMMAND check_recordings beside mouse.csv 0.005)
   hapbeam_test_example(phantom replay_mouse STATUS 0 OUTPUT "lock step" NEEDS hapbeam_mouse MAKES hapbeam_mouse_replayed
@@ -95,7 +95,7 @@ if(HAPBEAM_XDOTOOL)
   # In space: pulled in the plane of the view, pushed into depth by the wheel, seen from another side.  The needle is felt from
   # above, and from the front.
   add_test(NAME examples/window_mouse_in_space WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
-    COMMAND ${display} bash ${CMAKE_CURRENT_SOURCE_DIR}/press_in_space.sh $<TARGET_FILE:phantom> mouse_in_space.csv ${pace})
+    COMMAND ${display} bash ${CMAKE_CURRENT_SOURCE_DIR}/press_with_mouse.sh $<TARGET_FILE:phantom> mouse_in_space.csv ${pace} needle)
   set_tests_properties(examples/window_mouse_in_space PROPERTIES LABELS examples TIMEOUT 300 FIXTURES_SETUP hapbeam_mouse_in_space)
   hapbeam_test_file(mouse_presses_from_two_sides NEEDS hapbeam_mouse_in_space COMMAND check_recordings sides mouse_in_space.csv)
   # A reduced model of the scene is trained and takes over while the hand presses; a real device does, where there is one.

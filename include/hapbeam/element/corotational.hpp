@@ -6,11 +6,12 @@
 //   ∂V/∂Δ = N e + (M/l) z                      Δ = (u2 - u1, w2 - w1),  e = (cos α, sin α),  z = (-sin α, cos α)
 //   ∂²V/∂Δ² = k_ss eeᵀ + (k_sα/l - M/l²)(ezᵀ + zeᵀ) + (k_αα/l² + N/l) zzᵀ
 //
-// with N, M the local normal force and the sum of the local moments, k_sα = k_s1 + k_s2 and so on.  Residual and
-// tangent are the exact derivatives of V, so the tangent is symmetric, and rigid motion, several turns included, does
-// no work.  The order in the element's length is the local element's: with Linear (the textbooks' element) two, with
-// VonKarman<AssumedStrain>, whose strain knows that a bent piece is longer than its chord, four.
-// Valid while the two ends of one element turn by less than half a turn against its chord.
+// with N, M the local normal force and the sum of the local moments, k_sα = k_s1 + k_s2 and so on. Residual and tangent
+// are the exact derivatives of V. The tangent is therefore symmetric, and rigid motion, several turns included, does no
+// work.
+// The order in the element's length is that of the local element: two with Linear (the textbooks' element), four with
+// VonKarman<AssumedStrain>, whose strain includes that a bent piece is longer than its chord.
+// Valid while each end of an element rotates by less than half a turn against its chord.
 // Source: Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1, ch. 7.3; the tangent is
 // derived anew.
 #pragma once
@@ -58,11 +59,11 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
              q.k.s1 * s + a1 * c, q.k.s2 * s + a2 * c, q.k.t11, q.k.t12, q.k.t22}};
   }
 
-  /// What the chord, x2 - x1 [m], changes by when the displacements take an increment that may be large.  It turns by the
-  /// angle that the increment means, and is as long as it takes for the normal force to be the one that the tangent
-  /// foresees.  Added as they are, displacements of a turning chord would stretch it, and a slender beam answers that with
-  /// forces that have nothing to do with the load.
-  /// The change, and not the chord: a small one keeps its digits.
+  /// Change of the chord, x2 - x1 [m], under an increment of the displacements that may be large. The chord turns by
+  /// the angle of the increment. Its length is the one at which the normal force is that of the tangent.
+  /// Added as vectors, the displacements of a turning chord would stretch it. In a slender beam the forces of that
+  /// stretch have nothing to do with the load.
+  /// The change is returned, not the chord: a small change keeps its digits.
   /// @param x  increment of d
   template <typename S>
   static Vector2<S> chord_change(const ElementProperties<S>& p, const Vector6<S>& d,

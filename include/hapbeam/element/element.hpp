@@ -1,4 +1,4 @@
-// What an element is to the rest of the library: strain energy V(d), residual and tangent of six degrees of freedom.
+// The contract of an element: strain energy V(d), residual and tangent of six degrees of freedom.
 //
 //   d = [u1, w1, θ1, u2, w2, θ2]  [m, m, rad, m, m, rad]   θ = -dw/dx
 //
@@ -8,11 +8,11 @@
 //   E::residual(p, d, r)       void     r = ∂V/∂d, overwritten [N, N, N·m, N, N, N·m]
 //   E::tangent(p, d, r, K)     S        V, r as above and K = ∂r/∂d, symmetric, both triangles, overwritten
 //   E::name()                  const char*
-//   E::any_rotation            bool, true: valid at finite rotation; false where it is left out
-//   E::membrane_feels_slope    bool, true: ε holds ½ w'², and an axial load on the element bends it; may be left out, too
-//   E::OneStrain               type, E itself: the membrane strain is one number, (u2-u1)/l and a quadratic form of rise, lθ1
-//                              and lθ2 that is positive unless all are zero, and E has respond(p, e) as below; may be left out, too.  A class that inherits from E
-//                              inherits the name of E, which is not its own, and so promises nothing
+//   E::any_rotation            bool, optional, true: valid at finite rotation
+//   E::membrane_feels_slope    bool, optional, true: ε contains ½ w'², so an axial load on the element bends it
+//   E::OneStrain               type, optional, E itself: the membrane strain is one number, (u2-u1)/l plus a positive definite
+//                              quadratic form of rise, lθ1 and lθ2, and E has respond(p, e) as below.  A class derived from E
+//                              does not have it: there the name is E's, not its own
 //
 // with p an ElementProperties<S>.  An element is stateless: static functions, templated on the scalar S.
 // Real-time: no allocation, noexcept, O(1).
@@ -32,7 +32,7 @@ using Vector6 = Eigen::Matrix<Scalar, 6, 1>;
 template <typename Scalar>
 using Matrix6 = Eigen::Matrix<Scalar, 6, 6>;
 
-/// What an element is made of.  The quotients are kept because a tick asks for them and divides slowly.
+/// Length and stiffness of an element.  Quotients are stored, because a division in a tick is slow.
 template <typename Scalar>
 struct ElementProperties {
   ElementProperties() = default;
@@ -169,12 +169,12 @@ struct OneStrain<E, std::void_t<typename E::OneStrain>> : std::is_same<typename 
 template <typename L, typename S>
 inline constexpr bool responds_to_deformation = detail::RespondsToDeformation<L, S>::value;
 
-/// What runs once an element and iteration is inlined by intent ([[gnu::always_inline]], here and in the elements): left to
-/// itself, g++ -O2 makes calls of it, whose results go through memory and take a quarter of the tick.
+/// Functions that run once an element and iteration are [[gnu::always_inline]], here and in the elements. Without it
+/// g++ -O2 calls them, their results go through memory and take a quarter of the tick.
 ///
-/// The contract above for an element that knows its core,
-///   `E::respond(p, d) -> CoreResponse<S>`,   of the displacements or of the Deformation that they make,
-/// from which it inherits with itself as E.
+/// Base class of an element E with
+///   `E::respond(p, d) -> CoreResponse<S>`,   of the displacements d or of the Deformation that they make.
+/// It derives energy, residual and tangent of the contract above. E inherits from ElementFromCore<E>.
 template <class E>
 struct ElementFromCore {
   template <typename S>
@@ -204,7 +204,7 @@ struct ElementFromCore {
   }
 };
 
-/// True where E says that it is valid at finite rotation.
+/// True where E is declared valid at finite rotation.
 template <class E>
 inline constexpr bool any_rotation = detail::AnyRotation<E>::value;
 

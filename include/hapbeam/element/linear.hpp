@@ -2,9 +2,9 @@
 //
 //   V = EA/(2l) (u2-u1)² + EI/(2l³) (4a² + 4ab + 4b²),   a = lθ1 + w2 - w1 - a0,  b = lθ2 + w2 - w1 - b0
 //
-// The bending energy is that of the cubic Hermite interpolation, integrated in closed form, and written in
-// end slopes against the chord: what a large rigid motion would cancel is subtracted first.  a0 and b0 are those of
-// the element's natural shape, zero for a straight beam.
+// The bending energy is that of the cubic Hermite interpolation, integrated in closed form. It is written in end slopes
+// against the chord, so a large rigid motion is subtracted before it can cancel. a0 and b0 are those of the element's
+// natural shape, zero for a straight beam.
 // Source: thesis eq. 3.16–3.31 without the product of slopes.
 #pragma once
 

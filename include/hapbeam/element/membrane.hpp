@@ -2,17 +2,16 @@
 //
 //   ε(x) = (u2 - u1)/l + ½ w'(x)²                      thesis eq. 3.13
 //
-// u' is constant over the element and w'² is not.  FullIntegration takes that difference for strain energy and
-// locks; ReducedIntegration looks at the middle alone; AssumedStrain takes the mean of ε over the element,
-// which is the constant membrane force that equilibrium asks for.  Each answers with energy, first and second
-// derivatives in the coordinates (stretch, rise, lθ1, lθ2), which is all that a policy has to have:
+// u' is constant over the element and w'² is not. FullIntegration counts that difference as strain energy and locks.
+// ReducedIntegration evaluates the middle alone. AssumedStrain takes the mean of ε over the element, which is the
+// constant membrane force of equilibrium. A policy returns energy, first and second derivatives in the coordinates
+// (stretch, rise, lθ1, lθ2):
 //
 //   expression             type                promise
 //   --------------------   -----------------   -----------------------------------------------------------------
 //   M::respond(p, e)       CoreResponse<S>     of an ElementProperties<S> and a Deformation<S>; static, noexcept
 //   M::name()              const char*
-//   M::OneStrain           type, M itself: ε is averaged to one number, ½ w'² over the whole element; may be left out,
-//                                              which says no
+//   M::OneStrain           type, optional, M itself: ε is one number, with ½ w'² averaged over the whole element
 //
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
@@ -70,8 +69,8 @@ struct FullIntegration {
   }
 };
 
-/// One Gauss point in the middle of the element (Reddy; the thesis).  Its strain is one number, and yet no OneStrain: where
-/// N l² > 16 EI an element is not stiff against bending at a given tension.
+/// One Gauss point in the middle of the element (Reddy; the thesis). Its strain is one number, but it has no OneStrain:
+/// where N l² > 16 EI the element has no bending stiffness at a given tension.
 struct ReducedIntegration {
   static constexpr const char* name() noexcept { return "reduced"; }
   template <typename S>

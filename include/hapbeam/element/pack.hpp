@@ -1,5 +1,5 @@
-// A few numbers that are computed side by side, in one register where the compiler has vectors: a scalar type for elements,
-// which are functions of their scalar.
+// A few numbers computed side by side, in one register where the compiler has vectors. It is a scalar type for
+// elements, which are templates of their scalar.
 //
 // Two numbers of 8 bytes, four with AVX; four of 4 bytes.  Functions that a processor has no instruction for are called one by one.
 // Real-time: noexcept, no allocation, O(1).

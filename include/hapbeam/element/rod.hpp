@@ -1,4 +1,4 @@
-// The element of a round rod that is straight by nature and whose twist nobody holds: no rotation, no frame.
+// The element of a naturally straight round rod whose ends do not hold its twist: no rotation, no frame.
 //
 //   V = ½ l εᵀ EA M ε + ½ l Σ w EI |r′ × r″|²/|r′|⁴        sum over three Gauss points
 //

@@ -1,5 +1,5 @@
-// From what an element of a rod that twists feels in the axes of its first node to the unknowns of both nodes: its own twist is condensed
-// away, and the axes turn with that node.
+// Transforms energy derivatives of an element that twists from the axes of its first node to the unknowns of both
+// nodes. The element's own twist is condensed, and the axes turn with that node.
 //
 // Real-time: no allocation, noexcept, O(1).
 #pragma once

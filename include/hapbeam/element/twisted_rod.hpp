@@ -5,17 +5,17 @@
 //
 //   θ(ξ) = φ1 (1 - ξ) + (φ2 + m) ξ + 4 ψ ξ (1 - ξ)
 //
-// with m the angle that takes the carried director to that of node 2, and ψ a twist of the element's own, which is condensed
-// away: without it torsion is of second order.  φ1 and φ2 turn the directors of the nodes; they are zero in each state and
-// the unknowns of its increment.  While a tangent moves, its director is carried along by the smallest rotation.
+// with m the angle from the carried director to that of node 2, and ψ a twist of the element's own, which is condensed.
+// Without ψ torsion is of second order. φ1 and φ2 turn the directors of the nodes. They are zero in each state and the
+// unknowns of its increment. While a tangent moves, its director is carried along by the smallest rotation.
 //
 //   V = ½ l εᵀ EA M ε + ½ l Σ w (EI1 (κ1 - κ1°)² + EI2 (κ2 - κ2°)² + GJ (τ - τ°)²)        sum over Gauss points
 //
-// Three points for round rods that are straight by nature, two for all others (rod_elements.hpp): three resolve large bends, and
+// Naturally straight round rods have three points, all others two (rod_elements.hpp). Three resolve large bends, but
 // lock where bending and twist are coupled.
 //
-// ε = |r'| - 1 - ε° at ξ = 0, ½, 1, interpolated (M): integrated fully it locks, and its mean leaves a mechanism.  κ° is of
-// the natural shape, interpolated the same way, so that this shape has no energy.
+// ε = |r'| - 1 - ε° at ξ = 0, ½, 1, interpolated (M). Full integration of ε locks, and its mean leaves a mechanism. κ°
+// is interpolated the same way from the natural shape, whose energy is therefore zero.
 //
 // In the axes of node 1, (d1, d2, tangent), with a = r' = (x, y, z), b = r'' = (p, q, s), n = |a|, D = n (n + z):
 //

@@ -1,8 +1,8 @@
-// The von Kármán (moderate rotation) Euler–Bernoulli element of the thesis: bending as in the linear element,
-// and a membrane force that the slope feeds, ε = u' + ½ w'².
+// The von Kármán (moderate rotation) Euler–Bernoulli element of the thesis. Bending is that of the linear element. The
+// membrane force includes the slope, ε = u' + ½ w'².
 //
-// Valid while rotations are moderate.  Error of the mid-span deflection under uniform load on sliding ends, against the
-// inextensible elastica: 0.2 % at an end slope of 0.067, 9 % at 0.42, 63 % at 0.95.
+// Valid while rotations are moderate. Error of the mid-span deflection under uniform load on sliding ends, against the
+// inextensible elastica: 0.2 % at an end slope of 0.067, 9 % at 0.42 and 63 % at 0.95.
 // Source: thesis eq. 3.13–3.39 (eq. 3.30c has a factor ½ too many: K21 = 2 K12ᵀ).
 #pragma once
 

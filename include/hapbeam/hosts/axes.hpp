@@ -5,7 +5,7 @@
 //   CHAI3D, Force Dimension DHD   toward the user  right       up                x_toward_user(origin, scale)
 //   Haply Inverse3                right            away        up                y_away_from_user(origin, scale)
 //
-// Axes only change places, or signs: with scale 1 and the origin at 0 no bit of a position or force changes.
+// Axes are exchanged or change sign: with scale 1 and the origin at 0 no bit of a position or force changes.
 // Real-time: no allocation; may throw as Placement does, so not in the servo.
 #pragma once
 

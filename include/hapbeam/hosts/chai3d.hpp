@@ -1,15 +1,16 @@
-// A beam as an object of CHAI3D's scene graph: a tool that comes near feels it, and a camera draws it.
+// A beam as an object of CHAI3D's scene graph: tools touch it, and cameras draw it.
 //
 //   auto* ruler = new Chai3dBeam<FemModel<>>(model, 0.005);   // the world deletes it; the model has to live longer
 //   ruler->setLocalPos(0, -0.15, 0);
 //   world->addChild(ruler);                                   // from here on as any object: tool->computeInteractionForces()
 //
-// Units are m and N.  The beam lies in its own frame along y, from its left end at the origin, and w is along z: with no rotation
-// to the operator's right, and up.  What a tool does along x is not seen.  The force is that of Touch (placed_touch.hpp): no
-// coupling, so the beam has to be softer than the device renders; a stiffer one goes into a Servo of a loop of your own.
-// One tool presses it, the first whose haptic point comes: another feels nothing.
-// Haptic thread: computeInteractions().  Graphics thread: renderSceneGraph().  They share an Exchange and wait for nobody.
-// No allocation of hapbeam's in either; CHAI3D's list of events grows by itself.
+// Units are m and N. In its own frame the beam lies along y, from its left end at the origin; w is along z. Without
+// rotation that is to the operator's right, and up. Motion of the tool along x has no effect.
+// The force is that of Touch (placed_touch.hpp), without a coupling, so the beam must be softer than the device
+// renders. For a stiffer one call a Servo in a loop of your own. One tool presses the beam, the first whose haptic
+// point comes; another one feels nothing.
+// Haptic thread: computeInteractions(). Graphics thread: renderSceneGraph(). They share an Exchange, and neither waits.
+// hapbeam allocates in neither; CHAI3D's list of events grows.
 //
 // For CHAI3D 3.3.0.  HAPBEAM_CHAI3D_HEADER is the header to include, <chai3d.h> unless it was defined before.
 #pragma once
@@ -30,7 +31,7 @@ namespace hapbeam {
 template <typename Model>
 class Chai3dBeam : public chai3d::cGenericObject {
  public:
-  /// @param model   kept by reference; nobody else presses it
+  /// @param model   kept by reference, and pressed by this object alone
   /// @param avatar_radius  [m] as the tool's setRadius()   Allocates.   @throws std::invalid_argument as Touch
   Chai3dBeam(Model& model, double avatar_radius)
       : touch_(model, avatar_radius, x_toward_user({0, 0})),
@@ -39,7 +40,7 @@ class Chai3dBeam : public chai3d::cGenericObject {
 
   std::string getClassName() override { return "hapbeam::Chai3dBeam"; }
 
-  /// What the last tick said, from the haptic thread: felt().  The newest picture, from the graphics thread: picture().
+  /// felt() is the result of the last tick, for the haptic thread.  picture() is the newest picture, for the graphics thread.
   PlacedTouch<Model>& touch() noexcept { return touch_; }
 
  protected:

@@ -2,9 +2,10 @@
 //
 //   device->addEffect(new HapiBeam<FemModel<>>(model, 0.005, Placement::in_plane({0.15, 0.02})));
 //
-// Units are m and N, axes x right, y up, z toward the user: those of Placement.  The force is that of Touch (placed_touch.hpp),
-// without a coupling: HAPI adds up its effects and sends the sum.  HAPI deletes the effect with the last reference; the model has
-// to live longer.  calculateForces() runs on HAPI's haptic thread; touch().picture() is for one other.
+// Units are m and N, axes x right, y up, z toward the user: those of Placement. The force is that of Touch
+// (placed_touch.hpp), without a coupling: HAPI adds up its effects and sends the sum. HAPI deletes the effect with the
+// last reference; the model must outlive it. calculateForces() runs on HAPI's haptic thread. One other thread may call
+// touch().picture().
 //
 // For HAPI 1.x (HAPIForceEffect).  HAPBEAM_HAPI_HEADER is what is included, <HAPI/HAPIHapticsDevice.h> unless defined before.
 #pragma once

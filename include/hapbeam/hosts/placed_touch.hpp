@@ -1,13 +1,14 @@
-// A beam that lies somewhere in a host's space, for hosts that ask an object for the force at a position and couple, limit and
-// send it themselves: CHAI3D, SOFA, HAPI, HLAPI.
+// A beam placed in a host's space, for hosts that request the force at a position, and couple, limit and send it
+// themselves: CHAI3D, SOFA, HAPI, HLAPI.
 //
 //   PlacedTouch<FemModel<>> beam(model, 0.005, Placement::in_plane({0.15, 0.02}));
 //   const Eigen::Vector3d force = beam.tick(position);        // haptic thread
 //   draw(beam.picture().shape());                             // graphics thread
 //
-// The force is that of Touch, to the bit where the placement only exchanges axes, and zero where the status says that there is no
-// answer.  There is no coupling and no guard in it: a beam stiffer than the device can render goes into a Servo.
-// tick(): no allocation, noexcept, wait-free, bounded as Touch::tick().  picture(): one other thread, wait-free.
+// The force is that of Touch, bit by bit if the placement only exchanges axes. It is zero where the status is no
+// answer. There is no coupling and no guard: use a Servo for a beam stiffer than the device can render.
+// Real-time: tick() does not allocate and is noexcept, wait-free, and bounded as Touch::tick(). One other thread may
+// call picture(), wait-free.
 #pragma once
 
 #include <atomic>
@@ -27,8 +28,9 @@ class PlacedTouch {
   static constexpr int dimension = Touch<Model>::dimension;
   using Picture = ServoPicture<Scalar, dimension>;
 
-  /// @param model  kept by reference; nobody else presses it   @param avatar_radius  [m] of the beam's
-  /// @param placement  of the host's positions in the plane of the beam, or in the space of the rod: it also turns axes and scales units
+  /// @param model  kept by reference, and pressed by this object alone
+  /// @param avatar_radius  [m] in the beam's metres, of the round tool
+  /// @param placement  of the host's positions in the plane of the beam or the space of the rod, with axes and scale
   /// Allocates.   @throws std::invalid_argument as Touch
   PlacedTouch(Model& model, double avatar_radius, const Placement& placement = {})
       : model_(model),
@@ -48,7 +50,7 @@ class PlacedTouch {
     return force;
   }
 
-  /// The hand touches nothing.  While no tick runs.
+  /// Ends the contact.  Only while no tick runs.
   void reset() noexcept {
     touch_.reset();
     felt_ = {};
@@ -56,12 +58,12 @@ class PlacedTouch {
 
   const Placement& placement() const noexcept { return placement_; }
 
-  /// What the last tick said, in the axes of the beam.  From the haptic thread.
+  /// The result of the last tick, in the axes of the beam.  From the haptic thread.
   const TouchResult<Scalar, dimension>& felt() const noexcept { return felt_; }
 
-  /// The newest shape and what was felt with it; of the record, status, model, position, hand, avatar, force, press, pressing and
-  /// the counts of ticks are filled in.  One reader, from any thread: wait-free.  They stay until the next call.
-  /// A shape that costs more than its force is that of the first tick after the last look.
+  /// The newest shape and its record. The record has status, model, position, hand, avatar, force, press, pressing and
+  /// the counts of ticks. One reader, from any thread: wait-free. Both stay until the next call.
+  /// A shape that costs more than its force is that of the first tick after the last call.
   const Picture& picture() noexcept {
     looked_.store(true, std::memory_order_relaxed);
     pictures_.update();

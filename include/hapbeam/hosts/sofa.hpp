@@ -2,10 +2,10 @@
 //
 //   node->addObject(sofa::core::objectmodel::New<SofaBeam<FemModel<>>>(model, 0.005, placement));
 //
-// SOFA's unit of length is the scene's: Placement's scale is metres for one of them, 1e-3 where the scene is in mm, and its rotation
-// and origin lay the beam into the scene.  The force is in N and along the scene's axes; drivers scale it (forceScale).  It is that
-// of Touch (placed_touch.hpp), without a coupling; the torque is zero.  Both functions run on the driver's haptic thread;
-// touch().picture() is for one other.
+// SOFA's unit of length is the scene's. The scale of the Placement is metres for one unit, 1e-3 for a scene in mm; its
+// rotation and origin place the beam in the scene. The force is in N, along the scene's axes; drivers scale it
+// (forceScale). It is that of Touch (placed_touch.hpp), without a coupling, and the torque is zero. Both functions run
+// on the driver's haptic thread. One other thread may call touch().picture().
 //
 // For SOFA 22.06 and later.  HAPBEAM_SOFA_HEADER is what is included, <sofa/component/haptics/ForceFeedback.h> unless defined before.
 #pragma once

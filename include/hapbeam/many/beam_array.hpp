@@ -4,9 +4,9 @@
 //   Touch touch(brush, 0.005);                         // one hand: many/touch_many.hpp
 //   const auto felt = touch.tick(hand);                // the sum of what all beams do to it
 //
-// Beams are of a few kinds, and each kind is one model at rest: a beam adds its place to it, and no model of its own.  A model is
-// needed where a beam is touched; the touch has as many as it may hold at once.
-// Nothing here changes after construction, which allocates and throws.  All else is noexcept and allocation-free.
+// Beams are of a few kinds. Each kind is one undeformed model; a beam adds only its place. A beam requires a model of
+// its own while it is touched, and the touch holds a fixed number of them.
+// Immutable after construction, which allocates and throws.  All else is noexcept and allocation-free.
 #pragma once
 
 #include <algorithm>
@@ -62,11 +62,11 @@ class BeamArray {
   using Scalar = typename Model::Scalar;
   using Frame = detail::BeamFrame<Scalar>;
 
-  /// One kind of beams, as all of them are at rest.
+  /// One kind of beams, untouched.
   struct Kind {
     Model model;
     BoundingVolumes<Scalar> volumes;
-    detail::Box<Scalar> box;  ///< [m] around the beam, and what round-off could explain
+    detail::Box<Scalar> box;  ///< [m] around the beam, widened by round-off
     int beams = 0;
 
     explicit Kind(const Model& given) : model(given), volumes((model.reset(), model.shape().segments())) {
@@ -80,7 +80,7 @@ class BeamArray {
   BeamArray(const Model& model, const std::vector<BeamPlace>& places, int most_touched = 64)
       : BeamArray(std::vector<Model>{model}, places, most_touched) {}
 
-  /// @param kinds  one or more; their shapes at rest are those of the beams
+  /// @param kinds  one or more; their present shapes are those of the untouched beams
   /// @throws std::invalid_argument naming field, value, unit and what is allowed
   BeamArray(const std::vector<Model>& kinds, const std::vector<BeamPlace>& places, int most_touched = 64)
       : most_touched_(most_touched),

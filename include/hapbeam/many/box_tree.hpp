@@ -1,8 +1,8 @@
-// A bounding-volume hierarchy over boxes that do not move, however many: which of them does a step of the avatar meet?
+// A bounding-volume hierarchy over fixed boxes: finds those that a step of the avatar meets.
 //
-// An implicit complete binary tree in one array, as in contact/bounding_volumes.hpp: node 1 is the root, 2i and 2i+1 are the
-// children of i.  The boxes are sorted by halves along the longer side of their centres' box, and a leaf holds four to eight that
-// follow each other.  So a tree of n boxes takes 8 to 16 numbers a leaf and no pointer.
+// An implicit complete binary tree in one array, as in contact/bounding_volumes.hpp: node 1 is the root, 2i and 2i+1
+// are the children of i. The boxes are halved along the longer side of the box around their centres. A leaf holds four
+// to eight successive boxes, so a tree takes 8 to 16 numbers a leaf and no pointers.
 // Allocates in its constructor only.  visit() is O(log n + what it finds), noexcept.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace hapbeam::detail {
 
-/// Of an avatar from one place to another, in a tick.
+/// Step of an avatar from one place to another, in a tick.
 template <typename Scalar>
 struct Step {
   Vector2<Scalar> from, to;  // [m]
@@ -45,8 +45,8 @@ class BoxTree {
 
   const Bounds& root() const noexcept { return nodes_[1]; }
 
-  /// Calls look(i) for the boxes of each leaf that a step meets, i counted in the tree's order, near leaves first, while it
-  /// answers with true.   Real-time: noexcept, no allocation.
+  /// Calls look(i) for the boxes of each leaf that a step meets, near leaves first, while look(i) returns true. i
+  /// counts in the tree's order.   Real-time: noexcept, no allocation.
   template <class Look>
   void visit(const Step<Scalar>& step, Look&& look) const noexcept {
     std::size_t stack[depth];

@@ -1,11 +1,13 @@
-// One avatar on an array of beams: Touch of each that it meets, and the sum of their forces.
+// One avatar (the round tool, or haptic interaction point) on an array of beams: a Touch for each beam that it meets,
+// and the sum of their forces.
 //
-// A beam that is met takes a model and a Touch from a pool and gives them back when it is let go and clear of the avatar: what
-// contact remembers ends with the touch.  The others are at rest; a hierarchy over them says which the avatar's last step has
-// come near, and only of these the contact is sought.  So the force is that of one Touch a beam, and a tick costs
-// O(log n + beams near by).
-// Where more are met than the pool holds, the deepest are taken.  One that was left out is not met before the avatar has left it.
-// Allocates and throws in its constructor only.
+// A beam that is met takes a model and a Touch from a pool. It returns them when it is released and clear of the
+// avatar: the memory of a contact ends with the touch. All other beams are undeformed. A hierarchy over them finds
+// those near the avatar's last step, and contact is sought with these alone. So the force is that of one Touch a beam,
+// and a tick costs O(log n + beams near by).
+// If more beams are met than the pool holds, the deepest are taken. A beam that was left out is ignored until the
+// avatar has left it.
+// Only the constructor allocates and throws.
 #pragma once
 
 #include <algorithm>
@@ -20,16 +22,16 @@
 
 namespace hapbeam {
 
-/// What one tick says: the sum of all forces, the worst status, and as contact and press those of the beam that pushes hardest,
-/// the contact in the array's axes.
+/// The result of a tick: the sum of all forces, the worst status, and contact and press of the beam that pushes
+/// hardest. The contact is in the array's axes.
 template <typename Scalar>
 struct ArrayTouchResult : TouchResult<Scalar> {
-  int beam = -1;  ///< that pushes hardest; -1: none
+  int beam = -1;  ///< the one that pushes hardest; -1: none
   bool complete =
-      true;  ///< false: more were met than were taken, or looked at; the status is out_of_range at least
+      true;  ///< false: more beams were met than taken or examined; the status is out_of_range or worse
 };
 
-/// One of the beams that an avatar holds.
+/// One of the beams in contact.
 template <typename Scalar>
 struct BeamTouch {
   int beam;
@@ -62,7 +64,7 @@ class Touch<BeamArray<Model>> {
     met_.reserve(static_cast<std::size_t>(most_looks()));
   }
 
-  /// Lets go of all beams and forgets where the hand was.   Real-time: noexcept, no allocation.
+  /// Releases all beams, and discards the place of the hand.   Real-time: noexcept, no allocation.
   void reset() noexcept {
     while (!held_.empty()) give_back(held_.size() - 1);
     touches_.clear();
@@ -70,8 +72,8 @@ class Touch<BeamArray<Model>> {
   }
 
   /// One tick.   @param position  [m] centre of the avatar, in the array's axes
-  /// Real-time: noexcept, no allocation, bounded: a tick of most_touched() beams, two of each that is met anew, contact sought on
-  /// two as many and eight, and a box compared for 64 as many and what the tree takes to find them.
+  /// Real-time: noexcept, no allocation. Work with n = most_touched(): at most n ticks of Touch (two for a beam newly
+  /// met), 2n + 8 searches for contact, 64 n comparisons of boxes, and the path through the tree to them.
   [[nodiscard]] Result tick(const Vector2<Scalar>& position) noexcept {
     Result result;
     touches_.clear();
@@ -105,13 +107,13 @@ class Touch<BeamArray<Model>> {
   /// The beams that were pressed in the last tick, in no order.  They stay until the next call.
   const std::vector<BeamTouch<Scalar>>& touches() const noexcept { return touches_; }
 
-  /// In its own axes: as it is pressed, or at rest.   @param beam  its index in the array
+  /// Shape of a beam in its own axes, pressed or untouched.   @param beam  its index in the array
   Centreline<Scalar> shape(int beam) const noexcept {
     const std::int32_t slot = slot_of_[static_cast<std::size_t>(array_.where(beam))];
     return slot == none ? array_.rest(beam) : slots_[static_cast<std::size_t>(slot)]->model.shape();
   }
 
-  /// The deepest contact of the beams as they lie now with the avatar, gone straight to a place from that of the last tick.
+  /// The deepest contact of the beams in their present shape, with the avatar moved straight from its last place to this one.
   /// @param position [m]   Real-time: noexcept, no allocation, bounded; no press.
   [[nodiscard]] Contact<Scalar> contact_at(const Vector2<Scalar>& position) noexcept {
     Contact<Scalar> deepest;
@@ -139,7 +141,7 @@ class Touch<BeamArray<Model>> {
     Slot(const Slot&) = delete;
     Slot& operator=(const Slot&) = delete;
   };
-  /// A beam at rest that the avatar's last step has met.
+  /// An untouched beam that the avatar's last step has met.
   struct Met {
     Contact<Scalar> contact;  // in its axes
     int beam;
@@ -187,7 +189,7 @@ class Touch<BeamArray<Model>> {
                         memory);
   }
 
-  /// A model and a touch for a beam, which has seen where the avatar was.
+  /// A model and a touch for a beam, with the avatar's place before.
   Slot& take(const Met& met) noexcept {
     std::vector<std::int32_t>& free = free_[static_cast<std::size_t>(array_.sorted(met.beam).kind)];
     const std::int32_t taken = free.back();

@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 #include <hapbeam/haptics/device/known_devices.hpp>
+#include <hapbeam/haptics/stability/coupling.hpp>
 
 using namespace hapbeam;
 using Catch::Matchers::ContainsSubstring;
@@ -34,6 +35,12 @@ TEST_CASE("each known device is one that a loop can be built for, and stands in 
     row += " | " + number(d.peak_force) + " | " + number(d.continuous_force) + " | " +
            number(d.max_stiffness) + " | " + number(1e6 * d.position_resolution) + " | ";
     CHECK_THAT(page.str(), ContainsSubstring(row));
+
+    const GimbalInfo& g = d.gimbal;
+    const std::string torque = g.peak_torque > 0 ? number(g.peak_torque) : g.reads ? "reads" : "none";
+    CHECK_THAT(page.str().substr(page.str().find(row)), ContainsSubstring("| " + torque + " |"));
+    CHECK((g.peak_torque == 0 || (g.reads && g.continuous_torque > 0 && g.max_stiffness > 0)));
+    CHECK_NOTHROW(VirtualCoupling::for_device(d));
   }
   CHECK_THROWS_WITH(known_device("omega"),
                     ContainsSubstring("device 'omega': must be one of Touch, Touch X, "));

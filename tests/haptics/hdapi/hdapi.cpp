@@ -22,12 +22,6 @@ void check_clean(HdWorld& world) {
   CHECK_FALSE(world.started());
 }
 
-HdapiOptions at_once() {
-  HdapiOptions options;
-  options.ramp_time = 1e-3;
-  return options;
-}
-
 }  // namespace
 
 TEST_CASE("every error code has a class, and one that nobody knows ends the loop", "[hdapi]") {

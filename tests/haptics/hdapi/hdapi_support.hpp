@@ -36,7 +36,14 @@ struct SteadyPush {
 /// Down to 20 mm below the floor, and there it stays; steady within a second.
 inline HandPath press_and_hold() { return HandPath({0, 0.01}).press(0.03, 0.3).rest(1000); }
 
-/// A damped hand on a floor, at rest.
+/// The whole force from the second tick on.
+inline HdapiOptions at_once() {
+  HdapiOptions options;
+  options.ramp_time = 1e-3;
+  return options;
+}
+
+/// A damped hand on a floor, settled.
 constexpr int ticks_to_rest = 1500;
 
 }  // namespace hapbeam::testing

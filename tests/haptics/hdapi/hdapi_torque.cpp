@@ -21,12 +21,6 @@ struct Turned {
 
 HandPath turning() { return HandPath({0, 0}).turn({0.3, -0.4, 2}, 0.3).rest(1000); }
 
-HdapiOptions at_once() {
-  HdapiOptions options;
-  options.ramp_time = 1e-3;
-  return options;
-}
-
 }  // namespace
 
 TEST_CASE("orientation is read by columns, and torque is sent in the vendor's unit", "[hdapi][torque]") {

@@ -2,14 +2,14 @@
 //
 //   m x'' = F + k (p - x) + c (p' - x') - b x' - friction
 //
-// m: apparent mass of arm and grip, b: the arm's viscous damping, k and c: spring and damper of the hand,
-// which pulls toward p(t), F: the device's force, held over the interval (zero-order hold).  Coulomb
-// friction f opposes x'; where x' = 0 it holds the arm against whatever does not exceed f.
+// m is the apparent mass of arm and grip, b the arm's viscous damping. k and c are spring and damper of the hand, which
+// pulls toward p(t). F is the device's force, held over the interval (zero-order hold). Coulomb friction f opposes x';
+// at x' = 0 it holds the arm against any force up to f.
 //
-// Nothing is integrated in small steps.  Between two changes of the sign of x' the equation is linear, and
-// with p a cubic its solution is a power series in time, summed to round-off; the instants at which the arm
-// stops or breaks away are roots of that series.  So the motion does not depend on how an interval is cut
-// into pieces, stiction is real, and friction never adds energy.  There are no end stops.
+// There is no time stepping. Between two changes of the sign of x' the equation is linear. With p a cubic its solution
+// is a power series in time, summed to round-off. The instants at which the arm stops or breaks away are roots of that
+// series. The motion therefore does not depend on how an interval is divided, stiction is exact, and friction never
+// adds energy. There are no end stops.
 // Real-time: no allocation, noexcept, wait-free, bounded by max_events and by duration / longest_piece().
 #pragma once
 

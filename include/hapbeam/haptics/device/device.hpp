@@ -1,12 +1,12 @@
 // The contract between a haptic device and the computation that gives it force.
 //
-// A device owns the servo loop: once a period, on its own thread, it reads where the hand is, asks the servo
-// for a force and sends that.  A servo is a callable object of the caller, handed over by reference, so that
-// nothing is copied or allocated and a C callback with a void* can carry it; it must outlive the loop.
+// A device owns the servo loop. Once a period, on its own thread, it reads the position of the hand, calls a servo for
+// the force and sends that force. A servo is a callable object, passed by reference: nothing is copied or allocated,
+// and a C callback with a void* can carry it. It must outlive the loop.
 //
 //   a servo S
 //   s(state)      Eigen::Vector3d   noexcept; the force on the hand [N], device axes; no allocation or waiting
-//                                   (called only in ticks in which the device knows where its arm is)
+//                                   (called only while the device is calibrated)
 //   s(oriented)   Wrench            optional, noexcept; of an OrientedState, force and torque: a device that reads the orientation of
 //                                   its stylus (DeviceInfo::gimbal) calls this instead where the servo has it
 //
@@ -19,11 +19,10 @@
 //   d.status()    DeviceStatus      noexcept, wait-free, from any thread: how it is, or what ended the loop
 //   d.counts()    DeviceCounts      noexcept, wait-free, from any thread, while running and after
 //
-// A device sends no force or torque that is not finite and none beyond its peak, whatever the servo says, and tells the
-// next tick so.  Where the device itself is in trouble it sends less than it is asked for, or nothing; the
-// servo is told (DeviceState::status), and told when to forget the contact (DeviceState::reset).  Axes: x
-// right, y up, z toward the user, as OpenHaptics' HDAPI has them; SI here, millimetres nowhere.
-// Real-time: no allocation, noexcept, O(1).
+// A device sends only finite forces and torques within its peak, whatever the servo returns. The next tick's state has
+// what was sent. A device in trouble sends less than requested, or nothing. DeviceState::status has the reason, and
+// DeviceState::reset tells the servo to discard the contact. Axes: x right, y up, z toward the user, as in OpenHaptics'
+// HDAPI. Units are SI.
 #pragma once
 
 #include <algorithm>
@@ -47,20 +46,20 @@ enum class ForceCut : std::uint8_t {
   ramped,      ///< scaled down, to zero perhaps, after a start or an error or with warm motors
 };
 
-/// How a device is.  The first five have a loop that runs or may be started; the last three have ended it, or
-/// kept it from starting, and stay until the next start().
+/// State of a device. The first five have a loop that runs or may be started. The last three have ended the loop, or
+/// prevented its start, and stay until the next start().
 enum class DeviceStatus : std::uint8_t {
   stopped,      ///< no loop, and nothing wrong
   running,      ///< the servo is called and its force sent
   warm,         ///< runs; motors near their limit: the force is scaled down to zero until they have cooled
-  force_error,  ///< runs; the device refused a force or a speed: zero was sent, the force is coming back
-  calibrating,  ///< runs; the device is finding out where its arm is: zero is sent, the servo is not asked
-  calibration_needed,  ///< the device does not know where its arm is, and a person has to show it
-  device_fault,        ///< the device or its driver reported what no loop can go on with
+  force_error,  ///< runs; the device rejected a force or a speed: zero was sent, and the force ramps in
+  calibrating,  ///< runs; the device is calibrating itself: zero is sent, the servo is not called
+  calibration_needed,  ///< not calibrated, and a person has to do it
+  device_fault,        ///< the device or its driver reported an error that ends the loop
   communication_lost,  ///< unplugged, switched off, or the line disturbed
 };
 
-/// True where the loop goes on.
+/// True while the loop runs.
 constexpr bool is_running(DeviceStatus status) noexcept {
   return status == DeviceStatus::running || status == DeviceStatus::warm ||
          status == DeviceStatus::force_error || status == DeviceStatus::calibrating;
@@ -81,63 +80,62 @@ constexpr const char* name(DeviceStatus status) noexcept {
   return "unknown";
 }
 
-/// What the servo learns at the beginning of a tick.
+/// Input of the servo at the beginning of a tick.
 struct DeviceState {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] as the encoders read it, in the device's axes
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s] as the device estimates it
   double time = 0;                                     ///< [s] since start
-  ForceCut cut = ForceCut::none;                       ///< what became of the force of the tick before
-  Eigen::Vector3d sent = Eigen::Vector3d::Zero();      ///< [N] that force, as it was sent
-  DeviceStatus status = DeviceStatus::running;         ///< running, warm or force_error
-  /// Begin anew, from a hand that touches nothing: the first tick since start or since the device has calibrated
-  /// itself, and each in which a force error is found.  A real device sends zero then and ramps the force in; a
-  /// simulated one sends what it is asked for.
+  ForceCut cut = ForceCut::none;                   ///< what the device did to the force of the tick before
+  Eigen::Vector3d sent = Eigen::Vector3d::Zero();  ///< [N] that force, as it was sent
+  DeviceStatus status = DeviceStatus::running;     ///< running, warm or force_error
+  /// Start without contact: in the first tick since the start or since a calibration, and in each tick in which a force
+  /// error is found. A real device then sends zero and ramps the force in. A simulated one sends what is requested.
   bool reset = false;
 };
 
-/// What the servo learns besides from a device that reads how its stylus is turned.
+/// The same of a device that reads the orientation of its stylus.
 struct OrientedState : DeviceState {
   /// The axes of the stylus, one a column, in the device's axes; z along its shaft, from the tip to the hand.  A rotation.
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d sent_torque = Eigen::Vector3d::Zero();  ///< [N·m] of the tick before, as it was sent
 };
 
-/// A force and a torque about where the device's position is, on the hand.
+/// A force on the hand and a torque about the device's position.
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m]
 };
 
-/// What a device can do that turns; by default nothing.
+/// Figures of a gimbal, the three rotations of a device; by default there is none.
 struct GimbalInfo {
-  bool reads = false;            ///< the orientation of the stylus
-  double peak_torque = 0;        ///< [N·m] magnitude, for a moment; 0: it renders no torque
-  double continuous_torque = 0;  ///< [N·m] for as long as one likes
-  double max_stiffness = 0;      ///< [N·m/rad] the hardest that the maker names; 0 where unknown
+  bool reads = false;            ///< reads the orientation of the stylus
+  double peak_torque = 0;        ///< [N·m] magnitude, short-term; 0: it renders no torque
+  double continuous_torque = 0;  ///< [N·m] without limit of time
+  double max_stiffness = 0;      ///< [N·m/rad] the largest that the maker states; 0 where unknown
   double resolution = 0;         ///< [rad]
   double friction = 0;           ///< [N·m] to turn the stylus by hand
   double damping = 0;            ///< [N·m·s/rad] viscous, of the gimbal itself; 0 where unknown
   double inertia = 0;            ///< [kg·m²] of gimbal and stylus; 0 where unknown
 };
 
-/// What a device can do.
+/// Figures of a device.
 struct DeviceInfo {
   std::string name;
   Eigen::Vector3d workspace;   ///< [m] width, height, depth, the origin in its middle
-  double peak_force;           ///< [N] for a moment
-  double continuous_force;     ///< [N] for as long as one likes
-  double max_stiffness;        ///< [N/m] the hardest wall that the maker names
+  double peak_force;           ///< [N] short-term
+  double continuous_force;     ///< [N] without limit of time
+  double max_stiffness;        ///< [N/m] the largest that the maker states for a wall
   double position_resolution;  ///< [m]
   double friction;             ///< [N] to drive the arm back by hand
   double period;               ///< [s] of the servo loop
   double damping;              ///< [N·s/m] viscous, of the arm itself; 0 where unknown
   double apparent_mass;        ///< [kg] of the arm at its tip; 0 where unknown
-  GimbalInfo gimbal = {};      ///< of a device that turns
+  GimbalInfo gimbal = {};      ///< of a device with rotations
 };
 
 namespace detail {
 
-/// A period of a loop: its nanoseconds are counted in 64 bits, and a damper is divided by it.
+/// Checks the period of a loop: nanoseconds are counted in 64 bits, and a damper is divided by it.
 [[gnu::cold]] inline double loop_period(const char* field, double seconds) {
   if (!(seconds >= 1e-6 && seconds <= 1e3)) reject(field, positive(field, seconds, "s"), "s", "1e-6 to 1e3");
   return seconds;
@@ -147,9 +145,9 @@ namespace detail {
 
 /// What happened since start.
 struct DeviceCounts {
-  std::uint64_t ticks = 0;            ///< the servo was called
+  std::uint64_t ticks = 0;            ///< calls of the servo
   std::uint64_t missed_ticks = 0;     ///< deadlines that passed by a whole period before a tick began
-  std::uint64_t force_cut_ticks = 0;  ///< the servo's force was not sent as it was
+  std::uint64_t force_cut_ticks = 0;  ///< in which the servo's force was not sent unchanged
 };
 
 namespace detail {
@@ -161,7 +159,7 @@ inline bool all_finite(const Eigen::Vector3d& v) noexcept {
 }  // namespace detail
 
 /// The force that a device may send: finite and no longer than its peak.
-/// @param force  in: what the servo wants, out: what may be sent [N]   @param peak [N]
+/// @param force  in: requested, out: permitted [N]   @param peak [N]
 /// Real-time: no allocation, noexcept, wait-free, O(1).
 [[nodiscard]] inline ForceCut limit_force(Eigen::Vector3d& force, double peak) noexcept {
   if (!detail::all_finite(force)) {
@@ -178,7 +176,7 @@ inline bool all_finite(const Eigen::Vector3d& v) noexcept {
   return ForceCut::peak;
 }
 
-/// The same for force and torque together.  Where one is not finite neither is sent; a torque that the device does not render is none.
+/// The same for force and torque together. If one is not finite, neither is sent. A device without torque gets none.
 /// @param peak_torque [N·m]; 0: it renders none
 [[nodiscard]] inline ForceCut limit_wrench(Wrench& wrench, double peak_force, double peak_torque) noexcept {
   if (!detail::all_finite(wrench.force) || !detail::all_finite(wrench.torque)) {

@@ -1,4 +1,4 @@
-// What a device's encoders make of the motion of its tip: positions on a grid, a velocity guessed from them.
+// Encoders of a simulated device: positions on a grid, and a velocity estimated from them.
 //
 // Position: the nearest point of a grid of the resolution, axis by axis.
 // Velocity: the difference of successive readings over the period, q', through a low pass of first order,
@@ -24,7 +24,7 @@ class Encoders {
   const Eigen::Vector3d& position() const noexcept { return position_; }  ///< [m]
   const Eigen::Vector3d& velocity() const noexcept { return velocity_; }  ///< [m/s]
 
-  /// Begins at a place, at rest.  @param tip [m]
+  /// Begins at a place, without motion.  @param tip [m]
   void reset(const Eigen::Vector3d& tip) noexcept {
     position_ = on_grid(tip);
     velocity_.setZero();

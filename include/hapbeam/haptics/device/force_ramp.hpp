@@ -1,9 +1,9 @@
-// How much of the force a device sends while something is not as it should be.
+// Gain of the force after a start, after a force error and with warm motors.
 //
-// Nothing in the tick of a start or of a force error, then a little more each tick, all of it a ramp later.
-// With warm motors it goes down at the same rate, to nothing, and back when they have cooled: down above 0.7
-// of what they bear, back below 0.5, the vendor's own figures (OpenHaptics programmer's guide).  A device
-// that reports warm motors without a temperature is given cooling_time.
+// The gain is zero in the tick of a start or of a force error, and then rises linearly to 1 within the ramp time. With
+// warm motors it falls at the same rate to zero, and rises again when they have cooled. Motors are warm above 0.7 of
+// their temperature limit and cool below 0.5, the vendor's figures (OpenHaptics programmer's guide). A device that
+// reports warm motors without a temperature waits for cooling_time.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 #pragma once
 
@@ -15,29 +15,29 @@ namespace hapbeam {
 
 class ForceRamp {
  public:
-  static constexpr double warm_above = 0.7;   ///< temperature over the one that motors bear
+  static constexpr double warm_above = 0.7;   ///< temperature over its limit
   static constexpr double cool_below = 0.5;   ///< the same
   static constexpr double cooling_time = 10;  ///< [s] after the last error of warm motors
 
-  /// @param ramp_time [s] from nothing to all, positive   @param period [s] of the loop, positive
+  /// @param ramp_time [s] from gain 0 to 1, positive   @param period [s] of the loop, positive
   ForceRamp(double ramp_time, double period) noexcept
       : step_((std::min)(1.0, period / ramp_time)),
         cooling_(static_cast<std::int64_t>(std::ceil(cooling_time / period))) {}
 
   double gain() const noexcept { return gain_; }            ///< of the force, 0 to 1
-  bool warm() const noexcept { return hot_ || wait_ > 0; }  ///< going down, or waiting there
-  bool recovering() const noexcept { return recovering_; }  ///< since a force error, until all is sent again
+  bool warm() const noexcept { return hot_ || wait_ > 0; }  ///< falling, or waiting at zero
+  bool recovering() const noexcept { return recovering_; }  ///< since a force error, until the gain is 1
 
-  /// As at the start of a loop: nothing yet; what the motors' state is remains to be told.
+  /// As at the start of a loop: gain 0, state of the motors unknown.
   void start() noexcept {
     recovering_ = hot_ = false, wait_ = 0;
     restart();
   }
-  /// Nothing in the next tick, and then a little more each tick; motors stay as warm as they are.
+  /// Gain 0 in the next tick, then rising.  The state of the motors stays.
   void restart() noexcept { gain_ = 0, fresh_ = true; }
 
   /// Once a tick, before its force is sent.
-  /// @param temperature  of the hottest motor over what it bears; one that is not a number counts as hot
+  /// @param temperature  of the hottest motor over its limit; NaN counts as hot
   /// @param warm_error, force_error  reported since the last tick
   void advance(double temperature, bool warm_error, bool force_error) noexcept {
     if (!(temperature <= warm_above)) hot_ = true;

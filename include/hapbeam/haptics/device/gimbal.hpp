@@ -4,9 +4,9 @@
 //
 //   R = Ry(a) Rx(b) Rz(c)        the columns are the axes of the stylus; at zero they are those of the device
 //
-// Each is an ArmAxis with radians for metres: inertia, viscous damping, Coulomb friction, a hand that pulls toward where it wants
-// to be, and encoders.  A torque τ acts on an axis e by e·τ, which its motor holds over the period.  Roll has any number of turns; at a
-// pitch of a quarter turn yaw and roll are one axis.  No gyroscopic moments.
+// Each axis is an ArmAxis with radians for metres: inertia, viscous damping, Coulomb friction, a hand that pulls toward
+// its target, and encoders. A torque τ acts on an axis e by e·τ, which the motor holds over the period. Roll has any
+// number of turns. At a pitch of a quarter turn yaw and roll coincide. Gyroscopic moments are neglected.
 // Real-time: no allocation, noexcept, wait-free, bounded as ArmAxis.
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace hapbeam {
 
-/// No figure of it is published where it was looked for: these are chosen, and the torque is low for such a device.
+/// No published figures were found: these are assumed, and the torque is low for such a device.
 struct GimbalOptions {
   bool present = false;             ///< false: a device of three axes
   double inertia = 1e-4;            ///< [kg·m²] positive; of a pen of 50 g and 150 mm
@@ -65,7 +65,7 @@ class Gimbal {
   static ArmAxis axis(const GimbalOptions& o) noexcept {
     return ArmAxis({o.inertia + o.grip_inertia, o.damping + o.hand_damping, o.hand_stiffness, o.friction});
   }
-  /// As a device says it.
+  /// As DeviceInfo has it.
   static GimbalInfo describe(const GimbalOptions& o) noexcept {
     GimbalInfo info;
     if (!o.present) return info;

@@ -1,9 +1,11 @@
-// Where a scripted hand wants to be: timed way-points in the plane, joined by the smoothest reach.
+// Target of a scripted hand: timed way-points in the plane, joined by minimum-jerk motion.
 //
-// Between two way-points the hand moves on the straight line with minimum jerk (Flash and Hogan, J. Neurosci.
-// 5(7), 1985), the shape of a human reach: it leaves and arrives at rest, so that position, velocity and
-// acceleration are continuous everywhere:  p(τ) = a + (b - a)(10τ³ - 15τ⁴ + 6τ⁵),  τ in [0, 1].
-// Building allocates and throws std::invalid_argument naming field, value and unit; asking does neither.
+// Between two way-points the hand moves on the straight line with minimum jerk (Flash and Hogan, J. Neurosci. 5(7),
+// 1985), the profile of a human reach. It starts and stops without velocity or acceleration, so position, velocity and
+// acceleration are continuous:
+//
+//   p(τ) = a + (b - a)(10τ³ - 15τ⁴ + 6τ⁵),  τ in [0, 1]
+// Building allocates and throws std::invalid_argument naming field, value and unit; evaluation does neither.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +18,7 @@
 
 namespace hapbeam {
 
-/// Where the hand wants to be, how fast it wants to go there, and what it pushes besides.
+/// Target position and velocity of the hand, and the force it adds.
 struct HandTarget {
   Eigen::Vector3d position;                        ///< [m] device axes
   Eigen::Vector3d velocity;                        ///< [m/s]
@@ -27,11 +29,11 @@ struct HandTarget {
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();  ///< [N·m] held until the next target
 };
 
-/// A script for the hand in the device's x-y plane (z = 0): it begins at rest at a place and is told what to
-/// do next, for example `HandPath({0, 0.02}).press(0.03, 1).slide(0.1, 2).release(0.03, 1)`.
+/// A script for the hand in the device's x-y plane (z = 0). It begins at a place and appends one motion after the
+/// other, for example `HandPath({0, 0.02}).press(0.03, 1).slide(0.1, 2).release(0.03, 1)`.
 class HandPath {
  public:
-  /// One way-point, passed at rest.
+  /// One way-point, passed without velocity.
   struct WayPoint {
     double time;                                     ///< [s] since the beginning
     Vector2<double> position;                        ///< [m] x to the right, y up
@@ -87,7 +89,7 @@ class HandPath {
   const std::vector<WayPoint>& points() const noexcept { return points_; }
   double duration() const noexcept { return points_.back().time; }  ///< [s]
 
-  /// Where the hand wants to be at a time; before the first way-point the first, after the last the last.
+  /// Target at a time; before the first way-point the first, after the last the last.
   /// @param time [s]
   /// Real-time: no allocation, noexcept, wait-free, O(log way-points).
   HandTarget operator()(double time) const noexcept {

@@ -1,15 +1,17 @@
-// What is published about devices that people have, so that nobody has to invent numbers.
+// Published figures of devices that people have, for those who cannot measure their own.
 //
 //   Servo<FemModel<>> servo(model, known_device("omega.3"));
 //
-// Sources: workspace, force, stiffness, resolution, friction and apparent mass are those of the makers' data sheets (SensAble and
+// Workspace, force, stiffness, resolution, friction and apparent mass are those of the makers' data sheets (SensAble and
 // 3D Systems: Phantom Omni, Desktop, Premium 1.5 and 3.0, Touch, Touch X; Force Dimension: omega.3, .6, .7, sigma.7; Novint:
-// Falcon), the Premium's with high force those of the thesis, Table 2.1.  Stiffness is the softest of the three axes, and no more
-// than what CHAI3D 3.3.0 allows for the device.  Where a sheet names one force only, half of it is taken to last.
+// Falcon).  Those of the Premium with high force are from the thesis, Table 2.1.  Stiffness is that of the softest axis, and no
+// more than CHAI3D 3.3.0 permits for the device.  Torque and its stiffness are those of CHAI3D 3.3.0's source; the Premium's are
+// the ones given there for the 1.5 6DOF.  If a source gives one maximum alone, the continuous value is half of it, except
+// that Force Dimension's forces are continuous.
 // The figures were not checked against the sheets: compare them with the one that came with the device before a force is sent.
-// Not found: friction of the parallel arms (taken for 0, no force relies on it), viscous damping (0: unknown, see
-// safe_coupling()), and any figure of the Inverse3 but that it is read and driven in SI: what stands here is low on purpose.
-// docs/devices.md has the table.  The rate is a kilohertz: set `period` where a loop runs at another.
+// Not found, and 0: friction of the parallel arms, viscous damping (see safe_coupling()), and resolution, friction, damping and
+// inertia of the gimbals.  Nothing is published about the Inverse3: its figures are low on purpose.
+// docs/devices.md has the table.  The rate is 1 kHz: set `period` for a loop at another rate.
 // Offline: allocates.
 #pragma once
 
@@ -25,21 +27,27 @@ inline std::vector<DeviceInfo> known_devices() {
   constexpr double period = 1e-3, unknown = 0;
   const auto device = [&](const char* name, const Eigen::Vector3d& millimetres, double peak,
                           double continuous, double stiffness, double resolution, double friction,
-                          double mass, double damping) {
+                          double mass, double damping, const GimbalInfo& gimbal = {}) {
     return DeviceInfo{name,       1e-3 * millimetres, peak,   continuous, stiffness,
-                      resolution, friction,           period, damping,    mass};
+                      resolution, friction,           period, damping,    mass,
+                      gimbal};
+  };
+  const GimbalInfo reads{true};
+  const auto turns = [](double torque, double hardest) {
+    return GimbalInfo{true, torque, torque / 2, hardest};  // [N·m], [N·m/rad]
   };
   return {
-      device("Touch", {160, 120, 70}, 3.3, 0.88, 400, 55e-6, 0.26, 0.045, unknown),
-      device("Touch X", {160, 120, 120}, 7.9, 1.75, 1000, 23e-6, 0.06, 0.045, unknown),
+      device("Touch", {160, 120, 70}, 3.3, 0.88, 400, 55e-6, 0.26, 0.045, unknown, reads),
+      device("Touch X", {160, 120, 120}, 7.9, 1.75, 1000, 23e-6, 0.06, 0.045, unknown, reads),
       device("Phantom Premium 1.5", {381, 267, 191}, 8.5, 1.4, 800, 30e-6, 0.04, 0.075, unknown),
-      device("Phantom Premium 1.5/6DOF High Force", {381, 267, 191}, 37.5, 6.2, 3500, 7e-6, 0.2, 0.21, 5),
+      device("Phantom Premium 1.5/6DOF High Force", {381, 267, 191}, 37.5, 6.2, 3500, 7e-6, 0.2, 0.21, 5,
+             turns(0.188, 0.3)),
       device("Phantom Premium 3.0", {838, 584, 406}, 22, 3, 1000, 20e-6, 0.2, 0.159, unknown),
       device("Falcon", {102, 102, 102}, 8.0, 4.0, 3000, 64e-6, unknown, unknown, unknown),
       device("omega.3", {160, 160, 110}, 12, 12, 5000, 10e-6, unknown, unknown, unknown),
-      device("omega.6", {160, 160, 110}, 12, 12, 5000, 10e-6, unknown, unknown, unknown),
-      device("omega.7", {160, 160, 110}, 12, 12, 5000, 10e-6, unknown, unknown, unknown),
-      device("sigma.7", {190, 190, 130}, 12, 12, 4000, 1.5e-6, unknown, unknown, unknown),
+      device("omega.6", {160, 160, 110}, 12, 12, 5000, 10e-6, unknown, unknown, unknown, reads),
+      device("omega.7", {160, 160, 110}, 12, 12, 5000, 10e-6, unknown, unknown, unknown, reads),
+      device("sigma.7", {190, 190, 130}, 12, 12, 4000, 1.5e-6, unknown, unknown, unknown, turns(0.2, 1.0)),
       device("Inverse3", {100, 100, 100}, 4, 2, 1000, 100e-6, unknown, unknown, unknown),
   };
 }

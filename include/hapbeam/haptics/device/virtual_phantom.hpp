@@ -1,13 +1,13 @@
-// A Phantom Premium 1.5/6DOF High Force and the hand that holds it, simulated: a device without a device.
+// A simulated Phantom Premium 1.5/6DOF High Force and the hand that holds it.
 //
-// The arm is a mass with viscous damping and Coulomb friction on each axis (arm_axis.hpp), read by encoders
-// (encoders.hpp), its force held over the period and limited to the peak; a hand of mass, spring and damper
-// pulls it along a path (hand_path.hpp).  Figures: thesis Table 2.1.  Three translations and, where it is asked for, a
-// gimbal (gimbal.hpp), which that torque turns; no end stops.
+// The arm is a mass with viscous damping and Coulomb friction on each axis (arm_axis.hpp). Encoders read it
+// (encoders.hpp). Its force is held over the period and limited to the peak. A hand of mass, spring and damper pulls
+// the arm along a path (hand_path.hpp). Figures: thesis Table 2.1. There are three translations and, optionally, a
+// gimbal (gimbal.hpp), which the torque turns. There are no end stops.
 //
-// It fulfils the device contract (device.hpp) with a thread of its own, in real time, or runs in lock step
-// with simulated time, as fast as the machine can and the same bits every time.
-// Construction and start() allocate and throw; nothing in a tick does, and no tick waits for another thread.
+// It fulfils the device contract (device.hpp) with a thread of its own, in real time. It also runs in lock step with
+// simulated time: as fast as the machine can, with the same bits every time.
+// Construction and start() allocate and throw. A tick does neither, and never waits for another thread.
 #pragma once
 
 #include <algorithm>
@@ -45,7 +45,7 @@ struct ArmOptions {
 
 /// The hand that holds the arm, a spring and a damper between path and grip; within the published fits.
 struct HandOptions {
-  double stiffness = 500;  ///< [N/m]; 0: the hand has let go of the path
+  double stiffness = 500;  ///< [N/m]; 0: the hand does not follow the path
   double damping = 1.3;    ///< [N·s/m]
   double grip_mass = 0.2;  ///< [kg] that moves with the arm
 };
@@ -56,13 +56,13 @@ struct VirtualPhantomOptions {
   GimbalOptions gimbal = {};
 };
 
-/// True position and velocity of the arm's tip, which no device would tell.
+/// True position and velocity of the arm's tip, which a real device cannot report.
 struct Tip {
   Eigen::Vector3d position;  ///< [m]
   Eigen::Vector3d velocity;  ///< [m/s]
 };
 
-/// @tparam Path  where the hand wants to be: HandTarget path(double time) noexcept, time in [s]
+/// @tparam Path  target of the hand: HandTarget path(double time) noexcept, time in [s]
 template <typename Path = HandPath>
 class VirtualPhantom {
   static_assert(std::is_nothrow_invocable_v<const Path&, double> &&
@@ -89,9 +89,9 @@ class VirtualPhantom {
             force_cut_ticks_.load(std::memory_order_relaxed)};
   }
 
-  /// Begins the path anew and calls the servo in real time, at absolute deadlines.  A tick that begins more
-  /// than one period after its deadline has missed as many ticks as whole periods have passed; meanwhile the
-  /// arm moves on under the last force.  start() and stop() belong to one thread.
+  /// Restarts the path and calls the servo in real time, at absolute deadlines. A tick that begins late by n whole
+  /// periods counts as n missed ticks; meanwhile the arm moves under the last force. start() and stop() belong to one
+  /// thread.
   /// @throws std::logic_error where it runs already, std::system_error where the system gives no thread
   template <typename Servo>
   void start(Servo& servo) {
@@ -123,14 +123,14 @@ class VirtualPhantom {
   void run(Servo& servo, double duration) noexcept {
     for (auto left = std::llround(duration / options_.arm.period); left > 0; --left) step(servo);
   }
-  /// Back to the beginning of the path, at rest there, all counts zero.  Only while it does not run.
+  /// Back to the beginning of the path, without motion, all counts zero.  Only while it does not run.
   void reset() noexcept;
-  /// Where the tip really is.  Only while it does not run, or from the servo.
+  /// True state of the tip.  Only while it does not run, or from the servo.
   Tip tip() const noexcept {
     return {{axes_[0].position(), axes_[1].position(), axes_[2].position()},
             {axes_[0].velocity(), axes_[1].velocity(), axes_[2].velocity()}};
   }
-  /// How the stylus really is turned.  As tip().
+  /// True orientation of the stylus.  As tip().
   const Gimbal& gimbal() const noexcept { return gimbal_; }
 
  private:

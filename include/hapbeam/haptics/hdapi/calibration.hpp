@@ -1,12 +1,12 @@
-// Whether a device of HDAPI knows where its arm is, and how it comes to know it.
+// Calibration of a device of HDAPI.
 //
 //   style            who calibrates, and when
-//   automatic        the device itself while its servo loop runs, from what it sees of the arm's way; again at any time
+//   automatic        the device itself while its servo loop runs, from the motion of the arm; again at any time
 //   inkwell          the same, once the stylus stands in the inkwell
-//   encoder reset    a person puts the arm into its reset position; then, before the loop, where it stands is taken for that
+//   encoder reset    a person puts the arm into its reset position before the loop starts
 //
-// Of several styles the first in this list is the device's.  In the loop the status is asked within a frame and, where the
-// device says that it is ready for it, updated outside of one: elsewhere the first two styles never are.
+// Of several styles the first in this list is used. In the loop the status is read within a frame. When the device is
+// ready, the calibration is updated outside of a frame: elsewhere the first two styles never calibrate.
 // Source: OpenHaptics Toolkit, programmer's guide (calibration) and the order of the calls in its example of that name.
 // In a tick: no allocation, noexcept, O(1).
 #pragma once
@@ -20,7 +20,7 @@ namespace hapbeam::detail {
 template <typename Api>
 class HdCalibration {
  public:
-  static constexpr double interval = 0.1;  ///< [s] from one question to the next
+  static constexpr double interval = 0.1;  ///< [s] between two readings of the status
 
   /// @param styles  bits of the styles that the device has   @param rate [Hz] of the loop
   HdCalibration(unsigned styles, unsigned rate) noexcept
@@ -29,23 +29,23 @@ class HdCalibration {
   /// The device calibrates itself in the loop; else a person does, before it.
   bool automatic() const noexcept { return style_ != 0 && style_ != encoder_reset; }
 
-  /// Before a loop: the first tick asks.
+  /// Before a loop: the first tick reads the status.
   void start() noexcept { wait_ = 0; }
 
-  /// Once a tick, within a frame of the device.   @return whether it knew where its arm is when it was last asked
+  /// Once a tick, within a frame of the device.   @return whether it was calibrated at the last reading
   bool ask() noexcept {
     fresh_ = wait_ == 0;
     if (fresh_) answer_ = Api::check_calibration();
     wait_ = fresh_ ? ticks_ - 1 : wait_ - 1;
     return answer_ == Api::calibration_ok;
   }
-  /// After that frame: the device takes what it has seen for its calibration, where it has seen enough.
+  /// After that frame: updates the calibration when the device is ready for it.
   void update() noexcept {
     if (fresh_ && automatic() && answer_ == Api::calibration_needs_update) Api::update_calibration(style_);
   }
 
-  /// Not in the loop, where a person calibrates: whether the device knows, after taking where the arm stands for its reset
-  /// position where that is so.  The device is current.
+  /// Outside of the loop, for a device that a person calibrates: takes the arm's place for its reset position if the
+  /// device asks for that. The device is current.   @return whether it is calibrated
   bool check(bool at_reset_position) const noexcept {
     if (at_reset_position && style_ == encoder_reset) Api::update_calibration(style_);
     return Api::check_calibration() == Api::calibration_ok;

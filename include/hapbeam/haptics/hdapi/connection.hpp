@@ -1,8 +1,8 @@
-// One device of HDAPI: connected, asked what it is, calibrated, read, let go.
+// One device of HDAPI: connection, figures, calibration, reading, disconnection.
 //
-// mm become m, N/mm N/m and mN·m N·m here and nowhere else; the origin becomes the middle of the workspace.
-// Forces are in N on both sides, axes are the same.  The stylus' axes are the first three columns of the vendor's transform,
-// made a rotation; its z points from the tip to the hand.
+// mm become m, N/mm N/m and mN·m N·m here and nowhere else. The origin becomes the middle of the workspace. Forces are
+// in N on both sides, and the axes are the same. The stylus' axes are the first three columns of the vendor's
+// transform, made a rotation; its z points from the tip to the hand.
 // Offline but for read(): throws and allocates.  A message names the device, what was asked of it and the
 // vendor's error.
 #pragma once
@@ -24,12 +24,12 @@ namespace hapbeam {
 /// Which device, and how it is to be used.
 struct HdapiOptions {
   std::string device;    ///< its name in the vendor's setup program; empty: the default device
-  unsigned rate = 1000;  ///< [Hz] of the servo loop, one that the device knows; the same for all devices
+  unsigned rate = 1000;  ///< [Hz] of the servo loop, one that the device supports; the same for all devices
   double force_limit =
       std::numeric_limits<double>::infinity();  ///< [N] positive; the device's own peak applies too
-  double ramp_time = 0.5;  ///< [s] from no force to all of it, after a start and after an error; positive
+  double ramp_time = 0.5;  ///< [s] from gain 0 to 1, after a start and after an error; positive
 
-  // What HDAPI does not tell; 0 where unknown.
+  // Not available from HDAPI; 0 where unknown.
   double position_resolution = 0;  ///< [m]
   double friction = 0;             ///< [N] to drive the arm back by hand
   double damping = 0;              ///< [N·s/m] viscous, of the arm
@@ -44,7 +44,7 @@ struct HdapiOptions {
   double gimbal_inertia = 0;     ///< [kg·m²] of gimbal and stylus
 };
 
-/// A device that cannot be used; why() is what its status() says.
+/// A device that cannot be used; why() is the reason, as in its status().
 class DeviceError : public std::runtime_error {
  public:
   DeviceError(DeviceStatus why, const std::string& text) : std::runtime_error(text), why_(why) {}
@@ -85,7 +85,7 @@ class HdConnection {
   }  ///< [mm] of the workspace, vendor's axes
   bool connected() const noexcept { return connected_; }
 
-  /// Initialises the device and asks what it is.  With the scheduler's mutex.
+  /// Initialises the device and reads its figures.  With the scheduler's mutex.
   /// @throws std::logic_error while any loop of this Api runs, DeviceError
   void connect() {
     if (Scheduler::runs())
@@ -139,11 +139,11 @@ class HdConnection {
                       title() + what + ": " + (said ? said : "no reason is given") + code);
   }
 
-  /// What the current device reads, in SI.
+  /// Readings of the current device, in SI.
   struct Reading {
     Eigen::Vector3d position;  ///< [m]
     Eigen::Vector3d velocity;  ///< [m/s]
-    double temperature;        ///< of the hottest motor over what it bears; 0: not measured
+    double temperature;        ///< of the hottest motor over its limit; 0: not measured
     bool finite() const noexcept { return position.allFinite() && velocity.allFinite(); }
   };
   /// In a frame; not finite where the vendor's functions give nothing.
@@ -159,7 +159,7 @@ class HdConnection {
     return {(position - middle_) * 1e-3, velocity * 1e-3, hottest};
   }
 
-  /// How the stylus is turned, as read() says where it is: in a frame.
+  /// Orientation of the stylus.  In a frame, as read().
   /// @param orientation  out   @return false where the vendor's functions give no rotation
   bool read(Eigen::Matrix3d& orientation) const noexcept {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -171,7 +171,7 @@ class HdConnection {
     return make_rotation(orientation);
   }
 
-  /// Whether the device renders torque: it has to be sent then, zero included.
+  /// Whether the device renders torque; if so it must be sent in each tick, zero included.
   bool has_torque() const noexcept { return has_torque_; }
   /// @param torque [N·m]   In a frame.
   static void send_torque(const Eigen::Vector3d& torque) noexcept {
@@ -187,7 +187,7 @@ class HdConnection {
     if (!(std::isfinite(value) && value >= 0)) reject(field, value, unit, "finite and not negative");
   }
 
-  /// What is a rotation but for the last digits of the vendor's becomes one.   @return false where it is none
+  /// Makes a matrix a rotation that is one but for its last digits.   @return false where it is none
   static bool make_rotation(Eigen::Matrix3d& R) noexcept {
     constexpr double most = 1e-2;
     const double skew = (R.transpose() * R - Eigen::Matrix3d::Identity()).norm();
@@ -240,7 +240,7 @@ class HdConnection {
     has_temperature_ = Scheduler::drain().worst == HdErrorClass::none;
   }
 
-  /// A device that does not say how many axes it reads and drives has three.
+  /// A device without a stated number of axes has three.
   GimbalInfo describe_gimbal() {
     const auto ask = [](unsigned name) {
       int axes = 0;
@@ -261,7 +261,7 @@ class HdConnection {
     Api::get_doublev(Api::nominal_max_torque_stiffness, &stiffness);
     const bool hardest = Scheduler::drain().worst == HdErrorClass::none;
     has_torque_ = true;
-    // Without a limit of the device's own none is sent.
+    // Without a stated limit no torque is sent.
     if (!(limits && std::isfinite(peak) && peak > 0 && continuous > 0)) return gimbal;
     gimbal.peak_torque = (std::min)(peak * 1e-3, options_.torque_limit);
     gimbal.continuous_torque = (std::min)(continuous * 1e-3, gimbal.peak_torque);

@@ -1,8 +1,8 @@
 // What the adapter needs from OpenHaptics' HDAPI: a struct `Api` of static functions and constants.
 //
-// The real one is haptics/hdapi/openhaptics.hpp; tests have an emulated one.  Functions are named as the vendor's
-// without "hd", constants without "HD_", and all have the vendor's types, which on every platform are those
-// of the table in is_hd_api below.
+// The real one is haptics/hdapi/openhaptics.hpp; tests have an emulated one. Functions have the vendor's names without
+// "hd", constants without "HD_". All have the vendor's types, which on every platform are those of the table in
+// is_hd_api below.
 //
 //   Api::ErrorInfo               a struct with: unsigned errorCode, int internalErrorCode, unsigned hHD
 //   Api::Callback                pointer to: unsigned f(void*), in the vendor's calling convention
@@ -83,17 +83,17 @@ struct HdApiConstants<
 template <typename Api>
 inline constexpr bool is_hd_api = detail::HdApiFunctions<Api>::value&& detail::HdApiConstants<Api>::value;
 
-/// What an error of the device means for the loop, in the order of what outweighs what.
+/// Consequence of a device's error for the loop, in ascending order of severity.
 enum class HdErrorClass : std::uint8_t {
   none,           ///< no error
-  scheduler,      ///< a callback was not taken: the affair of who scheduled it, not of a loop that runs
+  scheduler,      ///< a callback was not scheduled: reported to its caller, a running loop is not affected
   warm,           ///< motors near their limit: scale the force down
-  force,          ///< a force or a speed was refused: begin anew and ramp the force in
+  force,          ///< a force or a speed was rejected: reset, and ramp the force in
   fault,          ///< end the loop: the device's fault, the program's, or unknown
   communication,  ///< end the loop: the line is lost
 };
 
-/// Every code has a class; one that is not known ends the loop.
+/// Every code has a class; an unknown code ends the loop.
 /// Real-time: no allocation, noexcept, wait-free, O(1).
 template <typename Api>
 constexpr HdErrorClass classify(unsigned code) noexcept {

@@ -3,24 +3,24 @@
 //   Hdapi<OpenHaptics> device;          // connects; docs/haptics.md has a complete program
 //   device.start(servo);                // or throws: a person has to calibrate it, no communication …
 //
-// A tick is one frame: the device is read, the shared stack of errors emptied, the servo asked, its force
-// limited, ramped and sent, zero included, because a force that nobody replaces persists.  Where the device reads how its stylus
-// is turned, and the servo takes that, it is read as well; torque goes to devices that render it, and to no other.
+// A tick is one frame. It reads the device, empties the shared stack of errors, calls the servo, and limits, ramps and
+// sends its force. Zero is sent, too, because the device keeps a force until it is replaced. The orientation is read if
+// device and servo have one. Torque is sent only to devices that render it.
 //
 //   found in a tick                          what follows
-//   a force or speed was refused             zero is sent, DeviceState::reset, the force ramps in
+//   a force or speed was rejected            zero is sent, DeviceState::reset, the force ramps in
 //   warm motors, or a temperature above 0.7  the force ramps down to zero, and in again below 0.5
-//   calibration missing or lost              the servo is not asked, zero is sent until the device has calibrated
+//   calibration missing or lost              the servo is not called, zero is sent until the device has calibrated
 //                                            itself, then reset and ramp; one that a person calibrates: the loop ends
-//   communication lost; any other error, a   the servo is not asked, zero is sent, forces are switched off,
-//   position that is no number, a transform  the loop ends and status() says why; start() connects anew
+//   communication lost; any other error, a   the servo is not called, zero is sent, forces are switched off,
+//   position that is no number, a transform  the loop ends, status() has the reason; start() reconnects
 //   that is no rotation, a frame that is
 //   not this device's
 //
-// Several devices share one scheduler (hdapi_scheduler.hpp): one is constructed, or started again after its loop
-// was lost, while no other runs; a healthy one starts and stops whenever it likes.  Units and origin are the
-// contract's (hdapi_connection.hpp).  Construction, calibrate() and start() allocate and throw; nothing in a tick
-// does, and no tick waits for a thread.   Source: OpenHaptics Toolkit, programmer's guide.
+// Several devices share one scheduler (scheduler.hpp). A device is constructed, or restarted after its loop was lost,
+// while no other runs. A healthy device starts and stops at any time. Units and origin are those of connection.hpp.
+// Construction, calibrate() and start() allocate and throw. A tick does neither, and never waits for a thread.
+// Source: OpenHaptics Toolkit, programmer's guide.
 #pragma once
 
 #include <atomic>
@@ -36,7 +36,7 @@
 
 namespace hapbeam {
 
-/// @tparam Api    the C functions and constants (hdapi_contract.hpp): OpenHaptics, or an emulation
+/// @tparam Api    the C functions and constants (contract.hpp): OpenHaptics, or an emulation
 /// @tparam Clock  of time and missed ticks: steady, now() noexcept
 template <typename Api, typename Clock = std::chrono::steady_clock>
 class Hdapi {
@@ -72,8 +72,8 @@ class Hdapi {
             force_cut_ticks_.load(std::memory_order_relaxed)};
   }
 
-  /// The arm stands in its reset position: takes that for the place that the maker means.  Nothing where the device
-  /// calibrates itself while it runs, with an inkwell or without.
+  /// The arm stands in its reset position: calibrates with it. Without effect if the device calibrates itself while it
+  /// runs.
   /// @throws std::logic_error while it runs, DeviceError where the device is not calibrated even so
   void calibrate() {
     const Lock lock(Scheduler::mutex);
@@ -81,9 +81,9 @@ class Hdapi {
     prepare([this] { device_.calibrate(true); });
   }
 
-  /// Checks a calibration that a person makes, schedules the tick, switches forces on, starts the scheduler where none
-  /// runs.  The force ramps in; a device that calibrates itself is `calibrating` first, for as long as that takes.
-  /// After a fault: connects anew.  Blocks.  start() and stop() belong to one thread.
+  /// Checks a calibration made by a person, schedules the tick, enables forces, and starts the scheduler if none runs.
+  /// The force ramps in. A device that calibrates itself is `calibrating` first. After a fault it reconnects. Blocks.
+  /// start() and stop() belong to one thread.
   /// @throws std::logic_error where it runs already or must connect while another runs, std::invalid_argument
   ///         where another runs at another rate, DeviceError with the status that status() then has
   template <typename Servo>
@@ -113,7 +113,7 @@ class Hdapi {
   }
 
  private:
-  /// Does what may throw a DeviceError, with a connected device; what is thrown becomes the status.
+  /// Calls a function that may throw a DeviceError, with a connected device; the error becomes the status.
   template <typename Act>
   void prepare(const Act& act) {
     try {
@@ -163,7 +163,7 @@ class Hdapi {
   }
   bool has_schedule() const noexcept { return static_cast<unsigned>(schedule_) != Api::invalid_handle; }
 
-  /// Zero is sent, forces are switched off and the tick is called no more; a device that was lost is let go.
+  /// Sends zero, disables forces and ends the ticks; a lost device is disconnected.
   void end() noexcept {
     stopping_.store(true, relaxed);
     // What is called synchronously returns after this tick or the next: the loop has then ended itself.
@@ -183,7 +183,7 @@ class Hdapi {
     return static_cast<Hdapi*>(self)->tick() ? Api::callback_continue : Api::callback_done;
   }
 
-  /// @return whether the loop goes on
+  /// @return whether the loop continues
   bool tick() noexcept {
     if (ended_.load(relaxed)) return false;
     const unsigned handle = device_.client.handle;

@@ -1,10 +1,10 @@
-// OpenHaptics' HDAPI as an Api of Hdapi (hdapi_contract.hpp): the only header that includes the vendor's.
+// OpenHaptics' HDAPI as an Api of Hdapi (contract.hpp): the only header that includes the vendor's.
 //
-// It needs the OpenHaptics developer kit, 3.0 or later; with CMake link hapbeam::openhaptics.  Each function
-// hands on to the vendor's of the same name and does nothing else.
+// It requires the OpenHaptics developer kit, 3.0 or later; with CMake link hapbeam::openhaptics. Each function calls
+// the vendor's of the same name and does nothing else.
 #pragma once
 
-// The vendor's header knows Linux by a macro that g++ and clang define in their GNU dialects alone.
+// The vendor's header detects Linux by a macro that g++ and clang define in their GNU dialects alone.
 #if defined(__linux__) && !defined(linux)
 #define linux 1
 #define HAPBEAM_DEFINED_LINUX
@@ -17,7 +17,7 @@
 
 #include <hapbeam/haptics/hdapi/hdapi.hpp>
 
-// HDCALLBACK asks for a calling convention that x86-64 does not have, which g++ and clang remark.
+// HDCALLBACK names a calling convention that x86-64 does not have; g++ and clang warn of it.
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wattributes"

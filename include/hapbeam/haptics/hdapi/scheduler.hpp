@@ -1,9 +1,8 @@
 // What all devices of one Api share: the scheduler, its one servo thread, and the one stack of errors.
 //
-// Counted: the first loop starts the scheduler, the last one stops it.  While it runs, a call of a device
-// belongs on the servo thread, and the list of loops is changed there alone, so that no tick waits for a
-// lock. An error names its device; whoever finds it notes it with that device's loop, which sees it in its
-// next tick.
+// Loops are counted: the first one starts the scheduler, the last one stops it. While it runs, calls of a device are
+// made on the servo thread. The list of loops changes there alone, so no tick waits for a lock. An error names its
+// device. The loop that finds it notes it with the loop of that device, which handles it in its next tick.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +15,7 @@ namespace hapbeam::detail {
 /// What the stack of errors held for one device.
 struct HdErrors {
   HdErrorClass worst = HdErrorClass::none;
-  bool warm = false;  ///< also where something worse came with it
+  bool warm = false;  ///< also with a more severe error
   unsigned code = 0;  ///< of the worst, the oldest where there are several
 
   void note(HdErrorClass kind, unsigned error) noexcept {
@@ -39,7 +38,7 @@ class HdScheduler {
   /// More errors than this wait for the next tick.
   static constexpr int most_errors = 32;
 
-  /// Held from the beginning to the end of what changes loops, never in a tick.
+  /// Held while loops change, never in a tick.
   static inline std::mutex mutex;
 
   /// The scheduler runs.  With the mutex.
@@ -100,7 +99,7 @@ class HdScheduler {
     for (; retired_ > 0; --retired_) Api::disable_device(retirees_[retired_ - 1]);
     drain();
   }
-  /// Lets go of a device: now, or when the scheduler stops, because it may take long.  With the mutex.
+  /// Disables a device: now, or when the scheduler stops, because it may take long.  With the mutex.
   static void disable(unsigned handle) noexcept {
     if (runs() && retired_ < most_retirees) {
       retirees_[retired_++] = handle;

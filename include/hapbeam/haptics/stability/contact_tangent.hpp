@@ -1,18 +1,18 @@
-// What the beam will answer a little deeper: the last good force, continued along its tangent.
+// Prediction of the force a little deeper: the last valid force, continued along its tangent.
 //
 //   f(p) = f0 - k n·(p - p0)      never below zero: a beam does not pull
 //
-// p0, f0 n: place and force of the last good response, n the normal of the contact.  The stiffness k along n is
-// nowhere asked of the model; it follows from what the beam has answered.  Contact without friction is
-// conservative, so the work done on the beam since it was touched is its energy U, wherever along it the hand has slid
-// meanwhile, and whatever dead loads had bent it before.  For a force law f ~ y^q the tangent is
+// p0 and f0 n are place and force of the last valid response, n is the normal of the contact. The stiffness k
+// along n is not taken from the model: it follows from the responses. Contact without friction is conservative, so the work
+// done on the beam since it was touched is its energy U. That holds wherever the hand has slid meanwhile, and with any
+// dead loads. For a force law f ~ y^q the tangent is
 //
 //   df/dy = 2q/(q + 1) · f²/2U      1 × f²/2U where the beam is linear, 1.5 × where it is cubic
 //
 // and k = 1.25 f²/2U is within a fifth of both: Newton's method with this slope divides an error by five each tick.
-// Tangents from differences of two responses have noise where the hand rests and are wrong where it
-// slides; f/depth is wrong by the change of stiffness along the beam, a factor of thousands near a support.
-// Where a response and its prediction disagree by more than 40 %, the response is believed and energy starts anew from it.
+// Other estimates are worse. A difference of two responses is noise while the hand stands, and has a large error where
+// it slides. f/depth ignores the change of stiffness along the beam, a factor of thousands near a support.
+// If a response differs from its prediction by more than 40 %, the response is taken and the energy restarts from it.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 #pragma once
 

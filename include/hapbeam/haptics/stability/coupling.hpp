@@ -1,35 +1,35 @@
-// What connects the hand to the beam: nothing, or a spring and a damper that the device can render.
+// The connection of hand and beam: direct, or a virtual coupling, a spring and a damper that the device can render.
 //
 //   a coupling C
-//   c.tick(touch, hand, dt)   CoupledForce   noexcept, no allocation; one touch.tick(), whose result it hands on; dt [s] since the
+//   c.tick(touch, hand, dt)   CoupledForce   noexcept, no allocation; calls touch.tick() once and returns its result; dt [s] since the
 //                                            tick before, positive
 //   c.in_scene(scale)     C              noexcept; the same between positions in metres of a scene, `scale` of them to
 //                                        one of the device's
 //   C::for_device(info, delay_ticks)   C   its default; may throw std::invalid_argument
-//   c.reset()             void           noexcept; the hand touches nothing
+//   c.reset()             void           noexcept; no contact
 //
-// Touch is Touch<Model>, or what has its tick(position) and contact_at(position).
+// Touch is Touch<Model>, or a class with its tick(position) and contact_at(position).
 //
-// VirtualCoupling: a steel beam is stiffer than a sampled loop can render.  So it is not the hand h that presses the
-// beam but a point p without mass, to which the hand is tied by a spring K and a damper B.  Hand and beam share
-// the displacement, and the force passes through both:
+// VirtualCoupling: a steel beam is stiffer than a sampled loop can render. So the hand h does not press the beam
+// itself. A massless point p presses it, the haptic interaction point (here: avatar), and a spring K and a damper B tie
+// h to p. Hand and beam share the displacement, and the force passes through both:
 //
 //   K g + B g' = f(p),   p = h + n g,   g >= 0        n: normal of the contact, f: the beam's force along it
 //
-// A beam that is touched by the shaft of a stylus, at ρ from the hand, turns the hand too.  Where the device renders the torque a spring
-// K_r and a damper B_r about the hand are in series with those: 1/K becomes 1/K + ρ²/K_r, and 1/B the same.  What all of it takes of the
-// damping of arm and gimbal is no more than each takes of its own.
+// A beam that is touched by the shaft of a stylus, at a lever ρ, turns the hand, too. If the device renders torque, a
+// spring K_r and a damper B_r about the hand are in series with K and B: 1/K becomes 1/K + ρ²/K_r, and 1/B likewise.
+// Together they take no more of the damping of arm and gimbal than each takes of its own.
 //
-// Steady, that is the series of coupling and beam, exactly.  It is solved implicitly (backward Euler in g), with f
-// continued along its tangent: once to place p, from where the beam is pressed, and once more with what the beam
-// has answered there, for the force.  So p does not oscillate by itself: the stiffer the beam, the less p moves.
-// Off the beam p comes to h at once or within B/K, without a force: free motion is free.  Across n p goes with the hand.
+// In steady state this is exactly the series of coupling and beam. It is solved implicitly (backward Euler in g), with
+// f continued along its tangent: once before the press, for the place of p, and once after it, for the force. Therefore
+// p does not oscillate by itself: the stiffer the beam, the less p moves. Off the beam p returns to h at once or within
+// B/K, without a force, so free motion is free. Across n, p moves with the hand.
 //
-// Where there is friction the avatar's skin is a spring and a damper of the same figures along the surface, within the model's own
-// equilibrium: what sticks is felt through the coupling in every direction.
+// With friction the surface of the avatar has a spring and a damper of the same figures along the beam, within the
+// model's own equilibrium. Sticking is then rendered through the coupling in every direction.
 //
-// Where the model runs out of its budget the last good force goes on along its tangent (last_response.hpp); with any
-// other failure the force is zero.  Either way the status is touch.status.
+// If the model exhausts its budget, the last valid force is continued along its tangent (last_response.hpp). With any
+// other failure the force is zero. In both cases the status is touch.status.
 // Real-time: no allocation, noexcept, wait-free; as touch.tick() and O(1).
 // Source: Colgate, Stanley and Brown, "Issues in the haptic display of tool use", IROS 1995; the massless
 // point is Zilles and Salisbury's god-object, IROS 1995.
@@ -48,20 +48,20 @@
 
 namespace hapbeam {
 
-/// What a coupling makes of a tick.
+/// The result of a tick.
 /// @tparam D  of the space in which the beam bends: 2 | 3
 template <typename Scalar, int D = 2>
 struct CoupledForce {
   VectorOf<double, D> force = VectorOf<double, D>::Zero();   ///< [N] on the hand; always finite
   VectorOf<double, D> avatar = VectorOf<double, D>::Zero();  ///< [m] from where the beam was pressed
-  bool continued = false;        ///< by the tangent: the beam gave no answer, or was missed
+  bool continued = false;        ///< along the tangent: the model had no answer, or the beam was missed
   double energy = 0;             ///< [J] that beam and coupling would give back, in metres of the scene
-  TouchResult<Scalar, D> touch;  ///< what the beam said
+  TouchResult<Scalar, D> touch;  ///< the response of the beam
 };
 
 namespace detail {
 
-/// Of the space in which a touch's beam bends; 2 for one that does not say.
+/// Dimension of the space in which the beam of a touch bends: 2 unless stated.
 template <typename Touch, typename = void>
 inline constexpr int dimension_of_touch = 2;
 template <typename Touch>
@@ -79,7 +79,7 @@ using HandOf = VectorOf<double, dimension_of_touch<Touch>>;
 template <typename Touch>
 using CoupledForceOf = CoupledForce<typename Touch::Scalar, dimension_of_touch<Touch>>;
 
-/// Whether a touch turns the hand, and says by which lever ρ [m].
+/// Whether a touch turns the hand, by a lever ρ [m].
 template <typename Touch, typename = void>
 struct TurnsHand : std::false_type {};
 template <typename Touch>
@@ -117,7 +117,7 @@ struct IsCoupling<
 template <typename C>
 inline constexpr bool is_coupling = detail::IsCoupling<C>::value;
 
-/// The hand presses the beam.  What the device cannot render it will not: near a support a steel beam buzzes.
+/// The hand presses the beam itself.  A beam that is stiffer than the device can render is unstable: steel buzzes near a support.
 class Direct {
  public:
   static Direct for_device(const DeviceInfo&, int) noexcept { return {}; }
@@ -134,7 +134,7 @@ class Direct {
     result.avatar = hand;
     result.touch = touch.tick(hand.template cast<typename Touch::Scalar>());
     last_.learn(result.touch, detail::in_scene(hand));
-    // The hand itself is where the beam was sought: an answer that it is not touched is one.
+    // The contact was sought at the hand itself: no contact is a valid answer.
     if (is_answer(result.touch.status) && !result.touch.pressing) last_.forget();
     result.continued = last_.continued();
     if (result.continued)
@@ -168,7 +168,7 @@ class VirtualCoupling {
       detail::reject("turning coupling damping", turning.damping, "N·m·s/rad", "finite and not negative");
     turning_ = turning;
   }
-  /// What the device can render, with the margin of safe_coupling().   @throws as that
+  /// The largest figures that the device can render, with the margin of safe_coupling().   @throws as that
   static VirtualCoupling for_device(const DeviceInfo& device, int delay_ticks = 0) {
     const CouplingFigures figures = safe_coupling(device, delay_ticks);
     if (!(device.gimbal.peak_torque > 0)) return VirtualCoupling(figures);

@@ -1,7 +1,7 @@
 // How stiff and how damped a coupling may be in the hands of a device.
 //
-// A spring K with a damper B, sampled at T, its force held over the period and late by n more periods, takes
-// as much damping from the arm as it gives back late:
+// A spring K with a damper B is sampled at T. Its force is held over the period and late by n more periods. Held and
+// late forces return energy, and the arm's damping must absorb it:
 //
 //   b > K T (1/2 + n) + |B|        b: viscous damping of the arm      passive, whatever the hand     (1)
 //   K <= 2 f / Δ                   f: the arm's friction, Δ: resolution of its encoders              (2)
@@ -34,14 +34,15 @@ inline double passive_stiffness(double damping, double period, int delay_ticks) 
   return damping / (period * (0.5 + delay_ticks));
 }
 
-/// [N·s/m]  Taken for an arm of which nothing is known.  A hand on a stylus has 0.8 to 1.8 (published fits; docs/haptics.md), so that
-/// arm and hand together have more even where the arm has none.
+/// [N·s/m]  Assumed for an arm of unknown damping. A hand on a stylus has 0.8 to 1.8 (published fits; docs/haptics.md),
+/// so arm and hand together have more even if the arm has none.
 inline constexpr double least_damping = 0.5;
 
-/// What a device can render with a margin of a quarter of (1): the spring takes two fifths of the arm's damping, or less
-/// where it is as stiff as the maker names; the damper takes the rest up to three quarters.  Of (2) and (3), half.  With half
-/// for the spring it would be a quarter stiffer, and four times as many heavy hands not at rest half a second after a step.
-/// Of an arm whose damping is 0, that is unknown, least_damping is taken.
+/// The coupling that a device can render with a margin of a quarter of (1). The spring takes two fifths of the arm's
+/// damping, or the maker's largest stiffness if that is less. The damper takes the rest up to three quarters. Of (2)
+/// and (3), half. With half of the damping the spring would be a quarter stiffer, but four times as many heavy hands
+/// would still move half a second after a step.
+/// For an arm of unknown damping (0) least_damping is assumed.
 /// @param delay_ticks  whole periods between the servo's answer and the motors, besides the one that holds it; 0 to 16
 /// @throws std::invalid_argument where the device's damping, friction, resolution, stiffness or period cannot be
 inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks = 0) {
@@ -68,12 +69,12 @@ inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks =
   return {stiffness, (std::min)(damping, (both_share - stiffness / bound) * b)};
 }
 
-/// [m]  Where fingers hold a stylus, from the point about which it turns: what a hand has for the translation it has for the rotation times
-/// the square of that.
+/// [m]  Distance of the fingers on a stylus from its centre of rotation. A hand's rotational stiffness, damping and
+/// inertia are the translational ones times its square.
 inline constexpr double grip_lever = 0.03;
 
-/// The same for the rotation: K [N·m/rad] and B [N·m·s/rad], by the same inequalities.  Of a gimbal whose damping is 0, that is unknown,
-/// least_damping at grip_lever is taken: 4.5e-4 N·m·s/rad.
+/// The same for the rotation: K [N·m/rad] and B [N·m·s/rad], by the same inequalities. For a gimbal of unknown damping
+/// (0) least_damping at grip_lever is assumed: 4.5e-4 N·m·s/rad.
 /// @throws as safe_coupling(), for the figures of the device's gimbal
 inline CouplingFigures safe_turning_coupling(const DeviceInfo& device, int delay_ticks = 0) {
   const GimbalInfo& gimbal = device.gimbal;

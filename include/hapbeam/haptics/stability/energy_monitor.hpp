@@ -1,17 +1,17 @@
-// Does the loop give out energy that nobody put in?  A passivity observer, and a controller that takes it back.
+// A passivity observer, which measures the energy that the loop generates, and a controller that dissipates it.
 //
 //   W += F·Δx - b |Δx|²/T - f |Δx|      over each period of a contact
 //
-// A device that turns adds τ·Δθ - b_r |Δθ|²/T - f_r |Δθ|, of the torque that the motors held and the rotation from one reading to the next.
-// F is the force that the motors held over the period, Δx how far the hand went: the work done on hand and arm, exactly.
-// What the arm's own damping b and friction f have taken meanwhile, at least, is counted off, from a path shortened by
-// one step of the encoders, which may not have been travelled.  A beam gives back what pressing it has cost: at the
-// end of a contact W <= 0 where the loop is passive, and W > 0 is energy that the loop has generated.
-// Where the force comes in over a while (ForceGuard), a beam is pressed for less than it gives back: a share e of its energy U
-// that rises by de lends the hand U de.  That is known, bounded by U and no fault of the loop: it is counted off as well.
-// The controller adds -α v, α = W / (T v²), while W > 0: it takes back what has been generated within a period, with no
-// more damping than the arm has itself, which is what the sampling allows.
-// The force that comes of it goes through the guard like any other.
+// F is the force that the motors held over the period, Δx the motion of the hand: F·Δx is exactly the work on hand and
+// arm. A device with rotations adds τ·Δθ - b_r |Δθ|²/T - f_r |Δθ|, with the torque that the motors held and the
+// rotation between two readings.
+// The work that the arm's own damping b and friction f have dissipated is subtracted. Its path is shortened by one step
+// of the encoders, which may not have been travelled. A beam returns the work of the press: at the end of a contact a
+// passive loop has W <= 0, and W > 0 is energy that the loop has generated.
+// While the force engages (ForceGuard), a beam costs less to press than it returns. A share e of its energy U that
+// rises by de lends the hand U de. That amount is known and bounded by U, and is subtracted as well.
+// The controller adds -α v, α = W / (T v²), while W > 0. It dissipates the generated energy within a period, with at
+// most the damping of the arm, which is the limit for this sampling. Its force passes the guard like any other.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 // Source: Hannaford and Ryu, IEEE Trans. Robotics and Automation 18(1), 2002; the exact work of a held force:
 // Stramigioli et al., IEEE Trans. Robotics 21(4), 2005.
@@ -58,7 +58,7 @@ class EnergyMonitor {
     reset();
     ended_ = 0;
   }
-  /// The hand has been moved by hand, so to speak: a contact that was is not judged.
+  /// Ends the account of a contact without counting it, as after a reset.
   void reset() noexcept {
     net_ = 0;
     known_ = turn_known_ = false;

@@ -1,4 +1,4 @@
-// The last word before the device: whatever a servo has computed, what is sent cannot hurt hand or motors.
+// The last stage before the device: limits force and torque, whatever the servo has computed.
 //
 // In this order, each tick:
 //   failure      a force that is not finite, or a tick that the caller calls unsafe: zero at once, and engage anew
@@ -6,14 +6,14 @@
 //   peak         |F| <= peak
 //   heat         of the motors, which goes with F²:  q' = (F²/Fc² - q)/τ.  The force that is allowed falls from peak to
 //                the continuous Fc as q goes from warm to 1, so q <= 1 always: Fc for ever, more for a moment
-//   slew         the force grows by slew_rate · dt at most; to fall, along the way to zero, it may at once
+//   slew         the force grows by at most slew_rate · dt; toward zero it may fall at once
 //
-// dt is the time since the tick before, by the device's clock.  A clock that stands, runs backwards or is no number
-// lets nothing grow, and the motors are taken to have been heated for a period; a late tick lets the force grow
-// no more than two periods would.  After longest_pause the hand may be anywhere: the force engages anew.
-// Holds for every input: the force is finite and no longer than the peak, and lies within slew_rate · 2 periods of the way
-// from the last force to zero; q <= 1 while ticks are on time.
-// A torque goes the same way beside the force, with limits and motors of its own; what fails or engages does so for both.
+// dt is the time since the tick before, by the device's clock. If the clock stands, runs backwards or is NaN, nothing
+// grows, and the motors are heated for a period. After a late tick the force grows by no more than in two periods.
+// After longest_pause the hand may be anywhere, so the force engages anew.
+// For every input the force is finite and within the peak, and lies within slew_rate · 2 periods of the segment from
+// the last force to zero. q <= 1 while ticks are on time.
+// A torque is treated likewise, with limits and motors of its own. Failure and engagement apply to both.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 #pragma once
 
@@ -31,7 +31,7 @@ struct ForceGuardOptions {
   double peak_force;              ///< [N] positive
   double continuous_force;        ///< Fc [N] positive, at most the peak
   double period;                  ///< [s] of the loop, 1e-6 to 1e3
-  double slew_rate = 1e4;         ///< [N/s] positive; 10 N a millisecond is faster than any hand and no blow
+  double slew_rate = 1e4;         ///< [N/s] positive; 10 N a millisecond is faster than any hand
   double thermal_time = 10;       ///< τ [s] positive; of small motors' windings, of housings minutes
   double engage_time = 0.2;       ///< [s] not negative
   double longest_pause = 0.1;     ///< [s] not negative
@@ -40,11 +40,11 @@ struct ForceGuardOptions {
   double torque_slew_rate = 100;  ///< [N·m/s] positive; at a lever of 0.1 m a tenth of the force's
 };
 
-/// What the guard did to a force.
+/// A force after the guard.
 struct GuardedForce {
   Eigen::Vector3d force;  ///< [N] to be sent
   bool limited;           ///< cut by peak, heat or slew
-  bool engaging;          ///< held back because the loop has just begun, or begun again
+  bool engaging;          ///< reduced because the loop has just started or restarted
 };
 /// The same of force and torque.
 struct GuardedWrench : GuardedForce {

@@ -21,7 +21,7 @@ struct HandPose {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< of the stylus' axes, a rotation
 };
 
-/// What a coupling makes of a tick, with the torque on a hand that turns.
+/// The result of a tick, with the torque on the hand.
 template <typename Scalar>
 struct CoupledWrench : CoupledForce<Scalar, 3> {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m] about the hand; always finite

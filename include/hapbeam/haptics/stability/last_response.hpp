@@ -1,8 +1,8 @@
-// What is left of the beam's good answers when it gives none.
+// The last valid response, for ticks in which the model has none.
 //
-// Keeps the tangent of the last good response through ticks in which the model ran out of its budget, for max_continued of them.
-// A tick may also miss the beam where the tangent had a force: on a rigid surface that is curved the point from which the
-// beam is pressed comes out of it by more than it was pressed in.  The hand itself then says where the surface is.
+// Keeps the tangent of the last valid response through at most max_continued ticks in which the model exhausted its
+// budget. A tick may also miss the beam where the tangent had a force: on a stiff curved surface p may leave the beam
+// by more than it was pressed in. The contact of the hand itself then decides.
 // Any other failure ends the contact.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 #pragma once
@@ -16,11 +16,11 @@ namespace hapbeam {
 
 class LastResponse {
  public:
-  /// Ticks in a row that go on without an answer.
+  /// Successive ticks that are continued without a response.
   static constexpr int max_continued = 20;
 
   const ContactTangent<3>& tangent() const noexcept { return tangent_; }
-  /// The last response was none, or missed the beam, and the tangent stands for it.
+  /// The last tick had no response, or missed the beam, and the tangent replaces it.
   bool continued() const noexcept { return (continued_ > 0 || missed_) && tangent_.known(); }
 
   /// As ContactTangent's.

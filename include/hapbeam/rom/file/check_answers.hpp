@@ -1,9 +1,9 @@
-// Whether a model that was read answers like one: presses all over its range, and far beyond.
+// Checks a model that was read from a file by presses all over its range, and far beyond.
 //
-// The members of a file may each be allowed and make no model together: a potential that vanishes between two positions, a
-// shape that leaves the range of its scalar.  There are two presses for each node of the grid and each sign, so that those
-// between nodes are tried where interpolation swings furthest.
-// Offline: allocation-free; throws std::invalid_argument for the first press that is not answered.
+// The members of a file may be valid one by one and yet make no model: a potential that vanishes between two positions,
+// a shape that overflows its scalar. There are two presses for each node of the grid and each sign. Those between nodes
+// are where interpolation oscillates most.
+// Offline: allocation-free; throws std::invalid_argument for the first press that fails.
 #pragma once
 
 #include <cmath>

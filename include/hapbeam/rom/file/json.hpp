@@ -1,8 +1,8 @@
 // What reading and writing a model file share: the error, the ownership of a JSON value, and how a value looks in a message.
 //
-// Written for programs that only load a model: messages are put together by printf and names compared as C strings, since
-// optimising the arithmetic of strings would take the compiler longer than all of Eigen/Core.  What is [[gnu::cold]] is
-// compiled for size, in two thirds of the time.
+// It compiles fast, for programs that only load a model. Messages are composed by printf and names compared as C
+// strings: optimising string arithmetic would take the compiler longer than all of Eigen/Core. [[gnu::cold]] functions
+// are compiled for size, in two thirds of the time.
 // Offline: allocates, throws.  Needs jansson 2.10 or later.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace hapbeam {
 
-/// A model file that cannot be read or written; what() says which, what is wrong with it, and what is allowed.
+/// A model file that cannot be read or written; what() has its name, the fault and the permitted values.
 struct ModelFileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -1,10 +1,10 @@
 // Members of a JSON object, read by name and unit.
 //
 // JsonReader and JsonWriter offer the same functions, so that one list of a model's fields, in model_fields.hpp, serves both.
-// A name says where the member is: "beam.length" is the member length of the object beam.  The units stand in a member of
-// their own, {"beam.length": "m", …}: one for each real number, "1" where it has none.
-// Nothing is skipped, guessed or converted: a member that is missing, of another type, in another unit, out of the scalar's
-// range, or unknown, throws ModelFileError with its name, value, unit and what is allowed.
+// A name is a path: "beam.length" is the member length of the object beam. Units are a member of their own,
+// {"beam.length": "m", …}: one for each real number, "1" for a number without unit.
+// Nothing is skipped, guessed or converted. A member that is missing, unknown, of another type or unit, or out of the
+// scalar's range throws ModelFileError with its name, value, unit and permitted values.
 // Offline: allocates, throws.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace hapbeam::detail {
 
-/// A member that has been read is taken out of the object: what is left at the end is unknown.
+/// A member that has been read is removed from the object: what remains at the end is unknown.
 class JsonReader {
  public:
   /// @param root  emptied; outlives this   @param source  the file's name, for messages; outlives this

@@ -87,7 +87,7 @@ class JsonWriter {
   void set(json_t* object, const char* key, json_t* value) const {
     if (json_object_set_new(object, key, value)) fail(source_, "%s: out of memory", key);
   }
-  /// Into the object that its name says, which is made where it is not there yet.
+  /// Into the object of its name, which is created if necessary.
   void add(const char* name, json_t* value) {
     json_t* object = root_;
     std::string rest = name;

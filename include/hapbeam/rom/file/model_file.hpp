@@ -8,10 +8,11 @@
 //   {"format":"hapbeam model","version":2,"kind":"pod","scalar":"double","checksum":"crc32:9a3b5c01"}
 //   {"units":{"beam.length":"m", …},"beam":{…},"nodes":"chebyshev",…,"grid":{…},…,"shape":{…},"errors":{…}}
 //
-// The checksum goes over every byte after the first line feed.  The members of the second line are those of PodModelData
-// and GalerkinModelData; model_fields.hpp is their list.  Reals have as many digits as bring back every bit.
-// A file makes a whole model or a ModelFileError: each member must be there, be of its type and in its unit, and no other
-// may; the model's own check comes last.  The error names the file, the field, its value, unit and what is allowed.
+// The checksum covers every byte after the first line feed. The members of the second line are those of PodModelData
+// and GalerkinModelData; model_fields.hpp is their list. Reals have enough digits to restore every bit.
+// A file gives a whole model or a ModelFileError. Each member must be present, of its type and in its unit, and no
+// other is accepted. The model's own check comes last. The error names the file, the field, its value, unit and
+// permitted values.
 // Offline: allocates and throws.  Needs jansson: link hapbeam::model_file.  hapbeam.hpp does not include this file.
 #pragma once
 
@@ -32,7 +33,7 @@
 
 namespace hapbeam {
 
-/// What a program must know of a file to choose the type to load it with.
+/// The part of a file by which a program chooses the type to load it with.
 struct ModelFileInfo {
   int version;
   std::string kind;    ///< pod | galerkin
@@ -158,7 +159,7 @@ inline constexpr std::size_t memory_per_byte = 16, memory_to_begin = 1 << 15;
   return text;
 }
 
-/// All of the text under that name, or nothing new: a file beside it takes its place when it is complete.
+/// Writes all of the text under that name, or nothing: a complete temporary file replaces the old one.
 [[gnu::cold]] inline void write_file(const std::string& path, const std::string& text) {
   errno = 0;
   // A name of its own where two programs save at once.
@@ -216,7 +217,7 @@ template <class Model>
   }
 }
 
-/// Writes a model's file, or throws and leaves what was there before.
+/// Writes a model's file, or throws and leaves the old file.
 /// @tparam Model  PodModel | GalerkinModel   @throws ModelFileError
 template <class Model>
 [[gnu::cold]] void save_model(const Model& model, const std::string& path) {

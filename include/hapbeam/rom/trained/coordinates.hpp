@@ -1,10 +1,12 @@
 // The coordinates in which a beam's response is smooth enough for a polynomial.
 //
-// Toward an end that holds w the stiffness grows without bound, as the 2nd power of the inverse distance beside a hinge and
-// the 3rd beside a clamp; no polynomial in s approximates that.  In x = ln(s/(L - s)), and with these powers taken out, the
-// stiffness is smooth.  Deep presses stiffen from k to k + c d²: in d that is a growth over
-// orders of magnitude, in y = ln(1 + (d/ρ)²), ρ = ½√(EI/EA), it is gradual.  With 16 × 12 Chebyshev nodes and presses up
-// to 50 mm on 5 to 95 % of the thesis' pinned beam the largest error of the force is 5e-5; with s and d² it is 7e-2.
+// Toward an end that holds w the stiffness grows without bound: as the 2nd power of the inverse distance beside a
+// hinge, and the 3rd beside a clamp. No polynomial in s approximates that. In x = ln(s/(L - s)), and with these powers
+// divided out, the stiffness is smooth.
+// Deep presses stiffen from k to k + c d². In d that growth spans orders of magnitude. In y = ln(1 + (d/ρ)²), ρ =
+// ½√(EI/EA), it is gradual.
+// Example: 16 × 12 Chebyshev nodes, presses up to 50 mm on 5 to 95 % of the thesis' pinned beam. The largest error of
+// the force is 5e-5; with s and d² it is 7e-2.
 // noexcept, no allocation, O(1).
 #pragma once
 
@@ -14,7 +16,7 @@
 
 namespace hapbeam {
 
-/// What a trained model knows of its beam.
+/// The data of its beam that a trained model keeps.
 template <typename Scalar>
 struct BeamData {
   Scalar length;             ///< [m]
@@ -23,7 +25,7 @@ struct BeamData {
   Scalar thickness;          ///< [m]
   Support left, right;
 
-  /// @tparam AnyBeam  Beam, which a program that only loads a model need not know
+  /// @tparam AnyBeam  Beam; a template, so that a program that only loads a model need not include it
   template <class AnyBeam>
   static BeamData of(const AnyBeam& beam) noexcept {
     return {Scalar(beam.length()),

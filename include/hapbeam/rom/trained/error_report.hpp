@@ -11,8 +11,8 @@ namespace hapbeam {
 /// Errors over a sample of presses, against the full model.  The force's is relative; the shape's is the largest |Δw| over
 /// the largest |w| of the beam.
 ///
-/// Dead loads bend a beam, and where they have it rest the force is zero: there a press by less than a thousandth of the
-/// depth from rest counts with the force that a thousandth takes.
+/// The force is zero in the shape to which dead loads bend the beam. A press by less than a thousandth of the depth
+/// from there is therefore compared with the force of a thousandth.
 struct ErrorSummary {
   int presses = 0;
   double force_median = 0;
@@ -33,10 +33,11 @@ struct ErrorReport {
   std::string reference;  ///< the full model that the model was compared with
   ErrorSummary all;       ///< of all presses of the sample
   std::vector<RegionError> regions;
-  /// No press in range() has a larger relative error of its force: a tenth more than the largest difference to the full
-  /// model that a search from the worst presses found, and reference_error; 1e-8 at least, which round-off may be.  Within a
-  /// thousandth of the length from an end that yields finite elements are no reference, and the bound is that of the places beside.
-  /// A search is no proof; of 250 000 random presses of 50 beams none was beyond the bound.
+  /// Bound on the relative error of the force of every press in range(). It is 1.1 times the largest difference to the
+  /// full model that a search from the worst presses found, plus reference_error, and at least 1e-8 for round-off.
+  /// Within a thousandth of the length from an end that is free to move, finite elements are no reference; the bound is
+  /// that of the places beside.
+  /// The search is no proof; none of 250 000 random presses of 50 beams exceeded the bound.
   double force_bound = 0;
   double reference_error =
       0;  ///< largest relative error of the full model's force, by one with twice its elements

@@ -1,20 +1,21 @@
 // A trained beam that still solves its equation, in one unknown, as a ForceModel.
 //
-// Without axial load the tension N is the same in all of the beam, and the deflection is a multiple of g(x; s, N), the beam's
-// response to a unit force at the contact s under that tension.  Galerkin's projection on this one function, which moves
-// with the contact and with the tension, leaves the membrane energy a polynomial and the contact a
-// constraint whose multiplier is the force:
+// Without axial load the tension N is uniform. The deflection is then a multiple of g(x; s, N), the response to a unit
+// force at the contact s under that tension. This one function, which moves with the contact and the tension, is the
+// basis of a Galerkin projection. The membrane energy remains a polynomial, and the contact a constraint whose
+// multiplier is the force:
 //
 //   V(d, N) = ½ k(s, N) d² - N² L/(2EA),     F = ∂V/∂d = k d,     0 = ∂V/∂N = ½ d² ∂k/∂N - N L/EA
 //
-// k = 1/g(s; s, N) is interpolated, ln(scale k) over x(s) and z = ln(1 + N/N0), N0 = 10 EI/L².  For the von Kármán beam no
-// other error is made.  k grows with N and is concave, so the equation has one root: Newton, kept in a bracket.
-// A fixed basis does worse, because the kink moves with the contact: with 8 global modes the error of the force beside a
-// support is more than a tenth, with this one it is 1e-5.
-// Beyond the largest tension that was trained, k' falls to that of a string, 1/A, as N^(-1/2), which is what its
-// boundary layers do: A = s(L - s)/L between two ends that hold w.
-// Where no tension arises (an end slides, or the element is linear) it has no unknown and k depends on s alone.
-// Copies share what was trained, and have a state of their own: a copy costs the nodes of a shape.
+// k = 1/g(s; s, N) is interpolated: ln(scale k) over x(s) and z = ln(1 + N/N0), N0 = 10 EI/L². For the von Kármán beam
+// there is no other error. k increases with N and is concave, so the equation has one root: Newton's method within a
+// bracket.
+// A fixed basis is less accurate, because the kink moves with the contact. With 8 global modes the error of the force
+// beside a support exceeds 10 %; with this function it is 1e-5.
+// Beyond the largest trained tension, k' falls to that of a string, 1/A, as N^(-1/2), the effect of its boundary
+// layers: A = s(L - s)/L between two ends that hold w.
+// If no tension arises (an end slides, or the element is linear), there is no unknown and k depends on s alone.
+// Copies share the trained data and have a state of their own: a copy costs the nodes of a shape.
 // Offline: construction allocates and throws.  Servo: noexcept, allocation-free, at most max_iterations iterations.
 #pragma once
 
@@ -55,8 +56,8 @@ class GalerkinModel {
   }
 
   /// Force and shape of a transverse displacement d [m] at arc position s [m] of the unloaded beam.
-  /// Deeper than range() the equation is solved all the same, with a tension that may be beyond what was trained; s is
-  /// that of the nearest press in range.
+  /// Deeper than range() the equation is still solved, with a tension that may exceed the trained ones; s is that of
+  /// the nearest press in range.
   /// @return force [N] and ok | out_of_range | invalid_request | non_finite
   Response<Scalar> press(const Press<Scalar>& request) noexcept;
 
@@ -66,7 +67,7 @@ class GalerkinModel {
   CentrelinePart<Scalar> part(Scalar s0, Scalar s1) const noexcept {
     return shape_.part(trained_->data.shape, s0, s1);
   }
-  /// Where it was trained.
+  /// The trained presses.
   Range<Scalar> range() const noexcept { return detail::trained_range(trained_->data); }
   Scalar thickness() const noexcept { return trained_->data.beam.thickness; }
   void reset() noexcept {
@@ -75,7 +76,7 @@ class GalerkinModel {
   }
 
   const Data& data() const noexcept { return trained_->data; }
-  /// Of presses that it was not trained with.
+  /// Errors of presses that it was not trained with.
   const ErrorReport& errors() const noexcept { return trained_->data.errors; }
   /// Newton iterations of the last press.
   int iterations() const noexcept { return iterations_; }
@@ -92,7 +93,7 @@ class GalerkinModel {
     Scalar beyond;  // √(N/Nm), 1 where the tension was trained
   };
 
-  /// What training made, and what follows from it: the same for all copies.
+  /// The trained data and what follows from them: the same for all copies.
   struct Trained {
     Data data;
     PositionCoordinate<Scalar> position;
@@ -152,8 +153,8 @@ class GalerkinModel {
   int iterations_ = 0;
 };
 
-// What costs a compiler time is defined outside of the class: only so does "extern template class GalerkinModel<>;" keep it out of all
-// files but one.
+// Long functions are defined outside of the class: only then does "extern template class GalerkinModel<>;" compile them in one
+// file alone.
 template <typename Scalar, class Nodes>
 Centreline<Scalar> GalerkinModel<Scalar, Nodes>::shape() const noexcept {
   return shape_.all(trained_->data.shape);

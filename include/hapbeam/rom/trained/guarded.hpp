@@ -2,10 +2,10 @@
 //
 //   Guarded<PodModel<>, FemModel<>> model(load_model<PodModel<>>("bar.json"), FemModel<>(beam, 32));
 //
-// A press in the fast model's range that it answers with ok is the fast model's; any other is the full model's.  At the
-// hand-over the force steps by the difference of the two, which is the fast model's error there.
-// The full model rests while it is not asked and starts then from where it was last or from rest, whichever is closer:
-// that first press takes about twice the solves of a moving one.
+// The fast model answers a press in its range if its status is ok. The full model answers all others. At the hand-over
+// the force steps by the difference of the two, the fast model's error there.
+// The full model is idle until it is required. It then starts from its last shape or from the undeformed one, whichever
+// is closer: that first press takes about twice the solves of a moving one.
 // Real-time: as both models; at most one press of each.
 #pragma once
 

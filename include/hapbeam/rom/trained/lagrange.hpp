@@ -3,9 +3,18 @@
 //   p(x) = Σ l_k(x) f_k,    l_k(x) = (w_k/(x - x_k)) / Σ_j w_j/(x - x_j)
 //
 // The weights l_k depend on x alone: one set serves every quantity that is known at the same nodes, and on a grid the
-// products of two sets.  At a node l_k is 1 or 0 exactly and nothing is divided by zero.
-// ChebyshevNodes are the default: the largest Σ|l_k|, by which an error in the values can grow, is 3.5 with 50 of them.
-// With EquispacedNodes, the thesis', it is 2e12, because it grows as 2ⁿ/(e n ln n).
+// products of two sets.  At a node l_k is exactly 1 or 0, and nothing is divided by zero.
+// ChebyshevNodes are the default: with 50 of them Σ|l_k|, by which an error in the values can grow, is at most 3.5.
+// With the thesis' EquispacedNodes it is 2e12, because it grows as 2ⁿ/(e n ln n).
+//
+// Nodes of your own are a class N of static functions:
+//
+//   N::node(k, n)    double        x_k of n nodes, 0 ≤ k < n, in [-1, 1], ascending
+//   N::weight(k, n)  double        w_k = 1/Π_(j≠k) (x_k - x_j), up to one common factor
+//   N::name()        const char*   kept in the file of a trained model
+//
+//   take_snapshots<N>(…), train_pod<N>(…), PodModel<double, N>
+//
 // Source: Berrut and Trefethen, Barycentric Lagrange interpolation, SIAM Review 46 (2004).
 // Real-time: weights() is noexcept, allocation-free and O(n); construction throws.
 #pragma once
@@ -15,6 +24,7 @@
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 
 #include <Eigen/Core>
 
@@ -55,11 +65,25 @@ namespace detail {
 }
 }  // namespace detail
 
-/// @tparam Nodes   ChebyshevNodes | EquispacedNodes
+namespace detail {
+template <class N, typename = void>
+struct IsNodes : std::false_type {};
+template <class N>
+struct IsNodes<N, std::void_t<decltype(N::node(0, 1)), decltype(N::weight(0, 1)), decltype(N::name())>>
+    : std::bool_constant<std::is_convertible_v<decltype(N::node(0, 1)), double> &&
+                         std::is_convertible_v<decltype(N::weight(0, 1)), double> &&
+                         std::is_convertible_v<decltype(N::name()), const char*>> {};
+}  // namespace detail
+
+/// @tparam Nodes   ChebyshevNodes | EquispacedNodes | a class as above
 template <class Nodes = ChebyshevNodes, typename Scalar = double>
 class Lagrange {
+  static_assert(detail::IsNodes<Nodes>::value,
+                "a Nodes policy needs static node(int k, int n) -> double, weight(int k, int n) -> double "
+                "and name()");
+
  public:
-  /// More nodes do not help the first policy and ruin the second.
+  /// More nodes do not help ChebyshevNodes and ruin EquispacedNodes.
   static constexpr int max_size = 64;
   static constexpr int block = 4;  // numbers of a register
 

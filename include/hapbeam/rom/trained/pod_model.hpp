@@ -1,12 +1,13 @@
 // A trained beam: force and shape by interpolation between presses of the full model, as a ForceModel.
 //
-// What is interpolated is the work V of a press, 2V/e² in the coordinates of coordinates.hpp, and the force is its
-// derivative, F = ∂V/∂d: no path of the contact that closes gains or loses energy, whatever the error.  The rotation at the
-// contact follows from the same V, ∂V/∂s = F θ, and the rest of the shape from POD modes (thesis eq. 3.54, 3.67).
-// The cost does not depend on elements: positions × depths for the force, and points × modes more for the shape.
-// Copies share what was trained, and have a state of their own: a copy costs the nodes of a shape.
-// Outside range() nothing is extrapolated.  Deeper presses take the force at the end of the range and its tangent
-// stiffness there, held constant; s is that of the nearest press in range.  Only inside do closed paths close.
+// The work V of a press is interpolated, as 2V/e² in the coordinates of coordinates.hpp. The force is its derivative, F
+// = ∂V/∂d, so a closed path of the contact neither gains nor loses energy, whatever the error. The rotation at the
+// contact follows from the same V, ∂V/∂s = F θ. The rest of the shape is made of POD modes (thesis eq. 3.54, 3.67).
+// The cost does not depend on the elements: positions × depths for the force, and points × modes more for the shape.
+// Copies share the trained data and have a state of their own: a copy costs the nodes of a shape.
+// Outside range() nothing is extrapolated. A deeper press has the force at the end of the range plus its tangent
+// stiffness there, held constant; s is that of the nearest press in range. Closed paths conserve energy inside the
+// range alone.
 // Offline: construction allocates and throws std::invalid_argument.  Servo: all else is noexcept and allocation-free.
 #pragma once
 
@@ -53,13 +54,13 @@ class PodModel {
   CentrelinePart<Scalar> part(Scalar s0, Scalar s1) const noexcept {
     return shape_.part(trained_->data.shape, s0, s1);
   }
-  /// Where it was trained.
+  /// The trained presses.
   Range<Scalar> range() const noexcept { return detail::trained_range(trained_->data); }
   Scalar thickness() const noexcept { return trained_->data.beam.thickness; }
   void reset() noexcept { shape_.reset(trained_->data.shape); }
 
   const Data& data() const noexcept { return trained_->data; }
-  /// Of presses that it was not trained with.
+  /// Errors of presses that it was not trained with.
   const ErrorReport& errors() const noexcept { return trained_->data.errors; }
 
  private:
@@ -77,7 +78,7 @@ class PodModel {
     Scalar force() const noexcept { return e * (work + half_slope * work_by_y) / scale; }
   };
 
-  /// What training made, and what follows from it: the same for all copies.
+  /// The trained data and what follows from them: the same for all copies.
   struct Trained {
     Data data;
     PositionCoordinate<Scalar> position;
@@ -112,8 +113,8 @@ class PodModel {
   mutable Shape shape_;  // of the last press, as far as it was computed
 };
 
-// What costs a compiler time is defined outside of the class: only so does "extern template class PodModel<>;" keep it out of all
-// files but one.
+// Long functions are defined outside of the class: only then does "extern template class PodModel<>;" compile them in one
+// file alone.
 template <typename Scalar, class Nodes>
 Centreline<Scalar> PodModel<Scalar, Nodes>::shape() const noexcept {
   return shape_.all(trained_->data.shape);

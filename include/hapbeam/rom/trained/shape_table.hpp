@@ -1,8 +1,9 @@
 // The deformed shape of a trained model: POD modes, and their coefficients on a grid of presses.
 //
-// Nodes at fixed places do not serve.  At the contact w''' jumps, and the jump moves with the contact: shapes at fixed
-// places are not smooth in s, and interpolation between 16 positions leaves an error of a fifth in the slopes.  Snapshots are
-// therefore taken where the contact is always the same node, the others sharing both sides evenly, and freed of units:
+// Nodes at fixed places are not accurate. At the contact w''' jumps, and the jump moves with the contact. Shapes at
+// fixed places are therefore not smooth in s, and interpolation between 16 positions has an error of a fifth in the
+// slopes. In the snapshots the contact is always the same node. The others share both sides evenly. Displacements are
+// made dimensionless:
 //
 //   w/d,   θ h/d,   u h/d²,    h the length of the node's side of the beam
 //
@@ -34,8 +35,8 @@ class ContactFrame {
   int segments() const noexcept { return segments_; }
   int contact_node() const noexcept { return contact_node_; }
 
-  /// Where the contact's node is for a contact at s: there, or a thousandth of the length away from an end, unless it
-  /// is that end's node.
+  /// Arc position of the contact's node for a contact at s: s, but at least a thousandth of the length away from an
+  /// end, unless it is that end's node.
   Scalar contact(Scalar s) const noexcept {
     const Scalar least = length_ / 1000;
     const Scalar low = contact_node_ == 0 ? Scalar(0) : least;
@@ -66,7 +67,7 @@ class ContactFrame {
   bool left_held_, right_held_;
 };
 
-/// What is stored of the shapes.
+/// The stored shapes.
 template <typename Scalar>
 struct ShapeData {
   int segments = 0;

@@ -1,4 +1,4 @@
-// The full model to train with: many elements, a tight solver, and the beam of which it is.
+// The full model to train with: many elements, a tight solver, and its beam.
 //
 // Offline: construction allocates, and throws std::invalid_argument.
 #pragma once
@@ -7,7 +7,7 @@
 
 namespace hapbeam {
 
-/// A FemModel that can be made finer, by which its own error is known.
+/// A FemModel that can be refined, which gives its own error.
 template <class Element = VonKarman<AssumedStrain>>
 class FullModel : public FemModel<Element> {
  public:

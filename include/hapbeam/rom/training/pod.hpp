@@ -2,8 +2,9 @@
 //
 //   X = U Σ Vᵀ,    x ≈ Σ_{i ≤ l} c_i φ_i,    ε²(l) = Σ_{i > l} σ_i²
 //
-// Policies: how the basis is found (Svd, or the thesis' eigenvalues of XXᵀ) and in which inner product it is orthonormal
-// (plain, or a matrix: with snapshots in metres and radians a stiffness, whose norm is an energy).
+// Policies: the method (Svd, or the thesis' eigenvalues of XXᵀ) and the inner product in which the basis is
+// orthonormal: the plain one, or a matrix. For snapshots in metres and radians that matrix is a stiffness, whose norm
+// is an energy.
 // This header alone includes an SVD; a program that loads a trained model does not compile it.
 // Offline: allocates and throws std::invalid_argument.
 #pragma once
@@ -38,8 +39,8 @@ struct Svd {
   }
 };
 
-/// By eigenvalues of XXᵀ, σ = √λ (thesis eq. 3.50–3.52).  What lies below √eps σ₁ = 1e-8 σ₁ is noise: squared, it is below
-/// the round-off of the largest, and the vectors that belong to it are arbitrary.
+/// By eigenvalues of XXᵀ, σ = √λ (thesis eq. 3.50–3.52). Values below √eps σ₁ = 1e-8 σ₁ are noise: their squares are
+/// below the round-off of the largest, and their vectors are arbitrary.
 struct MethodOfSnapshots {
   static constexpr const char* name() noexcept { return "method_of_snapshots"; }
   template <class Matrix>

@@ -21,8 +21,8 @@ struct IsFiniteElements<
     Model, std::void_t<typename Model::ElementType, decltype(std::declval<const Model&>().elements())>>
     : std::true_type {};
 
-/// Any ForceModel has the beam's length and thickness.  Finite elements, of which the library can make the like, also have its
-/// force: of stiffness, ends, dead loads and natural shape none can differ without another force.
+/// Compares length and thickness of any ForceModel. With finite elements, which can be rebuilt for the beam, forces are
+/// compared as well. A difference in stiffness, ends, dead loads or natural shape changes the force.
 /// @throws std::invalid_argument
 template <class Model>
 void check_same_beam(const Beam& beam, const Model& full, const TrainingPlan& plan) {

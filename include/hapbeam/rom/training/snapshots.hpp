@@ -1,7 +1,7 @@
 // Presses of a full model, taken for training: on a grid of depths, or of tensions.
 //
-// Positions are shared out to threads, each with its own copy of the model.  A press that the full model does not answer
-// with ok fails the training: none is left out, and none is used with another status.
+// Threads share the positions, each with its own copy of the model. A press that the full model does not answer with ok
+// fails the training: none is left out or used with another status.
 // Offline: allocates; throws std::invalid_argument for a plan that cannot be carried out and TrainingError for a press.
 #pragma once
 
@@ -47,8 +47,8 @@ struct Snapshots {
 
 namespace detail {
 
-/// The tension of the model's present press [N].  F d = 2V + N² L/EA, and V is what the model says.  An end that slides
-/// takes none.
+/// The tension of the model's present press [N], from F d = 2V + N² L/EA with V the model's strain energy. An end that
+/// slides takes none.
 template <class Model>
 double tension_of(const Model& model, const BeamData<double>& beam, double force, double d) {
   if (!fixes_u(beam.left) || !fixes_u(beam.right)) return 0;

@@ -41,10 +41,11 @@ inline Eigen::MatrixXd snapshot_matrix(const Snapshots& snapshots) {
   return X;
 }
 
-/// The linear beam's stiffness for columns of snapshot_matrix(): ½ xᵀ K x is the strain energy [J] of a shape x, of a press by
-/// the plan's depth at the middle of its positions.  What supports hold gets the largest diagonal entry, so that K is
-/// positive definite.  For StiffnessInnerProduct: once units are gone the plain product needs fewer modes, 10 where this needs
-/// 16 for shapes within a percent, because stretching outweighs bending in an energy.
+/// The linear beam's stiffness for columns of snapshot_matrix(): ½ xᵀ K x is the strain energy [J] of a shape x, for a
+/// press by the plan's depth at the middle of its positions. Displacements held by supports get the largest diagonal
+/// entry, so that K is positive definite.
+/// For StiffnessInnerProduct. With dimensionless displacements the plain product requires fewer modes: 10 instead of 16
+/// for shapes within a percent, because stretching dominates an energy.
 inline Eigen::MatrixXd stiffness_matrix(const Snapshots& snapshots) {
   const BeamData<double>& beam = snapshots.beam;
   const ContactFrame<double> frame(beam, snapshots.plan.segments, snapshots.contact_node);

@@ -19,7 +19,7 @@ struct TrainingPlan {
   double depth;         ///< [m] largest |d|
   int depths;           ///< 2 to 64; for a GalerkinModel, of tensions
   bool symmetric =
-      true;  ///< train d > 0 alone, for a beam that has no dead load; else both signs, with as many depths
+      true;  ///< train d > 0 alone, for a beam without dead loads; else both signs, with the same number of depths
   int segments =
       32;  ///< pieces of the shape that the model draws; even where there is more than one position
 

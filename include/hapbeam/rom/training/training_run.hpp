@@ -19,7 +19,7 @@
 
 namespace hapbeam {
 
-/// A press that the full model did not answer; what() says where and how.
+/// A press that failed in the full model; what() has its place, depth and status.
 struct TrainingError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -3,7 +3,7 @@
 //   data.errors = validate(PodModel<>(data), full_model(beam));
 //   data.errors.force_bound;                 // no press in range has a larger relative error of its force
 //
-// A sample of presses says how large errors usually are; the bound comes from worst_press.hpp.
+// A sample of presses gives the usual errors; worst_press.hpp gives the bound.
 // Offline: allocates; throws TrainingError where the full model does not answer.
 #pragma once
 
@@ -20,7 +20,7 @@
 namespace hapbeam {
 
 struct ValidationOptions {
-  int presses = 500;       ///< at random over the range, on its edges and nearly at rest, both ways
+  int presses = 500;       ///< random over the range, on its edges and at very small depths, both ways
   std::uint64_t seed = 1;  ///< the same seed draws the same presses on every machine
   int s_regions = 3;       ///< parts of the range along the beam
   int depth_regions = 3;   ///< and in depth

@@ -1,8 +1,8 @@
-// Where two models differ most: a climb from the worst presses of a sample.
+// Largest difference of two models: a climb from the worst presses of a sample.
 //
-// The error of an interpolation is a landscape of hills, one between any four nodes of its grid, and a sample hardly meets
-// their tops.  From the worst presses steps go up and down in position and depth, and get shorter where none leads up.
-// Steps are parts of the distance to the nearer end and of the depth from rest, on which hills are about alike.
+// The error of an interpolation has a local maximum, a hill, between any four nodes of its grid, and a sample hardly hits them.
+// From the worst presses steps go up and down in position and depth, and are shortened where none increases the error.
+// Steps are fractions of the distance to the nearer end and of the depth, in which the maxima are about equally wide.
 // Offline: allocates; throws TrainingError where the full model does not answer.
 #pragma once
 
@@ -63,8 +63,8 @@ class PressComparison {
     return size > 0.8 && size < 1.25;
   }
 
-  /// The press at s by e from rest, or the nearest in range that both scalars hold and that finite elements do not make
-  /// through a straight tip (FemModel::press).
+  /// The press at s by e from the untouched beam, or the nearest in range that both scalars represent and that finite
+  /// elements do not press through a straight tip (FemModel::press).
   PressError operator()(double s, double e) {
     S at = static_cast<S>((std::min)((std::max)(off_tips(s), s_min_), s_max_));
     // In float an edge of the range may be rounded to the number beyond it.
@@ -122,7 +122,7 @@ class PressComparison {
 /// The unit of steps along the beam [m].
 inline double to_the_end(double s, double L) noexcept { return (std::max)((std::min)(s, L - s), L / 50); }
 
-/// Up the hill on which a press stands.
+/// Climbs from a press to the local maximum of the error.
 template <class Comparison>
 PressError climb(Comparison& comparison, PressError top) {
   const double L = comparison.length();
@@ -168,8 +168,8 @@ double worst_error(Comparison& comparison, std::vector<PressError> presses, int 
   return most;
 }
 
-/// Where a sample at random has few: nearly at rest along both edges of the range, and, where dead loads bend the beam, by the
-/// least depth that is judged all along it, for there the error is not small with the depth.
+/// Presses of which a random sample has few: very shallow ones along both edges of the range. With dead loads also the
+/// shallowest that are judged, along the whole range, because there the error does not vanish with the depth.
 template <class Comparison>
 void add_shallow_presses(Comparison& comparison, std::vector<PressError>& presses) {
   const double low = comparison.s_min(), high = comparison.s_max();
@@ -189,8 +189,8 @@ struct CanBeRefined : std::false_type {};
 template <class Full>
 struct CanBeRefined<Full, std::void_t<decltype(std::declval<const Full&>().refined())>> : std::true_type {};
 
-/// Largest relative error of a full model's force on a range, against one with twice its elements, which itself errs by a
-/// third of the difference or less where the order is two or more.  Zero of a model without refined().
+/// Largest relative error of a full model's force on a range, against one with twice its elements. With an order of two
+/// or more, the error of that one is at most a third of the difference. Zero for a model without refined().
 template <class Full, typename R>
 double own_error(const Full& full, const Range<R>& range, const std::vector<PressError>& sample) {
   if constexpr (CanBeRefined<Full>::value) {
