@@ -53,10 +53,10 @@ namespace detail {
 template <typename M, typename = void>
 struct HasInternalForces : std::false_type {};
 template <typename M>
-struct HasInternalForces<M, std::void_t<decltype(std::declval<const M&>().internal_forces(
-                                0, std::declval<typename M::Scalar>()))>>
-    : std::bool_constant<noexcept(std::declval<const M&>().internal_forces(
-          0, std::declval<typename M::Scalar>()))> {};
+struct HasInternalForces<
+    M, std::void_t<decltype(std::declval<const M&>().internal_forces(0, std::declval<typename M::Scalar>()))>>
+    : std::bool_constant<noexcept(
+          std::declval<const M&>().internal_forces(0, std::declval<typename M::Scalar>()))> {};
 
 }  // namespace detail
 
@@ -70,8 +70,9 @@ inline constexpr bool has_internal_forces = detail::HasInternalForces<M>::value;
 /// through those has its top.   O(n)
 template <class Model>
 PeakStrain<typename Model::Scalar> peak_strain(const Model& model) noexcept {
-  static_assert(has_internal_forces<Model>,
-                "peak_strain(model): a model with internal_forces(i, s) noexcept, see hapbeam/internal_forces.hpp");
+  static_assert(
+      has_internal_forces<Model>,
+      "peak_strain(model): a model with internal_forces(i, s) noexcept, see hapbeam/internal_forces.hpp");
   using Scalar = typename Model::Scalar;
   const auto line = model.shape();
   PeakStrain<Scalar> peak{-1, 0};

@@ -24,7 +24,8 @@ namespace hapbeam::detail {
 /// A cut on its way along the beam.
 template <class Element, typename Scalar>
 struct BeamCut {
-  static constexpr bool turns = any_rotation<Element>, feels_slope = turns || MembraneFeelsSlope<Element>::value;
+  static constexpr bool turns = any_rotation<Element>,
+                        feels_slope = turns || MembraneFeelsSlope<Element>::value;
 
   Vector2<Scalar> force;
   Scalar moment;
@@ -90,9 +91,10 @@ BeamCut<Element, Scalar> cut_beam(const Centreline<Scalar>& line, int e, Scalar 
   end.go(b.s, {b.u, b.w, b.theta});
   cut.go(s, line.at(e, s));
   cut.moment += (s - a.s) / (b.s - a.s) * (r[5] - end.moment);
-  if (loads) loads->visit_cell(before_cut, [&](const Vector2<Scalar>& q, Scalar start, Scalar length) {
-    cut.spread(lambda * q, (s - start) / length, length);
-  });
+  if (loads)
+    loads->visit_cell(before_cut, [&](const Vector2<Scalar>& q, Scalar start, Scalar length) {
+      cut.spread(lambda * q, (s - start) / length, length);
+    });
   return cut;
 }
 

@@ -31,19 +31,20 @@ class RodBed {
     spring = {};
     const Scalar l = to - from;
     spring.home = unknowns(natural.at(from), natural.at(to));
-    visit(from, to, natural, [&](Scalar s, const Eigen::Matrix<Scalar, 3, 3>& k, const VectorOf<Scalar, 3>& home) {
-      const Scalar t = (s - from) / l, u = 1 - t;
-      const Scalar N[4] = {u * u * (1 + 2 * t), l * t * u * u, t * t * (3 - 2 * t), -l * t * t * u};
-      // How far the cubic of the natural nodes is from the natural shape, and what that takes.
-      VectorOf<Scalar, 3> miss = -home;
-      for (int i = 0; i < 4; ++i) miss += N[i] * spring.home.template segment<3>(3 * i);
-      const VectorOf<Scalar, 3> force = k * miss;
-      for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j < 4; ++j) spring.K.template block<3, 3>(3 * i, 3 * j) += N[i] * N[j] * k;
-        spring.force.template segment<3>(3 * i) += N[i] * force;
-      }
-      spring.energy += miss.dot(force) / 2;
-    });
+    visit(from, to, natural,
+          [&](Scalar s, const Eigen::Matrix<Scalar, 3, 3>& k, const VectorOf<Scalar, 3>& home) {
+            const Scalar t = (s - from) / l, u = 1 - t;
+            const Scalar N[4] = {u * u * (1 + 2 * t), l * t * u * u, t * t * (3 - 2 * t), -l * t * t * u};
+            // How far the cubic of the natural nodes is from the natural shape, and what that takes.
+            VectorOf<Scalar, 3> miss = -home;
+            for (int i = 0; i < 4; ++i) miss += N[i] * spring.home.template segment<3>(3 * i);
+            const VectorOf<Scalar, 3> force = k * miss;
+            for (int i = 0; i < 4; ++i) {
+              for (int j = 0; j < 4; ++j) spring.K.template block<3, 3>(3 * i, 3 * j) += N[i] * N[j] * k;
+              spring.force.template segment<3>(3 * i) += N[i] * force;
+            }
+            spring.energy += miss.dot(force) / 2;
+          });
   }
 
   /// Calls visit(s, k, r°) for points from a to b that stand for its springs there, k their stiffness [N/m].

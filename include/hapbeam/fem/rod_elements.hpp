@@ -405,8 +405,8 @@ class RodElements {
   detail::PerNode<RodProperties<Scalar>, Elements, MaxElements> properties_;
   detail::PerNode<RodProperties<Wide>, Elements, MaxElements> wide_;
   detail::PerNode<Force, Elements, MaxElements> forces_;
-  std::vector<PointLoad> loads_;                 // first those of a distributed load, node by node
-  std::vector<VectorOf<Scalar, 3>> cells_;       // its mean between those [N/m]
+  std::vector<PointLoad> loads_;            // first those of a distributed load, node by node
+  std::vector<VectorOf<Scalar, 3>> cells_;  // its mean between those [N/m]
   NaturalRod<Scalar> natural_;
   ContactMesh<Scalar> mesh_;
   RodProfile<Scalar> profile_;

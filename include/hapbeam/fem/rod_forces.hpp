@@ -65,14 +65,8 @@ struct RodCut {
     const Vector3 d2 = cross3<Scalar>(d3, d1);
     const Scalar normal = force.dot(d3), m1 = moment.dot(d1), m2 = moment.dot(d2),
                  strain = normal / static_cast<Scalar>(k.axial);
-    return {normal,
-            force.dot(d1),
-            force.dot(d2),
-            m1,
-            m2,
-            moment.dot(d3),
-            strain,
-            abs(strain) + surface.strain(m1, m2, k)};
+    return {normal, force.dot(d1),  force.dot(d2), m1,
+            m2,     moment.dot(d3), strain,        abs(strain) + surface.strain(m1, m2, k)};
   }
 };
 
