@@ -31,6 +31,7 @@ struct hapbeam_touch {
   virtual TouchResult<double> tick(const Vector2<double>& hand) noexcept = 0;
   virtual void reset() noexcept = 0;
   virtual Centreline<double> shape() const noexcept = 0;
+  virtual PeakStrain<double> peak_strain() const noexcept = 0;
   virtual std::unique_ptr<hapbeam_servo> servo(const DeviceInfo& device, ServoOptions options) const = 0;
 };
 
@@ -65,6 +66,10 @@ class TouchOf final : public hapbeam_touch {
   TouchResult<double> tick(const Vector2<double>& hand) noexcept override { return touch_.tick(hand); }
   void reset() noexcept override { touch_.reset(); }
   Centreline<double> shape() const noexcept override { return model_.shape(); }
+  PeakStrain<double> peak_strain() const noexcept override {
+    if constexpr (has_internal_forces<Model>) return hapbeam::peak_strain(model_);
+    else return {-1, 0};
+  }
   std::unique_ptr<hapbeam_servo> servo(const DeviceInfo& device, ServoOptions options) const override {
     options.avatar_radius = radius_;
     return std::make_unique<ServoOf<Model>>(untouched_, device, options);
@@ -207,6 +212,12 @@ void hapbeam_touch_reset(hapbeam_touch* touch) {
 
 int hapbeam_touch_shape(const hapbeam_touch* touch, double* x_w, int count) {
   return touch ? write_shape(touch->shape(), x_w, count) : 0;
+}
+
+double hapbeam_touch_peak_strain(const hapbeam_touch* touch, double* s) {
+  const PeakStrain<double> peak = touch ? touch->peak_strain() : PeakStrain<double>{-1, 0};
+  if (s) *s = peak.s;
+  return peak.strain;
 }
 
 hapbeam_servo* hapbeam_servo_create(const hapbeam_touch* touch, const char* device, double period, double x,

@@ -88,6 +88,9 @@ HAPBEAM_API hapbeam_contact hapbeam_touch_tick(hapbeam_touch* touch, double x, d
 HAPBEAM_API void hapbeam_touch_reset(hapbeam_touch* touch);
 /* The centreline at `count` places from end to end, x_w: 2 count numbers [m].  Returns how many were written. */
 HAPBEAM_API int hapbeam_touch_shape(const hapbeam_touch* touch, double* x_w, int count);
+/* Largest strain at the surface of the beam as it is now; s: arc position where it is [m], or null.  Times Young's modulus it is
+   the stress [Pa].  -1 of a trained model, which does not tell. */
+HAPBEAM_API double hapbeam_touch_peak_strain(const hapbeam_touch* touch, double* s);
 
 /* ---- The whole loop: coupling, energy monitor and force guard for a device ---- */
 

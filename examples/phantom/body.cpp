@@ -102,12 +102,16 @@ class Live final : public Body {
   Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept override {
     const Eigen::Vector3d force = servo_.tick(state);
     if constexpr (dimension == 3) deepest_ = std::max(deepest_, depth(record()));
+    if constexpr (hapbeam::has_internal_forces<Model>)
+      if (record().pressing && record().ticks % 8 == 0)
+        if (const auto peak = hapbeam::peak_strain(model_); peak.strain > peak_.strain) peak_ = peak;
     return force;
   }
   const hapbeam::ServoRecord& record() const noexcept override { return servo_.record(); }
   void reset() noexcept override {
     servo_.reset();
     deepest_ = 0;
+    peak_ = {0, 0};
   }
   const std::vector<DrawnBeam>& beams() noexcept override {
     for (DrawnBeam& beam : beams_) beam.shape = rest();
@@ -126,6 +130,7 @@ class Live final : public Body {
     return 0;
   }
   double deepest() const noexcept override { return dimension == 3 ? deepest_ : record().max_press; }
+  hapbeam::PeakStrain<double> peak() const noexcept override { return peak_; }
   const hapbeam::TickTimes& times() const noexcept override { return servo_.times(); }
   std::uint64_t full_answers() const noexcept override {
     return parts_.full_answers ? parts_.full_answers->load() : 0;
@@ -142,6 +147,7 @@ class Live final : public Body {
   hapbeam::Servo<Model, Coupling> servo_;
   std::vector<DrawnBeam> beams_;
   double deepest_ = 0;  // [m] of a rod
+  hapbeam::PeakStrain<double> peak_{0, 0};
 };
 
 template <typename Model>

@@ -16,6 +16,7 @@
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo_record.hpp>
 #include <hapbeam/haptics/servo/tick_times.hpp>
+#include <hapbeam/internal_forces.hpp>
 #include <hapbeam/rod.hpp>
 
 namespace phantom {
@@ -44,6 +45,8 @@ class Body {
   /// How far the beam is pressed from where it rests there [m]; 0 where it is not.
   virtual double depth(const hapbeam::ServoRecord& record) const noexcept = 0;
   virtual double deepest() const noexcept = 0;  ///< [m] magnitude that was asked, as the report has it
+  /// Largest strain of the run, as every eighth tick shows it; 0 where the model does not tell.
+  virtual hapbeam::PeakStrain<double> peak() const noexcept = 0;
   virtual const hapbeam::TickTimes& times() const noexcept = 0;
   virtual std::uint64_t full_answers() const noexcept = 0;  ///< of the full model of a guarded one
   virtual const Options& options() const noexcept = 0;      ///< the coupling's figures filled in

@@ -46,6 +46,7 @@ Run Run::of(Session& session, bool interrupted, const hapbeam::TimeSummary& pict
           session.picture().record,
           body.times(),
           body.deepest(),
+          body.peak(),
           session.device().counts(),
           body.full_answers(),
           session.device().priority(),
@@ -111,6 +112,9 @@ void print_summary(const Run& run) {
       "contact  in %llu ticks, begun %llu times; deepest press %.3f mm, largest force %.2f N; worst status "
       "%s\n",
       number(r.contact_ticks), number(r.touches), run.deepest * 1e3, r.max_force, name(r.worst));
+  if (run.peak.strain > 0)
+    std::printf("strain   %.2g %% at the surface where it was largest, at %.1f mm: %.3g MPa\n",
+                100 * run.peak.strain, run.peak.s * 1e3, run.peak.strain * run.options.beam.young * 1e-6);
   if (run.options.guarded)
     std::printf("model    %s answered %llu of them, finite elements %llu\n", run.trained->kind,
                 number(r.contact_ticks - std::min(run.full_answers, r.contact_ticks)),
@@ -209,6 +213,7 @@ std::string json(const Run& run) {
       .add("period_us_p99", period_p99 * 1e6)
       .add("deadline_misses", o.lock_step ? run.counts.missed_ticks : run.times.missed())
       .add("max_press_mm", run.deepest * 1e3)
+      .add("max_strain", run.peak.strain)
       .add("max_force_N", r.max_force)
       .add("force_cut_ticks", run.counts.force_cut_ticks)
       .add("force_saturated_ticks", r.saturated_ticks)

@@ -10,6 +10,7 @@
 #include <hapbeam/haptics/device/device.hpp>
 #include <hapbeam/haptics/servo/servo_record.hpp>
 #include <hapbeam/haptics/servo/tick_times.hpp>
+#include <hapbeam/internal_forces.hpp>
 
 namespace phantom {
 
@@ -25,6 +26,7 @@ struct Run {
   const hapbeam::ServoRecord record;
   const hapbeam::TickTimes& times;
   double deepest;  ///< [m]
+  hapbeam::PeakStrain<double> peak;
   hapbeam::DeviceCounts counts;
   std::uint64_t full_answers;  ///< of the full model of a guarded one
   hapbeam::RealTime priority;  ///< of the servo's thread

@@ -56,6 +56,12 @@ struct RodForce {
 /// A dead load per unit length, as a function of arc position s [m] -> [N/m].
 using RodLoad = std::function<VectorOf<double, 3>(double)>;
 
+/// How far a section reaches along both axes: where its surface is strained.
+struct RodOutline {
+  double width, height;  ///< [m] along d1 and d2
+  bool corners;          ///< whether both extents meet: a rectangle
+};
+
 /// A rod, its ends and its loads; straight, unless it is given a natural shape, and its right end where that shape puts it,
 /// unless it is placed elsewhere.  An immutable value but for what is added to it.
 class Rod {
@@ -65,6 +71,8 @@ class Rod {
                     const RodSupport& left, const RodSupport& right)
       : Rod(length, stiffness(section, material), section.thickness, left, right) {
     material_ = material;
+    outline_ = {section.width > 0 ? section.width : thickness_,
+                section.height > 0 ? section.height : thickness_, section.corners};
     area_ = [area = section.area](double) { return area; };
   }
 
@@ -74,6 +82,7 @@ class Rod {
       : length_(detail::positive("length", length, "m")),
         stiffness_(stiffness),
         thickness_(detail::positive("thickness", thickness, "m")),
+        outline_{thickness, thickness, false},
         left_(left),
         right_(right) {
     detail::positive("axial stiffness", stiffness.axial, "N");
@@ -170,6 +179,8 @@ class Rod {
   double length() const noexcept { return length_; }  ///< L [m]
   const RodStiffness& stiffness() const noexcept { return stiffness_; }
   double thickness() const noexcept { return thickness_; }  ///< [m]
+  /// Of the section that it was built with; a rod that is given by its stiffness has a round one of its thickness.
+  const RodOutline& outline() const noexcept { return outline_; }
   const RodSupport& left() const noexcept { return left_; }
   const RodSupport& right() const noexcept { return right_; }
   const std::vector<RodPart>& parts() const noexcept {
@@ -221,6 +232,7 @@ class Rod {
   RodMaterial material_{0, 0};  // not known where the stiffness is given
   std::function<double(double)> area_;
   double thickness_;
+  RodOutline outline_;
   RodSupport left_, right_;
   std::vector<RodPart> parts_;
   std::vector<RodFoundation> foundations_;

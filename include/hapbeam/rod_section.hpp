@@ -17,6 +17,10 @@ struct RodSection {
   double inertia2;   ///< I about d2 [m⁴]
   double torsion;    ///< Saint-Venant's J [m⁴]
   double thickness;  ///< [m] diameter of the round surface that an avatar touches: the smallest extent
+  /// What is strained at the surface; 0: as far as the thickness.
+  double width = 0;      ///< [m] extent along d1
+  double height = 0;     ///< [m] extent along d2
+  bool corners = false;  ///< whether both extents meet: a rectangle
 
   /// @param width [m] along d1   @param height [m] along d2
   /// J of a × b, a >= b, is ab³/3 (1 - 192 b/(π⁵ a) Σ tanh(kπa/2b)/k⁵) over odd k: Timoshenko and Goodier, Theory of
@@ -26,8 +30,14 @@ struct RodSection {
                  b = (std::min)(width, detail::positive("section height", height, "m"));
     double sum = 0;
     for (int k = 1; k < 200; k += 2) sum += std::tanh(k * pi * a / (2 * b)) / std::pow(k, 5);
-    return {width * height, width * height * height * height / 12, height * width * width * width / 12,
-            a * b * b * b / 3 * (1 - 192 * b / (std::pow(pi, 5) * a) * sum), b};
+    return {width * height,
+            width * height * height * height / 12,
+            height * width * width * width / 12,
+            a * b * b * b / 3 * (1 - 192 * b / (std::pow(pi, 5) * a) * sum),
+            b,
+            width,
+            height,
+            true};
   }
   static RodSection circle(double diameter) {
     return ellipse(detail::positive("section diameter", diameter, "m"), diameter);
@@ -45,8 +55,13 @@ struct RodSection {
   static RodSection ellipse(double width, double height) {
     const double a = detail::positive("section width", width, "m") / 2,
                  b = detail::positive("section height", height, "m") / 2;
-    return {pi * a * b, pi * a * b * b * b / 4, pi * a * a * a * b / 4,
-            pi * a * a * a * b * b * b / (a * a + b * b), (std::min)(width, height)};
+    return {pi * a * b,
+            pi * a * b * b * b / 4,
+            pi * a * a * a * b / 4,
+            pi * a * a * a * b * b * b / (a * a + b * b),
+            (std::min)(width, height),
+            width,
+            height};
   }
 
  private:

@@ -15,12 +15,14 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <hapbeam/angle.hpp>
 #include <hapbeam/beam.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/internal_forces.hpp>
 #include <hapbeam/rod.hpp>
 
 namespace hapbeam {
@@ -146,6 +148,15 @@ class TurningPlane {
     if (!drawn_) draw();
     return {nodes_.data(), static_cast<int>(nodes_.size())};
   }
+  /// As the planar model: d1 is the plane's normal, so that shear is along d2 and bending about d1.
+  template <class M = Model, std::enable_if_t<has_internal_forces<M>, int> = 0>
+  InternalForces<Scalar, 3> internal_forces(Scalar s) const noexcept {
+    return in_space(model_.internal_forces(s));
+  }
+  template <class M = Model, std::enable_if_t<has_internal_forces<M>, int> = 0>
+  InternalForces<Scalar, 3> internal_forces(int piece, Scalar s) const noexcept {
+    return in_space(model_.internal_forces(piece, s));
+  }
   /// Where push() answers with ok: in depth without a limit where that of the planar model has none.
   Range<Scalar> range() const noexcept {
     Range<Scalar> range = model_.range();
@@ -165,6 +176,9 @@ class TurningPlane {
  private:
   static constexpr bool any_direction = takes_push<Model>;
 
+  static InternalForces<Scalar, 3> in_space(const InternalForces<Scalar>& cut) noexcept {
+    return {cut.normal, 0, -cut.shear, -cut.moment, 0, 0, cut.axial_strain, cut.surface_strain};
+  }
   void draw() const noexcept {
     const auto shape = model_.shape();
     const VectorOf<Scalar, 3> side = detail::cross3(axis_, up_);

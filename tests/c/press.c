@@ -13,7 +13,7 @@ static void touch_and_servo(void) {
   hapbeam_beam bar = hapbeam_rectangle(2.54, 0.0254, 0.0254, 206.84e9, HAPBEAM_PINNED, HAPBEAM_PINNED);
   hapbeam_touch* touch = hapbeam_touch_create(&bar, HAPBEAM_VON_KARMAN, 16, 0.01, why);
   hapbeam_contact felt = {{0, 0}, 0, 0, 0, 0};
-  double line[2 * 101], force[3] = {1, 1, 1}, position[3] = {0, 0, 0}, velocity[3] = {0, 0, 0};
+  double bent, strain, line[2 * 101], force[3] = {1, 1, 1}, position[3] = {0, 0, 0}, velocity[3] = {0, 0, 0};
   hapbeam_servo* servo;
   int i;
   CHECK(touch && why[0] == '\0');
@@ -23,6 +23,11 @@ static void touch_and_servo(void) {
   CHECK(felt.force[1] > 48 * bar.bending_stiffness / pow(2.54, 3) * -felt.d && felt.d < -0.009);
   printf("%.17g\n", felt.force[1]);
   CHECK(hapbeam_touch_shape(touch, line, 101) == 101);
+  /* 12 EI d/L^2 bends it, and the tension stretches it, too: (3d/L)^2/2 at most. */
+  bent = 0.0127 * 12 * -felt.d / (2.54 * 2.54);
+  strain = hapbeam_touch_peak_strain(touch, force);
+  CHECK(strain > bent && strain < bent + 4.5 * felt.d * felt.d / (2.54 * 2.54));
+  CHECK(fabs(force[0] - felt.s) < 1e-9 && hapbeam_touch_peak_strain(0, 0) == -1);
   CHECK(fabs(line[2 * 50 + 1] - felt.d) < 1e-12 && line[1] == 0 && fabs(line[2 * 100] - 2.54) < 1e-12);
   hapbeam_touch_reset(touch);
   felt = hapbeam_touch_tick(touch, NAN, 0);

@@ -44,6 +44,9 @@ constexpr bool is_noexcept() {
   static_assert(noexcept(std::declval<const Model&>().report()));
   static_assert(noexcept(std::declval<const Model&>().strain_energy()));
   static_assert(noexcept(std::declval<const Model&>().elements()));
+  static_assert(has_internal_forces<Model>);
+  static_assert(noexcept(std::declval<const Model&>().internal_forces(S())));
+  static_assert(noexcept(peak_strain(std::declval<const Model&>())));
   static_assert(noexcept(std::declval<const Centreline<S>&>().at(S())));
   static_assert(noexcept(std::declval<const Centreline<S>&>().segment(0)));
   return true;
@@ -85,6 +88,8 @@ Answers drive(Model& model, const Path& path) noexcept {
     const Centreline<S> shape = model.shape();
     looked_at += shape.at(press.s).w + shape.segment(shape.segments() / 2)(1, 1) + model.range().depth +
                  model.thickness() + S(model.report().solves) + model.strain_energy();
+    const S strain = peak_strain(model).strain + model.internal_forces(press.s).surface_strain;
+    answers.not_finite += !std::isfinite(strain) && std::isfinite(press.s);
   }
   model.reset();
   keep(looked_at);

@@ -49,6 +49,7 @@ void check_servo(const char* name) {
       not_finite += !std::isfinite(response.force);
       most = std::max(most, model.report().solves);
       for (const auto& node : model.shape()) not_finite += !is_finite(node);
+      not_finite += !std::isfinite(peak_strain(model).strain);
       if (++k % 50 == 0) (void)model.release();
     }
     model.reset();

@@ -53,6 +53,11 @@ struct CarriedFrame {
     const V3<S> a = combine(w.a, w.a1, w.a2);
     return out(a[0], a[1], a[2]);
   }
+  /// The director at ξ.   @param first  of node 1   @param twist  ψ, of the element's own
+  V3<S> director(const RodProperties<S>& p, const V3<S>& first, S twist, S x) const noexcept {
+    const V3<S> d3 = detail::unit(tangent(p, x));
+    return detail::turn(detail::carry(first, u, d3), d3, mismatch * x + 4 * twist * x * (1 - x));
+  }
   V3<S> middle(const RodProperties<S>& p) const noexcept {
     return combine(S(1.5) * p.inverse_length, S(-0.25), S(-0.25));
   }

@@ -92,9 +92,7 @@ struct TwistedRod {
   template <typename S>
   static VectorOf<S, 3> director(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
                                  S twist, S x) noexcept {
-    const Frame<S> f(p, n1, n2);
-    const V3<S> v = detail::unit(f.tangent(p, x));
-    return detail::turn(detail::carry(n1.director, f.u, v), v, f.mismatch * x + 4 * twist * x * (1 - x));
+    return Frame<S>(p, n1, n2).director(p, n1.director, twist, x);
   }
   /// ψ with which the director in the middle is along the given one.
   template <typename S>

@@ -126,6 +126,9 @@ class AllDisplacements {
   int elements() const noexcept { return system_.elements(); }
   Centreline<Scalar, dimension> shape() const noexcept { return system_.centreline(); }
   Scalar strain_energy() const noexcept { return system_.strain_energy(); }
+  InternalForces<Scalar, dimension> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
+    return system_.internal_forces(e, s, thickness);
+  }
   /// How the search for the shape at rest ended.
   const SolveReport<Scalar>& rest() const noexcept { return rest_; }
   /// How the last press or release ended.

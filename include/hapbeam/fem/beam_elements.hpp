@@ -8,6 +8,7 @@
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/beam_forces.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
 #include <hapbeam/fem/natural_shape.hpp>
@@ -84,6 +85,14 @@ class BeamElements {
   void load_rate(int e, Vector6<Scalar>& r) const noexcept {
     r.setZero();
     subtract_loads(e, 1, displacements(e), r, nullptr);
+  }
+  /// What the section at s carries, in element e, which holds s.   @param thickness [m]
+  InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar lambda, Scalar thickness) const noexcept {
+    Vector6<Scalar> r;
+    residual(e, lambda, r);
+    const auto cut =
+        detail::cut_beam<Element>(view(nodes_), e, s, r, loaded(lambda) ? &loads_ : nullptr, lambda);
+    return cut.in_section(axial_stiffness_, bending_stiffness_, thickness);
   }
   /// [J]
   Scalar strain_energy() const noexcept {

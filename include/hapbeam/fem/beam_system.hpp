@@ -310,6 +310,10 @@ class BeamSystem {
 
   /// Strain energy [J].
   Scalar strain_energy() const noexcept { return beam_.strain_energy(); }
+  /// What the section at s carries, in element e, which holds s.   @param thickness [m]
+  InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
+    return beam_.internal_forces(e, s, load_, thickness);
+  }
 
  private:
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }

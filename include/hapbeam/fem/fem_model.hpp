@@ -33,6 +33,7 @@
 #include <hapbeam/fem/all_displacements.hpp>
 #include <hapbeam/fem/one_tension.hpp>
 #include <hapbeam/fem/press_range.hpp>
+#include <hapbeam/internal_forces.hpp>
 
 namespace hapbeam {
 
@@ -149,6 +150,15 @@ class FemModel {
   Scalar strain_energy() const noexcept;
   int elements() const noexcept {
     return take(ways_, [](const auto& way) { return way.elements(); });
+  }
+
+  /// What the section at arc position s carries in the present shape: internal_forces.hpp.   O(log n)
+  InternalForces<Scalar, dimension> internal_forces(Scalar s) const noexcept {
+    return internal_forces(shape().segment_at(s), s);
+  }
+  /// The same in an element that is known to hold s.   @param element  from 0
+  InternalForces<Scalar, dimension> internal_forces(int element, Scalar s) const noexcept {
+    return take(ways_, [&](const auto& way) { return way.internal_forces(element, s, thickness_); });
   }
 
  private:

@@ -29,6 +29,7 @@
 #include <vector>
 
 #include <hapbeam/beam.hpp>
+#include <hapbeam/centreline.hpp>
 #include <hapbeam/element/hermite.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 
@@ -246,9 +247,37 @@ Scalar subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
 template <typename Scalar>
 class DeadLoads {
  public:
-  DeadLoads(const Beam& beam, int elements) : forces_(point_forces<Scalar>(beam, elements)) {}
+  DeadLoads(const Beam& beam, int elements) : forces_(point_forces<Scalar>(beam, elements)) {
+    if (!beam.transverse() && !beam.axial()) return;
+    const ContactMesh<Scalar> mesh(elements, static_cast<Scalar>(beam.length()));
+    const double h = beam.length() / elements;
+    cell_length_ = static_cast<Scalar>(h);
+    for (int e = 0; e < elements; ++e)
+      cells_.push_back(
+          {mesh.position(e),
+           {static_cast<Scalar>(detail::sample(beam.axial(), "axial load", (e + 0.5) * h)),
+            static_cast<Scalar>(detail::sample(beam.transverse(), "transverse load", (e + 0.5) * h))}});
+  }
 
   bool empty() const noexcept { return forces_.empty(); }
+
+  /// Calls visit(load) for those from begin to end, the end itself where it is the last, in order of s.   O(log loads)
+  template <class Visit>
+  void visit(Scalar begin, Scalar end, bool last, Visit&& visit) const noexcept {
+    auto load = std::partition_point(forces_.begin(), forces_.end(),
+                                     [begin](const PointForce<Scalar>& force) { return force.s < begin; });
+    for (; load != forces_.end() && (load->s < end || last); ++load) visit(*load);
+  }
+  /// Calls visit(q, start, length) with the distributed loads, along u and w [N/m], and the cell of the uniform mesh that they made nodal
+  /// forces of: the last one that begins before a place.   @param before  whether a cell that begins at s does   O(log elements)
+  template <class Before, class Visit>
+  void visit_cell(Before&& before, Visit&& visit) const noexcept {
+    if (cells_.empty()) return;
+    auto cell = std::partition_point(cells_.begin(), cells_.end(),
+                                     [&before](const Cell& each) { return before(each.start); });
+    if (cell != cells_.begin()) --cell;
+    visit(cell->load, cell->start, cell_length_);
+  }
 
   /// Subtracts λ times the loads from begin to end, the end itself where it is the last, as the functions above do.
   /// @return λ W [J]     O(log loads)
@@ -256,20 +285,24 @@ class DeadLoads {
   Scalar subtract(Scalar begin, Scalar end, bool last, Scalar lambda, const ElementProperties<Scalar>& p,
                   const Vector6<Scalar>& d, Vector6<Scalar>& r, Matrix6<Scalar>* K) const noexcept {
     Scalar work = 0;
-    auto load = std::partition_point(forces_.begin(), forces_.end(),
-                                     [begin](const PointForce<Scalar>& force) { return force.s < begin; });
-    for (; load != forces_.end() && (load->s < end || last); ++load) {
-      const Scalar t = load->s == end ? Scalar(1) : (load->s - begin) / p.length;
-      if constexpr (any_rotation<Element>) work += subtract_load(*load, t, lambda, p, d, r, K);
+    visit(begin, end, last, [&](const PointForce<Scalar>& load) {
+      const Scalar t = load.s == end ? Scalar(1) : (load.s - begin) / p.length;
+      if constexpr (any_rotation<Element>) work += subtract_load(load, t, lambda, p, d, r, K);
       else
         work +=
-            subtract_moderate_load<detail::MembraneFeelsSlope<Element>::value>(*load, t, lambda, p, d, r, K);
-    }
+            subtract_moderate_load<detail::MembraneFeelsSlope<Element>::value>(load, t, lambda, p, d, r, K);
+    });
     return work;
   }
 
  private:
+  struct Cell {
+    Scalar start;  // [m]
+    Vector2<Scalar> load;
+  };
   std::vector<PointForce<Scalar>> forces_;  // in order of s
+  std::vector<Cell> cells_;                 // of the uniform mesh, where there are distributed loads
+  Scalar cell_length_ = 0;
 };
 
 }  // namespace hapbeam

@@ -52,6 +52,9 @@ class OneTension {
   int elements() const noexcept { return system_.elements(); }
   Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
   Scalar strain_energy() const noexcept { return system_.strain_energy(); }
+  InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
+    return system_.internal_forces(e, s, thickness);
+  }
   const SolveReport<Scalar>& rest() const noexcept { return rest_; }
   const SolveReport<Scalar>& report() const noexcept { return report_; }
 

@@ -31,6 +31,25 @@ class RodBed {
     spring = {};
     const Scalar l = to - from;
     spring.home = unknowns(natural.at(from), natural.at(to));
+    visit(from, to, natural,
+          [&](Scalar s, const Eigen::Matrix<Scalar, 3, 3>& k, const VectorOf<Scalar, 3>& home) {
+            const Scalar t = (s - from) / l, u = 1 - t;
+            const Scalar N[4] = {u * u * (1 + 2 * t), l * t * u * u, t * t * (3 - 2 * t), -l * t * t * u};
+            // How far the cubic of the natural nodes is from the natural shape, and what that takes.
+            VectorOf<Scalar, 3> miss = -home;
+            for (int i = 0; i < 4; ++i) miss += N[i] * spring.home.template segment<3>(3 * i);
+            const VectorOf<Scalar, 3> force = k * miss;
+            for (int i = 0; i < 4; ++i) {
+              for (int j = 0; j < 4; ++j) spring.K.template block<3, 3>(3 * i, 3 * j) += N[i] * N[j] * k;
+              spring.force.template segment<3>(3 * i) += N[i] * force;
+            }
+            spring.energy += miss.dot(force) / 2;
+          });
+  }
+
+  /// Calls visit(s, k, r°) for points from a to b that stand for its springs there, k their stiffness [N/m].
+  template <class Visit>
+  void visit(Scalar from, Scalar to, const NaturalRod<Scalar>& natural, Visit&& visit) const noexcept {
     for (const RodFoundation& foundation : foundations_) {
       const Scalar a = (std::max)(from, static_cast<Scalar>(foundation.from)),
                    b = (std::min)(to, static_cast<Scalar>(foundation.to));
@@ -38,25 +57,16 @@ class RodBed {
       const Scalar across = static_cast<Scalar>(foundation.across),
                    more = static_cast<Scalar>(foundation.along) - across;
       for (std::size_t g = 0; g < detail::gauss_points.size(); ++g) {
-        const Scalar s = a + static_cast<Scalar>(detail::gauss_points[g]) * (b - a), t = (s - from) / l,
-                     u = 1 - t, weight = static_cast<Scalar>(detail::gauss_weights[g]) * (b - a);
-        const Scalar N[4] = {u * u * (1 + 2 * t), l * t * u * u, t * t * (3 - 2 * t), -l * t * t * u};
+        const Scalar s = a + static_cast<Scalar>(detail::gauss_points[g]) * (b - a),
+                     weight = static_cast<Scalar>(detail::gauss_weights[g]) * (b - a);
         const RodNode<Scalar> home = natural.at(s);
-        const Eigen::Matrix<Scalar, 3, 3> k = weight * (across * Eigen::Matrix<Scalar, 3, 3>::Identity() +
-                                                        more * home.tangent * home.tangent.transpose());
-        // How far the cubic of the natural nodes is from the natural shape, and what that takes.
-        VectorOf<Scalar, 3> miss = -home.r;
-        for (int i = 0; i < 4; ++i) miss += N[i] * spring.home.template segment<3>(3 * i);
-        const VectorOf<Scalar, 3> force = k * miss;
-        for (int i = 0; i < 4; ++i) {
-          for (int j = 0; j < 4; ++j) spring.K.template block<3, 3>(3 * i, 3 * j) += N[i] * N[j] * k;
-          spring.force.template segment<3>(3 * i) += N[i] * force;
-        }
-        spring.energy += miss.dot(force) / 2;
+        visit(s,
+              Eigen::Matrix<Scalar, 3, 3>(weight * (across * Eigen::Matrix<Scalar, 3, 3>::Identity() +
+                                                    more * home.tangent * home.tangent.transpose())),
+              home.r);
       }
     }
   }
-
   /// [J]
   Scalar energy(int e, const RodNode<Scalar>& a, const RodNode<Scalar>& b) const noexcept {
     const Spring& spring = springs_[static_cast<std::size_t>(e)];

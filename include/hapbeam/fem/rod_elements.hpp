@@ -12,12 +12,14 @@
 #include <type_traits>
 #include <vector>
 
+#include <hapbeam/element/carried_frame.hpp>
 #include <hapbeam/element/pack.hpp>
 #include <hapbeam/element/rod_properties.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
 #include <hapbeam/fem/natural_rod.hpp>
 #include <hapbeam/fem/rod_bed.hpp>
+#include <hapbeam/fem/rod_forces.hpp>
 #include <hapbeam/fem/rod_profile.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/unroll.hpp>
@@ -47,7 +49,8 @@ class RodElements {
         natural_(rod),
         mesh_(elements, static_cast<Scalar>(rod.length())),
         profile_(rod),
-        bed_(rod, elements) {
+        bed_(rod, elements),
+        surface_(rod) {
     if constexpr (!has_twist)
       if (!rod.arcs().empty() || !profile_.round())
         throw std::invalid_argument(
@@ -150,6 +153,55 @@ class RodElements {
     Tangent unused = Tangent::Zero();
     if (!bed_.empty()) (void)bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, unused);
     (void)with_loads(e, 0, lambda, r);
+  }
+  /// What the section at s carries, in element e, which holds s.
+  InternalForces<Scalar, 3> internal_forces(int e, Scalar at, Scalar lambda) const noexcept {
+    using Vector3 = VectorOf<Scalar, 3>;
+    const Node &a = nodes_[e], &b = nodes_[e + 1];
+    const Scalar s = (std::min)((std::max)(at, a.s), b.s), t = (s - a.s) / (b.s - a.s);
+    const Centreline<Scalar, 3> line = view(nodes_);
+    Residual r;
+    residual(e, lambda, r);
+    const auto moment = [&r](int row, const Vector3& tangent) {
+      Vector3 m = detail::cross3<Scalar>(tangent, r.template segment<3>(row + 3));
+      if constexpr (has_twist) m += r[row + 6] * detail::unit(tangent);
+      return m;
+    };
+    detail::RodCut<Scalar> cut{-r.template segment<3>(0), -moment(0, a.tangent), a.r}, end = cut;
+    const RodPoint<Scalar> place = line.at(e, s);
+    // On the side of this element, where it is cut at a node.  Loads from the left end on: they are in no order.
+    const auto before_cut = [&](Scalar x) { return x < s || (x == s && s == a.s); };
+    cut.go(place.r);
+    end.go(b.r);
+    for (const PointLoad& load : loads_) {
+      if (line.segment_at(load.s) != e) continue;
+      const RodPoint<Scalar> there = line.at(e, load.s);
+      const auto pass = [&](detail::RodCut<Scalar>& of) {
+        of.pass(lambda * load.force, there.r);
+        of.moment -= detail::cross3<Scalar>(there.tangent, lambda * load.couple);
+      };
+      pass(end);
+      if (before_cut(load.s)) pass(cut);
+    }
+    const auto lie = [&](detail::RodCut<Scalar>& of, Scalar to) {
+      bed_.visit(a.s, to, natural_, [&](Scalar x, const Eigen::Matrix<Scalar, 3, 3>& k, const Vector3& home) {
+        const Vector3 there = line.at(e, x).r;
+        of.pass(-k * (there - home), there);
+      });
+    };
+    if (!bed_.empty()) lie(end, b.s), lie(cut, s);
+    cut.moment += t * (moment(unknowns, b.tangent) - end.moment);
+    if (!cells_.empty()) {
+      std::size_t k = 0;
+      while (k + 1 < cells_.size() && before_cut(loads_[k + 1].s)) ++k;
+      const Scalar from = loads_[k].s, h = loads_[k + 1].s - from;
+      cut.spread(lambda * cells_[k], place.tangent, (s - from) / h, h);
+    }
+    Scalar twist = 0;
+    if constexpr (has_twist) twist = inners_[e].twist;
+    const detail::CarriedFrame<Scalar> frame(properties_[e], a, b);
+    return cut.in_section(frame.director(properties_[e], a.director, twist, t), detail::unit(place.tangent),
+                          profile_.at(s), surface_);
   }
   /// [J]
   Scalar strain_energy() const noexcept {
@@ -280,6 +332,7 @@ class RodElements {
     if (const RodLoad distributed = rod.load()) {
       std::vector<std::array<Vector3, 2>> on(static_cast<std::size_t>(elements) + 1,
                                              {Vector3(0, 0, 0), Vector3(0, 0, 0)});
+      cells_.assign(static_cast<std::size_t>(elements), VectorOf<Scalar, 3>::Zero());
       for (int e = 0; e < elements; ++e)
         for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
           const double t = detail::gauss_points[k], u = 1 - t, weight = h * detail::gauss_weights[k];
@@ -287,6 +340,7 @@ class RodElements {
           for (int c = 0; c < 3; ++c) detail::finite("load", f[c], "N/m");
           f *= weight;
           auto &a = on[static_cast<std::size_t>(e)], &b = on[static_cast<std::size_t>(e) + 1];
+          cells_[static_cast<std::size_t>(e)] += (f / h).template cast<Scalar>();
           a[0] += u * u * (1 + 2 * t) * f, a[1] += h * t * u * u * f;
           b[0] += t * t * (3 - 2 * t) * f, b[1] -= h * t * t * u * f;
         }
@@ -351,11 +405,13 @@ class RodElements {
   detail::PerNode<RodProperties<Scalar>, Elements, MaxElements> properties_;
   detail::PerNode<RodProperties<Wide>, Elements, MaxElements> wide_;
   detail::PerNode<Force, Elements, MaxElements> forces_;
-  std::vector<PointLoad> loads_;
+  std::vector<PointLoad> loads_;            // first those of a distributed load, node by node
+  std::vector<VectorOf<Scalar, 3>> cells_;  // its mean between those [N/m]
   NaturalRod<Scalar> natural_;
   ContactMesh<Scalar> mesh_;
   RodProfile<Scalar> profile_;
   RodBed<Scalar> bed_;
+  detail::RodSurface<Scalar> surface_;
 };
 
 }  // namespace hapbeam

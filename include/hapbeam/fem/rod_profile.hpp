@@ -38,6 +38,13 @@ class RodProfile {
   /// Whether it bends the same about both axes everywhere.
   bool round() const noexcept { return round_; }
 
+  /// Stiffness of the section at s [m].
+  RodStiffness at(Scalar s) const noexcept {
+    const double x = static_cast<double>(s);
+    const Values k = parts_[part_at(x)].at(x);
+    return {k[0], k[1], k[2], k[3]};
+  }
+
   /// Gives an element its stiffnesses.   @param from,to  arc positions of its ends [m]
   void apply(Scalar from, Scalar to, RodProperties<Scalar>& p) const noexcept {
     const detail::GaussRule& rule = detail::gauss_rule(p.number);

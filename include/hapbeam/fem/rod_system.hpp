@@ -375,6 +375,11 @@ class RodSystem {
     return {at.template segment<3>(0), moment};
   }
 
+  /// What the section at s carries, in element e, which holds s.
+  InternalForces<Scalar, 3> internal_forces(int e, Scalar s, Scalar) const noexcept {
+    return rod_.internal_forces(e, s, load_);
+  }
+
   /// Strain energy, that of the springs that hold it included [J].
   Scalar strain_energy() const noexcept {
     Scalar energy = rod_.strain_energy();

@@ -19,6 +19,7 @@
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/fem/beam_forces.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
@@ -142,6 +143,16 @@ class TautSystem {
     const Scalar longer = between_ends_ ? (tension_ - drawn_) * flexibility_ : Scalar(0);
     return force_unit_ * length_ *
            ((stiffness_ * d_ * d_ + tension_ * tension_ * flexibility_) / 2 - tension_ * longer);
+  }
+  /// What the section at s carries, in element e of the shape of lay(), which holds s.   @param thickness [m]
+  InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
+    const Scalar EI = force_unit_ * length_ * length_, EA = force_unit_ / flexibility_;
+    const Node &a = nodes_[e], &b = nodes_[e + 1];
+    Vector6<Scalar> r;
+    Element::residual(ElementProperties<Scalar>(b.s - a.s, EA, EI),
+                      Vector6<Scalar>(a.u, a.w, a.theta, b.u, b.w, b.theta), r);
+    const DeadLoads<Scalar>* const none = nullptr;
+    return detail::cut_beam<Element>(centreline(), e, s, r, none, Scalar(0)).in_section(EA, EI, thickness);
   }
 
  private:
