@@ -23,6 +23,7 @@ template <class Element, class System>
 class RoundPush {
   using Scalar = typename System::Scalar;
   using Node = typename System::Node;
+  using Mesh = typename System::Mesh;
   using Round = typename SystemOf<Element>::template Round<Scalar>;
   using RoundContact = typename SystemOf<Element>::template RoundContact<Scalar>;
   static constexpr int dimension = dimension_of<Element>;
@@ -122,7 +123,7 @@ class RoundPush {
     System& system = way.system_;
     const RoundContact round{request};
     const Scalar s = range.range().nearest({trial.s, 0}).s, length = system.length();
-    const ContactMesh<Scalar> mesh = way.uniform_.at(range.node(s));
+    const Mesh mesh = way.uniform_.at(range.node(s));
     const int c = mesh.node(), end = c == 0 ? -1 : c == system.elements() ? 1 : 0;
     const bool outside = planar && s != trial.s;
     bool wall = false, beside_support = false;
@@ -222,9 +223,9 @@ class RoundPush {
   }
 
   Foresight<System, Round> foresight_;
-  bool sharp_ = false;               // where the last circle touched
-  typename System::State before_;    // before a push with friction
-  ContactMesh<Scalar> before_mesh_;  // of it
+  bool sharp_ = false;             // where the last circle touched
+  typename System::State before_;  // before a push with friction
+  Mesh before_mesh_;               // of it
 };
 
 /// Of a beam that is not laid on circles.
