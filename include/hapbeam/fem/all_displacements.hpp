@@ -66,11 +66,11 @@ class AllDisplacements {
 
   /// Lays the beam on a circle, a rod on a capsule.   @param range  says where a node can be   @param valid  whether there is a request
   /// @return as press()
-  /// @param grip  of its touch, null: without friction
+  /// @param friction  of its touch, null: without friction
   Pushed<Scalar, dimension> push(const Round& request, const Extent& range, bool valid,
-                                 FrictionState<Scalar, dimension>* grip) noexcept {
+                                 FrictionState<Scalar, dimension>* friction) noexcept {
     if (!begins(valid)) return {0, report_.status};
-    return round_.push(*this, request, range, grip);
+    return round_.push(*this, request, range, friction);
   }
 
   /// Lays it on several.  @param all  in and out   @return the status that is common to all of them

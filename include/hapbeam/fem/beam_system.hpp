@@ -15,8 +15,8 @@
 #include <hapbeam/beam.hpp>
 #include <hapbeam/fem/beam_elements.hpp>
 #include <hapbeam/fem/chain.hpp>
+#include <hapbeam/fem/contact_friction.hpp>
 #include <hapbeam/fem/contact_point.hpp>
-#include <hapbeam/fem/friction_law.hpp>
 #include <hapbeam/fem/other_contacts.hpp>
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/round_contact.hpp>
@@ -36,6 +36,7 @@ class BeamSystem {
   using Nodes = detail::PerNode<Node, Elements, MaxElements>;
   using State = Nodes;
   using Mesh = ContactMesh<Scalar, contacts_of<Element>>;
+  using Friction = detail::ContactFriction<Scalar, 2, detail::RoundContact>;
 
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or elements does not fit the type
   BeamSystem(const Beam& beam, int elements)
@@ -144,27 +145,10 @@ class BeamSystem {
   /// How that circle lies to the contact's node.
   auto contact() const noexcept { return contact_.view(node(contact_.node())); }
 
-  // What RoundPush asks where there is friction.
-
-  /// The next goals are those of a touch with friction, until let_slip().
-  /// @param first  where it begins, if it does   @param normal_force  of the last tick [N]
-  void take_friction(const FrictionState<Scalar, 2>& grip, const Circle<Scalar>& round,
-                     const detail::FrictionPlace<Scalar, 2>& first, Scalar normal_force) noexcept {
-    touched_ = round;
-    const Scalar per_length = unit_ / length_;
-    grip_.begin(grip, first, round.reach,
-                per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()), length_ / 1000,
-                normal_force);
-  }
-  void let_slip() noexcept { grip_.off(); }
-  detail::FrictionLaw<Scalar, 2>& grip() noexcept { return grip_; }
+  /// Of the contacts of the next goals, null: none.
+  void set_friction(Friction* friction) noexcept { friction_ = friction; }
   /// To be called where the beam has moved.
-  void look_at_grip() noexcept {
-    const int c = contact_.node();
-    const detail::RoundContact<Scalar> seen{touched_};
-    grip_.look(contact_.round() ? seen.place(contact_.view(node(c)), node(c))
-                                : seen.place(contact_.normal(), node(c)));
-  }
+  void look_at_friction() noexcept { friction_->look(contact_, node(contact_.node())); }
 
   // What AllDisplacements asks beyond a system.
 
@@ -230,7 +214,7 @@ class BeamSystem {
     if (status != Status::ok) return {status, 0};
     force_ = linear_reaction_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
     for (auto& other : others_) other.force = other.reaction = assembler_.reaction(other.row);
-    if (grip_.on()) grip_.feel(-force_);
+    if (friction_) friction_->feel(-force_);
     advance();
     return {status, increment()};
   }
@@ -245,7 +229,7 @@ class BeamSystem {
   void forget_force() noexcept {
     force_ = 0;
     for (auto& other : others_) other.force = 0;
-    if (grip_.on()) grip_.fall();
+    if (friction_) friction_->fall();
   }
   /// Adds the increment to the state.
   void advance() noexcept {
@@ -361,7 +345,7 @@ class BeamSystem {
     const int c = contact_.node();
     if (c >= 0) contact_.look(node(c), force_);
     for (auto& other : others_) other.point.look(node(other.point.node()), other.force);
-    if (grip_.on()) look_at_grip();
+    if (friction_) look_at_friction();
     // What most elements need takes no address of their tangent: it stays in registers.
     const auto add = [&](int e, auto&& change) {
       Matrix6<Scalar> K;
@@ -385,13 +369,13 @@ class BeamSystem {
         if (const auto* const other = others_.at(e)) other->point.transform(node(e), true, e == 0, r, K);
         if (const auto* const other = others_.at(e + 1))
           other->point.transform(node(e + 1), false, true, r, K);
-        if (grip_.on() && contact_.holds(e + 1)) add_friction(3, r, K);
-        else if (grip_.on() && e == 0 && contact_.holds(0)) add_friction(0, r, K);
+        if (friction_ && contact_.holds(e + 1)) add_friction(3, r, K);
+        else if (friction_ && e == 0 && contact_.holds(0)) add_friction(0, r, K);
       });
     }
     size_ = std::sqrt(2 * energy);
     potential_ = energy - work;
-    if (grip_.on()) potential_ += grip_.potential();
+    if (friction_) potential_ += friction_->potential();
     for (std::size_t k = 0; k < 2; ++k)
       ends_[k].visit(node(end(k)), [&](int component, Scalar now, Scalar target) {
         assembler_.prescribe(end(k), component, target - now);
@@ -423,8 +407,8 @@ class BeamSystem {
   /// Friction, along the surface.  @param at  the first row of the contact's node
   void add_friction(int at, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
     const Vector2<Scalar>& n = contact_.normal();
-    r[at] -= n.y() * grip_.force().x() - n.x() * grip_.force().y();
-    K(at, at) += grip_.stiffness();
+    r[at] -= n.y() * friction_->force().x() - n.x() * friction_->force().y();
+    K(at, at) += friction_->stiffness();
   }
 
   /// An element's share of the shift, half of it to either node.
@@ -447,8 +431,7 @@ class BeamSystem {
   using Point = detail::ContactPoint<Scalar, any_rotation<Element>>;
   detail::OtherContacts<detail::OtherContact<Point, Scalar, typename Rows::HeldRow>, contacts_of<Element> - 1>
       others_;
-  detail::FrictionLaw<Scalar, 2> grip_;
-  Circle<Scalar> touched_{};
+  Friction* friction_ = nullptr;
   Scalar length_;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;

@@ -105,11 +105,11 @@ class FemModel {
   Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request) noexcept {
     return push_round(request, nullptr);
   }
-  /// The same with friction.  @param grip  of the touch: friction.hpp
+  /// The same with friction.  @param friction  of the touch: friction.hpp
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request,
-                                 FrictionState<Scalar, dimension>& grip) noexcept {
-    return push_round(request, &grip);
+                                 FrictionState<Scalar, dimension>& friction) noexcept {
+    return push_round(request, &friction);
   }
 
   /// Lays the centreline on several circles, in space capsules, of a model of Several<Element, Contacts>: which of them touch, where, and the
@@ -212,7 +212,7 @@ class FemModel {
   }
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Pushed<Scalar, dimension> push_round(const typename Of::template Round<Scalar>& request,
-                                       FrictionState<Scalar, dimension>* grip) noexcept;
+                                       FrictionState<Scalar, dimension>* friction) noexcept;
   static Response<Scalar> finite(const Response<Scalar>& response) noexcept {
     return std::isfinite(response.force) ? response : Response<Scalar>{0, Status::non_finite};
   }
@@ -249,10 +249,10 @@ template <class Element, typename Scalar, int Elements, int MaxElements,
           template <typename, int, int, int> class Assembler, class Solver>
 template <class E, std::enable_if_t<any_rotation<E>, int>>
 auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::push_round(
-    const typename Of::template Round<Scalar>& request, FrictionState<Scalar, dimension>* grip) noexcept
+    const typename Of::template Round<Scalar>& request, FrictionState<Scalar, dimension>* friction) noexcept
     -> Pushed<Scalar, dimension> {
   const bool valid = is_finite(request) && range_.on_beam(request.s);
-  Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid, grip);
+  Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid, friction);
   if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;
   if (pushed.status == Status::ok && range().nearest({pushed.s, 0}).s != pushed.s)
     pushed.status = Status::out_of_range;

@@ -64,6 +64,8 @@ class Foresight {
     forget();
   }
   void forget() noexcept { known_ = 0; }
+  /// To where the system was before the push.
+  void begin_again(System& system) const noexcept { system.set_state(mesh_, before_); }
 
  private:
   static constexpr Scalar fastest = 2,

@@ -14,6 +14,7 @@
 #include <limits>
 
 #include <hapbeam/fem/beam_system.hpp>
+#include <hapbeam/fem/contact_friction.hpp>
 #include <hapbeam/fem/rod_contact.hpp>
 #include <hapbeam/fem/rod_elements.hpp>
 #include <hapbeam/fem/rod_end.hpp>
@@ -37,6 +38,7 @@ class RodSystem {
   using Nodes = typename Parts::Nodes;
   using Mesh = typename Parts::Mesh;
   using Inners = typename Parts::Inners;
+  using Friction = detail::ContactFriction<Scalar, 3, detail::RodRoundContact>;
   using Vector3 = VectorOf<Scalar, 3>;
   static constexpr int unknowns = Element::unknowns;
   using Increment = VectorOf<Scalar, unknowns>;
@@ -180,27 +182,10 @@ class RodSystem {
   /// How that capsule lies to the contact's node.
   auto contact() const noexcept { return contact_.view(node(contact_.node())); }
 
-  // What RoundPush asks where there is friction.
-
-  /// The next goals are those of a touch with friction, until let_slip().
-  /// @param first  where it begins, if it does   @param normal_force  of the last tick [N]
-  void take_friction(const FrictionState<Scalar, 3>& grip, const Capsule<Scalar>& round,
-                     const detail::FrictionPlace<Scalar, 3>& first, Scalar normal_force) noexcept {
-    touched_ = round;
-    const Scalar per_length = unit_ / length_;
-    grip_.begin(grip, first, round.reach,
-                per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()), length_ / 1000,
-                normal_force);
-  }
-  void let_slip() noexcept { grip_.off(); }
-  detail::FrictionLaw<Scalar, 3>& grip() noexcept { return grip_; }
+  /// Of the contacts of the next goals, null: none.
+  void set_friction(Friction* friction) noexcept { friction_ = friction; }
   /// To be called where the beam has moved.
-  void look_at_grip() noexcept {
-    const int c = contact_.node();
-    const detail::RodRoundContact<Scalar> seen{touched_};
-    grip_.look(contact_.round() ? seen.place(contact_.view(node(c)), node(c))
-                                : seen.place(contact_.normal(), node(c)));
-  }
+  void look_at_friction() noexcept { friction_->look(contact_, node(contact_.node())); }
 
   // What NewtonRaphson asks of a system.
 
@@ -237,7 +222,7 @@ class RodSystem {
 
   /// The tangent holds what the contact's force makes of a capsule, on the way down as well: there a rod slips around a sphere.
   void forget_force() noexcept {
-    if (grip_.on()) grip_.fall();
+    if (friction_) friction_->fall();
   }
 
   Iteration<Scalar> iterate() noexcept {
@@ -246,7 +231,7 @@ class RodSystem {
     advance();
     linear_reaction_ = force_;
     for (auto& other : others_) other.reaction = other.force;
-    if (grip_.on()) grip_.feel(-force_);
+    if (friction_) friction_->feel(-force_);
     return {status, increment()};
   }
 
@@ -261,7 +246,7 @@ class RodSystem {
     const int c = contact_.node();
     if (c >= 0) contact_.look(node(c), force_);
     for (auto& other : others_) other.point.look(node(other.point.node()), other.force);
-    if (grip_.on()) look_at_grip();
+    if (friction_) look_at_friction();
     rod_.visit_tangents(load_, [&](int e, const auto& energies, const auto& r, const auto& K) {
       energy += energies.strain;
       work += energies.work;
@@ -278,7 +263,7 @@ class RodSystem {
       }
     if (c >= 0) add_bend(contact_);
     for (const auto& other : others_) add_bend(other.point);
-    if (grip_.on() && c >= 0) add_friction(c);
+    if (friction_ && c >= 0) add_friction(c);
     transform(0);
     transform(elements());
     if (c > 0 && c < elements()) transform(c);
@@ -287,7 +272,7 @@ class RodSystem {
     size_ =
         std::sqrt(2 * (std::max)(energy, Scalar(0)));  // of a rod without stress round-off has either sign
     potential_ = energy - work;
-    if (grip_.on()) potential_ += grip_.potential();
+    if (friction_) potential_ += friction_->potential();
     for (std::size_t k = 0; k < 2; ++k) {
       prescribed_[k].setZero();
       ends_[k].visit(node(end(k)), [&](int component, Scalar increment) {
@@ -508,8 +493,8 @@ class RodSystem {
     }
     Increment r = Increment::Zero();
     Block K = Block::Zero();
-    r.template head<6>() = -moves.transpose().lazyProduct(grip_.force());
-    const Eigen::Matrix<Scalar, 3, 6> stiff = grip_.tangent().lazyProduct(moves);
+    r.template head<6>() = -moves.transpose().lazyProduct(friction_->force());
+    const Eigen::Matrix<Scalar, 3, 6> stiff = friction_->tangent().lazyProduct(moves);
     K.template block<6, 6>(0, 0) = moves.transpose().lazyProduct(stiff);
     assembler_.add_at(c, K, r);
   }
@@ -534,8 +519,7 @@ class RodSystem {
   using Rows = Assembler<Scalar, Elements, MaxElements, unknowns>;
   using Other = detail::OtherContact<detail::RodContact<Scalar>, Scalar, typename Rows::HeldRow>;
   detail::OtherContacts<Other, contacts_of<Element> - 1> others_;
-  detail::FrictionLaw<Scalar, 3> grip_;
-  Capsule<Scalar> touched_{};
+  Friction* friction_ = nullptr;
   Scalar moves_ = 0;
   Scalar length_, axial_;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;
