@@ -161,6 +161,51 @@ struct Pushed {
   VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< unit, from there to the centre
 };
 
+namespace detail {
+
+/// What contact asks of a model that can be pushed: the point of contact is found by the model.
+template <typename Scalar, int D>
+struct RoundOf {
+  using Type = Circle<Scalar>;
+};
+template <typename Scalar>
+struct RoundOf<Scalar, 3> {
+  using Type = Capsule<Scalar>;
+};
+
+}  // namespace detail
+
+/// What a body does to a beam that it touches.
+enum class ObstacleKind : std::int8_t {
+  round,    ///< a round body pushes it away, wherever they touch
+  stop,     ///< one place of the beam goes no farther along a direction than so far
+  support,  ///< one place of the beam is so far along a direction: it is pushed and pulled
+};
+
+/// One of several bodies beside a beam that may touch it, and what becomes of it in a push.
+template <typename Scalar, int D = 2>
+struct Obstacle {
+  ObstacleKind kind = ObstacleKind::round;
+  typename detail::RoundOf<Scalar, D>::Type round{};  ///< with s where they touched, or are nearest
+  Push<Scalar, D> place{
+      0, 0,
+      VectorOf<Scalar,
+               D>::Zero()};  ///< of a stop or a support; its normal points out of the beam to the stop
+  int body = 0;        ///< round obstacles of one body have the same number: it may touch at as many places
+  bool valid = false;  ///< there is one
+  bool touching = false;  ///< in: in the push before;  out: now
+  Pushed<Scalar, D> pushed{0,
+                           Status::ok};  ///< in: of the push before;  out: zero force where they do not touch
+};
+
+template <typename Scalar, int D>
+bool is_finite(const Obstacle<Scalar, D>& obstacle) noexcept {
+  if (obstacle.kind == ObstacleKind::round)
+    return is_finite(obstacle.round) && std::isfinite(obstacle.round.s);
+  const Push<Scalar, D>& place = obstacle.place;
+  return std::isfinite(place.s) && std::isfinite(place.d) && place.normal.allFinite();
+}
+
 /// The result of holding an end of a rod.
 template <typename Scalar>
 struct HeldEnd {
@@ -230,15 +275,9 @@ struct IsForceModel<M, std::void_t<typename M::Scalar>> {
       decltype(rest<M>(0))::value;
 };
 
-/// True where M can be pushed by a circle, or a capsule: the model finds the point of contact.
-template <typename M, int = dimension_of<M>>
-struct PushOf {
-  using Type = Circle<typename M::Scalar>;
-};
+/// The circle or capsule by which M can be pushed: the model finds the point of contact.
 template <typename M>
-struct PushOf<M, 3> {
-  using Type = Capsule<typename M::Scalar>;
-};
+using PushOf = RoundOf<typename M::Scalar, dimension_of<M>>;
 
 template <typename M, typename = void>
 struct TakesPush : std::false_type {};
@@ -248,6 +287,15 @@ struct TakesPush<
                    decltype(std::declval<M&>().push(std::declval<const typename PushOf<M>::Type&>()))>>
     : std::bool_constant<noexcept(std::declval<M&>().release())&& noexcept(
           std::declval<M&>().push(std::declval<const typename PushOf<M>::Type&>()))> {};
+
+template <typename M, typename = void>
+struct TakesObstacles : std::false_type {};
+template <typename M>
+struct TakesObstacles<M, std::void_t<decltype(std::declval<M&>().release()),
+                                     decltype(std::declval<M&>().push(
+                                         std::declval<Obstacle<typename M::Scalar, dimension_of<M>>*>(), 0))>>
+    : std::bool_constant<noexcept(std::declval<M&>().release())&& noexcept(
+          std::declval<M&>().push(std::declval<Obstacle<typename M::Scalar, dimension_of<M>>*>(), 0))> {};
 
 template <typename M, typename = void>
 struct OffersPart : std::false_type {};
@@ -270,6 +318,10 @@ CentrelinePart<typename M::Scalar> part_of(const M& model, typename M::Scalar s0
 /// True where M can be pushed along any direction, noexcept included.
 template <typename M>
 inline constexpr bool takes_push = detail::TakesPush<M>::value;
+
+/// True where M can be pushed by several bodies at once, noexcept included; M::contacts says by how many.
+template <typename M>
+inline constexpr bool takes_obstacles = detail::TakesObstacles<M>::value;
 
 /// True where M fulfils the contract above, every noexcept included.
 template <typename M>

@@ -5,7 +5,7 @@
 //
 // A model of finite rotation or in space may offer a push with friction, which contact then takes where there is friction:
 //
-//   m.push(c, grip)      Pushed<Scalar, D>      of a Circle or a Capsule; promises as push(c).  The grip says what was touched in the
+//   m.push(c, friction)  Pushed<Scalar, D>      of a Circle or a Capsule; promises as push(c).  The FrictionState says what was touched in the
 //                                               tick before, and comes back as it is in this one; without an answer friction begins anew.
 //
 // A plain value.  No allocation, noexcept, O(1).

@@ -235,7 +235,7 @@ TEST_CASE("friction ends with its touch", "[friction]") {
   CHECK(once.back().dissipated == 0);
 }
 
-TEST_CASE("without friction nothing changes, and a place that is none leaves the grip alone", "[friction]") {
+TEST_CASE("without friction nothing changes, and a place that is none leaves friction alone", "[friction]") {
   Ruler model(steel_ruler(), 8), other(steel_ruler(), 8);
   Touch<Ruler> none(model, 0.005), zero(other, 0.005, Friction(0));
   for (int k = 0; k < 200; ++k) {

@@ -28,15 +28,15 @@ class PushContact {
 
   void begin(const Contact<Scalar, D>&) noexcept {
     slid_ = before_ = 0;
-    grip_.begin();
+    friction_.begin();
   }
   /// Of the touch, where there is friction.
-  FrictionState<Scalar, D>& grip() noexcept { return grip_; }
-  const FrictionState<Scalar, D>& grip() const noexcept { return grip_; }
+  FrictionState<Scalar, D>& friction_state() noexcept { return friction_; }
+  const FrictionState<Scalar, D>& friction_state() const noexcept { return friction_; }
   /// Of friction on the hand [N], no more than its share of a normal force.
   Vector friction(Scalar normal_force) const noexcept {
-    const Scalar most = grip_.sticking * normal_force, size = std::sqrt(grip_.force.squaredNorm());
-    return size > most ? Vector(grip_.force * (-most / size)) : Vector(-grip_.force);
+    const Scalar most = friction_.sticking * normal_force, size = std::sqrt(friction_.force.squaredNorm());
+    return size > most ? Vector(friction_.force * (-most / size)) : Vector(-friction_.force);
   }
 
   /// As PressContact::hold(); contact comes back as it is on the new shape.  out_of_range: the circle touches at two points,
@@ -82,7 +82,7 @@ class PushContact {
       else return Capsule<Scalar>{s, avatar.axis(), reach, contact.normal};
     };
     if constexpr (takes_friction<Model>)
-      if (grip_.sticking > 0) return model.push(request(), grip_);
+      if (friction_.sticking > 0) return model.push(request(), friction_);
     return model.push(request());
   }
   static Vector place(const Centreline<Scalar, D>& line, Scalar s) noexcept {
@@ -100,7 +100,7 @@ class PushContact {
     return false;
   }
 
-  FrictionState<Scalar, D> grip_;
+  FrictionState<Scalar, D> friction_;
   Scalar slid_ = 0,
          before_ = 0;  // how far the point went while the beam yielded, in the last tick and before [m]
 };

@@ -75,8 +75,8 @@ class Touch {
     if (!takes_friction<Model> && !friction.none())
       detail::reject("friction", friction.sticking, "",
                      "0 for a model that is pressed across the beam: see docs/friction.md");
-    pusher_.grip().sticking = static_cast<Scalar>(friction.sticking);
-    pusher_.grip().sliding = static_cast<Scalar>(friction.sliding);
+    pusher_.friction_state().sticking = static_cast<Scalar>(friction.sticking);
+    pusher_.friction_state().sliding = static_cast<Scalar>(friction.sliding);
     reset();
   }
 
@@ -105,12 +105,14 @@ class Touch {
 
   [[nodiscard]] bool pressing() const noexcept { return pressing_; }
   /// Whether there is friction.
-  [[nodiscard]] bool rough() const noexcept { return takes_friction<Model> && pusher_.grip().sticking > 0; }
+  [[nodiscard]] bool rough() const noexcept {
+    return takes_friction<Model> && pusher_.friction_state().sticking > 0;
+  }
   /// Where there is friction, the avatar's skin yields along the surface: a hand that cannot render what is stiffer.  From then on.
   /// @param stiffness  [N/m] positive   @param damping  [N/m] of a damper, N·s/m over the time of a tick
   void soften(Scalar stiffness, Scalar damping) noexcept {
-    pusher_.grip().stiffness = stiffness;
-    pusher_.grip().damping = damping;
+    pusher_.friction_state().stiffness = stiffness;
+    pusher_.friction_state().damping = damping;
   }
   /// Nothing is left of the last touch: the beam is at rest, and whoever comes next touches it anew.
   [[nodiscard]] bool resting() const noexcept { return !pressing_ && !falling_ && !inside_; }
@@ -151,8 +153,8 @@ class Touch {
     if (across_ || on_support_ || !std::isfinite(normal_force)) return;
     result.friction = pusher_.friction(normal_force);
     result.force += result.friction;
-    result.sliding = pusher_.grip().slides;
-    result.dissipated = pusher_.grip().dissipated;
+    result.sliding = pusher_.friction_state().slides;
+    result.dissipated = pusher_.friction_state().dissipated;
   }
 
   /// Fitted to the present shape.  A touch that goes on seldom needs them.

@@ -138,6 +138,11 @@ struct IsElement<
                                                                             std::declval<Matrix6<S>&>()))>>>
     : std::true_type {};
 
+template <typename E, typename = void>
+struct ContactsOf : std::integral_constant<int, 1> {};
+template <typename E>
+struct ContactsOf<E, std::void_t<decltype(E::contacts)>> : std::integral_constant<int, E::contacts> {};
+
 template <typename L, typename S, typename = void>
 struct RespondsToDeformation : std::false_type {};
 template <typename L, typename S>
@@ -211,6 +216,20 @@ inline constexpr bool any_rotation = detail::AnyRotation<E>::value;
 /// True where E, or a membrane policy, has a membrane strain of one number.
 template <class E>
 inline constexpr bool one_strain = detail::OneStrain<E>::value;
+
+/// An element of beams that may be touched at several places at once, as FemModel<Several<Corotational<>, 3>>.
+/// @tparam Contacts  the most of them
+template <class Element, int Contacts>
+struct Several : Element {
+  static_assert(any_rotation<Element>,
+                "Several<Element, Contacts>: Element must be valid at finite rotation");
+  static_assert(Contacts >= 1, "Several<Element, Contacts>: Contacts must be 1 or more");
+  static constexpr int contacts = Contacts;
+};
+
+/// At how many places a beam of such elements may be touched: 1, unless it says so.
+template <class E>
+inline constexpr int contacts_of = detail::ContactsOf<E>::value;
 
 /// True where E fulfils the contract above for scalar S, every noexcept included.
 template <typename E, typename S>

@@ -20,6 +20,7 @@
 #include <hapbeam/fem/load_path.hpp>
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/round_push.hpp>
+#include <hapbeam/fem/several_push.hpp>
 #include <hapbeam/fem/solver/descent.hpp>
 
 namespace hapbeam {
@@ -58,18 +59,25 @@ class AllDisplacements {
     const Scalar jump = request.d - system_.displacement(s, request.normal),
                  from_rest = request.d - system_.displacement(rest_state_, s, request.normal);
     if (single_valued_ && abs(from_rest) < abs(jump)) to_rest();
-    const ContactMesh<Scalar> mesh = uniform_.at(node);
+    const Mesh mesh = uniform_.at(node);
     system_.remesh(mesh);
     return settle(last, 1, [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); });
   }
 
   /// Lays the beam on a circle, a rod on a capsule.   @param range  says where a node can be   @param valid  whether there is a request
   /// @return as press()
-  /// @param grip  of its touch, null: without friction
+  /// @param friction  of its touch, null: without friction
   Pushed<Scalar, dimension> push(const Round& request, const Extent& range, bool valid,
-                                 FrictionState<Scalar, dimension>* grip) noexcept {
+                                 FrictionState<Scalar, dimension>* friction) noexcept {
     if (!begins(valid)) return {0, report_.status};
-    return round_.push(*this, request, range, grip);
+    return round_.push(*this, request, range, friction);
+  }
+
+  /// Lays it on several.  @param all  in and out   @return the status that is common to all of them
+  Status push(Obstacle<Scalar, dimension>* all, int count, const Extent& range) noexcept {
+    if (!begins(true)) return report_.status;
+    round_.forget();
+    return several_.push(*this, all, count, range);
   }
 
   /// Moves a clamped end of a rod, without a contact.
@@ -138,9 +146,13 @@ class AllDisplacements {
   template <typename S>
   using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements, Assembler>;
   using System = SystemIn<Scalar>;
+  using Mesh = typename System::Mesh;
   using Rounds = std::conditional_t<any_rotation<Element> || dimension == 3,
                                     detail::RoundPush<Element, System>, detail::NoRound>;
   friend Rounds;
+  using Severals =
+      std::conditional_t<(contacts_of<Element> > 1), detail::SeveralPush<Element, System>, detail::NoRound>;
+  friend Severals;
   using Middle = decltype(std::declval<const System&>().middle());
 
   void to_rest() noexcept {
@@ -289,10 +301,11 @@ class AllDisplacements {
 
   System system_;
   typename System::State rest_state_;
-  ContactMesh<Scalar> uniform_;
+  Mesh uniform_;
   Solver solver_;
   bool single_valued_;  // one shape for each press, as far as is known
   Rounds round_{system_};
+  Severals several_{system_};
   bool first_ = true;        // nothing has been solved for this request
   int left_ = 0;             // linear solves that this request may still take
   bool falling_ = false;     // off the shape that gave way, and not yet at a stable one

@@ -20,6 +20,7 @@ template <class Element, typename ScalarType, int Elements, int MaxElements>
 class BeamElements {
  public:
   using Scalar = ScalarType;
+  using Mesh = ContactMesh<Scalar, contacts_of<Element>>;
   using Node = CentrelineNode<Scalar>;
   using Nodes = detail::PerNode<Node, Elements, MaxElements>;
   using Properties = detail::PerNode<ElementProperties<Scalar>, Elements, MaxElements>;
@@ -47,20 +48,20 @@ class BeamElements {
   const Nodes& nodes() const noexcept { return nodes_; }
   const Properties& properties() const noexcept { return properties_; }
   const NaturalShape<Scalar>& natural_shape() const noexcept { return natural_; }
-  const ContactMesh<Scalar>& mesh() const noexcept { return mesh_; }
+  const Mesh& mesh() const noexcept { return mesh_; }
   /// Any nodes of this beam, seen with its kinematics.
   static Centreline<Scalar> view(const Nodes& nodes) noexcept {
     return {nodes.data(), nodes.size(), any_rotation<Element>};
   }
 
   /// Moves to another mesh of as many elements and carries the displacements over.  @param scratch  overwritten
-  void remesh(const ContactMesh<Scalar>& mesh, Nodes& scratch) noexcept {
+  void remesh(const Mesh& mesh, Nodes& scratch) noexcept {
     for (int i = 0; i < nodes_.size(); ++i) scratch[i] = nodes_[i];
     transfer(view(scratch), mesh, nodes_.data());
     take(mesh);
   }
   /// Sets the whole state.  @param nodes those of the given mesh
-  void set(const ContactMesh<Scalar>& mesh, const Node* nodes) noexcept {
+  void set(const Mesh& mesh, const Node* nodes) noexcept {
     for (int i = 0; i < nodes_.size(); ++i) nodes_[i] = nodes[i];
     take(mesh);
   }
@@ -114,7 +115,7 @@ class BeamElements {
                                              properties_[e], d, r, K);
   }
 
-  void take(const ContactMesh<Scalar>& mesh) noexcept {
+  void take(const Mesh& mesh) noexcept {
     mesh_ = mesh;
     for (int e = 0; e < size(); ++e) {
       const Scalar length = nodes_[e + 1].s - nodes_[e].s;
@@ -128,7 +129,7 @@ class BeamElements {
   Properties properties_;
   DeadLoads<Scalar> loads_;
   NaturalShape<Scalar> natural_;
-  ContactMesh<Scalar> mesh_;
+  Mesh mesh_;
   Scalar axial_stiffness_, bending_stiffness_;
 };
 

@@ -15,8 +15,9 @@
 #include <hapbeam/beam.hpp>
 #include <hapbeam/fem/beam_elements.hpp>
 #include <hapbeam/fem/chain.hpp>
+#include <hapbeam/fem/contact_friction.hpp>
 #include <hapbeam/fem/contact_point.hpp>
-#include <hapbeam/fem/friction_law.hpp>
+#include <hapbeam/fem/other_contacts.hpp>
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/round_contact.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
@@ -34,6 +35,8 @@ class BeamSystem {
   using Node = CentrelineNode<Scalar>;
   using Nodes = detail::PerNode<Node, Elements, MaxElements>;
   using State = Nodes;
+  using Mesh = ContactMesh<Scalar, contacts_of<Element>>;
+  using Friction = detail::ContactFriction<Scalar, 2, detail::RoundContact>;
 
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or elements does not fit the type
   BeamSystem(const Beam& beam, int elements)
@@ -57,13 +60,13 @@ class BeamSystem {
   const Node& node(int i) const noexcept { return beam_.nodes()[i]; }
 
   /// Moves to another mesh of as many elements and carries the displacements over.
-  void remesh(const ContactMesh<Scalar>& mesh) noexcept {
+  void remesh(const Mesh& mesh) noexcept {
     if (!(mesh == beam_.mesh())) beam_.remesh(mesh, saved_);
   }
-  const ContactMesh<Scalar>& mesh() const noexcept { return beam_.mesh(); }
+  const Mesh& mesh() const noexcept { return beam_.mesh(); }
   /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
   /// @param before  becomes what the state is now
-  void go_on(State& before, const ContactMesh<Scalar>& mesh, Scalar ratio) noexcept {
+  void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {
     const int n = elements();
     for (int i = 0; i <= n; ++i) {
       const Node &x = node(i), &b = before[i];
@@ -81,12 +84,12 @@ class BeamSystem {
     beam_.set(mesh, saved_.data());
   }
   /// Back to an equilibrium that was left.  @param force  of its contact [N]
-  void go_back(const ContactMesh<Scalar>& mesh, const State& state, Scalar force) noexcept {
+  void go_back(const Mesh& mesh, const State& state, Scalar force) noexcept {
     beam_.set(mesh, state.data());
     force_ = linear_reaction_ = force;
   }
   /// Sets the whole state.  @param nodes those of the given mesh
-  void set_state(const ContactMesh<Scalar>& mesh, const Node* nodes) noexcept {
+  void set_state(const Mesh& mesh, const Node* nodes) noexcept {
     beam_.set(mesh, nodes);
     force_ = linear_reaction_ = 0;
   }
@@ -94,6 +97,7 @@ class BeamSystem {
   /// Where the path ends: all of the dead loads, the ends where they are placed, and no contact.
   void set_goal() noexcept {
     contact_ = {};
+    others_.clear();
     begin_path();
   }
   /// The same with a contact: d = n · (u, w) at its node or, beside an end that yields, at a distance on a straight tip.
@@ -101,6 +105,7 @@ class BeamSystem {
   /// @param normal n, a unit vector; other than (0, 1) where the element is right at any rotation
   void set_goal(int contact, Scalar d, Scalar lever = 0, const Vector2<Scalar>& normal = {0, 1}) noexcept {
     contact_ = {contact, lever, normal};
+    others_.clear();
     start_d_ = contact_displacement();
     goal_d_ = d;
     begin_path();
@@ -109,35 +114,41 @@ class BeamSystem {
   /// The same with a circle that the beam touches beside the node: d = -reach is then the wanted distance of its centre.
   void set_goal(int contact, Scalar d, const detail::CircleOnCurve<Scalar>& circle) noexcept {
     contact_ = {contact, circle};
+    others_.clear();
     start_d_ = contact_displacement();
     goal_d_ = d;
     begin_path();
   }
 
+  // What SeveralPush asks beyond that.
+
+  /// One contact more, after the first.  @param as  those of the first   @param force  of the last tangent's [N]
+  template <class... As>
+  void add_goal(Scalar force, int contact, Scalar d, const As&... as) noexcept {
+    auto& other = others_.add();
+    other.point = {contact, as...};
+    other.force = other.reaction = force;
+    other.point.look(node(contact), force);
+    other.start = other.point.displacement();
+    other.goal = d;
+  }
+  /// Of the contacts, in the order in which they were set: the force along n, of linear_reaction() [N].
+  Scalar linear_reaction(int k) const noexcept { return k == 0 ? linear_reaction_ : others_[k - 1].reaction; }
+  /// Before the first goal is set: the force of its contact in the last tangent [N].
+  void set_force(Scalar force) noexcept { force_ = linear_reaction_ = force; }
+  /// How the circle of one of them lies to its node.
+  auto contact(int k) const noexcept {
+    const auto& point = k == 0 ? contact_ : others_[k - 1].point;
+    return point.view(node(point.node()));
+  }
+
   /// How that circle lies to the contact's node.
   auto contact() const noexcept { return contact_.view(node(contact_.node())); }
 
-  // What RoundPush asks where there is friction.
-
-  /// The next goals are those of a touch with friction, until let_slip().
-  /// @param first  where it begins, if it does   @param normal_force  of the last tick [N]
-  void take_friction(const FrictionState<Scalar, 2>& grip, const Circle<Scalar>& round,
-                     const detail::FrictionPlace<Scalar, 2>& first, Scalar normal_force) noexcept {
-    touched_ = round;
-    const Scalar per_length = unit_ / length_;
-    grip_.begin(grip, first, round.reach,
-                per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()), length_ / 1000,
-                normal_force);
-  }
-  void let_slip() noexcept { grip_.off(); }
-  detail::FrictionLaw<Scalar, 2>& grip() noexcept { return grip_; }
+  /// Of the contacts of the next goals, null: none.
+  void set_friction(Friction* friction) noexcept { friction_ = friction; }
   /// To be called where the beam has moved.
-  void look_at_grip() noexcept {
-    const int c = contact_.node();
-    const detail::RoundContact<Scalar> seen{touched_};
-    grip_.look(contact_.round() ? seen.place(contact_.view(node(c)), node(c))
-                                : seen.place(contact_.normal(), node(c)));
-  }
+  void look_at_friction() noexcept { friction_->look(contact_, node(contact_.node())); }
 
   // What AllDisplacements asks beyond a system.
 
@@ -145,13 +156,11 @@ class BeamSystem {
   void keep(State& state) const noexcept {
     for (int i = 0; i <= elements(); ++i) state[i] = node(i);
   }
-  void set_state(const ContactMesh<Scalar>& mesh, const State& state) noexcept {
-    set_state(mesh, state.data());
-  }
+  void set_state(const Mesh& mesh, const State& state) noexcept { set_state(mesh, state.data()); }
   /// That of the same system in another scalar.
   template <class Other>
   void take_state(const Other& other) noexcept {
-    const ContactMesh<Scalar> uniform(elements(), length_);
+    const Mesh uniform(elements(), length_);
     for (int i = 0; i <= elements(); ++i)
       saved_[i] = {uniform.position(i), static_cast<Scalar>(other.node(i).u),
                    static_cast<Scalar>(other.node(i).w), static_cast<Scalar>(other.node(i).theta)};
@@ -182,17 +191,20 @@ class BeamSystem {
     const auto between = [t](Scalar start, Scalar goal) { return t < 1 ? start + t * (goal - start) : goal; };
     load_ = between(start_load_, 1);
     d_ = between(start_d_, goal_d_);
+    for (auto& other : others_) other.d = between(other.start, other.goal);
     for (auto& end : ends_) end.set_target(t);
   }
   void save() noexcept {
     for (int i = 0; i <= elements(); ++i) saved_[i] = node(i);
     saved_load_ = load_;
     saved_reaction_ = linear_reaction_;
+    for (auto& other : others_) other.saved = other.reaction;
   }
   void restore() noexcept {
     for (int i = 0; i <= elements(); ++i) beam_.nodes()[i] = saved_[i];
     load_ = saved_load_;
     force_ = linear_reaction_ = saved_reaction_;
+    for (auto& other : others_) other.force = other.reaction = other.saved;
   }
   Scalar size() const noexcept { return size_; }
   Scalar unit() const noexcept { return unit_; }
@@ -201,7 +213,8 @@ class BeamSystem {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
     force_ = linear_reaction_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
-    if (grip_.on()) grip_.feel(-force_);
+    for (auto& other : others_) other.force = other.reaction = assembler_.reaction(other.row);
+    if (friction_) friction_->feel(-force_);
     advance();
     return {status, increment()};
   }
@@ -215,7 +228,8 @@ class BeamSystem {
   /// The tangent holds what the contact's force makes of a circle.  On the way down the force of before is no longer there.
   void forget_force() noexcept {
     force_ = 0;
-    if (grip_.on()) grip_.fall();
+    for (auto& other : others_) other.force = 0;
+    if (friction_) friction_->fall();
   }
   /// Adds the increment to the state.
   void advance() noexcept {
@@ -272,6 +286,7 @@ class BeamSystem {
   Status load_rate() noexcept { return assemble_and_solve<true>(0); }
   /// Of node i after factor() or load_rate() [u, w, θ].
   Vector3<Scalar> increment(int i) const noexcept {
+    if (const auto* const other = others_.at(i)) return other->point.back(assembler_.increment(i));
     return contact_.holds(i) ? contact_.back(assembler_.increment(i)) : assembler_.increment(i);
   }
   /// Adds to the state.  @param change  i -> [u, w, θ]
@@ -333,7 +348,8 @@ class BeamSystem {
     Scalar energy = 0, work = 0;
     const int c = contact_.node();
     if (c >= 0) contact_.look(node(c), force_);
-    if (grip_.on()) look_at_grip();
+    for (auto& other : others_) other.point.look(node(other.point.node()), other.force);
+    if (friction_) look_at_friction();
     // What most elements need takes no address of their tangent: it stays in registers.
     const auto add = [&](int e, auto&& change) {
       Matrix6<Scalar> K;
@@ -344,7 +360,7 @@ class BeamSystem {
     };
     const bool plain = !Rate && shift == 0 && !beam_.loaded(load_);
     for (int e = 0; e < elements(); ++e) {
-      if (plain && !contact_.holds(e) && !contact_.holds(e + 1)) {
+      if (plain && !contact_.holds(e) && !contact_.holds(e + 1) && !others_.at(e) && !others_.at(e + 1)) {
         add(e, [](auto&, auto&) {});
         continue;
       }
@@ -354,18 +370,22 @@ class BeamSystem {
         if (shift != 0) add_shift(shift, e, K);
         if (contact_.holds(e)) contact_.transform(node(e), true, e == 0, r, K);
         if (contact_.holds(e + 1)) contact_.transform(node(e + 1), false, true, r, K);
-        if (grip_.on() && contact_.holds(e + 1)) add_friction(3, r, K);
-        else if (grip_.on() && e == 0 && contact_.holds(0)) add_friction(0, r, K);
+        if (const auto* const other = others_.at(e)) other->point.transform(node(e), true, e == 0, r, K);
+        if (const auto* const other = others_.at(e + 1))
+          other->point.transform(node(e + 1), false, true, r, K);
+        if (friction_ && contact_.holds(e + 1)) add_friction(3, r, K);
+        else if (friction_ && e == 0 && contact_.holds(0)) add_friction(0, r, K);
       });
     }
     size_ = std::sqrt(2 * energy);
     potential_ = energy - work;
-    if (grip_.on()) potential_ += grip_.potential();
+    if (friction_) potential_ += friction_->potential();
     for (std::size_t k = 0; k < 2; ++k)
       ends_[k].visit(node(end(k)), [&](int component, Scalar now, Scalar target) {
         assembler_.prescribe(end(k), component, target - now);
       });
     if (c >= 0) assembler_.hold(c, 1, d_ - contact_.displacement());
+    for (auto& other : others_) hold(other);
     return assembler_.solve();
   }
 
@@ -374,13 +394,25 @@ class BeamSystem {
     for (std::size_t k = 0; k < 2; ++k)
       ends_[k].visit(beam_.nodes()[end(k)], [](int, Scalar& now, Scalar target) { now = target; });
     if (contact_.node() >= 0) contact_.correct(beam_.nodes()[contact_.node()], d_);
+    for (auto& other : others_) other.point.correct(beam_.nodes()[other.point.node()], other.d);
+  }
+  template <class Other>
+  void hold(Other& other) noexcept {
+    const Scalar increment = other.d - other.point.displacement();
+    const int c = other.point.node();
+    assembler_.hold(c, 1, increment, other.row);
+    assembler_.know(c, 1, increment, assembler_.held());
+    for (auto& before : others_) {
+      if (&before == &other) break;
+      assembler_.know(c, 1, increment, before.row);
+    }
   }
 
   /// Friction, along the surface.  @param at  the first row of the contact's node
   void add_friction(int at, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
     const Vector2<Scalar>& n = contact_.normal();
-    r[at] -= n.y() * grip_.force().x() - n.x() * grip_.force().y();
-    K(at, at) += grip_.stiffness();
+    r[at] -= n.y() * friction_->force().x() - n.x() * friction_->force().y();
+    K(at, at) += friction_->stiffness();
   }
 
   /// An element's share of the shift, half of it to either node.
@@ -399,8 +431,11 @@ class BeamSystem {
   Assembler<Scalar, Elements, MaxElements, 3> assembler_;
   std::array<detail::EndSupport<Scalar>, 2> ends_;
   detail::ContactPoint<Scalar, any_rotation<Element>> contact_;
-  detail::FrictionLaw<Scalar, 2> grip_;
-  Circle<Scalar> touched_{};
+  using Rows = Assembler<Scalar, Elements, MaxElements, 3>;
+  using Point = detail::ContactPoint<Scalar, any_rotation<Element>>;
+  detail::OtherContacts<detail::OtherContact<Point, Scalar, typename Rows::HeldRow>, contacts_of<Element> - 1>
+      others_;
+  Friction* friction_ = nullptr;
   Scalar length_;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;

@@ -53,6 +53,8 @@ class FemModel {
   using Body = typename Of::Body;  ///< Beam, or Rod in space
   static constexpr int dimension = dimension_of<Element>;
   using ElementType = Element;
+  /// At how many places it may be touched at once.
+  static constexpr int contacts = contacts_of<Element>;
 
   /// Builds the beam and finds its shape at rest, the one that it reaches when its dead loads rise from nothing.  Look at
   /// rest() for how that went.
@@ -104,12 +106,19 @@ class FemModel {
   Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request) noexcept {
     return push_round(request, nullptr);
   }
-  /// The same with friction.  @param grip  of the touch: friction.hpp
+  /// The same with friction.  @param friction  of the touch: friction.hpp
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request,
-                                 FrictionState<Scalar, dimension>& grip) noexcept {
-    return push_round(request, &grip);
+                                 FrictionState<Scalar, dimension>& friction) noexcept {
+    return push_round(request, &friction);
   }
+
+  /// Lays the centreline on several circles, in space capsules, of a model of Several<Element, Contacts>: which of them touch, where, and the
+  /// equilibrium are found together.  Each pushes or does not touch; none pulls.
+  /// @param obstacles  in and out: count of them, at most Contacts
+  /// @return ok | snapped | iteration_limit | singular | non_finite; each obstacle has a status of its own, too
+  template <class E = Element, std::enable_if_t<(contacts_of<E> > 1), int> = 0>
+  Status push(Obstacle<Scalar, dimension>* obstacles, int count) noexcept;
 
   Centreline<Scalar, dimension> shape() const noexcept {
     return take(ways_, [](const auto& way) { return way.shape(); });
@@ -211,7 +220,7 @@ class FemModel {
   }
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Pushed<Scalar, dimension> push_round(const typename Of::template Round<Scalar>& request,
-                                       FrictionState<Scalar, dimension>* grip) noexcept;
+                                       FrictionState<Scalar, dimension>* friction) noexcept;
   static Response<Scalar> finite(const Response<Scalar>& response) noexcept {
     return std::isfinite(response.force) ? response : Response<Scalar>{0, Status::non_finite};
   }
@@ -248,14 +257,34 @@ template <class Element, typename Scalar, int Elements, int MaxElements,
           template <typename, int, int, int> class Assembler, class Solver>
 template <class E, std::enable_if_t<any_rotation<E>, int>>
 auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::push_round(
-    const typename Of::template Round<Scalar>& request, FrictionState<Scalar, dimension>* grip) noexcept
+    const typename Of::template Round<Scalar>& request, FrictionState<Scalar, dimension>* friction) noexcept
     -> Pushed<Scalar, dimension> {
   const bool valid = is_finite(request) && range_.on_beam(request.s);
-  Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid, grip);
+  Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid, friction);
   if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;
   if (pushed.status == Status::ok && range().nearest({pushed.s, 0}).s != pushed.s)
     pushed.status = Status::out_of_range;
   return pushed;
+}
+
+template <class Element, typename Scalar, int Elements, int MaxElements,
+          template <typename, int, int, int> class Assembler, class Solver>
+template <class E, std::enable_if_t<(contacts_of<E> > 1), int>>
+Status FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::push(
+    Obstacle<Scalar, dimension>* obstacles, int count) noexcept {
+  if (count < 0 || count > contacts_of<Element>) return Status::invalid_request;
+  for (int i = 0; i < count; ++i) {
+    auto& obstacle = obstacles[i];
+    obstacle.valid = obstacle.valid && is_finite(obstacle);
+  }
+  Status status = std::get_if<General>(&ways_)->push(obstacles, count, range_);
+  for (int i = 0; i < count; ++i) {
+    auto& pushed = obstacles[i].pushed;
+    if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = status = Status::non_finite;
+    if (pushed.status == Status::ok && obstacles[i].touching && range().nearest({pushed.s, 0}).s != pushed.s)
+      pushed.status = Status::out_of_range;
+  }
+  return status;
 }
 
 template <class Element, typename Scalar, int Elements, int MaxElements,

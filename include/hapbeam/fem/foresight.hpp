@@ -34,6 +34,7 @@ VectorOf<Scalar, 6> hand_of(const Capsule<Scalar>& capsule) noexcept {
 template <class System, class Request>
 class Foresight {
   using Scalar = typename System::Scalar;
+  using Mesh = typename System::Mesh;
   using Hand = decltype(hand_of(std::declval<const Request&>()));
 
  public:
@@ -41,7 +42,7 @@ class Foresight {
 
   /// To be called before each push, which moves the system.  @param mesh  of this push   @param request  of it
   /// @return whether the system is where the beam will be about, on that mesh; else it has not moved
-  bool go_on(System& system, const ContactMesh<Scalar>& mesh, const Request& request) noexcept {
+  bool go_on(System& system, const Mesh& mesh, const Request& request) noexcept {
     const Hand hand = hand_of(request), step = hand - hand_;
     const Scalar ratio = step.dot(step_) / step_.squaredNorm();
     const bool straight_on = std::abs(ratio) < fastest &&
@@ -63,13 +64,15 @@ class Foresight {
     forget();
   }
   void forget() noexcept { known_ = 0; }
+  /// To where the system was before the push.
+  void begin_again(System& system) const noexcept { system.set_state(mesh_, before_); }
 
  private:
   static constexpr Scalar fastest = 2,
                           aside = Scalar(0.1);  // of a step, in units of the one before and of itself
 
   typename System::State before_;
-  ContactMesh<Scalar> mesh_;                        // of before_
+  Mesh mesh_;                                       // of before_
   Hand hand_ = Hand::Zero(), step_ = Hand::Zero();  // of the last push [m]
   int known_ = 0;                                   // pushes without a break, as far as they matter
 };

@@ -41,22 +41,18 @@ class FrictionLaw {
   /// Force and direction are as exact as that, in units of the bound.
   static constexpr Scalar exact = Scalar(1e-6);
 
-  bool on() const noexcept { return on_; }
-  void off() noexcept { on_ = false; }
-
   /// @param first  where the two would touch before the beam yields: where a touch begins
   /// @param reach  [m] from the avatar's axis to the centreline   @param stiffest  [N/m] that the scalar allows
   /// @param hurry  [m] a long way for a tick   @param normal_force  [N] of the last tick
-  void begin(const FrictionState<Scalar, D>& grip, const Place& first, Scalar reach, Scalar stiffest,
+  void begin(const FrictionState<Scalar, D>& state, const Place& first, Scalar reach, Scalar stiffest,
              Scalar hurry, Scalar normal_force) noexcept {
-    on_ = true;
-    known_ = grip.known;
-    before_ = grip.known ? Place{grip.s, grip.normal, grip.along, grip.place, grip.axis} : first;
-    skin_ = grip.skin;
+    known_ = state.known;
+    before_ = state.known ? Place{state.s, state.normal, state.along, state.place, state.axis} : first;
+    skin_ = state.skin;
     reach_ = reach;
-    stiffness_ = (std::min)(grip.stiffness, stiffest);
-    damping_ = (std::min)(grip.damping, stiffest);
-    sticking_ = grip.sticking, sliding_ = grip.sliding, gain_ = grip.gain;
+    stiffness_ = (std::min)(state.stiffness, stiffest);
+    damping_ = (std::min)(state.damping, stiffest);
+    sticking_ = state.sticking, sliding_ = state.sliding, gain_ = state.gain;
     bound_ = before_bound_ = sliding_ * (std::max)(normal_force, Scalar(0));
     now_ = first;
     shear();
@@ -64,8 +60,8 @@ class FrictionLaw {
     far_shear_ = sheared_;
     const Scalar carried = norm(sheared_ - carried_);
     const bool hurries = carried > hurry;
-    slides_ = !known_ || ((grip.slides || hurries) && bound_ > 0);
-    if (slides_) aim(sheared_, (std::max)(norm(sheared_), grip.slip));
+    slides_ = !known_ || ((state.slides || hurries) && bound_ > 0);
+    if (slides_) aim(sheared_, (std::max)(norm(sheared_), state.slip));
     // In its first tick a contact slides without friction to where the touch begins.
     fallen_ = !known_;
     if (fallen_) bound_ = used_ = 0;
@@ -169,25 +165,25 @@ class FrictionLaw {
   bool torn() const noexcept { return torn_; }
 
   /// What the touch remembers of it.  @param normal_force  [N]
-  void leave(FrictionState<Scalar, D>& grip, Scalar normal_force) const noexcept {
+  void leave(FrictionState<Scalar, D>& state, Scalar normal_force) const noexcept {
     const Vector elastic = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
     const Scalar size = norm(elastic),
                  most = (slides_ ? sliding_ : sticking_) * (std::max)(normal_force, Scalar(0));
     const bool slid = size > most;
-    const Vector last = grip.slides ? carry_from_before(grip.force) : Vector(Vector::Zero());
-    grip.force = slid ? Vector(elastic * (most / size)) : elastic;
-    grip.skin = slid ? Vector((grip.force + damping_ * carried_) / (stiffness_ + damping_)) : sheared_;
-    grip.slip = norm(sheared_);
+    const Vector last = state.slides ? carry_from_before(state.force) : Vector(Vector::Zero());
+    state.force = slid ? Vector(elastic * (most / size)) : elastic;
+    state.skin = slid ? Vector((state.force + damping_ * carried_) / (stiffness_ + damping_)) : sheared_;
+    state.slip = norm(sheared_);
     // A contact that goes on sliding: the mean of both ticks, as of the work that is done on it.
-    const Vector mean = last.dot(grip.force) > 0 ? Vector((last + grip.force) / 2) : grip.force;
+    const Vector mean = last.dot(state.force) > 0 ? Vector((last + state.force) / 2) : state.force;
     if (!fallen_)
-      grip.dissipated += mean.dot(sheared_ - grip.skin) + damping_ * (grip.skin - carried_).squaredNorm();
-    if (fallen_) grip.force.setZero(), grip.skin.setZero();
-    grip.known = true;
-    grip.slides = slides_ && !fallen_;
-    grip.s = now_.s, grip.normal = now_.normal, grip.along = now_.along;
-    grip.place = now_.place, grip.axis = now_.axis;
-    grip.gain = gain_;
+      state.dissipated += mean.dot(sheared_ - state.skin) + damping_ * (state.skin - carried_).squaredNorm();
+    if (fallen_) state.force.setZero(), state.skin.setZero();
+    state.known = true;
+    state.slides = slides_ && !fallen_;
+    state.s = now_.s, state.normal = now_.normal, state.along = now_.along;
+    state.place = now_.place, state.axis = now_.axis;
+    state.gain = gain_;
   }
 
  private:
@@ -248,8 +244,7 @@ class FrictionLaw {
     }
   }
 
-  bool on_ = false, known_ = false, slides_ = false, fallen_ = false, torn_ = false, slid_ = false,
-       stuck_ = false;
+  bool known_ = false, slides_ = false, fallen_ = false, torn_ = false, slid_ = false, stuck_ = false;
   Place before_, now_;
   Vector skin_ = Vector::Zero(), carried_ = Vector::Zero(), sheared_ = Vector::Zero();
   Vector force_ = Vector::Zero(), direction_ = Vector::Zero(), far_shear_ = Vector::Zero();

@@ -30,6 +30,7 @@ template <class Element, typename ScalarType, int Elements, int MaxElements>
 class RodElements {
  public:
   using Scalar = ScalarType;
+  using Mesh = ContactMesh<Scalar, contacts_of<Element>>;
   using Node = RodNode<Scalar>;
   using Nodes = detail::PerNode<Node, Elements, MaxElements>;
   using Inner = typename Element::template Inner<Scalar>;
@@ -75,11 +76,11 @@ class RodElements {
   Inners& inners() noexcept { return inners_; }
   const Inners& inners() const noexcept { return inners_; }
   const NaturalRod<Scalar>& natural_shape() const noexcept { return natural_; }
-  const ContactMesh<Scalar>& mesh() const noexcept { return mesh_; }
+  const Mesh& mesh() const noexcept { return mesh_; }
   static Centreline<Scalar, 3> view(const Nodes& nodes) noexcept { return {nodes.data(), nodes.size()}; }
 
   /// Moves to another mesh of as many elements and carries the shape over.  @param scratch, more  overwritten
-  void remesh(const ContactMesh<Scalar>& mesh, Nodes& scratch, Inners& more) noexcept {
+  void remesh(const Mesh& mesh, Nodes& scratch, Inners& more) noexcept {
     for (int i = 0; i < nodes_.size(); ++i) scratch[i] = nodes_[i], more[i] = inners_[i];
     const Centreline<Scalar, 3> line = view(scratch);
     int piece = 0;
@@ -110,7 +111,7 @@ class RodElements {
     take(mesh);
   }
   /// Sets the whole state.  @param nodes those of the given mesh
-  void set(const ContactMesh<Scalar>& mesh, const Nodes& nodes, const Inners& inners) noexcept {
+  void set(const Mesh& mesh, const Nodes& nodes, const Inners& inners) noexcept {
     for (int i = 0; i < nodes_.size(); ++i) nodes_[i] = nodes[i], inners_[i] = inners[i];
     take(mesh);
   }
@@ -357,7 +358,7 @@ class RodElements {
     r.template segment<6>(unknowns) -= lambda * f.template segment<6>(6);
   }
 
-  void take(const ContactMesh<Scalar>& mesh) noexcept {
+  void take(const Mesh& mesh) noexcept {
     mesh_ = mesh;
     // Where all elements are the same their length alone changes.
     const bool alike = profile_.constant() && natural_.straight() && wide_[0].length[0] > 0;
@@ -408,7 +409,7 @@ class RodElements {
   std::vector<PointLoad> loads_;            // first those of a distributed load, node by node
   std::vector<VectorOf<Scalar, 3>> cells_;  // its mean between those [N/m]
   NaturalRod<Scalar> natural_;
-  ContactMesh<Scalar> mesh_;
+  Mesh mesh_;
   RodProfile<Scalar> profile_;
   RodBed<Scalar> bed_;
   detail::RodSurface<Scalar> surface_;

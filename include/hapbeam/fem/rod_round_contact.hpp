@@ -32,6 +32,10 @@ struct RodRoundContact {
   }
   /// The way round the axis is not the way that the capsule has come.
   bool is_through(const View& view) const noexcept { return !(2 * distance(view) > capsule.reach); }
+  static Vector place_of(const Node& node) noexcept { return node.r; }
+  Scalar clearance(const Node& node) const noexcept {
+    return std::sqrt((capsule.axis.at(capsule.axis.nearest(node.r)) - node.r).squaredNorm());
+  }
   Vector normal(const View&) const noexcept { return capsule.normal; }
   Scalar plane(const Vector& n, Scalar, const Node& node) const noexcept {
     return n.dot(capsule.axis.at(capsule.axis.nearest(node.r))) - capsule.reach;

@@ -14,6 +14,7 @@
 #include <limits>
 
 #include <hapbeam/fem/beam_system.hpp>
+#include <hapbeam/fem/contact_friction.hpp>
 #include <hapbeam/fem/rod_contact.hpp>
 #include <hapbeam/fem/rod_elements.hpp>
 #include <hapbeam/fem/rod_end.hpp>
@@ -35,7 +36,9 @@ class RodSystem {
   using Body = Rod;
   using Node = RodNode<Scalar>;
   using Nodes = typename Parts::Nodes;
+  using Mesh = typename Parts::Mesh;
   using Inners = typename Parts::Inners;
+  using Friction = detail::ContactFriction<Scalar, 3, detail::RodRoundContact>;
   using Vector3 = VectorOf<Scalar, 3>;
   static constexpr int unknowns = Element::unknowns;
   using Increment = VectorOf<Scalar, unknowns>;
@@ -62,10 +65,10 @@ class RodSystem {
   const Inners& inners() const noexcept { return rod_.inners(); }
 
   /// Moves to another mesh of as many elements and carries the shape over.
-  void remesh(const ContactMesh<Scalar>& mesh) noexcept {
+  void remesh(const Mesh& mesh) noexcept {
     if (!(mesh == rod_.mesh())) rod_.remesh(mesh, saved_.nodes, saved_.inners);
   }
-  const ContactMesh<Scalar>& mesh() const noexcept { return rod_.mesh(); }
+  const Mesh& mesh() const noexcept { return rod_.mesh(); }
   /// What changes as the rod moves.
   struct State {
     explicit State(int elements) : nodes(elements), inners(elements) {}
@@ -77,13 +80,13 @@ class RodSystem {
   void keep(State& state) const noexcept {
     for (int i = 0; i <= elements(); ++i) state.nodes[i] = node(i), state.inners[i] = rod_.inners()[i];
   }
-  void set_state(const ContactMesh<Scalar>& mesh, const State& state) noexcept {
+  void set_state(const Mesh& mesh, const State& state) noexcept {
     rod_.set(mesh, state.nodes, state.inners);
     force_ = linear_reaction_ = 0;
   }
   /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
   /// @param before  becomes what the state is now
-  void go_on(State& before, const ContactMesh<Scalar>& mesh, Scalar ratio) noexcept {
+  void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {
     for (int i = 0; i <= elements(); ++i)
       saved_.nodes[i] =
           detail::gone_on(rod_.nodes(), before.nodes, i, mesh.position(i), ratio, unknowns == 7);
@@ -96,14 +99,14 @@ class RodSystem {
     rod_.set(mesh, saved_.nodes, saved_.inners);
   }
   /// Back to an equilibrium that was left.  @param force  of its contact [N]
-  void go_back(const ContactMesh<Scalar>& mesh, const State& state, Scalar force) noexcept {
+  void go_back(const Mesh& mesh, const State& state, Scalar force) noexcept {
     rod_.set(mesh, state.nodes, state.inners);
     force_ = linear_reaction_ = force;
   }
   /// That of the same system in another scalar, on the uniform mesh.
   template <class Other>
   void take_state(const Other& other) noexcept {
-    const ContactMesh<Scalar> uniform(elements(), length_);
+    const Mesh uniform(elements(), length_);
     const auto vector = [](const auto& x) { return Vector3(x.template cast<Scalar>()); };
     for (int i = 0; i <= elements(); ++i) {
       const auto& n = other.node(i);
@@ -138,12 +141,14 @@ class RodSystem {
   /// Where the path ends: all of the dead loads, the ends where they are placed, and no contact.
   void set_goal() noexcept {
     contact_ = {};
+    others_.clear();
     begin_path();
   }
   /// The same with a contact: d = n · r at its node or, beside an end that yields, at a distance on a straight tip.
   /// @param contact node   @param d [m]   @param lever [m] from the node to the contact along the rod   @param normal n, unit
   void set_goal(int contact, Scalar d, Scalar lever, const Vector3& normal) noexcept {
     contact_ = {contact, lever, normal};
+    others_.clear();
     start_d_ = contact_displacement();
     goal_d_ = d;
     begin_path();
@@ -151,34 +156,36 @@ class RodSystem {
   /// The same with a capsule that the rod touches beside the node: d = -reach is then the wanted distance of its axis.
   void set_goal(int contact, Scalar d, const detail::CapsuleOnCurve<Scalar>& capsule) noexcept {
     contact_ = {contact, capsule};
+    others_.clear();
     start_d_ = contact_displacement();
     goal_d_ = d;
     begin_path();
   }
+  // What SeveralPush asks beyond that: as BeamSystem.
+
+  template <class... As>
+  void add_goal(Scalar force, int contact, Scalar d, const As&... as) noexcept {
+    auto& other = others_.add();
+    other.point = {contact, as...};
+    other.force = other.reaction = force;
+    other.point.look(node(contact), force);
+    other.start = other.point.displacement();
+    other.goal = d;
+  }
+  Scalar linear_reaction(int k) const noexcept { return k == 0 ? linear_reaction_ : others_[k - 1].reaction; }
+  void set_force(Scalar force) noexcept { force_ = linear_reaction_ = force; }
+  auto contact(int k) const noexcept {
+    const auto& point = k == 0 ? contact_ : others_[k - 1].point;
+    return point.view(node(point.node()));
+  }
+
   /// How that capsule lies to the contact's node.
   auto contact() const noexcept { return contact_.view(node(contact_.node())); }
 
-  // What RoundPush asks where there is friction.
-
-  /// The next goals are those of a touch with friction, until let_slip().
-  /// @param first  where it begins, if it does   @param normal_force  of the last tick [N]
-  void take_friction(const FrictionState<Scalar, 3>& grip, const Capsule<Scalar>& round,
-                     const detail::FrictionPlace<Scalar, 3>& first, Scalar normal_force) noexcept {
-    touched_ = round;
-    const Scalar per_length = unit_ / length_;
-    grip_.begin(grip, first, round.reach,
-                per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()), length_ / 1000,
-                normal_force);
-  }
-  void let_slip() noexcept { grip_.off(); }
-  detail::FrictionLaw<Scalar, 3>& grip() noexcept { return grip_; }
+  /// Of the contacts of the next goals, null: none.
+  void set_friction(Friction* friction) noexcept { friction_ = friction; }
   /// To be called where the beam has moved.
-  void look_at_grip() noexcept {
-    const int c = contact_.node();
-    const detail::RodRoundContact<Scalar> seen{touched_};
-    grip_.look(contact_.round() ? seen.place(contact_.view(node(c)), node(c))
-                                : seen.place(contact_.normal(), node(c)));
-  }
+  void look_at_friction() noexcept { friction_->look(contact_, node(contact_.node())); }
 
   // What NewtonRaphson asks of a system.
 
@@ -186,18 +193,21 @@ class RodSystem {
     const auto between = [t](Scalar start, Scalar goal) { return t < 1 ? start + t * (goal - start) : goal; };
     load_ = between(start_load_, 1);
     d_ = between(start_d_, goal_d_);
+    for (auto& other : others_) other.d = between(other.start, other.goal);
     for (auto& end : ends_) end.set_target(t);
   }
   void save() noexcept {
     keep(saved_);
     saved_load_ = load_;
     saved_reaction_ = linear_reaction_;
+    for (auto& other : others_) other.saved = other.reaction;
   }
   void restore() noexcept {
     for (int i = 0; i <= elements(); ++i)
       rod_.nodes()[i] = saved_.nodes[i], rod_.inners()[i] = saved_.inners[i];
     load_ = saved_load_;
     force_ = linear_reaction_ = saved_reaction_;
+    for (auto& other : others_) other.force = other.reaction = other.saved;
   }
   Scalar size() const noexcept { return size_; }
   Scalar unit() const noexcept { return unit_; }
@@ -212,7 +222,7 @@ class RodSystem {
 
   /// The tangent holds what the contact's force makes of a capsule, on the way down as well: there a rod slips around a sphere.
   void forget_force() noexcept {
-    if (grip_.on()) grip_.fall();
+    if (friction_) friction_->fall();
   }
 
   Iteration<Scalar> iterate() noexcept {
@@ -220,7 +230,8 @@ class RodSystem {
     if (status != Status::ok) return {status, 0};
     advance();
     linear_reaction_ = force_;
-    if (grip_.on()) grip_.feel(-force_);
+    for (auto& other : others_) other.reaction = other.force;
+    if (friction_) friction_->feel(-force_);
     return {status, increment()};
   }
 
@@ -234,7 +245,8 @@ class RodSystem {
     inner_energy_ = 0;
     const int c = contact_.node();
     if (c >= 0) contact_.look(node(c), force_);
-    if (grip_.on()) look_at_grip();
+    for (auto& other : others_) other.point.look(node(other.point.node()), other.force);
+    if (friction_) look_at_friction();
     rod_.visit_tangents(load_, [&](int e, const auto& energies, const auto& r, const auto& K) {
       energy += energies.strain;
       work += energies.work;
@@ -249,19 +261,18 @@ class RodSystem {
         energy += ends_[k].add_springs(node(end(k)), r, K);
         assembler_.add_at(end(k), K, r);
       }
-    if (c >= 0 && contact_.bends()) {
-      Block K = Block::Zero();
-      K.template block<6, 6>(0, 0) = contact_.bend();
-      assembler_.add_at(c, K, Increment::Zero());
-    }
-    if (grip_.on() && c >= 0) add_friction(c);
+    if (c >= 0) add_bend(contact_);
+    for (const auto& other : others_) add_bend(other.point);
+    if (friction_ && c >= 0) add_friction(c);
     transform(0);
     transform(elements());
     if (c > 0 && c < elements()) transform(c);
+    for (const auto& other : others_)
+      if (const int i = other.point.node(); i > 0 && i < elements()) transform(i);
     size_ =
         std::sqrt(2 * (std::max)(energy, Scalar(0)));  // of a rod without stress round-off has either sign
     potential_ = energy - work;
-    if (grip_.on()) potential_ += grip_.potential();
+    if (friction_) potential_ += friction_->potential();
     for (std::size_t k = 0; k < 2; ++k) {
       prescribed_[k].setZero();
       ends_[k].visit(node(end(k)), [&](int component, Scalar increment) {
@@ -272,12 +283,14 @@ class RodSystem {
     }
     moves_ = 0;
     if (c >= 0) assembler_.hold(c, 2, moves_ = d_ - contact_.displacement());
+    for (auto& other : others_) hold(other);
     return assembler_.solve();
   }
   /// Adds the increment to the state: what turns keeps its length.  Without a contact, which would be missed, the chords turn
   /// as the tangents do, from the left end on (as chain.hpp says of the plane).
   void advance() noexcept {
     force_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
+    for (auto& other : others_) other.force = assembler_.reaction(other.row);
     Increment before = increment(0);
     Vector3 way = before.template segment<3>(0),
             r = node(0).r;  // that the last node has gone, and where it was
@@ -299,6 +312,7 @@ class RodSystem {
     if (contact_.node() < 0) close_chain();
     for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
     if (contact_.node() >= 0) contact_.correct(rod_.nodes()[contact_.node()], d_);
+    for (const auto& other : others_) other.point.correct(rod_.nodes()[other.point.node()], other.d);
   }
   /// Size of the last increment in the norm of the tangent [√J].
   Scalar increment() const noexcept {
@@ -343,10 +357,11 @@ class RodSystem {
     Increment x = assembler_.increment(i);
     for (std::size_t k = 0; k < 2; ++k)
       if (i == end(k)) x += prescribed_[k];
-    if (contact_.holds(i)) x[2] += moves_;
+    const auto* const contact = contact_at(i);
+    if (contact) x[2] += contact == &contact_ ? moves_ : others_.at(i)->moves;
     if (!own_axes(i)) return x;
     const Matrix *const R = place_axes(i), *const T = tangent_axes(i);
-    if (contact_.holds(i) && contact_.leans()) x[2] -= arm(T).dot(x.template segment<3>(3));
+    if (contact && contact->leans()) x[2] -= arm(*contact, T).dot(x.template segment<3>(3));
     const auto turn = [&x](int at, const Matrix& Q) {
       const Vector3 v(x[at], x[at + 1], x[at + 2]);
       for (int k = 0; k < 3; ++k) x[at + k] = Q(k, 0) * v[0] + Q(k, 1) * v[1] + Q(k, 2) * v[2];
@@ -394,17 +409,24 @@ class RodSystem {
   using Matrix = Eigen::Matrix<Scalar, 3, 3>;
   using Block = Eigen::Matrix<Scalar, unknowns, unknowns>;
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
-  bool own_axes(int i) const noexcept { return contact_.holds(i) || i == 0 || i == elements(); }
+  bool own_axes(int i) const noexcept { return contact_at(i) || i == 0 || i == elements(); }
+  /// The contact that a node has, null: none.
+  const detail::RodContact<Scalar>* contact_at(int i) const noexcept {
+    if (contact_.holds(i)) return &contact_;
+    const auto* const other = others_.at(i);
+    return other ? &other->point : nullptr;
+  }
   /// The axes along which a node's unknowns of place are counted, and those of r'; null: those of space.
   const Matrix* place_axes(int i) const noexcept {
-    return contact_.holds(i) ? &contact_.axes() : i == 0 ? ends_[0].place_axes() : ends_[1].place_axes();
+    const auto* const contact = contact_at(i);
+    return contact ? &contact->axes() : i == 0 ? ends_[0].place_axes() : ends_[1].place_axes();
   }
   const Matrix* tangent_axes(int i) const noexcept {
     return i == 0 ? ends_[0].tangent_axes() : i == elements() ? ends_[1].tangent_axes() : nullptr;
   }
   /// Of the contact, in the axes of r'.
-  Vector3 arm(const Matrix* T) const noexcept {
-    return T ? Vector3(T->transpose() * contact_.arm()) : contact_.arm();
+  static Vector3 arm(const detail::RodContact<Scalar>& contact, const Matrix* T) noexcept {
+    return T ? Vector3(T->transpose() * contact.arm()) : contact.arm();
   }
   Scalar contact_displacement() noexcept {
     contact_.look(node(contact_.node()), force_);
@@ -414,6 +436,24 @@ class RodSystem {
   void begin_path() noexcept {
     start_load_ = load_;
     for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
+  }
+
+  void add_bend(const detail::RodContact<Scalar>& contact) noexcept {
+    if (!contact.bends()) return;
+    Block K = Block::Zero();
+    K.template block<6, 6>(0, 0) = contact.bend();
+    assembler_.add_at(contact.node(), K, Increment::Zero());
+  }
+  template <class Other>
+  void hold(Other& other) noexcept {
+    const int c = other.point.node();
+    other.moves = other.d - other.point.displacement();
+    assembler_.hold(c, 2, other.moves, other.row);
+    assembler_.know(c, 2, other.moves, assembler_.held());
+    for (auto& before : others_) {
+      if (&before == &other) break;
+      assembler_.know(c, 2, other.moves, before.row);
+    }
   }
 
   /// To a node's own axes.
@@ -428,7 +468,8 @@ class RodSystem {
     const Matrix *const R = place_axes(i), *const T = tangent_axes(i);
     if (R) assembler_.template turn<0>(i, *R);
     if (T) assembler_.template turn<3>(i, *T);
-    if (contact_.holds(i) && contact_.leans()) assembler_.template lean<2, 3>(i, arm(T));
+    if (const auto* const contact = contact_at(i); contact && contact->leans())
+      assembler_.template lean<2, 3>(i, arm(*contact, T));
   }
   /// The end at node i where it is a joint that holds the twist.
   const detail::RodEnd<Scalar>* joint(int i) const noexcept {
@@ -457,8 +498,8 @@ class RodSystem {
     }
     Increment r = Increment::Zero();
     Block K = Block::Zero();
-    r.template head<6>() = -moves.transpose().lazyProduct(grip_.force());
-    const Eigen::Matrix<Scalar, 3, 6> stiff = grip_.tangent().lazyProduct(moves);
+    r.template head<6>() = -moves.transpose().lazyProduct(friction_->force());
+    const Eigen::Matrix<Scalar, 3, 6> stiff = friction_->tangent().lazyProduct(moves);
     K.template block<6, 6>(0, 0) = moves.transpose().lazyProduct(stiff);
     assembler_.add_at(c, K, r);
   }
@@ -480,8 +521,10 @@ class RodSystem {
   std::array<detail::RodEnd<Scalar>, 2> ends_;
   Increment prescribed_[2] = {Increment::Zero(), Increment::Zero()};
   detail::RodContact<Scalar> contact_;
-  detail::FrictionLaw<Scalar, 3> grip_;
-  Capsule<Scalar> touched_{};
+  using Rows = Assembler<Scalar, Elements, MaxElements, unknowns>;
+  using Other = detail::OtherContact<detail::RodContact<Scalar>, Scalar, typename Rows::HeldRow>;
+  detail::OtherContacts<Other, contacts_of<Element> - 1> others_;
+  Friction* friction_ = nullptr;
   Scalar moves_ = 0;
   Scalar length_, axial_;
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;

@@ -32,6 +32,12 @@ struct RoundContact {
   /// From the curve, negative from its other side [m].
   Scalar distance(const View& view) const noexcept { return view.distance; }
   Vector normal(const View& view) const noexcept { return view.normal; }
+  static Vector place_of(const Node& node) noexcept { return {node.s + node.u, node.w}; }
+  /// From a node to the centre [m].
+  Scalar clearance(const Node& node) const noexcept {
+    const Scalar x = (circle.centre.x() - node.s) - node.u, y = circle.centre.y() - node.w;
+    return std::sqrt(x * x + y * y);
+  }
   /// n · (u, w) of a plane at s that touches the circle [m].
   Scalar plane(const Vector& n, Scalar s, const Node&) const noexcept {
     return n.x() * (circle.centre.x() - s) + n.y() * circle.centre.y() - circle.reach;

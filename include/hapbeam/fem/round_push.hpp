@@ -23,6 +23,7 @@ template <class Element, class System>
 class RoundPush {
   using Scalar = typename System::Scalar;
   using Node = typename System::Node;
+  using Mesh = typename System::Mesh;
   using Round = typename SystemOf<Element>::template Round<Scalar>;
   using RoundContact = typename SystemOf<Element>::template RoundContact<Scalar>;
   static constexpr int dimension = dimension_of<Element>;
@@ -31,6 +32,7 @@ class RoundPush {
   using Result = Pushed<Scalar, dimension>;
   using Search = ContactSearch<Scalar, dimension>;
   using FrictionState = hapbeam::FrictionState<Scalar, dimension>;
+  using Friction = typename System::Friction;
 
  public:
   /// Of the beam's length: so far from its node a contact is as exact as at it, to a few 1e-6 of the force.
@@ -40,8 +42,7 @@ class RoundPush {
   /// So often the node follows the contact in a push.
   static constexpr int most_meshes = 4;
 
-  explicit RoundPush(const System& system)
-      : foresight_(system), before_(system.elements()), before_mesh_(system.mesh()) {}
+  explicit RoundPush(const System& system) : foresight_(system) {}
 
   /// To be called where something else moves the beam.
   void forget() noexcept {
@@ -50,12 +51,31 @@ class RoundPush {
   }
 
   /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
-  /// @param grip  null: without friction
+  /// @param state  of friction, null: without
   template <class Way, class Extent>
-  Result push(Way& way, const Round& request, const Extent& range, FrictionState* grip) noexcept {
+  Result push(Way& way, const Round& request, const Extent& range, FrictionState* state) noexcept {
+    if (!state) return find(way, request, range, nullptr);
+    System& system = way.system_;
+    Friction friction(*state, RoundContact{request}, system);
+    system.set_friction(&friction);
+    const Result pushed = find(way, request, range, &friction);
+    // What is no answer says nothing of where they touch: friction begins anew.
+    if (is_answer(pushed.status) && pushed.force < 0) {
+      system.look_at_friction();
+      friction.leave(*state, -pushed.force);
+    } else {
+      state->let_go();
+    }
+    system.set_friction(nullptr);
+    return pushed;
+  }
+
+ private:
+  /// @param friction  null: none
+  template <class Way, class Extent>
+  Result find(Way& way, const Round& request, const Extent& range, Friction* friction) noexcept {
     System& system = way.system_;
     const RoundContact round{request};
-    if (grip) begin(system, round, *grip);
     // On a curve that is too sharp for it the law holds at the node alone.
     const Scalar closely = beside * system.length(), exactly = Scalar(1e-5) * request.reach;
     Search search;
@@ -64,7 +84,7 @@ class RoundPush {
     bool snapped = false;
     for (int meshes = 1;; ++meshes) {
       Trial trial{s, normal, meshes == 1};
-      Result pushed = push_at(way, request, range, trial, grip);
+      Result pushed = push_at(way, request, range, trial, friction);
       snapped = snapped || pushed.status == Status::snapped;
       const Scalar off = (std::max)(std::abs(trial.ahead), trial.miss);
       const bool there = off <= (trial.by_plane ? exactly : closely);
@@ -72,7 +92,6 @@ class RoundPush {
         pushed.miss = there ? Scalar(0) : off;
         if (snapped && pushed.status == Status::ok) pushed.status = Status::snapped;
         foresight_.know(pushed.status == Status::ok);
-        if (grip) end(system, pushed, *grip);
         return pushed;
       }
       typename Search::Aim next{s + trial.ahead, normal};
@@ -84,7 +103,6 @@ class RoundPush {
     }
   }
 
- private:
   struct Trial {
     Scalar s;  ///< [m] where the node goes
     Vector
@@ -95,34 +113,16 @@ class RoundPush {
     Scalar miss = 0;        ///< [m] from the circle's centre to where it should be
   };
 
-  void begin(System& system, const RoundContact& round, FrictionState& grip) noexcept {
-    const Node node = round.node_at(system.centreline(), round.request().s);
-    system.keep(before_);
-    before_mesh_ = system.mesh();
-    system.take_friction(grip, round.request(), round.place(round.look(node, 0), node),
-                         -system.linear_reaction());
-  }
-  /// What is no answer says nothing of where they touch: friction begins anew.
-  static void end(System& system, const Result& pushed, FrictionState& grip) noexcept {
-    if (is_answer(pushed.status) && pushed.force < 0) {
-      system.look_at_grip();
-      system.grip().leave(grip, -pushed.force);
-    } else {
-      grip.let_go();
-    }
-    system.let_slip();
-  }
-
   /// A push with the node at trial.s, or at the end beside it.  At an end that slides along a wall the wall takes what does not
   /// act along it.
   template <class Way, class Extent>
   Result push_at(Way& way, const Round& request, const Extent& range, Trial& trial,
-                 const FrictionState* grip) noexcept {
+                 Friction* friction) noexcept {
     using std::abs;
     System& system = way.system_;
     const RoundContact round{request};
     const Scalar s = range.range().nearest({trial.s, 0}).s, length = system.length();
-    const ContactMesh<Scalar> mesh = way.uniform_.at(range.node(s));
+    const Mesh mesh = way.uniform_.at(range.node(s));
     const int c = mesh.node(), end = c == 0 ? -1 : c == system.elements() ? 1 : 0;
     const bool outside = planar && s != trial.s;
     bool wall = false, beside_support = false;
@@ -160,20 +160,19 @@ class RoundPush {
     };
 
     // With friction what is near is tried first; `all` of the way may be a fall.
-    bool all = !grip || way.descending_ || system.grip().falls();
+    bool all = !friction || way.descending_ || friction->falls();
     // Whether Coulomb's law holds.
     const auto agrees = [&](const Response<Scalar>& found) {
-      if (!grip) return true;
-      auto& law = system.grip();
+      if (!friction) return true;
       if (is_answer(found.status)) {
-        system.look_at_grip();
-        if (law.settled(-found.force)) return true;
+        system.look_at_friction();
+        if (friction->settled(-found.force)) return true;
       } else {
         if (all) return true;
-        all = !law.turn();
+        all = !friction->turn();
       }
-      if (law.torn()) {
-        system.set_state(before_mesh_, before_);
+      if (friction->torn()) {
+        foresight_.begin_again(system);
         system.remesh(mesh);
       }
       return false;
@@ -222,9 +221,7 @@ class RoundPush {
   }
 
   Foresight<System, Round> foresight_;
-  bool sharp_ = false;               // where the last circle touched
-  typename System::State before_;    // before a push with friction
-  ContactMesh<Scalar> before_mesh_;  // of it
+  bool sharp_ = false;  // where the last circle touched
 };
 
 /// Of a beam that is not laid on circles.

@@ -16,9 +16,9 @@ namespace hapbeam::detail {
 
 /// Lays the natural shape from the left end's place, turned toward the right end's place unless the left end is clamped.
 /// @param nodes  out, those of the mesh
-template <typename Scalar, class Nodes>
+template <typename Scalar, class Mesh, class Nodes>
 void lay(const NaturalShape<Scalar>& shape, const EndSupport<Scalar>& left, const EndSupport<Scalar>& right,
-         const ContactMesh<Scalar>& mesh, Nodes& nodes) noexcept {
+         const Mesh& mesh, Nodes& nodes) noexcept {
   using std::atan2;
   using std::cos;
   using std::sin;

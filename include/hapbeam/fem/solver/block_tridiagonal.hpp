@@ -168,23 +168,41 @@ class BlockTridiagonal {
     });
   }
 
-  /// The same for the one degree of freedom whose reaction() is wanted, after all others are prescribed.
+  /// The row of a degree of freedom that is held: what is known of it, and the entries of the node before, of its own and of the
+  /// node after.
+  struct HeldRow {
+    int node = 0;
+    Scalar by_loads = 0;
+    Scalar by[3][Block] = {};
+  };
+
+  /// The same for a degree of freedom whose reaction() is wanted, after all others are prescribed.
   [[gnu::always_inline]] void hold(int node, int component, Scalar increment) noexcept {
+    hold(node, component, increment, held_);
+  }
+  /// The same for one of several.  @param row  for reaction()
+  [[gnu::always_inline]] void hold(int node, int component, Scalar increment, HeldRow& row) noexcept {
     const Own own = own_of(node);
     const Scalar diagonal = own(component, component);
-    held_ = node;
-    held_by_loads_ = diagonal * increment - own[component];
-    held_energy_ = diagonal * increment * increment;
+    row.node = node;
+    row.by_loads = diagonal * increment - own[component];
+    held_energy_ += diagonal * increment * increment;
     for (int k = 0; k < Block; ++k) {
-      held_by_[0][k] = held_by_[2][k] = 0;
-      held_by_[1][k] = k == component ? Scalar(0) : own(k, component);
+      row.by[0][k] = row.by[2][k] = 0;
+      row.by[1][k] = k == component ? Scalar(0) : own(k, component);
     }
     for_each_neighbour(node, [&](const Own& other, const Coupling& c) {
-      Scalar* const to = other.before ? held_by_[0] : held_by_[2];
+      Scalar* const to = other.before ? row.by[0] : row.by[2];
       for (int k = 0; k < Block; ++k) to[k] = c(component, k);
     });
     prescribe(node, component, increment);
   }
+  /// What the first of hold() has to know of one that comes after it: beside its node the increment is no unknown.
+  void know(int node, int component, Scalar increment, HeldRow& row) const noexcept {
+    const int k = node - row.node;
+    if (k == 1 || k == -1) row.by_loads += row.by[k + 1][component] * increment;
+  }
+  HeldRow& held() noexcept { return held_; }
 
   /// Factors and solves.  @return ok | singular | non_finite
   Status solve() noexcept;
@@ -204,12 +222,13 @@ class BlockTridiagonal {
   }
 
   /// What holds the degree of freedom of hold() after the increment, of the linear equations: its row of r + Kx [N].
-  Scalar reaction() const noexcept {
-    Scalar sum = held_by_loads_;
+  Scalar reaction() const noexcept { return reaction(held_); }
+  Scalar reaction(const HeldRow& row) const noexcept {
+    Scalar sum = row.by_loads;
     for (int k = -1; k <= 1; ++k) {
-      if (held_ + k < 0 || held_ + k > last_) continue;
-      const Vector x = increment(held_ + k);
-      for (int i = 0; i < Block; ++i) sum += held_by_[k + 1][i] * x[i];
+      if (row.node + k < 0 || row.node + k > last_) continue;
+      const Vector x = increment(row.node + k);
+      for (int i = 0; i < Block; ++i) sum += row.by[k + 1][i] * x[i];
     }
     return sum;
   }
@@ -364,10 +383,8 @@ class BlockTridiagonal {
   detail::PerNode<Row, half(Elements), half(MaxElements)> rows_;
   int negative_pivots_ = 0;
   Scalar energy_ = 0;
-  int held_ = 0;  // node of hold()
   Scalar held_energy_ = 0;
-  Scalar held_by_loads_ = 0;       // its row: what is known,
-  Scalar held_by_[3][Block] = {};  // and the entries of the node before, of its own and of the node after
+  HeldRow held_;  // of the first or only hold()
 };
 
 // Outside of the class: only so does "extern template class BlockTridiagonal<…>;" keep a compiler from it.

@@ -74,14 +74,23 @@ class Dense {
     K_(k, k) = pivot;
   }
 
-  void hold(int node, int component, Scalar increment) noexcept {
+  struct HeldRow {
+    Vector by;
+    Scalar by_loads = 0;
+  };
+  void hold(int node, int component, Scalar increment) noexcept { hold(node, component, increment, held_); }
+  void hold(int node, int component, Scalar increment, HeldRow& row) noexcept {
     const int k = Block * node + component;
-    held_by_ = K_.col(k);
-    held_by_[k] = 0;
-    held_by_loads_ = K_(k, k) * increment - x_[k];
-    held_energy_ = K_(k, k) * increment * increment;
+    row.by = K_.col(k);
+    row.by[k] = 0;
+    row.by_loads = K_(k, k) * increment - x_[k];
+    held_energy_ += K_(k, k) * increment * increment;
     prescribe(node, component, increment);
   }
+  void know(int node, int component, Scalar increment, HeldRow& row) const noexcept {
+    row.by_loads += row.by[Block * node + component] * increment;
+  }
+  HeldRow& held() noexcept { return held_; }
 
   Status solve() {
     if (!K_.allFinite() || !x_.allFinite()) return Status::non_finite;
@@ -99,7 +108,8 @@ class Dense {
   }
 
   Scalar energy() const noexcept { return energy_; }
-  Scalar reaction() const noexcept { return held_by_loads_ + held_by_.dot(x_); }
+  Scalar reaction() const noexcept { return reaction(held_); }
+  Scalar reaction(const HeldRow& row) const noexcept { return row.by_loads + row.by.dot(x_); }
   int negative_pivots() const noexcept { return negative_pivots_; }
   Eigen::Matrix<Scalar, Block, 1> increment(int node) const noexcept {
     return x_.template segment<Block>(Block * node);
@@ -107,8 +117,8 @@ class Dense {
 
  private:
   Matrix K_;
-  Vector x_, held_by_;
-  Scalar held_by_loads_ = 0;
+  Vector x_;
+  HeldRow held_;
   Scalar energy_ = 0, held_energy_ = 0;
   int negative_pivots_ = 0;
 };

@@ -1,0 +1,283 @@
+// From the places of several hands to the force on each: several avatars and props on one beam, one call a tick, in a plane or in space.
+//
+//   FemModel<Several<Corotational<>, 3>> model(beam, 16);
+//   TouchSeveral touch(model, {0.005, 0.005}, {Prop<>::peg({0.5, -0.02}, 0.01)});
+//   const auto felt = touch.tick(left, right);        // felt.force(0) on the left hand, felt.force(1) on the right one
+//
+// A *prop* is an avatar that nobody moves.  Each tick finds where the avatars and props lie to the shape of the last tick and asks the model for
+// the equilibrium under all of them (Obstacle, force_model.hpp).  Each pushes or does not touch; none pulls but a support.  There is no friction.
+// An avatar past an end that holds w touches nothing.
+// Allocates and throws in its constructor only.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+
+#include <hapbeam/check.hpp>
+#include <hapbeam/contact/find_contact.hpp>
+#include <hapbeam/contact/find_rod_contact.hpp>
+#include <hapbeam/contact/prop.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam {
+
+/// A round avatar that a hand moves.
+struct RoundAvatar {
+  /// @param touches  at so many places at most: 2 for one that is wide beside the bends of the beam
+  constexpr RoundAvatar(double radius_, int touches_ = 1) noexcept : radius(radius_), touches(touches_) {}
+  double radius;  ///< [m] >= 0
+  int touches;
+};
+
+/// What becomes of one possible contact in a tick.
+template <typename Scalar, int D = 2>
+struct TouchPlace {
+  int body = 0;           ///< avatars in their order, then props in theirs
+  bool touching = false;  ///< all else is zero where they do not touch
+  Status status = Status::ok;
+  Scalar s = 0;                                              ///< [m] arc position
+  VectorOf<Scalar, D> point = VectorOf<Scalar, D>::Zero();   ///< [m] of the centreline
+  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< unit, out of the beam to the body
+  VectorOf<Scalar, D> force = VectorOf<Scalar, D>::Zero();   ///< [N] on the body; always finite
+};
+
+/// What one tick says.
+/// @tparam Contacts  most of them
+template <typename Scalar, int D, int Contacts>
+struct TouchSeveralResult {
+  Status status = Status::ok;  ///< of the equilibrium; invalid_request for a position that is not finite
+  int size = 0;                ///< possible contacts
+  std::array<TouchPlace<Scalar, D>, Contacts> places;
+
+  const TouchPlace<Scalar, D>* begin() const noexcept { return places.data(); }
+  const TouchPlace<Scalar, D>* end() const noexcept { return places.data() + size; }
+  /// On an avatar or a prop [N].
+  VectorOf<Scalar, D> force(int body) const noexcept {
+    VectorOf<Scalar, D> sum = VectorOf<Scalar, D>::Zero();
+    for (const auto& place : *this)
+      if (place.body == body) sum += place.force;
+    return sum;
+  }
+  bool touching(int body) const noexcept {
+    return std::any_of(begin(), end(),
+                       [body](const auto& place) { return place.body == body && place.touching; });
+  }
+};
+
+/// Several avatars and props on one beam.  Between ticks the model may be read by others but pressed by nobody else.
+template <class Model>
+class TouchSeveral {
+  static_assert(
+      is_force_model<Model> && takes_obstacles<Model>,
+      "TouchSeveral<Model>: Model must offer push(Obstacle<Scalar>*, int) and release(), each noexcept: "
+      "FemModel<Several<Element, Contacts>>");
+
+ public:
+  using Scalar = typename Model::Scalar;
+  static constexpr int dimension = dimension_of<Model>;
+  static constexpr int most = Model::contacts;
+  using Vector = VectorOf<Scalar, dimension>;
+  using Result = TouchSeveralResult<Scalar, dimension, most>;
+  using Prop = hapbeam::Prop<dimension>;
+
+  /// @param model  kept by reference   @param avatars, props  at most Contacts places together
+  /// Allocates.   @throws std::invalid_argument naming what makes no sense
+  TouchSeveral(Model& model, std::initializer_list<RoundAvatar> avatars,
+               std::initializer_list<Prop> props = {})
+      : model_(model), volumes_(model.shape().segments()) {
+    const double length = static_cast<double>(model.shape().length());
+    const auto add = [&](int body) -> Place& {
+      if (size_ == most)
+        detail::reject("avatars and props", size_ + 1.0, "places",
+                       ("at most " + std::to_string(most) + ", the Contacts of the model's Several").c_str());
+      Place& place = places_[at(size_++)];
+      place.obstacle.body = body;
+      return place;
+    };
+    for (const RoundAvatar& avatar : avatars) {
+      if (!(avatar.radius >= 0 && avatar.radius <= most_radius * length))
+        detail::reject("avatar radius", avatar.radius, "m", "0 to a thousand lengths of the beam");
+      if (avatar.touches < 1) detail::reject("avatar touches", avatar.touches, "places", "1 or more");
+      for (int k = 0; k < avatar.touches; ++k)
+        add(avatars_).avatar.radius = static_cast<Scalar>(avatar.radius);
+      ++avatars_;
+    }
+    int body = avatars_;
+    for (const Prop& prop : props) {
+      prop.check(length);
+      Place& place = add(body++);
+      place.prop = true;
+      place.avatar = prop.template avatar<Scalar>(length);
+      place.obstacle.kind = prop.kind();
+      place.obstacle.place = prop.template place<Scalar>();
+      if (place.obstacle.kind != ObstacleKind::round) fixed_ = true;
+    }
+    reset();
+  }
+
+  /// Lets go of the beam and forgets where the hands were; where it rests on props it does so after the next tick.
+  /// Real-time: as Model::reset, and O(n).
+  void reset() noexcept {
+    model_.reset();
+    volumes_.refit(model_.shape());
+    for (int i = 0; i < size_; ++i) forget(places_[at(i)]);
+    moving_ = false;
+    unanswered_ = 0;
+  }
+
+  /// One tick.  @param positions  [m] the centre of each avatar, in space the centre of each sphere
+  /// Real-time: noexcept, no allocation, bounded: at most one push and one release; nothing where nobody touches a beam at rest.
+  template <class... Positions>
+  [[nodiscard]] Result tick(const Positions&... positions) noexcept {
+    const std::array<Vector, sizeof...(Positions)> all{positions...};
+    return tick(all.data(), static_cast<int>(all.size()));
+  }
+  /// The same.  @param count  of positions: as many as there are avatars, else invalid_request
+  [[nodiscard]] Result tick(const Vector* positions, int count) noexcept;
+
+  int avatars() const noexcept { return avatars_; }
+  /// Nobody touches the beam, and it is at rest.
+  [[nodiscard]] bool resting() const noexcept { return !moving_; }
+
+  /// As Touch::most_radius and Touch::patience.
+  static constexpr double most_radius = 1000;
+  static constexpr int patience = 20;
+
+ private:
+  using Avatar = hapbeam::Avatar<Scalar, dimension>;
+  using Contact = hapbeam::Contact<Scalar, dimension>;
+  using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
+  static constexpr bool planar = dimension == 2;
+
+  struct Place {
+    Obstacle obstacle;
+    Avatar avatar{};
+    bool prop = false;
+    ContactMemory<Scalar, dimension> memory;
+    Status status = Status::ok;  // of what keeps it from being an obstacle in this tick
+  };
+  static std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+
+  static void forget(Place& place) noexcept {
+    place.memory = {};
+    place.obstacle.touching = false;
+    place.obstacle.pushed.force = 0;
+  }
+  /// Whether the place before is of the same avatar.
+  bool again(int i) const noexcept {
+    return i > 0 && places_[at(i)].obstacle.body == places_[at(i - 1)].obstacle.body;
+  }
+
+  /// Where it lies to the beam.   @return whether the two touch
+  bool look(int i) noexcept {
+    Place& place = places_[at(i)];
+    Obstacle& obstacle = place.obstacle;
+    place.status = Status::ok;
+    obstacle.valid = true;
+    if (obstacle.kind != ObstacleKind::round) return true;
+    remember(place);
+    const Scalar thickness = model_.thickness(), reach = place.avatar.radius + thickness / 2;
+    const Contact contact = find_contact(place.avatar, model_.shape(), volumes_, thickness, place.memory);
+    const Range<Scalar> range = model_.range();
+    const bool off =
+        contact.past_end && std::isfinite(contact.s > 0 ? range.right_support : range.left_support);
+    const bool lost = contact.depth > reach + model_.shape().length();
+    obstacle.valid = contact.segment >= 0 && !off && !lost;
+    if (!obstacle.valid) {
+      place.status = lost ? Status::iteration_limit : Status::out_of_range;
+      if (!contact.touching) place.status = Status::ok;
+      obstacle.touching = false;
+      return false;
+    }
+    // One avatar that touches twice is nearest to the beam at one place alone.
+    const bool twice = obstacle.touching && (again(i) || (i + 1 < size_ && again(i + 1)));
+    const Scalar s = twice ? obstacle.pushed.s : contact.s;
+    if constexpr (planar)
+      obstacle.round = {s, place.avatar.position, reach, static_cast<Scalar>(contact.side)};
+    else obstacle.round = {s, place.avatar.axis(), reach, twice ? obstacle.pushed.normal : contact.normal};
+    if (!again(i)) obstacle.touching = obstacle.touching || contact.touching;
+    return obstacle.touching;
+  }
+  /// As Touch: a pressed beam moves with what presses it, which cannot have gone round its end.
+  void remember(Place& place) noexcept {
+    place.memory.touching = place.obstacle.touching;
+    if constexpr (planar) {
+      place.memory.through = place.obstacle.touching;
+      if (place.obstacle.touching) place.memory.side = place.obstacle.round.side < 0 ? -1 : 1;
+    } else if (place.obstacle.touching) {
+      place.memory.s = place.obstacle.pushed.s, place.memory.normal = place.obstacle.pushed.normal;
+    }
+  }
+
+  Status push() noexcept {
+    std::array<Obstacle, most> all;
+    for (int i = 0; i < size_; ++i) all[at(i)] = places_[at(i)].obstacle;
+    const Status status = model_.push(all.data(), size_);
+    for (int i = 0; i < size_; ++i) places_[at(i)].obstacle = all[at(i)];
+    volumes_.refit(model_.shape());
+    return status;
+  }
+  void report(int i, bool pushed, TouchPlace<Scalar, dimension>& to) const noexcept {
+    const Place& place = places_[at(i)];
+    const Obstacle& obstacle = place.obstacle;
+    to.body = obstacle.body;
+    to.touching = obstacle.touching;
+    to.status = !obstacle.valid ? place.status : pushed ? obstacle.pushed.status : Status::ok;
+    if (!obstacle.touching) return;
+    to.s = obstacle.pushed.s;
+    to.point = obstacle.pushed.point;
+    to.normal = obstacle.pushed.normal;
+    to.force = -obstacle.pushed.force * obstacle.pushed.normal;
+  }
+
+  Model& model_;
+  BoundingVolumes<Scalar, dimension> volumes_;
+  std::array<Place, most> places_{};
+  int size_ = 0, avatars_ = 0;
+  bool fixed_ = false;   // there are stops or supports
+  bool moving_ = false;  // touched, or let go and not yet at rest
+  int unanswered_ = 0;   // ticks since the last answer
+};
+
+template <class Model>
+auto TouchSeveral<Model>::tick(const Vector* positions, int count) noexcept -> Result {
+  Result result;
+  result.size = size_;
+  bool valid = count == avatars_;
+  for (int k = 0; valid && k < count; ++k)
+    valid = positions[k].allFinite() && std::isfinite(positions[k].squaredNorm());
+  if (!valid) {
+    result.status = Status::invalid_request;
+    for (int i = 0; i < size_; ++i) result.places[at(i)].body = places_[at(i)].obstacle.body;
+    return result;
+  }
+  bool touched = fixed_;
+  for (int i = 0; i < size_; ++i) {
+    Place& place = places_[at(i)];
+    if (!place.prop) place.avatar.position = positions[place.obstacle.body];
+    touched = look(i) || touched;
+  }
+  const bool pushed = touched || moving_;
+  if (pushed) {
+    result.status = push();
+    if (is_answer(result.status)) unanswered_ = 0;
+    else if (++unanswered_ > patience) reset();
+    moving_ = touched || result.status == Status::iteration_limit;
+  }
+  for (int i = 0; i < size_; ++i) {
+    report(i, pushed, result.places[at(i)]);
+    if (worse(result.places[at(i)].status, result.status)) result.status = result.places[at(i)].status;
+  }
+  return result;
+}
+
+template <class Model>
+TouchSeveral(Model&, std::initializer_list<RoundAvatar>) -> TouchSeveral<Model>;
+template <class Model>
+TouchSeveral(Model&, std::initializer_list<RoundAvatar>, std::initializer_list<Prop<dimension_of<Model>>>)
+    -> TouchSeveral<Model>;
+
+}  // namespace hapbeam

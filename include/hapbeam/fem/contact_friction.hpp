@@ -1,0 +1,41 @@
+// Coulomb friction of the contact of one push, as a system knows it: the law, and where the two bodies touch.
+//
+// It is made where a push begins, taken by the system for its goals, and gone where the push ends: a model without friction carries none of it.
+// Real-time: noexcept, no allocation, O(1).
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <hapbeam/fem/friction_law.hpp>
+
+namespace hapbeam::detail {
+
+/// @tparam RoundContact  RoundContact<Scalar> | RodRoundContact<Scalar>
+template <typename Scalar, int D, template <typename> class RoundContact>
+class ContactFriction : public FrictionLaw<Scalar, D> {
+ public:
+  /// @param state  what the touch remembers   @param round  the avatar   @param system  that is pushed, as it lies before
+  template <class System>
+  ContactFriction(const FrictionState<Scalar, D>& state, const RoundContact<Scalar>& round,
+                  const System& system) noexcept
+      : round_(round) {
+    const auto node = round.node_at(system.centreline(), round.request().s);
+    const Scalar per_length = system.unit() / system.length();
+    this->begin(state, round.place(round.look(node, 0), node), round.request().reach,
+                per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()),
+                system.length() / 1000, -system.linear_reaction());
+  }
+
+  /// To be called where the beam has moved.  @param contact  of the system   @param node  of it
+  template <class Contact, class Node>
+  void look(const Contact& contact, const Node& node) noexcept {
+    FrictionLaw<Scalar, D>::look(contact.round() ? round_.place(contact.view(node), node)
+                                                 : round_.place(contact.normal(), node));
+  }
+
+ private:
+  RoundContact<Scalar> round_;
+};
+
+}  // namespace hapbeam::detail

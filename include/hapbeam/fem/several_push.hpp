@@ -1,0 +1,446 @@
+// A beam is laid on several circles, a rod on several capsules: places, directions and which of them touch are found with the equilibrium.
+//
+// Each contact is that of RoundPush, with a node of its own.  Which obstacles touch is a small complementarity problem,
+//
+//   force >= 0,  gap >= 0,  force · gap = 0        for each obstacle
+//
+// solved by an active set.  It begins with those that touched in the push before.  Of those that would have to pull the worst lets go; where none
+// would, the one that the beam lies deepest in is added; and each node follows its contact.  An obstacle that has let go in this push is
+// taken back only where it is deeper than the mesh can be wrong.  The last tick's set mostly is this one's: then there is one solution.
+// Allocates at construction.  Real-time: all else is noexcept and allocation-free, at most most_passes solutions, and the linear solves of
+// AllDisplacements in all.   Source: active sets, Nocedal and Wright, Numerical Optimization, 16.5.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <hapbeam/fem/contact_search.hpp>
+#include <hapbeam/fem/round_push.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+template <class Element, class System>
+class SeveralPush {
+  using Scalar = typename System::Scalar;
+  using Node = typename System::Node;
+  using Mesh = typename System::Mesh;
+  using RoundContact = typename SystemOf<Element>::template RoundContact<Scalar>;
+  static constexpr int dimension = dimension_of<Element>;
+  static constexpr bool planar = dimension == 2;
+  static constexpr int most = contacts_of<Element>;
+  using Vector = VectorOf<Scalar, dimension>;
+  using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
+  using Search = ContactSearch<Scalar, dimension>;
+  using Single = RoundPush<Element, System>;
+
+ public:
+  /// Solutions of a push: so often nodes follow their contacts, and each obstacle touches or lets go.
+  static constexpr int most_passes = Single::most_meshes + 2 * most;
+  /// Steps of the search for the place at which the beam is nearest to an obstacle that does not touch it.
+  static constexpr int most_looks = 8;
+
+  /// @throws std::invalid_argument where there are too few elements for so many contacts
+  explicit SeveralPush(const System& system) {
+    if (system.elements() < most + 1)
+      throw std::invalid_argument("elements = " + std::to_string(system.elements()) + ": must be at least " +
+                                  std::to_string(most + 1) + " for " + std::to_string(most) + " contacts");
+  }
+
+  /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
+  /// @param all  in: where they are and whether they touched;  out: whether they touch, and their forces
+  /// @return the worst Status of those that touch | iteration_limit where the passes have ended before the changes
+  template <class Way, class Extent>
+  Status push(Way& way, Obstacle* all, int count, const Extent& range) noexcept {
+    System& system = way.system_;
+    all_ = all, count_ = count;
+    for (int i = 0; i < count; ++i) begin(i, range);
+    Status status = Status::ok;
+    bool snapped = false;
+    int meshes = 1;
+    for (int pass = 1;; ++pass) {
+      choose_nodes(system, range);
+      status = solve(way, range, pass == 1);
+      snapped = snapped || status == Status::snapped;
+      if (!is_answer(status)) break;
+      if (!review(system, range, meshes)) break;
+      if (pass == most_passes) {
+        status = Status::iteration_limit;
+        break;
+      }
+    }
+    if (snapped && status == Status::ok) status = Status::snapped;
+    for (int i = 0; i < count; ++i) end(system, i, status);
+    return status;
+  }
+
+ private:
+  /// What is known of an obstacle during a push.
+  struct Slot {
+    Scalar s = 0;   ///< [m] where its node is or would be
+    int node = -1;  ///< of the mesh, -1: none
+    int goal = -1;  ///< number of its contact in the system, -1: none
+    bool by_plane = false, sharp = false, wall = false;
+    bool let_go = false;   ///< in this push
+    bool crowded = false;  ///< too near another contact to have a node
+    bool near = false;  ///< the gap is small: it has a node, so that the mesh stays as it touches and lets go
+    Scalar across = 1;  ///< component of the force that the beam takes
+    Scalar ahead = 0, miss = 0, depth = 0;
+    Vector normal = Vector::Zero();
+    Search search;
+  };
+  Slot& slot(int i) noexcept { return slots_[static_cast<std::size_t>(i)]; }
+
+  template <class Extent>
+  void begin(int i, const Extent& range) noexcept {
+    const bool sharp = slot(i).sharp && all_[i].touching;
+    slot(i) = {};
+    slot(i).sharp = sharp;
+    const bool round = all_[i].kind == ObstacleKind::round;
+    all_[i].touching = all_[i].valid && (all_[i].touching || all_[i].kind == ObstacleKind::support);
+    slot(i).s = std::clamp(round ? all_[i].round.s : all_[i].place.s, Scalar(0), range.length());
+    slot(i).near = all_[i].touching || (all_[i].valid && !round);
+  }
+
+  /// Sorts those that have a node along the beam, and moves the mesh.
+  template <class Extent>
+  void choose_nodes(System& system, const Extent& range) noexcept {
+    const Scalar apart = Mesh::shortest(system.length());
+    ordered_ = 0;
+    for (int i = 0; i < count_; ++i) {
+      Slot& now = slot(i);
+      now.node = now.goal = -1;
+      if (!all_[i].touching && !now.near) continue;
+      now.s = range.node(range.range().nearest({now.s, 0}).s);
+      int k = ordered_++;
+      for (; k > 0 && slot(order_[of(k - 1)]).s > now.s; --k) order_[of(k)] = order_[of(k - 1)];
+      order_[of(k)] = i;
+    }
+    std::array<Scalar, most> s{};
+    int nodes = 0;
+    for (int k = 0; k < ordered_; ++k) {
+      const int i = order_[of(k)];
+      if (nodes > 0 && slot(i).s - s[of(nodes - 1)] < apart) {
+        const int before = order_[of(nodes - 1)];
+        const bool stays =
+            all_[before].touching && (!all_[i].touching || all_[before].pushed.force <= all_[i].pushed.force);
+        const int away = stays ? i : before;
+        slot(away).crowded = all_[away].touching;
+        all_[away].touching = slot(away).near = false;
+        if (stays) continue;
+        --nodes;
+      }
+      order_[of(nodes)] = i;
+      s[of(nodes++)] = slot(i).s;
+    }
+    ordered_ = nodes;
+    if (nodes == 0) return;
+    mesh_ = system.mesh().at(s, nodes);
+    for (int k = 0; k < nodes; ++k) slot(order_[of(k)]).node = mesh_.node(k);
+  }
+
+  template <class Way, class Extent>
+  Status solve(Way& way, const Extent& range, bool first) noexcept {
+    System& system = way.system_;
+    int contacts = 0;
+    for (int k = 0; k < ordered_; ++k)
+      if (all_[order_[of(k)]].touching) ++contacts;
+    if (contacts == 0) {
+      if (!way.single_valued_) return way.release();
+      way.to_rest();
+      if (ordered_ > 0) system.remesh(mesh_);
+      return Status::ok;
+    }
+    system.remesh(mesh_);
+    if (first && way.single_valued_ && nearer_at_rest(way)) {
+      way.to_rest();
+      system.remesh(mesh_);
+    }
+    const auto aim = [&] {
+      int goals = 0;
+      for (int k = 0; k < ordered_; ++k)
+        if (const int i = order_[of(k)]; all_[i].touching) set_goal(system, range, i, goals++);
+    };
+    return way.settle(system.linear_reaction(), Single::slack, aim).status;
+  }
+
+  /// Whether all that touch are nearer to the shape at rest than to the present one.
+  template <class Way>
+  bool nearer_at_rest(const Way& way) noexcept {
+    const System& system = way.system_;
+    Scalar jump = 0, from_rest = 0;
+    for (int k = 0; k < ordered_; ++k) {
+      const int i = order_[of(k)];
+      if (!all_[i].touching) continue;
+      if (all_[i].kind != ObstacleKind::round) continue;
+      const RoundContact round{all_[i].round};
+      const auto off = [&](const Node& node) {
+        return std::abs(round.distance(round.look(node, 0)) - round.request().reach);
+      };
+      jump = (std::max)(jump, off(system.node(slot(i).node)));
+      from_rest = (std::max)(from_rest, off(round.node_at(system.view(way.rest_state_), slot(i).s)));
+    }
+    return jump > system.length() / 1000 && from_rest < jump;
+  }
+
+  template <class Extent>
+  void set_goal(System& system, const Extent& range, int i, int goal) noexcept {
+    using std::abs;
+    Slot& now = slot(i);
+    const RoundContact round{all_[i].round};
+    const Scalar reach = round.request().reach;
+    const int c = now.node, end = end_at(system, c);
+    const auto law = round.beside(system.centreline(), c, end);
+    const auto set = [&](Scalar d, const auto&... as) {
+      if (goal == 0) {
+        if constexpr (sizeof...(as) == 0) system.set_goal(c, d, 0, up());
+        else system.set_goal(c, d, as...);
+      } else {
+        if constexpr (sizeof...(as) == 0) system.add_goal(all_[i].pushed.force, c, d, Scalar(0), up());
+        else system.add_goal(all_[i].pushed.force, c, d, as...);
+      }
+    };
+    if (goal == 0) system.set_force(all_[i].pushed.force);
+    now.goal = goal;
+    if (all_[i].kind != ObstacleKind::round) return set(all_[i].place.d, Scalar(0), all_[i].place.normal);
+    now.by_plane = now.sharp || law.sharp(reach) || beside_support(range, now.s, reach);
+    now.across = 1;
+    if constexpr (planar) now.wall = range.on_wall(now.s);
+    else now.by_plane = now.by_plane || round.is_through(round.look(system.node(c), end));
+    now.by_plane = now.by_plane || now.wall;
+    if (!now.by_plane) return set(-reach, law);
+    if (now.normal.isZero(0) || now.wall) now.normal = round.normal(round.look(system.node(c), end));
+    const Scalar d = round.plane(now.normal, now.s, system.node(c));
+    if (!now.wall) return set(d, Scalar(0), now.normal);
+    if constexpr (planar) {
+      now.across = std::copysign((std::max)(Scalar(0.5), abs(now.normal.y())), now.normal.y());
+      set((d - now.normal.x() * system.node(c).u) / now.across);
+    }
+  }
+  static Vector up() noexcept {
+    Vector w = Vector::Zero();
+    w[1] = 1;
+    return w;
+  }
+
+  /// What the equilibrium says of all of them.   @return whether there has to be another one
+  template <class Extent>
+  bool review(System& system, const Extent& range, int& meshes) noexcept {
+    const Scalar length = system.length();
+    int worst = -1;
+    Scalar most_pull = 0;
+    for (int i = 0; i < count_; ++i) {
+      Slot& now = slot(i);
+      if (!all_[i].touching) continue;
+      all_[i].pushed.force = system.linear_reaction(now.goal) / now.across;
+      // What is touched by nothing pulls the least.
+      if (all_[i].kind == ObstacleKind::support) continue;
+      if (!(all_[i].pushed.force < 0) && (worst < 0 || all_[i].pushed.force > most_pull))
+        worst = i, most_pull = all_[i].pushed.force;
+    }
+    if (worst >= 0) {
+      all_[worst].touching = false;
+      all_[worst].pushed.force = 0;
+      slot(worst).let_go = slot(worst).near = true;
+      return true;
+    }
+    if (slip_off(system, range)) return true;
+    bool moved = false;
+    for (int i = 0; i < count_; ++i)
+      if (all_[i].touching && all_[i].kind == ObstacleKind::round) moved = follow(system, i) || moved;
+    moved = moved && ++meshes <= Single::most_meshes;
+    int deepest = -1;
+    const Scalar round_off = 16 * std::numeric_limits<Scalar>::epsilon();
+    for (int i = 0; i < count_; ++i) {
+      Slot& now = slot(i);
+      if (all_[i].touching || now.crowded || !all_[i].valid) continue;
+      if (all_[i].kind == ObstacleKind::round) seek(system, range, i);
+      else now.depth = system.displacement(now.s, all_[i].place.normal) - all_[i].place.d;
+      const Scalar fine = Scalar(1e-9) * length + round_off * (length + all_[i].round.reach);
+      const Scalar slack = now.let_go || twin(i) >= 0 ? (std::max)(Scalar(1e-5) * length, fine) : fine;
+      if (now.depth > slack && (deepest < 0 || now.depth > slot(deepest).depth)) deepest = i;
+    }
+    if (deepest >= 0) {
+      all_[deepest].touching = true;
+      all_[deepest].pushed.force = 0;
+    }
+    return moved || deepest >= 0;
+  }
+
+  /// An end that holds w may slide away under an obstacle.   @return whether one has
+  template <class Extent>
+  bool slip_off(const System& system, const Extent& range) noexcept {
+    const auto where = range.range();
+    bool any = false;
+    for (int i = 0; i < count_; ++i) {
+      if (!all_[i].touching || all_[i].kind != ObstacleKind::round) continue;
+      const RoundContact round{all_[i].round};
+      for (const bool right : {false, true}) {
+        if (!std::isfinite(right ? where.right_support : where.left_support)) continue;
+        const int last = right ? system.elements() : 0;
+        const auto view = round.look(system.node(last), right ? 1 : -1);
+        // Beside it the node keeps its distance from the end, which the contact has passed.
+        if (!view.past_end || slot(i).node != system.mesh().node(right ? system.mesh().count() - 1 : 0))
+          continue;
+        if (slot(i).s > where.s_min && slot(i).s < where.s_max) continue;
+        all_[i].touching = slot(i).near = false;
+        slot(i).crowded = any = true;
+      }
+    }
+    return any;
+  }
+
+  /// The node of a contact follows it.   @return whether it has to
+  bool follow(System& system, int i) noexcept {
+    Slot& now = slot(i);
+    const RoundContact round{all_[i].round};
+    const Node& node = system.node(now.node);
+    auto& pushed = all_[i].pushed;
+    const auto view = now.by_plane ? round.look(node, end_at(system, now.node)) : system.contact(now.goal);
+    pushed.past_end = view.past_end;
+    pushed.point = round.point(view, node);
+    pushed.normal = view.normal;
+    const Scalar touched = std::clamp(node.s + round.ahead(view), Scalar(0), system.length());
+    now.sharp = round.beside(system.centreline(), now.node, 0).sharp(round.request().reach);
+    now.ahead = touched - now.s;
+    now.miss = now.by_plane ? round.miss(now.normal, node) : Scalar(0);
+    pushed.s = now.by_plane ? now.s : touched;
+    const Scalar off = (std::max)(std::abs(now.ahead), now.miss);
+    const bool there =
+        off <= (now.by_plane ? Scalar(1e-5) * round.request().reach : Single::beside * system.length());
+    pushed.miss = there ? Scalar(0) : off;
+    if (there) return false;
+    typename Search::Aim next{now.s + now.ahead, now.normal};
+    if (now.by_plane)
+      next = now.search.after({next.s, pushed.normal}, round.residual(now.ahead, now.normal, pushed.normal));
+    now.s = std::clamp(next.s, Scalar(0), system.length());
+    now.normal = next.normal;
+    return true;
+  }
+
+  /// How deep the beam lies in what does not touch it, and where.
+  template <class Extent>
+  void seek(System& system, const Extent& range, int i) noexcept {
+    Slot& now = slot(i);
+    const RoundContact round{all_[i].round};
+    const auto line = system.centreline();
+    const Scalar length = system.length(), reach = round.request().reach;
+    now.near = false;
+    now.depth = -std::numeric_limits<Scalar>::infinity();
+    Place place = nearest_node(system, i);
+    if (const int other = twin(i); other >= 0) look_beside(system, other, place);
+    if (!place.known) return;
+    // What is far away does not touch, unless the beam has gone past it in this push.
+    const Node start = round.node_at(line, place.s);
+    const auto beside = round.look(start, end_of(place.s, length));
+    const Scalar apart = round.clearance(start) - reach;
+    if (apart > place.right - place.left + length / 100 && (beside.past_end || round.distance(beside) > 0))
+      return;
+    for (int step = 0; step < most_looks; ++step) {
+      const auto view = round.look(round.node_at(line, place.s), end_of(place.s, length));
+      now.depth = reach - round.distance(view);
+      const Scalar next = std::clamp(place.s + round.ahead(view), place.left, place.right);
+      const bool arrived = std::abs(next - place.s) <= Scalar(1e-6) * length;
+      if (arrived) break;
+      place.s = next;
+    }
+    now.s = place.s;
+    const auto answered = range.range();
+    if (now.s < answered.s_min || now.s > answered.s_max)
+      now.depth = -std::numeric_limits<Scalar>::infinity();
+    now.near = now.depth > -length / 200;
+  }
+
+  /// Where an obstacle may touch: about at s, and between left and right [m].
+  struct Place {
+    bool known = false;
+    Scalar s = 0, left = 0, right = 0, clearance = 0;
+    void take(Scalar at, Scalar from, Scalar to, Scalar distance) noexcept {
+      if (known && !(distance < clearance)) return;
+      known = true;
+      s = at, left = from, right = to, clearance = distance;
+    }
+  };
+  /// Of a twin of one that touches: on the far side of a place that is farther than where the other one touches.
+  Place nearest_node(const System& system, int i) noexcept {
+    const RoundContact round{all_[i].round};
+    const int other = twin(i), n = system.elements();
+    Place best;
+    const auto take = [&](int k, Scalar clearance) {
+      best.take(system.node(k).s, system.node((std::max)(k - 1, 0)).s, system.node((std::min)(k + 1, n)).s,
+                clearance);
+    };
+    if (other < 0) {
+      for (int k = 0; k <= n; ++k) take(k, round.clearance(system.node(k)));
+      return best;
+    }
+    for (const int step : {-1, 1}) {
+      bool falls = false;
+      Scalar before = round.clearance(system.node(slot(other).node));
+      for (int k = slot(other).node + step; k >= 0 && k <= n; k += step) {
+        const Scalar clearance = round.clearance(system.node(k));
+        falls = falls || clearance < before;
+        if (falls) take(k, clearance);
+        before = clearance;
+      }
+    }
+    return best;
+  }
+  /// And beside it, where a bend that is sharper than the body may be within an element.
+  void look_beside(const System& system, int other, Place& best) noexcept {
+    const RoundContact round{all_[other].round};
+    const Scalar s = slot(other).s, reach = round.request().reach, length = system.length(),
+                 apart = 2 * Mesh::shortest(length);
+    for (const Scalar way : {-reach / 2, -reach / 4, reach / 4, reach / 2}) {
+      const Scalar at = s + way;
+      if (!(std::abs(way) > apart) || at < 0 || at > length) continue;
+      const Scalar clearance = round.clearance(round.node_at(system.centreline(), at));
+      if (clearance < reach)
+        best.take(at, way < 0 ? (std::max)(s + 2 * way, Scalar(0)) : s + apart,
+                  way < 0 ? s - apart : (std::min)(s + 2 * way, length), clearance);
+    }
+  }
+  /// Another obstacle of the same body that touches, -1: none.
+  int twin(int i) const noexcept {
+    for (int k = 0; k < count_; ++k)
+      if (k != i && all_[k].body == all_[i].body && all_[k].touching) return k;
+    return -1;
+  }
+
+  template <class Extent>
+  static bool beside_support(const Extent& range, Scalar s, Scalar reach) noexcept {
+    if constexpr (!planar) return false;
+    const auto where = range.range();
+    return s - where.left_support < 2 * reach || where.right_support - s < 2 * reach;
+  }
+  int end_at(const System& system, int node) const noexcept {
+    return node == 0 ? -1 : node == system.elements() ? 1 : 0;
+  }
+  static int end_of(Scalar s, Scalar length) noexcept { return s <= 0 ? -1 : s >= length ? 1 : 0; }
+  static std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
+
+  void end(const System& system, int i, Status status) noexcept {
+    auto& pushed = all_[i].pushed;
+    pushed.status = !all_[i].valid    ? Status::invalid_request
+                    : slot(i).crowded ? Status::out_of_range
+                                      : status;
+    if (!all_[i].touching || (pushed.force > 0 && all_[i].kind != ObstacleKind::support)) pushed.force = 0;
+    if (all_[i].kind == ObstacleKind::round) return;
+    const Node node = RoundContact::node_at(system.centreline(), slot(i).s);
+    pushed.s = slot(i).s;
+    pushed.point = RoundContact::place_of(node);
+    pushed.normal = all_[i].place.normal;
+  }
+
+  Obstacle* all_ = nullptr;
+  int count_ = 0, ordered_ = 0;
+  std::array<int, most> order_{};  // of those that have a node, along the beam
+  std::array<Slot, most> slots_{};
+  Mesh mesh_{2, Scalar(1)};
+};
+
+}  // namespace hapbeam::detail
