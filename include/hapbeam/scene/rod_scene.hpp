@@ -54,7 +54,8 @@ struct RodScene {
     try {
       const Beam beam = beam_in_any_plane(rod);
       (void)TurningPlane<FemModel<Corotational<>>>(rod, {beam, 16});  // it rests straight
-      return Scene{beam, s_min, s_max, depth, force_error, force_floor, tick, shape};
+      // Turned, a push by all of the depth is a press by that and its round-off.
+      return Scene{beam, s_min, s_max, depth * (1 + 1e-12), force_error, force_floor, tick, shape};
     } catch (const std::invalid_argument&) {
       return {};
     }
