@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 
 #include <hapbeam/rom/training/train.hpp>
@@ -51,9 +53,12 @@ inline SceneModel build(const Scene& scene, const Candidate& candidate, int segm
   switch (candidate.kinematics) {
     case Kinematics::linear: return build<Linear>(scene, candidate, segments);
     case Kinematics::von_karman: return build<VonKarman<>>(scene, candidate, segments);
-    case Kinematics::corotational: break;
+    case Kinematics::corotational: return build<Corotational<>>(scene, candidate, segments);
+    case Kinematics::round_rod:
+    case Kinematics::twisted_rod: break;
   }
-  return build<Corotational<>>(scene, candidate, segments);
+  throw std::invalid_argument(std::string("kinematics = ") + name(candidate.kinematics) +
+                              ": must be that of a beam for a Scene");
 }
 
 }  // namespace detail

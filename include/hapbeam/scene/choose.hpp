@@ -16,27 +16,22 @@
 #include <array>
 #include <exception>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include <hapbeam/scene/build.hpp>
 #include <hapbeam/scene/choice.hpp>
+#include <hapbeam/scene/deciding.hpp>
 #include <hapbeam/scene/pilot.hpp>
 
 namespace hapbeam {
 
 namespace detail {
 
-class Chooser {
+class Chooser : Deciding {
  public:
-  /// The pilot's presses do not meet the worst press of all, so a model has to do better on them than is tolerated.
-  /// Finite elements are at their worst at the corners of the range, which the pilot meets, and interpolation is between.
-  static constexpr double elements_margin = 0.85, trained_margin = 0.6;
-  /// Where no candidate is that much better, one is taken whose error on the pilot is just below the tolerated one.
-  static constexpr double elements_least = 0.97, trained_least = 0.85;
-
-  Chooser(const Scene& scene, const TickCosts& costs) : scene_(scene), costs_(costs), pilot_(scene) {
-    choice_.force_error = scene.force_error, choice_.tick = scene.tick;
+  Chooser(const Scene& scene, const TickCosts& costs)
+      : Deciding(scene.force_error, scene.tick), scene_(scene), costs_(costs), pilot_(scene) {
+    own_error_ = pilot_.own_error();
   }
 
   Choice choose() {
@@ -55,18 +50,10 @@ class Chooser {
  private:
   static constexpr double nothing = std::numeric_limits<double>::infinity();
 
-  /// Finite elements: the fewest that are accurate enough, if many are.
   void elements(Kinematics kinematics, bool mirrored) {
-    Verdict verdict = judge({kinematics, Reduction::none, pilot_.elements(), mirrored});
-    for (const int n : {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384}) {
-      if (!barely_right(verdict) || n >= pilot_.elements()) break;
-      if (mirrored && (n < 4 || n % 2 != 0)) continue;
-      const Verdict fewer = judge({kinematics, Reduction::none, n, mirrored});
-      if (!fewer.right) continue;
-      verdict = fewer;
-      break;
-    }
-    choice_.verdicts.push_back(verdict);
+    fewest(pilot_.elements(), mirrored ? 4 : 2, mirrored ? 2 : 1, [&](int n) {
+      return judge({kinematics, Reduction::none, n, mirrored});
+    });
   }
 
   /// Interpolation: first as many depths as one place takes, then as many places.
@@ -122,65 +109,15 @@ class Chooser {
   }
 
   Verdict judge(const Candidate& candidate) {
-    Verdict verdict{candidate, nothing, candidate.tick(costs_, scene_.shape), false, {}};
-    try {
+    return Deciding::judge(candidate, candidate.tick(costs_, scene_.shape), [&] {
       SceneModel model = detail::build(scene_, candidate, 2);
-      verdict.error = pilot_.error(model);
-      verdict.right = verdict.error + pilot_.own_error() <= wanted(candidate);
-    } catch (const std::exception& why) {
-      verdict.refusal = why.what();
-    }
-    if (verdict.tick <= scene_.tick && verdict.error < in_time_.error) in_time_ = verdict;
-    if (verdict.tick <= scene_.tick && barely_right(verdict) && (!barely_ || verdict.tick < barely_->tick))
-      barely_ = verdict;
-    return verdict;
-  }
-
-  bool barely_right(const Verdict& verdict) const noexcept {
-    const bool trained = verdict.candidate.reduction != Reduction::none;
-    return verdict.error + pilot_.own_error() <=
-           (trained ? trained_least : elements_least) * scene_.force_error;
-  }
-
-  double wanted(const Candidate& candidate) const noexcept {
-    return (candidate.reduction == Reduction::none ? elements_margin : trained_margin) * scene_.force_error;
-  }
-
-  void decide() {
-    const Verdict* least = nullptr;
-    for (const Verdict& verdict : choice_.verdicts)
-      if (verdict.right && (!least || verdict.tick < least->tick)) least = &verdict;
-    if (least && least->tick <= scene_.tick) {
-      choice_.candidate = least->candidate;
-      return;
-    }
-    if (barely_) {
-      barely_->right = true;
-      choice_.candidate = barely_->candidate;
-      choice_.verdicts.push_back(*barely_);
-      return;
-    }
-    // A twentieth more than that, for it is written with two digits.
-    char text[400], slower[150] = "", coarser[150] = "";
-    if (least)
-      std::snprintf(slower, sizeof slower, "a tick of %.2g us (%s)", 1.05e6 * least->tick,
-                    least->candidate.text().c_str());
-    const double enough = 1.05 * (in_time_.error + pilot_.own_error()) / trained_margin;
-    if (enough < 1)
-      std::snprintf(coarser, sizeof coarser, "%sa force error of %.2g %% (%s)", least ? ", or " : "",
-                    100 * enough, in_time_.candidate.text().c_str());
-    std::snprintf(text, sizeof text, "no model is within %.2g %% of the force in %.2g us: %s%s%s",
-                  100 * scene_.force_error, 1e6 * scene_.tick,
-                  least || *coarser ? "allow " : "press less deep or in a smaller range", slower, coarser);
-    choice_.advice = text;
+      return pilot_.error(model);
+    });
   }
 
   const Scene& scene_;
   const TickCosts& costs_;
   Pilot pilot_;
-  Choice choice_;
-  Verdict in_time_{{}, nothing, 0, false, {}};  // the least error of all that are fast enough
-  std::optional<Verdict> barely_;               // the cheapest that is fast enough and barely_right()
 };
 
 }  // namespace detail

@@ -12,6 +12,9 @@
 #include <chrono>
 #include <limits>
 
+#include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/scene/build.hpp>
 #include <hapbeam/scene/tick_costs.hpp>
 
@@ -41,6 +44,29 @@ inline double time_press(SceneModel& model, const Scene& scene, bool shape) {
   return least;
 }
 
+/// The same of a push of a wire.
+template <class Element>
+double time_push(int elements) {
+  using Clock = std::chrono::steady_clock;
+  const Rod wire(0.2, RodSection::circle(0.001), RodMaterial{200e9, 77e9}, RodSupport::clamped,
+                 RodSupport::free);
+  FemModel<Element> model(wire, elements);
+  const int passes = 9, pushes = 200;
+  double least = std::numeric_limits<double>::infinity();
+  volatile double sink = 0;
+  for (int pass = 0; pass < passes; ++pass) {
+    model.reset();
+    const auto begin = Clock::now();
+    for (int k = 0; k < pushes; ++k) {
+      const double part = (k + 1.0) / pushes;
+      sink = model.push({0.14 + 0.002 * part, 0.02 * (0.2 + 0.8 * part), {0, 0.6, 0.8}}).force;
+    }
+    least = (std::min)(least, std::chrono::duration<double>(Clock::now() - begin).count() / pushes);
+  }
+  (void)sink;
+  return least;
+}
+
 inline TickCost line_through(int few, double few_time, int many, double many_time) {
   const double per_unit = (std::max)((many_time - few_time) / (many - few), 0.0);
   return {(std::max)(few_time - per_unit * few, 0.0), per_unit};
@@ -59,6 +85,10 @@ inline TickCosts measure_tick_costs() {
     return detail::line_through(4, detail::time_press(few, slide, true), 64,
                                 detail::time_press(many, slide, true));
   };
+  const auto rods = [](auto element) {
+    using Element = decltype(element);
+    return detail::line_through(4, detail::time_push<Element>(4), 32, detail::time_push<Element>(32));
+  };
   const auto trained = [&](Reduction reduction, TickCost& force, TickCost& shape) {
     SceneModel few = build(hold, {Kinematics::von_karman, reduction, 64, false, 1, 8}),
                many = build(slide, {Kinematics::von_karman, reduction, 64, false, 16, 12});
@@ -73,7 +103,9 @@ inline TickCosts measure_tick_costs() {
                   {},
                   {},
                   {},
-                  {}};
+                  {},
+                  rods(RoundRod{}),
+                  rods(TwistedRod{})};
   trained(Reduction::pod, costs.pod_force, costs.pod_shape);
   trained(Reduction::galerkin, costs.galerkin_force, costs.galerkin_shape);
   return costs;

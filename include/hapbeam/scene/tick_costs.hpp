@@ -16,10 +16,11 @@ struct TickCost {
 struct TickCosts {
   TickCost linear, von_karman, corotational;
   TickCost pod_force, pod_shape, galerkin_force, galerkin_shape;
+  TickCost round_rod, twisted_rod;  ///< pushes of rods in space, by element
 
   static TickCosts typical() noexcept {
-    return {{170e-9, 70e-9},   {205e-9, 100e-9},  {300e-9, 207e-9}, {50e-9, 0.4e-9},
-            {190e-9, 0.77e-9}, {178e-9, 0.58e-9}, {310e-9, 1.13e-9}};
+    return {{170e-9, 70e-9},   {205e-9, 100e-9},  {300e-9, 207e-9},  {50e-9, 0.4e-9},   {190e-9, 0.77e-9},
+            {178e-9, 0.58e-9}, {310e-9, 1.13e-9}, {1500e-9, 630e-9}, {2000e-9, 1250e-9}};
   }
 };
 
