@@ -7,4 +7,5 @@ int main() {
   trained();
   many();
   in_space();
+  friction();
 }

@@ -45,6 +45,7 @@ void press_and_slide(const std::string& name, Model model, double radius, const 
 
 void straight();
 void bent();
+void friction();
 void trained();
 void many();
 void in_space();

@@ -77,6 +77,7 @@ class FrictionLaw {
     if (!slides_) {
       force_ = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
     } else {
+      if (D == 3) follow();
       force_ = force_at(bound_);
     }
   }
@@ -124,7 +125,8 @@ class FrictionLaw {
       if (!pulls && size <= sticking_ * normal_force) return true;
       slides_ = slid_ = true;
       torn_ = pulls || size > 2 * sticking_ * normal_force;
-      used_ = bound_ = before_bound_ > 0 ? before_bound_ : most;
+      // From afar the last bound says more than what sticks there.
+      used_ = bound_ = torn_ && before_bound_ > 0 ? before_bound_ : most;
       aim(elastic, norm(far_shear_));
       pairs_ = false;
       return false;
@@ -205,10 +207,21 @@ class FrictionLaw {
     direction_ = direction;
     length_ = (std::max)(length, Scalar(0));
   }
+  /// The shear that Newton's method has found is where it goes on from, in the potential B |e|; one that turns far, half of the way.
+  void follow() noexcept {
+    const Scalar size = norm(sheared_), aimed = norm(direction_);
+    if (!(size > 0 && aimed > 0)) return;
+    const Vector from = direction_ * (length_ / aimed);
+    const bool ahead = 2 * from.dot(sheared_) > length_ * size;
+    const Vector to = ahead ? sheared_ : Vector((from + sheared_) / 2);
+    const Scalar l = norm(to);
+    if (l > length_ / 8) aim(to, l);
+    else length_ /= 2;
+  }
   /// Stiffness across the way of sliding [N/m].
   Scalar aside(Scalar bound) const noexcept {
     const Scalar whole = stiffness_ + damping_;
-    return bound < whole * length_ ? bound / length_ : whole;
+    return !(bound > 0) ? Scalar(0) : bound < whole * length_ ? bound / length_ : whole;
   }
   Vector force_at(Scalar bound) const noexcept {
     const Vector d = across(direction_);
