@@ -15,6 +15,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <string>
+#include <type_traits>
 
 #include <hapbeam/check.hpp>
 #include <hapbeam/contact/find_contact.hpp>
@@ -130,13 +131,18 @@ class TouchSeveral {
 
   /// One tick.  @param positions  [m] the centre of each avatar, in space the centre of each sphere
   /// Real-time: noexcept, no allocation, bounded: at most one push and one release; nothing where nobody touches a beam at rest.
-  template <class... Positions>
+  template <class... Positions,
+            std::enable_if_t<std::conjunction_v<std::is_convertible<const Positions&, Vector>...>, int> = 0>
   [[nodiscard]] Result tick(const Positions&... positions) noexcept {
     const std::array<Vector, sizeof...(Positions)> all{positions...};
     return tick(all.data(), static_cast<int>(all.size()));
   }
   /// The same.  @param count  of positions: as many as there are avatars, else invalid_request
-  [[nodiscard]] Result tick(const Vector* positions, int count) noexcept;
+  [[nodiscard]] Result tick(const Vector* positions, int count) noexcept {
+    return tick(positions, nullptr, count);
+  }
+  /// The same in space, with capsules.  @param positions  of the tips of their axes   @param shafts  [m] from there to the other ends
+  [[nodiscard]] Result tick(const Vector* positions, const Vector* shafts, int count) noexcept;
 
   int avatars() const noexcept { return avatars_; }
   /// Nobody touches the beam, and it is at rest.
@@ -198,6 +204,8 @@ class TouchSeveral {
     if constexpr (planar)
       obstacle.round = {s, place.avatar.position, reach, static_cast<Scalar>(contact.side)};
     else obstacle.round = {s, place.avatar.axis(), reach, twice ? obstacle.pushed.normal : contact.normal};
+    // A pressed beam follows a hand that draws back; one that has jumped away is met again, if it is, as the beam springs back.
+    if (contact.depth < -model_.shape().length() / 50) obstacle.touching = false;
     if (!again(i)) obstacle.touching = obstacle.touching || contact.touching;
     return obstacle.touching;
   }
@@ -243,12 +251,12 @@ class TouchSeveral {
 };
 
 template <class Model>
-auto TouchSeveral<Model>::tick(const Vector* positions, int count) noexcept -> Result {
+auto TouchSeveral<Model>::tick(const Vector* positions, const Vector* shafts, int count) noexcept -> Result {
   Result result;
   result.size = size_;
+  const auto is_place = [](const Vector& x) { return std::isfinite(x.squaredNorm()); };
   bool valid = count == avatars_;
-  for (int k = 0; valid && k < count; ++k)
-    valid = positions[k].allFinite() && std::isfinite(positions[k].squaredNorm());
+  for (int k = 0; valid && k < count; ++k) valid = is_place(positions[k]) && (!shafts || is_place(shafts[k]));
   if (!valid) {
     result.status = Status::invalid_request;
     for (int i = 0; i < size_; ++i) result.places[at(i)].body = places_[at(i)].obstacle.body;
@@ -258,6 +266,8 @@ auto TouchSeveral<Model>::tick(const Vector* positions, int count) noexcept -> R
   for (int i = 0; i < size_; ++i) {
     Place& place = places_[at(i)];
     if (!place.prop) place.avatar.position = positions[place.obstacle.body];
+    if constexpr (!planar)
+      if (!place.prop && shafts) place.avatar.shaft = shafts[place.obstacle.body];
     touched = look(i) || touched;
   }
   const bool pushed = touched || moving_;
