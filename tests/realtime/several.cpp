@@ -45,6 +45,18 @@ std::vector<Vector> hands(double length, unsigned seed) {
   return path;
 }
 
+/// In space with shafts, which a rod does not slip around.
+template <class Touching, class Vector>
+auto tick(Touching& touch, const Vector* at, double length) noexcept {
+  if constexpr (Touching::dimension == 3) {
+    const Vector half(0, 0, length), tips[2] = {at[0] - half, at[1] - half},
+                                     shafts[2] = {2 * half + Vector(0, 0.1 * length, 0), 2 * half};
+    return touch.tick(tips, shafts, 2);
+  } else {
+    return touch.tick(at, 2);
+  }
+}
+
 template <class Model, class Body>
 void check(const char* name, const Body& body, std::initializer_list<Prop<Model::dimension>> props) {
   Model model(body, 16);
@@ -55,7 +67,7 @@ void check(const char* name, const Body& body, std::initializer_list<Prop<Model:
   int touching = 0, bad = 0, pulls = 0, most = 0;
   const HeapUse use = heap_use([&]() noexcept {
     for (std::size_t t = 0; t + 1 < path.size(); t += 2) {
-      const auto felt = touch.tick(path[t], path[t + 1]);
+      const auto felt = tick(touch, &path[t], length);
       most = std::max(most, model.report().solves);
       int now = 0;
       for (const auto& place : felt) {

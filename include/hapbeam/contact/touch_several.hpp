@@ -49,8 +49,10 @@ struct TouchPlace {
 /// @tparam Contacts  most of them
 template <typename Scalar, int D, int Contacts>
 struct TouchSeveralResult {
-  Status status = Status::ok;  ///< of the equilibrium; invalid_request for a position that is not finite
-  int size = 0;                ///< possible contacts
+  /// Of the equilibrium.  Negative: all places are those of the last answer, as in Touch; invalid_request, for a position that is not
+  /// finite: they are zero.
+  Status status = Status::ok;
+  int size = 0;  ///< possible contacts
   std::array<TouchPlace<Scalar, D>, Contacts> places;
 
   const TouchPlace<Scalar, D>* begin() const noexcept { return places.data(); }
@@ -125,6 +127,10 @@ class TouchSeveral {
     model_.reset();
     volumes_.refit(model_.shape());
     for (int i = 0; i < size_; ++i) forget(places_[at(i)]);
+    for (int i = 0; i < size_; ++i) {
+      answer_[at(i)] = {};
+      answer_[at(i)].body = places_[at(i)].obstacle.body;
+    }
     moving_ = false;
     unanswered_ = 0;
   }
@@ -193,8 +199,7 @@ class TouchSeveral {
     const bool lost = contact.depth > reach + model_.shape().length();
     obstacle.valid = contact.segment >= 0 && !off && !lost;
     if (!obstacle.valid) {
-      place.status = lost ? Status::iteration_limit : Status::out_of_range;
-      if (!contact.touching) place.status = Status::ok;
+      place.status = contact.touching ? Status::out_of_range : Status::ok;
       obstacle.touching = false;
       return false;
     }
@@ -245,9 +250,10 @@ class TouchSeveral {
   BoundingVolumes<Scalar, dimension> volumes_;
   std::array<Place, most> places_{};
   int size_ = 0, avatars_ = 0;
-  bool fixed_ = false;   // there are stops or supports
-  bool moving_ = false;  // touched, or let go and not yet at rest
-  int unanswered_ = 0;   // ticks since the last answer
+  bool fixed_ = false;                                      // there are stops or supports
+  bool moving_ = false;                                     // touched, or let go and not yet at rest
+  std::array<TouchPlace<Scalar, dimension>, most> answer_;  // of the last tick that had one
+  int unanswered_ = 0;                                      // ticks since the last answer
 };
 
 template <class Model>
@@ -273,14 +279,17 @@ auto TouchSeveral<Model>::tick(const Vector* positions, const Vector* shafts, in
   const bool pushed = touched || moving_;
   if (pushed) {
     result.status = push();
-    if (is_answer(result.status)) unanswered_ = 0;
-    else if (++unanswered_ > patience) reset();
     moving_ = touched || result.status == Status::iteration_limit;
   }
+  const bool answer = is_answer(result.status);
   for (int i = 0; i < size_; ++i) {
-    report(i, pushed, result.places[at(i)]);
-    if (worse(result.places[at(i)].status, result.status)) result.status = result.places[at(i)].status;
+    TouchPlace<Scalar, dimension>& place = result.places[at(i)];
+    if (answer) report(i, pushed, place);
+    else place = answer_[at(i)], place.status = result.status;
+    if (worse(place.status, result.status)) result.status = place.status;
   }
+  if (answer) answer_ = result.places, unanswered_ = 0;
+  else if (++unanswered_ > patience) reset();
   return result;
 }
 
