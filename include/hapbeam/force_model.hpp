@@ -23,6 +23,10 @@
 // A model in space says `static constexpr int dimension = 3`.  It has no press(), its shape() is a Centreline<Scalar, 3>, its push()
 // takes a Push<Scalar, 3>, and for contact a Capsule<Scalar>, which it answers with a Pushed<Scalar, 3>.
 //
+// A model that several bodies may touch at once says at how many places, `static constexpr int contacts`, and offers one more:
+//
+//   m.push(o, n)         Status                 of n Obstacle<Scalar, dimension>, in and out; promises as press()
+//
 // A model whose shape costs more than its force may offer a part of it, which is all that a touch that goes on looks at:
 //
 //   m.part(s0, s1)       CentrelinePart<Scalar> noexcept; the pieces of shape() that hold arc positions s0 to s1, both
