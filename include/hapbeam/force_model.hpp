@@ -22,6 +22,10 @@
 // A model in space has `static constexpr int dimension = 3`. It has no press(). Its shape() is a Centreline<Scalar, 3>.
 // Its push() takes a Push<Scalar, 3>, or a Capsule<Scalar> for contact, and then returns a Pushed<Scalar, 3>.
 //
+// A model that several bodies may touch at once says at how many places, `static constexpr int contacts`, and offers one more:
+//
+//   m.push(o, n)         Status                 of n Obstacle<Scalar, dimension>, in and out; promises as press()
+//
 // A model whose shape costs more than its force may offer a part of the shape. A lasting contact reads no more than
 // that:
 //

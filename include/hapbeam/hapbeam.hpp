@@ -8,6 +8,7 @@
 #include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/contact/touch.hpp>
+#include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/rod.hpp>

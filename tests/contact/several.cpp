@@ -236,6 +236,28 @@ TEST_CASE("two hands and a peg gain no work on a closed path, and none pulls", "
   }
 }
 
+// The wall is rigid, and so is the hand: below it there is no equilibrium.
+TEST_CASE("a hand that jams a ruler onto a wall feels the last answer, and a new touch after it has gone",
+          "[several]") {
+  Model<2> model(steel_ruler(), 16);
+  TouchSeveral touch(model, {0.005}, {Prop<>::wall({0.15, -0.01}, {0, 1})});
+  double felt_last = 0;
+  int jammed = 0;
+  for (int t = 0; t < 120; ++t) {
+    const auto felt = touch.tick(Vector(0.25, 0.006 - 1e-4 * t));
+    REQUIRE(felt.force(0).allFinite());
+    if (is_answer(felt.status)) felt_last = felt.force(0).norm();
+    else REQUIRE(felt.force(0).norm() == felt_last);
+    jammed += !is_answer(felt.status);
+  }
+  CHECK(felt_last > 0);
+  CHECK(jammed > 0);
+  for (int t = 0; t < 30; ++t) (void)touch.tick(Vector(0.25, 0.05));
+  const auto again = touch.tick(Vector(0.25, 0.003));
+  CHECK(again.status == Status::ok);
+  CHECK(again.force(0).y() > 0);
+}
+
 TEST_CASE("one avatar of several is felt as it is alone", "[several]") {
   const double radius = 0.005;
   FemModel<Corotational<>> model(steel_ruler(), 8);

@@ -1,4 +1,7 @@
 // The mesh that follows the contact, and carrying a shape from one mesh to another.
+#include <algorithm>
+#include <array>
+
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include <hapbeam/fem/contact_mesh.hpp>
@@ -81,5 +84,42 @@ TEST_CASE("a shape that both meshes can hold is carried over unchanged", "[mesh]
     // On its own mesh: bit for bit, but for the last node, which ends the last piece.
     for (std::size_t i = 0; i + 1 < source.size(); ++i) REQUIRE(back[i].w == source[i].w);
     REQUIRE(std::abs(back.back().w - source.back().w) <= 2 * 2.2e-16);
+  }
+}
+
+TEST_CASE("each of several contacts has a node, and the elements between two share that part evenly",
+          "[mesh]") {
+  Random random(8);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const int count = random.integer(1, 4), n = random.integer(count + 1, 40);
+    const double length = random(0.01, 10);
+    std::array<double, 4> s{};
+    for (int k = 0; k < count; ++k) s[static_cast<std::size_t>(k)] = random(0, length);
+    std::sort(s.begin(), s.begin() + count);
+    const auto mesh = ContactMesh<double, 4>(n, length).at(s, count);
+    REQUIRE(mesh.count() == count);
+    REQUIRE(mesh.position(0) == 0);
+    REQUIRE(mesh.position(n) == length);
+    const int least = n >= 2 * (count + 1) ? 2 : 1;
+    int from = 0;
+    double before = 0;
+    for (int k = 0; k <= count; ++k) {
+      const int to = k < count ? mesh.node(k) : n;
+      const double after = k < count ? s[static_cast<std::size_t>(k)] : length;
+      REQUIRE(to - from >= least);
+      REQUIRE(mesh.position(to) == after);
+      for (int i = from; i < to; ++i)
+        REQUIRE(std::abs(mesh.position(i + 1) - mesh.position(i) - (after - before) / (to - from)) <=
+                4 * 2.2e-16 * length);
+      from = to, before = after;
+    }
+  }
+  // One of them is the mesh that follows one.
+  for (int trial = 0; trial < 200; ++trial) {
+    const double s = random(0, 1);
+    const auto one = ContactMesh<double>(16, 1).at(s);
+    const auto several = ContactMesh<double, 4>(16, 1).at({s}, 1);
+    if (one.node() < 2 || one.node() > 14) continue;
+    for (int i = 0; i <= 16; ++i) REQUIRE(one.position(i) == several.position(i));
   }
 }

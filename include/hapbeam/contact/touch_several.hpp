@@ -15,6 +15,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <string>
+#include <type_traits>
 
 #include <hapbeam/check.hpp>
 #include <hapbeam/contact/find_contact.hpp>
@@ -48,8 +49,10 @@ struct TouchPlace {
 /// @tparam Contacts  most of them
 template <typename Scalar, int D, int Contacts>
 struct TouchSeveralResult {
-  Status status = Status::ok;  ///< of the equilibrium; invalid_request for a position that is not finite
-  int size = 0;                ///< possible contacts
+  /// Of the equilibrium.  Negative: all places are those of the last answer, as in Touch; invalid_request, for a position that is not
+  /// finite: they are zero.
+  Status status = Status::ok;
+  int size = 0;  ///< possible contacts
   std::array<TouchPlace<Scalar, D>, Contacts> places;
 
   const TouchPlace<Scalar, D>* begin() const noexcept { return places.data(); }
@@ -124,19 +127,28 @@ class TouchSeveral {
     model_.reset();
     volumes_.refit(model_.shape());
     for (int i = 0; i < size_; ++i) forget(places_[at(i)]);
+    for (int i = 0; i < size_; ++i) {
+      answer_[at(i)] = {};
+      answer_[at(i)].body = places_[at(i)].obstacle.body;
+    }
     moving_ = false;
     unanswered_ = 0;
   }
 
   /// One tick.  @param positions  [m] the centre of each avatar, in space the centre of each sphere
   /// Real-time: noexcept, no allocation, bounded: at most one push and one release; nothing where nobody touches a beam at rest.
-  template <class... Positions>
+  template <class... Positions,
+            std::enable_if_t<std::conjunction_v<std::is_convertible<const Positions&, Vector>...>, int> = 0>
   [[nodiscard]] Result tick(const Positions&... positions) noexcept {
     const std::array<Vector, sizeof...(Positions)> all{positions...};
     return tick(all.data(), static_cast<int>(all.size()));
   }
   /// The same.  @param count  of positions: as many as there are avatars, else invalid_request
-  [[nodiscard]] Result tick(const Vector* positions, int count) noexcept;
+  [[nodiscard]] Result tick(const Vector* positions, int count) noexcept {
+    return tick(positions, nullptr, count);
+  }
+  /// The same in space, with capsules.  @param positions  of the tips of their axes   @param shafts  [m] from there to the other ends
+  [[nodiscard]] Result tick(const Vector* positions, const Vector* shafts, int count) noexcept;
 
   int avatars() const noexcept { return avatars_; }
   /// Nobody touches the beam, and it is at rest.
@@ -187,8 +199,7 @@ class TouchSeveral {
     const bool lost = contact.depth > reach + model_.shape().length();
     obstacle.valid = contact.segment >= 0 && !off && !lost;
     if (!obstacle.valid) {
-      place.status = lost ? Status::iteration_limit : Status::out_of_range;
-      if (!contact.touching) place.status = Status::ok;
+      place.status = contact.touching ? Status::out_of_range : Status::ok;
       obstacle.touching = false;
       return false;
     }
@@ -198,6 +209,8 @@ class TouchSeveral {
     if constexpr (planar)
       obstacle.round = {s, place.avatar.position, reach, static_cast<Scalar>(contact.side)};
     else obstacle.round = {s, place.avatar.axis(), reach, twice ? obstacle.pushed.normal : contact.normal};
+    // A pressed beam follows a hand that draws back; one that has jumped away is met again, if it is, as the beam springs back.
+    if (contact.depth < -model_.shape().length() / 50) obstacle.touching = false;
     if (!again(i)) obstacle.touching = obstacle.touching || contact.touching;
     return obstacle.touching;
   }
@@ -237,18 +250,19 @@ class TouchSeveral {
   BoundingVolumes<Scalar, dimension> volumes_;
   std::array<Place, most> places_{};
   int size_ = 0, avatars_ = 0;
-  bool fixed_ = false;   // there are stops or supports
-  bool moving_ = false;  // touched, or let go and not yet at rest
-  int unanswered_ = 0;   // ticks since the last answer
+  bool fixed_ = false;                                      // there are stops or supports
+  bool moving_ = false;                                     // touched, or let go and not yet at rest
+  std::array<TouchPlace<Scalar, dimension>, most> answer_;  // of the last tick that had one
+  int unanswered_ = 0;                                      // ticks since the last answer
 };
 
 template <class Model>
-auto TouchSeveral<Model>::tick(const Vector* positions, int count) noexcept -> Result {
+auto TouchSeveral<Model>::tick(const Vector* positions, const Vector* shafts, int count) noexcept -> Result {
   Result result;
   result.size = size_;
+  const auto is_place = [](const Vector& x) { return std::isfinite(x.squaredNorm()); };
   bool valid = count == avatars_;
-  for (int k = 0; valid && k < count; ++k)
-    valid = positions[k].allFinite() && std::isfinite(positions[k].squaredNorm());
+  for (int k = 0; valid && k < count; ++k) valid = is_place(positions[k]) && (!shafts || is_place(shafts[k]));
   if (!valid) {
     result.status = Status::invalid_request;
     for (int i = 0; i < size_; ++i) result.places[at(i)].body = places_[at(i)].obstacle.body;
@@ -258,19 +272,24 @@ auto TouchSeveral<Model>::tick(const Vector* positions, int count) noexcept -> R
   for (int i = 0; i < size_; ++i) {
     Place& place = places_[at(i)];
     if (!place.prop) place.avatar.position = positions[place.obstacle.body];
+    if constexpr (!planar)
+      if (!place.prop && shafts) place.avatar.shaft = shafts[place.obstacle.body];
     touched = look(i) || touched;
   }
   const bool pushed = touched || moving_;
   if (pushed) {
     result.status = push();
-    if (is_answer(result.status)) unanswered_ = 0;
-    else if (++unanswered_ > patience) reset();
     moving_ = touched || result.status == Status::iteration_limit;
   }
+  const bool answer = is_answer(result.status);
   for (int i = 0; i < size_; ++i) {
-    report(i, pushed, result.places[at(i)]);
-    if (worse(result.places[at(i)].status, result.status)) result.status = result.places[at(i)].status;
+    TouchPlace<Scalar, dimension>& place = result.places[at(i)];
+    if (answer) report(i, pushed, place);
+    else place = answer_[at(i)], place.status = result.status;
+    if (worse(place.status, result.status)) result.status = place.status;
   }
+  if (answer) answer_ = result.places, unanswered_ = 0;
+  else if (++unanswered_ > patience) reset();
   return result;
 }
 

@@ -87,7 +87,8 @@ class SeveralPush {
     bool by_plane = false, sharp = false, wall = false;
     bool let_go = false;   ///< in this push
     bool crowded = false;  ///< too near another contact to have a node
-    bool near = false;  ///< the gap is small: it has a node, so that the mesh stays as it touches and lets go
+    bool close =
+        false;          ///< the gap is small: it has a node, so that the mesh stays as it touches and lets go
     Scalar across = 1;  ///< component of the force that the beam takes
     Scalar ahead = 0, miss = 0, depth = 0;
     Vector normal = Vector::Zero();
@@ -103,7 +104,7 @@ class SeveralPush {
     const bool round = all_[i].kind == ObstacleKind::round;
     all_[i].touching = all_[i].valid && (all_[i].touching || all_[i].kind == ObstacleKind::support);
     slot(i).s = std::clamp(round ? all_[i].round.s : all_[i].place.s, Scalar(0), range.length());
-    slot(i).near = all_[i].touching || (all_[i].valid && !round);
+    slot(i).close = all_[i].touching || (all_[i].valid && !round);
   }
 
   /// Sorts those that have a node along the beam, and moves the mesh.
@@ -114,7 +115,7 @@ class SeveralPush {
     for (int i = 0; i < count_; ++i) {
       Slot& now = slot(i);
       now.node = now.goal = -1;
-      if (!all_[i].touching && !now.near) continue;
+      if (!all_[i].touching && !now.close) continue;
       now.s = range.node(range.range().nearest({now.s, 0}).s);
       int k = ordered_++;
       for (; k > 0 && slot(order_[of(k - 1)]).s > now.s; --k) order_[of(k)] = order_[of(k - 1)];
@@ -130,7 +131,7 @@ class SeveralPush {
             all_[before].touching && (!all_[i].touching || all_[before].pushed.force <= all_[i].pushed.force);
         const int away = stays ? i : before;
         slot(away).crowded = all_[away].touching;
-        all_[away].touching = slot(away).near = false;
+        all_[away].touching = slot(away).close = false;
         if (stays) continue;
         --nodes;
       }
@@ -245,7 +246,7 @@ class SeveralPush {
     if (worst >= 0) {
       all_[worst].touching = false;
       all_[worst].pushed.force = 0;
-      slot(worst).let_go = slot(worst).near = true;
+      slot(worst).let_go = slot(worst).close = true;
       return true;
     }
     if (slip_off(system, range)) return true;
@@ -287,7 +288,7 @@ class SeveralPush {
         if (!view.past_end || slot(i).node != system.mesh().node(right ? system.mesh().count() - 1 : 0))
           continue;
         if (slot(i).s > where.s_min && slot(i).s < where.s_max) continue;
-        all_[i].touching = slot(i).near = false;
+        all_[i].touching = slot(i).close = false;
         slot(i).crowded = any = true;
       }
     }
@@ -329,7 +330,7 @@ class SeveralPush {
     const RoundContact round{all_[i].round};
     const auto line = system.centreline();
     const Scalar length = system.length(), reach = round.request().reach;
-    now.near = false;
+    now.close = false;
     now.depth = -std::numeric_limits<Scalar>::infinity();
     Place place = nearest_node(system, i);
     if (const int other = twin(i); other >= 0) look_beside(system, other, place);
@@ -352,7 +353,7 @@ class SeveralPush {
     const auto answered = range.range();
     if (now.s < answered.s_min || now.s > answered.s_max)
       now.depth = -std::numeric_limits<Scalar>::infinity();
-    now.near = now.depth > -length / 200;
+    now.close = now.depth > -length / 200;
   }
 
   /// Where an obstacle may touch: about at s, and between left and right [m].

@@ -1,0 +1,117 @@
+// Several contacts on one rod in space: the forces of the reference, and shafts across a plane are as circles in it.
+#include <cmath>
+
+#include "rod/rods.hpp"
+#include "support/catch.hpp"
+#include "support/csv.hpp"
+#include "support/status.hpp"
+#include <hapbeam/contact/touch_several.hpp>
+#include <hapbeam/element/corotational.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+/// The bar and the ruler of contacts.csv, bent across their flat side: along z.
+Rod flat_rod(bool ruler) {
+  return ruler ? Rod(0.3, RodSection::rectangle(0.025, 0.001), spring_steel, RodSupport::clamped,
+                     RodSupport::free)
+               : Rod(1, RodSection::rectangle(0.02, 0.01), spring_steel, RodSupport::cardan,
+                     RodSupport::hinged);
+}
+
+Obstacle<double, 3> stop(double s, double d) {
+  const double n = d < 0 ? 1 : -1;
+  Obstacle<double, 3> obstacle;
+  obstacle.kind = ObstacleKind::stop;
+  obstacle.place = {s, n * d, {0, 0, n}};
+  obstacle.valid = obstacle.touching = true;
+  return obstacle;
+}
+
+}  // namespace
+
+// The tolerance is that of one contact with cubics in r: a few times that of the planar element, and twice 1e-3 for the bar that is bent
+// two ways by 12 mm within 150 mm.
+TEST_CASE("two contacts on a rod take the forces of the reference", "[several]") {
+  const Csv table("contacts.csv");
+  for (std::size_t row = 2; row < table.rows(); ++row) {
+    const std::string name = table.text(row, "case");
+    const bool ruler = name == "ruler_s_bend";
+    const double s1 = ruler                     ? 0.15
+                      : name == "bar_same_side" ? 0.3
+                      : name == "bar_opposite"  ? 0.35
+                                                : 0.48,
+                 s2 = ruler                     ? 0.28
+                      : name == "bar_same_side" ? 0.6
+                      : name == "bar_opposite"  ? 0.5
+                                                : 0.52;
+    INFO(name << " " << table.text(row, "depth1"));
+    double error[2] = {0, 0};
+    for (const int fine : {0, 1}) {
+      FemModel<Several<TwistedRod, 2>> model(flat_rod(ruler), fine ? 32 : 16);
+      Obstacle<double, 3> both[2] = {stop(s1, table.number(row, "depth1")),
+                                     stop(s2, table.number(row, "depth2"))};
+      REQUIRE(model.push(both, 2) == Status::ok);
+      const double f[2] = {table.number(row, "force1"), table.number(row, "force2")};
+      for (int k = 0; k < 2; ++k)
+        error[fine] = std::max(error[fine], std::abs(-both[k].pushed.force / std::abs(f[k]) - 1));
+    }
+    CHECK(error[0] <= 2e-3);
+    CHECK(error[1] <= 1e-4);
+    CHECK(error[1] <= std::max(error[0] / 8, 1e-6));
+  }
+}
+
+TEST_CASE("two shafts and a bar across a rod are two circles and a peg on a beam", "[several]") {
+  const double d = 0.006, radius = 0.01, reach = radius + d / 2;
+  const Beam bar(1, Section::circle(d), Material{200e9}, Support::clamped, Support::clamped);
+  const Rod rod(1, RodSection::circle(d), spring_steel, RodSupport::clamped, RodSupport::clamped);
+  FemModel<Several<Corotational<>, 3>> in_plane(bar, 24);
+  FemModel<Several<RoundRod, 3>> in_space(rod, 24);
+  TouchSeveral flat(in_plane, {radius, radius}, {Prop<>::peg({0.5, -reach - 0.001}, radius)});
+  TouchSeveral round(in_space, {radius, radius},
+                     {Prop<3>::bar({0.5, -reach - 0.001, -0.1}, {0.5, -reach - 0.001, 0.1}, radius)});
+  bool peg = false;
+  for (int t = 0; t < 120; ++t) {
+    const double a = reach - 5e-5 * t, b = reach - 2e-5 * t;
+    const auto two = flat.tick(Vector2<double>(0.3, a), Vector2<double>(0.7, b));
+    const Point tips[2] = {{0.3, a, -0.1}, {0.7, b, -0.1}}, shafts[2] = {{0, 0, 0.2}, {0, 0, 0.2}};
+    const auto three = round.tick(tips, shafts, 2);
+    REQUIRE(two.status == Status::ok);
+    REQUIRE(three.status == Status::ok);
+    for (int body = 0; body < 3; ++body) {
+      const Vector2<double> planar = two.force(body);
+      const Point felt = three.force(body);
+      REQUIRE((felt - Point(planar.x(), planar.y(), 0)).norm() <= 2e-3 * two.force(0).norm() + 1e-6);
+    }
+    peg = peg || two.touching(2);
+  }
+  CHECK(peg);
+}
+
+// The shaft leans, so that it presses the rod down and aside.
+TEST_CASE(
+    "a rod that is pressed onto a bar by a leaning shaft slides along the bar, which pushes square to itself",
+    "[several]") {
+  const double d = 0.006, radius = 0.01, reach = radius + d / 2;
+  const Rod rod(1, RodSection::circle(d), spring_steel, RodSupport::clamped, RodSupport::free);
+  FemModel<Several<RoundRod, 2>> model(rod, 16);
+  TouchSeveral touch(model, {radius},
+                     {Prop<3>::bar({0.5, -reach - 0.001, -0.2}, {0.5, -reach - 0.001, 0.2}, radius)});
+  double along = 0, aside = 0;
+  const Point shaft(0, 0.05, 0.2);
+  for (int t = 0; t < 150; ++t) {
+    const Point tip(0.9, reach - 0.025 - 1e-4 * t, -0.1);
+    const auto felt = touch.tick(&tip, &shaft, 1);
+    REQUIRE(felt.status == Status::ok);
+    if (felt.touching(1)) along = std::max(along, std::abs(felt.force(1).z()) / felt.force(1).norm());
+    if (t > 100) CHECK(felt.touching(1));
+    aside = std::abs(model.shape().at(0.5).r.z());
+  }
+  CHECK(along <= 1e-9);
+  CHECK(aside > 1e-4);
+  const Point away(0.9, 1, 0);
+  CHECK_FALSE(touch.tick(&away, &shaft, 1).touching(1));
+}
