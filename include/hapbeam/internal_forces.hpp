@@ -4,7 +4,7 @@
 //   const auto peak = peak_strain(model);               // the largest strain anywhere, and where
 //   if (peak.strain > 0.01) …                           // it breaks there
 //
-// A cut at s shows what the part beyond s does to the part before it.  FemModel and GalerkinModel have internal_forces();
+// A cut at s shows what the part beyond s does to the part before it.  FemModel has internal_forces(), and a TurningPlane of one;
 // nothing is computed unless it is asked for.
 // Forces are those of equilibrium: an element's forces on its nodes, and between its nodes the moments of those about the
 // bent centreline and of the dead loads.

@@ -308,7 +308,7 @@ class RodSystem {
     if (contact_.node() < 0) close_chain();
     for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
     if (contact_.node() >= 0) contact_.correct(rod_.nodes()[contact_.node()], d_);
-    for (const auto& other : others_) other.point.correct(rod_.nodes()[other.point.node()], other.d);
+    for (auto& other : others_) other.point.correct(rod_.nodes()[other.point.node()], other.d);
   }
   /// Size of the last increment in the norm of the tangent [√J].
   Scalar increment() const noexcept {
