@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include <hapbeam/unroll.hpp>
+
 namespace hapbeam::detail {
 
 /// π/2 in three parts, high + low + last.  The first two have so few digits that multiples by a thousand are exact.
@@ -74,6 +76,26 @@ void cos_and_sin(const S& alpha, S& cosine, S& sine) noexcept {
   using std::sin;
   if (sizeof(S) <= sizeof(double) && abs(alpha) < S(0.79)) small_turn(alpha, cosine, sine);
   else cosine = cos(alpha), sine = sin(alpha);
+}
+
+/// cos √q and sin √q / √q, 0 <= q < 0.25: the first term of Taylor's series that is left out is below 1e-17.
+template <typename S>
+[[gnu::always_inline]] inline void small_square_turn(const S& q, S& cosine, S& sine) noexcept {
+  constexpr double c[] = {1,          -1. / 2,       1. / 24,        -1. / 720,
+                          1. / 40320, -1. / 3628800, 1. / 479001600, -1. / 87178291200};
+  cosine = S(c[7]), sine = S(c[7] / 15);
+  HAPBEAM_UNROLL
+  for (int k = 6; k >= 0; --k) cosine = S(c[k]) + q * cosine, sine = S(c[k] / (2 * k + 1)) + q * sine;
+}
+/// The same of any q >= 0.
+template <typename S>
+void cos_and_sin_of_square(const S& q, S& cosine, S& sine) noexcept {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  if (q < S(0.25)) return small_square_turn(q, cosine, sine);
+  const S angle = sqrt(q);
+  cosine = cos(angle), sine = sin(angle) / angle;
 }
 
 /// (cos α, sin α).

@@ -110,11 +110,16 @@ template <typename S>
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+/// part/whole, nothing where the whole is not positive.
+template <typename S>
+[[gnu::always_inline]] inline S share_of(const S& part, const S& whole) noexcept {
+  return whole > 0 ? S(part / whole) : S(0);
+}
+
 /// x after the smallest rotation that takes u to v, both unit; x is across u.  Where they are opposite, half a turn about x.
 template <typename S>
 VectorOf<S, 3> carry(const VectorOf<S, 3>& x, const VectorOf<S, 3>& u, const VectorOf<S, 3>& v) noexcept {
-  const S whole = 1 + u.dot(v);
-  return whole > 0 ? VectorOf<S, 3>(x - v.dot(x) / whole * (u + v)) : x;
+  return x - share_of(S(v.dot(x)), S(1 + u.dot(v))) * (u + v);
 }
 
 /// x, which is across the unit vector v, turned about it.
@@ -145,7 +150,8 @@ S angle_about(const VectorOf<S, 3>& v, const VectorOf<S, 3>& from, const VectorO
   using std::atan2;
   using std::sqrt;
   const S y = v.dot(cross3(from, to)), x = from.dot(to);
-  return sizeof(S) <= sizeof(double) ? angle(y, x, sqrt(x * x + y * y)) : atan2(y, x);
+  if constexpr (sizeof(S) <= sizeof(double)) return angle(y, x, sqrt(x * x + y * y));
+  else return atan2(y, x);
 }
 
 }  // namespace detail

@@ -1,11 +1,14 @@
 // A few numbers that are computed side by side, in one register where the compiler has vectors: a scalar type for elements,
 // which are functions of their scalar.
 //
-// Two numbers of 8 bytes, four with AVX; four of 4 bytes.  Functions that a processor has no instruction for are called one by one.
+// Two numbers of 8 bytes, four with AVX and eight with AVX-512; four of 4 bytes.  Functions that a processor has no instruction for are called one by one.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include <Eigen/Core>
@@ -14,7 +17,9 @@
 
 namespace hapbeam::detail {
 
-#if defined(__AVX__)
+#if defined(__AVX512F__)
+inline constexpr int wide_bytes = 64;
+#elif defined(__AVX__)
 inline constexpr int wide_bytes = 32;
 #else
 inline constexpr int wide_bytes = 16;
@@ -63,14 +68,41 @@ class Pack {
   HAPBEAM_LANEWISE(/)
 #undef HAPBEAM_LANEWISE
 
+  /// Every other number is one of b.
+  [[gnu::always_inline]] friend Pack in_turn(const Pack& a, const Pack& b) noexcept {
+    Pack both;
+#if defined(__GNUC__)
+    using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    typedef Bits Mask __attribute__((vector_size(size * sizeof(T))));
+    Mask mask;
+    for (int i = 0; i < size; ++i) mask[i] = i % 2 == 0 ? -1 : 0;
+    both.v_ = mask ? a.v_ : b.v_;
+#else
+    for (int i = 0; i < size; ++i) both.v_[i] = i % 2 == 0 ? a[i] : b[i];
+#endif
+    return both;
+  }
+
   [[gnu::always_inline]] Pack operator-() const noexcept { return Pack(0) -= *this; }
   [[gnu::always_inline]] friend Pack operator+(Pack a, const Pack& b) noexcept { return a += b; }
   [[gnu::always_inline]] friend Pack operator-(Pack a, const Pack& b) noexcept { return a -= b; }
   [[gnu::always_inline]] friend Pack operator*(Pack a, const Pack& b) noexcept { return a *= b; }
   [[gnu::always_inline]] friend Pack operator/(Pack a, const Pack& b) noexcept { return a /= b; }
 
-  friend Pack sqrt(Pack a) noexcept {
-    for (int i = 0; i < size; ++i) a.v_[i] = std::sqrt(a.v_[i]);
+  [[gnu::always_inline]] friend Pack sqrt(Pack a) noexcept {
+    // std::sqrt sets errno, which keeps a compiler from its instruction; Eigen has that for up to 32 bytes, and in double it is exact.
+    using Part = Eigen::Array<T, (std::min)(size, 4), 1>;
+    if constexpr (sizeof(T) == 8) {
+      Part part;
+      for (int i = 0; i < size; i += static_cast<int>(part.size())) {
+        T* const from = reinterpret_cast<T*>(&a.v_) + i;
+        std::memcpy(part.data(), from, sizeof part);
+        part = part.sqrt().eval();
+        std::memcpy(from, part.data(), sizeof part);
+      }
+    } else {
+      for (int i = 0; i < size; ++i) a.v_[i] = std::sqrt(a.v_[i]);
+    }
     return a;
   }
   friend Pack atan2(Pack y, const Pack& x) noexcept {
@@ -80,6 +112,23 @@ class Pack {
     if (small_angles) return twice_atan(y / whole);
     for (int i = 0; i < size; ++i) y.v_[i] = std::atan2(y.v_[i], x.v_[i]);
     return y;
+  }
+  /// part/whole, nothing where the whole is not positive.
+  friend Pack share_of(const Pack& part, const Pack& whole) noexcept {
+    Pack share = part / whole;
+    for (int i = 0; i < size; ++i) share.v_[i] = whole.v_[i] > 0 ? share.v_[i] : T(0);
+    return share;
+  }
+  /// cos √q and sin √q / √q
+  friend void cos_and_sin_of_square(const Pack& q, Pack& cosine, Pack& sine) noexcept {
+    bool small_angles = true;
+    for (int i = 0; i < size; ++i) small_angles = small_angles && q[i] < T(0.25);
+    if (small_angles) return small_square_turn(q, cosine, sine);
+    for (int i = 0; i < size; ++i) {
+      T c, s;
+      detail::cos_and_sin_of_square(q[i], c, s);
+      cosine.v_[i] = c, sine.v_[i] = s;
+    }
   }
   /// cos α and sin α
   friend void cos_and_sin(const Pack& a, Pack& cosine, Pack& sine) noexcept {

@@ -26,6 +26,7 @@
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/rod_centreline.hpp>
 #include <hapbeam/shaft.hpp>
+#include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {
 
@@ -105,41 +106,55 @@ class CapsuleOnCurve {
 
   /// d²D, by dr and dτ.
   Matrix6<Scalar> bend(const View& v) const noexcept {
-    using Rows = Eigen::Matrix<Scalar, 3, 6>;
-    using Row = Eigen::Matrix<Scalar, 1, 6>;
-    const Scalar i = 1 / v.length;
-    Rows P, T;
-    P.setZero(), T.setZero();
-    for (int c = 0; c < 3; ++c) {
-      P(c, c) = 1, P(c, 3 + c) = i * v.u.dot(v.f);
-      for (int r = 0; r < 3; ++r) P(r, 3 + c) -= i * v.u[r] * v.f[c];
-      Vector3 e = Vector3::Zero();
-      e[c] = i;
-      T.col(3 + c) = cross3<Scalar>(v.u, e);
-    }
-    const Row wT = v.w.transpose() * T, fT = v.f.transpose() * T, np = v.normal.transpose() * P;
-    Matrix6<Scalar> B = P.transpose() * P - np.transpose() * np;
-    B -= (wT.transpose() * fT + fT.transpose() * wT) / 2;
-    B += v.w.dot(v.f) * (T.transpose() * T);
-    const Row s = v.t.transpose() * P - cross3(v.t, v.w).transpose() * T, l = -(axis_.way.transpose() * P);
+    // p = dr + Q dτ, and a row of numbers for each scalar that dr and dτ make: that of n·p is (n, arm).
+    const Scalar i = 1 / v.length, uf = v.u.dot(v.f), wf = v.w.dot(v.f);
+    const auto turned = [&](const Vector3& x) { return Vector3(i * (uf * x - v.u.dot(x) * v.f)); };  // Qᵀx
+    const Vector3 wT = i * cross3(v.w, v.u), fT = i * cross3(v.f, v.u);
+    Scalar rows[3][6], scales[3] = {-1, 0, 0};
+    const auto fill = [](Scalar(&row)[6], const Vector3& r, const Vector3& t) {
+      for (int k = 0; k < 3; ++k) row[k] = r[k], row[3 + k] = t[k];
+    };
+    fill(rows[0], v.normal, v.arm);
+    fill(rows[1], v.t, turned(v.t) - i * cross3<Scalar>(cross3(v.t, v.w), v.u));
+    fill(rows[2], -axis_.way, -turned(axis_.way));
+    // v·H⁻¹v by the pivots of H.
     const Scalar a = v.t.squaredNorm() - v.w.dot(v.k), b = -v.t.dot(axis_.way), c = axis_.way.squaredNorm();
-    if (v.follows && v.slides) {
-      const Scalar det = a * c - b * b;
-      B -= (c * (s.transpose() * s) - b * (s.transpose() * l + l.transpose() * s) + a * (l.transpose() * l)) /
-           det;
-    } else if (v.follows) {
-      B -= s.transpose() * s / a;
-    } else if (v.slides) {
-      B -= l.transpose() * l / c;
+    if (v.follows) scales[1] = -1 / a;
+    if (v.slides) {
+      const Scalar share = v.follows ? b / a : Scalar(0);
+      for (int k = 0; k < 6; ++k) rows[2][k] -= share * rows[1][k];
+      scales[2] = -1 / (c - share * b);
     }
-    B /= v.distance;
-    const Matrix3 turn = i * (v.u * v.arm.transpose());
-    B.template block<3, 3>(3, 3) += turn + turn.transpose();
+    Matrix6<Scalar> B = Matrix6<Scalar>::Zero();
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 3; ++k) {
+      HAPBEAM_UNROLL
+      for (int row = 0; row < 3; ++row) {
+        const Scalar one = row == k ? Scalar(1) : Scalar(0);
+        B(3 + row, k) = i * (uf * one - v.f[row] * v.u[k]);  // Qᵀ
+        B(3 + row, 3 + k) = i * i *
+                                ((uf * uf + wf) * one - uf * (v.f[row] * v.u[k] + v.u[row] * v.f[k]) +
+                                 v.f[row] * v.f[k] - wf * v.u[row] * v.u[k]) -
+                            (wT[row] * fT[k] + fT[row] * wT[k]) / 2;
+      }
+      B(k, k) = 1;
+    }
+    const Scalar by = 1 / v.distance;
+    HAPBEAM_UNROLL
+    for (int col = 0; col < 6; ++col) {
+      HAPBEAM_UNROLL
+      for (int row = col; row < 6; ++row) {
+        Scalar sum = B(row, col);
+        for (int k = 0; k < 3; ++k) sum += scales[k] * rows[k][row] * rows[k][col];
+        sum *= by;
+        if (col >= 3) sum += i * (v.u[row - 3] * v.arm[col - 3] + v.arm[row - 3] * v.u[col - 3]);
+        B(row, col) = B(col, row) = sum;
+      }
+    }
     return B;
   }
 
  private:
-  using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
   /// Of the second derivative at the node: below that curve and axis count as parallel, and the node itself is touched.
   static constexpr Scalar parallel = Scalar(1e-3);
   /// As many as halve any bracket to its last place.

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include <hapbeam/fem/capsule_on_curve.hpp>
 
@@ -18,6 +19,7 @@ class RodContact {
   using Node = RodNode<Scalar>;
   using Vector3 = VectorOf<Scalar, 3>;
   using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
+  using View = typename CapsuleOnCurve<Scalar>::View;
 
  public:
   RodContact() = default;
@@ -32,7 +34,7 @@ class RodContact {
   bool holds(int node) const noexcept { return node == node_; }
   bool round() const noexcept { return round_; }
   /// How a capsule lies to a node.
-  auto view(const Node& node) const noexcept { return capsule_.at(node); }
+  View view(const Node& node) const noexcept { return sees(node) ? view_ : capsule_.at(node); }
 
   /// To be called where the node has moved, before all below.  @param force  along n [N]
   void look(const Node& node, Scalar force) noexcept {
@@ -40,23 +42,28 @@ class RodContact {
       now_ = plane_displacement(node);
       return;
     }
-    const auto view = capsule_.at(node);
-    now_ = -view.distance;
-    face(view.normal);
-    arm_ = view.arm;
-    bends_ = force != 0;
-    if (bends_) bend_ = force * capsule_.bend(view);
+    force_ = force;
+    if (sees(node)) return;
+    view_ = capsule_.at(node);
+    face(view_.normal);
+    arm_ = view_.arm;
+    seen(node);
   }
   /// d that the node has [m].
   Scalar displacement() const noexcept { return now_; }
   /// Moves a node along n until d is what it should be.
-  void correct(Node& node, Scalar d) const noexcept {
+  void correct(Node& node, Scalar d) noexcept {
     if (!round_) {
       node.r += (d - plane_displacement(node)) * axes_.col(2);
       return;
     }
-    const auto view = capsule_.at(node);
-    node.r += (d + view.distance) * view.normal;
+    look(node, force_);
+    // Place and direction of the contact stay.
+    const Scalar way = d + view_.distance;
+    node.r += way * view_.normal;
+    view_.w -= way * view_.normal;
+    view_.distance -= way;
+    seen(node);
   }
 
   Vector3 normal() const noexcept { return Vector3(axes_.col(2)); }
@@ -66,10 +73,22 @@ class RodContact {
   const Vector3& arm() const noexcept { return arm_; }
   bool leans() const noexcept { return !arm_.isZero(0); }
   /// Whether the force makes something of the capsule, and what: to be added to the tangent of the node, by r and r'.
-  bool bends() const noexcept { return round_ && bends_; }
-  const Matrix6<Scalar>& bend() const noexcept { return bend_; }
+  bool bends() const noexcept { return round_ && force_ != 0; }
+  Matrix6<Scalar> bend() const noexcept { return force_ * capsule_.bend(view_); }
 
  private:
+  static View nothing() noexcept {
+    View view;
+    view.normal = view.arm = view.u = view.t = view.k = view.w = view.f = Vector3::Zero();
+    view.distance = view.lever = view.length = 0;
+    view.past_end = view.follows = view.slides = false;
+    return view;
+  }
+  bool sees(const Node& node) const noexcept { return node.r == seen_r_ && node.tangent == seen_tangent_; }
+  void seen(const Node& node) noexcept {
+    now_ = -view_.distance;
+    seen_r_ = node.r, seen_tangent_ = node.tangent;
+  }
   void face(const Vector3& normal) noexcept {
     // The first direction across n is that across its smallest component.
     int least = 0;
@@ -91,8 +110,10 @@ class RodContact {
   bool round_ = false;  // whether a capsule is touched
   CapsuleOnCurve<Scalar> capsule_;
   Scalar now_ = 0;  // d [m]
-  bool bends_ = false;
-  Matrix6<Scalar> bend_ = Matrix6<Scalar>::Zero();  // F ∂²D
+  // What was seen of it last, and from which node.
+  View view_ = nothing();
+  Vector3 seen_r_ = Vector3::Constant(std::numeric_limits<Scalar>::quiet_NaN()), seen_tangent_ = seen_r_;
+  Scalar force_ = 0;  // along n [N]
 };
 
 }  // namespace hapbeam::detail

@@ -18,7 +18,9 @@
 #include <hapbeam/fem/loads.hpp>
 #include <hapbeam/fem/natural_rod.hpp>
 #include <hapbeam/fem/rod_bed.hpp>
+#include <hapbeam/fem/rod_lanes.hpp>
 #include <hapbeam/fem/rod_profile.hpp>
+#include <hapbeam/fem/solver/pair_order.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/unroll.hpp>
 
@@ -42,6 +44,7 @@ class RodElements {
       : nodes_(elements),
         inners_(elements),
         properties_(elements),
+        order_{elements},
         wide_(elements),
         forces_(elements),
         natural_(rod),
@@ -113,43 +116,41 @@ class RodElements {
   }
 
   struct Energies {
-    Scalar strain;  ///< [J]
-    Scalar work;    ///< of λ times the loads on it [J]
+    Scalar strain = 0;  ///< [J]
+    Scalar work = 0;    ///< of λ times the loads [J]
+    Scalar inner = 0;   ///< of the increment that inner twists make on their own [J]
   };
 
   /// Residual and tangent of V - λW in each element, and the derivatives of its inner twist.  Elements are computed a few at a time,
-  /// side by side.   @param visit  called with (e, Energies, residual, tangent), in order
+  /// side by side.   @param visit  called with (place, tangents, residuals) of those from that place on, in the order of PairOrder
   template <class Visit>
-  [[gnu::always_inline]] void visit_tangents(Scalar lambda, Visit&& visit) noexcept {
-    Residual r;
-    for (int first = 0; first < size(); first += lanes) {
+  [[gnu::always_inline]] Energies visit_tangents(Scalar lambda, Visit&& visit) noexcept {
+    Energies sum;
+    for (int first = 0; first < 2 * order_.pairs(); first += lanes) {
       Group group;
       compute(first, group);
-      for (int e = first; e < first + lanes && e < size(); ++e) {
-        const int lane = e - first;
-        group.get(lane, r);
+      const Wide inner = group.inner.energy();
+      for (int lane = 0; lane < lanes && first + lane < 2 * order_.pairs(); ++lane) {
+        const int e = order_.element(first + lane);
+        if (e < 0) continue;
+        sum.strain += group.energy[lane];
+        sum.inner += inner[lane];
         if constexpr (has_twist) group.get(lane, inners_[e]);
-        Scalar energy = group.energy[lane];
-        if (bed_.empty()) {
-          visit(e, with_loads(e, energy, lambda, r), r, OneOf{group, lane});
-        } else {
-          Tangent K;
-          group.get(lane, K);
-          energy += bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, K);
-          visit(e, with_loads(e, energy, lambda, r), r, K);
-        }
+        if (loaded() || !bed_.empty()) add_loads(e, lambda, lane, group, sum);
       }
+      visit(first, group.K, group.r);
     }
+    return sum;
   }
   /// The residual alone of one element.
   void residual(int e, Scalar lambda, Residual& r) const noexcept {
     Group group;
-    const int first = e - e % lanes;
-    compute(first, group);
-    group.get(e - first, r);
+    const int place = order_.place(e), lane = place % lanes;
+    compute(place - lane, group);
+    group.get(lane, r);
     Tangent unused = Tangent::Zero();
     if (!bed_.empty()) (void)bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, unused);
-    (void)with_loads(e, 0, lambda, r);
+    if (loaded()) subtract_loads(e, lambda, r);
   }
   /// [J]
   Scalar strain_energy() const noexcept {
@@ -179,52 +180,49 @@ class RodElements {
       HAPBEAM_UNROLL
       for (int i = 0; i < 2 * unknowns; ++i) to[i] = r[i][lane];
     }
-    void get(int lane, Tangent& tangent) const noexcept {
-      for (int j = 0; j < 2 * unknowns; ++j)
-        for (int i = 0; i < 2 * unknowns; ++i) tangent(i, j) = K(i, j)[lane];
-    }
     [[gnu::always_inline]] void get(int lane, Inner& to) const noexcept {
       to.residual = inner.residual[lane];
       to.stiffness = inner.stiffness[lane];
       for (int i = 0; i < 2 * unknowns; ++i) to.row[i] = inner.row[i][lane];
     }
   };
-  /// The tangent of one of them.
-  struct OneOf {
-    const Group& group;
-    int lane;
-    [[gnu::always_inline]] Scalar operator()(int i, int j) const noexcept { return group.K(i, j)[lane]; }
-  };
-  /// @param first  of the elements; beyond the last one that one stands again
+  /// @param first  of their places
   void compute(int first, Group& group) const noexcept {
-    int of[lanes];
-    for (int k = 0; k < lanes; ++k) of[k] = (std::min)(first + k, size() - 1);
-    const auto gather = [&](int beyond) {
-      const auto vector = [&](auto member) {
-        const auto entry = [&](int i) {
-          return Wide::of([&](int k) { return (nodes_[of[k] + beyond].*member)[i]; });
-        };
-        return VectorOf<Wide, 3>(entry(0), entry(1), entry(2));
-      };
-      return RodNode<Wide>{Wide(0), vector(&Node::r), vector(&Node::tangent), vector(&Node::director)};
-    };
-    if constexpr (has_twist) group.inner.twist = Wide::of([&](int k) { return inners_[of[k]].twist; });
-    const RodNode<Wide> a = gather(0), b = gather(1);
-    group.energy = Element::tangent(wide_[first / lanes], a, b, group.inner, group.r, group.K);
+    const detail::Abreast<Scalar> of =
+        detail::Abreast<Scalar>::from(first, 2 * order_.pairs() - 1).of_each([this](int place) {
+          return element(place);
+        });
+    if constexpr (has_twist) group.inner.twist = detail::gather(of, [&](int e) { return inners_[e].twist; });
+    group.energy = Element::tangent(wide_[first / lanes], detail::gather_nodes<has_twist>(of, nodes_),
+                                    detail::gather_nodes<has_twist>(of.next(1, size()), nodes_), group.inner,
+                                    group.r, group.K);
   }
-  Energies with_loads(int e, Scalar energy, Scalar lambda, Residual& r) const noexcept {
-    if (!loaded()) return {energy, 0};
+  /// At an empty place stands another one.
+  int element(int place) const noexcept { return (std::max)(order_.element(place), 0); }
+  /// Dead loads and the foundation.
+  void add_loads(int e, Scalar lambda, int lane, Group& group, Energies& sum) const noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
-    subtract_loads(e, lambda, r);
-    const Force& f = forces_[e];
-    return {energy, lambda * (f.template segment<3>(0).dot(a.r) + f.template segment<3>(3).dot(a.tangent) +
-                              f.template segment<3>(6).dot(b.r) + f.template segment<3>(9).dot(b.tangent))};
+    Residual r;
+    group.get(lane, r);
+    if (!bed_.empty()) {
+      Tangent K = Tangent::Zero();
+      sum.strain += bed_.template add<unknowns>(e, a, b, r, K);
+      for (int j = 0; j < 2 * unknowns; ++j)
+        for (int i = 0; i < 2 * unknowns; ++i) group.K(i, j).set(lane, group.K(i, j)[lane] + K(i, j));
+    }
+    if (loaded()) {
+      subtract_loads(e, lambda, r);
+      const Force& f = forces_[e];
+      sum.work += lambda * (f.template segment<3>(0).dot(a.r) + f.template segment<3>(3).dot(a.tangent) +
+                            f.template segment<3>(6).dot(b.r) + f.template segment<3>(9).dot(b.tangent));
+    }
+    for (int i = 0; i < 2 * unknowns; ++i) group.r[i].set(lane, r[i]);
   }
   /// Lays an element's properties beside those of its neighbours.
   void widen(int e) noexcept {
     const RodProperties<Scalar>& from = properties_[e];
-    wide_[e / lanes].number = from.number;
     fill(e, [&](auto&& set, RodProperties<Wide>& to) {
+      to.number = from.number;
       set(to.axial, from.axial);
       for (int i = 0; i < 3; ++i) {
         auto& point = to.points[i];
@@ -242,13 +240,22 @@ class RodElements {
       set(to.length, from.length), set(to.inverse_length, from.inverse_length);
     });
   }
-  /// Calls put(set, properties) for an element's lane, and for all after it where it is the last.
+  /// Calls put(set, properties) for an element's lane, and for all others in which it stands.
   template <class Put>
   void fill(int e, Put&& put) noexcept {
-    for (int k = e % lanes; k < lanes; ++k) {
-      put([k](Wide& wide, Scalar value) { wide.set(k, value); }, wide_[e / lanes]);
-      if (e + 1 < size()) break;
-    }
+    const auto at = [&](int place) {
+      put([place](Wide& wide, Scalar value) { wide.set(place % lanes, value); }, wide_[place / lanes]);
+    };
+    const int place = order_.place(e), last = 2 * order_.pairs() - 1;
+    at(place);
+    if (e == 0 && order_.odd()) at(0);
+    if (place == last)
+      for (int k = last + 1; k % lanes != 0; ++k) at(k);
+  }
+
+  Scalar wide_length(int e) const noexcept {
+    const int place = order_.place(e);
+    return wide_[place / lanes].length[place % lanes];
   }
 
   /// A force at a point, and what works on the tangent there.
@@ -306,11 +313,12 @@ class RodElements {
   void take(const ContactMesh<Scalar>& mesh) noexcept {
     mesh_ = mesh;
     // Where all elements are the same their length alone changes.
-    const bool alike = profile_.constant() && natural_.straight() && wide_[0].length[0] > 0;
+    const bool alike = profile_.constant() && natural_.straight() && known_;
+    known_ = true;
     for (int e = 0; e < size(); ++e) {
       const Scalar length = nodes_[e + 1].s - nodes_[e].s;
       if (alike) {
-        if (length != properties_[e].length || length != wide_[e / lanes].length[e % lanes]) {
+        if (length != properties_[e].length || length != wide_length(e)) {
           set_length(e, length);
           widen_length(e);
         }
@@ -349,6 +357,7 @@ class RodElements {
   Nodes nodes_;
   Inners inners_;
   detail::PerNode<RodProperties<Scalar>, Elements, MaxElements> properties_;
+  detail::PairOrder order_;
   detail::PerNode<RodProperties<Wide>, Elements, MaxElements> wide_;
   detail::PerNode<Force, Elements, MaxElements> forces_;
   std::vector<PointLoad> loads_;
@@ -356,6 +365,7 @@ class RodElements {
   ContactMesh<Scalar> mesh_;
   RodProfile<Scalar> profile_;
   RodBed<Scalar> bed_;
+  bool known_ = false;  // what elements are made of
 };
 
 }  // namespace hapbeam

@@ -44,27 +44,14 @@ class RodEnd {
 
   /// A path to the goal begins where the end is, or where its springs were.
   void begin(const Node& node) noexcept {
-    using std::sqrt;
     start_ = on_springs() ? target_ : node;
     start_.tangent = unit(start_.tangent);
-    // The rotation from start to goal: its sine and axis are in the antisymmetric part.
-    const Vector3 *a[3], *b[3], s2 = cross3(start_.tangent, start_.director),
-                                g2 = cross3(goal_.tangent, goal_.director);
-    a[0] = &start_.tangent, a[1] = &start_.director, a[2] = &s2;
-    b[0] = &goal_.tangent, b[1] = &goal_.director, b[2] = &g2;
-    Vector3 twice = Vector3::Zero();
-    Scalar trace = 0;
-    for (int k = 0; k < 3; ++k) twice += cross3(*a[k], *b[k]), trace += a[k]->dot(*b[k]);
-    const Scalar sine = sqrt(twice.squaredNorm()) / 2;
-    using std::atan2;
-    const Scalar angle = atan2(sine, (trace - 1) / 2);
-    rotation_ = sine > 0 ? Vector3(twice * (angle / (2 * sine))) : Vector3::Zero();
   }
   void set_target(Scalar t) noexcept {
     target_ = goal_;
     if (t < 1) {
       target_.r = start_.r + t * (goal_.r - start_.r);
-      const Vector3 turn = t * rotation_;
+      const Vector3 turn = t * rotation();
       target_.tangent = rotate(turn, start_.tangent);
       target_.director = rotate(turn, start_.director);
     }
@@ -76,8 +63,8 @@ class RodEnd {
   const Matrix* place_axes() const noexcept { return holds_place() || !holds_any_place() ? nullptr : &axes_; }
   /// The same for those of r'.
   const Matrix* tangent_axes() const noexcept { return direction_ ? &axes_ : nullptr; }
-  /// Calls visit(component, increment) for what is held: r 0-2 in place_axes(), r' 3-4 in tangent_axes(), φ 6.
-  template <class Visitor>
+  /// Calls visit(component, increment) for what is held: r 0-2 in place_axes(), r' 3-4 in tangent_axes(), φ 6 where there is one.
+  template <bool has_twist, class Visitor>
   void visit(const Node& node, Visitor&& visitor) const noexcept {
     const Vector3 way = target_.r - node.r;
     const bool all = holds_place();
@@ -85,7 +72,7 @@ class RodEnd {
       if (held_[k]) visitor(k, all ? way[k] : axes_.col(k).dot(way));
     if (direction_)
       for (int k = 0; k < 2; ++k) visitor(3 + k, -axes_.col(k).dot(node.tangent));
-    if (!twist_) return;
+    if (!has_twist || !twist_) return;
     const Vector3 u = unit(node.tangent);
     visitor(6, angle_about(u, node.director, across(carry(target_.director, target_.tangent, u), u)));
   }
@@ -188,6 +175,21 @@ class RodEnd {
   bool holds_any_place() const noexcept { return held_[0] || held_[1] || held_[2]; }
   /// Nothing is held but by springs.
   bool on_springs() const noexcept { return springs_ && !holds_any_place() && !direction_ && !twist_; }
+  /// From start to goal: its sine and axis are in the antisymmetric part.
+  Vector3 rotation() const noexcept {
+    using std::atan2;
+    using std::sqrt;
+    const Vector3 *a[3], *b[3], s2 = cross3(start_.tangent, start_.director),
+                                g2 = cross3(goal_.tangent, goal_.director);
+    a[0] = &start_.tangent, a[1] = &start_.director, a[2] = &s2;
+    b[0] = &goal_.tangent, b[1] = &goal_.director, b[2] = &g2;
+    Vector3 twice = Vector3::Zero();
+    Scalar trace = 0;
+    for (int k = 0; k < 3; ++k) twice += cross3(*a[k], *b[k]), trace += a[k]->dot(*b[k]);
+    const Scalar sine = sqrt(twice.squaredNorm()) / 2;
+    const Scalar angle = atan2(sine, (trace - 1) / 2);
+    return sine > 0 ? Vector3(twice * (angle / (2 * sine))) : Vector3::Zero();
+  }
   /// Rodrigues.
   static Vector3 rotate(const Vector3& by, const Vector3& v) noexcept {
     using std::cos;
@@ -204,7 +206,6 @@ class RodEnd {
   Scalar across_[2], torsion_;  // against the tangent's turn along d1 and d2, and against twist [N·m/rad]
   Node goal_, start_, target_;
   Matrix axes_;
-  Vector3 rotation_ = Vector3::Zero();
 };
 
 }  // namespace hapbeam::detail

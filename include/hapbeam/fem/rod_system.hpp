@@ -44,6 +44,7 @@ class RodSystem {
   RodSystem(const Rod& rod, int elements)
       : rod_(rod, elements),
         saved_(elements),
+        increments_(elements),
         assembler_(elements),
         ends_{detail::RodEnd<Scalar>(rod.left(), node(0)),
               detail::RodEnd<Scalar>(rod.right(), node(elements))},
@@ -84,9 +85,8 @@ class RodSystem {
   /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
   /// @param before  becomes what the state is now
   void go_on(State& before, const ContactMesh<Scalar>& mesh, Scalar ratio) noexcept {
-    for (int i = 0; i <= elements(); ++i)
-      saved_.nodes[i] =
-          detail::gone_on(rod_.nodes(), before.nodes, i, mesh.position(i), ratio, unknowns == 7);
+    for (int i = 0; i <= elements(); ++i) saved_.nodes[i].s = mesh.position(i);
+    detail::go_on<unknowns == 7>(rod_.nodes(), before.nodes, ratio, saved_.nodes);
     if constexpr (unknowns == 7)
       for (int e = 0; e < elements(); ++e) {
         saved_.inners[e] = inners()[e];
@@ -230,17 +230,13 @@ class RodSystem {
   /// @param shift  what is added to the tangent: so many times EI/L³ on each place and EI/L on each rotation, shared out
   /// over the nodes   @return ok | singular | non_finite
   Status factor(Scalar shift) noexcept {
-    Scalar energy = 0, work = 0;
-    inner_energy_ = 0;
     const int c = contact_.node();
     if (c >= 0) contact_.look(node(c), force_);
     if (grip_.on()) look_at_grip();
-    rod_.visit_tangents(load_, [&](int e, const auto& energies, const auto& r, const auto& K) {
-      energy += energies.strain;
-      work += energies.work;
-      inner_energy_ += rod_.inners()[e].energy();
-      assembler_.add(e, K, r);
-    });
+    const auto [strain, work, inner] =
+        rod_.visit_tangents(load_, [&](int first, auto& K, auto& r) { assembler_.add_pairs(first, K, r); });
+    inner_energy_ = inner;
+    Scalar energy = strain;
     if (shift != 0) add_shift(shift);
     for (std::size_t k = 0; k < 2; ++k)
       if (ends_[k].has_springs()) {
@@ -264,8 +260,7 @@ class RodSystem {
     if (grip_.on()) potential_ += grip_.potential();
     for (std::size_t k = 0; k < 2; ++k) {
       prescribed_[k].setZero();
-      ends_[k].visit(node(end(k)), [&](int component, Scalar increment) {
-        if (component >= unknowns) return;
+      ends_[k].template visit<unknowns == 7>(node(end(k)), [&](int component, Scalar increment) {
         prescribed_[k][component] = increment;
         assembler_.prescribe(end(k), component, increment);
       });
@@ -278,24 +273,25 @@ class RodSystem {
   /// as the tangents do, from the left end on (as chain.hpp says of the plane).
   void advance() noexcept {
     force_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
-    Increment before = increment(0);
-    Vector3 way = before.template segment<3>(0),
+    for (int i = 0; i <= elements(); ++i) increments_[i] = increment(i);
+    Vector3 way = increments_[0].template segment<3>(0),
             r = node(0).r;  // that the last node has gone, and where it was
     rod_.nodes()[0].r += way;
-    detail::move_tangent(rod_.nodes()[0], before);
     for (int i = 1; i <= elements(); ++i) {
-      const Increment x = increment(i);
-      typename Parts::Residual both;
-      both << before, x;
-      rod_.inners()[i - 1].advance(both);
+      const Increment &before = increments_[i - 1], &x = increments_[i];
+      if constexpr (unknowns == 7) {
+        typename Parts::Residual both;
+        both << before, x;
+        rod_.inners()[i - 1].advance(both);
+      }
       Node& node = rod_.nodes()[i];
       const Vector3 chord = node.r - r, change = x.template segment<3>(0) - before.template segment<3>(0);
       way += contact_.node() < 0 ? Vector3(detail::turned(chord, change) - chord) : change;
       r = node.r;
       node.r += way;
-      detail::move_tangent(node, x);
-      before = x;
     }
+    detail::move_tangents<unknowns == 7>(
+        rod_.nodes(), [this](int i) -> auto& { return increments_[i]; });
     if (contact_.node() < 0) close_chain();
     for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
     if (contact_.node() >= 0) contact_.correct(rod_.nodes()[contact_.node()], d_);
@@ -471,6 +467,7 @@ class RodSystem {
 
   Parts rod_;
   State saved_;
+  detail::PerNode<Increment, Elements, MaxElements> increments_;  // in advance()
   Assembler<Scalar, Elements, MaxElements, unknowns> assembler_;
   std::array<detail::RodEnd<Scalar>, 2> ends_;
   Increment prescribed_[2] = {Increment::Zero(), Increment::Zero()};

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/fem/solver/ldlt.hpp>
@@ -79,6 +80,28 @@ class BlockTridiagonal {
         for (int i = 0; i < Block; ++i) b.coupling[j][i].a[1] = K(i, Block + j);
       }
     }
+  }
+
+  /// Adds elements that were computed side by side, in the order of PairOrder, two at a time.
+  /// @param first  place of the first, even; 0 starts a new system
+  /// @param K  (i, j) -> entries of all: of the lower triangles of both nodes, and of what couples the first with the second
+  /// @param r  [i] -> entries of all
+  template <class Tangent, class Residual>
+  void add_pairs(int first, Tangent& K, Residual& r) noexcept {
+    using Wide = std::decay_t<decltype(r[0])>;
+    constexpr int abreast = Wide::size / 2;
+    const int row = first / 2, count = (std::min)(abreast, pairs_ - row);
+    if (first == 0) {
+      for (auto& entry : rows_[0].block) entry.set(Lanes::both(0));
+      for (auto& entry : rows_[0].x) entry.set(Lanes::both(0));
+      held_energy_ = 0;
+      if (odd_) leave_first_out(K, r);
+    }
+    if (count == abreast) add_rows(row, std::integral_constant<int, abreast>(), K, r);
+    else add_rows(row, count, K, r);
+    if (first == 0 && odd_)
+      for (int k = 0; k < Block; ++k) rows_[0].block[triangle(k, k)].a[0] = 1;
+    if (row + count == pairs_) join_middle();
   }
 
   /// Adds to the tangent and to the residual of one node, after all elements are in.  @param K  (i, j) -> entry of a lower triangle
@@ -218,16 +241,72 @@ class BlockTridiagonal {
   int negative_pivots() const noexcept { return negative_pivots_; }
 
  private:
+  /// The left chain of an odd number of elements begins with none.
+  template <class Tangent, class Residual>
+  static void leave_first_out(Tangent& K, Residual& r) noexcept {
+    for (int j = 0; j < 2 * Block; ++j) {
+      r[j].set(0, 0);
+      for (int i = 0; i < 2 * Block; ++i) K(i, j).set(0, 0);
+    }
+  }
+  /// @param count  of rows; a constant mostly
+  template <class Count, class Tangent, class Residual>
+  void add_rows(int row, Count count, const Tangent& K, const Residual& r) noexcept {
+    using Wide = std::decay_t<decltype(r[0])>;
+    constexpr int abreast = Wide::size / 2;
+    Row* const rows = &rows_[row];
+    const auto pair = [](const Wide& wide, int k) { return Lanes(wide[2 * k], wide[2 * k + 1]); };
+    // Of what belongs to a node: the share of the element on the way to the middle, and that of the one before.
+    const auto add = [&](auto&& at, const Wide& own, const Wide& next) {
+      const Wide outer = in_turn(own, next), inner = in_turn(next, own);
+      Lanes before = at(rows[0]).get();
+      HAPBEAM_UNROLL
+      for (int k = 0; k < abreast; ++k) {
+        if (k == count) break;
+        at(rows[k]).set(before + pair(outer, k));
+        before = pair(inner, k);
+      }
+      at(rows[count]).set(before);
+    };
+    HAPBEAM_UNROLL
+    for (int j = 0; j < Block; ++j) {
+      HAPBEAM_UNROLL
+      for (int i = j; i < Block; ++i)
+        add(
+            [ i, j ](Row & at) -> auto& { return at.block[triangle(i, j)]; }, K(i, j),
+            K(Block + i, Block + j));
+      add(
+          [j](Row & at) -> auto& { return at.x[j]; }, -r[j], -r[Block + j]);
+      HAPBEAM_UNROLL
+      for (int i = 0; i < Block; ++i) {
+        const Wide coupling = in_turn(K(i, Block + j), K(j, Block + i));
+        HAPBEAM_UNROLL
+        for (int k = 0; k < abreast; ++k)
+          if (k < count) rows[k].coupling[i][j].set(pair(coupling, k));
+      }
+    }
+  }
+  /// Both chains share the middle node, which stands in lane 0.
+  void join_middle() noexcept {
+    const auto join = [](Number& entry) { entry.a[0] += entry.a[1], entry.a[1] = 0; };
+    for (auto& entry : rows_[pairs_].block) join(entry);
+    for (auto& entry : rows_[pairs_].x) join(entry);
+  }
+
   static constexpr int triangle_size = detail::triangle_size<Block>;
   static constexpr int triangle(int i, int j) noexcept { return detail::triangle<Block>(i, j); }
+
+  static constexpr int columns = detail::columns_abreast<Scalar, Block>;
+  static constexpr int strips = (Block + columns - 1) / columns, padded = strips * columns;
+  using Strip = detail::Strip<Scalar, columns>;
 
   /// A node of the left chain in lane 0 and one of the right chain in lane 1; the middle node, lane 0, is the last row.
   /// Eliminating them leaves the diagonal as it is, for the last look at the pivots, and puts L below it, P⁻¹Y into the coupling
   /// to the node that is eliminated later, and P⁻¹L⁻¹ of the right-hand side into x.
   struct Row {
     Number block[triangle_size];
-    Number coupling[Block][Block];  ///< own unknown, that of the next node on the way
-    Number x[Block];                ///< right-hand side, after solve() the increment
+    Number coupling[Block][padded];  ///< own unknown, that of the next node on the way
+    Number x[Block];                 ///< right-hand side, after solve() the increment
   };
   struct Place {
     int row, lane;
@@ -273,13 +352,13 @@ class BlockTridiagonal {
     if (node > 0) {
       Row& row = rows_[place(lane == 0 ? node - 1 : node).row];
       f(own_of(node - 1, true),
-        Coupling{row.coupling[0][0].a + lane, lane == 0 ? 1 : Block, lane == 0 ? Block : 1});
+        Coupling{row.coupling[0][0].a + lane, lane == 0 ? 1 : padded, lane == 0 ? padded : 1});
     }
     if (node < last_) {
       const Place next = place(node + 1);
       Row& row = rows_[next.lane == 0 ? place(node).row : next.row];
       f(own_of(node + 1),
-        Coupling{row.coupling[0][0].a + next.lane, next.lane == 0 ? Block : 1, next.lane == 0 ? 1 : Block});
+        Coupling{row.coupling[0][0].a + next.lane, next.lane == 0 ? padded : 1, next.lane == 0 ? 1 : padded});
     }
   }
 
@@ -288,7 +367,7 @@ class BlockTridiagonal {
     Row& at = rows_[row];
     const Row& next = rows_[row + 1];
     const Factor factor(front);
-    Lanes y[Block][Block], z[Block], zx[Block];
+    Lanes zx[Block];
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
       const Number& assembled = at.block[triangle(j, j)];
@@ -301,21 +380,57 @@ class BlockTridiagonal {
     energy = detail::less<Block>(energy, f, zx);
     HAPBEAM_UNROLL
     for (int k = 0; k < Block; ++k) at.x[k].set(zx[k]);
+    // L⁻¹C and P⁻¹L⁻¹C, a few columns side by side.
+    Strip y[strips][Block];
     HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) {
+    for (int g = 0; g < strips; ++g) {
       HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) y[j][k] = at.coupling[k][j].get();
-      factor.forward(y[j]);
-      f[j] = detail::less<Block>(next.x[j].get(), y[j], zx);
+      for (int k = 0; k < Block; ++k) y[g][k] = Strip::load(at.coupling[k][g * columns].a);
+    }
+    HAPBEAM_UNROLL
+    for (int k = 0; k + 1 < Block; ++k) {
+      HAPBEAM_UNROLL
+      for (int i = k + 1; i < Block; ++i) {
+        const Strip l = Strip::repeat(at.block[triangle(i, k)].a);
+        HAPBEAM_UNROLL
+        for (int g = 0; g < strips; ++g) y[g][i] = subtract_product(y[g][i], l, y[g][k]);
+      }
+    }
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k) {
+      Number pivot;
+      pivot.set(factor.i[k]);
+      const Strip inverse = Strip::repeat(pivot.a);
+      HAPBEAM_UNROLL
+      for (int g = 0; g < strips; ++g) (y[g][k] * inverse).store(at.coupling[k][g * columns].a);
     }
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
-      factor.scale(y[j], z);
+      const auto column = [&y](int i, int k) { return y[i / columns][k].column(i % columns); };
+      Strip z[Block];
+      Lanes sum = next.x[j].get();
       HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) at.coupling[k][j].set(z[k]);
+      for (int k = 0; k < Block; ++k) {
+        z[k] = Strip::repeat(at.coupling[k][j].a);
+        sum = subtract_product(sum, column(j, k), zx[k]);
+      }
+      f[j] = sum;
       HAPBEAM_UNROLL
-      for (int i = j; i < Block; ++i)
-        front[triangle(i, j)] = detail::less<Block>(next.block[triangle(i, j)].get(), y[i], z);
+      for (int i = j; i < Block; ++i) {
+        if (i > j && i % columns != 0) continue;  // stands beside the one before
+        if (i % columns == 0 && i + columns <= Block) {
+          Strip strip = Strip::load(next.block[triangle(i, j)].a);
+          HAPBEAM_UNROLL
+          for (int k = 0; k < Block; ++k) strip = subtract_product(strip, y[i / columns][k], z[k]);
+          HAPBEAM_UNROLL
+          for (int c = 0; c < columns; ++c) front[triangle(i, j) + c] = strip.column(c);
+        } else {
+          Lanes entry = next.block[triangle(i, j)].get();
+          HAPBEAM_UNROLL
+          for (int k = 0; k < Block; ++k) entry = subtract_product(entry, column(i, k), z[k].column(0));
+          front[triangle(i, j)] = entry;
+        }
+      }
     }
   }
 

@@ -9,6 +9,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <hapbeam/fem/solver/pair_order.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam {
@@ -30,12 +31,26 @@ class Dense {
       x_.setZero();
       held_energy_ = 0;
     }
-    for (int i = 0; i < 2 * Block; ++i) {
+    add_entries(e, K, r);
+  }
+
+  template <class Tangent, class Residual>
+  void add_pairs(int first, Tangent& K, Residual& r) noexcept {
+    const detail::PairOrder order{static_cast<int>(x_.size()) / Block - 1};
+    Eigen::Matrix<Scalar, 2 * Block, 2 * Block> tangent;
+    Eigen::Matrix<Scalar, 2 * Block, 1> residual;
+    if (first == 0) {  // element 0 starts a new system
+      tangent.setZero(), residual.setZero();
+      add(0, tangent, residual);
+    }
+    for (int k = 0; k < r[0].size && first + k < 2 * order.pairs(); ++k) {
+      const int e = order.element(first + k);
+      if (e < 0) continue;
       for (int j = 0; j < 2 * Block; ++j) {
-        const bool mirrored = i < Block ? i < j && j < Block : i < j || j < Block;
-        K_(Block * e + i, Block * e + j) += mirrored ? K(j, i) : K(i, j);
+        residual[j] = r[j][k];
+        for (int i = 0; i < 2 * Block; ++i) tangent(i, j) = K(i, j)[k];
       }
-      x_[Block * e + i] -= r[i];
+      add_entries(e, tangent, residual);
     }
   }
 
@@ -106,6 +121,17 @@ class Dense {
   }
 
  private:
+  template <class Tangent, class Residual>
+  void add_entries(int e, const Tangent& K, const Residual& r) noexcept {
+    for (int i = 0; i < 2 * Block; ++i) {
+      for (int j = 0; j < 2 * Block; ++j) {
+        const bool mirrored = i < Block ? i < j && j < Block : i < j || j < Block;
+        K_(Block * e + i, Block * e + j) += mirrored ? K(j, i) : K(i, j);
+      }
+      x_[Block * e + i] -= r[i];
+    }
+  }
+
   Matrix K_;
   Vector x_, held_by_;
   Scalar held_by_loads_ = 0;

@@ -107,4 +107,75 @@ class Lanes<Scalar, std::void_t<typename PairOf<Scalar>::type>> {
 };
 #endif
 
+/// Columns of both chains that are computed side by side: (left, right) of one, or of two where registers hold four numbers.
+template <typename Scalar, int Columns>
+class Strip {
+ public:
+  Strip() = default;
+  [[gnu::always_inline]] static Strip load(const Scalar* from) noexcept {
+    Strip strip;
+    std::memcpy(&strip.v_, from, sizeof strip.v_);
+    return strip;
+  }
+  [[gnu::always_inline]] void store(Scalar* to) const noexcept { std::memcpy(to, &v_, sizeof v_); }
+  /// The same pair for each column.
+  [[gnu::always_inline]] static Strip repeat(const Scalar* from) noexcept {
+    Strip strip;
+    strip.v_ = Numbers{from[0], from[1], from[0], from[1]};
+    return strip;
+  }
+  [[gnu::always_inline]] Lanes<Scalar> column(int i) const noexcept {
+    return Lanes<Scalar>(v_[2 * i], v_[2 * i + 1]);
+  }
+  [[gnu::always_inline]] friend Strip operator*(const Strip& a, const Strip& b) noexcept {
+    Strip c;
+    c.v_ = a.v_ * b.v_;
+    return c;
+  }
+  /// a - bc, in one expression: clang fuses no other.
+  [[gnu::always_inline]] friend Strip subtract_product(const Strip& a, const Strip& b,
+                                                       const Strip& c) noexcept {
+    Strip d;
+    d.v_ = a.v_ - b.v_ * c.v_;
+    return d;
+  }
+
+ private:
+  static_assert(Columns == 2, "one column is a pair of lanes");
+#if defined(__GNUC__)
+  typedef Scalar Numbers __attribute__((vector_size(4 * sizeof(Scalar))));
+  Numbers v_;
+#endif
+};
+template <typename Scalar>
+class Strip<Scalar, 1> {
+ public:
+  Strip() = default;
+  [[gnu::always_inline]] Strip(const Lanes<Scalar>& a) noexcept : v_(a) {}
+  [[gnu::always_inline]] static Strip load(const Scalar* from) noexcept { return Lanes<Scalar>::load(from); }
+  [[gnu::always_inline]] void store(Scalar* to) const noexcept { v_.store(to); }
+  [[gnu::always_inline]] static Strip repeat(const Scalar* from) noexcept {
+    return Lanes<Scalar>::load(from);
+  }
+  [[gnu::always_inline]] Lanes<Scalar> column(int) const noexcept { return v_; }
+  [[gnu::always_inline]] friend Strip operator*(const Strip& a, const Strip& b) noexcept {
+    return a.v_ * b.v_;
+  }
+  [[gnu::always_inline]] friend Strip subtract_product(const Strip& a, const Strip& b,
+                                                       const Strip& c) noexcept {
+    return Strip(subtract_product(a.v_, b.v_, c.v_));
+  }
+
+ private:
+  Lanes<Scalar> v_;
+};
+
+/// How many columns of blocks of so many unknowns stand side by side.  A block of 3 has too few of them.
+template <typename Scalar, int Block>
+#if defined(__AVX__)
+inline constexpr int columns_abreast = Block > 3 && std::is_same_v<Scalar, double> ? 2 : 1;
+#else
+inline constexpr int columns_abreast = 1;
+#endif
+
 }  // namespace hapbeam::detail
