@@ -1,0 +1,124 @@
+// The assembled tangent of a rod that a sphere has pushed is symmetric, and the derivative of the assembled residual.
+#include "rod/rods.hpp"
+#include "support/catch.hpp"
+#include "support/status.hpp"
+#include <hapbeam/fem/solver/dense.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+Eigen::MatrixXd tangent;   // of the last system, before ends and contact are held
+Eigen::VectorXd residual;  // likewise
+
+/// Keeps what is added.
+template <typename Scalar, int Elements, int MaxElements, int Block>
+class Recorder : public Dense<Scalar, Elements, MaxElements, Block> {
+  using Base = Dense<Scalar, Elements, MaxElements, Block>;
+
+ public:
+  explicit Recorder(int elements) : Base(elements), elements_(elements) {}
+
+  template <class Tangent, class Residual>
+  void add_pairs(int first, Tangent& K, Residual& r) noexcept {
+    const detail::PairOrder order{elements_};
+    const int size = Block * (elements_ + 1);
+    if (first == 0) tangent = Eigen::MatrixXd::Zero(size, size), residual = Eigen::VectorXd::Zero(size);
+    for (int k = 0; k < r[0].size && first + k < 2 * order.pairs(); ++k) {
+      const int e = order.element(first + k);
+      for (int i = 0; e >= 0 && i < 2 * Block; ++i) {
+        residual[Block * e + i] += r[i][k];
+        for (int j = 0; j < 2 * Block; ++j) tangent(Block * e + i, Block * e + j) += K(i, j)[k];
+      }
+    }
+    Base::add_pairs(first, K, r);
+  }
+  template <class Tangent, class Residual>
+  void add_at(int node, const Tangent& K, const Residual& r) noexcept {
+    for (int i = 0; i < Block; ++i) {
+      residual[Block * node + i] += r[i];
+      for (int j = 0; j < Block; ++j) tangent(Block * node + i, Block * node + j) += K(i, j);
+    }
+    Base::add_at(node, K, r);
+  }
+
+ private:
+  int elements_;
+};
+
+template <class Element>
+void check_tangent(const Rod& rod, int elements) {
+  using System = RodSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic, Recorder>;
+  constexpr int unknowns = Element::unknowns;
+  System system(rod, elements);
+  const int c = 2 * elements / 3;
+  const double reach = 0.02, h = 1e-6;
+  const Point n = detail::unit(Point(0.3, 1, -0.4));
+  const Point centre = system.node(c).r + (reach - 0.03) * n + 0.001 * system.node(c).tangent;
+  const auto law = [&] {
+    return detail::CapsuleOnCurve<double>({centre, Point::Zero()}, system.node(c),
+                                          system.centreline().curvature(c), 0);
+  };
+  for (int k = 0; k < 3; ++k) {  // the curvature there is that of the state before
+    system.set_goal(c, -reach, law());
+    REQUIRE(NewtonRaphson{1e-13, 1e-14}.solve(system).status == Status::ok);
+  }
+  const double force = system.linear_reaction();
+  const auto beside = law();
+  system.set_goal(c, -reach, beside);
+  system.set_target(1);
+  REQUIRE(system.factor(0) == Status::ok);
+  const Eigen::MatrixXd K = tangent;
+  typename System::State state(elements);
+  system.keep(state);
+  const ContactMesh<double> mesh = system.mesh();
+  const auto gradient = [&](const typename System::State& at) -> Eigen::VectorXd {
+    system.set_state(mesh, at);
+    REQUIRE(system.factor(0) == Status::ok);
+    Eigen::VectorXd sum = residual;
+    const auto view = beside.at(at.nodes[c]);
+    sum.segment<3>(unknowns * c) -= force * view.normal;
+    sum.segment<3>(unknowns * c + 3) -= force * view.arm;
+    return sum;
+  };
+  const int first = unknowns, count = unknowns * elements;  // all but the end that is held
+  CHECK(std::abs(force) > 1e-3);
+  CHECK((K - K.transpose()).norm() <= 1e-14 * K.norm());
+  CHECK(gradient(state).tail(count).norm() <= 1e-8 * residual.norm());
+  double worst = 0;
+  for (int k = first; k < first + count; ++k) {
+    const int i = k / unknowns, component = k % unknowns;
+    const auto moved = [&](double by) {
+      typename System::State there = state;
+      Eigen::Matrix<double, unknowns, 1> x = Eigen::Matrix<double, unknowns, 1>::Zero();
+      x[component] = by;
+      auto& node = there.nodes[i];
+      node.r += x.template segment<3>(0);
+      detail::set_tangent<double>(node, node.tangent + x.template segment<3>(3));
+      if constexpr (unknowns == 7) {
+        node.director = detail::turn(node.director, detail::unit(node.tangent), x[6]);
+        for (int e = std::max(i - 1, 0); e <= std::min(i, elements - 1); ++e) {
+          Eigen::Matrix<double, 14, 1> both = Eigen::Matrix<double, 14, 1>::Zero();
+          both.template segment<7>(e == i ? 0 : 7) = x;
+          there.inners[e].advance(both);
+        }
+      }
+      return gradient(there);
+    };
+    const Eigen::VectorXd difference = (moved(h) - moved(-h)) / (2 * h);
+    worst = std::max(worst, (difference - K.col(k)).tail(count).norm() / K.col(k).norm());
+  }
+  CAPTURE(worst);
+  CHECK(worst <= 1e-6);
+}
+
+}  // namespace
+
+TEST_CASE("the assembled tangent is the derivative of the assembled residual, contact included", "[rod]") {
+  check_tangent<RoundRod>(
+      Rod(0.3, RodSection::circle(0.002), spring_steel, RodSupport::clamped, RodSupport::free), 8);
+  Rod leaf(0.3, RodSection::rectangle(0.012, 0.002), spring_steel, RodSupport::clamped, RodSupport::free);
+  leaf.naturally({{0.1, 1, 3, 2}, {0.3, -2, 1, 4}});
+  for (const int elements : {7, 8}) check_tangent<TwistedRod>(leaf, elements);
+}
