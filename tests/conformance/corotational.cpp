@@ -1,5 +1,6 @@
 // FemModel of any rotation as a ForceModel: each local part, scalar and kind of size.
 #include "conformance/force_model_suite.hpp"
+#include "conformance/touch_laws.hpp"
 #include "support/catch.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/element/corotational.hpp>
@@ -29,4 +30,15 @@ TEMPLATE_TEST_CASE("FemModel of any rotation keeps the contract of a ForceModel 
                    TurningFixed, TurningBounded) {
   static_assert(takes_push<TestType>);
   check_force_model([] { return TestType(thesis_beam(Support::pinned, Support::pinned), 8); });
+}
+
+TEMPLATE_TEST_CASE("a touch of a beam of any rotation keeps Coulomb's law", "[contract][friction]",
+                   (FemModel<Corotational<>>), (FemModel<Corotational<>, float>),
+                   (FemModel<Corotational<Linear>>), (FemModel<Corotational<>, double, 8>)) {
+  const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{200e9}, Support::clamped, Support::free);
+  check_friction([&] { return TestType(ruler, 8); }, typename TestType::Scalar(0.005));
+}
+
+TEST_CASE("a touch of a beam that is pressed across has no friction", "[contract][friction]") {
+  check_friction([] { return FemModel<>(thesis_beam(Support::pinned, Support::pinned), 8); }, 0.005);
 }

@@ -1,11 +1,14 @@
 // What a touch owes to the hand, whichever model it presses: what it remembers ends with the release.
 //
 //   check_touch<Model>(make, tolerance);      within a SECTION of force_model_suite.cpp, so over every ForceModel
+//   check_friction(make, radius);             of a model by its own type, which says whether it takes friction
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -82,6 +85,48 @@ void check_touch_at_ends(Make make, Scalar radius) {
         CHECK(largest > 0);
         CHECK(change <= step * (3 * std::max(stiffness, largest / reach) + largest / beyond) * Scalar(1.1));
       }
+  }
+}
+
+/// Coulomb's law, as far as one tick shows it, of a model that takes friction: never a pull, the share of the normal force, energy that only
+/// grows; and without coefficients the touch without friction, to the last bit.
+template <class Make, typename Scalar>
+void check_friction(Make make, Scalar radius) {
+  using Model = decltype(make());
+  using Vector = Vector2<Scalar>;
+  const Friction friction(0.5, 0.3);
+  Model model = make();
+  if constexpr (!takes_friction<Model>) {
+    CHECK_THROWS_AS(Touch<Model>(model, radius, friction), std::invalid_argument);
+  } else {
+    Model smooth = make(), smoother = make();
+    Touch<Model> touch(model, radius, friction), none(smooth, radius), zero(smoother, radius, Friction(0));
+    const Range<Scalar> range = model.range();
+    const Scalar length = model.shape().length(), middle = (range.s_min + range.s_max) / 2;
+    const double share = 1 + 8 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+    Scalar dissipated = 0;
+    int sliding = 0, sticking = 0;
+    bool pressing = false;
+    for (int k = 0; k <= 1200; ++k) {
+      const double turn = k / 100.0;
+      const Vector hand(middle + length * static_cast<Scalar>(0.04 * std::sin(turn)),
+                        radius - length * static_cast<Scalar>(0.02 - 0.022 * std::cos(0.7 * turn)));
+      const auto r = touch.tick(hand);
+      const Vector across = r.force - r.friction;
+      const double normal = static_cast<double>(across.norm());
+      REQUIRE(r.force.allFinite());
+      REQUIRE(across.dot(r.contact.normal) >= 0);
+      REQUIRE(static_cast<double>(r.friction.norm()) <= friction.sticking * normal * share);
+      if (!r.pressing) REQUIRE(r.force.isZero(0));
+      if (r.pressing && pressing) REQUIRE(r.dissipated >= dissipated);
+      dissipated = r.dissipated;
+      pressing = r.pressing;
+      sliding += r.sliding;
+      sticking += r.pressing && !r.sliding;
+      REQUIRE(none.tick(hand).force == zero.tick(hand).force);
+    }
+    CHECK(sliding > 100);
+    CHECK(sticking > 0);
   }
 }
 

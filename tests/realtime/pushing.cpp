@@ -88,6 +88,35 @@ TEMPLATE_TEST_CASE("Touch on beams of any rotation: no heap, pressed, slipping o
   if (takes_push<TestType>) CHECK(snapped > 0);
 }
 
+TEMPLATE_TEST_CASE("Touch with friction: noexcept, no heap, whatever the hand does", "[friction]",
+                   (FemModel<Corotational<>, double>), (FemModel<Corotational<>, float>)) {
+  using S = typename TestType::Scalar;
+  STATIC_REQUIRE(takes_friction<TestType>);
+  STATIC_REQUIRE(noexcept(std::declval<Touch<TestType>&>().tick(std::declval<const Vector2<S>&>())));
+  int sliding = 0, sticking = 0;
+  for (const auto& [name, beam] : beams()) {
+    TestType model(beam, 16);
+    Touch<TestType> touch(model, S(0.005), Friction(0.6, 0.4));
+    const auto path = hand_path<S>(beam.length(), 5);
+    int not_finite = 0;
+    const HeapUse use = heap_use([&] {
+      touch.soften(S(1e6), S(10));
+      for (const auto& position : path) {
+        const auto r = touch.tick(position);
+        not_finite += !r.force.allFinite() || !r.friction.allFinite() || !std::isfinite(r.dissipated);
+        sliding += r.sliding;
+        sticking += r.pressing && !r.sliding;
+      }
+      touch.reset();
+    });
+    INFO(name);
+    CHECK(use == HeapUse{});
+    CHECK(not_finite == 0);
+  }
+  CHECK(sliding > 100);
+  CHECK(sticking > 0);
+}
+
 TEMPLATE_TEST_CASE("push and release of a bistable beam: no heap, all the way through and back", "",
                    (FemModel<Corotational<>, double>), (FemModel<Corotational<>, float>)) {
   using S = typename TestType::Scalar;

@@ -68,6 +68,7 @@ class FrictionLaw {
     slid_ = slides_, stuck_ = !slides_;
     tries_ = 0;
     pairs_ = false;
+    follows_ = true;
   }
 
   /// To be called where the beam has moved.
@@ -77,7 +78,7 @@ class FrictionLaw {
     if (!slides_) {
       force_ = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
     } else {
-      if (D == 3) follow();
+      if (D == 3 && follows_) follow();
       force_ = force_at(bound_);
     }
   }
@@ -153,6 +154,7 @@ class FrictionLaw {
   /// @return whether there is another way to try; else it slides
   bool turn() noexcept {
     torn_ = true;
+    follows_ = false;  // near the tip of |e|, where a direction that is held leads on
     if (slides_ && !fallen_ && !stuck_) {
       slides_ = false, stuck_ = true;
       return true;
@@ -264,7 +266,7 @@ class FrictionLaw {
   Scalar reach_ = 0, stiffness_ = 0, damping_ = 0, sticking_ = 0, sliding_ = 0, gain_ = 0;
   Scalar bound_ = 0, used_ = 0, before_bound_ = 0, length_ = 1;
   Scalar pair_bound_ = 0, pair_force_ = 0;
-  bool pairs_ = false;
+  bool pairs_ = false, follows_ = true;
   int tries_ = 0;
 };
 

@@ -57,7 +57,11 @@ struct ServoRecord {
       Zero();  ///< [m] from the avatar to the other end of its axis, in the scene; zero: a sphere
   Press<double> press{0, 0};  ///< asked of the model; zero where nothing was
   bool pressing = false;      ///< the hand holds the beam: it is touched, or its force goes on
-  double heat = 0;            ///< of the motors, 1: only the continuous force is left
+  bool sliding = false;       ///< with friction: the contact slides, else it sticks
+  Eigen::Vector3d friction =
+      Eigen::Vector3d::Zero();  ///< [N] the tangential part of the beam's force, in the scene
+  double dissipated = 0;        ///< [J] by friction, since the touch began
+  double heat = 0;              ///< of the motors, 1: only the continuous force is left
 
   std::uint64_t ticks = 0;            ///< since the start
   std::uint64_t contact_ticks = 0;    ///< the beam was touched
