@@ -148,7 +148,7 @@ class Rod {
     return foundations_.push_back(foundation), *this;
   }
 
-  /// Places the left end; the rod is laid from there.
+  /// Places the left end; the rod begins there.
   Rod& place_left(const RodPose& pose) { return left_pose_ = checked(pose), *this; }
   /// Places the right end elsewhere than where the natural shape has it.
   Rod& place_right(const RodPose& pose) {

@@ -1,4 +1,5 @@
-// The avatar: what stands for the hand, a disc in the plane of a beam, a sphere or a capsule beside a rod in space.
+// The avatar, or haptic interaction point: the body that the hand moves. It is a disc in the plane of a beam, and a
+// sphere or a capsule beside a rod in space.
 //
 // A plain value.  No allocation, noexcept.
 #pragma once
@@ -28,7 +29,7 @@ struct Avatar<Scalar, 3> {
 
 namespace detail {
 
-/// From a point to the avatar's centre, or to the nearest point of its axis [m].
+/// The vector from a point to the avatar's centre, or to the nearest point of its axis [m].
 template <typename Scalar>
 Vector2<Scalar> way_to(const Avatar<Scalar>& avatar, const Vector2<Scalar>& point) noexcept {
   return avatar.position - point;

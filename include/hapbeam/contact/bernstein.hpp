@@ -1,9 +1,9 @@
 // Where a polynomial in Bernstein form changes sign on [0, 1], and the root polished there.
 //
-// The coefficients bound the polynomial and change sign at least as often as it does, so no change means no
-// root and one change means one root; more are halved until they separate (variation diminishing: Lane and
-// Riesenfeld, "Bounds on a polynomial", BIT 21, 1981).  Zero counts as positive everywhere, so a root on a
-// border between two intervals, or between two pieces of a curve, is counted once.
+// The coefficients bound the polynomial and change sign at least as often as it does. No change means no root, and one
+// change one root. Intervals with more are halved until the roots separate (variation diminishing: Lane and Riesenfeld,
+// "Bounds on a polynomial", BIT 21, 1981). Zero counts as positive, so a root on the border of two intervals, or of two
+// pieces of a curve, is counted once.
 // No allocation, noexcept, bounded work.
 #pragma once
 

@@ -1,8 +1,8 @@
 // An axis-aligned bounding-volume hierarchy over the pieces of a centreline.
 //
-// An implicit complete binary tree in one array: node 1 is the root, 2i and 2i+1 are the children of i.  The
-// pieces are ordered along the beam, so neighbours share a parent and the tree never has to be rebuilt, only
-// its boxes refitted (each box holds the control points, hence the curve).
+// An implicit complete binary tree in one array: node 1 is the root, 2i and 2i+1 are the children of i. The pieces are
+// ordered along the beam, so neighbours share a parent. The tree is never rebuilt; its boxes are refitted. A box holds
+// the control points, hence the curve.
 // Allocates in its constructor only.  refit is O(n), the queries are O(log n) where the curve is not crowded
 // around the point and O(n) at worst; all noexcept.
 #pragma once

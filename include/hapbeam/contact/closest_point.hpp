@@ -1,9 +1,9 @@
-// The point of a cubic, in a plane or in space, that is nearest to a given point, or in space to a shaft: the global minimum
-// over t in [0, 1].
+// The point of a cubic that is nearest to a given point, in a plane or in space, or to a shaft in space: the global
+// minimum over t in [0, 1].
 //
-// With p(t) = C(t) - q the distance is stationary where g(t) = p . p' = 0, a polynomial of degree five.  Its
-// Bernstein coefficients are short sums of dot products of control points, and their signs isolate the
-// minima; nearly always there is none (an end is nearest) or one.  The cubic may be any, loops included.
+// With p(t) = C(t) - q the distance is stationary where g(t) = p . p' = 0, a polynomial of degree five. Its Bernstein
+// coefficients are short sums of dot products of control points. Their signs isolate the minima: nearly always one or
+// none, in which case an end is nearest. The cubic is arbitrary, loops included.
 // No allocation, noexcept, bounded work.
 #pragma once
 

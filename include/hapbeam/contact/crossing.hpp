@@ -1,7 +1,7 @@
 // Where a straight path crosses a plane cubic, for an avatar that moves farther in a tick than it is thick.
 //
-// The signed distance of the cubic from the path's line is itself a cubic in t with the same Bernstein
-// weights; each of its roots is a crossing if it lies between the path's ends.
+// The signed distance of the cubic from the path's line is a cubic in t with the same Bernstein weights. Each of its
+// roots between the path's ends is a crossing.
 // No allocation, noexcept, bounded work.
 #pragma once
 

@@ -1,9 +1,8 @@
-// Does the avatar touch the deformed beam: where, how deep, and from which side?
+// The contact of the avatar with the deformed beam: place, depth and side.
 //
-// The beam is the set of points within half its thickness of the centreline, so its ends are round.  Left of
-// the centreline's direction (above, where it runs along x) is side +1, right of it -1.  A beam is thin and a
-// hand is fast: the side from which the beam was touched is remembered, and a step that crossed the
-// centreline is contact however far it went.
+// The beam is the set of points within half its thickness of the centreline, so its ends are round. Left of the
+// centreline's direction (above, where it runs along x) is side +1, right of it -1. A beam is thin and a hand is fast.
+// The side of the touch is therefore stored, and a step that crossed the centreline is contact, however long it was.
 // No allocation, noexcept, bounded work.
 #pragma once
 
@@ -16,7 +15,7 @@
 
 namespace hapbeam {
 
-/// What the avatar and the beam have to do with each other.  Without contact it describes the nearest point.
+/// The contact of avatar and beam, or, without contact, the nearest point.
 /// @tparam D  2 | 3
 template <typename Scalar, int D = 2>
 struct Contact {
@@ -31,7 +30,7 @@ struct Contact {
   VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< unit, out of the beam on the touched side
 };
 
-/// What must be known of the tick before.  Starts empty.
+/// State from tick to tick.  Starts empty.
 /// @tparam D  2 | 3, which find_rod_contact.hpp has
 template <typename Scalar, int D = 2>
 struct ContactMemory {
@@ -64,7 +63,7 @@ FootFrame<Scalar> foot_frame(const CentrelinePart<Scalar>& part,
   return frame;
 }
 
-/// What there is to say of the nearest point.
+/// The contact at the nearest point.
 /// @param nearest  its index within the part   @param crossings  of the avatar's step, called where it may have crossed the beam
 template <typename Scalar, class Crossed>
 Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const CentrelinePart<Scalar>& part,
@@ -135,9 +134,9 @@ template <typename Scalar>
                             [&] { return volumes.crossings(centreline, memory.position, avatar.position); });
 }
 
-/// True where find_contact() would find none, because the avatar is farther from the box around the beam than
-/// its own size and its last step; then this takes its place, for the price of a box.  False says nothing and
-/// changes nothing.
+/// True if find_contact() would find no contact, because the avatar is farther from the box around the beam than its
+/// own size and its last step. It then replaces find_contact(), at the cost of a box. If false, nothing is decided and
+/// nothing changes.
 /// Real-time: noexcept, no allocation, O(1).
 template <typename Scalar>
 [[nodiscard]] bool out_of_reach(const Avatar<Scalar>& avatar, const BoundingVolumes<Scalar>& volumes,

@@ -1,9 +1,9 @@
-// The contact of a touch that goes on: sought where it was, with a proof that no other piece came nearer.
+// The contact of a lasting touch: sought near the last one, with a proof that no other piece is nearer.
 //
-// In its range a beam of moderate rotation runs along x without turning back.  What is nearer to the avatar's centre q than the nearest point that
-// a few pieces have, at distance d, lies between q.x - d and q.x + d; where these pieces reach beyond that on both sides, or to the
-// beam's end, nothing else has to be looked at, or to be computed.
-// Beams of any rotation may come near from anywhere: they are searched with bounding volumes, find_contact().
+// In its range a beam of moderate rotation runs along x without turning back. Let d be the distance of the avatar's
+// centre q from the nearest point of a few pieces. Any nearer point lies between q.x - d and q.x + d. If the pieces
+// cover that interval, or reach the beam's end, no other piece is searched or computed.
+// Beams of finite rotation may approach from any side: find_contact() searches them with bounding volumes.
 // Real-time: noexcept, no allocation; the cost of three or four pieces whatever the size of the beam.
 #pragma once
 

@@ -1,9 +1,9 @@
-// Does a sphere or a capsule touch the deformed rod: where, how deep, and along which normal?
+// The contact of a sphere or a capsule with the deformed rod: place, depth and normal.
 //
-// A rod is the set of points within half its thickness of the centreline, and has no sides: the normal is the way from the
-// nearest point of the centreline to the avatar's axis.  A rod is thin and a hand is fast: the way since the last tick is looked
-// at in steps of half the reach.  What touched first on it is touched from there, as deep as the avatar has gone along that normal,
-// until the avatar has gone round.
+// A rod is the set of points within half its thickness of the centreline. It has no sides: the normal points from the
+// nearest point of the centreline to the avatar's axis. A rod is thin and a hand is fast, so the motion since the last
+// tick is sampled in steps of half the reach. A rod that the motion meets is touched from the side of the first
+// meeting, with the depth along that normal, until the avatar has moved around it.
 // No allocation, noexcept, bounded work.
 #pragma once
 

@@ -1,9 +1,9 @@
-// How contact asks a model that is pressed across the beam.
+// Contact by a model that is pressed across the beam.
 //
-// Along the normal n the depth is closed by moving the foot point by depth / n_w across the beam, Newton's step for
-// depth = 0; a resting avatar is therefore met exactly after a few ticks.  Without friction the force acts along n, and
-// its transverse component is the model's; the axial one follows (it is the work-conjugate of moving the contact along
-// the deformed beam).
+// The depth along the normal n is removed by moving the foot point by depth / n_w across the beam, Newton's step for
+// depth = 0. With a standing avatar this is exact after a few ticks. Without friction the force acts along n. Its
+// transverse component is the model's. The axial one follows from it, and is work-conjugate to a motion of the contact
+// along the deformed beam.
 // Real-time: noexcept, no allocation; one press.
 #pragma once
 

@@ -1,8 +1,9 @@
-// How contact asks a model that can be pushed along any direction: the avatar is a circle on a curve that yields, in space a
+// Contact by a model that can be pushed along any direction. The avatar is a circle on a deformable curve, in space a
 // capsule.
 //
-// The model lays its centreline at the distance `reach` from the avatar's centre or axis and says where the two touch.  It
-// begins beside the nearest point, moved on as the point has moved in the two ticks before while the beam yielded: there its
+// The model places its centreline at the distance `reach` from the avatar's centre or axis, and returns the point of
+// contact. It starts at the nearest point plus the motion of that point in the last two ticks: its mesh has a node
+// there already.
 // mesh has a node already.
 // Real-time: noexcept, no allocation; one push.
 #pragma once
@@ -58,7 +59,7 @@ class PushContact {
     // Pushed along itself an end has no place on the circle any more: it slips off.
     if ((lost || pushed.status == Status::iteration_limit) && pushed.past_end)
       return {Hold::lost, 0, pushed.status};
-    // A point that was not found says nothing of the way: continued, what it is off by would come back larger.
+    // A point that was not found is not extrapolated: its error would grow.
     before_ = pushed.miss == 0 ? slid_ : pushed.s - first;
     slid_ = pushed.s - first;
     contact.s = pushed.s;

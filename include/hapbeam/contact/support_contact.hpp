@@ -1,9 +1,10 @@
 // How contact ends at a support: past an end that holds w the hand touches a fixed point.
 //
-// Such an end does not yield.  The force has the size that the nearest place in range takes for as much depth, and acts along
-// the way from the end to the avatar's centre: it is a function of their distance, so no way round the end gains work.
-// A roller holds w and slides.  A touch that begins past it meets the fixed point as well; one that comes from inside, whose
-// press has drawn the end from under the avatar, has slipped off.
+// Such an end does not yield. The force has the size of a press by the same depth at the nearest place in range. It
+// acts along the line from the end to the avatar's centre. It depends on their distance alone, so a closed path around
+// the end gains no work.
+// A roller holds w and slides. A touch that begins past it meets the fixed point, too. A touch from inside, whose press
+// has drawn the end from under the avatar, has slipped off.
 // Real-time: noexcept, no allocation; at most one press.
 #pragma once
 

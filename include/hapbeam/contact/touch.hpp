@@ -1,9 +1,10 @@
-// From the hand's position to the force on the hand: contact, press and unilateral law, one call a tick, in a plane or in space.
+// The force on the hand for a position of the hand: contact, press and unilateral law, one call a tick, in a plane or
+// in space.
 //
-// Knows the ForceModel contract and no particular model.  Each tick finds the contact on the shape of the
-// last press and asks the model for the displacement that would just end the penetration: along the normal where the
-// model can be pushed along any direction (push_contact.hpp), across the beam where it cannot (press_contact.hpp), and not
-// at all past an end that holds w (support_contact.hpp).  The force acts along the normal and never pulls.
+// It depends on the ForceModel contract alone. Each tick finds the contact on the shape of the last press. It then
+// prescribes the displacement that removes the penetration: along the normal if the model can be pushed along any
+// direction (push_contact.hpp), else across the beam (press_contact.hpp). Past an end that holds w there is no press
+// (support_contact.hpp). The force acts along the normal and never pulls.
 // Allocates and throws in its constructor only.
 #pragma once
 
@@ -23,7 +24,7 @@
 
 namespace hapbeam {
 
-/// What one tick says.
+/// The result of a tick.
 /// @tparam D  of the space in which the beam bends: 2 | 3
 template <typename Scalar, int D = 2>
 struct TouchResult {
@@ -40,7 +41,7 @@ struct TouchResult {
                       0};  ///< what was asked of the model, in space along the normal; zero where nothing was
 };
 
-/// One avatar on one beam.  Between ticks the model may be read by others but pressed by nobody else.
+/// One avatar on one beam.  Between ticks others may read the model, but only this object presses it.
 template <typename Model>
 class Touch {
   static_assert(
@@ -80,7 +81,7 @@ class Touch {
     reset();
   }
 
-  /// Lets go of the beam and forgets where the hand was.
+  /// Releases the beam and discards the place of the hand.
   /// Real-time: as Model::reset, and O(n).
   void reset() noexcept {
     memory_ = {};
@@ -114,7 +115,7 @@ class Touch {
     pusher_.friction_state().stiffness = stiffness;
     pusher_.friction_state().damping = damping;
   }
-  /// Nothing is left of the last touch: the beam is at rest, and whoever comes next touches it anew.
+  /// Ends the touch: the beam is untouched, and the next contact is a new one.
   [[nodiscard]] bool resting() const noexcept { return !pressing_ && !falling_ && !inside_; }
 
   /// The contact of the beam as it lies now with the avatar, gone straight to a place from that of the last tick.
@@ -157,7 +158,7 @@ class Touch {
     result.dissipated = pusher_.friction_state().dissipated;
   }
 
-  /// Fitted to the present shape.  A touch that goes on seldom needs them.
+  /// Fitted to the present shape.  A lasting touch seldom requires them.
   const Volumes& volumes() noexcept {
     if (moved_) refit();
     return volumes_;

@@ -185,7 +185,7 @@ class BeamSystem {
     return false;
   }
 
-  // What NewtonRaphson asks of a system.
+  // Required by NewtonRaphson.
 
   void set_target(Scalar t) noexcept {
     const auto between = [t](Scalar start, Scalar goal) { return t < 1 ? start + t * (goal - start) : goal; };
@@ -219,7 +219,7 @@ class BeamSystem {
     return {status, increment()};
   }
 
-  // What Descent asks beyond that: the two halves of an iteration.
+  // Required by Descent, in addition: the two halves of an iteration.
 
   /// Assembles and solves for an increment, and leaves the state as it is.
   /// @param shift  what is added to the tangent: so many times EI/L³ on each displacement and EI/L on each rotation,
@@ -264,7 +264,7 @@ class BeamSystem {
     detail::nudge(beam_.nodes(), c < 0 ? Scalar(-1) : node(c).s, size);
   }
 
-  // What LoadPath asks beyond that.
+  // Required by LoadPath, in addition.
 
   /// Largest rotation of a node in the last increment [rad].
   Scalar turn() const noexcept {

@@ -60,7 +60,7 @@ class CapsuleOnCurve {
     return curvature_.dot(way) * distance > sharpest * std::sqrt(way.squaredNorm());
   }
 
-  /// What there is to say of the capsule while the node is here.
+  /// Distance of the capsule, and its derivatives, at the present node.
   struct View {
     Vector3 normal;   ///< n, out of the curve to the axis
     Scalar distance;  ///< D [m]

@@ -35,7 +35,7 @@ class CircleOnCurve {
   /// Whether the curve is too sharp for all this.  @param distance  from it [m]
   bool sharp(Scalar distance) const noexcept { return curvature_ * distance > sharpest; }
 
-  /// What there is to say of the circle while the node is here.
+  /// Distance of the circle, and its derivatives, at the present node.
   struct View {
     Vector2<Scalar> normal;  ///< n*
     Scalar distance;         ///< D [m]; negative where the centre is on the other side

@@ -18,7 +18,7 @@
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
 // and allocation-free; a press, a push or a release takes at most solver.max_solves linear solves of O(elements), the way of
 // a beam that falls included, and two more on each mesh where it gives way.  What is not done then is
-// iteration_limit: the force is that of the last equilibrium, and the next call goes on.
+// iteration_limit: the force is that of the last equilibrium, and the next call continues.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Where a beam will lie that a hand goes on pressing: each node goes on as it went in the push before.
+// Extrapolated initial guess of a lasting press: each node moves as in the push before.
 //
 //   x₊ = x + r (x - x₋) + e ∂x/∂s        e = s₊ - s - r (s - s₋)
 //

@@ -187,7 +187,7 @@ class RodSystem {
   /// To be called where the beam has moved.
   void look_at_friction() noexcept { friction_->look(contact_, node(contact_.node())); }
 
-  // What NewtonRaphson asks of a system.
+  // Required by NewtonRaphson.
 
   void set_target(Scalar t) noexcept {
     const auto between = [t](Scalar start, Scalar goal) { return t < 1 ? start + t * (goal - start) : goal; };
@@ -235,7 +235,7 @@ class RodSystem {
     return {status, increment()};
   }
 
-  // What Descent asks beyond that: the two halves of an iteration.
+  // Required by Descent, in addition: the two halves of an iteration.
 
   /// Assembles and solves for an increment, and leaves the state as it is.
   /// @param shift  what is added to the tangent: so many times EI/L³ on each place and EI/L on each rotation, shared out
@@ -333,7 +333,7 @@ class RodSystem {
     for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
   }
 
-  // What LoadPath asks beyond that.
+  // Required by LoadPath, in addition.
 
   /// Largest rotation of a node in the last increment [rad].
   Scalar turn() const noexcept {

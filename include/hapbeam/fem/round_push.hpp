@@ -1,4 +1,5 @@
-// A beam is laid on a circle, a rod on a capsule: a push whose place and direction are found with the equilibrium.
+// A push of a beam by a circle, or of a rod by a capsule. Place and direction of the contact are found with the
+// equilibrium.
 //
 // The mesh has its node where the two were thought to touch, and follows where they do if that is not beside it.  A hand that goes on as it went finds
 // a beam where it was foreseen.  Where the beam bends as sharply as the circle, or may, beside a support, a plane stands for the circle and turns
@@ -224,7 +225,7 @@ class RoundPush {
   bool sharp_ = false;  // where the last circle touched
 };
 
-/// Of a beam that is not laid on circles.
+/// Of a beam that is not pushed by circles.
 struct NoRound {
   template <class System>
   explicit NoRound(const System&) noexcept {}

@@ -20,7 +20,7 @@ struct Verdict {
   double error;  ///< [-] largest relative error of the force that was seen; infinite where it did not answer
   double tick;   ///< [s] expected time of a press
   bool right;    ///< whether the error is small enough
-  std::string refusal;  ///< why it could not be built; empty where it could
+  std::string refusal;  ///< reason why it could not be built, or empty
 };
 
 struct Choice {

@@ -1,4 +1,4 @@
-// What a scene asks of a model: a beam, where and how deep it is pressed, and what error and time are allowed.
+// The requirements of a scene: a beam, where and how deep it is pressed, and the tolerated error and time.
 //
 // Offline: throws std::invalid_argument naming field, value, unit and what is allowed.
 #pragma once

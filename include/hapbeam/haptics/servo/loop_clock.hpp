@@ -19,7 +19,7 @@ class LoopClock {
   explicit LoopClock(double period)
       : period_(detail::loop_period("device period", period)), longest_((std::max)(0.1, 2 * period)) {}
 
-  /// @param time [s] now, by a clock that goes on   @return [s]
+  /// @param time [s] now, by a monotonic clock   @return [s]
   double passed(double time) noexcept {
     const double dt = time - time_;
     if (!std::isfinite(time)) return period_;

@@ -51,7 +51,7 @@ constexpr const char* message(RealTime result) noexcept {
   return "this system has no real-time set-up that is known here; the loop runs without";
 }
 
-/// The calling thread goes before all ordinary ones (SCHED_FIFO), and yields to nobody of lower priority.
+/// The calling thread goes before all ordinary ones (SCHED_FIFO), and is not preempted by a thread of lower priority.
 /// @param priority  1 to 99; the kernel's own threads are at 50 and 99
 /// noexcept, no allocation; a few system calls, so not in every tick.
 [[nodiscard]] inline RealTime set_real_time_priority(int priority) noexcept {

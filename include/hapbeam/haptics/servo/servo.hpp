@@ -130,7 +130,7 @@ class Servo {
   using Picture = typename Drawn<Model>::Picture;
   static constexpr int dimension = detail::dimension_of_touch<Touch<Model>>;
 
-  /// @param model   kept by reference; nobody else presses it
+  /// @param model   kept by reference, and pressed by this object alone
   /// @param device  what the loop's device can do; its limits are the guard's
   /// @param coupling  in the device's metres; its figures, too, are for placement.scale() to change
   /// @throws std::invalid_argument naming field, value, unit and what is allowed
@@ -220,7 +220,7 @@ class Servo {
     else energy_.observe(state.position, force, dt);
   }
 
-  /// The hand is where nobody knows: it touches nothing.
+  /// The position of the hand is unknown: no contact.
   void release() noexcept {
     touch_.reset();
     coupling_.reset();

@@ -75,7 +75,7 @@ class TimeHistogram {
   }
   static constexpr std::size_t bins = per_octave * octaves;
 
-  /// What was counted when it was read, while the servo goes on adding.
+  /// The counts at the time of reading; the servo continues to add.
   struct Moment {
     std::array<std::uint64_t, bins> counts;
     std::uint64_t total = 0;
