@@ -39,6 +39,7 @@ hapbeam::ServoOptions servo_options(const Options& options, const hapbeam::Centr
   hapbeam::ServoOptions servo;
   servo.placement = placement(pressed(options, rest), reach_of(options), options.scale);
   servo.avatar_radius = options.radius;
+  servo.friction = hapbeam::Friction(options.friction, options.friction);
   return servo;
 }
 
@@ -100,7 +101,9 @@ class Live final : public Body {
   }
 
   Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept override {
+    const double before = record().dissipated;
     const Eigen::Vector3d force = servo_.tick(state);
+    dissipated_ += record().dissipated < before ? record().dissipated : record().dissipated - before;
     if constexpr (dimension == 3) deepest_ = std::max(deepest_, depth(record()));
     if constexpr (hapbeam::has_internal_forces<Model>)
       if (record().pressing && record().ticks % 8 == 0)
@@ -112,6 +115,7 @@ class Live final : public Body {
     servo_.reset();
     deepest_ = 0;
     peak_ = {0, 0};
+    dissipated_ = 0;
   }
   const std::vector<DrawnBeam>& beams() noexcept override {
     for (DrawnBeam& beam : beams_) beam.shape = rest();
@@ -131,6 +135,7 @@ class Live final : public Body {
   }
   double deepest() const noexcept override { return dimension == 3 ? deepest_ : record().max_press; }
   hapbeam::PeakStrain<double> peak() const noexcept override { return peak_; }
+  double dissipated() const noexcept override { return dissipated_; }
   const hapbeam::TickTimes& times() const noexcept override { return servo_.times(); }
   std::uint64_t full_answers() const noexcept override {
     return parts_.full_answers ? parts_.full_answers->load() : 0;
@@ -148,6 +153,7 @@ class Live final : public Body {
   std::vector<DrawnBeam> beams_;
   double deepest_ = 0;  // [m] of a rod
   hapbeam::PeakStrain<double> peak_{0, 0};
+  double dissipated_ = 0;  // [J]
 };
 
 template <typename Model>

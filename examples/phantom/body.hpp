@@ -47,6 +47,7 @@ class Body {
   virtual double deepest() const noexcept = 0;  ///< [m] magnitude that was asked, as the report has it
   /// Largest strain of the run, as every eighth tick shows it; 0 where the model does not tell.
   virtual hapbeam::PeakStrain<double> peak() const noexcept = 0;
+  virtual double dissipated() const noexcept = 0;  ///< [J] dissipated by friction, in all touches
   virtual const hapbeam::TickTimes& times() const noexcept = 0;
   virtual std::uint64_t full_answers() const noexcept = 0;  ///< of the full model of a guarded one
   virtual const Options& options() const noexcept = 0;      ///< the coupling's figures filled in

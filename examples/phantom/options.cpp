@@ -61,6 +61,10 @@ cli::Entries entries(Options& o) {
       figure("--duration", "S", "of the whole script [s], 1 to 86400; 10 by default", o.duration, 1, 86400,
              "s"),
       figure("--radius", "M", "of the avatar [m]; 0.005 by default", o.radius, 0, 0.1, "m"),
+      figure("--friction", "MU",
+             "coefficient of friction between avatar and beam, 0 to 2; 0 by default.  Of beams of finite "
+             "rotation and rods",
+             o.friction, 0, 2, ""),
       figure("--scale", "X",
              "metres of the scene for one metre of the device; the scene's by default, or 1.  Forces are "
              "never scaled",

@@ -36,6 +36,7 @@ struct Options {
       0.012;  ///< [m] that the hand aims below the beam's surface; at 500 N/m no beam is too stiff then
   double duration = 10;   ///< [s]
   double radius = 0.005;  ///< [m] of the avatar
+  double friction = 0;    ///< coefficient, between avatar and beam
   double scale = 1;       ///< metres of the scene for one of the device
   CouplingChoice coupling = CouplingChoice::virtual_coupling;
   double stiffness;        ///< [N/m] of the coupling; not a number: what the device can render

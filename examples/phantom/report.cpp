@@ -47,6 +47,7 @@ Run Run::of(Session& session, bool interrupted, const hapbeam::TimeSummary& pict
           body.times(),
           body.deepest(),
           body.peak(),
+          body.dissipated(),
           session.device().counts(),
           body.full_answers(),
           session.device().priority(),
@@ -68,6 +69,7 @@ void print_scene(const Options& o, const Trained* trained, const hapbeam::Device
   std::printf("hand     %s, at %g m, aims %g mm below the surface, %g s; avatar of radius %g mm\n",
               o.script == Script::around ? "around: from above, the front and below" : name(o.script),
               o.place, o.depth * 1e3, o.duration, o.radius * 1e3);
+  if (o.friction > 0) std::printf("friction coefficient %g between avatar and beam\n", o.friction);
   std::printf("scale    %g m of the scene for 1 m of the device; forces 1 : 1\n", o.scale);
   if (o.coupling == CouplingChoice::direct)
     std::printf("coupling direct: the hand presses the beam itself\n");
@@ -115,6 +117,7 @@ void print_summary(const Run& run) {
   if (run.peak.strain > 0)
     std::printf("strain   %.2g %% at the surface where it was largest, at %.1f mm: %.3g MPa\n",
                 100 * run.peak.strain, run.peak.s * 1e3, run.peak.strain * run.options.beam.young * 1e-6);
+  if (run.options.friction > 0) std::printf("friction took %.2g J\n", run.dissipated);
   if (run.options.guarded)
     std::printf("model    %s answered %llu of them, finite elements %llu\n", run.trained->kind,
                 number(r.contact_ticks - std::min(run.full_answers, r.contact_ticks)),
@@ -197,6 +200,7 @@ std::string json(const Run& run) {
       .add("place_m", o.place)
       .add("depth_m", o.depth)
       .add("radius_m", o.radius)
+      .add("friction", o.friction)
       .add("scale", o.scale)
       .add("duration_s", o.duration)
       .add("interrupted", run.interrupted)
@@ -217,6 +221,7 @@ std::string json(const Run& run) {
       .add("max_force_N", r.max_force)
       .add("force_cut_ticks", run.counts.force_cut_ticks)
       .add("force_saturated_ticks", r.saturated_ticks)
+      .add("friction_J", run.dissipated)
       .add("energy_generated_J", r.energy_generated)
       .add("max_status", name(r.worst))
       .text();

@@ -27,6 +27,7 @@ struct Run {
   const hapbeam::TickTimes& times;
   double deepest;  ///< [m]
   hapbeam::PeakStrain<double> peak;
+  double dissipated;  ///< [J] dissipated by friction
   hapbeam::DeviceCounts counts;
   std::uint64_t full_answers;  ///< of the full model of a guarded one
   hapbeam::RealTime priority;  ///< of the servo's thread

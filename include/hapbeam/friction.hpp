@@ -55,6 +55,7 @@ struct FrictionState {
   // Of its last contact.
   bool known = false;              ///< there is one
   bool slides = false;             ///< it slid
+  bool settled = true;             ///< its force is Coulomb's, to a tenth of its bound at worst
   Scalar s = 0;                    ///< [m] arc position
   Scalar place = 0;                ///< [m] of the contact along the avatar's axis
   Vector normal = Vector::Zero();  ///< unit, out of the beam
@@ -74,6 +75,7 @@ struct FrictionState {
   /// Nothing is left of its last contact.
   void let_go() noexcept {
     known = slides = false;
+    settled = true;
     skin.setZero(), force.setZero();
   }
 };

@@ -7,10 +7,10 @@
 using namespace hapbeam;
 using namespace hapbeam::testing;
 
-namespace {
+namespace rod_tangent {
 
-Eigen::MatrixXd tangent;   // of the last system, before ends and contact are held
-Eigen::VectorXd residual;  // likewise
+static Eigen::MatrixXd tangent;   // of the last system, before ends and contact are held
+static Eigen::VectorXd residual;  // likewise
 
 /// Keeps what is added.
 template <typename Scalar, int Elements, int MaxElements, int Block>
@@ -46,6 +46,12 @@ class Recorder : public Dense<Scalar, Elements, MaxElements, Block> {
  private:
   int elements_;
 };
+
+}  // namespace rod_tangent
+
+using namespace rod_tangent;
+
+namespace {
 
 template <class Element>
 void check_tangent(const Rod& rod, int elements) {

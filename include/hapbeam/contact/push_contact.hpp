@@ -68,6 +68,8 @@ class PushContact {
     contact.point = pushed.point + pushed.normal * (model.thickness() / 2);
     contact.past_end = pushed.past_end;
     Status status = lost ? Status::iteration_limit : pushed.status;
+    if (status == Status::ok && friction_.sticking > 0 && !friction_.settled)
+      status = Status::iteration_limit;
     if (status == Status::ok && !pushed.past_end && pinched(model.shape(), pushed.s, avatar, reach))
       status = Status::out_of_range;
     return {Hold::pressing, -pushed.force, status};

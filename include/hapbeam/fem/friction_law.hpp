@@ -40,6 +40,8 @@ class FrictionLaw {
 
   /// Force and direction are as exact as that, in units of the bound.
   static constexpr Scalar exact = Scalar(1e-6);
+  /// Where that was not reached within most_tries equilibria, an error that large is no answer any more.
+  static constexpr Scalar loose = Scalar(0.1);
 
   /// @param first  where the two would touch before the beam yields: where a touch begins
   /// @param reach  [m] from the avatar's axis to the centreline   @param stiffest  [N/m] that the scalar allows
@@ -185,6 +187,9 @@ class FrictionLaw {
     if (fallen_) state.force.setZero(), state.skin.setZero();
     state.known = true;
     state.slides = slides_ && !fallen_;
+    // Where the tries have ended before the changes: what acted, and what should have.
+    state.settled = tries_ <= most_tries || fallen_ ||
+                    (slides_ ? norm(state.force - force_at(used_)) <= loose * most : !slid);
     state.s = now_.s, state.normal = now_.normal, state.along = now_.along;
     state.place = now_.place, state.axis = now_.axis;
     state.gain = gain_;
