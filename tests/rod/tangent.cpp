@@ -9,8 +9,8 @@ using namespace hapbeam::testing;
 
 namespace rod_tangent {
 
-static Eigen::MatrixXd tangent;   // of the last system, before ends and contact are held
-static Eigen::VectorXd residual;  // likewise
+static Eigen::MatrixXd assembled_tangent;  // of the last system, before ends and contact are held
+static Eigen::VectorXd residual;           // likewise
 
 /// Keeps what is added.
 template <typename Scalar, int Elements, int MaxElements, int Block>
@@ -24,12 +24,13 @@ class Recorder : public Dense<Scalar, Elements, MaxElements, Block> {
   void add_pairs(int first, Tangent& K, Residual& r) noexcept {
     const detail::PairOrder order{elements_};
     const int size = Block * (elements_ + 1);
-    if (first == 0) tangent = Eigen::MatrixXd::Zero(size, size), residual = Eigen::VectorXd::Zero(size);
+    if (first == 0)
+      assembled_tangent = Eigen::MatrixXd::Zero(size, size), residual = Eigen::VectorXd::Zero(size);
     for (int k = 0; k < r[0].size && first + k < 2 * order.pairs(); ++k) {
       const int e = order.element(first + k);
       for (int i = 0; e >= 0 && i < 2 * Block; ++i) {
         residual[Block * e + i] += r[i][k];
-        for (int j = 0; j < 2 * Block; ++j) tangent(Block * e + i, Block * e + j) += K(i, j)[k];
+        for (int j = 0; j < 2 * Block; ++j) assembled_tangent(Block * e + i, Block * e + j) += K(i, j)[k];
       }
     }
     Base::add_pairs(first, K, r);
@@ -38,7 +39,7 @@ class Recorder : public Dense<Scalar, Elements, MaxElements, Block> {
   void add_at(int node, const Tangent& K, const Residual& r) noexcept {
     for (int i = 0; i < Block; ++i) {
       residual[Block * node + i] += r[i];
-      for (int j = 0; j < Block; ++j) tangent(Block * node + i, Block * node + j) += K(i, j);
+      for (int j = 0; j < Block; ++j) assembled_tangent(Block * node + i, Block * node + j) += K(i, j);
     }
     Base::add_at(node, K, r);
   }
@@ -75,7 +76,7 @@ void check_tangent(const Rod& rod, int elements) {
   system.set_goal(c, -reach, beside);
   system.set_target(1);
   REQUIRE(system.factor(0) == Status::ok);
-  const Eigen::MatrixXd K = tangent;
+  const Eigen::MatrixXd K = assembled_tangent;
   typename System::State state(elements);
   system.keep(state);
   const ContactMesh<double> mesh = system.mesh();

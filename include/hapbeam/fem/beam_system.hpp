@@ -213,7 +213,7 @@ class BeamSystem {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
     force_ = linear_reaction_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
-    for (auto& other : others_) other.force = other.reaction = assembler_.reaction(other.row);
+    others_.each([this](auto& other) { other.force = other.reaction = assembler_.reaction(other.row); });
     if (friction_) friction_->feel(-force_);
     advance();
     return {status, increment()};
@@ -385,7 +385,7 @@ class BeamSystem {
         assembler_.prescribe(end(k), component, target - now);
       });
     if (c >= 0) assembler_.hold(c, 1, d_ - contact_.displacement());
-    for (auto& other : others_) hold(other);
+    others_.each([this](auto& other) { hold(other); });
     return assembler_.solve();
   }
 
@@ -433,7 +433,8 @@ class BeamSystem {
   detail::ContactPoint<Scalar, any_rotation<Element>> contact_;
   using Rows = Assembler<Scalar, Elements, MaxElements, 3>;
   using Point = detail::ContactPoint<Scalar, any_rotation<Element>>;
-  detail::OtherContacts<detail::OtherContact<Point, Scalar, typename Rows::HeldRow>, contacts_of<Element> - 1>
+  detail::OtherContacts<detail::OtherContact<Point, Scalar, typename detail::HeldRowOf<Rows>::Type>,
+                        contacts_of<Element> - 1>
       others_;
   Friction* friction_ = nullptr;
   Scalar length_;

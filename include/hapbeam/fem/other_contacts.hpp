@@ -6,8 +6,19 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 namespace hapbeam::detail {
+
+/// What an assembler keeps to answer for its reaction(); an assembler for one contact need not have it.
+template <class Assembler, typename = void>
+struct HeldRowOf {
+  struct Type {};
+};
+template <class Assembler>
+struct HeldRowOf<Assembler, std::void_t<typename Assembler::HeldRow>> {
+  using Type = typename Assembler::HeldRow;
+};
 
 /// @tparam Point  ContactPoint | RodContact   @tparam Row  of the assembler, to ask for the reaction
 template <class Point, typename Scalar, class Row>
@@ -29,6 +40,10 @@ class OtherContacts {
   const Contact* end() const noexcept { return all_.data() + size_; }
   Contact& operator[](int k) noexcept { return all_[static_cast<std::size_t>(k)]; }
   const Contact& operator[](int k) const noexcept { return all_[static_cast<std::size_t>(k)]; }
+  template <class F>
+  void each(F&& f) noexcept {
+    for (Contact& contact : *this) f(contact);
+  }
   void clear() noexcept { size_ = 0; }
   Contact& add() noexcept { return all_[static_cast<std::size_t>(size_++)] = {}; }
   /// That of a node, null: none.
@@ -47,6 +62,9 @@ class OtherContacts<Contact, 0> {
  public:
   Contact* begin() const noexcept { return nullptr; }
   Contact* end() const noexcept { return nullptr; }
+  /// f is not even compiled.
+  template <class F>
+  void each(F&&) noexcept {}
   void clear() noexcept {}
   const Contact* at(int) const noexcept { return nullptr; }
 };

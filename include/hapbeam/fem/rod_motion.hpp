@@ -48,7 +48,6 @@ void move_tangents(Nodes& nodes, Increment&& increment) noexcept {
     const auto abreast = Abreast<Scalar>::from(first, last);
     RodNode<Wide> node = gather_nodes(abreast, nodes);
     VectorOf<Wide, 3> change;
-    HAPBEAM_UNROLL
     for (int c = 0; c < 3; ++c) change[c] = gather(abreast, [&](int i) { return increment(i)[3 + c]; });
     if constexpr (twists) {
       const Wide twist = gather(abreast, [&](int i) { return increment(i)[6]; });
