@@ -213,7 +213,7 @@ class BeamSystem {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
     force_ = linear_reaction_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
-    others_.each([this](auto& other) { other.force = other.reaction = assembler_.reaction(other.row); });
+    others_.each([&](auto& other) { other.force = other.reaction = assembler_.reaction(other.row); });
     if (friction_) friction_->feel(-force_);
     advance();
     return {status, increment()};
@@ -385,7 +385,7 @@ class BeamSystem {
         assembler_.prescribe(end(k), component, target - now);
       });
     if (c >= 0) assembler_.hold(c, 1, d_ - contact_.displacement());
-    others_.each([this](auto& other) { hold(other); });
+    others_.each([&](auto& other) { hold(other); });
     return assembler_.solve();
   }
 

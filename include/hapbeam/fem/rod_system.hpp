@@ -278,14 +278,14 @@ class RodSystem {
     }
     moves_ = 0;
     if (c >= 0) assembler_.hold(c, 2, moves_ = d_ - contact_.displacement());
-    others_.each([this](auto& other) { hold(other); });
+    others_.each([&](auto& other) { hold(other); });
     return assembler_.solve();
   }
   /// Adds the increment to the state: what turns keeps its length.  Without a contact, which would be missed, the chords turn
   /// as the tangents do, from the left end on (as chain.hpp says of the plane).
   void advance() noexcept {
     force_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
-    others_.each([this](auto& other) { other.force = assembler_.reaction(other.row); });
+    others_.each([&](auto& other) { other.force = assembler_.reaction(other.row); });
     for (int i = 0; i <= elements(); ++i) increments_[i] = increment(i);
     Vector3 way = increments_[0].template segment<3>(0),
             r = node(0).r;  // that the last node has gone, and where it was
