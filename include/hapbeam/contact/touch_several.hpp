@@ -27,7 +27,7 @@ namespace hapbeam {
 
 /// A round avatar that a hand moves.
 struct RoundAvatar {
-  /// @param touches  at so many places at most: 2 for one that is wide beside the bends of the beam
+  /// @param radius_  [m]   @param touches_  at so many places at most: 2 for one that is wide beside the bends of the beam
   constexpr RoundAvatar(double radius_, int touches_ = 1) noexcept : radius(radius_), touches(touches_) {}
   double radius;  ///< [m] >= 0
   int touches;
