@@ -111,6 +111,15 @@ class Centreline {
     }
   }
 
+  /// True where no point of piece i is within d of q, as its nodes alone show.  Of finite rotation: its inner control points
+  /// are 0.42 chords from its nodes at most (arc()), hence no point is farther than 3/4 · 0.42 chords from the chord.
+  bool excludes(int i, const Vector2<Scalar>& q, Scalar d) const noexcept {
+    const Node &a = nodes_[i], &b = nodes_[i + 1];
+    const Vector2<Scalar> from(a.s + a.u, a.w), to(b.s + b.u, b.w);
+    const Scalar least = d + Scalar(0.82) * std::sqrt((to - from).squaredNorm());
+    return (q - (from + to) / 2).squaredNorm() > least * least;
+  }
+
   /// Curvature at node i of a centreline of finite rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.
   Scalar curvature(int i) const noexcept {
     using std::nearbyint;

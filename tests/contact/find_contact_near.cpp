@@ -72,17 +72,49 @@ TEST_CASE("near where it was the contact is that of the whole shape, and little 
     CHECK(tried.apart == 0);
     CHECK(tried.found > 10000);
   }
+  SECTION("a ruler of finite rotation, every time") {
+    const Beam ruler(0.3, Section::rectangle(0.03, 0.001), Material{210e9}, Support::clamped, Support::free);
+    const Tried tried = try_random(FemModel<Corotational<>>(ruler, 8), 1000);
+    CHECK(tried.apart == 0);
+    CHECK(tried.elsewhere == 0);
+  }
 }
 
-TEST_CASE("of beams of any rotation, and of what is no position, nothing is said") {
+TEST_CASE("a piece is excluded only where it is farther") {
+  Random random(3);
+  int excluded = 0, wrong = 0;
+  double tightest = 1;
+  for (int k = 0; k < 100000; ++k) {
+    const auto turn = [&random] { return random(3.2); };
+    const double length = random(0.5, 1.5), first = turn(), last = turn(), up = turn(), x = random(10),
+                 w = random(10);
+    const CentrelineNode<double> nodes[] = {{0, 0, 0, first},
+                                            {1, length * std::cos(up) - 1, length * std::sin(up), last}};
+    const Centreline<double> line(nodes, 2, true);
+    const Vector2<double> q(x, w);
+    const double d = std::sqrt(closest_point(line.segment(0), q).distance_squared);
+    const double asked = d * random(0.0, 2.0);
+    if (!line.excludes(0, q, asked)) continue;
+    ++excluded;
+    wrong += asked >= d;
+    tightest = std::min(tightest, 1 - asked / d);
+  }
+  CHECK(wrong == 0);
+  CHECK(excluded > 10000);
+  CHECK(tightest < 0.05);
+}
+
+TEST_CASE("of what is no position nothing is said") {
   const Beam bar = thesis_beam(Support::pinned, Support::pinned);
   FemModel<Corotational<>> turning(bar, 8);
   FemModel<> straight(bar, 8);
   Contact<double> contact;
   ContactMemory<double> memory{{0, 0}, true, true, false, 1};
-  CHECK_FALSE(detail::find_contact_near(turning, 1.0, {{1.0, 0.0}, 0.01}, memory, contact));
   constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(detail::find_contact_near(straight, 1.0, {{1.0, not_a_number}, 0.01}, memory, contact));
   CHECK_FALSE(detail::find_contact_near(straight, 1.0, {{1e200, 0.0}, 0.01}, memory, contact));
+  CHECK_FALSE(detail::find_contact_near(turning, 1.0, {{1.0, not_a_number}, 0.01}, memory, contact));
+  CHECK_FALSE(detail::find_contact_near(turning, 1.0, {{1e200, 0.0}, 0.01}, memory, contact));
   CHECK(detail::find_contact_near(straight, 1.0, {{1.0, 0.0}, 0.01}, memory, contact));
+  CHECK(detail::find_contact_near(turning, 1.0, {{1.0, 0.0}, 0.01}, memory, contact));
 }

@@ -3,8 +3,11 @@
 // In its range a beam of moderate rotation runs along x without turning back. Let d be the distance of the avatar's
 // centre q from the nearest point of a few pieces. Any nearer point lies between q.x - d and q.x + d. If the pieces
 // cover that interval, or reach the beam's end, no other piece is searched or computed.
-// Beams of finite rotation may approach from any side: find_contact() searches them with bounding volumes.
-// Real-time: noexcept, no allocation; the cost of three or four pieces whatever the size of the beam.
+//
+// A beam of finite rotation may approach from any side. A piece is nowhere farther from the middle of its chord than
+// 0.82 chords (Centreline::piece_radius), so that most pieces are excluded without an angle; the others are searched.
+// Real-time: noexcept, no allocation. The cost is that of three or four pieces, and with finite rotation that of a
+// distance for each further piece.
 #pragma once
 
 #include <algorithm>
@@ -38,6 +41,26 @@ NearestPoint<Scalar> nearest_along_x(const Centreline<Scalar>& line, const Vecto
   return best;
 }
 
+/// The nearest point of a whole centreline of finite rotation, to q.
+/// @param beside  the piece that is searched first
+template <typename Scalar>
+NearestPoint<Scalar> nearest_beside(const Centreline<Scalar>& line, int beside,
+                                    const Vector2<Scalar>& q) noexcept {
+  NearestPoint<Scalar> best{beside, closest_point(line.segment(beside), q)};
+  Scalar d = std::sqrt(best.at.distance_squared);
+  const auto look = [&](int i) {
+    if (line.excludes(i, q, d)) return;
+    const ClosestPoint<Scalar> candidate = closest_point(line.segment(i), q);
+    const Scalar a = candidate.distance_squared, b = best.at.distance_squared;
+    if (!(a < b || (a == b && i < best.segment))) return;
+    best = {i, candidate};
+    d = std::sqrt(a);
+  };
+  for (int i = beside - 1; i >= 0; --i) look(i);
+  for (int i = beside + 1; i < line.segments(); ++i) look(i);
+  return best;
+}
+
 /// As find_contact() on the whole of the model's shape, for an avatar that touches it.
 /// @param s  [m] where the last contact was   @param memory  touching   @param contact  out, where the answer is true
 /// @return false where the contact may be elsewhere
@@ -50,11 +73,17 @@ template <class Model>
   constexpr Scalar slack = 1 + 16 * std::numeric_limits<Scalar>::epsilon();
   const Vector2<Scalar>& q = avatar.position;
   const auto x = [](const CentrelineNode<Scalar>& node) { return node.s + node.u; };
+  if (const Centreline<Scalar>& line = model.shape(); line.any_rotation()) {
+    const NearestPoint<Scalar> nearest = nearest_beside(line, line.segment_at(s), q);
+    if (!std::isfinite(nearest.at.distance_squared)) return false;
+    contact = contact_at(nearest, {line, 0, line.segments()}, avatar, model.thickness(), memory,
+                         [] { return Crossings{}; });
+    return true;
+  }
   Scalar low = s, high = s;
   for (int attempt = 0; attempt < 2; ++attempt) {
     const CentrelinePart<Scalar> part = part_of(model, low, high);
     const Centreline<Scalar>& line = part.line;
-    if (line.any_rotation()) return false;
     const NearestPoint<Scalar> nearest = nearest_along_x(line, q);
     if (nearest.segment < 0) return false;
     const Scalar d = std::sqrt(nearest.at.distance_squared) * slack;
