@@ -56,6 +56,16 @@ template <typename S>
   return abs(y) < whole ? twice_atan(y / whole) : atan2(y, x);
 }
 
+/// The same, in the turn in which it is next to another one.
+template <typename S>
+[[gnu::always_inline]] inline S angle_near(S y, S x, S length, S other) noexcept {
+  using std::abs;
+  using std::nearbyint;
+  constexpr S turn = S(6.283185307179586476925);
+  const S principal = angle(y, x, length), turns = (principal - other) * (1 / turn);
+  return abs(turns) < S(0.5) ? principal : principal - turn * nearbyint(turns);
+}
+
 /// cos x and sin x, |x| <= 0.79.
 template <typename S>
 [[gnu::always_inline]] inline void small_turn(const S& x, S& cosine, S& sine) noexcept {

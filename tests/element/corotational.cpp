@@ -3,9 +3,13 @@
 // Energies are no polynomials here.  With steps of 1e-3 of a radian and of the length the five-point rule leaves
 // 1e-12/30 of the fifth derivative, EA 5! over the chord's fourth power, which is down to 0.6 of the length: 3e-11 of EA;
 // and round-off of eps over the step, 1e-12.
+#include <array>
+#include <limits>
+
 #include "element/elements.hpp"
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include <hapbeam/element/pack.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -223,4 +227,70 @@ TEST_CASE("small rotations: the energy is that of von Kármán's element, to the
   INFO("relative differences " << large << ' ' << small);
   CHECK(large <= 0.2 * 0.2);
   CHECK(observed_order(large, small) >= 1.8);
+}
+
+namespace {
+
+/// In units of EA and of the length 1.
+template <typename S>
+std::array<S, 15> numbers(const CoreResponse<S>& c, const S& force, const S& length) {
+  const S energy = 1 / (force * length), stiffness = length / force;
+  std::array<S, 15> all{c.energy, c.s,    c.r,    c.t1,   c.t2,    c.k.ss,  c.k.sr, c.k.s1,
+                        c.k.s2,   c.k.rr, c.k.r1, c.k.r2, c.k.t11, c.k.t12, c.k.t22};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] *= i == 0 ? energy : i < 5 ? 1 / force : stiffness;
+  return all;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("elements side by side answer as each of them alone", "[element][rotation]", double,
+                   float) {
+  using Wide = detail::Pack<TestType>;
+  using Narrow = ElementProperties<TestType>;
+  using Properties = ElementProperties<Wide>;
+  Random random(67);
+  double worst = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    Narrow alone[Wide::size];
+    Vector6<TestType> states[Wide::size];
+    Properties p;
+    Vector6<Wide> d = Vector6<Wide>::Zero();
+    // In every other trial all angles are small; else each lane takes its own way.
+    const double turn = trial % 2 == 0 ? 0.5 : four_turns;
+    for (int k = 0; k < Wide::size; ++k) {
+      const ElementProperties<double> q = random_bent(random);
+      const double phi = random(turn);
+      states[k] = turned(phi, random_state(random, q.length), q.length).template cast<TestType>();
+      const auto put = [&](auto narrow, auto wide, double value) {
+        alone[k].*narrow = static_cast<TestType>(value);
+        (p.*wide).set(k, alone[k].*narrow);
+      };
+      put(&Narrow::length, &Properties::length, q.length);
+      put(&Narrow::inverse_length, &Properties::inverse_length, q.inverse_length);
+      put(&Narrow::axial_stiffness, &Properties::axial_stiffness, q.axial_stiffness);
+      put(&Narrow::axial_per_length, &Properties::axial_per_length, q.axial_per_length);
+      put(&Narrow::bending_per_length3, &Properties::bending_per_length3, q.bending_per_length3);
+      put(&Narrow::natural_a, &Properties::natural_a, q.natural_a);
+      put(&Narrow::natural_b, &Properties::natural_b, q.natural_b);
+      for (int i = 0; i < 6; ++i) d[i].set(k, states[k][i]);
+    }
+    const auto abreast = numbers(Turning::core(p, d), p.axial_stiffness, p.length);
+    for (int k = 0; k < Wide::size; ++k) {
+      const auto one = numbers(Turning::core(alone[k], states[k]), alone[k].axial_stiffness, alone[k].length);
+      for (std::size_t i = 0; i < one.size(); ++i)
+        worst = std::max(worst, static_cast<double>(std::abs(abreast[i][k] - one[i])));
+    }
+  }
+  // A few operations of round-off on angles of up to four turns, 25 rad.
+  CHECK(worst < 100 * static_cast<double>(std::numeric_limits<TestType>::epsilon()));
+}
+
+TEST_CASE("an element of one's own that changes a turning one is not computed side by side",
+          "[element][rotation]") {
+  struct Own : Turning {};
+  STATIC_REQUIRE(goes_abreast<Turning>);
+  STATIC_REQUIRE(goes_abreast<Several<Turning, 2>>);
+  STATIC_REQUIRE_FALSE(goes_abreast<Own>);
+  STATIC_REQUIRE_FALSE(goes_abreast<Several<Own, 2>>);
+  STATIC_REQUIRE_FALSE(goes_abreast<TurningLinear>);
 }

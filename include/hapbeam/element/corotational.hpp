@@ -33,6 +33,7 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
       "a Local element needs static noexcept respond(const ElementProperties<S>&, const Deformation<S>&) -> "
       "CoreResponse<S> and name() -> const char*: see hapbeam/element/corotational.hpp");
   static constexpr bool any_rotation = true;
+  using Abreast = std::conditional_t<std::is_same_v<Local, VonKarman<AssumedStrain>>, Corotational, void>;
   static constexpr const char* name() noexcept {
     if constexpr (std::is_same_v<Local, Linear>) return "corotational-linear";
     if constexpr (std::is_same_v<Local, VonKarman<FullIntegration>>) return "corotational-full";
@@ -94,16 +95,14 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
     S angle;    // [rad] up is positive, in the turn in which the nodes are
 
     [[gnu::always_inline]] Chord(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
-      using std::nearbyint;
+      using detail::angle_near;
       using std::sqrt;
       const S u = d[3] - d[0];
       x = p.length + u;
       w = d[4] - d[1];
       length = sqrt(x * x + w * w);
       stretch = (u * (p.length + x) + w * w) / (length + p.length);
-      constexpr S turn = S(6.283185307179586476925);
-      angle = detail::angle(w, x, length);
-      angle -= turn * nearbyint((angle + (d[2] + d[5]) / 2) * (1 / turn));
+      angle = angle_near(w, x, length, S(-(d[2] + d[5]) / 2));
     }
     Deformation<S> local(const ElementProperties<S>& p, const Vector6<S>& d) const noexcept {
       return {stretch, p.length * (d[2] + angle), p.length * (d[5] + angle)};

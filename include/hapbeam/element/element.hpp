@@ -13,6 +13,8 @@
 //   E::OneStrain               type, optional, E itself: the membrane strain is one number, (u2-u1)/l plus a positive definite
 //                              quadratic form of rise, lθ1 and lθ2, and E has respond(p, e) as below.  A class derived from E
 //                              does not have it: there the name is E's, not its own
+//   E::Abreast                 type, optional, E itself: E::respond(p, d) takes detail::Pack<S> for S, too, so that a few elements are
+//                              computed side by side
 //
 // with p an ElementProperties<S>.  An element is stateless: static functions, templated on the scalar S.
 // Real-time: no allocation, noexcept, O(1).
@@ -163,6 +165,11 @@ template <class E>
 struct AnyRotation<E, std::void_t<decltype(E::any_rotation)>> : std::bool_constant<E::any_rotation> {};
 
 template <class E, typename = void>
+struct IsAbreast : std::false_type {};
+template <class E>
+struct IsAbreast<E, std::void_t<typename E::Abreast>> : std::is_same<typename E::Abreast, E> {};
+
+template <class E, typename = void>
 struct OneStrain : std::false_type {};
 template <class E>
 struct OneStrain<E, std::void_t<typename E::OneStrain>> : std::is_same<typename E::OneStrain, E> {};
@@ -184,26 +191,31 @@ template <class E>
 struct ElementFromCore {
   template <typename S>
   static S energy(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
-    return respond_to(p, d).energy;
+    return core(p, d).energy;
   }
   template <typename S>
   static void residual(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r) noexcept {
-    const CoreResponse<S> c = respond_to(p, d);
+    const CoreResponse<S> c = core(p, d);
     detail::expand(p, c.s, c.r, c.t1, c.t2, r);
   }
   template <typename S>
   [[gnu::always_inline]] static S tangent(const ElementProperties<S>& p, const Vector6<S>& d, Vector6<S>& r,
                                           Matrix6<S>& K) noexcept {
-    const CoreResponse<S> c = respond_to(p, d);
+    return tangent(p, core(p, d), r, K);
+  }
+  /// The same from what respond() has answered.
+  template <typename S>
+  [[gnu::always_inline]] static S tangent(const ElementProperties<S>& p, const CoreResponse<S>& c,
+                                          Vector6<S>& r, Matrix6<S>& K) noexcept {
     detail::expand(p, c.s, c.r, c.t1, c.t2, r);
     detail::expand(p, c.k, K);
     return c.energy;
   }
 
- private:
+  /// What energy, residual and tangent are made of.
   template <typename S>
-  [[gnu::always_inline]] static CoreResponse<S> respond_to(const ElementProperties<S>& p,
-                                                           const Vector6<S>& d) noexcept {
+  [[gnu::always_inline]] static CoreResponse<S> core(const ElementProperties<S>& p,
+                                                     const Vector6<S>& d) noexcept {
     if constexpr (responds_to_deformation<E, S>) return E::respond(p, Deformation<S>(p, d));
     else return E::respond(p, d);
   }
@@ -212,6 +224,10 @@ struct ElementFromCore {
 /// True where E is declared valid at finite rotation.
 template <class E>
 inline constexpr bool any_rotation = detail::AnyRotation<E>::value;
+
+/// True where a few elements E are computed side by side.
+template <class E>
+inline constexpr bool goes_abreast = detail::IsAbreast<E>::value;
 
 /// True where E, or a membrane policy, has a membrane strain of one number.
 template <class E>
@@ -225,6 +241,7 @@ struct Several : Element {
                 "Several<Element, Contacts>: Element must be valid at finite rotation");
   static_assert(Contacts >= 1, "Several<Element, Contacts>: Contacts must be 1 or more");
   static constexpr int contacts = Contacts;
+  using Abreast = std::conditional_t<goes_abreast<Element>, Several, void>;
 };
 
 /// At how many places a beam of such elements may be touched: 1, unless it says so.

@@ -113,6 +113,14 @@ class Pack {
     for (int i = 0; i < size; ++i) y.v_[i] = std::atan2(y.v_[i], x.v_[i]);
     return y;
   }
+  friend Pack angle_near(const Pack& y, const Pack& x, const Pack& length, const Pack& other) noexcept {
+    const Pack whole = length + x;
+    Pack angle = twice_atan(y / whole);
+    for (int i = 0; i < size; ++i)
+      if (!(std::abs(y[i]) < whole[i] && std::abs(angle[i] - other[i]) < T(3)))
+        angle.v_[i] = detail::angle_near(y[i], x[i], length[i], other[i]);
+    return angle;
+  }
   /// part/whole, nothing where the whole is not positive.
   friend Pack share_of(const Pack& part, const Pack& whole) noexcept {
     Pack share = part / whole;

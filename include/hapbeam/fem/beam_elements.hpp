@@ -6,8 +6,12 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
+#include <algorithm>
+#include <type_traits>
+
 #include <hapbeam/beam.hpp>
 #include <hapbeam/element/element.hpp>
+#include <hapbeam/element/pack.hpp>
 #include <hapbeam/fem/beam_forces.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
@@ -66,9 +70,34 @@ class BeamElements {
     take(mesh);
   }
 
-  /// Residual and tangent of V in element e.   @return V [J]
-  [[gnu::always_inline]] Scalar tangent(int e, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
-    return Element::tangent(properties_[e], displacements(e), r, K);
+  /// Elements that are computed side by side, from the one on whose number is a multiple of their size.
+  struct Group {
+    using Number = std::conditional_t<goes_abreast<Element>, detail::Pack<Scalar>, Scalar>;
+    static constexpr int size = goes_abreast<Element> ? detail::pack_size<Scalar> : 1;
+    CoreResponse<Number> core;
+  };
+  /// To be called with each element, in order.
+  [[gnu::always_inline]] void respond([[maybe_unused]] int e, [[maybe_unused]] Group& group) const noexcept {
+    if constexpr (goes_abreast<Element>)
+      if (e % Group::size == 0) respond_abreast(e, group);
+  }
+  /// Residual and tangent of V in element e.   @param group  with which respond(e, group) was called   @return V [J]
+  [[gnu::always_inline]] Scalar tangent(int e, [[maybe_unused]] const Group& group, Vector6<Scalar>& r,
+                                        Matrix6<Scalar>& K) const noexcept {
+    if constexpr (goes_abreast<Element>) {
+      const auto& c = group.core;
+      const int i = e % Group::size;
+      const CoreResponse<Scalar> core{c.energy[i],
+                                      c.s[i],
+                                      c.r[i],
+                                      c.t1[i],
+                                      c.t2[i],
+                                      {c.k.ss[i], c.k.sr[i], c.k.s1[i], c.k.s2[i], c.k.rr[i], c.k.r1[i],
+                                       c.k.r2[i], c.k.t11[i], c.k.t12[i], c.k.t22[i]}};
+      return Element::tangent(properties_[e], core, r, K);
+    } else {
+      return Element::tangent(properties_[e], displacements(e), r, K);
+    }
   }
   /// Whether λ times the loads are any.
   bool loaded(Scalar lambda) const noexcept { return lambda != 0 && !loads_.empty(); }
@@ -108,6 +137,30 @@ class BeamElements {
     return {a.u, a.w, a.theta, b.u, b.w, b.theta};
   }
 
+  void respond_abreast(int first, Group& group) const noexcept {
+    using Wide = typename Group::Number;
+    const auto gather = [&](auto&& number) {
+      return Wide::of([&](int k) { return number((std::min)(first + k, size() - 1)); });
+    };
+    const auto property = [&](Scalar ElementProperties<Scalar>::*member) {
+      return gather([&](int e) { return properties_[e].*member; });
+    };
+    const auto moved = [&](int by, Scalar Node::*member) {
+      return gather([&](int e) { return nodes_[e + by].*member; });
+    };
+    using P = ElementProperties<Scalar>;
+    ElementProperties<Wide> p;
+    p.length = property(&P::length);
+    p.inverse_length = property(&P::inverse_length);
+    p.axial_stiffness = property(&P::axial_stiffness);
+    p.axial_per_length = property(&P::axial_per_length);
+    p.bending_per_length3 = property(&P::bending_per_length3);
+    p.natural_a = property(&P::natural_a);
+    p.natural_b = property(&P::natural_b);
+    const Vector6<Wide> d(moved(0, &Node::u), moved(0, &Node::w), moved(0, &Node::theta), moved(1, &Node::u),
+                          moved(1, &Node::w), moved(1, &Node::theta));
+    group.core = Element::core(p, d);
+  }
   Scalar subtract_loads(int e, Scalar lambda, const Vector6<Scalar>& d, Vector6<Scalar>& r,
                         Matrix6<Scalar>* K) const noexcept {
     if (!loaded(lambda)) return 0;

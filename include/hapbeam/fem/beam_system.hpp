@@ -351,15 +351,17 @@ class BeamSystem {
     for (auto& other : others_) other.point.look(node(other.point.node()), other.force);
     if (friction_) look_at_friction();
     // What most elements need takes no address of their tangent: it stays in registers.
+    typename BeamElements<Element, Scalar, Elements, MaxElements>::Group group;
     const auto add = [&](int e, auto&& change) {
       Matrix6<Scalar> K;
       Vector6<Scalar> r;
-      energy += beam_.tangent(e, r, K);
+      energy += beam_.tangent(e, group, r, K);
       change(r, K);
       assembler_.add(e, K, r);
     };
     const bool plain = !Rate && shift == 0 && !beam_.loaded(load_);
     for (int e = 0; e < elements(); ++e) {
+      beam_.respond(e, group);
       if (plain && !contact_.holds(e) && !contact_.holds(e + 1) && !others_.at(e) && !others_.at(e + 1)) {
         add(e, [](auto&, auto&) {});
         continue;
