@@ -40,6 +40,7 @@ struct TouchPlace {
   bool touching = false;  ///< all else is zero where they do not touch
   Status status = Status::ok;
   Scalar s = 0;                                              ///< [m] arc position
+  Scalar depth = 0;  ///< [m] of the body in the beam as it lay before this tick; negative: the gap
   VectorOf<Scalar, D> point = VectorOf<Scalar, D>::Zero();   ///< [m] of the centreline
   VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< unit, out of the beam to the body
   VectorOf<Scalar, D> force = VectorOf<Scalar, D>::Zero();   ///< [N] on the body; always finite
@@ -101,8 +102,7 @@ class TouchSeveral {
       return place;
     };
     for (const RoundAvatar& avatar : avatars) {
-      if (!(avatar.radius >= 0 && avatar.radius <= most_radius * length))
-        detail::reject("avatar radius", avatar.radius, "m", "0 to a thousand lengths of the beam");
+      check_radius(avatar.radius);
       if (avatar.touches < 1) detail::reject("avatar touches", avatar.touches, "places", "1 or more");
       for (int k = 0; k < avatar.touches; ++k)
         add(avatars_).avatar.radius = static_cast<Scalar>(avatar.radius);
@@ -150,6 +150,31 @@ class TouchSeveral {
   /// The same in space, with capsules.  @param positions  of the tips of their axes   @param shafts  [m] from there to the other ends
   [[nodiscard]] Result tick(const Vector* positions, const Vector* shafts, int count) noexcept;
 
+  // For hands that are ticked one by one (two_hands.hpp).
+
+  /// One avatar moves, and the others stay where they are.   @param shaft  of a capsule in space
+  [[nodiscard]] Result tick(int avatar, const Vector& position, const Vector& shaft = Vector::Zero()) noexcept;
+  /// An avatar leaves the scene, until it is moved again.
+  void lift(int avatar) noexcept {
+    each_of(avatar, [](Place& place) { forget(place), place.away = true; });
+  }
+  /// @param radius [m]   @throws std::invalid_argument
+  void set_radius(int avatar, double radius) {
+    check_radius(radius);
+    each_of(avatar, [&](Place& place) { place.avatar.radius = static_cast<Scalar>(radius); });
+  }
+  /// The contact of the beam as it lies now with an avatar, gone straight to a place from that of its last tick.
+  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(int avatar, const Vector& position,
+                                                               const Vector& shaft = Vector::Zero()) noexcept {
+    hapbeam::Contact<Scalar, dimension> contact;
+    each_of(avatar, [&](Place place) {
+      place.avatar.position = position;
+      if constexpr (!planar) place.avatar.shaft = shaft;
+      contact = find_contact(place.avatar, model_.shape(), volumes_, model_.thickness(), place.memory);
+    });
+    return contact;
+  }
+
   int avatars() const noexcept { return avatars_; }
   /// Nobody touches the beam, and it is at rest.
   [[nodiscard]] bool resting() const noexcept { return !moving_; }
@@ -168,10 +193,29 @@ class TouchSeveral {
     Obstacle obstacle;
     Avatar avatar{};
     bool prop = false;
+    bool away = false;  // lifted
+    Scalar depth = 0;
     ContactMemory<Scalar, dimension> memory;
     Status status = Status::ok;  // of what keeps it from being an obstacle in this tick
   };
   static std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+  void check_radius(double radius) const {
+    if (!(radius >= 0 && radius <= most_radius * static_cast<double>(model_.shape().length())))
+      detail::reject("avatar radius", radius, "m", "0 to a thousand lengths of the beam");
+  }
+  template <class Use>
+  void each_of(int avatar, Use&& use) {
+    for (int i = 0; i < size_; ++i)
+      if (places_[at(i)].obstacle.body == avatar && !places_[at(i)].prop) use(places_[at(i)]);
+  }
+  Result solve() noexcept;
+  Result invalid() const noexcept {
+    Result result;
+    result.size = size_;
+    result.status = Status::invalid_request;
+    for (int i = 0; i < size_; ++i) result.places[at(i)].body = places_[at(i)].obstacle.body;
+    return result;
+  }
 
   static void forget(Place& place) noexcept {
     place.memory = {};
@@ -188,11 +232,13 @@ class TouchSeveral {
     Place& place = places_[at(i)];
     Obstacle& obstacle = place.obstacle;
     place.status = Status::ok;
-    obstacle.valid = true;
+    obstacle.valid = !place.away;
+    if (place.away) return false;
     if (obstacle.kind != ObstacleKind::round) return true;
     remember(place);
     const Scalar thickness = model_.thickness(), reach = place.avatar.radius + thickness / 2;
     const Contact contact = find_contact(place.avatar, model_.shape(), volumes_, thickness, place.memory);
+    place.depth = contact.depth;
     const Range<Scalar> range = model_.range();
     const bool off =
         contact.past_end && std::isfinite(contact.s > 0 ? range.right_support : range.left_support);
@@ -241,6 +287,7 @@ class TouchSeveral {
     to.status = !obstacle.valid ? place.status : pushed ? obstacle.pushed.status : Status::ok;
     if (!obstacle.touching) return;
     to.s = obstacle.pushed.s;
+    to.depth = place.depth;
     to.point = obstacle.pushed.point;
     to.normal = obstacle.pushed.normal;
     to.force = -obstacle.pushed.force * obstacle.pushed.normal;
@@ -258,24 +305,38 @@ class TouchSeveral {
 
 template <class Model>
 auto TouchSeveral<Model>::tick(const Vector* positions, const Vector* shafts, int count) noexcept -> Result {
-  Result result;
-  result.size = size_;
   const auto is_place = [](const Vector& x) { return std::isfinite(x.squaredNorm()); };
   bool valid = count == avatars_;
   for (int k = 0; valid && k < count; ++k) valid = is_place(positions[k]) && (!shafts || is_place(shafts[k]));
-  if (!valid) {
-    result.status = Status::invalid_request;
-    for (int i = 0; i < size_; ++i) result.places[at(i)].body = places_[at(i)].obstacle.body;
-    return result;
-  }
-  bool touched = fixed_;
+  if (!valid) return invalid();
   for (int i = 0; i < size_; ++i) {
     Place& place = places_[at(i)];
-    if (!place.prop) place.avatar.position = positions[place.obstacle.body];
+    if (place.prop) continue;
+    place.away = false;
+    place.avatar.position = positions[place.obstacle.body];
     if constexpr (!planar)
-      if (!place.prop && shafts) place.avatar.shaft = shafts[place.obstacle.body];
-    touched = look(i) || touched;
+      if (shafts) place.avatar.shaft = shafts[place.obstacle.body];
   }
+  return solve();
+}
+
+template <class Model>
+auto TouchSeveral<Model>::tick(int avatar, const Vector& position, const Vector& shaft) noexcept -> Result {
+  if (!(std::isfinite(position.squaredNorm()) && std::isfinite(shaft.squaredNorm()))) return invalid();
+  each_of(avatar, [&](Place& place) {
+    place.away = false;
+    place.avatar.position = position;
+    if constexpr (!planar) place.avatar.shaft = shaft;
+  });
+  return solve();
+}
+
+template <class Model>
+auto TouchSeveral<Model>::solve() noexcept -> Result {
+  Result result;
+  result.size = size_;
+  bool touched = fixed_;
+  for (int i = 0; i < size_; ++i) touched = look(i) || touched;
   const bool pushed = touched || moving_;
   if (pushed) {
     result.status = push();

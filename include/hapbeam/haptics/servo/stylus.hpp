@@ -43,6 +43,10 @@ struct CapsuleTouch {
   Eigen::Vector3d tied;  // from the hand to the tied point [m]
 
   auto tick(const Vector& hand) noexcept { return touch.tick(Vector(hand + tip), shaft); }
+  template <class T = Touch>
+  auto meanwhile() const noexcept -> decltype(std::declval<const T&>().meanwhile()) {
+    return touch.meanwhile();
+  }
   auto contact_at(const Vector& hand) noexcept { return touch.contact_at(Vector(hand + tip), shaft); }
   /// From the hand to the contact [m].   @param at  where the tied point is
   template <class Felt>

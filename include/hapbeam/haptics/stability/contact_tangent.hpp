@@ -59,6 +59,14 @@ class ContactTangent {
     set_stiffness(safety * size * size / (2 * energy_));
   }
 
+  /// Something else has moved the beam: another force at the same place.  @param force [N] finite
+  void renew(const Vector& force) noexcept {
+    const double size = force.norm();
+    if (size > 0) normal_ = force / size;
+    force_ = size;
+    set_stiffness(stiffness_);
+  }
+
   /// Nothing was touched where the tangent had a force: it begins at the surface.
   /// @param place [m] on it   @param normal  unit, out of the beam
   void begin_at(const Vector& place, const Vector& normal) noexcept {

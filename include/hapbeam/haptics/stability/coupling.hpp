@@ -85,6 +85,19 @@ struct TurnsHand : std::false_type {};
 template <typename Touch>
 struct TurnsHand<Touch, std::void_t<decltype(&Touch::lever)>> : std::true_type {};
 
+/// Whether others press the beam of a touch between its ticks, and it says with what force they leave it.
+template <typename Touch, typename = void>
+inline constexpr bool is_shared = false;
+template <typename Touch>
+inline constexpr bool is_shared<Touch, std::void_t<decltype(std::declval<Touch&>().meanwhile())>> = true;
+
+/// What others have changed since the last tick.
+template <typename Touch>
+void look_at_others(const Touch& touch, LastResponse& last) noexcept {
+  if constexpr (is_shared<Touch>)
+    if (const auto* const force = touch.meanwhile()) last.renew(in_scene(*force));
+}
+
 /// A beam to call a coupling with.
 struct AnyTouch {
   using Scalar = double;
@@ -131,6 +144,7 @@ class Direct {
   [[nodiscard]] auto tick(Touch& touch, const detail::HandOf<Touch>& hand, double) noexcept {
     constexpr int D = detail::dimension_of_touch<Touch>;
     detail::CoupledForceOf<Touch> result;
+    detail::look_at_others(touch, last_);
     result.avatar = hand;
     result.touch = touch.tick(hand.template cast<typename Touch::Scalar>());
     last_.learn(result.touch, detail::in_scene(hand));
@@ -204,6 +218,7 @@ class VirtualCoupling {
     detail::CoupledForceOf<Touch> result;
     if constexpr (detail::may_be_rough<Touch>)
       if (touch.rough()) touch.soften(static_cast<Scalar>(stiffness_), static_cast<Scalar>(damping_ / dt));
+    detail::look_at_others(touch, last_);
     result.avatar = hand + normal() * solve(from, dt).gap;
     result.touch = touch.tick(result.avatar.template cast<Scalar>());
     last_.learn(result.touch, detail::in_scene(result.avatar));

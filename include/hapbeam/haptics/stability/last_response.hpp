@@ -31,6 +31,11 @@ class LastResponse {
     continued_ = 0, missed_ = false;
   }
 
+  /// Something else has moved the beam since.   @param force [N] on the place of the last response, now
+  void renew(const Eigen::Vector3d& force) noexcept {
+    if (tangent_.known() && !continued()) tangent_.renew(force);
+  }
+
   /// @param touch  the beam's answer   @param place [m] from where it was pressed
   template <typename Scalar, int D>
   void learn(const TouchResult<Scalar, D>& touch, const Eigen::Vector3d& place) noexcept {

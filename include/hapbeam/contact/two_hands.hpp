@@ -1,0 +1,166 @@
+// Two hands on one beam, each with a loop of its own: its device, coupling and guard.
+//
+//   FemModel<Several<Corotational<>, 2>> model(ruler, 16);
+//   TwoHands hands(model);                                                 // and props: TwoHands hands(model, {peg})
+//   Servo left(hands[0], left_device), right(hands[1], right_device);      // offline
+//   left.tick(left_state), right.tick(right_state);                        // in one thread, each in its own time
+//
+// A hand is given to a Servo in place of the model. A tick of either hand finds the equilibrium under both, the other one where its own last tick
+// has left it. The hands may tick at different rates. One thread ticks both: they share the beam, and nothing is locked.
+// OpenHaptics calls the servos of all devices from one thread. In lock step the forces are deterministic.
+// A hand whose loop has stopped is lifted off the beam after `patience` ticks of the other one.
+// Real-time: ticks are noexcept, allocation-free and bounded, as those of TouchSeveral.  Constructors allocate and throw.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+
+#include <hapbeam/contact/touch.hpp>
+#include <hapbeam/contact/touch_several.hpp>
+
+namespace hapbeam {
+
+template <class Model>
+class TwoHands;
+
+/// One of two hands, for Servo<Hand<Model>>.
+template <class Model>
+class Hand {
+ public:
+  using Scalar = typename Model::Scalar;
+  static constexpr int dimension = dimension_of<Model>;
+
+  Centreline<Scalar, dimension> shape() const noexcept { return hands_.model().shape(); }
+  Scalar thickness() const noexcept { return hands_.model().thickness(); }
+  const Model& model() const noexcept { return hands_.model(); }
+
+ private:
+  friend class TwoHands<Model>;
+  friend class Touch<Hand<Model>>;
+  Hand(TwoHands<Model>& hands, int index) noexcept : hands_(hands), index_(index) {}
+
+  TwoHands<Model>& hands_;
+  int index_;
+};
+
+/// A beam and the two hands that press it.  It stays where it is: hands refer to it.
+/// @tparam Model  takes two contacts, and one more for each prop: FemModel<Several<Element, 2>>
+template <class Model>
+class TwoHands {
+ public:
+  using Scalar = typename Model::Scalar;
+  using Prop = hapbeam::Prop<dimension_of<Model>>;
+  static_assert(takes_obstacles<Model>,
+                "TwoHands<Model>: Model must take several contacts: FemModel<Several<Element, 2>>");
+
+  /// @param model  kept by reference   Allocates.   @throws std::invalid_argument naming what makes no sense
+  explicit TwoHands(Model& model, std::initializer_list<Prop> props = {})
+      : model_(model), touch_(model, {0.0, 0.0}, props), hands_{Hand<Model>(*this, 0), Hand<Model>(*this, 1)} {
+    touch_.lift(0), touch_.lift(1);
+  }
+  TwoHands(const TwoHands&) = delete;
+  TwoHands& operator=(const TwoHands&) = delete;
+
+  /// @param index  0 | 1
+  Hand<Model>& operator[](int index) noexcept { return hands_[static_cast<std::size_t>(index)]; }
+  const Model& model() const noexcept { return model_; }
+
+  /// Ticks of one hand after which the other one is taken for gone.
+  static constexpr int patience = 100;
+
+ private:
+  friend class Touch<Hand<Model>>;
+
+  using Result = typename TouchSeveral<Model>::Result;
+  using Vector = typename TouchSeveral<Model>::Vector;
+
+  Result tick(int hand, const Vector& position, const Vector& shaft) noexcept {
+    const Result result = touch_.tick(hand, position, shaft);
+    // A position that is none leaves the hand where it was, for as long as a loop that has stopped.
+    if (result.status != Status::invalid_request) silent_[at(hand)] = 0;
+    if (is_answer(result.status)) meanwhile_[at(1 - hand)] = result.force(1 - hand);
+    if (silent_[at(1 - hand)] < patience && ++silent_[at(1 - hand)] == patience) touch_.lift(1 - hand);
+    return result;
+  }
+  static std::size_t at(int hand) noexcept { return static_cast<std::size_t>(hand); }
+
+  Model& model_;
+  TouchSeveral<Model> touch_;
+  std::array<Hand<Model>, 2> hands_;
+  std::array<Vector, 2> meanwhile_{Vector::Zero(), Vector::Zero()};  // on a hand, since its last tick [N]
+  std::array<int, 2> silent_{0, 0};  // ticks of the other hand since the last one of this
+};
+
+template <class Model>
+TwoHands(Model&) -> TwoHands<Model>;
+template <class Model>
+TwoHands(Model&, std::initializer_list<Prop<dimension_of<Model>>>) -> TwoHands<Model>;
+
+/// What one of the hands feels.
+template <class Model>
+class Touch<Hand<Model>> {
+ public:
+  using Scalar = typename Model::Scalar;
+  static constexpr int dimension = dimension_of<Model>;
+  using Vector = VectorOf<Scalar, dimension>;
+  using Result = TouchResult<Scalar, dimension>;
+
+  /// @param hand  kept by reference   @param avatar_radius [m]   @throws std::invalid_argument as TouchSeveral
+  Touch(Hand<Model>& hand, Scalar avatar_radius) : hands_(hand.hands_), index_(hand.index_) {
+    hands_.touch_.set_radius(index_, static_cast<double>(avatar_radius));
+    reset();
+  }
+
+  /// This hand leaves the beam; the other one stays.   Real-time: O(1).
+  void reset() noexcept {
+    hands_.touch_.lift(index_);
+    pressing_ = false;
+  }
+  bool pressing() const noexcept { return pressing_; }
+  /// The force on the hand at the place of its last tick, as ticks of the other one have left the beam [N]; null where there were none.
+  const Vector* meanwhile() const noexcept {
+    return hands_.silent_[at()] > 0 ? &hands_.meanwhile_[at()] : nullptr;
+  }
+
+  /// One tick.  @param position [m] of the avatar   @param shaft [m] in space, of a capsule: from there to the other end of its axis
+  /// Real-time: noexcept, no allocation, bounded.
+  [[nodiscard]] Result tick(const Vector& position, const Vector& shaft = Vector::Zero()) noexcept {
+    const auto felt = hands_.tick(index_, position, shaft);
+    Result result;
+    result.status = felt.status;
+    for (const auto& place : felt) {
+      if (place.body != index_) continue;
+      if (felt.status != Status::invalid_request) result.status = place.status;
+      result.pressing = place.touching;
+      result.force = place.force;
+      if (place.touching) describe(place, result);
+    }
+    pressing_ = result.pressing;
+    return result;
+  }
+  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position,
+                                                               const Vector& shaft = Vector::Zero()) noexcept {
+    return hands_.touch_.contact_at(index_, position, shaft);
+  }
+
+ private:
+  void describe(const TouchPlace<Scalar, dimension>& place, Result& result) const noexcept {
+    const auto shape = hands_.model().shape();
+    auto& contact = result.contact;
+    contact.touching = true;
+    contact.segment = shape.segment_at(place.s);
+    contact.s = place.s, contact.depth = place.depth;
+    contact.foot = place.point, contact.normal = place.normal;
+    contact.point = place.point + place.normal * (hands_.model().thickness() / 2);
+    result.press = {place.s, dimension == 2 ? place.point[1] : place.normal.dot(place.point)};
+  }
+
+  std::size_t at() const noexcept { return static_cast<std::size_t>(index_); }
+
+  TwoHands<Model>& hands_;
+  int index_;
+  bool pressing_ = false;
+};
+
+}  // namespace hapbeam
