@@ -9,6 +9,7 @@
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/contact/touch_several.hpp>
+#include <hapbeam/contact/two_hands.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/rod.hpp>

@@ -7,9 +7,11 @@
 #include "stability/bistable.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
-#include <hapbeam/contact/touch_several.hpp>
+#include <hapbeam/contact/two_hands.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
+#include <hapbeam/haptics/servo/servo.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -104,4 +106,33 @@ TEST_CASE("several avatars and props take nothing from the heap", "[realtime][se
   const Rod wire(0.2, RodSection::circle(0.001), spring_steel, RodSupport::clamped, RodSupport::free);
   check<FemModel<Several<RoundRod, 4>>>("wire", wire,
                                         {Prop<3>::bar({0.1, -0.01, -0.1}, {0.1, -0.01, 0.1}, 0.004)});
+}
+
+TEST_CASE("two hands with a servo each take nothing from the heap", "[realtime][two_hands]") {
+  using Model = FemModel<Several<Corotational<>, 2>>;
+  const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{2e11}, Support::clamped, Support::free);
+  Model model(ruler, 16);
+  TwoHands<Model> both(model);
+  const DeviceInfo device = VirtualPhantom<>(HandPath({0, 0})).info();
+  Servo<Hand<Model>> left(both[0], device), right(both[1], device);
+  const auto path = hands<Vector2<double>>(ruler.length(), 6);
+  int pressing = 0, wild = 0, most = 0;
+  const HeapUse use = heap_use([&]() noexcept {
+    for (std::size_t t = 0; t + 1 < path.size(); t += 2) {
+      DeviceState states[2];
+      for (std::size_t k = 0; k < 2; ++k) {
+        states[k].position = {path[t + k].x(), path[t + k].y(), 0};
+        states[k].time = 1e-3 * static_cast<double>(t), states[k].reset = t == 0;
+      }
+      for (const Eigen::Vector3d& force : {left.tick(states[0]), right.tick(states[1])})
+        wild += !(force.norm() <= device.peak_force * (1 + 1e-12));
+      most = std::max(most, model.report().solves);
+      pressing += left.record().pressing && right.record().pressing;
+    }
+    left.reset(), right.reset();
+  });
+  CHECK(use == HeapUse{});
+  CHECK(wild == 0);
+  CHECK(most <= most_solves_of_a_tick);
+  CHECK(pressing > 10);
 }

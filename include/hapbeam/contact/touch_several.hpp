@@ -39,7 +39,7 @@ struct TouchPlace {
   int body = 0;           ///< avatars in their order, then props in theirs
   bool touching = false;  ///< all else is zero where they do not touch
   Status status = Status::ok;
-  Scalar s = 0;                                              ///< [m] arc position
+  Scalar s = 0;      ///< [m] arc position
   Scalar depth = 0;  ///< [m] of the body in the beam as it lay before this tick; negative: the gap
   VectorOf<Scalar, D> point = VectorOf<Scalar, D>::Zero();   ///< [m] of the centreline
   VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< unit, out of the beam to the body
@@ -153,7 +153,8 @@ class TouchSeveral {
   // For hands that are ticked one by one (two_hands.hpp).
 
   /// One avatar moves, and the others stay where they are.   @param shaft  of a capsule in space
-  [[nodiscard]] Result tick(int avatar, const Vector& position, const Vector& shaft = Vector::Zero()) noexcept;
+  [[nodiscard]] Result tick(int avatar, const Vector& position,
+                            const Vector& shaft = Vector::Zero()) noexcept;
   /// An avatar leaves the scene, until it is moved again.
   void lift(int avatar) noexcept {
     each_of(avatar, [](Place& place) { forget(place), place.away = true; });
@@ -164,8 +165,8 @@ class TouchSeveral {
     each_of(avatar, [&](Place& place) { place.avatar.radius = static_cast<Scalar>(radius); });
   }
   /// The contact of the beam as it lies now with an avatar, gone straight to a place from that of its last tick.
-  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(int avatar, const Vector& position,
-                                                               const Vector& shaft = Vector::Zero()) noexcept {
+  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
+      int avatar, const Vector& position, const Vector& shaft = Vector::Zero()) noexcept {
     hapbeam::Contact<Scalar, dimension> contact;
     each_of(avatar, [&](Place place) {
       place.avatar.position = position;

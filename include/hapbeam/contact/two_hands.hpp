@@ -56,7 +56,9 @@ class TwoHands {
 
   /// @param model  kept by reference   Allocates.   @throws std::invalid_argument naming what makes no sense
   explicit TwoHands(Model& model, std::initializer_list<Prop> props = {})
-      : model_(model), touch_(model, {0.0, 0.0}, props), hands_{Hand<Model>(*this, 0), Hand<Model>(*this, 1)} {
+      : model_(model),
+        touch_(model, {0.0, 0.0}, props),
+        hands_{Hand<Model>(*this, 0), Hand<Model>(*this, 1)} {
     touch_.lift(0), touch_.lift(1);
   }
   TwoHands(const TwoHands&) = delete;
@@ -139,8 +141,8 @@ class Touch<Hand<Model>> {
     pressing_ = result.pressing;
     return result;
   }
-  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position,
-                                                               const Vector& shaft = Vector::Zero()) noexcept {
+  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
+      const Vector& position, const Vector& shaft = Vector::Zero()) noexcept {
     return hands_.touch_.contact_at(index_, position, shaft);
   }
 

@@ -1,0 +1,234 @@
+// Two devices on one beam: each with a servo and a time of its own, in lock step.  Do they come to rest, and give nothing that they were not given?
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include "support/ruler.hpp"
+#include "support/step_response.hpp"
+#include <hapbeam/contact/two_hands.hpp>
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/element/rod.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
+#include <hapbeam/haptics/servo/servo.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+/// Leans down from a moment on, when the guard has let the force in.
+struct LeaningLater {
+  double push, at;
+  HandTarget operator()(double time) const noexcept {
+    const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+    return {zero, zero, time < at ? zero : Eigen::Vector3d(0, -push, 0)};
+  }
+};
+
+/// A device, its servo, and what went through it.
+template <class Model>
+class Station {
+ public:
+  Station(Hand<Model>& hand, const Situation& who, double at, const Placement& placement)
+      : who_(who),
+        device_({who.push, at}, who.options()),
+        servo_(hand, device_.info(), options(placement, who)) {
+    held_.fill(Eigen::Vector3d::Zero());
+  }
+
+  double time() const noexcept { return static_cast<double>(ticks_) * who_.period; }
+  /// @return [J] what hand, arm and motors have put into the loop in this tick, at least
+  double step() noexcept {
+    struct Send {
+      Servo<Hand<Model>>& servo;
+      Eigen::Vector3d sent;
+      Eigen::Vector3d operator()(const DeviceState& state) noexcept { return sent = servo.tick(state); }
+    } send{servo_, Eigen::Vector3d::Zero()};
+    const Eigen::Vector3d before = device_.tip().position;
+    device_.step(send);
+    ++ticks_;
+    std::move_backward(held_.begin(), held_.end() - 1, held_.end());
+    held_[0] = send.sent;
+    const Eigen::Vector3d moved = device_.tip().position - before;
+    return -held_[static_cast<std::size_t>(who_.delay)].dot(moved) +
+           who_.damping * moved.squaredNorm() / who_.period + who_.friction * moved.cwiseAbs().sum();
+  }
+  double speed() const noexcept { return device_.tip().velocity.norm(); }
+  const ServoRecord& record() const noexcept { return servo_.record(); }
+
+ private:
+  static ServoOptions options(const Placement& placement, const Situation& who) {
+    ServoOptions options;
+    options.placement = placement, options.delay_ticks = who.delay;
+    return options;
+  }
+
+  Situation who_;
+  VirtualPhantom<LeaningLater> device_;
+  Servo<Hand<Model>> servo_;
+  std::array<Eigen::Vector3d, 17> held_;  // newest first
+  long ticks_ = 0;
+};
+
+struct PairResponse {
+  double speed = 0;         ///< [m/s] RMS over the last 0.1 s
+  double least_energy = 0;  ///< [J] of both hands and arms together
+  std::vector<double> forces;
+  bool pressing = false;  ///< both
+};
+
+/// The side from which a planar beam is pressed, or a rod's.   @param model  at rest
+template <class Model>
+Placement on_side(const Model& model, double s, const Eigen::Vector3d& from) {
+  const Placement upper = above(model, s, from, 0.005);
+  if constexpr (dimension_of<Model> == 2)
+    if (from.y() < 0) {
+      Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
+      turned(1, 1) = turned(2, 2) = -1;
+      return Placement(turned, {s, 2 * model.shape().at(s).w - upper.origin().y(), 0});
+    }
+  return upper;
+}
+
+template <class Model>
+PairResponse pair_response(Model& model, const Placement& first, const Placement& second, const Situation& a,
+                           const Situation& b, double later, double duration) {
+  TwoHands<Model> hands(model);
+  Station<Model> left(hands[0], a, 0.3, first), right(hands[1], b, 0.3 + later, second);
+  PairResponse r;
+  double energy = 0, squares = 0, count = 0;
+  while (std::min(left.time(), right.time()) < duration) {
+    Station<Model>& next = left.time() <= right.time() ? left : right;
+    energy += next.step();
+    r.least_energy = std::min(r.least_energy, energy);
+    r.forces.push_back(next.record().force.y());
+    if (next.time() < duration - 0.1) continue;
+    squares += next.speed() * next.speed();
+    ++count;
+  }
+  r.speed = std::sqrt(squares / count);
+  r.pressing = left.record().pressing && right.record().pressing;
+  return r;
+}
+
+Situation random_hand(Random& random) {
+  Situation who;
+  who.hand_stiffness = random(300, 1000);
+  who.hand_damping = random(0, 1) < 0.2 ? 0 : random(0, 2);
+  who.grip_mass = random(0.05, 0.4);
+  who.period = random(0.5e-3, 2e-3);
+  who.delay = random.integer(0, 3);
+  who.push = random(0.5, 3);
+  return who;
+}
+
+}  // namespace
+
+TEST_CASE("two hands that lean on one beam come to rest, each at its own rate", "[two_hands]") {
+  Random random(41);
+  FemModel<Several<Corotational<>, 2>> ruler(steel_ruler(), 16);
+  FemModel<Several<RoundRod, 2>> wire(
+      Rod(0.3, RodSection::circle(0.0015), {200e9, 77e9}, RodSupport::clamped, RodSupport::free), 12);
+  int pressing = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Situation a = random_hand(random), b = random_hand(random);
+    const double s = random(0.2, 0.55) * 0.3, apart = random(0.05, 0.4) * 0.3, later = random(0.0, 0.2);
+    const double turn = random(3.1), other = random(3.1);
+    const auto side = [](double angle, bool planar) {
+      return planar ? Eigen::Vector3d(0, angle > 0 ? 1 : -1, 0)
+                    : Eigen::Vector3d(0, std::cos(angle), std::sin(angle));
+    };
+    const auto respond = [&](auto& model, bool planar) {
+      model.reset();
+      return pair_response(model, on_side(model, s, side(turn, planar)),
+                           on_side(model, s + apart, side(other, planar)), a, b, later, 2);
+    };
+    const PairResponse r = i % 2 == 0 ? respond(ruler, true) : respond(wire, false);
+    CAPTURE(i, s, apart, a.push, b.push, a.period, b.period, a.delay, b.delay, turn, other);
+    CHECK(r.speed <= 1e-3);
+    CHECK(r.least_energy >= -1e-9);
+    pressing += r.pressing;
+  }
+  CHECK(pressing >= 15);
+}
+
+TEST_CASE("in lock step two hands feel the same to the last bit in every run", "[two_hands]") {
+  Random random(43);
+  const Situation a = random_hand(random), b = random_hand(random);
+  const auto run = [&] {
+    FemModel<Several<Corotational<>, 2>> model(steel_ruler(), 16);
+    return pair_response(model, on_side(model, 0.12, Eigen::Vector3d::UnitY()),
+                         on_side(model, 0.25, Eigen::Vector3d::UnitY()), a, b, 0.1, 0.8)
+        .forces;
+  };
+  const std::vector<double> first = run();
+  CHECK(first.size() > 500);
+  CHECK(*std::max_element(first.begin(), first.end()) > 0.1);
+  CHECK(first == run());
+}
+
+TEST_CASE("a device that is unplugged leaves the other one its beam", "[two_hands]") {
+  Situation who;
+  using Model = FemModel<Several<Corotational<>, 2>>;
+  Model model(steel_ruler(), 16);
+  TwoHands hands(model);
+  // One presses the ruler down, and the other one holds it up.
+  Station<Model> left(hands[0], who, 0.3, on_side(model, 0.25, Eigen::Vector3d::UnitY())),
+      right(hands[1], who, 0.3, on_side(model, 0.2, -Eigen::Vector3d::UnitY()));
+  for (int k = 0; k < 1000; ++k) (void)left.step(), (void)right.step();
+  REQUIRE((left.record().pressing && right.record().pressing));
+  const double held = model.shape()[16].w;
+  for (int k = 0; k < 600; ++k) (void)left.step();
+  CHECK(left.record().pressing);
+  CHECK(left.record().failed_ticks == 0);
+  CHECK(model.shape()[16].w < held - 0.001);
+  CHECK(left.speed() <= 1e-3);
+  // Plugged in again, where it is now.
+  for (int k = 0; k < 1000; ++k) (void)left.step(), (void)right.step();
+  CHECK(right.record().pressing);
+  CHECK(model.shape()[16].w == Approx(held).margin(3e-4));  // the arms' friction leaves them elsewhere
+}
+
+TEST_CASE("what one hand does to the beam does not confuse the other hand's coupling", "[two_hands]") {
+  // The left hand stands still; the right one presses and draws back within 0.1 s each.
+  FemModel<Several<Corotational<>, 2>> model(steel_ruler(), 16);
+  TwoHands hands(model);
+  Servo left(hands[0], VirtualPhantom<>(HandPath({0, 0})).info()),
+      right(hands[1], VirtualPhantom<>(HandPath({0, 0})).info());
+  DeviceState one, other;
+  const auto tick = [&](int k, double deep) {
+    one.reset = other.reset = k == 0;
+    one.time = other.time = 1e-3 * k;
+    one.position = {0.2, 0.0055 - 0.02 * std::min(1.0, k / 300.0), 0};
+    other.position = {0.1, 0.0055 - deep, 0};
+    const Eigen::Vector3d felt = left.tick(one);
+    (void)right.tick(other);
+    return felt.y();
+  };
+  double last = 0, steepest = 0;
+  for (int k = 0; k < 600; ++k) last = tick(k, 0);
+  const double before = last;
+  double least = before;
+  int without = 0;
+  for (int k = 600; k < 800; ++k) {
+    const double deep = 0.007 * (k < 700 ? (k - 600) / 100.0 : (800 - k) / 100.0), now = tick(k, deep);
+    steepest = std::max(steepest, std::abs(now - last));
+    least = std::min(least, now);
+    without += left.record().status != LoopStatus::touching;
+    last = now;
+  }
+  for (int k = 800; k < 900; ++k) last = tick(k, 0);
+  INFO(before << " N, at least " << least << " N, at most " << steepest << " N a tick, " << without
+              << " ticks otherwise");
+  CHECK(last == Approx(before).epsilon(1e-3));
+  CHECK(least < 0.85 * before);
+  CHECK(least > 0);
+  CHECK(without == 0);
+  // It reaches the bent ruler in the last 30 of its 100 ticks.
+  CHECK(steepest <= 4 * (before - least) / 30);
+}
