@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws docs/images/scene_*.png and arch.gif from the program itself, on a display that nobody sees, and the small pictures
+# Draws docs/images/scene_*.png and the animated pictures from the program itself, on a display that nobody sees, and the small pictures
 # that tests compare the window with (Debian; as root or with sudo).  Look at them before they are kept.
 set -u
 source "$(dirname "${BASH_SOURCE[0]}")/../../cmake/steps.sh"
@@ -42,6 +42,22 @@ around() {
   return "$status"
 }
 
+# The hand leans on the ruler without friction and with it, side by side: 1.9 s at their own pace, the drawing alone.
+rubbed() {
+  local frames k mu
+  frames=$(mktemp -d)
+  for mu in 0 0.6; do
+    draw ruler "$frames/$mu.png" --friction "$mu" --at 0.8 --frames 38 &&
+      mogrify -crop 480x420+290+40 +repage -pointsize 18 -fill gray30 -annotate +330+40 "μ = $mu" "$frames/$mu"_*.png || return 1
+  done
+  for k in "$frames"/0_*.png; do convert "$k" "${k/0_/0.6_}" +append +repage "$frames/both_${k##*_}" || return 1; done
+  convert -loop 0 -delay 5 "$frames"/both_*.png -resize 768x -dither None -colors 64 -layers Optimize "$images/friction.gif"
+  local status=$?
+  rm -r "$frames"
+  return "$status"
+}
+
 mkdir -p "$top/tests/examples/pictures"
 picture thesis 3.5 && picture ruler 1.5 && picture strip 3.5 && picture string 4.5 && picture arch 1.75 && picture comb 1.4 &&
-  picture needle 1.2 && picture hook 4.1 && picture fishing-rod 7.2 && step arch.gif animation && step needle.gif around
+  picture needle 1.2 && picture hook 4.1 && picture fishing-rod 7.2 && step arch.gif animation && step needle.gif around &&
+  step friction.gif rubbed

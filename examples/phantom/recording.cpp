@@ -12,14 +12,16 @@ namespace phantom {
 namespace {
 
 constexpr const char* head =
-    "time_s,hand_x_m,hand_y_m,hand_z_m,hand_vx_m_per_s,hand_vy_m_per_s,hand_vz_m_per_s,x_m,y_m,z_m,force_x_N,"
-    "force_y_N,force_z_N,place_m,depth_m,status,model";
+    "time_s,hand_x_m,hand_y_m,hand_z_m,hand_vx_m_per_s,hand_vy_m_per_s,hand_vz_m_per_s,";
+constexpr const char* felt =
+    "x_m,y_m,z_m,force_x_N,force_y_N,force_z_N,place_m,depth_m,friction_x_N,friction_y_N,friction_z_N,slides,"
+    "dissipated_J,status,model";
 constexpr double longest = 86400;  // [s]
 
 }  // namespace
 
 Recording::Recording(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "w")) {
-  if (!file_ || std::fprintf(file_.get(), "%s\n", head) < 0)
+  if (!file_ || std::fprintf(file_.get(), "%s%s\n", head, felt) < 0)
     throw std::runtime_error(path + ": the recording cannot be written");
 }
 
@@ -28,7 +30,9 @@ void Recording::write(const Tick& tick) {
   std::fprintf(file_.get(), "%.17g,", r.time);
   for (const Eigen::Vector3d& v : {tick.hand.position, tick.hand.velocity, r.position, r.force})
     std::fprintf(file_.get(), "%.17g,%.17g,%.17g,", v.x(), v.y(), v.z());
-  std::fprintf(file_.get(), "%.17g,%.17g,%s,%s\n", r.press.s, r.press.d, name(r.status), name(r.model));
+  std::fprintf(file_.get(), "%.17g,%.17g,%.17g,%.17g,%.17g,%d,%.17g,%s,%s\n", r.press.s, r.press.d,
+               r.friction.x(), r.friction.y(), r.friction.z(), int(r.sliding), r.dissipated, name(r.status),
+               name(r.model));
 }
 
 void Recording::close() {
@@ -41,8 +45,8 @@ Replay read_recording(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read: " + std::strerror(errno));
   std::string line;
-  if (!std::getline(file, line) || line != head)
-    throw std::runtime_error(path + ": is no recording, its first line must be " + head);
+  if (!std::getline(file, line) || line.rfind(head, 0) != 0)
+    throw std::runtime_error(path + ": is no recording, its first line must begin with " + head);
   Replay replay;
   for (int number = 2; std::getline(file, line); ++number) {
     double time;

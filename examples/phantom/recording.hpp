@@ -1,9 +1,10 @@
 // Runs on file: a CSV row for each tick, written while the loop runs and read again as a path for the hand.
 //
 //   time_s,hand_x_m,hand_y_m,hand_z_m,hand_vx_m_per_s,hand_vy_m_per_s,hand_vz_m_per_s,x_m,y_m,z_m,force_x_N,force_y_N,force_z_N,
-//   place_m,depth_m,status,model
+//   place_m,depth_m,friction_x_N,friction_y_N,friction_z_N,slides,dissipated_J,status,model
 //
-// hand is where the hand wanted to be, x, y and z where the device was, depth the press asked of the model.  All digits are
+// hand is where the hand wanted to be, x, y and z where the device was, depth the press asked of the model.  friction is the
+// tangential force of the beam in the scene, slides 0 where the contact sticks, dissipated what friction has taken in this touch.  All digits are
 // written, so that the same path through the same model gives the same forces to the bit, in lock step.
 #pragma once
 

@@ -67,10 +67,10 @@ struct FrictionState {
   Scalar gain = 0;                 ///< change of the normal force by a tangential one, as it was
   Scalar dissipated = 0;           ///< [J] since the touch began
 
-  /// A touch begins: nothing of the one before is left.
+  /// A contact begins: nothing of the one before is left but what the touch has dissipated.
   void begin() noexcept {
     let_go();
-    gain = dissipated = 0;
+    gain = 0;
   }
   /// Nothing is left of its last contact.
   void let_go() noexcept {

@@ -4,6 +4,7 @@
 //   check_recordings beside FILE DISTANCE [m]       the beam is felt where the hand is so far from the line of a script that
 //                                                    presses straight down
 //   check_recordings sides FILE                     the hand is pushed up by half a newton, and toward who looks, at different times
+//   check_recordings friction FILE                  a touch sticks and slides, and friction never gives back what it took in it
 //   check_recordings same FILE FILE TOLERANCE [N]    the same forces at the same times, in contact a tenth of a second at least
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,8 @@ namespace {
 
 struct Row {
   double time, hand_x, x, y, z;  ///< [s, m, N, N, N]
+  double rubs, dissipated;       ///< [N, J]
+  int slides;
 };
 
 std::vector<Row> read(const char* path) {
@@ -27,11 +30,15 @@ std::vector<Row> read(const char* path) {
   std::vector<Row> rows;
   while (std::getline(file, line)) {
     Row row{};
-    if (std::sscanf(line.c_str(), "%lf,%lf,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%lf,%lf,%lf", &row.time,
-                    &row.hand_x, &row.x, &row.y, &row.z) != 5) {
+    double fx, fy, fz;
+    if (std::sscanf(line.c_str(),
+                    "%lf,%lf,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%lf,%lf,%lf,%*f,%*f,%lf,%lf,%lf,%d,%lf",
+                    &row.time, &row.hand_x, &row.x, &row.y, &row.z, &fx, &fy, &fz, &row.slides,
+                    &row.dissipated) != 10) {
       std::fprintf(stderr, "%s: is no recording\n", path);
       std::exit(2);
     }
+    row.rubs = std::hypot(fx, fy, fz);
     rows.push_back(row);
   }
   return rows;
@@ -67,6 +74,19 @@ int sides(const char* path) {
   return up > 0 && out > 0 ? 0 : 1;
 }
 
+int friction(const char* path) {
+  int sticks = 0, slides = 0, gives = 0;
+  double before = 0, most = 0;
+  for (const Row& row : read(path)) {
+    const bool touches = row.rubs > 0;
+    sticks += touches && !row.slides, slides += touches && row.slides;
+    gives += touches && before > 0 && row.dissipated > 0 && row.dissipated < before;
+    before = row.dissipated, most = std::max(most, before);
+  }
+  std::printf("sticks in %d ticks, slides in %d, took %.3g J in a touch\n", sticks, slides, most);
+  return sticks > 0 && slides > 0 && most > 0 && gives == 0 ? 0 : 1;
+}
+
 int same(const char* path_a, const char* path_b, double tolerance) {
   const std::vector<Row> a = read(path_a), b = read(path_b);
   double most = 0, largest = 0;
@@ -89,6 +109,7 @@ int main(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "slew") == 0) return slew(argv[2], std::atof(argv[3]));
   if (argc == 4 && std::strcmp(argv[1], "beside") == 0) return beside(argv[2], std::atof(argv[3]));
   if (argc == 3 && std::strcmp(argv[1], "sides") == 0) return sides(argv[2]);
+  if (argc == 3 && std::strcmp(argv[1], "friction") == 0) return friction(argv[2]);
   if (argc == 5 && std::strcmp(argv[1], "same") == 0) return same(argv[2], argv[3], std::atof(argv[4]));
   return 2;
 }

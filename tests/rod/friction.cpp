@@ -91,7 +91,7 @@ TEST_CASE("a stylus across a strip slides with friction as the elastica says", "
 }
 
 TEST_CASE("around a closed path on a wire friction takes the work, along it and aside", "[rod][friction]") {
-  for (const double mu : {0.2}) {
+  for (const double mu : {0.2, 0.6}) {
     Wire model(needle(), 8);
     Touch<Wire> touch(model, 0.01, mu);
     const auto hand = [](double t) {
@@ -113,8 +113,8 @@ TEST_CASE("around a closed path on a wire friction takes the work, along it and 
     }
     taken = before.dissipated - taken;
     CAPTURE(mu, given, taken);
-    // Where the hand turns back, the direction of friction leaps, and settles within some ticks.
-    CHECK(unsettled <= 4);
+    // Not even where the hand turns back, and the direction of friction leaps.
+    CHECK(unsettled == 0);
     CHECK(taken > 1e-4);
     CHECK(std::abs(given - taken - (model.strain_energy() - stored)) <= 3e-5 * taken);
   }
@@ -129,6 +129,7 @@ TEST_CASE("friction on a wire keeps its cone whatever the hand does", "[rod][fri
     Random random(4);
     Point hand(0.15, 0.02, 0), to = hand;
     int left = 0, answers = 0;
+    Felt before;
     for (int k = 0; k < 6000; ++k) {
       if (left-- <= 0) {
         to = Point(0.15, 0.007, 0) + 0.01 * Point(random(1), random(1), random(1));
@@ -139,9 +140,12 @@ TEST_CASE("friction on a wire keeps its cone whatever the hand does", "[rod][fri
       const Felt r = touch.tick(hand);
       check_friction(r, rough);
       answers += is_answer(r.status);
+      // Also where the touch goes on after a fall.
+      if (before.pressing && r.pressing) REQUIRE(r.dissipated >= before.dissipated);
+      before = r;
     }
     CAPTURE(mu);
-    CHECK(answers > (mu > 0 ? 5650 : 5900));
+    CHECK(answers > (mu > 0 ? 5980 : 5900));
   }
 }
 

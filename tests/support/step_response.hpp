@@ -26,6 +26,7 @@ struct Situation {
   double damping = 5, friction = 0.2, apparent_mass = 0.21;          ///< of the arm [N·s/m], [N], [kg]
   double push = 3;                                                   ///< [N]
   bool dissipate = false;                                            ///< as ServoOptions
+  double rough = 0;                                                  ///< coefficient of friction on the beam
   int missed = 0,
       of = 1;         ///< so many ticks of as many are missed in a row: the force stays, the arm moves on
   double jitter = 0;  ///< as ArmOptions
@@ -92,6 +93,7 @@ StepResponse step_response(Model& model, double s, const Coupling& coupling, con
   options.placement = above(model, s, who.from, options.avatar_radius);
   options.delay_ticks = who.delay;
   options.dissipate = who.dissipate;
+  options.friction = who.rough;
   ServoLoop<VirtualPhantom<Leaning>, Model, Coupling> loop(device, model, options, coupling);
 
   StepResponse response;

@@ -150,12 +150,16 @@ class Touch {
     auto memory = memory_;
     return find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory);
   }
+  /// What friction has taken is the touch's, wherever the contact has gone since.
+  void press_on(Result& result) noexcept {
+    pressing_ = result.pressing = true;
+    if (rough()) result.dissipated = pusher_.friction_state().dissipated;
+  }
   void feel_friction(Result& result, Scalar normal_force) const noexcept {
     if (across_ || on_support_ || !std::isfinite(normal_force)) return;
     result.friction = pusher_.friction(normal_force);
     result.force += result.friction;
     result.sliding = pusher_.friction_state().slides;
-    result.dissipated = pusher_.friction_state().dissipated;
   }
 
   /// Fitted to the present shape.  A lasting touch seldom requires them.
@@ -245,7 +249,7 @@ class Touch {
     // Lost, and at rest beneath the avatar: it has not slipped off, and the touch goes on from there.
     begin(contact);
     falling_ = false;
-    pressing_ = result.pressing = true;
+    press_on(result);
     result.status = Status::iteration_limit;
   }
 
@@ -280,7 +284,7 @@ auto Touch<Model>::tick(const Avatar& avatar) noexcept -> Result {
     contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory_);
   if (contact.segment < 0) {
     result.status = Status::invalid_request;
-    result.pressing = pressing_;
+    if (pressing_) press_on(result);
     return result;
   }
   // A pressed beam follows a hand that draws back, until it would have to pull.
@@ -292,7 +296,10 @@ auto Touch<Model>::tick(const Avatar& avatar) noexcept -> Result {
   }
 
   const Scalar reach = avatar_radius_ + model_.thickness() / 2;
-  if (!pressing_) unanswered_ = 0, across_ = true, support_.begin(model_);
+  if (!pressing_) {
+    unanswered_ = 0, across_ = true, support_.begin(model_);
+    pusher_.friction_state().dissipated = 0;
+  }
   const detail::Held<Scalar> held = hold(contact, avatar, reach, result.press);
   result.status = held.status;
   if (takes_push<Model> && planar && across_ && held.status == Status::ok)
@@ -309,8 +316,7 @@ auto Touch<Model>::tick(const Avatar& avatar) noexcept -> Result {
   s_ = contact.s;
   if constexpr (!planar) memory_.s = contact.s, memory_.normal = contact.normal;
   in_range_ = held.status == Status::ok;
-  pressing_ = true;
-  result.pressing = true;
+  press_on(result);
   if (std::isfinite(held.force)) result.force = contact.normal * held.force;
   else result.status = Status::non_finite;
   if (rough()) feel_friction(result, held.force);

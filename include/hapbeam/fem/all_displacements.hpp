@@ -171,11 +171,12 @@ class AllDisplacements {
     return valid && is_answer(rest_.status);
   }
 
-  /// settle() in a few iterations, for a beam that is on its branch and nearly there.  @return ok, or the system may be anywhere
+  /// settle() in a few iterations, for a beam that is on its branch and nearly there.  @param few  linear solves
+  /// @return ok, or the system may be anywhere
   template <class Aim>
-  Response<Scalar> settle_at_once(int looser, Aim&& aim) noexcept {
+  Response<Scalar> settle_at_once(int looser, Aim&& aim, int few = 6) noexcept {
     aim();
-    report_ = solve_within((std::min)(left_, 6), 1, looser);
+    report_ = solve_within((std::min)(left_, few), 1, looser);
     const bool stable = !gives_way();
     left_ -= report_.solves;
     if (report_.status != Status::ok || !stable) report_ = {Status::iteration_limit, 0, 0, 0, 0, 1};

@@ -7,10 +7,12 @@
 //
 // T is the tangential force on the beam.  With the avatar held, -slip is how the touched point of the beam moves along the surface, so T
 // is work-conjugate to it, and a force field of its own for each mode:  ∂T/∂e = k + b,  or (B/l)(1 - d dᵀ), with d and l what ê and |e|
-// were thought to be.  That is symmetric.  N in B is that of the iteration before, moved on along its secant: what is not symmetric
+// were thought to be.  That is symmetric.  After each linear solve d turns to the direction of T, and l becomes d · e: Newton's method for
+// d × e = 0, which has no kink where the slip turns back.  N in B is that of the iteration before, extrapolated: what is not symmetric
 // about Coulomb's law is left to the iteration.  Whether the contact sticks or slides is decided where an equilibrium of the one was found
 // (settled()), so that Newton's method meets no kink.
-// Real-time: noexcept, no allocation, O(1).   Source: return mapping, Simo and Laursen 1992; given bounds, Nečas and others 1980.
+// Real-time: noexcept, no allocation, O(1).   Source: return mapping, Simo and Laursen 1992; given bounds, Nečas and others 1980;
+// direction and force as unknowns of their own, Chan, Golub and Mulet 1999; extrapolation, Aitken 1926.
 #pragma once
 
 #include <algorithm>
@@ -42,6 +44,8 @@ class FrictionLaw {
   static constexpr Scalar exact = Scalar(1e-6);
   /// Where that was not reached within most_tries equilibria, an error that large is no answer any more.
   static constexpr Scalar loose = Scalar(0.1);
+  /// Linear solves in which an equilibrium that is near is found.  In space the bound follows within them.
+  static constexpr int most_solves = D == 2 ? 6 : 16;
 
   /// @param first  where the two would touch before the beam yields: where a touch begins
   /// @param reach  [m] from the avatar's axis to the centreline   @param stiffest  [N/m] that the scalar allows
@@ -70,7 +74,7 @@ class FrictionLaw {
     slid_ = slides_, stuck_ = !slides_;
     tries_ = 0;
     pairs_ = false;
-    follows_ = true;
+    begin_bound();
   }
 
   /// To be called where the beam has moved.
@@ -80,7 +84,7 @@ class FrictionLaw {
     if (!slides_) {
       force_ = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
     } else {
-      if (D == 3 && follows_) follow();
+      if (D == 3) follow();
       force_ = force_at(bound_);
     }
   }
@@ -105,8 +109,19 @@ class FrictionLaw {
   /// To be called after each linear solve.  @param normal_force  of it [N]
   void feel(Scalar normal_force) noexcept {
     used_ = bound_;
-    if (slides_ && !fallen_)
-      bound_ = (std::max)(Scalar(0), used_ + (sliding_ * normal_force - used_) / rate());
+    if (!slides_ || fallen_) return;
+    const Scalar off = sliding_ * normal_force - used_;
+    Scalar step = off / rate();
+    if (D == 3) {
+      // What is left shrinks by the same ratio from solve to solve where nothing but the bound is on its way.
+      const Scalar ratio = off_ != 0 ? off / off_ : Scalar(0);
+      const bool steady =
+          ratio > Scalar(0.2) && ratio < Scalar(0.9) && std::abs(ratio - ratio_) < Scalar(0.15);
+      if (steady) step /= 1 - ratio;
+      off_ = steady ? Scalar(0) : off;
+      ratio_ = steady ? Scalar(0) : ratio;
+    }
+    bound_ = (std::max)(Scalar(0), used_ + step);
   }
 
   /// The beam falls.  What slides does that without friction, and the touch begins anew where it arrives; what sticks goes along.
@@ -125,13 +140,14 @@ class FrictionLaw {
     if (fallen_ || ++tries_ > most_tries || (pulls && (slides_ || !(size > 0)))) return true;
     torn_ = false;
     if (!slides_) {
-      if (!pulls && size <= sticking_ * normal_force) return true;
+      if (!pulls && size <= (1 + exact) * sticking_ * normal_force) return true;
       slides_ = slid_ = true;
       torn_ = pulls || size > 2 * sticking_ * normal_force;
       // From afar the last bound says more than what sticks there.
       used_ = bound_ = torn_ && before_bound_ > 0 ? before_bound_ : most;
       aim(elastic, norm(far_shear_));
       pairs_ = false;
+      begin_bound();
       return false;
     }
     const Vector d = across(direction_);
@@ -145,7 +161,6 @@ class FrictionLaw {
     const Scalar off = (elastic * (most / size) - force_at(used_)).norm();
     if (off <= exact * most) return true;
     bound_ = (std::max)(Scalar(0), used_ + (most - used_) / rate());
-    aim(elastic, norm(sheared_));
     return false;
   }
 
@@ -156,7 +171,7 @@ class FrictionLaw {
   /// @return whether there is another way to try; else it slides
   bool turn() noexcept {
     torn_ = true;
-    follows_ = false;  // near the tip of |e|, where a direction that is held leads on
+    begin_bound();
     if (slides_ && !fallen_ && !stuck_) {
       slides_ = false, stuck_ = true;
       return true;
@@ -214,17 +229,12 @@ class FrictionLaw {
     direction_ = direction;
     length_ = (std::max)(length, Scalar(0));
   }
-  /// The shear that Newton's method has found is where it goes on from, in the potential B |e|; one that turns far, half of the way.
   void follow() noexcept {
-    const Scalar size = norm(sheared_), aimed = norm(direction_);
-    if (!(size > 0 && aimed > 0)) return;
-    const Vector from = direction_ * (length_ / aimed);
-    const bool ahead = 2 * from.dot(sheared_) > length_ * size;
-    const Vector to = ahead ? sheared_ : Vector((from + sheared_) / 2);
-    const Scalar l = norm(to);
-    if (l > length_ / 8) aim(to, l);
-    else length_ /= 2;
+    const Vector turned = force_at(bound_);
+    if (turned.squaredNorm() > 0) direction_ = turned;
+    length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
   }
+  void begin_bound() noexcept { off_ = ratio_ = 0; }
   /// Stiffness across the way of sliding [N/m].
   Scalar aside(Scalar bound) const noexcept {
     const Scalar whole = stiffness_ + damping_;
@@ -271,7 +281,8 @@ class FrictionLaw {
   Scalar reach_ = 0, stiffness_ = 0, damping_ = 0, sticking_ = 0, sliding_ = 0, gain_ = 0;
   Scalar bound_ = 0, used_ = 0, before_bound_ = 0, length_ = 1;
   Scalar pair_bound_ = 0, pair_force_ = 0;
-  bool pairs_ = false, follows_ = true;
+  Scalar off_ = 0, ratio_ = 0;  // of the bound, in feel()
+  bool pairs_ = false;
   int tries_ = 0;
 };
 

@@ -161,6 +161,7 @@ class RoundPush {
     };
 
     // With friction what is near is tried first; `all` of the way may be a fall.
+    const int few = friction ? Friction::most_solves : 6;
     bool all = !friction || way.descending_ || friction->falls();
     // Whether Coulomb's law holds.
     const auto agrees = [&](const Response<Scalar>& found) {
@@ -182,7 +183,7 @@ class RoundPush {
     Response<Scalar> response{0, Status::iteration_limit};
     bool past_end = false;
     if (foreseen) {
-      do response = way.settle_at_once(slack, aim);
+      do response = way.settle_at_once(slack, aim, few);
       while (!agrees(response) && !all);
       foreseen = response.status == Status::ok;
       if (!foreseen) {
@@ -201,7 +202,7 @@ class RoundPush {
         way.to_rest();
         system.remesh(mesh);
       }
-      do response = all ? way.settle(last, slack, aim) : way.settle_at_once(slack, aim);
+      do response = all ? way.settle(last, slack, aim) : way.settle_at_once(slack, aim, few);
       while (!agrees(response));
     }
 
