@@ -33,6 +33,7 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
       "a Local element needs static noexcept respond(const ElementProperties<S>&, const Deformation<S>&) -> "
       "CoreResponse<S> and name() -> const char*: see hapbeam/element/corotational.hpp");
   static constexpr bool any_rotation = true;
+  static constexpr bool tapers = detail::Tapers<Local>::value;
   static constexpr const char* name() noexcept {
     if constexpr (std::is_same_v<Local, Linear>) return "corotational-linear";
     if constexpr (std::is_same_v<Local, VonKarman<FullIntegration>>) return "corotational-full";
