@@ -74,7 +74,16 @@ struct Arc {
   double curvature;  ///< dθ/ds [1/m] without load: positive where the beam bulges up
 };
 
-/// A prismatic beam, its ends and its loads. It is straight unless naturally() gives it a curvature. Its ends are those
+/// A part of the beam with a section of its own, which may change along it.
+struct BeamPart {
+  double end;                              ///< [m] arc position at which it ends
+  std::function<Section(double)> section;  ///< by arc position s [m]; smooth within the part
+
+  BeamPart(double part_end, std::function<Section(double)> by_s) : end(part_end), section(std::move(by_s)) {}
+  BeamPart(double part_end, const Section& same) : end(part_end), section([same](double) { return same; }) {}
+};
+
+/// A beam, its ends and its loads. It is prismatic unless sections() says otherwise. It is straight unless naturally() gives it a curvature. Its ends are those
 /// of the straight beam unless place() moves them. Immutable but for what is added to it.
 class Beam {
  public:
@@ -84,7 +93,9 @@ class Beam {
       : Beam(length,
              detail::positive("young", material.young, "Pa") * detail::positive("area", section.area, "m²"),
              material.young * detail::positive("inertia", section.inertia, "m⁴"), section.thickness, left,
-             right) {}
+             right) {
+    young_ = material.young;
+  }
 
   /// For a section known by its stiffness.
   /// @param length [m]   @param axial_stiffness EA [N]   @param bending_stiffness EI [N·m²]   @param thickness [m]
@@ -132,6 +143,27 @@ class Beam {
     }
     return arcs_ = std::move(arcs), *this;
   }
+  /// Gives parts of the beam sections of their own, from the left end on: a taper or steps. Elements of Tapered<Local> take them;
+  /// a FemModel of other elements rejects the beam. The avatar touches a surface of the thickness that the beam was built
+  /// with, and the strain there is that of this thickness.
+  /// @throws std::invalid_argument unless the ends increase, up to the length, and the beam was built of a material
+  Beam& sections(std::vector<BeamPart> parts) {
+    if (!(young_ > 0))
+      detail::reject("young", young_, "Pa", "known for sections: build the beam of a section and a material");
+    double from = 0;
+    for (const BeamPart& part : parts) {
+      if (!(part.end > from && part.end <= length_ * (1 + 1e-12)))
+        detail::reject("part end", part.end, "m", "beyond the part before it and on the beam");
+      from = part.end;
+    }
+    if (!(from >= length_ * (1 - 1e-12)))
+      detail::reject("part end", from, "m", "the beam's length for the last part");
+    return parts_ = std::move(parts), *this;
+  }
+  /// The same with one section that changes along all of the beam.
+  Beam& section(std::function<Section(double)> by_s) {
+    return sections({BeamPart(length_, std::move(by_s))});
+  }
   /// Places the ends: an end shortening or a stretch, an arch or an inclined beam.
   Beam& place(const EndPlace& left, const EndPlace& right) {
     for (const EndPlace* end : {&left, &right}) {
@@ -142,10 +174,13 @@ class Beam {
     return left_place_ = left, right_place_ = right, *this;
   }
 
-  double length() const noexcept { return length_; }                        ///< L [m]
+  double length() const noexcept { return length_; }  ///< L [m]
+  /// Of the section that the beam was built with.
   double axial_stiffness() const noexcept { return axial_stiffness_; }      ///< EA [N]
   double bending_stiffness() const noexcept { return bending_stiffness_; }  ///< EI [N·m²]
-  double thickness() const noexcept { return thickness_; }                  ///< [m]
+  double young() const noexcept { return young_; }  ///< E [Pa]; 0 where only the stiffness is known
+  const std::vector<BeamPart>& parts() const noexcept { return parts_; }  ///< empty where prismatic
+  double thickness() const noexcept { return thickness_; }                ///< [m]
   Support left() const noexcept { return left_; }
   Support right() const noexcept { return right_; }
   const std::vector<PointLoad>& point_loads() const noexcept { return point_loads_; }
@@ -161,11 +196,12 @@ class Beam {
   }
 
  private:
-  double length_, axial_stiffness_, bending_stiffness_, thickness_;
+  double length_, axial_stiffness_, bending_stiffness_, thickness_, young_ = 0;
   Support left_, right_;
   std::vector<PointLoad> point_loads_;
   DistributedLoad transverse_, axial_;
   std::vector<Arc> arcs_;
+  std::vector<BeamPart> parts_;
   EndPlace left_place_, right_place_;
 };
 

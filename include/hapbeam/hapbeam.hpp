@@ -13,6 +13,7 @@
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/tapered.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/fem_model.hpp>

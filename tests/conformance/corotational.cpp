@@ -5,6 +5,7 @@
 #include "support/thesis_beam.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
+#include <hapbeam/element/tapered.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 using namespace hapbeam;
@@ -21,6 +22,8 @@ using TurningFull = FemModel<Corotational<VonKarman<FullIntegration>>>;
 using TurningFloat = FemModel<Corotational<>, float>;
 using TurningLinearFloat = FemModel<Corotational<Linear>, float>;
 using TurningFixed = FemModel<Corotational<>, double, 8>;
+using TurningTapered = FemModel<Corotational<Tapered<>>>;
+using TurningTaperedFloat = FemModel<Corotational<Tapered<>>, float>;
 using TurningBounded = FemModel<Corotational<>, float, any, 12>;
 
 }  // namespace
@@ -30,6 +33,15 @@ TEMPLATE_TEST_CASE("FemModel of any rotation keeps the contract of a ForceModel 
                    TurningFixed, TurningBounded) {
   static_assert(takes_push<TestType>);
   check_force_model([] { return TestType(thesis_beam(Support::pinned, Support::pinned), 8); });
+}
+
+TEMPLATE_TEST_CASE("FemModel of a taper keeps the contract of a ForceModel between hinges",
+                   "[contract][taper]", FemModel<Tapered<>>, TurningTapered, TurningTaperedFloat) {
+  check_force_model([] {
+    Beam beam(0.3, Section::rectangle(0.025, 0.003), Material{200e9}, Support::pinned, Support::pinned);
+    beam.section([](double s) { return Section::rectangle(0.025, 0.003 - 0.005 * s); });
+    return TestType(beam, 8);
+  });
 }
 
 TEMPLATE_TEST_CASE("a touch of a beam of any rotation keeps Coulomb's law", "[contract][friction]",

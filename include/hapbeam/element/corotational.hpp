@@ -34,6 +34,7 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
       "CoreResponse<S> and name() -> const char*: see hapbeam/element/corotational.hpp");
   static constexpr bool any_rotation = true;
   using Abreast = std::conditional_t<std::is_same_v<Local, VonKarman<AssumedStrain>>, Corotational, void>;
+  static constexpr bool tapers = detail::Tapers<Local>::value;
   static constexpr const char* name() noexcept {
     if constexpr (std::is_same_v<Local, Linear>) return "corotational-linear";
     if constexpr (std::is_same_v<Local, VonKarman<FullIntegration>>) return "corotational-full";

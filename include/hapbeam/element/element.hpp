@@ -9,6 +9,7 @@
 //   E::tangent(p, d, r, K)     S        V, r as above and K = ∂r/∂d, symmetric, both triangles, overwritten
 //   E::name()                  const char*
 //   E::any_rotation            bool, optional, true: valid at finite rotation
+//   E::tapers                  bool, optional, true: takes beams whose section changes, p.taper11 and the like
 //   E::membrane_feels_slope    bool, optional, true: ε contains ½ w'², so an axial load on the element bends it
 //   E::OneStrain               type, optional, E itself: the membrane strain is one number, (u2-u1)/l plus a positive definite
 //                              quadratic form of rise, lθ1 and lθ2, and E has respond(p, e) as below.  A class derived from E
@@ -53,6 +54,8 @@ struct ElementProperties {
   Scalar bending_per_length3 = 0;  ///< EI/l³ [N/m]
   Scalar natural_a = 0;            ///< l times the rotation of end 1 against the chord that bends nothing [m]
   Scalar natural_b = 0;            ///< the same at end 2 [m]
+  /// What a section that changes adds to 4, 2 and 4 EI/l³, for Tapered alone [N/m].
+  Scalar taper11 = 0, taper12 = 0, taper22 = 0;
 };
 
 /// Strains of one element in coordinates that a rigid translation does not change.
@@ -168,6 +171,11 @@ template <class E, typename = void>
 struct IsAbreast : std::false_type {};
 template <class E>
 struct IsAbreast<E, std::void_t<typename E::Abreast>> : std::is_same<typename E::Abreast, E> {};
+
+template <class E, typename = void>
+struct Tapers : std::false_type {};
+template <class E>
+struct Tapers<E, std::void_t<decltype(E::tapers)>> : std::bool_constant<E::tapers> {};
 
 template <class E, typename = void>
 struct OneStrain : std::false_type {};

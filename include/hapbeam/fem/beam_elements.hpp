@@ -13,6 +13,7 @@
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/element/pack.hpp>
 #include <hapbeam/fem/beam_forces.hpp>
+#include <hapbeam/fem/beam_profile.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
 #include <hapbeam/fem/natural_shape.hpp>
@@ -33,13 +34,14 @@ class BeamElements {
       "an Element needs static noexcept energy(p, d), residual(p, d, r), tangent(p, d, r, K) and name(): "
       "see hapbeam/element/element.hpp");
 
-  /// At rest on the x axis.  @throws std::invalid_argument where a load is not finite somewhere on the beam, or elements
-  /// does not fit the type
+  /// At rest on the x axis.  @throws std::invalid_argument where a load is not finite somewhere on the beam, elements
+  /// does not fit the type, or the section changes and Element does not take that
   BeamElements(const Beam& beam, int elements)
       : nodes_(elements),
         properties_(elements),
         loads_(beam, elements),
         natural_(beam),
+        profile_(beam),
         mesh_(elements, static_cast<Scalar>(beam.length())),
         axial_stiffness_(static_cast<Scalar>(beam.axial_stiffness())),
         bending_stiffness_(static_cast<Scalar>(beam.bending_stiffness())) {
@@ -122,7 +124,12 @@ class BeamElements {
     residual(e, lambda, r);
     const auto cut =
         detail::cut_beam<Element>(view(nodes_), e, s, r, loaded(lambda) ? &loads_ : nullptr, lambda);
-    return cut.in_section(axial_stiffness_, bending_stiffness_, thickness);
+    if constexpr (detail::Tapers<Element>::value) {
+      const auto [EA, EI] = profile_.at(s);
+      return cut.in_section(EA, EI, thickness);
+    } else {
+      return cut.in_section(axial_stiffness_, bending_stiffness_, thickness);
+    }
   }
   /// [J]
   Scalar strain_energy() const noexcept {
@@ -174,6 +181,7 @@ class BeamElements {
       const Scalar length = nodes_[e + 1].s - nodes_[e].s;
       if (properties_[e].length != length)
         properties_[e] = ElementProperties<Scalar>(length, axial_stiffness_, bending_stiffness_);
+      if constexpr (detail::Tapers<Element>::value) profile_.apply(nodes_[e].s, length, properties_[e]);
       if (!natural_.straight()) natural_.apply(nodes_[e].s, properties_[e]);
     }
   }
@@ -182,6 +190,7 @@ class BeamElements {
   Properties properties_;
   DeadLoads<Scalar> loads_;
   NaturalShape<Scalar> natural_;
+  std::conditional_t<detail::Tapers<Element>::value, BeamProfile<Scalar>, detail::OneSection> profile_;
   Mesh mesh_;
   Scalar axial_stiffness_, bending_stiffness_;
 };

@@ -34,8 +34,9 @@ struct Scene {
   bool mirrored() const noexcept {
     const EndPlace &a = beam.left_place(), &b = beam.right_place();
     return one_place() && std::abs(2 * s_min - beam.length()) < 1e-9 * beam.length() &&
-           beam.left() == beam.right() && beam.arcs().empty() && a.u == 0 && a.w == 0 && a.theta == 0 &&
-           b.w == 0 && b.theta == 0 && beam.point_loads().empty() && !beam.transverse() && !beam.axial();
+           beam.left() == beam.right() && beam.parts().empty() && beam.arcs().empty() && a.u == 0 &&
+           a.w == 0 && a.theta == 0 && b.w == 0 && b.theta == 0 && beam.point_loads().empty() &&
+           !beam.transverse() && !beam.axial();
   }
 
   /// @throws std::invalid_argument

@@ -274,9 +274,13 @@ Snapshots take_snapshots(const Beam& beam, const Model& full, const TrainingPlan
 
 /// Snapshots for a GalerkinModel: at each position the depths whose tensions are the grid's.
 /// @param full  as above, with strain_energy() [J] and a solver tight enough for F d - 2V, 1e-12 or so
+/// @throws std::invalid_argument where the section of the beam changes: a GalerkinModel has one EA
 template <class Nodes = ChebyshevNodes, class Model>
 Snapshots take_snapshots_at_tensions(const Beam& beam, const Model& full, const TrainingPlan& plan,
                                      const TrainingOptions& options = {}) {
+  if (!beam.parts().empty())
+    detail::reject("beam sections", static_cast<double>(beam.parts().size()), "",
+                   "none for a GalerkinModel; a PodModel takes them");
   return detail::SnapshotTaker<Nodes, Model>(beam, full, plan, options).by_tension();
 }
 
