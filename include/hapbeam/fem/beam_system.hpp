@@ -17,19 +17,27 @@
 #include <hapbeam/fem/chain.hpp>
 #include <hapbeam/fem/contact_friction.hpp>
 #include <hapbeam/fem/contact_point.hpp>
-#include <hapbeam/fem/other_contacts.hpp>
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/round_contact.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/starting_shapes.hpp>
 #include <hapbeam/fem/supports.hpp>
+#include <hapbeam/fem/system_contacts.hpp>
 
 namespace hapbeam {
 
 template <class Element, typename ScalarType, int Elements, int MaxElements,
           template <typename, int, int, int> class Assembler>
-class BeamSystem {
+class BeamSystem
+    : public detail::SystemContacts<
+          BeamSystem<Element, ScalarType, Elements, MaxElements, Assembler>, ScalarType,
+          detail::ContactPoint<ScalarType, any_rotation<Element>>, Vector2<ScalarType>,
+          detail::CircleOnCurve<ScalarType>, detail::ContactFriction<ScalarType, 2, detail::RoundContact>,
+          typename detail::HeldRowOf<Assembler<ScalarType, Elements, MaxElements, 3>>::Type,
+          contacts_of<Element> - 1> {
+  using Contacts = typename BeamSystem::SystemContacts;
+
  public:
   using Scalar = ScalarType;
   using Node = CentrelineNode<Scalar>;
@@ -94,61 +102,9 @@ class BeamSystem {
     force_ = linear_reaction_ = 0;
   }
 
-  /// Where the path ends: all of the dead loads, the ends where they are placed, and no contact.
-  void set_goal() noexcept {
-    contact_ = {};
-    others_.clear();
-    begin_path();
-  }
-  /// The same with a contact: d = n · (u, w) at its node or, beside an end that yields, at a distance on a straight tip.
-  /// @param contact node   @param d [m]   @param lever [m] from the node to the contact, along the beam
-  /// @param normal n, a unit vector; other than (0, 1) where the element is right at any rotation
-  void set_goal(int contact, Scalar d, Scalar lever = 0, const Vector2<Scalar>& normal = {0, 1}) noexcept {
-    contact_ = {contact, lever, normal};
-    others_.clear();
-    start_d_ = contact_displacement();
-    goal_d_ = d;
-    begin_path();
-  }
-
-  /// The same with a circle that the beam touches beside the node: d = -reach is then the wanted distance of its centre.
-  void set_goal(int contact, Scalar d, const detail::CircleOnCurve<Scalar>& circle) noexcept {
-    contact_ = {contact, circle};
-    others_.clear();
-    start_d_ = contact_displacement();
-    goal_d_ = d;
-    begin_path();
-  }
-
-  // What SeveralPush asks beyond that.
-
-  /// One contact more, after the first.  @param as  those of the first   @param force  of the last tangent's [N]
-  template <class... As>
-  void add_goal(Scalar force, int contact, Scalar d, const As&... as) noexcept {
-    auto& other = others_.add();
-    other.point = {contact, as...};
-    other.force = other.reaction = force;
-    other.point.look(node(contact), force);
-    other.start = other.point.displacement();
-    other.goal = d;
-  }
-  /// Of the contacts, in the order in which they were set: the force along n, of linear_reaction() [N].
-  Scalar linear_reaction(int k) const noexcept { return k == 0 ? linear_reaction_ : others_[k - 1].reaction; }
-  /// Before the first goal is set: the force of its contact in the last tangent [N].
-  void set_force(Scalar force) noexcept { force_ = linear_reaction_ = force; }
-  /// How the circle of one of them lies to its node.
-  auto contact(int k) const noexcept {
-    const auto& point = k == 0 ? contact_ : others_[k - 1].point;
-    return point.view(node(point.node()));
-  }
-
-  /// How that circle lies to the contact's node.
-  auto contact() const noexcept { return contact_.view(node(contact_.node())); }
-
-  /// Of the contacts of the next goals, null: none.
-  void set_friction(Friction* friction) noexcept { friction_ = friction; }
-  /// To be called where the beam has moved.
-  void look_at_friction() noexcept { friction_->look(contact_, node(contact_.node())); }
+  using Contacts::set_goal;
+  /// Across the beam.
+  void set_goal(int contact, Scalar d, Scalar lever = 0) noexcept { set_goal(contact, d, lever, {0, 1}); }
 
   // What AllDisplacements asks beyond a system.
 
@@ -188,23 +144,16 @@ class BeamSystem {
   // Required by NewtonRaphson.
 
   void set_target(Scalar t) noexcept {
-    const auto between = [t](Scalar start, Scalar goal) { return t < 1 ? start + t * (goal - start) : goal; };
-    load_ = between(start_load_, 1);
-    d_ = between(start_d_, goal_d_);
-    for (auto& other : others_) other.d = between(other.start, other.goal);
+    Contacts::aim(t);
     for (auto& end : ends_) end.set_target(t);
   }
   void save() noexcept {
     for (int i = 0; i <= elements(); ++i) saved_[i] = node(i);
-    saved_load_ = load_;
-    saved_reaction_ = linear_reaction_;
-    for (auto& other : others_) other.saved = other.reaction;
+    Contacts::save_contacts();
   }
   void restore() noexcept {
     for (int i = 0; i <= elements(); ++i) beam_.nodes()[i] = saved_[i];
-    load_ = saved_load_;
-    force_ = linear_reaction_ = saved_reaction_;
-    for (auto& other : others_) other.force = other.reaction = other.saved;
+    Contacts::restore_contacts();
   }
   Scalar size() const noexcept { return size_; }
   Scalar unit() const noexcept { return unit_; }
@@ -302,11 +251,6 @@ class BeamSystem {
     place();
   }
 
-  /// The same as reaction() at the end of the last iterate(), of its linear equations, r + KΔ: accurate to what Newton's next
-  /// increment would change.  reaction() has the round-off of nodes in it, EA/l and 12EI/l³ times their last places, which
-  /// those equations have balanced.  It is saved and restored with the state, and stays where the mesh moves or a descent
-  /// is on its way: the force of the last equilibrium.
-  Scalar linear_reaction() const noexcept { return linear_reaction_; }
   /// Force along n that holds the contact at d, thesis eq. 3.42 [N].
   Scalar reaction() const noexcept {
     const int c = contact_.node();
@@ -331,12 +275,18 @@ class BeamSystem {
   }
 
  private:
+  friend Contacts;
+  using Contacts::contact_;
+  using Contacts::d_;
+  using Contacts::force_;
+  using Contacts::friction_;
+  using Contacts::linear_reaction_;
+  using Contacts::load_;
+  using Contacts::others_;
+  using Contacts::start_load_;
+
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
 
-  Scalar contact_displacement() noexcept {
-    contact_.look(node(contact_.node()), force_);
-    return contact_.displacement();
-  }
   void begin_path() noexcept {
     start_load_ = load_;
     for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
@@ -347,9 +297,7 @@ class BeamSystem {
   Status assemble_and_solve(Scalar shift) noexcept {
     Scalar energy = 0, work = 0;
     const int c = contact_.node();
-    if (c >= 0) contact_.look(node(c), force_);
-    for (auto& other : others_) other.point.look(node(other.point.node()), other.force);
-    if (friction_) look_at_friction();
+    Contacts::look_at_contacts();
     // What most elements need takes no address of their tangent: it stays in registers.
     typename BeamElements<Element, Scalar, Elements, MaxElements>::Group group;
     const auto add = [&](int e, auto&& change) {
@@ -395,8 +343,7 @@ class BeamSystem {
   void place() noexcept {
     for (std::size_t k = 0; k < 2; ++k)
       ends_[k].visit(beam_.nodes()[end(k)], [](int, Scalar& now, Scalar target) { now = target; });
-    if (contact_.node() >= 0) contact_.correct(beam_.nodes()[contact_.node()], d_);
-    for (auto& other : others_) other.point.correct(beam_.nodes()[other.point.node()], other.d);
+    Contacts::correct_contacts(beam_.nodes());
   }
   template <class Other>
   void hold(Other& other) noexcept {
@@ -432,18 +379,8 @@ class BeamSystem {
   Nodes saved_;
   Assembler<Scalar, Elements, MaxElements, 3> assembler_;
   std::array<detail::EndSupport<Scalar>, 2> ends_;
-  detail::ContactPoint<Scalar, any_rotation<Element>> contact_;
-  using Rows = Assembler<Scalar, Elements, MaxElements, 3>;
-  using Point = detail::ContactPoint<Scalar, any_rotation<Element>>;
-  detail::OtherContacts<detail::OtherContact<Point, Scalar, typename detail::HeldRowOf<Rows>::Type>,
-                        contacts_of<Element> - 1>
-      others_;
-  Friction* friction_ = nullptr;
   Scalar length_;
-  Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;
-  Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;
-  Scalar size_ = 0, potential_ = 0, linear_reaction_ = 0, saved_reaction_ = 0, unit_;
-  Scalar force_ = 0;  // of the last tangent's contact
+  Scalar size_ = 0, potential_ = 0, unit_;
 };
 
 namespace detail {

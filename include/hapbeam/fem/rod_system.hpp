@@ -23,12 +23,20 @@
 #include <hapbeam/fem/rod_round_contact.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
+#include <hapbeam/fem/system_contacts.hpp>
 
 namespace hapbeam {
 
 template <class Element, typename ScalarType, int Elements, int MaxElements,
           template <typename, int, int, int> class Assembler>
-class RodSystem {
+class RodSystem
+    : public detail::SystemContacts<
+          RodSystem<Element, ScalarType, Elements, MaxElements, Assembler>, ScalarType,
+          detail::RodContact<ScalarType>, VectorOf<ScalarType, 3>, detail::CapsuleOnCurve<ScalarType>,
+          detail::ContactFriction<ScalarType, 3, detail::RodRoundContact>,
+          typename detail::HeldRowOf<Assembler<ScalarType, Elements, MaxElements, Element::unknowns>>::Type,
+          contacts_of<Element> - 1> {
+  using Contacts = typename RodSystem::SystemContacts;
   using Parts = RodElements<Element, ScalarType, Elements, MaxElements>;
 
  public:
@@ -138,76 +146,20 @@ class RodSystem {
     return valid;
   }
 
-  /// Where the path ends: all of the dead loads, the ends where they are placed, and no contact.
-  void set_goal() noexcept {
-    contact_ = {};
-    others_.clear();
-    begin_path();
-  }
-  /// The same with a contact: d = n · r at its node or, beside an end that yields, at a distance on a straight tip.
-  /// @param contact node   @param d [m]   @param lever [m] from the node to the contact along the rod   @param normal n, unit
-  void set_goal(int contact, Scalar d, Scalar lever, const Vector3& normal) noexcept {
-    contact_ = {contact, lever, normal};
-    others_.clear();
-    start_d_ = contact_displacement();
-    goal_d_ = d;
-    begin_path();
-  }
-  /// The same with a capsule that the rod touches beside the node: d = -reach is then the wanted distance of its axis.
-  void set_goal(int contact, Scalar d, const detail::CapsuleOnCurve<Scalar>& capsule) noexcept {
-    contact_ = {contact, capsule};
-    others_.clear();
-    start_d_ = contact_displacement();
-    goal_d_ = d;
-    begin_path();
-  }
-  // What SeveralPush asks beyond that: as BeamSystem.
-
-  template <class... As>
-  void add_goal(Scalar force, int contact, Scalar d, const As&... as) noexcept {
-    auto& other = others_.add();
-    other.point = {contact, as...};
-    other.force = other.reaction = force;
-    other.point.look(node(contact), force);
-    other.start = other.point.displacement();
-    other.goal = d;
-  }
-  Scalar linear_reaction(int k) const noexcept { return k == 0 ? linear_reaction_ : others_[k - 1].reaction; }
-  void set_force(Scalar force) noexcept { force_ = linear_reaction_ = force; }
-  auto contact(int k) const noexcept {
-    const auto& point = k == 0 ? contact_ : others_[k - 1].point;
-    return point.view(node(point.node()));
-  }
-
-  /// How that capsule lies to the contact's node.
-  auto contact() const noexcept { return contact_.view(node(contact_.node())); }
-
-  /// Of the contacts of the next goals, null: none.
-  void set_friction(Friction* friction) noexcept { friction_ = friction; }
-  /// To be called where the beam has moved.
-  void look_at_friction() noexcept { friction_->look(contact_, node(contact_.node())); }
-
   // Required by NewtonRaphson.
 
   void set_target(Scalar t) noexcept {
-    const auto between = [t](Scalar start, Scalar goal) { return t < 1 ? start + t * (goal - start) : goal; };
-    load_ = between(start_load_, 1);
-    d_ = between(start_d_, goal_d_);
-    for (auto& other : others_) other.d = between(other.start, other.goal);
+    Contacts::aim(t);
     for (auto& end : ends_) end.set_target(t);
   }
   void save() noexcept {
     keep(saved_);
-    saved_load_ = load_;
-    saved_reaction_ = linear_reaction_;
-    for (auto& other : others_) other.saved = other.reaction;
+    Contacts::save_contacts();
   }
   void restore() noexcept {
     for (int i = 0; i <= elements(); ++i)
       rod_.nodes()[i] = saved_.nodes[i], rod_.inners()[i] = saved_.inners[i];
-    load_ = saved_load_;
-    force_ = linear_reaction_ = saved_reaction_;
-    for (auto& other : others_) other.force = other.reaction = other.saved;
+    Contacts::restore_contacts();
   }
   Scalar size() const noexcept { return size_; }
   Scalar unit() const noexcept { return unit_; }
@@ -242,9 +194,7 @@ class RodSystem {
   /// over the nodes   @return ok | singular | non_finite
   Status factor(Scalar shift) noexcept {
     const int c = contact_.node();
-    if (c >= 0) contact_.look(node(c), force_);
-    for (auto& other : others_) other.point.look(node(other.point.node()), other.force);
-    if (friction_) look_at_friction();
+    Contacts::look_at_contacts();
     const auto [strain, work, inner] =
         rod_.visit_tangents(load_, [&](int first, auto& K, auto& r) { assembler_.add_pairs(first, K, r); });
     inner_energy_ = inner;
@@ -307,8 +257,7 @@ class RodSystem {
         rod_.nodes(), [this](int i) -> auto& { return increments_[i]; });
     if (contact_.node() < 0) close_chain();
     for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
-    if (contact_.node() >= 0) contact_.correct(rod_.nodes()[contact_.node()], d_);
-    for (auto& other : others_) other.point.correct(rod_.nodes()[other.point.node()], other.d);
+    Contacts::correct_contacts(rod_.nodes());
   }
   /// Size of the last increment in the norm of the tangent [√J].
   Scalar increment() const noexcept {
@@ -369,9 +318,6 @@ class RodSystem {
     return x;
   }
 
-  /// Force along n that holds the contact at d, of the last linear equations [N].
-  Scalar linear_reaction() const noexcept { return linear_reaction_; }
-
   /// What holds an end: force [N] and moment about the end [N·m], in space.
   struct Hold {
     Vector3 force, moment;
@@ -402,6 +348,16 @@ class RodSystem {
   }
 
  private:
+  friend Contacts;
+  using Contacts::contact_;
+  using Contacts::d_;
+  using Contacts::force_;
+  using Contacts::friction_;
+  using Contacts::linear_reaction_;
+  using Contacts::load_;
+  using Contacts::others_;
+  using Contacts::start_load_;
+
   using Matrix = Eigen::Matrix<Scalar, 3, 3>;
   using Block = Eigen::Matrix<Scalar, unknowns, unknowns>;
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
@@ -424,11 +380,6 @@ class RodSystem {
   static Vector3 arm(const detail::RodContact<Scalar>& contact, const Matrix* T) noexcept {
     return T ? Vector3(T->transpose() * contact.arm()) : contact.arm();
   }
-  Scalar contact_displacement() noexcept {
-    contact_.look(node(contact_.node()), force_);
-    return contact_.displacement();
-  }
-
   void begin_path() noexcept {
     start_load_ = load_;
     for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
@@ -517,18 +468,9 @@ class RodSystem {
   Assembler<Scalar, Elements, MaxElements, unknowns> assembler_;
   std::array<detail::RodEnd<Scalar>, 2> ends_;
   Increment prescribed_[2] = {Increment::Zero(), Increment::Zero()};
-  detail::RodContact<Scalar> contact_;
-  using Rows = Assembler<Scalar, Elements, MaxElements, unknowns>;
-  using Other =
-      detail::OtherContact<detail::RodContact<Scalar>, Scalar, typename detail::HeldRowOf<Rows>::Type>;
-  detail::OtherContacts<Other, contacts_of<Element> - 1> others_;
-  Friction* friction_ = nullptr;
   Scalar moves_ = 0;
   Scalar length_, axial_;
-  Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;
-  Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;
-  Scalar size_ = 0, potential_ = 0, inner_energy_ = 0, linear_reaction_ = 0, saved_reaction_ = 0, unit_;
-  Scalar force_ = 0;  // of the last tangent's contact
+  Scalar size_ = 0, potential_ = 0, inner_energy_ = 0, unit_;
 };
 
 namespace detail {
