@@ -61,6 +61,19 @@ NearestPoint<Scalar> nearest_beside(const Centreline<Scalar>& line, int beside,
   return best;
 }
 
+/// As find_contact(), of a centreline of finite rotation that the avatar touches.
+/// @param s  [m] where the last contact was   @return false for a position that is none
+template <typename Scalar>
+[[nodiscard]] bool find_contact_beside(const Centreline<Scalar>& line, Scalar s, const Avatar<Scalar>& avatar,
+                                       Scalar thickness, ContactMemory<Scalar>& memory,
+                                       Contact<Scalar>& contact) noexcept {
+  const NearestPoint<Scalar> nearest = nearest_beside(line, line.segment_at(s), avatar.position);
+  if (!std::isfinite(nearest.at.distance_squared)) return false;
+  contact =
+      contact_at(nearest, {line, 0, line.segments()}, avatar, thickness, memory, [] { return Crossings{}; });
+  return true;
+}
+
 /// As find_contact() on the whole of the model's shape, for an avatar that touches it.
 /// @param s  [m] where the last contact was   @param memory  touching   @param contact  out, where the answer is true
 /// @return false where the contact may be elsewhere
@@ -73,17 +86,12 @@ template <class Model>
   constexpr Scalar slack = 1 + 16 * std::numeric_limits<Scalar>::epsilon();
   const Vector2<Scalar>& q = avatar.position;
   const auto x = [](const CentrelineNode<Scalar>& node) { return node.s + node.u; };
-  if (const Centreline<Scalar>& line = model.shape(); line.any_rotation()) {
-    const NearestPoint<Scalar> nearest = nearest_beside(line, line.segment_at(s), q);
-    if (!std::isfinite(nearest.at.distance_squared)) return false;
-    contact = contact_at(nearest, {line, 0, line.segments()}, avatar, model.thickness(), memory,
-                         [] { return Crossings{}; });
-    return true;
-  }
   Scalar low = s, high = s;
   for (int attempt = 0; attempt < 2; ++attempt) {
     const CentrelinePart<Scalar> part = part_of(model, low, high);
     const Centreline<Scalar>& line = part.line;
+    if (line.any_rotation())
+      return find_contact_beside(model.shape(), s, avatar, model.thickness(), memory, contact);
     const NearestPoint<Scalar> nearest = nearest_along_x(line, q);
     if (nearest.segment < 0) return false;
     const Scalar d = std::sqrt(nearest.at.distance_squared) * slack;
