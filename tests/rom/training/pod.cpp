@@ -75,7 +75,8 @@ TEST_CASE("no other basis of as many vectors leaves less", "[pod]") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const MatrixXd Q = MatrixXd(Eigen::HouseholderQR<MatrixXd>(random_matrix(12, 3, seed)).householderQ() *
                                 MatrixXd::Identity(12, 3));
-    CHECK((X - Q * (Q.transpose() * X)).squaredNorm() >= best);
+    // One of them is X's own basis, which leaves as much, to the round-off of |X|².
+    CHECK((X - Q * (Q.transpose() * X)).squaredNorm() >= best - 10 * eps * X.squaredNorm());
   }
 }
 
