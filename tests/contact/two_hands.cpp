@@ -93,10 +93,12 @@ TEST_CASE("a hand that is gone leaves the beam to the other one", "[two_hands]")
   REQUIRE(std::abs(scene.left.tick(at).force.norm() - expected) > 0.05 * expected);
   SECTION("its loop was stopped") {
     for (int k = 0; k < TwoHands<TwoTouched>::patience + 1; ++k) (void)scene.left.tick(at);
+    CHECK_FALSE(scene.right.pressing());
     CHECK(scene.left.tick(at).force.norm() == Approx(expected).epsilon(1e-6));
   }
   SECTION("it was reset") {
     scene.right.reset();
+    CHECK(scene.right.meanwhile() == nullptr);
     (void)scene.left.tick(at);
     CHECK(scene.left.tick(at).force.norm() == Approx(expected).epsilon(1e-6));
   }

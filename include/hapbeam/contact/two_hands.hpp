@@ -79,11 +79,17 @@ class TwoHands {
 
   Result tick(int hand, const Vector& position, const Vector& shaft) noexcept {
     const Result result = touch_.tick(hand, position, shaft);
-    // A position that is none leaves the hand where it was, for as long as a loop that has stopped.
-    if (result.status != Status::invalid_request) silent_[at(hand)] = 0;
-    if (is_answer(result.status)) meanwhile_[at(1 - hand)] = result.force(1 - hand);
-    if (silent_[at(1 - hand)] < patience && ++silent_[at(1 - hand)] == patience) touch_.lift(1 - hand);
+    // A position that is none is no tick: the hand stays where it was, as one whose loop has stopped.
+    if (result.status == Status::invalid_request) return result;
+    const int other = 1 - hand;
+    silent_[at(hand)] = 0, changed_[at(hand)] = false;
+    if (is_answer(result.status)) meanwhile_[at(other)] = result.force(other), changed_[at(other)] = true;
+    if (silent_[at(other)] < patience && ++silent_[at(other)] == patience) touch_.lift(other);
     return result;
+  }
+  void lift(int hand) noexcept {
+    touch_.lift(hand);
+    changed_[at(hand)] = false;
   }
   static std::size_t at(int hand) noexcept { return static_cast<std::size_t>(hand); }
 
@@ -91,6 +97,7 @@ class TwoHands {
   TouchSeveral<Model> touch_;
   std::array<Hand<Model>, 2> hands_;
   std::array<Vector, 2> meanwhile_{Vector::Zero(), Vector::Zero()};  // on a hand, since its last tick [N]
+  std::array<bool, 2> changed_{false, false};                        // there was an answer since
   std::array<int, 2> silent_{0, 0};  // ticks of the other hand since the last one of this
 };
 
@@ -116,13 +123,13 @@ class Touch<Hand<Model>> {
 
   /// This hand leaves the beam; the other one stays.   Real-time: O(1).
   void reset() noexcept {
-    hands_.touch_.lift(index_);
+    hands_.lift(index_);
     pressing_ = false;
   }
-  bool pressing() const noexcept { return pressing_; }
+  bool pressing() const noexcept { return pressing_ && hands_.silent_[at()] < TwoHands<Model>::patience; }
   /// The force on the hand at the place of its last tick, as ticks of the other one have left the beam [N]; null where there were none.
   const Vector* meanwhile() const noexcept {
-    return hands_.silent_[at()] > 0 ? &hands_.meanwhile_[at()] : nullptr;
+    return hands_.changed_[at()] ? &hands_.meanwhile_[at()] : nullptr;
   }
 
   /// One tick.  @param position [m] of the avatar   @param shaft [m] in space, of a capsule: from there to the other end of its axis

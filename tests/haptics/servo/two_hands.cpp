@@ -194,6 +194,33 @@ TEST_CASE("a device that is unplugged leaves the other one its beam", "[two_hand
   CHECK(model.shape()[16].w == Approx(held).margin(3e-4));  // the arms' friction leaves them elsewhere
 }
 
+TEST_CASE("a hand whose position is none is a hand that is not ticked", "[two_hands]") {
+  using Model = FemModel<Several<Corotational<>, 2>>;
+  // The right hand comes onto the ruler, and from 400 on its place is none, or it is not ticked at all.
+  const auto forces = [](bool ticked) {
+    Model model(steel_ruler(), 16);
+    TwoHands hands(model);
+    const DeviceInfo device = VirtualPhantom<>(HandPath({0, 0})).info();
+    Servo left(hands[0], device), right(hands[1], device);
+    std::vector<double> felt;
+    for (int k = 0; k < 900; ++k) {
+      DeviceState one, other;
+      one.reset = other.reset = k == 0;
+      one.time = other.time = 1e-3 * k;
+      one.position = {0.2, 0.0055 - 3e-5 * k, 0};
+      other.position = {0.1, k < 400 ? 0.0055 - 2e-5 * k : std::nan(""), 0};
+      felt.push_back(left.tick(one).y());
+      if (k >= 400 && !ticked) continue;
+      const Eigen::Vector3d none = right.tick(other);
+      if (k >= 430) CHECK(none.isZero(0));
+    }
+    return felt;
+  };
+  const std::vector<double> quiet = forces(false);
+  CHECK(quiet.back() > 1);
+  CHECK(forces(true) == quiet);
+}
+
 TEST_CASE("what one hand does to the beam does not confuse the other hand's coupling", "[two_hands]") {
   // The left hand stands still; the right one presses and draws back within 0.1 s each.
   FemModel<Several<Corotational<>, 2>> model(steel_ruler(), 16);
