@@ -21,8 +21,5 @@ if(HAPBEAM_SANITIZE)
   # What the address sanitizer or Eigen's own assertions see as well is not looked for twice: a third of the compiler's time.
   if(HAPBEAM_SANITIZE STREQUAL "address,undefined")
     target_compile_options(hapbeam_checks INTERFACE -fno-sanitize=null,alignment,object-size,vptr)
-    # The checks of addresses as calls and not in line: a sixth of the compiler's time.
-    target_compile_options(hapbeam_checks INTERFACE
-      $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-fsanitize-address-outline-instrumentation>)
   endif()
 endif()
