@@ -5,6 +5,7 @@
 // No allocation, noexcept, O(1) but for the search of the piece, which is O(log n).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <hapbeam/angle.hpp>
@@ -52,6 +53,18 @@ class Centreline<Scalar, 3> {
     control.col(2) = b.r - third * b.tangent;
     control.col(3) = b.r;
     return control;
+  }
+  /// True where no point of piece i is within d of a shaft, as its nodes alone show.  Its inner control points are a third of its
+  /// length times |dr/ds| from its nodes, hence no point is farther than 3/4 of that from the chord.
+  template <class Shaft>
+  bool excludes(int i, const Shaft& shaft, Scalar d) const noexcept {
+    const Node &a = nodes_[i], &b = nodes_[i + 1];
+    const VectorOf<Scalar, 3> middle = (a.r + b.r) / 2;
+    const Scalar handle = std::sqrt((std::max)(a.tangent.squaredNorm(), b.tangent.squaredNorm()));
+    // 1 % for round-off, which may lengthen what is computed of the piece.
+    const Scalar least =
+        d + Scalar(1.01) * (std::sqrt((b.r - a.r).squaredNorm()) / 2 + (b.s - a.s) / 4 * handle);
+    return (shaft.at(shaft.nearest(middle)) - middle).squaredNorm() > least * least;
   }
   /// Calls visit(i, segment(i)) for each piece, in order.
   template <class Visitor>

@@ -6,6 +6,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include <hapbeam/contact/bounding_volumes.hpp>
+#include <hapbeam/contact/find_rod_contact.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -65,4 +66,48 @@ TEST_CASE("the nearest point of a rod to a sphere or a capsule is exact to 1e-9 
       CHECK(volumes.distance_squared(shaft) <= d * d * (1 + 1e-12));
     }
   }
+}
+
+TEST_CASE("near where it was the contact of a rod is that of the whole rod, to the bit", "[rod]") {
+  Random random(67);
+  int found = 0, apart = 0, passed = 0;
+  for (const char* name : {"wire_under_load", "hook", "spring"}) {
+    const PressedRod pressed = pressed_rod(name);
+    FemModel<TwistedRod> model(pressed.rod, 8 * pressed.turns);
+    const double size = pressed.rod.length();
+    BoundingVolumes<double, 3> volumes(model.elements());
+    for (int trial = 0; trial < 4000; ++trial) {
+      if (trial % 200 == 0) {
+        const double depth = random(size / 10);
+        (void)model.push({pressed.s, depth, pressed.normal});
+        volumes.refit(model.shape());
+      }
+      const double s = random(0.0, size), far = std::pow(10, random(-5, -0.5)) * size,
+                   radius = random(0.0, 0.05) * size, stale = random(0.0, size),
+                   moved = random(0.0, 0.1) * radius;
+      const double z = random(far), y = random(far), x = random(far);
+      Avatar<double, 3> avatar{model.shape().at(s).r + Point(x, y, z), radius};
+      if (trial % 2 == 0) avatar.shaft = Point(y, z, x) / far * size / 4;
+      ContactMemory<double, 3> near;
+      near.axis = avatar.axis();
+      near.axis.tip.x() += moved;
+      near.known = near.touching = true;
+      near.s = trial % 4 == 3 ? stale : s;
+      near.normal = detail::unit(Point(x, z, y));
+      ContactMemory<double, 3> all = near;
+      Contact<double, 3> here;
+      if (!detail::find_contact_near(model, avatar, near, here)) {
+        ++passed;
+        continue;
+      }
+      ++found;
+      const Contact<double, 3> whole = find_contact(avatar, model.shape(), volumes, model.thickness(), all);
+      apart += !(here.touching == whole.touching && here.segment == whole.segment && here.s == whole.s &&
+                 here.depth == whole.depth && here.foot == whole.foot && here.normal == whole.normal &&
+                 here.past_end == whole.past_end && near.s == all.s && near.normal == all.normal);
+    }
+  }
+  CHECK(apart == 0);
+  CHECK(found > 10000);
+  CHECK(passed < 2000);  // steps that may have gone through the rod
 }

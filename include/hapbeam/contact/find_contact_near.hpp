@@ -42,15 +42,15 @@ NearestPoint<Scalar> nearest_along_x(const Centreline<Scalar>& line, const Vecto
 }
 
 /// The nearest point of a whole centreline of finite rotation, to q.
-/// @param beside  the piece that is searched first
-template <typename Scalar>
-NearestPoint<Scalar> nearest_beside(const Centreline<Scalar>& line, int beside,
-                                    const Vector2<Scalar>& q) noexcept {
-  NearestPoint<Scalar> best{beside, closest_point(line.segment(beside), q)};
+/// @param beside  the piece that is searched first   @param q  a point or, in space, a Shaft
+template <typename Scalar, int D, class Query>
+NearestPoint<Scalar, D> nearest_beside(const Centreline<Scalar, D>& line, int beside,
+                                       const Query& q) noexcept {
+  NearestPoint<Scalar, D> best{beside, closest_point(line.segment(beside), q)};
   Scalar d = std::sqrt(best.at.distance_squared);
   const auto look = [&](int i) {
     if (line.excludes(i, q, d)) return;
-    const ClosestPoint<Scalar> candidate = closest_point(line.segment(i), q);
+    const ClosestPoint<Scalar, D> candidate = closest_point(line.segment(i), q);
     const Scalar a = candidate.distance_squared, b = best.at.distance_squared;
     if (!(a < b || (a == b && i < best.segment))) return;
     best = {i, candidate};

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include <hapbeam/contact/find_contact.hpp>
+#include <hapbeam/contact/find_contact_near.hpp>
 #include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam {
@@ -69,6 +70,44 @@ Contact<Scalar, 3> rod_contact_at(const NearestPoint<Scalar, 3>& nearest, const 
   return contact;
 }
 
+/// A rod that is held is not passed: what has come to lie on the other side of the axis is still touched from the side of before.
+template <typename Scalar>
+Contact<Scalar, 3> remembered(Contact<Scalar, 3> contact, const Shaft<Scalar>& axis, Scalar reach,
+                              ContactMemory<Scalar, 3>& memory) noexcept {
+  if (memory.touching && contact.depth > 0 && contact.depth < reach && !contact.past_end &&
+      contact.normal.dot(memory.normal) < 0 && std::abs(contact.s - memory.s) < 2 * reach) {
+    contact.normal = -contact.normal;
+    contact.depth = 2 * reach - contact.depth;
+  }
+  contact.touching = contact.depth > 0;
+  memory = {axis, true, contact.touching, contact.s, contact.normal};
+  return contact;
+}
+
+/// Whether the avatar may have gone through a rod since the last tick: only a step longer than the present distance can have.
+template <typename Scalar>
+bool may_have_passed(Scalar step, Scalar reach, const NearestPoint<Scalar, 3>& nearest) noexcept {
+  return step > reach / 2 && step * step >= nearest.at.distance_squared;
+}
+
+/// As find_contact() of a rod that the avatar touches, sought near the last contact.
+/// @param contact  out, where the answer is true   @return false where it may be elsewhere
+template <class Model>
+[[nodiscard]] bool find_contact_near(const Model& model, const Avatar<typename Model::Scalar, 3>& avatar,
+                                     ContactMemory<typename Model::Scalar, 3>& memory,
+                                     Contact<typename Model::Scalar, 3>& contact) noexcept {
+  using Scalar = typename Model::Scalar;
+  const Shaft<Scalar> axis = avatar.axis();
+  const Scalar reach = avatar.radius + model.thickness() / 2;
+  const Centreline<Scalar, 3> line = model.shape();
+  const NearestPoint<Scalar, 3> nearest = nearest_beside(line, line.segment_at(memory.s), axis);
+  if (!std::isfinite(nearest.at.distance_squared)) return false;
+  if (may_have_passed(memory.known ? step(memory.axis, axis) : Scalar(0), reach, nearest)) return false;
+  contact = remembered(rod_contact_at(nearest, axis, line, memory.normal, reach, model.thickness()), axis,
+                       reach, memory);
+  return true;
+}
+
 }  // namespace detail
 
 /// The avatar against the deformed rod: depth = radius + thickness/2 - distance of the avatar's axis from the centreline, and more
@@ -93,8 +132,7 @@ template <typename Scalar>
   };
   Contact<Scalar, 3> contact = contact_at(nearest, axis);
   const Scalar step = memory.known ? detail::step(memory.axis, axis) : Scalar(0);
-  // Only a step longer than the present distance can have gone through anything.
-  if (step > reach / 2 && step * step >= nearest.at.distance_squared) {
+  if (detail::may_have_passed(step, reach, nearest)) {
     const int looks = static_cast<int>((std::min)(std::ceil(2 * step / reach), Scalar(detail::most_looks)));
     for (int k = 1; k < looks; ++k) {
       const Scalar t = Scalar(k) / Scalar(looks);
@@ -110,15 +148,7 @@ template <typename Scalar>
       break;
     }
   }
-  // A rod that is held is not passed: what has come to lie on the other side of the axis is still touched from this one.
-  if (memory.touching && contact.depth > 0 && contact.depth < reach && !contact.past_end &&
-      contact.normal.dot(memory.normal) < 0 && std::abs(contact.s - memory.s) < 2 * reach) {
-    contact.normal = -contact.normal;
-    contact.depth = 2 * reach - contact.depth;
-  }
-  contact.touching = contact.depth > 0;
-  memory = {axis, true, contact.touching, contact.s, contact.normal};
-  return contact;
+  return detail::remembered(contact, axis, reach, memory);
 }
 
 /// True where find_contact() would find none, because the avatar is farther from the box around the rod than

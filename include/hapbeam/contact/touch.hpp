@@ -172,11 +172,11 @@ class Touch {
     moved_ = false;
   }
 
-  /// The contact of a touch that goes on, where it was: in space it may come from anywhere.
-  bool find_near([[maybe_unused]] const Avatar& avatar, [[maybe_unused]] Contact& contact) noexcept {
+  /// The contact of a touch that goes on, where it was.
+  bool find_near(const Avatar& avatar, Contact& contact) noexcept {
     if constexpr (planar)
       return pressing_ && in_range_ && detail::find_contact_near(model_, s_, avatar, memory_, contact);
-    else return false;
+    else return pressing_ && detail::find_contact_near(model_, avatar, memory_, contact);
   }
 
   detail::Held<Scalar> hold(Contact& contact, const Avatar& avatar, Scalar reach,
