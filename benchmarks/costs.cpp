@@ -102,7 +102,8 @@ class Costs {
                [own = model](const Press<double>& press) mutable { return own.press(press); });
     timed_[name] = true;
     return add(name, {{"force_error", force_errors(model, anywhere()).max},
-                      {"bytes", bytes_of([&model] { return std::make_unique<Model>(model); })}});
+                      // A copy would share the table.
+                      {"bytes", bytes_of([&model] { return std::make_unique<Model>(model.data()); })}});
   }
 
   /// @param train  plan -> Trained
