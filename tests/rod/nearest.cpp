@@ -84,7 +84,7 @@ TEST_CASE("near where it was the contact of a rod is that of the whole rod, to t
       }
       const double s = random(0.0, size), far = std::pow(10, random(-5, -0.5)) * size,
                    radius = random(0.0, 0.05) * size, stale = random(0.0, size),
-                   moved = random(0.0, 0.1) * radius;
+                   moved = random(0.0, trial % 8 == 0 ? 4.0 : 0.1) * radius;
       const double z = random(far), y = random(far), x = random(far);
       Avatar<double, 3> avatar{model.shape().at(s).r + Point(x, y, z), radius};
       if (trial % 2 == 0) avatar.shaft = Point(y, z, x) / far * size / 4;
@@ -109,5 +109,5 @@ TEST_CASE("near where it was the contact of a rod is that of the whole rod, to t
   }
   CHECK(apart == 0);
   CHECK(found > 10000);
-  CHECK(passed < 2000);  // steps that may have gone through the rod
+  CHECK(passed > 100);  // steps that may have gone through the rod
 }
