@@ -35,8 +35,8 @@ inline double hand_away(const Options& options) {
 /// [m] along the beam, where the second hand holds it.
 inline double second_place(const Options& options) { return 0.6 * options.place; }
 
-/// The second hand comes from below, lifts what it holds and goes.  It aims 10 mm above the surface, so that it never has more
-/// than 5 N from the 500 N/m of a simulated hand: no device cuts that.
+/// The second hand comes from below, lifts what it holds and goes.  It aims 10 mm above the surface: 5 N of the 500 N/m of a simulated
+/// hand, which no device cuts.
 inline ReachPath make_second_path(const Options& options) {
   const double T = options.duration, touching = (options.radius + options.beam.touched() / 2) / options.scale;
   const Eigen::Vector3d up(0, 1, 0), away = -(touching + hand_away(options)) * up;

@@ -151,8 +151,8 @@ void SceneDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, co
 void SceneDrawing::draw_second(ImDrawList& list, const hapbeam::ServoRecord& r, float unit) const {
   const Across across = this->across(r);
   draw_avatar(list, r, across, colour::sky, unit);
-  const ImVec2 hand = view_(across.drawn(r.hand.head<2>()));
-  label(list, {hand.x + 0.7f * unit, hand.y}, colour::blue, "second hand");
+  name_second(list, view_(across.drawn(r.hand.head<2>())), static_cast<float>(options_.radius * view_.pixels),
+              unit);
 }
 
 void SceneDrawing::draw_avatar(ImDrawList& list, const hapbeam::ServoRecord& r, const Across& across,

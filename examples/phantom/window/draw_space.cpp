@@ -40,6 +40,8 @@ SpaceDrawing::SpaceDrawing(const Body& body, const hapbeam::DeviceInfo& device)
   high_ = pressed + Vector(options_.radius, around, around);
   for (const RodLine::Sample& sample : line_.samples())
     low_ = low_.cwiseMin(sample.ring.middle), high_ = high_.cwiseMax(sample.ring.middle);
+  if (options_.hands == 2)
+    low_ = low_.cwiseMin(std::get<RodLine::Shape>(rest).at(second_place(options_)).r - Vector(0, around, 0));
   low_.y() -= line_.rod().forces().empty() ? 0 : 0.15 * line_.rod().length();
   size_ = (high_ - low_).norm();
   floor_ = low_.y() - 0.02 * size_;
@@ -203,7 +205,11 @@ void SpaceDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
     solids.ball(picture.second->avatar, options_.radius, colour::with_alpha(colour::sky, 225));
   solids.paint(list);
   draw_hanging(list, unit);
-  if (picture.second) draw_arm(list, *picture.second, unit);
+  if (picture.second) {
+    const Vector& second = picture.second->avatar;
+    draw_arm(list, *picture.second, unit);
+    name_second(list, camera_(second), static_cast<float>(options_.radius * camera_.pixels(second)), unit);
+  }
   draw_hand(list, r, target, unit);
   draw_legend(list, low, high, unit);
   list.PopClipRect();
