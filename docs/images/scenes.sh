@@ -13,10 +13,11 @@ draw() {
   LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1 xvfb-run -a -s '-screen 0 1280x720x24' \
     "$top/build/release/examples/phantom" --scene "$1" --screenshot "$2" "${@:3}"
 }
-# picture SCENE SECONDS: when there is most to see; tests/examples/window.cmake names the same times.
+# picture SCENE SECONDS [FILE OPTION...]: when there is most to see; tests/examples/window.cmake names the same times.
 picture() {
-  step "scene_$1.png" draw "$1" "$images/scene_$1.png" --at "$2" &&
-    "$top/build/release/tests/examples/compare_pictures" reduce "$images/scene_$1.png" "$top/tests/examples/pictures/$1.png"
+  local file=${3:-scene_$1}
+  step "$file.png" draw "$1" "$images/$file.png" --at "$2" "${@:4}" &&
+    "$top/build/release/tests/examples/compare_pictures" reduce "$images/$file.png" "$top/tests/examples/pictures/${file#scene_}.png"
 }
 # The arch snaps through: 1.9 s at their own pace, then the last picture for one and a half.
 animation() {
@@ -59,5 +60,6 @@ rubbed() {
 
 mkdir -p "$top/tests/examples/pictures"
 picture thesis 3.5 && picture ruler 1.5 && picture strip 3.5 && picture string 4.5 && picture arch 1.75 && picture comb 1.4 &&
-  picture needle 1.2 && picture hook 4.1 && picture fishing-rod 7.2 && step arch.gif animation && step needle.gif around &&
+  picture needle 1.2 && picture hook 4.1 && picture fishing-rod 7.2 &&
+  picture arch 1.4 two_hands --hands 2 && step arch.gif animation && step needle.gif around &&
   step friction.gif rubbed

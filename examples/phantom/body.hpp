@@ -37,6 +37,7 @@ class Body {
   /// From the servo's thread.  Real-time: as hapbeam::Servo.
   virtual Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept = 0;
   virtual const hapbeam::ServoRecord& record() const noexcept = 0;  ///< of the last tick, the same thread's
+  virtual const hapbeam::ServoRecord* second() const noexcept = 0;  ///< the same of the second hand, or null
   virtual void reset() noexcept = 0;                                ///< while no tick runs
   /// Of the newest tick, from one other thread: wait-free.  They stay until the next call.
   virtual const std::vector<DrawnBeam>& beams() noexcept = 0;

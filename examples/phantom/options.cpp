@@ -46,6 +46,11 @@ cli::Entries entries(Options& o) {
             o.beams, 1, 1000),
       figure("--pitch", "M", "from one of them to the next [m]; the scene's by default, or 0.012", o.pitch,
              1e-6, 1, "m"),
+      count("--hands",
+            "1 (default), or 2: a second simulated Phantom holds the beam from below, nearer to its left "
+            "end; of "
+            "beams of finite rotation and rods",
+            o.hands, 1, 2),
       {"--script", "NAME",
        "what the hand does, the scene's by default:  slide: press, slide to and fro, let go;  press;  tap;  "
        "around: press a "
@@ -140,6 +145,7 @@ void check_model(const Options& o, const std::vector<std::string>& given) {
     cli::exclude(given, entry.option, "--model", "whose file says which beam it is");
   cli::exclude(given, "--element", "--model", "which was trained with one");
   cli::exclude(given, "--beams", "--model", "which is of a single one");
+  cli::exclude(given, "--hands", "--model", "which is pressed by one");
   if (o.guarded) return;
   cli::exclude(given, "--elements", "--model", "unless --guarded is given too");
 }

@@ -27,6 +27,7 @@ struct Options {
 
   DeviceChoice device = DeviceChoice::simulated;
 
+  int hands = 1;  ///< 2: the second one is simulated, and follows a script of its own
   Script script = Script::slide;
   int beams = 1;         ///< below one another, alike
   double pitch = 0.012;  ///< [m] from one to the next

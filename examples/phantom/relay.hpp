@@ -25,6 +25,7 @@ class Relay {
 
   struct Newest {
     hapbeam::ServoRecord record;  ///< of the body that is felt, or of the next once that is felt a little
+    hapbeam::ServoRecord second;  ///< the same of its second hand, where it has one
     int changes = 0;              ///< until it was that body
   };
 
@@ -99,7 +100,9 @@ class Relay {
     using hapbeam::LoopStatus;
     if (share > 0 && !felt_) ++now_.changes, felt_ = true;
     hapbeam::ServoRecord& r = now_.record;
-    r = (felt_ ? next_ : body_)->record();
+    const Body& felt = *(felt_ ? next_ : body_);
+    r = felt.record();
+    if (felt.second()) now_.second = *felt.second();
     r.force = guarded.force;
     r.heat = guard_.heat();
     if (guarded.limited) r.status = std::max(r.status, LoopStatus::limited);

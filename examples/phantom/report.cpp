@@ -40,10 +40,12 @@ void print_trained(const Options& o, const Trained& t) {
 Run Run::of(Session& session, bool interrupted, const hapbeam::TimeSummary& pictures) {
   session.update();
   const Body& body = session.body();
+  const Session::Picture picture = session.picture();
   return {body.options(),
           body.trained(),
           session.device().info(),
-          session.picture().record,
+          picture.record,
+          picture.second ? std::optional(*picture.second) : std::nullopt,
           body.times(),
           body.deepest(),
           body.peak(),
@@ -69,6 +71,8 @@ void print_scene(const Options& o, const Trained* trained, const hapbeam::Device
   std::printf("hand     %s, at %g m, aims %g mm below the surface, %g s; avatar of radius %g mm\n",
               o.script == Script::around ? "around: from above, the front and below" : name(o.script),
               o.place, o.depth * 1e3, o.duration, o.radius * 1e3);
+  if (o.hands == 2)
+    std::printf("second   a simulated Phantom holds it from below, at %g m\n", second_place(o));
   if (o.friction > 0) std::printf("friction coefficient %g between avatar and beam\n", o.friction);
   std::printf("scale    %g m of the scene for 1 m of the device; forces 1 : 1\n", o.scale);
   if (o.coupling == CouplingChoice::direct)
@@ -114,6 +118,13 @@ void print_summary(const Run& run) {
       "contact  in %llu ticks, begun %llu times; deepest press %.3f mm, largest force %.2f N; worst status "
       "%s\n",
       number(r.contact_ticks), number(r.touches), run.deepest * 1e3, r.max_force, name(r.worst));
+  if (run.second)
+    std::printf(
+        "second   in %llu ticks, begun %llu times; largest force %.2f N, cut in %llu ticks; worst status %s; "
+        "%.2g J "
+        "generated\n",
+        number(run.second->contact_ticks), number(run.second->touches), run.second->max_force,
+        number(run.second->saturated_ticks), name(run.second->worst), run.second->energy_generated);
   if (run.peak.strain > 0)
     std::printf("strain   %.2g %% at the surface where it was largest, at %.1f mm: %.3g MPa\n",
                 100 * run.peak.strain, run.peak.s * 1e3, run.peak.strain * run.options.beam.young * 1e-6);
@@ -196,6 +207,15 @@ std::string json(const Run& run) {
         .add("picture_ms_p50", run.pictures.p50 * 1e3)
         .add("picture_ms_p99", run.pictures.p99 * 1e3)
         .add("picture_ms_max", run.pictures.max * 1e3);
+  report.add("hands", o.hands);
+  if (run.second)
+    report.add("second_place_m", second_place(o))
+        .add("second_contact_ticks", run.second->contact_ticks)
+        .add("second_touches", run.second->touches)
+        .add("second_max_force_N", run.second->max_force)
+        .add("second_force_saturated_ticks", run.second->saturated_ticks)
+        .add("second_energy_generated_J", run.second->energy_generated)
+        .add("second_max_status", name(run.second->worst));
   return report.add("script", name(o.script))
       .add("place_m", o.place)
       .add("depth_m", o.depth)

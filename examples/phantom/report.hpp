@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "options.hpp"
@@ -24,6 +25,7 @@ struct Run {
   const Trained* trained;  ///< or null: finite elements alone
   const hapbeam::DeviceInfo& device;
   const hapbeam::ServoRecord record;
+  const std::optional<hapbeam::ServoRecord> second;  ///< of the second hand, if there is one
   const hapbeam::TickTimes& times;
   double deepest;  ///< [m]
   hapbeam::PeakStrain<double> peak;

@@ -32,6 +32,17 @@ inline double hand_away(const Options& options) {
   return touching + std::max(0.02, 0.6 * touching);
 }
 
+/// [m] along the beam, where the second hand holds it.
+inline double second_place(const Options& options) { return 0.6 * options.place; }
+
+/// The second hand comes from below, lifts what it holds and goes.  It aims 10 mm above the surface: 5 N of the 500 N/m of a simulated
+/// hand, which no device cuts.
+inline ReachPath make_second_path(const Options& options) {
+  const double T = options.duration, touching = (options.radius + options.beam.touched() / 2) / options.scale;
+  const Eigen::Vector3d up(0, 1, 0), away = -(touching + hand_away(options)) * up;
+  return ReachPath(away).move_to((0.01 - 2 * touching) * up, 0.1 * T).rest(0.8 * T).move_to(away, 0.1 * T);
+}
+
 /// Presses a rod from above, from the front and from below, and goes back the way it came.
 inline ReachPath make_path_around(const Options& options) {
   const Eigen::Vector3d sides[] = {{0, 1, 0}, {0, 0, 1}, {0, -1, 0}};

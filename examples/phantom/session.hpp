@@ -19,6 +19,7 @@ class Session {
   /// The newest tick; the beams stay until the next call of picture().
   struct Picture {
     const hapbeam::ServoRecord& record;
+    const hapbeam::ServoRecord* second;  ///< of the second hand, or null
     const std::vector<DrawnBeam>& beams;
   };
 
@@ -42,7 +43,9 @@ class Session {
   // Of the newest tick that was taken.
   Body& body() noexcept;                                    ///< that is felt
   int changes() const noexcept { return newest_.changes; }  ///< until it was
-  Picture picture() noexcept { return {newest_.record, body().beams()}; }
+  Picture picture() noexcept {
+    return {newest_.record, body().options().hands == 2 ? &newest_.second : nullptr, body().beams()};
+  }
 
   const Device& device() const noexcept { return *device_; }
 

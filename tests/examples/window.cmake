@@ -51,6 +51,19 @@ if(NOT HAPBEAM_SANITIZE)
     COMMAND compare_pictures same window_later.png ${CMAKE_CURRENT_SOURCE_DIR}/pictures/arch.png ${times})
 endif()
 
+# Two hands on an arch.
+set(at 1.4)
+if(HAPBEAM_SANITIZE)
+  set(at 0.5)
+endif()
+hapbeam_test_example(phantom window_two_hands STATUS 0 OUTPUT "^$" BEFORE ${display} MAKES hapbeam_picture_two_hands
+  OPTIONS --hands 2 --scene arch --screenshot window_two_hands.png --at ${at})
+set_tests_properties(examples/phantom_window_two_hands PROPERTIES TIMEOUT 300)
+if(NOT HAPBEAM_SANITIZE)
+  hapbeam_test_file(picture_two_hands NEEDS hapbeam_picture_two_hands
+    COMMAND compare_pictures same window_two_hands.png ${CMAKE_CURRENT_SOURCE_DIR}/pictures/two_hands.png ${times})
+endif()
+
 # A thousand changes of scene, model and coupling, a hand that presses and windows of other sizes in between: the force
 # changes by no more than the guard's 10 N a millisecond.  Under sanitizers sixty.
 set(changes 1000)

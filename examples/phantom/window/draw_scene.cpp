@@ -141,17 +141,28 @@ void SceneDrawing::draw_beam(ImDrawList& list, float unit) {
 }
 
 void SceneDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, const Eigen::Vector3d& target,
-                             float unit) {
-  const ImVec2 avatar = view_(across_.drawn(r.avatar.head<2>())),
-               hand = view_(across_.drawn(r.hand.head<2>()));
+                             float unit) const {
   const ImVec2 wanted = view_(across_.drawn(placement_.beam_position(target)));
-  const float radius = std::max(static_cast<float>(options_.radius * view_.pixels), 0.25f * unit);
-  spring(list, wanted, hand, colour::faint, unit);
+  spring(list, wanted, view_(across_.drawn(r.hand.head<2>())), colour::faint, unit);
   cross(list, wanted, unit);
+  draw_avatar(list, r, across_, colour::orange, unit);
+}
+
+void SceneDrawing::draw_second(ImDrawList& list, const hapbeam::ServoRecord& r, float unit) const {
+  const Across across = this->across(r);
+  draw_avatar(list, r, across, colour::sky, unit);
+  name_second(list, view_(across.drawn(r.hand.head<2>())), static_cast<float>(options_.radius * view_.pixels),
+              unit);
+}
+
+void SceneDrawing::draw_avatar(ImDrawList& list, const hapbeam::ServoRecord& r, const Across& across,
+                               ImU32 colour, float unit) const {
+  const ImVec2 avatar = view_(across.drawn(r.avatar.head<2>())), hand = view_(across.drawn(r.hand.head<2>()));
+  const float radius = std::max(static_cast<float>(options_.radius * view_.pixels), 0.25f * unit);
   // The arm's tip is where the device is; the avatar is where the coupling lets it press.
   list.AddLine(hand, avatar, colour::blue, unit / 9);
   list.AddCircleFilled(hand, 0.2f * unit, colour::blue);
-  list.AddCircleFilled(avatar, radius, colour::with_alpha(colour::orange, 200));
+  list.AddCircleFilled(avatar, radius, colour::with_alpha(colour, 200));
   list.AddCircle(avatar, radius, colour::ink, 0, unit / 9);
 
   const double force = r.force.norm();
@@ -185,14 +196,17 @@ void SceneDrawing::draw_legend(ImDrawList& list, float unit) const {
   strain_bar(list, view_.high.x - unit, bottom, largest_strain_, unit);
 }
 
+Across SceneDrawing::across(const hapbeam::ServoRecord& r) const {
+  const double rest = options_.beam.rest(r.avatar.x()), reach = options_.radius + options_.beam.height / 2;
+  const bool below = r.pressing ? r.force.y() < 0 : r.avatar.y() < rest;
+  return {below ? rest - reach : rest + reach, view_.exaggeration};
+}
+
 void SceneDrawing::draw(ImDrawList& list, const Session::Picture& picture, const Eigen::Vector3d& target,
                         const ImVec2& low, const ImVec2& high, float unit) {
   fit(low, high);
   const hapbeam::ServoRecord& r = picture.record;
-  if (r.pressing) side_ = r.force.y() < 0 ? -1 : 1;
-  else side_ = r.avatar.y() < options_.beam.rest(r.avatar.x()) ? -1 : 1;
-  const double reach = options_.radius + options_.beam.height / 2;
-  across_ = {options_.beam.rest(r.avatar.x()) + side_ * reach, view_.exaggeration};
+  across_ = across(r);
 
   list.PushClipRect(low, high, true);
   list.AddRectFilled(low, high, colour::paper);
@@ -202,6 +216,7 @@ void SceneDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
     sample(beam);
     draw_beam(list, unit);
   }
+  if (picture.second) draw_second(list, *picture.second, unit);
   draw_hand(list, r, target, unit);
   draw_legend(list, unit);
   list.PopClipRect();

@@ -32,10 +32,15 @@ class SceneDrawing final : public Drawing {
   void sample(const DrawnBeam& beam);
   void draw_axis(ImDrawList& list, double above, float unit) const;
   void draw_workspace(ImDrawList& list, float unit) const;
-  double drawn_half(float unit) const;           ///< [m] of the thickness, which can be seen
-  void draw_beam(ImDrawList& list, float unit);  ///< with its supports
+  double drawn_half(float unit) const;                      ///< [m] of the thickness, which can be seen
+  void draw_beam(ImDrawList& list, float unit);             ///< with its supports
+  Across across(const hapbeam::ServoRecord& record) const;  ///< of the hand that it is of
   void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Eigen::Vector3d& target,
-                 float unit);
+                 float unit) const;
+  /// The second hand, in its own colour, without the cross that the mouse moves.
+  void draw_second(ImDrawList& list, const hapbeam::ServoRecord& record, float unit) const;
+  void draw_avatar(ImDrawList& list, const hapbeam::ServoRecord& record, const Across& across, ImU32 colour,
+                   float unit) const;
   void draw_legend(ImDrawList& list, float unit) const;
 
   double exaggeration_;  // of displacements
@@ -44,7 +49,6 @@ class SceneDrawing final : public Drawing {
   Point workspace_;  // [m] scene, half of it
   View view_;
   Across across_{};
-  double side_ = 1;
   double largest_strain_;
   double above_ = 0;  // [m] of the axis of the beam that is sampled
   std::vector<Sample> samples_;

@@ -40,6 +40,8 @@ SpaceDrawing::SpaceDrawing(const Body& body, const hapbeam::DeviceInfo& device)
   high_ = pressed + Vector(options_.radius, around, around);
   for (const RodLine::Sample& sample : line_.samples())
     low_ = low_.cwiseMin(sample.ring.middle), high_ = high_.cwiseMax(sample.ring.middle);
+  if (options_.hands == 2)
+    low_ = low_.cwiseMin(std::get<RodLine::Shape>(rest).at(second_place(options_)).r - Vector(0, around, 0));
   low_.y() -= line_.rod().forces().empty() ? 0 : 0.15 * line_.rod().length();
   size_ = (high_ - low_).norm();
   floor_ = low_.y() - 0.02 * size_;
@@ -81,13 +83,16 @@ void SpaceDrawing::draw_floor(ImDrawList& list, float unit) const {
     dashed(list, reach[i], reach[(i + 1) % 4], colour::with_alpha(colour::blue, 90), 0.4f * unit);
 }
 
-void SpaceDrawing::draw_shadows(ImDrawList& list, const Vector& avatar, float unit) const {
+void SpaceDrawing::draw_shadow(ImDrawList& list, float unit) const {
   std::vector<ImVec2> line;
   for (const RodLine::Sample& sample : line_.samples()) line.push_back(camera_(on_floor(sample.ring.middle)));
   const Ring& middle = line_.samples()[line_.samples().size() / 2].ring;
   const auto width = static_cast<float>(2 * middle.radius * camera_.pixels(on_floor(middle.middle)));
   list.AddPolyline(line.data(), static_cast<int>(line.size()), shade, ImDrawFlags_None,
                    std::max(0.2f * unit, width));
+}
+
+void SpaceDrawing::draw_shadow(ImDrawList& list, const Vector& avatar, float unit) const {
   ImVec2 rim[32];
   for (int k = 0; k < 32; ++k) {
     const double angle = 2 * 3.141592653589793 * k / 32;
@@ -128,10 +133,14 @@ void SpaceDrawing::draw_hanging(ImDrawList& list, float unit) const {
 
 void SpaceDrawing::draw_hand(ImDrawList& list, const hapbeam::ServoRecord& r, const Vector& target,
                              float unit) const {
-  const ImVec2 avatar = camera_(r.avatar), hand = camera_(r.hand),
-               wanted = camera_(placement_.scene_position(target));
-  spring(list, wanted, hand, colour::faint, unit);
+  const ImVec2 wanted = camera_(placement_.scene_position(target));
+  spring(list, wanted, camera_(r.hand), colour::faint, unit);
   cross(list, wanted, unit);
+  draw_arm(list, r, unit);
+}
+
+void SpaceDrawing::draw_arm(ImDrawList& list, const hapbeam::ServoRecord& r, float unit) const {
+  const ImVec2 avatar = camera_(r.avatar), hand = camera_(r.hand);
   // The arm's tip is where the device is; the avatar is where the coupling lets it press.
   list.AddLine(hand, avatar, colour::blue, unit / 9);
   list.AddCircleFilled(hand, 0.2f * unit, colour::blue);
@@ -182,7 +191,9 @@ void SpaceDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
   draw_floor(list, unit);
   line_.take(std::get<RodLine::Shape>(picture.beams.front().shape));
   if (line_.largest_strain() > largest_strain_) largest_strain_ = rounded_up(line_.largest_strain());
-  draw_shadows(list, r.avatar, unit);
+  draw_shadow(list, unit);
+  draw_shadow(list, r.avatar, unit);
+  if (picture.second) draw_shadow(list, picture.second->avatar, unit);
   Solids solids(camera_);
   const auto& samples = line_.samples();
   for (std::size_t i = 0; i + 1 < samples.size(); ++i)
@@ -190,8 +201,15 @@ void SpaceDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
                 colour::viridis((samples[i].strain + samples[i + 1].strain) / 2 / largest_strain_));
   draw_ends(solids);
   solids.ball(r.avatar, options_.radius, colour::with_alpha(colour::orange, 225));
+  if (picture.second)
+    solids.ball(picture.second->avatar, options_.radius, colour::with_alpha(colour::sky, 225));
   solids.paint(list);
   draw_hanging(list, unit);
+  if (picture.second) {
+    const Vector& second = picture.second->avatar;
+    draw_arm(list, *picture.second, unit);
+    name_second(list, camera_(second), static_cast<float>(options_.radius * camera_.pixels(second)), unit);
+  }
   draw_hand(list, r, target, unit);
   draw_legend(list, low, high, unit);
   list.PopClipRect();

@@ -29,11 +29,13 @@ class SpaceDrawing final : public Drawing {
   using Vector = Eigen::Vector3d;
   void aim(const ImVec2& low, const ImVec2& high);
   void draw_floor(ImDrawList& list, float unit) const;
-  void draw_shadows(ImDrawList& list, const Vector& avatar, float unit) const;
+  void draw_shadow(ImDrawList& list, float unit) const;  ///< of the rod
+  void draw_shadow(ImDrawList& list, const Vector& avatar, float unit) const;
   void draw_ends(Solids& solids) const;
   void draw_hanging(ImDrawList& list, float unit) const;
   void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Vector& target,
                  float unit) const;
+  void draw_arm(ImDrawList& list, const hapbeam::ServoRecord& record, float unit) const;  ///< and its force
   void draw_legend(ImDrawList& list, const ImVec2& low, const ImVec2& high, float unit) const;
   Vector on_floor(const Vector& p) const { return {p.x(), floor_, p.z()}; }
 

@@ -15,6 +15,12 @@ void label(ImDrawList& list, ImVec2 at, ImU32 colour, const std::string& line) {
   list.AddText(at, colour, line.c_str());
 }
 
+void name_second(ImDrawList& list, const ImVec2& avatar, float radius, float unit) {
+  const char* const name = "second hand";
+  const float width = ImGui::CalcTextSize(name).x;
+  label(list, {avatar.x - radius - 0.6f * unit - width, avatar.y + 0.3f * unit}, colour::blue, name);
+}
+
 void dashed(ImDrawList& list, const ImVec2& a, const ImVec2& b, ImU32 colour, float dash) {
   const float length = std::hypot(b.x - a.x, b.y - a.y);
   if (!(length > 0)) return;

@@ -17,6 +17,8 @@ float arrow_length(double force, float unit);
 void arrow(ImDrawList& list, const ImVec2& from, const ImVec2& to, ImU32 colour, float unit);
 /// The arm's tip and where the hand wants it, as marks in the picture.
 void cross(ImDrawList& list, const ImVec2& at, float unit);
+/// To the left of the second hand and below it, where the beam is not.   @param radius  [pixel] of its avatar
+void name_second(ImDrawList& list, const ImVec2& avatar, float radius, float unit);
 /// A bar of colours with its ends.   @param right, bottom  [pixel] where it stands   @param largest  strain of its last colour
 void strain_bar(ImDrawList& list, float right, float bottom, double largest, float unit);
 

@@ -1,0 +1,154 @@
+// The body of a model: its loop, and what that tells in the words of Body.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "body.hpp"
+#include "scene.hpp"
+#include <hapbeam/haptics/servo/servo_many.hpp>
+
+namespace phantom {
+
+using Count = std::atomic<std::uint64_t>;
+
+/// From the centreline to the avatar's centre [m].
+inline double reach_of(const Options& options) { return options.radius + options.beam.touched() / 2; }
+
+/// Where the centreline is at rest [m].
+inline Eigen::Vector3d at_rest(const Options& options, const hapbeam::Centreline<double>&, double place) {
+  return {place, options.beam.rest(place), 0};
+}
+inline Eigen::Vector3d at_rest(const Options&, const hapbeam::Centreline<double, 3>& rest, double place) {
+  return rest.at(place).r;
+}
+
+/// @param place  [m] along the beam, that is to be pressed
+template <int D>
+hapbeam::ServoOptions servo_options(const Options& options, const hapbeam::Centreline<double, D>& rest,
+                                    double place) {
+  hapbeam::ServoOptions servo;
+  servo.placement = placement(at_rest(options, rest, place), reach_of(options), options.scale);
+  servo.avatar_radius = options.radius;
+  servo.friction = hapbeam::Friction(options.friction, options.friction);
+  return servo;
+}
+
+template <typename Coupling>
+Coupling make_coupling(const Options& options) {
+  if constexpr (std::is_same_v<Coupling, hapbeam::Direct>) return {};
+  else return Coupling({options.stiffness, options.damping});
+}
+
+/// What all bodies are made of, but for the model.
+struct Parts {
+  Options options;
+  Slender slender;
+  std::shared_ptr<const Trained> trained;
+  hapbeam::DeviceInfo device;
+  std::unique_ptr<Count> full_answers = nullptr;
+};
+
+template <typename Model>
+auto rest_of(const Model& model) {
+  return model.shape();
+}
+template <typename Model>
+hapbeam::Centreline<double> rest_of(const hapbeam::BeamArray<Model>& array) {
+  return array.rest(0);
+}
+
+template <int D>
+void show(const hapbeam::ServoPicture<double, D>& picture, std::vector<DrawnBeam>& beams) noexcept {
+  beams[0].shape = picture.shape();
+}
+/// Those that are not pressed are at rest.
+inline void show(const hapbeam::ArrayPicture<double>& picture, std::vector<DrawnBeam>& beams) noexcept {
+  for (int i = 0; i < picture.size(); ++i)
+    beams[static_cast<std::size_t>(picture.beam(i))].shape = picture.shape(i);
+}
+
+/// @tparam Loop  of one hand, or of two: OneHand | BothHands
+template <typename Loop>
+class Live final : public Body {
+  using Model = typename Loop::Model;
+  static constexpr int dimension = hapbeam::dimension_of<Model>;
+
+ public:
+  Live(Model model, Parts parts)
+      : parts_(std::move(parts)),
+        rest_(rest_of(model)),
+        servo_options_(servo_options(parts_.options, rest_.shape(), parts_.options.place)),
+        loop_(std::move(model), parts_, servo_options_) {
+    for (int i = 0; i < parts_.options.beams; ++i) beams_.push_back({rest(), -parts_.options.pitch * i});
+  }
+
+  Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept override {
+    const double before = record().dissipated;
+    const Eigen::Vector3d force = loop_.tick(state);
+    dissipated_ += record().dissipated < before ? record().dissipated : record().dissipated - before;
+    if constexpr (dimension == 3) deepest_ = std::max(deepest_, depth(record()));
+    if constexpr (hapbeam::has_internal_forces<Model>)
+      if (record().pressing && record().ticks % 8 == 0)
+        if (const auto peak = hapbeam::peak_strain(loop_.model()); peak.strain > peak_.strain) peak_ = peak;
+    return force;
+  }
+  const hapbeam::ServoRecord& record() const noexcept override { return loop_.servo().record(); }
+  const hapbeam::ServoRecord* second() const noexcept override { return loop_.second(); }
+  void reset() noexcept override {
+    loop_.reset();
+    deepest_ = 0;
+    peak_ = {0, 0};
+    dissipated_ = 0;
+  }
+  const std::vector<DrawnBeam>& beams() noexcept override {
+    for (DrawnBeam& beam : beams_) beam.shape = rest();
+    show(loop_.servo().picture(), beams_);
+    return beams_;
+  }
+  Shape rest() const noexcept override { return rest_.shape(); }
+  const hapbeam::Placement& placement() const noexcept override { return servo_options_.placement; }
+  double depth(const hapbeam::ServoRecord& r) const noexcept override {
+    const Options& o = parts_.options;
+    if (!r.pressing) return 0;
+    if constexpr (dimension == 2) return o.beam.rest(r.press.s) - r.press.d;
+    // Along the normal; the device's axes are the scene's.
+    else if (const double force = r.force.norm(); force > 0)
+      return r.force.dot(rest_.shape().at(r.press.s).r - r.avatar) / force + reach_of(o);
+    return 0;
+  }
+  double deepest() const noexcept override { return dimension == 3 ? deepest_ : record().max_press; }
+  hapbeam::PeakStrain<double> peak() const noexcept override { return peak_; }
+  double dissipated() const noexcept override { return dissipated_; }
+  const hapbeam::TickTimes& times() const noexcept override { return loop_.servo().times(); }
+  std::uint64_t full_answers() const noexcept override {
+    return parts_.full_answers ? parts_.full_answers->load() : 0;
+  }
+  const Options& options() const noexcept override { return parts_.options; }
+  const Slender& slender() const noexcept override { return parts_.slender; }
+  const Trained* trained() const noexcept override { return parts_.trained.get(); }
+
+ private:
+  Parts parts_;
+  hapbeam::ServoPicture<double, dimension> rest_;
+  hapbeam::ServoOptions servo_options_;
+  Loop loop_;
+  std::vector<DrawnBeam> beams_;
+  double deepest_ = 0;  // [m] of a rod
+  hapbeam::PeakStrain<double> peak_{0, 0};
+  double dissipated_ = 0;  // [J]
+};
+
+/// @tparam Loop  Loop<Model, Coupling>, see Live
+template <template <typename, typename> class Loop, typename Model>
+std::unique_ptr<Body> couple(Model model, Parts parts) {
+  if (parts.options.coupling == CouplingChoice::direct)
+    return std::make_unique<Live<Loop<Model, hapbeam::Direct>>>(std::move(model), std::move(parts));
+  return std::make_unique<Live<Loop<Model, hapbeam::VirtualCoupling>>>(std::move(model), std::move(parts));
+}
+
+}  // namespace phantom
