@@ -6,7 +6,7 @@
 //
 // A *prop* is an avatar that nobody moves.  Each tick finds where the avatars and props lie to the shape of the last tick and asks the model for
 // the equilibrium under all of them (Obstacle, force_model.hpp).  Each pushes or does not touch; none pulls but a support.  There is no friction.
-// An avatar past an end that holds w touches nothing.
+// Beside and past an end that holds w an avatar is held as by Touch (end_contact.hpp).
 // Allocates and throws in its constructor only.
 #pragma once
 
@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include <hapbeam/check.hpp>
+#include <hapbeam/contact/end_contact.hpp>
 #include <hapbeam/contact/find_contact.hpp>
 #include <hapbeam/contact/find_rod_contact.hpp>
 #include <hapbeam/contact/prop.hpp>
@@ -133,6 +134,7 @@ class TouchSeveral {
     }
     moving_ = false;
     unanswered_ = 0;
+    begin();
   }
 
   /// One tick.  @param positions  [m] the centre of each avatar, in space the centre of each sphere
@@ -197,6 +199,9 @@ class TouchSeveral {
     bool away = false;  // lifted
     Scalar depth = 0;
     ContactMemory<Scalar, dimension> memory;
+    Contact contact;      // in this tick, and on the shape before, where it is
+    bool at_end = false;  // held by an end
+    detail::EndContact<Scalar, dimension> end;
     Status status = Status::ok;  // of what keeps it from being an obstacle in this tick
   };
   static std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
@@ -218,10 +223,19 @@ class TouchSeveral {
     return result;
   }
 
+  /// To be called where the beam is at rest.
+  void begin() noexcept {
+    for (int i = 0; i < size_; ++i) places_[at(i)].end.begin(model_);
+  }
   static void forget(Place& place) noexcept {
     place.memory = {};
+    if (place.at_end) place.obstacle.kind = ObstacleKind::round, place.at_end = false;
     place.obstacle.touching = false;
     place.obstacle.pushed.force = 0;
+  }
+  /// Whether it is a place of the beam that is held.
+  static bool fixed(const Place& place) noexcept {
+    return place.obstacle.kind != ObstacleKind::round && !place.at_end;
   }
   /// Whether the place before is of the same avatar.
   bool again(int i) const noexcept {
@@ -235,16 +249,21 @@ class TouchSeveral {
     place.status = Status::ok;
     obstacle.valid = !place.away;
     if (place.away) return false;
-    if (obstacle.kind != ObstacleKind::round) return true;
+    if (fixed(place)) return true;
     remember(place);
     const Scalar thickness = model_.thickness(), reach = place.avatar.radius + thickness / 2;
-    const Contact contact = find_contact(place.avatar, model_.shape(), volumes_, thickness, place.memory);
+    Contact& contact = place.contact;
+    contact = find_contact(place.avatar, model_.shape(), volumes_, thickness, place.memory);
     place.depth = contact.depth;
-    const Range<Scalar> range = model_.range();
-    const bool off =
-        contact.past_end && std::isfinite(contact.s > 0 ? range.right_support : range.left_support);
     const bool lost = contact.depth > reach + model_.shape().length();
-    obstacle.valid = contact.segment >= 0 && !off && !lost;
+    obstacle.valid = contact.segment >= 0 && !lost;
+    place.at_end = !again(i) && obstacle.valid &&
+                   place.end.holds(model_, contact, place.avatar, reach, obstacle.touching);
+    obstacle.kind = place.at_end ? ObstacleKind::stop : ObstacleKind::round;
+    if (place.at_end) {
+      obstacle.valid = place.end.aim(model_, contact, place.avatar, reach, obstacle.touching, obstacle.place);
+      place.depth = contact.depth;
+    }
     if (!obstacle.valid) {
       place.status = contact.touching ? Status::out_of_range : Status::ok;
       obstacle.touching = false;
@@ -265,10 +284,11 @@ class TouchSeveral {
   void remember(Place& place) noexcept {
     place.memory.touching = place.obstacle.touching;
     if constexpr (planar) {
-      place.memory.through = place.obstacle.touching;
+      place.memory.through = place.obstacle.touching && !(place.at_end && place.end.past());
       if (place.obstacle.touching) place.memory.side = place.obstacle.round.side < 0 ? -1 : 1;
     } else if (place.obstacle.touching) {
-      place.memory.s = place.obstacle.pushed.s, place.memory.normal = place.obstacle.pushed.normal;
+      place.memory.s = place.obstacle.pushed.s;
+      place.memory.normal = place.at_end ? place.contact.normal : place.obstacle.pushed.normal;
     }
   }
 
@@ -292,6 +312,12 @@ class TouchSeveral {
     to.point = obstacle.pushed.point;
     to.normal = obstacle.pushed.normal;
     to.force = -obstacle.pushed.force * obstacle.pushed.normal;
+    if (!place.at_end) return;
+    if (to.status == Status::ok) to.status = Status::out_of_range;
+    to.s = place.contact.s;
+    to.point = place.contact.foot;
+    to.normal = place.contact.normal;
+    to.force = -obstacle.pushed.force * place.end.factor() * place.contact.normal;
   }
 
   Model& model_;
@@ -342,6 +368,7 @@ auto TouchSeveral<Model>::solve() noexcept -> Result {
   if (pushed) {
     result.status = push();
     moving_ = touched || result.status == Status::iteration_limit;
+    if (!moving_) begin();
   }
   const bool answer = is_answer(result.status);
   for (int i = 0; i < size_; ++i) {
