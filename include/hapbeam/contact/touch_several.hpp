@@ -20,6 +20,7 @@
 #include <hapbeam/check.hpp>
 #include <hapbeam/contact/end_contact.hpp>
 #include <hapbeam/contact/find_contact.hpp>
+#include <hapbeam/contact/find_contact_near.hpp>
 #include <hapbeam/contact/find_rod_contact.hpp>
 #include <hapbeam/contact/prop.hpp>
 #include <hapbeam/force_model.hpp>
@@ -126,7 +127,7 @@ class TouchSeveral {
   /// Real-time: as Model::reset, and O(n).
   void reset() noexcept {
     model_.reset();
-    volumes_.refit(model_.shape());
+    moved_ = true;
     for (int i = 0; i < size_; ++i) forget(places_[at(i)]);
     for (int i = 0; i < size_; ++i) {
       answer_[at(i)] = {};
@@ -173,7 +174,7 @@ class TouchSeveral {
     each_of(avatar, [&](Place place) {
       place.avatar.position = position;
       if constexpr (!planar) place.avatar.shaft = shaft;
-      contact = find_contact(place.avatar, model_.shape(), volumes_, model_.thickness(), place.memory);
+      contact = find_contact(place.avatar, model_.shape(), volumes(), model_.thickness(), place.memory);
     });
     return contact;
   }
@@ -253,7 +254,8 @@ class TouchSeveral {
     remember(place);
     const Scalar thickness = model_.thickness(), reach = place.avatar.radius + thickness / 2;
     Contact& contact = place.contact;
-    contact = find_contact(place.avatar, model_.shape(), volumes_, thickness, place.memory);
+    if (!find_near(place))
+      contact = find_contact(place.avatar, model_.shape(), volumes(), thickness, place.memory);
     place.depth = contact.depth;
     const bool lost = contact.depth > reach + model_.shape().length();
     obstacle.valid = contact.segment >= 0 && !lost;
@@ -280,6 +282,20 @@ class TouchSeveral {
     if (!again(i)) obstacle.touching = obstacle.touching || contact.touching;
     return obstacle.touching;
   }
+  /// The contact of a touch that goes on, where it was.
+  bool find_near(Place& place) noexcept {
+    if (!place.obstacle.touching) return false;
+    if constexpr (planar)
+      return detail::find_contact_beside(model_.shape(), place.obstacle.pushed.s, place.avatar,
+                                         model_.thickness(), place.memory, place.contact);
+    else return detail::find_contact_near(model_, place.avatar, place.memory, place.contact);
+  }
+  /// Fitted to the present shape.  A lasting touch does without.
+  const BoundingVolumes<Scalar, dimension>& volumes() noexcept {
+    if (moved_) volumes_.refit(model_.shape());
+    moved_ = false;
+    return volumes_;
+  }
   /// As Touch: a pressed beam moves with what presses it, which cannot have gone round its end.
   void remember(Place& place) noexcept {
     place.memory.touching = place.obstacle.touching;
@@ -297,7 +313,7 @@ class TouchSeveral {
     for (int i = 0; i < size_; ++i) all[at(i)] = places_[at(i)].obstacle;
     const Status status = model_.push(all.data(), size_);
     for (int i = 0; i < size_; ++i) places_[at(i)].obstacle = all[at(i)];
-    volumes_.refit(model_.shape());
+    moved_ = true;
     return status;
   }
   void report(int i, bool pushed, TouchPlace<Scalar, dimension>& to) const noexcept {
@@ -324,6 +340,7 @@ class TouchSeveral {
   BoundingVolumes<Scalar, dimension> volumes_;
   std::array<Place, most> places_{};
   int size_ = 0, avatars_ = 0;
+  bool moved_ = true;                                       // since the volumes were fitted
   bool fixed_ = false;                                      // there are stops or supports
   bool moving_ = false;                                     // touched, or let go and not yet at rest
   std::array<TouchPlace<Scalar, dimension>, most> answer_;  // of the last tick that had one
