@@ -288,7 +288,8 @@ TEST_CASE("four contacts share one mesh, and each more costs as much as the one 
     for (const auto& place : felt) sum += place.force;
     if (t > 10) CHECK((felt.touching(0) && felt.touching(1) && felt.touching(2)));
   }
-  CHECK(solves <= 4 * 89);
+  // What goes on as it went is foreseen and takes one; where a peg is met, a few.
+  CHECK(solves <= 2 * 89);
 }
 
 TEST_CASE("what makes no sense of avatars and props is rejected, and positions that are none change nothing",

@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 #include "support/csv.hpp"
 #include "support/status.hpp"
+#include <hapbeam/contact/touch.hpp>
 #include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/element/corotational.hpp>
 
@@ -114,4 +115,31 @@ TEST_CASE(
   CHECK(aside > 1e-4);
   const Point away(0.9, 1, 0);
   CHECK_FALSE(touch.tick(&away, &shaft, 1).touching(1));
+}
+
+// A sphere is pressed to a tenth of its reach past the end, at it, and beside it.
+TEST_CASE("beside and past a held end of a rod several contacts feel what one feels", "[several]") {
+  const double d = 0.006, radius = 0.01, reach = radius + d / 2;
+  const Rod rod(1, RodSection::circle(d), spring_steel, RodSupport::clamped, RodSupport::clamped);
+  for (const double s : {-0.004, 0.0, 5e-4, 2e-3, 5e-3, 0.995, 1.0, 1.004}) {
+    FemModel<TwistedRod> alone(rod, 16);
+    FemModel<Several<TwistedRod, 2>> both(rod, 16);
+    Touch one(alone, radius);
+    TouchSeveral several(both, {radius, radius});
+    double most = 0, off = 0;
+    bool held = true;
+    for (int k = 0; k <= 200; ++k) {
+      const double depth = 0.1 * reach * k / 200;
+      const Vector3<double> at(s, 0, reach - depth), middle(0.5, 0, reach - 0.005 * std::min(1.0, 0.02 * k));
+      const auto wanted = one.tick(at);
+      const auto felt = several.tick(at, middle);
+      if (wanted.pressing) held = held && felt.touching(0);
+      most = std::max(most, wanted.force.norm());
+      off = std::max(off, (felt.force(0) - wanted.force).norm());
+    }
+    INFO("at " << s << ": " << most << " N");
+    CHECK(held);
+    CHECK(most > 10);
+    CHECK(off <= 0.05 * most);
+  }
 }

@@ -46,18 +46,30 @@ class PressContact {
   template <class Model>
   Held<Scalar> hold(Model& model, Contact<Scalar>& contact, const Vector2<Scalar>& position, Scalar reach,
                     bool pressing, Press<Scalar>& asked) const noexcept {
-    if (pressing) smooth_kink(model, contact, position, reach);
-    Scalar rise;
-    if (!rise_to_touch(contact, position, reach, rise)) return {Hold::released, 0, Status::ok};
-    asked = {contact.s, contact.foot.y() + rise};
+    if (!aim(model, contact, position, reach, pressing, asked)) return {Hold::released, 0, Status::ok};
     const Response<Scalar> response = model.press(asked);
-    const Scalar n_w = up_ * contact.normal.y();
-    if (n_w < 0) contact.normal << (contact.normal.x() < 0 ? Scalar(-1) : Scalar(1)), 0;
-    const Scalar force = -up_ * response.force / (std::max)(n_w, least_normal);
+    const Scalar force = -up_ * response.force * along_normal(contact);
     const bool answer = is_answer(response.status);
     if (force < 0 || (answer && force == 0))
       return {answer ? Hold::released : Hold::lost, 0, response.status};
     return {Hold::pressing, force, response.status};
+  }
+
+  /// What is asked of the model.   @return false where no press touches
+  template <class Model>
+  bool aim(const Model& model, Contact<Scalar>& contact, const Vector2<Scalar>& position, Scalar reach,
+           bool pressing, Press<Scalar>& asked) const noexcept {
+    if (pressing) smooth_kink(model, contact, position, reach);
+    Scalar rise;
+    if (!rise_to_touch(contact, position, reach, rise)) return false;
+    asked = {contact.s, contact.foot.y() + rise};
+    return true;
+  }
+  /// The force along the normal, in units of that across the beam.  @param contact  in and out: its normal never points to the other side
+  Scalar along_normal(Contact<Scalar>& contact) const noexcept {
+    const Scalar n_w = up_ * contact.normal.y();
+    if (n_w < 0) contact.normal << (contact.normal.x() < 0 ? Scalar(-1) : Scalar(1)), 0;
+    return 1 / (std::max)(n_w, least_normal);
   }
 
  private:

@@ -57,12 +57,17 @@ class SupportContact {
     return contact.s - range.left_support < distance || range.right_support - contact.s < distance;
   }
 
-  /// Whether that end is no longer where it was.
+  /// Whether that end is no longer where it was.   @param slack  of the length
   template <class Model>
-  bool slid(const Contact<Scalar>& contact, const Model& model) const noexcept {
+  bool slid(const Contact<Scalar>& contact, const Model& model, Scalar slack = Scalar(1e-6)) const noexcept {
     const Centreline<Scalar> line = model.shape();
     const bool right = contact.s > 0;
-    return !(std::abs(line[right ? line.segments() : 0].u - ends_[right].u) <= line.length() * Scalar(1e-6));
+    return !(std::abs(line[right ? line.segments() : 0].u - ends_[right].u) <= line.length() * slack);
+  }
+
+  /// What presses the beam as deep as the contact is.
+  Press<Scalar> aim(const Contact<Scalar>& contact) const noexcept {
+    return {contact.s, ends_[contact.s > 0].w - static_cast<Scalar>(contact.side) * contact.depth};
   }
 
   /// As PressContact::hold()
@@ -70,7 +75,7 @@ class SupportContact {
   Held<Scalar> hold(Model& model, const Contact<Scalar>& contact, Press<Scalar>& asked) const noexcept {
     if (slid(contact, model)) return {Hold::slipped, 0, Status::out_of_range};
     if (!contact.touching) return {Hold::released, 0, Status::ok};
-    asked = {contact.s, ends_[contact.s > 0].w - static_cast<Scalar>(contact.side) * contact.depth};
+    asked = aim(contact);
     const Response<Scalar> response = model.press(asked);
     return {Hold::pressing, std::abs(response.force), response.status};
   }
@@ -138,8 +143,20 @@ class SupportContact<Scalar, 3> {
   /// As PressContact::hold().
   template <class Model>
   Held<Scalar> hold(Model& model, Contact<Scalar, 3>& contact, Press<Scalar>& asked) const noexcept {
+    Push<Scalar, 3> push{0, 0, Vector::Zero()};
+    Scalar factor;
+    if (!aim(model, contact, push, factor)) return {Hold::released, 0, Status::ok};
+    asked = {push.s, push.d};
+    const Response<Scalar> response = model.push(push);
+    const Status status = response.status == Status::ok ? Status::out_of_range : response.status;
+    return {Hold::pressing, std::abs(response.force) * factor, status};
+  }
+  /// What pushes the rod there.  @param contact  out   @param factor  out, of the force   @return whether it is touched
+  template <class Model>
+  bool aim(const Model& model, Contact<Scalar, 3>& contact, Push<Scalar, 3>& push,
+           Scalar& factor) const noexcept {
     contact.touching = depth_ > 0;
-    if (!contact.touching) return {Hold::released, 0, Status::ok};
+    if (!contact.touching) return false;
     const Range<Scalar> range = model.range();
     const Scalar s = right_ ? range.right_support - distance_ : range.left_support + distance_,
                  depth = (std::min)(depth_, distance_ / 20);
@@ -147,15 +164,14 @@ class SupportContact<Scalar, 3> {
                  across = side.squaredNorm() > Scalar(0.01)
                               ? detail::unit(side)
                               : detail::across(ends_[right_].director, tangent_);
-    asked = {s, across.dot(foot_) - depth};
-    const Response<Scalar> response = model.push(Push<Scalar, 3>{s, asked.d, across});
-    const Status status = response.status == Status::ok ? Status::out_of_range : response.status;
+    push = {s, across.dot(foot_) - depth, across};
+    factor = depth_ / depth;
     contact.s = s;
     contact.foot = foot_;
     contact.normal = normal_;
     contact.point = foot_ + normal_ * (model.thickness() / 2);
     contact.depth = depth_;
-    return {Hold::pressing, std::abs(response.force) * (depth_ / depth), status};
+    return true;
   }
 
  private:

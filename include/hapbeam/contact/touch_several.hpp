@@ -6,7 +6,7 @@
 //
 // A *prop* is an avatar that nobody moves.  Each tick finds where the avatars and props lie to the shape of the last tick and asks the model for
 // the equilibrium under all of them (Obstacle, force_model.hpp).  Each pushes or does not touch; none pulls but a support.  There is no friction.
-// An avatar past an end that holds w touches nothing.
+// Beside and past an end that holds w an avatar is held as by Touch (end_contact.hpp).
 // Allocates and throws in its constructor only.
 #pragma once
 
@@ -18,7 +18,9 @@
 #include <type_traits>
 
 #include <hapbeam/check.hpp>
+#include <hapbeam/contact/end_contact.hpp>
 #include <hapbeam/contact/find_contact.hpp>
+#include <hapbeam/contact/find_contact_near.hpp>
 #include <hapbeam/contact/find_rod_contact.hpp>
 #include <hapbeam/contact/prop.hpp>
 #include <hapbeam/force_model.hpp>
@@ -125,7 +127,7 @@ class TouchSeveral {
   /// Real-time: as Model::reset, and O(n).
   void reset() noexcept {
     model_.reset();
-    volumes_.refit(model_.shape());
+    moved_ = true;
     for (int i = 0; i < size_; ++i) forget(places_[at(i)]);
     for (int i = 0; i < size_; ++i) {
       answer_[at(i)] = {};
@@ -133,6 +135,7 @@ class TouchSeveral {
     }
     moving_ = false;
     unanswered_ = 0;
+    begin();
   }
 
   /// One tick.  @param positions  [m] the centre of each avatar, in space the centre of each sphere
@@ -171,7 +174,7 @@ class TouchSeveral {
     each_of(avatar, [&](Place place) {
       place.avatar.position = position;
       if constexpr (!planar) place.avatar.shaft = shaft;
-      contact = find_contact(place.avatar, model_.shape(), volumes_, model_.thickness(), place.memory);
+      contact = find_contact(place.avatar, model_.shape(), volumes(), model_.thickness(), place.memory);
     });
     return contact;
   }
@@ -197,6 +200,9 @@ class TouchSeveral {
     bool away = false;  // lifted
     Scalar depth = 0;
     ContactMemory<Scalar, dimension> memory;
+    Contact contact;      // in this tick, and on the shape before, where it is
+    bool at_end = false;  // held by an end
+    detail::EndContact<Scalar, dimension> end;
     Status status = Status::ok;  // of what keeps it from being an obstacle in this tick
   };
   static std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
@@ -218,10 +224,19 @@ class TouchSeveral {
     return result;
   }
 
+  /// To be called where the beam is at rest.
+  void begin() noexcept {
+    for (int i = 0; i < size_; ++i) places_[at(i)].end.begin(model_);
+  }
   static void forget(Place& place) noexcept {
     place.memory = {};
+    if (place.at_end) place.obstacle.kind = ObstacleKind::round, place.at_end = false;
     place.obstacle.touching = false;
     place.obstacle.pushed.force = 0;
+  }
+  /// Whether it is a place of the beam that is held.
+  static bool fixed(const Place& place) noexcept {
+    return place.obstacle.kind != ObstacleKind::round && !place.at_end;
   }
   /// Whether the place before is of the same avatar.
   bool again(int i) const noexcept {
@@ -235,16 +250,22 @@ class TouchSeveral {
     place.status = Status::ok;
     obstacle.valid = !place.away;
     if (place.away) return false;
-    if (obstacle.kind != ObstacleKind::round) return true;
+    if (fixed(place)) return true;
     remember(place);
     const Scalar thickness = model_.thickness(), reach = place.avatar.radius + thickness / 2;
-    const Contact contact = find_contact(place.avatar, model_.shape(), volumes_, thickness, place.memory);
+    Contact& contact = place.contact;
+    if (!find_near(place))
+      contact = find_contact(place.avatar, model_.shape(), volumes(), thickness, place.memory);
     place.depth = contact.depth;
-    const Range<Scalar> range = model_.range();
-    const bool off =
-        contact.past_end && std::isfinite(contact.s > 0 ? range.right_support : range.left_support);
     const bool lost = contact.depth > reach + model_.shape().length();
-    obstacle.valid = contact.segment >= 0 && !off && !lost;
+    obstacle.valid = contact.segment >= 0 && !lost;
+    place.at_end = !again(i) && obstacle.valid &&
+                   place.end.holds(model_, contact, place.avatar, reach, obstacle.touching);
+    obstacle.kind = place.at_end ? ObstacleKind::stop : ObstacleKind::round;
+    if (place.at_end) {
+      obstacle.valid = place.end.aim(model_, contact, place.avatar, reach, obstacle.touching, obstacle.place);
+      place.depth = contact.depth;
+    }
     if (!obstacle.valid) {
       place.status = contact.touching ? Status::out_of_range : Status::ok;
       obstacle.touching = false;
@@ -261,14 +282,29 @@ class TouchSeveral {
     if (!again(i)) obstacle.touching = obstacle.touching || contact.touching;
     return obstacle.touching;
   }
+  /// The contact of a touch that goes on, where it was.
+  bool find_near(Place& place) noexcept {
+    if (!place.obstacle.touching) return false;
+    if constexpr (planar)
+      return detail::find_contact_beside(model_.shape(), place.obstacle.pushed.s, place.avatar,
+                                         model_.thickness(), place.memory, place.contact);
+    else return detail::find_contact_near(model_, place.avatar, place.memory, place.contact);
+  }
+  /// Fitted to the present shape.  A lasting touch does without.
+  const BoundingVolumes<Scalar, dimension>& volumes() noexcept {
+    if (moved_) volumes_.refit(model_.shape());
+    moved_ = false;
+    return volumes_;
+  }
   /// As Touch: a pressed beam moves with what presses it, which cannot have gone round its end.
   void remember(Place& place) noexcept {
     place.memory.touching = place.obstacle.touching;
     if constexpr (planar) {
-      place.memory.through = place.obstacle.touching;
+      place.memory.through = place.obstacle.touching && !(place.at_end && place.end.past());
       if (place.obstacle.touching) place.memory.side = place.obstacle.round.side < 0 ? -1 : 1;
     } else if (place.obstacle.touching) {
-      place.memory.s = place.obstacle.pushed.s, place.memory.normal = place.obstacle.pushed.normal;
+      place.memory.s = place.obstacle.pushed.s;
+      place.memory.normal = place.at_end ? place.contact.normal : place.obstacle.pushed.normal;
     }
   }
 
@@ -277,7 +313,7 @@ class TouchSeveral {
     for (int i = 0; i < size_; ++i) all[at(i)] = places_[at(i)].obstacle;
     const Status status = model_.push(all.data(), size_);
     for (int i = 0; i < size_; ++i) places_[at(i)].obstacle = all[at(i)];
-    volumes_.refit(model_.shape());
+    moved_ = true;
     return status;
   }
   void report(int i, bool pushed, TouchPlace<Scalar, dimension>& to) const noexcept {
@@ -292,12 +328,19 @@ class TouchSeveral {
     to.point = obstacle.pushed.point;
     to.normal = obstacle.pushed.normal;
     to.force = -obstacle.pushed.force * obstacle.pushed.normal;
+    if (!place.at_end) return;
+    if (to.status == Status::ok) to.status = Status::out_of_range;
+    to.s = place.contact.s;
+    to.point = place.contact.foot;
+    to.normal = place.contact.normal;
+    to.force = -obstacle.pushed.force * place.end.factor() * place.contact.normal;
   }
 
   Model& model_;
   BoundingVolumes<Scalar, dimension> volumes_;
   std::array<Place, most> places_{};
   int size_ = 0, avatars_ = 0;
+  bool moved_ = true;                                       // since the volumes were fitted
   bool fixed_ = false;                                      // there are stops or supports
   bool moving_ = false;                                     // touched, or let go and not yet at rest
   std::array<TouchPlace<Scalar, dimension>, most> answer_;  // of the last tick that had one
@@ -342,6 +385,7 @@ auto TouchSeveral<Model>::solve() noexcept -> Result {
   if (pushed) {
     result.status = push();
     moving_ = touched || result.status == Status::iteration_limit;
+    if (!moving_) begin();
   }
   const bool answer = is_answer(result.status);
   for (int i = 0; i < size_; ++i) {

@@ -54,7 +54,7 @@ class AllDisplacements {
   Response<Scalar> press(const Push<Scalar, dimension>& request, Scalar node, bool valid) noexcept {
     using std::abs;
     if (!begins(valid)) return {0, report_.status};
-    round_.forget();
+    forget();
     const Scalar last = system_.linear_reaction(), s = request.s;
     const Scalar jump = request.d - system_.displacement(s, request.normal),
                  from_rest = request.d - system_.displacement(rest_state_, s, request.normal);
@@ -70,6 +70,7 @@ class AllDisplacements {
   Pushed<Scalar, dimension> push(const Round& request, const Extent& range, bool valid,
                                  FrictionState<Scalar, dimension>* friction) noexcept {
     if (!begins(valid)) return {0, report_.status};
+    several_.forget();
     return round_.push(*this, request, range, friction);
   }
 
@@ -105,7 +106,7 @@ class AllDisplacements {
   /// Falls to the shape at rest on whose slope the beam is; one that is folded, which only a request beyond all reach leaves,
   /// and which may be stable, goes back to where it began.   @return ok | snapped | iteration_limit
   Status release() noexcept {
-    round_.forget();
+    forget();
     if (single_valued_) {
       reset();
       return Status::ok;
@@ -159,7 +160,11 @@ class AllDisplacements {
     system_.set_state(uniform_, rest_state_);
     home_ = system_.middle();
     falling_ = descending_ = false;
+    forget();
+  }
+  void forget() noexcept {
     round_.forget();
+    several_.forget();
   }
 
   /// @return whether there is a request to answer; if not, report() has its status

@@ -91,6 +91,14 @@ class BeamSystem
     keep(before);
     beam_.set(mesh, saved_.data());
   }
+  /// What goes on as from one state to another.  @param from  becomes the state now, less the way from there to `to`
+  void carry(State& from, const State& to) const noexcept {
+    for (int i = 0; i <= elements(); ++i) {
+      const Node &x = node(i), &b = to[i];
+      Node& a = from[i];
+      a = {x.s - (b.s - a.s), x.u - (b.u - a.u), x.w - (b.w - a.w), x.theta - (b.theta - a.theta)};
+    }
+  }
   /// Back to an equilibrium that was left.  @param force  of its contact [N]
   void go_back(const Mesh& mesh, const State& state, Scalar force) noexcept {
     beam_.set(mesh, state.data());

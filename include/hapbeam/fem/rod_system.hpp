@@ -106,6 +106,20 @@ class RodSystem
     keep(before);
     rod_.set(mesh, saved_.nodes, saved_.inners);
   }
+  /// What goes on as from one state to another.  @param from  becomes the state now, less the way from there to `to`
+  void carry(State& from, const State& to) const noexcept {
+    for (int i = 0; i <= elements(); ++i) {
+      const auto &x = node(i), &b = to.nodes[i];
+      auto& a = from.nodes[i];
+      a.s = x.s - (b.s - a.s);
+      a.r = x.r - (b.r - a.r);
+      a.tangent = x.tangent - (b.tangent - a.tangent);
+      a.director = x.director - (b.director - a.director);
+    }
+    if constexpr (unknowns == 7)
+      for (int e = 0; e < elements(); ++e)
+        from.inners[e].twist = inners()[e].twist - (to.inners[e].twist - from.inners[e].twist);
+  }
   /// Back to an equilibrium that was left.  @param force  of its contact [N]
   void go_back(const Mesh& mesh, const State& state, Scalar force) noexcept {
     rod_.set(mesh, state.nodes, state.inners);

@@ -17,9 +17,11 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <hapbeam/fem/contact_search.hpp>
 #include <hapbeam/fem/round_push.hpp>
+#include <hapbeam/fem/several_foresight.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
@@ -37,6 +39,8 @@ class SeveralPush {
   using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
   using Search = ContactSearch<Scalar, dimension>;
   using Single = RoundPush<Element, System>;
+  using Law =
+      decltype(std::declval<const RoundContact&>().beside(std::declval<const System&>().centreline(), 0, 0));
 
  public:
   /// Solutions of a push: so often nodes follow their contacts, and each obstacle touches or lets go.
@@ -45,11 +49,14 @@ class SeveralPush {
   static constexpr int most_looks = 8;
 
   /// @throws std::invalid_argument where there are too few elements for so many contacts
-  explicit SeveralPush(const System& system) {
+  explicit SeveralPush(const System& system) : foresight_(system) {
     if (system.elements() < most + 1)
       throw std::invalid_argument("elements = " + std::to_string(system.elements()) + ": must be at least " +
                                   std::to_string(most + 1) + " for " + std::to_string(most) + " contacts");
   }
+
+  /// To be called where something else moves the beam.
+  void forget() noexcept { foresight_.forget(); }
 
   /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
   /// @param all  in: where they are and whether they touched;  out: whether they touch, and their forces
@@ -59,6 +66,10 @@ class SeveralPush {
     System& system = way.system_;
     all_ = all, count_ = count;
     for (int i = 0; i < count; ++i) begin(i, range);
+    if (foresight_.look(all, count))
+      for (int i = 0; i < count; ++i)
+        if (all[i].touching && all[i].kind == ObstacleKind::round)
+          slot(i).s = std::clamp(foresight_.place(i), Scalar(0), range.length());
     Status status = Status::ok;
     bool snapped = false;
     int meshes = 1;
@@ -75,6 +86,7 @@ class SeveralPush {
     }
     if (snapped && status == Status::ok) status = Status::snapped;
     for (int i = 0; i < count; ++i) end(system, i, status);
+    foresight_.know(all, count, status == Status::ok);
     return status;
   }
 
@@ -156,16 +168,31 @@ class SeveralPush {
       if (ordered_ > 0) system.remesh(mesh_);
       return Status::ok;
     }
+    bool foreseen = false;
+    const auto aim = [&] {
+      int goals = 0;
+      for (int k = 0; k < ordered_; ++k)
+        if (const int i = order_[of(k)]; all_[i].touching)
+          set_goal(system, range, i, goals++, foreseen ? laws_[of(i)] : law_of(system, i));
+    };
+    if (first) {
+      const Scalar last = system.linear_reaction();
+      // What is foreseen has no second derivative.
+      for (int k = 0; k < ordered_; ++k)
+        if (const int i = order_[of(k)]; all_[i].touching) laws_[of(i)] = law_of(system, i);
+      foreseen = foresight_.go_on(system, mesh_);
+      if (foreseen) {
+        if (way.settle_at_once(Single::slack, aim).status == Status::ok) return Status::ok;
+        foresight_.go_back(system, last);
+        foreseen = false;
+        for (int i = 0; i < count_; ++i) slot(i).normal.setZero();
+      }
+    }
     system.remesh(mesh_);
     if (first && way.single_valued_ && nearer_at_rest(way)) {
       way.to_rest();
       system.remesh(mesh_);
     }
-    const auto aim = [&] {
-      int goals = 0;
-      for (int k = 0; k < ordered_; ++k)
-        if (const int i = order_[of(k)]; all_[i].touching) set_goal(system, range, i, goals++);
-    };
     return way.settle(system.linear_reaction(), Single::slack, aim).status;
   }
 
@@ -188,14 +215,17 @@ class SeveralPush {
     return jump > system.length() / 1000 && from_rest < jump;
   }
 
+  Law law_of(const System& system, int i) noexcept {
+    const int c = slot(i).node;
+    return RoundContact{all_[i].round}.beside(system.centreline(), c, end_at(system, c));
+  }
   template <class Extent>
-  void set_goal(System& system, const Extent& range, int i, int goal) noexcept {
+  void set_goal(System& system, const Extent& range, int i, int goal, const Law& law) noexcept {
     using std::abs;
     Slot& now = slot(i);
     const RoundContact round{all_[i].round};
     const Scalar reach = round.request().reach;
     const int c = now.node, end = end_at(system, c);
-    const auto law = round.beside(system.centreline(), c, end);
     const auto set = [&](Scalar d, const auto&... as) {
       if (goal == 0) {
         if constexpr (sizeof...(as) == 0) system.set_goal(c, d, 0, up());
@@ -441,7 +471,9 @@ class SeveralPush {
   int count_ = 0, ordered_ = 0;
   std::array<int, most> order_{};  // of those that have a node, along the beam
   std::array<Slot, most> slots_{};
+  std::array<Law, most> laws_{};
   Mesh mesh_{2, Scalar(1)};
+  SeveralForesight<System, Obstacle, most> foresight_;
 };
 
 }  // namespace hapbeam::detail
