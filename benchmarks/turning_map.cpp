@@ -8,8 +8,10 @@
 //                          that touches nothing; moves: still, after four seconds; slips_off the rod; gives_energy
 //
 // Nothing here is timed; the same numbers on every machine.  Table: benchmarks/run.sh --stability.
+#include <algorithm>
 #include <cstdio>
-#include <cstring>
+#include <string>
+#include <vector>
 
 #include "support/turning_scenes.hpp"
 
@@ -54,7 +56,7 @@ const char* result(const TurningResponse& r, const TurningSituation& who) {
   if (rests(r.last_speed, r.last_rate)) return "slower";
   const TurningResponse alone = turning_response_alone(who, duration);
   return rests(r.last_speed - 1.1 * alone.last_speed, r.last_rate - 1.1 * alone.last_rate) ? "slower_as_alone"
-                                                                                          : "moves";
+                                                                                           : "moves";
 }
 
 void map(const TurningScene& scene) {
@@ -76,15 +78,17 @@ void map(const TurningScene& scene) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::vector<TurningScene> chosen;
+  for (const TurningScene& scene : turning_scenes)
+    if (argc == 1 || std::count(argv + 1, argv + argc, std::string(scene.name)) > 0) chosen.push_back(scene);
+  if (argc > 1 && static_cast<int>(chosen.size()) != argc - 1)
+    return std::fputs("turning_map: must be called with wire, needle, bar, hook, or nothing\n", stderr), 2;
   std::printf(
-      "rod,touched_by,stiffness_factor,damping_factor,hand_stiffness_N_per_m,hand_damping_Ns_per_m,grip_mass_kg,"
+      "rod,touched_by,stiffness_factor,damping_factor,hand_stiffness_N_per_m,hand_damping_Ns_per_m,grip_mass_"
+      "kg,"
       "gimbal_damping_mNms,gimbal_friction_mNm,gimbal_resolution_urad,period_ms,delay_ticks,stiffness_Nm,"
       "damping_mNms,speed_mm_per_s,rate_rad_per_s,last_speed_mm_per_s,last_rate_rad_per_s,torque_mNm,"
       "least_energy_J,monitored_energy_J,result\n");
-  for (const TurningScene& scene : turning_scenes) {
-    bool chosen = argc == 1;
-    for (int i = 1; i < argc; ++i) chosen = chosen || std::strcmp(argv[i], scene.name) == 0;
-    if (chosen) map(scene);
-  }
+  for (const TurningScene& scene : chosen) map(scene);
   return 0;
 }

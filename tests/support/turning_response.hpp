@@ -16,8 +16,9 @@ struct Turning {
   Eigen::Vector3d push = Eigen::Vector3d::Zero();   // [N]
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();  // [N·m] by axes of the gimbal
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();   // [rad] the same
-  Eigen::Vector3d led = Eigen::Vector3d::Zero();    // [rad] the same, by which its target turns from that moment on
-  static constexpr double at = 0.3, leads = 0.1;    // [s]
+  Eigen::Vector3d led =
+      Eigen::Vector3d::Zero();  // [rad] the same, by which its target turns from that moment on
+  static constexpr double at = 0.3, leads = 0.1;  // [s]
 
   HandTarget operator()(double time) const noexcept {
     HandTarget target{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
@@ -31,8 +32,8 @@ struct Turning {
 };
 
 struct TurningResponse {
-  double speed = 0;         ///< [m/s] RMS, the largest over any 0.1 s from `settling` on
-  double rate = 0;          ///< [rad/s] the same
+  double speed = 0;                      ///< [m/s] RMS, the largest over any 0.1 s from `settling` on
+  double rate = 0;                       ///< [rad/s] the same
   double last_speed = 0, last_rate = 0;  ///< [m/s], [rad/s] RMS in the last 0.1 s
   double least_energy = 0;  ///< [J] of what hand, arm and gimbal have put into the loop; negative: it gave
   double generated = 0;     ///< [J] as the loop's monitor says

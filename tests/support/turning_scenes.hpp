@@ -5,12 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "support/turning_response.hpp"
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/haptics/held/grip.hpp>
-
-#include "support/turning_response.hpp"
 
 namespace hapbeam::testing {
 
@@ -36,7 +35,7 @@ inline constexpr TurningScene turning_scenes[] = {{"wire", 0.2, 0.001, 0, 0.12},
 
 /// Who presses: a hand that turns by its figures at the 30 mm where fingers hold a stylus, and a gimbal.
 struct TurningSituation {
-  double hand_stiffness, hand_damping, grip_mass;              // [N/m], [N·s/m], [kg]
+  double hand_stiffness, hand_damping, grip_mass;             // [N/m], [N·s/m], [kg]
   double gimbal_damping, gimbal_friction, gimbal_resolution;  // [N·m·s/rad], [N·m], [rad]
   double period;                                              // [s]
   int delay;                                                  // [ticks]
@@ -99,11 +98,12 @@ inline TurningResponse turning_response(const TurningScene& scene, TouchedBy by,
   out = (out - along * along.dot(out)).normalized();
   Eigen::Matrix3d axes;
   axes.col(0) = along, axes.col(1) = out, axes.col(2) = detail::cross3<double>(along, out);
-  const double tilt = by == TouchedBy::tip ? 0.5 : 0, lever = by == TouchedBy::tip ? options.stylus.ahead : 0.06;
+  const double tilt = by == TouchedBy::tip ? 0.5 : 0,
+               lever = by == TouchedBy::tip ? options.stylus.ahead : 0.06;
   hand.turn = {0, -tilt, 0};
   const Eigen::Vector3d back = axes * Eigen::Vector3d(0, std::sin(tilt), std::cos(tilt));
-  options.placement = Placement(
-      axes, at.r + (options.avatar_radius + scene.diameter / 2) * out + lever * back);
+  options.placement =
+      Placement(axes, at.r + (options.avatar_radius + scene.diameter / 2) * out + lever * back);
   return turning_response(model, hand, who.options(), options, VirtualCoupling(place, turning), settling,
                           duration);
 }
