@@ -3,10 +3,11 @@
 //
 // The thesis' beam, both ends pinned, touched at 1 m by a hand that presses 10 µm a tick or slides 1 mm; and a steel ruler, 300 × 25 × 1 mm,
 // clamped at one end, by a hand that has bent it 60 mm down at 110 mm and does the same.  A wire and a strip in space, 300 mm long, are
-// pressed 4 mm deep by a sphere of 30 mm, with 8 to 1024 elements.  Prints CSV, which docs/performance.md quotes, in some minutes;
+// pressed 4 mm deep by a sphere of 30 mm: `tick_instructions rods`, with 8 to 1024 elements in some minutes.  Prints CSV, which docs/performance.md quotes;
 // Linux alone.
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 #include "support/instructions.hpp"
 #include "support/thesis_beam.hpp"
@@ -131,19 +132,23 @@ void on_rods(int elements) {
     return Rod(0.3, section, RodMaterial{200e9, 77e9}, RodSupport::clamped, RodSupport::free);
   };
   const VectorOf<double, 3> first(0, std::cos(0.1), std::sin(0.1)), second(0, std::sin(0.1), std::cos(0.1));
-  on_rod<RoundRod>("round-rod, wire", rod(RodSection::circle(0.0015)), elements, first);
-  on_rod<TwistedRod>("twisted-rod, wire", rod(RodSection::circle(0.0015)), elements, first);
-  on_rod<TwistedRod>("twisted-rod, strip", rod(RodSection::rectangle(0.01, 0.001)), elements, second);
+  on_rod<RoundRod>("round-rod wire", rod(RodSection::circle(0.0015)), elements, first);
+  on_rod<TwistedRod>("twisted-rod wire", rod(RodSection::circle(0.0015)), elements, first);
+  on_rod<TwistedRod>("twisted-rod strip", rod(RodSection::rectangle(0.01, 0.001)), elements, second);
 }
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
   if (instructions([] {}) < 0) {
     std::fprintf(stderr, "this system does not let a process trace its child\n");
     return 1;
   }
   std::printf("model,elements,hand,part,instructions,solves\n");
+  if (argc > 1 && std::strcmp(argv[1], "rods") == 0) {
+    for (const int elements : {8, 64, 512, 1024}) on_rods(elements);
+    return 0;
+  }
   for (const int elements : {8, 64})
     for (const bool slides : {false, true}) {
       parts(elements, slides);
@@ -152,5 +157,4 @@ int main() {
       ticks<FemModel<Corotational<>>>("corotational", elements, slides);
       on_ruler(elements, slides);
     }
-  for (const int elements : {8, 64, 512, 1024}) on_rods(elements);
 }
