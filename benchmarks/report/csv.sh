@@ -112,3 +112,21 @@ csv_stability() {
       }
     }' "$scratch/sweep.csv" >"$kept/stability_sweep.csv"
 }
+
+# The turning hands of turning_map, which has a line for each: counts, and what fails through the coupling that the device can render.
+csv_turning() {
+  "$programs/turning_map" >"$scratch/turning.csv" || return 1
+  awk -F, 'NR == 1 || $3 == 1 && ($NF == "moves" || $NF == "gives_energy")' "$scratch/turning.csv" >"$kept/turning_failures.csv"
+  awk -F, '
+    NR == 1 { next }
+    { key = $1 "," $2 "," $3 "," $4 "," ($9 > 0 ? "some" : "none"); if (!(key in all)) order[++n] = key; ++all[key]; ++count[key, $NF] }
+    END {
+      print "rod,touched_by,stiffness_factor,damping_factor,gimbal_friction,combinations,at_rest,slower,slower_as_alone,moves,slips_off," \
+        "gives_energy"
+      for (k = 1; k <= n; ++k) {
+        key = order[k]
+        print key "," all[key] "," count[key, "at_rest"] + 0 "," count[key, "slower"] + 0 "," count[key, "slower_as_alone"] + 0 "," \
+          count[key, "moves"] + 0 "," count[key, "slips_off"] + 0 "," count[key, "gives_energy"] + 0
+      }
+    }' "$scratch/turning.csv" >"$kept/turning_sweep.csv"
+}

@@ -191,6 +191,32 @@ function stability(  k, text) {
       cell[k, "slow_as_the_arm_itself"], cell[k, "slides_off"] + cell[k, "lost"])
 }
 
+# Of turning_sweep.csv: all rods together.
+function turning(  k, by, friction, factor, key, ways, frictions, factors, f, w, n, all, moves, gives, off, row, text) {
+  text["tip"] = "the tip of a stylus"; text["shaft"] = "its shaft"; text["grip"] = "a hand that holds its end"
+  text["none"] = "none"; text["some"] = "0.5 or 5 mN·m"
+  for (k = 1; k <= rows; ++k) {
+    by = cell[k, "touched_by"]; friction = cell[k, "gimbal_friction"]
+    factor = cell[k, "stiffness_factor"] "," cell[k, "damping_factor"]
+    key = by SUBSEP friction SUBSEP factor
+    all[by, friction, factor] += cell[k, "combinations"]; moves[key] += cell[k, "moves"]
+    gives[key] += cell[k, "gives_energy"]; off[key] += cell[k, "slips_off"]
+  }
+  line("touched by", "friction of the gimbal", "runs each", "× 1", "× 2", "× 4", "× 8", "K_r × 8, no B_r")
+  rule(8)
+  split("tip shaft grip", ways, " "); split("none some", frictions, " "); n = split("1,1 2,2 4,4 8,8 8,0", factors, " ")
+  for (w = 1; w <= 3; ++w)
+    for (f = 1; f <= 2; ++f) {
+      for (k = 1; k <= n; ++k) {
+        key = ways[w] SUBSEP frictions[f] SUBSEP factors[k]
+        row[k] = (moves[key] ? moves[key] " swing" : "") (moves[key] && gives[key] ? ", " : "") \
+          (gives[key] ? gives[key] " give energy" : "") (off[key] ? (moves[key] || gives[key] ? ", " : "") off[key] " slip off" : "")
+        if (row[k] == "") row[k] = "–"
+      }
+      line(text[ways[w]], text[frictions[f]], all[ways[w], frictions[f], factors[1]], row[1], row[2], row[3], row[4], row[5])
+    }
+}
+
 # Of chooser.csv.
 function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst, missed, ratio, dear, dearest, slowest, text) {
   n = split("POD Galerkin Linear VonKarman Corotational", kinds, " ")
@@ -285,6 +311,7 @@ END {
   else if (table == "rotation") rotation()
   else if (table == "limits") limits()
   else if (table == "stability") stability()
+  else if (table == "turning") turning()
   else if (table == "chosen") chosen()
   else if (table == "flags") flags()
   else if (table == "rooms") rooms_of_headers()

@@ -16,19 +16,25 @@ struct Turning {
   Eigen::Vector3d push = Eigen::Vector3d::Zero();   // [N]
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();  // [N·m] by axes of the gimbal
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();   // [rad] the same
-  static constexpr double at = 0.3;                 // [s]
+  Eigen::Vector3d led =
+      Eigen::Vector3d::Zero();  // [rad] the same, by which its target turns from that moment on
+  static constexpr double at = 0.3, leads = 0.1;  // [s]
 
   HandTarget operator()(double time) const noexcept {
     HandTarget target{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     target.turn = turn;
-    if (time >= at) target.push = push, target.twist = twist;
+    if (time < at) return target;
+    target.push = push, target.twist = twist;
+    target.turn += led * (std::min)(1.0, (time - at) / leads);
+    if (time < at + leads) target.spin = led / leads;
     return target;
   }
 };
 
 struct TurningResponse {
-  double speed = 0;         ///< [m/s] RMS, the largest over any 0.1 s from `settling` on
-  double rate = 0;          ///< [rad/s] the same
+  double speed = 0;                      ///< [m/s] RMS, the largest over any 0.1 s from `settling` on
+  double rate = 0;                       ///< [rad/s] the same
+  double last_speed = 0, last_rate = 0;  ///< [m/s], [rad/s] RMS in the last 0.1 s
   double least_energy = 0;  ///< [J] of what hand, arm and gimbal have put into the loop; negative: it gave
   double generated = 0;     ///< [J] as the loop's monitor says
   double max_force = 0, max_torque = 0;  ///< [N], [N·m] sent
@@ -36,14 +42,16 @@ struct TurningResponse {
   ServoRecord record;
 };
 
-/// @param body  a model, or a Grip   @param settling [s] after the step   @param duration [s] as well
-template <typename Body>
+/// @param body  a model, or a Grip   @param settling [s] after the step   @param duration [s] as well; a run ends early
+/// once it has hardly moved for a second
+template <typename Body, typename Coupling = typename CouplingOf<Body>::Type>
 TurningResponse turning_response(Body& body, const Turning& hand, const VirtualPhantomOptions& who,
-                                 const ServoOptions& options, double settling, double duration) {
+                                 const ServoOptions& options, const Coupling& coupling, double settling,
+                                 double duration) {
   VirtualPhantom<Turning> device(hand, who);
-  Servo<Body> servo(body, device.info(), options);
+  Servo<Body, Coupling> servo(body, device.info(), options, coupling);
   struct Watched {
-    Servo<Body>& servo;
+    Servo<Body, Coupling>& servo;
     Wrench sent{};
     Eigen::Vector3d motors{0, 0, 0};
     const VirtualPhantom<Turning>& device;
@@ -60,7 +68,7 @@ TurningResponse turning_response(Body& body, const Turning& hand, const VirtualP
              first = std::lround((Turning::at + settling) / period), window = std::lround(0.1 / period);
   std::array<Wrench, 17> held{};  // of the motors, newest first
   double energy = 0, speeds = 0, rates = 0;
-  long in_window = 0;
+  long in_window = 0, still = 0;
   for (long tick = 0; tick < end; ++tick) {
     const Eigen::Vector3d place = device.tip().position, angles = device.gimbal().angles();
     device.step(watched);
@@ -78,14 +86,25 @@ TurningResponse turning_response(Body& body, const Turning& hand, const VirtualP
     if (tick < first) continue;
     speeds += device.tip().velocity.squaredNorm(), rates += device.gimbal().rates().squaredNorm();
     if (++in_window < window) continue;
-    r.speed = std::max(r.speed, std::sqrt(speeds / static_cast<double>(window)));
-    r.rate = std::max(r.rate, std::sqrt(rates / static_cast<double>(window)));
+    r.last_speed = std::sqrt(speeds / static_cast<double>(window));
+    r.last_rate = std::sqrt(rates / static_cast<double>(window));
+    r.speed = std::max(r.speed, r.last_speed), r.rate = std::max(r.rate, r.last_rate);
     speeds = rates = 0, in_window = 0;
+    still = r.last_speed < 1e-6 && r.last_rate < 1e-5 ? still + 1 : 0;
+    if (still == 10) break;
   }
   r.generated = servo.record().energy_generated;
   r.sent = watched.sent;
   r.record = servo.record();
   return r;
+}
+/// Through the coupling that the device can render.
+template <typename Body>
+TurningResponse turning_response(Body& body, const Turning& hand, const VirtualPhantomOptions& who,
+                                 const ServoOptions& options, double settling, double duration) {
+  const DeviceInfo info = VirtualPhantom<Turning>(hand, who).info();
+  return turning_response(body, hand, who, options,
+                          CouplingOf<Body>::Type::for_device(info, options.delay_ticks), settling, duration);
 }
 
 }  // namespace hapbeam::testing
