@@ -84,7 +84,7 @@ class Contest {
       else solvers<VonKarman<>>(scene, few);
       for (const int n : few) {
         const auto make = [&scene, n] {
-          return contender<MassSpring>(scene.beam, n, avatar_radius, scene.mass_per_length, scene.lowest);
+          return contender<MassSpring<2>>(scene.beam, n, avatar_radius, scene.mass_per_length, scene.lowest);
         };
         // A tick is of order n²: more masses are asked at fewer stops.
         add(scene, "mass-spring", {n, 0, 0}, make, static_cast<std::size_t>(n / 8));
@@ -97,8 +97,18 @@ class Contest {
       const std::vector<int> sizes = quick ? std::vector<int>{4, 8, 16} : std::vector<int>{4, 8, 16, 32, 64};
       if (scene.beam.arcs().empty()) fem<FemModel<RoundRod>>(scene, "RoundRod", sizes);
       fem<FemModel<TwistedRod>>(scene, "TwistedRod", sizes);
+      const std::vector<int> few = quick ? std::vector<int>{8, 16} : std::vector<int>{8, 16, 32, 64};
+      if (scene.beam.arcs().empty())
+        for (const int n : few)
+          add(
+              scene, "mass-spring", {n, 0, 0},
+              [&scene, n] {
+                return contender<MassSpring<3>>(scene.beam, n, radius_in<3>, scene.mass_per_length,
+                                                scene.lowest);
+              },
+              static_cast<std::size_t>(n / 8));
 #ifdef HAPBEAM_BENCHMARKS_MUJOCO
-      for (const int n : quick ? std::vector<int>{8, 16} : std::vector<int>{8, 16, 32, 64})
+      for (const int n : few)
         add(
             scene, "MuJoCo", {n, 0, 0},
             [&scene, n] {

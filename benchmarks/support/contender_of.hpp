@@ -54,9 +54,9 @@ class TouchedChain : public Contender<dimension_of<Chain>> {
  private:
   Chain chain_;
 };
-template <>
-class Touched<MassSpring> final : public TouchedChain<MassSpring> {
-  using TouchedChain::TouchedChain;
+template <int D>
+class Touched<MassSpring<D>> final : public TouchedChain<MassSpring<D>> {
+  using TouchedChain<MassSpring<D>>::TouchedChain;
 };
 
 template <class Model, class... Arguments>
