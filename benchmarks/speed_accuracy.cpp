@@ -26,6 +26,7 @@
 
 #include "support/closed_form_model.hpp"
 #include "support/contender.hpp"
+#include "support/crisfield.hpp"
 #include "support/heap.hpp"
 #include "support/mass_spring.hpp"
 #include "support/sparse_assemblers.hpp"
@@ -97,6 +98,7 @@ class Contest {
       const std::vector<int> sizes = quick ? std::vector<int>{4, 8, 16} : std::vector<int>{4, 8, 16, 32, 64};
       if (scene.beam.arcs().empty()) fem<FemModel<RoundRod>>(scene, "RoundRod", sizes);
       fem<FemModel<TwistedRod>>(scene, "TwistedRod", sizes);
+      fem<FemModel<CrisfieldRod>>(scene, "CrisfieldRod", sizes);
       const std::vector<int> few = quick ? std::vector<int>{8, 16} : std::vector<int>{8, 16, 32, 64};
       if (scene.beam.arcs().empty())
         for (const int n : few)

@@ -5,6 +5,7 @@
 
 #include "closed_form_model.hpp"
 #include "contender.hpp"
+#include "crisfield.hpp"
 #include "mass_spring.hpp"
 #include "sparse_assemblers.hpp"
 #include "touch_scenes.hpp"
