@@ -7,8 +7,8 @@
 //   outside_error_max     the same deeper than the scene, up to 1.6 times
 //   bytes                 what the method holds for one beam
 //
-// All methods are compiled alike, each in a file of its own, start each tick from the one before, and share contact detection, but for the chain of masses,
-// which has its own, and MuJoCo, which is measured where libmujoco-dev is installed.  What differs from FemModel in its linear solver
+// All methods are compiled alike, each in a file of its own, start each tick from the one before, and share contact detection, but for the chains of masses,
+// which have their own, and MuJoCo, which is measured where libmujoco-dev is installed.  What differs from FemModel in its linear solver
 // alone is called Newton + solver.
 // HAPBEAM_QUICK=1 in the environment takes fewer stops and rounds.
 #include <algorithm>

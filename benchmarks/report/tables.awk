@@ -80,7 +80,7 @@ function fronts(  n, s, m, k, all, scene, model, own, sizes, on, ours, form, eve
         ours += passed(k, own)
         form += passed(k, "^closed form")
         even += passed(k, "Equispaced")
-        others += passed(k, "^Linear|Integration|^Corotational<Linear>|^Newton|^mass-spring|^MuJoCo")
+        others += passed(k, "^Linear|Integration|^Corotational<Linear>|^Newton|^mass-spring|^MuJoCo|^CrisfieldRod")
       }
       if (!sizes) continue  # measured before there was that scene
       line(scene[s], "`" model[n] "`", sizes, on, ours, form, even, others)
