@@ -4,7 +4,7 @@
 #
 #   bash benchmarks/run.sh [--quick] [--only PROGRAM] [--stability] [--programs FOLDER]
 #
-#   --quick             fewer sizes, stops and rounds, no chooser: under 3 minutes; the numbers are rougher and fewer
+#   --quick             fewer sizes, stops and rounds, no choosers: under 3 minutes; the numbers are rougher and fewer
 #   --only PROGRAM      measures with that one alone; `none` measures nothing and draws what docs/data has
 #   --stability         also maps where the servo loop is stable: simulated time, the same numbers on every machine, 20 min
 #   --programs FOLDER   where the benchmarks are, built already; default: builds them
@@ -20,7 +20,7 @@ usage() { sed -n '2,14s/^# \{0,1\}//p' "$0"; }
 wrong() { echo "benchmarks/run.sh: $1" >&2; exit 2; }
 
 quick=(speed_accuracy costs thesis_figures reduced_press any_rotation fem_press many_beams kinematics where_methods_fail servo_times)
-all=("${quick[@]}" chooser compile_cost flags)
+all=("${quick[@]}" chooser chooser_rods compile_cost flags)
 what=("${all[@]}") stability= programs=
 while [[ $# -gt 0 ]]; do
   case $1 in
@@ -51,7 +51,7 @@ trap 'rm -rf "$log" "$scratch"' EXIT
 
 measure() {
   case $1 in
-    servo_times | chooser | compile_cost | flags) "csv_$1" ;;
+    servo_times | chooser | chooser_rods | compile_cost | flags) "csv_$1" ;;
     where_methods_fail) bash "$top/benchmarks/$1.sh" --program "$programs/$1" ;;
     *)
       "$programs/$1" --benchmark_out="$scratch/$1.json" --benchmark_out_format=json &&

@@ -7,8 +7,8 @@
 //   outside_error_max     the same deeper than the scene, up to 1.6 times
 //   bytes                 what the method holds for one beam
 //
-// All methods are compiled alike, each in a file of its own, start each tick from the one before, and share contact detection, but for the chain of masses,
-// which has its own, and MuJoCo, which is measured where libmujoco-dev is installed.  What differs from FemModel in its linear solver
+// All methods are compiled alike, each in a file of its own, start each tick from the one before, and share contact detection, but for the chains of masses,
+// which have their own, and MuJoCo, which is measured where libmujoco-dev is installed.  What differs from FemModel in its linear solver
 // alone is called Newton + solver.
 // HAPBEAM_QUICK=1 in the environment takes fewer stops and rounds.
 #include <algorithm>
@@ -26,6 +26,7 @@
 
 #include "support/closed_form_model.hpp"
 #include "support/contender.hpp"
+#include "support/crisfield.hpp"
 #include "support/heap.hpp"
 #include "support/mass_spring.hpp"
 #include "support/sparse_assemblers.hpp"
@@ -84,7 +85,7 @@ class Contest {
       else solvers<VonKarman<>>(scene, few);
       for (const int n : few) {
         const auto make = [&scene, n] {
-          return contender<MassSpring>(scene.beam, n, avatar_radius, scene.mass_per_length, scene.lowest);
+          return contender<MassSpring<2>>(scene.beam, n, avatar_radius, scene.mass_per_length, scene.lowest);
         };
         // A tick is of order n²: more masses are asked at fewer stops.
         add(scene, "mass-spring", {n, 0, 0}, make, static_cast<std::size_t>(n / 8));
@@ -97,8 +98,19 @@ class Contest {
       const std::vector<int> sizes = quick ? std::vector<int>{4, 8, 16} : std::vector<int>{4, 8, 16, 32, 64};
       if (scene.beam.arcs().empty()) fem<FemModel<RoundRod>>(scene, "RoundRod", sizes);
       fem<FemModel<TwistedRod>>(scene, "TwistedRod", sizes);
+      fem<FemModel<CrisfieldRod>>(scene, "CrisfieldRod", sizes);
+      const std::vector<int> few = quick ? std::vector<int>{8, 16} : std::vector<int>{8, 16, 32, 64};
+      if (scene.beam.arcs().empty())
+        for (const int n : few)
+          add(
+              scene, "mass-spring", {n, 0, 0},
+              [&scene, n] {
+                return contender<MassSpring<3>>(scene.beam, n, radius_in<3>, scene.mass_per_length,
+                                                scene.lowest);
+              },
+              static_cast<std::size_t>(n / 8));
 #ifdef HAPBEAM_BENCHMARKS_MUJOCO
-      for (const int n : quick ? std::vector<int>{8, 16} : std::vector<int>{8, 16, 32, 64})
+      for (const int n : few)
         add(
             scene, "MuJoCo", {n, 0, 0},
             [&scene, n] {

@@ -76,12 +76,14 @@ csv_servo_times() {
 }
 
 # How well models are chosen, a line a scene.
-csv_chooser() {
-  "$programs/chooser" >"$scratch/chooser" && {
+chosen() {
+  "$programs/$1" >"$scratch/$1" && {
     heading "$kept/costs.json" "$(git -C "$top" describe --always --dirty --abbrev=12 '--exclude=*')" "$(date -Iseconds)"
-    cat "$scratch/chooser"
-  } >"$kept/chooser.csv"
+    cat "$scratch/$1"
+  } >"$kept/$1.csv"
 }
+csv_chooser() { chosen chooser; }
+csv_chooser_rods() { chosen chooser_rods; }
 
 # What the compiler pays for each public header.
 csv_compile_cost() {

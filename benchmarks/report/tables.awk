@@ -80,7 +80,7 @@ function fronts(  n, s, m, k, all, scene, model, own, sizes, on, ours, form, eve
         ours += passed(k, own)
         form += passed(k, "^closed form")
         even += passed(k, "Equispaced")
-        others += passed(k, "^Linear|Integration|^Corotational<Linear>|^Newton|^mass-spring|^MuJoCo")
+        others += passed(k, "^Linear|Integration|^Corotational<Linear>|^Newton|^mass-spring|^MuJoCo|^CrisfieldRod")
       }
       if (!sizes) continue  # measured before there was that scene
       line(scene[s], "`" model[n] "`", sizes, on, ours, form, even, others)
@@ -248,6 +248,39 @@ function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst
   line("longest choice", sprintf("%.0f ms", slowest))
 }
 
+# Of chooser_rods.csv.
+function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, error, worst, missed, more, most, slowest, mean, text, own, best) {
+  n = split("straight loaded bent curled", kind, " ")
+  for (k = 1; k <= rows; ++k) {
+    ++number[cell[k, "shape"]]
+    mean += cell[k, "choose_ms"] / rows
+    if (cell[k, "choose_ms"] + 0 > slowest) slowest = cell[k, "choose_ms"] + 0
+    if (cell[k, "chosen"] == "none") {
+      ++none
+      if (cell[k, "cheapest"] != "none") ++overlooked
+      continue
+    }
+    split(cell[k, "chosen"], own, /[; ]+/)
+    ++count[cell[k, "chosen"] ~ /plane that turns/ ? "planar" : own[1]]
+    error = cell[k, "error"] / cell[k, "tolerance"]
+    if (error > worst) worst = error
+    if (error > 1) ++missed
+    split(cell[k, "cheapest"], best, /[; ]+/)
+    if (own[1] != best[1] || own[2] !~ /^[0-9]+$/) continue
+    if (own[2] > 2 * best[2]) ++more
+    if (own[2] / best[2] > most) most = own[2] / best[2]
+  }
+  for (k = 1; k <= n; ++k) text = text (k == 1 ? "" : ", ") number[kind[k]] + 0 " " kind[k]
+  line("of " rows " scenes", text)
+  rule(2)
+  line("a model was chosen", sprintf("%d: RoundRod %d, TwistedRod %d, planar in the plane that turns %d", rows - none, \
+    count["RoundRod"], count["TwistedRod"], count["planar"]))
+  line("none was chosen, though a rod would have done on those pushes", overlooked + 0 " of " none + 0)
+  line("error above the tolerance, on 60 pushes outside the pilot", sprintf("%d; at worst %.2f of it", missed, worst))
+  line("more than twice the fewest elements that keep the tolerance there", sprintf("%d; at most %s times", more, digits(most)))
+  line("a choice, time of the processor", sprintf("%.1f s in the mean, %.0f s at most", mean / 1e3, slowest / 1e3))
+}
+
 # A tick with each combination of flags: a row for each, a column for each compiler and model.
 function flags(  k, c, f, title, text) {
   for (k = 1; k <= rows; ++k) {
@@ -313,6 +346,7 @@ END {
   else if (table == "stability") stability()
   else if (table == "turning") turning()
   else if (table == "chosen") chosen()
+  else if (table == "chosen_rods") chosen_rods()
   else if (table == "flags") flags()
   else if (table == "rooms") rooms_of_headers()
   else if (table == "compiled_headers") compile_times(0)

@@ -5,6 +5,7 @@
 
 #include "closed_form_model.hpp"
 #include "contender.hpp"
+#include "crisfield.hpp"
 #include "mass_spring.hpp"
 #include "sparse_assemblers.hpp"
 #include "touch_scenes.hpp"
@@ -54,9 +55,9 @@ class TouchedChain : public Contender<dimension_of<Chain>> {
  private:
   Chain chain_;
 };
-template <>
-class Touched<MassSpring> final : public TouchedChain<MassSpring> {
-  using TouchedChain::TouchedChain;
+template <int D>
+class Touched<MassSpring<D>> final : public TouchedChain<MassSpring<D>> {
+  using TouchedChain<MassSpring<D>>::TouchedChain;
 };
 
 template <class Model, class... Arguments>

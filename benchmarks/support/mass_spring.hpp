@@ -2,6 +2,8 @@
 //
 //   m ẍ = -c ẋ + g + f      springs of EA/l between neighbours, of EI/l in the angle at each mass; c = 2 ω m
 //
+// In space the angle has an axis, 2 tan(φ/2) along a × b.  A chain has no twist, so it is one of naturally straight rods: a hook of masses
+// would swing out of its plane without resistance.
 // As good as such a chain gets: its springs are those of the beam, its masses too, it is damped critically in its lowest
 // mode ω, and the avatar holds it as a constraint and not as one more spring.  Masses are moved by symplectic Euler, in as
 // many sub-steps of a tick as its fastest mode needs, ω_max Δt < 2: eq. 2.2 the other way round.
@@ -11,44 +13,53 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/corotational.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 
 namespace hapbeam::benchmarks {
 
+/// @tparam D  of the space in which it bends: 2 | 3
+template <int D>
 class MassSpring {
-  using Vector = Vector2<double>;
+  using Body = std::conditional_t<D == 2, Beam, Rod>;
+  using Vector = VectorOf<double, D>;
+  using Turn = std::conditional_t<D == 2, double, VectorOf<double, 3>>;  // about z, or about its axis
 
  public:
+  static constexpr int dimension = D;
   static constexpr double tick_time = 1e-3;  // [s]
 
   /// @param mass_per_length [kg/m]   @param lowest  ω of its lowest mode [rad/s]
-  MassSpring(const Beam& beam, int links, double radius, double mass_per_length, double lowest)
-      : EA_(beam.axial_stiffness()),
-        bending_(beam.bending_stiffness() / (beam.length() / links)),
-        link_(beam.length() / links),
+  /// @throws std::invalid_argument in space unless it is straight by nature, and each end clamped or free
+  MassSpring(const Body& body, int links, double radius, double mass_per_length, double lowest)
+      : link_(body.length() / links),
         mass_(mass_per_length * link_),
         damping_(2 * lowest),
-        reach_(radius + beam.thickness() / 2) {
-    const FemModel<Corotational<>> resting(beam, links);
-    for (const auto& node : resting.shape()) rest_.emplace_back(node.s + node.u, node.w);
-    link_ = (rest_[1] - rest_[0]).norm();  // the chord of what may be an arc
-    const auto direction = [](double theta) { return Vector(std::cos(theta), -std::sin(theta)); };
-    wall_ = {direction(beam.left_place().theta), direction(beam.right_place().theta)};
-    held_ = {fixes_w(beam.left()), fixes_w(beam.right())};
-    clamped_ = {fixes_theta(beam.left()), fixes_theta(beam.right())};
+        reach_(radius + body.thickness() / 2) {
+    describe(body, links);
     // Along: 2 √(EA/(l m)).  Across: 4 √(EI/(l³ m)), and a free end moves twice the way.
     const double fastest = std::hypot(2 * std::sqrt(EA_ / (link_ * mass_)),
                                       4 * std::sqrt(2 * bending_ / (link_ * link_ * mass_)));
     steps_ = static_cast<int>(std::ceil(tick_time * fastest / (0.9 * 2)));
     force_.resize(rest_.size());
-    natural_.assign(rest_.size(), 0);
+    natural_.assign(rest_.size(), none());
+    load_.resize(rest_.size(), Vector::Zero());
     x_ = rest_;
-    for (std::size_t i = 0; i < rest_.size(); ++i) natural_[i] = bend(i).angle;
+    if constexpr (D == 2)
+      for (std::size_t i = 0; i < rest_.size(); ++i) natural_[i] = bend(i).angle;
     reset();
+    if constexpr (D == 3) {  // where the chain comes to rest
+      for (int k = 0; k < 1000 * steps_; ++k) advance(tick_time / steps_);
+      rest_ = x_;
+      reset();
+    }
   }
 
   void reset() noexcept {
@@ -58,7 +69,7 @@ class MassSpring {
     known_ = false;
   }
 
-  [[nodiscard]] TouchResult<double> tick(const Vector& position) noexcept {
+  [[nodiscard]] TouchResult<double, D> tick(const Vector& position) noexcept {
     if (!known_) before_ = position, known_ = true;
     const double dt = tick_time / steps_;
     Vector impulse = Vector::Zero();
@@ -67,7 +78,7 @@ class MassSpring {
       impulse += hold(before_ + (position - before_) * k / steps_, dt);
     }
     before_ = position;
-    TouchResult<double> result;
+    TouchResult<double, D> result;
     result.force = impulse / tick_time;
     result.pressing = result.force.squaredNorm() > 0;
     if (!result.force.allFinite()) result.force.setZero(), result.status = Status::non_finite;
@@ -78,22 +89,69 @@ class MassSpring {
 
  private:
   struct Bend {
-    Vector a, b;   // links before and after the mass
-    double angle;  // 2 tan(φ/2)
+    Vector a, b;  // links before and after the mass
+    Turn angle;   // 2 tan(φ/2)
   };
+
+  void describe(const Beam& beam, int links) {
+    EA_ = beam.axial_stiffness();
+    bending_ = beam.bending_stiffness() / link_;
+    const FemModel<Corotational<>> resting(beam, links);
+    for (const auto& node : resting.shape()) rest_.emplace_back(node.s + node.u, node.w);
+    link_ = (rest_[1] - rest_[0]).norm();  // the chord of what may be an arc
+    const auto direction = [](double theta) { return Vector(std::cos(theta), -std::sin(theta)); };
+    wall_ = {direction(beam.left_place().theta), direction(beam.right_place().theta)};
+    held_ = {fixes_w(beam.left()), fixes_w(beam.right())};
+    clamped_ = {fixes_theta(beam.left()), fixes_theta(beam.right())};
+  }
+  void describe(const Rod& rod, int links) {
+    EA_ = rod.stiffness().axial;
+    bending_ = rod.stiffness().bending1 / link_;
+    const FemModel<TwistedRod> resting(rod, links);
+    for (const auto& node : resting.shape()) rest_.push_back(node.r);
+    wall_.fill(rod.left_pose().along);
+    std::size_t k = 0;
+    for (const RodSupport& support : {rod.left(), rod.right()}) {
+      if (!rod.arcs().empty() || !(support == RodSupport::clamped || support == RodSupport::free))
+        throw std::invalid_argument(
+            "rod: a chain of masses is straight by nature, clamped or free at its ends");
+      held_[k] = clamped_[k] = support == RodSupport::clamped;
+      ++k;
+    }
+    for (int i = 0; rod.load() && i <= links; ++i)
+      load_.push_back((i == 0 || i == links ? 0.5 : 1.0) * link_ * rod.load()(i * link_));
+  }
+
+  static Turn none() noexcept {
+    if constexpr (D == 2) return 0;
+    else return Turn::Zero();
+  }
+  static Turn cross(const Vector& a, const Vector& b) noexcept {
+    if constexpr (D == 2) return a.x() * b.y() - a.y() * b.x();
+    else return detail::cross3<double>(a, b);
+  }
+  static bool is_none(const Turn& turn) noexcept {
+    if constexpr (D == 2) return turn == 0;
+    else return turn.isZero(0);
+  }
+  /// The pair of forces at the ends of a link that has this moment.
+  static Vector pair_of(const Turn& moment, const Vector& a) noexcept {
+    if constexpr (D == 2) return moment * Vector(Vector(-a.y(), a.x()) / a.squaredNorm());
+    else return detail::cross3<double>(moment, a) / a.squaredNorm();
+  }
 
   Bend bend(std::size_t i) const noexcept {
     const std::size_t last = x_.size() - 1;
-    if ((i == 0 && !clamped_[0]) || (i == last && !clamped_[1])) return {Vector::UnitX(), Vector::UnitX(), 0};
+    if ((i == 0 && !clamped_[0]) || (i == last && !clamped_[1]))
+      return {Vector::UnitX(), Vector::UnitX(), none()};
     const Vector a = i == 0 ? wall_[0] : Vector(x_[i] - x_[i - 1]);
     const Vector b = i == last ? wall_[1] : Vector(x_[i + 1] - x_[i]);
-    const double cross = a.x() * b.y() - a.y() * b.x();
-    return {a, b, 2 * cross / (std::sqrt(a.squaredNorm() * b.squaredNorm()) + a.dot(b))};
+    return {a, b, 2 * cross(a, b) / (std::sqrt(a.squaredNorm() * b.squaredNorm()) + a.dot(b))};
   }
 
   void advance(double dt) noexcept {
     const std::size_t last = x_.size() - 1;
-    for (Vector& force : force_) force.setZero();
+    force_ = load_;
     for (std::size_t i = 0; i < last; ++i) {
       const Vector link = x_[i + 1] - x_[i];
       const double length = link.norm();
@@ -105,16 +163,15 @@ class MassSpring {
       const Bend at = bend(i);
       const bool end = i == 0 || i == last;
       // A clamp holds the middle of what would be one more link.
-      const double moment = (end ? 2 : 1) * bending_ * (at.angle - natural_[i]);
-      if (moment == 0) continue;
-      const auto turn = [](const Vector& a) { return Vector(Vector(-a.y(), a.x()) / a.squaredNorm()); };
+      const Turn moment = (end ? 2 : 1) * bending_ * (at.angle - natural_[i]);
+      if (is_none(moment)) continue;
       if (i > 0) {
-        const Vector pair = moment * turn(at.a);
+        const Vector pair = pair_of(moment, at.a);
         force_[i - 1] -= pair;
         force_[i] += pair;
       }
       if (i < last) {
-        const Vector pair = moment * turn(at.b);
+        const Vector pair = pair_of(moment, at.b);
         force_[i] += pair;
         force_[i + 1] -= pair;
       }
@@ -144,8 +201,11 @@ class MassSpring {
     for (const std::size_t i : {near_ - (near_ > 0), std::min(near_ + 1, links - 1)})
       if (offset(i, t).squaredNorm() < offset(near_, t).squaredNorm()) near_ = i;
     const Vector way = offset(near_, t), link = x_[near_ + 1] - x_[near_];
-    Vector normal = Vector(-link.y(), link.x()).normalized();  // pressed from above
-    if ((t == 0 || t == 1) && way.dot(normal) > 0) normal = way.normalized();
+    Vector normal = way.normalized();
+    if constexpr (D == 2) {
+      const Vector above = Vector(-link.y(), link.x()).normalized();  // from where it is pressed
+      if (!((t == 0 || t == 1) && way.dot(above) > 0)) normal = above;
+    }
     const double depth = reach_ - way.dot(normal);
     if (depth <= 0) return Vector::Zero();
     const double first = (1 - t) * inverse_mass(near_), second = t * inverse_mass(near_ + 1);
@@ -166,11 +226,11 @@ class MassSpring {
     return (left || right ? 2 : 1) / mass_;
   }
 
-  double EA_, bending_, link_, mass_, damping_, reach_;
+  double EA_ = 0, bending_ = 0, link_, mass_, damping_, reach_;
   std::array<Vector, 2> wall_;
   std::array<bool, 2> held_, clamped_;
-  std::vector<Vector> rest_, x_, v_, force_;
-  std::vector<double> natural_;
+  std::vector<Vector> rest_, x_, v_, force_, load_;
+  std::vector<Turn> natural_;
   Vector before_;
   bool known_ = false;
   std::size_t near_ = 0;

@@ -35,9 +35,24 @@ TEST_CASE("what is chosen for a rod keeps the tolerance on pushes that it has no
     if (!choice.candidate) continue;
     ++chosen;
     RodModel model = build(scene, choice.model());
-    CHECK(worst_error<FemModel<TwistedRod>>(model, scene, random, 6, 96) <= scene.force_error);
+    CHECK(worst_error(model, held_out<FemModel<TwistedRod>>(scene, random, 6, 96)) <= scene.force_error);
   }
   CHECK(chosen >= 6);
+}
+
+// A helix and a bow that bends out of its plane, pushed at one place.  To one side they are 4 to 9 times as stiff as to another, and
+// the error of few elements peaks there within 20 degrees.  A choice by six even directions exceeded the tolerance by up to 1.4.
+TEST_CASE("what is chosen for a curled rod keeps the tolerance to its stiffest side", "[scene][rod]") {
+  for (const std::uint64_t seed : {1005u, 1029u}) {
+    Random random(seed);
+    RodScene scene = random_curled_rod_scene(random);
+    scene.tick = 1e-3;
+    REQUIRE(scene.one_place());
+    const Choice choice = choose(scene);
+    INFO("seed " << seed << "\n" << choice.text());
+    RodModel model = build(scene, choice.model());
+    CHECK(worst_error(model, held_out<FemModel<TwistedRod>>(scene, random, 40, 96)) <= scene.force_error);
+  }
 }
 
 TEST_CASE("a straight round rod gets a planar model that turns", "[scene][rod]") {

@@ -52,30 +52,75 @@ inline RodScene random_rod_scene(Random& random) {
   return scene;
 }
 
-/// Largest relative error of a model's force, on pushes all over a scene to all sides, against many elements of the given kind;
-/// each begins at rest and goes on in steps.  Negative: no push was answered by the reference.
-template <class Reference, class Model>
-double worst_error(Model& model, const RodScene& scene, Random& random, int pushes, int elements) {
+/// A hook, an open ring, a helix or a bow that bends out of its plane: strongly bent by nature, so that it gives way to a push to one
+/// side many times as much as to a push to another.
+inline RodScene random_curled_rod_scene(Random& random) {
+  RodScene scene = random_rod_scene(random);
+  const double L = scene.rod.length(), turns = 6.283185307 / L;
+  const double bend = random(0, 6.283185307), k1 = std::cos(bend), k2 = std::sin(bend);
+  switch (random.integer(0, 3)) {
+    case 0: {  // straight, and then half a circle
+      const double shank = random(0.2, 0.6) * L, k = 3.141592654 / (L - shank);
+      scene.rod.naturally({{shank, 0, 0, 0}, {L, k * k1, k * k2, 0}});
+      break;
+    }
+    case 1: scene.rod.naturally({{L, 0.9 * turns * k1, 0.9 * turns * k2, 0}}); break;
+    case 2: {
+      const double k = random(1, 3) * turns;
+      scene.rod.naturally({{L, k * k1, k * k2, k * random(0.1, 0.5)}});
+      break;
+    }
+    default: scene.rod.naturally({{L / 2, 2 / L, 0, 0}, {L, 0, random(2, 4) / L, 0}}); break;
+  }
+  return scene;
+}
+
+/// A push that begins at rest and goes on in steps.
+struct KnownPush {
+  double s, home, depth;  // [m]; n · r at rest, and how much farther
+  VectorOf<double, 3> normal;
+  double force;  // [N]
+
+  template <class Model>
+  Response<double> go(Model& model) const {
+    Response<double> response{};
+    model.reset();
+    for (int step = 1; step <= 4; ++step) response = model.push({s, home + depth * step / 4, normal});
+    return response;
+  }
+};
+
+/// Pushes all over a scene to all sides, with the forces of many elements of the given kind.
+template <class Reference>
+std::vector<KnownPush> held_out(const RodScene& scene, Random& random, int number, int elements) {
   Reference truth(scene.rod, elements);
-  double worst = -1;
-  for (int k = 0; k < pushes; ++k) {
-    truth.reset(), model.reset();
+  std::vector<KnownPush> pushes;
+  for (int k = 0; k < number; ++k) {
+    truth.reset();
     const double s = scene.one_place() ? scene.s_min : random(scene.s_min, scene.s_max),
                  angle = random(0, 6.283185307);
     const auto rest = truth.shape();
     const VectorOf<double, 3> d3 = detail::unit(rest.at(s).tangent),
                               d1 = detail::across(rest[rest.segment_at(s)].director, d3),
                               n = std::cos(angle) * d1 + std::sin(angle) * detail::cross3<double>(d3, d1);
-    const double home = n.dot(rest.at(s).r),
-                 depth = scene.depth_at(s, std::cos(angle), std::sin(angle)) * log_even(random, 0.01, 1);
-    Response<double> wanted{}, got{};
-    for (int step = 1; step <= 4; ++step) {
-      wanted = truth.push({s, home + depth * step / 4, n});
-      got = model.push({s, home + depth * step / 4, n});
-    }
-    if (wanted.status != Status::ok) continue;
+    KnownPush push{s, n.dot(rest.at(s).r),
+                   scene.depth_at(s, std::cos(angle), std::sin(angle)) * log_even(random, 0.01, 1), n, 0};
+    const Response<double> response = push.go(truth);
+    if (response.status != Status::ok) continue;
+    push.force = response.force;
+    pushes.push_back(push);
+  }
+  return pushes;
+}
+
+/// Largest relative error of the force; infinite where a push is not answered.  Negative: there are no pushes.
+template <class Model>
+double worst_error(Model& model, const std::vector<KnownPush>& pushes) {
+  double worst = -1;
+  for (const KnownPush& push : pushes) {
+    const Response<double> got = push.go(model);
     if (got.status != Status::ok) return std::numeric_limits<double>::infinity();
-    worst = std::max(worst, std::abs(got.force / wanted.force - 1));
+    worst = std::max(worst, std::abs(got.force / push.force - 1));
   }
   return worst;
 }

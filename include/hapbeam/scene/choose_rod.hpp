@@ -56,7 +56,8 @@ class RodChooser : Deciding {
 
  private:
   void elements(Kinematics kinematics) {
-    fewest(pilot_.elements(), 2, 1, [&](int n) {
+    // Two or three elements of a bent rod turn by so much each that they are accurate to one side alone, by chance.
+    fewest(pilot_.elements(), scene_.rod.straight() ? 2 : 4, 1, [&](int n) {
       const Candidate candidate{kinematics, Reduction::none, n};
       return judge(candidate, candidate.tick(costs_, scene_.shape), [&] {
         RodModel model = build(scene_, candidate);

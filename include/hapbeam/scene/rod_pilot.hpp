@@ -2,7 +2,14 @@
 //
 // As pilot.hpp has it in the plane.  The reference is TwistedRod, or RoundRod where nobody holds the twist, with as many elements as
 // it takes until half of them give the same force to a twentieth of the tolerated error, or with 256.  A rod that rests straight is
-// pushed along three directions across it, from a hundredth of the depth on; another along six, from a thousandth on.
+// pushed along three directions across it, from a hundredth of the depth on; another along eight, from a thousandth on.
+// A bent rod gives way to one side many times as much as to another, and the relative error of its force peaks near the stiffest
+// side, in a range of angles that is the narrower the more the stiffnesses differ.  With C the compliance across the rod,
+//
+//   F = d/(nᵀC n),   n ~ C^(-½) m:   δF/F = -mᵀ C^(-½) δC C^(-½) m        for unit m
+//
+// is a plain quadratic form of m.  So m is spread evenly, and n follows: directions are close where the rod is stiff.  Of a form
+// with one sign, four of them and their opposites meet 0.85 of the largest value at least, which is the margin of choose().
 // Offline: allocates, throws std::invalid_argument where the scene asks for pushes that no model answers.
 #pragma once
 
@@ -72,7 +79,8 @@ class RodPilot {
   /// @param beside  [m] from the nearest push to a support
   template <class Element>
   void search(const RodScene& scene, double beside) {
-    place(scene, FemModel<Element>(scene.rod, 64).shape());
+    FemModel<Element> resting(scene.rod, 64);
+    place(scene, resting);
     // Four elements at least between a support and the nearest push, or half as many would be no other mesh there.
     for (elements_ = 32; elements_ < 256 && elements_ * beside < 4 * scene.rod.length();) elements_ *= 2;
     for (;; elements_ *= 2) {
@@ -101,27 +109,59 @@ class RodPilot {
     }
   }
 
-  void place(const RodScene& scene, const Centreline<double, 3>& rest) {
+  template <class Model>
+  void place(const RodScene& scene, Model& model) {
     const bool straight = scene.rod.straight();
     // Uneven, lest they meet what is symmetric.
     for (const double along : {0.0, 0.23, 0.52, 0.78, 1.0}) {
       if (scene.one_place() && along > 0) break;
       const double s = scene.s_min + (scene.s_max - scene.s_min) * along;
-      const Vector3 d3 = detail::unit(rest.at(s).tangent),
+      model.reset();
+      const Centreline<double, 3> rest = model.shape();
+      const Vector3 r = rest.at(s).r, d3 = detail::unit(rest.at(s).tangent),
                     d1 = detail::across(rest[rest.segment_at(s)].director, d3),
                     d2 = detail::cross3<double>(d3, d1);
-      const int sides = straight ? 3 : 6, steps = straight ? 8 : 12;
-      for (int side = 0; side < sides; ++side) {
-        const double angle = 0.04 + side * (straight ? 0.75 : 1.05);
-        const double cosine = std::cos(angle), sine = std::sin(angle);
+      const auto toward = [&](double cosine, double sine, int steps) {
         const Vector3 normal = cosine * d1 + sine * d2;
-        const double home = normal.dot(rest.at(s).r);
+        const double home = normal.dot(r);
         Line line{s, normal, home, {}, {}};
         for (int k = steps; k >= 0; --k)
           line.depths.push_back(home + scene.depth_at(s, cosine, sine) * std::pow(10.0, -k / 4.0));
-        lines_.push_back(line);
+        return line;
+      };
+      if (straight) {
+        for (const double angle : {0.04, 0.79, 1.54})
+          lines_.push_back(toward(std::cos(angle), std::sin(angle), 8));
+        continue;
+      }
+      const Compliance c = compliance([&](double cosine, double sine) {
+        Line shallow = toward(cosine, sine, 8);
+        shallow.depths.resize(1);
+        model.reset();
+        return (shallow.depths[0] - shallow.home) / go(model, shallow, 0).force;
+      });
+      for (int side = 0; side < 8; ++side) {
+        const double angle = 0.04 + side * 0.785, m1 = std::cos(angle), m2 = std::sin(angle);
+        const double n1 = (c.c22 + c.root) * m1 - c.c12 * m2, n2 = (c.c11 + c.root) * m2 - c.c12 * m1,
+                     size = std::hypot(n1, n2);
+        lines_.push_back(toward(n1 / size, n2 / size, 12));
       }
     }
+  }
+
+  /// C across the rod, in the axes d1 and d2.
+  struct Compliance {
+    double c11 = 1, c12 = 0, c22 = 1;  // [m/N]
+    double root = 1;                   // of its determinant
+  };
+  /// @param along  (cosine, sine) -> nᵀC n, where small pushes are answered   @return the same to all sides where they are not
+  template <class Along>
+  static Compliance compliance(Along&& along) {
+    const double half = 0.5, root3 = std::sqrt(3.0);
+    const double c0 = along(1, 0), c1 = along(half, root3 / 2), c2 = along(-half, root3 / 2);
+    const double c22 = (2 * (c1 + c2) - c0) / 3, c12 = (c1 - c2) / root3, determinant = c0 * c22 - c12 * c12;
+    if (!(c0 > 0 && determinant > 0 && std::isfinite(determinant))) return {};
+    return {c0, c12, c22, std::sqrt(determinant)};
   }
 
   double floor_;
