@@ -1,15 +1,12 @@
 // The C interface: one object for each model that a program in C can name, and no exception across the border.
-#include "hapbeam.h"
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "border.hpp"
 #include <hapbeam/hapbeam.hpp>
 #include <hapbeam/haptics/device/known_devices.hpp>
 #ifdef HAPBEAM_C_HAS_MODEL_FILES
@@ -17,6 +14,8 @@
 #endif
 
 using namespace hapbeam;
+using border::guarded;
+using border::text;
 
 struct hapbeam_servo {
   virtual ~hapbeam_servo() = default;
@@ -97,11 +96,6 @@ const hapbeam_touch& some(const hapbeam_touch* touch) {
   return *touch;
 }
 
-const char* text(const char* name, const char* value) {
-  if (!value) throw std::invalid_argument(std::string(name) + " = null: must be a string");
-  return value;
-}
-
 Beam beam_of(const hapbeam_beam* b) {
   if (!b) throw std::invalid_argument("beam = null: must be a description of one");
   Beam beam(b->length, b->axial_stiffness, b->bending_stiffness, b->thickness, support("left", b->left),
@@ -109,23 +103,6 @@ Beam beam_of(const hapbeam_beam* b) {
   if (b->transverse_load != 0) beam.transverse(b->transverse_load);
   if (b->axial_load != 0) beam.axial(b->axial_load);
   return beam;
-}
-
-/// What make() returns, or null and the message of what it throws.
-template <class Make>
-auto guarded(char* message, Make make) noexcept -> decltype(make().release()) {
-  const auto say = [&](const char* why) {
-    if (message) std::snprintf(message, HAPBEAM_MESSAGE, "%s", why);
-  };
-  try {
-    say("");
-    return make().release();
-  } catch (const std::exception& e) {
-    say(e.what());
-  } catch (...) {
-    say("unknown error");
-  }
-  return nullptr;
 }
 
 int write_shape(const Centreline<double>& line, double* x_w, int count) noexcept {

@@ -31,6 +31,7 @@ extern "C" {
 
 enum { HAPBEAM_FREE, HAPBEAM_CLAMPED, HAPBEAM_PINNED, HAPBEAM_ROLLER, HAPBEAM_GUIDED }; /* how an end is held */
 enum { HAPBEAM_LINEAR, HAPBEAM_VON_KARMAN, HAPBEAM_COROTATIONAL };                      /* kinematics */
+enum { HAPBEAM_ROUND_ROD, HAPBEAM_TWISTED_ROD }; /* of rods: straight and round; any that bends and twists */
 
 /* Negative: the answer is not the requested one.  Positive: it belongs to the nearest request in range. */
 enum {
@@ -109,6 +110,56 @@ HAPBEAM_API int hapbeam_servo_tick(hapbeam_servo* servo, const double position[3
 HAPBEAM_API void hapbeam_servo_reset(hapbeam_servo* servo);
 /* As hapbeam_touch_shape(), of a recent tick; from any one thread, while another ticks. */
 HAPBEAM_API int hapbeam_servo_shape(hapbeam_servo* servo, double* x_w, int count);
+
+/* ---- A stylus whose shaft touches a rod in space ---- */
+
+/* A straight rod that leaves its left end at the scene's origin along x, with its first axis of bending along y. */
+typedef struct hapbeam_rod {
+  double length;                                 /* [m] */
+  double axial_stiffness;                        /* EA [N] */
+  double bending_stiffness1, bending_stiffness2; /* EI about y and about z [N m^2] */
+  double torsional_stiffness;                    /* GJ [N m^2] */
+  double thickness;                              /* [m] diameter of the surface that is touched */
+  double load[3];                                /* [N/m] dead */
+  int left, right;                               /* HAPBEAM_FREE, CLAMPED or PINNED */
+} hapbeam_rod;
+
+/* A round one, without dead loads.  young, shear: moduli E and G [Pa] */
+HAPBEAM_API hapbeam_rod hapbeam_wire(double length, double diameter, double young, double shear, int left, int right);
+
+/* Where the host's world lies in the scene: scene = origin + scale * rotation * host. */
+typedef struct hapbeam_placement {
+  double rotation[9]; /* of the host's axes in the scene's, by rows */
+  double origin[3];   /* [m] of the host in the scene */
+  double scale;       /* metres of the scene for one unit of the host */
+} hapbeam_placement;
+
+/* The host's axes are the scene's, and its origin lies at (x, y, z) of the scene. */
+HAPBEAM_API hapbeam_placement hapbeam_placement_at(double x, double y, double z, double scale);
+
+typedef struct hapbeam_wrench {
+  double force[3];  /* [N] on the hand, the host's axes */
+  double torque[3]; /* about the hand: N times the host's unit of length */
+  double s;         /* [m] arc position of the contact; 0 where nothing is touched */
+  int pressing;     /* 1 where the rod is touched */
+  int status;
+} hapbeam_wrench;
+
+typedef struct hapbeam_stylus hapbeam_stylus;
+
+/* kinematics: HAPBEAM_ROUND_ROD or HAPBEAM_TWISTED_ROD; elements: 2 to 4096.  The stylus is a capsule: radius, and length of its axis,
+   whose tip lies `ahead` of the hand's place [m of the scene].  placement: null where the host's world is the scene. */
+HAPBEAM_API hapbeam_stylus* hapbeam_stylus_create(const hapbeam_rod* rod, int kinematics, int elements, double radius,
+                                                  double length, double ahead, const hapbeam_placement* placement,
+                                                  char* message);
+HAPBEAM_API void hapbeam_stylus_destroy(hapbeam_stylus* stylus);
+/* position of the hand in the host's world; orientation: rotation of the stylus' axes in the host's, by rows.  The stylus points along
+   its z, from the tip to the hand. */
+HAPBEAM_API hapbeam_wrench hapbeam_stylus_tick(hapbeam_stylus* stylus, const double position[3],
+                                               const double orientation[9]);
+HAPBEAM_API void hapbeam_stylus_reset(hapbeam_stylus* stylus);
+/* The centreline at `count` places from end to end in the host's world, x_y_z: 3 count numbers.  Returns how many were written. */
+HAPBEAM_API int hapbeam_stylus_shape(hapbeam_stylus* stylus, double* x_y_z, int count);
 
 #ifdef __cplusplus
 }

@@ -5,18 +5,29 @@
 //   const Eigen::Vector3d force = beam.tick(position);        // haptic thread
 //   draw(beam.picture().shape());                             // graphics thread
 //
-// The force is that of Touch, bit by bit if the placement only exchanges axes. It is zero where the status is no
+// A rod in space is touched with all of a stylus, too: it takes the pose of the hand and answers with force and torque.
+//
+//   PlacedTouch<FemModel<RoundRod>> rod(model, 0.002, placement, {0.1, 0.1});   // a shaft of 100 mm behind its tip
+//   const Wrench felt = rod.tick(HandPose{position, orientation});
+//
+//   τ = (c - p) × F      c: where rod and shaft touch, p: the hand's place
+//
+// The force is that of Touch, bit by bit if the placement only exchanges axes. Force and torque are zero where the status is no
 // answer. There is no coupling and no guard: use a Servo for a beam stiffer than the device can render.
 // Real-time: tick() does not allocate and is noexcept, wait-free, and bounded as Touch::tick(). One other thread may
 // call picture(), wait-free.
 #pragma once
 
 #include <atomic>
+#include <type_traits>
 
 #include <hapbeam/contact/touch.hpp>
+#include <hapbeam/haptics/device/device.hpp>
 #include <hapbeam/haptics/servo/exchange.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo.hpp>
+#include <hapbeam/haptics/servo/stylus.hpp>
+#include <hapbeam/haptics/stability/hand_pose.hpp>
 #include <hapbeam/haptics/stability/in_scene.hpp>
 
 namespace hapbeam {
@@ -31,23 +42,37 @@ class PlacedTouch {
   /// @param model  kept by reference, and pressed by this object alone
   /// @param avatar_radius  [m] in the beam's metres, of the round tool
   /// @param placement  of the host's positions in the plane of the beam or the space of the rod, with axes and scale
-  /// Allocates.   @throws std::invalid_argument as Touch
-  PlacedTouch(Model& model, double avatar_radius, const Placement& placement = {})
+  /// @param stylus  what tick(HandPose) brings to a rod in space
+  /// Allocates.   @throws std::invalid_argument as Touch, or for a stylus of a planar beam
+  PlacedTouch(Model& model, double avatar_radius, const Placement& placement = {},
+              const StylusOptions& stylus = {})
       : model_(model),
         placement_(placement),
         touch_(model, static_cast<Scalar>(avatar_radius)),
+        stylus_(stylus),
         seen_(model.shape()),
         pictures_(seen_) {}
 
+  /// With a round tool.
   /// @param position  in the host's axes and units of length   @return [N] on the hand, host's axes; always finite
   [[nodiscard]] Eigen::Vector3d tick(const Eigen::Vector3d& position) noexcept {
     const VectorOf<double, dimension> hand = placement_.template position_of<dimension>(position);
     felt_ = touch_.tick(hand.template cast<Scalar>());
-    Eigen::Vector3d force(0, 0, 0);
-    if (is_answer(felt_.status)) force = placement_.device_force(detail::in_scene(felt_.force));
-    keep(position, hand, force);
-    publish();
-    return force;
+    const Eigen::Vector3d avatar = detail::in_scene(hand);
+    return keep(position, avatar, {avatar, Eigen::Vector3d::Zero()}, Eigen::Vector3d::Zero()).force;
+  }
+
+  /// With the shaft of the stylus, of a rod in space.
+  /// @param hand  in the host's axes and units of length; the stylus points from its tip along the hand's z
+  /// @return on the hand, about its place, host's axes: [N] and N times the host's unit of length; always finite
+  template <typename Pose, int D = dimension,
+            std::enable_if_t<D == 3 && std::is_same_v<Pose, HandPose>, int> = 0>
+  [[nodiscard]] Wrench tick(const Pose& hand) noexcept {
+    const HandPose there{placement_.scene_position(hand.place), placement_.scene_orientation(hand.turn)};
+    const Shaft<double> axis{there.place + stylus_.tip(there), stylus_.shaft(there)};
+    felt_ = touch_.tick(axis.tip.template cast<Scalar>(), axis.way.template cast<Scalar>());
+    const Eigen::Vector3d arm = detail::in_scene(felt_.contact.foot) - there.place;
+    return keep(hand.place, there.place, axis, detail::cross3<double>(arm, detail::in_scene(felt_.force)));
   }
 
   /// Ends the contact.  Only while no tick runs.
@@ -61,8 +86,8 @@ class PlacedTouch {
   /// The result of the last tick, in the axes of the beam.  From the haptic thread.
   const TouchResult<Scalar, dimension>& felt() const noexcept { return felt_; }
 
-  /// The newest shape and its record. The record has status, model, position, hand, avatar, force, press, pressing and
-  /// the counts of ticks. One reader, from any thread: wait-free. Both stay until the next call.
+  /// The newest shape and its record. The record has status, model, position, hand, avatar, force, torque, shaft, press,
+  /// pressing and the counts of ticks. One reader, from any thread: wait-free. Both stay until the next call.
   /// A shape that costs more than its force is that of the first tick after the last call.
   const Picture& picture() noexcept {
     looked_.store(true, std::memory_order_relaxed);
@@ -77,19 +102,28 @@ class PlacedTouch {
     return felt_.status == Status::out_of_range ? LoopStatus::out_of_range : LoopStatus::touching;
   }
 
-  void keep(const Eigen::Vector3d& position, const VectorOf<double, dimension>& hand,
-            const Eigen::Vector3d& force) noexcept {
+  /// @param position  of the hand, host   @param hand, avatar, torque  in the scene   @return in the host's axes
+  Wrench keep(const Eigen::Vector3d& position, const Eigen::Vector3d& hand, const Shaft<double>& avatar,
+              const Eigen::Vector3d& torque) noexcept {
+    Wrench felt;
+    if (is_answer(felt_.status)) {
+      felt = {placement_.device_force(detail::in_scene(felt_.force)), placement_.device_torque(torque)};
+      if (!felt.torque.allFinite()) felt = {};
+    }
     ServoRecord& r = record_;
     r.status = status();
     r.model = felt_.status;
     r.position = position;
-    r.hand = r.avatar = detail::in_scene(hand);
-    r.force = force;
+    r.hand = hand;
+    r.avatar = avatar.tip, r.shaft = avatar.way;
+    r.force = felt.force, r.torque = felt.torque;
     r.press = {static_cast<double>(felt_.press.s), static_cast<double>(felt_.press.d)};
     r.pressing = felt_.pressing;
     ++r.ticks;
     r.contact_ticks += r.pressing;
     r.failed_ticks += r.status == LoopStatus::no_answer;
+    publish();
+    return felt;
   }
 
   void publish() noexcept {
@@ -107,6 +141,7 @@ class PlacedTouch {
   const Model& model_;
   Placement placement_;
   Touch<Model> touch_;
+  detail::StylusOf<Scalar, dimension> stylus_;
   TouchResult<Scalar, dimension> felt_;
   ServoRecord record_;
   Picture seen_;

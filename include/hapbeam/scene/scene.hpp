@@ -49,6 +49,10 @@ struct Scene {
                      "on the beam, at most s_max, a thousandth away from an end that is held");
     if (!(s_max <= beam.length() - (fixes_w(beam.right()) ? margin : 0)))
       detail::reject("s_max", s_max, "m", "on the beam, a thousandth away from an end that is held");
+    if (!beam.parts().empty())
+      detail::reject("scene beam sections", static_cast<double>(beam.parts().size()), "",
+                     "none, one section for all of it: take FemModel<Tapered<>>, or "
+                     "FemModel<Corotational<Tapered<>>> for finite rotation");
     detail::positive("depth", depth, "m");
     detail::positive("force_error", force_error, "");
     if (!(force_floor >= 0 && std::isfinite(force_floor)))

@@ -194,14 +194,7 @@ class Servo {
  private:
   using Coupled = CoupledForce<Scalar, dimension>;
   static constexpr bool couples_pose = detail::CouplesPose<Coupling, Touch<Model>>::value;
-  struct NoStylus {
-    explicit NoStylus(const StylusOptions& options) {
-      if (options.length != 0 || options.ahead != 0)
-        detail::reject("stylus length", options.length, "m", "0 for a beam in a plane, as ahead");
-    }
-    void reset() noexcept {}
-  };
-  using Stylus = std::conditional_t<dimension == 3, detail::Stylus<Scalar>, NoStylus>;
+  using Stylus = detail::StylusOf<Scalar, dimension>;
 
   template <typename State>
   [[nodiscard]] auto run(const State& state) noexcept;

@@ -117,6 +117,19 @@ class Stylus {
   Eigen::Vector3d arm_ = Eigen::Vector3d::Zero();  // from the hand to the contact, in the scene [m]
 };
 
+/// Of a beam in a plane, which no shaft touches.
+struct NoStylus {
+  explicit NoStylus(const StylusOptions& options) {
+    if (options.length != 0 || options.ahead != 0)
+      reject("stylus length", options.length, "m", "0 for a beam in a plane, as ahead");
+  }
+  void reset() noexcept {}
+};
+
+/// @tparam D  of the space in which the beam bends: 2 | 3
+template <typename Scalar, int D>
+using StylusOf = std::conditional_t<D == 3, Stylus<Scalar>, NoStylus>;
+
 }  // namespace detail
 
 }  // namespace hapbeam

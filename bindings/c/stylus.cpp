@@ -1,0 +1,91 @@
+// A stylus that touches a rod in space, for C: the rod, where it lies, and the ticks.
+#include "stylus.hpp"
+
+#include <stdexcept>
+
+#include "border.hpp"
+
+using namespace hapbeam;
+using border::guarded;
+
+namespace {
+
+constexpr double pi = 3.141592653589793;
+
+RodSupport support(const char* end, int value) {
+  switch (value) {
+    case HAPBEAM_FREE: return RodSupport::free;
+    case HAPBEAM_CLAMPED: return RodSupport::clamped;
+    case HAPBEAM_PINNED: return RodSupport::hinged;
+    default: break;
+  }
+  detail::reject(end, value, "", "HAPBEAM_FREE, CLAMPED or PINNED for a rod");
+}
+
+VectorOf<double, 3> vector(const double* v) { return {v[0], v[1], v[2]}; }
+
+Eigen::Matrix3d matrix(const double* rows) noexcept {
+  Eigen::Matrix3d m;
+  for (int i = 0; i < 9; ++i) m(i / 3, i % 3) = rows[i];
+  return m;
+}
+
+Rod rod_of(const hapbeam_rod* r) {
+  if (!r) throw std::invalid_argument("rod = null: must be a description of one");
+  Rod rod(r->length,
+          {r->axial_stiffness, r->bending_stiffness1, r->bending_stiffness2, r->torsional_stiffness},
+          r->thickness, support("left", r->left), support("right", r->right));
+  if (r->load[0] != 0 || r->load[1] != 0 || r->load[2] != 0) rod.load(vector(r->load));
+  return rod;
+}
+
+Placement placement_of(const hapbeam_placement* p) {
+  if (!p) return {};
+  return Placement(matrix(p->rotation), vector(p->origin), p->scale);
+}
+
+}  // namespace
+
+// Not RodSection's own, which throws: what is wrong with a size is said when it is used.
+hapbeam_rod hapbeam_wire(double length, double diameter, double young, double shear, int left, int right) {
+  const double area = pi * diameter * diameter / 4, inertia = area * diameter * diameter / 16;
+  return {length, young * area, young * inertia, young * inertia, 2 * shear * inertia, diameter, {0, 0, 0},
+          left,   right};
+}
+
+hapbeam_placement hapbeam_placement_at(double x, double y, double z, double scale) {
+  return {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {x, y, z}, scale};
+}
+
+hapbeam_stylus* hapbeam_stylus_create(const hapbeam_rod* rod, int kinematics, int elements, double radius,
+                                      double length, double ahead, const hapbeam_placement* placement,
+                                      char* message) {
+  return guarded(message, [&] {
+    if (!(elements >= 2 && elements <= 4096)) detail::reject("elements", elements, "", "2 to 4096");
+    const Rod touched = rod_of(rod);
+    const Placement placed = placement_of(placement);
+    const border::StylusRequest request{touched, elements, radius, {length, ahead}, placed};
+    switch (kinematics) {
+      case HAPBEAM_ROUND_ROD: return border::on_round_rod(request);
+      case HAPBEAM_TWISTED_ROD: return border::on_twisted_rod(request);
+      default: break;
+    }
+    detail::reject("kinematics", kinematics, "", "HAPBEAM_ROUND_ROD or TWISTED_ROD");
+  });
+}
+
+void hapbeam_stylus_destroy(hapbeam_stylus* stylus) { delete stylus; }
+
+hapbeam_wrench hapbeam_stylus_tick(hapbeam_stylus* stylus, const double position[3],
+                                   const double orientation[9]) {
+  if (!stylus || !position || !orientation) return {{0, 0, 0}, {0, 0, 0}, 0, 0, HAPBEAM_INVALID_REQUEST};
+  return stylus->tick({vector(position), matrix(orientation)});
+}
+
+void hapbeam_stylus_reset(hapbeam_stylus* stylus) {
+  if (stylus) stylus->reset();
+}
+
+int hapbeam_stylus_shape(hapbeam_stylus* stylus, double* x_y_z, int count) {
+  return stylus && x_y_z && count >= 2 ? stylus->shape(x_y_z, count) : 0;
+}
