@@ -10,7 +10,7 @@
 #   --programs FOLDER   where the benchmarks are, built already; default: builds them
 #   --help              this text
 #
-# Nothing else should run meanwhile.  Takes 12 minutes at most after the build.
+# Nothing else should run meanwhile.  Takes half an hour after the build.
 set -u
 export LC_ALL=C
 source "$(dirname "${BASH_SOURCE[0]}")/../cmake/steps.sh"
