@@ -33,8 +33,7 @@ Obstacle<double, 3> stop(double s, double d) {
 
 }  // namespace
 
-// The tolerance is that of one contact with cubics in r: a few times that of the planar element, and twice 1e-3 for the bar that is bent
-// two ways by 12 mm within 150 mm.
+// The bar that is bent two ways by 12 mm within 150 mm is the stiffest: 8.3e-4 with 16 elements, three of them between the contacts.
 TEST_CASE("two contacts on a rod take the forces of the reference", "[several]") {
   const Csv table("contacts.csv");
   for (std::size_t row = 2; row < table.rows(); ++row) {
@@ -59,7 +58,7 @@ TEST_CASE("two contacts on a rod take the forces of the reference", "[several]")
       for (int k = 0; k < 2; ++k)
         error[fine] = std::max(error[fine], std::abs(-both[k].pushed.force / std::abs(f[k]) - 1));
     }
-    CHECK(error[0] <= 2e-3);
+    CHECK(error[0] <= 1e-3);
     CHECK(error[1] <= 1e-4);
     CHECK(error[1] <= std::max(error[0] / 8, 1e-6));
   }
