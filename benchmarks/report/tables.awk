@@ -218,7 +218,7 @@ function turning(  k, by, friction, factor, key, ways, frictions, factors, f, w,
 }
 
 # Of chooser.csv.
-function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst, missed, ratio, dear, dearest, slowest, text) {
+function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst, missed, unanswered, ratio, dear, dearest, slowest, text) {
   n = split("POD Galerkin Linear VonKarman Corotational", kinds, " ")
   for (k = 1; k <= rows; ++k) {
     if (cell[k, "choose_ms"] + 0 > slowest) slowest = cell[k, "choose_ms"] + 0
@@ -229,6 +229,8 @@ function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst
     }
     split(cell[k, "chosen"], part, /[; ]/)
     ++count[part[1]]
+    # To some kinds of awk "inf" is a number, to others 0.
+    if (cell[k, "error"] == "inf") { ++missed; unanswered = "; not answered: some"; continue }
     error = cell[k, "error"] / cell[k, "tolerance"]
     if (error > worst) worst = error
     if (error > 1) ++missed
@@ -243,13 +245,13 @@ function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst
   rule(2)
   line("a model was chosen", rows - none ": " text)
   line("none was chosen, though one would have done", overlooked + 0 " of " none + 0)
-  line("error above the tolerance, on 60 presses outside the pilot", sprintf("%d; at worst %.2f of it", missed, worst))
+  line("error above the tolerance, on 60 presses outside the pilot", sprintf("%d; at worst %.2f of it%s", missed, worst, unanswered))
   line("costs more than twice the cheapest accurate model", sprintf("%d; at most %s times", dear, digits(dearest)))
   line("longest choice", sprintf("%.0f ms", slowest))
 }
 
 # Of chooser_rods.csv.
-function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, error, worst, missed, more, most, slowest, mean, text, own, best) {
+function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, error, worst, missed, unanswered, more, most, slowest, mean, text, own, best) {
   n = split("straight loaded bent curled", kind, " ")
   for (k = 1; k <= rows; ++k) {
     ++number[cell[k, "shape"]]
@@ -262,6 +264,8 @@ function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, e
     }
     split(cell[k, "chosen"], own, /[; ]+/)
     ++count[cell[k, "chosen"] ~ /plane that turns/ ? "planar" : own[1]]
+    # To some kinds of awk "inf" is a number, to others 0.
+    if (cell[k, "error"] == "inf") { ++missed; unanswered = "; not answered: some"; continue }
     error = cell[k, "error"] / cell[k, "tolerance"]
     if (error > worst) worst = error
     if (error > 1) ++missed
@@ -276,7 +280,7 @@ function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, e
   line("a model was chosen", sprintf("%d: RoundRod %d, TwistedRod %d, planar in the plane that turns %d", rows - none, \
     count["RoundRod"], count["TwistedRod"], count["planar"]))
   line("none was chosen, though a rod would have done on those pushes", overlooked + 0 " of " none + 0)
-  line("error above the tolerance, on 60 pushes outside the pilot", sprintf("%d; at worst %.2f of it", missed, worst))
+  line("error above the tolerance, on 60 pushes outside the pilot", sprintf("%d; at worst %.2f of it%s", missed, worst, unanswered))
   line("more than twice the fewest elements that keep the tolerance there", sprintf("%d; at most %s times", more, digits(most)))
   line("a choice, time of the processor", sprintf("%.1f s in the mean, %.0f s at most", mean / 1e3, slowest / 1e3))
 }

@@ -75,7 +75,7 @@ inline RodScene random_curled_rod_scene(Random& random) {
   return scene;
 }
 
-/// A push that begins at rest and goes on in steps.
+/// A push that begins at rest and goes on in four steps, or as a hand goes where the rod does not follow those.
 struct KnownPush {
   double s, home, depth;  // [m]; n · r at rest, and how much farther
   VectorOf<double, 3> normal;
@@ -84,8 +84,15 @@ struct KnownPush {
   template <class Model>
   Response<double> go(Model& model) const {
     Response<double> response{};
-    model.reset();
-    for (int step = 1; step <= 4; ++step) response = model.push({s, home + depth * step / 4, normal});
+    for (const int steps : {4, 40}) {
+      model.reset();
+      bool followed = true;
+      for (int step = 1; step <= steps; ++step) {
+        response = model.push({s, home + depth * step / steps, normal});
+        followed = followed && response.status == Status::ok;
+      }
+      if (followed) break;
+    }
     return response;
   }
 };
