@@ -12,7 +12,7 @@
 // With Di' = LPLᵀ the update is  Yᵀ(P⁻¹Y),  Y = L⁻¹C:  symmetric, and free of the second half of a solve.
 // No pivoting: the pivots of LDLᵀ carry the inertia of K, so an indefinite tangent (a beam beyond its buckling load)
 // is solved and counted, not rejected.
-// Real-time: noexcept, no allocation after construction, about 75 multiply-adds and 3 divisions a node of 3 unknowns.
+// Real-time: noexcept, no allocation after construction, O(n).
 // Source: Golub and Van Loan, Matrix Computations, 4.5.1; from both ends: Dongarra and others, LINPACK Users' Guide, 7.
 #pragma once
 
@@ -21,7 +21,8 @@
 #include <type_traits>
 
 #include <hapbeam/element/element.hpp>
-#include <hapbeam/fem/solver/ldlt.hpp>
+#include <hapbeam/fem/solver/chain_node.hpp>
+#include <hapbeam/fem/solver/chain_row.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/force_model.hpp>
 
@@ -30,9 +31,9 @@ namespace hapbeam {
 /// @tparam Block  unknowns of a node
 template <typename Scalar, int Elements = Eigen::Dynamic, int MaxElements = Elements, int Block = 3>
 class BlockTridiagonal {
-  using Factor = detail::Ldlt<Scalar, Block>;
   using Lanes = detail::Lanes<Scalar>;
   using Number = detail::TwoNumbers<Scalar>;
+  using Row = detail::ChainRow<Scalar, Block>;
   using Vector = Eigen::Matrix<Scalar, Block, 1>;
 
  public:
@@ -97,8 +98,8 @@ class BlockTridiagonal {
       held_energy_ = 0;
       if (odd_) leave_first_out(K, r);
     }
-    if (count == abreast) add_rows(row, std::integral_constant<int, abreast>(), K, r);
-    else add_rows(row, count, K, r);
+    if (count == abreast) Row::add(&rows_[row], std::integral_constant<int, abreast>(), K, r);
+    else Row::add(&rows_[row], count, K, r);
     if (first == 0 && odd_)
       for (int k = 0; k < Block; ++k) rows_[0].block[triangle(k, k)].a[0] = 1;
     if (row + count == pairs_) join_middle();
@@ -107,7 +108,7 @@ class BlockTridiagonal {
   /// Adds to the tangent and to the residual of one node, after all elements are in.  @param K  (i, j) -> entry of a lower triangle
   template <class Tangent, class Residual>
   void add_at(int node, const Tangent& K, const Residual& r) noexcept {
-    const Own own = own_of(node);
+    const auto own = own_of(node);
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
       HAPBEAM_UNROLL
@@ -121,74 +122,19 @@ class BlockTridiagonal {
   /// Three unknowns of a node from At on become those along other axes, after all elements are in:  old = Q new.
   template <int At, class Matrix>
   void turn(int node, const Matrix& Q) noexcept {
-    const auto times = [&Q](Scalar& a, Scalar& b, Scalar& c) {
-      const Scalar x = a, y = b, z = c;
-      a = x * Q(0, 0) + y * Q(1, 0) + z * Q(2, 0);
-      b = x * Q(0, 1) + y * Q(1, 1) + z * Q(2, 1);
-      c = x * Q(0, 2) + y * Q(1, 2) + z * Q(2, 2);
-    };
-    const Own own = own_of(node);
-    times(own[At], own[At + 1], own[At + 2]);
-    for_each_neighbour(node, [&](const Own&, const Coupling& c) {
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) times(c(At, k), c(At + 1, k), c(At + 2, k));
-    });
-    Scalar square[3][3];
-    HAPBEAM_UNROLL
-    for (int i = 0; i < 3; ++i) {
-      HAPBEAM_UNROLL
-      for (int j = 0; j < 3; ++j) square[i][j] = own(At + i, At + j);
-      times(square[i][0], square[i][1], square[i][2]);
-    }
-    HAPBEAM_UNROLL
-    for (int j = 0; j < 3; ++j) {
-      times(square[0][j], square[1][j], square[2][j]);
-      HAPBEAM_UNROLL
-      for (int i = j; i < 3; ++i) own(At + i, At + j) = square[i][j];
-    }
-    HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k)
-      if (k < At || k >= At + 3) times(own(k, At), own(k, At + 1), own(k, At + 2));
+    at(node).template turn<At>(Q);
   }
   /// An unknown of a node is from now on its old self and a part of three others, after all elements are in:
   /// old = new - part · (unknowns from Others on).
   template <int Unknown, int Others, class Part>
   void lean(int node, const Part& part) noexcept {
-    const Own own = own_of(node);
-    for_each_neighbour(node, [&](const Own&, const Coupling& c) {
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) {
-        const Scalar by = c(Unknown, k);
-        HAPBEAM_UNROLL
-        for (int j = 0; j < 3; ++j) c(Others + j, k) -= part[j] * by;
-      }
-    });
-    HAPBEAM_UNROLL
-    for (int j = 0; j < 3; ++j) {
-      const int other = Others + j;
-      own[other] -= part[j] * own[Unknown];
-      own(other, other) += part[j] * (part[j] * own(Unknown, Unknown) - 2 * own(Unknown, other));
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k)
-        if (k != other) own(k, other) -= part[j] * own(k, Unknown);
-    }
+    at(node).template lean<Unknown, Others>(part);
   }
 
   /// Prescribes the increment of one degree of freedom (in a plane 0: u, 1: w, 2: θ) of a node, after all elements are in: its
   /// column goes to the right-hand side, its row answers 0.  Inlined by intent, as hold(): the caller knows the component.
   [[gnu::always_inline]] void prescribe(int node, int component, Scalar increment) noexcept {
-    const auto take = [increment](Scalar& rhs, Scalar& entry) {
-      rhs -= increment * entry;
-      entry = 0;
-    };
-    const Own own = own_of(node);
-    for (int k = 0; k < component; ++k) take(own[k], own(component, k));
-    for (int k = component + 1; k < Block; ++k) take(own[k], own(k, component));
-    own(component, component) = 1;  // not the old entry, whose sign would count as a pivot's
-    own[component] = 0;
-    for_each_neighbour(node, [&](const Own& other, const Coupling& c) {
-      for (int k = 0; k < Block; ++k) take(other[k], c(component, k));
-    });
+    at(node).prescribe(component, increment);
   }
 
   /// The row of a degree of freedom that is held: what is known of it, and the entries of the node before, of its own and of the
@@ -204,21 +150,21 @@ class BlockTridiagonal {
     hold(node, component, increment, held_);
   }
   /// The same for one of several.  @param row  for reaction()
-  [[gnu::always_inline]] void hold(int node, int component, Scalar increment, HeldRow& row) noexcept {
-    const Own own = own_of(node);
+  [[gnu::always_inline]] void hold(int i, int component, Scalar increment, HeldRow& row) noexcept {
+    const auto node = at(i);
+    const auto& own = node.own;
     const Scalar diagonal = own(component, component);
-    row.node = node;
+    row.node = i;
     row.by_loads = diagonal * increment - own[component];
     held_energy_ += diagonal * increment * increment;
     for (int k = 0; k < Block; ++k) {
       row.by[0][k] = row.by[2][k] = 0;
       row.by[1][k] = k == component ? Scalar(0) : own(k, component);
     }
-    for_each_neighbour(node, [&](const Own& other, const Coupling& c) {
-      Scalar* const to = other.before ? row.by[0] : row.by[2];
-      for (int k = 0; k < Block; ++k) to[k] = c(component, k);
+    node.each_neighbour([&](const auto&, const auto& coupling, bool left) {
+      for (int k = 0; k < Block; ++k) row.by[left ? 0 : 2][k] = coupling(component, k);
     });
-    prescribe(node, component, increment);
+    node.prescribe(component, increment);
   }
   /// What the first of hold() has to know of one that comes after it: beside its node the increment is no unknown.
   void know(int node, int component, Scalar increment, HeldRow& row) const noexcept {
@@ -268,43 +214,6 @@ class BlockTridiagonal {
       for (int i = 0; i < 2 * Block; ++i) K(i, j).set(0, 0);
     }
   }
-  /// @param count  of rows; a constant mostly
-  template <class Count, class Tangent, class Residual>
-  void add_rows(int row, Count count, const Tangent& K, const Residual& r) noexcept {
-    using Wide = std::decay_t<decltype(r[0])>;
-    constexpr int abreast = Wide::size / 2;
-    Row* const rows = &rows_[row];
-    const auto pair = [](const Wide& wide, int k) { return Lanes(wide[2 * k], wide[2 * k + 1]); };
-    // Of what belongs to a node: the share of the element on the way to the middle, and that of the one before.
-    const auto add = [&](auto&& at, const Wide& own, const Wide& next) {
-      const Wide outer = in_turn(own, next), inner = in_turn(next, own);
-      Lanes before = at(rows[0]).get();
-      HAPBEAM_UNROLL
-      for (int k = 0; k < abreast; ++k) {
-        if (k == count) break;
-        at(rows[k]).set(before + pair(outer, k));
-        before = pair(inner, k);
-      }
-      at(rows[count]).set(before);
-    };
-    HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) {
-      HAPBEAM_UNROLL
-      for (int i = j; i < Block; ++i)
-        add(
-            [ i, j ](Row & at) -> auto& { return at.block[triangle(i, j)]; }, K(i, j),
-            K(Block + i, Block + j));
-      add(
-          [j](Row & at) -> auto& { return at.x[j]; }, -r[j], -r[Block + j]);
-      HAPBEAM_UNROLL
-      for (int i = 0; i < Block; ++i) {
-        const Wide coupling = in_turn(K(i, Block + j), K(j, Block + i));
-        HAPBEAM_UNROLL
-        for (int k = 0; k < abreast; ++k)
-          if (k < count) rows[k].coupling[i][j].set(pair(coupling, k));
-      }
-    }
-  }
   /// Both chains share the middle node, which stands in lane 0.
   void join_middle() noexcept {
     const auto join = [](Number& entry) { entry.a[0] += entry.a[1], entry.a[1] = 0; };
@@ -315,18 +224,6 @@ class BlockTridiagonal {
   static constexpr int triangle_size = detail::triangle_size<Block>;
   static constexpr int triangle(int i, int j) noexcept { return detail::triangle<Block>(i, j); }
 
-  static constexpr int columns = detail::columns_abreast<Scalar, Block>;
-  static constexpr int strips = (Block + columns - 1) / columns, padded = strips * columns;
-  using Strip = detail::Strip<Scalar, columns>;
-
-  /// A node of the left chain in lane 0 and one of the right chain in lane 1; the middle node, lane 0, is the last row.
-  /// Eliminating them leaves the diagonal as it is, for the last look at the pivots, and puts L below it, P⁻¹Y into the coupling
-  /// to the node that is eliminated later, and P⁻¹L⁻¹ of the right-hand side into x.
-  struct Row {
-    Number block[triangle_size];
-    Number coupling[Block][padded];  ///< own unknown, that of the next node on the way
-    Number x[Block];                 ///< right-hand side, after solve() the increment
-  };
   struct Place {
     int row, lane;
   };
@@ -339,159 +236,32 @@ class BlockTridiagonal {
     return elements == Eigen::Dynamic ? Eigen::Dynamic : elements < 3 ? 2 : (elements + 1) / 2;
   }
 
-  /// Block and right-hand side of a node.
-  struct Own {
-    Scalar *block, *x;
-    bool before;  // the node that was asked for
-
-    [[gnu::always_inline]] Scalar& operator()(int i, int j) const noexcept {
-      const int low = (std::min)(i, j), high = (std::max)(i, j);
-      return block[2 * triangle(high, low)];
-    }
-    [[gnu::always_inline]] Scalar& operator[](int i) const noexcept { return x[2 * i]; }
-  };
-  [[gnu::always_inline]] Own own_of(int node, bool before = false) noexcept {
+  [[gnu::always_inline]] detail::NodeBlock<Scalar, Block> own_of(int node) noexcept {
     const Place at = place(node);
     Row& row = rows_[at.row];
-    return {row.block[0].a + at.lane, row.x[0].a + at.lane, before};
+    return {row.block[0].a + at.lane, row.x[0].a + at.lane};
   }
-  /// What couples a node with another: its own unknown, that of the other.
-  struct Coupling {
-    Scalar* entries;
-    int own, other;
-    [[gnu::always_inline]] Scalar& operator()(int i, int j) const noexcept {
-      return entries[2 * (own * i + other * j)];
-    }
-  };
-  /// Calls f(Own of a neighbour, Coupling) for each of the two.
+  [[gnu::always_inline]] auto at(int node) noexcept {
+    return detail::ChainNode{own_of(node), [this, node](auto&& f) { this->for_each_neighbour(node, f); }};
+  }
+  /// Calls f(block of a neighbour, coupling with it, whether it is the left one) for each of the two.
   template <class F>
   [[gnu::always_inline]] void for_each_neighbour(int node, F&& f) noexcept {
-    const int lane = place(node).lane;
     // A row has what couples it with the next on the way to the middle.
+    const auto coupling = [this](int row, int lane, bool inward) {
+      return detail::NodeCoupling<Scalar>{rows_[row].coupling[0][0].a + lane, inward ? Row::padded : 1,
+                                          inward ? 1 : Row::padded};
+    };
+    const Place here = place(node);
     if (node > 0) {
-      Row& row = rows_[place(lane == 0 ? node - 1 : node).row];
-      f(own_of(node - 1, true),
-        Coupling{row.coupling[0][0].a + lane, lane == 0 ? 1 : padded, lane == 0 ? padded : 1});
+      const bool inward = here.lane == 1;
+      f(own_of(node - 1), coupling(inward ? here.row : here.row - 1, here.lane, inward), true);
     }
     if (node < last_) {
       const Place next = place(node + 1);
-      Row& row = rows_[next.lane == 0 ? place(node).row : next.row];
-      f(own_of(node + 1),
-        Coupling{row.coupling[0][0].a + next.lane, next.lane == 0 ? padded : 1, next.lane == 0 ? 1 : padded});
+      const bool inward = next.lane == 0;
+      f(own_of(node + 1), coupling(inward ? here.row : next.row, next.lane, inward), false);
     }
-  }
-
-  /// @param front, f  in: block and right-hand side of the nodes of a row, less what the nodes before took away;  out: of the next
-  void eliminate(int row, Lanes* front, Lanes* f, Lanes& energy, detail::Pivots<Scalar>& pivots) noexcept {
-    Row& at = rows_[row];
-    const Row& next = rows_[row + 1];
-    const Factor factor(front);
-    Lanes zx[Block];
-    HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) {
-      const Number& assembled = at.block[triangle(j, j)];
-      for (int lane = 0; lane < 2; ++lane) pivots.see(factor.p[j][lane], assembled.a[lane]);
-      HAPBEAM_UNROLL
-      for (int i = j + 1; i < Block; ++i) at.block[triangle(i, j)].set(factor.l[triangle(i, j)]);
-    }
-    factor.forward(f);
-    factor.scale(f, zx);
-    energy = detail::less<Block>(energy, f, zx);
-    HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) at.x[k].set(zx[k]);
-    // L⁻¹C and P⁻¹L⁻¹C, a few columns side by side.
-    Strip y[strips][Block];
-    HAPBEAM_UNROLL
-    for (int g = 0; g < strips; ++g) {
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) y[g][k] = Strip::load(at.coupling[k][g * columns].a);
-    }
-    HAPBEAM_UNROLL
-    for (int k = 0; k + 1 < Block; ++k) {
-      HAPBEAM_UNROLL
-      for (int i = k + 1; i < Block; ++i) {
-        const Strip l = Strip::repeat(at.block[triangle(i, k)].a);
-        HAPBEAM_UNROLL
-        for (int g = 0; g < strips; ++g) y[g][i] = subtract_product(y[g][i], l, y[g][k]);
-      }
-    }
-    HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) {
-      Number pivot;
-      pivot.set(factor.i[k]);
-      const Strip inverse = Strip::repeat(pivot.a);
-      HAPBEAM_UNROLL
-      for (int g = 0; g < strips; ++g) (y[g][k] * inverse).store(at.coupling[k][g * columns].a);
-    }
-    HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) {
-      const auto column = [&y](int i, int k) { return y[i / columns][k].column(i % columns); };
-      Strip z[Block];
-      Lanes sum = next.x[j].get();
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) {
-        z[k] = Strip::repeat(at.coupling[k][j].a);
-        sum = subtract_product(sum, column(j, k), zx[k]);
-      }
-      f[j] = sum;
-      HAPBEAM_UNROLL
-      for (int i = j; i < Block; ++i) {
-        if (i > j && i % columns != 0) continue;  // stands beside the one before
-        if (i % columns == 0 && i + columns <= Block) {
-          Strip strip = Strip::load(next.block[triangle(i, j)].a);
-          HAPBEAM_UNROLL
-          for (int k = 0; k < Block; ++k) strip = subtract_product(strip, y[i / columns][k], z[k]);
-          HAPBEAM_UNROLL
-          for (int c = 0; c < columns; ++c) front[triangle(i, j) + c] = strip.column(c);
-        } else {
-          Lanes entry = next.block[triangle(i, j)].get();
-          HAPBEAM_UNROLL
-          for (int k = 0; k < Block; ++k) entry = subtract_product(entry, column(i, k), z[k].column(0));
-          front[triangle(i, j)] = entry;
-        }
-      }
-    }
-  }
-
-  /// Solves for the node at which both chains end.  @param x  in: right-hand sides of both, out: its increment in both lanes
-  void join(Lanes* front, Lanes* x, Lanes& energy, detail::Pivots<Scalar>& pivots) noexcept {
-    Row& at = rows_[pairs_];
-    for (int k = 0; k < triangle_size; ++k) front[k] = front[k] + front[k].swapped();
-    for (int k = 0; k < Block; ++k) x[k] = x[k] + x[k].swapped();
-    const Factor factor(front);
-    Lanes z[Block];
-    factor.forward(x);
-    factor.scale(x, z);
-    const Lanes twice = detail::less<Block>(Lanes::both(0), x, z);
-    energy = energy + twice * Lanes(1, 0);
-    HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) pivots.see(factor.p[j][0], at.block[triangle(j, j)].a[0]);
-    HAPBEAM_UNROLL
-    for (int j = Block - 1; j >= 0; --j) {
-      HAPBEAM_UNROLL
-      for (int k = Block - 1; k > j; --k) z[j] = subtract_product(z[j], factor.l[triangle(k, j)], z[k]);
-    }
-    for (int k = 0; k < Block; ++k) x[k] = z[k], at.x[k].a[0] = z[k][0];
-  }
-
-  /// Increments of a row's nodes from those of the next on their way, whose components come in the order last to first.
-  void substitute(int row, Lanes* x) noexcept {
-    Row& at = rows_[row];
-    Lanes rest[Block];
-    HAPBEAM_UNROLL
-    for (int i = 0; i < Block; ++i) {
-      rest[i] = at.x[i].get();
-      HAPBEAM_UNROLL
-      for (int k = Block - 1; k >= 0; --k) rest[i] = subtract_product(rest[i], at.coupling[i][k].get(), x[k]);
-    }
-    HAPBEAM_UNROLL
-    for (int j = Block - 1; j >= 0; --j) {
-      HAPBEAM_UNROLL
-      for (int k = Block - 1; k > j; --k)
-        rest[j] = subtract_product(rest[j], at.block[triangle(k, j)].get(), rest[k]);
-    }
-    HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) at.x[k].set(x[k] = rest[k]);
   }
 
   int last_, odd_, pairs_;
@@ -509,9 +279,9 @@ Status BlockTridiagonal<Scalar, Elements, MaxElements, Block>::solve() noexcept 
   Lanes front[triangle_size], f[Block], energy = Lanes::both(0);  // with the sign turned
   for (int k = 0; k < triangle_size; ++k) front[k] = rows_[0].block[k].get();
   for (int k = 0; k < Block; ++k) f[k] = rows_[0].x[k].get();
-  for (int row = 0; row < pairs_; ++row) eliminate(row, front, f, energy, pivots);
-  join(front, f, energy, pivots);
-  for (int row = pairs_; row > 0; --row) substitute(row - 1, f);
+  for (int row = 0; row < pairs_; ++row) rows_[row].eliminate(rows_[row + 1], front, f, energy, pivots);
+  rows_[pairs_].join(front, f, energy, pivots);
+  for (int row = pairs_; row > 0; --row) rows_[row - 1].substitute(f);
   energy_ = -(energy[0] + energy[1]);
   if (held_energy_ > std::abs(energy_)) energy_ = held_energy_;
   negative_pivots_ = pivots.negative;

@@ -1,0 +1,114 @@
+// What a chain's system has of one node: its block and right-hand side, and what couples it with its neighbours.
+//
+// Unknowns of a node are exchanged for others, or prescribed, after all elements are in.
+// Real-time: noexcept, no allocation, O(1).
+#pragma once
+
+#include <algorithm>
+
+#include <hapbeam/fem/solver/ldlt.hpp>
+#include <hapbeam/unroll.hpp>
+
+namespace hapbeam::detail {
+
+/// Block and right-hand side.  Numbers of two chains lie side by side.
+template <typename Scalar, int Block>
+struct NodeBlock {
+  Scalar *block, *x;
+
+  [[gnu::always_inline]] Scalar& operator()(int i, int j) const noexcept {
+    return block[2 * triangle<Block>((std::max)(i, j), (std::min)(i, j))];
+  }
+  [[gnu::always_inline]] Scalar& operator[](int i) const noexcept { return x[2 * i]; }
+};
+/// What couples a node with a neighbour: its own unknown, that of the neighbour.
+template <typename Scalar>
+struct NodeCoupling {
+  Scalar* entries;
+  int own, other;
+
+  [[gnu::always_inline]] Scalar& operator()(int i, int j) const noexcept {
+    return entries[2 * (own * i + other * j)];
+  }
+};
+
+/// @tparam EachNeighbour  calls a function with each neighbour's block, the coupling with it, and whether it is the left one
+template <typename Scalar, int Block, class EachNeighbour>
+struct ChainNode {
+  NodeBlock<Scalar, Block> own;
+  EachNeighbour each_neighbour;
+
+  /// Three unknowns from At on become those along other axes:  old = Q new.
+  template <int At, class Matrix>
+  [[gnu::always_inline]] void turn(const Matrix& Q) const noexcept {
+    const auto times = [&Q](Scalar& a, Scalar& b, Scalar& c) {
+      const Scalar x = a, y = b, z = c;
+      a = x * Q(0, 0) + y * Q(1, 0) + z * Q(2, 0);
+      b = x * Q(0, 1) + y * Q(1, 1) + z * Q(2, 1);
+      c = x * Q(0, 2) + y * Q(1, 2) + z * Q(2, 2);
+    };
+    times(own[At], own[At + 1], own[At + 2]);
+    each_neighbour([&](const auto&, const NodeCoupling<Scalar>& c, bool) {
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) times(c(At, k), c(At + 1, k), c(At + 2, k));
+    });
+    Scalar square[3][3];
+    HAPBEAM_UNROLL
+    for (int i = 0; i < 3; ++i) {
+      HAPBEAM_UNROLL
+      for (int j = 0; j < 3; ++j) square[i][j] = own(At + i, At + j);
+      times(square[i][0], square[i][1], square[i][2]);
+    }
+    HAPBEAM_UNROLL
+    for (int j = 0; j < 3; ++j) {
+      times(square[0][j], square[1][j], square[2][j]);
+      HAPBEAM_UNROLL
+      for (int i = j; i < 3; ++i) own(At + i, At + j) = square[i][j];
+    }
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k)
+      if (k < At || k >= At + 3) times(own(k, At), own(k, At + 1), own(k, At + 2));
+  }
+
+  /// An unknown is from now on its old self and a part of three others:  old = new - part · (unknowns from Others on).
+  template <int Unknown, int Others, class Part>
+  [[gnu::always_inline]] void lean(const Part& part) const noexcept {
+    each_neighbour([&](const auto&, const NodeCoupling<Scalar>& c, bool) {
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) {
+        const Scalar by = c(Unknown, k);
+        HAPBEAM_UNROLL
+        for (int j = 0; j < 3; ++j) c(Others + j, k) -= part[j] * by;
+      }
+    });
+    HAPBEAM_UNROLL
+    for (int j = 0; j < 3; ++j) {
+      const int other = Others + j;
+      own[other] -= part[j] * own[Unknown];
+      own(other, other) += part[j] * (part[j] * own(Unknown, Unknown) - 2 * own(Unknown, other));
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k)
+        if (k != other) own(k, other) -= part[j] * own(k, Unknown);
+    }
+  }
+
+  /// Prescribes the increment of one unknown: its column goes to the right-hand side, its row answers 0.  Inlined by intent: the caller
+  /// knows the component.
+  [[gnu::always_inline]] void prescribe(int component, Scalar increment) const noexcept {
+    const auto take = [increment](Scalar& rhs, Scalar& entry) {
+      rhs -= increment * entry;
+      entry = 0;
+    };
+    for (int k = 0; k < component; ++k) take(own[k], own(component, k));
+    for (int k = component + 1; k < Block; ++k) take(own[k], own(k, component));
+    own(component, component) = 1;  // not the old entry, whose sign would count as a pivot's
+    own[component] = 0;
+    each_neighbour([&](const auto& other, const NodeCoupling<Scalar>& c, bool) {
+      for (int k = 0; k < Block; ++k) take(other[k], c(component, k));
+    });
+  }
+};
+template <typename Scalar, int Block, class EachNeighbour>
+ChainNode(NodeBlock<Scalar, Block>, EachNeighbour) -> ChainNode<Scalar, Block, EachNeighbour>;
+
+}  // namespace hapbeam::detail
