@@ -24,7 +24,7 @@ add() {
 while read -r header; do
   # Without the library or the kit that it needs it cannot be compiled.
   case $header in
-    hapbeam/rom/file/model_file.hpp | hapbeam/rom/json*) "$compiler" -E -include jansson.h -x c++ /dev/null >"$folder/out" 2>&1 || continue ;;
+    hapbeam/rom/file/model_file.hpp | hapbeam/rom/file/json*) "$compiler" -E -include jansson.h -x c++ /dev/null >"$folder/out" 2>&1 || continue ;;
     hapbeam/haptics/hdapi/openhaptics.hpp | hapbeam/hosts/chai3d.hpp | hapbeam/hosts/hapi.hpp | hapbeam/hosts/sofa.hpp) continue ;;
   esac
   add "$header" <<<"#include <$header>"
