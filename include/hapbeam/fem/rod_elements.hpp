@@ -1,28 +1,22 @@
-// The elements of one rod on a mesh whose nodes move: places, tangents and directors, strain energy, dead loads, and their
-// derivatives.
+// The elements of one rod on a mesh whose nodes move: places, tangents and directors, strain energy, dead loads, foundations, and
+// their derivatives.
 //
-// A dead load does work on places and tangents, which the cubic has as linear functions of the nodes: the loads of an element
-// are a constant vector, exact wherever they stand in it.  A distributed load is made the consistent load of the uniform
-// mesh, once.
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <type_traits>
-#include <vector>
 
 #include <hapbeam/element/carried_frame.hpp>
 #include <hapbeam/element/pack.hpp>
 #include <hapbeam/element/rod_properties.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
-#include <hapbeam/fem/loads.hpp>
 #include <hapbeam/fem/natural_rod.hpp>
+#include <hapbeam/fem/rod_abreast.hpp>
 #include <hapbeam/fem/rod_bed.hpp>
 #include <hapbeam/fem/rod_forces.hpp>
-#include <hapbeam/fem/rod_lanes.hpp>
+#include <hapbeam/fem/rod_loads.hpp>
 #include <hapbeam/fem/rod_profile.hpp>
-#include <hapbeam/fem/solver/pair_order.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/unroll.hpp>
 
@@ -47,12 +41,11 @@ class RodElements {
       : nodes_(elements),
         inners_(elements),
         properties_(elements),
-        order_{elements},
-        wide_(elements),
-        forces_(elements),
+        abreast_(elements),
         natural_(rod),
         mesh_(elements, static_cast<Scalar>(rod.length())),
         profile_(rod),
+        loads_(rod, elements),
         bed_(rod, elements),
         surface_(rod) {
     if constexpr (!has_twist)
@@ -67,7 +60,6 @@ class RodElements {
                                     ": TwistedRod turns about its axis, hold its twist at one end");
     const bool two = has_twist && !(natural_.straight() && profile_.round() && profile_.smooth());
     for (int e = 0; e < elements; ++e) properties_[e].number = two ? 2 : 3;
-    collect_loads(rod, elements);
     for (int i = 0; i <= elements; ++i) nodes_[i] = natural_.at(mesh_.position(i));
     take(mesh_);
     for (int e = 0; e < elements; ++e) find_twist(e, natural_.at(middle(e)).director);
@@ -130,17 +122,17 @@ class RodElements {
   template <class Visit>
   [[gnu::always_inline]] Energies visit_tangents(Scalar lambda, Visit&& visit) noexcept {
     Energies sum;
-    for (int first = 0; first < 2 * order_.pairs(); first += lanes) {
+    for (int first = 0; first < 2 * abreast_.order().pairs(); first += lanes) {
       Group group;
       compute(first, group);
       const Wide inner = group.inner.energy();
-      for (int lane = 0; lane < lanes && first + lane < 2 * order_.pairs(); ++lane) {
-        const int e = order_.element(first + lane);
+      for (int lane = 0; lane < lanes && first + lane < 2 * abreast_.order().pairs(); ++lane) {
+        const int e = abreast_.order().element(first + lane);
         if (e < 0) continue;
         sum.strain += group.energy[lane];
         sum.inner += inner[lane];
         if constexpr (has_twist) group.get(lane, inners_[e]);
-        if (loaded() || !bed_.empty()) add_loads(e, lambda, lane, group, sum);
+        if (!loads_.empty() || !bed_.empty()) add_loads(e, lambda, lane, group, sum);
       }
       visit(first, group.K, group.r);
     }
@@ -149,12 +141,12 @@ class RodElements {
   /// The residual alone of one element.
   void residual(int e, Scalar lambda, Residual& r) const noexcept {
     Group group;
-    const int place = order_.place(e), lane = place % lanes;
+    const int place = abreast_.order().place(e), lane = place % lanes;
     compute(place - lane, group);
     group.get(lane, r);
     Tangent unused = Tangent::Zero();
     if (!bed_.empty()) (void)bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, unused);
-    if (loaded()) subtract_loads(e, lambda, r);
+    if (!loads_.empty()) loads_.template subtract<unknowns>(e, lambda, r);
   }
   /// What the section at s carries, in element e, which holds s.
   InternalForces<Scalar, 3> internal_forces(int e, Scalar at, Scalar lambda) const noexcept {
@@ -171,20 +163,9 @@ class RodElements {
     };
     detail::RodCut<Scalar> cut{-r.template segment<3>(0), -moment(0, a.tangent), a.r}, end = cut;
     const RodPoint<Scalar> place = line.at(e, s);
-    // On the side of this element, where it is cut at a node.  Loads from the left end on: they are in no order.
-    const auto before_cut = [&](Scalar x) { return x < s || (x == s && s == a.s); };
     cut.go(place.r);
     end.go(b.r);
-    for (const PointLoad& load : loads_) {
-      if (line.segment_at(load.s) != e) continue;
-      const RodPoint<Scalar> there = line.at(e, load.s);
-      const auto pass = [&](detail::RodCut<Scalar>& of) {
-        of.pass(lambda * load.force, there.r);
-        of.moment -= detail::cross3<Scalar>(there.tangent, lambda * load.couple);
-      };
-      pass(end);
-      if (before_cut(load.s)) pass(cut);
-    }
+    loads_.pass(line, e, lambda, s, cut, end);
     const auto lie = [&](detail::RodCut<Scalar>& of, Scalar to) {
       bed_.visit(a.s, to, natural_, [&](Scalar x, const Eigen::Matrix<Scalar, 3, 3>& k, const Vector3& home) {
         const Vector3 there = line.at(e, x).r;
@@ -193,12 +174,7 @@ class RodElements {
     };
     if (!bed_.empty()) lie(end, b.s), lie(cut, s);
     cut.moment += t * (moment(unknowns, b.tangent) - end.moment);
-    if (!cells_.empty()) {
-      std::size_t k = 0;
-      while (k + 1 < cells_.size() && before_cut(loads_[k + 1].s)) ++k;
-      const Scalar from = loads_[k].s, h = loads_[k + 1].s - from;
-      cut.spread(lambda * cells_[k], place.tangent, (s - from) / h, h);
-    }
+    loads_.spread(lambda, s, a.s, place.tangent, cut);
     Scalar twist = 0;
     if constexpr (has_twist) twist = inners_[e].twist;
     const detail::CarriedFrame<Scalar> frame(properties_[e], a, b);
@@ -217,8 +193,6 @@ class RodElements {
 
  private:
   static constexpr bool has_twist = unknowns == 7;
-  using Force = VectorOf<Scalar, 12>;  // on r1, r1', r2, r2'
-
   using Wide = detail::Pack<Scalar>;
   static constexpr int lanes = Wide::size;
 
@@ -241,17 +215,12 @@ class RodElements {
   };
   /// @param first  of their places
   void compute(int first, Group& group) const noexcept {
-    const detail::Abreast<Scalar> of =
-        detail::Abreast<Scalar>::from(first, 2 * order_.pairs() - 1).of_each([this](int place) {
-          return element(place);
-        });
+    const detail::Abreast<Scalar> of = abreast_.elements(first);
     if constexpr (has_twist) group.inner.twist = detail::gather(of, [&](int e) { return inners_[e].twist; });
-    group.energy = Element::tangent(wide_[first / lanes], detail::gather_nodes<has_twist>(of, nodes_),
+    group.energy = Element::tangent(abreast_.properties(first), detail::gather_nodes<has_twist>(of, nodes_),
                                     detail::gather_nodes<has_twist>(of.next(1, size()), nodes_), group.inner,
                                     group.r, group.K);
   }
-  /// At an empty place stands another one.
-  int element(int place) const noexcept { return (std::max)(order_.element(place), 0); }
   /// Dead loads and the foundation.
   void add_loads(int e, Scalar lambda, int lane, Group& group, Energies& sum) const noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
@@ -263,61 +232,12 @@ class RodElements {
       for (int j = 0; j < 2 * unknowns; ++j)
         for (int i = 0; i < 2 * unknowns; ++i) group.K(i, j).set(lane, group.K(i, j)[lane] + K(i, j));
     }
-    if (loaded()) {
-      subtract_loads(e, lambda, r);
-      const Force& f = forces_[e];
-      sum.work += lambda * (f.template segment<3>(0).dot(a.r) + f.template segment<3>(3).dot(a.tangent) +
-                            f.template segment<3>(6).dot(b.r) + f.template segment<3>(9).dot(b.tangent));
+    if (!loads_.empty()) {
+      loads_.template subtract<unknowns>(e, lambda, r);
+      sum.work += lambda * loads_.work(e, a, b);
     }
     for (int i = 0; i < 2 * unknowns; ++i) group.r[i].set(lane, r[i]);
   }
-  /// Lays an element's properties beside those of its neighbours.
-  void widen(int e) noexcept {
-    const RodProperties<Scalar>& from = properties_[e];
-    fill(e, [&](auto&& set, RodProperties<Wide>& to) {
-      to.number = from.number;
-      set(to.axial, from.axial);
-      for (int i = 0; i < 3; ++i) {
-        auto& point = to.points[i];
-        set(point.bending1, from.points[i].bending1), set(point.bending2, from.points[i].bending2);
-        set(point.torsion, from.points[i].torsion);
-        for (int j = 0; j < 3; ++j) set(point.natural[j], from.points[i].natural[j]);
-        set(to.natural_strain[i], from.natural_strain[i]);
-      }
-    });
-    widen_length(e);
-  }
-  void widen_length(int e) noexcept {
-    const RodProperties<Scalar>& from = properties_[e];
-    fill(e, [&](auto&& set, RodProperties<Wide>& to) {
-      set(to.length, from.length), set(to.inverse_length, from.inverse_length);
-    });
-  }
-  /// Calls put(set, properties) for an element's lane, and for all others in which it stands.
-  template <class Put>
-  void fill(int e, Put&& put) noexcept {
-    const auto at = [&](int place) {
-      put([place](Wide& wide, Scalar value) { wide.set(place % lanes, value); }, wide_[place / lanes]);
-    };
-    const int place = order_.place(e), last = 2 * order_.pairs() - 1;
-    at(place);
-    if (e == 0 && order_.odd()) at(0);
-    if (place == last)
-      for (int k = last + 1; k % lanes != 0; ++k) at(k);
-  }
-
-  Scalar wide_length(int e) const noexcept {
-    const int place = order_.place(e);
-    return wide_[place / lanes].length[place % lanes];
-  }
-
-  /// A force at a point, and what works on the tangent there.
-  struct PointLoad {
-    Scalar s;
-    VectorOf<Scalar, 3> force, couple;
-  };
-
-  bool loaded() const noexcept { return !loads_.empty(); }
   Scalar middle(int e) const noexcept { return (nodes_[e].s + nodes_[e + 1].s) / 2; }
 
   void find_twist(int e, const VectorOf<Scalar, 3>& director) noexcept {
@@ -330,41 +250,6 @@ class RodElements {
     properties_[e].inverse_length = 1 / length;
   }
 
-  [[gnu::cold]] void collect_loads(const Rod& rod, int elements) {
-    using Vector3 = VectorOf<double, 3>;
-    const double h = rod.length() / elements;
-    const auto add = [this](double s, const Vector3& force, const Vector3& couple) {
-      loads_.push_back(
-          {static_cast<Scalar>(s), force.template cast<Scalar>(), couple.template cast<Scalar>()});
-    };
-    if (const RodLoad distributed = rod.load()) {
-      std::vector<std::array<Vector3, 2>> on(static_cast<std::size_t>(elements) + 1,
-                                             {Vector3(0, 0, 0), Vector3(0, 0, 0)});
-      cells_.assign(static_cast<std::size_t>(elements), VectorOf<Scalar, 3>::Zero());
-      for (int e = 0; e < elements; ++e)
-        for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
-          const double t = detail::gauss_points[k], u = 1 - t, weight = h * detail::gauss_weights[k];
-          Vector3 f = distributed((e + t) * h);
-          for (int c = 0; c < 3; ++c) detail::finite("load", f[c], "N/m");
-          f *= weight;
-          auto &a = on[static_cast<std::size_t>(e)], &b = on[static_cast<std::size_t>(e) + 1];
-          cells_[static_cast<std::size_t>(e)] += (f / h).template cast<Scalar>();
-          a[0] += u * u * (1 + 2 * t) * f, a[1] += h * t * u * u * f;
-          b[0] += t * t * (3 - 2 * t) * f, b[1] -= h * t * t * u * f;
-        }
-      for (int i = 0; i <= elements; ++i)
-        add(i == elements ? rod.length() : i * h, on[static_cast<std::size_t>(i)][0],
-            on[static_cast<std::size_t>(i)][1]);
-    }
-    for (const RodForce& force : rod.forces()) add(force.s, force.force, Vector3(0, 0, 0));
-  }
-
-  void subtract_loads(int e, Scalar lambda, Residual& r) const noexcept {
-    const Force& f = forces_[e];
-    r.template segment<6>(0) -= lambda * f.template segment<6>(0);
-    r.template segment<6>(unknowns) -= lambda * f.template segment<6>(6);
-  }
-
   void take(const Mesh& mesh) noexcept {
     mesh_ = mesh;
     // Where all elements are the same their length alone changes.
@@ -373,20 +258,20 @@ class RodElements {
     for (int e = 0; e < size(); ++e) {
       const Scalar length = nodes_[e + 1].s - nodes_[e].s;
       if (alike) {
-        if (length != properties_[e].length || length != wide_length(e)) {
+        if (length != properties_[e].length || length != abreast_.length(e)) {
           set_length(e, length);
-          widen_length(e);
+          abreast_.take_length(e, properties_[e]);
         }
       } else {
         set_length(e, length);
         profile_.apply(nodes_[e].s, nodes_[e + 1].s, properties_[e]);
         if constexpr (has_twist)
           if (!natural_.straight()) take_natural(e);
-        widen(e);
+        abreast_.take(e, properties_[e]);
       }
       if (!bed_.empty()) bed_.take(e, nodes_[e].s, nodes_[e + 1].s, natural_);
     }
-    if (loaded()) take_loads();
+    if (!loads_.empty()) loads_.take(view(nodes_));
   }
 
   void take_natural(int e) noexcept {
@@ -395,31 +280,14 @@ class RodElements {
     Element::take_natural(a, b, Element::twist_to(p, a, b, natural_.at(middle(e)).director), p);
   }
 
-  void take_loads() noexcept {
-    for (int e = 0; e < size(); ++e) forces_[e].setZero();
-    for (const PointLoad& load : loads_) {
-      const int e = view(nodes_).segment_at(load.s);
-      const Scalar l = properties_[e].length, t = (load.s - nodes_[e].s) / l, u = 1 - t;
-      Force& f = forces_[e];
-      const VectorOf<Scalar, 3> slope = 6 * t * u / l * load.couple;
-      f.template segment<3>(0) += u * u * (1 + 2 * t) * load.force - slope;
-      f.template segment<3>(3) += l * t * u * u * load.force + u * (1 - 3 * t) * load.couple;
-      f.template segment<3>(6) += t * t * (3 - 2 * t) * load.force + slope;
-      f.template segment<3>(9) += t * (3 * t - 2) * load.couple - l * t * t * u * load.force;
-    }
-  }
-
   Nodes nodes_;
   Inners inners_;
   detail::PerNode<RodProperties<Scalar>, Elements, MaxElements> properties_;
-  detail::PairOrder order_;
-  detail::PerNode<RodProperties<Wide>, Elements, MaxElements> wide_;
-  detail::PerNode<Force, Elements, MaxElements> forces_;
-  std::vector<PointLoad> loads_;            // first those of a distributed load, node by node
-  std::vector<VectorOf<Scalar, 3>> cells_;  // its mean between those [N/m]
+  detail::RodAbreast<Scalar, Elements, MaxElements> abreast_;
   NaturalRod<Scalar> natural_;
   Mesh mesh_;
   RodProfile<Scalar> profile_;
+  RodLoads<Scalar, Elements, MaxElements> loads_;
   RodBed<Scalar> bed_;
   detail::RodSurface<Scalar> surface_;
   bool known_ = false;  // what elements are made of

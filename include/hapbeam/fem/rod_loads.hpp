@@ -1,0 +1,126 @@
+// The dead loads of a rod on a mesh whose nodes move.
+//
+// A dead load does work on places and tangents, which the cubic has as linear functions of the nodes: the loads of an element
+// are a constant vector, exact wherever they stand in it.  A distributed load is made the consistent load of the uniform
+// mesh, once.
+// Allocates and throws at construction; every other member is noexcept and allocation-free.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <hapbeam/fem/loads.hpp>
+#include <hapbeam/fem/rod_forces.hpp>
+#include <hapbeam/fem/solver/per_node.hpp>
+
+namespace hapbeam {
+
+template <typename Scalar, int Elements, int MaxElements>
+class RodLoads {
+  using Vector3 = VectorOf<Scalar, 3>;
+
+ public:
+  /// @throws std::invalid_argument where a distributed load is not finite
+  [[gnu::cold]] RodLoads(const Rod& rod, int elements) : forces_(elements) {
+    if (rod.load()) spread_over_nodes(rod, elements);
+    for (const RodForce& force : rod.forces()) add(force.s, force.force, VectorOf<double, 3>(0, 0, 0));
+  }
+  bool empty() const noexcept { return loads_.empty(); }
+
+  /// Takes each element's share on the mesh of a rod.
+  void take(const Centreline<Scalar, 3>& line) noexcept {
+    for (int e = 0; e < line.segments(); ++e) forces_[e].setZero();
+    for (const PointLoad& load : loads_) {
+      const int e = line.segment_at(load.s);
+      const Scalar from = line[e].s, l = line[e + 1].s - from, t = (load.s - from) / l, u = 1 - t;
+      Force& f = forces_[e];
+      const Vector3 slope = 6 * t * u / l * load.couple;
+      f.template segment<3>(0) += u * u * (1 + 2 * t) * load.force - slope;
+      f.template segment<3>(3) += l * t * u * u * load.force + u * (1 - 3 * t) * load.couple;
+      f.template segment<3>(6) += t * t * (3 - 2 * t) * load.force + slope;
+      f.template segment<3>(9) += t * (3 * t - 2) * load.couple - l * t * t * u * load.force;
+    }
+  }
+  /// From the residual of an element.   @tparam Unknowns  of a node
+  template <int Unknowns, class Residual>
+  void subtract(int e, Scalar lambda, Residual& r) const noexcept {
+    const Force& f = forces_[e];
+    r.template segment<6>(0) -= lambda * f.template segment<6>(0);
+    r.template segment<6>(Unknowns) -= lambda * f.template segment<6>(6);
+  }
+  /// Of those of an element [J].
+  Scalar work(int e, const RodNode<Scalar>& a, const RodNode<Scalar>& b) const noexcept {
+    const Force& f = forces_[e];
+    return f.template segment<3>(0).dot(a.r) + f.template segment<3>(3).dot(a.tangent) +
+           f.template segment<3>(6).dot(b.r) + f.template segment<3>(9).dot(b.tangent);
+  }
+  /// Takes λ times those of element e past cuts on their way along it: past one at its end, and past one at s if they stand
+  /// before it.  At a node that is on the side of this element.
+  void pass(const Centreline<Scalar, 3>& line, int e, Scalar lambda, Scalar s, detail::RodCut<Scalar>& at_s,
+            detail::RodCut<Scalar>& at_end) const noexcept {
+    for (const PointLoad& load : loads_) {  // from the left end on: they are in no order
+      if (line.segment_at(load.s) != e) continue;
+      const RodPoint<Scalar> there = line.at(e, load.s);
+      const auto past = [&](detail::RodCut<Scalar>& cut) {
+        cut.pass(lambda * load.force, there.r);
+        cut.moment -= detail::cross3<Scalar>(there.tangent, lambda * load.couple);
+      };
+      past(at_end);
+      if (stands_before(load.s, s, line[e].s)) past(at_s);
+    }
+  }
+  /// What λ times the distributed load does at a cut that its nodal forces do not.   @param from  where the element begins
+  void spread(Scalar lambda, Scalar s, Scalar from, const Vector3& tangent,
+              detail::RodCut<Scalar>& cut) const noexcept {
+    if (cells_.empty()) return;
+    std::size_t k = 0;
+    while (k + 1 < cells_.size() && stands_before(loads_[k + 1].s, s, from)) ++k;
+    const Scalar begin = loads_[k].s, h = loads_[k + 1].s - begin;
+    cut.spread(lambda * cells_[k], tangent, (s - begin) / h, h);
+  }
+
+ private:
+  using Force = VectorOf<Scalar, 12>;  // on r1, r1', r2, r2'
+
+  /// A force at a point, and what works on the tangent there.
+  struct PointLoad {
+    Scalar s;
+    Vector3 force, couple;
+  };
+
+  static bool stands_before(Scalar load, Scalar cut, Scalar from) noexcept {
+    return load < cut || (load == cut && cut == from);
+  }
+  void add(double s, const VectorOf<double, 3>& force, const VectorOf<double, 3>& couple) {
+    loads_.push_back({static_cast<Scalar>(s), force.template cast<Scalar>(), couple.template cast<Scalar>()});
+  }
+  void spread_over_nodes(const Rod& rod, int elements) {
+    using Vector = VectorOf<double, 3>;
+    const double h = rod.length() / elements;
+    const RodLoad distributed = rod.load();
+    std::vector<std::array<Vector, 2>> on(static_cast<std::size_t>(elements) + 1,
+                                          {Vector(0, 0, 0), Vector(0, 0, 0)});
+    cells_.assign(static_cast<std::size_t>(elements), Vector3::Zero());
+    for (int e = 0; e < elements; ++e)
+      for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
+        const double t = detail::gauss_points[k], u = 1 - t, weight = h * detail::gauss_weights[k];
+        Vector f = distributed((e + t) * h);
+        for (int c = 0; c < 3; ++c) detail::finite("load", f[c], "N/m");
+        f *= weight;
+        auto &a = on[static_cast<std::size_t>(e)], &b = on[static_cast<std::size_t>(e) + 1];
+        cells_[static_cast<std::size_t>(e)] += (f / h).template cast<Scalar>();
+        a[0] += u * u * (1 + 2 * t) * f, a[1] += h * t * u * u * f;
+        b[0] += t * t * (3 - 2 * t) * f, b[1] -= h * t * t * u * f;
+      }
+    for (int i = 0; i <= elements; ++i) {
+      const auto& of = on[static_cast<std::size_t>(i)];
+      add(i == elements ? rod.length() : i * h, of[0], of[1]);
+    }
+  }
+
+  detail::PerNode<Force, Elements, MaxElements> forces_;
+  std::vector<PointLoad> loads_;  // first those of a distributed load, node by node
+  std::vector<Vector3> cells_;    // its mean between those [N/m]
+};
+
+}  // namespace hapbeam
