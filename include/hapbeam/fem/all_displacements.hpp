@@ -95,12 +95,26 @@ class AllDisplacements {
     single_valued_ = false;
     const auto aim = [this] { system_.set_goal(); };
     aim();
-    report_ = solve_within(solver_.max_solves, descending_ ? Scalar(1) : report_.step);
+    // On the way down Newton's method may be near enough by now.
+    report_ =
+        descending_ ? solve_within(solver_.max_solves / 4) : solve_within(solver_.max_solves, report_.step);
     Descent descent;
     descent.max_solves = solver_.max_solves - report_.solves;
-    const bool on_ridge = gives_way();
-    if ((on_ridge || report_.status == Status::iteration_limit) && !fall(on_ridge, descent, aim)) reset();
-    return take();
+    const bool on_ridge = gives_way(), on_its_way = report_.steps > 0 && descent.max_solves <= 0;
+    if ((on_ridge || (report_.status == Status::iteration_limit && !on_its_way)) &&
+        !fall(on_ridge, descent, aim))
+      reset();
+    HeldEnd<Scalar> held = take();
+    if (!held.force.allFinite() || !held.moment.allFinite())
+      held.force.setZero(), held.moment.setZero(), held.status = report_.status = Status::non_finite;
+    // A shape from which no way leads to where a hand waits is left for that at rest.
+    unanswered_ = is_answer(held.status) ? 0 : unanswered_ + 1;
+    if (held.status == Status::non_finite || unanswered_ == patience) {
+      const Status status = report_.status;
+      reset();
+      report_.status = status;
+    }
+    return held;
   }
 
   /// Falls to the shape at rest on whose slope the beam is; one that is folded, which only a request beyond all reach leaves,
@@ -158,8 +172,10 @@ class AllDisplacements {
 
   void to_rest() noexcept {
     system_.set_state(uniform_, rest_state_);
+    if constexpr (dimension == 3) system_.go_home();
     home_ = system_.middle();
     falling_ = descending_ = false;
+    unanswered_ = 0;
     forget();
   }
   void forget() noexcept {
@@ -267,7 +283,7 @@ class AllDisplacements {
   bool gives_way() noexcept {
     if (report_.status != Status::ok || system_.negative_pivots() == 0) return false;
     ++report_.solves;
-    return system_.factor(0) == Status::ok && system_.negative_pivots() > 0;
+    return system_.factor(system_.neutral()) == Status::ok && system_.negative_pivots() > 0;
   }
 
   /// From an equilibrium that gives way, or where none was found, down to a stable one.
@@ -316,7 +332,9 @@ class AllDisplacements {
   int left_ = 0;             // linear solves that this request may still take
   bool falling_ = false;     // off the shape that gave way, and not yet at a stable one
   bool descending_ = false;  // and not yet near one
-  Middle home_;              // where the middle is in the shape from which the beam is pressed
+  static constexpr int patience = 32;
+  int unanswered_ = 0;  // poses of an end in succession
+  Middle home_;         // where the middle is in the shape from which the beam is pressed
   SolveReport<Scalar> rest_{}, report_{};
 };
 

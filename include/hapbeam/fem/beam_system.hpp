@@ -209,6 +209,8 @@ class BeamSystem
     }
     move(change);
   }
+  /// As a shift: a stiffness that is none.
+  static constexpr Scalar neutral() noexcept { return 0; }
   /// Size of the last increment in the norm of the tangent [√J].
   Scalar increment() const noexcept { return std::sqrt(std::abs(assembler_.energy())); }
   /// V - λ f · x before the last increment was added [J].

@@ -12,6 +12,7 @@
 //   expression of a system, beyond those of Descent
 //   -----------------------   ------------------------------------------------------------------------
 //   s.turn()                  largest rotation of a node in the last increment [rad]
+//   s.neutral()               as a shift of factor(): a stiffness that is none, but for round-off
 //   s.nudge(a)                moves it by about a [m] off an equilibrium that gives way
 //
 // Offline: noexcept and without allocation where the system's members are; at most max_solves linear solves and those of
@@ -67,7 +68,8 @@ struct LoadPath {
       system.restore();
       step = made.shorter * (to - t);
       const S closely = S(made.gives_way ? fork : resolution), here = (std::max)(t, closely);
-      if (step > closely * here) continue;
+      // A slender rod gives way soon after the start.
+      if (step > (t == 0 && made.gives_way ? S(resolution) * S(resolution) : closely * here)) continue;
       // The branch ends here.  At t = 0 it has not begun: a beam that is bowed to begin with is in no equilibrium.
       if (t > 0) beyond = (std::max)(4 * beyond, 4 * closely);
       const S past = (std::min)(t + beyond * here, S(1)), before = potential(system, t, report.solves);
@@ -130,7 +132,7 @@ struct LoadPath {
   static bool stable(System& system, int& solves, int corrections) noexcept {
     if (corrections > 0 && system.negative_pivots() == 0) return true;
     ++solves;
-    return system.factor(0) == Status::ok && system.negative_pivots() == 0;
+    return system.factor(system.neutral()) == Status::ok && system.negative_pivots() == 0;
   }
 
   template <class System, typename S = typename System::Scalar>

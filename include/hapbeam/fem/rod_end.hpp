@@ -32,9 +32,14 @@ class RodEnd {
     place_[0] = spring(support.place1), place_[1] = spring(support.place2), place_[2] = spring(support.along);
     torsion_ = spring(support.twist);
     springs_ = !place_.isZero(0) || across_[0] > 0 || across_[1] > 0 || torsion_ > 0;
-    goal_ = target_ = natural;
+    goal_ = target_ = home_ = natural;
     begin(natural);
     set_target(1);
+  }
+  /// Where it belongs when the rod is at rest, too.
+  void place_home(const RodPose& pose) noexcept {
+    place(pose);
+    home_ = goal_;
   }
   void place(const RodPose& pose) noexcept {
     goal_.r = pose.at.template cast<Scalar>();
@@ -42,6 +47,8 @@ class RodEnd {
     goal_.director = pose.director.template cast<Scalar>();
   }
 
+  /// The rod is at rest.
+  void go_home() noexcept { target_ = home_; }
   /// A path to the goal begins where the end is, or where its springs were.
   void begin(const Node& node) noexcept {
     start_ = on_springs() ? target_ : node;
@@ -55,14 +62,19 @@ class RodEnd {
       target_.tangent = rotate(turn, start_.tangent);
       target_.director = rotate(turn, start_.director);
     }
-    axes_.col(0) = target_.director;
-    axes_.col(1) = cross3(target_.tangent, target_.director);
-    axes_.col(2) = target_.tangent;
+    axes_ = axes_of(target_);
   }
   /// d1, d2 and tangent of the target where the unknowns of place are those along them, else null: along those of space.
   const Matrix* place_axes() const noexcept { return holds_place() || !holds_any_place() ? nullptr : &axes_; }
   /// The same for those of r'.
   const Matrix* tangent_axes() const noexcept { return direction_ ? &axes_ : nullptr; }
+  /// Whether the node is turned so little against the target that increments lead there: by less than a quarter of a turn where
+  /// its direction is held, and by less than half a turn where springs or its twist are counted from there.
+  bool follows(const Node& node) const noexcept {
+    if (!direction_ && !springs_ && !twist_) return true;
+    const Scalar along = target_.tangent.dot(unit(node.tangent));
+    return direction_ ? along > 0 : along > Scalar(-0.9999);
+  }
   /// Calls visit(component, increment) for what is held: r 0-2 in place_axes(), r' 3-4 in tangent_axes(), φ 6 where there is one.
   template <bool has_twist, class Visitor>
   void visit(const Node& node, Visitor&& visitor) const noexcept {
@@ -119,7 +131,8 @@ class RodEnd {
       node.director = across(carry(target_.director, target_.tangent, u), u);
     }
     if (!direction_) return;
-    node.tangent = target_.tangent.dot(node.tangent) * target_.tangent;
+    const Scalar along = target_.tangent.dot(node.tangent);
+    node.tangent = (along > 0 ? along : std::sqrt(node.tangent.squaredNorm())) * target_.tangent;
     node.director = twist_ ? target_.director : across(node.director, target_.tangent);
   }
 
@@ -175,20 +188,33 @@ class RodEnd {
   bool holds_any_place() const noexcept { return held_[0] || held_[1] || held_[2]; }
   /// Nothing is held but by springs.
   bool on_springs() const noexcept { return springs_ && !holds_any_place() && !direction_ && !twist_; }
-  /// From start to goal: its sine and axis are in the antisymmetric part.
+  /// From start to goal, by no more than half a turn.
   Vector3 rotation() const noexcept {
     using std::atan2;
+    using std::copysign;
     using std::sqrt;
-    const Vector3 *a[3], *b[3], s2 = cross3(start_.tangent, start_.director),
-                                g2 = cross3(goal_.tangent, goal_.director);
-    a[0] = &start_.tangent, a[1] = &start_.director, a[2] = &s2;
-    b[0] = &goal_.tangent, b[1] = &goal_.director, b[2] = &g2;
-    Vector3 twice = Vector3::Zero();
-    Scalar trace = 0;
-    for (int k = 0; k < 3; ++k) twice += cross3(*a[k], *b[k]), trace += a[k]->dot(*b[k]);
-    const Scalar sine = sqrt(twice.squaredNorm()) / 2;
-    const Scalar angle = atan2(sine, (trace - 1) / 2);
-    return sine > 0 ? Vector3(twice * (angle / (2 * sine))) : Vector3::Zero();
+    const Matrix R = axes_of(goal_) * axes_of(start_).transpose();
+    // 4 (cos α/2, sin α/2 n) times one of its own components, the largest: four ways to write it, of which one has all digits.
+    const Vector3 twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+    Scalar most = 1 + R.trace(), w = most;
+    Vector3 v = twice;
+    for (int k = 0; k < 3; ++k) {
+      const Scalar own = 1 - R.trace() + 2 * R(k, k);
+      if (!(own > most)) continue;
+      most = own;
+      w = twice[k];
+      v = R.col(k) + R.row(k).transpose();
+      v[k] = own;
+    }
+    const Scalar sine = sqrt(v.squaredNorm());
+    return sine > 0 ? Vector3(v * (2 * copysign(Scalar(1), w) * atan2(sine, std::abs(w)) / sine))
+                    : Vector3::Zero();
+  }
+  static Matrix axes_of(const Node& node) noexcept {
+    Matrix axes;
+    axes.col(0) = node.director, axes.col(1) = cross3(node.tangent, node.director),
+    axes.col(2) = node.tangent;
+    return axes;
   }
   /// Rodrigues.
   static Vector3 rotate(const Vector3& by, const Vector3& v) noexcept {
@@ -204,7 +230,7 @@ class RodEnd {
   bool held_[3], direction_, twist_, springs_;
   Vector3 place_;               // springs along the axes [N/m]
   Scalar across_[2], torsion_;  // against the tangent's turn along d1 and d2, and against twist [N·m/rad]
-  Node goal_, start_, target_;
+  Node goal_, home_, start_, target_;
   Matrix axes_;
 };
 

@@ -63,7 +63,8 @@ class RodSystem
         axial_(static_cast<Scalar>(rod.stiffness().axial)),
         unit_(static_cast<Scalar>(
             std::sqrt((std::min)(rod.stiffness().bending1, rod.stiffness().bending2) / rod.length()))) {
-    if (rod.right_pose()) ends_[1].place(*rod.right_pose());
+    no_mechanism_ = factor(0) == Status::ok;  // in its natural shape
+    if (rod.right_pose()) ends_[1].place_home(*rod.right_pose());
   }
 
   int elements() const noexcept { return rod_.size(); }
@@ -92,6 +93,10 @@ class RodSystem
   void set_state(const Mesh& mesh, const State& state) noexcept {
     rod_.set(mesh, state.nodes, state.inners);
     force_ = linear_reaction_ = 0;
+  }
+  /// Its ends belong where they do at rest.
+  void go_home() noexcept {
+    for (auto& end : ends_) end.go_home();
   }
   /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
   /// @param before  becomes what the state is now
@@ -205,8 +210,10 @@ class RodSystem
 
   /// Assembles and solves for an increment, and leaves the state as it is.
   /// @param shift  what is added to the tangent: so many times EI/L³ on each place and EI/L on each rotation, shared out
-  /// over the nodes   @return ok | singular | non_finite
+  /// over the nodes   @return ok | singular | non_finite | iteration_limit, where an end has farther to turn than an increment leads
   Status factor(Scalar shift) noexcept {
+    for (std::size_t k = 0; k < 2; ++k)
+      if (!ends_[k].follows(node(end(k)))) return Status::iteration_limit;
     const int c = contact_.node();
     Contacts::look_at_contacts();
     const auto [strain, work, inner] =
@@ -243,7 +250,10 @@ class RodSystem
     moves_ = 0;
     if (c >= 0) assembler_.hold(c, 2, moves_ = d_ - contact_.displacement());
     others_.each([&](auto& other) { hold(other); });
-    return assembler_.solve();
+    const Status status = assembler_.solve();
+    // A round rod that is bowed between two ends on one axis may roll about it: that takes no force, and leads nowhere.
+    if (status == Status::singular && shift == 0 && no_mechanism_) return factor(neutral());
+    return status;
   }
   /// Adds the increment to the state: what turns keeps its length.  Without a contact, which would be missed, the chords turn
   /// as the tangents do, from the left end on (as chain.hpp says of the plane).
@@ -273,6 +283,8 @@ class RodSystem
     for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
     Contacts::correct_contacts(rod_.nodes());
   }
+  /// As a shift: a stiffness that is none.  A rod that is round may roll where it is bowed, but for round-off; 1/10⁷ of what bends one.
+  static constexpr Scalar neutral() noexcept { return Scalar(1e-6); }
   /// Size of the last increment in the norm of the tangent [√J].
   Scalar increment() const noexcept {
     return std::sqrt(std::abs(assembler_.energy()) + std::abs(inner_energy_));
@@ -483,6 +495,7 @@ class RodSystem
   std::array<detail::RodEnd<Scalar>, 2> ends_;
   Increment prescribed_[2] = {Increment::Zero(), Increment::Zero()};
   Scalar moves_ = 0;
+  bool no_mechanism_ = false;  // its ends and springs hold it
   Scalar length_, axial_;
   Scalar size_ = 0, potential_ = 0, inner_energy_ = 0, unit_;
 };
