@@ -59,3 +59,34 @@ TEMPLATE_TEST_CASE("a rod that was touched and let go is touched as a new one", 
     move(touch, home - 2 * reach * n, hand, Point::Zero(), 20, nothing);
   }
 }
+
+// Whichever coil it presses yields, so that the other one is nearer in the next tick.
+TEST_CASE("a ball that rests between two coils of a spring keeps to one of them", "[rod][contact]") {
+  const PressedRod spring = pressed_rod("spring");
+  int touched = 0;
+  for (const double radius : {0.003, 0.005, 0.008})
+    for (const double around : {0.0, 2.0, 4.0})
+      for (const double height : {0.003, 0.006, 0.009, 0.012})
+        for (const double inside : {0.0005, 0.002}) {
+          FemModel<TwistedRod> model(spring.rod, 24);
+          Touch<FemModel<TwistedRod>> touch(model, radius);
+          const auto at = [&](double in) {
+            const double r = 0.0105 + radius - in;
+            return Point(r * std::cos(around), r * std::sin(around), height);
+          };
+          for (int k = 0; k <= 200; ++k) (void)touch.tick(at(-0.001 + (0.001 + inside) * k / 200));
+          auto felt = touch.tick(at(inside));
+          for (int k = 0; k < 60; ++k) felt = touch.tick(at(inside));
+          touched += felt.pressing;
+          double apart = 0;
+          for (int k = 0; k < 10; ++k) {
+            const auto next = touch.tick(at(inside));
+            apart = std::max(apart, (next.force - felt.force).norm());
+            felt = next;
+          }
+          INFO("radius " << radius << ", around " << around << ", height " << height << ", inside "
+                         << inside);
+          CHECK(apart <= 1e-6 * (felt.force.norm() + 1e-3));
+        }
+  CHECK(touched > 40);
+}

@@ -4,7 +4,6 @@
 // The model places its centreline at the distance `reach` from the avatar's centre or axis, and returns the point of
 // contact. It starts at the nearest point plus the motion of that point in the last two ticks: its mesh has a node
 // there already.
-// mesh has a node already.
 // Real-time: noexcept, no allocation; one push.
 #pragma once
 
