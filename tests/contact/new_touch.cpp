@@ -1,4 +1,6 @@
 // A touch after others is that of a new hand on a new beam, to the bit: nothing that was learnt before is left.
+#include <cmath>
+
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/ruler.hpp"
@@ -49,4 +51,29 @@ TEMPLATE_TEST_CASE("strokes on a beam that has been touched before are those on 
     }
   }
   CHECK(strokes > 200);
+}
+
+// Whichever arm it presses yields, so that the other one is nearer in the next tick.
+TEST_CASE("a disc that rests in the mouth of a hairpin keeps to one of its arms", "[contact]") {
+  const double arm = 0.1, bend = 0.01, half_round = std::acos(-1.0) * bend;
+  Beam hairpin(2 * arm + half_round, Section::rectangle(0.01, 0.0005), Material{200e9}, Support::clamped,
+               Support::free);
+  hairpin.naturally({{arm, 0}, {arm + half_round, 1 / bend}, {2 * arm + half_round, 0}});
+  for (const double radius : {0.0098, 0.0105, 0.012})
+    for (const double x : {0.03, 0.07})
+      for (const double off : {-0.0005, 0.0, 0.0005}) {
+        FemModel<Corotational<>> model(hairpin, 24);
+        Touch<FemModel<Corotational<>>> touch(model, radius);
+        for (int k = 0; k <= 300; ++k) (void)touch.tick({-0.02 + (x + 0.02) * k / 300, -bend + off});
+        auto felt = touch.tick({x, -bend + off});
+        for (int k = 0; k < 60; ++k) felt = touch.tick({x, -bend + off});
+        double apart = 0;
+        for (int k = 0; k < 10; ++k) {
+          const auto next = touch.tick({x, -bend + off});
+          apart = std::max(apart, (next.force - felt.force).norm());
+          felt = next;
+        }
+        INFO("radius " << radius << ", x " << x << ", off " << off);
+        CHECK(apart <= 1e-6 * (felt.force.norm() + 1e-3));
+      }
 }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <hapbeam/contact/closest_point.hpp>
@@ -61,13 +62,44 @@ NearestPoint<Scalar, D> nearest_beside(const Centreline<Scalar, D>& line, int be
   return best;
 }
 
+/// The nearest point that is reached downhill from a piece, without a way over what is farther.
+template <typename Scalar, int D, class Query>
+NearestPoint<Scalar, D> nearest_downhill(const Centreline<Scalar, D>& line, int piece,
+                                         const Query& q) noexcept {
+  NearestPoint<Scalar, D> best{piece, closest_point(line.segment(piece), q)};
+  const int way = best.at.t <= 0 ? -1 : best.at.t >= 1 ? 1 : 0;
+  for (int next = piece + way; way != 0 && next >= 0 && next < line.segments(); next += way) {
+    const ClosestPoint<Scalar, D> candidate = closest_point(line.segment(next), q);
+    if (!(candidate.distance_squared < best.at.distance_squared)) break;
+    best = {next, candidate};
+    if (way < 0 ? candidate.t > 0 : candidate.t < 1) break;
+  }
+  return best;
+}
+
+/// The nearest point of a centreline of finite rotation, for a touch.  Where it winds it may touch the avatar at several places.  A touch keeps
+/// its own until another one lies deeper by half a reach: the nearest would be another in each tick, as soon as the beam has yielded there.
+/// @param s  [m] where it was   @param reach  [m]
+template <typename Scalar, int D, class Query>
+NearestPoint<Scalar, D> nearest_of_touch(const Centreline<Scalar, D>& line, Scalar s, const Query& q,
+                                         Scalar reach) noexcept {
+  const int last = line.segment_at(s);
+  const NearestPoint<Scalar, D> nearest = nearest_beside(line, last, q);
+  const auto &a = line[nearest.segment], &b = line[nearest.segment + 1];
+  if (!(std::abs(a.s + nearest.at.t * (b.s - a.s) - s) > 2 * reach)) return nearest;
+  const NearestPoint<Scalar, D> own = nearest_downhill(line, last, q);
+  const Scalar deeper = std::sqrt(own.at.distance_squared) - std::sqrt(nearest.at.distance_squared);
+  return deeper > reach / 2 ? nearest : own;
+}
+
 /// As find_contact(), of a centreline of finite rotation that the avatar touches.
 /// @param s  [m] where the last contact was   @return false for a position that is none
 template <typename Scalar>
 [[nodiscard]] bool find_contact_beside(const Centreline<Scalar>& line, Scalar s, const Avatar<Scalar>& avatar,
                                        Scalar thickness, ContactMemory<Scalar>& memory,
                                        Contact<Scalar>& contact) noexcept {
-  const NearestPoint<Scalar> nearest = nearest_beside(line, line.segment_at(s), avatar.position);
+  const NearestPoint<Scalar> nearest =
+      nearest_of_touch(line, s, avatar.position, avatar.radius + thickness / 2);
   if (!std::isfinite(nearest.at.distance_squared)) return false;
   contact =
       contact_at(nearest, {line, 0, line.segments()}, avatar, thickness, memory, [] { return Crossings{}; });

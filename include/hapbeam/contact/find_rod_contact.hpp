@@ -90,24 +90,7 @@ bool may_have_passed(Scalar step, Scalar reach, const NearestPoint<Scalar, 3>& n
   return step > reach / 2 && step * step >= nearest.at.distance_squared;
 }
 
-/// The nearest point of a rod that is reached downhill from a piece, without a way over what is farther.
-template <typename Scalar>
-NearestPoint<Scalar, 3> nearest_downhill(const Centreline<Scalar, 3>& line, int piece,
-                                         const Shaft<Scalar>& axis) noexcept {
-  NearestPoint<Scalar, 3> best{piece, closest_point(line.segment(piece), axis)};
-  for (int way = best.at.t <= 0 ? -1 : best.at.t >= 1 ? 1 : 0; way != 0;) {
-    const int next = best.segment + way;
-    if (next < 0 || next >= line.segments()) break;
-    const ClosestPoint<Scalar, 3> candidate = closest_point(line.segment(next), axis);
-    if (!(candidate.distance_squared < best.at.distance_squared)) break;
-    best = {next, candidate};
-    if (way < 0 ? candidate.t > 0 : candidate.t < 1) break;
-  }
-  return best;
-}
-
-/// As find_contact() of a rod that the avatar touches.  Where a rod winds it may touch the avatar at several places.  A touch keeps its own
-/// until another one lies deeper by half a reach: the nearest one would be another in each tick, as soon as the rod has yielded there.
+/// As find_contact() of a rod that the avatar touches, sought near the last contact.
 /// @param contact  out, where the answer is true   @return false where it may be elsewhere
 template <class Model>
 [[nodiscard]] bool find_contact_near(const Model& model, const Avatar<typename Model::Scalar, 3>& avatar,
@@ -117,14 +100,7 @@ template <class Model>
   const Shaft<Scalar> axis = avatar.axis();
   const Scalar reach = avatar.radius + model.thickness() / 2;
   const Centreline<Scalar, 3> line = model.shape();
-  const int last = line.segment_at(memory.s);
-  NearestPoint<Scalar, 3> nearest = nearest_beside(line, last, axis);
-  const RodNode<Scalar>&a = line[nearest.segment], &b = line[nearest.segment + 1];
-  if (std::abs(a.s + nearest.at.t * (b.s - a.s) - memory.s) > 2 * reach) {
-    const NearestPoint<Scalar, 3> own = nearest_downhill(line, last, axis);
-    if (std::sqrt(own.at.distance_squared) - std::sqrt(nearest.at.distance_squared) <= reach / 2)
-      nearest = own;
-  }
+  const NearestPoint<Scalar, 3> nearest = nearest_of_touch(line, memory.s, axis, reach);
   if (!std::isfinite(nearest.at.distance_squared)) return false;
   if (may_have_passed(memory.known ? step(memory.axis, axis) : Scalar(0), reach, nearest)) return false;
   contact = remembered(rod_contact_at(nearest, axis, line, memory.normal, reach, model.thickness()), axis,
