@@ -15,8 +15,16 @@ using namespace hapbeam::testing;
 namespace {
 
 struct Tried {
-  int found = 0, elsewhere = 0, apart = 0;
+  int found = 0, elsewhere = 0, apart = 0, kept = 0;
 };
+
+/// Whether a touch keeps its place although another one is nearer, by no more than half a reach.
+template <typename Scalar>
+bool keeps_its_own(const Contact<Scalar>& own, const Contact<Scalar>& nearest, Scalar s,
+                   const Avatar<Scalar>& avatar, Scalar reach) {
+  const auto away = [&](const Contact<Scalar>& contact) { return (contact.foot - avatar.position).norm(); };
+  return own.s != nearest.s && std::abs(nearest.s - s) > 2 * reach && away(own) - away(nearest) <= reach / 2;
+}
 
 /// Presses anywhere, then looks from avatars near and far, fine and coarse, remembered at the right place or another.
 template <class Model>
@@ -47,6 +55,11 @@ Tried try_random(Model model, int presses) {
       ++tried.found;
       volumes.refit(model.shape());
       const Contact<Scalar> whole = find_contact(avatar, model.shape(), volumes, model.thickness(), all);
+      if (any_rotation<typename Model::ElementType> &&
+          keeps_its_own(found, whole, from, avatar, avatar.radius + model.thickness() / 2)) {
+        ++tried.kept;
+        continue;
+      }
       const bool alike = found.touching == whole.touching && found.side == whole.side &&
                          found.segment == whole.segment && found.past_end == whole.past_end &&
                          found.s == whole.s && found.depth == whole.depth && found.foot == whole.foot &&
@@ -77,6 +90,7 @@ TEST_CASE("near where it was the contact is that of the whole shape, and little 
     const Tried tried = try_random(FemModel<Corotational<>>(ruler, 8), 1000);
     CHECK(tried.apart == 0);
     CHECK(tried.elsewhere == 0);
+    CHECK(tried.kept < 10);  // a ruler does not wind
   }
 }
 
