@@ -53,6 +53,12 @@ int piece_at(const Node* nodes, int pieces, Scalar s) noexcept {
   return low;
 }
 
+template <class Line, typename Scalar>
+int node_near(const Line& line, Scalar s) noexcept {
+  const int i = line.segment_at(s);
+  return 2 * s > line[i].s + line[i + 1].s ? i + 1 : i;
+}
+
 }  // namespace detail
 
 /// Dimension of the space in which M, a model or an element, bends: M::dimension, or 2.
@@ -138,8 +144,22 @@ class Centreline {
     return sum / pieces;
   }
 
+  /// |dr/ds| at node i of a centreline of finite rotation: the mean of both pieces.
+  Scalar stretch(int i) const noexcept {
+    Scalar sum = 0, pieces = 0;
+    for (int k = i > 0 ? i - 1 : 0; k <= i && k < segments(); ++k) {
+      const Node &a = nodes_[k], &b = nodes_[k + 1];
+      sum += arc({b.s + b.u - a.s - a.u, b.w - a.w}, direction(k), direction(k + 1)) / (b.s - a.s);
+      ++pieces;
+    }
+    return sum / pieces;
+  }
+
   /// Index of the piece that holds arc position s; the first or last one where s lies off the beam.
   int segment_at(Scalar s) const noexcept { return detail::piece_at(nodes_, segments(), s); }
+
+  /// Index of the node that is nearest to arc position s.
+  int node_near(Scalar s) const noexcept { return detail::node_near(*this, s); }
 
   /// Displacements at arc position s [m].
   Displacement<Scalar> at(Scalar s) const noexcept { return at(segment_at(s), s); }

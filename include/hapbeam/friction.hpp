@@ -56,7 +56,8 @@ struct FrictionState {
   bool known = false;              ///< there is one
   bool slides = false;             ///< it slid
   bool settled = true;             ///< its force is Coulomb's, to a tenth of its bound at worst
-  Scalar s = 0;                    ///< [m] arc position
+  Scalar s = 0;                    ///< [m] arc position of a node of the beam
+  Scalar ahead = 0;                ///< [m] from there to the contact, along the stretched beam
   Scalar place = 0;                ///< [m] of the contact along the avatar's axis
   Vector normal = Vector::Zero();  ///< unit, out of the beam
   Vector along = Vector::Zero();   ///< unit, along the beam

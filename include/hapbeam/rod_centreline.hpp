@@ -89,8 +89,13 @@ class Centreline<Scalar, 3> {
     return (sum - t * (t.dot(sum) / squared)) / (static_cast<Scalar>(pieces) * squared);
   }
 
+  /// |dr/ds| at node i.
+  Scalar stretch(int i) const noexcept { return std::sqrt(nodes_[i].tangent.squaredNorm()); }
+
   /// Index of the piece that holds arc position s; the first or last one where s lies off the rod.
   int segment_at(Scalar s) const noexcept { return detail::piece_at(nodes_, segments(), s); }
+  /// Index of the node that is nearest to arc position s.
+  int node_near(Scalar s) const noexcept { return detail::node_near(*this, s); }
 
   /// The point at arc position s [m].
   RodPoint<Scalar> at(Scalar s) const noexcept { return at(segment_at(s), s); }

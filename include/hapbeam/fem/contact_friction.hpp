@@ -20,9 +20,11 @@ class ContactFriction : public FrictionLaw<Scalar, D> {
   ContactFriction(const FrictionState<Scalar, D>& state, const RoundContact<Scalar>& round,
                   const System& system) noexcept
       : round_(round) {
-    const auto node = round.node_at(system.centreline(), round.request().s);
+    const auto line = system.centreline();
+    const auto node = round.node_at(line, round.request().s);
     const Scalar per_length = system.unit() / system.length();
-    this->begin(state, round.place(round.look(node, 0), node), round.request().reach,
+    this->begin(state, round.place(round.look(node, 0), node),
+                line.stretch(line.node_near(round.request().s)), round.request().reach,
                 per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()),
                 system.length() / 1000, -system.linear_reaction());
   }

@@ -1,7 +1,7 @@
 // Coulomb friction within a push: backward Euler over the tick, as a potential of which Newton's method finds the minimum.
 //
 //   e  = e₀ + slip                      shear of the avatar's skin, e₀ carried along from the tick before
-//   slip = t Δs + D Δn - a Δλ           s, λ: places of the contact on beam and avatar's axis, t, a: directions of these, n: normal
+//   slip = t Δs + D Δn - a Δλ           s, λ: lengths along beam, as it is stretched, and avatar's axis, t, a: their directions, n: normal
 //   sticks:  T = k e + b (e - e₀)                                while |T| <= μₛ N
 //   slides:  T = B ê,  ê = e/|e|,  B = μ N                       and then the skin is sheared by what T shears it
 //
@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <hapbeam/friction.hpp>
 #include <hapbeam/rod_centreline.hpp>
@@ -27,7 +28,8 @@ namespace hapbeam::detail {
 template <typename Scalar, int D>
 struct FrictionPlace {
   using Vector = VectorOf<Scalar, D>;
-  Scalar s = 0;                                            ///< [m] on the beam
+  Scalar s = 0;                                            ///< [m] arc position of a node of the beam
+  Scalar ahead = 0;                                        ///< [m] from there, along the stretched beam
   Vector normal = Vector::Zero(), along = Vector::Zero();  ///< unit; along the beam
   Scalar place = 0;                                        ///< [m] on the avatar's axis
   Vector axis = Vector::Zero();                            ///< its direction
@@ -40,20 +42,24 @@ class FrictionLaw {
   using Matrix = Eigen::Matrix<Scalar, D, D>;
   using Place = FrictionPlace<Scalar, D>;
 
-  /// Force and direction are as exact as that, in units of the bound.
-  static constexpr Scalar exact = Scalar(1e-6);
+  /// Force and direction are as exact as that, in units of the bound.  In space they come nearer from one side.
+  static constexpr Scalar exact =
+      (std::max)(D == 2 ? Scalar(1e-6) : Scalar(1e-7), 8 * std::numeric_limits<Scalar>::epsilon());
   /// Where that was not reached within most_tries equilibria, an error that large is no answer any more.
   static constexpr Scalar loose = Scalar(0.1);
   /// Linear solves in which an equilibrium that is near is found.  In space the bound follows within them.
   static constexpr int most_solves = D == 2 ? 6 : 16;
 
   /// @param first  where the two would touch before the beam yields: where a touch begins
+  /// @param stretch  |dr/ds| of the beam there: within a tick it hardly changes
   /// @param reach  [m] from the avatar's axis to the centreline   @param stiffest  [N/m] that the scalar allows
   /// @param hurry  [m] a long way for a tick   @param normal_force  [N] of the last tick
-  void begin(const FrictionState<Scalar, D>& state, const Place& first, Scalar reach, Scalar stiffest,
-             Scalar hurry, Scalar normal_force) noexcept {
+  void begin(const FrictionState<Scalar, D>& state, const Place& first, Scalar stretch, Scalar reach,
+             Scalar stiffest, Scalar hurry, Scalar normal_force) noexcept {
     known_ = state.known;
-    before_ = state.known ? Place{state.s, state.normal, state.along, state.place, state.axis} : first;
+    before_ =
+        state.known ? Place{state.s, state.ahead, state.normal, state.along, state.place, state.axis} : first;
+    stretch_ = stretch;
     skin_ = state.skin;
     reach_ = reach;
     stiffness_ = (std::min)(state.stiffness, stiffest);
@@ -73,6 +79,7 @@ class FrictionLaw {
     if (fallen_) bound_ = used_ = 0;
     slid_ = slides_, stuck_ = !slides_;
     tries_ = 0;
+    onset_ = 0;
     pairs_ = false;
     begin_bound();
   }
@@ -142,6 +149,7 @@ class FrictionLaw {
     if (!slides_) {
       if (!pulls && size <= (1 + exact) * sticking_ * normal_force) return true;
       slides_ = slid_ = true;
+      stuck_force_ = elastic, onset_ = sticking_ * normal_force;
       torn_ = pulls || size > 2 * sticking_ * normal_force;
       // From afar the last bound says more than what sticks there.
       used_ = bound_ = torn_ && before_bound_ > 0 ? before_bound_ : most;
@@ -199,19 +207,29 @@ class FrictionLaw {
     const Vector mean = last.dot(state.force) > 0 ? Vector((last + state.force) / 2) : state.force;
     if (!fallen_)
       state.dissipated += mean.dot(sheared_ - state.skin) + damping_ * (state.skin - carried_).squaredNorm();
+    if (slides_ && !fallen_ && !state.slides) state.dissipated += drop(state.force, sheared_ - state.skin);
     if (fallen_) state.force.setZero(), state.skin.setZero();
     state.known = true;
     state.slides = slides_ && !fallen_;
     // Where the tries have ended before the changes: what acted, and what should have.
     state.settled = tries_ <= most_tries || fallen_ ||
                     (slides_ ? norm(state.force - force_at(used_)) <= loose * most : !slid);
-    state.s = now_.s, state.normal = now_.normal, state.along = now_.along;
+    state.s = now_.s, state.ahead = now_.ahead, state.normal = now_.normal, state.along = now_.along;
     state.place = now_.place, state.axis = now_.axis;
     state.gain = gain_;
   }
 
  private:
   static constexpr int most_tries = 8;
+
+  /// A contact that begins to slide gives way where its force drops, and that takes energy.  What would have stuck and what slides are the
+  /// ends of the way on which it gives way; it begins where the force is what holds.  @param slid  way [m]   @return [J]
+  Scalar drop(const Vector& force, const Vector& slid) const noexcept {
+    const Scalar stuck = norm(stuck_force_), size = norm(force);
+    if (!(onset_ > size && stuck > size)) return 0;
+    const Scalar fraction = (onset_ - size) / (stuck - size);
+    return (std::max)(Scalar(0), fraction * fraction / 2 * (stuck_force_ - force).dot(slid));
+  }
 
   void shear() noexcept {
     carried_ = carry_from_before(skin_);
@@ -258,7 +276,7 @@ class FrictionLaw {
   }
   Vector slip() const noexcept {
     const Vector &m = before_.normal, &n = now_.normal;
-    const Scalar moved = now_.s - before_.s, cosine = m.dot(n);
+    const Scalar moved = stretch_ * (now_.s - before_.s) + now_.ahead - before_.ahead, cosine = m.dot(n);
     if (!(cosine > 0)) return Vector::Zero();  // touched from elsewhere
     if constexpr (D == 2) {
       const Scalar turned = std::atan2(m.x() * n.y() - m.y() * n.x(), cosine);
@@ -278,8 +296,10 @@ class FrictionLaw {
   Place before_, now_;
   Vector skin_ = Vector::Zero(), carried_ = Vector::Zero(), sheared_ = Vector::Zero();
   Vector force_ = Vector::Zero(), direction_ = Vector::Zero(), far_shear_ = Vector::Zero();
-  Scalar reach_ = 0, stiffness_ = 0, damping_ = 0, sticking_ = 0, sliding_ = 0, gain_ = 0;
+  Scalar stretch_ = 1, reach_ = 0, stiffness_ = 0, damping_ = 0, sticking_ = 0, sliding_ = 0, gain_ = 0;
   Scalar bound_ = 0, used_ = 0, before_bound_ = 0, length_ = 1;
+  Vector stuck_force_ = Vector::Zero();  // [N] where it was found to stick no longer
+  Scalar onset_ = 0;                     // [N] where it does
   Scalar pair_bound_ = 0, pair_force_ = 0;
   Scalar off_ = 0, ratio_ = 0;  // of the bound, in feel()
   bool pairs_ = false;

@@ -44,12 +44,12 @@ struct RodRoundContact {
   Vector point(const View& view, const Node& node) const noexcept { return node.r + view.f; }
   /// For friction, beside a node.
   FrictionPlace<Scalar, 3> place(const View& view, const Node& node) const noexcept {
-    return place(node.s + ahead(view), view.normal, unit(view.t), node.r + view.f + view.w);
+    return place(node.s, view.lever, view.normal, unit(view.t), node.r + view.f + view.w);
   }
   FrictionPlace<Scalar, 3> place(const Vector& n, const Node& node) const noexcept {
     const Vector on_axis = capsule.axis.at(capsule.axis.nearest(node.r));
-    return place(node.s + node.tangent.dot(on_axis - node.r) / node.tangent.squaredNorm(), n,
-                 unit(node.tangent), on_axis);
+    const Vector along = unit(node.tangent);
+    return place(node.s, along.dot(on_axis - node.r), n, along, on_axis);
   }
   Scalar miss(const Vector& n, const Node& node) const noexcept {
     using std::sqrt;
@@ -67,12 +67,12 @@ struct RodRoundContact {
   }
 
  private:
-  FrictionPlace<Scalar, 3> place(Scalar s, const Vector& n, const Vector& along,
+  FrictionPlace<Scalar, 3> place(Scalar s, Scalar ahead, const Vector& n, const Vector& along,
                                  const Vector& on_axis) const noexcept {
     const Scalar squared = capsule.axis.way.squaredNorm();
-    if (!(squared > 0)) return {s, n, along, 0, Vector::Zero()};
+    if (!(squared > 0)) return {s, ahead, n, along, 0, Vector::Zero()};
     const Vector axis = capsule.axis.way / std::sqrt(squared);
-    return {s, n, along, axis.dot(on_axis - capsule.axis.tip), axis};
+    return {s, ahead, n, along, axis.dot(on_axis - capsule.axis.tip), axis};
   }
 };
 

@@ -51,7 +51,7 @@ struct RoundContact {
   FrictionPlace<Scalar, 2> place(const Vector& n, const Node& node) const noexcept {
     const Vector along(circle.side * n.y(), -circle.side * n.x());
     const Scalar x = (circle.centre.x() - node.s) - node.u, y = circle.centre.y() - node.w;
-    return {node.s + along.x() * x + along.y() * y, n, along};
+    return {node.s, along.x() * x + along.y() * y, n, along, 0, Vector::Zero()};
   }
   FrictionPlace<Scalar, 2> place(const View& view, const Node& node) const noexcept {
     return place(view.normal, node);
