@@ -236,6 +236,25 @@ TEST_CASE("two hands and a peg gain no work on a closed path, and none pulls", "
   }
 }
 
+// Where they meet, each is a thousandth of the length beside the other, and the beam would have to be bent by both.
+TEST_CASE("two hands on one side pass each other, and one of them always holds the beam", "[several]") {
+  const double surface = 0.0055;
+  for (const int elements : {6, 16})
+    for (const double depth : {0.01, 0.015, 0.02})
+      for (const double deeper : {-1e-4, -2e-5, 0.0, 2e-5, 1e-4})
+        for (const double step : {6e-5, 2.4e-4}) {
+          CAPTURE(elements, depth, deeper, step);
+          Model<2> model(steel_ruler(), elements);
+          TouchSeveral touch(model, {0.005, 0.005});
+          Hands<TouchSeveral<Model<2>>> hands{touch, {{0.15, surface}, {0.21, surface}}};
+          hands.go({0.15, surface - depth}, {0.21, surface - depth - deeper}, 300);
+          hands.go({0.21, surface - depth}, {0.15, surface - depth - deeper}, static_cast<int>(0.06 / step));
+          CHECK(hands.failures == 0);
+          CHECK(hands.pulls == 0);
+          CHECK(hands.force[0].norm() + hands.force[1].norm() > 1);
+        }
+}
+
 // The wall is rigid, and so is the hand: below it there is no equilibrium.
 TEST_CASE("a hand that jams a ruler onto a wall feels the last answer, and a new touch after it has gone",
           "[several]") {

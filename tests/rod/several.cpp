@@ -64,6 +64,32 @@ TEST_CASE("two contacts on a rod take the forces of the reference", "[several]")
   }
 }
 
+TEST_CASE("shafts and spheres on one side of a rod pass each other, and one of them always holds it",
+          "[several]") {
+  const Rod needle(0.2, RodSection::circle(0.002), spring_steel, RodSupport::clamped, RodSupport::free);
+  for (const bool sphere : {false, true})
+    for (const double depth : {0.003, 0.008})
+      for (const double deeper : {-1e-4, -2e-5, 0.0, 2e-5, 1e-4}) {
+        CAPTURE(sphere, depth, deeper);
+        const double radius = sphere ? 0.01 : 0.005, surface = radius + 0.001, z = sphere ? 0 : -0.02;
+        const Vector3<double> shafts[2] = {{0, 0, sphere ? 0 : 0.04}, {0, 0, sphere ? 0 : 0.04}};
+        FemModel<Several<RoundRod, 2>> model(needle, 8);
+        TouchSeveral touch(model, {radius, radius});
+        int failures = 0;
+        double force = 0;
+        const auto go = [&](double left, double right, double down) {
+          const Vector3<double> at[2] = {{left, surface - down, z}, {right, surface - down - deeper, z}};
+          const auto felt = touch.tick(at, shafts, 2);
+          failures += !is_answer(felt.status);
+          force = felt.force(0).norm() + felt.force(1).norm();
+        };
+        for (int k = 0; k <= 200; ++k) go(0.09, 0.15, depth * k / 200);
+        for (int k = 0; k <= 250; ++k) go(0.09 + 2.4e-4 * k, 0.15 - 2.4e-4 * k, depth);
+        CHECK(failures == 0);
+        CHECK(force > 0.1);
+      }
+}
+
 TEST_CASE("two shafts and a bar across a rod are two circles and a peg on a beam", "[several]") {
   const double d = 0.006, radius = 0.01, reach = radius + d / 2;
   const Beam bar(1, Section::circle(d), Material{200e9}, Support::clamped, Support::clamped);

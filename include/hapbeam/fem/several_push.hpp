@@ -5,8 +5,9 @@
 //   force >= 0,  gap >= 0,  force · gap = 0        for each obstacle
 //
 // solved by an active set.  It begins with those that touched in the push before.  Of those that would have to pull the worst lets go; where none
-// would, the one that the beam lies deepest in is added; and each node follows its contact.  An obstacle that has let go in this push is
-// taken back only where it is deeper than the mesh can be wrong.  The last tick's set mostly is this one's: then there is one solution.
+// would, the one that the beam lies deepest in is added; and each node follows its contact.  Two that are beside each other bend the beam with
+// forces a thousand times their difference, so a new one takes the place of the one beside it, which comes back if the beam lies in it then.  An
+// obstacle that has let go in this push is taken back only where it is deeper than the mesh can be wrong.  The last tick's set mostly is this one's: then there is one solution.
 // Allocates at construction.  Real-time: all else is noexcept and allocation-free, at most most_passes solutions, and the linear solves of
 // AllDisplacements in all.   Source: active sets, Nocedal and Wright, Numerical Optimization, 16.5.
 #pragma once
@@ -70,6 +71,8 @@ class SeveralPush {
       for (int i = 0; i < count; ++i)
         if (all[i].touching && all[i].kind == ObstacleKind::round)
           slot(i).s = std::clamp(foresight_.place(i), Scalar(0), range.length());
+    for (int i = 0; i < count; ++i)
+      if (all[i].touching && !(all[i].pushed.force < 0) && beside_a_touch(i)) all[i].touching = false;
     Status status = Status::ok;
     bool snapped = false;
     int meshes = 1;
@@ -274,9 +277,7 @@ class SeveralPush {
         worst = i, most_pull = all_[i].pushed.force;
     }
     if (worst >= 0) {
-      all_[worst].touching = false;
-      all_[worst].pushed.force = 0;
-      slot(worst).let_go = slot(worst).close = true;
+      let_go(worst);
       return true;
     }
     if (slip_off(system, range)) return true;
@@ -298,8 +299,28 @@ class SeveralPush {
     if (deepest >= 0) {
       all_[deepest].touching = true;
       all_[deepest].pushed.force = 0;
+      for (int i = 0; i < count_ && !slot(deepest).let_go; ++i)
+        if (all_[i].touching && beside(i, deepest)) let_go(i);
     }
     return moved || deepest >= 0;
+  }
+
+  void let_go(int i) noexcept {
+    all_[i].touching = false;
+    all_[i].pushed.force = 0;
+    slot(i).let_go = slot(i).close = true;
+  }
+  /// Whether two bodies lie on the beam side by side.
+  bool beside(int i, int k) noexcept {
+    const auto &a = all_[i], &b = all_[k];
+    return a.body != b.body && a.kind == ObstacleKind::round && b.kind == ObstacleKind::round &&
+           std::abs(slot(i).s - slot(k).s) < (std::max)(a.round.reach, b.round.reach);
+  }
+  /// Whether the beam is pressed by another body beside this one.
+  bool beside_a_touch(int i) noexcept {
+    for (int k = 0; k < count_; ++k)
+      if (all_[k].touching && all_[k].pushed.force < 0 && beside(i, k)) return true;
+    return false;
   }
 
   /// An end that holds w may slide away under an obstacle.   @return whether one has
