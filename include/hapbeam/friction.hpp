@@ -65,6 +65,7 @@ struct FrictionState {
   Vector skin = Vector::Zero();    ///< [m] how far the skin is sheared
   Scalar slip = 0;                 ///< [m] how far it would be sheared if nothing slid
   Vector force = Vector::Zero();   ///< [N] of friction on the beam
+  Scalar rise = 0;                 ///< [N] of its bound in that tick, while it slid
   Scalar gain = 0;                 ///< change of the normal force by a tangential one, as it was
   Scalar dissipated = 0;           ///< [J] since the touch began
 

@@ -73,6 +73,8 @@ class FrictionLaw {
     const Scalar carried = norm(sheared_ - carried_);
     const bool hurries = carried > hurry;
     slides_ = !known_ || ((state.slides || hurries) && bound_ > 0);
+    // It goes on as it went, unless that was a leap.
+    if (slides_ && state.slides && std::abs(state.rise) < bound_ / 4) bound_ += state.rise;
     if (slides_) aim(sheared_, (std::max)(norm(sheared_), state.slip));
     // In its first tick a contact slides without friction to where the touch begins.
     fallen_ = !known_;
@@ -209,8 +211,10 @@ class FrictionLaw {
       state.dissipated += mean.dot(sheared_ - state.skin) + damping_ * (state.skin - carried_).squaredNorm();
     if (slides_ && !fallen_ && !state.slides) state.dissipated += drop(state.force, sheared_ - state.skin);
     if (fallen_) state.force.setZero(), state.skin.setZero();
+    const bool goes_on = state.slides;
     state.known = true;
     state.slides = slides_ && !fallen_;
+    state.rise = goes_on && state.slides ? most - before_bound_ : Scalar(0);
     // Where the tries have ended before the changes: what acted, and what should have.
     state.settled = tries_ <= most_tries || fallen_ ||
                     (slides_ ? norm(state.force - force_at(used_)) <= loose * most : !slid);
