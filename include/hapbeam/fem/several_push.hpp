@@ -21,6 +21,7 @@
 #include <utility>
 
 #include <hapbeam/fem/contact_search.hpp>
+#include <hapbeam/fem/obstacle_gap.hpp>
 #include <hapbeam/fem/round_push.hpp>
 #include <hapbeam/fem/several_foresight.hpp>
 #include <hapbeam/force_model.hpp>
@@ -46,8 +47,6 @@ class SeveralPush {
  public:
   /// Solutions of a push: so often nodes follow their contacts, and each obstacle touches or lets go.
   static constexpr int most_passes = Single::most_meshes + 2 * most;
-  /// Steps of the search for the place at which the beam is nearest to an obstacle that does not touch it.
-  static constexpr int most_looks = 8;
 
   /// @throws std::invalid_argument where there are too few elements for so many contacts
   explicit SeveralPush(const System& system) : foresight_(system) {
@@ -376,85 +375,21 @@ class SeveralPush {
 
   /// How deep the beam lies in what does not touch it, and where.
   template <class Extent>
-  void seek(System& system, const Extent& range, int i) noexcept {
-    Slot& now = slot(i);
+  void seek(const System& system, const Extent& range, int i) noexcept {
+    using Gap = ObstacleGap<System, RoundContact>;
     const RoundContact round{all_[i].round};
-    const auto line = system.centreline();
-    const Scalar length = system.length(), reach = round.request().reach;
-    now.close = false;
-    now.depth = -std::numeric_limits<Scalar>::infinity();
-    Place place = nearest_node(system, i);
-    if (const int other = twin(i); other >= 0) look_beside(system, other, place);
-    if (!place.known) return;
-    // What is far away does not touch, unless the beam has gone past it in this push.
-    const Node start = round.node_at(line, place.s);
-    const auto beside = round.look(start, end_of(place.s, length));
-    const Scalar apart = round.clearance(start) - reach;
-    if (apart > place.right - place.left + length / 100 && (beside.past_end || round.distance(beside) > 0))
-      return;
-    for (int step = 0; step < most_looks; ++step) {
-      const auto view = round.look(round.node_at(line, place.s), end_of(place.s, length));
-      now.depth = reach - round.distance(view);
-      const Scalar next = std::clamp(place.s + round.ahead(view), place.left, place.right);
-      const bool arrived = std::abs(next - place.s) <= Scalar(1e-6) * length;
-      if (arrived) break;
-      place.s = next;
-    }
-    now.s = place.s;
+    const int other = twin(i);
+    const Scalar length = system.length();
+    const Gap gap = other < 0
+                        ? Gap(system, round)
+                        : Gap(system, round, slot(other).node, slot(other).s, 2 * Mesh::shortest(length));
+    Slot& now = slot(i);
+    now.depth = gap.depth;
+    if (std::isfinite(gap.depth)) now.s = gap.s;
     const auto answered = range.range();
     if (now.s < answered.s_min || now.s > answered.s_max)
       now.depth = -std::numeric_limits<Scalar>::infinity();
     now.close = now.depth > -length / 200;
-  }
-
-  /// Where an obstacle may touch: about at s, and between left and right [m].
-  struct Place {
-    bool known = false;
-    Scalar s = 0, left = 0, right = 0, clearance = 0;
-    void take(Scalar at, Scalar from, Scalar to, Scalar distance) noexcept {
-      if (known && !(distance < clearance)) return;
-      known = true;
-      s = at, left = from, right = to, clearance = distance;
-    }
-  };
-  /// Of a twin of one that touches: on the far side of a place that is farther than where the other one touches.
-  Place nearest_node(const System& system, int i) noexcept {
-    const RoundContact round{all_[i].round};
-    const int other = twin(i), n = system.elements();
-    Place best;
-    const auto take = [&](int k, Scalar clearance) {
-      best.take(system.node(k).s, system.node((std::max)(k - 1, 0)).s, system.node((std::min)(k + 1, n)).s,
-                clearance);
-    };
-    if (other < 0) {
-      for (int k = 0; k <= n; ++k) take(k, round.clearance(system.node(k)));
-      return best;
-    }
-    for (const int step : {-1, 1}) {
-      bool falls = false;
-      Scalar before = round.clearance(system.node(slot(other).node));
-      for (int k = slot(other).node + step; k >= 0 && k <= n; k += step) {
-        const Scalar clearance = round.clearance(system.node(k));
-        falls = falls || clearance < before;
-        if (falls) take(k, clearance);
-        before = clearance;
-      }
-    }
-    return best;
-  }
-  /// And beside it, where a bend that is sharper than the body may be within an element.
-  void look_beside(const System& system, int other, Place& best) noexcept {
-    const RoundContact round{all_[other].round};
-    const Scalar s = slot(other).s, reach = round.request().reach, length = system.length(),
-                 apart = 2 * Mesh::shortest(length);
-    for (const Scalar way : {-reach / 2, -reach / 4, reach / 4, reach / 2}) {
-      const Scalar at = s + way;
-      if (!(std::abs(way) > apart) || at < 0 || at > length) continue;
-      const Scalar clearance = round.clearance(round.node_at(system.centreline(), at));
-      if (clearance < reach)
-        best.take(at, way < 0 ? (std::max)(s + 2 * way, Scalar(0)) : s + apart,
-                  way < 0 ? s - apart : (std::min)(s + 2 * way, length), clearance);
-    }
   }
   /// Another obstacle of the same body that touches, -1: none.
   int twin(int i) const noexcept {
@@ -472,7 +407,6 @@ class SeveralPush {
   int end_at(const System& system, int node) const noexcept {
     return node == 0 ? -1 : node == system.elements() ? 1 : 0;
   }
-  static int end_of(Scalar s, Scalar length) noexcept { return s <= 0 ? -1 : s >= length ? 1 : 0; }
   static std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
 
   void end(const System& system, int i, Status status) noexcept {
