@@ -34,6 +34,9 @@ TEST_CASE("a rod keeps the contract of a ForceModel", "[contract][rod]") {
   SECTION("without twist, between hinges") { check(FemModel<RoundRod>(straight(h, h), 8)); }
   SECTION("with twist, between clamps") { check(FemModel<TwistedRod>(straight(c, c), 8)); }
   SECTION("with twist, as a cantilever") { check(FemModel<TwistedRod>(straight(c, f), 8)); }
+  SECTION("with twist, flat and pushed askew") {
+    check(FemModel<TwistedRod>(Rod(0.5, RodSection::rectangle(0.01, 0.005), spring_steel, c, c), 8));
+  }
 }
 
 TEST_CASE("a planar model that turns keeps the contract of a ForceModel", "[contract][rod]") {

@@ -16,6 +16,15 @@ using Point = VectorOf<double, 3>;
 inline constexpr double pi = 3.141592653589793238462643;
 inline constexpr RodMaterial spring_steel{200e9, 77e9};
 
+/// A pose turned about a unit axis [rad].
+inline RodPose turned(RodPose pose, const Point& axis, double angle) {
+  const auto turn = [&](const Point& x) -> Point {
+    const Point along = axis.dot(x) * axis;
+    return along + std::cos(angle) * (x - along) + std::sin(angle) * detail::cross3(axis, x);
+  };
+  return {pose.at, turn(pose.along), turn(pose.director)};
+}
+
 /// A rod that is pressed along a direction at one place, and how many elements a turn of it has.
 struct PressedRod {
   Rod rod;

@@ -69,11 +69,11 @@ TEST_CASE("a bar between hinges that hangs one way and is pushed another", "[rod
 TEST_CASE("a flat strip pushed askew bends and twists", "[rod]") {
   check<TwistedRod>("strip_askew", 8, 1.5e-3, 1e-4, 1e-5, 8);
 }
-// The reference's places are known to 2e-7 m, and the least depths are 0.5 and 1 mm.
+// The reference's places are known to 2e-7 m, and the least depths are 0.5 and 1 mm: both meshes are as far from them.
 TEST_CASE("a hook pushed out of its plane twists", "[rod]") {
-  check<TwistedRod>("hook", 8, 2e-4, 1e-5, 5e-4, 8);
+  check<TwistedRod>("hook", 8, 2e-4, 1e-5, 2e-4, 8);
 }
-TEST_CASE("a spring compressed", "[rod]") { check<TwistedRod>("spring", 8, 2.5e-3, 2e-4, 1e-3, 8); }
+TEST_CASE("a spring compressed", "[rod]") { check<TwistedRod>("spring", 8, 2.5e-3, 2e-4, 4e-4, 8); }
 
 // Bathe and Bolourchi, Large displacement analysis of three-dimensional beam structures, Int. J. Numer. Meth. Eng. 14 (1979): an
 // arc of 45° under a force across its plane.  Tips by collocation of the same rod.
