@@ -6,7 +6,7 @@
 #
 #   --quick             fewer sizes, stops and rounds, no choosers: under 3 minutes; the numbers are rougher and fewer
 #   --only PROGRAM      measures with that one alone; `none` measures nothing and draws what docs/data has
-#   --stability         also maps where the servo loop is stable: simulated time, the same numbers on every machine, 20 min
+#   --stability         also maps where the servo loop is stable, and what hands do that nobody would: the same numbers on every machine, 30 min
 #   --programs FOLDER   where the benchmarks are, built already; default: builds them
 #   --help              this text
 #
@@ -27,7 +27,7 @@ while [[ $# -gt 0 ]]; do
     --help) usage; exit 0 ;;
     --quick) export HAPBEAM_QUICK=1; what=("${quick[@]}"); shift ;;
     --only) what=("${2-}"); shift 2 2>/dev/null || shift ;;
-    --stability) stability='stability_map turning_map'; shift ;;
+    --stability) stability='stability_map turning_map hostile_hands'; shift ;;
     --programs) programs=${2-}; shift 2 2>/dev/null || shift ;;
     *) wrong "'$1': see --help" ;;
   esac
@@ -75,6 +75,7 @@ for program in "${what[@]}"; do step "$program" measure "$program" || exit 1; do
 if [[ -n $stability ]]; then
   for map in border direct sweep; do step "stability_map $map" csv_stability "$map" || exit 1; done
   step turning_map csv_turning || exit 1
+  step hostile_hands csv_hostile || exit 1
 fi
 step 'docs/charts' draw || exit 1
 step 'README.md, docs' bash "$top/benchmarks/report/fill.sh"

@@ -132,3 +132,6 @@ csv_turning() {
       }
     }' "$scratch/turning.csv" >"$kept/turning_sweep.csv"
 }
+
+# The hands of hostile_hands, 10⁷ ticks each.
+csv_hostile() { "$programs/hostile_hands" 10000000 >"$kept/hostile_hands.csv"; }

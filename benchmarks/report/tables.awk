@@ -250,6 +250,15 @@ function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst
   line("longest choice", sprintf("%.0f ms", slowest))
 }
 
+# Of hostile_hands.csv.
+function hostile(  k) {
+  line("beam or rod", "touched by", "ticks without an answer", "most in a row", "forces that are wrong", "felt as new on return")
+  rule(6)
+  for (k = 1; k <= rows; ++k)
+    line(cell[k, "what"], cell[k, "touched_by"], percent(cell[k, "unanswered"] / cell[k, "ticks"]), cell[k, "most_in_a_row"], \
+      cell[k, "not_finite"] + cell[k, "pulls"] + cell[k, "beyond_the_cone"], cell[k, "as_new"] " of " cell[k, "returns"])
+}
+
 # Of chooser_rods.csv.
 function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, error, worst, missed, unanswered, more, most, slowest, mean, text, own, best) {
   n = split("straight loaded bent curled", kind, " ")
@@ -349,6 +358,7 @@ END {
   else if (table == "limits") limits()
   else if (table == "stability") stability()
   else if (table == "turning") turning()
+  else if (table == "hostile") hostile()
   else if (table == "chosen") chosen()
   else if (table == "chosen_rods") chosen_rods()
   else if (table == "flags") flags()
