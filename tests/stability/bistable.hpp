@@ -1,6 +1,8 @@
 // Beams with two shapes at rest, and what an equilibrium path says of them.
 #pragma once
 
+#include <algorithm>
+
 #include "support/arch.hpp"
 #include "support/path.hpp"
 
@@ -24,8 +26,9 @@ double first_critical_load(Beam beam, const Model& resting, int side) {
   const double s = beam.length() / 2;
   beam.add({s, 0, -1.0 * side, 0});
   System<Element> system(beam, n);
-  std::vector<CentrelineNode<double>> nodes(resting.shape().begin(), resting.shape().end());
-  system.set_state(ContactMesh<double>(n, beam.length()), nodes.data());
+  typename System<Element>::State nodes(n);
+  std::copy(resting.shape().begin(), resting.shape().end(), nodes.begin());
+  system.set_state(ContactMesh<double>(n, beam.length()), nodes);
   ArcLength arc;
   arc.first_step = arc.largest_step = 2e-5;
   double before = 0, critical = 0;

@@ -28,9 +28,9 @@ using System = BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic, Block
 template <class Element>
 void lay_straight(System<Element>& system, double length) {
   const ContactMesh<double> mesh(system.elements(), length);
-  std::vector<CentrelineNode<double>> straight;
-  for (int i = 0; i <= system.elements(); ++i) straight.push_back({mesh.position(i), 0, 0, 0});
-  system.set_state(mesh, straight.data());
+  typename System<Element>::State straight(system.elements());
+  for (int i = 0; i <= system.elements(); ++i) straight[i] = {mesh.position(i), 0, 0, 0};
+  system.set_state(mesh, straight);
 }
 
 /// Follows a beam's path from λ = 0.  @param way  system -> displacement   @param go_on  Equilibrium -> bool

@@ -19,10 +19,9 @@ template <class Element>
 int negative_pivots(Beam beam, int elements, double shortening) {
   System<Element> system(beam.place({}, {-shortening, 0, 0}), elements);
   const ContactMesh<double> mesh(elements, L);
-  std::vector<CentrelineNode<double>> nodes;
-  for (int i = 0; i <= elements; ++i)
-    nodes.push_back({mesh.position(i), -shortening * mesh.position(i), 0, 0});
-  system.set_state(mesh, nodes.data());
+  typename System<Element>::State nodes(elements);
+  for (int i = 0; i <= elements; ++i) nodes[i] = {mesh.position(i), -shortening * mesh.position(i), 0, 0};
+  system.set_state(mesh, nodes);
   system.set_goal();
   system.set_target(1);
   return system.factor(0) == Status::ok ? system.negative_pivots() : 1;  // singular: at the very load
@@ -44,9 +43,9 @@ template <class Element>
 int negative_pivots_of_weight(Beam beam, int elements, double s, double load) {
   System<Element> system(beam.axial(-load / L), elements);
   const ContactMesh<double> mesh = ContactMesh<double>(elements, L).at(s);
-  std::vector<CentrelineNode<double>> nodes;
-  for (int i = 0; i <= elements; ++i) nodes.push_back({mesh.position(i), 0, 0, 0});
-  system.set_state(mesh, nodes.data());
+  typename System<Element>::State nodes(elements);
+  for (int i = 0; i <= elements; ++i) nodes[i] = {mesh.position(i), 0, 0, 0};
+  system.set_state(mesh, nodes);
   system.set_load(1);
   for (int k = 0; k < 4; ++k) {
     if (system.factor(0) != Status::ok) return 1;

@@ -11,9 +11,8 @@
 #include <array>
 #include <cmath>
 
-#include <hapbeam/angle.hpp>
 #include <hapbeam/beam.hpp>
-#include <hapbeam/fem/beam_elements.hpp>
+#include <hapbeam/fem/beam_shape.hpp>
 #include <hapbeam/fem/chain.hpp>
 #include <hapbeam/fem/contact_friction.hpp>
 #include <hapbeam/fem/contact_point.hpp>
@@ -30,124 +29,38 @@ namespace hapbeam {
 template <class Element, typename ScalarType, int Elements, int MaxElements,
           template <typename, int, int, int> class Assembler>
 class BeamSystem
-    : public detail::SystemContacts<
+    : public detail::BeamShape<Element, ScalarType, Elements, MaxElements>,
+      public detail::SystemContacts<
           BeamSystem<Element, ScalarType, Elements, MaxElements, Assembler>, ScalarType,
           detail::ContactPoint<ScalarType, any_rotation<Element>>, Vector2<ScalarType>,
           detail::CircleOnCurve<ScalarType>, detail::ContactFriction<ScalarType, 2, detail::RoundContact>,
           typename detail::HeldRowOf<Assembler<ScalarType, Elements, MaxElements, 3>>::Type,
           contacts_of<Element> - 1> {
   using Contacts = typename BeamSystem::SystemContacts;
+  using Shape = detail::BeamShape<Element, ScalarType, Elements, MaxElements>;
 
  public:
   using Scalar = ScalarType;
-  using Node = CentrelineNode<Scalar>;
-  using Nodes = detail::PerNode<Node, Elements, MaxElements>;
-  using State = Nodes;
-  using Mesh = ContactMesh<Scalar, contacts_of<Element>>;
+  using typename Shape::Node;
   using Friction = detail::ContactFriction<Scalar, 2, detail::RoundContact>;
+  using Shape::elements;
+  using Shape::node;
 
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or elements does not fit the type
   BeamSystem(const Beam& beam, int elements)
-      : beam_(beam, elements),
-        saved_(elements),
+      : Shape(beam, elements),
         assembler_(elements),
         ends_{detail::EndSupport<Scalar>(beam.left(), beam.left_place()),
               detail::EndSupport<Scalar>(beam.right(), beam.right_place())},
-        length_(static_cast<Scalar>(beam.length())),
         unit_(static_cast<Scalar>(std::sqrt(beam.bending_stiffness() / beam.length()))) {
     const NaturalShape<Scalar>& natural = beam_.natural_shape();
     detail::lay(natural, ends_[0], ends_[1], beam_.mesh(), beam_.nodes());
     if (natural.straight()) detail::bow(ends_[0], ends_[1], beam_.nodes());
   }
 
-  int elements() const noexcept { return beam_.size(); }
-  Scalar length() const noexcept { return length_; }
-  Centreline<Scalar> centreline() const noexcept { return view(beam_.nodes()); }
-  /// Other nodes of this beam, seen with its kinematics.
-  Centreline<Scalar> view(const Nodes& nodes) const noexcept { return beam_.view(nodes); }
-  const Node& node(int i) const noexcept { return beam_.nodes()[i]; }
-
-  /// Moves to another mesh of as many elements and carries the displacements over.
-  void remesh(const Mesh& mesh) noexcept {
-    if (!(mesh == beam_.mesh())) beam_.remesh(mesh, saved_);
-  }
-  const Mesh& mesh() const noexcept { return beam_.mesh(); }
-  /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
-  /// @param before  becomes what the state is now
-  void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {
-    const int n = elements();
-    for (int i = 0; i <= n; ++i) {
-      const Node &x = node(i), &b = before[i];
-      Node& ahead = saved_[i];
-      ahead = {mesh.position(i), x.u + ratio * (x.u - b.u), x.w + ratio * (x.w - b.w),
-               x.theta + ratio * (x.theta - b.theta)};
-      const Scalar along = ahead.s - x.s - ratio * (x.s - b.s);
-      if (i == 0 || i == n || along == 0) continue;
-      const Vector2<Scalar> tangent = detail::direction(-ahead.theta);
-      ahead.u += along * (tangent.x() - 1);
-      ahead.w += along * tangent.y();
-      ahead.theta += along * (node(i + 1).theta - node(i - 1).theta) / (node(i + 1).s - node(i - 1).s);
-    }
-    keep(before);
-    beam_.set(mesh, saved_.data());
-  }
-  /// What goes on as from one state to another.  @param from  becomes the state now, less the way from there to `to`
-  void carry(State& from, const State& to) const noexcept {
-    for (int i = 0; i <= elements(); ++i) {
-      const Node &x = node(i), &b = to[i];
-      Node& a = from[i];
-      a = {x.s - (b.s - a.s), x.u - (b.u - a.u), x.w - (b.w - a.w), x.theta - (b.theta - a.theta)};
-    }
-  }
-  /// Back to an equilibrium that was left.  @param force  of its contact [N]
-  void go_back(const Mesh& mesh, const State& state, Scalar force) noexcept {
-    beam_.set(mesh, state.data());
-    force_ = linear_reaction_ = force;
-  }
-  /// Sets the whole state.  @param nodes those of the given mesh
-  void set_state(const Mesh& mesh, const Node* nodes) noexcept {
-    beam_.set(mesh, nodes);
-    force_ = linear_reaction_ = 0;
-  }
-
   using Contacts::set_goal;
   /// Across the beam.
   void set_goal(int contact, Scalar d, Scalar lever = 0) noexcept { set_goal(contact, d, lever, {0, 1}); }
-
-  // What AllDisplacements asks beyond a system.
-
-  /// The state as it is.  @param state  out
-  void keep(State& state) const noexcept {
-    for (int i = 0; i <= elements(); ++i) state[i] = node(i);
-  }
-  void set_state(const Mesh& mesh, const State& state) noexcept { set_state(mesh, state.data()); }
-  /// That of the same system in another scalar.
-  template <class Other>
-  void take_state(const Other& other) noexcept {
-    const Mesh uniform(elements(), length_);
-    for (int i = 0; i <= elements(); ++i)
-      saved_[i] = {uniform.position(i), static_cast<Scalar>(other.node(i).u),
-                   static_cast<Scalar>(other.node(i).w), static_cast<Scalar>(other.node(i).theta)};
-    set_state(uniform, saved_);
-  }
-  /// n · (u, w) of a state at s [m].
-  Scalar displacement(const State& state, Scalar s, const Vector2<Scalar>& normal) const noexcept {
-    const Displacement<Scalar> at = view(state).at(s);
-    return normal.x() * at.u + normal.y() * at.w;
-  }
-  Scalar displacement(Scalar s, const Vector2<Scalar>& normal) const noexcept {
-    return displacement(beam_.nodes(), s, normal);
-  }
-  /// Where the middle of the beam is, across [m].
-  VectorOf<Scalar, 1> middle() const noexcept {
-    return VectorOf<Scalar, 1>::Constant(centreline().at(length_ / 2).w);
-  }
-  /// Whether an element has turned so far in itself that it no longer stands for a beam.
-  bool folded() const noexcept {
-    for (int i = 0; i < elements(); ++i)
-      if (std::abs(node(i + 1).theta - node(i).theta) > 2) return true;
-    return false;
-  }
 
   // Required by NewtonRaphson.
 
@@ -156,11 +69,11 @@ class BeamSystem
     for (auto& end : ends_) end.set_target(t);
   }
   void save() noexcept {
-    for (int i = 0; i <= elements(); ++i) saved_[i] = node(i);
+    this->keep(saved_);
     Contacts::save_contacts();
   }
   void restore() noexcept {
-    for (int i = 0; i <= elements(); ++i) beam_.nodes()[i] = saved_[i];
+    Shape::take_back();
     Contacts::restore_contacts();
   }
   Scalar size() const noexcept { return size_; }
@@ -285,7 +198,7 @@ class BeamSystem
   }
 
  private:
-  friend Contacts;
+  friend Contacts;  // sets its shape
   using Contacts::contact_;
   using Contacts::d_;
   using Contacts::force_;
@@ -295,6 +208,9 @@ class BeamSystem
   using Contacts::others_;
   using Contacts::start_load_;
 
+  using Shape::beam_;
+  using Shape::length_;
+  using Shape::saved_;
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
 
   void begin_path() noexcept {
@@ -309,7 +225,7 @@ class BeamSystem
     const int c = contact_.node();
     Contacts::look_at_contacts();
     // What most elements need takes no address of their tangent: it stays in registers.
-    typename BeamElements<Element, Scalar, Elements, MaxElements>::Group group;
+    typename Shape::Parts::Group group;
     const auto add = [&](int e, auto&& change) {
       Matrix6<Scalar> K;
       Vector6<Scalar> r;
@@ -385,11 +301,8 @@ class BeamSystem
     }
   }
 
-  BeamElements<Element, Scalar, Elements, MaxElements> beam_;
-  Nodes saved_;
   Assembler<Scalar, Elements, MaxElements, 3> assembler_;
   std::array<detail::EndSupport<Scalar>, 2> ends_;
-  Scalar length_;
   Scalar size_ = 0, potential_ = 0, unit_;
 };
 

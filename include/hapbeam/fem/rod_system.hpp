@@ -11,16 +11,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_friction.hpp>
 #include <hapbeam/fem/rod_contact.hpp>
-#include <hapbeam/fem/rod_elements.hpp>
 #include <hapbeam/fem/rod_end.hpp>
 #include <hapbeam/fem/rod_motion.hpp>
 #include <hapbeam/fem/rod_range.hpp>
 #include <hapbeam/fem/rod_round_contact.hpp>
+#include <hapbeam/fem/rod_shape.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/system_contacts.hpp>
@@ -30,132 +29,44 @@ namespace hapbeam {
 template <class Element, typename ScalarType, int Elements, int MaxElements,
           template <typename, int, int, int> class Assembler>
 class RodSystem
-    : public detail::SystemContacts<
+    : public detail::RodShape<Element, ScalarType, Elements, MaxElements>,
+      public detail::SystemContacts<
           RodSystem<Element, ScalarType, Elements, MaxElements, Assembler>, ScalarType,
           detail::RodContact<ScalarType>, VectorOf<ScalarType, 3>, detail::CapsuleOnCurve<ScalarType>,
           detail::ContactFriction<ScalarType, 3, detail::RodRoundContact>,
           typename detail::HeldRowOf<Assembler<ScalarType, Elements, MaxElements, Element::unknowns>>::Type,
           contacts_of<Element> - 1> {
   using Contacts = typename RodSystem::SystemContacts;
-  using Parts = RodElements<Element, ScalarType, Elements, MaxElements>;
+  using Shape = detail::RodShape<Element, ScalarType, Elements, MaxElements>;
 
  public:
   using Scalar = ScalarType;
   using Body = Rod;
-  using Node = RodNode<Scalar>;
-  using Nodes = typename Parts::Nodes;
-  using Mesh = typename Parts::Mesh;
-  using Inners = typename Parts::Inners;
+  using typename Shape::Node;
+  using typename Shape::Vector3;
   using Friction = detail::ContactFriction<Scalar, 3, detail::RodRoundContact>;
-  using Vector3 = VectorOf<Scalar, 3>;
-  static constexpr int unknowns = Element::unknowns;
+  using Shape::elements;
+  using Shape::mesh;
+  using Shape::node;
+  using Shape::unknowns;
   using Increment = VectorOf<Scalar, unknowns>;
 
   /// @throws std::invalid_argument as RodElements
   RodSystem(const Rod& rod, int elements)
-      : rod_(rod, elements),
-        saved_(elements),
+      : Shape(rod, elements),
         increments_(elements),
         assembler_(elements),
         ends_{detail::RodEnd<Scalar>(rod.left(), node(0)),
               detail::RodEnd<Scalar>(rod.right(), node(elements))},
-        length_(static_cast<Scalar>(rod.length())),
-        axial_(static_cast<Scalar>(rod.stiffness().axial)),
         unit_(static_cast<Scalar>(
             std::sqrt((std::min)(rod.stiffness().bending1, rod.stiffness().bending2) / rod.length()))) {
     no_mechanism_ = factor(0) == Status::ok;  // in its natural shape
     if (rod.right_pose()) ends_[1].place_home(*rod.right_pose());
   }
 
-  int elements() const noexcept { return rod_.size(); }
-  Scalar length() const noexcept { return length_; }
-  Centreline<Scalar, 3> centreline() const noexcept { return view(rod_.nodes()); }
-  Centreline<Scalar, 3> view(const Nodes& nodes) const noexcept { return rod_.view(nodes); }
-  const Node& node(int i) const noexcept { return rod_.nodes()[i]; }
-  const Inners& inners() const noexcept { return rod_.inners(); }
-
-  /// Moves to another mesh of as many elements and carries the shape over.
-  void remesh(const Mesh& mesh) noexcept {
-    if (!(mesh == rod_.mesh())) rod_.remesh(mesh, saved_.nodes, saved_.inners);
-  }
-  const Mesh& mesh() const noexcept { return rod_.mesh(); }
-  /// What changes as the rod moves.
-  struct State {
-    explicit State(int elements) : nodes(elements), inners(elements) {}
-    Nodes nodes;
-    Inners inners;
-  };
-  Centreline<Scalar, 3> view(const State& state) const noexcept { return view(state.nodes); }
-  /// The state as it is.  @param state  out
-  void keep(State& state) const noexcept {
-    for (int i = 0; i <= elements(); ++i) state.nodes[i] = node(i), state.inners[i] = rod_.inners()[i];
-  }
-  void set_state(const Mesh& mesh, const State& state) noexcept {
-    rod_.set(mesh, state.nodes, state.inners);
-    force_ = linear_reaction_ = 0;
-  }
   /// Its ends belong where they do at rest.
   void go_home() noexcept {
     for (auto& end : ends_) end.go_home();
-  }
-  /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
-  /// @param before  becomes what the state is now
-  void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {
-    for (int i = 0; i <= elements(); ++i) saved_.nodes[i].s = mesh.position(i);
-    detail::go_on<unknowns == 7>(rod_.nodes(), before.nodes, ratio, saved_.nodes);
-    if constexpr (unknowns == 7)
-      for (int e = 0; e < elements(); ++e) {
-        saved_.inners[e] = inners()[e];
-        saved_.inners[e].twist += ratio * (inners()[e].twist - before.inners[e].twist);
-      }
-    keep(before);
-    rod_.set(mesh, saved_.nodes, saved_.inners);
-  }
-  /// What goes on as from one state to another.  @param from  becomes the state now, less the way from there to `to`
-  void carry(State& from, const State& to) const noexcept {
-    for (int i = 0; i <= elements(); ++i) {
-      const auto &x = node(i), &b = to.nodes[i];
-      auto& a = from.nodes[i];
-      a.s = x.s - (b.s - a.s);
-      a.r = x.r - (b.r - a.r);
-      a.tangent = x.tangent - (b.tangent - a.tangent);
-      a.director = x.director - (b.director - a.director);
-    }
-    if constexpr (unknowns == 7)
-      for (int e = 0; e < elements(); ++e)
-        from.inners[e].twist = inners()[e].twist - (to.inners[e].twist - from.inners[e].twist);
-  }
-  /// Back to an equilibrium that was left.  @param force  of its contact [N]
-  void go_back(const Mesh& mesh, const State& state, Scalar force) noexcept {
-    rod_.set(mesh, state.nodes, state.inners);
-    force_ = linear_reaction_ = force;
-  }
-  /// That of the same system in another scalar, on the uniform mesh.
-  template <class Other>
-  void take_state(const Other& other) noexcept {
-    const Mesh uniform(elements(), length_);
-    const auto vector = [](const auto& x) { return Vector3(x.template cast<Scalar>()); };
-    for (int i = 0; i <= elements(); ++i) {
-      const auto& n = other.node(i);
-      saved_.nodes[i] = {uniform.position(i), vector(n.r), vector(n.tangent), vector(n.director)};
-      if constexpr (unknowns == 7) saved_.inners[i].twist = static_cast<Scalar>(other.inners()[i].twist);
-    }
-    set_state(uniform, saved_);
-  }
-  /// n · r of a state at s [m].
-  Scalar displacement(const State& state, Scalar s, const Vector3& normal) const noexcept {
-    return normal.dot(view(state).at(s).r);
-  }
-  Scalar displacement(Scalar s, const Vector3& normal) const noexcept {
-    return normal.dot(centreline().at(s).r);
-  }
-  /// Where the middle of the rod is [m].
-  Vector3 middle() const noexcept { return centreline().at(length_ / 2).r; }
-  /// Whether an element has turned so far in itself that it no longer stands for a rod.
-  bool folded() const noexcept {
-    for (int i = 0; i < elements(); ++i)
-      if (detail::unit(node(i).tangent).dot(detail::unit(node(i + 1).tangent)) < Scalar(-0.4)) return true;
-    return false;
   }
   /// Places an end anew: where the next path leads.  @param k  0: left, 1: right
   /// @return false where it is neither clamped nor on springs, or the pose is none: nothing has changed
@@ -172,24 +83,15 @@ class RodSystem
     for (auto& end : ends_) end.set_target(t);
   }
   void save() noexcept {
-    keep(saved_);
+    this->keep(saved_);
     Contacts::save_contacts();
   }
   void restore() noexcept {
-    for (int i = 0; i <= elements(); ++i)
-      rod_.nodes()[i] = saved_.nodes[i], rod_.inners()[i] = saved_.inners[i];
+    Shape::take_back();
     Contacts::restore_contacts();
   }
   Scalar size() const noexcept { return size_; }
   Scalar unit() const noexcept { return unit_; }
-  /// |Δ| of an increment that is the round-off of places, which stretches the shortest element [√J].
-  Scalar round_off() const noexcept {
-    const int n = elements();
-    const Scalar shortest = (std::min)(mesh().position(1), length_ - mesh().position(n - 1)),
-                 farthest = std::sqrt(node(0).r.squaredNorm()) + length_;
-    return std::numeric_limits<Scalar>::epsilon() * farthest *
-           std::sqrt(axial_ * static_cast<Scalar>(n) / shortest);
-  }
 
   /// The tangent holds what the contact's force makes of a capsule, on the way down as well: there a rod slips around a sphere.
   void forget_force() noexcept {
@@ -267,7 +169,7 @@ class RodSystem
     for (int i = 1; i <= elements(); ++i) {
       const Increment &before = increments_[i - 1], &x = increments_[i];
       if constexpr (unknowns == 7) {
-        typename Parts::Residual both;
+        Residual both;
         both << before, x;
         rod_.inners()[i - 1].advance(both);
       }
@@ -292,19 +194,9 @@ class RodSystem
   /// V - λ f · x before the last increment was added [J].
   Scalar potential() const noexcept { return potential_; }
   int negative_pivots() const noexcept { return assembler_.negative_pivots(); }
-  /// Bends the rod a little where nothing makes it leave an equilibrium: along the director in its middle and half as much
-  /// across that.  @param size  [m]
+  /// Bends the rod a little where nothing makes it leave an equilibrium.  @param size  [m]
   void nudge(Scalar size) noexcept {
-    const Node& middle = node(elements() / 2);
-    const Vector3 e = middle.director + detail::cross3(middle.tangent, middle.director) / 2;
-    const Scalar c = contact_.node() < 0 ? Scalar(-1) : node(contact_.node()).s / length_;
-    for (Node& node : rod_.nodes()) {
-      const Scalar t = node.s / length_, q = 1 - t, f = 16 * size * t * t * q * q,
-                   g = c < 0 ? (3 + t) / Scalar(3.5) : 4 * (t - c),
-                   slope = 32 * size * t * q * (1 - 2 * t) * g + f * (c < 0 ? 1 / Scalar(3.5) : Scalar(4));
-      node.r += f * g * e;
-      detail::set_tangent<Scalar>(node, node.tangent + slope / length_ * e);
-    }
+    Shape::bow(size, contact_.node() < 0 ? Scalar(-1) : node(contact_.node()).s / length_);
     for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
   }
 
@@ -349,7 +241,7 @@ class RodSystem
     Vector3 force, moment;
   };
   Hold reaction(std::size_t k) const noexcept {
-    typename Parts::Residual r;
+    Residual r;
     rod_.residual(k == 0 ? 0 : elements() - 1, load_, r);
     const Increment at = r.template segment<unknowns>(k == 0 ? 0 : unknowns);
     const Vector3 t = node(end(k)).tangent;
@@ -374,7 +266,7 @@ class RodSystem
   }
 
  private:
-  friend Contacts;
+  friend Contacts;  // sets its shape
   using Contacts::contact_;
   using Contacts::d_;
   using Contacts::force_;
@@ -384,6 +276,10 @@ class RodSystem
   using Contacts::others_;
   using Contacts::start_load_;
 
+  using Shape::length_;
+  using Shape::rod_;
+  using Shape::saved_;
+  using Residual = typename Shape::Parts::Residual;
   using Matrix = Eigen::Matrix<Scalar, 3, 3>;
   using Block = Eigen::Matrix<Scalar, unknowns, unknowns>;
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
@@ -488,15 +384,12 @@ class RodSystem
     }
   }
 
-  Parts rod_;
-  State saved_;
   detail::PerNode<Increment, Elements, MaxElements> increments_;  // in advance()
   Assembler<Scalar, Elements, MaxElements, unknowns> assembler_;
   std::array<detail::RodEnd<Scalar>, 2> ends_;
   Increment prescribed_[2] = {Increment::Zero(), Increment::Zero()};
   Scalar moves_ = 0;
   bool no_mechanism_ = false;  // its ends and springs hold it
-  Scalar length_, axial_;
   Scalar size_ = 0, potential_ = 0, inner_energy_ = 0, unit_;
 };
 

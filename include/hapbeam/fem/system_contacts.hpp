@@ -32,6 +32,26 @@ class SystemContacts {
   /// The same with a circle or capsule that is touched beside the node: d = -reach is then the wanted distance of its centre or axis.
   void set_goal(int contact, Scalar d, const Round& round) noexcept { begin(d, Point(contact, round)); }
 
+  // What AllDisplacements asks beyond that, and why its System is of a shape that can be set.
+
+  /// Sets the whole state, under no contact's force.
+  template <class Mesh, class State>
+  void set_state(const Mesh& mesh, const State& state) noexcept {
+    go_back(mesh, state, 0);
+  }
+  /// Back to an equilibrium that was left.  @param force  of its contact [N]
+  template <class Mesh, class State>
+  void go_back(const Mesh& mesh, const State& state, Scalar force) noexcept {
+    self().set(mesh, state);
+    set_force(force);
+  }
+  /// The state of the same system in another scalar, on the uniform mesh.
+  template <class Other>
+  void take_state(const Other& other) noexcept {
+    self().take(other);
+    set_force(0);
+  }
+
   // What SeveralPush asks beyond that.
 
   /// One contact more, after the first.  @param as  those of the first   @param force  of the last tangent's [N]

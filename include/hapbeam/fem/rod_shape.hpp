@@ -1,0 +1,149 @@
+// The shape of a rod while its equations are solved, and the shapes that it had: what of a RodSystem no equation needs.
+//
+// Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <hapbeam/fem/rod_elements.hpp>
+#include <hapbeam/fem/rod_motion.hpp>
+
+namespace hapbeam::detail {
+
+/// Base class of a RodSystem.
+template <class Element, typename Scalar, int Elements, int MaxElements>
+class RodShape {
+ protected:
+  using Parts = RodElements<Element, Scalar, Elements, MaxElements>;
+
+ public:
+  using Node = RodNode<Scalar>;
+  using Nodes = typename Parts::Nodes;
+  using Mesh = typename Parts::Mesh;
+  using Inners = typename Parts::Inners;
+  using Vector3 = VectorOf<Scalar, 3>;
+  static constexpr int unknowns = Element::unknowns;
+
+  int elements() const noexcept { return rod_.size(); }
+  Scalar length() const noexcept { return length_; }
+  Centreline<Scalar, 3> centreline() const noexcept { return view(rod_.nodes()); }
+  Centreline<Scalar, 3> view(const Nodes& nodes) const noexcept { return rod_.view(nodes); }
+  const Node& node(int i) const noexcept { return rod_.nodes()[i]; }
+  const Inners& inners() const noexcept { return rod_.inners(); }
+  const Mesh& mesh() const noexcept { return rod_.mesh(); }
+  /// Moves to another mesh of as many elements and carries the shape over.
+  void remesh(const Mesh& mesh) noexcept {
+    if (!(mesh == rod_.mesh())) rod_.remesh(mesh, saved_.nodes, saved_.inners);
+  }
+
+  /// What changes as the rod moves.
+  struct State {
+    explicit State(int elements) : nodes(elements), inners(elements) {}
+    Nodes nodes;
+    Inners inners;
+  };
+  Centreline<Scalar, 3> view(const State& state) const noexcept { return view(state.nodes); }
+  /// The state as it is.  @param state  out
+  void keep(State& state) const noexcept {
+    for (int i = 0; i <= elements(); ++i) state.nodes[i] = node(i), state.inners[i] = inners()[i];
+  }
+  /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
+  /// @param before  becomes what the state is now
+  void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {
+    for (int i = 0; i <= elements(); ++i) saved_.nodes[i].s = mesh.position(i);
+    detail::go_on<unknowns == 7>(rod_.nodes(), before.nodes, ratio, saved_.nodes);
+    if constexpr (unknowns == 7)
+      for (int e = 0; e < elements(); ++e) {
+        saved_.inners[e] = inners()[e];
+        saved_.inners[e].twist += ratio * (inners()[e].twist - before.inners[e].twist);
+      }
+    keep(before);
+    set(mesh, saved_);
+  }
+  /// What goes on as from one state to another.  @param from  becomes the state now, less the way from there to `to`
+  void carry(State& from, const State& to) const noexcept {
+    for (int i = 0; i <= elements(); ++i) {
+      const auto &x = node(i), &b = to.nodes[i];
+      auto& a = from.nodes[i];
+      a.s = x.s - (b.s - a.s);
+      a.r = x.r - (b.r - a.r);
+      a.tangent = x.tangent - (b.tangent - a.tangent);
+      a.director = x.director - (b.director - a.director);
+    }
+    if constexpr (unknowns == 7)
+      for (int e = 0; e < elements(); ++e)
+        from.inners[e].twist = inners()[e].twist - (to.inners[e].twist - from.inners[e].twist);
+  }
+
+  /// n · r of a state at s [m].
+  Scalar displacement(const State& state, Scalar s, const Vector3& normal) const noexcept {
+    return normal.dot(view(state).at(s).r);
+  }
+  Scalar displacement(Scalar s, const Vector3& normal) const noexcept {
+    return normal.dot(centreline().at(s).r);
+  }
+  /// Where the middle of the rod is [m].
+  Vector3 middle() const noexcept { return centreline().at(length_ / 2).r; }
+  /// Whether an element has turned so far in itself that it no longer stands for a rod.
+  bool folded() const noexcept {
+    for (int i = 0; i < elements(); ++i)
+      if (unit(node(i).tangent).dot(unit(node(i + 1).tangent)) < Scalar(-0.4)) return true;
+    return false;
+  }
+  /// |Δ| of an increment that is the round-off of places, which stretches the shortest element [√J].
+  Scalar round_off() const noexcept {
+    const int n = elements();
+    const Scalar shortest = (std::min)(mesh().position(1), length_ - mesh().position(n - 1)),
+                 farthest = std::sqrt(node(0).r.squaredNorm()) + length_;
+    return std::numeric_limits<Scalar>::epsilon() * farthest *
+           std::sqrt(axial_ * static_cast<Scalar>(n) / shortest);
+  }
+
+ protected:
+  /// In its natural shape.  @throws std::invalid_argument as RodElements
+  RodShape(const Rod& rod, int elements)
+      : rod_(rod, elements),
+        saved_(elements),
+        length_(static_cast<Scalar>(rod.length())),
+        axial_(static_cast<Scalar>(rod.stiffness().axial)) {}
+
+  void set(const Mesh& mesh, const State& state) noexcept { rod_.set(mesh, state.nodes, state.inners); }
+  /// The shape of the same rod in another scalar, on the uniform mesh.
+  template <class Other>
+  void take(const Other& other) noexcept {
+    const Mesh uniform(elements(), length_);
+    const auto vector = [](const auto& x) { return Vector3(x.template cast<Scalar>()); };
+    for (int i = 0; i <= elements(); ++i) {
+      const auto& n = other.node(i);
+      saved_.nodes[i] = {uniform.position(i), vector(n.r), vector(n.tangent), vector(n.director)};
+      if constexpr (unknowns == 7) saved_.inners[i].twist = static_cast<Scalar>(other.inners()[i].twist);
+    }
+    set(uniform, saved_);
+  }
+  /// Where its mesh is as it was when the shape was kept.
+  void take_back() noexcept {
+    for (int i = 0; i <= elements(); ++i)
+      rod_.nodes()[i] = saved_.nodes[i], rod_.inners()[i] = saved_.inners[i];
+  }
+  /// Bends the rod a little, along the director in its middle and half as much across that.
+  /// @param size  [m]   @param c  where the bow changes its side, of the length; negative: nowhere
+  void bow(Scalar size, Scalar c) noexcept {
+    const Node& middle = node(elements() / 2);
+    const Vector3 e = middle.director + cross3(middle.tangent, middle.director) / 2;
+    for (Node& node : rod_.nodes()) {
+      const Scalar t = node.s / length_, q = 1 - t, f = 16 * size * t * t * q * q,
+                   g = c < 0 ? (3 + t) / Scalar(3.5) : 4 * (t - c),
+                   slope = 32 * size * t * q * (1 - 2 * t) * g + f * (c < 0 ? 1 / Scalar(3.5) : Scalar(4));
+      node.r += f * g * e;
+      set_tangent<Scalar>(node, node.tangent + slope / length_ * e);
+    }
+  }
+
+  Parts rod_;
+  State saved_;
+  Scalar length_, axial_;
+};
+
+}  // namespace hapbeam::detail
