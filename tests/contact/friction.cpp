@@ -49,14 +49,15 @@ Felt move(Touch<Model>& touch, const Vector& from, const Vector& to, int ticks) 
 struct Work {
   double given = 0, taken = 0;
 };
-/// Around a closed path, so often; of the last time.  @param path  t of period 1 -> place [m]
-template <class Path>
-Work around(Touch<Ruler>& touch, Path&& path, int ticks, int times) {
+/// Around a closed path, so often; of the last time.  @param path  t of period 1 -> place [m]   @param visit  what is felt
+template <class Path, class Visit>
+Work around(Touch<Ruler>& touch, Path&& path, int ticks, int times, Visit&& visit) {
   Work work;
   Felt before = touch.tick(path(0.0));
   double taken = 0;
   for (int k = 1; k <= ticks * times; ++k) {
     const Felt now = touch.tick(path(double(k) / ticks));
+    visit(now);
     REQUIRE(now.status == Status::ok);
     REQUIRE(now.pressing);
     REQUIRE(now.dissipated >= before.dissipated);
@@ -145,7 +146,7 @@ TEST_CASE("work of a closed path is what friction takes, and what sticks gives i
   const auto difference = [](Ruler& model, const Friction& friction, auto&& path, int ticks) {
     model.reset();
     Touch<Ruler> touch(model, 0.005, friction);
-    const Work work = around(touch, path, ticks, 2);
+    const Work work = around(touch, path, ticks, 2, [](const Felt&) {});
     CHECK(work.taken > 1e-3);
     CHECK(work.given > 0);
     return std::abs(work.given - work.taken) / work.taken;
@@ -170,10 +171,47 @@ TEST_CASE("work of a closed path is what friction takes, and what sticks gives i
   Ruler model(steel_ruler(), 16);
   Touch<Ruler> touch(model, 0.005, 1);
   touch.soften(500, 0);
-  const Work work = around(touch, circle(0.1, -0.006, 0.0002, 0.0005), 2000, 3);
+  const Work work = around(touch, circle(0.1, -0.006, 0.0002, 0.0005), 2000, 3, [](const Felt&) {});
   CAPTURE(work.given, work.taken, model.strain_energy());
   CHECK(work.taken == 0);
   CHECK(std::abs(work.given) <= 1e-6 * model.strain_energy());
+}
+
+// Flat and tall ways round, either way about, under a hand that presses deep or lightly, with one coefficient and with two.
+TEST_CASE("no closed path takes energy out of friction, whatever the path and the coefficients",
+          "[friction]") {
+  const auto paths = [](const Beam& beam, double half, double most, int count, int ticks, bool two) {
+    Random random(7);
+    Ruler model(beam, 16);
+    double worst = 0;
+    for (int n = 0; n < count; ++n) {
+      const double L = beam.length(), mu = random(0.05, 1.2), reach = 0.005 + half,
+                   deep = most * random(0.2, 1.0), wide = L * random(0.002, 0.03),
+                   high = 0.45 * deep * random(0.001, 0.4), phase = random(0.0, 6.283),
+                   way = random.integer(0, 1) == 0 ? 1 : -1;
+      const Friction friction(mu, two ? mu * random(0.5, 1.0) : mu);
+      const Vector home(L * random(0.3, 0.7), reach - deep);
+      const auto path = [=](double t) {
+        const double a = 2 * 3.14159265358979323846 * t;
+        return Vector(home.x() + wide * (std::sin(way * a + phase) - std::sin(phase)),
+                      home.y() + high * (1 - std::cos(a)));
+      };
+      model.reset();
+      Touch<Ruler> touch(model, 0.005, friction);
+      (void)move(touch, {home.x(), reach + 1e-5}, home, 20, [&](const Felt& r) { check_law(r, friction); });
+      const Work work = around(touch, path, ticks, 2, [&](const Felt& r) { check_law(r, friction); });
+      const double energy = model.strain_energy();
+      CAPTURE(mu, friction.sliding, wide, high, work.given, work.taken, energy);
+      CHECK(work.given > 0);
+      worst = std::max(worst, std::abs(work.given - work.taken) / std::max(work.taken, 1e-3 * energy));
+    }
+    return worst;
+  };
+  const Beam bar(1, Section::rectangle(0.02, 0.01), Material{200e9}, Support::pinned, Support::pinned);
+  CHECK(paths(steel_ruler(), 0.0005, 0.018, 200, 150, true) <= 2e-3);
+  CHECK(paths(bar, 0.005, 0.008, 200, 150, true) <= 2e-3);
+  CHECK(paths(steel_ruler(), 0.0005, 0.018, 5, 6000, false) <= 1e-6);
+  CHECK(paths(bar, 0.005, 0.008, 5, 6000, false) <= 1e-6);
 }
 
 TEST_CASE("a finger on a cantilever begins to slide where its force leaves the cone", "[friction]") {
