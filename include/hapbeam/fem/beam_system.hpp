@@ -46,10 +46,11 @@ class BeamSystem
   using Shape::elements;
   using Shape::node;
 
-  /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or elements does not fit the type
-  BeamSystem(const Beam& beam, int elements)
-      : Shape(beam, elements),
-        assembler_(elements),
+  /// @param number  of elements
+  /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or the number does not fit the type
+  BeamSystem(const Beam& beam, int number)
+      : Shape(beam, number),
+        assembler_(number),
         ends_{detail::EndSupport<Scalar>(beam.left(), beam.left_place()),
               detail::EndSupport<Scalar>(beam.right(), beam.right_place())},
         unit_(static_cast<Scalar>(std::sqrt(beam.bending_stiffness() / beam.length()))) {
@@ -166,10 +167,10 @@ class BeamSystem
   void move(Change&& change) noexcept {
     for (int i = 0; i <= elements(); ++i) {
       const Vector3<Scalar> x = change(i);
-      Node& node = beam_.nodes()[i];
-      node.u += x[0];
-      node.w += x[1];
-      node.theta += x[2];
+      Node& to = beam_.nodes()[i];
+      to.u += x[0];
+      to.w += x[1];
+      to.theta += x[2];
     }
     place();
   }

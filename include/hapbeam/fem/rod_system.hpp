@@ -51,13 +51,12 @@ class RodSystem
   using Shape::unknowns;
   using Increment = VectorOf<Scalar, unknowns>;
 
-  /// @throws std::invalid_argument as RodElements
-  RodSystem(const Rod& rod, int elements)
-      : Shape(rod, elements),
-        increments_(elements),
-        assembler_(elements),
-        ends_{detail::RodEnd<Scalar>(rod.left(), node(0)),
-              detail::RodEnd<Scalar>(rod.right(), node(elements))},
+  /// @param number  of elements   @throws std::invalid_argument as RodElements
+  RodSystem(const Rod& rod, int number)
+      : Shape(rod, number),
+        increments_(number),
+        assembler_(number),
+        ends_{detail::RodEnd<Scalar>(rod.left(), node(0)), detail::RodEnd<Scalar>(rod.right(), node(number))},
         unit_(static_cast<Scalar>(
             std::sqrt((std::min)(rod.stiffness().bending1, rod.stiffness().bending2) / rod.length()))) {
     no_mechanism_ = factor(0) == Status::ok;  // in its natural shape
@@ -173,11 +172,11 @@ class RodSystem
         both << before, x;
         rod_.inners()[i - 1].advance(both);
       }
-      Node& node = rod_.nodes()[i];
-      const Vector3 chord = node.r - r, change = x.template segment<3>(0) - before.template segment<3>(0);
+      Node& to = rod_.nodes()[i];
+      const Vector3 chord = to.r - r, change = x.template segment<3>(0) - before.template segment<3>(0);
       way += contact_.node() < 0 ? Vector3(detail::turned(chord, change) - chord) : change;
-      r = node.r;
-      node.r += way;
+      r = to.r;
+      to.r += way;
     }
     detail::move_tangents<unknowns == 7>(
         rod_.nodes(), [this](int i) -> auto& { return increments_[i]; });
@@ -351,7 +350,7 @@ class RodSystem
   void close_chain() noexcept {
     const Vector3 miss = ends_[1].miss(node(elements()));
     const bool left = ends_[0].is_anchored();
-    for (Node& node : rod_.nodes()) node.r += left ? Vector3(miss * (node.s / length_)) : miss;
+    for (Node& to : rod_.nodes()) to.r += left ? Vector3(miss * (to.s / length_)) : miss;
   }
 
   /// Friction, at the place that is touched.
