@@ -11,7 +11,7 @@ function(hapbeam_once_units variable header)
   set(${variable} ${units} PARENT_SCOPE)
 endfunction()
 # Those that take longest come first, so that nobody waits for them alone.
-set(models twisted_rod round_rod rare von_karman touch corotational reduced servo)
+set(models several_rods twisted_rod round_rod several rare von_karman touch corotational reduced servo)
 if(HAPBEAM_SANITIZE STREQUAL "thread")
   list(REMOVE_ITEM models rare)  # no program that starts threads has them
 endif()

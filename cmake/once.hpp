@@ -7,6 +7,7 @@
 #include <Eigen/SVD>
 
 #include <hapbeam/contact/touch.hpp>
+#include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/rod.hpp>
@@ -24,6 +25,8 @@
 #include "once/reduced.inc"
 #include "once/round_rod.inc"
 #include "once/servo.inc"
+#include "once/several.inc"
+#include "once/several_rods.inc"
 #include "once/svd.inc"
 #include "once/touch.inc"
 #include "once/twisted_rod.inc"
