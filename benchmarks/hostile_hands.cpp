@@ -129,10 +129,12 @@ void one(const char* what, const char* by, Model model, double radius, const Fri
 
 /// Two avatars of one radius.
 template <class Model, int D = dimension_of<Model>>
-void two(const char* what, Model model, double radius, std::array<HostileHand<D>, 2> hands,
-         const VectorOf<double, D>& home, const VectorOf<double, D>& away, long ticks) {
+void two(const char* what, Model model, double radius, const Friction& friction,
+         std::array<HostileHand<D>, 2> hands, const VectorOf<double, D>& home,
+         const VectorOf<double, D>& away, long ticks) {
   using Vector = VectorOf<double, D>;
-  TouchSeveral<Model> touch(model, {radius, radius});
+  const RoundAvatar avatar(radius, 1, friction);
+  TouchSeveral<Model> touch(model, {avatar, avatar});
   const auto come = [&] {
     for (int k = 0; k < 60; ++k) (void)touch.tick(around(away), around(away));
     Vector force = Vector::Zero();
@@ -148,12 +150,13 @@ void two(const char* what, Model model, double radius, std::array<HostileHand<D>
       const Vector left = hands[0].next_or_none(), right = hands[1].next_or_none();
       const auto felt = touch.tick(left, right);
       count.answer(felt.status);
-      for (const auto& place : felt) count.force(place.force, Vector(Vector::Zero()), place.normal, 0);
+      for (const auto& place : felt)
+        count.force(Vector(place.force - place.friction), place.friction, place.normal, friction.sticking);
     }
     ++count.returns;
     count.as_new += (come() - wanted).norm() <= 1e-5 * wanted.norm();
   }
-  count.print(what, "two hands");
+  count.print(what, friction.none() ? "two hands" : "two hands with friction");
 }
 
 void plane(long ticks) {
@@ -172,11 +175,12 @@ void plane(long ticks) {
                       std::uint64_t seed) {
     const double L = beam.length();
     const Place home(0.6 * L, rise), away(0.6 * L, rise + 0.2 * L);
-    for (const Friction& friction : {Friction(0), Friction(0.6, 0.4)})
+    for (const Friction& friction : {Friction(0), Friction(0.6, 0.4)}) {
       one(name, friction.none() ? "a hand" : "a hand with friction", Alone(beam, elements), 0.005, friction,
           hand(beam, deep, seed), home, away, Place(0, 0), ticks);
-    two(name, Both(beam, elements), 0.005, {hand(beam, deep, seed + 1), hand(beam, deep, seed + 2)}, home,
-        away, ticks);
+      two(name, Both(beam, elements), 0.005, friction,
+          {hand(beam, deep, seed + 1), hand(beam, deep, seed + 2)}, home, away, ticks);
+    }
   };
   go("ruler", ruler, 16, 0.15, 0.004, 1);
   go("bar", bar, 16, 0.05, 0.008, 4);
@@ -200,16 +204,16 @@ void space(long ticks) {
         none, ticks);
     one("wire", by, Alone(wire, 8), 0.01, friction, hand(0.02, 12), {0.12, 0.0095, 0}, {0.12, 0.05, 0}, none,
         ticks);
+    two("needle", Both(needle, 8), 0.01, friction, {hand(0.03, 15), hand(0.03, 16)}, {0.12, 0.009, 0},
+        {0.12, 0.05, 0}, ticks);
+    two("wire", Both(wire, 8), 0.01, friction, {hand(0.02, 17), hand(0.02, 18)}, {0.12, 0.0095, 0},
+        {0.12, 0.05, 0}, ticks);
     one("needle", friction.none() ? "a shaft" : "a shaft with friction", Alone(needle, 8), 0.005, friction,
         hand(0.03, 13), {0.12, 0.003, -0.02}, {0.12, 0.05, -0.02}, shaft, ticks);
   }
   const HostileHand<3> about_hook({-0.01, -0.01, -0.03}, {0.06, 0.11, 0.03}, 14);
   one("hook", "a shaft", Twisted(hook, 16), 0.005, Friction(0), about_hook, {0.045, 0.03, -0.02},
       {0.12, 0.03, -0.02}, shaft, ticks);
-  two("needle", Both(needle, 8), 0.01, {hand(0.03, 15), hand(0.03, 16)}, {0.12, 0.009, 0}, {0.12, 0.05, 0},
-      ticks);
-  two("wire", Both(wire, 8), 0.01, {hand(0.02, 17), hand(0.02, 18)}, {0.12, 0.0095, 0}, {0.12, 0.05, 0},
-      ticks);
 }
 
 }  // namespace

@@ -88,9 +88,10 @@ class Live final : public Body {
   }
 
   Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept override {
-    const double before = record().dissipated;
+    const hapbeam::ServoRecord* const second = loop_.second();
+    const double before = record().dissipated, others = second ? second->dissipated : 0;
     const Eigen::Vector3d force = loop_.tick(state);
-    dissipated_ += record().dissipated < before ? record().dissipated : record().dissipated - before;
+    dissipated_ += taken(record(), before) + (second ? taken(*second, others) : 0);
     if constexpr (dimension == 3) deepest_ = std::max(deepest_, depth(record()));
     if constexpr (hapbeam::has_internal_forces<Model>)
       if (record().pressing && record().ticks % 8 == 0)
@@ -133,6 +134,10 @@ class Live final : public Body {
   const Trained* trained() const noexcept override { return parts_.trained.get(); }
 
  private:
+  /// By friction in a tick: a touch that has begun anew counts from zero [J].
+  static double taken(const hapbeam::ServoRecord& record, double before) noexcept {
+    return record.dissipated < before ? record.dissipated : record.dissipated - before;
+  }
   Parts parts_;
   hapbeam::ServoPicture<double, dimension> rest_;
   hapbeam::ServoOptions servo_options_;

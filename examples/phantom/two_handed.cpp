@@ -75,7 +75,6 @@ std::unique_ptr<Body> make_two_handed(const Options& options, const hapbeam::Dev
   if (options.beams > 1) cli::refuse("--beams", std::to_string(options.beams), "1 with --hands 2");
   if (options.model_choice != ModelChoice::finite_elements)
     throw cli::UsageError("--hands 2: a trained model is pressed by one hand");
-  if (options.friction > 0) cli::refuse("--friction", cli::digits(options.friction), "0 with --hands 2");
   const bool in_space = options.beam.in_space();
   if (in_space ? !bends_in_space(options.element) : options.element != ElementChoice::corotational)
     cli::refuse("--element", name(options.element),

@@ -179,6 +179,9 @@ struct RoundOf<Scalar, 3> {
 
 }  // namespace detail
 
+template <typename Scalar, int D = 2>
+struct FrictionState;
+
 /// What a body does to a beam that it touches.
 enum class ObstacleKind : std::int8_t {
   round,    ///< a round body pushes it away, wherever they touch
@@ -200,6 +203,7 @@ struct Obstacle {
   bool touching = false;  ///< in: in the push before;  out: now
   Pushed<Scalar, D> pushed{0,
                            Status::ok};  ///< in: of the push before;  out: zero force where they do not touch
+  FrictionState<Scalar, D>* friction = nullptr;  ///< of a round one (friction.hpp), null: without
 };
 
 template <typename Scalar, int D>

@@ -42,7 +42,7 @@ struct Friction {
 
 /// The contact with friction of one touch.
 /// @tparam D  of the space in which the beam bends: 2 | 3
-template <typename Scalar, int D = 2>
+template <typename Scalar, int D>
 struct FrictionState {
   using Vector = VectorOf<Scalar, D>;
 
@@ -73,6 +73,11 @@ struct FrictionState {
   void begin() noexcept {
     let_go();
     gain = 0;
+  }
+  /// The force on the hand, no more than its share of a normal force [N].
+  Vector on_hand(Scalar normal_force) const noexcept {
+    const Scalar most = sticking * normal_force, size = std::sqrt(force.squaredNorm());
+    return size > most ? Vector(force * (-most / size)) : Vector(-force);
   }
   /// Nothing is left of its last contact.
   void let_go() noexcept {

@@ -60,13 +60,14 @@ auto tick(Touching& touch, const Vector* at, double length) noexcept {
 }
 
 template <class Model, class Body>
-void check(const char* name, const Body& body, std::initializer_list<Prop<Model::dimension>> props) {
+void check(const char* name, const Body& body, std::initializer_list<Prop<Model::dimension>> props,
+           const Friction& friction = {}) {
   Model model(body, 16);
   using Vector = VectorOf<double, Model::dimension>;
   const double length = body.length();
-  TouchSeveral<Model> touch(model, {{0.02 * length, 2}, 0.01 * length}, props);
+  TouchSeveral<Model> touch(model, {{0.02 * length, 2, friction}, {0.01 * length, 1, friction}}, props);
   const auto path = hands<Vector>(length, 5);
-  int touching = 0, bad = 0, pulls = 0, most = 0;
+  int touching = 0, bad = 0, pulls = 0, most = 0, beyond = 0;
   const HeapUse use = heap_use([&]() noexcept {
     for (std::size_t t = 0; t + 1 < path.size(); t += 2) {
       const auto felt = tick(touch, &path[t], length);
@@ -74,7 +75,9 @@ void check(const char* name, const Body& body, std::initializer_list<Prop<Model:
       int now = 0;
       for (const auto& place : felt) {
         bad += !place.force.allFinite();
-        pulls += place.force.dot(place.normal) < 0;
+        const Vector across = place.force - place.friction;
+        pulls += across.dot(place.normal) < 0;
+        beyond += place.friction.norm() > friction.sticking * across.norm() * (1 + 1e-12);
         now += place.touching;
       }
       touching += now > 1;
@@ -85,6 +88,7 @@ void check(const char* name, const Body& body, std::initializer_list<Prop<Model:
   CHECK(use == HeapUse{});
   CHECK(bad == 0);
   CHECK(pulls == 0);
+  CHECK(beyond == 0);
   CHECK(most <= most_solves_of_a_tick);
   CHECK(touching > 10);
   // Recovered.
@@ -98,14 +102,17 @@ void check(const char* name, const Body& body, std::initializer_list<Prop<Model:
 
 }  // namespace
 
-TEST_CASE("several avatars and props take nothing from the heap", "[realtime][several]") {
+TEST_CASE("several avatars and props take nothing from the heap, with friction as without",
+          "[realtime][several]") {
   using Flat = FemModel<Several<Corotational<>, 4>>;
   const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{2e11}, Support::clamped, Support::free);
-  check<Flat>("ruler", ruler, {Prop<>::peg({0.2, -0.01}, 0.005)});
-  check<Flat>("arch", hinged_arch(), {});
   const Rod wire(0.2, RodSection::circle(0.001), spring_steel, RodSupport::clamped, RodSupport::free);
-  check<FemModel<Several<RoundRod, 4>>>("wire", wire,
-                                        {Prop<3>::bar({0.1, -0.01, -0.1}, {0.1, -0.01, 0.1}, 0.004)});
+  for (const Friction& friction : {Friction(0), Friction(0.7, 0.5)}) {
+    check<Flat>("ruler", ruler, {Prop<>::peg({0.2, -0.01}, 0.005).rough(friction)}, friction);
+    check<Flat>("arch", hinged_arch(), {}, friction);
+    check<FemModel<Several<RoundRod, 4>>>(
+        "wire", wire, {Prop<3>::bar({0.1, -0.01, -0.1}, {0.1, -0.01, 0.1}, 0.004).rough(friction)}, friction);
+  }
 }
 
 TEST_CASE("two hands with a servo each take nothing from the heap", "[realtime][two_hands]") {
@@ -114,7 +121,9 @@ TEST_CASE("two hands with a servo each take nothing from the heap", "[realtime][
   Model model(ruler, 16);
   TwoHands<Model> both(model);
   const DeviceInfo device = VirtualPhantom<>(HandPath({0, 0})).info();
-  Servo<Hand<Model>> left(both[0], device), right(both[1], device);
+  ServoOptions rough;
+  rough.friction = {0.5, 0.4};
+  Servo<Hand<Model>> left(both[0], device, rough), right(both[1], device);
   const auto path = hands<Vector2<double>>(ruler.length(), 6);
   int pressing = 0, wild = 0, most = 0;
   const HeapUse use = heap_use([&]() noexcept {

@@ -1,4 +1,5 @@
 // Coulomb friction between a sphere or a capsule and a rod in space, and through the loop.
+#include <array>
 #include <cmath>
 
 #include "rod/rods.hpp"
@@ -7,6 +8,7 @@
 #include "support/random.hpp"
 #include "support/ruler.hpp"
 #include "support/step_response.hpp"
+#include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/element/corotational.hpp>
 
 using namespace hapbeam;
@@ -136,6 +138,50 @@ TEST_CASE("around a closed path on a wire friction takes the work, along it and 
   CHECK(unaccounted(taut, 0.3, circle(0.12, 0.0022, 0.001, 0.0006, 0.001)) <= 1e-6);
   // Where the hand turns back it springs back as it begins to slide.
   CHECK(unaccounted(taut, {0.5, 0.3}, circle(0.12, 0.0022, 0.001, 0.0006, 0), 12000) <= 1e-6);
+}
+
+// Each sphere goes round a closed path of its own, and aside, so that it rolls on the wire.
+TEST_CASE("two spheres on a wire give what friction takes at both", "[rod][friction][several]") {
+  using Both = FemModel<Several<RoundRod, 2>>;
+  const Rod rod(0.2, RodSection::circle(0.002), spring_steel, RodSupport::clamped, RodSupport::clamped);
+  const double reach = 0.011;
+  for (const bool below : {false, true})
+    for (const double mu : {0.2, 0.8}) {
+      Both model(rod, 16);
+      const RoundAvatar left(0.01, 1, mu), right(0.01, 1, 0.4);
+      TouchSeveral touch(model, {left, right});
+      const auto path = [&](double t, double down) {
+        const double a = 2 * 3.14159265358979323846 * t, side = below ? -1 : 1;
+        std::array<Point, 2> at;
+        at[0] = Point(0.07 + 0.002 * std::sin(a), side * (reach - (below ? 1e-3 : 2.2e-3) * down),
+                      0.002 * (1 - std::cos(a)));
+        at[1] = Point(0.14 + 0.003 * (1 - std::cos(a)), reach - 2e-3 * down, 0.001 * std::sin(a));
+        return at;
+      };
+      for (int k = 0; k <= 100; ++k) (void)touch.tick(path(0, k / 100.0).data(), 2);
+      constexpr int ticks = 3000;
+      double given = 0, taken = 0, stored = 0;
+      int otherwise = 0;
+      auto before = touch.tick(path(0, 1).data(), 2);
+      for (int k = 1; k <= 2 * ticks; ++k) {
+        const auto from = path(double(k - 1) / ticks, 1), to = path(double(k) / ticks, 1);
+        const auto now = touch.tick(to.data(), 2);
+        for (std::size_t i : {0u, 1u}) {
+          const auto &a = before.places[i], &b = now.places[i];
+          const double normal = (b.force - b.friction).norm(), most = i == 0 ? mu : 0.4;
+          otherwise += !b.touching || b.status != Status::ok || b.dissipated < a.dissipated ||
+                       !(b.friction.norm() <= most * normal * (1 + 1e-12));
+          given -= (a.force + b.force).dot(to[i] - from[i]) / 2;
+          taken += b.dissipated - a.dissipated;
+        }
+        before = now;
+        if (k == ticks) given = taken = 0, stored = model.strain_energy();
+      }
+      CAPTURE(below, mu, given, taken);
+      CHECK(otherwise == 0);
+      CHECK(taken > 1e-4);
+      CHECK(std::abs(given - taken - (model.strain_energy() - stored)) <= 2e-5 * taken);
+    }
 }
 
 TEST_CASE("friction on a wire keeps its cone whatever the hand does", "[rod][friction]") {

@@ -8,6 +8,7 @@
 #include <hapbeam/check.hpp>
 #include <hapbeam/contact/avatar.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/friction.hpp>
 
 namespace hapbeam {
 
@@ -53,14 +54,24 @@ class Prop {
     return prop;
   }
 
+  /// The same of a rough peg, bar or wall.
+  Prop rough(const Friction& friction) const {
+    Prop prop = *this;
+    prop.friction_ = friction;
+    return prop;
+  }
+
   ObstacleKind kind() const noexcept { return kind_; }
+  const Friction& friction() const noexcept { return friction_; }
   /// @param length  of the beam [m]   @throws std::invalid_argument naming what makes no sense
   void check(double length) const {
     for (const double x : {centre_.squaredNorm(), shaft_.squaredNorm(), direction_.squaredNorm(), d_})
       detail::finite("prop", x, "");
     if (!(radius_ >= 0 && radius_ <= 1000 * length))
       detail::reject("prop radius", radius_, "m", "0 to a thousand lengths of the beam");
+    friction_.check();
     if (kind_ == ObstacleKind::round) return;
+    if (!friction_.none()) detail::reject("friction", friction_.sticking, "", "0 for a stop or a support");
     if (!(s_ >= 0 && s_ <= length)) detail::reject("prop s", s_, "m", "a place on the beam");
     if (!(direction_.norm() > 0)) detail::reject("prop normal", direction_.norm(), "", "a direction");
   }
@@ -87,6 +98,7 @@ class Prop {
   ObstacleKind kind_ = ObstacleKind::round;
   Vector centre_ = Vector::Zero(), shaft_ = Vector::Zero(), direction_ = Vector::Zero();
   double radius_ = 0, s_ = 0, d_ = 0;
+  Friction friction_;
 };
 
 }  // namespace hapbeam

@@ -33,11 +33,6 @@ class PushContact {
   /// Of the touch, where there is friction.
   FrictionState<Scalar, D>& friction_state() noexcept { return friction_; }
   const FrictionState<Scalar, D>& friction_state() const noexcept { return friction_; }
-  /// Of friction on the hand [N], no more than its share of a normal force.
-  Vector friction(Scalar normal_force) const noexcept {
-    const Scalar most = friction_.sticking * normal_force, size = std::sqrt(friction_.force.squaredNorm());
-    return size > most ? Vector(friction_.force * (-most / size)) : Vector(-friction_.force);
-  }
 
   /// As PressContact::hold(); contact comes back as it is on the new shape.  out_of_range: the circle touches at two points,
   /// and force and shape are those of one.

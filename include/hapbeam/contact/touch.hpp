@@ -157,7 +157,7 @@ class Touch {
   }
   void feel_friction(Result& result, Scalar normal_force) const noexcept {
     if (across_ || on_support_ || !std::isfinite(normal_force)) return;
-    result.friction = pusher_.friction(normal_force);
+    result.friction = pusher_.friction_state().on_hand(normal_force);
     result.force += result.friction;
     result.sliding = pusher_.friction_state().slides;
   }

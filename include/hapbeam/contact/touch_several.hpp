@@ -5,7 +5,8 @@
 //   const auto felt = touch.tick(left, right);        // felt.force(0) on the left hand, felt.force(1) on the right one
 //
 // A *prop* is an avatar that nobody moves.  Each tick finds where the avatars and props lie to the shape of the last tick and asks the model for
-// the equilibrium under all of them (Obstacle, force_model.hpp).  Each pushes or does not touch; none pulls but a support.  There is no friction.
+// the equilibrium under all of them (Obstacle, force_model.hpp).  Each pushes or does not touch; none pulls but a support.  Each round one may
+// have friction (friction.hpp).
 // Beside and past an end that holds w an avatar is held as by Touch (end_contact.hpp).
 // Allocates and throws in its constructor only.
 #pragma once
@@ -23,16 +24,20 @@
 #include <hapbeam/contact/find_contact_near.hpp>
 #include <hapbeam/contact/find_rod_contact.hpp>
 #include <hapbeam/contact/prop.hpp>
+#include <hapbeam/contact/push_contact.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/friction.hpp>
 
 namespace hapbeam {
 
 /// A round avatar that a hand moves.
 struct RoundAvatar {
   /// @param radius_  [m]   @param touches_  at so many places at most: 2 for one that is wide beside the bends of the beam
-  constexpr RoundAvatar(double radius_, int touches_ = 1) noexcept : radius(radius_), touches(touches_) {}
+  constexpr RoundAvatar(double radius_, int touches_ = 1, const Friction& friction_ = {}) noexcept
+      : radius(radius_), touches(touches_), friction(friction_) {}
   double radius;  ///< [m] >= 0
   int touches;
+  Friction friction;
 };
 
 /// What becomes of one possible contact in a tick.
@@ -43,9 +48,12 @@ struct TouchPlace {
   Status status = Status::ok;
   Scalar s = 0;      ///< [m] arc position
   Scalar depth = 0;  ///< [m] of the body in the beam as it lay before this tick; negative: the gap
-  VectorOf<Scalar, D> point = VectorOf<Scalar, D>::Zero();   ///< [m] of the centreline
-  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< unit, out of the beam to the body
-  VectorOf<Scalar, D> force = VectorOf<Scalar, D>::Zero();   ///< [N] on the body; always finite
+  VectorOf<Scalar, D> point = VectorOf<Scalar, D>::Zero();     ///< [m] of the centreline
+  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();    ///< unit, out of the beam to the body
+  VectorOf<Scalar, D> force = VectorOf<Scalar, D>::Zero();     ///< [N] on the body; always finite
+  VectorOf<Scalar, D> friction = VectorOf<Scalar, D>::Zero();  ///< [N] what of the force is tangential
+  bool sliding = false;   ///< with friction: the contact slides, else it sticks
+  Scalar dissipated = 0;  ///< [J] by friction, since this contact began
 };
 
 /// What one tick says.
@@ -65,6 +73,13 @@ struct TouchSeveralResult {
     VectorOf<Scalar, D> sum = VectorOf<Scalar, D>::Zero();
     for (const auto& place : *this)
       if (place.body == body) sum += place.force;
+    return sum;
+  }
+  /// What of it is tangential [N].
+  VectorOf<Scalar, D> friction(int body) const noexcept {
+    VectorOf<Scalar, D> sum = VectorOf<Scalar, D>::Zero();
+    for (const auto& place : *this)
+      if (place.body == body) sum += place.friction;
     return sum;
   }
   bool touching(int body) const noexcept {
@@ -108,7 +123,7 @@ class TouchSeveral {
       if (avatar.touches < 1) detail::reject("avatar touches", avatar.touches, "places", "1 or more");
       for (int k = 0; k < avatar.touches; ++k)
         add(avatars_).avatar.radius = static_cast<Scalar>(avatar.radius);
-      ++avatars_;
+      set_friction(avatars_++, avatar.friction);
     }
     int body = avatars_;
     for (const Prop& prop : props) {
@@ -118,6 +133,7 @@ class TouchSeveral {
       place.avatar = prop.template avatar<Scalar>(length);
       place.obstacle.kind = prop.kind();
       place.obstacle.place = prop.template place<Scalar>();
+      take(prop.friction(), place);
       if (place.obstacle.kind != ObstacleKind::round) fixed_ = true;
     }
     reset();
@@ -167,6 +183,22 @@ class TouchSeveral {
     check_radius(radius);
     each_of(avatar, [&](Place& place) { place.avatar.radius = static_cast<Scalar>(radius); });
   }
+  /// @throws std::invalid_argument naming what makes no sense
+  void set_friction(int avatar, const Friction& friction) {
+    friction.check();
+    each_of(avatar, [&](Place& place) { take(friction, place); });
+  }
+  /// Whether an avatar has friction.
+  [[nodiscard]] bool rough(int avatar) noexcept {
+    bool any = false;
+    each_of(avatar, [&](const Place& place) { any = place.friction.sticking > 0; });
+    return any;
+  }
+  /// As Touch::soften().
+  void soften(int avatar, Scalar stiffness, Scalar damping) noexcept {
+    each_of(avatar,
+            [&](Place& place) { place.friction.stiffness = stiffness, place.friction.damping = damping; });
+  }
   /// The contact of the beam as it lies now with an avatar, gone straight to a place from that of its last tick.
   [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
       int avatar, const Vector& position, const Vector& shaft = Vector::Zero()) noexcept {
@@ -203,6 +235,7 @@ class TouchSeveral {
     Contact contact;      // in this tick, and on the shape before, where it is
     bool at_end = false;  // held by an end
     detail::EndContact<Scalar, dimension> end;
+    FrictionState<Scalar, dimension> friction;
     Status status = Status::ok;  // of what keeps it from being an obstacle in this tick
   };
   static std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
@@ -214,6 +247,10 @@ class TouchSeveral {
   void each_of(int avatar, Use&& use) {
     for (int i = 0; i < size_; ++i)
       if (places_[at(i)].obstacle.body == avatar && !places_[at(i)].prop) use(places_[at(i)]);
+  }
+  static void take(const Friction& friction, Place& place) noexcept {
+    place.friction.sticking = static_cast<Scalar>(friction.sticking);
+    place.friction.sliding = static_cast<Scalar>(friction.sliding);
   }
   Result solve() noexcept;
   Result invalid() const noexcept {
@@ -230,6 +267,7 @@ class TouchSeveral {
   }
   static void forget(Place& place) noexcept {
     place.memory = {};
+    place.friction.begin();
     if (place.at_end) place.obstacle.kind = ObstacleKind::round, place.at_end = false;
     place.obstacle.touching = false;
     place.obstacle.pushed.force = 0;
@@ -245,6 +283,14 @@ class TouchSeveral {
 
   /// Where it lies to the beam.   @return whether the two touch
   bool look(int i) noexcept {
+    Place& place = places_[at(i)];
+    const bool touched = place.obstacle.touching, touches = find(i);
+    // A contact that begins remembers nothing.
+    if (!touched || !touches) place.friction.begin();
+    if (!touched && touches) place.friction.dissipated = 0;
+    return touches;
+  }
+  bool find(int i) noexcept {
     Place& place = places_[at(i)];
     Obstacle& obstacle = place.obstacle;
     place.status = Status::ok;
@@ -310,11 +356,28 @@ class TouchSeveral {
 
   Status push() noexcept {
     std::array<Obstacle, most> all;
-    for (int i = 0; i < size_; ++i) all[at(i)] = places_[at(i)].obstacle;
+    for (int i = 0; i < size_; ++i) {
+      all[at(i)] = places_[at(i)].obstacle;
+      if (places_[at(i)].friction.sticking > 0) all[at(i)].friction = &places_[at(i)].friction;
+    }
     const Status status = model_.push(all.data(), size_);
-    for (int i = 0; i < size_; ++i) places_[at(i)].obstacle = all[at(i)];
+    for (int i = 0; i < size_; ++i) {
+      all[at(i)].friction = nullptr;
+      places_[at(i)].obstacle = all[at(i)];
+    }
     moved_ = true;
     return status;
+  }
+  /// Whether each contact is where the two touch, as in Touch.
+  bool found() const noexcept {
+    bool all = true;
+    for (int i = 0; i < size_; ++i) {
+      const Place& place = places_[at(i)];
+      const Scalar reach = place.avatar.radius + model_.thickness() / 2;
+      if (place.obstacle.touching && !fixed(place) && !place.at_end)
+        all = all && place.obstacle.pushed.miss <= detail::PushContact<Scalar, dimension>::too_far * reach;
+    }
+    return all;
   }
   void report(int i, bool pushed, TouchPlace<Scalar, dimension>& to) const noexcept {
     const Place& place = places_[at(i)];
@@ -328,12 +391,21 @@ class TouchSeveral {
     to.point = obstacle.pushed.point;
     to.normal = obstacle.pushed.normal;
     to.force = -obstacle.pushed.force * obstacle.pushed.normal;
+    if (place.friction.sticking > 0) rub(place, to);
+    if (to.status == Status::ok && !place.friction.settled) to.status = Status::iteration_limit;
     if (!place.at_end) return;
     if (to.status == Status::ok) to.status = Status::out_of_range;
     to.s = place.contact.s;
     to.point = place.contact.foot;
     to.normal = place.contact.normal;
     to.force = -obstacle.pushed.force * place.end.factor() * place.contact.normal;
+  }
+
+  static void rub(const Place& place, TouchPlace<Scalar, dimension>& to) noexcept {
+    to.friction = place.friction.on_hand(-place.obstacle.pushed.force);
+    to.force += to.friction;
+    to.sliding = place.friction.slides;
+    to.dissipated = place.friction.dissipated;
   }
 
   Model& model_;
@@ -384,6 +456,7 @@ auto TouchSeveral<Model>::solve() noexcept -> Result {
   const bool pushed = touched || moving_;
   if (pushed) {
     result.status = push();
+    if (is_answer(result.status) && !found()) result.status = Status::iteration_limit;
     moving_ = touched || result.status == Status::iteration_limit;
     if (!moving_) begin();
   }

@@ -83,7 +83,8 @@ class TwoHands {
     if (result.status == Status::invalid_request) return result;
     const int other = 1 - hand;
     silent_[at(hand)] = 0, changed_[at(hand)] = false;
-    if (is_answer(result.status)) meanwhile_[at(other)] = result.force(other), changed_[at(other)] = true;
+    if (is_answer(result.status))
+      meanwhile_[at(other)] = result.force(other) - result.friction(other), changed_[at(other)] = true;
     if (silent_[at(other)] < patience && ++silent_[at(other)] == patience) touch_.lift(other);
     return result;
   }
@@ -116,8 +117,10 @@ class Touch<Hand<Model>> {
   using Result = TouchResult<Scalar, dimension>;
 
   /// @param hand  kept by reference   @param avatar_radius [m]   @throws std::invalid_argument as TouchSeveral
-  Touch(Hand<Model>& hand, Scalar avatar_radius) : hands_(hand.hands_), index_(hand.index_) {
+  Touch(Hand<Model>& hand, Scalar avatar_radius, const Friction& friction = {})
+      : hands_(hand.hands_), index_(hand.index_) {
     hands_.touch_.set_radius(index_, static_cast<double>(avatar_radius));
+    hands_.touch_.set_friction(index_, friction);
     reset();
   }
 
@@ -127,7 +130,10 @@ class Touch<Hand<Model>> {
     pressing_ = false;
   }
   bool pressing() const noexcept { return pressing_ && hands_.silent_[at()] < TwoHands<Model>::patience; }
-  /// The force on the hand at the place of its last tick, as ticks of the other one have left the beam [N]; null where there were none.
+  /// As Touch.
+  bool rough() const noexcept { return hands_.touch_.rough(index_); }
+  void soften(Scalar stiffness, Scalar damping) noexcept { hands_.touch_.soften(index_, stiffness, damping); }
+  /// The normal force on the hand at the place of its last tick, as ticks of the other one have left the beam [N]; null where there were none.
   const Vector* meanwhile() const noexcept {
     return hands_.changed_[at()] ? &hands_.meanwhile_[at()] : nullptr;
   }
@@ -162,6 +168,9 @@ class Touch<Hand<Model>> {
     contact.s = place.s, contact.depth = place.depth;
     contact.foot = place.point, contact.normal = place.normal;
     contact.point = place.point + place.normal * (hands_.model().thickness() / 2);
+    result.friction = place.friction;
+    result.sliding = place.sliding;
+    result.dissipated = place.dissipated;
     result.press = {place.s, dimension == 2 ? place.point[1] : place.normal.dot(place.point)};
   }
 

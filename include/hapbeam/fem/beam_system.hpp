@@ -85,7 +85,7 @@ class BeamSystem
     if (status != Status::ok) return {status, 0};
     force_ = linear_reaction_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
     others_.each([&](auto& other) { other.force = other.reaction = assembler_.reaction(other.row); });
-    if (friction_) friction_->feel(-force_);
+    Contacts::feel_friction();
     advance();
     return {status, increment()};
   }
@@ -100,7 +100,7 @@ class BeamSystem
   void forget_force() noexcept {
     force_ = 0;
     for (auto& other : others_) other.force = 0;
-    if (friction_) friction_->fall();
+    Contacts::fall_with_friction();
   }
   /// Adds the increment to the state.
   void advance() noexcept {
@@ -250,13 +250,15 @@ class BeamSystem
         if (const auto* const other = others_.at(e)) other->point.transform(node(e), true, e == 0, r, K);
         if (const auto* const other = others_.at(e + 1))
           other->point.transform(node(e + 1), false, true, r, K);
-        if (friction_ && contact_.holds(e + 1)) add_friction(3, r, K);
-        else if (friction_ && e == 0 && contact_.holds(0)) add_friction(0, r, K);
+        if (friction_) add_friction(e, contact_, *friction_, r, K);
+        others_.each([&](const auto& other) {
+          if (other.friction) add_friction(e, other.point, *other.friction, r, K);
+        });
       });
     }
     size_ = std::sqrt(2 * energy);
     potential_ = energy - work;
-    if (friction_) potential_ += friction_->potential();
+    potential_ += Contacts::friction_potential();
     for (std::size_t k = 0; k < 2; ++k)
       ends_[k].visit(node(end(k)), [&](int component, Scalar now, Scalar target) {
         assembler_.prescribe(end(k), component, target - now);
@@ -284,11 +286,15 @@ class BeamSystem
     }
   }
 
-  /// Friction, along the surface.  @param at  the first row of the contact's node
-  void add_friction(int at, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
-    const Vector2<Scalar>& n = contact_.normal();
-    r[at] -= n.y() * friction_->force().x() - n.x() * friction_->force().y();
-    K(at, at) += friction_->stiffness();
+  /// Friction, along the surface, of a contact of element e.
+  template <class Point>
+  static void add_friction(int e, const Point& contact, const Friction& friction, Vector6<Scalar>& r,
+                           Matrix6<Scalar>& K) noexcept {
+    if (!contact.holds(e + 1) && !(e == 0 && contact.holds(0))) return;
+    const int at = contact.holds(e + 1) ? 3 : 0;  // first row of its node
+    const Vector2<Scalar>& n = contact.normal();
+    r[at] -= n.y() * friction.force().x() - n.x() * friction.force().y();
+    K(at, at) += friction.stiffness();
   }
 
   /// An element's share of the shift, half of it to either node.

@@ -16,17 +16,18 @@ template <typename Scalar, int D, template <typename> class RoundContact>
 class ContactFriction : public FrictionLaw<Scalar, D> {
  public:
   /// @param state  what the touch remembers   @param round  the avatar   @param system  that is pushed, as it lies before
+  /// @param normal_force  of the tick before [N]   @param alone  whether it is the only contact
   template <class System>
   ContactFriction(const FrictionState<Scalar, D>& state, const RoundContact<Scalar>& round,
-                  const System& system) noexcept
+                  const System& system, Scalar normal_force, bool alone) noexcept
       : round_(round) {
     const auto line = system.centreline();
     const auto node = round.node_at(line, round.request().s);
     const Scalar per_length = system.unit() / system.length();
-    this->begin(state, round.place(round.look(node, 0), node),
+    this->begin(state, alone, round.place(round.look(node, 0), node),
                 line.stretch(line.node_near(round.request().s)), round.request().reach,
                 per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()),
-                system.length() / 1000, -system.linear_reaction());
+                system.length() / 1000, normal_force);
   }
 
   /// To be called where the beam has moved.  @param contact  of the system   @param node  of it

@@ -52,10 +52,12 @@ class FrictionLaw {
 
   /// @param first  where the two would touch before the beam yields: where a touch begins
   /// @param stretch  |dr/ds| of the beam there: within a tick it hardly changes
+  /// @param alone  whether no other contact has a share in the normal force
   /// @param reach  [m] from the avatar's axis to the centreline   @param stiffest  [N/m] that the scalar allows
   /// @param hurry  [m] a long way for a tick   @param normal_force  [N] of the last tick
-  void begin(const FrictionState<Scalar, D>& state, const Place& first, Scalar stretch, Scalar reach,
-             Scalar stiffest, Scalar hurry, Scalar normal_force) noexcept {
+  void begin(const FrictionState<Scalar, D>& state, bool alone, const Place& first, Scalar stretch,
+             Scalar reach, Scalar stiffest, Scalar hurry, Scalar normal_force) noexcept {
+    learns_ = D == 2 && alone;
     known_ = state.known;
     before_ =
         state.known ? Place{state.s, state.ahead, state.normal, state.along, state.place, state.axis} : first;
@@ -118,10 +120,11 @@ class FrictionLaw {
   /// To be called after each linear solve.  @param normal_force  of it [N]
   void feel(Scalar normal_force) noexcept {
     used_ = bound_;
-    if (!slides_ || fallen_) return;
+    // A bound that does not come to rest is held, so that Newton's method does.
+    if (!slides_ || fallen_ || ++follows_ > most_solves) return;
     const Scalar off = sliding_ * normal_force - used_;
     Scalar step = off / rate();
-    if (D == 3) {
+    if (!learns_) {
       // What is left shrinks by the same ratio from solve to solve where nothing but the bound is on its way.
       const Scalar ratio = off_ != 0 ? off / off_ : Scalar(0);
       const bool steady =
@@ -168,12 +171,20 @@ class FrictionLaw {
       return false;
     }
     learn(normal_force);
+    follows_ = 0;
     const Scalar off = (elastic * (most / size) - force_at(used_)).norm();
     if (off <= exact * most) return true;
     bound_ = (std::max)(Scalar(0), used_ + (most - used_) / rate());
     return false;
   }
 
+  /// Whether it sticks, and by more than it can.  @param normal_force  of an equilibrium, after look() [N]
+  bool holds_too_much(Scalar normal_force) const noexcept {
+    return !slides_ &&
+           !(force_.squaredNorm() <= squared((1 + exact) * sticking_ * (std::max)(normal_force, Scalar(0))));
+  }
+  /// What it can hold as it begins to slide, by the last tick [N].
+  Scalar last_bound() const noexcept { return before_bound_; }
   /// Whether it slides without friction.
   bool falls() const noexcept { return fallen_; }
   /// To be called where no equilibrium is near.  A hand that pushes a beam along itself has no end of force while it sticks, and a beam that
@@ -240,6 +251,7 @@ class FrictionLaw {
     sheared_ = carried_ + slip();
   }
 
+  static Scalar squared(Scalar x) noexcept { return x * x; }
   static Scalar norm(const Vector& v) noexcept { return std::sqrt(v.squaredNorm()); }
   Scalar rate() const noexcept { return std::clamp(1 - sliding_ * gain_, Scalar(0.25), Scalar(4)); }
   Vector across(const Vector& v) const noexcept {
@@ -256,7 +268,7 @@ class FrictionLaw {
     if (turned.squaredNorm() > 0) direction_ = turned;
     length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
   }
-  void begin_bound() noexcept { off_ = ratio_ = 0; }
+  void begin_bound() noexcept { off_ = ratio_ = 0, follows_ = 0; }
   /// Stiffness across the way of sliding [N/m].
   Scalar aside(Scalar bound) const noexcept {
     const Scalar whole = stiffness_ + damping_;
@@ -266,9 +278,9 @@ class FrictionLaw {
     const Vector d = across(direction_);
     return bound * d + aside(bound) * (sheared_ - d * d.dot(sheared_));
   }
-  /// The gain, from two equilibria of different bounds.  In space directions change it more.
+  /// The gain, from two equilibria of different bounds.  In space directions change it more, and so do other contacts.
   void learn(Scalar normal_force) noexcept {
-    if (D == 2 && pairs_ && std::abs(used_ - pair_bound_) > Scalar(1e-3) * used_)
+    if (learns_ && pairs_ && std::abs(used_ - pair_bound_) > Scalar(1e-3) * used_)
       gain_ = std::clamp((normal_force - pair_force_) / (used_ - pair_bound_), Scalar(-4), Scalar(4));
     pairs_ = true;
     pair_bound_ = used_, pair_force_ = normal_force;
@@ -306,8 +318,8 @@ class FrictionLaw {
   Scalar onset_ = 0;                     // [N] where it does
   Scalar pair_bound_ = 0, pair_force_ = 0;
   Scalar off_ = 0, ratio_ = 0;  // of the bound, in feel()
-  bool pairs_ = false;
-  int tries_ = 0;
+  bool pairs_ = false, learns_ = false;
+  int tries_ = 0, follows_ = 0;
 };
 
 }  // namespace hapbeam::detail

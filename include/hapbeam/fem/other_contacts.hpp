@@ -20,14 +20,15 @@ struct HeldRowOf<Assembler, std::void_t<typename Assembler::HeldRow>> {
   using Type = typename Assembler::HeldRow;
 };
 
-/// @tparam Point  ContactPoint | RodContact   @tparam Row  of the assembler, to ask for the reaction
-template <class Point, typename Scalar, class Row>
+/// @tparam Point  ContactPoint | RodContact   @tparam Friction  of a contact   @tparam Row  of the assembler, to ask for the reaction
+template <class Point, typename Scalar, class Friction, class Row>
 struct OtherContact {
   Point point;
   Scalar force = 0;                   ///< along n, of the last tangent [N]
   Scalar d = 0, start = 0, goal = 0;  ///< [m] now, and at both ends of the path
   Scalar reaction = 0, saved = 0;     ///< as the system's linear_reaction() [N]
   Scalar moves = 0;                   ///< [m] prescribed increment
+  Friction* friction = nullptr;       ///< null: none
   Row row{};
 };
 

@@ -93,9 +93,7 @@ class RodSystem
   Scalar unit() const noexcept { return unit_; }
 
   /// The tangent holds what the contact's force makes of a capsule, on the way down as well: there a rod slips around a sphere.
-  void forget_force() noexcept {
-    if (friction_) friction_->fall();
-  }
+  void forget_force() noexcept { Contacts::fall_with_friction(); }
 
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);
@@ -103,7 +101,7 @@ class RodSystem
     advance();
     linear_reaction_ = force_;
     for (auto& other : others_) other.reaction = other.force;
-    if (friction_) friction_->feel(-force_);
+    Contacts::feel_friction();
     return {status, increment()};
   }
 
@@ -131,7 +129,10 @@ class RodSystem
       }
     if (c >= 0) add_bend(contact_);
     for (const auto& other : others_) add_bend(other.point);
-    if (friction_ && c >= 0) add_friction(c);
+    if (friction_ && c >= 0) add_friction(contact_, *friction_);
+    others_.each([this](const auto& other) {
+      if (other.friction) add_friction(other.point, *other.friction);
+    });
     transform(0);
     transform(elements());
     if (c > 0 && c < elements()) transform(c);
@@ -140,7 +141,7 @@ class RodSystem
     size_ =
         std::sqrt(2 * (std::max)(energy, Scalar(0)));  // of a rod without stress round-off has either sign
     potential_ = energy - work;
-    if (friction_) potential_ += friction_->potential();
+    potential_ += Contacts::friction_potential();
     for (std::size_t k = 0; k < 2; ++k) {
       prescribed_[k].setZero();
       ends_[k].template visit<unknowns == 7>(node(end(k)), [&](int component, Scalar increment) {
@@ -354,22 +355,22 @@ class RodSystem
   }
 
   /// Friction, at the place that is touched.
-  void add_friction(int c) noexcept {
-    const Node& n = node(c);
+  void add_friction(const detail::RodContact<Scalar>& contact, const Friction& friction) noexcept {
+    const Node& n = node(contact.node());
     Eigen::Matrix<Scalar, 3, 6> moves;  // that place, by r and r'
     moves.template leftCols<3>().setIdentity();
     moves.template rightCols<3>().setZero();
-    if (contact_.round()) {
-      const auto view = contact_.view(n);
+    if (contact.round()) {
+      const auto view = contact.view(n);
       moves.template rightCols<3>() =
           (view.u.dot(view.f) * Matrix::Identity() - view.u * view.f.transpose()) / view.length;
     }
     Increment r = Increment::Zero();
     Block K = Block::Zero();
-    r.template head<6>() = -moves.transpose().lazyProduct(friction_->force());
-    const Eigen::Matrix<Scalar, 3, 6> stiff = friction_->tangent().lazyProduct(moves);
+    r.template head<6>() = -moves.transpose().lazyProduct(friction.force());
+    const Eigen::Matrix<Scalar, 3, 6> stiff = friction.tangent().lazyProduct(moves);
     K.template block<6, 6>(0, 0) = moves.transpose().lazyProduct(stiff);
-    assembler_.add_at(c, K, r);
+    assembler_.add_at(contact.node(), K, r);
   }
 
   /// An element's share of the shift is half of either node's.

@@ -57,7 +57,7 @@ class RoundPush {
   Result push(Way& way, const Round& request, const Extent& range, FrictionState* state) noexcept {
     if (!state) return find(way, request, range, nullptr);
     System& system = way.system_;
-    Friction friction(*state, RoundContact{request}, system);
+    Friction friction(*state, RoundContact{request}, system, -system.linear_reaction(), true);
     system.set_friction(&friction);
     const Result pushed = find(way, request, range, &friction);
     // What is no answer says nothing of where they touch: friction begins anew.
@@ -67,7 +67,7 @@ class RoundPush {
     } else {
       state->let_go();
     }
-    system.set_friction(nullptr);
+    system.forget_friction();
     return pushed;
   }
 

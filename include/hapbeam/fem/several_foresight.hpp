@@ -79,6 +79,8 @@ class SeveralForesight {
     system.go_back(mesh_[0], before_[of(newest_)], force);
     forget();
   }
+  /// To where the system was before the push.
+  void begin_again(System& system) const noexcept { system.set_state(mesh_[0], before_[of(newest_)]); }
   /// To be called after each push.  @param found  whether it was answered on the branch on which the beam was
   void know(const Obstacle* all, int count, bool found) noexcept {
     place_ = {place_[0], place_[0], place_[1]};

@@ -24,6 +24,7 @@
 #include <hapbeam/fem/obstacle_gap.hpp>
 #include <hapbeam/fem/round_push.hpp>
 #include <hapbeam/fem/several_foresight.hpp>
+#include <hapbeam/fem/several_friction.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
@@ -41,12 +42,16 @@ class SeveralPush {
   using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
   using Search = ContactSearch<Scalar, dimension>;
   using Single = RoundPush<Element, System>;
+  using Friction = SeveralFriction<System, Obstacle, RoundContact, most>;
   using Law =
       decltype(std::declval<const RoundContact&>().beside(std::declval<const System&>().centreline(), 0, 0));
 
  public:
   /// Solutions of a push: so often nodes follow their contacts, and each obstacle touches or lets go.
   static constexpr int most_passes = Single::most_meshes + 2 * most;
+
+  /// Linear solves in which an equilibrium that is near is found, with friction.
+  static constexpr int most_solves = 16;
 
   /// @throws std::invalid_argument where there are too few elements for so many contacts
   explicit SeveralPush(const System& system) : foresight_(system) {
@@ -72,15 +77,17 @@ class SeveralPush {
           slot(i).s = std::clamp(foresight_.place(i), Scalar(0), range.length());
     for (int i = 0; i < count; ++i)
       if (all[i].touching && !(all[i].pushed.force < 0) && beside_a_touch(i)) all[i].touching = false;
+    Friction friction(system, all, count);
+    began_ = false;
     Status status = Status::ok;
     bool snapped = false;
     int meshes = 1;
     for (int pass = 1;; ++pass) {
       choose_nodes(system, range);
-      status = solve(way, range, pass == 1);
+      status = solve(way, range, pass == 1, friction);
       snapped = snapped || status == Status::snapped;
       if (!is_answer(status)) break;
-      if (!review(system, range, meshes)) break;
+      if (!review(system, range, meshes, friction)) break;
       if (pass == most_passes) {
         status = Status::iteration_limit;
         break;
@@ -88,6 +95,7 @@ class SeveralPush {
     }
     if (snapped && status == Status::ok) status = Status::snapped;
     for (int i = 0; i < count; ++i) end(system, i, status);
+    friction.leave(system, is_answer(status), [this](int i) { return slot(i).goal; });
     foresight_.know(all, count, status == Status::ok);
     return status;
   }
@@ -99,8 +107,9 @@ class SeveralPush {
     int node = -1;  ///< of the mesh, -1: none
     int goal = -1;  ///< number of its contact in the system, -1: none
     bool by_plane = false, sharp = false, wall = false;
-    bool let_go = false;   ///< in this push
-    bool crowded = false;  ///< too near another contact to have a node
+    bool short_of_it = false;  ///< the range ends before where its node would be
+    bool let_go = false;       ///< in this push
+    bool crowded = false;      ///< too near another contact to have a node
     bool close =
         false;          ///< the gap is small: it has a node, so that the mesh stays as it touches and lets go
     Scalar across = 1;  ///< component of the force that the beam takes
@@ -130,7 +139,9 @@ class SeveralPush {
       Slot& now = slot(i);
       now.node = now.goal = -1;
       if (!all_[i].touching && !now.close) continue;
-      now.s = range.node(range.range().nearest({now.s, 0}).s);
+      const Scalar s = range.range().nearest({now.s, 0}).s;
+      now.short_of_it = s != now.s;
+      now.s = range.node(s);
       int k = ordered_++;
       for (; k > 0 && slot(order_[of(k - 1)]).s > now.s; --k) order_[of(k)] = order_[of(k - 1)];
       order_[of(k)] = i;
@@ -159,7 +170,7 @@ class SeveralPush {
   }
 
   template <class Way, class Extent>
-  Status solve(Way& way, const Extent& range, bool first) noexcept {
+  Status solve(Way& way, const Extent& range, bool first, Friction& friction) noexcept {
     System& system = way.system_;
     int contacts = 0;
     for (int k = 0; k < ordered_; ++k)
@@ -170,12 +181,35 @@ class SeveralPush {
       if (ordered_ > 0) system.remesh(mesh_);
       return Status::ok;
     }
+    std::array<Scalar, most> force{};  // of the last tangent [N]
+    for (int i = 0; i < count_; ++i) force[of(i)] = all_[i].pushed.force;
     bool foreseen = false;
     const auto aim = [&] {
       int goals = 0;
       for (int k = 0; k < ordered_; ++k)
         if (const int i = order_[of(k)]; all_[i].touching)
-          set_goal(system, range, i, goals++, foreseen ? laws_[of(i)] : law_of(system, i));
+          set_goal(system, range, i, goals++, foreseen ? laws_[of(i)] : law_of(system, i), force[of(i)],
+                   friction.of(i));
+    };
+    // As in RoundPush: with friction what is near is tried first.
+    const bool rough = friction.any();
+    const int few = rough ? most_solves : 6;
+    bool all = !rough || way.descending_ || friction.falls();
+    const auto agrees = [&](Status found) {
+      if (!rough) return true;
+      if (is_answer(found)) {
+        if (friction.settled(system, [this](int i) { return slot(i).goal; })) return true;
+        for (int i = 0; i < count_; ++i)
+          if (slot(i).goal >= 0) force[of(i)] = system.linear_reaction(slot(i).goal);
+      } else {
+        if (all) return true;
+        all = !friction.turn();
+      }
+      if (friction.torn() && began_) {
+        foresight_.begin_again(system);
+        system.remesh(mesh_);
+      }
+      return false;
     };
     if (first) {
       const Scalar last = system.linear_reaction();
@@ -183,8 +217,12 @@ class SeveralPush {
       for (int k = 0; k < ordered_; ++k)
         if (const int i = order_[of(k)]; all_[i].touching) laws_[of(i)] = law_of(system, i);
       foreseen = foresight_.go_on(system, mesh_);
+      began_ = true;
       if (foreseen) {
-        if (way.settle_at_once(Single::slack, aim).status == Status::ok) return Status::ok;
+        Status status;
+        do status = way.settle_at_once(Single::slack, aim, few).status;
+        while (!agrees(status) && !all);
+        if (status == Status::ok) return status;
         foresight_.go_back(system, last);
         foreseen = false;
         for (int i = 0; i < count_; ++i) slot(i).normal.setZero();
@@ -195,7 +233,13 @@ class SeveralPush {
       way.to_rest();
       system.remesh(mesh_);
     }
-    return way.settle(system.linear_reaction(), Single::slack, aim).status;
+    const Scalar last = system.linear_reaction();
+    Status status;
+    do
+      status =
+          (all ? way.settle(last, Single::slack, aim) : way.settle_at_once(Single::slack, aim, few)).status;
+    while (!agrees(status));
+    return status;
   }
 
   /// Whether all that touch are nearer to the shape at rest than to the present one.
@@ -222,7 +266,8 @@ class SeveralPush {
     return RoundContact{all_[i].round}.beside(system.centreline(), c, end_at(system, c));
   }
   template <class Extent>
-  void set_goal(System& system, const Extent& range, int i, int goal, const Law& law) noexcept {
+  void set_goal(System& system, const Extent& range, int i, int goal, const Law& law, Scalar force,
+                typename Friction::Friction* friction) noexcept {
     using std::abs;
     Slot& now = slot(i);
     const RoundContact round{all_[i].round};
@@ -233,11 +278,11 @@ class SeveralPush {
         if constexpr (sizeof...(as) == 0) system.set_goal(c, d, 0, up());
         else system.set_goal(c, d, as...);
       } else {
-        if constexpr (sizeof...(as) == 0) system.add_goal(all_[i].pushed.force, c, d, Scalar(0), up());
-        else system.add_goal(all_[i].pushed.force, c, d, as...);
+        if constexpr (sizeof...(as) == 0) system.add_goal(force, friction, c, d, Scalar(0), up());
+        else system.add_goal(force, friction, c, d, as...);
       }
     };
-    if (goal == 0) system.set_force(all_[i].pushed.force);
+    if (goal == 0) system.set_force(force), system.set_friction(friction);
     now.goal = goal;
     if (all_[i].kind != ObstacleKind::round) return set(all_[i].place.d, Scalar(0), all_[i].place.normal);
     now.by_plane = now.sharp || law.sharp(reach) || beside_support(range, now.s, reach);
@@ -262,7 +307,7 @@ class SeveralPush {
 
   /// What the equilibrium says of all of them.   @return whether there has to be another one
   template <class Extent>
-  bool review(System& system, const Extent& range, int& meshes) noexcept {
+  bool review(System& system, const Extent& range, int& meshes, Friction& friction) noexcept {
     const Scalar length = system.length();
     int worst = -1;
     Scalar most_pull = 0;
@@ -298,6 +343,7 @@ class SeveralPush {
     if (deepest >= 0) {
       all_[deepest].touching = true;
       all_[deepest].pushed.force = 0;
+      friction.meet(system, deepest);
       for (int i = 0; i < count_ && !slot(deepest).let_go; ++i)
         if (all_[i].touching && beside(i, deepest)) let_go(i);
     }
@@ -363,7 +409,7 @@ class SeveralPush {
     const Scalar off = (std::max)(std::abs(now.ahead), now.miss);
     const bool there =
         off <= (now.by_plane ? Scalar(1e-5) * round.request().reach : Single::beside * system.length());
-    pushed.miss = there ? Scalar(0) : off;
+    pushed.miss = there || now.short_of_it ? Scalar(0) : off;
     if (there) return false;
     typename Search::Aim next{now.s + now.ahead, now.normal};
     if (now.by_plane)
@@ -424,6 +470,7 @@ class SeveralPush {
 
   Obstacle* all_ = nullptr;
   int count_ = 0, ordered_ = 0;
+  bool began_ = false;             // foresight_ has the state before this push
   std::array<int, most> order_{};  // of those that have a node, along the beam
   std::array<Slot, most> slots_{};
   std::array<Law, most> laws_{};

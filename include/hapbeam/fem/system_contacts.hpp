@@ -55,10 +55,12 @@ class SystemContacts {
   // What SeveralPush asks beyond that.
 
   /// One contact more, after the first.  @param as  those of the first   @param force  of the last tangent's [N]
+  /// @param friction  of it, null: none
   template <class... As>
-  void add_goal(Scalar force, int contact, Scalar d, const As&... as) noexcept {
+  void add_goal(Scalar force, Friction* friction, int contact, Scalar d, const As&... as) noexcept {
     auto& other = others_.add();
     other.point = {contact, as...};
+    other.friction = friction;
     other.force = other.reaction = force;
     other.point.look(self().node(contact), force);
     other.start = other.point.displacement();
@@ -77,10 +79,20 @@ class SystemContacts {
   /// How that of the first one lies to its node.
   auto contact() const noexcept { return contact_.view(self().node(contact_.node())); }
 
-  /// Of the contacts of the next goals, null: none.
+  /// Of the first contact of the next goals, null: none.
   void set_friction(Friction* friction) noexcept { friction_ = friction; }
+  /// Of no contact any more.
+  void forget_friction() noexcept {
+    friction_ = nullptr;
+    others_.each([](auto& other) { other.friction = nullptr; });
+  }
   /// To be called where the beam has moved.
-  void look_at_friction() noexcept { friction_->look(contact_, self().node(contact_.node())); }
+  void look_at_friction() noexcept { look(*friction_, contact_); }
+  /// The same of contact k, in the order in which they were set.
+  void look_at_friction(int k) noexcept {
+    if (k == 0) return look_at_friction();
+    look(*others_[k - 1].friction, others_[k - 1].point);
+  }
 
   /// The same as reaction() at the end of the last iterate(), of its linear equations, r + KΔ: accurate to what Newton's next
   /// increment would change.  reaction() has the round-off of nodes in it, EA/l and 12EI/l³ times their last places, which
@@ -111,6 +123,31 @@ class SystemContacts {
     if (contact_.node() >= 0) contact_.look(self().node(contact_.node()), force_);
     for (auto& other : others_) other.point.look(self().node(other.point.node()), other.force);
     if (friction_) look_at_friction();
+    others_.each([this](auto& other) {
+      if (other.friction) look(*other.friction, other.point);
+    });
+  }
+  /// To be called after each linear solve.
+  void feel_friction() noexcept {
+    if (friction_) friction_->feel(-force_);
+    others_.each([](auto& other) {
+      if (other.friction) other.friction->feel(-other.force);
+    });
+  }
+  /// To be called where the beam falls.
+  void fall_with_friction() noexcept {
+    if (friction_) friction_->fall();
+    others_.each([](auto& other) {
+      if (other.friction) other.friction->fall();
+    });
+  }
+  /// [J]
+  Scalar friction_potential() noexcept {
+    Scalar potential = friction_ ? friction_->potential() : Scalar(0);
+    others_.each([&](auto& other) {
+      if (other.friction) potential += other.friction->potential();
+    });
+    return potential;
   }
   /// Moves nodes along n until the contacts are where they should be.
   template <class Nodes>
@@ -120,8 +157,8 @@ class SystemContacts {
   }
 
   Point contact_;
-  OtherContacts<OtherContact<Point, Scalar, Row>, Others> others_;
-  Friction* friction_ = nullptr;
+  OtherContacts<OtherContact<Point, Scalar, Friction, Row>, Others> others_;
+  Friction* friction_ = nullptr;                       // of the first contact
   Scalar load_ = 0, saved_load_ = 0, start_load_ = 0;  // of the dead loads
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;            // of the first contact [m]
   Scalar linear_reaction_ = 0, saved_reaction_ = 0;    // [N]
@@ -130,6 +167,9 @@ class SystemContacts {
  private:
   System& self() noexcept { return static_cast<System&>(*this); }
   const System& self() const noexcept { return static_cast<const System&>(*this); }
+  void look(Friction& friction, const Point& contact) noexcept {
+    friction.look(contact, self().node(contact.node()));
+  }
   void begin(Scalar d, const Point& point) noexcept {
     contact_ = point;
     others_.clear();

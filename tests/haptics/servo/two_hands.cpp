@@ -21,12 +21,12 @@ using namespace hapbeam::testing;
 
 namespace {
 
-/// Leans down from a moment on, when the guard has let the force in.
+/// Leans down from a moment on, when the guard has let the force in, and half a second later along the beam as well.
 struct LeaningLater {
-  double push, at;
+  double push, aside, at;
   HandTarget operator()(double time) const noexcept {
     const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-    return {zero, zero, time < at ? zero : Eigen::Vector3d(0, -push, 0)};
+    return {zero, zero, time < at ? zero : Eigen::Vector3d(time < at + 0.5 ? 0 : aside, -push, 0)};
   }
 };
 
@@ -34,9 +34,9 @@ struct LeaningLater {
 template <class Model>
 class Station {
  public:
-  Station(Hand<Model>& hand, const Situation& who, double at, const Placement& placement)
+  Station(Hand<Model>& hand, const Situation& who, double at, const Placement& placement, double aside = 0)
       : who_(who),
-        device_({who.push, at}, who.options()),
+        device_({who.push, aside, at}, who.options()),
         servo_(hand, device_.info(), options(placement, who)) {
     held_.fill(Eigen::Vector3d::Zero());
   }
@@ -64,7 +64,7 @@ class Station {
  private:
   static ServoOptions options(const Placement& placement, const Situation& who) {
     ServoOptions options;
-    options.placement = placement, options.delay_ticks = who.delay;
+    options.placement = placement, options.delay_ticks = who.delay, options.friction = who.rough;
     return options;
   }
 
@@ -78,6 +78,7 @@ class Station {
 struct PairResponse {
   double speed = 0;         ///< [m/s] RMS over the last 0.1 s
   double least_energy = 0;  ///< [J] of both hands and arms together
+  double dissipated = 0;    ///< [J] by friction on the beam
   std::vector<double> forces;
   bool pressing = false;  ///< both
 };
@@ -97,9 +98,9 @@ Placement on_side(const Model& model, double s, const Eigen::Vector3d& from) {
 
 template <class Model>
 PairResponse pair_response(Model& model, const Placement& first, const Placement& second, const Situation& a,
-                           const Situation& b, double later, double duration) {
+                           const Situation& b, double later, double duration, double aside = 0) {
   TwoHands<Model> hands(model);
-  Station<Model> left(hands[0], a, 0.3, first), right(hands[1], b, 0.3 + later, second);
+  Station<Model> left(hands[0], a, 0.3, first, aside), right(hands[1], b, 0.3 + later, second, -aside);
   PairResponse r;
   double energy = 0, squares = 0, count = 0;
   while (std::min(left.time(), right.time()) < duration) {
@@ -113,6 +114,7 @@ PairResponse pair_response(Model& model, const Placement& first, const Placement
   }
   r.speed = std::sqrt(squares / count);
   r.pressing = left.record().pressing && right.record().pressing;
+  r.dissipated = left.record().dissipated + right.record().dissipated;
   return r;
 }
 
@@ -155,6 +157,37 @@ TEST_CASE("two hands that lean on one beam come to rest, each at its own rate", 
     pressing += r.pressing;
   }
   CHECK(pressing >= 15);
+}
+
+// They draw the beam between them, or push it.
+TEST_CASE("two hands that lean on one beam with friction, and then along it, come to rest",
+          "[two_hands][friction]") {
+  Random random(47);
+  FemModel<Several<Corotational<>, 2>> ruler(steel_ruler(), 16);
+  FemModel<Several<RoundRod, 2>> wire(
+      Rod(0.3, RodSection::circle(0.0015), {200e9, 77e9}, RodSupport::clamped, RodSupport::free), 12);
+  int pressing = 0, rubbed = 0;
+  for (int i = 0; i < 30; ++i) {
+    Situation a = random_hand(random), b = random_hand(random);
+    a.rough = random(0.1, 1), b.rough = i % 5 == 0 ? 0 : random(0.1, 1);
+    const double s = random(0.2, 0.4) * 0.3, apart = random(0.2, 0.4) * 0.3, later = random(0.0, 0.2),
+                 aside = random(0.6) * std::min(a.push, b.push);
+    const bool below = random(1) > 0;
+    const auto respond = [&](auto& model) {
+      model.reset();
+      const Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+      return pair_response(model, on_side(model, s, below ? Eigen::Vector3d(-up) : up),
+                           on_side(model, s + apart, up), a, b, later, 2.5, aside);
+    };
+    const PairResponse r = i % 3 != 0 ? respond(ruler) : respond(wire);
+    CAPTURE(i, s, apart, below, aside, a.rough, b.rough, a.push, b.push, a.period, b.period, a.delay,
+            b.delay);
+    CHECK(r.speed <= 1e-3);
+    CHECK(r.least_energy >= -1e-9);
+    pressing += r.pressing, rubbed += r.dissipated > 1e-6;
+  }
+  CHECK(pressing >= 15);
+  CHECK(rubbed >= 15);
 }
 
 TEST_CASE("in lock step two hands feel the same to the last bit in every run", "[two_hands]") {
