@@ -39,6 +39,27 @@ TEST_CASE("a rod keeps the contract of a ForceModel", "[contract][rod]") {
   }
 }
 
+TEST_CASE("a rod that is bent, tapered, loaded or laid in a bed keeps the contract of a ForceModel",
+          "[contract][rod]") {
+  const RodSupport c = RodSupport::clamped, f = RodSupport::free;
+  SECTION("a hook, out of its plane") { check(FemModel<TwistedRod>(pressed_rod("hook").rod, 16), {0, 0, 1}); }
+  SECTION("a strip that is twisted by nature") {
+    Rod strip(0.5, RodSection::rectangle(0.01, 0.005), spring_steel, c, c);
+    strip.naturally({{0.5, 0, 0, 3}});
+    check(FemModel<TwistedRod>(strip, 16));
+  }
+  SECTION("a taper") {
+    Rod rod = straight(c, f);
+    rod.section([](double s) { return RodSection::circle(0.006 - 0.008 * s); });
+    check(FemModel<RoundRod>(rod, 16));
+  }
+  SECTION("under its weight") {
+    Rod rod = straight(c, c);
+    rod.weight(7850, {0, -9.81, 0});
+    check(FemModel<RoundRod>(rod, 16));
+  }
+}
+
 TEST_CASE("a planar model that turns keeps the contract of a ForceModel", "[contract][rod]") {
   const Rod rod = straight(RodSupport::clamped, RodSupport::free);
   const Beam beam = beam_in_any_plane(rod);
