@@ -31,10 +31,10 @@ inline constexpr int pack_size = sizeof(T) == 4   ? 4
                                  : sizeof(T) == 8 ? wide_bytes / 8
                                                   : 1;
 
-template <typename T>
+template <typename T, int Size = pack_size<T>>
 class Pack {
  public:
-  static constexpr int size = pack_size<T>;
+  static constexpr int size = Size;
 
   Pack() = default;
   template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
@@ -72,8 +72,6 @@ class Pack {
   [[gnu::always_inline]] friend Pack in_turn(const Pack& a, const Pack& b) noexcept {
     Pack both;
 #if defined(__GNUC__)
-    using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
-    typedef Bits Mask __attribute__((vector_size(size * sizeof(T))));
     Mask mask;
     for (int i = 0; i < size; ++i) mask[i] = i % 2 == 0 ? -1 : 0;
     both.v_ = mask ? a.v_ : b.v_;
@@ -105,13 +103,28 @@ class Pack {
     }
     return a;
   }
-  friend Pack atan2(Pack y, const Pack& x) noexcept {
-    const Pack whole = sqrt(x * x + y * y) + x;
-    bool small_angles = true;
-    for (int i = 0; i < size; ++i) small_angles = small_angles && std::abs(y[i]) < whole[i];
-    if (small_angles) return twice_atan(y / whole);
-    for (int i = 0; i < size; ++i) y.v_[i] = std::atan2(y.v_[i], x.v_[i]);
-    return y;
+  /// Whether each number of a is less than that of b.
+  [[gnu::always_inline]] friend bool all_less(const Pack& a, const Pack& b) noexcept {
+#if defined(__GNUC__)
+    constexpr int words = static_cast<int>(sizeof(Mask) / sizeof(std::int64_t));
+    const Mask mask = a.v_ < b.v_;
+    std::int64_t all[words];
+    std::memcpy(all, &mask, sizeof mask);
+    for (int i = 1; i < words; ++i) all[0] &= all[i];
+    return all[0] == -1;
+#else
+    for (int i = 0; i < size; ++i)
+      if (!(a[i] < b[i])) return false;
+    return true;
+#endif
+  }
+  /// atan2(y, x).  @param length  √(x² + y²)
+  [[gnu::always_inline]] friend Pack angle(const Pack& y, const Pack& x, const Pack& length) noexcept {
+    const Pack whole = length + x;
+    return all_less(y * y, whole * whole) && all_less(0, whole) ? twice_atan(y / whole) : one_by_one(y, x);
+  }
+  [[gnu::always_inline]] friend Pack atan2(const Pack& y, const Pack& x) noexcept {
+    return angle(y, x, sqrt(x * x + y * y));
   }
   friend Pack angle_near(const Pack& y, const Pack& x, const Pack& length, const Pack& other) noexcept {
     const Pack whole = length + x;
@@ -124,14 +137,16 @@ class Pack {
   /// part/whole, nothing where the whole is not positive.
   friend Pack share_of(const Pack& part, const Pack& whole) noexcept {
     Pack share = part / whole;
+#if defined(__GNUC__)
+    share.v_ = whole.v_ > 0 ? share.v_ : Pack(0).v_;
+#else
     for (int i = 0; i < size; ++i) share.v_[i] = whole.v_[i] > 0 ? share.v_[i] : T(0);
+#endif
     return share;
   }
   /// cos √q and sin √q / √q
   friend void cos_and_sin_of_square(const Pack& q, Pack& cosine, Pack& sine) noexcept {
-    bool small_angles = true;
-    for (int i = 0; i < size; ++i) small_angles = small_angles && q[i] < T(0.25);
-    if (small_angles) return small_square_turn(q, cosine, sine);
+    if (all_less(q, T(0.25))) return small_square_turn(q, cosine, sine);
     for (int i = 0; i < size; ++i) {
       T c, s;
       detail::cos_and_sin_of_square(q[i], c, s);
@@ -140,15 +155,20 @@ class Pack {
   }
   /// cos α and sin α
   friend void cos_and_sin(const Pack& a, Pack& cosine, Pack& sine) noexcept {
-    bool small_angles = true;
-    for (int i = 0; i < size; ++i) small_angles = small_angles && std::abs(a[i]) < T(0.79);
-    if (small_angles) return small_turn(a, cosine, sine);
+    if (all_less(a * a, T(0.6241))) return small_turn(a, cosine, sine);
     for (int i = 0; i < size; ++i) cosine.v_[i] = std::cos(a.v_[i]), sine.v_[i] = std::sin(a.v_[i]);
   }
 
  private:
+  static Pack one_by_one(Pack y, const Pack& x) noexcept {
+    for (int i = 0; i < size; ++i) y.v_[i] = std::atan2(y.v_[i], x.v_[i]);
+    return y;
+  }
+
 #if defined(__GNUC__)
+  using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
   typedef T Vector __attribute__((vector_size(size * sizeof(T))));
+  typedef Bits Mask __attribute__((vector_size(size * sizeof(T))));
   Vector v_;
 #else
   T v_[size];
@@ -159,9 +179,9 @@ class Pack {
 
 namespace Eigen {
 
-template <typename T>
-struct NumTraits<hapbeam::detail::Pack<T>> : NumTraits<T> {
-  using Real = hapbeam::detail::Pack<T>;
+template <typename T, int Size>
+struct NumTraits<hapbeam::detail::Pack<T, Size>> : NumTraits<T> {
+  using Real = hapbeam::detail::Pack<T, Size>;
   using NonInteger = Real;
   using Nested = Real;
   using Literal = Real;
