@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -49,6 +50,13 @@ class Pack {
     return pack;
   }
 
+  [[gnu::always_inline]] static Pack load(const T* from) noexcept {
+    Pack pack;
+    std::memcpy(&pack.v_, from, sizeof pack.v_);
+    return pack;
+  }
+  [[gnu::always_inline]] void store(T* to) const noexcept { std::memcpy(to, &v_, sizeof v_); }
+
   [[gnu::always_inline]] T operator[](int i) const noexcept { return v_[i]; }
   [[gnu::always_inline]] void set(int i, T a) noexcept { v_[i] = a; }
 
@@ -79,6 +87,18 @@ class Pack {
     for (int i = 0; i < size; ++i) both.v_[i] = i % 2 == 0 ? a[i] : b[i];
 #endif
     return both;
+  }
+
+  /// a, moved up by two numbers, after two others.
+  [[gnu::always_inline]] friend Pack after(const T* two, const Pack& a) noexcept {
+    Pack moved;
+#if defined(__GNUC__)
+    Vector front = {two[0], two[1]};
+    moved.v_ = from_both(front, a.v_, std::make_integer_sequence<int, size>());
+#else
+    for (int i = 0; i < size; ++i) moved.v_[i] = i < 2 ? two[i] : a.v_[i - 2];
+#endif
+    return moved;
   }
 
   [[gnu::always_inline]] Pack operator-() const noexcept { return Pack(0) -= *this; }
@@ -135,7 +155,7 @@ class Pack {
     return angle;
   }
   /// part/whole, nothing where the whole is not positive.
-  friend Pack share_of(const Pack& part, const Pack& whole) noexcept {
+  [[gnu::always_inline]] friend Pack share_of(const Pack& part, const Pack& whole) noexcept {
     Pack share = part / whole;
 #if defined(__GNUC__)
     share.v_ = whole.v_ > 0 ? share.v_ : Pack(0).v_;
@@ -145,21 +165,25 @@ class Pack {
     return share;
   }
   /// cos √q and sin √q / √q
-  friend void cos_and_sin_of_square(const Pack& q, Pack& cosine, Pack& sine) noexcept {
-    if (all_less(q, T(0.25))) return small_square_turn(q, cosine, sine);
-    for (int i = 0; i < size; ++i) {
-      T c, s;
-      detail::cos_and_sin_of_square(q[i], c, s);
-      cosine.v_[i] = c, sine.v_[i] = s;
-    }
+  [[gnu::always_inline]] friend void cos_and_sin_of_square(const Pack& q, Pack& cosine, Pack& sine) noexcept {
+    if (all_less(q, T(0.25))) small_square_turn(q, cosine, sine);
+    else one_by_one([](T a, T& c, T& s) { detail::cos_and_sin_of_square(a, c, s); }, q, cosine, sine);
   }
   /// cos α and sin α
-  friend void cos_and_sin(const Pack& a, Pack& cosine, Pack& sine) noexcept {
-    if (all_less(a * a, T(0.6241))) return small_turn(a, cosine, sine);
-    for (int i = 0; i < size; ++i) cosine.v_[i] = std::cos(a.v_[i]), sine.v_[i] = std::sin(a.v_[i]);
+  [[gnu::always_inline]] friend void cos_and_sin(const Pack& a, Pack& cosine, Pack& sine) noexcept {
+    if (all_less(a * a, T(0.6241))) small_turn(a, cosine, sine);
+    else one_by_one([](T x, T& c, T& s) { c = std::cos(x), s = std::sin(x); }, a, cosine, sine);
   }
 
  private:
+  template <class F>
+  static void one_by_one(F&& f, const Pack& a, Pack& cosine, Pack& sine) noexcept {
+    for (int i = 0; i < size; ++i) {
+      T c, s;
+      f(a[i], c, s);
+      cosine.v_[i] = c, sine.v_[i] = s;
+    }
+  }
   static Pack one_by_one(Pack y, const Pack& x) noexcept {
     for (int i = 0; i < size; ++i) y.v_[i] = std::atan2(y.v_[i], x.v_[i]);
     return y;
@@ -169,6 +193,15 @@ class Pack {
   using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
   typedef T Vector __attribute__((vector_size(size * sizeof(T))));
   typedef Bits Mask __attribute__((vector_size(size * sizeof(T))));
+  template <int... I>
+  [[gnu::always_inline]] static Vector from_both(const Vector& front, const Vector& a,
+                                                 std::integer_sequence<int, I...>) noexcept {
+#if defined(__clang__)
+    return __builtin_shufflevector(front, a, (I < 2 ? I : size + I - 2)...);
+#else
+    return __builtin_shuffle(front, a, Mask{(I < 2 ? I : size + I - 2)...});
+#endif
+  }
   Vector v_;
 #else
   T v_[size];
