@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/element/rod_tangent.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
@@ -61,14 +62,21 @@ struct RoundRod {
   /// Residual and tangent.
   /// @param r  out [N, N·m of r']   @param K  out, symmetric, both triangles   @return V [J]
   template <typename S>
-  static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>&,
+  static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
                    Vector12<S>& r, Matrix12<S>& K) noexcept {
-    Core<S> core;
+    RodTangent<S, 3> core;
+    const S energy = tangent(p, n1, n2, inner, core);
+    core.expand(r, K);
+    return energy;
+  }
+  /// The same, each derivative once.
+  template <typename S>
+  [[gnu::always_inline]] static S tangent(const RodProperties<S>& p, const RodNode<S>& n1,
+                                          const RodNode<S>& n2, Inner<S>&, RodTangent<S, 3>& core) noexcept {
     const V3<S> chord = n2.r - n1.r;
     S energy = 0;
     stretch(p, middle(p, chord, n1, n2), n1.tangent, n2.tangent, core, energy);
     for (int g = 0; g < points; ++g) bend(p, g, chord, n1.tangent, n2.tangent, core, energy);
-    expand(core, r, K);
     return energy;
   }
 
@@ -85,13 +93,8 @@ struct RoundRod {
     return S(1.5) * p.inverse_length * chord - S(0.25) * (n1.tangent + n2.tangent);
   }
 
-  /// Gradient and Hessian by Δ, r1', r2'.  Of what is symmetric the lower triangle, column by column.
   template <typename S>
-  struct Core {
-    S D[3], t1[3], t2[3];
-    S DD[6], K11[6], K22[6];
-    S D1[9], D2[9], K12[9];  // column by column
-  };
+  using Core = RodTangent<S, 3>;
 
   template <typename S>
   static void bend(const RodProperties<S>& p, int g, const V3<S>& chord, const V3<S>& t1, const V3<S>& t2,
@@ -219,29 +222,8 @@ struct RoundRod {
     }
   }
 
-  template <typename S>
-  static void expand(const Core<S>& core, Vector12<S>& r, Matrix12<S>& K) noexcept {
-    const auto set = [&K](int i, int j, const S& value) { K(i, j) = value, K(j, i) = value; };
-    HAPBEAM_UNROLL
-    for (int c = 0; c < 3; ++c) {
-      r[c] = -core.D[c], r[3 + c] = core.t1[c], r[6 + c] = core.D[c], r[9 + c] = core.t2[c];
-      HAPBEAM_UNROLL
-      for (int row = 0; row < 3; ++row) {
-        const int k = 3 * c + row;
-        set(6 + row, 3 + c, core.D1[k]), set(row, 3 + c, -core.D1[k]);
-        set(6 + row, 9 + c, core.D2[k]), set(row, 9 + c, -core.D2[k]);
-        set(3 + row, 9 + c, core.K12[k]);
-        const S DD = core.DD[row < c ? half(c, row) : half(row, c)];
-        K(row, c) = DD, K(6 + row, 6 + c) = DD, K(row, 6 + c) = -DD, K(6 + row, c) = -DD;
-        if (row < c) continue;
-        set(3 + row, 3 + c, core.K11[half(row, c)]);
-        set(9 + row, 9 + c, core.K22[half(row, c)]);
-      }
-    }
-  }
-
   /// Where the lower triangle has (i, j), i >= j.
-  static constexpr int half(int i, int j) noexcept { return j * (5 - j) / 2 + i; }
+  static constexpr int half(int i, int j) noexcept { return RodTangent<double, 3>::half<3>(i, j); }
 };
 
 }  // namespace hapbeam

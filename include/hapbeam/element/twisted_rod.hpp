@@ -127,10 +127,19 @@ struct TwistedRod {
   template <typename S>
   static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
                    Vector14<S>& r, Matrix14<S>& K) noexcept {
+    RodTangent<S, 4> all;
+    const S energy = tangent(p, n1, n2, inner, all);
+    all.expand(r, K);
+    return energy;
+  }
+  /// The same, each derivative once.
+  template <typename S>
+  static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
+                   RodTangent<S, 4>& all) noexcept {
     const Frame<S> f(p, n1, n2);
     Core<S> core;
     const S energy = respond(p, f, inner.twist, core);
-    detail::expand(f, core, inner, r, K);
+    detail::expand(f, core, inner, all);
     return energy;
   }
 

@@ -10,6 +10,7 @@
 #include <hapbeam/element/carried_frame.hpp>
 #include <hapbeam/element/pack.hpp>
 #include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/element/rod_tangent.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/natural_rod.hpp>
 #include <hapbeam/fem/rod_abreast.hpp>
@@ -118,7 +119,7 @@ class RodElements {
   };
 
   /// Residual and tangent of V - λW in each element, and the derivatives of its inner twist.  Elements are computed a few at a time,
-  /// side by side.   @param visit  called with (place, tangents, residuals) of those from that place on, in the order of PairOrder
+  /// side by side.   @param visit  called with a place and what those from there on are, in the order of PairOrder
   template <class Visit>
   [[gnu::always_inline]] Energies visit_tangents(Scalar lambda, Visit&& visit) noexcept {
     Energies sum;
@@ -132,9 +133,9 @@ class RodElements {
         sum.strain += group.energy[lane];
         sum.inner += inner[lane];
         if constexpr (has_twist) group.get(lane, inners_[e]);
-        if (!loads_.empty() || !bed_.empty()) add_loads(e, lambda, lane, group, sum);
       }
-      visit(first, group.K, group.r);
+      if (loads_.empty() && bed_.empty()) visit(first, group.K);
+      else visit_loaded(first, lambda, group, sum, visit);
     }
     return sum;
   }
@@ -196,16 +197,48 @@ class RodElements {
   using Wide = detail::Pack<Scalar>;
   static constexpr int lanes = Wide::size;
 
+  /// Residual and tangent in full, for an element that has them alone, and where loads are added.
+  template <typename S>
+  struct Full {
+    Eigen::Matrix<S, 2 * unknowns, 1> r;
+    Eigen::Matrix<S, 2 * unknowns, 2 * unknowns> K;
+    const S& operator[](int i) const noexcept { return r[i]; }
+    const S& operator()(int i, int j) const noexcept { return K(i, j); }
+  };
+  template <typename S>
+  using Once = RodTangent<S, unknowns - 3>;
+  template <class E, typename S, typename = void>
+  struct StiffnessOf {
+    using Type = Full<S>;
+    static S compute(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b,
+                     typename E::template Inner<S>& inner, Type& to) noexcept {
+      return E::tangent(p, a, b, inner, to.r, to.K);
+    }
+  };
+  template <class E, typename S>
+  struct StiffnessOf<E, S,
+                     std::void_t<decltype(E::tangent(
+                         std::declval<const RodProperties<S>&>(), std::declval<const RodNode<S>&>(),
+                         std::declval<const RodNode<S>&>(), std::declval<typename E::template Inner<S>&>(),
+                         std::declval<Once<S>&>()))>> {
+    using Type = Once<S>;
+    [[gnu::always_inline]] static S compute(const RodProperties<S>& p, const RodNode<S>& a,
+                                            const RodNode<S>& b, typename E::template Inner<S>& inner,
+                                            Type& to) noexcept {
+      return E::tangent(p, a, b, inner, to);
+    }
+  };
+  using Stiffness = StiffnessOf<Element, Wide>;
+
   /// Elements side by side.
   struct Group {
-    Eigen::Matrix<Wide, 2 * unknowns, 1> r;
-    Eigen::Matrix<Wide, 2 * unknowns, 2 * unknowns> K;
+    typename Stiffness::Type K;
     typename Element::template Inner<Wide> inner;
     Wide energy;
 
     [[gnu::always_inline]] void get(int lane, Residual& to) const noexcept {
       HAPBEAM_UNROLL
-      for (int i = 0; i < 2 * unknowns; ++i) to[i] = r[i][lane];
+      for (int i = 0; i < 2 * unknowns; ++i) to[i] = K[i][lane];
     }
     [[gnu::always_inline]] void get(int lane, Inner& to) const noexcept {
       to.residual = inner.residual[lane];
@@ -217,26 +250,37 @@ class RodElements {
   void compute(int first, Group& group) const noexcept {
     const detail::Abreast<Scalar> of = abreast_.elements(first);
     if constexpr (has_twist) group.inner.twist = detail::gather(of, [&](int e) { return inners_[e].twist; });
-    group.energy = Element::tangent(abreast_.properties(first), detail::gather_nodes<has_twist>(of, nodes_),
-                                    detail::gather_nodes<has_twist>(of.next(1, size()), nodes_), group.inner,
-                                    group.r, group.K);
+    group.energy =
+        Stiffness::compute(abreast_.properties(first), detail::gather_nodes<has_twist>(of, nodes_),
+                           detail::gather_nodes<has_twist>(of.next(1, size()), nodes_), group.inner, group.K);
   }
-  /// Dead loads and the foundation.
-  void add_loads(int e, Scalar lambda, int lane, Group& group, Energies& sum) const noexcept {
+  /// With dead loads and the foundation.
+  template <class Visit>
+  void visit_loaded(int first, Scalar lambda, const Group& group, Energies& sum, Visit&& visit) noexcept {
+    Full<Wide> all;
+    for (int j = 0; j < 2 * unknowns; ++j) {
+      all.r[j] = group.K[j];
+      for (int i = 0; i < 2 * unknowns; ++i) all.K(i, j) = group.K(i, j);
+    }
+    for (int lane = 0; lane < lanes && first + lane < 2 * abreast_.order().pairs(); ++lane)
+      if (const int e = abreast_.order().element(first + lane); e >= 0) add_loads(e, lambda, lane, all, sum);
+    visit(first, all);
+  }
+  void add_loads(int e, Scalar lambda, int lane, Full<Wide>& all, Energies& sum) noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
     Residual r;
-    group.get(lane, r);
+    for (int i = 0; i < 2 * unknowns; ++i) r[i] = all.r[i][lane];
     if (!bed_.empty()) {
       Tangent K = Tangent::Zero();
       sum.strain += bed_.template add<unknowns>(e, a, b, r, K);
       for (int j = 0; j < 2 * unknowns; ++j)
-        for (int i = 0; i < 2 * unknowns; ++i) group.K(i, j).set(lane, group.K(i, j)[lane] + K(i, j));
+        for (int i = 0; i < 2 * unknowns; ++i) all.K(i, j).set(lane, all.K(i, j)[lane] + K(i, j));
     }
     if (!loads_.empty()) {
       loads_.template subtract<unknowns>(e, lambda, r);
       sum.work += lambda * loads_.work(e, a, b);
     }
-    for (int i = 0; i < 2 * unknowns; ++i) group.r[i].set(lane, r[i]);
+    for (int i = 0; i < 2 * unknowns; ++i) all.r[i].set(lane, r[i]);
   }
   Scalar middle(int e) const noexcept { return (nodes_[e].s + nodes_[e + 1].s) / 2; }
 

@@ -1,0 +1,56 @@
+// Residual and tangent of an element of a rod.  Its energy depends on the places of both nodes by Δ = r2 - r1 alone, so each
+// derivative by Δ stands here once, and what is symmetric by its lower triangle.
+//
+// Real-time: noexcept, no allocation, O(1).
+#pragma once
+
+#include <hapbeam/unroll.hpp>
+
+namespace hapbeam {
+
+/// @tparam M  unknowns of a node beside its place: r', and φ if there is one
+template <typename S, int M>
+struct RodTangent {
+  static constexpr int unknowns = 3 + M;
+
+  S D[3], t1[M], t2[M];
+  S DD[6], K11[M * (M + 1) / 2], K22[M * (M + 1) / 2];
+  S D1[3 * M], D2[3 * M], K12[M * M];  // column by column
+
+  /// ∂V/∂ of unknown i of both nodes.
+  [[gnu::always_inline]] S operator[](int i) const noexcept {
+    const int k = i % unknowns;
+    if (k < 3) return i < unknowns ? -D[k] : D[k];
+    return i < unknowns ? t1[k - 3] : t2[k - 3];
+  }
+  /// The entry of the tangent.
+  [[gnu::always_inline]] S operator()(int i, int j) const noexcept {
+    const bool first_i = i < unknowns, first_j = j < unknowns;
+    const int p = i % unknowns, q = j % unknowns;
+    if (p >= 3 && q < 3) return (*this)(j, i);
+    if (q < 3) return first_i == first_j ? DD[half<3>(p, q)] : -DD[half<3>(p, q)];
+    if (p < 3) {
+      const S& by = first_j ? D1[3 * (q - 3) + p] : D2[3 * (q - 3) + p];
+      return first_i ? -by : by;
+    }
+    if (first_i != first_j) return first_i ? K12[M * (q - 3) + p - 3] : K12[M * (p - 3) + q - 3];
+    return first_i ? K11[half<M>(p - 3, q - 3)] : K22[half<M>(p - 3, q - 3)];
+  }
+
+  /// @param r  out   @param K  out, both triangles
+  template <class Residual, class Tangent>
+  void expand(Residual& r, Tangent& K) const noexcept {
+    for (int j = 0; j < 2 * unknowns; ++j) {
+      r[j] = (*this)[j];
+      for (int i = 0; i < 2 * unknowns; ++i) K(i, j) = (*this)(i, j);
+    }
+  }
+
+  /// Where the lower triangle of N rows has (i, j) or (j, i), column by column.
+  template <int N>
+  static constexpr int half(int i, int j) noexcept {
+    return i < j ? half<N>(j, i) : j * (2 * N - 1 - j) / 2 + i;
+  }
+};
+
+}  // namespace hapbeam
