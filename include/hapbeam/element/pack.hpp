@@ -93,10 +93,22 @@ class Pack {
   [[gnu::always_inline]] friend Pack after(const T* two, const Pack& a) noexcept {
     Pack moved;
 #if defined(__GNUC__)
-    Vector front = {two[0], two[1]};
-    moved.v_ = from_both(front, a.v_, std::make_integer_sequence<int, size>());
+    const Vector front = {two[0], two[1]};
+    moved.v_ = from_both(front, a.v_, After());
 #else
     for (int i = 0; i < size; ++i) moved.v_[i] = i < 2 ? two[i] : a.v_[i - 2];
+#endif
+    return moved;
+  }
+
+  /// a, moved down by two numbers, before two others.
+  [[gnu::always_inline]] friend Pack before(const Pack& a, const T* two) noexcept {
+    Pack moved;
+#if defined(__GNUC__)
+    const Vector back = {two[0], two[1]};
+    moved.v_ = from_both(a.v_, back, Before());
+#else
+    for (int i = 0; i < size; ++i) moved.v_[i] = i + 2 < size ? a.v_[i + 2] : two[i + 2 - size];
 #endif
     return moved;
   }
@@ -194,14 +206,20 @@ class Pack {
   typedef T Vector __attribute__((vector_size(size * sizeof(T))));
   typedef Bits Mask __attribute__((vector_size(size * sizeof(T))));
   template <int... I>
-  [[gnu::always_inline]] static Vector from_both(const Vector& front, const Vector& a,
+  [[gnu::always_inline]] static Vector from_both(const Vector& a, const Vector& b,
                                                  std::integer_sequence<int, I...>) noexcept {
 #if defined(__clang__)
-    return __builtin_shufflevector(front, a, (I < 2 ? I : size + I - 2)...);
+    return __builtin_shufflevector(a, b, I...);
 #else
-    return __builtin_shuffle(front, a, Mask{(I < 2 ? I : size + I - 2)...});
+    return __builtin_shuffle(a, b, Mask{I...});
 #endif
   }
+  template <int... I>
+  static std::integer_sequence<int, (I < 2 ? I : size + I - 2)...> after(std::integer_sequence<int, I...>);
+  template <int... I>
+  static std::integer_sequence<int, (I + 2)...> before(std::integer_sequence<int, I...>);
+  using After = decltype(after(std::make_integer_sequence<int, size>()));
+  using Before = decltype(before(std::make_integer_sequence<int, size>()));
   Vector v_;
 #else
   T v_[size];

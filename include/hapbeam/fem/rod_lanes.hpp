@@ -11,6 +11,12 @@
 
 namespace hapbeam::detail {
 
+/// Groups of what stands side by side in a rod, for PerNode, which has one more.
+template <typename Scalar>
+constexpr int groups_of(int elements) noexcept {
+  return elements == Eigen::Dynamic ? Eigen::Dynamic : (std::max)(elements / pack_size<Scalar> + 1, 2);
+}
+
 /// Which nodes or elements stand side by side.
 template <typename Scalar, int Size = pack_size<Scalar>>
 struct Abreast {

@@ -51,26 +51,29 @@ template <typename S>
   e -= v.dot(e) * v;
   node.director = (S(1.5) - S(0.5) * e.squaredNorm()) * e;
 }
-/// Adds increments to the tangents of all nodes, a few at a time.
-/// @tparam twists  whether there is φ   @param increment  i -> r, r' and φ, of their number and in their order
-template <bool twists, class Nodes, class Increment>
-void move_tangents(Nodes& nodes, Increment&& increment) noexcept {
-  using Scalar = std::decay_t<decltype(nodes[0].s)>;
-  using Node = RodNode<Scalar>;
-  for_each_abreast<Scalar>(nodes.size() - 1, [&](const auto& abreast) {
-    using Wide = typename std::decay_t<decltype(abreast)>::Wide;
+/// Adds increments to all nodes, a few at a time; to their tangents and directors alone where chords turn their places.
+/// @tparam twists  whether there is φ
+template <bool twists, class Nodes, class Increments>
+void move_nodes(Nodes& nodes, const Increments& increments, bool places) noexcept {
+  using Node = std::decay_t<decltype(nodes[0])>;
+  increments.visit([&](const auto& which, const auto& x) {
+    using Wide = typename std::decay_t<decltype(which)>::Wide;
+    using Vector = VectorOf<Wide, 3>;
     RodNode<Wide> node;
-    node.tangent = gather(abreast, nodes, &Node::tangent);
-    node.director = gather(abreast, nodes, &Node::director);
-    const auto change = [&](int c) { return gather(abreast, [&](int i) { return increment(i)[3 + c]; }); };
-    const VectorOf<Wide, 3> by(change(0), change(1), change(2));
+    node.tangent = gather(which, nodes, &Node::tangent);
+    node.director = gather(which, nodes, &Node::director);
+    const Vector change(x(3), x(4), x(5));
     if constexpr (twists) {
-      const Wide twist = change(3);
-      move_tangent(node, by, &twist);
+      const Wide twist = x(6);
+      move_tangent(node, change, &twist);
     } else {
-      move_tangent<Wide>(node, by, nullptr);
+      move_tangent<Wide>(node, change, nullptr);
     }
-    scatter(abreast, [&](int i, int k) {
+    if (places) {
+      node.r = gather(which, nodes, &Node::r) + Vector(x(0), x(1), x(2));
+      scatter(which, [&](int i, int k) { nodes[i].r = lane(node.r, k); });
+    }
+    scatter(which, [&](int i, int k) {
       nodes[i].tangent = lane(node.tangent, k), nodes[i].director = lane(node.director, k);
     });
   });

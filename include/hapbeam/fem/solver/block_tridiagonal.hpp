@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 
 #include <hapbeam/element/element.hpp>
@@ -189,6 +190,14 @@ class BlockTridiagonal {
     HAPBEAM_UNROLL
     for (int k = 0; k < Block; ++k) increment[k] = row(at.row).x(k).a[at.lane];
     return increment;
+  }
+
+  /// The same of the nodes from a place of PairOrder on that is a multiple of the lanes.  @param x  out
+  template <std::size_t Lanes>
+  void increments(int first, Scalar (&x)[Block][Lanes]) const noexcept {
+    static_assert(Lanes == 2 * abreast, "as many nodes as rows of both chains");
+    const auto& rows = rows_[first / static_cast<int>(Lanes)];
+    for (int k = 0; k < Block; ++k) std::memcpy(x[k], rows.entry[Rows::x + k], sizeof x[k]);
   }
 
   /// What holds the degree of freedom of hold() after the increment, of the linear equations: its row of r + Kx [N].
