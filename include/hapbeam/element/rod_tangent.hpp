@@ -25,16 +25,16 @@ struct RodTangent {
   }
   /// The entry of the tangent.
   [[gnu::always_inline]] S operator()(int i, int j) const noexcept {
-    const bool first_i = i < unknowns, first_j = j < unknowns;
-    const int p = i % unknowns, q = j % unknowns;
-    if (p >= 3 && q < 3) return (*this)(j, i);
-    if (q < 3) return first_i == first_j ? DD[half<3>(p, q)] : -DD[half<3>(p, q)];
+    const bool upper = i % unknowns < 3 || j % unknowns >= 3;
+    const int a = upper ? i : j, b = upper ? j : i, p = a % unknowns, q = b % unknowns;
+    const bool first_a = a < unknowns, first_b = b < unknowns;
+    if (q < 3) return first_a == first_b ? DD[half<3>(p, q)] : -DD[half<3>(p, q)];
     if (p < 3) {
-      const S& by = first_j ? D1[3 * (q - 3) + p] : D2[3 * (q - 3) + p];
-      return first_i ? -by : by;
+      const S& by = first_b ? D1[3 * (q - 3) + p] : D2[3 * (q - 3) + p];
+      return first_a ? -by : by;
     }
-    if (first_i != first_j) return first_i ? K12[M * (q - 3) + p - 3] : K12[M * (p - 3) + q - 3];
-    return first_i ? K11[half<M>(p - 3, q - 3)] : K22[half<M>(p - 3, q - 3)];
+    if (first_a != first_b) return first_a ? K12[M * (q - 3) + p - 3] : K12[M * (p - 3) + q - 3];
+    return first_a ? K11[half<M>(p - 3, q - 3)] : K22[half<M>(p - 3, q - 3)];
   }
 
   /// @param r  out   @param K  out, both triangles
@@ -49,7 +49,8 @@ struct RodTangent {
   /// Where the lower triangle of N rows has (i, j) or (j, i), column by column.
   template <int N>
   static constexpr int half(int i, int j) noexcept {
-    return i < j ? half<N>(j, i) : j * (2 * N - 1 - j) / 2 + i;
+    const int row = i < j ? j : i, column = i < j ? i : j;
+    return column * (2 * N - 1 - column) / 2 + row;
   }
 };
 

@@ -32,11 +32,15 @@ struct alignas(2 * Abreast * sizeof(Scalar)) ChainRows {
     // Of what belongs to a node: the share of the element on the way to the middle, and that of the one before.
     const auto share_out = [&](int e, const Wide& own, const Wide& next) {
       const Wide outer = kept(in_turn(own, next)), inner = kept(in_turn(next, own));
-      Number(&at)[Abreast] = rows->entry[e], last[Abreast];
+      Number(&at)[Abreast] = rows->entry[e];
       (outer + after(at[0].a, inner)).store(at[0].a);
-      inner.store(last[0].a);
-      if (Full || count == Abreast) rows[1].entry[e][0] = last[Abreast - 1];
-      else at[count] = last[count - 1];
+      if (Full || count == Abreast) {
+        rows[1].entry[e][0].set(Lanes<Scalar>(inner[2 * Abreast - 2], inner[2 * Abreast - 1]));
+      } else {
+        Number all[Abreast];
+        inner.store(all[0].a);
+        at[count] = all[count - 1];
+      }
     };
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
@@ -89,34 +93,29 @@ struct ChainRow {
     energy = less<Block>(energy, f, zx);
     HAPBEAM_UNROLL
     for (int k = 0; k < Block; ++k) row.x(k).set(zx[k]);
-    // L⁻¹C and P⁻¹L⁻¹C, a few columns side by side.
-    Strip y[strips][Block];
-    HAPBEAM_UNROLL
-    for (int g = 0; g < strips; ++g) {
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k)
-        y[g][k] = Strip(row.coupling(k, g * columns).get(),
-                        row.coupling(k, (std::min)((g + 1) * columns, Block) - 1).get());
-    }
-    HAPBEAM_UNROLL
-    for (int k = 0; k + 1 < Block; ++k) {
-      HAPBEAM_UNROLL
-      for (int i = k + 1; i < Block; ++i) {
-        const Strip l = Strip::repeat(factor.l[triangle<Block>(i, k)]);
-        HAPBEAM_UNROLL
-        for (int g = 0; g < strips; ++g) y[g][i] = subtract_product(y[g][i], l, y[g][k]);
-      }
-    }
-    Strip scaled[strips][Block];
+    // L⁻¹C and P⁻¹L⁻¹C, a few columns side by side and one after the other, as registers have it.
+    Strip l[triangle_size<Block>], inverse[Block], y[strips][Block], scaled[strips][Block];
     HAPBEAM_UNROLL
     for (int k = 0; k < Block; ++k) {
-      const Strip inverse = Strip::repeat(factor.i[k]);
+      inverse[k] = Strip::repeat(factor.i[k]);
       HAPBEAM_UNROLL
-      for (int g = 0; g < strips; ++g) {
-        scaled[g][k] = y[g][k] * inverse;
+      for (int i = k + 1; i < Block; ++i)
+        l[triangle<Block>(i, k)] = Strip::repeat(factor.l[triangle<Block>(i, k)]);
+    }
+    HAPBEAM_UNROLL
+    for (int g = 0; g < strips; ++g) {
+      const int at = g * columns, last = (std::min)(at + columns, Block) - 1;
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) y[g][k] = Strip(row.coupling(k, at).get(), row.coupling(k, last).get());
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) {
+        HAPBEAM_UNROLL
+        for (int i = k + 1; i < Block; ++i)
+          y[g][i] = subtract_product(y[g][i], l[triangle<Block>(i, k)], y[g][k]);
+        scaled[g][k] = y[g][k] * inverse[k];
         HAPBEAM_UNROLL
         for (int c = 0; c < columns; ++c)
-          if (g * columns + c < Block) row.coupling(k, g * columns + c).set(scaled[g][k].column(c));
+          if (at + c < Block) row.coupling(k, at + c).set(scaled[g][k].column(c));
       }
     }
     HAPBEAM_UNROLL
