@@ -32,6 +32,12 @@ inline constexpr int pack_size = sizeof(T) == 4   ? 4
                                  : sizeof(T) == 8 ? wide_bytes / 8
                                                   : 1;
 
+/// a + bc, in one expression: clang fuses no other.
+template <typename S>
+[[gnu::always_inline]] inline S add_product(const S& a, const S& b, const S& c) noexcept {
+  return a + b * c;
+}
+
 template <typename T, int Size = pack_size<T>>
 class Pack {
  public:
@@ -118,6 +124,14 @@ class Pack {
   [[gnu::always_inline]] friend Pack operator-(Pack a, const Pack& b) noexcept { return a -= b; }
   [[gnu::always_inline]] friend Pack operator*(Pack a, const Pack& b) noexcept { return a *= b; }
   [[gnu::always_inline]] friend Pack operator/(Pack a, const Pack& b) noexcept { return a /= b; }
+
+  [[gnu::always_inline]] friend Pack add_product(Pack a, const Pack& b, const Pack& c) noexcept {
+#if defined(__GNUC__)
+    return a.v_ = a.v_ + b.v_ * c.v_, a;
+#else
+    return a + b * c;
+#endif
+  }
 
   [[gnu::always_inline]] friend Pack sqrt(Pack a) noexcept {
     // std::sqrt sets errno, which keeps a compiler from its instruction; Eigen has that for up to 32 bytes, and in double it is exact.
