@@ -46,7 +46,11 @@ class Pack {
   Pack() = default;
   template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
   [[gnu::always_inline]] Pack(Number a) noexcept {
+#if defined(__GNUC__)
+    v_ = static_cast<T>(a) - Vector{};  // a loop would hide from a compiler how short this is
+#else
     for (int i = 0; i < size; ++i) v_[i] = static_cast<T>(a);
+#endif
   }
   /// @param f  i -> the i-th number
   template <class F>

@@ -10,7 +10,7 @@
 
 namespace hapbeam::detail {
 
-/// Gradient and Hessian in (Δ, |r1'|, r2', φ1, φ2 + m, ψ), node 1's axes.
+/// Gradient and Hessian in (Δ/l, |r1'|, r2', φ1, φ2 + m, ψ), node 1's axes.
 template <typename S>
 struct TwistedCore {
   S g[10];
@@ -19,7 +19,8 @@ struct TwistedCore {
 
 /// From the core to the unknowns of both nodes, ψ condensed away.
 template <typename S, class Inner>
-void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, Inner& inner, RodTangent<S, 4>& all) noexcept {
+void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, const S& inverse_length, Inner& inner,
+            RodTangent<S, 4>& all) noexcept {
   // ψ first: H - hhᵀ/k, full.
   const S* const g = core.g;
   const S k_psi = core.H[9][9], share = 1 / k_psi;
@@ -33,7 +34,7 @@ void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, Inner& inner, RodTan
   }
   inner.residual = g[9];
   inner.stiffness = k_psi;
-  // Then the turn, to Δ 0-2, r1' 3-5, r2' 6-8, φ1 9, φ2 10: r1' turns the axes, by ω = ẑ × r1'/λ.
+  // Then the turn, to Δ/l 0-2, r1' 3-5, r2' 6-8, φ1 9, φ2 10: r1' turns the axes, by ω = ẑ × r1'/λ.
   const S i1 = 1 / f.l1, i2 = 1 / f.l2, sigma = 1 + f.v[2], is = 1 / sigma;
   const V3<S>&D = f.chord, &t = f.t2, &v = f.v;
   const S kx = -v[1] * is, ky = v[0] * is;
@@ -91,7 +92,7 @@ void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, Inner& inner, RodTan
       if (a == 2) value -= sigma * k[b];
       add(3 + a, 6 + b, cross * value);
     }
-  // To the axes of space:  F x,  F B Fᵀ.
+  // To the axes of space,  F x,  F B Fᵀ,  and to Δ.
   const V3<S>* const F[3] = {&f.e1, &f.e2, &f.u};
   const auto vector = [F](const S* x, auto&& put) {
     HAPBEAM_UNROLL
@@ -109,24 +110,26 @@ void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, Inner& inner, RodTan
     }
   };
   using K = RodTangent<S, 4>;
-  vector(G, [&](int a, const S& x) { all.D[a] = x; });
+  const S& l = inverse_length;
+  const S ll = l * l;
+  vector(G, [&](int a, const S& x) { all.D[a] = l * x; });
   vector(G + 3, [&](int a, const S& x) { all.t1[a] = x; });
   vector(G + 6, [&](int a, const S& x) { all.t2[a] = x; });
   all.t1[3] = G[9], all.t2[3] = G[10];
-  block(0, 0, true, [&](int a, int b, const S& x) { all.DD[K::template half<3>(a, b)] = x; });
+  block(0, 0, true, [&](int a, int b, const S& x) { all.DD[K::template half<3>(a, b)] = ll * x; });
   block(3, 3, true, [&](int a, int b, const S& x) { all.K11[K::template half<4>(a, b)] = x; });
   block(6, 6, true, [&](int a, int b, const S& x) { all.K22[K::template half<4>(a, b)] = x; });
-  block(0, 3, false, [&](int a, int b, const S& x) { all.D1[3 * b + a] = x; });
-  block(0, 6, false, [&](int a, int b, const S& x) { all.D2[3 * b + a] = x; });
+  block(0, 3, false, [&](int a, int b, const S& x) { all.D1[3 * b + a] = l * x; });
+  block(0, 6, false, [&](int a, int b, const S& x) { all.D2[3 * b + a] = l * x; });
   block(3, 6, false, [&](int a, int b, const S& x) { all.K12[4 * b + a] = x; });
-  vector(B[9], [&](int a, const S& x) { all.D1[9 + a] = x; });
-  vector(B[10], [&](int a, const S& x) { all.D2[9 + a] = x; });
+  vector(B[9], [&](int a, const S& x) { all.D1[9 + a] = l * x; });
+  vector(B[10], [&](int a, const S& x) { all.D2[9 + a] = l * x; });
   vector(B[9] + 3, [&](int a, const S& x) { all.K11[K::template half<4>(3, a)] = x; });
   vector(B[10] + 3, [&](int a, const S& x) { all.K12[12 + a] = x; });
   vector(B[9] + 6, [&](int a, const S& x) { all.K12[4 * a + 3] = x; });
   vector(B[10] + 6, [&](int a, const S& x) { all.K22[K::template half<4>(3, a)] = x; });
   all.K11[9] = B[9][9], all.K22[9] = B[10][10], all.K12[15] = B[10][9];
-  vector(row, [&](int a, const S& x) { inner.row[a] = -x, inner.row[7 + a] = x; });
+  vector(row, [&](int a, const S& x) { inner.row[7 + a] = l * x, inner.row[a] = -inner.row[7 + a]; });
   vector(row + 3, [&](int a, const S& x) { inner.row[3 + a] = x; });
   vector(row + 6, [&](int a, const S& x) { inner.row[10 + a] = x; });
   inner.row[6] = row[9], inner.row[13] = row[10];

@@ -206,7 +206,7 @@ class RodElements {
     Scalar twist = 0;
     if constexpr (has_twist) twist = twists_[e];
     const detail::CarriedFrame<Scalar> frame(properties_[e], a, b);
-    return cut.in_section(frame.director(properties_[e], a.director, twist, t), detail::unit(place.tangent),
+    return cut.in_section(frame.director(a.director, twist, t), detail::unit(place.tangent),
                           profile_.at(s), surface_);
   }
   /// [J]
