@@ -71,8 +71,8 @@ struct RoundRod {
   }
   /// The same, each derivative once.
   template <typename S>
-  static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>&,
-                   RodTangent<S, 3>& core) noexcept {
+  [[gnu::flatten]] static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
+                                    Inner<S>&, RodTangent<S, 3>& core) noexcept {
     // By Δ/l at first.
     const S& i = p.inverse_length;
     const V3<S> chord = i * (n2.r - n1.r);

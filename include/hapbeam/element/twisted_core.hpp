@@ -19,7 +19,7 @@ struct TwistedCore {
 
 /// From the core to the unknowns of both nodes, ψ condensed away.
 template <typename S, class Inner>
-void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, const S& inverse_length, Inner& inner,
+[[gnu::flatten]] void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, const S& inverse_length, Inner& inner,
             RodTangent<S, 4>& all) noexcept {
   // ψ first: H - hhᵀ/k, full.
   const S* const g = core.g;

@@ -54,7 +54,7 @@ template <typename S>
 /// Adds increments to all nodes, a few at a time; to their tangents and directors alone where chords turn their places.
 /// @tparam twists  whether there is φ
 template <bool twists, class Nodes, class Increments>
-void move_nodes(Nodes& nodes, const Increments& increments, bool places) noexcept {
+[[gnu::flatten]] void move_nodes(Nodes& nodes, const Increments& increments, bool places) noexcept {
   using Node = std::decay_t<decltype(nodes[0])>;
   increments.visit([&](const auto& which, const auto& x) {
     using Wide = typename std::decay_t<decltype(which)>::Wide;
@@ -94,7 +94,7 @@ template <typename S>
 /// Where nodes will be that go on as they went, foresight.hpp.   @param now, before, ahead  all nodes; of those ahead, s is known
 /// @tparam twists  whether their directors turn about the tangents
 template <bool twists, class Nodes, typename Scalar>
-void go_on(const Nodes& now, const Nodes& before, Scalar ratio, Nodes& ahead) noexcept {
+[[gnu::flatten]] void go_on(const Nodes& now, const Nodes& before, Scalar ratio, Nodes& ahead) noexcept {
   using Node = RodNode<Scalar>;
   const int last = now.size() - 1;
   for_each_abreast<Scalar>(last, [&](const auto& here) {
