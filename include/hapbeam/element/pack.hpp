@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -31,15 +32,25 @@ inline constexpr int pack_size = sizeof(T) == 4   ? 4
                                  : sizeof(T) == 8 ? wide_bytes / 8
                                                   : 1;
 
-template <typename T>
+/// a + bc, in one expression: clang fuses no other.
+template <typename S>
+[[gnu::always_inline]] inline S add_product(const S& a, const S& b, const S& c) noexcept {
+  return a + b * c;
+}
+
+template <typename T, int Size = pack_size<T>>
 class Pack {
  public:
-  static constexpr int size = pack_size<T>;
+  static constexpr int size = Size;
 
   Pack() = default;
   template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
   [[gnu::always_inline]] Pack(Number a) noexcept {
+#if defined(__GNUC__)
+    v_ = static_cast<T>(a) - Vector{};  // a loop would hide from a compiler how short this is
+#else
     for (int i = 0; i < size; ++i) v_[i] = static_cast<T>(a);
+#endif
   }
   /// @param f  i -> the i-th number
   template <class F>
@@ -48,6 +59,13 @@ class Pack {
     for (int i = 0; i < size; ++i) pack.v_[i] = f(i);
     return pack;
   }
+
+  [[gnu::always_inline]] static Pack load(const T* from) noexcept {
+    Pack pack;
+    std::memcpy(&pack.v_, from, sizeof pack.v_);
+    return pack;
+  }
+  [[gnu::always_inline]] void store(T* to) const noexcept { std::memcpy(to, &v_, sizeof v_); }
 
   [[gnu::always_inline]] T operator[](int i) const noexcept { return v_[i]; }
   [[gnu::always_inline]] void set(int i, T a) noexcept { v_[i] = a; }
@@ -72,8 +90,6 @@ class Pack {
   [[gnu::always_inline]] friend Pack in_turn(const Pack& a, const Pack& b) noexcept {
     Pack both;
 #if defined(__GNUC__)
-    using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
-    typedef Bits Mask __attribute__((vector_size(size * sizeof(T))));
     Mask mask;
     for (int i = 0; i < size; ++i) mask[i] = i % 2 == 0 ? -1 : 0;
     both.v_ = mask ? a.v_ : b.v_;
@@ -83,11 +99,43 @@ class Pack {
     return both;
   }
 
+  /// a, moved up by two numbers, after two others.
+  [[gnu::always_inline]] friend Pack after(const T* two, const Pack& a) noexcept {
+    Pack moved;
+#if defined(__GNUC__)
+    const Vector front = {two[0], two[1]};
+    moved.v_ = from_both(front, a.v_, After());
+#else
+    for (int i = 0; i < size; ++i) moved.v_[i] = i < 2 ? two[i] : a.v_[i - 2];
+#endif
+    return moved;
+  }
+
+  /// a, moved down by two numbers, before two others.
+  [[gnu::always_inline]] friend Pack before(const Pack& a, const T* two) noexcept {
+    Pack moved;
+#if defined(__GNUC__)
+    const Vector back = {two[0], two[1]};
+    moved.v_ = from_both(a.v_, back, Before());
+#else
+    for (int i = 0; i < size; ++i) moved.v_[i] = i + 2 < size ? a.v_[i + 2] : two[i + 2 - size];
+#endif
+    return moved;
+  }
+
   [[gnu::always_inline]] Pack operator-() const noexcept { return Pack(0) -= *this; }
   [[gnu::always_inline]] friend Pack operator+(Pack a, const Pack& b) noexcept { return a += b; }
   [[gnu::always_inline]] friend Pack operator-(Pack a, const Pack& b) noexcept { return a -= b; }
   [[gnu::always_inline]] friend Pack operator*(Pack a, const Pack& b) noexcept { return a *= b; }
   [[gnu::always_inline]] friend Pack operator/(Pack a, const Pack& b) noexcept { return a /= b; }
+
+  [[gnu::always_inline]] friend Pack add_product(Pack a, const Pack& b, const Pack& c) noexcept {
+#if defined(__GNUC__)
+    return a.v_ = a.v_ + b.v_ * c.v_, a;
+#else
+    return a + b * c;
+#endif
+  }
 
   [[gnu::always_inline]] friend Pack sqrt(Pack a) noexcept {
     // std::sqrt sets errno, which keeps a compiler from its instruction; Eigen has that for up to 32 bytes, and in double it is exact.
@@ -105,13 +153,28 @@ class Pack {
     }
     return a;
   }
-  friend Pack atan2(Pack y, const Pack& x) noexcept {
-    const Pack whole = sqrt(x * x + y * y) + x;
-    bool small_angles = true;
-    for (int i = 0; i < size; ++i) small_angles = small_angles && std::abs(y[i]) < whole[i];
-    if (small_angles) return twice_atan(y / whole);
-    for (int i = 0; i < size; ++i) y.v_[i] = std::atan2(y.v_[i], x.v_[i]);
-    return y;
+  /// Whether each number of a is less than that of b.
+  [[gnu::always_inline]] friend bool all_less(const Pack& a, const Pack& b) noexcept {
+#if defined(__GNUC__)
+    constexpr int words = static_cast<int>(sizeof(Mask) / sizeof(std::int64_t));
+    const Mask mask = a.v_ < b.v_;
+    std::int64_t all[words];
+    std::memcpy(all, &mask, sizeof mask);
+    for (int i = 1; i < words; ++i) all[0] &= all[i];
+    return all[0] == -1;
+#else
+    for (int i = 0; i < size; ++i)
+      if (!(a[i] < b[i])) return false;
+    return true;
+#endif
+  }
+  /// atan2(y, x).  @param length  √(x² + y²)
+  [[gnu::always_inline]] friend Pack angle(const Pack& y, const Pack& x, const Pack& length) noexcept {
+    const Pack whole = length + x;
+    return all_less(y * y, whole * whole) && all_less(0, whole) ? twice_atan(y / whole) : one_by_one(y, x);
+  }
+  [[gnu::always_inline]] friend Pack atan2(const Pack& y, const Pack& x) noexcept {
+    return angle(y, x, sqrt(x * x + y * y));
   }
   friend Pack angle_near(const Pack& y, const Pack& x, const Pack& length, const Pack& other) noexcept {
     const Pack whole = length + x;
@@ -122,33 +185,59 @@ class Pack {
     return angle;
   }
   /// part/whole, nothing where the whole is not positive.
-  friend Pack share_of(const Pack& part, const Pack& whole) noexcept {
+  [[gnu::always_inline]] friend Pack share_of(const Pack& part, const Pack& whole) noexcept {
     Pack share = part / whole;
+#if defined(__GNUC__)
+    share.v_ = whole.v_ > 0 ? share.v_ : Pack(0).v_;
+#else
     for (int i = 0; i < size; ++i) share.v_[i] = whole.v_[i] > 0 ? share.v_[i] : T(0);
+#endif
     return share;
   }
   /// cos √q and sin √q / √q
-  friend void cos_and_sin_of_square(const Pack& q, Pack& cosine, Pack& sine) noexcept {
-    bool small_angles = true;
-    for (int i = 0; i < size; ++i) small_angles = small_angles && q[i] < T(0.25);
-    if (small_angles) return small_square_turn(q, cosine, sine);
-    for (int i = 0; i < size; ++i) {
-      T c, s;
-      detail::cos_and_sin_of_square(q[i], c, s);
-      cosine.v_[i] = c, sine.v_[i] = s;
-    }
+  [[gnu::always_inline]] friend void cos_and_sin_of_square(const Pack& q, Pack& cosine, Pack& sine) noexcept {
+    if (all_less(q, T(0.25))) small_square_turn(q, cosine, sine);
+    else one_by_one([](T a, T& c, T& s) { detail::cos_and_sin_of_square(a, c, s); }, q, cosine, sine);
   }
   /// cos α and sin α
-  friend void cos_and_sin(const Pack& a, Pack& cosine, Pack& sine) noexcept {
-    bool small_angles = true;
-    for (int i = 0; i < size; ++i) small_angles = small_angles && std::abs(a[i]) < T(0.79);
-    if (small_angles) return small_turn(a, cosine, sine);
-    for (int i = 0; i < size; ++i) cosine.v_[i] = std::cos(a.v_[i]), sine.v_[i] = std::sin(a.v_[i]);
+  [[gnu::always_inline]] friend void cos_and_sin(const Pack& a, Pack& cosine, Pack& sine) noexcept {
+    if (all_less(a * a, T(0.6241))) small_turn(a, cosine, sine);
+    else one_by_one([](T x, T& c, T& s) { c = std::cos(x), s = std::sin(x); }, a, cosine, sine);
   }
 
  private:
+  template <class F>
+  static void one_by_one(F&& f, const Pack& a, Pack& cosine, Pack& sine) noexcept {
+    for (int i = 0; i < size; ++i) {
+      T c, s;
+      f(a[i], c, s);
+      cosine.v_[i] = c, sine.v_[i] = s;
+    }
+  }
+  static Pack one_by_one(Pack y, const Pack& x) noexcept {
+    for (int i = 0; i < size; ++i) y.v_[i] = std::atan2(y.v_[i], x.v_[i]);
+    return y;
+  }
+
 #if defined(__GNUC__)
+  using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
   typedef T Vector __attribute__((vector_size(size * sizeof(T))));
+  typedef Bits Mask __attribute__((vector_size(size * sizeof(T))));
+  template <int... I>
+  [[gnu::always_inline]] static Vector from_both(const Vector& a, const Vector& b,
+                                                 std::integer_sequence<int, I...>) noexcept {
+#if defined(__clang__)
+    return __builtin_shufflevector(a, b, I...);
+#else
+    return __builtin_shuffle(a, b, Mask{I...});
+#endif
+  }
+  template <int... I>
+  static std::integer_sequence<int, (I < 2 ? I : size + I - 2)...> after(std::integer_sequence<int, I...>);
+  template <int... I>
+  static std::integer_sequence<int, (I + 2)...> before(std::integer_sequence<int, I...>);
+  using After = decltype(after(std::make_integer_sequence<int, size>()));
+  using Before = decltype(before(std::make_integer_sequence<int, size>()));
   Vector v_;
 #else
   T v_[size];
@@ -159,9 +248,9 @@ class Pack {
 
 namespace Eigen {
 
-template <typename T>
-struct NumTraits<hapbeam::detail::Pack<T>> : NumTraits<T> {
-  using Real = hapbeam::detail::Pack<T>;
+template <typename T, int Size>
+struct NumTraits<hapbeam::detail::Pack<T, Size>> : NumTraits<T> {
+  using Real = hapbeam::detail::Pack<T, Size>;
   using NonInteger = Real;
   using Nested = Real;
   using Literal = Real;

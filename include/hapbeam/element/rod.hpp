@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/element/rod_tangent.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
@@ -61,14 +62,30 @@ struct RoundRod {
   /// Residual and tangent.
   /// @param r  out [N, N·m of r']   @param K  out, symmetric, both triangles   @return V [J]
   template <typename S>
-  static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>&,
+  static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
                    Vector12<S>& r, Matrix12<S>& K) noexcept {
-    Core<S> core;
-    const V3<S> chord = n2.r - n1.r;
+    RodTangent<S, 3> core;
+    const S energy = tangent(p, n1, n2, inner, core);
+    core.expand(r, K);
+    return energy;
+  }
+  /// The same, each derivative once.
+  template <typename S>
+  [[gnu::flatten]] static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
+                                    Inner<S>&, RodTangent<S, 3>& core) noexcept {
+    // By Δ/l at first.
+    const S& i = p.inverse_length;
+    const V3<S> chord = i * (n2.r - n1.r);
     S energy = 0;
-    stretch(p, middle(p, chord, n1, n2), n1.tangent, n2.tangent, core, energy);
-    for (int g = 0; g < points; ++g) bend(p, g, chord, n1.tangent, n2.tangent, core, energy);
-    expand(core, r, K);
+    stretch(p, chord, n1.tangent, n2.tangent, core, energy);
+    bend<0>(p, chord, n1.tangent, n2.tangent, core, energy);
+    bend<1>(p, chord, n1.tangent, n2.tangent, core, energy);
+    bend<2>(p, chord, n1.tangent, n2.tangent, core, energy);
+    const S ii = i * i;
+    for (S& x : core.D) x *= i;
+    for (S& x : core.DD) x *= ii;
+    for (S& x : core.D1) x *= i;
+    for (S& x : core.D2) x *= i;
     return energy;
   }
 
@@ -78,35 +95,35 @@ struct RoundRod {
   template <typename S>
   using V3 = VectorOf<S, 3>;
 
-  /// r' in the middle of the element.
+  /// r' in the middle of the element.   @param chord  Δ
   template <typename S>
   static V3<S> middle(const RodProperties<S>& p, const V3<S>& chord, const RodNode<S>& n1,
                       const RodNode<S>& n2) noexcept {
     return S(1.5) * p.inverse_length * chord - S(0.25) * (n1.tangent + n2.tangent);
   }
 
-  /// Gradient and Hessian by Δ, r1', r2'.  Of what is symmetric the lower triangle, column by column.
   template <typename S>
-  struct Core {
-    S D[3], t1[3], t2[3];
-    S DD[6], K11[6], K22[6];
-    S D1[9], D2[9], K12[9];  // column by column
-  };
+  using Core = RodTangent<S, 3>;
 
-  template <typename S>
-  static void bend(const RodProperties<S>& p, int g, const V3<S>& chord, const V3<S>& t1, const V3<S>& t2,
-                   Core<S>& core, S& energy) noexcept {
-    const detail::CubicWeights<S> w(S(rule.x[g]), p.inverse_length);
-    S a[3], b[3];
+  /// @param chord  Δ/l
+  template <int G, typename S>
+  [[gnu::always_inline]] static void bend(const RodProperties<S>& p, const V3<S>& chord, const V3<S>& t1,
+                                          const V3<S>& t2, Core<S>& core, S& energy) noexcept {
+    using detail::add_product;
+    using detail::add_share;
+    constexpr detail::CubicAt w(rule.x[G]);
+    S a[3], b[3];  // r' and r'' l
     HAPBEAM_UNROLL
     for (int k = 0; k < 3; ++k) {
-      a[k] = w.a * chord[k] + w.a1 * t1[k] + w.a2 * t2[k];
-      b[k] = w.b * chord[k] + w.b1 * t1[k] + w.b2 * t2[k];
+      a[k] = S(w.a) * chord[k], b[k] = S(w.b1) * t1[k];
+      add_share(a[k], w.a1, t1[k]), add_share(a[k], w.a2, t2[k]);
+      add_share(b[k], w.b2, t2[k]), add_share(b[k], w.b, chord[k]);
     }
-    const S i = 1 / (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]),
-            B = (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]) * i,
-            c = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * i, cc = c * c;
-    const S k = S(rule.weight[g]) * p.points[g].bending1 * p.length / 2;
+    const auto dot = [](const S(&x)[3], const S(&y)[3]) {
+      return add_product(add_product(S(x[0] * y[0]), x[1], y[1]), x[2], y[2]);
+    };
+    const S i = 1 / dot(a, a), B = dot(b, b) * i, c = dot(a, b) * i, cc = c * c;
+    const S k = S(rule.weight[G] / 2) * p.points[G].bending1 * p.inverse_length;
     energy += k * (B - cc);
     // f = B/A - C²/A²:  by A, B, C once and twice
     const S ki = k * i, fA2 = 2 * ki * (2 * cc - B), fB2 = 2 * ki, fC = -2 * ki * c,
@@ -116,64 +133,52 @@ struct RoundRod {
     S x[3], y[3], z[3], u[3];
     HAPBEAM_UNROLL
     for (int r = 0; r < 3; ++r) {
-      const S by_a = fA2 * a[r] + fC * b[r], by_b = fB2 * b[r] + fC * a[r];
-      core.D[r] += w.a * by_a + w.b * by_b;
-      core.t1[r] += w.a1 * by_a + w.b1 * by_b;
-      core.t2[r] += w.a2 * by_a + w.b2 * by_b;
-      x[r] = fAA4 * a[r] + fAC2 * b[r];
-      y[r] = fAC2 * a[r] + fCC * b[r];
+      const S by_a = add_product(S(fA2 * a[r]), fC, b[r]), by_b = add_product(S(fB2 * b[r]), fC, a[r]);
+      add_share(core.D[r], w.a, by_a), add_share(core.D[r], w.b, by_b);
+      add_share(core.t1[r], w.a1, by_a), add_share(core.t1[r], w.b1, by_b);
+      add_share(core.t2[r], w.a2, by_a), add_share(core.t2[r], w.b2, by_b);
+      x[r] = add_product(S(fAA4 * a[r]), fAC2, b[r]);
+      y[r] = add_product(S(fAC2 * a[r]), fCC, b[r]);
       z[r] = fAB4 * a[r];
       u[r] = fCC * a[r];
     }
-    S aa[6], ab[9], bb[6];
+    // With weights (α, β) and (γ, δ):  αγ Haa + αδ Hab + βγ Hba + βδ Hbb
     HAPBEAM_UNROLL
     for (int col = 0; col < 3; ++col) {
       HAPBEAM_UNROLL
-      for (int row = 0; row < 3; ++row) ab[3 * col + row] = y[row] * a[col] + z[row] * b[col];
-      ab[4 * col] += fC;
-      HAPBEAM_UNROLL
       for (int row = col; row < 3; ++row) {
-        aa[half(row, col)] = x[row] * a[col] + y[row] * b[col];
-        bb[half(row, col)] = u[row] * a[col];
+        const auto entry = [&](const S& own, int r, const S(&f)[3], const S(&g)[3], int s) {
+          return row == col ? add_product(add_product(own, f[r], a[s]), g[r], b[s])
+                            : add_product(S(f[r] * a[s]), g[r], b[s]);
+        };
+        const S aa = entry(fA2, row, x, y, col), ab = entry(fC, row, y, z, col),
+                ba = row == col ? ab : entry(fC, col, y, z, row),
+                bb = row == col ? add_product(fB2, u[row], a[col]) : S(u[row] * a[col]), both = ab + ba;
+        const int h = half(row, col), k = 3 * col + row, mirrored = 3 * row + col;
+        const auto square = [&](long double alpha, long double beta, S& H) {
+          add_share(H, alpha * alpha, aa), add_share(H, alpha * beta, both), add_share(H, beta * beta, bb);
+        };
+        square(w.a, w.b, core.DD[h]), square(w.a1, w.b1, core.K11[h]), square(w.a2, w.b2, core.K22[h]);
+        const auto product = [&](long double alpha, long double beta, long double gamma, long double delta,
+                                 S(&H)[9]) {
+          add_share(H[k], alpha * gamma, aa), add_share(H[k], beta * delta, bb);
+          add_share(H[k], alpha * delta, ab), add_share(H[k], beta * gamma, ba);
+          if (row == col) return;
+          add_share(H[mirrored], alpha * gamma, aa), add_share(H[mirrored], beta * delta, bb);
+          add_share(H[mirrored], alpha * delta, ba), add_share(H[mirrored], beta * gamma, ab);
+        };
+        product(w.a, w.b, w.a1, w.b1, core.D1);
+        product(w.a, w.b, w.a2, w.b2, core.D2);
+        product(w.a1, w.b1, w.a2, w.b2, core.K12);
       }
-      aa[half(col, col)] += fA2;
-      bb[half(col, col)] += fB2;
     }
-    // With weights (α, β) and (γ, δ):  αγ Haa + αδ Hab + βγ Hba + βδ Hbb
-    const auto add_square = [&](const S& alpha, const S& beta, S(&H)[6]) {
-      const S both = alpha * beta, first = alpha * alpha, last = beta * beta;
-      HAPBEAM_UNROLL
-      for (int col = 0; col < 3; ++col) {
-        HAPBEAM_UNROLL
-        for (int row = col; row < 3; ++row) {
-          const int h = half(row, col);
-          H[h] += first * aa[h] + both * (ab[3 * col + row] + ab[3 * row + col]) + last * bb[h];
-        }
-      }
-    };
-    const auto add = [&](const S& alpha, const S& beta, const S& gamma, const S& delta, S(&H)[9]) {
-      const S ag = alpha * gamma, ad = alpha * delta, bg = beta * gamma, bd = beta * delta;
-      HAPBEAM_UNROLL
-      for (int col = 0; col < 3; ++col) {
-        HAPBEAM_UNROLL
-        for (int row = 0; row < 3; ++row) {
-          const int h = row < col ? half(col, row) : half(row, col);
-          H[3 * col + row] += ag * aa[h] + ad * ab[3 * col + row] + bg * ab[3 * row + col] + bd * bb[h];
-        }
-      }
-    };
-    add_square(w.a, w.b, core.DD);
-    add_square(w.a1, w.b1, core.K11);
-    add_square(w.a2, w.b2, core.K22);
-    add(w.a, w.b, w.a1, w.b1, core.D1);
-    add(w.a, w.b, w.a2, w.b2, core.D2);
-    add(w.a1, w.b1, w.a2, w.b2, core.K12);
   }
 
   template <typename S>
-  static void stretch(const RodProperties<S>& p, const V3<S>& a, const V3<S>& t1, const V3<S>& t2,
-                      Core<S>& core, S& energy) noexcept {
+  [[gnu::always_inline]] static void stretch(const RodProperties<S>& p, const V3<S>& chord, const V3<S>& t1,
+                                             const V3<S>& t2, Core<S>& core, S& energy) noexcept {
     using std::sqrt;
+    const V3<S> a = S(1.5) * chord - S(0.25) * (t1 + t2);
     const S n[3] = {sqrt(t1.squaredNorm()), sqrt(a.squaredNorm()), sqrt(t2.squaredNorm())};
     const S e[3] = {n[0] - 1, n[1] - 1, n[2] - 1}, EA = p.axial * p.length;
     S N[3], inverse[3];
@@ -184,7 +189,7 @@ struct RoundRod {
       energy += N[i] * e[i] / 2;
       inverse[i] = 1 / n[i];
     }
-    const S w = S(1.5) * p.inverse_length, q = S(-0.25), wN = w * N[1], qN = q * N[1];
+    const S w = S(1.5), q = S(-0.25), wN = w * N[1], qN = q * N[1];
     const S own = EA * S(M[0][0]), beside = EA * S(M[0][1]), across = EA * S(M[0][2]);
     const S s0 = N[0] * inverse[0], s1 = N[1] * inverse[1], s2 = N[2] * inverse[2];
     const S stiff = EA * S(M[1][1]) - s1, left = own - s0, right = own - s2;
@@ -219,29 +224,8 @@ struct RoundRod {
     }
   }
 
-  template <typename S>
-  static void expand(const Core<S>& core, Vector12<S>& r, Matrix12<S>& K) noexcept {
-    const auto set = [&K](int i, int j, const S& value) { K(i, j) = value, K(j, i) = value; };
-    HAPBEAM_UNROLL
-    for (int c = 0; c < 3; ++c) {
-      r[c] = -core.D[c], r[3 + c] = core.t1[c], r[6 + c] = core.D[c], r[9 + c] = core.t2[c];
-      HAPBEAM_UNROLL
-      for (int row = 0; row < 3; ++row) {
-        const int k = 3 * c + row;
-        set(6 + row, 3 + c, core.D1[k]), set(row, 3 + c, -core.D1[k]);
-        set(6 + row, 9 + c, core.D2[k]), set(row, 9 + c, -core.D2[k]);
-        set(3 + row, 9 + c, core.K12[k]);
-        const S DD = core.DD[row < c ? half(c, row) : half(row, c)];
-        K(row, c) = DD, K(6 + row, 6 + c) = DD, K(row, 6 + c) = -DD, K(6 + row, c) = -DD;
-        if (row < c) continue;
-        set(3 + row, 3 + c, core.K11[half(row, c)]);
-        set(9 + row, 9 + c, core.K22[half(row, c)]);
-      }
-    }
-  }
-
   /// Where the lower triangle has (i, j), i >= j.
-  static constexpr int half(int i, int j) noexcept { return j * (5 - j) / 2 + i; }
+  static constexpr int half(int i, int j) noexcept { return RodTangent<double, 3>::half<3>(i, j); }
 };
 
 }  // namespace hapbeam

@@ -5,6 +5,7 @@
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
 
+#include <hapbeam/element/pack.hpp>
 #include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam {
@@ -50,6 +51,25 @@ struct CubicWeights {
         b1((6 * x - 4) * inverse_length),
         b2((6 * x - 2) * inverse_length) {}
 };
+
+/// The same at a place that is known at compile time, without the length: r' and r''l as combinations of Δ/l, r1' and r2'.
+struct CubicAt {
+  long double a, a1, a2, b, b1, b2;
+
+  constexpr explicit CubicAt(long double x) noexcept
+      : a(6 * x * (1 - x)),
+        a1(1 + x * (3 * x - 4)),
+        a2(x * (3 * x - 2)),
+        b(6 * (1 - 2 * x)),
+        b1(6 * x - 4),
+        b2(6 * x - 2) {}
+};
+
+/// sum + factor · x for a factor that is known at compile time: nothing is added where it is zero.
+template <typename S>
+[[gnu::always_inline]] inline void add_share(S& sum, long double factor, const S& x) noexcept {
+  if (factor != 0) sum = add_product(sum, S(factor), x);
+}
 
 /// Mass matrix of the quadratic through ξ = 0, ½, 1.
 inline constexpr double quadratic_mass[3][3] = {

@@ -5,11 +5,12 @@
 #pragma once
 
 #include <hapbeam/element/carried_frame.hpp>
+#include <hapbeam/element/rod_tangent.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {
 
-/// Gradient and Hessian in (Δ, |r1'|, r2', φ1, φ2 + m, ψ), node 1's axes.
+/// Gradient and Hessian in (Δ/l, |r1'|, r2', φ1, φ2 + m, ψ), node 1's axes.
 template <typename S>
 struct TwistedCore {
   S g[10];
@@ -17,8 +18,9 @@ struct TwistedCore {
 };
 
 /// From the core to the unknowns of both nodes, ψ condensed away.
-template <typename S, class Inner, class Residual, class Tangent>
-void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, Inner& inner, Residual& r, Tangent& K) noexcept {
+template <typename S, class Inner>
+[[gnu::flatten]] void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, const S& inverse_length, Inner& inner,
+            RodTangent<S, 4>& all) noexcept {
   // ψ first: H - hhᵀ/k, full.
   const S* const g = core.g;
   const S k_psi = core.H[9][9], share = 1 / k_psi;
@@ -32,7 +34,7 @@ void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, Inner& inner, Residu
   }
   inner.residual = g[9];
   inner.stiffness = k_psi;
-  // Then the turn, to Δ 0-2, r1' 3-5, r2' 6-8, φ1 9, φ2 10: r1' turns the axes, by ω = ẑ × r1'/λ.
+  // Then the turn, to Δ/l 0-2, r1' 3-5, r2' 6-8, φ1 9, φ2 10: r1' turns the axes, by ω = ẑ × r1'/λ.
   const S i1 = 1 / f.l1, i2 = 1 / f.l2, sigma = 1 + f.v[2], is = 1 / sigma;
   const V3<S>&D = f.chord, &t = f.t2, &v = f.v;
   const S kx = -v[1] * is, ky = v[0] * is;
@@ -90,40 +92,47 @@ void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, Inner& inner, Residu
       if (a == 2) value -= sigma * k[b];
       add(3 + a, 6 + b, cross * value);
     }
-  // To the axes of space.
-  Eigen::Matrix<S, 3, 3> F;
-  F.col(0) = f.e1, F.col(1) = f.e2, F.col(2) = f.u;
-  const auto vector = [&F](const S* x) -> V3<S> { return F * V3<S>(x[0], x[1], x[2]); };
-  const auto block = [&](int i, int j) -> Eigen::Matrix<S, 3, 3> {
-    Eigen::Matrix<S, 3, 3> m;
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) m(a, b) = B[i + a][j + b];
-    return F * m * F.transpose();
+  // To the axes of space,  F x,  F B Fᵀ,  and to Δ.
+  const V3<S>* const F[3] = {&f.e1, &f.e2, &f.u};
+  const auto vector = [F](const S* x, auto&& put) {
+    HAPBEAM_UNROLL
+    for (int a = 0; a < 3; ++a) put(a, S((*F[0])[a] * x[0] + (*F[1])[a] * x[1] + (*F[2])[a] * x[2]));
   };
-  const V3<S> rD = vector(G), r1 = vector(G + 3), r2 = vector(G + 6);
-  r.template segment<3>(0) = -rD, r.template segment<3>(3) = r1, r[6] = G[9];
-  r.template segment<3>(7) = rD, r.template segment<3>(10) = r2, r[13] = G[10];
-  const Eigen::Matrix<S, 3, 3> DD = block(0, 0), D1 = block(0, 3), D2 = block(0, 6), b11 = block(3, 3),
-                               b12 = block(3, 6), b22 = block(6, 6);
-  const V3<S> Dp = vector(B[9]), Dq = vector(B[10]), p1v = vector(B[9] + 3), q1v = vector(B[10] + 3),
-              p2v = vector(B[9] + 6), q2v = vector(B[10] + 6);
-  const auto set = [&K](int i, int j, const Eigen::Matrix<S, 3, 3>& m) {
-    K.template block<3, 3>(i, j) = m;
-    if (i != j) K.template block<3, 3>(j, i) = m.transpose();
+  const auto block = [&](int i, int j, bool symmetric, auto&& put) {
+    S half[3][3];  // B Fᵀ
+    HAPBEAM_UNROLL
+    for (int a = 0; a < 3; ++a) vector(B[i + a] + j, [&](int b, const S& value) { half[b][a] = value; });
+    HAPBEAM_UNROLL
+    for (int b = 0; b < 3; ++b) {
+      HAPBEAM_UNROLL
+      for (int a = symmetric ? b : 0; a < 3; ++a)
+        put(a, b, S((*F[0])[a] * half[b][0] + (*F[1])[a] * half[b][1] + (*F[2])[a] * half[b][2]));
+    }
   };
-  set(0, 0, DD), set(0, 7, -DD), set(7, 7, DD);
-  set(0, 3, -D1), set(7, 3, D1), set(0, 10, -D2), set(7, 10, D2);
-  set(3, 3, b11), set(3, 10, b12), set(10, 10, b22);
-  const auto beside = [&K](int i, int j, const V3<S>& x) {
-    K.template block<3, 1>(i, j) = x;
-    K.template block<1, 3>(j, i) = x.transpose();
-  };
-  beside(0, 6, -Dp), beside(7, 6, Dp), beside(0, 13, -Dq), beside(7, 13, Dq);
-  beside(3, 6, p1v), beside(3, 13, q1v), beside(10, 6, p2v), beside(10, 13, q2v);
-  K(6, 6) = B[9][9], K(6, 13) = K(13, 6) = B[10][9], K(13, 13) = B[10][10];
-  const V3<S> iD = vector(row), i1v = vector(row + 3), i2v = vector(row + 6);
-  inner.row.template segment<3>(0) = -iD, inner.row.template segment<3>(3) = i1v, inner.row[6] = row[9];
-  inner.row.template segment<3>(7) = iD, inner.row.template segment<3>(10) = i2v, inner.row[13] = row[10];
+  using K = RodTangent<S, 4>;
+  const S& l = inverse_length;
+  const S ll = l * l;
+  vector(G, [&](int a, const S& x) { all.D[a] = l * x; });
+  vector(G + 3, [&](int a, const S& x) { all.t1[a] = x; });
+  vector(G + 6, [&](int a, const S& x) { all.t2[a] = x; });
+  all.t1[3] = G[9], all.t2[3] = G[10];
+  block(0, 0, true, [&](int a, int b, const S& x) { all.DD[K::template half<3>(a, b)] = ll * x; });
+  block(3, 3, true, [&](int a, int b, const S& x) { all.K11[K::template half<4>(a, b)] = x; });
+  block(6, 6, true, [&](int a, int b, const S& x) { all.K22[K::template half<4>(a, b)] = x; });
+  block(0, 3, false, [&](int a, int b, const S& x) { all.D1[3 * b + a] = l * x; });
+  block(0, 6, false, [&](int a, int b, const S& x) { all.D2[3 * b + a] = l * x; });
+  block(3, 6, false, [&](int a, int b, const S& x) { all.K12[4 * b + a] = x; });
+  vector(B[9], [&](int a, const S& x) { all.D1[9 + a] = l * x; });
+  vector(B[10], [&](int a, const S& x) { all.D2[9 + a] = l * x; });
+  vector(B[9] + 3, [&](int a, const S& x) { all.K11[K::template half<4>(3, a)] = x; });
+  vector(B[10] + 3, [&](int a, const S& x) { all.K12[12 + a] = x; });
+  vector(B[9] + 6, [&](int a, const S& x) { all.K12[4 * a + 3] = x; });
+  vector(B[10] + 6, [&](int a, const S& x) { all.K22[K::template half<4>(3, a)] = x; });
+  all.K11[9] = B[9][9], all.K22[9] = B[10][10], all.K12[15] = B[10][9];
+  vector(row, [&](int a, const S& x) { inner.row[7 + a] = l * x, inner.row[a] = -inner.row[7 + a]; });
+  vector(row + 3, [&](int a, const S& x) { inner.row[3 + a] = x; });
+  vector(row + 6, [&](int a, const S& x) { inner.row[10 + a] = x; });
+  inner.row[6] = row[9], inner.row[13] = row[10];
 }
 
 }  // namespace hapbeam::detail

@@ -73,10 +73,10 @@ struct TwistedRod {
     for (int g = 0; g < p.number; ++g) {
       const auto& at = p.points[g];
       const S x = S(rule.x[g]);
-      const Point<S> point(detail::CubicWeights<S>(x, p.inverse_length), f);
+      const Point<S> point(f, detail::CubicAt(static_cast<long double>(rule.x[g])));
       S k[3];
-      point.strains(m * x + 4 * inner.twist * x * (1 - x),
-                    (m + 4 * inner.twist * (1 - 2 * x)) * p.inverse_length, k);
+      point.strains(m * x + 4 * inner.twist * x * (1 - x), m + 4 * inner.twist * (1 - 2 * x), p.inverse_length,
+                    k);
       const S e1 = k[0] - at.natural[0], e2 = k[1] - at.natural[1], e3 = k[2] - at.natural[2];
       sum += S(rule.weight[g]) * (at.bending1 * e1 * e1 + at.bending2 * e2 * e2 + at.torsion * e3 * e3);
     }
@@ -92,14 +92,14 @@ struct TwistedRod {
   template <typename S>
   static VectorOf<S, 3> director(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
                                  S twist, S x) noexcept {
-    return Frame<S>(p, n1, n2).director(p, n1.director, twist, x);
+    return Frame<S>(p, n1, n2).director(n1.director, twist, x);
   }
   /// ψ with which the director in the middle is along the given one.
   template <typename S>
   static S twist_to(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
                     const VectorOf<S, 3>& middle) noexcept {
     const Frame<S> f(p, n1, n2);
-    const V3<S> v = detail::unit(f.tangent(p, S(0.5)));
+    const V3<S> v = detail::unit(f.tangent(S(0.5)));
     const V3<S> half = detail::turn(detail::carry(n1.director, f.u, v), v, f.mismatch / 2);
     return detail::angle_about(v, half, detail::across(middle, v));
   }
@@ -113,9 +113,9 @@ struct TwistedRod {
     const detail::GaussRule& rule = detail::gauss_rule(p.number);
     for (int g = 0; g < p.number; ++g) {
       const S x = S(rule.x[g]);
-      const Point<S> point(detail::CubicWeights<S>(x, p.inverse_length), f);
-      point.strains(f.mismatch * x + 4 * twist * x * (1 - x),
-                    (f.mismatch + 4 * twist * (1 - 2 * x)) * p.inverse_length, p.points[g].natural);
+      const Point<S> point(f, detail::CubicAt(static_cast<long double>(rule.x[g])));
+      point.strains(f.mismatch * x + 4 * twist * x * (1 - x), f.mismatch + 4 * twist * (1 - 2 * x),
+                    p.inverse_length, p.points[g].natural);
     }
     S e[3];
     f.stretches(p, e);
@@ -127,10 +127,19 @@ struct TwistedRod {
   template <typename S>
   static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
                    Vector14<S>& r, Matrix14<S>& K) noexcept {
+    RodTangent<S, 4> all;
+    const S energy = tangent(p, n1, n2, inner, all);
+    all.expand(r, K);
+    return energy;
+  }
+  /// The same, each derivative once.
+  template <typename S>
+  static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
+                   RodTangent<S, 4>& all) noexcept {
     const Frame<S> f(p, n1, n2);
     Core<S> core;
     const S energy = respond(p, f, inner.twist, core);
-    detail::expand(f, core, inner, r, K);
+    detail::expand(f, core, p.inverse_length, inner, all);
     return energy;
   }
 
@@ -145,36 +154,41 @@ struct TwistedRod {
   template <typename S>
   using Core = detail::TwistedCore<S>;
 
+  /// Strains are those times l.
   template <typename S>
   static S respond(const RodProperties<S>& p, const Frame<S>& f, S psi, Core<S>& core) noexcept {
-    for (int i = 0; i < 10; ++i) {
-      core.g[i] = 0;
-      for (int j = 0; j <= i; ++j) core.H[i][j] = 0;
-    }
     S energy = 0;
-    for (int point = 0; point < p.number; ++point) add_point(p, f, psi, point, core, energy);
     add_stretch(p, f, core, energy);
+    if (p.number == 2) {
+      add_point<2, 0>(p, f, psi, core, energy), add_point<2, 1>(p, f, psi, core, energy);
+    } else {
+      add_point<3, 0>(p, f, psi, core, energy), add_point<3, 1>(p, f, psi, core, energy);
+      add_point<3, 2>(p, f, psi, core, energy);
+    }
     return energy;
   }
 
-  template <typename S>
-  [[gnu::always_inline]] static void add_point(const RodProperties<S>& p, const Frame<S>& f, S psi, int point,
-                                               Core<S>& core, S& energy) noexcept {
-    const auto& at = p.points[point];
-    const detail::GaussRule& rule = detail::gauss_rule(p.number);
-    const S x = S(rule.x[point]), weight = S(rule.weight[point]) * p.length, m = f.mismatch;
-    const Point<S> q(detail::CubicWeights<S>(x, p.inverse_length), f);
-    const auto& w = q.weights;
-    // θ and θ' by φ1, φ2 + m, ψ
-    const S t[3] = {1 - x, x, 4 * x * (1 - x)},
-            d[3] = {-p.inverse_length, p.inverse_length, 4 * (1 - 2 * x) * p.inverse_length};
+  template <int Number, int G, typename S>
+  [[gnu::flatten]] static void add_point(const RodProperties<S>& p, const Frame<S>& f, const S& psi,
+                                         Core<S>& core, S& energy) noexcept {
+    using detail::add_product;
+    using detail::add_share;
+    constexpr const detail::GaussRule& rule = detail::gauss_rule(Number);
+    constexpr double x = rule.x[G];
+    constexpr detail::CubicAt w(x);
+    const auto& at = p.points[G];
+    const S weight = S(rule.weight[G]) * p.inverse_length, m = f.mismatch;
+    const Point<S> q(f, w);
+    // θ and θ' l by φ1, φ2 + m, ψ
+    constexpr double t[3] = {1 - x, x, 4 * x * (1 - x)}, d[3] = {-1, 1, 4 * (1 - 2 * x)};
     using detail::cos_and_sin;
-    const S theta = t[1] * m + t[2] * psi;
+    const S theta = S(t[1]) * m + S(t[2]) * psi;
     S co, si;
     cos_and_sin(theta, co, si);
-    const S k1 = co * q.K1 + si * q.K2, k2 = co * q.K2 - si * q.K1, tau = d[1] * m + d[2] * psi - q.c;
+    const S k1 = co * q.K1 + si * q.K2, k2 = co * q.K2 - si * q.K1, tau = m + S(d[2]) * psi - q.c;
     const S E1 = weight * at.bending1, E2 = weight * at.bending2, GJ = weight * at.torsion;
-    const S e1 = k1 - at.natural[0], e2 = k2 - at.natural[1], e3 = tau - at.natural[2];
+    const S e1 = k1 - at.natural[0] * p.length, e2 = k2 - at.natural[1] * p.length,
+            e3 = tau - at.natural[2] * p.length;
     const S m1 = E1 * e1, m2 = E2 * e2, T = GJ * e3;
     energy += (m1 * e1 + m2 * e2 + T * e3) / 2;
     const S M1 = co * m1 - si * m2, M2 = si * m1 + co * m2;
@@ -200,33 +214,52 @@ struct TwistedRod {
     S R1[10], R2[10], R3[10];
     const V3<S> k1a = co * K1a + si * K2a, k1b = co * K1b + si * K2b, k2a = co * K2a - si * K1a,
                 k2b = co * K2b - si * K1b;
-    const auto chain = [&w](const V3<S>& by_a, const V3<S>& by_b, S(&R)[10]) {
+    const auto share = [](long double alpha, const S& by_a, long double beta, const S& by_b) {
+      S sum = S(alpha) * by_a;
+      add_share(sum, beta, by_b);
+      return sum;
+    };
+    const auto chain = [&](const V3<S>& by_a, const V3<S>& by_b, S(&R)[10]) {
+      HAPBEAM_UNROLL
       for (int k = 0; k < 3; ++k) {
-        R[k] = w.a * by_a[k] + w.b * by_b[k];
-        R[4 + k] = w.a2 * by_a[k] + w.b2 * by_b[k];
+        R[k] = share(w.a, by_a[k], w.b, by_b[k]);
+        R[4 + k] = share(w.a2, by_a[k], w.b2, by_b[k]);
       }
-      R[3] = w.a1 * by_a[2] + w.b1 * by_b[2];
+      R[3] = share(w.a1, by_a[2], w.b1, by_b[2]);
     };
     chain(k1a, k1b, R1);
     chain(k2a, k2b, R2);
     chain(-ca, -cb, R3);
+    HAPBEAM_UNROLL
     for (int k = 0; k < 3; ++k) {
-      R1[7 + k] = k2 * t[k];
-      R2[7 + k] = -k1 * t[k];
-      R3[7 + k] = d[k];
+      R1[7 + k] = k2 * S(t[k]);
+      R2[7 + k] = -k1 * S(t[k]);
+      R3[7 + k] = S(d[k]);
     }
     HAPBEAM_UNROLL
     for (int r = 0; r < 10; ++r) {
-      core.g[r] += m1 * R1[r] + m2 * R2[r] + T * R3[r];
       const S s1 = E1 * R1[r], s2 = E2 * R2[r], s3 = GJ * R3[r];
+      S g = r < 7 ? core.g[r] : first(G, core.g[r]);
+      g = add_product(add_product(add_product(g, m1, R1[r]), m2, R2[r]), T, R3[r]);
+      core.g[r] = g;
       HAPBEAM_UNROLL
-      for (int c = 0; c <= r; ++c) core.H[r][c] += s1 * R1[c] + s2 * R2[c] + s3 * R3[c];
+      for (int c = 0; c <= r; ++c) {
+        const S H = r < 7 ? core.H[r][c] : first(G, core.H[r][c]);
+        core.H[r][c] = add_product(add_product(add_product(H, s1, R1[c]), s2, R2[c]), s3, R3[c]);
+      }
     }
     // θ with the rest, and with itself.
     const S turn = m1 * k1 + m2 * k2;
+    HAPBEAM_UNROLL
+    for (int c = 0; c < 7; ++c) {
+      const S by_turn = m1 * R2[c] - m2 * R1[c];
+      HAPBEAM_UNROLL
+      for (int k = 0; k < 3; ++k) add_share(core.H[7 + k][c], t[k], by_turn);
+    }
+    HAPBEAM_UNROLL
     for (int k = 0; k < 3; ++k) {
-      for (int c = 0; c < 7; ++c) core.H[7 + k][c] += t[k] * (m1 * R2[c] - m2 * R1[c]);
-      for (int c = 0; c <= k; ++c) core.H[7 + k][7 + c] -= turn * t[k] * t[c];
+      HAPBEAM_UNROLL
+      for (int c = 0; c <= k; ++c) add_share(core.H[7 + k][7 + c], -t[k] * t[c], turn);
     }
     // M1 K1 + M2 K2 - T c = Q/n + h F with F = P w - T C, by a twice and by a and b.
     const S Q = M2 * b[0] - M1 * b[1], P = M1 * Y - M2 * X, F = P * q.w - T * q.C;
@@ -255,20 +288,33 @@ struct TwistedRod {
         Ab[r][c] = ha[r] * Fb[c] - v[r] * Qb[c] + h * Pa[r] * vz[c] - hPi * v[r] * v[c];
     for (int r = 0; r < 3; ++r) Ab[r][r] += hPi;
     Ab[0][1] -= h * T, Ab[1][0] += h * T;
-    const S aa = w.a * w.a, ab = w.a * w.b, a2 = w.a * w.a2, ab2 = w.a * w.b2, ba2 = w.b * w.a2,
-            a22 = w.a2 * w.a2, b22 = w.a2 * w.b2, a1 = w.a * w.a1, ab1 = w.a * w.b1, ba1 = w.b * w.a1,
-            a12 = w.a1 * w.a2, a2b1 = w.a2 * w.b1, b2a1 = w.b2 * w.a1;
+    HAPBEAM_UNROLL
     for (int r = 0; r < 3; ++r) {
+      HAPBEAM_UNROLL
       for (int c = 0; c <= r; ++c) {
         const S both = Ab[r][c] + Ab[c][r];
-        core.H[r][c] += aa * Aa[r][c] + ab * both;
-        core.H[4 + r][4 + c] += a22 * Aa[r][c] + b22 * both;
+        add_share(core.H[r][c], w.a * w.a, Aa[r][c]), add_share(core.H[r][c], w.a * w.b, both);
+        add_share(core.H[4 + r][4 + c], w.a2 * w.a2, Aa[r][c]);
+        add_share(core.H[4 + r][4 + c], w.a2 * w.b2, both);
       }
-      for (int c = 0; c < 3; ++c) core.H[4 + r][c] += a2 * Aa[r][c] + ba2 * Ab[r][c] + ab2 * Ab[c][r];
-      core.H[3][r] += a1 * Aa[2][r] + ab1 * Ab[r][2] + ba1 * Ab[2][r];
-      core.H[4 + r][3] += a12 * Aa[2][r] + a2b1 * Ab[r][2] + b2a1 * Ab[2][r];
+      HAPBEAM_UNROLL
+      for (int c = 0; c < 3; ++c) {
+        S& H = core.H[4 + r][c];
+        add_share(H, w.a * w.a2, Aa[r][c]), add_share(H, w.b * w.a2, Ab[r][c]);
+        add_share(H, w.a * w.b2, Ab[c][r]);
+      }
+      add_share(core.H[3][r], w.a * w.a1, Aa[2][r]), add_share(core.H[3][r], w.a * w.b1, Ab[r][2]);
+      add_share(core.H[3][r], w.b * w.a1, Ab[2][r]);
+      S& H = core.H[4 + r][3];
+      add_share(H, w.a1 * w.a2, Aa[2][r]), add_share(H, w.a2 * w.b1, Ab[r][2]);
+      add_share(H, w.b2 * w.a1, Ab[2][r]);
     }
-    core.H[3][3] += w.a1 * w.a1 * Aa[2][2] + 2 * w.a1 * w.b1 * Ab[2][2];
+    add_share(core.H[3][3], w.a1 * w.a1, Aa[2][2]), add_share(core.H[3][3], 2 * w.a1 * w.b1, Ab[2][2]);
+  }
+  /// What the first of the points finds is nothing.
+  template <typename S>
+  [[gnu::always_inline]] static S first(int point, const S& sum) noexcept {
+    return point == 0 ? S(0) : sum;
   }
 
   template <typename S>
@@ -276,7 +322,7 @@ struct TwistedRod {
                                                  S& energy) noexcept {
     using std::sqrt;
     S e[3], N[3];
-    const V3<S> a = f.middle(p);
+    const V3<S> a = f.middle();
     const S n = sqrt(a.squaredNorm()), i = 1 / n, EA = p.axial * p.length;
     e[0] = f.l1 - 1 - p.natural_strain[0];
     e[1] = n - 1 - p.natural_strain[1];
@@ -287,18 +333,18 @@ struct TwistedRod {
       energy += N[r] * e[r] / 2;
     }
     const V3<S> v = a * i;
-    const S w = S(1.5) * p.inverse_length, w1 = S(-0.25);
+    const S w = S(1.5), w1 = S(-0.25);
     // By (Δ, |r1'|, r2'): ε at the middle and at node 2.
     const S R[7] = {w * v[0], w * v[1], w * v[2], w1 * v[2], w1 * v[0], w1 * v[1], w1 * v[2]};
     const S m0 = EA * S(detail::quadratic_mass[0][0]), m1 = EA * S(detail::quadratic_mass[1][1]),
             c01 = EA * S(detail::quadratic_mass[0][1]), c02 = EA * S(detail::quadratic_mass[0][2]);
-    for (int r = 0; r < 7; ++r) core.g[r] += N[1] * R[r];
+    for (int r = 0; r < 7; ++r) core.g[r] = N[1] * R[r];
     core.g[3] += N[0];
     for (int k = 0; k < 3; ++k) core.g[4 + k] += N[2] * f.v[k];
     // The middle's second derivative is N (I - vvᵀ)/n: its last part joins the product of gradients.
     const S bend = N[1] * i, mm = m1 - bend;
     for (int r = 0; r < 7; ++r)
-      for (int c = 0; c <= r; ++c) core.H[r][c] += mm * R[r] * R[c];
+      for (int c = 0; c <= r; ++c) core.H[r][c] = mm * R[r] * R[c];
     for (int k = 0; k < 3; ++k) {
       core.H[k][k] += bend * w * w;
       core.H[4 + k][4 + k] += bend * w1 * w1;

@@ -10,6 +10,7 @@
 #include <hapbeam/element/carried_frame.hpp>
 #include <hapbeam/element/pack.hpp>
 #include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/element/rod_tangent.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/natural_rod.hpp>
 #include <hapbeam/fem/rod_abreast.hpp>
@@ -30,7 +31,7 @@ class RodElements {
   using Node = RodNode<Scalar>;
   using Nodes = detail::PerNode<Node, Elements, MaxElements>;
   using Inner = typename Element::template Inner<Scalar>;
-  using Inners = detail::PerNode<Inner, Elements, MaxElements>;
+  using Twists = detail::PerNode<Scalar, Elements, MaxElements>;
   static constexpr int unknowns = Element::unknowns;
   using Residual = Eigen::Matrix<Scalar, 2 * unknowns, 1>;
   using Tangent = Eigen::Matrix<Scalar, 2 * unknowns, 2 * unknowns>;
@@ -39,7 +40,8 @@ class RodElements {
   /// elements does not fit the type, or the element does not model such a rod
   RodElements(const Rod& rod, int elements)
       : nodes_(elements),
-        inners_(elements),
+        twists_(elements),
+        inners_(detail::groups_of<Scalar>(elements)),
         properties_(elements),
         abreast_(elements),
         natural_(rod),
@@ -68,15 +70,42 @@ class RodElements {
   int size() const noexcept { return nodes_.size() - 1; }
   Nodes& nodes() noexcept { return nodes_; }
   const Nodes& nodes() const noexcept { return nodes_; }
-  Inners& inners() noexcept { return inners_; }
-  const Inners& inners() const noexcept { return inners_; }
+  /// ψ of the elements [rad].
+  Twists& twists() noexcept { return twists_; }
+  const Twists& twists() const noexcept { return twists_; }
+  /// What is an element's own, and how it follows the nodes since visit_tangents().
+  Inner inner(int e) const noexcept {
+    Inner inner;
+    if constexpr (has_twist) {
+      const int place = abreast_.order().place(e), lane = place % lanes;
+      const auto& from = inners_[place / lanes];
+      inner.twist = twists_[e];
+      inner.residual = from.residual[lane];
+      inner.stiffness = from.stiffness[lane];
+      for (int i = 0; i < 2 * unknowns; ++i) inner.row[i] = from.row[i][lane];
+    }
+    return inner;
+  }
+  /// To be called before the nodes move.  @param increments  of all nodes: RodIncrements
+  template <class Increments>
+  void advance_inners([[maybe_unused]] const Increments& increments) noexcept {
+    if constexpr (has_twist)
+      for (int first = 0; first < places(); first += lanes) {
+        auto& inner = inners_[first / lanes];
+        Eigen::Matrix<Wide, 2 * unknowns, 1> both;
+        increments.of_elements(first, both);
+        inner.advance(both);
+        for (int lane = 0; lane < lanes && first + lane < places(); ++lane)
+          if (const int e = abreast_.order().element(first + lane); e >= 0) twists_[e] = inner.twist[lane];
+      }
+  }
   const NaturalRod<Scalar>& natural_shape() const noexcept { return natural_; }
   const Mesh& mesh() const noexcept { return mesh_; }
   static Centreline<Scalar, 3> view(const Nodes& nodes) noexcept { return {nodes.data(), nodes.size()}; }
 
   /// Moves to another mesh of as many elements and carries the shape over.  @param scratch, more  overwritten
-  void remesh(const Mesh& mesh, Nodes& scratch, Inners& more) noexcept {
-    for (int i = 0; i < nodes_.size(); ++i) scratch[i] = nodes_[i], more[i] = inners_[i];
+  void remesh(const Mesh& mesh, Nodes& scratch, Twists& more) noexcept {
+    for (int i = 0; i < nodes_.size(); ++i) scratch[i] = nodes_[i], more[i] = twists_[i];
     const Centreline<Scalar, 3> line = view(scratch);
     int piece = 0;
     const auto look = [&](Scalar s) {
@@ -88,7 +117,7 @@ class RodElements {
       if constexpr (has_twist) {
         RodProperties<Scalar> p;
         p.length = b.s - a.s, p.inverse_length = 1 / p.length;
-        node.director = Element::director(p, a, b, more[piece].twist, (s - a.s) * p.inverse_length);
+        node.director = Element::director(p, a, b, more[piece], (s - a.s) * p.inverse_length);
       } else {
         node.director = detail::carry(a.director, detail::unit(a.tangent), detail::unit(at.tangent));
       }
@@ -106,8 +135,8 @@ class RodElements {
     take(mesh);
   }
   /// Sets the whole state.  @param nodes those of the given mesh
-  void set(const Mesh& mesh, const Nodes& nodes, const Inners& inners) noexcept {
-    for (int i = 0; i < nodes_.size(); ++i) nodes_[i] = nodes[i], inners_[i] = inners[i];
+  void set(const Mesh& mesh, const Nodes& nodes, const Twists& twists) noexcept {
+    for (int i = 0; i < nodes_.size(); ++i) nodes_[i] = nodes[i], twists_[i] = twists[i];
     take(mesh);
   }
 
@@ -118,32 +147,31 @@ class RodElements {
   };
 
   /// Residual and tangent of V - λW in each element, and the derivatives of its inner twist.  Elements are computed a few at a time,
-  /// side by side.   @param visit  called with (place, tangents, residuals) of those from that place on, in the order of PairOrder
+  /// side by side.   @param visit  called with a place and what those from there on are, in the order of PairOrder
   template <class Visit>
   [[gnu::always_inline]] Energies visit_tangents(Scalar lambda, Visit&& visit) noexcept {
     Energies sum;
-    for (int first = 0; first < 2 * abreast_.order().pairs(); first += lanes) {
-      Group group;
-      compute(first, group);
-      const Wide inner = group.inner.energy();
-      for (int lane = 0; lane < lanes && first + lane < 2 * abreast_.order().pairs(); ++lane) {
-        const int e = abreast_.order().element(first + lane);
-        if (e < 0) continue;
-        sum.strain += group.energy[lane];
-        sum.inner += inner[lane];
-        if constexpr (has_twist) group.get(lane, inners_[e]);
-        if (!loads_.empty() || !bed_.empty()) add_loads(e, lambda, lane, group, sum);
+    for (int first = 0; first < places(); first += lanes) {
+      auto& inner = inners_[first / lanes];
+      typename Stiffness::Type K;
+      const Wide energy = compute(first, inner, K), own = inner.energy();
+      for (int lane = 0; lane < lanes && first + lane < places(); ++lane) {
+        if (abreast_.order().element(first + lane) < 0) continue;
+        sum.strain += energy[lane];
+        sum.inner += own[lane];
       }
-      visit(first, group.K, group.r);
+      if (loads_.empty() && bed_.empty()) visit(first, K);
+      else visit_loaded(first, lambda, K, sum, visit);
     }
     return sum;
   }
   /// The residual alone of one element.
   void residual(int e, Scalar lambda, Residual& r) const noexcept {
-    Group group;
     const int place = abreast_.order().place(e), lane = place % lanes;
-    compute(place - lane, group);
-    group.get(lane, r);
+    typename Element::template Inner<Wide> unused_inner;
+    typename Stiffness::Type all;
+    (void)compute(place - lane, unused_inner, all);
+    for (int i = 0; i < 2 * unknowns; ++i) r[i] = all[i][lane];
     Tangent unused = Tangent::Zero();
     if (!bed_.empty()) (void)bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, unused);
     if (!loads_.empty()) loads_.template subtract<unknowns>(e, lambda, r);
@@ -176,16 +204,18 @@ class RodElements {
     cut.moment += t * (moment(unknowns, b.tangent) - end.moment);
     loads_.spread(lambda, s, a.s, place.tangent, cut);
     Scalar twist = 0;
-    if constexpr (has_twist) twist = inners_[e].twist;
+    if constexpr (has_twist) twist = twists_[e];
     const detail::CarriedFrame<Scalar> frame(properties_[e], a, b);
-    return cut.in_section(frame.director(properties_[e], a.director, twist, t), detail::unit(place.tangent),
+    return cut.in_section(frame.director(a.director, twist, t), detail::unit(place.tangent),
                           profile_.at(s), surface_);
   }
   /// [J]
   Scalar strain_energy() const noexcept {
     Scalar energy = 0;
     for (int e = 0; e < size(); ++e) {
-      energy += Element::energy(properties_[e], nodes_[e], nodes_[e + 1], inners_[e]);
+      Inner inner;
+      if constexpr (has_twist) inner.twist = twists_[e];
+      energy += Element::energy(properties_[e], nodes_[e], nodes_[e + 1], inner);
       if (!bed_.empty()) energy += bed_.energy(e, nodes_[e], nodes_[e + 1]);
     }
     return energy;
@@ -196,53 +226,101 @@ class RodElements {
   using Wide = detail::Pack<Scalar>;
   static constexpr int lanes = Wide::size;
 
-  /// Elements side by side.
-  struct Group {
-    Eigen::Matrix<Wide, 2 * unknowns, 1> r;
-    Eigen::Matrix<Wide, 2 * unknowns, 2 * unknowns> K;
-    typename Element::template Inner<Wide> inner;
-    Wide energy;
-
-    [[gnu::always_inline]] void get(int lane, Residual& to) const noexcept {
-      HAPBEAM_UNROLL
-      for (int i = 0; i < 2 * unknowns; ++i) to[i] = r[i][lane];
-    }
-    [[gnu::always_inline]] void get(int lane, Inner& to) const noexcept {
-      to.residual = inner.residual[lane];
-      to.stiffness = inner.stiffness[lane];
-      for (int i = 0; i < 2 * unknowns; ++i) to.row[i] = inner.row[i][lane];
+  /// Residual and tangent in full, for an element that has them alone, and where loads are added.
+  template <typename S>
+  struct Full {
+    Eigen::Matrix<S, 2 * unknowns, 1> r;
+    Eigen::Matrix<S, 2 * unknowns, 2 * unknowns> K;
+    const S& operator[](int i) const noexcept { return r[i]; }
+    const S& operator()(int i, int j) const noexcept { return K(i, j); }
+  };
+  template <typename S>
+  using Once = RodTangent<S, unknowns - 3>;
+  template <class E, typename S, typename = void>
+  struct StiffnessOf {
+    using Type = Full<S>;
+    static S compute(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b,
+                     typename E::template Inner<S>& inner, Type& to) noexcept {
+      return E::tangent(p, a, b, inner, to.r, to.K);
     }
   };
-  /// @param first  of their places
-  void compute(int first, Group& group) const noexcept {
-    const detail::Abreast<Scalar> of = abreast_.elements(first);
-    if constexpr (has_twist) group.inner.twist = detail::gather(of, [&](int e) { return inners_[e].twist; });
-    group.energy = Element::tangent(abreast_.properties(first), detail::gather_nodes<has_twist>(of, nodes_),
-                                    detail::gather_nodes<has_twist>(of.next(1, size()), nodes_), group.inner,
-                                    group.r, group.K);
+  template <class E, typename S>
+  struct StiffnessOf<E, S,
+                     std::void_t<decltype(E::tangent(
+                         std::declval<const RodProperties<S>&>(), std::declval<const RodNode<S>&>(),
+                         std::declval<const RodNode<S>&>(), std::declval<typename E::template Inner<S>&>(),
+                         std::declval<Once<S>&>()))>> {
+    using Type = Once<S>;
+    [[gnu::always_inline]] static S compute(const RodProperties<S>& p, const RodNode<S>& a,
+                                            const RodNode<S>& b, typename E::template Inner<S>& inner,
+                                            Type& to) noexcept {
+      return E::tangent(p, a, b, inner, to);
+    }
+  };
+  using Stiffness = StiffnessOf<Element, Wide>;
+
+  int places() const noexcept { return 2 * abreast_.order().pairs(); }
+  /// @param first  of the places of elements   @param inner, K  out   @return their energies [J]
+  [[gnu::always_inline]] Wide compute(int first, typename Element::template Inner<Wide>& inner,
+                                      typename Stiffness::Type& K) const noexcept {
+    const auto& order = abreast_.order();
+    if constexpr (has_twist)
+      inner.twist = detail::gather(abreast_.elements(first), [&](int e) { return twists_[e]; });
+    // The nodes of these places and of the pair behind them are those of both ends.
+    const auto of = detail::Abreast<Scalar>::from(first, order.last_node()).of_each([&](int place) {
+      return order.node(place);
+    });
+    const Node *const left = &nodes_[order.node((std::min)(first + lanes, order.last_node() - 1))],
+                     *const right = &nodes_[order.node((std::min)(first + lanes + 1, order.last_node()))];
+    RodNode<Wide> a, b;
+    const auto take = [&](detail::V3<Scalar> Node::*from, detail::V3<Wide> RodNode<Wide>::*to) {
+      const detail::V3<Wide> outer = detail::gather(of, nodes_, from);
+      HAPBEAM_UNROLL
+      for (int c = 0; c < 3; ++c) {
+        const Scalar two[2] = {(left->*from)[c], (right->*from)[c]};
+        const Wide next = before(outer[c], two);
+        (a.*to)[c] = in_turn(outer[c], next), (b.*to)[c] = in_turn(next, outer[c]);
+      }
+    };
+    take(&Node::r, &RodNode<Wide>::r);
+    take(&Node::tangent, &RodNode<Wide>::tangent);
+    if constexpr (has_twist) take(&Node::director, &RodNode<Wide>::director);
+    return Stiffness::compute(abreast_.properties(first), a, b, inner, K);
   }
-  /// Dead loads and the foundation.
-  void add_loads(int e, Scalar lambda, int lane, Group& group, Energies& sum) const noexcept {
+  /// With dead loads and the foundation.
+  template <class Visit>
+  void visit_loaded(int first, Scalar lambda, const typename Stiffness::Type& K, Energies& sum,
+                    Visit&& visit) noexcept {
+    Full<Wide> all;
+    for (int j = 0; j < 2 * unknowns; ++j) {
+      all.r[j] = K[j];
+      for (int i = 0; i < 2 * unknowns; ++i) all.K(i, j) = K(i, j);
+    }
+    for (int lane = 0; lane < lanes && first + lane < places(); ++lane)
+      if (const int e = abreast_.order().element(first + lane); e >= 0) add_loads(e, lambda, lane, all, sum);
+    visit(first, all);
+  }
+  void add_loads(int e, Scalar lambda, int lane, Full<Wide>& all, Energies& sum) noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
     Residual r;
-    group.get(lane, r);
+    for (int i = 0; i < 2 * unknowns; ++i) r[i] = all.r[i][lane];
     if (!bed_.empty()) {
       Tangent K = Tangent::Zero();
       sum.strain += bed_.template add<unknowns>(e, a, b, r, K);
       for (int j = 0; j < 2 * unknowns; ++j)
-        for (int i = 0; i < 2 * unknowns; ++i) group.K(i, j).set(lane, group.K(i, j)[lane] + K(i, j));
+        for (int i = 0; i < 2 * unknowns; ++i) all.K(i, j).set(lane, all.K(i, j)[lane] + K(i, j));
     }
     if (!loads_.empty()) {
       loads_.template subtract<unknowns>(e, lambda, r);
       sum.work += lambda * loads_.work(e, a, b);
     }
-    for (int i = 0; i < 2 * unknowns; ++i) group.r[i].set(lane, r[i]);
+    for (int i = 0; i < 2 * unknowns; ++i) all.r[i].set(lane, r[i]);
   }
   Scalar middle(int e) const noexcept { return (nodes_[e].s + nodes_[e + 1].s) / 2; }
 
   void find_twist(int e, const VectorOf<Scalar, 3>& director) noexcept {
     if constexpr (has_twist)
-      inners_[e].twist = Element::twist_to(properties_[e], nodes_[e], nodes_[e + 1], director);
+      twists_[e] = Element::twist_to(properties_[e], nodes_[e], nodes_[e + 1], director);
   }
 
   void set_length(int e, Scalar length) noexcept {
@@ -281,7 +359,10 @@ class RodElements {
   }
 
   Nodes nodes_;
-  Inners inners_;
+  Twists twists_;
+  detail::PerNode<typename Element::template Inner<Wide>, detail::groups_of<Scalar>(Elements),
+                  detail::groups_of<Scalar>(MaxElements)>
+      inners_;
   detail::PerNode<RodProperties<Scalar>, Elements, MaxElements> properties_;
   detail::RodAbreast<Scalar, Elements, MaxElements> abreast_;
   NaturalRod<Scalar> natural_;

@@ -30,64 +30,95 @@ VectorOf<Scalar, 3> turned(const VectorOf<Scalar, 3>& v, const VectorOf<Scalar, 
   cos_and_sin_of_square(Scalar(aside.squaredNorm() / square), cosine, sine);
   return (1 + share) * (cosine * v + sine * aside);
 }
-/// Adds an increment of r' and φ to a node.
+/// Adds an increment of r' and φ to a node, as turned() and set_tangent() do, but what is known to have unit length is not measured.
 template <typename S>
 [[gnu::always_inline]] inline void move_tangent(RodNode<S>& node, const VectorOf<S, 3>& change,
                                                 const S* twist) noexcept {
-  set_tangent(node, turned(node.tangent, change));
-  if (twist) node.director = turn<S>(node.director, unit(node.tangent), *twist);
+  using std::sqrt;
+  using V = VectorOf<S, 3>;
+  const S square = node.tangent.squaredNorm(), i = 1 / sqrt(square);
+  const V u = i * node.tangent, by = i * change;
+  const S share = u.dot(by);
+  const V aside = by - share * u;
+  S cosine, sine;  // of the angle, that over the angle
+  cos_and_sin_of_square(S(aside.squaredNorm()), cosine, sine);
+  const V v = cosine * u + sine * aside;
+  node.tangent = ((1 + share) * square * i) * v;
+  V e = node.director;
+  e -= share_of(S(v.dot(e)), S(1 + cosine)) * (u + v);
+  if (twist) e = turn<S>(e, v, *twist);
+  // Across v and unit, but for round-off: one step of Newton's method makes it so.
+  e -= v.dot(e) * v;
+  node.director = (S(1.5) - S(0.5) * e.squaredNorm()) * e;
 }
-/// Adds increments to the tangents of all nodes, a few at a time.
-/// @tparam twists  whether there is φ   @param increment  i -> r, r' and φ, of their number and in their order
-template <bool twists, class Nodes, class Increment>
-void move_tangents(Nodes& nodes, Increment&& increment) noexcept {
-  using Scalar = std::decay_t<decltype(nodes[0].s)>;
-  using Wide = Pack<Scalar>;
-  const int last = nodes.size() - 1;
-  for (int first = 0; first <= last; first += Wide::size) {
-    const auto abreast = Abreast<Scalar>::from(first, last);
-    RodNode<Wide> node = gather_nodes(abreast, nodes);
-    VectorOf<Wide, 3> change;
-    for (int c = 0; c < 3; ++c) change[c] = gather(abreast, [&](int i) { return increment(i)[3 + c]; });
+/// Adds increments to all nodes, a few at a time; to their tangents and directors alone where chords turn their places.
+/// @tparam twists  whether there is φ
+template <bool twists, class Nodes, class Increments>
+[[gnu::flatten]] void move_nodes(Nodes& nodes, const Increments& increments, bool places) noexcept {
+  using Node = std::decay_t<decltype(nodes[0])>;
+  increments.visit([&](const auto& which, const auto& x) {
+    using Wide = typename std::decay_t<decltype(which)>::Wide;
+    using Vector = VectorOf<Wide, 3>;
+    RodNode<Wide> node;
+    node.tangent = gather(which, nodes, &Node::tangent);
+    node.director = gather(which, nodes, &Node::director);
+    const Vector change(x(3), x(4), x(5));
     if constexpr (twists) {
-      const Wide twist = gather(abreast, [&](int i) { return increment(i)[6]; });
+      const Wide twist = x(6);
       move_tangent(node, change, &twist);
     } else {
       move_tangent<Wide>(node, change, nullptr);
     }
-    scatter(abreast, [&](int i, int k) {
+    if (places) {
+      node.r = gather(which, nodes, &Node::r) + Vector(x(0), x(1), x(2));
+      scatter(which, [&](int i, int k) { nodes[i].r = lane(node.r, k); });
+    }
+    scatter(which, [&](int i, int k) {
       nodes[i].tangent = lane(node.tangent, k), nodes[i].director = lane(node.director, k);
     });
-  }
+  });
+}
+
+/// The angle about the unit vector v from the director of a node, carried there, to another one.   @param to, beside  that one, and it × v
+template <typename S>
+[[gnu::always_inline]] inline S carried_angle(const VectorOf<S, 3>& tangent, const VectorOf<S, 3>& director,
+                                              const VectorOf<S, 3>& v, const VectorOf<S, 3>& to,
+                                              const VectorOf<S, 3>& beside) noexcept {
+  using std::sqrt;
+  const S whole = sqrt(tangent.squaredNorm()) + tangent.dot(v);
+  // As carry(), times that, less what is along v.
+  const VectorOf<S, 3> from = whole * director - v.dot(director) * tangent;
+  return angle(S(from.dot(beside)), S(from.dot(to)), whole);
 }
 
 /// Where nodes will be that go on as they went, foresight.hpp.   @param now, before, ahead  all nodes; of those ahead, s is known
 /// @tparam twists  whether their directors turn about the tangents
 template <bool twists, class Nodes, typename Scalar>
-void go_on(const Nodes& now, const Nodes& before, Scalar ratio, Nodes& ahead) noexcept {
-  using Wide = Pack<Scalar>;
-  using Vector = VectorOf<Wide, 3>;
+[[gnu::flatten]] void go_on(const Nodes& now, const Nodes& before, Scalar ratio, Nodes& ahead) noexcept {
+  using Node = RodNode<Scalar>;
   const int last = now.size() - 1;
-  const auto twist = [](const RodNode<Wide>& from, const RodNode<Wide>& to, const Vector& v) -> Wide {
-    return angle_about<Wide>(v, across<Wide>(carry<Wide>(from.director, unit(from.tangent), v), v),
-                             to.director);
-  };
-  for (int first = 0; first <= last; first += Wide::size) {
-    const auto here = Abreast<Scalar>::from(first, last), on_left = here.next(-1, last),
-               on_right = here.next(1, last);
-    const RodNode<Wide> x = gather_nodes(here, now), b = gather_nodes(here, before),
-                        left = gather_nodes(on_left, now), right = gather_nodes(on_right, now);
-    const Wide along = gather(here, [&](int i) {
-      return i == 0 || i == last ? Scalar(0) : ahead[i].s - now[i].s - ratio * (now[i].s - before[i].s);
-    });
-    const Wide share = along / (gather(on_right, [&](int i) { return now[i].s; }) -
-                                gather(on_left, [&](int i) { return now[i].s; }));
-    const Wide r = ratio;
-    RodNode<Wide> next{along, x.r + r * (x.r - b.r) + along * x.tangent, x.tangent, x.director};
-    const Vector change = r * (x.tangent - b.tangent) + share * (right.tangent - left.tangent);
+  for_each_abreast<Scalar>(last, [&](const auto& here) {
+    using Wide = typename std::decay_t<decltype(here)>::Wide;
+    using Vector = VectorOf<Wide, 3>;
+    const auto left = here.next(-1, last), right = here.next(1, last);
+    const RodNode<Wide> x = gather_nodes(here, now);
+    const auto tangents = [](const auto& which, const Nodes& nodes) -> Vector {
+      return gather(which, nodes, &Node::tangent);
+    };
+    const Vector b = tangents(here, before), l = tangents(left, now), r = tangents(right, now);
+    const auto step = [&](int i) { return ahead[i].s - now[i].s - ratio * (now[i].s - before[i].s); };
+    const Wide along = gather(here, [&](int i) { return i == 0 || i == last ? Scalar(0) : step(i); });
+    const auto place = [&](int i) { return now[i].s; };
+    const Wide share = along / (gather(right, place) - gather(left, place)), far = ratio;
+    RodNode<Wide> next = x;
+    next.r += far * (x.r - gather(here, before, &Node::r)) + along * x.tangent;
+    const Vector change = far * (x.tangent - b) + share * (r - l);
     if constexpr (twists) {
-      const Vector u = unit(x.tangent);
-      const Wide angle = r * twist(b, x, u) + share * (twist(left, x, u) - twist(right, x, u));
+      const Vector u = unit(x.tangent), beside = cross3(x.director, u);
+      const auto twist = [&](const auto& which, const Nodes& nodes, const Vector& tangent) -> Wide {
+        return carried_angle<Wide>(tangent, gather(which, nodes, &Node::director), u, x.director, beside);
+      };
+      const Wide angle = far * twist(here, before, b) + share * (twist(left, now, l) - twist(right, now, r));
       move_tangent(next, change, &angle);
     } else {
       move_tangent<Wide>(next, change, nullptr);
@@ -96,7 +127,7 @@ void go_on(const Nodes& now, const Nodes& before, Scalar ratio, Nodes& ahead) no
       ahead[i].r = lane(next.r, k);
       ahead[i].tangent = lane(next.tangent, k), ahead[i].director = lane(next.director, k);
     });
-  }
+  });
 }
 
 }  // namespace hapbeam::detail

@@ -22,7 +22,7 @@ class RodShape {
   using Node = RodNode<Scalar>;
   using Nodes = typename Parts::Nodes;
   using Mesh = typename Parts::Mesh;
-  using Inners = typename Parts::Inners;
+  using Twists = typename Parts::Twists;
   using Vector3 = VectorOf<Scalar, 3>;
   static constexpr int unknowns = Element::unknowns;
 
@@ -31,23 +31,25 @@ class RodShape {
   Centreline<Scalar, 3> centreline() const noexcept { return view(rod_.nodes()); }
   Centreline<Scalar, 3> view(const Nodes& nodes) const noexcept { return rod_.view(nodes); }
   const Node& node(int i) const noexcept { return rod_.nodes()[i]; }
-  const Inners& inners() const noexcept { return rod_.inners(); }
+  const Twists& twists() const noexcept { return rod_.twists(); }
+  /// What is an element's own, as of the last tangent.
+  typename Parts::Inner inner(int e) const noexcept { return rod_.inner(e); }
   const Mesh& mesh() const noexcept { return rod_.mesh(); }
   /// Moves to another mesh of as many elements and carries the shape over.
   void remesh(const Mesh& mesh) noexcept {
-    if (!(mesh == rod_.mesh())) rod_.remesh(mesh, saved_.nodes, saved_.inners);
+    if (!(mesh == rod_.mesh())) rod_.remesh(mesh, saved_.nodes, saved_.twists);
   }
 
   /// What changes as the rod moves.
   struct State {
-    explicit State(int elements) : nodes(elements), inners(elements) {}
+    explicit State(int elements) : nodes(elements), twists(elements) {}
     Nodes nodes;
-    Inners inners;
+    Twists twists;  // ψ of the elements
   };
   Centreline<Scalar, 3> view(const State& state) const noexcept { return view(state.nodes); }
   /// The state as it is.  @param state  out
   void keep(State& state) const noexcept {
-    for (int i = 0; i <= elements(); ++i) state.nodes[i] = node(i), state.inners[i] = inners()[i];
+    for (int i = 0; i <= elements(); ++i) state.nodes[i] = node(i), state.twists[i] = twists()[i];
   }
   /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
   /// @param before  becomes what the state is now
@@ -55,10 +57,8 @@ class RodShape {
     for (int i = 0; i <= elements(); ++i) saved_.nodes[i].s = mesh.position(i);
     detail::go_on<unknowns == 7>(rod_.nodes(), before.nodes, ratio, saved_.nodes);
     if constexpr (unknowns == 7)
-      for (int e = 0; e < elements(); ++e) {
-        saved_.inners[e] = inners()[e];
-        saved_.inners[e].twist += ratio * (inners()[e].twist - before.inners[e].twist);
-      }
+      for (int e = 0; e < elements(); ++e)
+        saved_.twists[e] = twists()[e] + ratio * (twists()[e] - before.twists[e]);
     keep(before);
     set(mesh, saved_);
   }
@@ -74,7 +74,7 @@ class RodShape {
     }
     if constexpr (unknowns == 7)
       for (int e = 0; e < elements(); ++e)
-        from.inners[e].twist = inners()[e].twist - (to.inners[e].twist - from.inners[e].twist);
+        from.twists[e] = twists()[e] - (to.twists[e] - from.twists[e]);
   }
 
   /// n · r of a state at s [m].
@@ -109,7 +109,7 @@ class RodShape {
         length_(static_cast<Scalar>(rod.length())),
         axial_(static_cast<Scalar>(rod.stiffness().axial)) {}
 
-  void set(const Mesh& mesh, const State& state) noexcept { rod_.set(mesh, state.nodes, state.inners); }
+  void set(const Mesh& mesh, const State& state) noexcept { rod_.set(mesh, state.nodes, state.twists); }
   /// The shape of the same rod in another scalar, on the uniform mesh.
   template <class Other>
   void take(const Other& other) noexcept {
@@ -118,14 +118,14 @@ class RodShape {
     for (int i = 0; i <= elements(); ++i) {
       const auto& n = other.node(i);
       saved_.nodes[i] = {uniform.position(i), vector(n.r), vector(n.tangent), vector(n.director)};
-      if constexpr (unknowns == 7) saved_.inners[i].twist = static_cast<Scalar>(other.inners()[i].twist);
+      if constexpr (unknowns == 7) saved_.twists[i] = static_cast<Scalar>(other.twists()[i]);
     }
     set(uniform, saved_);
   }
   /// Where its mesh is as it was when the shape was kept.
   void take_back() noexcept {
     for (int i = 0; i <= elements(); ++i)
-      rod_.nodes()[i] = saved_.nodes[i], rod_.inners()[i] = saved_.inners[i];
+      rod_.nodes()[i] = saved_.nodes[i], rod_.twists()[i] = saved_.twists[i];
   }
   /// Bends the rod a little, along the director in its middle and half as much across that.
   /// @param size  [m]   @param c  where the bow changes its side, of the length; negative: nowhere

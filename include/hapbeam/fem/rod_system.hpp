@@ -16,6 +16,7 @@
 #include <hapbeam/fem/contact_friction.hpp>
 #include <hapbeam/fem/rod_contact.hpp>
 #include <hapbeam/fem/rod_end.hpp>
+#include <hapbeam/fem/rod_increments.hpp>
 #include <hapbeam/fem/rod_motion.hpp>
 #include <hapbeam/fem/rod_range.hpp>
 #include <hapbeam/fem/rod_round_contact.hpp>
@@ -116,7 +117,7 @@ class RodSystem
     const int c = contact_.node();
     Contacts::look_at_contacts();
     const auto [strain, work, inner] =
-        rod_.visit_tangents(load_, [&](int first, auto& K, auto& r) { assembler_.add_pairs(first, K, r); });
+        rod_.visit_tangents(load_, [&](int first, auto& of) { assembler_.add_pairs(first, of, of); });
     inner_energy_ = inner;
     Scalar energy = strain;
     if (shift != 0) add_shift(shift);
@@ -162,26 +163,18 @@ class RodSystem
   void advance() noexcept {
     force_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
     others_.each([&](auto& other) { other.force = assembler_.reaction(other.row); });
-    for (int i = 0; i <= elements(); ++i) increments_[i] = increment(i);
-    Vector3 way = increments_[0].template segment<3>(0),
-            r = node(0).r;  // that the last node has gone, and where it was
-    rod_.nodes()[0].r += way;
-    for (int i = 1; i <= elements(); ++i) {
-      const Increment &before = increments_[i - 1], &x = increments_[i];
-      if constexpr (unknowns == 7) {
-        Residual both;
-        both << before, x;
-        rod_.inners()[i - 1].advance(both);
-      }
-      Node& to = rod_.nodes()[i];
-      const Vector3 chord = to.r - r, change = x.template segment<3>(0) - before.template segment<3>(0);
-      way += contact_.node() < 0 ? Vector3(detail::turned(chord, change) - chord) : change;
-      r = to.r;
-      to.r += way;
-    }
-    detail::move_tangents<unknowns == 7>(
-        rod_.nodes(), [this](int i) -> auto& { return increments_[i]; });
-    if (contact_.node() < 0) close_chain();
+    increments_.take(assembler_);
+    increments_.set(0, increment(0)), increments_.set(elements(), increment(elements()));
+    const auto set = [&](int i) {
+      if (i > 0 && i < elements()) increments_.set(i, increment(i));
+    };
+    set(contact_.node());
+    for (const auto& other : others_) set(other.point.node());
+    const bool free = contact_.node() < 0;
+    if (free) turn_chords();
+    rod_.advance_inners(increments_);
+    detail::move_nodes<unknowns == 7>(rod_.nodes(), increments_, !free);
+    if (free) close_chain();
     for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
     Contacts::correct_contacts(rod_.nodes());
   }
@@ -347,6 +340,19 @@ class RodSystem
     return nullptr;
   }
 
+  void turn_chords() noexcept {
+    Vector3 way = increments_[0].template segment<3>(0),
+            r = node(0).r;  // that the last node has gone, and where it was
+    rod_.nodes()[0].r += way;
+    for (int i = 1; i <= elements(); ++i) {
+      const Increment before = increments_[i - 1], x = increments_[i];
+      Node& to = rod_.nodes()[i];
+      const Vector3 chord = to.r - r, change = x.template segment<3>(0) - before.template segment<3>(0);
+      way += detail::turned(chord, change) - chord;
+      r = to.r;
+      to.r += way;
+    }
+  }
   /// Shares out what the chain misses of a held right end.  A left end that is not held moves all of it.
   void close_chain() noexcept {
     const Vector3 miss = ends_[1].miss(node(elements()));
@@ -384,7 +390,7 @@ class RodSystem
     }
   }
 
-  detail::PerNode<Increment, Elements, MaxElements> increments_;  // in advance()
+  detail::RodIncrements<Scalar, Elements, MaxElements, unknowns> increments_;  // in advance()
   Assembler<Scalar, Elements, MaxElements, unknowns> assembler_;
   std::array<detail::RodEnd<Scalar>, 2> ends_;
   Increment prescribed_[2] = {Increment::Zero(), Increment::Zero()};

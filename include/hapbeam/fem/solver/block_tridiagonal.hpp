@@ -18,9 +18,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 
 #include <hapbeam/element/element.hpp>
+#include <hapbeam/element/pack.hpp>
 #include <hapbeam/fem/solver/chain_node.hpp>
 #include <hapbeam/fem/solver/chain_row.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
@@ -33,15 +35,18 @@ template <typename Scalar, int Elements = Eigen::Dynamic, int MaxElements = Elem
 class BlockTridiagonal {
   using Lanes = detail::Lanes<Scalar>;
   using Number = detail::TwoNumbers<Scalar>;
-  using Row = detail::ChainRow<Scalar, Block>;
+  /// As many rows lie side by side as elements of a rod are computed; those of beams come one by one.
+  static constexpr int abreast = Block > 3 ? detail::pack_size<Scalar> / 2 : 1;
+  using Rows = detail::ChainRows<Scalar, Block, abreast>;
+  using Row = detail::ChainRow<Scalar, Block, abreast>;
   using Vector = Eigen::Matrix<Scalar, Block, 1>;
 
  public:
   explicit BlockTridiagonal(int elements)
-      : last_(elements), odd_(elements % 2), pairs_((elements + odd_) / 2), rows_(half(elements)) {
+      : last_(elements), odd_(elements % 2), pairs_((elements + odd_) / 2), rows_(groups(elements)) {
     // The left chain of an odd number of elements has one node more, to which nothing is coupled.
     if (odd_)
-      for (int k = 0; k < Block; ++k) rows_[0].block[triangle(k, k)].a[0] = 1;
+      for (int k = 0; k < Block; ++k) row(0).block(k, k).a[0] = 1;
   }
 
   /// Adds element e: its tangent, and its residual to the right-hand side with the sign turned.
@@ -51,34 +56,33 @@ class BlockTridiagonal {
   template <class Tangent, class Residual>
   [[gnu::always_inline]] void add(int e, const Tangent& K, const Residual& r) noexcept {
     const Place at = place(e), to = place(e + 1);
-    Row &a = rows_[at.row], &b = rows_[to.row];
+    const Row a = row(at.row), b = row(to.row);
     const int p = at.lane, q = to.lane;
     if (e == 0) {
-      for (auto& entry : a.block) entry.a[p] = 0;
-      for (auto& entry : a.x) entry.a[p] = 0;
+      for (int k = 0; k < Rows::coupling; ++k) a.entry(k).a[p] = 0;
       held_energy_ = 0;
     }
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
       HAPBEAM_UNROLL
       for (int i = j; i < Block; ++i) {
-        a.block[triangle(i, j)].a[p] += K(i, j);
-        b.block[triangle(i, j)].a[q] = K(Block + i, Block + j);
+        a.block(i, j).a[p] += K(i, j);
+        b.block(i, j).a[q] = K(Block + i, Block + j);
       }
-      a.x[j].a[p] -= r[j];
-      b.x[j].a[q] = -r[Block + j];
+      a.x(j).a[p] -= r[j];
+      b.x(j).a[q] = -r[Block + j];
     }
     if (q == 0) {
       HAPBEAM_UNROLL
       for (int j = 0; j < Block; ++j) {
         HAPBEAM_UNROLL
-        for (int i = 0; i < Block; ++i) a.coupling[i][j].a[0] = K(i, Block + j);
+        for (int i = 0; i < Block; ++i) a.coupling(i, j).a[0] = K(i, Block + j);
       }
     } else {
       HAPBEAM_UNROLL
       for (int j = 0; j < Block; ++j) {
         HAPBEAM_UNROLL
-        for (int i = 0; i < Block; ++i) b.coupling[j][i].a[1] = K(i, Block + j);
+        for (int i = 0; i < Block; ++i) b.coupling(j, i).a[1] = K(i, Block + j);
       }
     }
   }
@@ -88,20 +92,18 @@ class BlockTridiagonal {
   /// @param K  (i, j) -> entries of all: of the lower triangles of both nodes, and of what couples the first with the second
   /// @param r  [i] -> entries of all
   template <class Tangent, class Residual>
-  void add_pairs(int first, Tangent& K, Residual& r) noexcept {
-    using Wide = std::decay_t<decltype(r[0])>;
-    constexpr int abreast = Wide::size / 2;
+  void add_pairs(int first, const Tangent& K, const Residual& r) noexcept {
     const int row = first / 2, count = (std::min)(abreast, pairs_ - row);
+    const bool odd = odd_ && first == 0;
     if (first == 0) {
-      for (auto& entry : rows_[0].block) entry.set(Lanes::both(0));
-      for (auto& entry : rows_[0].x) entry.set(Lanes::both(0));
+      for (int k = 0; k < Rows::coupling; ++k) this->row(0).entry(k).set(Lanes::both(0));
       held_energy_ = 0;
-      if (odd_) leave_first_out(K, r);
     }
-    if (count == abreast) Row::add(&rows_[row], std::integral_constant<int, abreast>(), K, r);
-    else Row::add(&rows_[row], count, K, r);
-    if (first == 0 && odd_)
-      for (int k = 0; k < Block; ++k) rows_[0].block[triangle(k, k)].a[0] = 1;
+    Rows* const rows = &rows_[row / abreast];
+    if (count == abreast && !odd) Rows::template add<true>(rows, count, odd, K, r);
+    else Rows::template add<false>(rows, count, odd, K, r);
+    if (odd)
+      for (int k = 0; k < Block; ++k) this->row(0).block(k, k).a[0] = 1;
     if (row + count == pairs_) join_middle();
   }
 
@@ -186,8 +188,16 @@ class BlockTridiagonal {
     const Place at = place(node);
     Vector increment;
     HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) increment[k] = rows_[at.row].x[k].a[at.lane];
+    for (int k = 0; k < Block; ++k) increment[k] = row(at.row).x(k).a[at.lane];
     return increment;
+  }
+
+  /// The same of the nodes from a place of PairOrder on that is a multiple of the lanes.  @param x  out
+  template <std::size_t Lanes>
+  void increments(int first, Scalar (&x)[Block][Lanes]) const noexcept {
+    static_assert(Lanes == 2 * abreast, "as many nodes as rows of both chains");
+    const auto& rows = rows_[first / static_cast<int>(Lanes)];
+    for (int k = 0; k < Block; ++k) std::memcpy(x[k], rows.entry[Rows::x + k], sizeof x[k]);
   }
 
   /// What holds the degree of freedom of hold() after the increment, of the linear equations: its row of r + Kx [N].
@@ -206,23 +216,15 @@ class BlockTridiagonal {
   int negative_pivots() const noexcept { return negative_pivots_; }
 
  private:
-  /// The left chain of an odd number of elements begins with none.
-  template <class Tangent, class Residual>
-  static void leave_first_out(Tangent& K, Residual& r) noexcept {
-    for (int j = 0; j < 2 * Block; ++j) {
-      r[j].set(0, 0);
-      for (int i = 0; i < 2 * Block; ++i) K(i, j).set(0, 0);
-    }
-  }
   /// Both chains share the middle node, which stands in lane 0.
   void join_middle() noexcept {
-    const auto join = [](Number& entry) { entry.a[0] += entry.a[1], entry.a[1] = 0; };
-    for (auto& entry : rows_[pairs_].block) join(entry);
-    for (auto& entry : rows_[pairs_].x) join(entry);
+    for (int k = 0; k < Rows::coupling; ++k) {
+      Number& entry = row(pairs_).entry(k);
+      entry.a[0] += entry.a[1], entry.a[1] = 0;
+    }
   }
 
   static constexpr int triangle_size = detail::triangle_size<Block>;
-  static constexpr int triangle(int i, int j) noexcept { return detail::triangle<Block>(i, j); }
 
   struct Place {
     int row, lane;
@@ -231,15 +233,18 @@ class BlockTridiagonal {
     const int from_left = node + odd_;
     return from_left <= pairs_ ? Place{from_left, 0} : Place{last_ - node, 1};
   }
-  /// Rows, less one: PerNode has one more than elements, and two elements at least.
-  static constexpr int half(int elements) noexcept {
-    return elements == Eigen::Dynamic ? Eigen::Dynamic : elements < 3 ? 2 : (elements + 1) / 2;
+  /// Groups of rows, less one: PerNode has one more than elements, and two elements at least.
+  static constexpr int groups(int elements) noexcept {
+    return elements == Eigen::Dynamic ? Eigen::Dynamic : (std::max)((elements + 1) / 2 / abreast, 2);
+  }
+  [[gnu::always_inline]] Row row(int i) const noexcept {
+    return {const_cast<Number*>(&rows_[i / abreast].entry[0][i % abreast])};
   }
 
-  [[gnu::always_inline]] detail::NodeBlock<Scalar, Block> own_of(int node) noexcept {
+  [[gnu::always_inline]] detail::NodeBlock<Scalar, Block, 2 * abreast> own_of(int node) const noexcept {
     const Place at = place(node);
-    Row& row = rows_[at.row];
-    return {row.block[0].a + at.lane, row.x[0].a + at.lane};
+    const Row row = this->row(at.row);
+    return {row.block(0, 0).a + at.lane, row.x(0).a + at.lane};
   }
   [[gnu::always_inline]] auto at(int node) noexcept {
     return detail::ChainNode{own_of(node), [this, node](auto&& f) { this->for_each_neighbour(node, f); }};
@@ -249,8 +254,9 @@ class BlockTridiagonal {
   [[gnu::always_inline]] void for_each_neighbour(int node, F&& f) noexcept {
     // A row has what couples it with the next on the way to the middle.
     const auto coupling = [this](int row, int lane, bool inward) {
-      return detail::NodeCoupling<Scalar>{rows_[row].coupling[0][0].a + lane, inward ? Row::padded : 1,
-                                          inward ? 1 : Row::padded};
+      constexpr int stride = 2 * abreast;
+      return detail::NodeCoupling<Scalar>{this->row(row).coupling(0, 0).a + lane,
+                                          inward ? Block * stride : stride, inward ? stride : Block * stride};
     };
     const Place here = place(node);
     if (node > 0) {
@@ -265,7 +271,7 @@ class BlockTridiagonal {
   }
 
   int last_, odd_, pairs_;
-  detail::PerNode<Row, half(Elements), half(MaxElements)> rows_;
+  detail::PerNode<Rows, groups(Elements), groups(MaxElements)> rows_;
   int negative_pivots_ = 0;
   Scalar energy_ = 0;
   Scalar held_energy_ = 0;
@@ -277,16 +283,16 @@ template <typename Scalar, int Elements, int MaxElements, int Block>
 Status BlockTridiagonal<Scalar, Elements, MaxElements, Block>::solve() noexcept {
   detail::Pivots<Scalar> pivots;
   Lanes front[triangle_size], f[Block], energy = Lanes::both(0);  // with the sign turned
-  for (int k = 0; k < triangle_size; ++k) front[k] = rows_[0].block[k].get();
-  for (int k = 0; k < Block; ++k) f[k] = rows_[0].x[k].get();
-  for (int row = 0; row < pairs_; ++row) rows_[row].eliminate(rows_[row + 1], front, f, energy, pivots);
-  rows_[pairs_].join(front, f, energy, pivots);
-  for (int row = pairs_; row > 0; --row) rows_[row - 1].substitute(f);
+  for (int k = 0; k < triangle_size; ++k) front[k] = row(0).entry(k).get();
+  for (int k = 0; k < Block; ++k) f[k] = row(0).x(k).get();
+  for (int i = 0; i < pairs_; ++i) Row::eliminate(row(i), row(i + 1), front, f, energy, pivots);
+  Row::join(row(pairs_), front, f, energy, pivots);
+  for (int i = pairs_; i > 0; --i) Row::substitute(row(i - 1), f);
   energy_ = -(energy[0] + energy[1]);
   if (held_energy_ > std::abs(energy_)) energy_ = held_energy_;
-  negative_pivots_ = pivots.negative;
-  if (pivots.lowest <= 0) return Status::singular;
-  return std::isfinite(pivots.lowest) && std::isfinite(energy_) ? Status::ok : Status::non_finite;
+  negative_pivots_ = pivots.negative();
+  const Status status = pivots.status();
+  return status == Status::ok && !std::isfinite(energy_) ? Status::non_finite : status;
 }
 
 }  // namespace hapbeam

@@ -11,15 +11,15 @@
 
 namespace hapbeam::detail {
 
-/// Block and right-hand side.  Numbers of two chains lie side by side.
-template <typename Scalar, int Block>
+/// Block and right-hand side.   @tparam Stride  from entry to entry: rows of both chains lie side by side
+template <typename Scalar, int Block, int Stride>
 struct NodeBlock {
   Scalar *block, *x;
 
   [[gnu::always_inline]] Scalar& operator()(int i, int j) const noexcept {
-    return block[2 * triangle<Block>((std::max)(i, j), (std::min)(i, j))];
+    return block[Stride * triangle<Block>((std::max)(i, j), (std::min)(i, j))];
   }
-  [[gnu::always_inline]] Scalar& operator[](int i) const noexcept { return x[2 * i]; }
+  [[gnu::always_inline]] Scalar& operator[](int i) const noexcept { return x[Stride * i]; }
 };
 /// What couples a node with a neighbour: its own unknown, that of the neighbour.
 template <typename Scalar>
@@ -28,14 +28,14 @@ struct NodeCoupling {
   int own, other;
 
   [[gnu::always_inline]] Scalar& operator()(int i, int j) const noexcept {
-    return entries[2 * (own * i + other * j)];
+    return entries[own * i + other * j];
   }
 };
 
 /// @tparam EachNeighbour  calls a function with each neighbour's block, the coupling with it, and whether it is the left one
-template <typename Scalar, int Block, class EachNeighbour>
+template <typename Scalar, int Block, int Stride, class EachNeighbour>
 struct ChainNode {
-  NodeBlock<Scalar, Block> own;
+  NodeBlock<Scalar, Block, Stride> own;
   EachNeighbour each_neighbour;
 
   /// Three unknowns from At on become those along other axes:  old = Q new.
@@ -108,7 +108,7 @@ struct ChainNode {
     });
   }
 };
-template <typename Scalar, int Block, class EachNeighbour>
-ChainNode(NodeBlock<Scalar, Block>, EachNeighbour) -> ChainNode<Scalar, Block, EachNeighbour>;
+template <typename Scalar, int Block, int Stride, class EachNeighbour>
+ChainNode(NodeBlock<Scalar, Block, Stride>, EachNeighbour) -> ChainNode<Scalar, Block, Stride, EachNeighbour>;
 
 }  // namespace hapbeam::detail

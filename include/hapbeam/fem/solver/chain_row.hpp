@@ -3,6 +3,7 @@
 // Real-time: noexcept, no allocation, O(1): about 75 multiply-adds and 3 divisions a node of 3 unknowns.
 #pragma once
 
+#include <algorithm>
 #include <type_traits>
 
 #include <hapbeam/fem/solver/ldlt.hpp>
@@ -10,107 +11,121 @@
 
 namespace hapbeam::detail {
 
-/// Eliminating leaves the diagonal as it is, for the last look at the pivots, and puts L below it, P⁻¹Y into the coupling
-/// to the nodes that are eliminated later, and P⁻¹L⁻¹ of the right-hand side into x.
-template <typename Scalar, int Block>
-struct ChainRow {
-  using Pair = Lanes<Scalar>;
+/// So many rows side by side, entry by entry, as elements of both chains are computed: of each row
+/// the lower triangle of its block, the right-hand side, and what couples it with the next on the way.
+template <typename Scalar, int Block, int Abreast>
+struct alignas(2 * Abreast * sizeof(Scalar)) ChainRows {
   using Number = TwoNumbers<Scalar>;
-  using Factor = Ldlt<Scalar, Block>;
-  static constexpr int columns = columns_abreast<Scalar, Block>;
-  static constexpr int strips = (Block + columns - 1) / columns, padded = strips * columns;
-  using Strip = detail::Strip<Scalar, columns>;
+  static constexpr int x = triangle_size<Block>, coupling = x + Block, entries = coupling + Block * Block;
+  Number entry[entries][Abreast];
 
-  Number block[triangle_size<Block>];
-  Number coupling[Block][padded];  ///< own unknown, that of the next node on the way
-  Number x[Block];                 ///< right-hand side, at the end the increment
-
-  /// Adds elements that were computed side by side, in the order of PairOrder, to their rows.
-  /// @param rows  from that of the first element on   @param count  of rows; a constant mostly
-  template <class Count, class Tangent, class Residual>
-  static void add(ChainRow* rows, Count count, const Tangent& K, const Residual& r) noexcept {
+  /// Adds elements that were computed side by side, in the order of PairOrder, to these rows and the next.
+  /// @tparam Full  whether all of them are elements   @param count  of pairs that are   @param odd  the first is none
+  template <bool Full, class Tangent, class Residual>
+  static void add(ChainRows* rows, int count, bool odd, const Tangent& K, const Residual& r) noexcept {
     using Wide = std::decay_t<decltype(r[0])>;
-    constexpr int abreast = Wide::size / 2;
-    const auto pair = [](const Wide& wide, int k) { return Pair(wide[2 * k], wide[2 * k + 1]); };
+    static_assert(Wide::size == 2 * Abreast, "a group of elements is one of rows");
+    const auto kept = [odd](Wide wide) {
+      if (!Full && odd) wide.set(0, 0);
+      return wide;
+    };
     // Of what belongs to a node: the share of the element on the way to the middle, and that of the one before.
-    const auto share_out = [&](auto&& at, const Wide& own, const Wide& next) {
-      const Wide outer = in_turn(own, next), inner = in_turn(next, own);
-      Pair before = at(rows[0]).get();
-      HAPBEAM_UNROLL
-      for (int k = 0; k < abreast; ++k) {
-        if (k == count) break;
-        at(rows[k]).set(before + pair(outer, k));
-        before = pair(inner, k);
+    const auto share_out = [&](int e, const Wide& own, const Wide& next) {
+      const Wide outer = kept(in_turn(own, next)), inner = kept(in_turn(next, own));
+      Number(&at)[Abreast] = rows->entry[e];
+      (outer + after(at[0].a, inner)).store(at[0].a);
+      if (Full || count == Abreast) {
+        rows[1].entry[e][0].set(Lanes<Scalar>(inner[2 * Abreast - 2], inner[2 * Abreast - 1]));
+      } else {
+        Number all[Abreast];
+        inner.store(all[0].a);
+        at[count] = all[count - 1];
       }
-      at(rows[count]).set(before);
     };
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
       HAPBEAM_UNROLL
-      for (int i = j; i < Block; ++i)
-        share_out(
-            [ i, j ](ChainRow & at) -> auto& { return at.block[triangle<Block>(i, j)]; }, K(i, j),
-            K(Block + i, Block + j));
-      share_out(
-          [j](ChainRow & at) -> auto& { return at.x[j]; }, -r[j], -r[Block + j]);
+      for (int i = j; i < Block; ++i) share_out(triangle<Block>(i, j), K(i, j), K(Block + i, Block + j));
+      share_out(x + j, -r[j], -r[Block + j]);
       HAPBEAM_UNROLL
-      for (int i = 0; i < Block; ++i) {
-        const Wide coupling = in_turn(K(i, Block + j), K(j, Block + i));
-        HAPBEAM_UNROLL
-        for (int k = 0; k < abreast; ++k)
-          if (k < count) rows[k].coupling[i][j].set(pair(coupling, k));
-      }
+      for (int i = 0; i < Block; ++i)
+        kept(in_turn(K(i, Block + j), K(j, Block + i))).store(rows->entry[coupling + Block * i + j][0].a);
     }
+  }
+};
+
+/// One of them.  Eliminating leaves the diagonal as it is, for the last look at the pivots, and puts L below it, P⁻¹Y into the coupling
+/// to the nodes that are eliminated later, and P⁻¹L⁻¹ of the right-hand side into x.
+template <typename Scalar, int Block, int Abreast>
+struct ChainRow {
+  using Rows = ChainRows<Scalar, Block, Abreast>;
+  using Pair = Lanes<Scalar>;
+  using Number = TwoNumbers<Scalar>;
+  using Factor = Ldlt<Scalar, Block>;
+  static constexpr int columns = columns_abreast<Scalar, Block>, strips = (Block + columns - 1) / columns;
+  using Strip = detail::Strip<Scalar, columns>;
+
+  Number* first;  ///< entry
+
+  [[gnu::always_inline]] Number& entry(int e) const noexcept { return first[Abreast * e]; }
+  [[gnu::always_inline]] Number& block(int i, int j) const noexcept { return entry(triangle<Block>(i, j)); }
+  /// Right-hand side, at the end the increment.
+  [[gnu::always_inline]] Number& x(int i) const noexcept { return entry(Rows::x + i); }
+  /// @param i  own unknown   @param j  that of the next node on the way
+  [[gnu::always_inline]] Number& coupling(int i, int j) const noexcept {
+    return entry(Rows::coupling + Block * i + j);
   }
 
   /// @param front, f  in: block and right-hand side of the nodes of a row, less what the nodes before took away;  out: of the next
-  void eliminate(const ChainRow& next, Pair* front, Pair* f, Pair& energy, Pivots<Scalar>& pivots) noexcept {
+  /// By value: what is reached through a reference would be read anew after each store.
+  static void eliminate(const ChainRow row, const ChainRow next, Pair* front, Pair* f, Pair& energy,
+                        Pivots<Scalar>& pivots) noexcept {
     const Factor factor(front);
     Pair zx[Block];
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
-      const Number& assembled = block[triangle<Block>(j, j)];
-      for (int lane = 0; lane < 2; ++lane) pivots.see(factor.p[j][lane], assembled.a[lane]);
+      pivots.see(factor.p[j], row.block(j, j).get());
       HAPBEAM_UNROLL
-      for (int i = j + 1; i < Block; ++i) block[triangle<Block>(i, j)].set(factor.l[triangle<Block>(i, j)]);
+      for (int i = j + 1; i < Block; ++i) row.block(i, j).set(factor.l[triangle<Block>(i, j)]);
     }
     factor.forward(f);
     factor.scale(f, zx);
     energy = less<Block>(energy, f, zx);
     HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) x[k].set(zx[k]);
-    // L⁻¹C and P⁻¹L⁻¹C, a few columns side by side.
-    Strip y[strips][Block];
-    HAPBEAM_UNROLL
-    for (int g = 0; g < strips; ++g) {
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) y[g][k] = Strip::load(coupling[k][g * columns].a);
-    }
-    HAPBEAM_UNROLL
-    for (int k = 0; k + 1 < Block; ++k) {
-      HAPBEAM_UNROLL
-      for (int i = k + 1; i < Block; ++i) {
-        const Strip l = Strip::repeat(block[triangle<Block>(i, k)].a);
-        HAPBEAM_UNROLL
-        for (int g = 0; g < strips; ++g) y[g][i] = subtract_product(y[g][i], l, y[g][k]);
-      }
-    }
+    for (int k = 0; k < Block; ++k) row.x(k).set(zx[k]);
+    // L⁻¹C and P⁻¹L⁻¹C, a few columns side by side and one after the other, as registers have it.
+    Strip l[triangle_size<Block>], inverse[Block], y[strips][Block], scaled[strips][Block];
     HAPBEAM_UNROLL
     for (int k = 0; k < Block; ++k) {
-      Number pivot;
-      pivot.set(factor.i[k]);
-      const Strip inverse = Strip::repeat(pivot.a);
+      inverse[k] = Strip::repeat(factor.i[k]);
       HAPBEAM_UNROLL
-      for (int g = 0; g < strips; ++g) (y[g][k] * inverse).store(coupling[k][g * columns].a);
+      for (int i = k + 1; i < Block; ++i)
+        l[triangle<Block>(i, k)] = Strip::repeat(factor.l[triangle<Block>(i, k)]);
+    }
+    HAPBEAM_UNROLL
+    for (int g = 0; g < strips; ++g) {
+      const int at = g * columns, last = (std::min)(at + columns, Block) - 1;
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) y[g][k] = Strip(row.coupling(k, at).get(), row.coupling(k, last).get());
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) {
+        HAPBEAM_UNROLL
+        for (int i = k + 1; i < Block; ++i)
+          y[g][i] = subtract_product(y[g][i], l[triangle<Block>(i, k)], y[g][k]);
+        scaled[g][k] = y[g][k] * inverse[k];
+        HAPBEAM_UNROLL
+        for (int c = 0; c < columns; ++c)
+          if (at + c < Block) row.coupling(k, at + c).set(scaled[g][k].column(c));
+      }
     }
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
       const auto column = [&y](int i, int k) { return y[i / columns][k].column(i % columns); };
       Strip z[Block];
-      Pair sum = next.x[j].get();
+      Pair sum = next.x(j).get();
       HAPBEAM_UNROLL
       for (int k = 0; k < Block; ++k) {
-        z[k] = Strip::repeat(coupling[k][j].a);
+        z[k] = Strip::repeat(scaled[j / columns][k].column(j % columns));
         sum = subtract_product(sum, column(j, k), zx[k]);
       }
       f[j] = sum;
@@ -118,13 +133,13 @@ struct ChainRow {
       for (int i = j; i < Block; ++i) {
         if (i > j && i % columns != 0) continue;  // stands beside the one before
         if (i % columns == 0 && i + columns <= Block) {
-          Strip strip = Strip::load(next.block[triangle<Block>(i, j)].a);
+          Strip strip(next.block(i, j).get(), next.block((std::min)(i + columns, Block) - 1, j).get());
           HAPBEAM_UNROLL
           for (int k = 0; k < Block; ++k) strip = subtract_product(strip, y[i / columns][k], z[k]);
           HAPBEAM_UNROLL
           for (int c = 0; c < columns; ++c) front[triangle<Block>(i, j) + c] = strip.column(c);
         } else {
-          Pair entry = next.block[triangle<Block>(i, j)].get();
+          Pair entry = next.block(i, j).get();
           HAPBEAM_UNROLL
           for (int k = 0; k < Block; ++k) entry = subtract_product(entry, column(i, k), z[k].column(0));
           front[triangle<Block>(i, j)] = entry;
@@ -134,7 +149,7 @@ struct ChainRow {
   }
 
   /// Solves for the node at which both chains end.  @param f  in: right-hand sides of both, out: its increment in both lanes
-  void join(Pair* front, Pair* f, Pair& energy, Pivots<Scalar>& pivots) noexcept {
+  static void join(const ChainRow row, Pair* front, Pair* f, Pair& energy, Pivots<Scalar>& pivots) noexcept {
     for (int k = 0; k < triangle_size<Block>; ++k) front[k] = front[k] + front[k].swapped();
     for (int k = 0; k < Block; ++k) f[k] = f[k] + f[k].swapped();
     const Factor factor(front);
@@ -144,34 +159,34 @@ struct ChainRow {
     const Pair twice = less<Block>(Pair::both(0), f, z);
     energy = energy + twice * Pair(1, 0);
     HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) pivots.see(factor.p[j][0], block[triangle<Block>(j, j)].a[0]);
+    for (int j = 0; j < Block; ++j) pivots.see(Pair(factor.p[j][0], 1), row.block(j, j).get());
     HAPBEAM_UNROLL
     for (int j = Block - 1; j >= 0; --j) {
       HAPBEAM_UNROLL
       for (int k = Block - 1; k > j; --k)
         z[j] = subtract_product(z[j], factor.l[triangle<Block>(k, j)], z[k]);
     }
-    for (int k = 0; k < Block; ++k) f[k] = z[k], x[k].a[0] = z[k][0];
+    for (int k = 0; k < Block; ++k) f[k] = z[k], row.x(k).a[0] = z[k][0];
   }
 
   /// Increments of the nodes from those of the next on their way.  @param later  in: of those, out: of these
-  void substitute(Pair* later) noexcept {
+  static void substitute(const ChainRow row, Pair* later) noexcept {
     Pair rest[Block];
     HAPBEAM_UNROLL
     for (int i = 0; i < Block; ++i) {
-      rest[i] = x[i].get();
+      rest[i] = row.x(i).get();
       HAPBEAM_UNROLL
       for (int k = Block - 1; k >= 0; --k)
-        rest[i] = subtract_product(rest[i], coupling[i][k].get(), later[k]);
+        rest[i] = subtract_product(rest[i], row.coupling(i, k).get(), later[k]);
     }
     HAPBEAM_UNROLL
     for (int j = Block - 1; j >= 0; --j) {
       HAPBEAM_UNROLL
       for (int k = Block - 1; k > j; --k)
-        rest[j] = subtract_product(rest[j], block[triangle<Block>(k, j)].get(), rest[k]);
+        rest[j] = subtract_product(rest[j], row.block(k, j).get(), rest[k]);
     }
     HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) x[k].set(later[k] = rest[k]);
+    for (int k = 0; k < Block; ++k) row.x(k).set(later[k] = rest[k]);
   }
 };
 

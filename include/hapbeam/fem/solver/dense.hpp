@@ -4,6 +4,7 @@
 // an assembler or an element, never in a servo loop: it allocates.  Exceptions: only at construction.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -128,6 +129,14 @@ class Dense {
   int negative_pivots() const noexcept { return negative_pivots_; }
   Eigen::Matrix<Scalar, Block, 1> increment(int node) const noexcept {
     return x_.template segment<Block>(Block * node);
+  }
+
+  template <std::size_t Lanes>
+  void increments(int first, Scalar (&x)[Block][Lanes]) const noexcept {
+    const detail::PairOrder order{static_cast<int>(x_.size()) / Block - 1};
+    for (int lane = 0; lane < static_cast<int>(Lanes); ++lane)
+      for (int k = 0; k < Block; ++k)
+        x[k][lane] = increment(order.node((std::min)(first + lane, order.last_node())))[k];
   }
 
  private:

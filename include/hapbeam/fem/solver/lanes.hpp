@@ -4,6 +4,7 @@
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
+#include <cmath>
 #include <cstring>
 #include <type_traits>
 
@@ -47,6 +48,14 @@ class Lanes {
   friend Lanes add_product(const Lanes& a, const Lanes& b, const Lanes& c) noexcept { return a + b * c; }
   friend Lanes subtract_product(const Lanes& a, const Lanes& b, const Lanes& c) noexcept { return a - b * c; }
 
+  friend Lanes abs(const Lanes& a) noexcept { return {std::abs(a.left_), std::abs(a.right_)}; }
+  /// b where it is less.
+  friend Lanes lesser(const Lanes& a, const Lanes& b) noexcept {
+    return {b.left_ < a.left_ ? b.left_ : a.left_, b.right_ < a.right_ ? b.right_ : a.right_};
+  }
+  /// 1 where a number is negative, else 0.
+  friend Lanes negatives(const Lanes& a) noexcept { return {Scalar(a.left_ < 0), Scalar(a.right_ < 0)}; }
+
   static Lanes load(const Scalar* from) noexcept { return {from[0], from[1]}; }
   void store(Scalar* to) const noexcept { to[0] = left_, to[1] = right_; }
 
@@ -66,6 +75,7 @@ class Lanes<Scalar, std::void_t<typename PairOf<Scalar>::type>> {
   [[gnu::always_inline]] static Lanes both(Scalar a) noexcept { return {a, a}; }
   [[gnu::always_inline]] Scalar operator[](int i) const noexcept { return pair_[i]; }
   [[gnu::always_inline]] Lanes swapped() const noexcept { return {pair_[1], pair_[0]}; }
+  [[gnu::always_inline]] const Pair& pair() const noexcept { return pair_; }
 
   [[gnu::always_inline]] friend Lanes operator+(const Lanes& a, const Lanes& b) noexcept {
     return Lanes(a.pair_ + b.pair_);
@@ -90,6 +100,18 @@ class Lanes<Scalar, std::void_t<typename PairOf<Scalar>::type>> {
     return Lanes(a.pair_ - b.pair_ * c.pair_);
   }
 
+  [[gnu::always_inline]] friend Lanes abs(const Lanes& a) noexcept {
+    return Lanes(a.pair_ < 0 ? -a.pair_ : a.pair_);
+  }
+  /// b where it is less.
+  [[gnu::always_inline]] friend Lanes lesser(const Lanes& a, const Lanes& b) noexcept {
+    return Lanes(b.pair_ < a.pair_ ? b.pair_ : a.pair_);
+  }
+  /// 1 where a number is negative, else 0.
+  [[gnu::always_inline]] friend Lanes negatives(const Lanes& a) noexcept {
+    return Lanes(a.pair_ < 0 ? Pair{1, 1} : Pair{0, 0});
+  }
+
   /// Of two numbers that stand at a multiple of their size.
   [[gnu::always_inline]] static Lanes load(const Scalar* from) noexcept {
     Lanes lanes;
@@ -112,18 +134,10 @@ template <typename Scalar, int Columns>
 class Strip {
  public:
   Strip() = default;
-  [[gnu::always_inline]] static Strip load(const Scalar* from) noexcept {
-    Strip strip;
-    std::memcpy(&strip.v_, from, sizeof strip.v_);
-    return strip;
-  }
-  [[gnu::always_inline]] void store(Scalar* to) const noexcept { std::memcpy(to, &v_, sizeof v_); }
-  /// The same pair for each column.
-  [[gnu::always_inline]] static Strip repeat(const Scalar* from) noexcept {
-    Strip strip;
-    strip.v_ = Numbers{from[0], from[1], from[0], from[1]};
-    return strip;
-  }
+  [[gnu::always_inline]] Strip(const Lanes<Scalar>& first, const Lanes<Scalar>& second) noexcept
+      : v_(join(first.pair(), second.pair())) {}
+  /// The same pair for each column.  From registers: to load more than was just stored stalls a processor.
+  [[gnu::always_inline]] static Strip repeat(const Lanes<Scalar>& pair) noexcept { return {pair, pair}; }
   [[gnu::always_inline]] Lanes<Scalar> column(int i) const noexcept {
     return Lanes<Scalar>(v_[2 * i], v_[2 * i + 1]);
   }
@@ -144,6 +158,14 @@ class Strip {
   static_assert(Columns == 2, "one column is a pair of lanes");
 #if defined(__GNUC__)
   typedef Scalar Numbers __attribute__((vector_size(4 * sizeof(Scalar))));
+  template <class Pair>
+  [[gnu::always_inline]] static Numbers join(const Pair& a, const Pair& b) noexcept {
+#if defined(__has_builtin) && __has_builtin(__builtin_shufflevector)
+    return __builtin_shufflevector(a, b, 0, 1, 2, 3);
+#else
+    return Numbers{a[0], a[1], b[0], b[1]};
+#endif
+  }
   Numbers v_;
 #endif
 };
@@ -152,11 +174,8 @@ class Strip<Scalar, 1> {
  public:
   Strip() = default;
   [[gnu::always_inline]] Strip(const Lanes<Scalar>& a) noexcept : v_(a) {}
-  [[gnu::always_inline]] static Strip load(const Scalar* from) noexcept { return Lanes<Scalar>::load(from); }
-  [[gnu::always_inline]] void store(Scalar* to) const noexcept { v_.store(to); }
-  [[gnu::always_inline]] static Strip repeat(const Scalar* from) noexcept {
-    return Lanes<Scalar>::load(from);
-  }
+  [[gnu::always_inline]] Strip(const Lanes<Scalar>& a, const Lanes<Scalar>&) noexcept : v_(a) {}
+  [[gnu::always_inline]] static Strip repeat(const Lanes<Scalar>& pair) noexcept { return pair; }
   [[gnu::always_inline]] Lanes<Scalar> column(int) const noexcept { return v_; }
   [[gnu::always_inline]] friend Strip operator*(const Strip& a, const Strip& b) noexcept {
     return a.v_ * b.v_;

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <hapbeam/fem/solver/lanes.hpp>
+#include <hapbeam/force_model.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
@@ -89,19 +90,30 @@ struct Ldlt {
   }
 };
 
-/// What a chain of eliminations has seen.
+/// What the eliminations of both chains have seen.
 template <typename S>
-struct Pivots {
-  /// Least |pivot| - eps |its diagonal entry before elimination|; the first that is not positive is kept, NaN too.
-  S lowest = (std::numeric_limits<S>::max)();
-  int negative = 0;
+class Pivots {
+  using V = Lanes<S>;
 
-  [[gnu::always_inline]] void see(S pivot, S assembled) noexcept {
-    using std::abs;
-    const S left = abs(pivot) - std::numeric_limits<S>::epsilon() * abs(assembled);
-    if (lowest > 0 && !(left >= lowest)) lowest = left;
-    negative += pivot < 0;
+ public:
+  /// @param assembled  its diagonal entry before elimination
+  [[gnu::always_inline]] void see(const V& pivot, const V& assembled) noexcept {
+    const V left = subtract_product(abs(pivot), V::both(std::numeric_limits<S>::epsilon()), abs(assembled));
+    least_ = lesser(least_, left);
+    unbounded_ = add_product(unbounded_, left, V::both(0));
+    negative_ = negative_ + negatives(pivot);
   }
+  /// Whether all were numbers, and none of them but round-off of what was assembled.   @return ok | singular | non_finite
+  Status status() const noexcept {
+    if (least_[0] <= 0 || least_[1] <= 0) return Status::singular;
+    return unbounded_[0] == 0 && unbounded_[1] == 0 ? Status::ok : Status::non_finite;
+  }
+  int negative() const noexcept { return static_cast<int>(negative_[0] + negative_[1]); }
+
+ private:
+  V least_ = V::both((std::numeric_limits<S>::max)());  // |pivot| - eps |its diagonal entry|
+  V unbounded_ = V::both(0);                            // no number where one was none or infinite
+  V negative_ = V::both(0);                             // how many
 };
 
 }  // namespace detail

@@ -19,6 +19,18 @@ struct PairOrder {
     const int from_left = element + odd();
     return from_left < pairs() ? 2 * from_left : 2 * (elements - 1 - element) + 1;
   }
+
+  // The nodes: element 2k lies between nodes 2k and 2k + 2 of theirs, and 2k + 1 between 2k + 3 and 2k + 1.  The middle node stands twice, and
+  // in the empty place the last one.
+  int last_node() const noexcept { return 2 * pairs() + 1; }
+  int node(int place) const noexcept {
+    const bool left = place % 2 == 0 && place / 2 >= odd();
+    return left ? place / 2 - odd() : elements - place / 2;
+  }
+  int node_place(int node) const noexcept {
+    const int from_left = node + odd();
+    return from_left <= pairs() ? 2 * from_left : 2 * (elements - node) + 1;
+  }
 };
 
 }  // namespace hapbeam::detail
