@@ -105,12 +105,14 @@ struct RoundRod {
 
   /// @param chord  Δ/l
   template <typename S>
-  [[gnu::always_inline]] static void bend(const RodProperties<S>& p, int g, const V3<S>& chord, const V3<S>& t1,
-                                          const V3<S>& t2, Core<S>& core, S& energy) noexcept {
+  [[gnu::always_inline]] static void bend(const RodProperties<S>& p, int g, const V3<S>& chord,
+                                          const V3<S>& t1, const V3<S>& t2, Core<S>& core,
+                                          S& energy) noexcept {
     using detail::add_product;
     using T = typename detail::NumberOf<S>::Type;
     static constexpr detail::CubicProducts<T> all[points] = {
-        detail::CubicProducts<T>(detail::CubicAt(rule.x[0])), detail::CubicProducts<T>(detail::CubicAt(rule.x[1])),
+        detail::CubicProducts<T>(detail::CubicAt(rule.x[0])),
+        detail::CubicProducts<T>(detail::CubicAt(rule.x[1])),
         detail::CubicProducts<T>(detail::CubicAt(rule.x[2]))};
     const auto& w = all[g];
     S a[3], b[3];  // r' and r'' l

@@ -19,8 +19,8 @@ struct TwistedCore {
 
 /// From the core to the unknowns of both nodes, ψ condensed away.
 template <typename S, class Inner>
-[[gnu::flatten]] void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, const S& inverse_length, Inner& inner,
-            RodTangent<S, 4>& all) noexcept {
+[[gnu::flatten]] void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, const S& inverse_length,
+                             Inner& inner, RodTangent<S, 4>& all) noexcept {
   // ψ first: H - hhᵀ/k, full.
   const S* const g = core.g;
   const S k_psi = core.H[9][9], share = 1 / k_psi;

@@ -75,8 +75,8 @@ struct TwistedRod {
       const S x = S(rule.x[g]);
       const Point<S> point(f, detail::CubicAt(static_cast<long double>(rule.x[g])));
       S k[3];
-      point.strains(m * x + 4 * inner.twist * x * (1 - x), m + 4 * inner.twist * (1 - 2 * x), p.inverse_length,
-                    k);
+      point.strains(m * x + 4 * inner.twist * x * (1 - x), m + 4 * inner.twist * (1 - 2 * x),
+                    p.inverse_length, k);
       const S e1 = k[0] - at.natural[0], e2 = k[1] - at.natural[1], e3 = k[2] - at.natural[2];
       sum += S(rule.weight[g]) * (at.bending1 * e1 * e1 + at.bending2 * e2 * e2 + at.torsion * e3 * e3);
     }
