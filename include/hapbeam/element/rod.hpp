@@ -149,14 +149,14 @@ struct RoundRod {
     for (int col = 0; col < 3; ++col) {
       HAPBEAM_UNROLL
       for (int row = col; row < 3; ++row) {
-        const auto entry = [&](const S& own, int r, const S(&f)[3], const S(&g)[3], int s) {
-          return row == col ? add_product(add_product(own, f[r], a[s]), g[r], b[s])
-                            : add_product(S(f[r] * a[s]), g[r], b[s]);
+        const auto entry = [&](const S& own, int r, const S(&by_a)[3], const S(&by_b)[3], int s) {
+          return row == col ? add_product(add_product(own, by_a[r], a[s]), by_b[r], b[s])
+                            : add_product(S(by_a[r] * a[s]), by_b[r], b[s]);
         };
         const S aa = entry(fA2, row, x, y, col), ab = entry(fC, row, y, z, col),
                 ba = row == col ? ab : entry(fC, col, y, z, row),
                 bb = row == col ? add_product(fB2, u[row], a[col]) : S(u[row] * a[col]), both = ab + ba;
-        const int h = half(row, col), k = 3 * col + row, mirrored = 3 * row + col;
+        const int h = half(row, col), below = 3 * col + row, above = 3 * row + col;
         const auto square = [&](const T(&by)[3], S& H) {
           H = add_product(add_product(add_product(H, S(by[0]), aa), S(by[1]), both), S(by[2]), bb);
         };
@@ -166,8 +166,8 @@ struct RoundRod {
             to = add_product(add_product(to, S(by[0]), aa), S(by[3]), bb);
             to = add_product(add_product(to, S(by[1]), ad), S(by[2]), bg);
           };
-          add(H[k], ab, ba);
-          if (row != col) add(H[mirrored], ba, ab);
+          add(H[below], ab, ba);
+          if (row != col) add(H[above], ba, ab);
         };
         product(w.D1, core.D1), product(w.D2, core.D2), product(w.K12, core.K12);
       }

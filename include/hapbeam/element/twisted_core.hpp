@@ -105,8 +105,9 @@ template <typename S, class Inner>
     HAPBEAM_UNROLL
     for (int b = 0; b < 3; ++b) {
       HAPBEAM_UNROLL
-      for (int a = symmetric ? b : 0; a < 3; ++a)
-        put(a, b, S((*F[0])[a] * half[b][0] + (*F[1])[a] * half[b][1] + (*F[2])[a] * half[b][2]));
+      for (int a = 0; a < 3; ++a)
+        if (a >= b || !symmetric)
+          put(a, b, S((*F[0])[a] * half[b][0] + (*F[1])[a] * half[b][1] + (*F[2])[a] * half[b][2]));
     }
   };
   using K = RodTangent<S, 4>;

@@ -174,13 +174,13 @@ struct TwistedRod {
     using detail::add_product;
     using detail::add_share;
     constexpr const detail::GaussRule& rule = detail::gauss_rule(Number);
-    constexpr double x = rule.x[G];
+    constexpr long double x = rule.x[G];
     constexpr detail::CubicAt w(x);
     const auto& at = p.points[G];
     const S weight = S(rule.weight[G]) * p.inverse_length, m = f.mismatch;
     const Point<S> q(f, w);
     // θ and θ' l by φ1, φ2 + m, ψ
-    constexpr double t[3] = {1 - x, x, 4 * x * (1 - x)}, d[3] = {-1, 1, 4 * (1 - 2 * x)};
+    constexpr long double t[3] = {1 - x, x, 4 * x * (1 - x)}, d[3] = {-1, 1, 4 * (1 - 2 * x)};
     using detail::cos_and_sin;
     const S theta = S(t[1]) * m + S(t[2]) * psi;
     S co, si;
@@ -239,9 +239,8 @@ struct TwistedRod {
     HAPBEAM_UNROLL
     for (int r = 0; r < 10; ++r) {
       const S s1 = E1 * R1[r], s2 = E2 * R2[r], s3 = GJ * R3[r];
-      S g = r < 7 ? core.g[r] : first(G, core.g[r]);
-      g = add_product(add_product(add_product(g, m1, R1[r]), m2, R2[r]), T, R3[r]);
-      core.g[r] = g;
+      const S sum = r < 7 ? core.g[r] : first(G, core.g[r]);
+      core.g[r] = add_product(add_product(add_product(sum, m1, R1[r]), m2, R2[r]), T, R3[r]);
       HAPBEAM_UNROLL
       for (int c = 0; c <= r; ++c) {
         const S H = r < 7 ? core.H[r][c] : first(G, core.H[r][c]);
