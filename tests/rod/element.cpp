@@ -146,7 +146,7 @@ TEST_CASE("a director inside an element is what its own twist says", "[rod]") {
 }
 
 TEST_CASE("without twist a round rod has the energy of one that may twist", "[rod]") {
-  // Both are of fourth order; half the length, and the difference falls by 2⁴ an element's share of the energy.
+  // Both are of fourth order; half the length, and the difference falls by 2⁴ an element's share of the energy, down to round-off.
   const auto difference = [](double l) {
     const auto node = [](double s) {
       RodNode<double> n{s, {s, s * s / 2, 0}, {1, s, 0}, {0, 0, 1}};
@@ -161,5 +161,5 @@ TEST_CASE("without twist a round rod has the energy of one that may twist", "[ro
     return std::abs(round - twisted) / l;
   };
   CHECK(difference(0.1) <= 1e-5);
-  CHECK(difference(0.05) <= difference(0.1) / 14);
+  CHECK(difference(0.05) <= difference(0.1) / 14 + 1e-15);
 }

@@ -177,7 +177,7 @@ struct TwistedRod {
     constexpr long double x = rule.x[G];
     constexpr detail::CubicAt w(x);
     const auto& at = p.points[G];
-    const S weight = S(rule.weight[G]) * p.inverse_length, m = f.mismatch;
+    const S weight = S(rule.weight[G]), i1 = p.inverse_length, m = f.mismatch;
     const Point<S> q(f, w);
     // θ and θ' l by φ1, φ2 + m, ψ
     constexpr long double t[3] = {1 - x, x, 4 * x * (1 - x)}, d[3] = {-1, 1, 4 * (1 - 2 * x)};
@@ -186,11 +186,10 @@ struct TwistedRod {
     S co, si;
     cos_and_sin(theta, co, si);
     const S k1 = co * q.K1 + si * q.K2, k2 = co * q.K2 - si * q.K1, tau = m + S(d[2]) * psi - q.c;
-    const S E1 = weight * at.bending1, E2 = weight * at.bending2, GJ = weight * at.torsion;
-    const S e1 = k1 - at.natural[0] * p.length, e2 = k2 - at.natural[1] * p.length,
-            e3 = tau - at.natural[2] * p.length;
-    const S m1 = E1 * e1, m2 = E2 * e2, T = GJ * e3;
-    energy += (m1 * e1 + m2 * e2 + T * e3) / 2;
+    const S e1 = k1 * i1 - at.natural[0], e2 = k2 * i1 - at.natural[1], e3 = tau * i1 - at.natural[2];
+    const S EI1 = weight * at.bending1, EI2 = weight * at.bending2, wGJ = weight * at.torsion;
+    const S m1 = EI1 * e1, m2 = EI2 * e2, T = wGJ * e3, E1 = EI1 * i1, E2 = EI2 * i1, GJ = wGJ * i1;
+    energy += p.length * (m1 * e1 + m2 * e2 + T * e3) / 2;
     const S M1 = co * m1 - si * m2, M2 = si * m1 + co * m2;
 
     const S X = q.a[0], Y = q.a[1], i = q.i, h = q.h;
