@@ -24,7 +24,8 @@ struct CarriedFrame {
   S l1, l2;            // |r1'|, |r2'|
   S mismatch;          // m
 
-  [[gnu::flatten]] CarriedFrame(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b) noexcept {
+  [[gnu::flatten]] CarriedFrame(const RodProperties<S>& p, const RodNode<S>& a,
+                                const RodNode<S>& b) noexcept {
     using std::atan2;
     using std::sqrt;
     l1 = sqrt(a.tangent.squaredNorm());

@@ -70,9 +70,18 @@ class Pack {
   [[gnu::always_inline]] T operator[](int i) const noexcept { return v_[i]; }
   [[gnu::always_inline]] void set(int i, T a) noexcept { v_[i] = a; }
 
+#if defined(__clang__)
+#define HAPBEAM_FUSED \
+  _Pragma("clang fp contract(fast)")  // as g++ does, whichever function a product comes from
+#else
+#define HAPBEAM_FUSED
+#endif
 #if defined(__GNUC__)
-#define HAPBEAM_LANEWISE(op) \
-  [[gnu::always_inline]] Pack& operator op##=(const Pack& b) noexcept { return v_ op## = b.v_, *this; }
+#define HAPBEAM_LANEWISE(op)                                            \
+  [[gnu::always_inline]] Pack& operator op##=(const Pack& b) noexcept { \
+    HAPBEAM_FUSED                                                       \
+    return v_ op## = b.v_, *this;                                       \
+  }
 #else
 #define HAPBEAM_LANEWISE(op)                          \
   Pack& operator op##=(const Pack& b) noexcept {      \
@@ -85,6 +94,7 @@ class Pack {
   HAPBEAM_LANEWISE(*)
   HAPBEAM_LANEWISE(/)
 #undef HAPBEAM_LANEWISE
+#undef HAPBEAM_FUSED
 
   /// Every other number is one of b.
   [[gnu::always_inline]] friend Pack in_turn(const Pack& a, const Pack& b) noexcept {
@@ -99,28 +109,19 @@ class Pack {
     return both;
   }
 
-  /// a, moved up by two numbers, after two others.
+  /// a, moved up by two numbers, after two others; or by one.
   [[gnu::always_inline]] friend Pack after(const T* two, const Pack& a) noexcept {
-    Pack moved;
-#if defined(__GNUC__)
-    const Vector front = {two[0], two[1]};
-    moved.v_ = from_both(front, a.v_, After());
-#else
-    for (int i = 0; i < size; ++i) moved.v_[i] = i < 2 ? two[i] : a.v_[i - 2];
-#endif
-    return moved;
+    return moved<2, true>(two, a);
   }
-
-  /// a, moved down by two numbers, before two others.
+  [[gnu::always_inline]] friend Pack after(const T& one, const Pack& a) noexcept {
+    return moved<1, true>(&one, a);
+  }
+  /// a, moved down by two numbers, before two others; or by one.
   [[gnu::always_inline]] friend Pack before(const Pack& a, const T* two) noexcept {
-    Pack moved;
-#if defined(__GNUC__)
-    const Vector back = {two[0], two[1]};
-    moved.v_ = from_both(a.v_, back, Before());
-#else
-    for (int i = 0; i < size; ++i) moved.v_[i] = i + 2 < size ? a.v_[i + 2] : two[i + 2 - size];
-#endif
-    return moved;
+    return moved<2, false>(two, a);
+  }
+  [[gnu::always_inline]] friend Pack before(const Pack& a, const T& one) noexcept {
+    return moved<1, false>(&one, a);
   }
 
   [[gnu::always_inline]] Pack operator-() const noexcept { return Pack(0) -= *this; }
@@ -206,6 +207,24 @@ class Pack {
   }
 
  private:
+  /// Moved by so many numbers, which come in first or last.
+  template <int By, bool First>
+  [[gnu::always_inline]] static Pack moved(const T* in, const Pack& a) noexcept {
+    Pack pack;
+#if defined(__GNUC__)
+    Vector numbers;
+    if constexpr (By == 2) numbers = Vector{in[0], in[1]};
+    else numbers = Vector{in[0]};
+    constexpr std::make_integer_sequence<int, size> each{};
+    if constexpr (First) pack.v_ = from_both<By, true>(numbers, a.v_, each);
+    else pack.v_ = from_both<By, false>(a.v_, numbers, each);
+#else
+    for (int i = 0; i < size; ++i)
+      pack.v_[i] =
+          First ? (i < By ? in[i] : a.v_[i - By]) : (i + By < size ? a.v_[i + By] : in[i + By - size]);
+#endif
+    return pack;
+  }
   template <class F>
   static void one_by_one(F&& f, const Pack& a, Pack& cosine, Pack& sine) noexcept {
     for (int i = 0; i < size; ++i) {
@@ -223,21 +242,15 @@ class Pack {
   using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
   typedef T Vector __attribute__((vector_size(size * sizeof(T))));
   typedef Bits Mask __attribute__((vector_size(size * sizeof(T))));
-  template <int... I>
+  template <int By, bool First, int... I>
   [[gnu::always_inline]] static Vector from_both(const Vector& a, const Vector& b,
                                                  std::integer_sequence<int, I...>) noexcept {
 #if defined(__clang__)
-    return __builtin_shufflevector(a, b, I...);
+    return __builtin_shufflevector(a, b, (First ? (I < By ? I : size + I - By) : I + By)...);
 #else
-    return __builtin_shuffle(a, b, Mask{I...});
+    return __builtin_shuffle(a, b, Mask{(First ? (I < By ? I : size + I - By) : I + By)...});
 #endif
   }
-  template <int... I>
-  static std::integer_sequence<int, (I < 2 ? I : size + I - 2)...> after(std::integer_sequence<int, I...>);
-  template <int... I>
-  static std::integer_sequence<int, (I + 2)...> before(std::integer_sequence<int, I...>);
-  using After = decltype(after(std::make_integer_sequence<int, size>()));
-  using Before = decltype(before(std::make_integer_sequence<int, size>()));
   Vector v_;
 #else
   T v_[size];

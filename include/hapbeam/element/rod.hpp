@@ -78,9 +78,7 @@ struct RoundRod {
     const V3<S> chord = i * (n2.r - n1.r);
     S energy = 0;
     stretch(p, chord, n1.tangent, n2.tangent, core, energy);
-    bend<0>(p, chord, n1.tangent, n2.tangent, core, energy);
-    bend<1>(p, chord, n1.tangent, n2.tangent, core, energy);
-    bend<2>(p, chord, n1.tangent, n2.tangent, core, energy);
+    for (int g = 0; g < points; ++g) bend(p, g, chord, n1.tangent, n2.tangent, core, energy);
     const S ii = i * i;
     for (S& x : core.D) x *= i;
     for (S& x : core.DD) x *= ii;
@@ -106,24 +104,28 @@ struct RoundRod {
   using Core = RodTangent<S, 3>;
 
   /// @param chord  Δ/l
-  template <int G, typename S>
-  [[gnu::always_inline]] static void bend(const RodProperties<S>& p, const V3<S>& chord, const V3<S>& t1,
-                                          const V3<S>& t2, Core<S>& core, S& energy) noexcept {
+  template <typename S>
+  [[gnu::always_inline]] static void bend(const RodProperties<S>& p, int g, const V3<S>& chord,
+                                          const V3<S>& t1, const V3<S>& t2, Core<S>& core,
+                                          S& energy) noexcept {
     using detail::add_product;
-    using detail::add_share;
-    constexpr detail::CubicAt w(rule.x[G]);
+    using T = typename detail::NumberOf<S>::Type;
+    static constexpr detail::CubicProducts<T> all[points] = {
+        detail::CubicProducts<T>(detail::CubicAt(rule.x[0])),
+        detail::CubicProducts<T>(detail::CubicAt(rule.x[1])),
+        detail::CubicProducts<T>(detail::CubicAt(rule.x[2]))};
+    const auto& w = all[g];
     S a[3], b[3];  // r' and r'' l
     HAPBEAM_UNROLL
     for (int k = 0; k < 3; ++k) {
-      a[k] = S(w.a) * chord[k], b[k] = S(w.b1) * t1[k];
-      add_share(a[k], w.a1, t1[k]), add_share(a[k], w.a2, t2[k]);
-      add_share(b[k], w.b2, t2[k]), add_share(b[k], w.b, chord[k]);
+      a[k] = add_product(add_product(S(S(w.a) * chord[k]), S(w.a1), t1[k]), S(w.a2), t2[k]);
+      b[k] = add_product(add_product(S(S(w.b) * chord[k]), S(w.b1), t1[k]), S(w.b2), t2[k]);
     }
     const auto dot = [](const S(&x)[3], const S(&y)[3]) {
       return add_product(add_product(S(x[0] * y[0]), x[1], y[1]), x[2], y[2]);
     };
     const S i = 1 / dot(a, a), B = dot(b, b) * i, c = dot(a, b) * i, cc = c * c;
-    const S k = S(rule.weight[G] / 2) * p.points[G].bending1 * p.inverse_length;
+    const S k = S(rule.weight[g] / 2) * p.points[g].bending1 * p.inverse_length;
     energy += k * (B - cc);
     // f = B/A - C²/A²:  by A, B, C once and twice
     const S ki = k * i, fA2 = 2 * ki * (2 * cc - B), fB2 = 2 * ki, fC = -2 * ki * c,
@@ -134,9 +136,9 @@ struct RoundRod {
     HAPBEAM_UNROLL
     for (int r = 0; r < 3; ++r) {
       const S by_a = add_product(S(fA2 * a[r]), fC, b[r]), by_b = add_product(S(fB2 * b[r]), fC, a[r]);
-      add_share(core.D[r], w.a, by_a), add_share(core.D[r], w.b, by_b);
-      add_share(core.t1[r], w.a1, by_a), add_share(core.t1[r], w.b1, by_b);
-      add_share(core.t2[r], w.a2, by_a), add_share(core.t2[r], w.b2, by_b);
+      core.D[r] = add_product(add_product(core.D[r], S(w.a), by_a), S(w.b), by_b);
+      core.t1[r] = add_product(add_product(core.t1[r], S(w.a1), by_a), S(w.b1), by_b);
+      core.t2[r] = add_product(add_product(core.t2[r], S(w.a2), by_a), S(w.b2), by_b);
       x[r] = add_product(S(fAA4 * a[r]), fAC2, b[r]);
       y[r] = add_product(S(fAC2 * a[r]), fCC, b[r]);
       z[r] = fAB4 * a[r];
@@ -147,29 +149,27 @@ struct RoundRod {
     for (int col = 0; col < 3; ++col) {
       HAPBEAM_UNROLL
       for (int row = col; row < 3; ++row) {
-        const auto entry = [&](const S& own, int r, const S(&f)[3], const S(&g)[3], int s) {
-          return row == col ? add_product(add_product(own, f[r], a[s]), g[r], b[s])
-                            : add_product(S(f[r] * a[s]), g[r], b[s]);
+        const auto entry = [&](const S& own, int r, const S(&by_a)[3], const S(&by_b)[3], int s) {
+          return row == col ? add_product(add_product(own, by_a[r], a[s]), by_b[r], b[s])
+                            : add_product(S(by_a[r] * a[s]), by_b[r], b[s]);
         };
         const S aa = entry(fA2, row, x, y, col), ab = entry(fC, row, y, z, col),
                 ba = row == col ? ab : entry(fC, col, y, z, row),
                 bb = row == col ? add_product(fB2, u[row], a[col]) : S(u[row] * a[col]), both = ab + ba;
-        const int h = half(row, col), k = 3 * col + row, mirrored = 3 * row + col;
-        const auto square = [&](long double alpha, long double beta, S& H) {
-          add_share(H, alpha * alpha, aa), add_share(H, alpha * beta, both), add_share(H, beta * beta, bb);
+        const int h = half(row, col), below = 3 * col + row, above = 3 * row + col;
+        const auto square = [&](const T(&by)[3], S& H) {
+          H = add_product(add_product(add_product(H, S(by[0]), aa), S(by[1]), both), S(by[2]), bb);
         };
-        square(w.a, w.b, core.DD[h]), square(w.a1, w.b1, core.K11[h]), square(w.a2, w.b2, core.K22[h]);
-        const auto product = [&](long double alpha, long double beta, long double gamma, long double delta,
-                                 S(&H)[9]) {
-          add_share(H[k], alpha * gamma, aa), add_share(H[k], beta * delta, bb);
-          add_share(H[k], alpha * delta, ab), add_share(H[k], beta * gamma, ba);
-          if (row == col) return;
-          add_share(H[mirrored], alpha * gamma, aa), add_share(H[mirrored], beta * delta, bb);
-          add_share(H[mirrored], alpha * delta, ba), add_share(H[mirrored], beta * gamma, ab);
+        square(w.DD, core.DD[h]), square(w.K11, core.K11[h]), square(w.K22, core.K22[h]);
+        const auto product = [&](const T(&by)[4], S(&H)[9]) {
+          const auto add = [&](S& to, const S& ad, const S& bg) {
+            to = add_product(add_product(to, S(by[0]), aa), S(by[3]), bb);
+            to = add_product(add_product(to, S(by[1]), ad), S(by[2]), bg);
+          };
+          add(H[below], ab, ba);
+          if (row != col) add(H[above], ba, ab);
         };
-        product(w.a, w.b, w.a1, w.b1, core.D1);
-        product(w.a, w.b, w.a2, w.b2, core.D2);
-        product(w.a1, w.b1, w.a2, w.b2, core.K12);
+        product(w.D1, core.D1), product(w.D2, core.D2), product(w.K12, core.K12);
       }
     }
   }

@@ -19,8 +19,8 @@ struct TwistedCore {
 
 /// From the core to the unknowns of both nodes, ψ condensed away.
 template <typename S, class Inner>
-[[gnu::flatten]] void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, const S& inverse_length, Inner& inner,
-            RodTangent<S, 4>& all) noexcept {
+[[gnu::flatten]] void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, const S& inverse_length,
+                             Inner& inner, RodTangent<S, 4>& all) noexcept {
   // ψ first: H - hhᵀ/k, full.
   const S* const g = core.g;
   const S k_psi = core.H[9][9], share = 1 / k_psi;
@@ -105,8 +105,9 @@ template <typename S, class Inner>
     HAPBEAM_UNROLL
     for (int b = 0; b < 3; ++b) {
       HAPBEAM_UNROLL
-      for (int a = symmetric ? b : 0; a < 3; ++a)
-        put(a, b, S((*F[0])[a] * half[b][0] + (*F[1])[a] * half[b][1] + (*F[2])[a] * half[b][2]));
+      for (int a = 0; a < 3; ++a)
+        if (a >= b || !symmetric)
+          put(a, b, S((*F[0])[a] * half[b][0] + (*F[1])[a] * half[b][1] + (*F[2])[a] * half[b][2]));
     }
   };
   using K = RodTangent<S, 4>;

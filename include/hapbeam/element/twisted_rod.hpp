@@ -75,8 +75,8 @@ struct TwistedRod {
       const S x = S(rule.x[g]);
       const Point<S> point(f, detail::CubicAt(static_cast<long double>(rule.x[g])));
       S k[3];
-      point.strains(m * x + 4 * inner.twist * x * (1 - x), m + 4 * inner.twist * (1 - 2 * x), p.inverse_length,
-                    k);
+      point.strains(m * x + 4 * inner.twist * x * (1 - x), m + 4 * inner.twist * (1 - 2 * x),
+                    p.inverse_length, k);
       const S e1 = k[0] - at.natural[0], e2 = k[1] - at.natural[1], e3 = k[2] - at.natural[2];
       sum += S(rule.weight[g]) * (at.bending1 * e1 * e1 + at.bending2 * e2 * e2 + at.torsion * e3 * e3);
     }
@@ -174,23 +174,22 @@ struct TwistedRod {
     using detail::add_product;
     using detail::add_share;
     constexpr const detail::GaussRule& rule = detail::gauss_rule(Number);
-    constexpr double x = rule.x[G];
+    constexpr long double x = rule.x[G];
     constexpr detail::CubicAt w(x);
     const auto& at = p.points[G];
-    const S weight = S(rule.weight[G]) * p.inverse_length, m = f.mismatch;
+    const S weight = S(rule.weight[G]), i1 = p.inverse_length, m = f.mismatch;
     const Point<S> q(f, w);
     // θ and θ' l by φ1, φ2 + m, ψ
-    constexpr double t[3] = {1 - x, x, 4 * x * (1 - x)}, d[3] = {-1, 1, 4 * (1 - 2 * x)};
+    constexpr long double t[3] = {1 - x, x, 4 * x * (1 - x)}, d[3] = {-1, 1, 4 * (1 - 2 * x)};
     using detail::cos_and_sin;
     const S theta = S(t[1]) * m + S(t[2]) * psi;
     S co, si;
     cos_and_sin(theta, co, si);
     const S k1 = co * q.K1 + si * q.K2, k2 = co * q.K2 - si * q.K1, tau = m + S(d[2]) * psi - q.c;
-    const S E1 = weight * at.bending1, E2 = weight * at.bending2, GJ = weight * at.torsion;
-    const S e1 = k1 - at.natural[0] * p.length, e2 = k2 - at.natural[1] * p.length,
-            e3 = tau - at.natural[2] * p.length;
-    const S m1 = E1 * e1, m2 = E2 * e2, T = GJ * e3;
-    energy += (m1 * e1 + m2 * e2 + T * e3) / 2;
+    const S e1 = k1 * i1 - at.natural[0], e2 = k2 * i1 - at.natural[1], e3 = tau * i1 - at.natural[2];
+    const S EI1 = weight * at.bending1, EI2 = weight * at.bending2, wGJ = weight * at.torsion;
+    const S m1 = EI1 * e1, m2 = EI2 * e2, T = wGJ * e3, E1 = EI1 * i1, E2 = EI2 * i1, GJ = wGJ * i1;
+    energy += p.length * (m1 * e1 + m2 * e2 + T * e3) / 2;
     const S M1 = co * m1 - si * m2, M2 = si * m1 + co * m2;
 
     const S X = q.a[0], Y = q.a[1], i = q.i, h = q.h;
@@ -239,9 +238,8 @@ struct TwistedRod {
     HAPBEAM_UNROLL
     for (int r = 0; r < 10; ++r) {
       const S s1 = E1 * R1[r], s2 = E2 * R2[r], s3 = GJ * R3[r];
-      S g = r < 7 ? core.g[r] : first(G, core.g[r]);
-      g = add_product(add_product(add_product(g, m1, R1[r]), m2, R2[r]), T, R3[r]);
-      core.g[r] = g;
+      const S sum = r < 7 ? core.g[r] : first(G, core.g[r]);
+      core.g[r] = add_product(add_product(add_product(sum, m1, R1[r]), m2, R2[r]), T, R3[r]);
       HAPBEAM_UNROLL
       for (int c = 0; c <= r; ++c) {
         const S H = r < 7 ? core.H[r][c] : first(G, core.H[r][c]);

@@ -206,8 +206,8 @@ class RodElements {
     Scalar twist = 0;
     if constexpr (has_twist) twist = twists_[e];
     const detail::CarriedFrame<Scalar> frame(properties_[e], a, b);
-    return cut.in_section(frame.director(a.director, twist, t), detail::unit(place.tangent),
-                          profile_.at(s), surface_);
+    return cut.in_section(frame.director(a.director, twist, t), detail::unit(place.tangent), profile_.at(s),
+                          surface_);
   }
   /// [J]
   Scalar strain_energy() const noexcept {
@@ -271,7 +271,7 @@ class RodElements {
       return order.node(place);
     });
     const Node *const left = &nodes_[order.node((std::min)(first + lanes, order.last_node() - 1))],
-                     *const right = &nodes_[order.node((std::min)(first + lanes + 1, order.last_node()))];
+                      *const right = &nodes_[order.node((std::min)(first + lanes + 1, order.last_node()))];
     RodNode<Wide> a, b;
     const auto take = [&](detail::V3<Scalar> Node::*from, detail::V3<Wide> RodNode<Wide>::*to) {
       const detail::V3<Wide> outer = detail::gather(of, nodes_, from);

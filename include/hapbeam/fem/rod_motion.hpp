@@ -91,34 +91,45 @@ template <typename S>
   return angle(S(from.dot(beside)), S(from.dot(to)), whole);
 }
 
-/// Where nodes will be that go on as they went, foresight.hpp.   @param now, before, ahead  all nodes; of those ahead, s is known
+/// Where nodes will be that go on as they went, foresight.hpp.   @param now, then, ahead  all nodes; of those ahead, s is known
 /// @tparam twists  whether their directors turn about the tangents
 template <bool twists, class Nodes, typename Scalar>
-[[gnu::flatten]] void go_on(const Nodes& now, const Nodes& before, Scalar ratio, Nodes& ahead) noexcept {
+[[gnu::flatten]] void go_on(const Nodes& now, const Nodes& then, Scalar ratio, Nodes& ahead) noexcept {
   using Node = RodNode<Scalar>;
   const int last = now.size() - 1;
   for_each_abreast<Scalar>(last, [&](const auto& here) {
     using Wide = typename std::decay_t<decltype(here)>::Wide;
     using Vector = VectorOf<Wide, 3>;
-    const auto left = here.next(-1, last), right = here.next(1, last);
     const RodNode<Wide> x = gather_nodes(here, now);
-    const auto tangents = [](const auto& which, const Nodes& nodes) -> Vector {
-      return gather(which, nodes, &Node::tangent);
+    const Vector b = gather(here, then, &Node::tangent);
+    // The neighbours stand in the next lane, and beyond the first and the last of these nodes.
+    const Node &first = now[(std::max)(here.of[0] - 1, 0)],
+               &end = now[(std::min)(here.of[Wide::size - 1] + 1, last)];
+    const auto left_of = [&](const Vector& of, VectorOf<Scalar, 3> Node::*member) {
+      const VectorOf<Scalar, 3>& v = first.*member;
+      return Vector(after(v[0], of[0]), after(v[1], of[1]), after(v[2], of[2]));
     };
-    const Vector b = tangents(here, before), l = tangents(left, now), r = tangents(right, now);
-    const auto step = [&](int i) { return ahead[i].s - now[i].s - ratio * (now[i].s - before[i].s); };
+    const auto right_of = [&](const Vector& of, VectorOf<Scalar, 3> Node::*member) {
+      const VectorOf<Scalar, 3>& v = end.*member;
+      return Vector(before(of[0], v[0]), before(of[1], v[1]), before(of[2], v[2]));
+    };
+    const Vector l = left_of(x.tangent, &Node::tangent), r = right_of(x.tangent, &Node::tangent);
+    const auto step = [&](int i) { return ahead[i].s - now[i].s - ratio * (now[i].s - then[i].s); };
     const Wide along = gather(here, [&](int i) { return i == 0 || i == last ? Scalar(0) : step(i); });
-    const auto place = [&](int i) { return now[i].s; };
-    const Wide share = along / (gather(right, place) - gather(left, place)), far = ratio;
+    const Wide s = gather(here, [&](int i) { return now[i].s; });
+    // None where the last node stands again.
+    const Wide share = share_of(along, Wide(before(s, end.s) - after(first.s, s))), far = ratio;
     RodNode<Wide> next = x;
-    next.r += far * (x.r - gather(here, before, &Node::r)) + along * x.tangent;
+    next.r += far * (x.r - gather(here, then, &Node::r)) + along * x.tangent;
     const Vector change = far * (x.tangent - b) + share * (r - l);
     if constexpr (twists) {
       const Vector u = unit(x.tangent), beside = cross3(x.director, u);
-      const auto twist = [&](const auto& which, const Nodes& nodes, const Vector& tangent) -> Wide {
-        return carried_angle<Wide>(tangent, gather(which, nodes, &Node::director), u, x.director, beside);
+      const auto twist = [&](const Vector& tangent, const Vector& director) -> Wide {
+        return carried_angle<Wide>(tangent, director, u, x.director, beside);
       };
-      const Wide angle = far * twist(here, before, b) + share * (twist(left, now, l) - twist(right, now, r));
+      const Wide angle = far * twist(b, gather(here, then, &Node::director)) +
+                         share * (twist(l, left_of(x.director, &Node::director)) -
+                                  twist(r, right_of(x.director, &Node::director)));
       move_tangent(next, change, &angle);
     } else {
       move_tangent<Wide>(next, change, nullptr);

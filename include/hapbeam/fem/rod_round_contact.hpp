@@ -32,6 +32,13 @@ struct RodRoundContact {
   }
   /// The way round the axis is not the way that the capsule has come.
   bool is_through(const View& view) const noexcept { return !(2 * distance(view) > capsule.reach); }
+  /// The same beside a node.  A sphere lies across the tangent there.
+  bool is_through(const Node& node, int end) const noexcept {
+    if (end != 0 || !capsule.axis.way.isZero(0)) return is_through(look(node, end));
+    const Vector way = capsule.axis.tip - node.r, &t = node.tangent,
+                 across = way - t * (t.dot(way) / t.squaredNorm());
+    return !(across.dot(capsule.normal) > 0 && 4 * across.squaredNorm() > capsule.reach * capsule.reach);
+  }
   static Vector place_of(const Node& node) noexcept { return node.r; }
   Scalar clearance(const Node& node) const noexcept {
     return std::sqrt((capsule.axis.at(capsule.axis.nearest(node.r)) - node.r).squaredNorm());

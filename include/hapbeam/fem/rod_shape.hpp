@@ -73,8 +73,7 @@ class RodShape {
       a.director = x.director - (b.director - a.director);
     }
     if constexpr (unknowns == 7)
-      for (int e = 0; e < elements(); ++e)
-        from.twists[e] = twists()[e] - (to.twists[e] - from.twists[e]);
+      for (int e = 0; e < elements(); ++e) from.twists[e] = twists()[e] - (to.twists[e] - from.twists[e]);
   }
 
   /// n · r of a state at s [m].

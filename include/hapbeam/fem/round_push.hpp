@@ -143,7 +143,7 @@ class RoundPush {
     bool foreseen = trial.first && foresight_.go_on(system, mesh, request);
     const auto through = [&] {
       if constexpr (planar) return false;
-      else return round.is_through(look(node()));
+      else return round.is_through(node(), end);
     };
     Scalar across = 1;  // component of the force that the beam takes
     const auto aim = [&] {

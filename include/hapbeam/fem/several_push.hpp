@@ -288,7 +288,7 @@ class SeveralPush {
     now.by_plane = now.sharp || law.sharp(reach) || beside_support(range, now.s, reach);
     now.across = 1;
     if constexpr (planar) now.wall = range.on_wall(now.s);
-    else now.by_plane = now.by_plane || round.is_through(round.look(system.node(c), end));
+    else now.by_plane = now.by_plane || round.is_through(system.node(c), end);
     now.by_plane = now.by_plane || now.wall;
     if (!now.by_plane) return set(-reach, law);
     if (now.normal.isZero(0) || now.wall) now.normal = round.normal(round.look(system.node(c), end));

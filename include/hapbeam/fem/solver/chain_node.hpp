@@ -95,8 +95,9 @@ struct ChainNode {
   /// Prescribes the increment of one unknown: its column goes to the right-hand side, its row answers 0.  Inlined by intent: the caller
   /// knows the component.
   [[gnu::always_inline]] void prescribe(int component, Scalar increment) const noexcept {
-    const auto take = [increment](Scalar& rhs, Scalar& entry) {
-      rhs -= increment * entry;
+    const bool moves = increment != 0;  // an end at rest does not
+    const auto take = [=](Scalar& rhs, Scalar& entry) {
+      if (moves) rhs -= increment * entry;
       entry = 0;
     };
     for (int k = 0; k < component; ++k) take(own[k], own(component, k));

@@ -182,8 +182,7 @@ struct ChainRow {
     HAPBEAM_UNROLL
     for (int j = Block - 1; j >= 0; --j) {
       HAPBEAM_UNROLL
-      for (int k = Block - 1; k > j; --k)
-        rest[j] = subtract_product(rest[j], row.block(k, j).get(), rest[k]);
+      for (int k = Block - 1; k > j; --k) rest[j] = subtract_product(rest[j], row.block(k, j).get(), rest[k]);
     }
     HAPBEAM_UNROLL
     for (int k = 0; k < Block; ++k) row.x(k).set(later[k] = rest[k]);
