@@ -277,6 +277,26 @@ TEST_CASE("a hand that jams a ruler onto a wall feels the last answer, and a new
   CHECK(again.force(0).y() > 0);
 }
 
+// It touches in one place, where more of the ruler than a point comes to lie.
+TEST_CASE("where a ruler is said to touch a wall it does", "[several]") {
+  for (const int elements : {16, 32}) {
+    Model<2> model(steel_ruler(), elements);
+    TouchSeveral touch(model, {0.005}, {Prop<>::wall({0.25, -0.0105}, {0, 1})});
+    int answers = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const auto felt = touch.tick(Vector(0.15, 0.0055 - 5e-6 * k));
+      const auto& wall = felt.places[1];
+      if (felt.status != Status::ok || !wall.touching) continue;
+      ++answers;
+      REQUIRE(std::abs(wall.point.y() + 0.01) <= 3e-4);
+      REQUIRE(wall.normal.y() < -0.99999);
+      REQUIRE(wall.point.x() >= 0);
+      REQUIRE(wall.point.x() <= 0.3);
+    }
+    CHECK(answers > 300);
+  }
+}
+
 TEST_CASE("one avatar of several is felt as it is alone", "[several]") {
   const double radius = 0.005;
   FemModel<Corotational<>> model(steel_ruler(), 8);

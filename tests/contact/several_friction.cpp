@@ -1,4 +1,5 @@
 // Friction at several contacts of a beam: each keeps its own cone, and together they take what the hands give.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -278,4 +279,49 @@ TEST_CASE("of several contacts round ones may have friction", "[friction][severa
                     "friction sliding = 0.4: must be 0 to that of sticking");
   CHECK_THROWS_WITH(Touching(model, {0.005}, {Prop<>::stop(0.1, -0.1, {0, 1}).rough(0.3)}),
                     "friction = 0.3: must be 0 for a stop or a support");
+}
+
+TEST_CASE("what a contact has dissipated ends with it, wherever the next one begins", "[friction][several]") {
+  Model model(steel_ruler(), 16);
+  Touching touch(model, {finger(0.4), 0.005});
+  const Vector away(0.25, -0.05);
+  const auto slide = [&] {
+    double dissipated = 0;
+    for (int k = 0; k <= 400; ++k)
+      dissipated = touch.tick(Vector(0.15 + 1e-4 * k, 0.007 - 5e-5 * k), away).places[0].dissipated;
+    CHECK(dissipated > 0.01);
+    for (int k = 0; k <= 400; ++k) (void)touch.tick(Vector(0.19, -0.013 + 1e-4 * k), away);
+  };
+  // The hand rests above the ruler, and the other one lifts it to the hand.
+  const auto lift = [&] {
+    const Vector above(0.1, 0.007);
+    for (int k = 0; k < 50; ++k) (void)touch.tick(above, away);
+    for (int k = 0; k < 1000; ++k) {
+      const auto felt = touch.tick(above, Vector(0.25, -0.01 + 2e-5 * k));
+      if (felt.places[0].touching) return felt.places[0].dissipated;
+    }
+    return -1.0;
+  };
+  CHECK(lift() == 0);
+  slide();
+  CHECK(lift() == 0);
+  slide();
+  touch.reset();
+  CHECK(lift() == 0);
+
+  // A peg is met within the push.
+  Model pegged(steel_ruler(), 16);
+  Touching onto(pegged, {0.005}, {Prop<>::peg({0.15, -0.0085}, 0.005).rough(0.2)});
+  for (int stroke = 0; stroke < 3; ++stroke) {
+    if (stroke == 2) onto.reset();
+    double first = -1, last = 0;
+    for (int k = 0; k < 300; ++k) {
+      const auto felt = onto.tick(Vector(0.25, 0.0056 - 1e-4 * k));
+      if (felt.places[1].touching && first < 0) first = felt.places[1].dissipated;
+      last = std::max(last, felt.places[1].dissipated);
+    }
+    CHECK(first == 0);
+    CHECK(last > 0);
+    for (int k = 0; k < 50; ++k) (void)onto.tick(Vector(0.25, 0.05));
+  }
 }

@@ -23,14 +23,14 @@ struct TouchPlace {
   VectorOf<Scalar, D> force = VectorOf<Scalar, D>::Zero();     ///< [N] on the body; always finite
   VectorOf<Scalar, D> friction = VectorOf<Scalar, D>::Zero();  ///< [N] what of the force is tangential
   bool sliding = false;   ///< with friction: the contact slides, else it sticks
-  Scalar dissipated = 0;  ///< [J] by friction, since this contact began
+  Scalar dissipated = 0;  ///< [J] by friction, since this contact began; anew where the touch is
 };
 
 /// What one tick says.
 /// @tparam Contacts  most of them
 template <typename Scalar, int D, int Contacts>
 struct TouchSeveralResult {
-  /// Of the equilibrium.  Negative: all places are those of the last answer, as in Touch; invalid_request, for a position that is not
+  /// Of the equilibrium.  Negative: all places are those of the last answer; invalid_request, for a position that is not
   /// finite: they are zero.
   Status status = Status::ok;
   int size = 0;  ///< possible contacts

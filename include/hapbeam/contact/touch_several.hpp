@@ -218,9 +218,13 @@ class TouchSeveral {
   void begin() noexcept {
     for (int i = 0; i < size_; ++i) places_[at(i)].end.begin(model_);
   }
+  static void forget(FrictionState<Scalar, dimension>& friction) noexcept {
+    friction.begin();
+    friction.dissipated = 0;
+  }
   static void forget(Place& place) noexcept {
     place.memory = {};
-    place.friction.begin();
+    forget(place.friction);
     if (place.at_end) place.obstacle.kind = ObstacleKind::round, place.at_end = false;
     place.obstacle.touching = false;
     place.obstacle.pushed.force = 0;
@@ -240,7 +244,8 @@ class TouchSeveral {
     const bool touched = place.obstacle.touching, touches = find(i);
     // A contact that begins remembers nothing.
     if (!touched || !touches) place.friction.begin();
-    if (!touched && touches) place.friction.dissipated = 0;
+    // It may begin within the push, where another one brings the beam to it.
+    if (!touched) place.friction.dissipated = 0;
     return touches;
   }
   bool find(int i) noexcept {
@@ -277,7 +282,7 @@ class TouchSeveral {
       obstacle.round = {s, place.avatar.position, reach, static_cast<Scalar>(contact.side)};
     else obstacle.round = {s, place.avatar.axis(), reach, twice ? obstacle.pushed.normal : contact.normal};
     // A pressed beam follows a hand that draws back; one that has jumped away is met again, if it is, as the beam springs back.
-    if (contact.depth < -model_.shape().length() / 50) obstacle.touching = false;
+    if (contact.depth < -model_.shape().length() / 50) obstacle.touching = false, forget(place.friction);
     if (!again(i)) obstacle.touching = obstacle.touching || contact.touching;
     return obstacle.touching;
   }
@@ -321,14 +326,17 @@ class TouchSeveral {
     moved_ = true;
     return status;
   }
-  /// Whether each contact is where the two touch, as in Touch.
+  /// Whether each contact is where the two touch, as in Touch, and its friction has settled.
   bool found() const noexcept {
     bool all = true;
     for (int i = 0; i < size_; ++i) {
       const Place& place = places_[at(i)];
-      const Scalar reach = place.avatar.radius + model_.thickness() / 2;
+      // A wall is as flat as any.
+      const Scalar reach =
+          (std::min)(place.avatar.radius + model_.thickness() / 2, model_.shape().length() / 10);
       if (place.obstacle.touching && !fixed(place) && !place.at_end)
-        all = all && place.obstacle.pushed.miss <= detail::PushContact<Scalar, dimension>::too_far * reach;
+        all = all && place.friction.settled &&
+              place.obstacle.pushed.miss <= detail::PushContact<Scalar, dimension>::too_far * reach;
     }
     return all;
   }
@@ -345,7 +353,6 @@ class TouchSeveral {
     to.normal = obstacle.pushed.normal;
     to.force = -obstacle.pushed.force * obstacle.pushed.normal;
     if (place.friction.sticking > 0) rub(place, to);
-    if (to.status == Status::ok && !place.friction.settled) to.status = Status::iteration_limit;
     if (!place.at_end) return;
     if (to.status == Status::ok) to.status = Status::out_of_range;
     to.s = place.contact.s;

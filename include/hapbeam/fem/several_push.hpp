@@ -408,7 +408,8 @@ class SeveralPush {
     pushed.s = now.by_plane ? now.s : touched;
     const Scalar off = (std::max)(std::abs(now.ahead), now.miss);
     const bool there =
-        off <= (now.by_plane ? Scalar(1e-5) * round.request().reach : Single::beside * system.length());
+        off <= (now.by_plane ? Scalar(1e-5) * (std::min)(round.request().reach, system.length() / 10)
+                             : Single::beside * system.length());
     pushed.miss = there || now.short_of_it ? Scalar(0) : off;
     if (there) return false;
     typename Search::Aim next{now.s + now.ahead, now.normal};
