@@ -168,7 +168,7 @@ class RodElements {
   /// The residual alone of one element.
   void residual(int e, Scalar lambda, Residual& r) const noexcept {
     const int place = abreast_.order().place(e), lane = place % lanes;
-    typename Element::template Inner<Wide> unused_inner;
+    WideInner unused_inner;
     typename Stiffness::Type all;
     (void)compute(place - lane, unused_inner, all);
     for (int i = 0; i < 2 * unknowns; ++i) r[i] = all[i][lane];
@@ -226,42 +226,13 @@ class RodElements {
   using Wide = detail::Pack<Scalar>;
   static constexpr int lanes = Wide::size;
 
-  /// Residual and tangent in full, for an element that has them alone, and where loads are added.
-  template <typename S>
-  struct Full {
-    Eigen::Matrix<S, 2 * unknowns, 1> r;
-    Eigen::Matrix<S, 2 * unknowns, 2 * unknowns> K;
-    const S& operator[](int i) const noexcept { return r[i]; }
-    const S& operator()(int i, int j) const noexcept { return K(i, j); }
-  };
-  template <typename S>
-  using Once = RodTangent<S, unknowns - 3>;
-  template <class E, typename S, typename = void>
-  struct StiffnessOf {
-    using Type = Full<S>;
-    static S compute(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b,
-                     typename E::template Inner<S>& inner, Type& to) noexcept {
-      return E::tangent(p, a, b, inner, to.r, to.K);
-    }
-  };
-  template <class E, typename S>
-  struct StiffnessOf<E, S,
-                     std::void_t<decltype(E::tangent(
-                         std::declval<const RodProperties<S>&>(), std::declval<const RodNode<S>&>(),
-                         std::declval<const RodNode<S>&>(), std::declval<typename E::template Inner<S>&>(),
-                         std::declval<Once<S>&>()))>> {
-    using Type = Once<S>;
-    [[gnu::always_inline]] static S compute(const RodProperties<S>& p, const RodNode<S>& a,
-                                            const RodNode<S>& b, typename E::template Inner<S>& inner,
-                                            Type& to) noexcept {
-      return E::tangent(p, a, b, inner, to);
-    }
-  };
-  using Stiffness = StiffnessOf<Element, Wide>;
+  using Full = detail::FullRodTangent<Wide, unknowns>;
+  using WideInner = typename Element::template Inner<Wide>;
+  using Stiffness = detail::RodTangentOf<Element, Wide>;
 
   int places() const noexcept { return 2 * abreast_.order().pairs(); }
   /// @param first  of the places of elements   @param inner, K  out   @return their energies [J]
-  [[gnu::always_inline]] Wide compute(int first, typename Element::template Inner<Wide>& inner,
+  [[gnu::always_inline]] Wide compute(int first, WideInner& inner,
                                       typename Stiffness::Type& K) const noexcept {
     const auto& order = abreast_.order();
     if constexpr (has_twist)
@@ -291,7 +262,7 @@ class RodElements {
   template <class Visit>
   void visit_loaded(int first, Scalar lambda, const typename Stiffness::Type& K, Energies& sum,
                     Visit&& visit) noexcept {
-    Full<Wide> all;
+    Full all;
     for (int j = 0; j < 2 * unknowns; ++j) {
       all.r[j] = K[j];
       for (int i = 0; i < 2 * unknowns; ++i) all.K(i, j) = K(i, j);
@@ -300,7 +271,7 @@ class RodElements {
       if (const int e = abreast_.order().element(first + lane); e >= 0) add_loads(e, lambda, lane, all, sum);
     visit(first, all);
   }
-  void add_loads(int e, Scalar lambda, int lane, Full<Wide>& all, Energies& sum) noexcept {
+  void add_loads(int e, Scalar lambda, int lane, Full& all, Energies& sum) noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
     Residual r;
     for (int i = 0; i < 2 * unknowns; ++i) r[i] = all.r[i][lane];
@@ -360,8 +331,7 @@ class RodElements {
 
   Nodes nodes_;
   Twists twists_;
-  detail::PerNode<typename Element::template Inner<Wide>, detail::groups_of<Scalar>(Elements),
-                  detail::groups_of<Scalar>(MaxElements)>
+  detail::PerNode<WideInner, detail::groups_of<Scalar>(Elements), detail::groups_of<Scalar>(MaxElements)>
       inners_;
   detail::PerNode<RodProperties<Scalar>, Elements, MaxElements> properties_;
   detail::RodAbreast<Scalar, Elements, MaxElements> abreast_;
