@@ -28,7 +28,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
 endif()
 
 set(HAPBEAM_UNITS_SCRIPT ${CMAKE_CURRENT_LIST_FILE})
-set(HAPBEAM_TEST_UNIT 40000 CACHE STRING "Compile the tests of a folder together, up to so many bytes; 0: each file by itself")
+set(HAPBEAM_TEST_UNIT 120000 CACHE STRING "Compile the tests of a folder together, up to so many bytes; 0: each file by itself")
 
 # hapbeam_gather(NAME VARIABLE WEIGHT FILE...): the units that compile the files, whose bytes weigh so many hundredths.  A file that opens a namespace, specialises a
 # template or asks the preprocessor outside of all namespaces is compiled as it is.

@@ -13,7 +13,7 @@ namespace {
 using Vector = Vector2<double>;
 
 /// V(x, y) = k(x) d^(q + 1)/(q + 1), d = -y: a beam on hinges at 0 and 1, pressed at x by d.
-struct Beam {
+struct PowerLaw {
   double exponent;
 
   double stiffness(double x) const { return 1 / std::pow(x * (1 - x), 2); }
@@ -46,7 +46,7 @@ TEST_CASE("nothing known, nothing forced", "[tangent]") {
 TEST_CASE("pressed straight down, the stiffness is the tangent's within a fifth, linear to cubic",
           "[tangent]") {
   for (const double q : {1.0, 1.5, 2.0, 3.0}) {
-    const Beam beam{q};
+    const PowerLaw beam{q};
     ContactTangent<2> tangent;
     double y = 1e-6;
     tangent.learn({0.5, -y}, beam.force({0.5, -y}), y);
@@ -65,7 +65,7 @@ TEST_CASE(
     "[tangent]") {
   Random random(5);
   for (const double q : {1.0, 3.0}) {
-    const Beam beam{q};
+    const PowerLaw beam{q};
     for (int path = 0; path < 50; ++path) {
       Vector p(0.5, -1e-3);
       ContactTangent<2> tangent;
