@@ -147,7 +147,7 @@ class RodElements {
   };
 
   /// Residual and tangent of V - λW in each element, and the derivatives of its inner twist.  Elements are computed a few at a time,
-  /// side by side.   @param visit  called with a place and what those from there on are, in the order of PairOrder
+  /// side by side.   @param visit  called with (place, tangents, residuals) of those from that place on, in the order of PairOrder
   template <class Visit>
   [[gnu::always_inline]] Energies visit_tangents(Scalar lambda, Visit&& visit) noexcept {
     Energies sum;
@@ -160,8 +160,12 @@ class RodElements {
         sum.strain += energy[lane];
         sum.inner += own[lane];
       }
-      if (loads_.empty() && bed_.empty()) visit(first, K);
-      else visit_loaded(first, lambda, K, sum, visit);
+      WideResidual r;
+      HAPBEAM_UNROLL
+      for (int i = 0; i < 2 * unknowns; ++i) r[i] = K[i];
+      if (!loads_.empty()) subtract_loads(first, lambda, r, sum);
+      if (bed_.empty()) visit(first, K, r);
+      else visit_on_bed(first, K, r, sum, visit);
     }
     return sum;
   }
@@ -226,7 +230,7 @@ class RodElements {
   using Wide = detail::Pack<Scalar>;
   static constexpr int lanes = Wide::size;
 
-  using Full = detail::FullRodTangent<Wide, unknowns>;
+  using WideResidual = Eigen::Matrix<Wide, 2 * unknowns, 1>;
   using WideInner = typename Element::template Inner<Wide>;
   using Stiffness = detail::RodTangentOf<Element, Wide>;
 
@@ -258,34 +262,38 @@ class RodElements {
     if constexpr (has_twist) take(&Node::director, &RodNode<Wide>::director);
     return Stiffness::compute(abreast_.properties(first), a, b, inner, K);
   }
-  /// With dead loads and the foundation.
-  template <class Visit>
-  void visit_loaded(int first, Scalar lambda, const typename Stiffness::Type& K, Energies& sum,
-                    Visit&& visit) noexcept {
-    Full all;
-    for (int j = 0; j < 2 * unknowns; ++j) {
-      all.r[j] = K[j];
-      for (int i = 0; i < 2 * unknowns; ++i) all.K(i, j) = K(i, j);
-    }
+  /// Calls f(element, lane) for those from a place on.
+  template <class F>
+  void for_each_lane(int first, F&& f) const noexcept {
     for (int lane = 0; lane < lanes && first + lane < places(); ++lane)
-      if (const int e = abreast_.order().element(first + lane); e >= 0) add_loads(e, lambda, lane, all, sum);
-    visit(first, all);
+      if (const int e = abreast_.order().element(first + lane); e >= 0) f(e, lane);
   }
-  void add_loads(int e, Scalar lambda, int lane, Full& all, Energies& sum) noexcept {
-    const Node &a = nodes_[e], &b = nodes_[e + 1];
-    Residual r;
-    for (int i = 0; i < 2 * unknowns; ++i) r[i] = all.r[i][lane];
-    if (!bed_.empty()) {
-      Tangent K = Tangent::Zero();
-      sum.strain += bed_.template add<unknowns>(e, a, b, r, K);
-      for (int j = 0; j < 2 * unknowns; ++j)
-        for (int i = 0; i < 2 * unknowns; ++i) all.K(i, j).set(lane, all.K(i, j)[lane] + K(i, j));
-    }
-    if (!loads_.empty()) {
-      loads_.template subtract<unknowns>(e, lambda, r);
-      sum.work += lambda * loads_.work(e, a, b);
-    }
-    for (int i = 0; i < 2 * unknowns; ++i) all.r[i].set(lane, r[i]);
+  /// Dead loads.
+  void subtract_loads(int first, Scalar lambda, WideResidual& r, Energies& sum) noexcept {
+    for_each_lane(first, [&](int e, int lane) {
+      Residual by = Residual::Zero();
+      loads_.template subtract<unknowns>(e, lambda, by);
+      sum.work += lambda * loads_.work(e, nodes_[e], nodes_[e + 1]);
+      for (int i = 0; i < 2 * unknowns; ++i) r[i].set(lane, r[i][lane] + by[i]);
+    });
+  }
+  /// With the foundation, which knows more of the places than their difference.
+  template <class Visit>
+  void visit_on_bed(int first, const typename Stiffness::Type& K, WideResidual& r, Energies& sum,
+                    Visit&& visit) noexcept {
+    detail::FullRodTangent<Wide, unknowns> all;
+    for (int j = 0; j < 2 * unknowns; ++j)
+      for (int i = 0; i < 2 * unknowns; ++i) all.K(i, j) = K(i, j);
+    for_each_lane(first, [&](int e, int lane) {
+      Residual by = Residual::Zero();
+      Tangent own = Tangent::Zero();
+      sum.strain += bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], by, own);
+      for (int j = 0; j < 2 * unknowns; ++j) {
+        r[j].set(lane, r[j][lane] + by[j]);
+        for (int i = 0; i < 2 * unknowns; ++i) all.K(i, j).set(lane, all.K(i, j)[lane] + own(i, j));
+      }
+    });
+    visit(first, all, r);
   }
   Scalar middle(int e) const noexcept { return (nodes_[e].s + nodes_[e + 1].s) / 2; }
 

@@ -117,7 +117,7 @@ class RodSystem
     const int c = contact_.node();
     Contacts::look_at_contacts();
     const auto [strain, work, inner] =
-        rod_.visit_tangents(load_, [&](int first, auto& of) { assembler_.add_pairs(first, of, of); });
+        rod_.visit_tangents(load_, [&](int first, auto& K, auto& r) { assembler_.add_pairs(first, K, r); });
     inner_energy_ = inner;
     Scalar energy = strain;
     if (shift != 0) add_shift(shift);
