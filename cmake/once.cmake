@@ -1,5 +1,9 @@
 # hapbeam_once: what once/*.inc lists, compiled once for tests and examples, as a user compiles it.  A list is a unit.
+# Its objects come first in the link of a program that leaves its own copies unoptimised: the linker keeps the first.
 find_package(Threads REQUIRED)
+# Programs that are compiled for minutes and run for seconds.  g++ optimises them, for the warnings that come with it.
+set(in_release $<AND:$<CONFIG:Release>,$<NOT:$<CXX_COMPILER_ID:MSVC>>>)
+set(quick_to_compile $<${in_release}:-O$<IF:$<CXX_COMPILER_ID:Clang,AppleClang>,0,1>>)
 function(hapbeam_once_units variable header)
   set(units)
   foreach(name IN LISTS ARGN)
