@@ -118,16 +118,16 @@ template <bool twists, class Nodes, typename Scalar>
     const Wide along = gather(here, [&](int i) { return i == 0 || i == last ? Scalar(0) : step(i); });
     const Wide s = gather(here, [&](int i) { return now[i].s; });
     // None where the last node stands again.
-    const Wide share = share_of(along, Wide(before(s, end.s) - after(first.s, s))), far = ratio;
+    const Wide share = share_of(along, Wide(before(s, end.s) - after(first.s, s))), onward = ratio;
     RodNode<Wide> next = x;
-    next.r += far * (x.r - gather(here, then, &Node::r)) + along * x.tangent;
-    const Vector change = far * (x.tangent - b) + share * (r - l);
+    next.r += onward * (x.r - gather(here, then, &Node::r)) + along * x.tangent;
+    const Vector change = onward * (x.tangent - b) + share * (r - l);
     if constexpr (twists) {
       const Vector u = unit(x.tangent), beside = cross3(x.director, u);
       const auto twist = [&](const Vector& tangent, const Vector& director) -> Wide {
         return carried_angle<Wide>(tangent, director, u, x.director, beside);
       };
-      const Wide angle = far * twist(b, gather(here, then, &Node::director)) +
+      const Wide angle = onward * twist(b, gather(here, then, &Node::director)) +
                          share * (twist(l, left_of(x.director, &Node::director)) -
                                   twist(r, right_of(x.director, &Node::director)));
       move_tangent(next, change, &angle);
