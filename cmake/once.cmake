@@ -3,6 +3,9 @@
 find_package(Threads REQUIRED)
 # Programs that are compiled for minutes and run for seconds.  g++ optimises them, for the warnings that come with it.
 set(in_release $<AND:$<CONFIG:Release>,$<NOT:$<CXX_COMPILER_ID:MSVC>>>)
+if(HAPBEAM_SANITIZE)
+  set(in_release 1)  # what is compiled once is optimised there, too
+endif()
 set(quick_to_compile $<${in_release}:-O$<IF:$<CXX_COMPILER_ID:Clang,AppleClang>,0,1>>)
 function(hapbeam_once_units variable header)
   set(units)

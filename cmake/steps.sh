@@ -45,7 +45,7 @@ build() {
   shift
   [[ $preset != *clang* ]] || compiler=(clang)
   # With its sanitizers, and what finds names for their reports.
-  [[ $preset != asan-ubsan ]] || compiler=(clang libclang-rt-dev llvm)
+  [[ $preset != asan-ubsan && $preset != tsan ]] || compiler=(clang libclang-rt-dev llvm)
   [[ $preset != mingw ]] || compiler=(g++ g++-mingw-w64-x86-64-posix wine64)
   [[ $preset != aarch64 ]] || compiler=(g++ g++-aarch64-linux-gnu qemu-user)
   need "${compiler[@]}" cmake ninja-build libeigen3-dev libjansson-dev catch2 libbenchmark-dev \
