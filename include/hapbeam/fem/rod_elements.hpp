@@ -139,6 +139,12 @@ class RodElements {
     for (int i = 0; i < nodes_.size(); ++i) nodes_[i] = nodes[i], twists_[i] = twists[i];
     take(mesh);
   }
+  /// The same, and what is given may become anything.
+  void take(const Mesh& mesh, Nodes& nodes, Twists& twists) noexcept {
+    nodes_.take(nodes);
+    twists_.take(twists);
+    take(mesh);
+  }
 
   struct Energies {
     Scalar strain = 0;  ///< [J]

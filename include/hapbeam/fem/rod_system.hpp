@@ -134,24 +134,18 @@ class RodSystem
     others_.each([this](const auto& other) {
       if (other.friction) add_friction(other.point, *other.friction);
     });
-    transform(0);
-    transform(elements());
-    if (c > 0 && c < elements()) transform(c);
-    for (const auto& other : others_)
-      if (const int i = other.point.node(); i > 0 && i < elements()) transform(i);
+    for (std::size_t k = 0; k < 2; ++k) hold_end(k);
+    const auto lean_within = [this](const auto& contact) {
+      if (const int i = contact.node(); i > 0 && i < elements()) lean(contact);
+    };
+    lean_within(contact_);
+    for (const auto& other : others_) lean_within(other.point);
     size_ =
         std::sqrt(2 * (std::max)(energy, Scalar(0)));  // of a rod without stress round-off has either sign
     potential_ = energy - work;
     potential_ += Contacts::friction_potential();
-    for (std::size_t k = 0; k < 2; ++k) {
-      prescribed_[k].setZero();
-      ends_[k].template visit<unknowns == 7>(node(end(k)), [&](int component, Scalar increment) {
-        prescribed_[k][component] = increment;
-        assembler_.prescribe(end(k), component, increment);
-      });
-    }
     moves_ = 0;
-    if (c >= 0) assembler_.hold(c, 2, moves_ = d_ - contact_.displacement());
+    if (c >= 0) hold(contact_, moves_ = d_ - contact_.displacement(), assembler_.held());
     others_.each([&](auto& other) { hold(other); });
     const Status status = assembler_.solve();
     // A round rod that is bowed between two ends on one axis may roll about it: that takes no force, and leads nowhere.
@@ -161,8 +155,8 @@ class RodSystem
   /// Adds the increment to the state: what turns keeps its length.  Without a contact, which would be missed, the chords turn
   /// as the tangents do, from the left end on (as chain.hpp says of the plane).
   void advance() noexcept {
-    force_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
-    others_.each([&](auto& other) { other.force = assembler_.reaction(other.row); });
+    force_ = contact_.node() < 0 ? Scalar(0) : along(contact_, assembler_.reaction());
+    others_.each([&](auto& other) { other.force = along(other.point, assembler_.reaction(other.row)); });
     increments_.take(assembler_);
     increments_.set(0, increment(0)), increments_.set(elements(), increment(elements()));
     const auto set = [&](int i) {
@@ -211,13 +205,20 @@ class RodSystem
   /// Of node i after factor(): r [m], r' and φ [rad].
   Increment increment(int i) const noexcept {
     Increment x = assembler_.increment(i);
-    for (std::size_t k = 0; k < 2; ++k)
-      if (i == end(k)) x += prescribed_[k];
+    const bool at_end = i == 0 || i == elements();
+    if (at_end) {
+      const std::size_t k = i == 0 ? 0 : 1;
+      if (is_clamped(k)) return x = prescribed_[k] + along_end(k, x[5]);
+      x += prescribed_[k];
+    }
     const auto* const contact = contact_at(i);
-    if (contact) x[2] += contact == &contact_ ? moves_ : others_.at(i)->moves;
-    if (!own_axes(i)) return x;
+    if (contact) {
+      const Scalar moves = contact == &contact_ ? moves_ : others_.at(i)->moves;
+      x.template head<3>() += way(*contact, moves);
+      x[contact->leading()] -= share(*contact).dot(x.template head<6>());
+    }
+    if (!at_end) return x;
     const Matrix *const R = place_axes(i), *const T = tangent_axes(i);
-    if (contact && contact->leans()) x[2] -= arm(*contact, T).dot(x.template segment<3>(3));
     const auto turn = [&x](int at, const Matrix& Q) {
       const Vector3 v(x[at], x[at + 1], x[at + 2]);
       for (int k = 0; k < 3; ++k) x[at + k] = Q(k, 0) * v[0] + Q(k, 1) * v[1] + Q(k, 2) * v[2];
@@ -276,24 +277,40 @@ class RodSystem
   using Matrix = Eigen::Matrix<Scalar, 3, 3>;
   using Block = Eigen::Matrix<Scalar, unknowns, unknowns>;
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
-  bool own_axes(int i) const noexcept { return contact_at(i) || i == 0 || i == elements(); }
   /// The contact that a node has, null: none.
   const detail::RodContact<Scalar>* contact_at(int i) const noexcept {
     if (contact_.holds(i)) return &contact_;
     const auto* const other = others_.at(i);
     return other ? &other->point : nullptr;
   }
-  /// The axes along which a node's unknowns of place are counted, and those of r'; null: those of space.
+  bool is_clamped(std::size_t k) const noexcept {
+    return ends_[k].template is_clamped<unknowns == 7>() && !contact_at(end(k));
+  }
+  /// The axes along which an end's unknowns of place are counted, and those of r'; null: those of space.
   const Matrix* place_axes(int i) const noexcept {
-    const auto* const contact = contact_at(i);
-    return contact ? &contact->axes() : i == 0 ? ends_[0].place_axes() : ends_[1].place_axes();
+    return contact_at(i) ? nullptr : ends_[i == 0 ? 0 : 1].place_axes();
   }
-  const Matrix* tangent_axes(int i) const noexcept {
-    return i == 0 ? ends_[0].tangent_axes() : i == elements() ? ends_[1].tangent_axes() : nullptr;
+  const Matrix* tangent_axes(int i) const noexcept { return ends_[i == 0 ? 0 : 1].tangent_axes(); }
+  /// What of r, but for the component that d stands for, and of r' is part of d, in units of that component.
+  VectorOf<Scalar, 6> share(const detail::RodContact<Scalar>& contact) const noexcept {
+    const int i = contact.node(), k = contact.leading();
+    const Matrix* const T = i == 0 || i == elements() ? tangent_axes(i) : nullptr;
+    VectorOf<Scalar, 6> part;
+    part.template head<3>() = along(contact, 1) * contact.normal();
+    part.template tail<3>() =
+        along(contact, 1) * (T ? Vector3(T->transpose() * contact.arm()) : contact.arm());
+    part[k] = 0;
+    return part;
   }
-  /// Of the contact, in the axes of r'.
-  static Vector3 arm(const detail::RodContact<Scalar>& contact, const Matrix* T) noexcept {
-    return T ? Vector3(T->transpose() * contact.arm()) : contact.arm();
+  /// d in units of the component that it stands for, or the force along n from one on that component.
+  static Scalar along(const detail::RodContact<Scalar>& contact, Scalar x) noexcept {
+    return x / contact.normal()[contact.leading()];
+  }
+  /// What a clamped end has of its own.
+  Increment along_end(std::size_t k, Scalar longer) const noexcept {
+    Increment x = Increment::Zero();
+    x.template segment<3>(3) = longer * ends_[k].direction();
+    return x;
   }
   void begin_path() noexcept {
     start_load_ = load_;
@@ -306,19 +323,50 @@ class RodSystem
     K.template block<6, 6>(0, 0) = contact.bend();
     assembler_.add_at(contact.node(), K, Increment::Zero());
   }
+  void lean(const detail::RodContact<Scalar>& contact) noexcept {
+    assembler_.lean(contact.node(), contact.leading(), share(contact));
+  }
+  /// A way along n in what the node's unknowns of place are then.
+  static Vector3 way(const detail::RodContact<Scalar>& contact, Scalar moves) noexcept {
+    Vector3 by = moves * contact.normal();
+    by[contact.leading()] = along(contact, moves);
+    return by;
+  }
+  template <class Row>
+  void hold(const detail::RodContact<Scalar>& contact, Scalar moves, Row& row) noexcept {
+    assembler_.hold_along(contact.node(), contact.leading(), way(contact, moves), row);
+  }
   template <class Other>
   void hold(Other& other) noexcept {
-    const int c = other.point.node();
     other.moves = other.d - other.point.displacement();
-    assembler_.hold(c, 2, other.moves, other.row);
-    assembler_.know(c, 2, other.moves, assembler_.held());
+    hold(other.point, other.moves, other.row);
+    const Vector3 by = way(other.point, other.moves);
+    const auto tell = [&](auto& row) {
+      for (int k = 0; k < 3; ++k) assembler_.know(other.point.node(), k, by[k], row);
+    };
+    tell(assembler_.held());
     for (auto& before : others_) {
       if (&before == &other) break;
-      assembler_.know(c, 2, other.moves, before.row);
+      tell(before.row);
     }
   }
 
-  /// To a node's own axes.
+  /// To the axes of an end, and what they hold is prescribed.
+  void hold_end(std::size_t k) noexcept {
+    const int i = end(k);
+    if (is_clamped(k)) {
+      prescribed_[k] = ends_[k].template way<Increment>(node(i));
+      assembler_.clamp(i, ends_[k].direction(), prescribed_[k]);
+      return;
+    }
+    transform(i);
+    if (const auto* const contact = contact_at(i)) lean(*contact);
+    prescribed_[k].setZero();
+    ends_[k].template visit<unknowns == 7>(node(i), [&](int component, Scalar increment) {
+      prescribed_[k][component] = increment;
+      assembler_.prescribe(i, component, increment);
+    });
+  }
   void transform(int i) noexcept {
     if constexpr (unknowns == 7)
       if (const auto* const joint = this->joint(i)) {
@@ -330,8 +378,6 @@ class RodSystem
     const Matrix *const R = place_axes(i), *const T = tangent_axes(i);
     if (R) assembler_.template turn<0>(i, *R);
     if (T) assembler_.template turn<3>(i, *T);
-    if (const auto* const contact = contact_at(i); contact && contact->leans())
-      assembler_.template lean<2, 3>(i, arm(*contact, T));
   }
   /// The end at node i where it is a joint that holds the twist.
   const detail::RodEnd<Scalar>* joint(int i) const noexcept {
