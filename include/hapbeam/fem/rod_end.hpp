@@ -45,18 +45,19 @@ class RodEnd {
     goal_.r = pose.at.template cast<Scalar>();
     goal_.tangent = pose.along.template cast<Scalar>();
     goal_.director = pose.director.template cast<Scalar>();
+    at_goal_ = false;
   }
 
   /// The rod is at rest.
-  void go_home() noexcept { target_ = home_; }
+  void go_home() noexcept { target_ = home_, at_goal_ = false; }
   /// A path to the goal begins where the end is, or where its springs were.
-  void begin(const Node& node) noexcept {
-    start_ = on_springs() ? target_ : node;
-    start_.tangent = unit(start_.tangent);
-  }
+  void begin(const Node& node) noexcept { start_ = on_springs() ? target_ : node; }
   void set_target(Scalar t) noexcept {
+    if (t == 1 && at_goal_) return;
     target_ = goal_;
+    at_goal_ = t == 1;
     if (t < 1) {
+      start_.tangent = unit(start_.tangent);
       target_.r = start_.r + t * (goal_.r - start_.r);
       const Vector3 turn = t * rotation();
       target_.tangent = rotate(turn, start_.tangent);
@@ -253,6 +254,7 @@ class RodEnd {
   Scalar across_[2], torsion_;  // against the tangent's turn along d1 and d2, and against twist [N·m/rad]
   Node goal_, home_, start_, target_;
   Matrix axes_;
+  bool at_goal_ = false;  // the target is
 };
 
 }  // namespace hapbeam::detail

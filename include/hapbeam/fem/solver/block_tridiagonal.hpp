@@ -251,7 +251,8 @@ class BlockTridiagonal {
   void join_middle() noexcept {
     for (int k = 0; k < Rows::coupling; ++k) {
       Number& entry = row(pairs_).entry(k);
-      entry.a[0] += entry.a[1], entry.a[1] = 0;
+      const Lanes both = entry.get();
+      entry.set(Lanes(both[0] + both[1], 0));
     }
   }
 
