@@ -321,10 +321,7 @@ class RodElements {
     for (int e = 0; e < size(); ++e) {
       const Scalar length = nodes_[e + 1].s - nodes_[e].s;
       if (alike) {
-        if (length != properties_[e].length || length != abreast_.length(e)) {
-          set_length(e, length);
-          abreast_.take_length(e, properties_[e]);
-        }
+        if (length != properties_[e].length) set_length(e, length);
       } else {
         set_length(e, length);
         profile_.apply(nodes_[e].s, nodes_[e + 1].s, properties_[e]);
@@ -334,6 +331,7 @@ class RodElements {
       }
       if (!bed_.empty()) bed_.take(e, nodes_[e].s, nodes_[e + 1].s, natural_);
     }
+    if (alike) abreast_.take_lengths(properties_);
     if (!loads_.empty()) loads_.take(view(nodes_));
   }
 
