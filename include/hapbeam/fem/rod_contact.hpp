@@ -71,6 +71,29 @@ class RodContact {
     int k = std::abs(normal_[1]) > std::abs(normal_[0]) ? 1 : 0;
     return std::abs(normal_[2]) > std::abs(normal_[k]) ? 2 : k;
   }
+  /// d in units of that component, or the force along n from one on it.
+  Scalar along(Scalar x) const noexcept { return x / normal_[leading()]; }
+  /// What r but for that component, and r', are of d, in its units.  @param T  the axes along which r' is counted, null: those of space
+  VectorOf<Scalar, 6> share(const Eigen::Matrix<Scalar, 3, 3>* T = nullptr) const noexcept {
+    const Scalar unit = along(1);
+    VectorOf<Scalar, 6> part;
+    part.template head<3>() = unit * normal_;
+    part.template tail<3>() = unit * (T ? Vector3(T->transpose() * arm_) : arm_);
+    part[leading()] = 0;
+    return part;
+  }
+  /// A way along n, in what the node's unknowns of place are then.
+  Vector3 way(Scalar moves) const noexcept {
+    Vector3 by = moves * normal_;
+    by[leading()] = along(moves);
+    return by;
+  }
+  /// The increment of r and r' from that of those unknowns, while d grows by so much.
+  template <class Increment>
+  void complete(Increment& x, Scalar moves, const Eigen::Matrix<Scalar, 3, 3>* T = nullptr) const noexcept {
+    x.template head<3>() += way(moves);
+    x[leading()] -= share(T).dot(x.template head<6>());
+  }
   /// Whether the force makes something of the capsule, and what: to be added to the tangent of the node, by r and r'.
   bool bends() const noexcept { return round_ && force_ != 0; }
   Matrix6<Scalar> bend() const noexcept { return force_ * capsule_.bend(view_); }

@@ -81,6 +81,8 @@ class RodEnd {
   bool is_clamped() const noexcept {
     return direction_ && holds_place() && (!has_twist || twist_);
   }
+  /// Whether nothing is held.
+  bool is_free() const noexcept { return !holds_any_place() && !direction_ && !twist_; }
   /// Where a clamped end belongs, as an increment of the node's unknowns: r, r' and φ.
   template <class Increment>
   Increment way(const Node& node) const noexcept {
