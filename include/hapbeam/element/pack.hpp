@@ -146,7 +146,7 @@ class Pack {
     // std::sqrt sets errno, which keeps a compiler from its instruction.  Eigen has that for up to 32 bytes, through memory; in
     // double it is exact.
 #if defined(__AVX512F__) && defined(__GNUC__)
-    if constexpr (sizeof(T) == 8 && size == 8) return a.v_ = _mm512_sqrt_pd(a.v_), a;
+    if constexpr (sizeof(T) == 8 && size == 8) return a.v_ = _mm512_maskz_sqrt_pd(0xff, a.v_), a;
 #endif
 #if defined(__AVX__) && defined(__GNUC__)
     if constexpr (sizeof(T) == 8 && size == 4) return a.v_ = _mm256_sqrt_pd(a.v_), a;
@@ -169,8 +169,7 @@ class Pack {
   [[gnu::always_inline]] friend bool all_less(const Pack& a, const Pack& b) noexcept {
 #if defined(__AVX512F__) && defined(__GNUC__)
     // g++ would store all answers and read them one by one.
-    if constexpr (sizeof(T) == 8 && size == 8)
-      return _mm512_cmp_pd_mask(a.v_, b.v_, _CMP_LT_OQ) == 0xff;
+    if constexpr (sizeof(T) == 8 && size == 8) return _mm512_cmp_pd_mask(a.v_, b.v_, _CMP_LT_OQ) == 0xff;
 #endif
 #if defined(__AVX__) && defined(__GNUC__)
     if constexpr (sizeof(T) == 8 && size == 4)

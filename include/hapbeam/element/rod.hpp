@@ -138,11 +138,12 @@ struct RoundRod {
     }
 
    private:
-    [[gnu::always_inline]] S entry(const S& own, const S (&by_a)[3], const S (&by_b)[3], int r,
+    /// What stands on the diagonal, and f aᵀ + g bᵀ.
+    [[gnu::always_inline]] S entry(const S& own, const S (&f)[3], const S (&g)[3], int r,
                                    int s) const noexcept {
       using detail::add_product;
-      return r == s ? add_product(add_product(own, by_a[r], a[s]), by_b[r], b[s])
-                    : add_product(S(by_a[r] * a[s]), by_b[r], b[s]);
+      return r == s ? add_product(add_product(own, f[r], a[s]), g[r], b[s])
+                    : add_product(S(f[r] * a[s]), g[r], b[s]);
     }
   };
 
