@@ -78,6 +78,22 @@ template <bool twists, class Nodes, class Increments>
     });
   });
 }
+/// Moves places alone: each chord turns as the difference of the increments at its ends says, from the first node on.
+template <class Nodes, class Increments>
+void turn_chords(Nodes& nodes, const Increments& increments) noexcept {
+  using Vector3 = std::decay_t<decltype(nodes[0].r)>;
+  Vector3 way = increments[0].template head<3>(),
+          r = nodes[0].r;  // that the last node has gone, and where it was
+  nodes[0].r += way;
+  for (int i = 1; i < nodes.size(); ++i) {
+    auto& to = nodes[i];
+    const Vector3 chord = to.r - r,
+                  change = increments[i].template head<3>() - increments[i - 1].template head<3>();
+    way += turned(chord, change) - chord;
+    r = to.r;
+    to.r += way;
+  }
+}
 
 /// An angle by its sine and cosine, both times the size.
 template <typename S>

@@ -164,7 +164,7 @@ class RodSystem
     set_within(contact_.node());
     for (const auto& other : others_) set_within(other.point.node());
     const bool free = contact_.node() < 0;
-    if (free) turn_chords();
+    if (free) detail::turn_chords(rod_.nodes(), increments_);
     rod_.advance_inners(increments_);
     detail::move_nodes<unknowns == 7>(rod_.nodes(), increments_, !free);
     if (free) ends_.close_chain(rod_.nodes(), length_);
@@ -263,19 +263,6 @@ class RodSystem
     ends_.begin_path(rod_.nodes());
   }
 
-  void turn_chords() noexcept {
-    Vector3 way = increments_[0].template segment<3>(0),
-            r = node(0).r;  // that the last node has gone, and where it was
-    rod_.nodes()[0].r += way;
-    for (int i = 1; i <= elements(); ++i) {
-      const Increment before = increments_[i - 1], x = increments_[i];
-      Node& to = rod_.nodes()[i];
-      const Vector3 chord = to.r - r, change = x.template segment<3>(0) - before.template segment<3>(0);
-      way += detail::turned(chord, change) - chord;
-      r = to.r;
-      to.r += way;
-    }
-  }
   /// An element's share of the shift is half of either node's.
   void add_shift(Scalar shift) noexcept {
     for (int i = 0; i <= elements(); ++i) {
