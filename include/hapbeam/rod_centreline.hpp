@@ -60,10 +60,10 @@ class Centreline<Scalar, 3> {
   bool excludes(int i, const Shaft& shaft, Scalar d) const noexcept {
     const Node &a = nodes_[i], &b = nodes_[i + 1];
     const VectorOf<Scalar, 3> middle = (a.r + b.r) / 2;
-    const Scalar handle = std::sqrt((std::max)(a.tangent.squaredNorm(), b.tangent.squaredNorm()));
-    // 1 % for round-off, which may lengthen what is computed of the piece.
-    const Scalar least =
-        d + Scalar(1.01) * (std::sqrt((b.r - a.r).squaredNorm()) / 2 + (b.s - a.s) / 4 * handle);
+    const Scalar l = b.s - a.s, handle = l * l * (std::max)(a.tangent.squaredNorm(), b.tangent.squaredNorm());
+    // Half a chord and a quarter of that length, by one root: x + y <= √(2x² + 2y²).  1 % for round-off, which may lengthen what is
+    // computed of the piece.
+    const Scalar least = d + Scalar(1.01) * std::sqrt((b.r - a.r).squaredNorm() / 2 + handle / 8);
     return (shaft.at(shaft.nearest(middle)) - middle).squaredNorm() > least * least;
   }
   /// Calls visit(i, segment(i)) for each piece, in order.

@@ -12,6 +12,10 @@
 #include <type_traits>
 #include <utility>
 
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
 #include <Eigen/Core>
 
 #include <hapbeam/angle.hpp>
@@ -139,7 +143,14 @@ class Pack {
   }
 
   [[gnu::always_inline]] friend Pack sqrt(Pack a) noexcept {
-    // std::sqrt sets errno, which keeps a compiler from its instruction; Eigen has that for up to 32 bytes, and in double it is exact.
+    // std::sqrt sets errno, which keeps a compiler from its instruction.  Eigen has that for up to 32 bytes, through memory; in
+    // double it is exact.
+#if defined(__AVX512F__) && defined(__GNUC__)
+    if constexpr (sizeof(T) == 8 && size == 8) return a.v_ = _mm512_maskz_sqrt_pd(0xff, a.v_), a;
+#endif
+#if defined(__AVX__) && defined(__GNUC__)
+    if constexpr (sizeof(T) == 8 && size == 4) return a.v_ = _mm256_sqrt_pd(a.v_), a;
+#endif
     using Part = Eigen::Array<T, (std::min)(size, 4), 1>;
     if constexpr (sizeof(T) == 8) {
       Part part;
@@ -156,6 +167,14 @@ class Pack {
   }
   /// Whether each number of a is less than that of b.
   [[gnu::always_inline]] friend bool all_less(const Pack& a, const Pack& b) noexcept {
+#if defined(__AVX512F__) && defined(__GNUC__)
+    // g++ would store all answers and read them one by one.
+    if constexpr (sizeof(T) == 8 && size == 8) return _mm512_cmp_pd_mask(a.v_, b.v_, _CMP_LT_OQ) == 0xff;
+#endif
+#if defined(__AVX__) && defined(__GNUC__)
+    if constexpr (sizeof(T) == 8 && size == 4)
+      return _mm256_movemask_pd(_mm256_cmp_pd(a.v_, b.v_, _CMP_LT_OQ)) == 0xf;
+#endif
 #if defined(__GNUC__)
     constexpr int words = static_cast<int>(sizeof(Mask) / sizeof(std::int64_t));
     const Mask mask = a.v_ < b.v_;

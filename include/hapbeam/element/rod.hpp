@@ -72,19 +72,17 @@ struct RoundRod {
   /// The same, each derivative once.
   template <typename S>
   [[gnu::flatten]] static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
-                                    Inner<S>&, RodTangent<S, 3>& core) noexcept {
-    // By Δ/l at first.
-    const S& i = p.inverse_length;
-    const V3<S> chord = i * (n2.r - n1.r);
-    S energy = 0;
-    stretch(p, chord, n1.tangent, n2.tangent, core, energy);
-    for (int g = 0; g < points; ++g) bend(p, g, chord, n1.tangent, n2.tangent, core, energy);
-    const S ii = i * i;
-    for (S& x : core.D) x *= i;
-    for (S& x : core.DD) x *= ii;
-    for (S& x : core.D1) x *= i;
-    for (S& x : core.D2) x *= i;
-    return energy;
+                                    Inner<S>&, RodTangent<S, 3>& to) noexcept {
+    const V3<S>&t1 = n1.tangent, &t2 = n2.tangent;
+    const V3<S> chord = p.inverse_length * (n2.r - n1.r), sum = t1 + t2;
+    const V3<S> c = S(1.5) * chord - S(0.25) * sum, e1 = S(half_g) * (t2 - t1),
+                e2 = S(0.45) * sum - S(0.9) * chord;
+    const Bend<S> bends[points] = {Bend<S>(p, 0, V3<S>(c - e1 + e2), V3<S>(e1 - 2 * e2)),
+                                   Bend<S>(p, 1, c, e1),
+                                   Bend<S>(p, 2, V3<S>(c + e1 + e2), V3<S>(e1 + 2 * e2))};
+    const Stretch<S> stretch(p, c, t1, t2);
+    collect(bends, stretch, p.inverse_length, to);
+    return stretch.energy + (bends[0].energy + bends[1].energy + bends[2].energy);
   }
 
  private:
@@ -100,127 +98,170 @@ struct RoundRod {
     return S(1.5) * p.inverse_length * chord - S(0.25) * (n1.tangent + n2.tangent);
   }
 
-  template <typename S>
-  using Core = RodTangent<S, 3>;
+  /// √(3/5)/2: Gauss points stand at ξ = ½ ± that, and in the middle.
+  static constexpr double half_g = 0.38729833462074168852;
 
-  /// @param chord  Δ/l
+  /// k |a × b|²/|a|⁴ with a = r' and b ~ r'', and its derivatives.
+  //   f = B/A - C²/A²,  A = a·a, B = b·b, C = a·b:
+  //   ∂²f/∂a² = 2fA I + 4fAA aaᵀ + 2fAC (abᵀ + baᵀ) + fCC bbᵀ,   ∂²f/∂b² = 2fB I + fCC aaᵀ,
+  //   ∂²f/∂a∂b = fC I + 4fAB abᵀ + 2fAC aaᵀ + fCC baᵀ
   template <typename S>
-  [[gnu::always_inline]] static void bend(const RodProperties<S>& p, int g, const V3<S>& chord,
-                                          const V3<S>& t1, const V3<S>& t2, Core<S>& core,
-                                          S& energy) noexcept {
-    using detail::add_product;
-    using T = typename detail::NumberOf<S>::Type;
-    static constexpr detail::CubicProducts<T> all[points] = {
-        detail::CubicProducts<T>(detail::CubicAt(rule.x[0])),
-        detail::CubicProducts<T>(detail::CubicAt(rule.x[1])),
-        detail::CubicProducts<T>(detail::CubicAt(rule.x[2]))};
-    const auto& w = all[g];
-    S a[3], b[3];  // r' and r'' l
-    HAPBEAM_UNROLL
-    for (int k = 0; k < 3; ++k) {
-      a[k] = add_product(add_product(S(S(w.a) * chord[k]), S(w.a1), t1[k]), S(w.a2), t2[k]);
-      b[k] = add_product(add_product(S(S(w.b) * chord[k]), S(w.b1), t1[k]), S(w.b2), t2[k]);
+  struct Bend {
+    S a[3], b[3], by_a[3], by_b[3], energy;
+    S fA2, fB2, fC, x[3], y[3], z[3], u[3];
+
+    [[gnu::always_inline]] Bend(const RodProperties<S>& p, int g, const V3<S>& r1, const V3<S>& r2) noexcept {
+      using detail::add_product;
+      const S i = 1 / r1.squaredNorm(), B = r2.squaredNorm() * i, c = r1.dot(r2) * i, cc = c * c;
+      // r'' is 2/(2 half_g) times b/l.
+      const S k = S(rule.weight[g] / (2 * half_g * half_g)) * p.points[g].bending1 * p.inverse_length;
+      energy = k * (B - cc);
+      const S ki = k * i, fAA4 = 8 * ki * i * (B - 3 * cc), fAB4 = -4 * ki * i, fAC2 = 8 * ki * i * c,
+              fCC = -2 * ki * i;
+      fA2 = 2 * ki * (2 * cc - B), fB2 = 2 * ki, fC = -2 * ki * c;
+      HAPBEAM_UNROLL
+      for (int r = 0; r < 3; ++r) {
+        a[r] = r1[r], b[r] = r2[r];
+        by_a[r] = add_product(S(fA2 * a[r]), fC, b[r]), by_b[r] = add_product(S(fB2 * b[r]), fC, a[r]);
+        x[r] = add_product(S(fAA4 * a[r]), fAC2, b[r]);
+        y[r] = add_product(S(fAC2 * a[r]), fCC, b[r]);
+        z[r] = fAB4 * a[r];
+        u[r] = fCC * a[r];
+      }
     }
-    const auto dot = [](const S(&x)[3], const S(&y)[3]) {
-      return add_product(add_product(S(x[0] * y[0]), x[1], y[1]), x[2], y[2]);
-    };
-    const S i = 1 / dot(a, a), B = dot(b, b) * i, c = dot(a, b) * i, cc = c * c;
-    const S k = S(rule.weight[g] / 2) * p.points[g].bending1 * p.inverse_length;
-    energy += k * (B - cc);
-    // f = B/A - C²/A²:  by A, B, C once and twice
-    const S ki = k * i, fA2 = 2 * ki * (2 * cc - B), fB2 = 2 * ki, fC = -2 * ki * c,
-            fAA4 = 8 * ki * i * (B - 3 * cc), fAB4 = -4 * ki * i, fAC2 = 8 * ki * i * c, fCC = -2 * ki * i;
-    // Haa = 2fA I + 4fAA aa' + 2fAC (ab' + ba') + fCC bb',  Hbb = 2fB I + fCC aa',
-    // Hab = fC I + 4fAB ab' + 2fAC aa' + fCC ba'
-    S x[3], y[3], z[3], u[3];
+
+    [[gnu::always_inline]] S aa(int r, int s) const noexcept { return entry(fA2, x, y, r, s); }
+    /// By a_r and b_s.
+    [[gnu::always_inline]] S ab(int r, int s) const noexcept { return entry(fC, y, z, r, s); }
+    [[gnu::always_inline]] S bb(int r, int s) const noexcept {
+      return r == s ? detail::add_product(fB2, u[r], a[s]) : S(u[r] * a[s]);
+    }
+
+   private:
+    /// What stands on the diagonal, and f aᵀ + g bᵀ.
+    [[gnu::always_inline]] S entry(const S& own, const S (&f)[3], const S (&g)[3], int r,
+                                   int s) const noexcept {
+      using detail::add_product;
+      return r == s ? add_product(add_product(own, f[r], a[s]), g[r], b[s])
+                    : add_product(S(f[r] * a[s]), g[r], b[s]);
+    }
+  };
+
+  /// ½ l εᵀ EA M ε: its derivatives by r' in the middle, m, and at both ends, u and v, where it is not their directions that turn.
+  template <typename S>
+  struct Stretch {
+    S energy = 0, N[3];
+    V3<S> u, m, v;      // directions
+    S turn[3], own[3];  // N/|r'|, and what stretches stiffen
+    S beside, across;
+
+    [[gnu::always_inline]] Stretch(const RodProperties<S>& p, const V3<S>& middle, const V3<S>& t1,
+                                   const V3<S>& t2) noexcept {
+      using std::sqrt;
+      const auto& M = detail::quadratic_mass;
+      const S n[3] = {sqrt(t1.squaredNorm()), sqrt(middle.squaredNorm()), sqrt(t2.squaredNorm())};
+      const S e[3] = {n[0] - 1, n[1] - 1, n[2] - 1}, EA = p.axial * p.length;
+      S inverse[3];
+      HAPBEAM_UNROLL
+      for (int i = 0; i < 3; ++i) {
+        N[i] = EA * (S(M[i][0]) * e[0] + S(M[i][1]) * e[1] + S(M[i][2]) * e[2]);
+        energy += N[i] * e[i] / 2;
+        inverse[i] = 1 / n[i];
+        turn[i] = N[i] * inverse[i];
+        own[i] = EA * S(M[i][i]) - turn[i];
+      }
+      beside = EA * S(M[0][1]), across = EA * S(M[0][2]);
+      u = inverse[0] * t1, m = inverse[1] * middle, v = inverse[2] * t2;
+    }
+  };
+
+  /// All of them, by Δ and by both tangents.
+  //   r' = c ± e1 + e2 at the outer points and c in the middle, r'' ~ e1 ± 2 e2 and e1; and
+  //   c = 3/2 Δ/l - (r1' + r2')/4,   e1 = half_g (r2' - r1'),   e2 = 0.45 (r1' + r2') - 0.9 Δ/l
+  template <typename S>
+  [[gnu::always_inline]] static void collect(const Bend<S> (&at)[points], const Stretch<S>& stretch,
+                                             const S& i, RodTangent<S, 3>& to) noexcept {
+    using detail::add_product;
+    const Bend<S>&low = at[0], &mid = at[1], &high = at[2];
+    const V3<S>&u = stretch.u, &m = stretch.m, &v = stretch.v;
+    const S ii = i * i, D = S(1.5) * i, D2 = S(0.9) * i;
+    const S in_D = S(1.5) * i * stretch.beside, in_t = S(-0.25) * stretch.beside;
+    V3<S> md, mt, ut, vt, vk;
     HAPBEAM_UNROLL
     for (int r = 0; r < 3; ++r) {
-      const S by_a = add_product(S(fA2 * a[r]), fC, b[r]), by_b = add_product(S(fB2 * b[r]), fC, a[r]);
-      core.D[r] = add_product(add_product(core.D[r], S(w.a), by_a), S(w.b), by_b);
-      core.t1[r] = add_product(add_product(core.t1[r], S(w.a1), by_a), S(w.b1), by_b);
-      core.t2[r] = add_product(add_product(core.t2[r], S(w.a2), by_a), S(w.b2), by_b);
-      x[r] = add_product(S(fAA4 * a[r]), fAC2, b[r]);
-      y[r] = add_product(S(fAC2 * a[r]), fCC, b[r]);
-      z[r] = fAB4 * a[r];
-      u[r] = fCC * a[r];
+      md[r] = in_D * m[r], mt[r] = in_t * m[r];
+      ut[r] = add_product(mt[r], stretch.own[0], u[r]);
+      vt[r] = add_product(mt[r], stretch.own[2], v[r]);
+      vk[r] = add_product(mt[r], stretch.across, v[r]);
+      const S both = high.by_a[r] + low.by_a[r], odd = high.by_a[r] - low.by_a[r];
+      const S by_c = add_product(S(mid.by_a[r] + both), stretch.N[1], m[r]);
+      const S by_e1 = odd + (mid.by_b[r] + (high.by_b[r] + low.by_b[r]));
+      const S by_e2 = add_product(both, S(2), S(high.by_b[r] - low.by_b[r]));
+      to.D[r] = D * by_c - D2 * by_e2;
+      const S sum = S(0.45) * by_e2 - S(0.25) * by_c;
+      to.t1[r] = add_product(add_product(sum, S(-half_g), by_e1), stretch.N[0], u[r]);
+      to.t2[r] = add_product(add_product(sum, S(half_g), by_e1), stretch.N[2], v[r]);
     }
-    // With weights (α, β) and (γ, δ):  αγ Haa + αδ Hab + βγ Hba + βδ Hbb
     HAPBEAM_UNROLL
     for (int col = 0; col < 3; ++col) {
       HAPBEAM_UNROLL
       for (int row = col; row < 3; ++row) {
-        const auto entry = [&](const S& own, int r, const S(&by_a)[3], const S(&by_b)[3], int s) {
-          return row == col ? add_product(add_product(own, by_a[r], a[s]), by_b[r], b[s])
-                            : add_product(S(by_a[r] * a[s]), by_b[r], b[s]);
-        };
-        const S aa = entry(fA2, row, x, y, col), ab = entry(fC, row, y, z, col),
-                ba = row == col ? ab : entry(fC, col, y, z, row),
-                bb = row == col ? add_product(fB2, u[row], a[col]) : S(u[row] * a[col]), both = ab + ba;
-        const int h = half(row, col), below = 3 * col + row, above = 3 * row + col;
-        const auto square = [&](const T(&by)[3], S& H) {
-          H = add_product(add_product(add_product(H, S(by[0]), aa), S(by[1]), both), S(by[2]), bb);
-        };
-        square(w.DD, core.DD[h]), square(w.K11, core.K11[h]), square(w.K22, core.K22[h]);
-        const auto product = [&](const T(&by)[4], S(&H)[9]) {
-          const auto add = [&](S& to, const S& ad, const S& bg) {
-            to = add_product(add_product(to, S(by[0]), aa), S(by[3]), bb);
-            to = add_product(add_product(to, S(by[1]), ad), S(by[2]), bg);
-          };
-          add(H[below], ab, ba);
-          if (row != col) add(H[above], ba, ab);
-        };
-        product(w.D1, core.D1), product(w.D2, core.D2), product(w.K12, core.K12);
+        // Even and odd parts of both outer points.
+        const bool one = row == col;
+        const S a0 = low.aa(row, col), a2 = high.aa(row, col), aa = a2 + a0, da = a2 - a0;
+        const S p0 = low.ab(row, col), p2 = high.ab(row, col), ab = p2 + p0, dab = p2 - p0;
+        const S q0 = one ? p0 : low.ab(col, row), q2 = one ? p2 : high.ab(col, row), ba = q2 + q0,
+                dba = q2 - q0;
+        const S b0 = low.bb(row, col), b2 = high.bb(row, col), bb = b2 + b0, db = b2 - b0;
+        const S mixed = dab + dba;
+        // By c, e1, e2; where two differ, (row, col) first and (col, row) behind it.
+        S H00 = aa + mid.aa(row, col);
+        H00 = add_product(H00, S(stretch.own[1] * m[row]), m[col]);
+        if (one) H00 += stretch.turn[1];
+        const S H01[2] = {da + (ab + mid.ab(row, col)), da + (ba + mid.ab(col, row))};
+        const S H02[2] = {add_product(aa, S(2), dab), add_product(aa, S(2), dba)};
+        const S H11 = (aa + mixed) + (bb + mid.bb(row, col));
+        const S da2 = add_product(da, S(2), db);
+        const S H12[2] = {add_product(S(da2 + ba), S(2), ab), add_product(S(da2 + ab), S(2), ba)};
+        const S H22 = add_product(add_product(aa, S(2), mixed), S(4), bb);
+        S D0[2], D1[2], D2nd[2], S1[2], S0, S2;
+        HAPBEAM_UNROLL
+        for (int k = 0; k < 2; ++k) {
+          D0[k] = S(1.5) * H00 - S(0.9) * H02[1 - k];
+          D1[k] = S(1.5) * H01[k] - S(0.9) * H12[1 - k];
+          D2nd[k] = S(1.5) * H02[k] - S(0.9) * H22;
+          S1[k] = S(0.45) * H12[1 - k] - S(0.25) * H01[k];
+        }
+        S0 = S(0.45) * H02[1] - S(0.25) * H00;
+        S2 = S(0.45) * H22 - S(0.25) * H02[0];
+        const int h = half(row, col), place[2] = {3 * col + row, 3 * row + col};
+        to.DD[h] = ii * (S(1.5) * D0[0] - S(0.9) * D2nd[0]);
+        HAPBEAM_UNROLL
+        for (int k = 0; k < 2; ++k) {
+          if (one && k == 1) continue;
+          const int r = k == 0 ? row : col, s = k == 0 ? col : row;
+          const S sum = S(0.45) * D2nd[k] - S(0.25) * D0[k];
+          to.D1[place[k]] = add_product(S(i * add_product(sum, S(-half_g), D1[k])), md[r], u[s]);
+          to.D2[place[k]] = add_product(S(i * add_product(sum, S(half_g), D1[k])), md[r], v[s]);
+        }
+        const S SS = S(0.45) * S2 - S(0.25) * S0;
+        const S sum = add_product(SS, S(half_g * half_g), H11),
+                less = add_product(SS, S(-half_g * half_g), H11);
+        const S even = S1[0] + S1[1];
+        S K11 = add_product(sum, S(-half_g), even), K22 = add_product(sum, S(half_g), even);
+        K11 = add_product(add_product(K11, ut[row], u[col]), u[row], mt[col]);
+        K22 = add_product(add_product(K22, vt[row], v[col]), v[row], mt[col]);
+        to.K11[h] = one ? S(K11 + stretch.turn[0]) : K11;
+        to.K22[h] = one ? S(K22 + stretch.turn[2]) : K22;
+        const S odd = S1[0] - S1[1];
+        HAPBEAM_UNROLL
+        for (int k = 0; k < 2; ++k) {
+          if (one && k == 1) continue;
+          const int r = k == 0 ? row : col, s = k == 0 ? col : row;
+          const S own = one ? less : add_product(less, S(k == 0 ? half_g : -half_g), odd);
+          to.K12[place[k]] = add_product(add_product(own, mt[r], v[s]), u[r], vk[s]);
+        }
       }
-    }
-  }
-
-  template <typename S>
-  [[gnu::always_inline]] static void stretch(const RodProperties<S>& p, const V3<S>& chord, const V3<S>& t1,
-                                             const V3<S>& t2, Core<S>& core, S& energy) noexcept {
-    using std::sqrt;
-    const V3<S> a = S(1.5) * chord - S(0.25) * (t1 + t2);
-    const S n[3] = {sqrt(t1.squaredNorm()), sqrt(a.squaredNorm()), sqrt(t2.squaredNorm())};
-    const S e[3] = {n[0] - 1, n[1] - 1, n[2] - 1}, EA = p.axial * p.length;
-    S N[3], inverse[3];
-    const auto& M = detail::quadratic_mass;
-    HAPBEAM_UNROLL
-    for (int i = 0; i < 3; ++i) {
-      N[i] = EA * (S(M[i][0]) * e[0] + S(M[i][1]) * e[1] + S(M[i][2]) * e[2]);
-      energy += N[i] * e[i] / 2;
-      inverse[i] = 1 / n[i];
-    }
-    const S w = S(1.5), q = S(-0.25), wN = w * N[1], qN = q * N[1];
-    const S own = EA * S(M[0][0]), beside = EA * S(M[0][1]), across = EA * S(M[0][2]);
-    const S s0 = N[0] * inverse[0], s1 = N[1] * inverse[1], s2 = N[2] * inverse[2];
-    const S stiff = EA * S(M[1][1]) - s1, left = own - s0, right = own - s2;
-    S u[3], m[3], v[3];
-    HAPBEAM_UNROLL
-    for (int k = 0; k < 3; ++k) {
-      u[k] = t1[k] * inverse[0], m[k] = a[k] * inverse[1], v[k] = t2[k] * inverse[2];
-      core.D[k] = wN * m[k];
-      core.t1[k] = qN * m[k] + N[0] * u[k];
-      core.t2[k] = qN * m[k] + N[2] * v[k];
-    }
-    // The middle's own part, s1 I + (M11 EA - s1) mmᵀ, by weights; and what the three strains have in common.
-    const S ww = w * w, wq = w * q, qq = q * q, across_w = beside * w, across_q = beside * q;
-    HAPBEAM_UNROLL
-    for (int c = 0; c < 3; ++c) {
-      HAPBEAM_UNROLL
-      for (int r = 0; r < 3; ++r) {
-        const S part = r == c ? stiff * m[r] * m[c] + s1 : stiff * m[r] * m[c], mu = m[r] * u[c],
-                mv = m[r] * v[c];
-        const int k = 3 * c + r;
-        core.D1[k] = wq * part + across_w * mu;
-        core.D2[k] = wq * part + across_w * mv;
-        core.K12[k] = qq * part + across_q * (u[r] * m[c] + mv) + across * u[r] * v[c];
-        if (r < c) continue;
-        const int h = half(r, c);
-        core.DD[h] = ww * part;
-        core.K11[h] = qq * part + left * u[r] * u[c] + across_q * (u[r] * m[c] + mu);
-        core.K22[h] = qq * part + right * v[r] * v[c] + across_q * (v[r] * m[c] + mv);
-      }
-      core.K11[half(c, c)] += s0;
-      core.K22[half(c, c)] += s2;
     }
   }
 

@@ -71,36 +71,6 @@ template <typename S>
   if (factor != 0) sum = add_product(sum, S(factor), x);
 }
 
-/// Its numbers and the products of a Hessian with them, of r' and r''l with weights (α, β) and (γ, δ).
-template <typename T>
-struct CubicProducts {
-  T a, a1, a2, b, b1, b2;
-  T DD[3], K11[3], K22[3];  ///< α², αβ, β²
-  T D1[4], D2[4], K12[4];   ///< αγ, αδ, βγ, βδ
-
-  constexpr explicit CubicProducts(const CubicAt& at) noexcept
-      : a(T(at.a)),
-        a1(T(at.a1)),
-        a2(T(at.a2)),
-        b(T(at.b)),
-        b1(T(at.b1)),
-        b2(T(at.b2)),
-        DD{T(at.a * at.a), T(at.a * at.b), T(at.b * at.b)},
-        K11{T(at.a1 * at.a1), T(at.a1 * at.b1), T(at.b1 * at.b1)},
-        K22{T(at.a2 * at.a2), T(at.a2 * at.b2), T(at.b2 * at.b2)},
-        D1{T(at.a * at.a1), T(at.a * at.b1), T(at.b * at.a1), T(at.b * at.b1)},
-        D2{T(at.a * at.a2), T(at.a * at.b2), T(at.b * at.a2), T(at.b * at.b2)},
-        K12{T(at.a1 * at.a2), T(at.a1 * at.b2), T(at.b1 * at.a2), T(at.b1 * at.b2)} {}
-};
-template <typename S>
-struct NumberOf {
-  using Type = S;
-};
-template <typename T, int Size>
-struct NumberOf<Pack<T, Size>> {
-  using Type = T;
-};
-
 /// Mass matrix of the quadratic through ξ = 0, ½, 1.
 inline constexpr double quadratic_mass[3][3] = {
     {4. / 30, 2. / 30, -1. / 30}, {2. / 30, 16. / 30, 2. / 30}, {-1. / 30, 2. / 30, 4. / 30}};

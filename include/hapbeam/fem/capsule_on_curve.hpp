@@ -55,9 +55,11 @@ class CapsuleOnCurve {
   }
 
   /// Whether the curve is too sharp for all this.  @param distance  from it [m]
-  bool sharp(Scalar distance) const noexcept {
-    const Vector3 way = axis_.at(axis_.nearest(node_)) - node_;
-    return curvature_.dot(way) * distance > sharpest * std::sqrt(way.squaredNorm());
+  bool sharp(Scalar distance) const noexcept { return sharp(axis_, node_, curvature_, distance); }
+  static bool sharp(const Shaft<Scalar>& axis, const Vector3& node, const Vector3& curvature,
+                    Scalar distance) noexcept {
+    const Vector3 way = axis.at(axis.nearest(node)) - node;
+    return curvature.dot(way) * distance > sharpest * std::sqrt(way.squaredNorm());
   }
 
   /// Distance of the capsule, and its derivatives, at the present node.
@@ -116,11 +118,12 @@ class CapsuleOnCurve {
     };
     fill(rows[0], v.normal, v.arm);
     fill(rows[1], v.t, turned(v.t) - i * cross3<Scalar>(cross3(v.t, v.w), v.u));
-    fill(rows[2], -axis_.way, -turned(axis_.way));
     // v·H⁻¹v by the pivots of H.
-    const Scalar a = v.t.squaredNorm() - v.w.dot(v.k), b = -v.t.dot(axis_.way), c = axis_.way.squaredNorm();
+    const Scalar a = v.t.squaredNorm() - v.w.dot(v.k);
     if (v.follows) scales[1] = -1 / a;
     if (v.slides) {
+      const Scalar b = -v.t.dot(axis_.way), c = axis_.way.squaredNorm();
+      fill(rows[2], -axis_.way, -turned(axis_.way));
       const Scalar share = v.follows ? b / a : Scalar(0);
       for (int k = 0; k < 6; ++k) rows[2][k] -= share * rows[1][k];
       scales[2] = -1 / (c - share * b);
@@ -145,7 +148,8 @@ class CapsuleOnCurve {
       HAPBEAM_UNROLL
       for (int row = col; row < 6; ++row) {
         Scalar sum = B(row, col);
-        for (int k = 0; k < 3; ++k) sum += scales[k] * rows[k][row] * rows[k][col];
+        for (int k = 0; k < 2; ++k) sum += scales[k] * rows[k][row] * rows[k][col];
+        if (v.slides) sum += scales[2] * rows[2][row] * rows[2][col];
         sum *= by;
         if (col >= 3) sum += i * (v.u[row - 3] * v.arm[col - 3] + v.arm[row - 3] * v.u[col - 3]);
         B(row, col) = B(col, row) = sum;

@@ -30,11 +30,6 @@ class RodAbreast {
       return (std::max)(order_.element(place), 0);
     });
   }
-  Scalar length(int e) const noexcept {
-    const int place = order_.place(e);
-    return wide_[place / lanes].length[place % lanes];
-  }
-
   /// Lays an element's properties beside those of its neighbours.
   void take(int e, const RodProperties<Scalar>& from) noexcept {
     fill(e, [&](auto&& set, RodProperties<Wide>& to) {
@@ -50,14 +45,24 @@ class RodAbreast {
     });
     take_length(e, from);
   }
-  /// Its length alone.
+  /// The lengths alone of all.
+  template <class AllProperties>
+  void take_lengths(const AllProperties& all) noexcept {
+    for (int first = 0; first < 2 * order_.pairs(); first += lanes) {
+      const auto which = elements(first);
+      auto& to = wide_[first / lanes];
+      to.length = gather(which, [&all](int e) { return all[e].length; });
+      to.inverse_length = gather(which, [&all](int e) { return all[e].inverse_length; });
+    }
+  }
+
+ private:
   void take_length(int e, const RodProperties<Scalar>& from) noexcept {
     fill(e, [&](auto&& set, RodProperties<Wide>& to) {
       set(to.length, from.length), set(to.inverse_length, from.inverse_length);
     });
   }
 
- private:
   /// Calls put(set, properties) for an element's lane, and for all others in which it stands.
   template <class Put>
   void fill(int e, Put&& put) noexcept {

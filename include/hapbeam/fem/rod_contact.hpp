@@ -1,6 +1,6 @@
 // The point at which a hand holds a rod: one prescribed displacement, n · r = d, of a node or of a straight tip beyond it.
 //
-// In the equations of that node the unknowns r and r' become r along two directions across n, d, and r':  n·r = d - arm·r',
+// In the equations of that node d takes the place of that component of r along which n points most:  n·r = d - arm·r',
 // where the arm is that of a contact at a distance from the node.
 // Where a capsule is touched, n and the arm are those of the present shape, -d is its distance, and the force along n adds
 // F ∂²d to the tangent, so that Newton's method finds place and direction of the contact with the equilibrium.
@@ -18,15 +18,13 @@ template <typename Scalar>
 class RodContact {
   using Node = RodNode<Scalar>;
   using Vector3 = VectorOf<Scalar, 3>;
-  using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
   using View = typename CapsuleOnCurve<Scalar>::View;
 
  public:
   RodContact() = default;
   /// @param node   @param lever [m] from the node to the contact along the rod   @param normal n, unit
-  RodContact(int node, Scalar lever, const Vector3& normal) noexcept : node_(node), arm_(lever * normal) {
-    face(normal);
-  }
+  RodContact(int node, Scalar lever, const Vector3& normal) noexcept
+      : node_(node), normal_(normal), arm_(lever * normal) {}
   RodContact(int node, const CapsuleOnCurve<Scalar>& capsule) noexcept
       : node_(node), round_(true), capsule_(capsule) {}
 
@@ -45,8 +43,7 @@ class RodContact {
     force_ = force;
     if (sees(node)) return;
     view_ = capsule_.at(node);
-    face(view_.normal);
-    arm_ = view_.arm;
+    normal_ = view_.normal, arm_ = view_.arm;
     seen(node);
   }
   /// d that the node has [m].
@@ -54,7 +51,7 @@ class RodContact {
   /// Moves a node along n until d is what it should be.
   void correct(Node& node, Scalar d) noexcept {
     if (!round_) {
-      node.r += (d - plane_displacement(node)) * axes_.col(2);
+      node.r += (d - plane_displacement(node)) * normal_;
       return;
     }
     look(node, force_);
@@ -66,12 +63,37 @@ class RodContact {
     seen(node);
   }
 
-  Vector3 normal() const noexcept { return Vector3(axes_.col(2)); }
-  /// Two directions across n, and n.
-  const Matrix3& axes() const noexcept { return axes_; }
+  const Vector3& normal() const noexcept { return normal_; }
   /// ∂d/∂r' [m], in space.
   const Vector3& arm() const noexcept { return arm_; }
-  bool leans() const noexcept { return !arm_.isZero(0); }
+  /// The component of r along which n points most.
+  int leading() const noexcept {
+    int k = std::abs(normal_[1]) > std::abs(normal_[0]) ? 1 : 0;
+    return std::abs(normal_[2]) > std::abs(normal_[k]) ? 2 : k;
+  }
+  /// d in units of that component, or the force along n from one on it.
+  Scalar along(Scalar x) const noexcept { return x / normal_[leading()]; }
+  /// What r but for that component, and r', are of d, in its units.  @param T  the axes along which r' is counted, null: those of space
+  VectorOf<Scalar, 6> share(const Eigen::Matrix<Scalar, 3, 3>* T = nullptr) const noexcept {
+    const Scalar unit = along(1);
+    VectorOf<Scalar, 6> part;
+    part.template head<3>() = unit * normal_;
+    part.template tail<3>() = unit * (T ? Vector3(T->transpose() * arm_) : arm_);
+    part[leading()] = 0;
+    return part;
+  }
+  /// A way along n, in what the node's unknowns of place are then.
+  Vector3 way(Scalar moves) const noexcept {
+    Vector3 by = moves * normal_;
+    by[leading()] = along(moves);
+    return by;
+  }
+  /// The increment of r and r' from that of those unknowns, while d grows by so much.
+  template <class Increment>
+  void complete(Increment& x, Scalar moves, const Eigen::Matrix<Scalar, 3, 3>* T = nullptr) const noexcept {
+    x.template head<3>() += way(moves);
+    x[leading()] -= share(T).dot(x.template head<6>());
+  }
   /// Whether the force makes something of the capsule, and what: to be added to the tangent of the node, by r and r'.
   bool bends() const noexcept { return round_ && force_ != 0; }
   Matrix6<Scalar> bend() const noexcept { return force_ * capsule_.bend(view_); }
@@ -89,24 +111,12 @@ class RodContact {
     now_ = -view_.distance;
     seen_r_ = node.r, seen_tangent_ = node.tangent;
   }
-  void face(const Vector3& normal) noexcept {
-    // The first direction across n is that across its smallest component.
-    int least = 0;
-    for (int k = 1; k < 3; ++k)
-      if (std::abs(normal[k]) < std::abs(normal[least])) least = k;
-    Vector3 e = Vector3::Zero();
-    e[least] = 1;
-    axes_.col(0) = across(e, normal);
-    axes_.col(1) = cross3<Scalar>(normal, axes_.col(0));
-    axes_.col(2) = normal;
-  }
   Scalar plane_displacement(const Node& node) const noexcept {
-    return axes_.col(2).dot(node.r) + arm_.dot(node.tangent);
+    return normal_.dot(node.r) + arm_.dot(node.tangent);
   }
 
   int node_ = -1;
-  Matrix3 axes_ = Matrix3::Identity();
-  Vector3 arm_ = Vector3::Zero();
+  Vector3 normal_ = Vector3::UnitZ(), arm_ = Vector3::Zero();
   bool round_ = false;  // whether a capsule is touched
   CapsuleOnCurve<Scalar> capsule_;
   Scalar now_ = 0;  // d [m]

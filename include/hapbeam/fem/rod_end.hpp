@@ -45,18 +45,19 @@ class RodEnd {
     goal_.r = pose.at.template cast<Scalar>();
     goal_.tangent = pose.along.template cast<Scalar>();
     goal_.director = pose.director.template cast<Scalar>();
+    at_goal_ = false;
   }
 
   /// The rod is at rest.
-  void go_home() noexcept { target_ = home_; }
+  void go_home() noexcept { target_ = home_, at_goal_ = false; }
   /// A path to the goal begins where the end is, or where its springs were.
-  void begin(const Node& node) noexcept {
-    start_ = on_springs() ? target_ : node;
-    start_.tangent = unit(start_.tangent);
-  }
+  void begin(const Node& node) noexcept { start_ = on_springs() ? target_ : node; }
   void set_target(Scalar t) noexcept {
+    if (t == 1 && at_goal_) return;
     target_ = goal_;
+    at_goal_ = t == 1;
     if (t < 1) {
+      start_.tangent = unit(start_.tangent);
       target_.r = start_.r + t * (goal_.r - start_.r);
       const Vector3 turn = t * rotation();
       target_.tangent = rotate(turn, start_.tangent);
@@ -72,9 +73,27 @@ class RodEnd {
   /// its direction is held, and by less than half a turn where springs or its twist are counted from there.
   bool follows(const Node& node) const noexcept {
     if (!direction_ && !springs_ && !twist_) return true;
-    const Scalar along = target_.tangent.dot(unit(node.tangent));
-    return direction_ ? along > 0 : along > Scalar(-0.9999);
+    if (direction_) return target_.tangent.dot(node.tangent) > 0;
+    return target_.tangent.dot(unit(node.tangent)) > Scalar(-0.9999);
   }
+  /// Whether all is held but how long r' is.   @tparam has_twist  whether there is φ
+  template <bool has_twist>
+  bool is_clamped() const noexcept {
+    return direction_ && holds_place() && (!has_twist || twist_);
+  }
+  /// Whether nothing is held.
+  bool is_free() const noexcept { return !holds_any_place() && !direction_ && !twist_; }
+  /// Where a clamped end belongs, as an increment of the node's unknowns: r, r' and φ.
+  template <class Increment>
+  Increment way(const Node& node) const noexcept {
+    Increment by;
+    by.template segment<3>(0) = target_.r - node.r;
+    by.template segment<3>(3) = target_.tangent.dot(node.tangent) * target_.tangent - node.tangent;
+    if constexpr (Increment::RowsAtCompileTime == 7) by[6] = twist(node);
+    return by;
+  }
+  /// Which way a clamped end points.
+  const Vector3& direction() const noexcept { return target_.tangent; }
   /// Calls visit(component, increment) for what is held: r 0-2 in place_axes(), r' 3-4 in tangent_axes(), φ 6 where there is one.
   template <bool has_twist, class Visitor>
   void visit(const Node& node, Visitor&& visitor) const noexcept {
@@ -84,9 +103,7 @@ class RodEnd {
       if (held_[k]) visitor(k, all ? way[k] : axes_.col(k).dot(way));
     if (direction_)
       for (int k = 0; k < 2; ++k) visitor(3 + k, -axes_.col(k).dot(node.tangent));
-    if (!has_twist || !twist_) return;
-    const Vector3 u = unit(node.tangent);
-    visitor(6, angle_about(u, node.director, across(carry(target_.director, target_.tangent, u), u)));
+    if (has_twist && twist_) visitor(6, twist(node));
   }
   /// Whether a pose says all of where it is: clamped, or on springs against each of its motions but twist.
   bool takes_pose() const noexcept {
@@ -185,6 +202,13 @@ class RodEnd {
   }
 
  private:
+  /// By which the director is to turn [rad].
+  Scalar twist(const Node& node) const noexcept {
+    // What is across both tangents is carried from one to the other.
+    if (node.director == target_.director) return 0;
+    const Vector3 u = unit(node.tangent);
+    return angle_about(u, node.director, across(carry(target_.director, target_.tangent, u), u));
+  }
   bool holds_any_place() const noexcept { return held_[0] || held_[1] || held_[2]; }
   /// Nothing is held but by springs.
   bool on_springs() const noexcept { return springs_ && !holds_any_place() && !direction_ && !twist_; }
@@ -232,6 +256,7 @@ class RodEnd {
   Scalar across_[2], torsion_;  // against the tangent's turn along d1 and d2, and against twist [N·m/rad]
   Node goal_, home_, start_, target_;
   Matrix axes_;
+  bool at_goal_ = false;  // the target is
 };
 
 }  // namespace hapbeam::detail

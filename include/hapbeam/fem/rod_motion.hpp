@@ -78,17 +78,44 @@ template <bool twists, class Nodes, class Increments>
     });
   });
 }
+/// Moves places alone: each chord turns as the difference of the increments at its ends says, from the first node on.
+template <class Nodes, class Increments>
+void turn_chords(Nodes& nodes, const Increments& increments) noexcept {
+  using Vector3 = std::decay_t<decltype(nodes[0].r)>;
+  Vector3 way = increments[0].template head<3>(),
+          r = nodes[0].r;  // that the last node has gone, and where it was
+  nodes[0].r += way;
+  for (int i = 1; i < nodes.size(); ++i) {
+    auto& to = nodes[i];
+    const Vector3 chord = to.r - r,
+                  change = increments[i].template head<3>() - increments[i - 1].template head<3>();
+    way += turned(chord, change) - chord;
+    r = to.r;
+    to.r += way;
+  }
+}
 
-/// The angle about the unit vector v from the director of a node, carried there, to another one.   @param to, beside  that one, and it × v
+/// An angle by its sine and cosine, both times the size.
 template <typename S>
-[[gnu::always_inline]] inline S carried_angle(const VectorOf<S, 3>& tangent, const VectorOf<S, 3>& director,
-                                              const VectorOf<S, 3>& v, const VectorOf<S, 3>& to,
-                                              const VectorOf<S, 3>& beside) noexcept {
+struct Turn {
+  S sine, cosine, size;
+
+  [[gnu::always_inline]] Turn operator-(const Turn& b) const noexcept {
+    return {sine * b.cosine - cosine * b.sine, cosine * b.cosine + sine * b.sine, size * b.size};
+  }
+  [[gnu::always_inline]] S value() const noexcept { return angle(sine, cosine, size); }
+};
+/// That about the unit vector v from the director of a node, carried there, to another one.   @param to, beside  that one, and it × v
+template <typename S>
+[[gnu::always_inline]] inline Turn<S> carried_turn(const VectorOf<S, 3>& tangent,
+                                                   const VectorOf<S, 3>& director, const VectorOf<S, 3>& v,
+                                                   const VectorOf<S, 3>& to,
+                                                   const VectorOf<S, 3>& beside) noexcept {
   using std::sqrt;
   const S whole = sqrt(tangent.squaredNorm()) + tangent.dot(v);
   // As carry(), times that, less what is along v.
   const VectorOf<S, 3> from = whole * director - v.dot(director) * tangent;
-  return angle(S(from.dot(beside)), S(from.dot(to)), whole);
+  return {from.dot(beside), from.dot(to), whole};
 }
 
 /// Where nodes will be that go on as they went, foresight.hpp.   @param now, then, ahead  all nodes; of those ahead, s is known
@@ -124,12 +151,13 @@ template <bool twists, class Nodes, typename Scalar>
     const Vector change = onward * (x.tangent - b) + share * (r - l);
     if constexpr (twists) {
       const Vector u = unit(x.tangent), beside = cross3(x.director, u);
-      const auto twist = [&](const Vector& tangent, const Vector& director) -> Wide {
-        return carried_angle<Wide>(tangent, director, u, x.director, beside);
+      const auto twist = [&](const Vector& tangent, const Vector& director) {
+        return carried_turn<Wide>(tangent, director, u, x.director, beside);
       };
-      const Wide angle = onward * twist(b, gather(here, then, &Node::director)) +
-                         share * (twist(l, left_of(x.director, &Node::director)) -
-                                  twist(r, right_of(x.director, &Node::director)));
+      const auto between =
+          twist(l, left_of(x.director, &Node::director)) - twist(r, right_of(x.director, &Node::director));
+      const Wide angle =
+          onward * twist(b, gather(here, then, &Node::director)).value() + share * between.value();
       move_tangent(next, change, &angle);
     } else {
       move_tangent<Wide>(next, change, nullptr);

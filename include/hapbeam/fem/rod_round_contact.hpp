@@ -21,8 +21,16 @@ struct RodRoundContact {
   const Capsule<Scalar>& capsule;
   const Capsule<Scalar>& request() const noexcept { return capsule; }
 
+  using Curvature = Vector;
+  Law beside(const Node& node, const Vector& curvature, int end) const noexcept {
+    return {capsule.axis, node, curvature, end};
+  }
   Law beside(const Centreline<Scalar, 3>& line, int node, int end) const noexcept {
-    return {capsule.axis, line[node], line.curvature(node), end};
+    return beside(line[node], line.curvature(node), end);
+  }
+  /// Whether the curve is too sharp for that law.
+  bool sharp(const Node& node, const Vector& curvature) const noexcept {
+    return Law::sharp(capsule.axis, node.r, curvature, capsule.reach);
   }
   View look(const Node& node, int end) const noexcept {
     return Law(capsule.axis, node, Vector::Zero(), end).at(node);

@@ -45,6 +45,12 @@ class RodShape {
     explicit State(int elements) : nodes(elements), twists(elements) {}
     Nodes nodes;
     Twists twists;  // ψ of the elements
+
+    /// What the rod has, which may have anything then.
+    void take(Parts& rod) noexcept {
+      nodes.take(rod.nodes());
+      twists.take(rod.twists());
+    }
   };
   Centreline<Scalar, 3> view(const State& state) const noexcept { return view(state.nodes); }
   /// The state as it is.  @param state  out
@@ -59,8 +65,8 @@ class RodShape {
     if constexpr (unknowns == 7)
       for (int e = 0; e < elements(); ++e)
         saved_.twists[e] = twists()[e] + ratio * (twists()[e] - before.twists[e]);
-    keep(before);
-    set(mesh, saved_);
+    before.take(rod_);
+    rod_.take(mesh, saved_.nodes, saved_.twists);
   }
   /// What goes on as from one state to another.  @param from  becomes the state now, less the way from there to `to`
   void carry(State& from, const State& to) const noexcept {

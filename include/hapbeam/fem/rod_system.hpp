@@ -9,13 +9,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_friction.hpp>
 #include <hapbeam/fem/rod_contact.hpp>
-#include <hapbeam/fem/rod_end.hpp>
+#include <hapbeam/fem/rod_contact_rows.hpp>
+#include <hapbeam/fem/rod_ends.hpp>
 #include <hapbeam/fem/rod_increments.hpp>
 #include <hapbeam/fem/rod_motion.hpp>
 #include <hapbeam/fem/rod_range.hpp>
@@ -57,7 +57,7 @@ class RodSystem
       : Shape(rod, number),
         increments_(number),
         assembler_(number),
-        ends_{detail::RodEnd<Scalar>(rod.left(), node(0)), detail::RodEnd<Scalar>(rod.right(), node(number))},
+        ends_(rod, rod_.nodes()),
         unit_(static_cast<Scalar>(
             std::sqrt((std::min)(rod.stiffness().bending1, rod.stiffness().bending2) / rod.length()))) {
     no_mechanism_ = factor(0) == Status::ok;  // in its natural shape
@@ -112,8 +112,7 @@ class RodSystem
   /// @param shift  what is added to the tangent: so many times EI/L³ on each place and EI/L on each rotation, shared out
   /// over the nodes   @return ok | singular | non_finite | iteration_limit, where an end has farther to turn than an increment leads
   Status factor(Scalar shift) noexcept {
-    for (std::size_t k = 0; k < 2; ++k)
-      if (!ends_[k].follows(node(end(k)))) return Status::iteration_limit;
+    if (!ends_.follow(rod_.nodes())) return Status::iteration_limit;
     const int c = contact_.node();
     Contacts::look_at_contacts();
     const auto [strain, work, inner] =
@@ -121,38 +120,30 @@ class RodSystem
     inner_energy_ = inner;
     Scalar energy = strain;
     if (shift != 0) add_shift(shift);
+    energy += ends_.visit_springs(
+        rod_.nodes(), [this](int i, const Block& K, const Increment& r) { assembler_.add_at(i, K, r); });
+    if (c >= 0) detail::add_bend<unknowns>(contact_, assembler_);
+    for (const auto& other : others_) detail::add_bend<unknowns>(other.point, assembler_);
+    const auto rub = [this](const auto& contact, const Friction* friction) {
+      if (friction) detail::add_friction<unknowns>(contact, node(contact.node()), *friction, assembler_);
+    };
+    if (c >= 0) rub(contact_, friction_);
+    others_.each([&](const auto& other) { rub(other.point, other.friction); });
     for (std::size_t k = 0; k < 2; ++k)
-      if (ends_[k].has_springs()) {
-        Increment r = Increment::Zero();
-        Block K = Block::Zero();
-        energy += ends_[k].add_springs(node(end(k)), r, K);
-        assembler_.add_at(end(k), K, r);
-      }
-    if (c >= 0) add_bend(contact_);
-    for (const auto& other : others_) add_bend(other.point);
-    if (friction_ && c >= 0) add_friction(contact_, *friction_);
-    others_.each([this](const auto& other) {
-      if (other.friction) add_friction(other.point, *other.friction);
-    });
-    transform(0);
-    transform(elements());
-    if (c > 0 && c < elements()) transform(c);
-    for (const auto& other : others_)
-      if (const int i = other.point.node(); i > 0 && i < elements()) transform(i);
+      ends_.hold(k, node(ends_.node(k)), contact_at(ends_.node(k)), assembler_);
+    const auto lean_within = [this](const auto& contact) {
+      const int i = contact.node();
+      if (i > 0 && i < elements()) assembler_.lean(i, contact.leading(), contact.share());
+    };
+    lean_within(contact_);
+    for (const auto& other : others_) lean_within(other.point);
     size_ =
         std::sqrt(2 * (std::max)(energy, Scalar(0)));  // of a rod without stress round-off has either sign
     potential_ = energy - work;
     potential_ += Contacts::friction_potential();
-    for (std::size_t k = 0; k < 2; ++k) {
-      prescribed_[k].setZero();
-      ends_[k].template visit<unknowns == 7>(node(end(k)), [&](int component, Scalar increment) {
-        prescribed_[k][component] = increment;
-        assembler_.prescribe(end(k), component, increment);
-      });
-    }
     moves_ = 0;
-    if (c >= 0) assembler_.hold(c, 2, moves_ = d_ - contact_.displacement());
-    others_.each([&](auto& other) { hold(other); });
+    if (c >= 0) detail::hold(contact_, moves_ = d_ - contact_.displacement(), assembler_, assembler_.held());
+    others_.each([&](auto& other) { detail::hold_other<Scalar>(other, assembler_, others_); });
     const Status status = assembler_.solve();
     // A round rod that is bowed between two ends on one axis may roll about it: that takes no force, and leads nowhere.
     if (status == Status::singular && shift == 0 && no_mechanism_) return factor(neutral());
@@ -161,21 +152,23 @@ class RodSystem
   /// Adds the increment to the state: what turns keeps its length.  Without a contact, which would be missed, the chords turn
   /// as the tangents do, from the left end on (as chain.hpp says of the plane).
   void advance() noexcept {
-    force_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
-    others_.each([&](auto& other) { other.force = assembler_.reaction(other.row); });
+    force_ = contact_.node() < 0 ? Scalar(0) : contact_.along(assembler_.reaction());
+    others_.each([&](auto& other) { other.force = other.point.along(assembler_.reaction(other.row)); });
     increments_.take(assembler_);
-    increments_.set(0, increment(0)), increments_.set(elements(), increment(elements()));
-    const auto set = [&](int i) {
-      if (i > 0 && i < elements()) increments_.set(i, increment(i));
+    const auto set = [&](int i) { increments_.set(i, increment(i)); };
+    for (std::size_t k = 0; k < 2; ++k)
+      if (const int i = ends_.node(k); ends_.has(i, contact_at(i))) set(i);
+    const auto set_within = [&](int i) {
+      if (i > 0 && i < elements()) set(i);
     };
-    set(contact_.node());
-    for (const auto& other : others_) set(other.point.node());
+    set_within(contact_.node());
+    for (const auto& other : others_) set_within(other.point.node());
     const bool free = contact_.node() < 0;
-    if (free) turn_chords();
+    if (free) detail::turn_chords(rod_.nodes(), increments_);
     rod_.advance_inners(increments_);
     detail::move_nodes<unknowns == 7>(rod_.nodes(), increments_, !free);
-    if (free) close_chain();
-    for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
+    if (free) ends_.close_chain(rod_.nodes(), length_);
+    ends_.correct(rod_.nodes());
     Contacts::correct_contacts(rod_.nodes());
   }
   /// As a shift: a stiffness that is none.  A rod that is round may roll where it is bowed, but for round-off; 1/10⁷ of what bends one.
@@ -190,7 +183,7 @@ class RodSystem
   /// Bends the rod a little where nothing makes it leave an equilibrium.  @param size  [m]
   void nudge(Scalar size) noexcept {
     Shape::bow(size, contact_.node() < 0 ? Scalar(-1) : node(contact_.node()).s / length_);
-    for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(rod_.nodes()[end(k)]);
+    ends_.correct(rod_.nodes());
   }
 
   // Required by LoadPath, in addition.
@@ -211,21 +204,10 @@ class RodSystem
   /// Of node i after factor(): r [m], r' and φ [rad].
   Increment increment(int i) const noexcept {
     Increment x = assembler_.increment(i);
-    for (std::size_t k = 0; k < 2; ++k)
-      if (i == end(k)) x += prescribed_[k];
     const auto* const contact = contact_at(i);
-    if (contact) x[2] += contact == &contact_ ? moves_ : others_.at(i)->moves;
-    if (!own_axes(i)) return x;
-    const Matrix *const R = place_axes(i), *const T = tangent_axes(i);
-    if (contact && contact->leans()) x[2] -= arm(*contact, T).dot(x.template segment<3>(3));
-    const auto turn = [&x](int at, const Matrix& Q) {
-      const Vector3 v(x[at], x[at + 1], x[at + 2]);
-      for (int k = 0; k < 3; ++k) x[at + k] = Q(k, 0) * v[0] + Q(k, 1) * v[1] + Q(k, 2) * v[2];
-    };
-    if (R) turn(0, *R);
-    if (T) turn(3, *T);
-    if constexpr (unknowns == 7)
-      if (const auto* const joint = this->joint(i)) x[6] -= joint->arm(node(i)).dot(x.template segment<3>(3));
+    const Scalar moves = !contact ? Scalar(0) : contact == &contact_ ? moves_ : others_.at(i)->moves;
+    if (ends_.has(i, contact)) return ends_.increment(x, i, node(i), contact, moves);
+    if (contact) contact->complete(x, moves);
     return x;
   }
 
@@ -237,7 +219,7 @@ class RodSystem
     Residual r;
     rod_.residual(k == 0 ? 0 : elements() - 1, load_, r);
     const Increment at = r.template segment<unknowns>(k == 0 ? 0 : unknowns);
-    const Vector3 t = node(end(k)).tangent;
+    const Vector3 t = node(ends_.node(k)).tangent;
     Vector3 moment = detail::cross3<Scalar>(t, at.template segment<3>(3));
     if constexpr (unknowns == 7) moment += at[6] * detail::unit(t);
     return {at.template segment<3>(0), moment};
@@ -250,12 +232,8 @@ class RodSystem
 
   /// Strain energy, that of the springs that hold it included [J].
   Scalar strain_energy() const noexcept {
-    Scalar energy = rod_.strain_energy();
-    Increment r = Increment::Zero();
-    Block K = Block::Zero();
-    for (std::size_t k = 0; k < 2; ++k)
-      if (ends_[k].has_springs()) energy += ends_[k].add_springs(node(end(k)), r, K);
-    return energy;
+    return rod_.strain_energy() +
+           ends_.visit_springs(rod_.nodes(), [](int, const Block&, const Increment&) {});
   }
 
  private:
@@ -273,110 +251,16 @@ class RodSystem
   using Shape::rod_;
   using Shape::saved_;
   using Residual = typename Shape::Parts::Residual;
-  using Matrix = Eigen::Matrix<Scalar, 3, 3>;
   using Block = Eigen::Matrix<Scalar, unknowns, unknowns>;
-  int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
-  bool own_axes(int i) const noexcept { return contact_at(i) || i == 0 || i == elements(); }
   /// The contact that a node has, null: none.
   const detail::RodContact<Scalar>* contact_at(int i) const noexcept {
     if (contact_.holds(i)) return &contact_;
     const auto* const other = others_.at(i);
     return other ? &other->point : nullptr;
   }
-  /// The axes along which a node's unknowns of place are counted, and those of r'; null: those of space.
-  const Matrix* place_axes(int i) const noexcept {
-    const auto* const contact = contact_at(i);
-    return contact ? &contact->axes() : i == 0 ? ends_[0].place_axes() : ends_[1].place_axes();
-  }
-  const Matrix* tangent_axes(int i) const noexcept {
-    return i == 0 ? ends_[0].tangent_axes() : i == elements() ? ends_[1].tangent_axes() : nullptr;
-  }
-  /// Of the contact, in the axes of r'.
-  static Vector3 arm(const detail::RodContact<Scalar>& contact, const Matrix* T) noexcept {
-    return T ? Vector3(T->transpose() * contact.arm()) : contact.arm();
-  }
   void begin_path() noexcept {
     start_load_ = load_;
-    for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
-  }
-
-  void add_bend(const detail::RodContact<Scalar>& contact) noexcept {
-    if (!contact.bends()) return;
-    Block K = Block::Zero();
-    K.template block<6, 6>(0, 0) = contact.bend();
-    assembler_.add_at(contact.node(), K, Increment::Zero());
-  }
-  template <class Other>
-  void hold(Other& other) noexcept {
-    const int c = other.point.node();
-    other.moves = other.d - other.point.displacement();
-    assembler_.hold(c, 2, other.moves, other.row);
-    assembler_.know(c, 2, other.moves, assembler_.held());
-    for (auto& before : others_) {
-      if (&before == &other) break;
-      assembler_.know(c, 2, other.moves, before.row);
-    }
-  }
-
-  /// To a node's own axes.
-  void transform(int i) noexcept {
-    if constexpr (unknowns == 7)
-      if (const auto* const joint = this->joint(i)) {
-        Block K = Block::Zero();
-        K.template block<3, 3>(3, 3) = assembler_.residual(i, 6) * joint->bow(node(i));
-        assembler_.add_at(i, K, Increment::Zero());
-        assembler_.template lean<6, 3>(i, joint->arm(node(i)));
-      }
-    const Matrix *const R = place_axes(i), *const T = tangent_axes(i);
-    if (R) assembler_.template turn<0>(i, *R);
-    if (T) assembler_.template turn<3>(i, *T);
-    if (const auto* const contact = contact_at(i); contact && contact->leans())
-      assembler_.template lean<2, 3>(i, arm(*contact, T));
-  }
-  /// The end at node i where it is a joint that holds the twist.
-  const detail::RodEnd<Scalar>* joint(int i) const noexcept {
-    for (std::size_t k = 0; k < 2; ++k)
-      if (i == end(k) && ends_[k].is_joint()) return &ends_[k];
-    return nullptr;
-  }
-
-  void turn_chords() noexcept {
-    Vector3 way = increments_[0].template segment<3>(0),
-            r = node(0).r;  // that the last node has gone, and where it was
-    rod_.nodes()[0].r += way;
-    for (int i = 1; i <= elements(); ++i) {
-      const Increment before = increments_[i - 1], x = increments_[i];
-      Node& to = rod_.nodes()[i];
-      const Vector3 chord = to.r - r, change = x.template segment<3>(0) - before.template segment<3>(0);
-      way += detail::turned(chord, change) - chord;
-      r = to.r;
-      to.r += way;
-    }
-  }
-  /// Shares out what the chain misses of a held right end.  A left end that is not held moves all of it.
-  void close_chain() noexcept {
-    const Vector3 miss = ends_[1].miss(node(elements()));
-    const bool left = ends_[0].is_anchored();
-    for (Node& to : rod_.nodes()) to.r += left ? Vector3(miss * (to.s / length_)) : miss;
-  }
-
-  /// Friction, at the place that is touched.
-  void add_friction(const detail::RodContact<Scalar>& contact, const Friction& friction) noexcept {
-    const Node& n = node(contact.node());
-    Eigen::Matrix<Scalar, 3, 6> moves;  // that place, by r and r'
-    moves.template leftCols<3>().setIdentity();
-    moves.template rightCols<3>().setZero();
-    if (contact.round()) {
-      const auto view = contact.view(n);
-      moves.template rightCols<3>() =
-          (view.u.dot(view.f) * Matrix::Identity() - view.u * view.f.transpose()) / view.length;
-    }
-    Increment r = Increment::Zero();
-    Block K = Block::Zero();
-    r.template head<6>() = -moves.transpose().lazyProduct(friction.force());
-    const Eigen::Matrix<Scalar, 3, 6> stiff = friction.tangent().lazyProduct(moves);
-    K.template block<6, 6>(0, 0) = moves.transpose().lazyProduct(stiff);
-    assembler_.add_at(contact.node(), K, r);
+    ends_.begin_path(rod_.nodes());
   }
 
   /// An element's share of the shift is half of either node's.
@@ -392,8 +276,7 @@ class RodSystem
 
   detail::RodIncrements<Scalar, Elements, MaxElements, unknowns> increments_;  // in advance()
   Assembler<Scalar, Elements, MaxElements, unknowns> assembler_;
-  std::array<detail::RodEnd<Scalar>, 2> ends_;
-  Increment prescribed_[2] = {Increment::Zero(), Increment::Zero()};
+  detail::RodEnds<Scalar, unknowns> ends_;
   Scalar moves_ = 0;
   bool no_mechanism_ = false;  // its ends and springs hold it
   Scalar size_ = 0, potential_ = 0, inner_energy_ = 0, unit_;

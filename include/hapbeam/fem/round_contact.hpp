@@ -22,8 +22,16 @@ struct RoundContact {
   const Circle<Scalar>& request() const noexcept { return circle; }
 
   /// Beside a node of the present shape.  @param end  as CircleOnCurve
+  using Curvature = Scalar;
+  Law beside(const Node&, Scalar curvature, int end) const noexcept {
+    return {circle.centre, circle.side, curvature, end};
+  }
   Law beside(const Centreline<Scalar>& line, int node, int end) const noexcept {
-    return {circle.centre, circle.side, line.curvature(node), end};
+    return beside(line[node], line.curvature(node), end);
+  }
+  /// Whether the curve is too sharp for that law.
+  bool sharp(const Node& node, Scalar curvature) const noexcept {
+    return beside(node, curvature, 0).sharp(circle.reach);
   }
   /// Beside a node, as if the curve were straight.
   View look(const Node& node, int end) const noexcept {

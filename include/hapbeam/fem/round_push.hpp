@@ -49,7 +49,10 @@ class RoundPush {
   void forget() noexcept {
     foresight_.forget();
     sharp_ = false;
+    forget_shape();
   }
+  /// The same where what the hand did goes on.
+  void forget_shape() noexcept { curved_ = -1; }
 
   /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
   /// @param state  of friction, null: without
@@ -139,7 +142,8 @@ class RoundPush {
     const auto node = [&] { return outside ? round.node_at(system.centreline(), trial.s) : system.node(c); };
     const auto look = [&](const Node& seen) { return round.look(seen, end); };
     const auto law_at = [&](int i) { return round.beside(system.centreline(), i, end); };
-    const auto last_law = law_at(system.mesh().node());
+    if (const int i = system.mesh().node(); i != curved_) curvature_ = system.centreline().curvature(i);
+    const auto last_law = round.beside(system.node(system.mesh().node()), curvature_, end);
     bool foreseen = trial.first && foresight_.go_on(system, mesh, request);
     const auto through = [&] {
       if constexpr (planar) return false;
@@ -207,7 +211,10 @@ class RoundPush {
     }
 
     const bool answer = is_answer(response.status);
-    sharp_ = answer && law_at(c).sharp(request.reach);
+    // It is that of the last shape for the next push, too.
+    curved_ = answer ? c : -1;
+    if (answer) curvature_ = system.centreline().curvature(c);
+    sharp_ = answer && round.sharp(system.node(c), curvature_);
     // What is no answer may have left that mesh.
     const Node now = answer ? node() : round.node_at(system.centreline(), trial.s);
     const auto view = answer && !trial.by_plane ? system.contact() : look(now);
@@ -224,6 +231,8 @@ class RoundPush {
 
   Foresight<System, Round> foresight_;
   bool sharp_ = false;  // where the last circle touched
+  typename RoundContact::Curvature curvature_{};
+  int curved_ = -1;  // the node that has this curvature
 };
 
 /// Of a beam that is not pushed by circles.
@@ -231,6 +240,7 @@ struct NoRound {
   template <class System>
   explicit NoRound(const System&) noexcept {}
   void forget() noexcept {}
+  void forget_shape() noexcept {}
 };
 
 }  // namespace hapbeam::detail

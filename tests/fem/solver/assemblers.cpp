@@ -347,9 +347,9 @@ TEST_CASE("a node may have any number of unknowns", "[assembler]") {
 
 namespace {
 
-/// A chain whose nodes are seen in other axes, and with something added to one: both assemblers answer alike.
+/// A chain whose nodes are seen in other axes, with something added to one, and whose ends may be clamped: both assemblers answer alike.
 template <int Block>
-void check_changes(Random& random) {
+void check_changes(Random& random, bool clamped) {
   using Tangent = Eigen::Matrix<double, 2 * Block, 2 * Block>;
   using Own = Eigen::Matrix<double, Block, Block>;
   using Unknowns = Eigen::Matrix<double, Block, 1>;
@@ -378,29 +378,43 @@ void check_changes(Random& random) {
     const Matrix3<double> mirror = Matrix3<double>::Identity() - 2 * axis * axis.transpose();
     Matrix3<double> cycle;
     cycle << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+    const int unknown = random.integer(0, 2);
+    Eigen::Matrix<double, 6, 1> parts;
+    for (int i = 0; i < 6; ++i) parts[i] = i == unknown ? 0 : random(1.0);
     both([&](auto& assembler) {
       assembler.add_at(node, K, r);
       assembler.template turn<0>(node, mirror * cycle);
       assembler.template turn<3>(node, cycle * mirror);
       assembler.template lean<2, 3>(node, part);
       if constexpr (Block == 7) assembler.template lean<6, 3>(node, part);
+      assembler.lean(node, unknown, parts);
     });
     CHECK(chain.residual(node, 1) == Approx(dense.residual(node, 1)).epsilon(1e-12).margin(1e-12));
+  }
+  if (clamped) {
+    const Vector3<double> along = Vector3<double>(random(1.0), random(1.0), random(1.0)).normalized();
+    Unknowns by;
+    for (int i = 0; i < Block; ++i) by[i] = random(1.0);
+    both([&](auto& assembler) { assembler.clamp(0, along, by); });
+    both([&](auto& assembler) { assembler.clamp(elements, along, Unknowns(Unknowns::Zero())); });
+    both([&](auto& assembler) { assembler.hold_along(elements / 2, 1, along, assembler.held()); });
   }
   REQUIRE(chain.solve() == Status::ok);
   REQUIRE(dense.solve() == Status::ok);
   for (int i = 0; i <= elements; ++i)
     CHECK((chain.increment(i) - dense.increment(i)).norm() <= 1e-10 * (1 + dense.increment(i).norm()));
   CHECK(chain.energy() == Approx(dense.energy()).epsilon(1e-10));
+  if (clamped) CHECK(chain.reaction() == Approx(dense.reaction()).epsilon(1e-10).margin(1e-10));
 }
 
 }  // namespace
 
-TEST_CASE("unknowns of a node are turned and leant, and something is added to them, in either assembler",
-          "[assembler]") {
+TEST_CASE(
+    "unknowns of a node are turned, leant and clamped, and something is added to them, in either assembler",
+    "[assembler]") {
   Random random(7);
   for (int trial = 0; trial < 40; ++trial) {
-    check_changes<6>(random);
-    check_changes<7>(random);
+    check_changes<6>(random, trial % 2 == 1);
+    check_changes<7>(random, trial % 2 == 1);
   }
 }

@@ -132,6 +132,18 @@ class BlockTridiagonal {
   void lean(int node, const Part& part) noexcept {
     at(node).template lean<Unknown, Others>(part);
   }
+  /// One of the first three unknowns of a node, and a part of the first six:  old = new - part · (those).
+  /// @param part  [i] -> of unknown i, nothing of its own
+  template <class Part>
+  void lean(int node, int unknown, const Part& part) noexcept {
+    at(node).lean(unknown, part);
+  }
+  /// Prescribes the increment of a node, after all elements are in, but for how much longer r' becomes along u: of its unknowns 3 to 5,
+  /// which are those of r', the last one is that from now on.   @param by  [i] -> increment of unknown i, as it was
+  template <class Three, class Increment>
+  void clamp(int node, const Three& u, const Increment& by) noexcept {
+    at(node).clamp(u, by);
+  }
 
   /// Prescribes the increment of one degree of freedom (in a plane 0: u, 1: w, 2: θ) of a node, after all elements are in: its
   /// column goes to the right-hand side, its row answers 0.  Inlined by intent, as hold(): the caller knows the component.
@@ -159,14 +171,22 @@ class BlockTridiagonal {
     row.node = i;
     row.by_loads = diagonal * increment - own[component];
     held_energy_ += diagonal * increment * increment;
-    for (int k = 0; k < Block; ++k) {
-      row.by[0][k] = row.by[2][k] = 0;
-      row.by[1][k] = k == component ? Scalar(0) : own(k, component);
-    }
-    node.each_neighbour([&](const auto&, const auto& coupling, bool left) {
-      for (int k = 0; k < Block; ++k) row.by[left ? 0 : 2][k] = coupling(component, k);
-    });
+    keep(node, component, row);
     node.prescribe(component, increment);
+  }
+  /// The same for one of the first three unknowns of a node, where all three move along with it.
+  /// @param by  [i] -> increment of unknown i; to it those that are not held add what is solved for
+  template <class Three>
+  void hold_along(int i, int component, const Three& by, HeldRow& row) noexcept {
+    const auto node = at(i);
+    const Scalar before = node.own[component];
+    Scalar alone, in_row;
+    node.move(by, component, alone, in_row);
+    row.node = i;
+    row.by_loads = in_row - before;
+    held_energy_ += alone;
+    keep(node, component, row);
+    node.prescribe(component, 0);
   }
   /// What the first of hold() has to know of one that comes after it: beside its node the increment is no unknown.
   void know(int node, int component, Scalar increment, HeldRow& row) const noexcept {
@@ -216,11 +236,23 @@ class BlockTridiagonal {
   int negative_pivots() const noexcept { return negative_pivots_; }
 
  private:
+  template <class Node>
+  [[gnu::always_inline]] static void keep(const Node& node, int component, HeldRow& row) noexcept {
+    for (int k = 0; k < Block; ++k) {
+      row.by[0][k] = row.by[2][k] = 0;
+      row.by[1][k] = k == component ? Scalar(0) : node.own(k, component);
+    }
+    node.each_neighbour([&](const auto&, const auto& coupling, bool left) {
+      for (int k = 0; k < Block; ++k) row.by[left ? 0 : 2][k] = coupling(component, k);
+    });
+  }
+
   /// Both chains share the middle node, which stands in lane 0.
   void join_middle() noexcept {
     for (int k = 0; k < Rows::coupling; ++k) {
       Number& entry = row(pairs_).entry(k);
-      entry.a[0] += entry.a[1], entry.a[1] = 0;
+      const Lanes both = entry.get();
+      entry.set(Lanes(both[0] + both[1], 0));
     }
   }
 

@@ -92,6 +92,78 @@ struct ChainNode {
     }
   }
 
+  /// One of the first three unknowns is from now on its old self and a part of the first six:  old = new - part · (those).
+  /// @param part  [i] -> of unknown i, nothing of its own
+  template <class Part>
+  [[gnu::always_inline]] void lean(int unknown, const Part& part) const noexcept {
+    each_neighbour([&](const auto&, const NodeCoupling<Scalar>& c, bool) {
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) {
+        const Scalar by = c(unknown, k);
+        HAPBEAM_UNROLL
+        for (int j = 0; j < 6; ++j) c(j, k) -= part[j] * by;
+      }
+    });
+    const Scalar diagonal = own(unknown, unknown), rhs = own[unknown];
+    Scalar row[Block];
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k) row[k] = own(k, unknown);
+    HAPBEAM_UNROLL
+    for (int j = 0; j < 6; ++j) {
+      own[j] -= part[j] * rhs;
+      const Scalar half = row[j] - part[j] * diagonal;
+      HAPBEAM_UNROLL
+      for (int i = j; i < Block; ++i)
+        own(i, j) -= i < 6 ? part[j] * row[i] + part[i] * half : part[j] * row[i];
+    }
+  }
+  /// The first three unknowns move by so much before they are solved for.   @param by  [i] -> of unknown i
+  /// @return what that costs alone, bᵀKb, and what of K it makes in one of their rows
+  template <class Vector3>
+  [[gnu::always_inline]] void move(const Vector3& by, int row, Scalar& alone, Scalar& in_row) const noexcept {
+    const auto times = [&by](Scalar x, Scalar y, Scalar z) { return by[0] * x + by[1] * y + by[2] * z; };
+    Scalar made[Block];
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k) own[k] -= made[k] = times(own(k, 0), own(k, 1), own(k, 2));
+    alone = times(made[0], made[1], made[2]);
+    in_row = made[row];
+    each_neighbour([&](const auto& other, const NodeCoupling<Scalar>& c, bool) {
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) other[k] -= times(c(0, k), c(1, k), c(2, k));
+    });
+  }
+
+  /// Prescribes all but the length of r', unknowns 3 to 5, which grows along u: that is unknown 5 from now on.
+  /// @param by  the increment of all unknowns but for that
+  template <class Vector3, class Increment>
+  [[gnu::always_inline]] void clamp(const Vector3& u, const Increment& by) const noexcept {
+    const auto along = [&u](Scalar x, Scalar y, Scalar z) { return u[0] * x + u[1] * y + u[2] * z; };
+    bool moves = false;
+    for (int k = 0; k < Block; ++k) moves = moves || by[k] != 0;
+    Scalar rhs = along(own[3], own[4], own[5]);
+    if (moves)
+      for (int k = 0; k < Block; ++k) rhs -= by[k] * along(own(3, k), own(4, k), own(5, k));
+    const Scalar diagonal =
+        along(along(own(3, 3), own(3, 4), own(3, 5)), along(own(4, 3), own(4, 4), own(4, 5)),
+              along(own(5, 3), own(5, 4), own(5, 5)));
+    HAPBEAM_UNROLL
+    for (int j = 0; j < Block; ++j) {
+      own[j] = j == 5 ? rhs : Scalar(0);
+      HAPBEAM_UNROLL
+      for (int i = j; i < Block; ++i) own(i, j) = i != j ? Scalar(0) : j == 5 ? diagonal : Scalar(1);
+    }
+    each_neighbour([&](const auto& other, const NodeCoupling<Scalar>& c, bool) {
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) {
+        if (moves)
+          for (int j = 0; j < Block; ++j) other[k] -= by[j] * c(j, k);
+        const Scalar free = along(c(3, k), c(4, k), c(5, k));
+        HAPBEAM_UNROLL
+        for (int j = 0; j < Block; ++j) c(j, k) = j == 5 ? free : Scalar(0);
+      }
+    });
+  }
+
   /// Prescribes the increment of one unknown: its column goes to the right-hand side, its row answers 0.  Inlined by intent: the caller
   /// knows the component.
   [[gnu::always_inline]] void prescribe(int component, Scalar increment) const noexcept {

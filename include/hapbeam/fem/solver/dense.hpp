@@ -79,6 +79,30 @@ class Dense {
     }
     for (int j = 0; j < 3; ++j) K_.row(to + j) -= part[j] * K_.row(from);
   }
+  template <class Part>
+  void lean(int node, int unknown, const Part& part) noexcept {
+    const int from = Block * node + unknown, to = Block * node;
+    for (int j = 0; j < 6; ++j) {
+      K_.col(to + j) -= part[j] * K_.col(from);
+      x_[to + j] -= part[j] * x_[from];
+    }
+    for (int j = 0; j < 6; ++j) K_.row(to + j) -= part[j] * K_.row(from);
+  }
+  template <class Three, class Increment>
+  void clamp(int node, const Three& u, const Increment& by) noexcept {
+    const int at = Block * node;
+    x_ -= K_.middleCols(at, Block) * by;
+    const Vector free = K_.middleCols(at + 3, 3) * u;
+    const Scalar rhs = u.dot(x_.template segment<3>(at + 3)), pivot = u.dot(free.template segment<3>(at + 3));
+    x_.segment(at, Block).setZero();
+    K_.middleCols(at, Block).setZero();
+    K_.col(at + 5) = free;
+    K_.middleRows(at, Block).setZero();
+    K_.row(at + 5) = free.transpose();
+    K_.block(at, at, Block, Block).setIdentity();
+    K_(at + 5, at + 5) = pivot;
+    x_[at + 5] = rhs;
+  }
 
   void prescribe(int node, int component, Scalar increment) noexcept {
     const int k = Block * node + component;
@@ -102,6 +126,17 @@ class Dense {
     row.by_loads = K_(k, k) * increment - x_[k];
     held_energy_ += K_(k, k) * increment * increment;
     prescribe(node, component, increment);
+  }
+  template <class Three>
+  void hold_along(int node, int component, const Three& by, HeldRow& row) noexcept {
+    const int k = Block * node + component;
+    const Vector made = K_.middleCols(Block * node, 3) * by;
+    row.by = K_.col(k);
+    row.by[k] = 0;
+    row.by_loads = made[k] - x_[k];
+    held_energy_ += by.dot(made.template segment<3>(Block * node));
+    x_ -= made;
+    prescribe(node, component, 0);
   }
   void know(int node, int component, Scalar increment, HeldRow& row) const noexcept {
     row.by_loads += row.by[Block * node + component] * increment;

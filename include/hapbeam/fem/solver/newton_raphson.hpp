@@ -96,7 +96,7 @@ struct NewtonRaphson {
       if (report.status == Status::ok) {
         report.reached = t;
         ++report.steps;
-        system.save();
+        if (t < 1) system.save();
         step *= 4;
       } else {
         system.restore();

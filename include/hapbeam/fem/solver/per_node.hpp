@@ -36,6 +36,11 @@ class PerNode {
   const T* data() const noexcept { return storage_.data(); }
   T& operator[](int i) noexcept { return storage_.data()[i]; }
   const T& operator[](int i) const noexcept { return storage_.data()[i]; }
+  /// Becomes what another of the same size is, which may become anything.
+  void take(PerNode& from) noexcept {
+    if constexpr (is_inline) storage_ = from.storage_;
+    else storage_.swap(from.storage_);
+  }
   T* begin() noexcept { return data(); }
   T* end() noexcept { return data() + size_; }
   const T* begin() const noexcept { return data(); }

@@ -1,0 +1,150 @@
+// Both ends of a rod in its equations: what they hold is prescribed, in their own axes, and their springs are added.
+//
+// A clamped end has one unknown, how much longer r' becomes.  Any other end keeps its own: those of place and of r' along the axes of
+// what holds them, and the twist of a joint that holds it less what the director turns by with r'.
+// Real-time: noexcept, no allocation, O(1).
+#pragma once
+
+#include <cstddef>
+
+#include <hapbeam/fem/rod_contact.hpp>
+#include <hapbeam/fem/rod_end.hpp>
+
+namespace hapbeam::detail {
+
+/// @tparam Unknowns  of a node: 6, or 7 with φ
+template <typename Scalar, int Unknowns>
+class RodEnds {
+  static constexpr bool has_twist = Unknowns == 7;
+  using Vector3 = VectorOf<Scalar, 3>;
+  using Matrix = Eigen::Matrix<Scalar, 3, 3>;
+  using Increment = VectorOf<Scalar, Unknowns>;
+  using Block = Eigen::Matrix<Scalar, Unknowns, Unknowns>;
+  using Contact = RodContact<Scalar>;
+
+ public:
+  /// @param nodes  of the natural shape
+  template <class Nodes>
+  RodEnds(const Rod& rod, const Nodes& nodes)
+      : last_(nodes.size() - 1), ends_{{rod.left(), nodes[0]}, {rod.right(), nodes[last_]}} {}
+
+  RodEnd<Scalar>& operator[](std::size_t k) noexcept { return ends_[k]; }
+  const RodEnd<Scalar>& operator[](std::size_t k) const noexcept { return ends_[k]; }
+  RodEnd<Scalar>* begin() noexcept { return ends_; }
+  RodEnd<Scalar>* end() noexcept { return ends_ + 2; }
+  int node(std::size_t k) const noexcept { return k == 0 ? 0 : last_; }
+  /// Whether a node is an end that holds something, or at which the rod is touched.
+  bool has(int node, const Contact* contact) const noexcept {
+    return (node == 0 && (contact || !ends_[0].is_free())) ||
+           (node == last_ && (contact || !ends_[1].is_free()));
+  }
+
+  /// A path begins where the ends are.
+  template <class Nodes>
+  void begin_path(const Nodes& nodes) noexcept {
+    for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(nodes[node(k)]);
+  }
+  /// Whether increments lead to where they belong.
+  template <class Nodes>
+  bool follow(const Nodes& nodes) const noexcept {
+    return ends_[0].follows(nodes[0]) && ends_[1].follows(nodes[last_]);
+  }
+  /// Puts them exactly there.
+  template <class Nodes>
+  void correct(Nodes& nodes) const noexcept {
+    for (std::size_t k = 0; k < 2; ++k) ends_[k].correct(nodes[node(k)]);
+  }
+  /// Shares out what the chain misses of a held right end.  A left end that is not held moves all of it.
+  template <class Nodes>
+  void close_chain(Nodes& nodes, Scalar length) const noexcept {
+    const Vector3 miss = ends_[1].miss(nodes[last_]);
+    const bool left = ends_[0].is_anchored();
+    for (auto& to : nodes) to.r += left ? Vector3(miss * (to.s / length)) : miss;
+  }
+
+  /// Calls visit(node, tangent, residual) for what springs make of an end's node.   @return their energy [J]
+  template <class Nodes, class Visit>
+  Scalar visit_springs(const Nodes& nodes, Visit&& visit) const noexcept {
+    Scalar energy = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (!ends_[k].has_springs()) continue;
+      Increment r = Increment::Zero();
+      Block K = Block::Zero();
+      energy += ends_[k].add_springs(nodes[node(k)], r, K);
+      visit(node(k), K, r);
+    }
+    return energy;
+  }
+
+  /// After all else is in the assembler's system, but for a contact within the rod.  @param contact  at end k, null: none
+  template <class Assembler, class Node>
+  void hold(std::size_t k, const Node& at, const Contact* contact, Assembler& assembler) noexcept {
+    const int i = node(k);
+    if (is_clamped(k, contact)) {
+      prescribed_[k] = ends_[k].template way<Increment>(at);
+      assembler.clamp(i, ends_[k].direction(), prescribed_[k]);
+      return;
+    }
+    if (has(i, contact)) hold_part(k, at, contact, assembler);
+  }
+  /// Of a node for which has() is true, from the assembler's answer: r, r' and φ in space.  @param moves  of the contact [m]
+  template <class Node>
+  Increment increment(const Increment& answer, int i, const Node& at, const Contact* contact,
+                      Scalar moves) const noexcept {
+    const std::size_t k = i == 0 ? 0 : 1;
+    Increment x = prescribed_[k];
+    if (is_clamped(k, contact)) {
+      x.template segment<3>(3) += answer[5] * ends_[k].direction();
+      return x;
+    }
+    x += answer;
+    const Matrix *const R = place_axes(k, contact), *const T = ends_[k].tangent_axes();
+    if (contact) contact->complete(x, moves, T);
+    const auto turn = [&x](int from, const Matrix& Q) {
+      const Vector3 v(x[from], x[from + 1], x[from + 2]);
+      for (int c = 0; c < 3; ++c) x[from + c] = Q(c, 0) * v[0] + Q(c, 1) * v[1] + Q(c, 2) * v[2];
+    };
+    if (R) turn(0, *R);
+    if (T) turn(3, *T);
+    if constexpr (has_twist)
+      if (ends_[k].is_joint()) x[6] -= ends_[k].arm(at).dot(x.template segment<3>(3));
+    return x;
+  }
+
+ private:
+  /// The same of an end that is not clamped.  Not inlined by intent: few rods have one, and factor() is long.
+  template <class Assembler, class Node>
+  [[gnu::noinline]] void hold_part(std::size_t k, const Node& at, const Contact* contact,
+                                   Assembler& assembler) noexcept {
+    const int i = node(k);
+    if constexpr (has_twist)
+      if (ends_[k].is_joint()) {
+        Block K = Block::Zero();
+        K.template block<3, 3>(3, 3) = assembler.residual(i, 6) * ends_[k].bow(at);
+        assembler.add_at(i, K, Increment::Zero());
+        assembler.template lean<6, 3>(i, ends_[k].arm(at));
+      }
+    const Matrix *const R = place_axes(k, contact), *const T = ends_[k].tangent_axes();
+    if (R) assembler.template turn<0>(i, *R);
+    if (T) assembler.template turn<3>(i, *T);
+    if (contact) assembler.lean(i, contact->leading(), contact->share(T));
+    prescribed_[k].setZero();
+    ends_[k].template visit<has_twist>(at, [&](int component, Scalar increment) {
+      prescribed_[k][component] = increment;
+      assembler.prescribe(i, component, increment);
+    });
+  }
+  bool is_clamped(std::size_t k, const Contact* contact) const noexcept {
+    return !contact && ends_[k].template is_clamped<has_twist>();
+  }
+  /// Null: those of space, as a contact's are.
+  const Matrix* place_axes(std::size_t k, const Contact* contact) const noexcept {
+    return contact ? nullptr : ends_[k].place_axes();
+  }
+
+  int last_;
+  RodEnd<Scalar> ends_[2];
+  Increment prescribed_[2] = {Increment::Zero(), Increment::Zero()};
+};
+
+}  // namespace hapbeam::detail
