@@ -78,6 +78,7 @@ class FrictionLaw {
     // It goes on as it went, unless that was a leap.
     if (slides_ && state.slides && std::abs(state.rise) < bound_ / 4) bound_ += state.rise;
     if (slides_) aim(sheared_, (std::max)(norm(sheared_), state.slip));
+    last_force_ = state.slides ? state.force : Vector(Vector::Zero());
     // In its first tick a contact slides without friction to where the touch begins.
     fallen_ = !known_;
     if (fallen_) bound_ = used_ = 0;
@@ -88,6 +89,10 @@ class FrictionLaw {
     begin_bound();
   }
 
+  /// The hand goes on as it went.  So does what slid, though the beam may go farther than the hand: over a peg by twice its way.
+  void go_on() noexcept {
+    if (slides_ && !last_force_.isZero(0)) direction_ = last_force_;
+  }
   /// To be called where the beam has moved.
   void look(const Place& now) noexcept {
     now_ = now;
@@ -314,6 +319,7 @@ class FrictionLaw {
   Vector force_ = Vector::Zero(), direction_ = Vector::Zero(), far_shear_ = Vector::Zero();
   Scalar stretch_ = 1, reach_ = 0, stiffness_ = 0, damping_ = 0, sticking_ = 0, sliding_ = 0, gain_ = 0;
   Scalar bound_ = 0, used_ = 0, before_bound_ = 0, length_ = 1;
+  Vector last_force_ = Vector::Zero();   // [N] of the tick before, while it slid
   Vector stuck_force_ = Vector::Zero();  // [N] where it was found to stick no longer
   Scalar onset_ = 0;                     // [N] where it does
   Scalar pair_bound_ = 0, pair_force_ = 0;

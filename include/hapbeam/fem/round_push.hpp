@@ -141,6 +141,7 @@ class RoundPush {
     const auto law_at = [&](int i) { return round.beside(system.centreline(), i, end); };
     const auto last_law = law_at(system.mesh().node());
     bool foreseen = trial.first && foresight_.go_on(system, mesh, request);
+    if (friction && foreseen && foresight_.forth()) friction->go_on();
     const auto through = [&] {
       if constexpr (planar) return false;
       else return round.is_through(node(), end);

@@ -71,13 +71,15 @@ class SeveralPush {
     System& system = way.system_;
     all_ = all, count_ = count;
     for (int i = 0; i < count; ++i) begin(i, range);
-    if (foresight_.look(all, count))
+    const bool goes_on = foresight_.look(all, count);
+    if (goes_on)
       for (int i = 0; i < count; ++i)
         if (all[i].touching && all[i].kind == ObstacleKind::round)
           slot(i).s = std::clamp(foresight_.place(i), Scalar(0), range.length());
     for (int i = 0; i < count; ++i)
       if (all[i].touching && !(all[i].pushed.force < 0) && beside_a_touch(i)) all[i].touching = false;
     Friction friction(system, all, count);
+    if (goes_on && foresight_.forth()) friction.go_on();
     began_ = false;
     Status status = Status::ok;
     bool snapped = false;
