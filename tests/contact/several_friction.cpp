@@ -71,7 +71,7 @@ TEST_CASE("work of two hands round closed paths is what friction takes at both",
   const auto worst = [](const Beam& beam, double half, double most, int paths, int ticks) {
     Random random(7);
     Model model(beam, 16);
-    double worst = 0;
+    double largest = 0;
     for (int n = 0; n < paths; ++n) {
       const double L = beam.length(), reach = 0.005 + half, deep = most * random(0.5, 1.0);
       const Friction friction[2] = {random(0.05, 1.2), random(0.05, 1.2)};
@@ -124,9 +124,9 @@ TEST_CASE("work of two hands round closed paths is what friction takes at both",
       }
       CAPTURE(n, given, taken);
       CHECK(given > 0);
-      worst = std::max(worst, std::abs(given - taken) / taken);
+      largest = std::max(largest, std::abs(given - taken) / taken);
     }
-    return worst;
+    return largest;
   };
   const Beam bar(1, Section::rectangle(0.02, 0.01), Material{200e9}, Support::pinned, Support::pinned);
   CHECK(worst(steel_ruler(), 0.0005, 0.03, 4, 6000) <= 1e-6);

@@ -37,13 +37,13 @@ TEST_CASE("a wide avatar with friction takes at its two places what a closed pat
   Beam string(length, 1e4, weight * bending * bending, thin, Support::clamped, Support::free);
   string.add(PointLoad{length, weight});
   for (const int fine : {1, 2}) {
-    Model model(string, 100 * fine);
+    Model model(string, 50 * fine);
     TouchSeveral touch(model, {{radius, 2, Friction(mu)}});
     const Vector wound(0.12, radius - 0.16);  // the string turns by 0.8
     (void)touch.tick(Vector(0.2, radius + thin));
-    for (int k = 1; k <= 300; ++k)
-      (void)touch.tick(Vector(Vector(0.2, radius) + (wound - Vector(0.2, radius)) * (k / 300.0)));
-    const int ticks = 1500 * fine;
+    for (int k = 1; k <= 150; ++k)
+      (void)touch.tick(Vector(Vector(0.2, radius) + (wound - Vector(0.2, radius)) * (k / 150.0)));
+    const int ticks = 300 * fine;
     const auto path = [&](double t) {
       const double a = 2 * 3.14159265358979323846 * t;
       return Vector(wound + Vector(0.01 * std::sin(a), 0.004 * (1 - std::cos(a))));
@@ -70,7 +70,7 @@ TEST_CASE("a wide avatar with friction takes at its two places what a closed pat
     CAPTURE(fine, given, taken, sliding);
     CHECK(sliding > ticks);
     CHECK(given > 0);
-    CHECK(std::abs(given - taken) <= (fine == 1 ? 3e-4 : 6e-5) * taken);
+    CHECK(std::abs(given - taken) <= (fine == 1 ? 3e-3 : 3e-4) * taken);
   }
 }
 
