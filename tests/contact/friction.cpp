@@ -295,6 +295,31 @@ TEST_CASE("the tension of a string falls along a peg that slides on it, as that 
     }
 }
 
+// The ruler is bent around the finger beside its clamp, and what the finger slides on changes the normal force several times as much as
+// friction does.
+TEST_CASE("a finger that jams a ruler at its clamp slides there in every tick", "[friction]") {
+  struct Case {
+    double mu, step;
+  };
+  for (const auto& [mu, step] : {Case{0.6, 2e-5}, Case{0.6, 1e-4}, Case{1.0, 2e-5}}) {
+    Ruler model(steel_ruler(), 16);
+    Touch<Ruler> touch(model, 0.005, mu);
+    int jammed = 0;
+    for (int k = 0; k < 400; ++k) {
+      const Felt r = touch.tick({0.01 - 0.3 * step * k, 0.0056 - step * k});
+      const double normal = (r.force - r.friction).norm();
+      CAPTURE(mu, step, k, normal, r.friction.norm());
+      REQUIRE(r.status == Status::ok);
+      REQUIRE(r.friction.norm() <= mu * normal * (1 + 1e-14));
+      if (normal < 1e4) continue;
+      ++jammed;
+      REQUIRE(r.sliding);
+      REQUIRE(r.friction.norm() >= (1 - 1e-6) * mu * normal);
+    }
+    CHECK(jammed > 150);
+  }
+}
+
 TEST_CASE("friction ends with its touch", "[friction]") {
   const Friction friction(0.5, 0.3);
   const auto stroke = [&](Touch<Ruler>& touch, double x) {

@@ -52,10 +52,13 @@ class Foresight {
     hand_ = hand;
     step_ = step;
     mesh_ = system.mesh();
+    forth_ = ratio > 0;
     if (goes_on) system.go_on(before_, mesh, ratio);
     else system.keep(before_);
     return goes_on;
   }
+  /// Whether a hand that goes on does not turn back.
+  bool forth() const noexcept { return forth_; }
   /// To be called after each push.  @param found  whether it was answered on the branch on which the beam was
   void know(bool found) noexcept { known_ = found ? (std::min)(known_ + 1, 2) : 0; }
   /// Back to where the system was before go_on().  @param force  of then [N]
@@ -74,7 +77,8 @@ class Foresight {
   typename System::State before_;
   Mesh mesh_;                                       // of before_
   Hand hand_ = Hand::Zero(), step_ = Hand::Zero();  // of the last push [m]
-  int known_ = 0;                                   // pushes without a break, as far as they matter
+  bool forth_ = false;
+  int known_ = 0;  // pushes without a break, as far as they matter
 };
 
 }  // namespace hapbeam::detail

@@ -78,16 +78,22 @@ class FrictionLaw {
     // It goes on as it went, unless that was a leap.
     if (slides_ && state.slides && std::abs(state.rise) < bound_ / 4) bound_ += state.rise;
     if (slides_) aim(sheared_, (std::max)(norm(sheared_), state.slip));
+    last_force_ = state.slides ? state.force : Vector(Vector::Zero());
     // In its first tick a contact slides without friction to where the touch begins.
     fallen_ = !known_;
     if (fallen_) bound_ = used_ = 0;
     slid_ = slides_, stuck_ = !slides_;
+    held_ = false;
     tries_ = 0;
     onset_ = 0;
     pairs_ = false;
     begin_bound();
   }
 
+  /// The hand goes on as it went.  So does what slid, though the beam may go farther than the hand: over a peg by twice its way.
+  void go_on() noexcept {
+    if (slides_ && !last_force_.isZero(0)) direction_ = last_force_;
+  }
   /// To be called where the beam has moved.
   void look(const Place& now) noexcept {
     now_ = now;
@@ -164,14 +170,14 @@ class FrictionLaw {
       return false;
     }
     const Vector d = across(direction_);
-    // One that has stopped sticks.  With one coefficient for both that makes no difference.
+    // One that has stopped sticks.  With one coefficient for both that makes no difference.  What a bound stops that was too large slides on.
     const Scalar stopped = sticking_ > sliding_ ? 1 + exact : 1 - exact;
-    if (d.dot(elastic) < used_ * stopped) {
+    if (d.dot(elastic) < (std::min)(used_, most) * stopped) {
       slides_ = false;
       return false;
     }
     learn(normal_force);
-    follows_ = 0;
+    follows_ = held_ ? most_solves : 0;
     const Scalar off = (elastic * (most / size) - force_at(used_)).norm();
     if (off <= exact * most) return true;
     bound_ = (std::max)(Scalar(0), used_ + (most - used_) / rate());
@@ -192,6 +198,13 @@ class FrictionLaw {
   /// @return whether there is another way to try; else it slides
   bool turn() noexcept {
     torn_ = true;
+    // A bound that follows what Newton's method is far from leads it astray.
+    if (slides_ && !fallen_ && !held_) {
+      held_ = true;
+      used_ = bound_ = before_bound_;
+      begin_bound();
+      return true;
+    }
     begin_bound();
     if (slides_ && !fallen_ && !stuck_) {
       slides_ = false, stuck_ = true;
@@ -268,7 +281,8 @@ class FrictionLaw {
     if (turned.squaredNorm() > 0) direction_ = turned;
     length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
   }
-  void begin_bound() noexcept { off_ = ratio_ = 0, follows_ = 0; }
+  /// On a long way the forces before its end say nothing.
+  void begin_bound() noexcept { off_ = ratio_ = 0, follows_ = torn_ || held_ ? most_solves : 0; }
   /// Stiffness across the way of sliding [N/m].
   Scalar aside(Scalar bound) const noexcept {
     const Scalar whole = stiffness_ + damping_;
@@ -308,12 +322,14 @@ class FrictionLaw {
     }
   }
 
-  bool known_ = false, slides_ = false, fallen_ = false, torn_ = false, slid_ = false, stuck_ = false;
+  bool known_ = false, slides_ = false, fallen_ = false, torn_ = false, held_ = false, slid_ = false,
+       stuck_ = false;
   Place before_, now_;
   Vector skin_ = Vector::Zero(), carried_ = Vector::Zero(), sheared_ = Vector::Zero();
   Vector force_ = Vector::Zero(), direction_ = Vector::Zero(), far_shear_ = Vector::Zero();
   Scalar stretch_ = 1, reach_ = 0, stiffness_ = 0, damping_ = 0, sticking_ = 0, sliding_ = 0, gain_ = 0;
   Scalar bound_ = 0, used_ = 0, before_bound_ = 0, length_ = 1;
+  Vector last_force_ = Vector::Zero();   // [N] of the tick before, while it slid
   Vector stuck_force_ = Vector::Zero();  // [N] where it was found to stick no longer
   Scalar onset_ = 0;                     // [N] where it does
   Scalar pair_bound_ = 0, pair_force_ = 0;

@@ -63,7 +63,7 @@ struct RodRoundContact {
   }
   FrictionPlace<Scalar, 3> place(const Vector& n, const Node& node) const noexcept {
     const Vector on_axis = capsule.axis.at(capsule.axis.nearest(node.r));
-    const Vector along = unit(node.tangent);
+    const Vector along = unit<Scalar>(node.tangent - n * n.dot(node.tangent));
     return place(node.s, along.dot(on_axis - node.r), n, along, on_axis);
   }
   Scalar miss(const Vector& n, const Node& node) const noexcept {

@@ -145,6 +145,7 @@ class RoundPush {
     if (const int i = system.mesh().node(); i != curved_) curvature_ = system.centreline().curvature(i);
     const auto last_law = round.beside(system.node(system.mesh().node()), curvature_, end);
     bool foreseen = trial.first && foresight_.go_on(system, mesh, request);
+    if (friction && foreseen && foresight_.forth()) friction->go_on();
     const auto through = [&] {
       if constexpr (planar) return false;
       else return round.is_through(node(), end);

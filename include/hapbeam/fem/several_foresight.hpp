@@ -50,6 +50,8 @@ class SeveralForesight {
     step_ = {step, step_[0]};
     return like_ > 0;
   }
+  /// Whether hands that go on do not turn back.
+  bool forth() const noexcept { return ratio_ > 0; }
   /// Where an obstacle will be touched [m].
   Scalar place(int i) const noexcept {
     const Places &from = place_[of(like_)], &to = place_[of(like_ - 1)];

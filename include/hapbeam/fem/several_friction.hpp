@@ -34,6 +34,11 @@ class SeveralFriction {
     any_ = true;
   }
 
+  /// The hands go on as they went.
+  void go_on() noexcept {
+    each([](int, Friction& friction) { friction.go_on(); });
+  }
+
   /// Of an obstacle, null: none.
   Friction* of(int i) noexcept { return law(i) ? &*law(i) : nullptr; }
   bool any() const noexcept { return any_; }

@@ -1,0 +1,108 @@
+// What a contact takes as it gives way: the coefficient of sliding is the smaller one, and the beam springs back within a tick.
+//
+// The same way is gone slowly beside it.  The hands are held where the slide is about to begin, and the coefficient falls to that of sliding in a
+// thousand steps; then all of it is a slide with one coefficient, and ∫T|slip| by trapezoids is what friction takes.  The beam's energy falls by
+// as much.
+#include <cmath>
+#include <limits>
+
+#include "support/catch.hpp"
+#include "support/ruler.hpp"
+#include <hapbeam/contact/touch_several.hpp>
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+using Vector = Vector2<double>;
+using Model = FemModel<Several<Corotational<>, 2>>;
+using Touching = TouchSeveral<Model>;
+using Felt = TouchSeveralResult<double, 2, 2>;
+
+double taken(const Felt& felt) {
+  double sum = 0;
+  for (const auto& place : felt) sum += place.dissipated;
+  return sum;
+}
+
+/// Of the skins at both contacts, which are as stiff as a scalar allows (docs/friction.md) [J].
+double sheared(const Felt& felt, const Beam& beam) {
+  const double length = beam.length(), stiffness = beam.bending_stiffness() / (length * length * length) /
+                                                   std::sqrt(std::numeric_limits<double>::epsilon());
+  double sum = 0;
+  for (const auto& place : felt) sum += place.friction.squaredNorm() / (2 * stiffness);
+  return sum;
+}
+
+/// One hand holds a ruler from below, and the other one presses it and is drawn along it.
+struct Hands {
+  Model model{steel_ruler(), 32};
+  Touching touch{model, {{0.005, 1, Friction(0)}, {0.005, 1, Friction(0)}}};
+  double drawn = 0;  // [m]
+  Hands(const Friction& holding, const Friction& pressing) {
+    touch.set_friction(0, holding), touch.set_friction(1, pressing);
+    for (int k = 0; k <= 200; ++k) (void)tick(0.066 * (1 - k / 200.0));
+  }
+  Felt tick(double above = 0) {
+    return touch.tick(Vector(0.11, -0.0075), Vector(0.22 + drawn, above - 0.06));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("what a contact takes as it gives way is what it takes of the same way gone slowly",
+          "[friction][several]") {
+  const Friction pressing(0.5, 0.3);
+  // The other contact sticks, slides, or is frictionless.
+  for (const double holding : {1.5, 0.1, 0.0}) {
+    const auto to_the_slide = [&](double step, int most) {
+      Hands hands(holding, pressing);
+      int ticks = 0;
+      Felt felt = hands.tick();
+      for (bool stuck = false; !(felt.places[1].sliding && stuck) && ticks < most; ++ticks) {
+        stuck = !felt.places[1].sliding;
+        hands.drawn -= step;
+        felt = hands.tick();
+      }
+      return ticks;
+    };
+    double coarse = 0;
+    for (const double step : {2e-7, 5e-8}) {
+      const int begins = to_the_slide(step, 100000);
+      REQUIRE(begins < 100000);
+      Hands fast(holding, pressing), slow(holding, pressing);
+      Felt at = fast.tick(), felt = slow.tick();
+      for (int k = 1; k < begins; ++k) {
+        fast.drawn -= step, slow.drawn -= step;
+        at = fast.tick(), felt = slow.tick();
+      }
+      REQUIRE_FALSE(at.places[1].sliding);
+      const double before = taken(at);
+      fast.drawn -= step;
+      const Felt gone = fast.tick();
+      REQUIRE(gone.places[1].sliding);
+      const double at_once = taken(gone) - before;
+
+      const double energy = slow.model.strain_energy() + sheared(felt, steel_ruler()),
+                   share = felt.places[1].friction.norm() /
+                           (felt.places[1].force - felt.places[1].friction).norm();
+      for (int k = 1; k <= 1000; ++k) {
+        slow.touch.set_friction(1, share + (pressing.sliding - share) * k / 1000);
+        felt = slow.tick();
+        REQUIRE(felt.status == Status::ok);
+      }
+      const double slowly = taken(felt) - before,
+                   lost = energy - slow.model.strain_energy() - sheared(felt, steel_ruler()),
+                   error = std::abs(at_once / slowly - 1);
+      CAPTURE(holding, step, begins, at_once, slowly, lost, error);
+      CHECK(slowly > 1e-4);
+      CHECK(std::abs(lost / slowly - 1) <= 1e-5);
+      CHECK(error <= step / 2e-7 * 1e-2);
+      CHECK((coarse == 0 || error <= coarse / 2));  // of first order in the step
+      coarse = error;
+    }
+  }
+}
