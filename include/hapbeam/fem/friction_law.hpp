@@ -198,8 +198,8 @@ class FrictionLaw {
   /// @return whether there is another way to try; else it slides
   bool turn() noexcept {
     torn_ = true;
-    // A bound that follows what Newton's method is far from leads it astray.
-    if (slides_ && !fallen_ && !held_) {
+    // A bound that follows what Newton's method is far from leads it astray.  In space that has taken too many solves for another try.
+    if (D == 2 && slides_ && !fallen_ && !held_) {
       held_ = true;
       used_ = bound_ = before_bound_;
       begin_bound();
