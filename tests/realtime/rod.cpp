@@ -40,12 +40,13 @@ void check_servo(const char* name) {
   const PressedRod pressed = pressed_rod(name);
   FemModel<Element> model(pressed.rod, 8 * pressed.turns);
   const auto path = pushes(pressed.rod.length(), 51);
-  int answered = 0, not_finite = 0, most = 0;
+  int answered = 0, not_finite = 0, most = 0, taken = 0;
   const HeapUse use = heap_use([&]() noexcept {
     int k = 0;
     for (const auto& push : path) {
       const auto response = model.push(push);
       answered += is_answer(response.status);
+      taken += std::abs(push.normal.norm() - 1) > 0.1 && response.status != Status::invalid_request;
       not_finite += !std::isfinite(response.force);
       most = std::max(most, model.report().solves);
       for (const auto& node : model.shape()) not_finite += !is_finite(node);
@@ -57,6 +58,7 @@ void check_servo(const char* name) {
   INFO(name << ": " << answered << " of " << path.size() << " answered, at most " << most << " solves");
   CHECK(use == HeapUse{});
   CHECK(not_finite == 0);
+  CHECK(taken == 0);  // a normal that is none
   CHECK(most <= 48 + 2);
   CHECK(answered > 200);  // most jumps lead beyond the rod's length
   // Recovered.

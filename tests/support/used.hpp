@@ -35,7 +35,8 @@ void use_full(const Body& body) {
   static_cast<void>(model.internal_forces(Scalar(0)));
   if constexpr (Model::dimension == 2) static_cast<void>(model.press({}));
   if constexpr (Model::dimension == 3) static_cast<void>(model.hold({}, {}));
-  if constexpr (any_rotation<typename Model::ElementType>) static_cast<void>(model.push(Push<Scalar, Model::dimension>{}));
+  if constexpr (any_rotation<typename Model::ElementType>)
+    static_cast<void>(model.push(Push<Scalar, Model::dimension>{}));
   use_touch(model);
 }
 
@@ -55,7 +56,8 @@ void use_reduced(const Data& data) {
   use_touch(model);
 }
 
-inline void used(const Beam& beam, const Rod& rod, const PodModelData<double>& pod, const GalerkinModelData<double>& galerkin) {
+inline void used(const Beam& beam, const Rod& rod, const PodModelData<double>& pod,
+                 const GalerkinModelData<double>& galerkin) {
   use_full<FemModel<>>(beam);
   use_full<FemModel<Linear>>(beam);
   use_full<FemModel<Corotational<>>>(beam);

@@ -89,11 +89,12 @@ class FemModel {
 
   /// Prescribes the displacement along any direction, by a force along it: what an element of finite rotation needs where
   /// it has turned.  At an end that slides along a wall the wall takes what does not act along it.
-  /// @return as press()
+  /// @return as press(); invalid_request also where the normal is not unit to half a thousandth
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Response<Scalar> push(const Push<Scalar, dimension>& request) noexcept {
     const Scalar s = range().nearest({request.s, 0}).s, node = range_.node(s);
-    const bool valid = std::isfinite(request.d) && request.normal.allFinite() && range_.on_beam(request.s);
+    const bool is_unit = std::abs(request.normal.squaredNorm() - 1) < Scalar(1e-3);  // false for what is no number
+    const bool valid = std::isfinite(request.d) && is_unit && range_.on_beam(request.s);
     if constexpr (dimension == 2)
       if (range_.on_wall(node)) return push_wall(request, s, node, valid);
     return solve({s, request.d, request.normal}, valid, s == request.s);
