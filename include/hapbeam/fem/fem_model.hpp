@@ -93,7 +93,8 @@ class FemModel {
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Response<Scalar> push(const Push<Scalar, dimension>& request) noexcept {
     const Scalar s = range().nearest({request.s, 0}).s, node = range_.node(s);
-    const bool is_unit = std::abs(request.normal.squaredNorm() - 1) < Scalar(1e-3);  // false for what is no number
+    const bool is_unit =
+        std::abs(request.normal.squaredNorm() - 1) < Scalar(1e-3);  // false for what is no number
     const bool valid = std::isfinite(request.d) && is_unit && range_.on_beam(request.s);
     if constexpr (dimension == 2)
       if (range_.on_wall(node)) return push_wall(request, s, node, valid);
