@@ -102,7 +102,7 @@ class Measured {
   }
 
   void report(benchmark::State& state, const std::string& name, const std::string& against) const {
-    const TickTimes &own = times_.of(name), &other = times_.of(against);
+    const ModelTimes &own = times_.of(name), &other = times_.of(against);
     for (auto _ : state) state.SetIterationTime(own.p50() * 1e-6);
     std::vector<double> ratios;
     for (std::size_t k = 0; k < own.rounds.size(); ++k) ratios.push_back(own.rounds[k] / other.rounds[k]);

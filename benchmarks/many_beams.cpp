@@ -142,7 +142,7 @@ class Measured {
   const std::vector<std::string>& names() const { return names_; }
 
   void report(benchmark::State& state, const std::string& name) const {
-    const TickTimes& own = times_.of(name);
+    const ModelTimes& own = times_.of(name);
     for (auto _ : state) state.SetIterationTime(own.p50() * 1e-6);
     state.counters["p50_us"] = own.p50();
     state.counters["p99_us"] = own.part(0.99);

@@ -156,7 +156,7 @@ const Comparison& comparison() {
 }
 
 void report(benchmark::State& state, const std::string& name) {
-  const TickTimes& times = comparison().times().of(name);
+  const ModelTimes& times = comparison().times().of(name);
   for (auto _ : state) state.SetIterationTime(times.p50() * 1e-6);
   if (times.status != Status::ok) return state.SkipWithError(hapbeam::name(times.status));
   for (const auto& [counter, value] : comparison().counters(name)) state.counters[counter] = value;

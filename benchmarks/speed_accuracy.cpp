@@ -123,7 +123,7 @@ class Contest {
   }
 
   const std::vector<Entry>& entries() const { return entries_; }
-  const TickTimes& times(const std::string& name) const { return times_.of(name); }
+  const ModelTimes& times(const std::string& name) const { return times_.of(name); }
 
  private:
   template <class Model, class Scene>
@@ -236,7 +236,7 @@ const bool registered = [] {
   for (const Entry& entry : contest.entries())
     benchmark::RegisterBenchmark(entry.name.c_str(),
                                  [&entry](benchmark::State& state) {
-                                   const TickTimes& times = contest.times(entry.name);
+                                   const ModelTimes& times = contest.times(entry.name);
                                    for (auto _ : state) state.SetIterationTime(times.p50() * 1e-6);
                                    for (const auto& [counter, value] : entry.counters)
                                      state.counters[counter] = value;

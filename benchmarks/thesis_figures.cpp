@@ -100,7 +100,7 @@ class Figures {
     times_.run(rounds);
   }
 
-  const TickTimes& times(const std::string& name) const { return times_.of(name); }
+  const ModelTimes& times(const std::string& name) const { return times_.of(name); }
   double error(const std::string& name) const { return errors_.at(name); }
 
  private:
@@ -149,7 +149,7 @@ class Figures {
 
 void report(benchmark::State& state, const Entry& entry) {
   static const Figures figures;
-  const TickTimes& times = figures.times(entry.name());
+  const ModelTimes& times = figures.times(entry.name());
   for (auto _ : state) state.SetIterationTime(times.p50() * 1e-6);
   if (times.status != Status::ok) return state.SkipWithError(name(times.status));
   state.counters["n"] = entry.n;

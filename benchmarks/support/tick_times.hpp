@@ -32,7 +32,7 @@ double time_tick(Request request, Act& act, Answer& answer) {
 }
 
 /// Times of one model: of all its ticks, and the value of each round.
-struct TickTimes {
+struct ModelTimes {
   std::vector<double> ticks;   // [µs]
   std::vector<double> rounds;  // [µs]
   Status status = Status::ok;  // the first that was not ok
@@ -72,7 +72,7 @@ class Rounds {
     for (int round = 0; round < rounds; ++round)
       for (auto& [name, pass] : passes_) {
         std::vector<double> ns;
-        TickTimes& times = times_[name];
+        ModelTimes& times = times_[name];
         const Status status = pass(ns);
         if (times.status == Status::ok) times.status = status;
         if (ns.empty()) continue;
@@ -83,7 +83,7 @@ class Rounds {
       }
   }
 
-  const TickTimes& of(const std::string& name) const { return times_.at(name); }
+  const ModelTimes& of(const std::string& name) const { return times_.at(name); }
 
   /// How often one is as fast as another: median over the rounds.
   double ratio(const std::string& slow, const std::string& fast) const {
@@ -104,7 +104,7 @@ class Rounds {
   }
 
   std::vector<std::pair<std::string, Pass>> passes_;
-  std::map<std::string, TickTimes> times_;
+  std::map<std::string, ModelTimes> times_;
 };
 
 }  // namespace hapbeam::benchmarks
