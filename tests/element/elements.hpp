@@ -1,6 +1,7 @@
 // Random elements and states for the laws that every element obeys.
 #pragma once
 
+#include "support/pi.hpp"
 #include "support/random.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
@@ -15,8 +16,6 @@ using TurningLinear = Corotational<Linear>;
 using TurningFull = Corotational<Full>;
 using TurningReduced = Corotational<Reduced>;
 using Turning = Corotational<Assumed>;
-
-inline constexpr double pi = 3.14159265358979323846;
 
 /// From a wire to a bar: lengths 1 cm to 1 m, slendernesses l/r 10 to 1000.
 inline ElementProperties<double> random_properties(Random& random) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "support/pi.hpp"
 #include <hapbeam/element/rod.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
@@ -13,7 +14,6 @@ namespace hapbeam::testing {
 
 using Point = VectorOf<double, 3>;
 
-inline constexpr double pi = 3.141592653589793238462643;
 inline constexpr RodMaterial spring_steel{200e9, 77e9};
 
 /// A pose turned about a unit axis [rad].

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <vector>
 
+#include "support/pi.hpp"
+
 namespace hapbeam::testing {
 
 class PinnedPress {
@@ -18,7 +20,6 @@ class PinnedPress {
   /// Force [N] of a press by d [m] at s [m]; its tension is left in tension().
   double operator()(double s, double d) {
     constexpr int terms = 3000;
-    const double pi = std::acos(-1.0);
     std::vector<double> square(terms);
     for (int n = 1; n <= terms; ++n)
       square[static_cast<std::size_t>(n - 1)] = std::pow(std::sin(n * pi * s / L_), 2);
