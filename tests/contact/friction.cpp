@@ -212,6 +212,8 @@ TEST_CASE("no closed path takes energy out of friction, whatever the path and th
   CHECK(paths(bar, 0.005, 0.008, 200, 150, true) <= 2e-3);
   CHECK(paths(steel_ruler(), 0.0005, 0.018, 5, 6000, false) <= 1e-6);
   CHECK(paths(bar, 0.005, 0.008, 5, 6000, false) <= 1e-6);
+  CHECK(paths(steel_ruler(), 0.0005, 0.018, 5, 6000, true) <= 1e-6);
+  CHECK(paths(bar, 0.005, 0.008, 5, 6000, true) <= 1e-6);
 }
 
 TEST_CASE("a finger on a cantilever begins to slide where its force leaves the cone", "[friction]") {

@@ -1,6 +1,7 @@
 // What a contact takes as it gives way: the coefficient of sliding is the smaller one, and the beam springs back within a tick.
 //
-// The same way is gone slowly beside it.  The hands are held where the slide is about to begin, and the coefficient falls to that of sliding in a
+// The work of the hands less the energy of beam and skins is what friction took, in the tick of the jump and on closed paths.  And the same way is
+// gone slowly beside it.  The hands are held where the slide is about to begin, and the coefficient falls to that of sliding in a
 // thousand steps; then all of it is a slide with one coefficient, and ∫T|slip| by trapezoids is what friction takes.  The beam's energy falls by
 // as much.
 #include <cmath>
@@ -35,6 +36,10 @@ double sheared(const Felt& felt, const Beam& beam) {
   double sum = 0;
   for (const auto& place : felt) sum += place.friction.squaredNorm() / (2 * stiffness);
   return sum;
+}
+
+double stored(const Felt& felt, const Model& model) {
+  return model.strain_energy() + sheared(felt, steel_ruler());
 }
 
 /// One hand holds a ruler from below, and the other one presses it and is drawn along it.
@@ -85,8 +90,10 @@ TEST_CASE("what a contact takes as it gives way is what it takes of the same way
       const Felt gone = fast.tick();
       REQUIRE(gone.places[1].sliding);
       const double at_once = taken(gone) - before;
+      const double balance = -(at.places[1].force + gone.places[1].force).x() * -step / 2 +
+                             stored(at, slow.model) - stored(gone, fast.model);
 
-      const double energy = slow.model.strain_energy() + sheared(felt, steel_ruler()),
+      const double energy = stored(felt, slow.model),
                    share = felt.places[1].friction.norm() /
                            (felt.places[1].force - felt.places[1].friction).norm();
       for (int k = 1; k <= 1000; ++k) {
@@ -94,15 +101,52 @@ TEST_CASE("what a contact takes as it gives way is what it takes of the same way
         felt = slow.tick();
         REQUIRE(felt.status == Status::ok);
       }
-      const double slowly = taken(felt) - before,
-                   lost = energy - slow.model.strain_energy() - sheared(felt, steel_ruler()),
+      const double slowly = taken(felt) - before, lost = energy - stored(felt, slow.model),
                    error = std::abs(at_once / slowly - 1);
-      CAPTURE(holding, step, begins, at_once, slowly, lost, error);
+      CAPTURE(holding, step, begins, at_once, balance, slowly, lost, error);
       CHECK(slowly > 1e-4);
+      CHECK(std::abs(at_once / balance - 1) <= 1e-5);
       CHECK(std::abs(lost / slowly - 1) <= 1e-5);
       CHECK(error <= step / 2e-7 * 1e-2);
       CHECK((coarse == 0 || error <= coarse / 2));  // of first order in the step
       coarse = error;
     }
+  }
+}
+
+// One holds a ruler from below and gives way; the other one, which slides with a little friction, turns back at that and slides the other way.
+TEST_CASE("two contacts that give way by turns take what a closed path gives", "[friction][several]") {
+  const auto path = [](double t, int hand) {
+    const double a = 2 * 3.14159265358979323846 * t, up = 1 - std::cos(a);
+    return hand == 0 ? Vector(0.1329 - 0.001 * std::cos(a), 0.0049 * up - 0.0055)
+                     : Vector(0.2027 + 0.0053 * std::sin(a + 2.56), 0.0017 * up - 0.0123);
+  };
+  for (const int ticks : {12000, 48000}) {
+    Model model(steel_ruler(), 32);
+    Touching touch(model, {{0.005, 1, Friction(0.97, 0.68)}, {0.005, 1, Friction(0.147, 0.103)}});
+    for (int k = 0; k < 40; ++k)
+      (void)touch.tick(Vector(path(0, 0) - Vector(0, 0.001 * (1 - k / 40.0))),
+                       Vector(path(0, 1) + Vector(0, 0.018 * (1 - k / 40.0))));
+    Felt before = touch.tick(path(0, 0), path(0, 1));
+    double given = 0, took = 0;
+    int turned = 0;
+    for (int k = 1; k <= 2 * ticks; ++k) {
+      const double t = double(k) / ticks;
+      const Felt now = touch.tick(path(t, 0), path(t, 1));
+      REQUIRE(now.status == Status::ok);
+      if (k == ticks + 1) given = took = 0;
+      for (int i : {0, 1}) {
+        const auto &a = before.places[std::size_t(i)], &b = now.places[std::size_t(i)];
+        REQUIRE((b.touching && b.dissipated >= a.dissipated));
+        given -= (a.force + b.force).dot(path(t, i) - path(t - 1.0 / ticks, i)) / 2;
+      }
+      took += taken(now) - taken(before);
+      turned += !before.places[0].sliding && now.places[0].sliding &&
+                before.places[1].friction.x() * now.places[1].friction.x() < 0;
+      before = now;
+    }
+    CAPTURE(ticks, given, took, turned);
+    CHECK(turned > 2);
+    CHECK(std::abs(given / took - 1) <= (ticks == 12000 ? 1e-5 : 5e-6));
   }
 }

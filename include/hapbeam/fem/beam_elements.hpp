@@ -137,6 +137,14 @@ class BeamElements {
     for (int e = 0; e < size(); ++e) energy += Element::energy(properties_[e], displacements(e));
     return energy;
   }
+  /// Of λ times the loads [J].
+  Scalar work(Scalar lambda) const noexcept {
+    Scalar work = 0;
+    Vector6<Scalar> r = Vector6<Scalar>::Zero();
+    for (int e = 0; loaded(lambda) && e < size(); ++e)
+      work += subtract_loads(e, lambda, displacements(e), r, nullptr);
+    return work;
+  }
 
  private:
   Vector6<Scalar> displacements(int e) const noexcept {

@@ -193,6 +193,8 @@ class BeamSystem
 
   /// Strain energy [J].
   Scalar strain_energy() const noexcept { return beam_.strain_energy(); }
+  /// V - λ f · x as it lies now [J].
+  Scalar total_potential() const noexcept { return strain_energy() - beam_.work(load_); }
   /// What the section at s carries, in element e, which holds s.   @param thickness [m]
   InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
     return beam_.internal_forces(e, s, load_, thickness);

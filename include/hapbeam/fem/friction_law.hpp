@@ -41,6 +41,7 @@ class FrictionLaw {
   using Vector = VectorOf<Scalar, D>;
   using Matrix = Eigen::Matrix<Scalar, D, D>;
   using Place = FrictionPlace<Scalar, D>;
+  using State = FrictionState<Scalar, D>;
 
   /// Force and direction are as exact as that, in units of the bound.  In space they come nearer from one side.
   static constexpr Scalar exact =
@@ -85,7 +86,6 @@ class FrictionLaw {
     slid_ = slides_, stuck_ = !slides_;
     held_ = false;
     tries_ = 0;
-    onset_ = 0;
     pairs_ = false;
     begin_bound();
   }
@@ -160,7 +160,6 @@ class FrictionLaw {
     if (!slides_) {
       if (!pulls && size <= (1 + exact) * sticking_ * normal_force) return true;
       slides_ = slid_ = true;
-      stuck_force_ = elastic, onset_ = sticking_ * normal_force;
       torn_ = pulls || size > 2 * sticking_ * normal_force;
       // From afar the last bound says more than what sticks there.
       used_ = bound_ = torn_ && before_bound_ > 0 ? before_bound_ : most;
@@ -189,6 +188,13 @@ class FrictionLaw {
     return !slides_ &&
            !(force_.squaredNorm() <= squared((1 + exact) * sticking_ * (std::max)(normal_force, Scalar(0))));
   }
+  /// Whether its force falls as it begins to slide.
+  bool gives_way() const noexcept { return sticking_ > sliding_; }
+  bool slides() const noexcept { return slides_; }
+  /// T of an equilibrium, after look() [N]
+  Vector acting() const noexcept { return slides_ ? force_at(used_) : force_; }
+  /// e [m]
+  const Vector& shear() const noexcept { return sheared_; }
   /// What it can hold as it begins to slide, by the last tick [N].
   Scalar last_bound() const noexcept { return before_bound_; }
   /// Whether it slides without friction.
@@ -220,20 +226,23 @@ class FrictionLaw {
   bool torn() const noexcept { return torn_; }
 
   /// What the touch remembers of it.  @param normal_force  [N]
-  void leave(FrictionState<Scalar, D>& state, Scalar normal_force) const noexcept {
+  /// @return what was dissipated beyond a trapezoid between both ticks [J]
+  Scalar leave(FrictionState<Scalar, D>& state, Scalar normal_force) const noexcept {
     const Vector elastic = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
     const Scalar size = norm(elastic),
                  most = (slides_ ? sliding_ : sticking_) * (std::max)(normal_force, Scalar(0));
     const bool slid = size > most;
-    const Vector last = state.slides ? carry_from_before(state.force) : Vector(Vector::Zero());
+    const Vector before = carry_from_before(state.force);
+    const bool falls_or_slides = state.slides || gives_way();
     state.force = slid ? Vector(elastic * (most / size)) : elastic;
     state.skin = slid ? Vector((state.force + damping_ * carried_) / (stiffness_ + damping_)) : sheared_;
     state.slip = norm(sheared_);
-    // A contact that goes on sliding: the mean of both ticks, as of the work that is done on it.
-    const Vector mean = last.dot(state.force) > 0 ? Vector((last + state.force) / 2) : state.force;
-    if (!fallen_)
-      state.dissipated += mean.dot(sheared_ - state.skin) + damping_ * (state.skin - carried_).squaredNorm();
-    if (slides_ && !fallen_ && !state.slides) state.dissipated += drop(state.force, sheared_ - state.skin);
+    // The sum of ½ (T before + T) · slip of all contacts is the work of the hands by trapezoids less the energy of the beam, where that is
+    // quadratic, whatever happens within the tick: so it is where T falls at once.  What turns back slides with all of its force.
+    const Vector trapezoid = (before + state.force) / 2, slid_by = sheared_ - state.skin,
+                 mean = falls_or_slides && before.dot(state.force) > 0 ? trapezoid : state.force;
+    if (!fallen_) state.dissipated += mean.dot(slid_by) + damping_ * (state.skin - carried_).squaredNorm();
+    const Scalar beyond = fallen_ ? Scalar(0) : (mean - trapezoid).dot(slid_by);
     if (fallen_) state.force.setZero(), state.skin.setZero();
     const bool goes_on = state.slides;
     state.known = true;
@@ -245,19 +254,11 @@ class FrictionLaw {
     state.s = now_.s, state.ahead = now_.ahead, state.normal = now_.normal, state.along = now_.along;
     state.place = now_.place, state.axis = now_.axis;
     state.gain = gain_;
+    return beyond;
   }
 
  private:
   static constexpr int most_tries = 8;
-
-  /// A contact that begins to slide gives way where its force drops, and that takes energy.  What would have stuck and what slides are the
-  /// ends of the way on which it gives way; it begins where the force is what holds.  @param slid  way [m]   @return [J]
-  Scalar drop(const Vector& force, const Vector& slid) const noexcept {
-    const Scalar stuck = norm(stuck_force_), size = norm(force);
-    if (!(onset_ > size && stuck > size)) return 0;
-    const Scalar fraction = (onset_ - size) / (stuck - size);
-    return (std::max)(Scalar(0), fraction * fraction / 2 * (stuck_force_ - force).dot(slid));
-  }
 
   void shear() noexcept {
     carried_ = carry_from_before(skin_);
@@ -329,9 +330,7 @@ class FrictionLaw {
   Vector force_ = Vector::Zero(), direction_ = Vector::Zero(), far_shear_ = Vector::Zero();
   Scalar stretch_ = 1, reach_ = 0, stiffness_ = 0, damping_ = 0, sticking_ = 0, sliding_ = 0, gain_ = 0;
   Scalar bound_ = 0, used_ = 0, before_bound_ = 0, length_ = 1;
-  Vector last_force_ = Vector::Zero();   // [N] of the tick before, while it slid
-  Vector stuck_force_ = Vector::Zero();  // [N] where it was found to stick no longer
-  Scalar onset_ = 0;                     // [N] where it does
+  Vector last_force_ = Vector::Zero();  // [N] of the tick before, while it slid
   Scalar pair_bound_ = 0, pair_force_ = 0;
   Scalar off_ = 0, ratio_ = 0;  // of the bound, in feel()
   bool pairs_ = false, learns_ = false;

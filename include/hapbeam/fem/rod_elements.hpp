@@ -146,6 +146,12 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     }
     return energy;
   }
+  /// Of λ times the loads [J].
+  Scalar work(Scalar lambda) const noexcept {
+    Scalar work = 0;
+    for (int e = 0; !loads_.empty() && e < size(); ++e) work += loads_.work(e, nodes_[e], nodes_[e + 1]);
+    return lambda * work;
+  }
 
  private:
   using OnMesh::abreast_;

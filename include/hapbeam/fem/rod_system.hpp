@@ -235,6 +235,8 @@ class RodSystem
     return rod_.strain_energy() +
            ends_.visit_springs(rod_.nodes(), [](int, const Block&, const Increment&) {});
   }
+  /// V - λ f · x as it lies now [J].
+  Scalar total_potential() const noexcept { return strain_energy() - rod_.work(load_); }
 
  private:
   friend Contacts;  // sets its shape

@@ -66,7 +66,7 @@ class RoundPush {
     // What is no answer says nothing of where they touch: friction begins anew.
     if (is_answer(pushed.status) && pushed.force < 0) {
       system.look_at_friction();
-      friction.leave(*state, -pushed.force);
+      (void)friction.leave(*state, -pushed.force);
     } else {
       state->let_go();
     }

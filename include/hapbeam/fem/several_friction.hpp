@@ -5,10 +5,12 @@
 // Real-time: noexcept, no allocation, O(contacts).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
 
+#include <hapbeam/fem/giving_way.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/friction.hpp>
 
@@ -27,6 +29,8 @@ class SeveralFriction {
     for (int i = 0; i < count; ++i)
       if (all[i].touching) meet(system, i);
   }
+  /// To be called where other contacts or another mesh follow.
+  void begin_again() noexcept { giving_way_.forget(); }
   /// An obstacle has a contact now.
   void meet(const System& system, int i) noexcept {
     if (!rough(i)) return;
@@ -60,6 +64,8 @@ class SeveralFriction {
           (first < 0 || friction.last_bound() < of(first)->last_bound()))
         first = i;
     });
+    if (first >= 0 && of(first)->gives_way())
+      giving_way_.mark(first, system, [this](auto&& use) { each(use); });
     // What two hold between them says nothing of either: the one that holds less slides, and then the other one may stick.
     if (first >= 0 && !of(first)->settled(normal_force(first))) return false;
     bool all = true;
@@ -81,15 +87,26 @@ class SeveralFriction {
   /// To be called where a push ends: what has no answer begins anew.  @param goal  as above, -1: none
   template <class Goal>
   void leave(System& system, bool answered, Goal&& goal) noexcept {
+    const int given_way = giving_way_.contact();
+    const bool any =
+        answered && given_way >= 0 && all_[given_way].touching && all_[given_way].pushed.force < 0;
+    const auto before = any ? *all_[given_way].friction : typename Friction::State{};
+    Scalar counted = 0;
     for (int i = 0; i < count_; ++i) {
       if (!all_[i].friction) continue;
       const int k = goal(i);
       if (answered && of(i) && all_[i].touching && k >= 0 && all_[i].pushed.force < 0) {
         system.look_at_friction(k);
-        of(i)->leave(*all_[i].friction, -all_[i].pushed.force);
+        counted += of(i)->leave(*all_[i].friction, -all_[i].pushed.force);
       } else {
         all_[i].friction->let_go();
       }
+    }
+    if (any) {
+      Scalar& dissipated = all_[given_way].friction->dissipated;
+      dissipated += giving_way_.beyond_trapezoid(system, *of(given_way), before.force, counted,
+                                                 [this](auto&& use) { each(use); });
+      dissipated = (std::max)(dissipated, before.dissipated);
     }
     if (any_) system.forget_friction();
   }
@@ -110,6 +127,7 @@ class SeveralFriction {
   int count_;
   bool any_ = false;
   std::array<std::optional<Friction>, Most> laws_;
+  GivingWay<Friction, Most> giving_way_;
 };
 
 }  // namespace hapbeam::detail
