@@ -54,9 +54,9 @@ struct CubicWeights {
 
 /// The same at a place that is known at compile time, without the length: r' and r''l as combinations of Δ/l, r1' and r2'.
 struct CubicAt {
-  long double a, a1, a2, b, b1, b2;
+  double a, a1, a2, b, b1, b2;
 
-  constexpr explicit CubicAt(long double x) noexcept
+  constexpr explicit CubicAt(double x) noexcept
       : a(6 * x * (1 - x)),
         a1(1 + x * (3 * x - 4)),
         a2(x * (3 * x - 2)),
@@ -67,7 +67,7 @@ struct CubicAt {
 
 /// sum + factor · x for a factor that is known at compile time: nothing is added where it is zero.
 template <typename S>
-[[gnu::always_inline]] inline void add_share(S& sum, long double factor, const S& x) noexcept {
+[[gnu::always_inline]] inline void add_share(S& sum, double factor, const S& x) noexcept {
   if (factor != 0) sum = add_product(sum, S(factor), x);
 }
 

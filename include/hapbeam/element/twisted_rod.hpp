@@ -73,7 +73,7 @@ struct TwistedRod {
     for (int g = 0; g < p.number; ++g) {
       const auto& at = p.points[g];
       const S x = S(rule.x[g]);
-      const Point<S> point(f, detail::CubicAt(static_cast<long double>(rule.x[g])));
+      const Point<S> point(f, detail::CubicAt(rule.x[g]));
       S k[3];
       point.strains(m * x + 4 * inner.twist * x * (1 - x), m + 4 * inner.twist * (1 - 2 * x),
                     p.inverse_length, k);
@@ -113,7 +113,7 @@ struct TwistedRod {
     const detail::GaussRule& rule = detail::gauss_rule(p.number);
     for (int g = 0; g < p.number; ++g) {
       const S x = S(rule.x[g]);
-      const Point<S> point(f, detail::CubicAt(static_cast<long double>(rule.x[g])));
+      const Point<S> point(f, detail::CubicAt(rule.x[g]));
       point.strains(f.mismatch * x + 4 * twist * x * (1 - x), f.mismatch + 4 * twist * (1 - 2 * x),
                     p.inverse_length, p.points[g].natural);
     }

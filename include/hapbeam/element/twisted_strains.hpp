@@ -78,13 +78,13 @@ template <int Number, int G, typename S>
 [[gnu::flatten]] inline void add_point(const RodProperties<S>& p, const CarriedFrame<S>& f, const S& psi,
                                        TwistedCore<S>& core, S& energy) noexcept {
   constexpr const GaussRule& rule = gauss_rule(Number);
-  constexpr long double x = rule.x[G];
+  constexpr double x = rule.x[G];
   constexpr CubicAt w(x);
   const auto& at = p.points[G];
   const S weight = S(rule.weight[G]), i1 = p.inverse_length, m = f.mismatch;
   const CarriedPoint<S> q(f, w);
   // θ and θ' l by φ1, φ2 + m, ψ
-  constexpr long double t[3] = {1 - x, x, 4 * x * (1 - x)}, d[3] = {-1, 1, 4 * (1 - 2 * x)};
+  constexpr double t[3] = {1 - x, x, 4 * x * (1 - x)}, d[3] = {-1, 1, 4 * (1 - 2 * x)};
   const S theta = S(t[1]) * m + S(t[2]) * psi;
   S co, si;
   cos_and_sin(theta, co, si);
@@ -112,16 +112,16 @@ template <int Number, int G, typename S>
   K1b[1] -= i, K2b[0] += i;
   const V3<S> cb(-h * Y, h * X, 0);
 
-  // In the section's axes, by (Δ, |r1'|, r2', φ1, φ2 + m, ψ).
-  S R1[10], R2[10], R3[10];
+  // In the section's axes, by (Δ, |r1'|, r2').
+  S R1[7], R2[7], R3[7];
   const V3<S> k1a = co * K1a + si * K2a, k1b = co * K1b + si * K2b, k2a = co * K2a - si * K1a,
               k2b = co * K2b - si * K1b;
-  const auto share = [](long double alpha, const S& by_a, long double beta, const S& by_b) {
+  const auto share = [](double alpha, const S& by_a, double beta, const S& by_b) {
     S sum = S(alpha) * by_a;
     add_share(sum, beta, by_b);
     return sum;
   };
-  const auto chain = [&](const V3<S>& by_a, const V3<S>& by_b, S(&R)[10]) {
+  const auto chain = [&](const V3<S>& by_a, const V3<S>& by_b, S(&R)[7]) {
     HAPBEAM_UNROLL
     for (int k = 0; k < 3; ++k) {
       R[k] = share(w.a, by_a[k], w.b, by_b[k]);
@@ -131,36 +131,34 @@ template <int Number, int G, typename S>
   };
   chain(k1a, k1b, R1);
   chain(k2a, k2b, R2);
-  chain(-ca, -cb, R3);
+  chain(ca, cb, R3);
+  // θ turns both curvatures into each other; what it makes of them and of itself; τ has -R3.
+  const S by1 = E1 * k2 - m2, by2 = m1 - E2 * k1, own = k2 * by1 - k1 * by2, moment = m1 * k2 - m2 * k1;
   HAPBEAM_UNROLL
-  for (int k = 0; k < 3; ++k) {
-    R1[7 + k] = k2 * S(t[k]);
-    R2[7 + k] = -k1 * S(t[k]);
-    R3[7 + k] = S(d[k]);
-  }
-  HAPBEAM_UNROLL
-  for (int r = 0; r < 10; ++r) {
-    const S s1 = E1 * R1[r], s2 = E2 * R2[r], s3 = GJ * R3[r];
-    const S sum = r < 7 ? core.g[r] : first(G, core.g[r]);
-    core.g[r] = add_product(add_product(add_product(sum, m1, R1[r]), m2, R2[r]), T, R3[r]);
+  for (int r = 0; r < 7; ++r) {
+    const S s1 = E1 * R1[r], s2 = E2 * R2[r], s3 = GJ * R3[r], turned = by1 * R1[r] + by2 * R2[r];
+    core.g[r] = add_product(add_product(add_product(core.g[r], m1, R1[r]), m2, R2[r]), -T, R3[r]);
     HAPBEAM_UNROLL
-    for (int c = 0; c <= r; ++c) {
-      const S H = r < 7 ? core.H[r][c] : first(G, core.H[r][c]);
-      core.H[r][c] = add_product(add_product(add_product(H, s1, R1[c]), s2, R2[c]), s3, R3[c]);
+    for (int c = 0; c <= r; ++c)
+      core.H[r][c] = add_product(add_product(add_product(core.H[r][c], s1, R1[c]), s2, R2[c]), s3, R3[c]);
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 3; ++k) {
+      S& H = core.H[7 + k][r];
+      H = first(G, H);
+      add_share(H, t[k], turned), add_share(H, -d[k], s3);
     }
   }
-  // θ with the rest, and with itself.
-  const S turn = m1 * k1 + m2 * k2;
-  HAPBEAM_UNROLL
-  for (int c = 0; c < 7; ++c) {
-    const S by_turn = m1 * R2[c] - m2 * R1[c];
-    HAPBEAM_UNROLL
-    for (int k = 0; k < 3; ++k) add_share(core.H[7 + k][c], t[k], by_turn);
-  }
   HAPBEAM_UNROLL
   for (int k = 0; k < 3; ++k) {
+    S& g = core.g[7 + k];
+    g = first(G, g);
+    add_share(g, t[k], moment), add_share(g, d[k], T);
     HAPBEAM_UNROLL
-    for (int c = 0; c <= k; ++c) add_share(core.H[7 + k][7 + c], -t[k] * t[c], turn);
+    for (int c = 0; c <= k; ++c) {
+      S& H = core.H[7 + k][7 + c];
+      H = first(G, H);
+      add_share(H, t[k] * t[c], own), add_share(H, d[k] * d[c], GJ);
+    }
   }
   // M1 K1 + M2 K2 - T c = Q/n + h F with F = P w - T C, by a twice and by a and b.
   const S Q = M2 * b[0] - M1 * b[1], P = M1 * Y - M2 * X, F = P * q.w - T * q.C;
@@ -171,23 +169,31 @@ template <int Number, int G, typename S>
   Fb[0] += T * Y, Fb[1] -= T * X;
   const S cubed = Q * ii * i, hh = h * h, hw = h * P * ii;
   // ∇²h = 2h³ DaDaᵀ - h² (2I + vẑᵀ + ẑvᵀ + z (I - vvᵀ)/n),  ∇²w = (3 v·b vvᵀ - v·b I - bvᵀ - vbᵀ)/n²
-  const S on_diagonal = -cubed - F * hh * (2 + v[2]) - hw * vb, vv = 3 * cubed + F * hh * v[2] + 3 * hw * vb,
-          DD = 2 * F * hh * h, zv = -F * hh;
+  //   by a twice:  Da qᵀ + v pᵀ + hPa waᵀ, and what they are transposed, and a diagonal;   by a and b:  ha Fbᵀ + v sᵀ + hPa vzᵀ
+  const S on_diagonal = -cubed - F * hh * (2 + v[2]) - hw * vb, hP0 = h * Pa[0], hP1 = h * Pa[1],
+          hPi = h * P * i, vv = (3 * cubed + F * hh * v[2] + 3 * hw * vb) * S(0.5);
+  const V3<S> q_Da = (F * hh * h) * Da - hh * Fa,
+              s_v(ii * Pa[0] - hPi * v[0], ii * Pa[1] - hPi * v[1], -hPi * v[2]);
+  V3<S> p_v = vv * v - hw * b;
+  p_v[2] -= F * hh;
   S Aa[3][3], Ab[3][3];
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c <= r; ++c)
-      Aa[r][c] = vv * v[r] * v[c] + DD * Da[r] * Da[c] + ha[r] * Fa[c] + Fa[r] * ha[c] +
-                 h * (Pa[r] * wa[c] + wa[r] * Pa[c]) - hw * (b[r] * v[c] + v[r] * b[c]);
-  for (int r = 0; r < 3; ++r) Aa[r][r] += on_diagonal;
-  for (int c = 0; c < 3; ++c) Aa[2][c] += zv * v[c];
-  Aa[2][2] += zv * v[2];
-  Aa[0][1] = Aa[1][0], Aa[0][2] = Aa[2][0], Aa[1][2] = Aa[2][1];
-  const S hPi = h * P * i;
-  const V3<S> Qb(M2 * ii, -M1 * ii, 0);
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c)
-      Ab[r][c] = ha[r] * Fb[c] - v[r] * Qb[c] + h * Pa[r] * vz[c] - hPi * v[r] * v[c];
-  for (int r = 0; r < 3; ++r) Ab[r][r] += hPi;
+  HAPBEAM_UNROLL
+  for (int r = 0; r < 3; ++r) {
+    HAPBEAM_UNROLL
+    for (int c = 0; c <= r; ++c) {
+      S sum = r == c ? S(on_diagonal + 2 * (Da[r] * q_Da[r] + v[r] * p_v[r]))
+                     : S(Da[r] * q_Da[c] + q_Da[r] * Da[c] + v[r] * p_v[c] + p_v[r] * v[c]);
+      if (r < 2) sum = add_product(sum, r == 0 ? hP0 : hP1, wa[c]);
+      if (c < 2) sum = add_product(sum, c == 0 ? hP0 : hP1, wa[r]);
+      Aa[r][c] = Aa[c][r] = sum;
+    }
+    HAPBEAM_UNROLL
+    for (int c = 0; c < 3; ++c) {
+      Ab[r][c] = ha[r] * Fb[c] + v[r] * s_v[c];
+      if (r < 2) Ab[r][c] = add_product(Ab[r][c], r == 0 ? hP0 : hP1, vz[c]);
+    }
+    Ab[r][r] += hPi;
+  }
   Ab[0][1] -= h * T, Ab[1][0] += h * T;
   HAPBEAM_UNROLL
   for (int r = 0; r < 3; ++r) {
