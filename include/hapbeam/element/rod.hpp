@@ -175,16 +175,16 @@ struct RoundRod {
     }
   };
 
-  /// All of them, by Δ and by both tangents.
-  //   r' = c ± e1 + e2 at the outer points and c in the middle, r'' ~ e1 ± 2 e2 and e1; and
-  //   c = 3/2 Δ/l - (r1' + r2')/4,   e1 = half_g (r2' - r1'),   e2 = 0.45 (r1' + r2') - 0.9 Δ/l
+  /// All of them, by Δ and by both tangents.  With q = 3/2 Δ/l, s = r1' + r2' and e = half_g (r2' - r1'),
+  //   r' = q - s/4,   r'' ~ e                                    in the middle, and at the outer points
+  //   r' = p ± e,     r'' ~ e ± w,    p = 0.4 q + 0.2 s,   w = 0.9 s - 1.2 q
   template <typename S>
   [[gnu::always_inline]] static void collect(const Bend<S> (&at)[points], const Stretch<S>& stretch,
                                              const S& i, RodTangent<S, 3>& to) noexcept {
     using detail::add_product;
     const Bend<S>&low = at[0], &mid = at[1], &high = at[2];
     const V3<S>&u = stretch.u, &m = stretch.m, &v = stretch.v;
-    const S ii = i * i, D = S(1.5) * i, D2 = S(0.9) * i;
+    const S by_D = S(1.5) * i, by_DD = by_D * by_D;
     const S in_D = S(1.5) * i * stretch.beside, in_t = S(-0.25) * stretch.beside;
     V3<S> md, mt, ut, vt, vk;
     HAPBEAM_UNROLL
@@ -194,13 +194,12 @@ struct RoundRod {
       vt[r] = add_product(mt[r], stretch.own[2], v[r]);
       vk[r] = add_product(mt[r], stretch.across, v[r]);
       const S both = high.by_a[r] + low.by_a[r], odd = high.by_a[r] - low.by_a[r];
-      const S by_c = add_product(S(mid.by_a[r] + both), stretch.N[1], m[r]);
-      const S by_e1 = odd + (mid.by_b[r] + (high.by_b[r] + low.by_b[r]));
-      const S by_e2 = add_product(both, S(2), S(high.by_b[r] - low.by_b[r]));
-      to.D[r] = D * by_c - D2 * by_e2;
-      const S sum = S(0.45) * by_e2 - S(0.25) * by_c;
-      to.t1[r] = add_product(add_product(sum, S(-half_g), by_e1), stretch.N[0], u[r]);
-      to.t2[r] = add_product(add_product(sum, S(half_g), by_e1), stretch.N[2], v[r]);
+      const S in_middle = add_product(mid.by_a[r], stretch.N[1], m[r]), by_w = high.by_b[r] - low.by_b[r];
+      const S by_e = odd + (mid.by_b[r] + (high.by_b[r] + low.by_b[r]));
+      to.D[r] = by_D * add_product(add_product(in_middle, S(0.4), both), S(-1.2), by_w);
+      const S by_s = add_product(add_product(S(S(0.9) * by_w), S(0.2), both), S(-0.25), in_middle);
+      to.t1[r] = add_product(add_product(by_s, S(-half_g), by_e), stretch.N[0], u[r]);
+      to.t2[r] = add_product(add_product(by_s, S(half_g), by_e), stretch.N[2], v[r]);
     }
     HAPBEAM_UNROLL
     for (int col = 0; col < 3; ++col) {
@@ -213,47 +212,41 @@ struct RoundRod {
         const S q0 = one ? p0 : low.ab(col, row), q2 = one ? p2 : high.ab(col, row), ba = q2 + q0,
                 dba = q2 - q0;
         const S b0 = low.bb(row, col), b2 = high.bb(row, col), bb = b2 + b0, db = b2 - b0;
-        const S mixed = dab + dba;
-        // By c, e1, e2; where two differ, (row, col) first and (col, row) behind it.
-        S H00 = aa + mid.aa(row, col);
-        H00 = add_product(H00, S(stretch.own[1] * m[row]), m[col]);
-        if (one) H00 += stretch.turn[1];
-        const S H01[2] = {da + (ab + mid.ab(row, col)), da + (ba + mid.ab(col, row))};
-        const S H02[2] = {add_product(aa, S(2), dab), add_product(aa, S(2), dba)};
-        const S H11 = (aa + mixed) + (bb + mid.bb(row, col));
-        const S da2 = add_product(da, S(2), db);
-        const S H12[2] = {add_product(S(da2 + ba), S(2), ab), add_product(S(da2 + ab), S(2), ba)};
-        const S H22 = add_product(add_product(aa, S(2), mixed), S(4), bb);
-        S D0[2], D1[2], D2nd[2], S1[2], S0, S2;
+        // By q, s and e; where two differ, (row, col) first and (col, row) behind it.
+        const S mixed = dab + dba, of_mid[2] = {mid.ab(row, col), one ? S(0) : mid.ab(col, row)};
+        S middle = add_product(mid.aa(row, col), S(stretch.own[1] * m[row]), m[col]);
+        if (one) middle += stretch.turn[1];
+        const S qq = add_product(add_product(add_product(middle, S(0.16), aa), S(-0.48), mixed), S(1.44), bb);
+        const S ss = add_product(add_product(add_product(S(S(0.0625) * middle), S(0.04), aa), S(0.18), mixed),
+                                 S(0.81), bb);
+        const S ee = (aa + mixed) + (bb + mid.bb(row, col));
+        const S both = add_product(add_product(S(S(-0.25) * middle), S(0.08), aa), S(-1.08), bb);
+        S qs[2], qe[2], se[2];
         HAPBEAM_UNROLL
         for (int k = 0; k < 2; ++k) {
-          D0[k] = S(1.5) * H00 - S(0.9) * H02[1 - k];
-          D1[k] = S(1.5) * H01[k] - S(0.9) * H12[1 - k];
-          D2nd[k] = S(1.5) * H02[k] - S(0.9) * H22;
-          S1[k] = S(0.45) * H12[1 - k] - S(0.25) * H01[k];
+          const S a_e = da + (k == 0 ? ab : ba), b_e = db + (k == 0 ? ba : ab);
+          qs[k] = add_product(add_product(both, S(0.36), k == 0 ? dab : dba), S(-0.24), k == 0 ? dba : dab);
+          qe[k] = add_product(add_product(of_mid[k], S(0.4), a_e), S(-1.2), b_e);
+          se[k] = add_product(add_product(S(S(-0.25) * of_mid[k]), S(0.2), a_e), S(0.9), b_e);
         }
-        S0 = S(0.45) * H02[1] - S(0.25) * H00;
-        S2 = S(0.45) * H22 - S(0.25) * H02[0];
         const int h = half(row, col), place[2] = {3 * col + row, 3 * row + col};
-        to.DD[h] = ii * (S(1.5) * D0[0] - S(0.9) * D2nd[0]);
+        to.DD[h] = by_DD * qq;
         HAPBEAM_UNROLL
         for (int k = 0; k < 2; ++k) {
           if (one && k == 1) continue;
-          const int r = k == 0 ? row : col, s = k == 0 ? col : row;
-          const S sum = S(0.45) * D2nd[k] - S(0.25) * D0[k];
-          to.D1[place[k]] = add_product(S(i * add_product(sum, S(-half_g), D1[k])), md[r], u[s]);
-          to.D2[place[k]] = add_product(S(i * add_product(sum, S(half_g), D1[k])), md[r], v[s]);
+          const int r = k == 0 ? row : col, c = k == 0 ? col : row;
+          to.D1[place[k]] = add_product(S(by_D * add_product(qs[k], S(-half_g), qe[k])), md[r], u[c]);
+          to.D2[place[k]] = add_product(S(by_D * add_product(qs[k], S(half_g), qe[k])), md[r], v[c]);
         }
-        const S SS = S(0.45) * S2 - S(0.25) * S0;
-        const S sum = add_product(SS, S(half_g * half_g), H11),
-                less = add_product(SS, S(-half_g * half_g), H11);
-        const S even = S1[0] + S1[1];
+        const S sum = add_product(ss, S(half_g * half_g), ee),
+                less = add_product(ss, S(-half_g * half_g), ee);
+        const S even = one ? S(2 * se[0]) : S(se[0] + se[1]);
         S K11 = add_product(sum, S(-half_g), even), K22 = add_product(sum, S(half_g), even);
         K11 = add_product(add_product(K11, ut[row], u[col]), u[row], mt[col]);
         K22 = add_product(add_product(K22, vt[row], v[col]), v[row], mt[col]);
         to.K11[h] = one ? S(K11 + stretch.turn[0]) : K11;
         to.K22[h] = one ? S(K22 + stretch.turn[2]) : K22;
-        const S odd = S1[0] - S1[1];
+        const S odd = se[0] - se[1];
         HAPBEAM_UNROLL
         for (int k = 0; k < 2; ++k) {
           if (one && k == 1) continue;
