@@ -42,8 +42,13 @@ template <typename S>
   return a + b * c;
 }
 
+template <typename T, int Size>
+struct PackRows;
+
 template <typename T, int Size = pack_size<T>>
 class Pack {
+  friend struct PackRows<T, Size>;
+
  public:
   static constexpr int size = Size;
 
@@ -128,7 +133,14 @@ class Pack {
     return moved<1, false>(&one, a);
   }
 
-  [[gnu::always_inline]] Pack operator-() const noexcept { return Pack(0) -= *this; }
+  [[gnu::always_inline]] Pack operator-() const noexcept {
+#if defined(__GNUC__)
+    Pack negative;
+    return negative.v_ = -v_, negative;
+#else
+    return Pack(0) -= *this;
+#endif
+  }
   [[gnu::always_inline]] friend Pack operator+(Pack a, const Pack& b) noexcept { return a += b; }
   [[gnu::always_inline]] friend Pack operator-(Pack a, const Pack& b) noexcept { return a -= b; }
   [[gnu::always_inline]] friend Pack operator*(Pack a, const Pack& b) noexcept { return a *= b; }

@@ -183,19 +183,19 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     });
     const Node *const left = &nodes_[order.node((std::min)(first + lanes, order.last_node() - 1))],
                       *const right = &nodes_[order.node((std::min)(first + lanes + 1, order.last_node()))];
+    const RodNode<Wide> outer = detail::gather_nodes<has_twist>(of, nodes_);
     RodNode<Wide> a, b;
-    const auto take = [&](detail::V3<Scalar> Node::*from, detail::V3<Wide> RodNode<Wide>::*to) {
-      const detail::V3<Wide> outer = detail::gather(of, nodes_, from);
+    const auto take = [&](auto member, auto from) {
       HAPBEAM_UNROLL
       for (int c = 0; c < 3; ++c) {
         const Scalar two[2] = {(left->*from)[c], (right->*from)[c]};
-        const Wide next = before(outer[c], two);
-        (a.*to)[c] = in_turn(outer[c], next), (b.*to)[c] = in_turn(next, outer[c]);
+        const Wide here = (outer.*member)[c], next = before(here, two);
+        (a.*member)[c] = in_turn(here, next), (b.*member)[c] = in_turn(next, here);
       }
     };
-    take(&Node::r, &RodNode<Wide>::r);
-    take(&Node::tangent, &RodNode<Wide>::tangent);
-    if constexpr (has_twist) take(&Node::director, &RodNode<Wide>::director);
+    take(&RodNode<Wide>::r, &Node::r);
+    take(&RodNode<Wide>::tangent, &Node::tangent);
+    if constexpr (has_twist) take(&RodNode<Wide>::director, &Node::director);
     return Stiffness::compute(abreast_.properties(first), a, b, inner, K);
   }
   /// Calls f(element, lane) for those from a place on.

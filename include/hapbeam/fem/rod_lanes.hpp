@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include <hapbeam/element/pack.hpp>
+#include <hapbeam/element/pack_rows.hpp>
 #include <hapbeam/rod_centreline.hpp>
 #include <hapbeam/unroll.hpp>
 
@@ -60,37 +60,76 @@ template <typename Scalar, int Size, class F>
                                                         F&& f) noexcept {
   return Pack<Scalar, Size>::of([&](int k) { return f(abreast.of[k]); });
 }
-/// One of the vectors of nodes.
-template <typename Scalar, int Size, class Nodes>
-[[gnu::always_inline]] inline VectorOf<Pack<Scalar, Size>, 3> gather(
-    const Abreast<Scalar, Size>& abreast, const Nodes& nodes,
-    VectorOf<Scalar, 3> RodNode<Scalar>::*member) noexcept {
-  const auto entry = [&](int c) {
-    return gather(abreast, [&](int i) -> Scalar { return (nodes[i].*member)[c]; });
-  };
-  return {entry(0), entry(1), entry(2)};
-}
-/// Nodes; s is left out.   @tparam directors  whether they matter
+/// Nodes as rows of numbers: s, r, tangent, director.
+template <typename Scalar, int Size>
+struct NodeRows {
+  using Wide = Pack<Scalar, Size>;
+  using Rows = PackRows<Scalar, Size>;
+  using Node = RodNode<Scalar>;
+  static constexpr int numbers = 10, whole = numbers / Size * Size;
+  static_assert(sizeof(Node) == numbers * sizeof(Scalar), "nothing stands between the numbers of a node");
+  [[gnu::always_inline]] static const Scalar* numbers_of(const Node& node) noexcept {
+    return reinterpret_cast<const Scalar*>(&node);
+  }
+  [[gnu::always_inline]] static Scalar* numbers_of(Node& node) noexcept {
+    return reinterpret_cast<Scalar*>(&node);
+  }
+
+  /// Reads the first of them.   @param column  out, number by number
+  template <int Count, class Nodes>
+  [[gnu::always_inline]] static void gather(const Abreast<Scalar, Size>& which, const Nodes& nodes,
+                                            Wide (&column)[numbers]) noexcept {
+    for (int at = 0; at < (std::min)(Count, whole); at += Size) {
+      const Scalar* rows[Size];
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Size; ++k) rows[k] = numbers_of(nodes[which.of[k]]) + at;
+      Rows::load(rows, column + at);
+    }
+    if constexpr (Count > whole) {
+      const Scalar* rows[Size];
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Size; ++k) rows[k] = numbers_of(nodes[which.of[k]]) + whole;
+      Rows::load_two(rows, column[whole], column[whole + 1]);
+    }
+  }
+  /// Writes them.
+  template <class Nodes>
+  [[gnu::always_inline]] static void scatter(const Abreast<Scalar, Size>& which,
+                                             const Wide (&column)[numbers], Nodes& nodes) noexcept {
+    for (int at = 0; at < whole; at += Size) {
+      Scalar* rows[Size];
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Size; ++k) rows[k] = numbers_of(nodes[which.of[k]]) + at;
+      Rows::store(column + at, rows);
+    }
+    if constexpr (numbers > whole) {
+      Scalar* rows[Size];
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Size; ++k) rows[k] = numbers_of(nodes[which.of[k]]) + whole;
+      Rows::store_two(column[whole], column[whole + 1], rows);
+    }
+  }
+};
+
+/// @tparam directors  whether they matter
 template <bool directors = true, typename Scalar, int Size, class Nodes>
 [[gnu::always_inline]] inline RodNode<Pack<Scalar, Size>> gather_nodes(const Abreast<Scalar, Size>& abreast,
                                                                        const Nodes& nodes) noexcept {
-  using Node = RodNode<Scalar>;
   using Wide = Pack<Scalar, Size>;
-  RodNode<Wide> node{0, gather(abreast, nodes, &Node::r), gather(abreast, nodes, &Node::tangent),
-                     VectorOf<Wide, 3>::Zero()};
-  if constexpr (directors) node.director = gather(abreast, nodes, &Node::director);
+  using Vector = VectorOf<Wide, 3>;
+  Wide all[10];
+  NodeRows<Scalar, Size>::template gather<directors ? 10 : 7>(abreast, nodes, all);
+  RodNode<Wide> node{all[0], Vector(all[1], all[2], all[3]), Vector(all[4], all[5], all[6]), Vector::Zero()};
+  if constexpr (directors) node.director = Vector(all[7], all[8], all[9]);
   return node;
 }
-/// @param f  (index, lane)
-template <typename Scalar, int Size, class F>
-[[gnu::always_inline]] inline void scatter(const Abreast<Scalar, Size>& abreast, F&& f) noexcept {
-  HAPBEAM_UNROLL
-  for (int k = 0; k < Size; ++k) f(abreast.of[k], k);
-}
-template <typename Scalar, int Size>
-[[gnu::always_inline]] inline VectorOf<Scalar, 3> lane(const VectorOf<Pack<Scalar, Size>, 3>& v,
-                                                       int k) noexcept {
-  return {v[0][k], v[1][k], v[2][k]};
+template <typename Scalar, int Size, class Nodes>
+[[gnu::always_inline]] inline void scatter_nodes(const Abreast<Scalar, Size>& abreast,
+                                                 const RodNode<Pack<Scalar, Size>>& node,
+                                                 Nodes& nodes) noexcept {
+  const auto &r = node.r, &t = node.tangent, &d = node.director;
+  const Pack<Scalar, Size> all[10] = {node.s, r[0], r[1], r[2], t[0], t[1], t[2], d[0], d[1], d[2]};
+  NodeRows<Scalar, Size>::scatter(abreast, all, nodes);
 }
 
 }  // namespace hapbeam::detail

@@ -55,13 +55,10 @@ template <typename S>
 /// @tparam twists  whether there is φ
 template <bool twists, class Nodes, class Increments>
 [[gnu::flatten]] void move_nodes(Nodes& nodes, const Increments& increments, bool places) noexcept {
-  using Node = std::decay_t<decltype(nodes[0])>;
   increments.visit([&](const auto& which, const auto& x) {
     using Wide = typename std::decay_t<decltype(which)>::Wide;
     using Vector = VectorOf<Wide, 3>;
-    RodNode<Wide> node;
-    node.tangent = gather(which, nodes, &Node::tangent);
-    node.director = gather(which, nodes, &Node::director);
+    RodNode<Wide> node = gather_nodes(which, nodes);
     const Vector change(x(3), x(4), x(5));
     if constexpr (twists) {
       const Wide twist = x(6);
@@ -69,13 +66,8 @@ template <bool twists, class Nodes, class Increments>
     } else {
       move_tangent<Wide>(node, change, nullptr);
     }
-    if (places) {
-      node.r = gather(which, nodes, &Node::r) + Vector(x(0), x(1), x(2));
-      scatter(which, [&](int i, int k) { nodes[i].r = lane(node.r, k); });
-    }
-    scatter(which, [&](int i, int k) {
-      nodes[i].tangent = lane(node.tangent, k), nodes[i].director = lane(node.director, k);
-    });
+    if (places) node.r += Vector(x(0), x(1), x(2));
+    scatter_nodes(which, node, nodes);
   });
 }
 /// Moves places alone: each chord turns as the difference of the increments at its ends says, from the first node on.
@@ -127,8 +119,8 @@ template <bool twists, class Nodes, typename Scalar>
   for_each_abreast<Scalar>(last, [&](const auto& here) {
     using Wide = typename std::decay_t<decltype(here)>::Wide;
     using Vector = VectorOf<Wide, 3>;
-    const RodNode<Wide> x = gather_nodes(here, now);
-    const Vector b = gather(here, then, &Node::tangent);
+    const RodNode<Wide> x = gather_nodes(here, now), before_x = gather_nodes<twists>(here, then);
+    const Vector& b = before_x.tangent;
     // The neighbours stand in the next lane, and beyond the first and the last of these nodes.
     const Node &first = now[(std::max)(here.of[0] - 1, 0)],
                &end = now[(std::min)(here.of[Wide::size - 1] + 1, last)];
@@ -141,13 +133,13 @@ template <bool twists, class Nodes, typename Scalar>
       return Vector(before(of[0], v[0]), before(of[1], v[1]), before(of[2], v[2]));
     };
     const Vector l = left_of(x.tangent, &Node::tangent), r = right_of(x.tangent, &Node::tangent);
-    const auto step = [&](int i) { return ahead[i].s - now[i].s - ratio * (now[i].s - then[i].s); };
-    const Wide along = gather(here, [&](int i) { return i == 0 || i == last ? Scalar(0) : step(i); });
-    const Wide s = gather(here, [&](int i) { return now[i].s; });
-    // None where the last node stands again.
-    const Wide share = share_of(along, Wide(before(s, end.s) - after(first.s, s))), onward = ratio;
+    const Wide onward = ratio;
     RodNode<Wide> next = x;
-    next.r += onward * (x.r - gather(here, then, &Node::r)) + along * x.tangent;
+    next.s = gather(here, [&](int i) { return ahead[i].s; });
+    const Wide along = next.s - x.s - onward * (x.s - before_x.s);  // none at the ends
+    // None where the last node stands again.
+    const Wide share = share_of(along, Wide(before(x.s, end.s) - after(first.s, x.s)));
+    next.r += onward * (x.r - before_x.r) + along * x.tangent;
     const Vector change = onward * (x.tangent - b) + share * (r - l);
     if constexpr (twists) {
       const Vector u = unit(x.tangent), beside = cross3(x.director, u);
@@ -156,16 +148,12 @@ template <bool twists, class Nodes, typename Scalar>
       };
       const auto between =
           twist(l, left_of(x.director, &Node::director)) - twist(r, right_of(x.director, &Node::director));
-      const Wide angle =
-          onward * twist(b, gather(here, then, &Node::director)).value() + share * between.value();
+      const Wide angle = onward * twist(b, before_x.director).value() + share * between.value();
       move_tangent(next, change, &angle);
     } else {
       move_tangent<Wide>(next, change, nullptr);
     }
-    scatter(here, [&](int i, int k) {
-      ahead[i].r = lane(next.r, k);
-      ahead[i].tangent = lane(next.tangent, k), ahead[i].director = lane(next.director, k);
-    });
+    scatter_nodes(here, next, ahead);
   });
 }
 
