@@ -150,9 +150,9 @@ template <int Number, int G, typename S>
   }
   HAPBEAM_UNROLL
   for (int k = 0; k < 3; ++k) {
-    S& g = core.g[7 + k];
-    g = first(G, g);
-    add_share(g, t[k], moment), add_share(g, d[k], T);
+    S& gradient = core.g[7 + k];
+    gradient = first(G, gradient);
+    add_share(gradient, t[k], moment), add_share(gradient, d[k], T);
     HAPBEAM_UNROLL
     for (int c = 0; c <= k; ++c) {
       S& H = core.H[7 + k][7 + c];
