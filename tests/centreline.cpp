@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/pi.hpp"
 #include "support/random.hpp"
 #include <hapbeam/centreline.hpp>
 
@@ -11,7 +12,7 @@ using namespace hapbeam::testing;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, eps = 2.2e-16;
+constexpr double eps = 2.2e-16;
 using Nodes = std::vector<CentrelineNode<double>>;
 
 Centreline<double> view(const Nodes& nodes, bool any_rotation = true) {

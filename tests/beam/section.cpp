@@ -1,6 +1,7 @@
 // Sections against their definition, A = ∫ b dz and I = ∫ z² b dz with b(z) the width at height z.
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/pi.hpp"
 #include "support/thesis_beam.hpp"
 
 using namespace hapbeam;
@@ -13,7 +14,6 @@ namespace {
 template <class Width>
 double moment(int k, double height, Width&& width) {
   constexpr int n = 64;
-  const double pi = 3.14159265358979323846;
   double sum = 0;
   for (int i = 0; i < n; ++i) {
     const double t = pi * ((i + 0.5) / n - 0.5), z = height / 2 * std::sin(t);

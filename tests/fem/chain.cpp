@@ -2,6 +2,7 @@
 #include "support/catch.hpp"
 #include "support/error.hpp"
 #include "support/path.hpp"
+#include "support/pi.hpp"
 #include "support/random.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
@@ -13,7 +14,6 @@ using namespace hapbeam::testing;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 using Turning = FemModel<Corotational<>>;
 using Nodes = std::vector<CentrelineNode<double>>;
 

@@ -5,6 +5,7 @@
 #include "support/elliptic.hpp"
 #include "support/error.hpp"
 #include "support/path.hpp"
+#include "support/pi.hpp"
 #include "support/status.hpp"
 #include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/fem/fem_model.hpp>
@@ -13,8 +14,6 @@ using namespace hapbeam;
 using namespace hapbeam::testing;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 Beam cantilever(double alpha, double EA) {
   Beam beam(1, EA, 1, 0.01, Support::clamped, Support::free);

@@ -1,5 +1,6 @@
 // The natural shape as a curve and as what elements bend against: exact for arcs of any length.
 #include "support/catch.hpp"
+#include "support/pi.hpp"
 #include "support/random.hpp"
 #include <hapbeam/fem/natural_shape.hpp>
 
@@ -8,7 +9,7 @@ using namespace hapbeam::testing;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, eps = 2.2e-16;
+constexpr double eps = 2.2e-16;
 
 template <typename Scalar = double>
 NaturalShape<Scalar> natural(double length, std::vector<Arc> arcs) {

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "support/catch.hpp"
+#include "support/pi.hpp"
 #include "support/random.hpp"
 #include "support/random_beam.hpp"
 #include "support/random_scene.hpp"
@@ -35,7 +36,6 @@ struct PressedState {
       const double ds = b.s - a.s, dx = ds + b.u - a.u, dw = b.w - a.w;
       constexpr bool finite = any_rotation<typename Model::ElementType>;
       const double chord = finite ? std::atan2(dw, dx) : dw / ds;
-      const double pi = 3.14159265358979323846;
       const double p = std::remainder(-a.theta - chord, 2 * pi), q = std::remainder(-b.theta - chord, 2 * pi);
       stretch += finite ? std::hypot(dx, dw) - ds : dx - ds + ds * chord * chord / 2;
       stretch += ds * (2 * p * p - p * q + 2 * q * q) / 30;  // ½ ∫w'² of the cubic above its chord

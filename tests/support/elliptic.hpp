@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "support/pi.hpp"
+
 namespace hapbeam::testing {
 
 struct CompleteElliptic {
@@ -28,7 +30,6 @@ struct CompleteElliptic {
 /// ∫(1 - k² sin² t)^-½ dt from 0 to phi, which is at most a quarter.
 inline double incomplete_elliptic(double k, double phi) {
   double a = 1, b = std::sqrt((1 - k) * (1 + k)), c = k, weight = 1;
-  const double pi = std::acos(-1.0);
   while (std::abs(c) > 1e-16) {
     phi += std::atan(b / a * std::tan(phi)) + pi * std::floor(phi / pi + 0.5);
     const double mean = (a + b) / 2;

@@ -3,13 +3,14 @@
 
 #include <cmath>
 
+#include "support/pi.hpp"
 #include "support/thesis_beam.hpp"
 
 namespace hapbeam::testing {
 
 /// Force of a press of the thesis' beam.  Each mode has its own buckling load, and the tension is found by bisection.
 inline double force_in_global_modes(int modes, double s, double d) {
-  const double pi = std::acos(-1.0), L = thesis_length;
+  const double L = thesis_length;
   const auto compliance = [&](double N) {
     double sum = 0;
     for (int n = 1; n <= modes; ++n) {

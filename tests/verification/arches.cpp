@@ -2,6 +2,7 @@
 // where they are held straight.
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/pi.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
 #include <hapbeam/element/corotational.hpp>
@@ -13,7 +14,7 @@ using namespace hapbeam::testing;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, L = 1.5, EA = 1e5, EI = 2;
+constexpr double L = 1.5, EA = 1e5, EI = 2;
 using Turning = FemModel<Corotational<>>;
 
 /// A beam between the ends of its natural shape, turned by phi about the left one.

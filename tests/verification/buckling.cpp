@@ -3,6 +3,7 @@
 #include "support/elliptic.hpp"
 #include "support/error.hpp"
 #include "support/path.hpp"
+#include "support/pi.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
 #include <hapbeam/fem/fem_model.hpp>
@@ -12,7 +13,7 @@ using namespace hapbeam::testing;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, L = 1, EI = 1;
+constexpr double L = 1, EI = 1;
 
 /// Directions that give way, of a beam that is straight and compressed by the strain N/EA.
 template <class Element>

@@ -7,6 +7,7 @@
 #include "support/catch.hpp"
 #include "support/error.hpp"
 #include "support/path.hpp"
+#include "support/pi.hpp"
 #include "support/rod.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
@@ -100,7 +101,6 @@ TEST_CASE("the reference by shooting has converged", "[continuation]") {
   CHECK(std::abs(once.x - finer.x) <= 1e-10);
   CHECK(std::abs(once.y - finer.y) <= 1e-10);
   // A full circle under an end moment, and a stretched one: closed forms.
-  const double pi = std::acos(-1.0);
   const RodState circle = rod.along({0, 0, 0, 2 * pi * rod.EI}, 1, 0, 0);
   CHECK(std::hypot(circle.x, circle.y) <= 1e-8);
   CHECK(std::abs(rod.along({}, 1, 1e4, 0).x - (1 + 1e4 / rod.EA)) <= 1e-14);

@@ -8,6 +8,7 @@
 #include "support/catch.hpp"
 #include "support/error.hpp"
 #include "support/path.hpp"
+#include "support/pi.hpp"
 #include "support/rod.hpp"
 #include "support/status.hpp"
 
@@ -16,7 +17,7 @@ using namespace hapbeam::testing;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, leg = 120, at = 24;  // [cm]
+constexpr double leg = 120, at = 24;  // [cm]
 constexpr double EA = 720 * 6, EI = 720 * 2;
 
 /// Where load and displacement turn back: P at the limit points, and how far down the loaded point is at its extremes.

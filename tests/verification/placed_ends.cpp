@@ -1,6 +1,7 @@
 // Beams whose ends are held elsewhere than in the straight beam: inclined, stretched, shortened, bent round.
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/pi.hpp"
 #include "support/random.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
@@ -13,7 +14,7 @@ using namespace hapbeam::testing;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, L = 1, EI = 1;
+constexpr double L = 1, EI = 1;
 using Turning = FemModel<Corotational<>>;
 
 /// Where the ends of a beam go that is turned by phi about its left end, clockwise as θ is.

@@ -4,6 +4,7 @@
 // those of an arc, (sin x)/x l, but for x⁴/120, and as all are alike the polygon closes exactly.
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/pi.hpp"
 #include "support/status.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
@@ -13,7 +14,7 @@ using namespace hapbeam::testing;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, L = 2, EI = 3;
+constexpr double L = 2, EI = 3;
 
 /// EA L²/EI = 1e6; nothing is stretched, so that it matters to the solver alone.
 template <class Element = Corotational<>, typename Scalar = double>

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "support/catch.hpp"
+#include "support/pi.hpp"
 #include "support/random.hpp"
 #include <hapbeam/rom/trained/lagrange.hpp>
 
@@ -99,7 +100,6 @@ TEST_CASE("Chebyshev nodes lie inside the interval, ascend and mirror each other
 // (Schönhage 1961; Trefethen and Weideman 1991), an asymptote that is good to a few percent at 49 intervals.
 TEST_CASE("errors grow by 3.5 between 50 Chebyshev nodes and by 2e12 between 50 equidistant ones",
           "[lagrange]") {
-  const double pi = std::acos(-1.0);
   for (const int n : {8, 16, 50})
     CHECK(lebesgue_constant<ChebyshevNodes>(n) == Approx(2 / pi * std::log(n) + 0.9625).epsilon(0.01));
   const double euler = 0.57721566490153286;
