@@ -220,13 +220,7 @@ TEST_CASE("a hand that leans along a beam with friction comes to rest", "[rod][f
   FemModel<Corotational<>> ruler(steel_ruler(), 8);
   Wire wire(needle(), 8);
   for (int i = 0; i < 24; ++i) {
-    Situation who;
-    who.hand_stiffness = random(300, 1000);
-    who.hand_damping = random(0, 1) < 0.2 ? 0 : random(0, 2);
-    who.grip_mass = random(0.05, 0.4);
-    who.period = random(0.5e-3, 2e-3);
-    who.delay = random.integer(0, 3);
-    who.push = random(0.5, 3);
+    const Situation who = random_hand(random);
     const double mu = random(0.1, 1), aside = random(-1, 1) * who.push;
     CAPTURE(i, mu, aside, who.hand_stiffness, who.hand_damping, who.grip_mass, who.period, who.delay);
     CHECK(unrest(ruler, 0.12, Friction(mu, 0.7 * mu), who, {aside, 0, 0}) <= 1e-3);

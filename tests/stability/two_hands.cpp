@@ -118,17 +118,6 @@ PairResponse pair_response(Model& model, const Placement& first, const Placement
   return r;
 }
 
-Situation random_hand(Random& random) {
-  Situation who;
-  who.hand_stiffness = random(300, 1000);
-  who.hand_damping = random(0, 1) < 0.2 ? 0 : random(0, 2);
-  who.grip_mass = random(0.05, 0.4);
-  who.period = random(0.5e-3, 2e-3);
-  who.delay = random.integer(0, 3);
-  who.push = random(0.5, 3);
-  return who;
-}
-
 }  // namespace
 
 TEST_CASE("two hands that lean on one beam come to rest, each at its own rate", "[two_hands]") {

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "support/random.hpp"
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 #include <hapbeam/haptics/servo/servo_loop.hpp>
@@ -42,6 +43,18 @@ struct Situation {
     return o;
   }
 };
+
+/// Of all but the arm.
+inline Situation random_hand(Random& random) {
+  Situation who;
+  who.hand_stiffness = random(300, 1000);
+  who.hand_damping = random(0, 1) < 0.2 ? 0 : random(0, 2);
+  who.grip_mass = random(0.05, 0.4);
+  who.period = random(0.5e-3, 2e-3);
+  who.delay = random.integer(0, 3);
+  who.push = random(0.5, 3);
+  return who;
+}
 
 /// The hand holds still, and leans down from a moment on.
 struct Leaning {
