@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "support/random.hpp"
+#include "random.hpp"
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 #include <hapbeam/haptics/servo/servo_loop.hpp>
