@@ -7,8 +7,8 @@ if(MSVC)
   target_compile_options(hapbeam_checks INTERFACE /W4 /permissive- /utf-8 /bigobj $<$<BOOL:${HAPBEAM_WARNINGS_AS_ERRORS}>:/WX>)
   target_compile_definitions(hapbeam_checks INTERFACE _USE_MATH_DEFINES)
 else()
-  target_compile_options(hapbeam_checks INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${HAPBEAM_WARNINGS_AS_ERRORS}>:-Werror>)
+  set(hapbeam_warnings -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+  target_compile_options(hapbeam_checks INTERFACE ${hapbeam_warnings} $<$<BOOL:${HAPBEAM_WARNINGS_AS_ERRORS}>:-Werror>)
 endif()
 
 # g++ collects its garbage from 128 MB on, an eighth of the time of a test with many models; left alone it takes a seventh more memory.

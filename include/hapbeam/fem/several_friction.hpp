@@ -65,7 +65,7 @@ class SeveralFriction {
         first = i;
     });
     if (first >= 0 && of(first)->gives_way())
-      giving_way_.mark(first, system, [this](auto&& use) { each(use); });
+      giving_way_.mark(first, system, [this](auto&& use) { this->each(use); });
     // What two hold between them says nothing of either: the one that holds less slides, and then the other one may stick.
     if (first >= 0 && !of(first)->settled(normal_force(first))) return false;
     bool all = true;
@@ -105,7 +105,7 @@ class SeveralFriction {
     if (any) {
       Scalar& dissipated = all_[given_way].friction->dissipated;
       dissipated += giving_way_.beyond_trapezoid(system, *of(given_way), before.force, counted,
-                                                 [this](auto&& use) { each(use); });
+                                                 [this](auto&& use) { this->each(use); });
       dissipated = (std::max)(dissipated, before.dissipated);
     }
     if (any_) system.forget_friction();
