@@ -1,5 +1,5 @@
 // Models that the project's own programs would compile again and again, two seconds each and file, are compiled once:
-// cmake/once/*.inc has a line for each, and each of these files is a unit of the library hapbeam_once.
+// cmake/once/*.inc has a line for each, and cmake/once.cmake makes units of the library hapbeam_once of them.
 // The programs' precompiled headers include this file, which keeps them from compiling these models themselves.
 #pragma once
 
@@ -20,15 +20,8 @@
 #include <hapbeam/rom/trained/pod_model.hpp>
 
 #define HAPBEAM_ONCE extern
-#include "once/corotational.inc"
+#include "once/plane.inc"
 #include "once/rare.inc"
-#include "once/reduced.inc"
-#include "once/round_rod.inc"
-#include "once/servo.inc"
-#include "once/several.inc"
-#include "once/several_rods.inc"
+#include "once/rods.inc"
 #include "once/svd.inc"
-#include "once/touch.inc"
-#include "once/twisted_rod.inc"
-#include "once/von_karman.inc"
 #undef HAPBEAM_ONCE

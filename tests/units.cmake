@@ -75,6 +75,7 @@ function(hapbeam_gather name variable weight)
           COMMAND ${CMAKE_COMMAND} -D UNIT=${unit} -D "FILES=${files}" -P ${HAPBEAM_UNITS_SCRIPT}
           DEPENDS ${files} ${HAPBEAM_UNITS_SCRIPT})
         list(APPEND units ${unit})
+        set_property(GLOBAL APPEND PROPERTY hapbeam_test_units ${unit})
       endif()
       set(files)
       set(bytes ${size})

@@ -101,7 +101,7 @@ class Window {
     options.coupling = soft && step % 4 == 1 ? CouplingChoice::direct : CouplingChoice::virtual_coupling;
     change(options);
     if (step % 3 == 1) running_->pull({0.01, -0.02, 0});
-    if (step % 10 == 0) display_.resize(800 + 50 * (step / 10 % 10), 500 + 30 * (step / 10 % 7));
+    if (step % 10 == 0) display_.resize(400 + 50 * (step / 10 % 10), 300 + 30 * (step / 10 % 7));
   }
 
   /// Prints the summary, unless it was only to draw pictures.   @return the report
