@@ -112,49 +112,53 @@ TEST_CASE("friction at several contacts keeps its cones whatever the hands do", 
     const double L = beam.length(), deep = ruler ? 0.1 : 0.02;
     const Friction friction[3] = {{0.8, 0.5}, 0.3, {1.2, 1.0}};
     Three model(beam, 16);
-    TouchSeveral touch(model, {finger(friction[0]), finger(friction[1])},
-                       {Prop<>::peg({0.5 * L, -0.02 * L}, 0.01 * L).rough(friction[2])});
-    Hands at{Vector(0.3 * L, 0.05 * L), Vector(0.7 * L, 0.05 * L)};
     int rubbing = 0, unanswered = 0, ticks = 0;
-    std::array<double, 3> dissipated{};
-    bool answered = true;
-    const auto tick = [&] {
+    // Where a jump leads past the beam it is felt no more: they begin again above it.
+    for (int begun = 0; begun < 15; ++begun) {
+      model.reset();
+      TouchSeveral touch(model, {finger(friction[0]), finger(friction[1])},
+                         {Prop<>::peg({0.5 * L, -0.02 * L}, 0.01 * L).rough(friction[2])});
+      Hands at{Vector(0.3 * L, 0.05 * L), Vector(0.7 * L, 0.05 * L)};
+      std::array<double, 3> dissipated{};
+      bool answered = true;
+      const auto tick = [&] {
+        const auto felt = touch.tick(at.data(), 2);
+        int now = 0;
+        for (const auto& place : felt) {
+          const auto i = std::size_t(place.body);
+          check_cone(place, friction[i]);
+          // It falls where a touch has ended alone, which may be in ticks without an answer.
+          if (place.touching && place.dissipated < dissipated[i] && answered)
+            REQUIRE(place.dissipated <= 1e-3 * L);
+          dissipated[i] = place.dissipated;
+          now += place.friction.norm() > 0;
+        }
+        answered = is_answer(felt.status);
+        rubbing += now > 1, unanswered += !answered, ++ticks;
+      };
+      for (int way = 0; way < 10; ++way) {
+        const Hands from = at;
+        const Hands to{Vector(random(-0.05, 0.6) * L, random(deep) * L),
+                       Vector(random(0.4, 1.05) * L, random(deep) * L)};
+        const int steps = way == 5 ? 1 : 60;
+        for (int k = 1; k <= steps; ++k) {
+          for (std::size_t i : {0u, 1u}) at[i] = from[i] + (to[i] - from[i]) * (double(k) / steps);
+          tick();
+        }
+        if (way != 5) continue;
+        const Vector before = at[1];
+        at[1].x() = std::numeric_limits<double>::quiet_NaN();
+        REQUIRE(touch.tick(at.data(), 2).status == Status::invalid_request);
+        at[1] = before;
+      }
+      at = {Vector(0.3 * L, L), Vector(0.7 * L, L)};
+      for (int k = 0; k < 30; ++k) (void)touch.tick(at.data(), 2);
       const auto felt = touch.tick(at.data(), 2);
-      int now = 0;
-      for (const auto& place : felt) {
-        const auto i = std::size_t(place.body);
-        check_cone(place, friction[i]);
-        // It falls where a touch has ended alone, which may be in ticks without an answer.
-        if (place.touching && place.dissipated < dissipated[i] && answered)
-          REQUIRE(place.dissipated <= 1e-3 * L);
-        dissipated[i] = place.dissipated;
-        now += place.friction.norm() > 0;
-      }
-      answered = is_answer(felt.status);
-      rubbing += now > 1, unanswered += !answered, ++ticks;
-    };
-    for (int way = 0; way < 150; ++way) {
-      const Hands from = at;
-      const Hands to{Vector(random(-0.05, 0.6) * L, random(deep) * L),
-                     Vector(random(0.4, 1.05) * L, random(deep) * L)};
-      const int steps = way % 10 == 0 ? 1 : 60;
-      for (int k = 1; k <= steps; ++k) {
-        for (std::size_t i : {0u, 1u}) at[i] = from[i] + (to[i] - from[i]) * (double(k) / steps);
-        tick();
-      }
-      if (way % 20 != 0) continue;
-      const Vector before = at[1];
-      at[1].x() = std::numeric_limits<double>::quiet_NaN();
-      REQUIRE(touch.tick(at.data(), 2).status == Status::invalid_request);
-      at[1] = before;
+      CHECK(is_answer(felt.status));
+      CHECK((felt.force(0).isZero(0) && felt.friction(1).isZero(0)));
     }
     CAPTURE(ruler, rubbing, unanswered, ticks);
     CHECK(rubbing > ticks / 20);
-    CHECK(unanswered <= ticks / 20);  // a hand jams the ruler onto the peg
-    at = {Vector(0.3 * L, L), Vector(0.7 * L, L)};
-    for (int k = 0; k < 30; ++k) (void)touch.tick(at.data(), 2);
-    const auto felt = touch.tick(at.data(), 2);
-    CHECK(is_answer(felt.status));
-    CHECK((felt.force(0).isZero(0) && felt.friction(1).isZero(0)));
+    CHECK(unanswered <= rubbing / 8);  // a hand jams the ruler onto the peg: one in nine
   }
 }
