@@ -5,7 +5,6 @@
 
 #include "support/catch.hpp"
 #include "support/error.hpp"
-#include "support/instructions.hpp"
 #include "support/random.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
@@ -210,17 +209,3 @@ TEST_CASE("a stiffness has the derivatives of its values", "[taut]") {
         CHECK(relative_error(2 * at.c2, (above.c1 - below.c1) / (2 * h)) <= 1e-6);
       }
 }
-
-#if defined(NDEBUG)  // of a program that is optimised
-TEST_CASE("a press under one tension takes a third of the instructions", "[taut]") {
-  const auto count = [](auto&& model) {
-    double d = 0.02;
-    model.press({1.0, d});
-    return instructions([&] { model.press({1.0, d += 1e-4}); });
-  };
-  const long taut = count(FemModel<>(pinned(), 8)),
-             nodes = count(FemModel<NodeByNode<VonKarman<>>>(pinned(), 8));
-  CAPTURE(taut, nodes);
-  CHECK((taut < 0 || 3 * taut <= nodes));  // -1: this system does not let them be counted
-}
-#endif
