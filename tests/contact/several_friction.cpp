@@ -22,8 +22,6 @@ using Model = FemModel<Several<Corotational<>, 2>>;
 using Touching = TouchSeveral<Model>;
 using Place = TouchPlace<double>;
 
-RoundAvatar finger(const Friction& friction) { return {0.005, 1, friction}; }
-
 }  // namespace
 
 TEST_CASE("one avatar of several rubs as it does alone", "[friction][several]") {

@@ -11,7 +11,7 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${figures})
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
 string(REGEX MATCH "^[0-9]+" version "${CMAKE_CXX_COMPILER_VERSION}")
 string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}}" flags)
-string(REPLACE "-fPIC " "" flags "${flags}")  # a tick takes no more instructions where that stands beside them
+string(REPLACE "-fPIC " "" flags "${flags}")  # it adds less than what is let pass
 set(column "${CMAKE_CXX_COMPILER_ID} ${version} ${CMAKE_SYSTEM_PROCESSOR} ${flags}")
 file(STRINGS ${figures} columns REGEX "^stroke,")
 string(REPLACE "," ";" columns "${columns}")

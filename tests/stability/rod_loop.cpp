@@ -29,14 +29,8 @@ TEST_CASE(
   FemModel<RoundRod> wire(needle(), 8);
   FemModel<TwistedRod> hook(pressed_rod("hook").rod, 8);
   for (int i = 0; i < 60; ++i) {
-    Situation who;
-    // A ball on a round rod rolls off unless the hand holds it by push/reach, 170 N/m.
-    who.hand_stiffness = random(300, 1000);
-    who.hand_damping = random(0, 1) < 0.2 ? 0 : random(0, 2);
-    who.grip_mass = random(0.05, 0.4);
-    who.period = random(0.5e-3, 2e-3);
-    who.delay = random.integer(0, 3);
-    who.push = 1;
+    Situation who = random_hand(random);
+    who.push = 1;  // a ball on a round rod rolls off unless the hand holds it by push/reach, 170 N/m
     who.from = around(random(0, 2 * pi));
     const VirtualCoupling coupling(
         safe_coupling(VirtualPhantom<Leaning>(Leaning{0}, who.options()).info(), who.delay));

@@ -24,8 +24,6 @@ using Touching = TouchSeveral<Model>;
 using Place = TouchPlace<double>;
 using Hands = std::array<Vector, 2>;
 
-RoundAvatar finger(const Friction& friction) { return {0.005, 1, friction}; }
-
 }  // namespace
 
 // Both hands go round closed paths of their own, either way about.

@@ -1,4 +1,4 @@
-// What a contact with friction must say whatever the hands do.
+// A rough finger, and what it must say whatever the hands do.
 #pragma once
 
 #include <cmath>
@@ -8,6 +8,10 @@
 
 namespace hapbeam::testing {
 
+/// Of 10 mm, above the beam.
+inline RoundAvatar finger(const Friction& friction) { return {0.005, 1, friction}; }
+
+/// A place's force pushes, and its friction is within the cone and across the normal.
 template <class Place>
 void check_cone(const Place& place, const Friction& friction) {
   const double normal = (place.force - place.friction).norm();
