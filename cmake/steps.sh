@@ -38,8 +38,9 @@ install_packages() {
       -o DPkg::Lock::Timeout=120 "$@"
 }
 
-# build PRESET TARGET...: installs what the build needs, configures and builds.
+# build PRESET TARGET...: installs what the build needs, and the packages of also_needed, at once; configures and builds.
 # What tests, benchmarks and the example's window need comes along: one build folder serves all.
+also_needed=()
 build() {
   local preset=$1 compiler=(g++)
   shift
@@ -49,7 +50,7 @@ build() {
   [[ $preset != mingw ]] || compiler=(g++ g++-mingw-w64-x86-64-posix wine64)
   [[ $preset != aarch64 ]] || compiler=(g++ g++-aarch64-linux-gnu qemu-user)
   need "${compiler[@]}" cmake ninja-build libeigen3-dev libjansson-dev catch2 libbenchmark-dev \
-    libglfw3-dev libimgui-dev libgl-dev fonts-dejavu-core &&
+    libglfw3-dev libimgui-dev libgl-dev fonts-dejavu-core "${also_needed[@]}" &&
     step "configure ($preset)" cmake -S "$top" --preset "$preset" &&
     step "build $*" cmake --build "$top/build/$preset" --parallel "$(nproc)" --target "$@"
 }

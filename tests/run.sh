@@ -42,10 +42,8 @@ run_tests() {
   return "${PIPESTATUS[0]}"
 }
 
-# A display for the window of the example, drawn by software, and a mouse in it; without, those tests are left out.
-need xvfb xauth libgl1-mesa-dri xdotool
-# Counts instructions.
-need valgrind
+# A display for the window of the example, drawn by software, and a mouse in it; without, those tests are left out.  What counts instructions.
+also_needed=(xvfb xauth libgl1-mesa-dri xdotool valgrind)
 
 build "$preset" "${targets[@]}" || { echo '0 passed, 1 failed'; exit 1; }
 step "test" run_tests

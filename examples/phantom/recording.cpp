@@ -1,10 +1,12 @@
 #include "recording.hpp"
 
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <fstream>
+#include <initializer_list>
 #include <stdexcept>
 
 namespace phantom {
@@ -18,6 +20,26 @@ constexpr const char* felt =
     "dissipated_J,status,model";
 constexpr double longest = 86400;  // [s]
 
+/// A line of numbers with a comma behind each, in digits that read back the same: the shortest where the standard library finds them.
+class Line {
+ public:
+  void add(std::initializer_list<double> values) {
+    for (const double value : values) {
+#ifdef __cpp_lib_to_chars
+      end_ = std::to_chars(end_, text_ + sizeof text_, value).ptr;
+      *end_++ = ',';
+#else
+      end_ += std::snprintf(end_, static_cast<std::size_t>(text_ + sizeof text_ - end_), "%.17g,", value);
+#endif
+    }
+  }
+  void write(std::FILE* file) const { std::fwrite(text_, 1, static_cast<std::size_t>(end_ - text_), file); }
+
+ private:
+  char text_[20 * 25];  // a number takes 24 characters at most
+  char* end_ = text_;
+};
+
 }  // namespace
 
 Recording::Recording(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "w")) {
@@ -27,12 +49,14 @@ Recording::Recording(const std::string& path) : path_(path), file_(std::fopen(pa
 
 void Recording::write(const Tick& tick) {
   const hapbeam::ServoRecord& r = tick.record;
-  std::fprintf(file_.get(), "%.17g,", r.time);
+  Line line;
+  line.add({r.time});
   for (const Eigen::Vector3d& v : {tick.hand.position, tick.hand.velocity, r.position, r.force})
-    std::fprintf(file_.get(), "%.17g,%.17g,%.17g,", v.x(), v.y(), v.z());
-  std::fprintf(file_.get(), "%.17g,%.17g,%.17g,%.17g,%.17g,%d,%.17g,%s,%s\n", r.press.s, r.press.d,
-               r.friction.x(), r.friction.y(), r.friction.z(), int(r.sliding), r.dissipated, name(r.status),
-               name(r.model));
+    line.add({v.x(), v.y(), v.z()});
+  line.add({r.press.s, r.press.d, r.friction.x(), r.friction.y(), r.friction.z(), double(r.sliding),
+            r.dissipated});
+  line.write(file_.get());
+  std::fprintf(file_.get(), "%s,%s\n", name(r.status), name(r.model));
 }
 
 void Recording::close() {

@@ -10,7 +10,7 @@ export PKG_CONFIG_PATH=$prefix/share/pkgconfig
 read -ra flags < <(pkg-config --cflags hapbeam)
 program=$(mktemp)
 trap 'rm -f "$program"' EXIT
-"$compiler" -std=c++17 "${flags[@]}" "$here/main.cpp" "$here/other.cpp" -o "$program"
+"$compiler" -std=c++17 "${flags[@]}" "$here/main.cpp" -o "$program"
 "$program"
 if [[ $model_files == ON ]]; then
   pkg-config --libs hapbeam-model-file | grep -q -- -ljansson

@@ -54,7 +54,7 @@ int slew(const char* path, double rate) {
     if (speed > most) most = speed, at = rows[i].time;
   }
   std::printf("%zu ticks, the force changes by %.6g N/s at most, at %.3f s\n", rows.size(), most, at);
-  // A force that never changed proves nothing.  Times are written to 17 digits, their differences good to 1e-10.
+  // A force that never changed proves nothing.  Differences of times are good to 1e-10.
   return most > 0.01 * rate && most <= rate * (1 + 1e-8) ? 0 : 1;
 }
 

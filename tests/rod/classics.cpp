@@ -37,7 +37,7 @@ double critical_torque(const RodSupport& ends) {
 
 // Greenhill 1883.  With w = y + iz and λ = M/EI the bent shaft has  w'' = iλ w' + p + q s.  Timoshenko and Gere, 2.21: tan λL/2 = λL/2
 // between clamped ends.  At a cardan joint the couple stands between axis and tangent, half of M w' across: tan λL/2 = -λL/6, by the same
-// equation.  (2π is for couples that stay axial; their work depends on the path, and no energy has them.)
+// equation.  (2π is for couples that stay axial, which no energy has: rod/tangent.cpp.)
 TEST_CASE("a twisted shaft buckles at Greenhill's torque", "[rod]") {
   CHECK(critical_torque(RodSupport::clamped) == Approx(8.98682).epsilon(1e-3));
   CHECK(critical_torque(RodSupport::cardan) == Approx(4.91128).epsilon(1e-3));

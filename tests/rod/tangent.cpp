@@ -1,4 +1,6 @@
 // The assembled tangent of a rod that a sphere has pushed is symmetric, and the derivative of the assembled residual.
+#include <vector>
+
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
 #include "support/status.hpp"
@@ -123,7 +125,48 @@ void check_tangent(const Rod& rod, int elements) {
   CHECK(worst <= 1e-6);
 }
 
+/// Smallest singular value of the tangent of a straight shaft between hinges, twisted by couples that stay axial, in units of EI/L.
+/// A node's director is carried with the tangent t, so its couple is M (e + t)/2.  Of what lacks to M e the work depends on the path: M/2 more
+/// between both components of r' across e, which no symmetric tangent has.
+double stiffness_under_axial_couples(double torque) {
+  constexpr int elements = 16, unknowns = TwistedRod::unknowns;
+  const double EI = 2, GJ = 8, angle = torque * EI / GJ;
+  Rod shaft(1, RodStiffness{1e7, EI, EI, GJ}, 0.01, RodSupport::cardan, RodSupport::cardan);
+  shaft.place_right({{1, 0, 0}, {1, 0, 0}, {0, std::cos(angle), std::sin(angle)}});
+  RodSystem<TwistedRod, double, Eigen::Dynamic, Eigen::Dynamic, Recorder> system(shaft, elements);
+  system.set_goal();
+  REQUIRE(NewtonRaphson{}.solve(system).status == Status::ok);
+  REQUIRE(system.factor(0) == Status::ok);
+  Eigen::MatrixXd K = assembled_tangent / EI;
+  std::vector<int> free;
+  for (int k = 0; k < K.rows(); ++k) {
+    const int node = k / unknowns, component = k % unknowns;
+    const bool end = node == 0 || node == elements;
+    if (!end || (component >= 3 && component < 6)) free.push_back(k);
+  }
+  for (const int node : {0, elements}) {
+    const int y = unknowns * node + 4, z = y + 1;
+    const double couple = node == 0 ? -torque / 2 : torque / 2;
+    K(y, z) += couple, K(z, y) -= couple;
+  }
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(K(free, free)).singularValues().tail<1>()[0];
+}
+
 }  // namespace
+
+// Greenhill, On the strength of shafting when exposed both to torsion and to end thrust, 1883.
+TEST_CASE("a shaft whose couples stay axial buckles at 2 pi EI/L between hinges", "[rod]") {
+  double low = 5, high = 7.5;
+  while (high - low > 1e-4) {
+    const double third = (high - low) / 3;
+    if (stiffness_under_axial_couples(low + third) < stiffness_under_axial_couples(high - third))
+      high -= third;
+    else low += third;
+  }
+  CAPTURE(low, stiffness_under_axial_couples(low));
+  CHECK(low == Approx(2 * pi).epsilon(1e-3));
+  CHECK(stiffness_under_axial_couples(low) < 1e-3 * stiffness_under_axial_couples(6));
+}
 
 TEST_CASE("the assembled tangent is the derivative of the assembled residual, contact included", "[rod]") {
   check_tangent<RoundRod>(

@@ -6,6 +6,7 @@
 // Under a given N0 the deflection is linear, and the ends' distance asks for N0.  Fourth-order Runge–Kutta with 4000 steps
 // leaves 1e-12.  It shares neither code nor discretisation with the library.
 #include <array>
+#include <cmath>
 
 #include <Eigen/LU>
 
@@ -64,12 +65,18 @@ Pressed press(double N0, double f, double s, double d) {
 }
 
 double force(double f, double s, double d) {
-  double low = f / 2 - 5, high = f / 2 + 100;
-  for (int i = 0; i < 45; ++i) {
-    const double middle = (low + high) / 2;
-    (press(middle, f, s, d).excess < 0 ? low : high) = middle;
+  // The excess is smooth and grows with N0, so the secant converges in a few steps.
+  double N0 = f / 2, next = N0 + 1, excess = press(N0, f, s, d).excess;
+  Pressed at = press(next, f, s, d);
+  for (int i = 0; i < 20 && at.excess != excess; ++i) {
+    const double step = at.excess * (next - N0) / (at.excess - excess);
+    N0 = next, excess = at.excess;
+    next -= step;
+    at = press(next, f, s, d);
+    if (std::abs(step) <= 1e-12) return at.force;
   }
-  return press(low, f, s, d).force;
+  FAIL("the secant has not converged");
+  return at.force;
 }
 
 }  // namespace

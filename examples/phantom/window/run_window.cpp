@@ -101,7 +101,7 @@ class Window {
     options.coupling = soft && step % 4 == 1 ? CouplingChoice::direct : CouplingChoice::virtual_coupling;
     change(options);
     if (step % 3 == 1) running_->pull({0.01, -0.02, 0});
-    if (step % 10 == 0) display_.resize(400 + 50 * (step / 10 % 10), 300 + 30 * (step / 10 % 7));
+    if (step % 10 == 0) display_.resize(400 + 20 * (step / 10 % 10), 300 + 15 * (step / 10 % 7));
   }
 
   /// Prints the summary, unless it was only to draw pictures.   @return the report
@@ -257,7 +257,9 @@ std::string run_window(Display& display, const Options& options, std::shared_ptr
     if (!window.draw()) break;
     const bool now = !options.screenshot.empty() && taken < options.frames && passed.count() >= options.at;
     const std::string file = now ? frame(options, taken) : "";
-    if (!display.end_picture(window.simulated(), file))
+    // Who asks for a screenshot does not see the pictures before it.
+    if (!options.screenshot.empty() && !now) display.skip_picture();
+    else if (!display.end_picture(window.simulated(), file))
       throw std::runtime_error(file + ": the screenshot cannot be written");
     taken += now;
     if (now && taken == options.frames && !options.timed) break;
