@@ -168,9 +168,7 @@ class FemModel {
     return internal_forces(shape().segment_at(s), s);
   }
   /// The same in an element that is known to hold s.   @param element  from 0
-  InternalForces<Scalar, dimension> internal_forces(int element, Scalar s) const noexcept {
-    return take(ways_, [&](const auto& way) { return way.internal_forces(element, s, thickness_); });
-  }
+  InternalForces<Scalar, dimension> internal_forces(int element, Scalar s) const noexcept;
 
  private:
   using General = AllDisplacements<Element, Scalar, Elements, MaxElements, Assembler, Solver>;
@@ -313,6 +311,13 @@ template <class Element, typename Scalar, int Elements, int MaxElements,
           template <typename, int, int, int> class Assembler, class Solver>
 Scalar FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::strain_energy() const noexcept {
   return take(ways_, [](const auto& way) { return way.strain_energy(); });
+}
+
+template <class Element, typename Scalar, int Elements, int MaxElements,
+          template <typename, int, int, int> class Assembler, class Solver>
+auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::internal_forces(
+    int element, Scalar s) const noexcept -> InternalForces<Scalar, dimension> {
+  return take(ways_, [&](const auto& way) { return way.internal_forces(element, s, thickness_); });
 }
 
 }  // namespace hapbeam
