@@ -1,7 +1,11 @@
-// What many tests use, used once: clang compiles it with the precompiled header that they share, and no unit does again.
+// What many tests use, used once: clang compiles it with the precompiled header that they share, and no unit does again.  What is not a
+// template and computes for long is optimised there, where the tests are not.
 #pragma once
 
 #include "once.hpp"
+#include "support/closed_form.hpp"
+#include "support/eigenvalues.hpp"
+#include "support/naive_contact.hpp"
 
 namespace hapbeam::testing::precompiled {
 
