@@ -111,8 +111,6 @@ bool Display::end_picture(bool at_once, const std::string& screenshot) {
   return written;
 }
 
-void Display::skip_picture() { ImGui::EndFrame(); }
-
 bool Display::write_png(const std::string& path) const {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);

@@ -21,7 +21,6 @@ class Display {
   /// @param at_once     without waiting for the time of the next picture
   /// @param screenshot  file to write the picture to, or empty   @return whether that could be done
   bool end_picture(bool at_once, const std::string& screenshot);
-  void skip_picture();  ///< ends one that nobody is to see, without drawing it
   void resize(int width, int height);
   bool pressed(int key) const;  ///< GLFW's number
 

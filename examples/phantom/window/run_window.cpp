@@ -54,12 +54,17 @@ class Window {
     if (!simulated()) running_->start();
   }
 
-  /// @return false where the window is to be closed
-  bool draw() {
-    if (!display_.begin_picture()) return false;
+  /// On to the time of the next picture.
+  void go_on() {
     if (simulated()) running_->session().run(picture_time(first_));
     take_trained();
     update();
+  }
+
+  /// @return false where the window is to be closed
+  bool draw() {
+    if (!display_.begin_picture()) return false;
+    go_on();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize(), gap = 0.5f * unit, column = 20 * unit;
     const float below = std::max(0.34f * size.y, 11 * unit);
@@ -253,13 +258,16 @@ std::string run_window(Display& display, const Options& options, std::shared_ptr
     if (options.timed && passed.count() >= options.duration) break;
     if (options.tour > 0 && pictures >= options.tour) break;
     if (options.tour > 0) window.tour(pictures);
+    // Who asks for a screenshot does not see the pictures before it; what is laid out anew settles in three.
+    if (!options.screenshot.empty() && passed.count() < options.at - 3.5 * picture_time(options)) {
+      window.go_on();
+      continue;
+    }
     times.begin();
     if (!window.draw()) break;
     const bool now = !options.screenshot.empty() && taken < options.frames && passed.count() >= options.at;
     const std::string file = now ? frame(options, taken) : "";
-    // Who asks for a screenshot does not see the pictures before it.
-    if (!options.screenshot.empty() && !now) display.skip_picture();
-    else if (!display.end_picture(window.simulated(), file))
+    if (!display.end_picture(window.simulated(), file))
       throw std::runtime_error(file + ": the screenshot cannot be written");
     taken += now;
     if (now && taken == options.frames && !options.timed) break;
