@@ -24,8 +24,11 @@ class ContactFriction : public FrictionLaw<Scalar, D> {
     const auto line = system.centreline();
     const auto node = round.node_at(line, round.request().s);
     const Scalar per_length = system.unit() / system.length();
+    const int beside = line.node_near(round.request().s);
+    // The mean of both pieces has an error of first order.  Where a contact is alone that costs 10⁻⁶ of what it dissipates, and its forces stay as
+    // they are.
     this->begin(state, alone, round.place(round.look(node, 0), node),
-                line.stretch(line.node_near(round.request().s)), round.request().reach,
+                alone ? line.stretch(beside) : line.extrapolated_stretch(beside), round.request().reach,
                 per_length * per_length / std::sqrt(std::numeric_limits<Scalar>::epsilon()),
                 system.length() / 1000, normal_force);
   }
