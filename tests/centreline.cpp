@@ -154,6 +154,34 @@ TEST_CASE("the error of a stretched circle is of fourth order, too, and of a str
 
 // The angle between nodes is that of the tangent; a finite difference of the curve knows it up to whole turns, with h²/6
 // of the third derivative over the first.
+// Where a beam is pressed its tension has a kink: the shear force, which changes it along a bend, jumps there.
+TEST_CASE("the stretch at a node where its slope jumps is known to second order", "[centreline]") {
+  constexpr double k = 0.5, middle = 0.4, there = 1.01, left = 0.02, right = -0.03, bow = 0.05;
+  const auto nodes_of = [&](int fine, double bowed) {
+    Nodes nodes;
+    const auto add = [&](double s) {
+      const double x = s - middle, slope = x < 0 ? left : right,
+                   a = x * (there + x * (slope / 2 +
+                                         x * bowed / 3));  // its arc from the middle: da/dx is the stretch
+      nodes.push_back({s, middle + std::sin(k * a) / k - s, (std::cos(k * a) - 1) / k, k * a});
+    };
+    for (int i = 0; i < 2 * fine; ++i) add(middle * i / (2 * fine));
+    for (int i = 0; i <= 3 * fine; ++i) add(middle + (1 - middle) * i / (3 * fine));
+    return nodes;
+  };
+  for (const int fine : {1, 2, 4}) {
+    const double h = 0.2 / fine;  // on either side
+    const Nodes linear = nodes_of(fine, 0), bowed = nodes_of(fine, bow);
+    CHECK(relative_error(view(linear).stretch(2 * fine) - there, (right - left) * h / 4) <= 1e-3);
+    CHECK(std::abs(view(linear).extrapolated_stretch(2 * fine) - there) <=
+          std::pow(k * h, 6) / 100 + 8 * eps / h);
+    CHECK(relative_error(view(bowed).extrapolated_stretch(2 * fine) - there, -2 * bow * h * h / 3) <= 1e-3);
+  }
+  // A side of one piece has nothing to say of how the stretch changes.
+  const Nodes all = nodes_of(1, 0), few(all.begin() + 1, all.begin() + 4);
+  CHECK(relative_error(view(few).extrapolated_stretch(1), view(few).stretch(1)) <= 4 * eps);
+}
+
 TEST_CASE("the angle is that of the curve's tangent, and passes every turn without a jump", "[centreline]") {
   const double length = 2, k = -5 * 2 * pi / length;
   const Nodes nodes = circle(60, length, k);

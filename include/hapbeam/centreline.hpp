@@ -148,11 +148,28 @@ class Centreline {
   Scalar stretch(int i) const noexcept {
     Scalar sum = 0, pieces = 0;
     for (int k = i > 0 ? i - 1 : 0; k <= i && k < segments(); ++k) {
-      const Node &a = nodes_[k], &b = nodes_[k + 1];
-      sum += arc({b.s + b.u - a.s - a.u, b.w - a.w}, direction(k), direction(k + 1)) / (b.s - a.s);
+      sum += stretch(k, k + 1, direction(k), direction(k + 1));
       ++pieces;
     }
     return sum / pieces;
+  }
+  /// The same with an error of second order.  A piece has the mean of its stretch, which its shear force changes along it where it is bent; on
+  /// either side that of the next piece says by how much.
+  Scalar extrapolated_stretch(int i) const noexcept {
+    const Vector2<Scalar> from = direction(i);
+    Scalar sum = 0, sides = 0;
+    for (const int way : {-1, 1}) {
+      const int j = i + way, k = j + way;
+      if (j < 0 || j > segments()) continue;
+      const Vector2<Scalar> to = direction(j);
+      const Scalar beside = stretch(i, j, from, to);
+      sum += beside;
+      ++sides;
+      if (k < 0 || k > segments()) continue;
+      const Scalar beyond = stretch(j, k, to, direction(k));
+      sum += (beside - beyond) * ((nodes_[j].s - nodes_[i].s) / (nodes_[k].s - nodes_[i].s));
+    }
+    return sum / sides;
   }
 
   /// Index of the piece that holds arc position s; the first or last one where s lies off the beam.
@@ -178,6 +195,11 @@ class Centreline {
   }
 
  private:
+  /// Mean of |dr/ds| between two neighbouring nodes, from their directions.
+  Scalar stretch(int i, int k, const Vector2<Scalar>& from, const Vector2<Scalar>& to) const noexcept {
+    const Node &a = nodes_[i], &b = nodes_[k];
+    return arc({b.s + b.u - a.s - a.u, b.w - a.w}, from, to) / std::abs(b.s - a.s);
+  }
   /// Slope or direction of the centreline at a node: dw/dx after (1, dw/dx), or a unit vector.
   Vector2<Scalar> direction(int i) const noexcept {
     const Scalar theta = nodes_[i].theta;

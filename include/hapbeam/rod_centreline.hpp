@@ -91,6 +91,8 @@ class Centreline<Scalar, 3> {
 
   /// |dr/ds| at node i.
   Scalar stretch(int i) const noexcept { return std::sqrt(nodes_[i].tangent.squaredNorm()); }
+  /// The same: a node has its own.
+  Scalar extrapolated_stretch(int i) const noexcept { return stretch(i); }
 
   /// Index of the piece that holds arc position s; the first or last one where s lies off the rod.
   int segment_at(Scalar s) const noexcept { return detail::piece_at(nodes_, segments(), s); }

@@ -195,6 +195,13 @@ class FrictionLaw {
   Vector acting() const noexcept { return slides_ ? force_at(used_) : force_; }
   /// e [m]
   const Vector& shear() const noexcept { return sheared_; }
+  /// Where they touch, after look().
+  const Place& place() const noexcept { return now_; }
+  /// What lay across the normal of a place, turned with it to the present one.
+  Vector carried(const Vector& v, const Place& from) const noexcept {
+    if constexpr (D == 2) return v.dot(from.along) * now_.along;
+    else return carry<Scalar>(v, from.normal, now_.normal);
+  }
   /// What it can hold as it begins to slide, by the last tick [N].
   Scalar last_bound() const noexcept { return before_bound_; }
   /// Whether it slides without friction.
@@ -232,7 +239,7 @@ class FrictionLaw {
     const Scalar size = norm(elastic),
                  most = (slides_ ? sliding_ : sticking_) * (std::max)(normal_force, Scalar(0));
     const bool slid = size > most;
-    const Vector before = carry_from_before(state.force);
+    const Vector before = carried(state.force, before_);
     const bool falls_or_slides = state.slides || gives_way();
     state.force = slid ? Vector(elastic * (most / size)) : elastic;
     state.skin = slid ? Vector((state.force + damping_ * carried_) / (stiffness_ + damping_)) : sheared_;
@@ -261,7 +268,7 @@ class FrictionLaw {
   static constexpr int most_tries = 8;
 
   void shear() noexcept {
-    carried_ = carry_from_before(skin_);
+    carried_ = carried(skin_, before_);
     sheared_ = carried_ + slip();
   }
 
@@ -301,10 +308,6 @@ class FrictionLaw {
     pair_bound_ = used_, pair_force_ = normal_force;
   }
 
-  Vector carry_from_before(const Vector& v) const noexcept {
-    if constexpr (D == 2) return v.dot(before_.along) * now_.along;
-    else return carry<Scalar>(v, before_.normal, now_.normal);
-  }
   Vector slip() const noexcept {
     const Vector &m = before_.normal, &n = now_.normal;
     const Scalar moved = stretch_ * (now_.s - before_.s) + now_.ahead - before_.ahead, cosine = m.dot(n);

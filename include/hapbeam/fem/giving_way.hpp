@@ -6,7 +6,7 @@
 //
 // FrictionLaw::leave() takes trapezoids, Σ ½ (T(s) + T) · (e - e(s)).  D differs from them where the beam stiffens on the way, because another
 // contact begins to stick or turns back.  The contact that gives way has the difference.  Its force lies between those of both ends, which
-// bounds it.
+// bounds it.  On a long way nodes follow their contacts, and V is that of two meshes: what they differ by is within that bound, too.
 // Real-time: noexcept, no allocation, O(elements) in a push in which a contact gives way, nothing in others.
 #pragma once
 
@@ -27,8 +27,6 @@ class GivingWay {
   using Scalar = typename Vector::Scalar;
 
  public:
-  /// As if no contact had given way: potentials on different meshes say nothing.
-  void forget() noexcept { first_ = -1; }
   /// To be called where an equilibrium was found in which a contact holds more than it can.
   /// @param each  calls its argument with the number and the law of each contact
   template <class System, class Each>
@@ -36,7 +34,9 @@ class GivingWay {
     if (first_ >= 0) return;
     first_ = contact;
     potential_ = system.total_potential();
-    each([this](int i, const Friction& friction) { stuck_[of(i)] = {friction.acting(), friction.shear()}; });
+    each([this](int i, const Friction& friction) {
+      stuck_[of(i)] = {friction.acting(), friction.shear(), friction.place()};
+    });
   }
   /// The contact, -1: none.
   int contact() const noexcept { return first_; }
@@ -49,22 +49,25 @@ class GivingWay {
                           Scalar counted, Each&& each) const noexcept {
     const Stuck& stuck = stuck_[of(first_)];
     const Scalar from = size(stuck.force), to = size(given_way.acting()), before = size(force_before);
-    if (!given_way.slides() || !(from > to && before > to)) return 0;
+    if (!given_way.slides() || given_way.falls() || !(from > to && before > to)) return 0;
     Scalar rest = potential_ - system.total_potential();
     const bool digits = std::abs(rest) > 64 * std::numeric_limits<Scalar>::epsilon() * std::abs(potential_);
     each([&](int i, const Friction& friction) {
       const Stuck& last = stuck_[of(i)];
-      rest -= (last.force + friction.acting()).dot(friction.shear() - last.shear) / 2;
+      const Vector force = friction.carried(last.force, last.place) + friction.acting();
+      rest -= force.dot(friction.shear() - friction.carried(last.shear, last.place)) / 2;
     });
     // The tick begins with its force of before, and not with that of s.  What a trapezoid lacks grows with the cube of the way.
     const Scalar share = (std::min)((before - to) / (from - to), Scalar(1)),
-                 most = (before - to) / 2 * size(given_way.shear() - stuck.shear);
+                 most = (before - to) / 2 *
+                        size(given_way.shear() - given_way.carried(stuck.shear, stuck.place));
     return std::clamp((digits ? share * share * share * rest : Scalar(0)) - counted, -most, most);
   }
 
  private:
   struct Stuck {
     Vector force = Vector::Zero(), shear = Vector::Zero();
+    typename Friction::Place place;
   };
   static std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
   static Scalar size(const Vector& v) noexcept { return std::sqrt(v.squaredNorm()); }

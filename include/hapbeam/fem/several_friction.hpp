@@ -29,8 +29,6 @@ class SeveralFriction {
     for (int i = 0; i < count; ++i)
       if (all[i].touching) meet(system, i);
   }
-  /// To be called where other contacts or another mesh follow.
-  void begin_again() noexcept { giving_way_.forget(); }
   /// An obstacle has a contact now.
   void meet(const System& system, int i) noexcept {
     if (!rough(i)) return;

@@ -87,7 +87,7 @@ class SeveralPush : private ActiveSet<Element, System> {
     Status status = Status::ok;
     bool snapped = false;
     int meshes = 1;
-    for (int pass = 1;; ++pass, friction.begin_again()) {
+    for (int pass = 1;; ++pass) {
       this->choose_nodes(system, range);
       status = solve(way, range, pass == 1, friction);
       snapped = snapped || status == Status::snapped;
