@@ -79,8 +79,9 @@ struct ChainRow {
   /// By value: what is reached through a reference would be read anew after each store.
   static void eliminate(const ChainRow row, const ChainRow next, Pair* front, Pair* f, Pair& energy,
                         Pivots<Scalar>& pivots) noexcept {
-    if constexpr (Block > 3) eliminate_pivot_by_pivot<Block>(row, next, front, f, energy, pivots);
-    else eliminate_few(row, next, front, f, energy, pivots);
+    constexpr bool side_by_side = columns_abreast < Scalar, Block >> 1;
+    if constexpr (side_by_side) eliminate_pivot_by_pivot<Block>(row, next, front, f, energy, pivots);
+    else eliminate_block_first(row, next, front, f, energy, pivots);
   }
 
   /// Solves for the node at which both chains end.  @param f  in: right-hand sides of both, out: its increment in both lanes
@@ -124,9 +125,11 @@ struct ChainRow {
   }
 
  private:
-  /// LDLᵀ of the block first, and then what that makes of all else: of few unknowns a processor looks so far ahead.
-  [[gnu::always_inline]] static void eliminate_few(const ChainRow row, const ChainRow next, Pair* front,
-                                                   Pair* f, Pair& energy, Pivots<Scalar>& pivots) noexcept {
+  /// LDLᵀ of the block first, and then what that makes of all else: of few unknowns a processor looks so far ahead, and without AVX
+  /// there are no registers for more.
+  [[gnu::always_inline]] static void eliminate_block_first(const ChainRow row, const ChainRow next,
+                                                           Pair* front, Pair* f, Pair& energy,
+                                                           Pivots<Scalar>& pivots) noexcept {
     const Factor factor(front);
     Pair zx[Block];                         // P⁻¹L⁻¹ of the right-hand side
     Pair y[Block][Block], z[Block][Block];  // L⁻¹C and P⁻¹L⁻¹C, column by column
