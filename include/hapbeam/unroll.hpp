@@ -1,7 +1,10 @@
 // A loop of known length that is to be written out: HAPBEAM_UNROLL stands before it.
 //
-// g++ -O2 leaves short loops over small matrices as they are, and what they touch goes through memory.
+// g++ -O2 leaves short loops over small matrices as they are, and what they touch goes through memory.  clang leaves one whose length hangs on an
+// argument of its function, before that is inlined: for_each_constant() makes such an argument a constant.
 #pragma once
+
+#include <type_traits>
 
 #if defined(__clang__)
 #define HAPBEAM_UNROLL _Pragma("unroll")
@@ -10,3 +13,26 @@
 #else
 #define HAPBEAM_UNROLL
 #endif
+
+/// Behind the arguments of a lambda that is to be inlined wherever it is called.
+#if defined(__GNUC__)
+#define HAPBEAM_INLINED __attribute__((always_inline))
+#else
+#define HAPBEAM_INLINED
+#endif
+
+namespace hapbeam::detail {
+
+template <int K>
+inline constexpr std::integral_constant<int, K> constant{};
+
+/// Calls f(constant<k>) for each k from From to End - 1.
+template <int From, int End, class F>
+[[gnu::always_inline]] inline void for_each_constant(F&& f) noexcept {
+  if constexpr (From < End) {
+    f(constant<From>);
+    for_each_constant<From + 1, End>(f);
+  }
+}
+
+}  // namespace hapbeam::detail

@@ -20,6 +20,14 @@
 
 #include <hapbeam/angle.hpp>
 
+/// Before a function that has more numbers side by side than registers.  clang puts the others on the stack as a caller has aligned it, to 16 bytes,
+/// where they stand across two lines of the cache.
+#if defined(__clang__) && defined(__AVX__)
+#define HAPBEAM_ALIGNED_STACK [[gnu::force_align_arg_pointer]]
+#else
+#define HAPBEAM_ALIGNED_STACK
+#endif
+
 namespace hapbeam::detail {
 
 #if defined(__AVX512F__)

@@ -71,8 +71,9 @@ struct RoundRod {
   }
   /// The same, each derivative once.
   template <typename S>
-  [[gnu::flatten]] static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
-                                    Inner<S>&, RodTangent<S, 3>& to) noexcept {
+  HAPBEAM_ALIGNED_STACK [[gnu::flatten]] static S tangent(const RodProperties<S>& p, const RodNode<S>& n1,
+                                                          const RodNode<S>& n2, Inner<S>&,
+                                                          RodTangent<S, 3>& to) noexcept {
     const V3<S>&t1 = n1.tangent, &t2 = n2.tangent;
     const V3<S> chord = p.inverse_length * (n2.r - n1.r), sum = t1 + t2;
     const V3<S> c = S(1.5) * chord - S(0.25) * sum, e1 = S(half_g) * (t2 - t1),

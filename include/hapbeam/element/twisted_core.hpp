@@ -19,8 +19,9 @@ struct TwistedCore {
 
 /// From the core to the unknowns of both nodes, ψ condensed away.  Row by row, in an order in which little waits for the rest.
 template <typename S, class Inner>
-[[gnu::flatten]] void expand(const CarriedFrame<S>& f, TwistedCore<S>& core, const S& inverse_length,
-                             Inner& inner, RodTangent<S, 4>& all) noexcept {
+HAPBEAM_ALIGNED_STACK [[gnu::flatten]] void expand(const CarriedFrame<S>& f, TwistedCore<S>& core,
+                                                   const S& inverse_length, Inner& inner,
+                                                   RodTangent<S, 4>& all) noexcept {
   using K = RodTangent<S, 4>;
   // ψ first: H - hhᵀ/k.
   const S* const g = core.g;

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include <hapbeam/fem/solver/ldlt.hpp>
+#include <hapbeam/fem/solver/pivot_by_pivot.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {
@@ -62,8 +63,6 @@ struct ChainRow {
   using Pair = Lanes<Scalar>;
   using Number = TwoNumbers<Scalar>;
   using Factor = Ldlt<Scalar, Block>;
-  static constexpr int columns = columns_abreast<Scalar, Block>, strips = (Block + columns - 1) / columns;
-  using Strip = detail::Strip<Scalar, columns>;
 
   Number* first;  ///< entry
 
@@ -80,72 +79,9 @@ struct ChainRow {
   /// By value: what is reached through a reference would be read anew after each store.
   static void eliminate(const ChainRow row, const ChainRow next, Pair* front, Pair* f, Pair& energy,
                         Pivots<Scalar>& pivots) noexcept {
-    const Factor factor(front);
-    Pair zx[Block];
-    HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) {
-      pivots.see(factor.p[j], row.block(j, j).get());
-      HAPBEAM_UNROLL
-      for (int i = j + 1; i < Block; ++i) row.block(i, j).set(factor.l[triangle<Block>(i, j)]);
-    }
-    factor.forward(f);
-    factor.scale(f, zx);
-    energy = less<Block>(energy, f, zx);
-    HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) row.x(k).set(zx[k]);
-    // L⁻¹C and P⁻¹L⁻¹C, a few columns side by side and one after the other, as registers have it.
-    Strip l[triangle_size<Block>], inverse[Block], y[strips][Block], scaled[strips][Block];
-    HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) {
-      inverse[k] = Strip::repeat(factor.i[k]);
-      HAPBEAM_UNROLL
-      for (int i = k + 1; i < Block; ++i)
-        l[triangle<Block>(i, k)] = Strip::repeat(factor.l[triangle<Block>(i, k)]);
-    }
-    HAPBEAM_UNROLL
-    for (int g = 0; g < strips; ++g) {
-      const int at = g * columns, last = (std::min)(at + columns, Block) - 1;
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) y[g][k] = Strip(row.coupling(k, at).get(), row.coupling(k, last).get());
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) {
-        HAPBEAM_UNROLL
-        for (int i = k + 1; i < Block; ++i)
-          y[g][i] = subtract_product(y[g][i], l[triangle<Block>(i, k)], y[g][k]);
-        scaled[g][k] = y[g][k] * inverse[k];
-        HAPBEAM_UNROLL
-        for (int c = 0; c < columns; ++c)
-          if (at + c < Block) row.coupling(k, at + c).set(scaled[g][k].column(c));
-      }
-    }
-    HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) {
-      const auto column = [&y](int i, int k) { return y[i / columns][k].column(i % columns); };
-      Strip z[Block];
-      Pair sum = next.x(j).get();
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) {
-        z[k] = Strip::repeat(scaled[j / columns][k].column(j % columns));
-        sum = subtract_product(sum, column(j, k), zx[k]);
-      }
-      f[j] = sum;
-      HAPBEAM_UNROLL
-      for (int i = j; i < Block; ++i) {
-        if (i > j && i % columns != 0) continue;  // stands beside the one before
-        if (i % columns == 0 && i + columns <= Block) {
-          Strip strip(next.block(i, j).get(), next.block((std::min)(i + columns, Block) - 1, j).get());
-          HAPBEAM_UNROLL
-          for (int k = 0; k < Block; ++k) strip = subtract_product(strip, y[i / columns][k], z[k]);
-          HAPBEAM_UNROLL
-          for (int c = 0; c < columns; ++c) front[triangle<Block>(i, j) + c] = strip.column(c);
-        } else {
-          Pair entry = next.block(i, j).get();
-          HAPBEAM_UNROLL
-          for (int k = 0; k < Block; ++k) entry = subtract_product(entry, column(i, k), z[k].column(0));
-          front[triangle<Block>(i, j)] = entry;
-        }
-      }
-    }
+    constexpr bool side_by_side = columns_abreast < Scalar, Block >> 1;
+    if constexpr (side_by_side) eliminate_pivot_by_pivot<Block>(row, next, front, f, energy, pivots);
+    else eliminate_block_first(row, next, front, f, energy, pivots);
   }
 
   /// Solves for the node at which both chains end.  @param f  in: right-hand sides of both, out: its increment in both lanes
@@ -170,7 +106,7 @@ struct ChainRow {
   }
 
   /// Increments of the nodes from those of the next on their way.  @param later  in: of those, out: of these
-  static void substitute(const ChainRow row, Pair* later) noexcept {
+  [[gnu::always_inline]] static void substitute(const ChainRow row, Pair* later) noexcept {
     Pair rest[Block];
     HAPBEAM_UNROLL
     for (int i = 0; i < Block; ++i) {
@@ -186,6 +122,44 @@ struct ChainRow {
     }
     HAPBEAM_UNROLL
     for (int k = 0; k < Block; ++k) row.x(k).set(later[k] = rest[k]);
+  }
+
+ private:
+  /// LDLᵀ of the block first, and then what that makes of all else: of few unknowns a processor looks so far ahead, and without AVX
+  /// there are no registers for more.
+  [[gnu::always_inline]] static void eliminate_block_first(const ChainRow row, const ChainRow next,
+                                                           Pair* front, Pair* f, Pair& energy,
+                                                           Pivots<Scalar>& pivots) noexcept {
+    const Factor factor(front);
+    Pair zx[Block];                         // P⁻¹L⁻¹ of the right-hand side
+    Pair y[Block][Block], z[Block][Block];  // L⁻¹C and P⁻¹L⁻¹C, column by column
+    HAPBEAM_UNROLL
+    for (int j = 0; j < Block; ++j) {
+      pivots.see(factor.p[j], row.block(j, j).get());
+      HAPBEAM_UNROLL
+      for (int i = j + 1; i < Block; ++i) row.block(i, j).set(factor.l[triangle<Block>(i, j)]);
+    }
+    factor.forward(f);
+    factor.scale(f, zx);
+    energy = less<Block>(energy, f, zx);
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k) row.x(k).set(zx[k]);
+    HAPBEAM_UNROLL
+    for (int j = 0; j < Block; ++j) {
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) y[j][k] = row.coupling(k, j).get();
+      factor.forward(y[j]);
+      factor.scale(y[j], z[j]);
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) row.coupling(k, j).set(z[j][k]);
+    }
+    HAPBEAM_UNROLL
+    for (int j = 0; j < Block; ++j) {
+      f[j] = less<Block>(next.x(j).get(), y[j], zx);
+      HAPBEAM_UNROLL
+      for (int i = j; i < Block; ++i)
+        front[triangle<Block>(i, j)] = less<Block>(next.block(i, j).get(), y[i], z[j]);
+    }
   }
 };
 

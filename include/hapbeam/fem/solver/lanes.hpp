@@ -5,7 +5,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
 namespace hapbeam::detail {
@@ -101,7 +103,10 @@ class Lanes<Scalar, std::void_t<typename PairOf<Scalar>::type>> {
   }
 
   [[gnu::always_inline]] friend Lanes abs(const Lanes& a) noexcept {
-    return Lanes(a.pair_ < 0 ? -a.pair_ : a.pair_);
+    // All bits but the sign: one instruction.
+    using Bits = decltype(a.pair_ < 0);
+    using Word = std::conditional_t<sizeof(Scalar) == 4, std::int32_t, std::int64_t>;
+    return Lanes(Pair(Bits(a.pair_) & (std::numeric_limits<Word>::max)()));
   }
   /// b where it is less.
   [[gnu::always_inline]] friend Lanes lesser(const Lanes& a, const Lanes& b) noexcept {

@@ -1,0 +1,130 @@
+// How a row of a chain whose nodes have many unknowns is eliminated: LDLᵀ of its block, and pivot by pivot what that makes of its right-hand side
+// and of what couples it with the next row.
+//
+// A processor waits for each division by a pivot, and does not look as far ahead as the rest of so large a block: what a pivot makes of all
+// but the next column stands where the next one is divided by.
+// Real-time: noexcept, no allocation, O(1).
+#pragma once
+
+#include <algorithm>
+
+#include <hapbeam/fem/solver/ldlt.hpp>
+#include <hapbeam/unroll.hpp>
+
+namespace hapbeam::detail {
+
+/// As ChainRow::eliminate().   @tparam Row  ChainRow
+template <int Block, typename Scalar, class Row>
+[[gnu::always_inline]] inline void eliminate_pivot_by_pivot(const Row row, const Row next,
+                                                            Lanes<Scalar>* front, Lanes<Scalar>* f,
+                                                            Lanes<Scalar>& energy,
+                                                            Pivots<Scalar>& pivots) noexcept {
+  using Pair = Lanes<Scalar>;
+  // Columns of the coupling stand side by side in strips.  Some have registers while the block is factored; the others come later.
+  constexpr int columns = columns_abreast<Scalar, Block>, strips = (Block + columns - 1) / columns,
+                at_once = (std::min)(12 / Block, strips);
+  using Strip = detail::Strip<Scalar, columns>;
+  Pair c[triangle_size<Block>], l[triangle_size<Block>], inverse[Block];  // LP, L, P⁻¹
+  Pair x[Block], zx[Block];  // L⁻¹ and P⁻¹L⁻¹ of the right-hand side
+  Strip y[strips][Block];    // L⁻¹C
+  HAPBEAM_UNROLL
+  for (int k = 0; k < triangle_size<Block>; ++k) c[k] = front[k];
+  HAPBEAM_UNROLL
+  for (int k = 0; k < Block; ++k) x[k] = f[k];
+
+  const auto last_of = [](int g) { return (std::min)(g * columns + columns, Block) - 1; };
+  const auto load = [&](auto g) HAPBEAM_INLINED {
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k)
+      y[g][k] = Strip(row.coupling(k, g * columns).get(), row.coupling(k, last_of(g)).get());
+  };
+  // A row of P⁻¹L⁻¹C.
+  const auto scale = [&](auto g, auto k) HAPBEAM_INLINED {
+    const Strip scaled = y[g][k] * Strip::repeat(inverse[k]);
+    HAPBEAM_UNROLL
+    for (int n = 0; n < columns; ++n)
+      if (g * columns + n < Block) row.coupling(k, g * columns + n).set(scaled.column(n));
+  };
+  // What column k of L makes of column j of the block.
+  const auto take_away = [&](auto k, auto j) HAPBEAM_INLINED {
+    HAPBEAM_UNROLL
+    for (int i = j; i < Block; ++i)
+      c[triangle<Block>(i, j)] =
+          subtract_product(c[triangle<Block>(i, j)], l[triangle<Block>(i, k)], c[triangle<Block>(j, k)]);
+  };
+  const auto use_up = [&](auto k) HAPBEAM_INLINED {
+    for_each_constant<k + 2, Block>([&](auto j) HAPBEAM_INLINED { take_away(k, j); });
+    zx[k] = x[k] * inverse[k];
+    for_each_constant<0, at_once>([&](auto g) HAPBEAM_INLINED { scale(g, k); });
+    row.x(k).set(zx[k]);
+    HAPBEAM_UNROLL
+    for (int i = k + 1; i < Block; ++i) {
+      x[i] = subtract_product(x[i], l[triangle<Block>(i, k)], x[k]);
+      const Strip by = Strip::repeat(l[triangle<Block>(i, k)]);
+      HAPBEAM_UNROLL
+      for (int g = 0; g < at_once; ++g) y[g][i] = subtract_product(y[g][i], by, y[g][k]);
+    }
+  };
+
+  for_each_constant<0, at_once>(load);
+  for_each_constant<0, Block>([&](auto k) HAPBEAM_INLINED {
+    const Pair pivot = c[triangle<Block>(k, k)];
+    inverse[k] = Pair::both(1) / pivot;
+    pivots.see(pivot, row.block(k, k).get());
+    if constexpr (k > 0) use_up(constant<k - 1>);
+    HAPBEAM_UNROLL
+    for (int i = k + 1; i < Block; ++i) {
+      l[triangle<Block>(i, k)] = c[triangle<Block>(i, k)] * inverse[k];
+      row.block(i, k).set(l[triangle<Block>(i, k)]);
+    }
+    if constexpr (k + 1 < Block) take_away(k, constant<k + 1>);
+  });
+  use_up(constant<Block - 1>);
+  energy = less<Block>(energy, x, zx);
+  for_each_constant<at_once, strips>([&](auto g) HAPBEAM_INLINED {
+    load(g);
+    for_each_constant<0, Block>([&](auto k) HAPBEAM_INLINED {
+      HAPBEAM_UNROLL
+      for (int i = k + 1; i < Block; ++i)
+        y[g][i] = subtract_product(y[g][i], Strip::repeat(row.block(i, k).get()), y[g][k]);
+      scale(g, k);
+    });
+  });
+
+  // The next row's block and right-hand side, less C'P⁻¹L⁻¹ of both.  What is repeated is read once more as it was stored, in the instruction
+  // that repeats it.
+  HAPBEAM_UNROLL
+  for (int j = 0; j < Block; ++j) {
+    Strip z[Block];
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k) z[k] = Strip::repeat(row.coupling(k, j).get());
+    HAPBEAM_UNROLL
+    for (int i = j; i < Block; ++i) {
+      if (i > j && i % columns != 0) continue;  // stands beside the one before
+      if (i % columns == 0 && i + columns <= Block) {
+        Strip strip(next.block(i, j).get(), next.block((std::min)(i + columns, Block) - 1, j).get());
+        HAPBEAM_UNROLL
+        for (int k = 0; k < Block; ++k) strip = subtract_product(strip, y[i / columns][k], z[k]);
+        HAPBEAM_UNROLL
+        for (int n = 0; n < columns; ++n) front[triangle<Block>(i, j) + n] = strip.column(n);
+      } else {
+        Pair entry = next.block(i, j).get();
+        HAPBEAM_UNROLL
+        for (int k = 0; k < Block; ++k)
+          entry = subtract_product(entry, y[i / columns][k].column(i % columns), z[k].column(0));
+        front[triangle<Block>(i, j)] = entry;
+      }
+    }
+  }
+  HAPBEAM_UNROLL
+  for (int g = 0; g < strips; ++g) {
+    Strip rest(next.x(g * columns).get(), next.x(last_of(g)).get());
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k) rest = subtract_product(rest, y[g][k], Strip::repeat(row.x(k).get()));
+    HAPBEAM_UNROLL
+    for (int n = 0; n < columns; ++n)
+      if (g * columns + n < Block) f[g * columns + n] = rest.column(n);
+  }
+}
+
+}  // namespace hapbeam::detail
