@@ -79,7 +79,7 @@ struct ChainRow {
   /// By value: what is reached through a reference would be read anew after each store.
   static void eliminate(const ChainRow row, const ChainRow next, Pair* front, Pair* f, Pair& energy,
                         Pivots<Scalar>& pivots) noexcept {
-    constexpr bool side_by_side = columns_abreast < Scalar, Block >> 1;
+    constexpr bool side_by_side = columns_abreast<Scalar, Block> == 2;
     if constexpr (side_by_side) eliminate_pivot_by_pivot<Block>(row, next, front, f, energy, pivots);
     else eliminate_block_first(row, next, front, f, energy, pivots);
   }
