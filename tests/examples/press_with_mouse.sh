@@ -6,7 +6,8 @@
 set -eu
 pace=$3
 rm -f "$2"
-"$1" --scene "$4" --screenshot never.png --at 3600 --record "$2" &
+# On its way to a series of screenshots, which it does not come to, it draws all pictures, in simulated time.
+"$1" --scene "$4" --screenshot never.png --frames 2 --at 3600 --record "$2" &
 phantom=$!
 trap 'kill "$phantom" 2>/dev/null || true' EXIT
 window=$(timeout 60 xdotool search --sync --onlyvisible --name '^hapbeam$' | head -n 1)

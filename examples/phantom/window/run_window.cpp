@@ -258,8 +258,9 @@ std::string run_window(Display& display, const Options& options, std::shared_ptr
     if (options.timed && passed.count() >= options.duration) break;
     if (options.tour > 0 && pictures >= options.tour) break;
     if (options.tour > 0) window.tour(pictures);
-    // Who asks for a screenshot does not see the pictures before it; what is laid out anew settles in three.
-    if (!options.screenshot.empty() && passed.count() < options.at - 3.5 * picture_time(options)) {
+    // Who asks for one screenshot does not see the pictures before it; what is laid out anew settles in three.
+    const bool single = !options.screenshot.empty() && options.frames == 1;
+    if (single && passed.count() < options.at - 3.5 * picture_time(options)) {
       window.go_on();
       continue;
     }
