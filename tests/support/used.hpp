@@ -9,6 +9,17 @@
 
 namespace hapbeam::testing::precompiled {
 
+// As elements that count do, one by one.
+template <class Element, typename Scalar>
+void use_element(const ElementProperties<Scalar>& p) {
+  Vector6<Scalar> d, r;
+  Matrix6<Scalar> K;
+  d.setZero();
+  static_cast<void>(Element::tangent(p, d, r, K));
+  Element::residual(p, d, r);
+  static_cast<void>(Element::energy(p, d));
+}
+
 template <class Model>
 void use_shape(Model& model) {
   using Scalar = typename Model::Scalar;
@@ -70,6 +81,10 @@ void use_system(const Rod& rod) {
 
 inline void used(const Beam& beam, const Rod& rod, const PodModelData<double>& pod,
                  const GalerkinModelData<double>& galerkin) {
+  use_element<VonKarman<>, double>({1, 1, 1});
+  use_element<VonKarman<>, float>({1, 1, 1});
+  use_element<Corotational<>, double>({1, 1, 1});
+  use_element<Corotational<>, float>({1, 1, 1});
   use_full<FemModel<>>(beam);
   use_full<FemModel<Linear>>(beam);
   use_full<FemModel<Corotational<>>>(beam);
