@@ -55,6 +55,7 @@ csv_reduced_press() {
   csv reduced_press path/model/what p50_us p99_us max_us force_error_median force_error_max shape_error_max snapshots_ms pod_ms
 }
 csv_any_rotation() { csv any_rotation scene/model/elements p50_us p99_us ratio force_error; }
+csv_rod_ticks() { csv rod_ticks scene/model/elements p50_us p99_us ratio solves force_error; }
 csv_many_beams() {
   csv many_beams model/beams/contacts p50_us p99_us touched per_contact_us force_error bytes_a_beam bytes_a_model
 }

@@ -162,6 +162,21 @@ function rotation(  k, text) {
         digits(cell[k, "p50_us"]) " µs", digits(cell[k, "ratio"]), percent(cell[k, "force_error"]))
 }
 
+# Of rod_ticks.csv.
+function rod_ticks(  k, n, found) {
+  line("elements", "planar `Corotational`", "`RoundRod`", "of planar", "error", "`TwistedRod`", "of planar", "error")
+  rule(8)
+  for (k = 1; k <= rows; ++k) {
+    found[cell[k, "model"]] = k
+    if (cell[k, "model"] == "twisted_rod") {
+      n = found["round_rod"]
+      line(cell[k, "elements"], digits(cell[found["planar"], "p50_us"]) " µs", digits(cell[n, "p50_us"]) " µs", \
+        sprintf("%.2f", cell[n, "ratio"]), percent(cell[n, "force_error"]), digits(cell[k, "p50_us"]) " µs", \
+        sprintf("%.2f", cell[k, "ratio"]), percent(cell[k, "force_error"]))
+    }
+  }
+}
+
 # Of kinematics.csv.
 function at(k, part) {
   if (cell[k, "slope_" part] == "") return "–"
