@@ -370,6 +370,7 @@ END {
   else if (table == "hand_over") hand_over()
   else if (table == "solvers") solvers()
   else if (table == "rotation") rotation()
+  else if (table == "rod_ticks") rod_ticks()
   else if (table == "limits") limits()
   else if (table == "stability") stability()
   else if (table == "turning") turning()
