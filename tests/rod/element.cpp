@@ -134,6 +134,28 @@ TEST_CASE("the natural shape of a rod has no energy and no forces", "[rod]") {
   }
 }
 
+TEST_CASE("a round element that is straight by nature has the derivatives of any that is as stiff", "[rod]") {
+  Random random(35);
+  for (int trial = 0; trial < 100; ++trial) {
+    RandomElement of(random);
+    for (auto& point : of.p.points) {
+      point.bending2 = point.bending1;
+      for (Long& k : point.natural) k = 0;
+    }
+    TwistedRod::Vector14<Long> r, round;
+    TwistedRod::Matrix14<Long> K, of_round;
+    auto inner = inner_of<TwistedRod>(of), same = inner;
+    const Long energy = TwistedRod::tangent(of.p, of.a, of.b, inner, r, K);
+    of.p.round = true;
+    CHECK(std::abs(TwistedRod::tangent(of.p, of.a, of.b, same, round, of_round) - energy) <= 1e-17L * energy);
+    CHECK((round - r).norm() <= 1e-16L * r.norm());
+    CHECK((of_round - K).norm() <= 1e-16L * K.norm());
+    CHECK(std::abs(same.residual - inner.residual) <= 1e-16L * inner.stiffness);
+    CHECK(std::abs(same.stiffness - inner.stiffness) <= 1e-17L * inner.stiffness);
+    CHECK((same.row - inner.row).norm() <= 1e-16L * inner.row.norm());
+  }
+}
+
 TEST_CASE("a director inside an element is what its own twist says", "[rod]") {
   Random random(34);
   for (int trial = 0; trial < 100; ++trial) {

@@ -17,6 +17,7 @@ struct RodProperties {
   Scalar inverse_length = 0;  ///< [1/m]
   Scalar axial = 0;           ///< EA [N]
   int number = 3;             ///< of Gauss points: 2 | 3
+  bool round = false;         ///< bends alike about all axes, is straight by nature, and has three points
   struct Point {
     Scalar bending1 = 0;            ///< EI against curvature about d1 [N·m²]
     Scalar bending2 = 0;            ///< EI against curvature about d2 [N·m²]

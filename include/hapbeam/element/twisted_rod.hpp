@@ -139,7 +139,7 @@ struct TwistedRod {
     const Frame<S> f(p, n1, n2);
     detail::TwistedCore<S> core;
     const S energy = detail::respond(p, f, inner.twist, core);
-    detail::expand(f, core, p.inverse_length, inner, all);
+    detail::expand(f, core, p.inverse_length, p.round, inner, all);
     return energy;
   }
 

@@ -10,6 +10,7 @@
 #include <hapbeam/element/carried_frame.hpp>
 #include <hapbeam/element/rod_properties.hpp>
 #include <hapbeam/element/twisted_core.hpp>
+#include <hapbeam/element/twisted_round.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {
@@ -224,7 +225,10 @@ template <typename S>
 inline S respond(const RodProperties<S>& p, const CarriedFrame<S>& f, S psi, TwistedCore<S>& core) noexcept {
   S energy = 0;
   add_stretch(p, f, core, energy);
-  if (p.number == 2) {
+  if (p.round) {
+    add_round_point<0>(p, f, psi, core, energy), add_round_point<1>(p, f, psi, core, energy);
+    add_round_point<2>(p, f, psi, core, energy);
+  } else if (p.number == 2) {
     add_point<2, 0>(p, f, psi, core, energy), add_point<2, 1>(p, f, psi, core, energy);
   } else {
     add_point<3, 0>(p, f, psi, core, energy), add_point<3, 1>(p, f, psi, core, energy);

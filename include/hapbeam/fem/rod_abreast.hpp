@@ -33,7 +33,7 @@ class RodAbreast {
   /// Lays an element's properties beside those of its neighbours.
   void take(int e, const RodProperties<Scalar>& from) noexcept {
     fill(e, [&](auto&& set, RodProperties<Wide>& to) {
-      to.number = from.number;
+      to.number = from.number, to.round = from.round;
       set(to.axial, from.axial);
       for (int i = 0; i < 3; ++i) {
         auto& point = to.points[i];

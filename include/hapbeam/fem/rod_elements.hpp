@@ -73,22 +73,29 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
   template <class Visit>
   [[gnu::always_inline]] Energies visit_tangents(Scalar lambda, Visit&& visit) noexcept {
     Energies sum;
+    Wide strain = 0, own = 0;  // of places that are all elements
     for (int first = 0; first < places(); first += lanes) {
       auto& inner = inners_[first / lanes];
       typename Stiffness::Type K;
-      const Wide energy = compute(first, inner, K), own = inner.energy();
-      for (int lane = 0; lane < lanes && first + lane < places(); ++lane) {
-        if (abreast_.order().element(first + lane) < 0) continue;
-        sum.strain += energy[lane];
-        sum.inner += own[lane];
+      const Wide energy = compute(first, inner, K);
+      if (first + lanes <= places() && abreast_.order().element(first) >= 0) {
+        strain += energy;
+        own += inner.energy();
+      } else {
+        const Wide of_inner = inner.energy();
+        for_each_lane(first, [&](int, int lane) { sum.strain += energy[lane], sum.inner += of_inner[lane]; });
+      }
+      if (loads_.empty() && bed_.empty()) {
+        visit(first, K, K);
+        continue;
       }
       WideResidual r;
-      HAPBEAM_UNROLL
       for (int i = 0; i < 2 * unknowns; ++i) r[i] = K[i];
       if (!loads_.empty()) subtract_loads(first, lambda, r, sum);
       if (bed_.empty()) visit(first, K, r);
       else visit_on_bed(first, K, r, sum, visit);
     }
+    for (int lane = 0; lane < lanes; ++lane) sum.strain += strain[lane], sum.inner += own[lane];
     return sum;
   }
   /// The residual alone of one element.

@@ -52,9 +52,10 @@ template <typename S>
   node.director = (S(1.5) - S(0.5) * e.squaredNorm()) * e;
 }
 /// Adds increments to all nodes, a few at a time; to their tangents and directors alone where chords turn their places.
-/// @tparam twists  whether there is φ
+/// @tparam twists  whether there is φ   @param moved  out, may be the nodes
 template <bool twists, class Nodes, class Increments>
-[[gnu::flatten]] void move_nodes(Nodes& nodes, const Increments& increments, bool places) noexcept {
+[[gnu::flatten]] void move_nodes(const Nodes& nodes, const Increments& increments, bool places,
+                                 Nodes& moved) noexcept {
   increments.visit([&](const auto& which, const auto& x) {
     using Wide = typename std::decay_t<decltype(which)>::Wide;
     using Vector = VectorOf<Wide, 3>;
@@ -67,7 +68,7 @@ template <bool twists, class Nodes, class Increments>
       move_tangent<Wide>(node, change, nullptr);
     }
     if (places) node.r += Vector(x(0), x(1), x(2));
-    scatter_nodes(which, node, nodes);
+    scatter_nodes(which, node, moved);
   });
 }
 /// Moves places alone: each chord turns as the difference of the increments at its ends says, from the first node on.

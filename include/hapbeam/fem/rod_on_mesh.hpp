@@ -107,8 +107,9 @@ class RodOnMesh {
       if (!holds_twist(rod.left()) && !holds_twist(rod.right()))
         throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
                                     ": TwistedRod turns about its axis, hold its twist at one end");
-    const bool two = has_twist && !(natural_.straight() && profile_.round() && profile_.smooth());
-    for (int e = 0; e < elements; ++e) properties_[e].number = two ? 2 : 3;
+    const bool round = natural_.straight() && profile_.round() && profile_.smooth();
+    for (int e = 0; e < elements; ++e)
+      properties_[e].number = has_twist && !round ? 2 : 3, properties_[e].round = round;
     for (int i = 0; i <= elements; ++i) nodes_[i] = natural_.at(mesh_.position(i));
     take(mesh_);
     for (int e = 0; e < elements; ++e) find_twist(e, natural_.at(middle(e)).director);

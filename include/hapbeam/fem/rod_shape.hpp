@@ -57,6 +57,11 @@ class RodShape {
   void keep(State& state) const noexcept {
     for (int i = 0; i <= elements(); ++i) state.nodes[i] = node(i), state.twists[i] = twists()[i];
   }
+  /// Keeps the shape for take_back().  What moves it first leaves it behind, and nothing is copied.
+  void keep_here() noexcept {
+    here_ = true;
+    if constexpr (!Nodes::exchanges) settle();
+  }
   /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
   /// @param before  becomes what the state is now
   void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {
@@ -114,7 +119,25 @@ class RodShape {
         length_(static_cast<Scalar>(rod.length())),
         axial_(static_cast<Scalar>(rod.stiffness().axial)) {}
 
-  void set(const Mesh& mesh, const State& state) noexcept { rod_.set(mesh, state.nodes, state.twists); }
+  void set(const Mesh& mesh, const State& state) noexcept {
+    settle();
+    rod_.set(mesh, state.nodes, state.twists);
+  }
+  /// Adds increments.   @param increments  RodIncrements   @param chords  whether chords turn places
+  template <class Increments>
+  void move(const Increments& increments, bool chords) noexcept {
+    if (chords) {
+      settle();
+      turn_chords(rod_.nodes(), increments);
+    }
+    const bool leaves = here_;
+    here_ = false;
+    if constexpr (unknowns == 7)
+      for (int e = 0; leaves && e < elements(); ++e) saved_.twists[e] = twists()[e];
+    rod_.advance_inners(increments);
+    move_nodes<unknowns == 7>(rod_.nodes(), increments, !chords, leaves ? saved_.nodes : rod_.nodes());
+    if (leaves) rod_.nodes().exchange(saved_.nodes);
+  }
   /// The shape of the same rod in another scalar, on the uniform mesh.
   template <class Other>
   void take(const Other& other) noexcept {
@@ -125,16 +148,19 @@ class RodShape {
       saved_.nodes[i] = {uniform.position(i), vector(n.r), vector(n.tangent), vector(n.director)};
       if constexpr (unknowns == 7) saved_.twists[i] = static_cast<Scalar>(other.twists()[i]);
     }
+    here_ = false;
     set(uniform, saved_);
   }
   /// Where its mesh is as it was when the shape was kept.
   void take_back() noexcept {
+    if (here_) return;
     for (int i = 0; i <= elements(); ++i)
       rod_.nodes()[i] = saved_.nodes[i], rod_.twists()[i] = saved_.twists[i];
   }
   /// Bends the rod a little, along the director in its middle and half as much across that.
   /// @param size  [m]   @param c  where the bow changes its side, of the length; negative: nowhere
   void bow(Scalar size, Scalar c) noexcept {
+    settle();
     const Node& middle = node(elements() / 2);
     const Vector3 e = middle.director + cross3(middle.tangent, middle.director) / 2;
     for (Node& node : rod_.nodes()) {
@@ -149,6 +175,15 @@ class RodShape {
   Parts rod_;
   State saved_;
   Scalar length_, axial_;
+
+ private:
+  /// Before something else moves the shape.
+  void settle() noexcept {
+    if (here_) keep(saved_);
+    here_ = false;
+  }
+
+  bool here_ = false;  // what was kept is the shape as it is
 };
 
 }  // namespace hapbeam::detail

@@ -83,7 +83,7 @@ class RodSystem
     for (auto& end : ends_) end.set_target(t);
   }
   void save() noexcept {
-    this->keep(saved_);
+    Shape::keep_here();
     Contacts::save_contacts();
   }
   void restore() noexcept {
@@ -164,9 +164,7 @@ class RodSystem
     set_within(contact_.node());
     for (const auto& other : others_) set_within(other.point.node());
     const bool free = contact_.node() < 0;
-    if (free) detail::turn_chords(rod_.nodes(), increments_);
-    rod_.advance_inners(increments_);
-    detail::move_nodes<unknowns == 7>(rod_.nodes(), increments_, !free);
+    Shape::move(increments_, free);
     if (free) ends_.close_chain(rod_.nodes(), length_);
     ends_.correct(rod_.nodes());
     Contacts::correct_contacts(rod_.nodes());
@@ -251,7 +249,6 @@ class RodSystem
 
   using Shape::length_;
   using Shape::rod_;
-  using Shape::saved_;
   using Residual = typename Shape::Parts::Residual;
   using Block = Eigen::Matrix<Scalar, unknowns, unknowns>;
   /// The contact that a node has, null: none.

@@ -10,6 +10,10 @@
 #include <limits>
 #include <type_traits>
 
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
 namespace hapbeam::detail {
 
 #if defined(__GNUC__)
@@ -73,6 +77,7 @@ class Lanes<Scalar, std::void_t<typename PairOf<Scalar>::type>> {
  public:
   Lanes() = default;
   [[gnu::always_inline]] Lanes(Scalar left, Scalar right) noexcept : pair_{left, right} {}
+  [[gnu::always_inline]] explicit Lanes(const Pair& pair) noexcept : pair_(pair) {}
 
   [[gnu::always_inline]] static Lanes both(Scalar a) noexcept { return {a, a}; }
   [[gnu::always_inline]] Scalar operator[](int i) const noexcept { return pair_[i]; }
@@ -128,8 +133,6 @@ class Lanes<Scalar, std::void_t<typename PairOf<Scalar>::type>> {
   }
 
  private:
-  [[gnu::always_inline]] explicit Lanes(const Pair& pair) noexcept : pair_(pair) {}
-
   Pair pair_;
 };
 #endif
@@ -139,12 +142,18 @@ template <typename Scalar, int Columns>
 class Strip {
  public:
   Strip() = default;
+#if defined(__AVX__) && defined(__GNUC__)
   [[gnu::always_inline]] Strip(const Lanes<Scalar>& first, const Lanes<Scalar>& second) noexcept
-      : v_(join(first.pair(), second.pair())) {}
-  /// The same pair for each column.  From registers: to load more than was just stored stalls a processor.
+      : v_(_mm256_insertf128_pd(_mm256_castpd128_pd256(first.pair()), second.pair(), 1)) {}
+  /// The same pair for each column.
   [[gnu::always_inline]] static Strip repeat(const Lanes<Scalar>& pair) noexcept { return {pair, pair}; }
+  /// One that stands in memory: the instruction that reads it repeats it.
+  [[gnu::always_inline]] static Strip repeat(const Scalar* pair) noexcept {
+    Strip strip;
+    return strip.v_ = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(pair)), strip;
+  }
   [[gnu::always_inline]] Lanes<Scalar> column(int i) const noexcept {
-    return Lanes<Scalar>(v_[2 * i], v_[2 * i + 1]);
+    return Lanes<Scalar>(i == 0 ? _mm256_castpd256_pd128(v_) : _mm256_extractf128_pd(v_, 1));
   }
   [[gnu::always_inline]] friend Strip operator*(const Strip& a, const Strip& b) noexcept {
     Strip c;
@@ -160,18 +169,8 @@ class Strip {
   }
 
  private:
-  static_assert(Columns == 2, "one column is a pair of lanes");
-#if defined(__GNUC__)
-  typedef Scalar Numbers __attribute__((vector_size(4 * sizeof(Scalar))));
-  template <class Pair>
-  [[gnu::always_inline]] static Numbers join(const Pair& a, const Pair& b) noexcept {
-#if defined(__has_builtin) && __has_builtin(__builtin_shufflevector)
-    return __builtin_shufflevector(a, b, 0, 1, 2, 3);
-#else
-    return Numbers{a[0], a[1], b[0], b[1]};
-#endif
-  }
-  Numbers v_;
+  static_assert(Columns == 2 && std::is_same_v<Scalar, double>, "one column is a pair of lanes");
+  __m256d v_;
 #endif
 };
 template <typename Scalar>
@@ -181,6 +180,9 @@ class Strip<Scalar, 1> {
   [[gnu::always_inline]] Strip(const Lanes<Scalar>& a) noexcept : v_(a) {}
   [[gnu::always_inline]] Strip(const Lanes<Scalar>& a, const Lanes<Scalar>&) noexcept : v_(a) {}
   [[gnu::always_inline]] static Strip repeat(const Lanes<Scalar>& pair) noexcept { return pair; }
+  [[gnu::always_inline]] static Strip repeat(const Scalar* pair) noexcept {
+    return Lanes<Scalar>::load(pair);
+  }
   [[gnu::always_inline]] Lanes<Scalar> column(int) const noexcept { return v_; }
   [[gnu::always_inline]] friend Strip operator*(const Strip& a, const Strip& b) noexcept {
     return a.v_ * b.v_;
@@ -196,7 +198,7 @@ class Strip<Scalar, 1> {
 
 /// How many columns of blocks of so many unknowns stand side by side.  A block of 3 has too few of them.
 template <typename Scalar, int Block>
-#if defined(__AVX__)
+#if defined(__AVX__) && defined(__GNUC__)
 inline constexpr int columns_abreast = Block > 3 && std::is_same_v<Scalar, double> ? 2 : 1;
 #else
 inline constexpr int columns_abreast = 1;

@@ -41,6 +41,9 @@ class PerNode {
     if constexpr (is_inline) storage_ = from.storage_;
     else storage_.swap(from.storage_);
   }
+  /// Whether another of the same size can be exchanged with it, however large they are.
+  static constexpr bool exchanges = !is_inline;
+  void exchange(PerNode& with) noexcept { storage_.swap(with.storage_); }
   T* begin() noexcept { return data(); }
   T* end() noexcept { return data() + size_; }
   const T* begin() const noexcept { return data(); }

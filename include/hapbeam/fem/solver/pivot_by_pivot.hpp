@@ -86,7 +86,7 @@ template <int Block, typename Scalar, class Row>
     for_each_constant<0, Block>([&](auto k) HAPBEAM_INLINED {
       HAPBEAM_UNROLL
       for (int i = k + 1; i < Block; ++i)
-        y[g][i] = subtract_product(y[g][i], Strip::repeat(row.block(i, k).get()), y[g][k]);
+        y[g][i] = subtract_product(y[g][i], Strip::repeat(row.block(i, k).a), y[g][k]);
       scale(g, k);
     });
   });
@@ -97,7 +97,7 @@ template <int Block, typename Scalar, class Row>
   for (int j = 0; j < Block; ++j) {
     Strip z[Block];
     HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) z[k] = Strip::repeat(row.coupling(k, j).get());
+    for (int k = 0; k < Block; ++k) z[k] = Strip::repeat(row.coupling(k, j).a);
     HAPBEAM_UNROLL
     for (int i = j; i < Block; ++i) {
       if (i > j && i % columns != 0) continue;  // stands beside the one before
@@ -120,7 +120,7 @@ template <int Block, typename Scalar, class Row>
   for (int g = 0; g < strips; ++g) {
     Strip rest(next.x(g * columns).get(), next.x(last_of(g)).get());
     HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) rest = subtract_product(rest, y[g][k], Strip::repeat(row.x(k).get()));
+    for (int k = 0; k < Block; ++k) rest = subtract_product(rest, y[g][k], Strip::repeat(row.x(k).a));
     HAPBEAM_UNROLL
     for (int n = 0; n < columns; ++n)
       if (g * columns + n < Block) f[g * columns + n] = rest.column(n);
