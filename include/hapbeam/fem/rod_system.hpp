@@ -111,64 +111,10 @@ class RodSystem
   /// Assembles and solves for an increment, and leaves the state as it is.
   /// @param shift  what is added to the tangent: so many times EI/L³ on each place and EI/L on each rotation, shared out
   /// over the nodes   @return ok | singular | non_finite | iteration_limit, where an end has farther to turn than an increment leads
-  Status factor(Scalar shift) noexcept {
-    if (!ends_.follow(rod_.nodes())) return Status::iteration_limit;
-    const int c = contact_.node();
-    Contacts::look_at_contacts();
-    const auto [strain, work, inner] =
-        rod_.visit_tangents(load_, [&](int first, auto& K, auto& r) { assembler_.add_pairs(first, K, r); });
-    inner_energy_ = inner;
-    Scalar energy = strain;
-    if (shift != 0) add_shift(shift);
-    energy += ends_.visit_springs(
-        rod_.nodes(), [this](int i, const Block& K, const Increment& r) { assembler_.add_at(i, K, r); });
-    if (c >= 0) detail::add_bend<unknowns>(contact_, assembler_);
-    for (const auto& other : others_) detail::add_bend<unknowns>(other.point, assembler_);
-    const auto rub = [this](const auto& contact, const Friction* friction) {
-      if (friction) detail::add_friction<unknowns>(contact, node(contact.node()), *friction, assembler_);
-    };
-    if (c >= 0) rub(contact_, friction_);
-    others_.each([&](const auto& other) { rub(other.point, other.friction); });
-    for (std::size_t k = 0; k < 2; ++k)
-      ends_.hold(k, node(ends_.node(k)), contact_at(ends_.node(k)), assembler_);
-    const auto lean_within = [this](const auto& contact) {
-      const int i = contact.node();
-      if (i > 0 && i < elements()) assembler_.lean(i, contact.leading(), contact.share());
-    };
-    lean_within(contact_);
-    for (const auto& other : others_) lean_within(other.point);
-    size_ =
-        std::sqrt(2 * (std::max)(energy, Scalar(0)));  // of a rod without stress round-off has either sign
-    potential_ = energy - work;
-    potential_ += Contacts::friction_potential();
-    moves_ = 0;
-    if (c >= 0) detail::hold(contact_, moves_ = d_ - contact_.displacement(), assembler_, assembler_.held());
-    others_.each([&](auto& other) { detail::hold_other<Scalar>(other, assembler_, others_); });
-    const Status status = assembler_.solve();
-    // A round rod that is bowed between two ends on one axis may roll about it: that takes no force, and leads nowhere.
-    if (status == Status::singular && shift == 0 && no_mechanism_) return factor(neutral());
-    return status;
-  }
+  Status factor(Scalar shift) noexcept;
   /// Adds the increment to the state: what turns keeps its length.  Without a contact, which would be missed, the chords turn
   /// as the tangents do, from the left end on (as chain.hpp says of the plane).
-  void advance() noexcept {
-    force_ = contact_.node() < 0 ? Scalar(0) : contact_.along(assembler_.reaction());
-    others_.each([&](auto& other) { other.force = other.point.along(assembler_.reaction(other.row)); });
-    increments_.take(assembler_);
-    const auto set = [&](int i) { increments_.set(i, increment(i)); };
-    for (std::size_t k = 0; k < 2; ++k)
-      if (const int i = ends_.node(k); ends_.has(i, contact_at(i))) set(i);
-    const auto set_within = [&](int i) {
-      if (i > 0 && i < elements()) set(i);
-    };
-    set_within(contact_.node());
-    for (const auto& other : others_) set_within(other.point.node());
-    const bool free = contact_.node() < 0;
-    Shape::move(increments_, free);
-    if (free) ends_.close_chain(rod_.nodes(), length_);
-    ends_.correct(rod_.nodes());
-    Contacts::correct_contacts(rod_.nodes());
-  }
+  void advance() noexcept;
   /// As a shift: a stiffness that is none.  A rod that is round may roll where it is bowed, but for round-off; 1/10⁷ of what bends one.
   static constexpr Scalar neutral() noexcept { return Scalar(1e-6); }
   /// Size of the last increment in the norm of the tangent [√J].
@@ -280,6 +226,68 @@ class RodSystem
   bool no_mechanism_ = false;  // its ends and springs hold it
   Scalar size_ = 0, potential_ = 0, inner_energy_ = 0, unit_;
 };
+
+// Outside of the class: only so does "extern template class RodSystem<…>;" keep a compiler from them.
+template <class Element, typename Scalar, int Elements, int MaxElements,
+          template <typename, int, int, int> class Assembler>
+Status RodSystem<Element, Scalar, Elements, MaxElements, Assembler>::factor(Scalar shift) noexcept {
+  if (!ends_.follow(rod_.nodes())) return Status::iteration_limit;
+  const int c = contact_.node();
+  Contacts::look_at_contacts();
+  const auto [strain, work, inner] =
+      rod_.visit_tangents(load_, [&](int first, auto& K, auto& r) { assembler_.add_pairs(first, K, r); });
+  inner_energy_ = inner;
+  Scalar energy = strain;
+  if (shift != 0) add_shift(shift);
+  energy += ends_.visit_springs(
+      rod_.nodes(), [this](int i, const Block& K, const Increment& r) { assembler_.add_at(i, K, r); });
+  if (c >= 0) detail::add_bend<unknowns>(contact_, assembler_);
+  for (const auto& other : others_) detail::add_bend<unknowns>(other.point, assembler_);
+  const auto rub = [this](const auto& contact, const Friction* friction) {
+    if (friction) detail::add_friction<unknowns>(contact, node(contact.node()), *friction, assembler_);
+  };
+  if (c >= 0) rub(contact_, friction_);
+  others_.each([&](const auto& other) { rub(other.point, other.friction); });
+  for (std::size_t k = 0; k < 2; ++k)
+    ends_.hold(k, node(ends_.node(k)), contact_at(ends_.node(k)), assembler_);
+  const auto lean_within = [this](const auto& contact) {
+    const int i = contact.node();
+    if (i > 0 && i < elements()) assembler_.lean(i, contact.leading(), contact.share());
+  };
+  lean_within(contact_);
+  for (const auto& other : others_) lean_within(other.point);
+  size_ = std::sqrt(2 * (std::max)(energy, Scalar(0)));  // of a rod without stress round-off has either sign
+  potential_ = energy - work;
+  potential_ += Contacts::friction_potential();
+  moves_ = 0;
+  if (c >= 0) detail::hold(contact_, moves_ = d_ - contact_.displacement(), assembler_, assembler_.held());
+  others_.each([&](auto& other) { detail::hold_other<Scalar>(other, assembler_, others_); });
+  const Status status = assembler_.solve();
+  // A round rod that is bowed between two ends on one axis may roll about it: that takes no force, and leads nowhere.
+  if (status == Status::singular && shift == 0 && no_mechanism_) return factor(neutral());
+  return status;
+}
+
+template <class Element, typename Scalar, int Elements, int MaxElements,
+          template <typename, int, int, int> class Assembler>
+void RodSystem<Element, Scalar, Elements, MaxElements, Assembler>::advance() noexcept {
+  force_ = contact_.node() < 0 ? Scalar(0) : contact_.along(assembler_.reaction());
+  others_.each([&](auto& other) { other.force = other.point.along(assembler_.reaction(other.row)); });
+  increments_.take(assembler_);
+  const auto set = [&](int i) { increments_.set(i, increment(i)); };
+  for (std::size_t k = 0; k < 2; ++k)
+    if (const int i = ends_.node(k); ends_.has(i, contact_at(i))) set(i);
+  const auto set_within = [&](int i) {
+    if (i > 0 && i < elements()) set(i);
+  };
+  set_within(contact_.node());
+  for (const auto& other : others_) set_within(other.point.node());
+  const bool free = contact_.node() < 0;
+  Shape::move(increments_, free);
+  if (free) ends_.close_chain(rod_.nodes(), length_);
+  ends_.correct(rod_.nodes());
+  Contacts::correct_contacts(rod_.nodes());
+}
 
 namespace detail {
 
