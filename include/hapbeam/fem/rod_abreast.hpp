@@ -26,9 +26,9 @@ class RodAbreast {
   /// Of the elements from a place on that is a multiple of the lanes.
   const RodProperties<Wide>& properties(int first) const noexcept { return wide_[first / lanes]; }
   Abreast<Scalar> elements(int first) const noexcept {
-    return Abreast<Scalar>::from(first, 2 * order_.pairs() - 1).of_each([this](int place) {
-      return (std::max)(order_.element(place), 0);
-    });
+    Abreast<Scalar> which;
+    order_.elements_from(first, which.of);
+    return which;
   }
   /// Lays an element's properties beside those of its neighbours.
   void take(int e, const RodProperties<Scalar>& from) noexcept {

@@ -185,9 +185,8 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     if constexpr (has_twist)
       inner.twist = detail::gather(abreast_.elements(first), [&](int e) { return twists_[e]; });
     // The nodes of these places and of the pair behind them are those of both ends.
-    const auto of = detail::Abreast<Scalar>::from(first, order.last_node()).of_each([&](int place) {
-      return order.node(place);
-    });
+    detail::Abreast<Scalar> of;
+    order.nodes_from(first, of.of);
     const Node *const left = &nodes_[order.node((std::min)(first + lanes, order.last_node() - 1))],
                       *const right = &nodes_[order.node((std::min)(first + lanes + 1, order.last_node()))];
     const RodNode<Wide> outer = detail::gather_nodes<has_twist>(of, nodes_);

@@ -55,7 +55,9 @@ class RodIncrements {
   [[gnu::always_inline]] void visit(F&& f) const noexcept {
     for_each_abreast<Scalar>(order_.last_node(), [&](const auto& places) {
       const int first = places.of[0];
-      f(places.of_each([this](int place) { return order_.node(place); }), [&](int k) {
+      auto nodes = places;
+      order_.nodes_from(first, nodes.of);
+      f(nodes, [&](int k) {
         return std::decay_t<decltype(places)>::Wide::load(groups_[first / lanes].x[k] + first % lanes);
       });
     });

@@ -30,13 +30,6 @@ struct Abreast {
     for (int k = 0; k < size; ++k) abreast.of[k] = (std::min)(first + k, last);
     return abreast;
   }
-  /// @param f  index -> index
-  template <class F>
-  Abreast of_each(F&& f) const noexcept {
-    Abreast abreast;
-    for (int k = 0; k < size; ++k) abreast.of[k] = f(of[k]);
-    return abreast;
-  }
   /// Those so many nodes further on, none before 0 or behind the last one.
   Abreast next(int by, int last) const noexcept {
     Abreast abreast;

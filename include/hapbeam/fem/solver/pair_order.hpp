@@ -4,6 +4,10 @@
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
+#include <algorithm>
+
+#include <hapbeam/unroll.hpp>
+
 namespace hapbeam::detail {
 
 struct PairOrder {
@@ -14,6 +18,12 @@ struct PairOrder {
   /// -1: the empty place
   int element(int place) const noexcept {
     return place % 2 == 0 ? place / 2 - odd() : elements - 1 - place / 2;
+  }
+  /// Those from an even place on.  Beyond the last one that one stands again, and in the empty place the first one.
+  template <int Size>
+  [[gnu::always_inline]] void elements_from(int first, int (&of)[Size]) const noexcept {
+    if (is_whole(first, Size, 2 * pairs())) return from_both_ends(first, elements - 1, of);
+    for (int k = 0; k < Size; ++k) of[k] = (std::max)(element((std::min)(first + k, 2 * pairs() - 1)), 0);
   }
   int place(int element) const noexcept {
     const int from_left = element + odd();
@@ -27,9 +37,26 @@ struct PairOrder {
     const bool left = place % 2 == 0 && place / 2 >= odd();
     return left ? place / 2 - odd() : elements - place / 2;
   }
+  template <int Size>
+  [[gnu::always_inline]] void nodes_from(int first, int (&of)[Size]) const noexcept {
+    if (is_whole(first, Size, last_node() + 1)) return from_both_ends(first, elements, of);
+    for (int k = 0; k < Size; ++k) of[k] = node((std::min)(first + k, last_node()));
+  }
   int node_place(int node) const noexcept {
     const int from_left = node + odd();
     return from_left <= pairs() ? 2 * from_left : 2 * (elements - node) + 1;
+  }
+
+ private:
+  /// Whether none of so many places is empty or beyond the end.
+  bool is_whole(int first, int size, int end) const noexcept {
+    return first / 2 >= odd() && first + size <= end;
+  }
+  template <int Size>
+  [[gnu::always_inline]] void from_both_ends(int first, int last, int (&of)[Size]) const noexcept {
+    const int left = first / 2 - odd(), right = last - first / 2;
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Size; ++k) of[k] = k % 2 == 0 ? left + k / 2 : right - k / 2;
   }
 };
 

@@ -20,30 +20,35 @@ template <int Block, typename Scalar, class Row>
                                                             Lanes<Scalar>& energy,
                                                             Pivots<Scalar>& pivots) noexcept {
   using Pair = Lanes<Scalar>;
-  // Columns of the coupling stand side by side in strips.  Some have registers while the block is factored; the others come later.
+  // Columns of the coupling stand side by side in strips.  Some have registers while the block is factored; the others come later.  Where
+  // a column is left alone, the right-hand side stands beside it, as one more.
   constexpr int columns = columns_abreast<Scalar, Block>, strips = (Block + columns - 1) / columns,
                 at_once = (std::min)(12 / Block, strips);
+  constexpr bool beside = strips * columns > Block;
   using Strip = detail::Strip<Scalar, columns>;
   Pair c[triangle_size<Block>], l[triangle_size<Block>], inverse[Block];  // LP, L, P⁻¹
-  Pair x[Block], zx[Block];  // L⁻¹ and P⁻¹L⁻¹ of the right-hand side
+  Pair x[Block], zx[Block];  // L⁻¹ and P⁻¹L⁻¹ of the right-hand side, where it stands alone
   Strip y[strips][Block];    // L⁻¹C
   HAPBEAM_UNROLL
   for (int k = 0; k < triangle_size<Block>; ++k) c[k] = front[k];
   HAPBEAM_UNROLL
   for (int k = 0; k < Block; ++k) x[k] = f[k];
 
-  const auto last_of = [](int g) { return (std::min)(g * columns + columns, Block) - 1; };
   const auto load = [&](auto g) HAPBEAM_INLINED {
     HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k)
-      y[g][k] = Strip(row.coupling(k, g * columns).get(), row.coupling(k, last_of(g)).get());
+    for (int k = 0; k < Block; ++k) {
+      constexpr int from = g * columns, to = from + columns - 1;
+      y[g][k] = Strip(row.coupling(k, from).get(), to < Block ? row.coupling(k, to).get() : x[k]);
+    }
   };
   // A row of P⁻¹L⁻¹C.
   const auto scale = [&](auto g, auto k) HAPBEAM_INLINED {
     const Strip scaled = y[g][k] * Strip::repeat(inverse[k]);
     HAPBEAM_UNROLL
-    for (int n = 0; n < columns; ++n)
+    for (int n = 0; n < columns; ++n) {
       if (g * columns + n < Block) row.coupling(k, g * columns + n).set(scaled.column(n));
+      else row.x(k).set(zx[k] = scaled.column(n));
+    }
   };
   // What column k of L makes of column j of the block.
   const auto take_away = [&](auto k, auto j) HAPBEAM_INLINED {
@@ -54,12 +59,11 @@ template <int Block, typename Scalar, class Row>
   };
   const auto use_up = [&](auto k) HAPBEAM_INLINED {
     for_each_constant<k + 2, Block>([&](auto j) HAPBEAM_INLINED { take_away(k, j); });
-    zx[k] = x[k] * inverse[k];
     for_each_constant<0, at_once>([&](auto g) HAPBEAM_INLINED { scale(g, k); });
-    row.x(k).set(zx[k]);
+    if (!beside) row.x(k).set(zx[k] = x[k] * inverse[k]);
     HAPBEAM_UNROLL
     for (int i = k + 1; i < Block; ++i) {
-      x[i] = subtract_product(x[i], l[triangle<Block>(i, k)], x[k]);
+      if (!beside) x[i] = subtract_product(x[i], l[triangle<Block>(i, k)], x[k]);
       const Strip by = Strip::repeat(l[triangle<Block>(i, k)]);
       HAPBEAM_UNROLL
       for (int g = 0; g < at_once; ++g) y[g][i] = subtract_product(y[g][i], by, y[g][k]);
@@ -80,7 +84,6 @@ template <int Block, typename Scalar, class Row>
     if constexpr (k + 1 < Block) take_away(k, constant<k + 1>);
   });
   use_up(constant<Block - 1>);
-  energy = less<Block>(energy, x, zx);
   for_each_constant<at_once, strips>([&](auto g) HAPBEAM_INLINED {
     load(g);
     for_each_constant<0, Block>([&](auto k) HAPBEAM_INLINED {
@@ -90,6 +93,11 @@ template <int Block, typename Scalar, class Row>
       scale(g, k);
     });
   });
+  if constexpr (beside) {
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k) x[k] = y[strips - 1][k].column(columns - 1);
+  }
+  energy = less<Block>(energy, x, zx);
 
   // The next row's block and right-hand side, less C'P⁻¹L⁻¹ of both.  What is repeated is read once more as it was stored, in the instruction
   // that repeats it.
@@ -101,12 +109,15 @@ template <int Block, typename Scalar, class Row>
     HAPBEAM_UNROLL
     for (int i = j; i < Block; ++i) {
       if (i > j && i % columns != 0) continue;  // stands beside the one before
-      if (i % columns == 0 && i + columns <= Block) {
-        Strip strip(next.block(i, j).get(), next.block((std::min)(i + columns, Block) - 1, j).get());
+      if (i % columns == 0 && (beside || i + columns <= Block)) {
+        const int to = i + columns - 1;
+        Strip strip(next.block(i, j).get(),
+                    to < Block ? next.block((std::min)(to, Block - 1), j).get() : next.x(j).get());
         HAPBEAM_UNROLL
         for (int k = 0; k < Block; ++k) strip = subtract_product(strip, y[i / columns][k], z[k]);
         HAPBEAM_UNROLL
-        for (int n = 0; n < columns; ++n) front[triangle<Block>(i, j) + n] = strip.column(n);
+        for (int n = 0; n < columns; ++n)
+          (i + n < Block ? front[triangle<Block>((std::min)(i + n, Block - 1), j)] : f[j]) = strip.column(n);
       } else {
         Pair entry = next.block(i, j).get();
         HAPBEAM_UNROLL
@@ -116,14 +127,15 @@ template <int Block, typename Scalar, class Row>
       }
     }
   }
-  HAPBEAM_UNROLL
-  for (int g = 0; g < strips; ++g) {
-    Strip rest(next.x(g * columns).get(), next.x(last_of(g)).get());
+  if constexpr (!beside) {
     HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) rest = subtract_product(rest, y[g][k], Strip::repeat(row.x(k).a));
-    HAPBEAM_UNROLL
-    for (int n = 0; n < columns; ++n)
-      if (g * columns + n < Block) f[g * columns + n] = rest.column(n);
+    for (int g = 0; g < strips; ++g) {
+      Strip rest(next.x(g * columns).get(), next.x(g * columns + columns - 1).get());
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) rest = subtract_product(rest, y[g][k], Strip::repeat(row.x(k).a));
+      HAPBEAM_UNROLL
+      for (int n = 0; n < columns; ++n) f[g * columns + n] = rest.column(n);
+    }
   }
 }
 
