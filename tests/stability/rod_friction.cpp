@@ -147,9 +147,7 @@ TEST_CASE("two spheres on a wire give what friction takes at both", "[rod][frict
   const double reach = 0.011;
   for (const bool below : {false, true})
     for (const double mu : {0.2, 0.8}) {
-      // The mesh follows both contacts, and with 16 elements that is seen whatever the step.
-      const bool fine = below == (mu > 0.5);
-      Both model(rod, fine ? 32 : 16);
+      Both model(rod, below == (mu > 0.5) ? 32 : 16);
       const RoundAvatar left(0.01, 1, mu), right(0.01, 1, 0.4);
       TouchSeveral touch(model, {left, right});
       const auto path = [&](double t, double down) {
@@ -182,7 +180,7 @@ TEST_CASE("two spheres on a wire give what friction takes at both", "[rod][frict
       CAPTURE(below, mu, given, taken);
       CHECK(otherwise == 0);
       CHECK(taken > 1e-4);
-      CHECK(std::abs(given - taken - (model.strain_energy() - stored)) <= (fine ? 1e-6 : 2e-5) * taken);
+      CHECK(std::abs(given - taken - (model.strain_energy() - stored)) <= 1e-6 * taken);
     }
 }
 

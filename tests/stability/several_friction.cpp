@@ -100,6 +100,47 @@ TEST_CASE("work of two hands round closed paths is what friction takes at both",
   CHECK(worst(bar, 0.005, 0.008, 50, 300) <= 1e-3);
 }
 
+// Nodes follow three contacts, whose parts of the ruler are short, and would pass from one part to another on this path.  Both left 1.9e-4.
+TEST_CASE("two hands that press a ruler onto a rough peg give what friction takes with 16 elements",
+          "[friction][several]") {
+  FemModel<Several<Corotational<>, 3>> model(steel_ruler(), 16);
+  const Friction friction[3] = {0.0756, 0.6833, 0.282};
+  TouchSeveral touch(model, {finger(friction[0]), finger(friction[1])},
+                     {Prop<>::peg({0.16245, -0.006984}, 0.005).rough(friction[2])});
+  const auto path = [](double t) {
+    const double a = 2 * pi * t, up = 1 - std::cos(a);
+    return Hands{
+        Vector(0.12183 + 0.004153 * (std::sin(a + 0.2888) - std::sin(0.2888)), 0.001436 * up - 0.002002),
+        Vector(0.19869 + 8e-4 * (std::sin(a + 0.2076) - std::sin(0.2076)), 0.001303 * up - 0.011172)};
+  };
+  for (int k = 0; k <= 200; ++k) {
+    Hands at = path(0);
+    for (Vector& hand : at) hand.y() += (0.00551 - hand.y()) * (1 - k / 200.0);
+    (void)touch.tick(at.data(), 2);
+  }
+  constexpr int ticks = 6000;
+  auto before = touch.tick(path(0).data(), 2);
+  double given = 0, taken = 0, stored = 0;
+  for (int k = 1; k <= 2 * ticks; ++k) {
+    const Hands from = path(double(k - 1) / ticks), to = path(double(k) / ticks);
+    const auto now = touch.tick(to.data(), 2);
+    REQUIRE(now.status == Status::ok);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto &a = before.places[i], &b = now.places[i];
+      REQUIRE(b.touching);
+      check_cone(b, friction[i]);
+      REQUIRE(b.dissipated >= a.dissipated);
+      if (i < 2) given -= (a.force + b.force).dot(to[i] - from[i]) / 2;
+      taken += b.dissipated - a.dissipated;
+    }
+    before = now;
+    if (k == ticks) given = taken = 0, stored = model.strain_energy();
+  }
+  CAPTURE(given, taken, stored, model.strain_energy());
+  CHECK(taken > 1);
+  CHECK(std::abs(given - taken - (model.strain_energy() - stored)) <= 2e-6 * taken);
+}
+
 // Two hands and a peg, each with coefficients of its own; ways at the speed of a hand, jumps, and places that are none.
 TEST_CASE("friction at several contacts keeps its cones whatever the hands do", "[friction][several]") {
   using Three = FemModel<Several<Corotational<>, 3>>;

@@ -38,6 +38,15 @@ class BeamShape {
   void keep(State& state) const noexcept {
     for (int i = 0; i <= elements(); ++i) state[i] = node(i);
   }
+  /// Gives nodes other arc positions and leaves them where they are.  @param state  in, out
+  static void label(const Mesh& mesh, State& state) noexcept {
+    for (int i = 0; i <= mesh.elements(); ++i) {
+      Node& node = state[i];
+      const Scalar s = mesh.position(i);
+      node.u -= s - node.s;
+      node.s = s;
+    }
+  }
   /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
   /// @param before  becomes what the state is now
   void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {

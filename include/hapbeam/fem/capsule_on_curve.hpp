@@ -46,7 +46,7 @@ class CapsuleOnCurve {
       : axis_(axis), node_(node.r), direction_(unit(node.tangent)), curvature_(curvature), end_(end) {
     using std::sqrt;
     View v;
-    v.u = direction_, v.k = curvature_;
+    v.u = v.b = direction_, v.k = curvature_;
     const Derivatives at_node = look(node, 0, v);
     if (!(at_node.second > parallel)) return;
     const Scalar squared = axis.way.squaredNorm(), farthest = sqrt(v.w.squaredNorm()) + sqrt(squared);
@@ -54,6 +54,13 @@ class CapsuleOnCurve {
     within_ = (std::min)({farthest, 1 / sqrt(curvature.squaredNorm()), at_node.second / (2 * third)});
   }
 
+  /// Turns the curve at the node.  @param angle  [rad] toward the capsule, small
+  void tilt(Scalar angle) noexcept {
+    const Vector3 way = axis_.at(axis_.nearest(node_)) - node_,
+                  across = way - direction_ * direction_.dot(way);
+    tilt_ = angle * unit(across);
+    cosine_ = 1 / std::sqrt(1 + angle * angle);
+  }
   /// Whether the curve is too sharp for all this.  @param distance  from it [m]
   bool sharp(Scalar distance) const noexcept { return sharp(axis_, node_, curvature_, distance); }
   static bool sharp(const Shaft<Scalar>& axis, const Vector3& node, const Vector3& curvature,
@@ -64,14 +71,14 @@ class CapsuleOnCurve {
 
   /// Distance of the capsule, and its derivatives, at the present node.
   struct View {
-    Vector3 normal;   ///< n, out of the curve to the axis
-    Scalar distance;  ///< D [m]
-    Scalar lever;     ///< σ [m] from the node to the contact
-    bool past_end;    ///< the end point is touched
-    Vector3 arm;      ///< -∂D/∂τ [m]
-    Vector3 u, t, k, w, f;
-    Scalar length;         // |τ|
-    bool follows, slides;  // σ moves, λ moves
+    Vector3 normal;            ///< n, out of the curve to the axis
+    Scalar distance;           ///< D [m]
+    Scalar lever;              ///< σ [m] from the node to the contact
+    bool past_end;             ///< the end point is touched
+    Vector3 arm;               ///< -∂D/∂τ [m]
+    Vector3 u, b, t, k, w, f;  // b: u, tilted
+    Scalar length;             // |τ|
+    bool follows, slides;      // σ moves, λ moves
   };
 
   View at(const Node& node) const noexcept {
@@ -80,6 +87,7 @@ class CapsuleOnCurve {
     v.length = sqrt(node.tangent.squaredNorm());
     v.u = node.tangent / v.length;
     v.k = carry(curvature_, direction_, v.u);
+    v.b = cosine_ < 1 ? Vector3(cosine_ * (v.u + carry(tilt_, direction_, v.u))) : v.u;
     const Scalar bottom = end_ < 0 ? Scalar(0) : -within_, top = end_ > 0 ? Scalar(0) : within_;
     const Scalar fine = Scalar(1e-3) * sqrt(std::numeric_limits<Scalar>::epsilon());
     Scalar along = 0, low = bottom, high = top, before = std::numeric_limits<Scalar>::infinity();
@@ -169,8 +177,8 @@ class CapsuleOnCurve {
     Scalar first, second;
   };
   Derivatives look(const Node& node, Scalar along, View& v) const noexcept {
-    v.t = v.u + along * v.k;
-    v.f = along * (v.u + along / 2 * v.k);
+    v.t = v.b + along * v.k;
+    v.f = along * (v.b + along / 2 * v.k);
     const Vector3 from_tip = node.r + v.f - axis_.tip;
     const Scalar squared = axis_.way.squaredNorm();
     const Scalar place = squared > 0 ? axis_.way.dot(from_tip) / squared : Scalar(0);
@@ -182,8 +190,10 @@ class CapsuleOnCurve {
   }
 
   Shaft<Scalar> axis_{Vector3::Zero(), Vector3::Zero()};
-  Vector3 node_ = Vector3::Zero(), direction_ = Vector3::UnitX(), curvature_ = Vector3::Zero();
-  Scalar within_ = 0;  // [m] of the node: there σ is sought
+  Vector3 node_ = Vector3::Zero(), direction_ = Vector3::UnitX(), curvature_ = Vector3::Zero(),
+          tilt_ = Vector3::Zero();  // across the direction
+  Scalar cosine_ = 1;               // of the tilt
+  Scalar within_ = 0;               // [m] of the node: there σ is sought
   int end_ = 0;
 };
 

@@ -32,6 +32,8 @@ class CircleOnCurve {
   CircleOnCurve(const Vector2<Scalar>& centre, Scalar side, Scalar curvature, int end) noexcept
       : centre_(centre), side_(side), curvature_(side * curvature), end_(static_cast<Scalar>(end)) {}
 
+  /// Turns the curve at the node.  @param angle  [rad] toward the circle
+  void tilt(Scalar angle) noexcept { tilt_ = side_ * angle; }
   /// Whether the curve is too sharp for all this.  @param distance  from it [m]
   bool sharp(Scalar distance) const noexcept { return curvature_ * distance > sharpest; }
 
@@ -48,7 +50,7 @@ class CircleOnCurve {
     using std::sqrt;
     // Places have fewer digits than displacements: the difference of two places comes first.
     const Vector2<Scalar> e((centre_.x() - node.s) - node.u, centre_.y() - node.w);
-    const Vector2<Scalar> t = direction(-node.theta), n(-side_ * t.y(), side_ * t.x());
+    const Vector2<Scalar> t = direction(tilt_ - node.theta), n(-side_ * t.y(), side_ * t.x());
     const Scalar along = t.dot(e), above = n.dot(e), squared = e.squaredNorm();
     if (end_ * along > 0 && above > 0) {
       const Scalar distance = sqrt(squared);
@@ -67,7 +69,7 @@ class CircleOnCurve {
 
  private:
   Vector2<Scalar> centre_{0, 0};
-  Scalar side_ = 1, curvature_ = 0, end_ = 0;
+  Scalar side_ = 1, curvature_ = 0, end_ = 0, tilt_ = 0;
 };
 
 }  // namespace hapbeam::detail

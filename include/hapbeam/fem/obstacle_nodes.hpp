@@ -56,9 +56,10 @@ class ObstacleNodes {
     for (int i = 0; i < count; ++i) begin(i, range);
   }
 
-  /// Sorts those that have a node along the beam, and moves the mesh.
+  /// Sorts those that have a node along the beam, and moves the mesh.   @param keeps  whether parts of the beam keep their elements, unless
+  /// it bends so sharply that it takes the shortest
   template <class Extent>
-  void choose_nodes(System& system, const Extent& range) noexcept {
+  void choose_nodes(System& system, const Extent& range, bool keeps) noexcept {
     const Scalar apart = Mesh::shortest(system.length());
     ordered_ = 0;
     for (int i = 0; i < count_; ++i) {
@@ -88,10 +89,11 @@ class ObstacleNodes {
       }
       order_[of(nodes)] = i;
       s[of(nodes++)] = slot(i).s;
+      keeps = keeps && !slot(i).sharp;
     }
     ordered_ = nodes;
     if (nodes == 0) return;
-    mesh_ = system.mesh().at(s, nodes);
+    mesh_ = keeps ? system.mesh().kept_at(s, nodes) : system.mesh().at(s, nodes);
     for (int k = 0; k < nodes; ++k) slot(order_[of(k)]).node = mesh_.node(k);
   }
 

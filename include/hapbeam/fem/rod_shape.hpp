@@ -62,6 +62,10 @@ class RodShape {
     here_ = true;
     if constexpr (!Nodes::exchanges) settle();
   }
+  /// Gives nodes other arc positions and leaves them where they are.  @param state  in, out
+  static void label(const Mesh& mesh, State& state) noexcept {
+    for (int i = 0; i <= mesh.elements(); ++i) state.nodes[i].s = mesh.position(i);
+  }
   /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
   /// @param before  becomes what the state is now
   void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include <hapbeam/fem/active_set.hpp>
+#include <hapbeam/fem/contact_tilt.hpp>
 #include <hapbeam/fem/round_push.hpp>
 #include <hapbeam/fem/several_foresight.hpp>
 #include <hapbeam/fem/several_friction.hpp>
@@ -58,14 +59,14 @@ class SeveralPush : private ActiveSet<Element, System> {
   static constexpr int most_solves = 16;
 
   /// @throws std::invalid_argument where there are too few elements for so many contacts
-  explicit SeveralPush(const System& system) : foresight_(system) {
+  explicit SeveralPush(const System& system) : foresight_(system), tilts_(system) {
     if (system.elements() < most + 1)
       throw std::invalid_argument("elements = " + std::to_string(system.elements()) + ": must be at least " +
                                   std::to_string(most + 1) + " for " + std::to_string(most) + " contacts");
   }
 
   /// To be called where something else moves the beam.
-  void forget() noexcept { foresight_.forget(); }
+  void forget() noexcept { foresight_.forget(), tilts_.forget(); }
 
   /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
   /// @param all  in: where they are and whether they touched;  out: whether they touch, and their forces
@@ -88,7 +89,7 @@ class SeveralPush : private ActiveSet<Element, System> {
     bool snapped = false;
     int meshes = 1;
     for (int pass = 1;; ++pass) {
-      this->choose_nodes(system, range);
+      this->choose_nodes(system, range, friction.any());
       status = solve(way, range, pass == 1, friction);
       snapped = snapped || status == Status::snapped;
       if (!is_answer(status)) break;
@@ -100,7 +101,9 @@ class SeveralPush : private ActiveSet<Element, System> {
     }
     if (snapped && status == Status::ok) status = Status::snapped;
     for (int i = 0; i < count; ++i) this->end(system, i, status);
-    friction.leave(system, is_answer(status), [this](int i) { return slot(i).goal; });
+    const auto goal = [this](int i) { return slot(i).goal; };
+    friction.leave(system, is_answer(status), goal);
+    if (is_answer(status)) friction.learn(system, tilts_, goal);
     foresight_.know(all, count, status == Status::ok);
     return status;
   }
@@ -200,7 +203,9 @@ class SeveralPush : private ActiveSet<Element, System> {
 
   Law law_of(const System& system, int i) noexcept {
     const int c = slot(i).node;
-    return RoundContact{all_[i].round}.beside(system.centreline(), c, end_at(system, c));
+    Law law = RoundContact{all_[i].round}.beside(system.centreline(), c, end_at(system, c));
+    if (all_[i].friction && all_[i].friction->tilt != 0) law.tilt(all_[i].friction->tilt);
+    return law;
   }
   template <class Extent>
   void set_goal(System& system, const Extent& range, int i, int goal, const Law& law, Scalar force,
@@ -245,6 +250,7 @@ class SeveralPush : private ActiveSet<Element, System> {
   bool began_ = false;  // foresight_ has the state before this push
   std::array<Law, most> laws_{};
   SeveralForesight<System, Obstacle, most> foresight_;
+  ContactTilt<System, most> tilts_;
 };
 
 }  // namespace hapbeam::detail

@@ -75,6 +75,11 @@ class SystemContacts {
     const auto& point = k == 0 ? contact_ : others_[k - 1].point;
     return point.view(self().node(point.node()));
   }
+  /// The node of one of them, -1 where a plane stands for what is round.
+  int round_node(int k) const noexcept {
+    const auto& point = k == 0 ? contact_ : others_[k - 1].point;
+    return point.round() ? point.node() : -1;
+  }
 
   /// How that of the first one lies to its node.
   auto contact() const noexcept { return contact_.view(self().node(contact_.node())); }
