@@ -101,7 +101,7 @@ class RodContact {
  private:
   static View nothing() noexcept {
     View view;
-    view.normal = view.arm = view.u = view.t = view.k = view.w = view.f = Vector3::Zero();
+    view.normal = view.arm = view.u = view.b = view.t = view.k = view.w = view.f = Vector3::Zero();
     view.distance = view.lever = view.length = 0;
     view.past_end = view.follows = view.slides = false;
     return view;
