@@ -82,6 +82,7 @@ Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const Centreline
   // A step that ends on the centreline itself has crossed it, so the sign of zero does not matter below.
   const int present_side = cross(frame.direction, offset) < 0 ? -1 : 1;
 
+  constexpr Scalar eps = std::numeric_limits<Scalar>::epsilon(), round_off = 64 * eps * eps;
   contact.side = present_side;
   if (memory.touching) {
     const bool goes_round_end = frame.past_end && !memory.through;
@@ -91,6 +92,8 @@ Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const Centreline
     if ((q - memory.position).squaredNorm() >= nearest.at.distance_squared) {
       const Crossings crossed = crossings();
       if (crossed.count % 2 != 0) contact.side = crossed.net > 0 ? 1 : -1;
+      // Round-off says on which side of the centreline the avatar is, and not that it has crossed.
+      else if (nearest.at.distance_squared <= round_off * q.squaredNorm()) contact.side = memory.side;
     }
   }
 
