@@ -1,5 +1,6 @@
 // Contact of a disc with a deformed beam: the depth against sampling, the side against what a hand would say.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "../support/catch.hpp"
@@ -314,8 +315,13 @@ TEST_CASE("an avatar on the centreline itself is on the side where it came from"
     Scene<double> bent(random_curve<double>(Shape::wavy, 8, random));
     const auto& node = bent.curve.nodes[4];
     const int side = i % 2 ? 1 : -1;
-    bent.move_to(node.s + node.u + along(random), node.w + side * across(random));
-    REQUIRE(bent.move_to(node.s + node.u, node.w).side == side);
+    const Vector2<double> from(node.s + node.u + along(random), node.w + side * across(random));
+    // As far as round-off tells, that is.
+    for (const double to : {node.w, std::nextafter(node.w, -1.0), std::nextafter(node.w, 1.0)}) {
+      bent.memory = {};
+      bent.move_to(from.x(), from.y());
+      REQUIRE(bent.move_to(node.s + node.u, to).side == side);
+    }
   }
 }
 
