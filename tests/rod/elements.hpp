@@ -46,7 +46,7 @@ struct RandomElement {
   Long twist;
 
   explicit RandomElement(Random& random) {
-    p.length = 0.7L, p.inverse_length = 1 / p.length, p.axial = 13;
+    p.length = 0.7L, p.inverse_length = 1 / p.length, p.axial = 13, p.torsion = 1.2L;
     for (auto& point : p.points) {
       point.bending1 = 1 + random(0.5), point.bending2 = 1 + random(0.5), point.torsion = 1 + random(0.5);
       for (Long& k : point.natural) k = random(1.0);

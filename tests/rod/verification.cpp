@@ -112,7 +112,8 @@ double critical(double low, double high, Stable&& stable) {
 bool is_stable(System& system) {
   system.set_goal();
   REQUIRE(NewtonRaphson{}.solve(system).status == Status::ok);
-  REQUIRE(system.factor(0) == Status::ok);
+  // A ring may roll about the line between its ends: the pivot of that is round-off of either sign.
+  REQUIRE(system.factor(System::neutral()) == Status::ok);
   return system.negative_pivots() == 0;
 }
 

@@ -42,7 +42,6 @@ struct RoundRod {
   template <typename S>
   static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
                   const Inner<S>&) noexcept {
-    using std::sqrt;
     const V3<S> chord = n2.r - n1.r;
     S sum = 0, axial = 0;
     for (int g = 0; g < points; ++g) {
@@ -52,8 +51,8 @@ struct RoundRod {
       const S A = 1 / a.squaredNorm(), C = a.dot(b) * A;
       sum += S(rule.weight[g]) * p.points[g].bending1 * (b.squaredNorm() * A - C * C);
     }
-    const S e[3] = {sqrt(n1.tangent.squaredNorm()) - 1, sqrt(middle(p, chord, n1, n2).squaredNorm()) - 1,
-                    sqrt(n2.tangent.squaredNorm()) - 1};
+    const detail::EndsAndMiddle<S> at(p, n1, n2);
+    const S e[3] = {at.n[0] - 1, at.n[1] - 1, at.n[2] - 1};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) axial += S(detail::quadratic_mass[i][j]) * e[i] * e[j];
     return p.length * (sum + p.axial * axial) / 2;
@@ -74,14 +73,22 @@ struct RoundRod {
   HAPBEAM_ALIGNED_STACK [[gnu::flatten]] static S tangent(const RodProperties<S>& p, const RodNode<S>& n1,
                                                           const RodNode<S>& n2, Inner<S>&,
                                                           RodTangent<S, 3>& to) noexcept {
-    const V3<S>&t1 = n1.tangent, &t2 = n2.tangent;
+    return respond(p, n1, n2, detail::EndsAndMiddle<S>(p, n1, n2), to);
+  }
+  /// The same, of all but φ where an element has it.
+  template <typename S, int M>
+  [[gnu::always_inline]] static S respond(const RodProperties<S>& p, const RodNode<S>& n1,
+                                          const RodNode<S>& n2, const detail::EndsAndMiddle<S>& at,
+                                          RodTangent<S, M>& to) noexcept {
+    const V3<S>&t1 = n1.tangent, &t2 = n2.tangent, &c = at.middle;
     const V3<S> chord = p.inverse_length * (n2.r - n1.r), sum = t1 + t2;
-    const V3<S> c = S(1.5) * chord - S(0.25) * sum, e1 = S(half_g) * (t2 - t1),
-                e2 = S(0.45) * sum - S(0.9) * chord;
-    const Bend<S> bends[points] = {Bend<S>(p, 0, V3<S>(c - e1 + e2), V3<S>(e1 - 2 * e2)),
-                                   Bend<S>(p, 1, c, e1),
-                                   Bend<S>(p, 2, V3<S>(c + e1 + e2), V3<S>(e1 + 2 * e2))};
-    const Stretch<S> stretch(p, c, t1, t2);
+    const V3<S> e1 = S(half_g) * (t2 - t1), e2 = S(0.45) * sum - S(0.9) * chord;
+    const V3<S> low = c - e1 + e2, high = c + e1 + e2;
+    const S before = low.squaredNorm(), behind = high.squaredNorm(), both = 1 / (before * behind);
+    const Bend<S> bends[points] = {Bend<S>(p, 0, low, V3<S>(e1 - 2 * e2), S(behind * both)),
+                                   Bend<S>(p, 1, c, e1, S(at.inverse[1] * at.inverse[1])),
+                                   Bend<S>(p, 2, high, V3<S>(e1 + 2 * e2), S(before * both))};
+    const Stretch<S> stretch(p, at);
     collect(bends, stretch, p.inverse_length, to);
     return stretch.energy + (bends[0].energy + bends[1].energy + bends[2].energy);
   }
@@ -91,13 +98,6 @@ struct RoundRod {
   static constexpr const detail::GaussRule& rule = detail::three_points;
   template <typename S>
   using V3 = VectorOf<S, 3>;
-
-  /// r' in the middle of the element.   @param chord  Δ
-  template <typename S>
-  static V3<S> middle(const RodProperties<S>& p, const V3<S>& chord, const RodNode<S>& n1,
-                      const RodNode<S>& n2) noexcept {
-    return S(1.5) * p.inverse_length * chord - S(0.25) * (n1.tangent + n2.tangent);
-  }
 
   /// √(3/5)/2: Gauss points stand at ξ = ½ ± that, and in the middle.
   static constexpr double half_g = 0.38729833462074168852;
@@ -111,9 +111,11 @@ struct RoundRod {
     S a[3], b[3], by_a[3], by_b[3], energy;
     S fA2, fB2, fC, x[3], y[3], z[3], u[3];
 
-    [[gnu::always_inline]] Bend(const RodProperties<S>& p, int g, const V3<S>& r1, const V3<S>& r2) noexcept {
+    /// @param i  1/A
+    [[gnu::always_inline]] Bend(const RodProperties<S>& p, int g, const V3<S>& r1, const V3<S>& r2,
+                                const S& i) noexcept {
       using detail::add_product;
-      const S i = 1 / r1.squaredNorm(), B = r2.squaredNorm() * i, c = r1.dot(r2) * i, cc = c * c;
+      const S B = r2.squaredNorm() * i, c = r1.dot(r2) * i, cc = c * c;
       // r'' is 2/(2 half_g) times b/l.
       const S k = S(rule.weight[g] / (2 * half_g * half_g)) * p.points[g].bending1 * p.inverse_length;
       energy = k * (B - cc);
@@ -156,33 +158,30 @@ struct RoundRod {
     S turn[3], own[3];  // N/|r'|, and what stretches stiffen
     S beside, across;
 
-    [[gnu::always_inline]] Stretch(const RodProperties<S>& p, const V3<S>& middle, const V3<S>& t1,
-                                   const V3<S>& t2) noexcept {
-      using std::sqrt;
+    [[gnu::always_inline]] Stretch(const RodProperties<S>& p, const detail::EndsAndMiddle<S>& at) noexcept
+        : u(at.v[0]), m(at.v[1]), v(at.v[2]) {
       const auto& M = detail::quadratic_mass;
-      const S n[3] = {sqrt(t1.squaredNorm()), sqrt(middle.squaredNorm()), sqrt(t2.squaredNorm())};
-      const S e[3] = {n[0] - 1, n[1] - 1, n[2] - 1}, EA = p.axial * p.length;
-      S inverse[3];
+      const S e[3] = {at.n[0] - 1, at.n[1] - 1, at.n[2] - 1}, EA = p.axial * p.length;
       HAPBEAM_UNROLL
       for (int i = 0; i < 3; ++i) {
         N[i] = EA * (S(M[i][0]) * e[0] + S(M[i][1]) * e[1] + S(M[i][2]) * e[2]);
         energy += N[i] * e[i] / 2;
-        inverse[i] = 1 / n[i];
-        turn[i] = N[i] * inverse[i];
+        turn[i] = N[i] * at.inverse[i];
         own[i] = EA * S(M[i][i]) - turn[i];
       }
       beside = EA * S(M[0][1]), across = EA * S(M[0][2]);
-      u = inverse[0] * t1, m = inverse[1] * middle, v = inverse[2] * t2;
     }
   };
 
   /// All of them, by Δ and by both tangents.  With q = 3/2 Δ/l, s = r1' + r2' and e = half_g (r2' - r1'),
   //   r' = q - s/4,   r'' ~ e                                    in the middle, and at the outer points
   //   r' = p ± e,     r'' ~ e ± w,    p = 0.4 q + 0.2 s,   w = 0.9 s - 1.2 q
-  template <typename S>
+  template <typename S, int M>
   [[gnu::always_inline]] static void collect(const Bend<S> (&at)[points], const Stretch<S>& stretch,
-                                             const S& i, RodTangent<S, 3>& to) noexcept {
+                                             const S& i, RodTangent<S, M>& to) noexcept {
     using detail::add_product;
+    // Where the lower triangle has (i, j), i >= j.
+    const auto half = [](int row, int col) { return RodTangent<S, M>::template half<M>(row, col); };
     const Bend<S>&low = at[0], &mid = at[1], &high = at[2];
     const V3<S>&u = stretch.u, &m = stretch.m, &v = stretch.v;
     const S by_D = S(1.5) * i, by_DD = by_D * by_D;
@@ -231,7 +230,7 @@ struct RoundRod {
           se[k] = add_product(add_product(S(S(-0.25) * of_mid[k]), S(0.2), a_e), S(0.9), b_e);
         }
         const int h = half(row, col), place[2] = {3 * col + row, 3 * row + col};
-        to.DD[h] = by_DD * qq;
+        to.DD[RodTangent<S, M>::template half<3>(row, col)] = by_DD * qq;
         HAPBEAM_UNROLL
         for (int k = 0; k < 2; ++k) {
           if (one && k == 1) continue;
@@ -253,14 +252,11 @@ struct RoundRod {
           if (one && k == 1) continue;
           const int r = k == 0 ? row : col, s = k == 0 ? col : row;
           const S own = one ? less : add_product(less, S(k == 0 ? half_g : -half_g), odd);
-          to.K12[place[k]] = add_product(add_product(own, mt[r], v[s]), u[r], vk[s]);
+          to.K12[M * s + r] = add_product(add_product(own, mt[r], v[s]), u[r], vk[s]);
         }
       }
     }
   }
-
-  /// Where the lower triangle has (i, j), i >= j.
-  static constexpr int half(int i, int j) noexcept { return RodTangent<double, 3>::half<3>(i, j); }
 };
 
 }  // namespace hapbeam

@@ -5,6 +5,8 @@
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
 
+#include <cmath>
+
 #include <hapbeam/element/pack.hpp>
 #include <hapbeam/rod_centreline.hpp>
 
@@ -16,6 +18,7 @@ struct RodProperties {
   Scalar length = 0;          ///< l [m]
   Scalar inverse_length = 0;  ///< [1/m]
   Scalar axial = 0;           ///< EA [N]
+  Scalar torsion = 0;         ///< GJ of all of it, of the mean compliance [N·m²]
   int number = 3;             ///< of Gauss points: 2 | 3
   bool round = false;         ///< bends alike about all axes, is straight by nature, and has three points
   struct Point {
@@ -71,6 +74,26 @@ template <typename S>
 [[gnu::always_inline]] inline void add_share(S& sum, double factor, const S& x) noexcept {
   if (factor != 0) sum = add_product(sum, S(factor), x);
 }
+
+/// Lengths and directions of r' at node 1, in the middle and at node 2.
+template <typename S>
+struct EndsAndMiddle {
+  VectorOf<S, 3> middle;  ///< r' there
+  S n[3], inverse[3];     ///< |r'|, 1/|r'|
+  VectorOf<S, 3> v[3];    ///< directions
+
+  [[gnu::always_inline]] EndsAndMiddle(const RodProperties<S>& p, const RodNode<S>& a,
+                                       const RodNode<S>& b) noexcept
+      : middle(S(1.5) * p.inverse_length * (b.r - a.r) - S(0.25) * (a.tangent + b.tangent)) {
+    using std::sqrt;
+    n[0] = sqrt(a.tangent.squaredNorm()), n[1] = sqrt(middle.squaredNorm());
+    n[2] = sqrt(b.tangent.squaredNorm());
+    // One division instead of three.
+    const S two = n[0] * n[1], all = 1 / (two * n[2]), others = n[2] * all;
+    inverse[0] = n[1] * others, inverse[1] = n[0] * others, inverse[2] = two * all;
+    v[0] = inverse[0] * a.tangent, v[1] = inverse[1] * middle, v[2] = inverse[2] * b.tangent;
+  }
+};
 
 /// Mass matrix of the quadratic through ξ = 0, ½, 1.
 inline constexpr double quadratic_mass[3][3] = {

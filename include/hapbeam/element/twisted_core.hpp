@@ -18,10 +18,9 @@ struct TwistedCore {
 };
 
 /// From the core to the unknowns of both nodes, ψ condensed away.  Row by row, in an order in which little waits for the rest.
-/// @param round  whether φ1 and φ2 count by their difference alone
 template <typename S, class Inner>
 HAPBEAM_ALIGNED_STACK [[gnu::flatten]] void expand(const CarriedFrame<S>& f, TwistedCore<S>& core,
-                                                   const S& inverse_length, bool round, Inner& inner,
+                                                   const S& inverse_length, Inner& inner,
                                                    RodTangent<S, 4>& all) noexcept {
   using K = RodTangent<S, 4>;
   // ψ first: H - hhᵀ/k.
@@ -92,21 +91,12 @@ HAPBEAM_ALIGNED_STACK [[gnu::flatten]] void expand(const CarriedFrame<S>& f, Twi
   out(A8 + 3, [&](int a, const S& x) { all.K12[12 + a] = x; });
   out(A8 + 6, [&](int a, const S& x) { all.K22[K::template half<4>(3, a)] = x; });
   all.K12[15] = A8[9], all.K22[9] = A8[10];
-  if (round) {
-    HAPBEAM_UNROLL
-    for (int a = 0; a < 3; ++a) {
-      all.D1[9 + a] = -all.D2[9 + a], all.K11[K::template half<4>(3, a)] = -all.K12[12 + a];
-      all.K12[4 * a + 3] = -all.K22[K::template half<4>(3, a)];
-    }
-    all.K11[9] = all.K22[9];
-  } else {
-    S A7[11];
-    row(7, A7);
-    out(A7, [&](int a, const S& x) { all.D1[9 + a] = l * x; });
-    out(A7 + 3, [&](int a, const S& x) { all.K11[K::template half<4>(3, a)] = x; });
-    out(A7 + 6, [&](int a, const S& x) { all.K12[4 * a + 3] = x; });
-    all.K11[9] = A7[9];
-  }
+  S A7[11];
+  row(7, A7);
+  out(A7, [&](int a, const S& x) { all.D1[9 + a] = l * x; });
+  out(A7 + 3, [&](int a, const S& x) { all.K11[K::template half<4>(3, a)] = x; });
+  out(A7 + 6, [&](int a, const S& x) { all.K12[4 * a + 3] = x; });
+  all.K11[9] = A7[9];
   // The turn from the left, of what it makes of r1' from the right.
   S B33 = kx * A8[3], B43 = ky * A8[3], B44 = ky * A8[4];
 

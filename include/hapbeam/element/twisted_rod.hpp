@@ -32,7 +32,9 @@
 #include <cmath>
 
 #include <hapbeam/element/carried_frame.hpp>
+#include <hapbeam/element/rod.hpp>
 #include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/element/round_twist.hpp>
 #include <hapbeam/element/twisted_core.hpp>
 #include <hapbeam/element/twisted_strains.hpp>
 
@@ -66,11 +68,11 @@ struct TwistedRod {
   template <typename S>
   static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
                   const Inner<S>& inner) noexcept {
+    if (p.round) return RoundRod::energy(p, n1, n2, {}) + Twist<S>(p, n1, n2, {p, n1, n2}).energy();
     const Frame<S> f(p, n1, n2);
     S sum = 0;
     const S m = f.mismatch;
-    const detail::GaussRule& rule = detail::gauss_rule(p.number);
-    for (int g = 0; g < p.number; ++g) {
+    for (int g = 0; g < points; ++g) {
       const auto& at = p.points[g];
       const S x = S(rule.x[g]);
       const Point<S> point(f, detail::CubicAt(rule.x[g]));
@@ -92,7 +94,12 @@ struct TwistedRod {
   template <typename S>
   static VectorOf<S, 3> director(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
                                  S twist, S x) noexcept {
-    return Frame<S>(p, n1, n2).director(n1.director, twist, x);
+    const Frame<S> f(p, n1, n2);
+    if (!p.round) return f.director(n1.director, twist, x);
+    // As if what the middle has aside were the same all along: Θ grows with ξ³.
+    const S carried = Twist<S>(p, n1, n2, {p, n1, n2}).carried();
+    const V3<S> d3 = detail::unit(f.tangent(x));
+    return detail::turn(detail::carry(n1.director, f.u, d3), d3, f.mismatch * x - carried * x * (1 - x * x));
   }
   /// ψ with which the director in the middle is along the given one.
   template <typename S>
@@ -110,8 +117,7 @@ struct TwistedRod {
                            RodProperties<S>& p) noexcept {
     for (S& e : p.natural_strain) e = 0;
     const Frame<S> f(p, n1, n2);
-    const detail::GaussRule& rule = detail::gauss_rule(p.number);
-    for (int g = 0; g < p.number; ++g) {
+    for (int g = 0; g < points; ++g) {
       const S x = S(rule.x[g]);
       const Point<S> point(f, detail::CubicAt(rule.x[g]));
       point.strains(f.mismatch * x + 4 * twist * x * (1 - x), f.mismatch + 4 * twist * (1 - 2 * x),
@@ -136,17 +142,33 @@ struct TwistedRod {
   template <typename S>
   static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
                    RodTangent<S, 4>& all) noexcept {
+    if (p.round) return round_tangent(p, n1, n2, all);
     const Frame<S> f(p, n1, n2);
     detail::TwistedCore<S> core;
     const S energy = detail::respond(p, f, inner.twist, core);
-    detail::expand(f, core, p.inverse_length, p.round, inner, all);
+    detail::expand(f, core, p.inverse_length, inner, all);
     return energy;
   }
 
  private:
+  static constexpr int points = 2;
+  static constexpr const detail::GaussRule& rule = detail::two_points;
   template <typename S>
   using V3 = VectorOf<S, 3>;
 
+  template <typename S>
+  HAPBEAM_ALIGNED_STACK [[gnu::flatten]] static S round_tangent(const RodProperties<S>& p,
+                                                                const RodNode<S>& n1, const RodNode<S>& n2,
+                                                                RodTangent<S, 4>& all) noexcept {
+    const detail::EndsAndMiddle<S> at(p, n1, n2);
+    const S energy = RoundRod::respond(p, n1, n2, at, all);
+    const Twist<S> twist(p, n1, n2, at);
+    twist.add(p.inverse_length, all);
+    return energy + twist.energy();
+  }
+
+  template <typename S>
+  using Twist = detail::RoundTwist<S>;
   template <typename S>
   using Frame = detail::CarriedFrame<S>;
   template <typename S>

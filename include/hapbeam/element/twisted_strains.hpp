@@ -10,7 +10,6 @@
 #include <hapbeam/element/carried_frame.hpp>
 #include <hapbeam/element/rod_properties.hpp>
 #include <hapbeam/element/twisted_core.hpp>
-#include <hapbeam/element/twisted_round.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {
@@ -75,14 +74,13 @@ template <typename S>
 }
 
 /// Bending and twist at a Gauss point.
-template <int Number, int G, typename S>
+template <int G, typename S>
 [[gnu::flatten]] inline void add_point(const RodProperties<S>& p, const CarriedFrame<S>& f, const S& psi,
                                        TwistedCore<S>& core, S& energy) noexcept {
-  constexpr const GaussRule& rule = gauss_rule(Number);
-  constexpr double x = rule.x[G];
+  constexpr double x = two_points.x[G];
   constexpr CubicAt w(x);
   const auto& at = p.points[G];
-  const S weight = S(rule.weight[G]), i1 = p.inverse_length, m = f.mismatch;
+  const S weight = S(two_points.weight[G]), i1 = p.inverse_length, m = f.mismatch;
   const CarriedPoint<S> q(f, w);
   // θ and θ' l by φ1, φ2 + m, ψ
   constexpr double t[3] = {1 - x, x, 4 * x * (1 - x)}, d[3] = {-1, 1, 4 * (1 - 2 * x)};
@@ -225,15 +223,7 @@ template <typename S>
 inline S respond(const RodProperties<S>& p, const CarriedFrame<S>& f, S psi, TwistedCore<S>& core) noexcept {
   S energy = 0;
   add_stretch(p, f, core, energy);
-  if (p.round) {
-    add_round_point<0>(p, f, psi, core, energy), add_round_point<1>(p, f, psi, core, energy);
-    add_round_point<2>(p, f, psi, core, energy);
-  } else if (p.number == 2) {
-    add_point<2, 0>(p, f, psi, core, energy), add_point<2, 1>(p, f, psi, core, energy);
-  } else {
-    add_point<3, 0>(p, f, psi, core, energy), add_point<3, 1>(p, f, psi, core, energy);
-    add_point<3, 2>(p, f, psi, core, energy);
-  }
+  add_point<0>(p, f, psi, core, energy), add_point<1>(p, f, psi, core, energy);
   return energy;
 }
 

@@ -34,7 +34,7 @@ class RodAbreast {
   void take(int e, const RodProperties<Scalar>& from) noexcept {
     fill(e, [&](auto&& set, RodProperties<Wide>& to) {
       to.number = from.number, to.round = from.round;
-      set(to.axial, from.axial);
+      set(to.axial, from.axial), set(to.torsion, from.torsion);
       for (int i = 0; i < 3; ++i) {
         auto& point = to.points[i];
         set(point.bending1, from.points[i].bending1), set(point.bending2, from.points[i].bending2);

@@ -22,6 +22,7 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
 
  public:
   using Scalar = ScalarType;
+  using OnMesh::has_inner;
   using OnMesh::size;
   using OnMesh::unknowns;
   using OnMesh::view;
@@ -53,7 +54,7 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
   template <class Increments>
   void advance_inners([[maybe_unused]] const Increments& increments) noexcept {
     if constexpr (has_twist)
-      for (int first = 0; first < places(); first += lanes) {
+      for (int first = 0; has_inner() && first < places(); first += lanes) {
         auto& inner = inners_[first / lanes];
         Eigen::Matrix<Wide, 2 * unknowns, 1> both;
         increments.of_elements(first, both);
@@ -136,11 +137,10 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     if (!bed_.empty()) lie(end, b.s), lie(cut, s);
     cut.moment += t * (moment(unknowns, b.tangent) - end.moment);
     loads_.spread(lambda, s, a.s, place.tangent, cut);
-    Scalar twist = 0;
-    if constexpr (has_twist) twist = twists_[e];
-    const detail::CarriedFrame<Scalar> frame(properties_[e], a, b);
-    return cut.in_section(frame.director(a.director, twist, t), detail::unit(place.tangent), profile_.at(s),
-                          surface_);
+    Vector3 director;
+    if constexpr (has_twist) director = Element::director(properties_[e], a, b, twists_[e], t);
+    else director = detail::CarriedFrame<Scalar>(properties_[e], a, b).director(a.director, 0, t);
+    return cut.in_section(director, detail::unit(place.tangent), profile_.at(s), surface_);
   }
   /// [J]
   Scalar strain_energy() const noexcept {
@@ -183,7 +183,8 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
                                       typename Stiffness::Type& K) const noexcept {
     const auto& order = abreast_.order();
     if constexpr (has_twist)
-      inner.twist = detail::gather(abreast_.elements(first), [&](int e) { return twists_[e]; });
+      if (has_inner())
+        inner.twist = detail::gather(abreast_.elements(first), [&](int e) { return twists_[e]; });
     // The nodes of these places and of the pair behind them are those of both ends.
     detail::Abreast<Scalar> of;
     order.nodes_from(first, of.of);

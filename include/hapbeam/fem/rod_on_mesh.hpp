@@ -35,6 +35,8 @@ class RodOnMesh {
   /// ψ of the elements [rad].
   Twists& twists() noexcept { return twists_; }
   const Twists& twists() const noexcept { return twists_; }
+  /// Whether elements have a twist of their own.
+  bool has_inner() const noexcept { return has_twist && !round_; }
   const NaturalRod<Scalar>& natural_shape() const noexcept { return natural_; }
   const Mesh& mesh() const noexcept { return mesh_; }
   static Centreline<Scalar, 3> view(const Nodes& nodes) noexcept { return {nodes.data(), nodes.size()}; }
@@ -52,7 +54,7 @@ class RodOnMesh {
       const Node &a = scratch[piece], &b = scratch[piece + 1];
       if constexpr (has_twist) {
         RodProperties<Scalar> p;
-        p.length = b.s - a.s, p.inverse_length = 1 / p.length;
+        p.length = b.s - a.s, p.inverse_length = 1 / p.length, p.round = round_;
         node.director = Element::director(p, a, b, more[piece], (s - a.s) * p.inverse_length);
       } else {
         node.director = carry(a.director, unit(a.tangent), unit(at.tangent));
@@ -63,7 +65,7 @@ class RodOnMesh {
     nodes_[0] = look(0);
     for (int e = 0; e < size(); ++e) {
       VectorOf<Scalar, 3> director = nodes_[e].director;
-      if constexpr (has_twist) director = look((mesh.position(e) + mesh.position(e + 1)) / 2).director;
+      if (has_inner()) director = look((mesh.position(e) + mesh.position(e + 1)) / 2).director;
       nodes_[e + 1] = look(mesh.position(e + 1));
       set_length(e, nodes_[e + 1].s - nodes_[e].s);
       find_twist(e, director);
@@ -107,9 +109,9 @@ class RodOnMesh {
       if (!holds_twist(rod.left()) && !holds_twist(rod.right()))
         throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
                                     ": TwistedRod turns about its axis, hold its twist at one end");
-    const bool round = natural_.straight() && profile_.round() && profile_.smooth();
+    round_ = natural_.straight() && profile_.round() && profile_.smooth();
     for (int e = 0; e < elements; ++e)
-      properties_[e].number = has_twist && !round ? 2 : 3, properties_[e].round = round;
+      properties_[e].number = has_inner() ? 2 : 3, properties_[e].round = round_;
     for (int i = 0; i <= elements; ++i) nodes_[i] = natural_.at(mesh_.position(i));
     take(mesh_);
     for (int e = 0; e < elements; ++e) find_twist(e, natural_.at(middle(e)).director);
@@ -130,7 +132,7 @@ class RodOnMesh {
 
   void find_twist(int e, const VectorOf<Scalar, 3>& director) noexcept {
     if constexpr (has_twist)
-      twists_[e] = Element::twist_to(properties_[e], nodes_[e], nodes_[e + 1], director);
+      if (!round_) twists_[e] = Element::twist_to(properties_[e], nodes_[e], nodes_[e + 1], director);
   }
 
   void set_length(int e, Scalar length) noexcept {
@@ -167,6 +169,7 @@ class RodOnMesh {
   }
 
   bool known_ = false;  // what elements are made of
+  bool round_ = false;  // section, and straight by nature
 };
 
 }  // namespace hapbeam::detail

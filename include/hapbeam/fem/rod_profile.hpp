@@ -50,17 +50,18 @@ class RodProfile {
     const detail::GaussRule& rule = detail::gauss_rule(p.number);
     const double a = static_cast<double>(from), l = static_cast<double>(to) - a;
     const std::size_t first = part_at(a), last = part_at(a + l * (1 - 1e-12));
-    double begin = a, stretching = 0;
+    double begin = a, stretching = 0, twisting = 0;  // compliances
     for (int g = 0; g < p.number; ++g) {
       const double end = begin + rule.weight[g] * l;
       const Values k = first == last ? parts_[first].at(a + rule.x[g] * l) : mean(first, last, begin, end);
-      stretching += rule.weight[g] / k[0];
+      stretching += rule.weight[g] / k[0], twisting += rule.weight[g] / k[3];
       p.points[g].bending1 = static_cast<Scalar>(k[1]);
       p.points[g].bending2 = static_cast<Scalar>(k[2]);
       p.points[g].torsion = static_cast<Scalar>(k[3]);
       begin = end;
     }
     p.axial = static_cast<Scalar>(1 / stretching);
+    p.torsion = static_cast<Scalar>(1 / twisting);
   }
 
  private:

@@ -55,7 +55,8 @@ class RodShape {
   Centreline<Scalar, 3> view(const State& state) const noexcept { return view(state.nodes); }
   /// The state as it is.  @param state  out
   void keep(State& state) const noexcept {
-    for (int i = 0; i <= elements(); ++i) state.nodes[i] = node(i), state.twists[i] = twists()[i];
+    for (int i = 0; i <= elements(); ++i) state.nodes[i] = node(i);
+    each_inner([&](int e) { state.twists[e] = twists()[e]; });
   }
   /// Keeps the shape for take_back().  What moves it first leaves it behind, and nothing is copied.
   void keep_here() noexcept {
@@ -71,9 +72,7 @@ class RodShape {
   void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {
     for (int i = 0; i <= elements(); ++i) saved_.nodes[i].s = mesh.position(i);
     detail::go_on<unknowns == 7>(rod_.nodes(), before.nodes, ratio, saved_.nodes);
-    if constexpr (unknowns == 7)
-      for (int e = 0; e < elements(); ++e)
-        saved_.twists[e] = twists()[e] + ratio * (twists()[e] - before.twists[e]);
+    each_inner([&](int e) { saved_.twists[e] = twists()[e] + ratio * (twists()[e] - before.twists[e]); });
     before.take(rod_);
     rod_.take(mesh, saved_.nodes, saved_.twists);
   }
@@ -87,8 +86,7 @@ class RodShape {
       a.tangent = x.tangent - (b.tangent - a.tangent);
       a.director = x.director - (b.director - a.director);
     }
-    if constexpr (unknowns == 7)
-      for (int e = 0; e < elements(); ++e) from.twists[e] = twists()[e] - (to.twists[e] - from.twists[e]);
+    each_inner([&](int e) { from.twists[e] = twists()[e] - (to.twists[e] - from.twists[e]); });
   }
 
   /// n · r of a state at s [m].
@@ -136,8 +134,7 @@ class RodShape {
     }
     const bool leaves = here_;
     here_ = false;
-    if constexpr (unknowns == 7)
-      for (int e = 0; leaves && e < elements(); ++e) saved_.twists[e] = twists()[e];
+    if (leaves) each_inner([&](int e) { saved_.twists[e] = twists()[e]; });
     rod_.advance_inners(increments);
     move_nodes<unknowns == 7>(rod_.nodes(), increments, !chords, leaves ? saved_.nodes : rod_.nodes());
     if (leaves) rod_.nodes().exchange(saved_.nodes);
@@ -150,16 +147,16 @@ class RodShape {
     for (int i = 0; i <= elements(); ++i) {
       const auto& n = other.node(i);
       saved_.nodes[i] = {uniform.position(i), vector(n.r), vector(n.tangent), vector(n.director)};
-      if constexpr (unknowns == 7) saved_.twists[i] = static_cast<Scalar>(other.twists()[i]);
     }
+    each_inner([&](int e) { saved_.twists[e] = static_cast<Scalar>(other.twists()[e]); });
     here_ = false;
     set(uniform, saved_);
   }
   /// Where its mesh is as it was when the shape was kept.
   void take_back() noexcept {
     if (here_) return;
-    for (int i = 0; i <= elements(); ++i)
-      rod_.nodes()[i] = saved_.nodes[i], rod_.twists()[i] = saved_.twists[i];
+    for (int i = 0; i <= elements(); ++i) rod_.nodes()[i] = saved_.nodes[i];
+    each_inner([this](int e) { rod_.twists()[e] = saved_.twists[e]; });
   }
   /// Bends the rod a little, along the director in its middle and half as much across that.
   /// @param size  [m]   @param c  where the bow changes its side, of the length; negative: nowhere
@@ -181,6 +178,11 @@ class RodShape {
   Scalar length_, axial_;
 
  private:
+  /// Calls f(element) for those with a twist of their own.
+  template <class F>
+  void each_inner(F&& f) const noexcept {
+    for (int e = 0; rod_.has_inner() && e < elements(); ++e) f(e);
+  }
   /// Before something else moves the shape.
   void settle() noexcept {
     if (here_) keep(saved_);
