@@ -4,9 +4,9 @@
 //
 //   V = ½ GJ/l (m - Θ)²,   Θ = 2 û · (ĉ × v̂)/(2 + û·v̂)        û, ĉ, v̂: directions of r' at node 1, in the middle, at node 2
 //
-// m is the angle from the director of node 1, carried to node 2 by the smallest rotation, to that of node 2.  Θ is the angle by which
-// a director that is carried along the cubic arrives aside of that one: the area between r' and the great circle through its ends, on the
-// unit sphere.  On a helix Θ is right but for a 50th of l² of itself (in units of its radius of torsion and curvature), so V is of fourth order, and no twist is the element's own.
+// m is the angle from the director of node 1, carried to node 2 by the smallest rotation, to that of node 2.  A director that is carried
+// along the curve arrives aside of that one by Θ, the area on the unit sphere between r' and the great circle through its ends.  On a helix
+// of curvature κ and torsion τ the formula is right but for (κ² + τ²)l²/50 of Θ.  So V is of fourth order, and no twist is the element's own.
 // GJ is of the mean compliance.
 //
 //   ∂m = k·(∂û + ∂v̂),   k = û × v̂/(1 + û·v̂)
@@ -41,8 +41,6 @@ class RoundTwist {
     mismatch_ = angle(S(v.dot(cross3(e, b.director))), S(e.dot(b.director)), S(1));
     stiffness_ = p.torsion * p.inverse_length;
   }
-  /// m
-  const S& mismatch() const noexcept { return mismatch_; }
   /// Θ
   const S& carried() const noexcept { return carried_; }
   S energy() const noexcept {
@@ -72,9 +70,9 @@ class RoundTwist {
     const V3<S> z = cc * (Fc - (S(0.5) * F) * c);
     const V3<S> c1F = c1 * F1, c1r = c1 * r1, c2F = c2 * F2, c2r = c2 * r2;
     const V3<S> v1 = (c1 * iR) * v, u2 = (c2 * iR) * u;
-    const S near = h * (2 + w_), half = half_iR * F;
-    const V3<S> A1 = t11 * (iR * F1 - near * k - half * u), B1 = t11 * (half_iR * F1 - h * k);
-    const V3<S> A2 = t22 * (iR * F2 - near * k - half * v), B2 = t22 * (half_iR * F2 - h * k);
+    const S own_k = h * (2 + w_), half = half_iR * F;
+    const V3<S> A1 = t11 * (iR * F1 - own_k * k - half * u), B1 = t11 * (half_iR * F1 - h * k);
+    const V3<S> A2 = t22 * (iR * F2 - own_k * k - half * v), B2 = t22 * (half_iR * F2 - h * k);
     const V3<S> hk = h * k, sum = u + v;
     const V3<S> Au = t12 * (iR * F2 + (iR * F) * v - hk), Av = t12 * (half_iR * F2 - hk), AF = t12 * r2,
                 Ak = -(t12 * h) * sum, x12 = t12 * (h * sum - iR * c);
@@ -84,7 +82,7 @@ class RoundTwist {
       const int other = 3 - r - col;
       return (col - r + 3) % 3 == 1 ? S(-x[other]) : x[other];
     };
-    // What is of the middle alone; then what it couples with r1', and with r2', less an eighth of its own, which those and these share.
+    // Of the middle alone; then what couples it with r1', and with r2'.  Both carry an eighth of the middle's own to r1' and r2'.
     S own[3][3];
     HAPBEAM_UNROLL
     for (int r = 0; r < 3; ++r) {

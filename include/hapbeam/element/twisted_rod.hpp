@@ -11,8 +11,8 @@
 //
 //   V = ½ l εᵀ EA M ε + ½ l Σ w (EI1 (κ1 - κ1°)² + EI2 (κ2 - κ2°)² + GJ (τ - τ°)²)        sum over Gauss points
 //
-// Naturally straight round rods have three points, all others two (rod_elements.hpp). Three resolve large bends, but
-// lock where bending and twist are coupled.
+// Two points: three would resolve large bends better, but lock where bending and twist are coupled.  A round rod that is straight by
+// nature bends as RoundRod does, and twists as round_twist.hpp says.
 //
 // ε = |r'| - 1 - ε° at ξ = 0, ½, 1, interpolated (M). Full integration of ε locks, and its mean leaves a mechanism. κ°
 // is interpolated the same way from the natural shape, whose energy is therefore zero.
@@ -64,7 +64,7 @@ struct TwistedRod {
     void advance(const Vector14<S>& x) noexcept { twist -= (residual + row.dot(x)) / stiffness; }
   };
 
-  /// Strains at one point of an element in node 1's axes, and of them and θ all that an energy needs.
+  /// V [J].
   template <typename S>
   static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
                   const Inner<S>& inner) noexcept {
