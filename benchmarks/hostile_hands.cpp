@@ -204,6 +204,8 @@ void space(long ticks) {
         none, ticks);
     one("wire", by, Alone(wire, 8), 0.01, friction, hand(0.02, 12), {0.12, 0.0095, 0}, {0.12, 0.05, 0}, none,
         ticks);
+    one("wire that twists", by, Twisted(wire, 8), 0.01, friction, hand(0.02, 12), {0.12, 0.0095, 0},
+        {0.12, 0.05, 0}, none, ticks);
     two("needle", Both(needle, 8), 0.01, friction, {hand(0.03, 15), hand(0.03, 16)}, {0.12, 0.009, 0},
         {0.12, 0.05, 0}, ticks);
     two("wire", Both(wire, 8), 0.01, friction, {hand(0.02, 17), hand(0.02, 18)}, {0.12, 0.0095, 0},

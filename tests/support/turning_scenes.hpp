@@ -102,8 +102,10 @@ inline TurningResponse turning_response(const TurningScene& scene, TouchedBy by,
                lever = by == TouchedBy::tip ? options.stylus.ahead : 0.06;
   hand.turn = {0, -tilt, 0};
   const Eigen::Vector3d back = axes * Eigen::Vector3d(0, std::sin(tilt), std::cos(tilt));
+  // Not in touch when the loop engages, whatever round-off says.
+  constexpr double apart = 1e-7;
   options.placement =
-      Placement(axes, at.r + (options.avatar_radius + scene.diameter / 2) * out + lever * back);
+      Placement(axes, at.r + (options.avatar_radius + scene.diameter / 2 + apart) * out + lever * back);
   return turning_response(model, hand, who.options(), options, VirtualCoupling(place, turning), settling,
                           duration);
 }
