@@ -72,12 +72,16 @@ void use_reduced(const Data& data) {
 }
 
 // As models of other scalars find their rest in double, and as tests follow a system to where it buckles.
-template <class Element>
-void use_system(const Rod& rod) {
-  RodSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal> system(rod, 8);
+template <class System, class Body>
+void use_system(const Body& body) {
+  System system(body, 8);
   system.set_goal();
   static_cast<void>(NewtonRaphson{}.solve(system));
 }
+template <class Element, typename Scalar = double>
+using PlanarSystem = BeamSystem<Element, Scalar, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal>;
+template <class Element>
+using SpatialSystem = RodSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal>;
 
 inline void used(const Beam& beam, const Rod& rod, const PodModelData<double>& pod,
                  const GalerkinModelData<double>& galerkin) {
@@ -92,11 +96,17 @@ inline void used(const Beam& beam, const Rod& rod, const PodModelData<double>& p
   use_full<FemModel<Corotational<>, float>>(beam);
   use_full<FemModel<RoundRod>>(rod);
   use_full<FemModel<TwistedRod>>(rod);
-  use_system<RoundRod>(rod);
-  use_system<TwistedRod>(rod);
+  use_system<PlanarSystem<VonKarman<>>>(beam);
+  use_system<PlanarSystem<Corotational<>>>(beam);
+  use_system<PlanarSystem<VonKarman<ReducedIntegration>, float>>(beam);
+  use_system<SpatialSystem<RoundRod>>(rod);
+  use_system<SpatialSystem<TwistedRod>>(rod);
   use_several<FemModel<Several<Corotational<>, 2>>>(beam);
   use_several<FemModel<Several<RoundRod, 2>>>(rod);
   use_several<FemModel<Several<TwistedRod, 2>>>(rod);
+  // Not compiled once: with them comes what these systems are made of.
+  use_several<FemModel<Several<Corotational<>, 3>>>(beam);
+  use_several<FemModel<Several<RoundRod, 4>>>(rod);
   use_reduced<PodModel<>>(pod);
   use_reduced<GalerkinModel<>>(galerkin);
 }
