@@ -10,7 +10,8 @@
 //   stability_map direct            without a coupling: the least damping of the arm with which it is stable
 //   stability_map friction          the default coupling on a ruler and a needle with friction: the hand leans down with 2 N, and half a second
 //                                   later along the beam as well.  Counts for each coefficient: at_rest half a second after that and ever
-//                                   after; slides_off: moves, and does with the same arm and coupling in a loop of 10 kHz, without delay and grid; slow
+//                                   after; slides_off: moves, and does with the same arm and coupling in a loop of 10 kHz, without delay and grid; slow:
+//                                   moves in the sampled loop alone
 //
 // Nothing here is timed; the same numbers on every machine.  Chart: benchmarks/run.sh --stability.
 #include <algorithm>

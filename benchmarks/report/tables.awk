@@ -208,7 +208,7 @@ function stability(  k, text) {
 
 # Of stability_friction.csv, where each coefficient has a row of hands with a spring and one of hands without.
 function rough(  k) {
-  line("leans on", "coefficients", "hands with a spring", "at rest", "without one", "at rest", "slides off", "slower")
+  line("leans on", "coefficients", "hands with a spring", "at rest", "without one", "at rest", "slides off", "moves in this loop alone")
   rule(8)
   for (k = 1; k < rows; k += 2)
     line(cell[k, "scene"], cell[k, "sticking"] (cell[k, "sliding"] == cell[k, "sticking"] ? "" : ", " cell[k, "sliding"]), \
