@@ -73,7 +73,7 @@ draw() {
 
 for program in "${what[@]}"; do step "$program" measure "$program" || exit 1; done
 if [[ -n $stability ]]; then
-  for map in border direct sweep; do step "stability_map $map" csv_stability "$map" || exit 1; done
+  for map in border direct friction sweep; do step "stability_map $map" csv_stability "$map" || exit 1; done
   step turning_map csv_turning || exit 1
   step hostile_hands csv_hostile || exit 1
 fi

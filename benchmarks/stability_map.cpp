@@ -8,8 +8,14 @@
 //   stability_map border            the largest stable stiffness of the coupling against the bound of Colgate and
 //                                   Schenkel, for arms, periods and delays, for the worst of the hands
 //   stability_map direct            without a coupling: the least damping of the arm with which it is stable
+//   stability_map friction          the default coupling on a ruler and a needle with friction: the hand leans down with 2 N, and half a second
+//                                   later along the beam as well.  Counts for each coefficient: at_rest half a second after that and ever
+//                                   after; slides_off: moves, and does with the same arm and coupling in a loop of 10 kHz, without delay and grid; slow:
+//                                   moves in the sampled loop alone
 //
 // Nothing here is timed; the same numbers on every machine.  Chart: benchmarks/run.sh --stability.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -17,8 +23,11 @@
 #include <string>
 #include <vector>
 
+#include "../tests/rod/rods.hpp"
+#include "../tests/support/ruler.hpp"
 #include "../tests/support/step_response.hpp"
 #include "support/thesis_beam.hpp"
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 using namespace hapbeam;
@@ -153,6 +162,115 @@ void direct() {
       }
 }
 
+/// Leans down, and half a second later along the beam and, in space, aside as well.
+struct LeaningAlong {
+  Eigen::Vector3d down, along;  // [N]
+  HandTarget operator()(double time) const noexcept {
+    const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+    return {zero, zero, (time < 0.3 ? zero : down) + (time < 0.8 ? zero : along)};
+  }
+};
+
+struct AlongResponse {
+  double speed = 0;         // [m/s] RMS, the largest over any 0.1 s from half a second after it leans along
+  double least_energy = 0;  // [J] that hand, arm and motors have put into the loop
+  double monitored = 0;     // [J]
+  bool pressing = false;
+};
+
+template <class Model>
+AlongResponse along_response(Model& model, double s, const CouplingFigures& figures, const Friction& friction,
+                             const Situation& who, const Eigen::Vector3d& along) {
+  constexpr double settled = 1.3, end = 3.3;  // [s]
+  model.reset();
+  VirtualPhantom<LeaningAlong> device({{0, -who.push, 0}, along}, who.options());
+  ServoOptions options;
+  options.avatar_radius = dimension_of<Model> == 2 ? 0.005 : 0.02;
+  options.placement = above(model, s, who.from, options.avatar_radius);
+  options.delay_ticks = who.delay, options.friction = friction;
+  Servo<Model> servo(model, device.info(), options, VirtualCoupling(figures));
+  struct Send {
+    Servo<Model>& servo;
+    Eigen::Vector3d sent;
+    Eigen::Vector3d operator()(const DeviceState& state) noexcept { return sent = servo.tick(state); }
+  } send{servo, Eigen::Vector3d::Zero()};
+  std::array<Eigen::Vector3d, 17> held;  // newest first
+  held.fill(Eigen::Vector3d::Zero());
+  AlongResponse response;
+  double energy = 0, squares = 0;
+  long in_window = 0;
+  const long window = std::lround(0.1 / who.period), first = std::lround(settled / who.period),
+             ticks = std::lround(end / who.period);
+  for (long k = 0; k < ticks; ++k) {
+    const Eigen::Vector3d before = device.tip().position;
+    device.step(send);
+    std::move_backward(held.begin(), held.end() - 1, held.end());
+    held[0] = send.sent;
+    const Eigen::Vector3d moved = device.tip().position - before;
+    energy += -held[static_cast<std::size_t>(who.delay)].dot(moved) +
+              who.damping * moved.squaredNorm() / who.period + who.friction * moved.cwiseAbs().sum();
+    response.least_energy = std::min(response.least_energy, energy);
+    if (k < first) continue;
+    squares += device.tip().velocity.squaredNorm();
+    if (++in_window < window) continue;
+    response.speed = std::max(response.speed, std::sqrt(squares / static_cast<double>(window)));
+    squares = 0, in_window = 0;
+  }
+  response.monitored = servo.record().energy_generated;
+  response.pressing = servo.record().pressing;
+  return response;
+}
+
+template <class Model>
+void lean_along(const char* name, Model model, double s) {
+  for (const double ratio : {1.0, 0.7})
+    for (const double mu : {0.1, 0.3, 0.6, 1.0})
+      for (const bool spring : {true, false}) {
+        long runs = 0, resting = 0, slides_off = 0, slow = 0, gives = 0;
+        double fastest = 0;
+        const Friction friction(mu, ratio * mu);
+        for (const double along : {0.0, 0.5, 1.0})
+          for (const double k : {0.0, 300.0, 1000.0})
+            for (const double c : hand_dampings)
+              for (const double grip : {0.05, 0.4})
+                for (const double period : periods)
+                  for (const int delay : delays)
+                    for (const double resolution : {7e-6, 30e-6}) {
+                      if ((k > 0) != spring) continue;
+                      Situation who{k, c, grip, period, delay, resolution};
+                      who.push = 2;
+                      const bool space = dimension_of<Model> == 3;
+                      const Eigen::Vector3d way(along, 0, space ? along / 5 : 0);
+                      const CouplingFigures figures = default_figures(who);
+                      const AlongResponse r = along_response(model, s, figures, friction, who, way);
+                      ++runs;
+                      gives += r.least_energy < -round_off || r.monitored > 0;
+                      if (r.speed <= at_rest && r.pressing) {
+                        ++resting;
+                        fastest = std::max(fastest, r.speed);
+                        continue;
+                      }
+                      who.period = 1e-4, who.delay = 0, who.resolution = 0;
+                      const AlongResponse best = along_response(model, s, figures, friction, who, way);
+                      ++(best.speed > at_rest || !best.pressing ? slides_off : slow);
+                    }
+        std::printf("%s,%g,%g,%s,%ld,%ld,%ld,%ld,%ld,%.3g\n", name, mu, ratio * mu,
+                    spring ? "300 to 1000" : "0", runs, resting, slides_off, slow, gives, fastest * 1e3);
+        std::fflush(stdout);
+      }
+}
+
+void friction() {
+  std::printf(
+      "scene,sticking,sliding,hand_stiffness_N_per_m,combinations,at_rest,slides_off,slow,gives_energy,"
+      "fastest_at_rest_mm_per_s\n");
+  lean_along("ruler", FemModel<Corotational<>>(steel_ruler(), 8), 0.12);
+  lean_along("needle",
+             FemModel<RoundRod>(
+                 Rod(0.2, RodSection::circle(0.002), spring_steel, RodSupport::clamped, RodSupport::free), 8),
+             0.16);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -161,9 +279,11 @@ int main(int argc, char** argv) {
   if (what == "sweep" && argc <= 3 && seconds >= 1) sweep(seconds);
   else if (what == "border" && argc == 2) border();
   else if (what == "direct" && argc == 2) direct();
+  else if (what == "friction" && argc == 2) friction();
   else
-    return std::fputs("stability_map: must be called with sweep [SECONDS, 1 or more], border or direct\n",
-                      stderr),
+    return std::fputs(
+               "stability_map: must be called with sweep [SECONDS, 1 or more], border, direct or friction\n",
+               stderr),
            2;
   return 0;
 }

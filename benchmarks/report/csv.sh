@@ -94,7 +94,7 @@ csv_compile_cost() {
 # What a compiler's flags do to a tick.
 csv_flags() { bash "$top/benchmarks/flags.sh" >"$scratch/flags.csv" && cp "$scratch/flags.csv" "$kept/flags.csv"; }
 
-# csv_stability border|direct|sweep: of the sweep, which has a line for each combination, counts and failures.
+# csv_stability border|direct|friction|sweep: of the sweep, which has a line for each combination, counts and failures.
 csv_stability() {
   "$programs/stability_map" "$1" >"$scratch/$1.csv" || return 1
   if [[ $1 != sweep ]]; then

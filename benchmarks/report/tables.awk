@@ -206,6 +206,16 @@ function stability(  k, text) {
       cell[k, "slow_as_the_arm_itself"], cell[k, "slides_off"] + cell[k, "lost"])
 }
 
+# Of stability_friction.csv, where each coefficient has a row of hands with a spring and one of hands without.
+function rough(  k) {
+  line("leans on", "coefficients", "hands with a spring", "at rest", "without one", "at rest", "slides off", "moves in this loop alone")
+  rule(8)
+  for (k = 1; k < rows; k += 2)
+    line(cell[k, "scene"], cell[k, "sticking"] (cell[k, "sliding"] == cell[k, "sticking"] ? "" : ", " cell[k, "sliding"]), \
+      cell[k, "combinations"], cell[k, "at_rest"], cell[k + 1, "combinations"], cell[k + 1, "at_rest"], cell[k + 1, "slides_off"], \
+      cell[k + 1, "slow"])
+}
+
 # Of turning_sweep.csv: all rods together.
 function turning(  k, by, friction, factor, key, ways, frictions, factors, f, w, n, all, moves, gives, off, row, text) {
   text["tip"] = "the tip of a stylus"; text["shaft"] = "its shaft"; text["grip"] = "a hand that holds its end"
@@ -373,6 +383,7 @@ END {
   else if (table == "rod_ticks") rod_ticks()
   else if (table == "limits") limits()
   else if (table == "stability") stability()
+  else if (table == "rough") rough()
   else if (table == "turning") turning()
   else if (table == "hostile") hostile()
   else if (table == "chosen") chosen()

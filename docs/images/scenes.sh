@@ -49,7 +49,7 @@ rubbed() {
   frames=$(mktemp -d)
   for mu in 0 0.6; do
     draw ruler "$frames/$mu.png" --friction "$mu" --at 0.8 --frames 38 &&
-      mogrify -crop 480x420+290+40 +repage -pointsize 18 -fill gray30 -annotate +330+40 "μ = $mu" "$frames/$mu"_*.png || return 1
+      mogrify -crop 480x420+290+40 +repage -font DejaVu-Sans -pointsize 18 -fill gray30 -annotate +330+40 "μ = $mu" "$frames/$mu"_*.png || return 1
   done
   for k in "$frames"/0_*.png; do convert "$k" "${k/0_/0.6_}" +append +repage "$frames/both_${k##*_}" || return 1; done
   convert -loop 0 -delay 5 "$frames"/both_*.png -resize 768x -dither None -colors 64 -layers Optimize "$images/friction.gif"

@@ -6,7 +6,8 @@
 //
 // FrictionLaw::leave() takes trapezoids, Σ ½ (T(s) + T) · (e - e(s)).  D differs from them where the beam stiffens on the way, because another
 // contact begins to stick or turns back.  The contact that gives way has the difference.  Its force lies between those of both ends, which
-// bounds it.  On a long way nodes follow their contacts, and V is that of two meshes: what they differ by is within that bound, too.
+// bounds it; what is beyond that have those that have given way at it.  On a long way nodes follow their contacts, and V is that of two meshes:
+// what they differ by is within these bounds, too.
 // Real-time: noexcept, no allocation, O(elements) in a push in which a contact gives way, nothing in others.
 #pragma once
 
@@ -43,13 +44,13 @@ class GivingWay {
   /// To be called in the equilibrium that is answered.
   /// @param given_way  the law of that contact   @param force_before  its force in the tick before [N]
   /// @param counted  what all of them have dissipated beyond trapezoids between both ticks [J]
-  /// @return what it has dissipated beyond its own trapezoid [J]
+  /// @return what they have dissipated beyond that [J]: of each contact as much as it can have (most)
   template <class System, class Each>
-  Scalar beyond_trapezoid(const System& system, const Friction& given_way, const Vector& force_before,
-                          Scalar counted, Each&& each) const noexcept {
-    const Stuck& stuck = stuck_[of(first_)];
-    const Scalar from = size(stuck.force), to = size(given_way.acting()), before = size(force_before);
-    if (!given_way.slides() || given_way.falls() || !(from > to && before > to)) return 0;
+  Scalar beyond_trapezoids(const System& system, const Friction& given_way, const Vector& force_before,
+                           Scalar counted, Each&& each) const noexcept {
+    const Scalar from = size(stuck_[of(first_)].force), to = size(given_way.acting()),
+                 before = size(force_before);
+    if (!(most(first_, given_way, force_before) > 0)) return 0;
     Scalar rest = potential_ - system.total_potential();
     const bool digits = std::abs(rest) > 64 * std::numeric_limits<Scalar>::epsilon() * std::abs(potential_);
     each([&](int i, const Friction& friction) {
@@ -58,10 +59,16 @@ class GivingWay {
       rest -= force.dot(friction.shear() - friction.carried(last.shear, last.place)) / 2;
     });
     // The tick begins with its force of before, and not with that of s.  What a trapezoid lacks grows with the cube of the way.
-    const Scalar share = (std::min)((before - to) / (from - to), Scalar(1)),
-                 most = (before - to) / 2 *
-                        size(given_way.shear() - given_way.carried(stuck.shear, stuck.place));
-    return std::clamp((digits ? share * share * share * rest : Scalar(0)) - counted, -most, most);
+    const Scalar share = (std::min)((before - to) / (from - to), Scalar(1));
+    return (digits ? share * share * share * rest : Scalar(0)) - counted;
+  }
+  /// @param force_before  of a contact that stuck in the tick before [N]
+  /// @return what it has dissipated more or less than its trapezoid at most [J]; none where it has not given way
+  Scalar most(int contact, const Friction& friction, const Vector& force_before) const noexcept {
+    const Stuck& stuck = stuck_[of(contact)];
+    const Scalar to = size(friction.acting()), before = size(force_before);
+    if (!friction.slides() || friction.falls() || !(size(stuck.force) > to && before > to)) return 0;
+    return (before - to) / 2 * size(friction.shear() - friction.carried(stuck.shear, stuck.place));
   }
 
  private:

@@ -88,23 +88,35 @@ class SeveralFriction {
     const int given_way = giving_way_.contact();
     const bool any =
         answered && given_way >= 0 && all_[given_way].touching && all_[given_way].pushed.force < 0;
-    const auto before = any ? *all_[given_way].friction : typename Friction::State{};
+    std::array<Last, Most> last;
     Scalar counted = 0;
     for (int i = 0; i < count_; ++i) {
       if (!all_[i].friction) continue;
       const int k = goal(i);
       if (answered && of(i) && all_[i].touching && k >= 0 && all_[i].pushed.force < 0) {
         system.look_at_friction(k);
+        const auto& state = *all_[i].friction;
+        if (any) last[at(i)] = {state.force, state.dissipated, state.known && !state.slides};
         counted += of(i)->leave(*all_[i].friction, -all_[i].pushed.force);
       } else {
         all_[i].friction->let_go();
       }
     }
     if (any) {
-      Scalar& dissipated = all_[given_way].friction->dissipated;
-      dissipated += giving_way_.beyond_trapezoid(system, *of(given_way), before.force, counted,
-                                                 [this](auto&& use) { this->each(use); });
-      dissipated = (std::max)(dissipated, before.dissipated);
+      Scalar rest = giving_way_.beyond_trapezoids(system, *of(given_way), last[at(given_way)].force, counted,
+                                                  [this](auto&& use) { this->each(use); });
+      const auto take = [&](int i, const Friction& friction) {
+        const Scalar most = giving_way_.most(i, friction, last[at(i)].force),
+                     part = std::clamp(rest, -most, most);
+        Scalar& dissipated = all_[i].friction->dissipated;
+        dissipated = (std::max)(dissipated + part, last[at(i)].dissipated);
+        rest -= part;
+      };
+      take(given_way, *of(given_way));
+      // Those that have given way at it.
+      each([&](int i, const Friction& friction) {
+        if (i != given_way && last[at(i)].stuck) take(i, friction);
+      });
     }
     if (any_) system.forget_friction();
   }
@@ -122,10 +134,18 @@ class SeveralFriction {
   }
 
  private:
+  /// Of a contact, in the push before.
+  struct Last {
+    typename Friction::Vector force = Friction::Vector::Zero();
+    Scalar dissipated = 0;
+    bool stuck = false;
+  };
+
   bool rough(int i) const noexcept {
     return all_[i].kind == ObstacleKind::round && all_[i].friction && all_[i].friction->sticking > 0;
   }
-  std::optional<Friction>& law(int i) noexcept { return laws_[static_cast<std::size_t>(i)]; }
+  static std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+  std::optional<Friction>& law(int i) noexcept { return laws_[at(i)]; }
   /// @param use  of those that touch
   template <class Use>
   void each(Use&& use) noexcept {
