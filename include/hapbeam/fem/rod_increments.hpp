@@ -28,20 +28,20 @@ class RodIncrements {
   void take(const Assembler& assembler) noexcept {
     for (int first = 0; first <= order_.last_node(); first += lanes)
       assembler.increments(first, groups_[first / lanes].x);
-    // The middle node stands twice, and behind it once more as far as it is computed.
-    const int last = order_.last_node(), end = last % lanes == 1 ? last : last / lanes * lanes + lanes - 1;
+    const int last = order_.last_node();
     auto& x = groups_[last / lanes].x;
     for (int k = 0; k < Unknowns; ++k)
-      for (int place = last; place <= end; ++place) x[k][place % lanes] = x[k][(last - 1) % lanes];
+      for (int place = last; place <= end(); ++place) x[k][place % lanes] = x[k][(last - 1) % lanes];
   }
   /// Of a node with unknowns of its own.
   void set(int node, const Vector& x) noexcept {
     const auto put = [&](int place) {
       for (int k = 0; k < Unknowns; ++k) groups_[place / lanes].x[k][place % lanes] = x[k];
     };
-    const int place = order_.node_place(node);
+    const int place = order_.node_place(node), last = order_.last_node();
     put(place);
-    if (place + 1 == order_.last_node()) put(place + 1);
+    if (place + 1 == last)
+      for (int again = last; again <= end(); ++again) put(again);
   }
   Vector operator[](int node) const noexcept {
     const int place = order_.node_place(node);
@@ -74,6 +74,12 @@ class RodIncrements {
   }
 
  private:
+  /// The middle node stands twice, and behind that once more as far as it is computed: to here.
+  int end() const noexcept {
+    const int last = order_.last_node();
+    return last % lanes == 1 ? last : last / lanes * lanes + lanes - 1;
+  }
+
   struct alignas(sizeof(Wide)) Group {
     Scalar x[Unknowns][lanes] = {};
   };
