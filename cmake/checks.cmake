@@ -33,3 +33,14 @@ if(HAPBEAM_SANITIZE)
     target_compile_options(hapbeam_checks INTERFACE -fno-sanitize=null,alignment,object-size,vptr,pointer-overflow)
   endif()
 endif()
+
+# Compiles a target for this machine's processor, where the compiler knows it.  GCC 12 takes the undefined lanes of its own AVX-512 intrinsics for a mistake
+# (GCC bug 105593).
+include(CheckCXXCompilerFlag)
+function(hapbeam_compile_native target)
+  check_cxx_compiler_flag(-march=native HAPBEAM_KNOWS_NATIVE)
+  if(HAPBEAM_NATIVE AND HAPBEAM_KNOWS_NATIVE)
+    target_compile_options(${target} PRIVATE
+      -march=native $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized -Wno-array-bounds>)
+  endif()
+endfunction()
