@@ -75,7 +75,7 @@ struct TwistedRod {
     for (int g = 0; g < points; ++g) {
       const auto& at = p.points[g];
       const S x = S(rule.x[g]);
-      const Point<S> point(f, detail::CubicAt(rule.x[g]));
+      const Point<S> point(f, cubics[g]);
       S k[3];
       point.strains(m * x + 4 * inner.twist * x * (1 - x), m + 4 * inner.twist * (1 - 2 * x),
                     p.inverse_length, k);
@@ -119,7 +119,7 @@ struct TwistedRod {
     const Frame<S> f(p, n1, n2);
     for (int g = 0; g < points; ++g) {
       const S x = S(rule.x[g]);
-      const Point<S> point(f, detail::CubicAt(rule.x[g]));
+      const Point<S> point(f, cubics[g]);
       point.strains(f.mismatch * x + 4 * twist * x * (1 - x), f.mismatch + 4 * twist * (1 - 2 * x),
                     p.inverse_length, p.points[g].natural);
     }
@@ -153,6 +153,7 @@ struct TwistedRod {
  private:
   static constexpr int points = 2;
   static constexpr const detail::GaussRule& rule = detail::two_points;
+  static constexpr detail::CubicAt cubics[points] = {detail::CubicAt(rule.x[0]), detail::CubicAt(rule.x[1])};
   template <typename S>
   using V3 = VectorOf<S, 3>;
 
