@@ -50,11 +50,11 @@ TEST_CASE("five hundred random rods find their rest", "[rod]") {
   CHECK(most <= 10000);  // LoadPath's own bound
 }
 
-// A slender one gives way when its end has gone a ten thousandth of its way.
+// A slender one gives way when its end has gone a ten thousandth of its way.  A round one may roll about the line between its ends.
 TEST_CASE("straight rods whose ends face each other and stand nearer find their bow", "[rod]") {
   Random random(5);
   int missed = 0;
-  for (int trial = 0; trial < 200; ++trial) {
+  for (int trial = 0; trial < 400; ++trial) {
     const double length = random(0.1, 1.0), d = length * random(0.003, 0.02);
     Rod rod(length, trial % 2 == 0 ? RodSection::circle(d) : RodSection::rectangle(d * random(0.5, 4), d),
             RodMaterial::isotropic(1e10, 0.3), RodSupport::clamped, RodSupport::clamped);
@@ -62,7 +62,7 @@ TEST_CASE("straight rods whose ends face each other and stand nearer find their 
     const FemModel<TwistedRod> model(rod, random.integer(8, 32));
     missed += !is_answer(model.rest().status);
   }
-  CHECK(missed <= 2);
+  CHECK(missed == 0);
 }
 
 // Its energy is round-off, of either sign, and Newton's increments are the round-off of places: eps |r| √(EA/l).

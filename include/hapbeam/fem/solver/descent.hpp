@@ -11,6 +11,7 @@
 //   s.advance()               adds it
 //   s.negative_pivots()       of the last factor()
 //   s.potential()             V - λ f · x at the last factor() [J]
+//   s.neutral()               as μ: a stiffness that is none, but for round-off
 //
 // Real-time: noexcept and no allocation where the system's are; at most max_solves linear solves.
 // Source: Levenberg 1944 and Marquardt 1963, on the potential of a beam.
@@ -45,7 +46,12 @@ struct Descent {
     bool stepped = false;
     for (const int last = solves + max_solves; solves < last;) {
       ++solves;
-      const Status status = system.factor(shift);
+      Status status = system.factor(shift);
+      // What costs nothing has a pivot of either sign: a second look decides.
+      if (System::neutral() > 0 && shift == 0 && status == Status::ok && system.negative_pivots() > 0) {
+        ++solves;
+        status = system.factor(System::neutral());
+      }
       const S potential = system.potential();
       if (!(potential <= least + slack * std::abs(least) + nothing)) {
         system.restore();
