@@ -82,6 +82,18 @@ struct PackRows {
     for (int k = 0; k < Size; ++k) rows[k][0] = first[k], rows[k][1] = second[k];
   }
 
+  /// Pairs of numbers: every other one of a is exchanged with the one before it in b.
+  [[gnu::always_inline]] static void cross_pairs(Wide& a, Wide& b) noexcept {
+#if defined(__GNUC__)
+    constexpr std::make_integer_sequence<int, Size> each{};
+    const auto upper = a.v_, lower = b.v_;
+    a.v_ = crossed<2, false>(upper, lower, each), b.v_ = crossed<2, true>(upper, lower, each);
+#else
+    for (int k = 0; k < Size; ++k)
+      if (!(k & 2)) std::swap(a.v_[k + 2], b.v_[k]);
+#endif
+  }
+
  private:
   /// In blocks of 2 By rows and columns, exchanges what stands above their diagonal with what stands below it.
   template <int By>

@@ -270,7 +270,8 @@ class BlockTridiagonal {
     return elements == Eigen::Dynamic ? Eigen::Dynamic : (std::max)((elements + 1) / 2 / abreast, 2);
   }
   [[gnu::always_inline]] Row row(int i) const noexcept {
-    return {const_cast<Number*>(&rows_[i / abreast].entry[0][i % abreast])};
+    Rows& rows = const_cast<Rows&>(rows_[i / abreast]);
+    return {&rows.entry[0][i % abreast], rows.strip[0][Rows::place(i % abreast)]};
   }
 
   [[gnu::always_inline]] detail::NodeBlock<Scalar, Block, 2 * abreast> own_of(int node) const noexcept {
@@ -286,9 +287,7 @@ class BlockTridiagonal {
   [[gnu::always_inline]] void for_each_neighbour(int node, F&& f) noexcept {
     // A row has what couples it with the next on the way to the middle.
     const auto coupling = [this](int row, int lane, bool inward) {
-      constexpr int stride = 2 * abreast;
-      return detail::NodeCoupling<Scalar>{this->row(row).coupling(0, 0).a + lane,
-                                          inward ? Block * stride : stride, inward ? stride : Block * stride};
+      return detail::NodeCoupling<Scalar, Rows>{this->row(row).coupling(0, 0).a + lane, inward};
     };
     const Place here = place(node);
     if (node > 0) {

@@ -22,13 +22,14 @@ struct NodeBlock {
   [[gnu::always_inline]] Scalar& operator[](int i) const noexcept { return x[Stride * i]; }
 };
 /// What couples a node with a neighbour: its own unknown, that of the neighbour.
-template <typename Scalar>
+/// @tparam Rows  ChainRows
+template <typename Scalar, class Rows>
 struct NodeCoupling {
   Scalar* entries;
-  int own, other;
+  bool inward;
 
   [[gnu::always_inline]] Scalar& operator()(int i, int j) const noexcept {
-    return entries[own * i + other * j];
+    return entries[2 * (inward ? Rows::to_coupling(i, j) : Rows::to_coupling(j, i))];
   }
 };
 
@@ -48,7 +49,7 @@ struct ChainNode {
       c = x * Q(0, 2) + y * Q(1, 2) + z * Q(2, 2);
     };
     times(own[At], own[At + 1], own[At + 2]);
-    each_neighbour([&](const auto&, const NodeCoupling<Scalar>& c, bool) {
+    each_neighbour([&](const auto&, const auto& c, bool) {
       HAPBEAM_UNROLL
       for (int k = 0; k < Block; ++k) times(c(At, k), c(At + 1, k), c(At + 2, k));
     });
@@ -73,7 +74,7 @@ struct ChainNode {
   /// An unknown is from now on its old self and a part of three others:  old = new - part · (unknowns from Others on).
   template <int Unknown, int Others, class Part>
   [[gnu::always_inline]] void lean(const Part& part) const noexcept {
-    each_neighbour([&](const auto&, const NodeCoupling<Scalar>& c, bool) {
+    each_neighbour([&](const auto&, const auto& c, bool) {
       HAPBEAM_UNROLL
       for (int k = 0; k < Block; ++k) {
         const Scalar by = c(Unknown, k);
@@ -96,7 +97,7 @@ struct ChainNode {
   /// @param part  [i] -> of unknown i, nothing of its own
   template <class Part>
   [[gnu::always_inline]] void lean(int unknown, const Part& part) const noexcept {
-    each_neighbour([&](const auto&, const NodeCoupling<Scalar>& c, bool) {
+    each_neighbour([&](const auto&, const auto& c, bool) {
       HAPBEAM_UNROLL
       for (int k = 0; k < Block; ++k) {
         const Scalar by = c(unknown, k);
@@ -127,7 +128,7 @@ struct ChainNode {
     for (int k = 0; k < Block; ++k) own[k] -= made[k] = times(own(k, 0), own(k, 1), own(k, 2));
     alone = times(made[0], made[1], made[2]);
     in_row = made[row];
-    each_neighbour([&](const auto& other, const NodeCoupling<Scalar>& c, bool) {
+    each_neighbour([&](const auto& other, const auto& c, bool) {
       HAPBEAM_UNROLL
       for (int k = 0; k < Block; ++k) other[k] -= times(c(0, k), c(1, k), c(2, k));
     });
@@ -152,7 +153,7 @@ struct ChainNode {
       HAPBEAM_UNROLL
       for (int i = j; i < Block; ++i) own(i, j) = i != j ? Scalar(0) : j == 5 ? diagonal : Scalar(1);
     }
-    each_neighbour([&](const auto& other, const NodeCoupling<Scalar>& c, bool) {
+    each_neighbour([&](const auto& other, const auto& c, bool) {
       HAPBEAM_UNROLL
       for (int k = 0; k < Block; ++k) {
         if (moves)
@@ -176,7 +177,7 @@ struct ChainNode {
     for (int k = component + 1; k < Block; ++k) take(own[k], own(k, component));
     own(component, component) = 1;  // not the old entry, whose sign would count as a pivot's
     own[component] = 0;
-    each_neighbour([&](const auto& other, const NodeCoupling<Scalar>& c, bool) {
+    each_neighbour([&](const auto& other, const auto& c, bool) {
       for (int k = 0; k < Block; ++k) take(other[k], c(component, k));
     });
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include <hapbeam/element/pack_rows.hpp>
 #include <hapbeam/fem/solver/ldlt.hpp>
 #include <hapbeam/fem/solver/pivot_by_pivot.hpp>
 #include <hapbeam/unroll.hpp>
@@ -17,8 +18,20 @@ namespace hapbeam::detail {
 template <typename Scalar, int Block, int Abreast>
 struct alignas(2 * Abreast * sizeof(Scalar)) ChainRows {
   using Number = TwoNumbers<Scalar>;
-  static constexpr int x = triangle_size<Block>, coupling = x + Block, entries = coupling + Block * Block;
-  Number entry[entries][Abreast];
+  /// Columns of the coupling stand side by side as they are eliminated: so many strips of each of its rows.
+  static constexpr int columns = columns_abreast<Scalar, Block>, strips = (Block + columns - 1) / columns;
+  static constexpr int x = triangle_size<Block>, coupling = x + Block;
+  Number entry[coupling][Abreast];
+  Number strip[Block * strips][Abreast][columns];
+
+  /// Where a strip has a row: of columns that were crossed in pairs every other one comes first.
+  static constexpr int place(int row) noexcept {
+    return columns == 1 ? row : row % 2 * (Abreast / 2) + row / 2;
+  }
+  /// From entry (0, 0) of a row's coupling to (i, j).
+  static constexpr int to_coupling(int i, int j) noexcept {
+    return (i * strips + j / columns) * Abreast * columns + j % columns;
+  }
 
   /// Adds elements that were computed side by side, in the order of PairOrder, to these rows and the next.
   /// @tparam Full  whether all of them are elements   @param count  of pairs that are   @param odd  the first is none
@@ -48,10 +61,26 @@ struct alignas(2 * Abreast * sizeof(Scalar)) ChainRows {
       HAPBEAM_UNROLL
       for (int i = j; i < Block; ++i) share_out(triangle<Block>(i, j), K(i, j), K(Block + i, Block + j));
       share_out(x + j, -r[j], -r[Block + j]);
+    }
+    const auto couples = [&](int i, int j) { return kept(in_turn(K(i, Block + j), K(j, Block + i))); };
+    HAPBEAM_UNROLL
+    for (int g = 0; g < strips; ++g) {
       HAPBEAM_UNROLL
       for (int i = 0; i < Block; ++i)
-        kept(in_turn(K(i, Block + j), K(j, Block + i))).store(rows->entry[coupling + Block * i + j][0].a);
+        store(couples(i, columns * g), couples(i, (std::min)(columns * g + columns, Block) - 1),
+              rows->strip[i * strips + g][0][0].a);
     }
+  }
+
+ private:
+  /// One strip of all rows.   @param last  its last column; the first once more, which nothing reads, where that is alone
+  template <class Wide>
+  [[gnu::always_inline]] static void store(Wide first, Wide last, Scalar* to) noexcept {
+    if constexpr (columns == 2) {
+      PackRows<Scalar, 2 * Abreast>::cross_pairs(first, last);
+      last.store(to + 2 * Abreast);
+    }
+    first.store(to);
   }
 };
 
@@ -64,7 +93,8 @@ struct ChainRow {
   using Number = TwoNumbers<Scalar>;
   using Factor = Ldlt<Scalar, Block>;
 
-  Number* first;  ///< entry
+  Number* first;    ///< entry
+  Number* couples;  ///< (0, 0)
 
   [[gnu::always_inline]] Number& entry(int e) const noexcept { return first[Abreast * e]; }
   [[gnu::always_inline]] Number& block(int i, int j) const noexcept { return entry(triangle<Block>(i, j)); }
@@ -72,7 +102,11 @@ struct ChainRow {
   [[gnu::always_inline]] Number& x(int i) const noexcept { return entry(Rows::x + i); }
   /// @param i  own unknown   @param j  that of the next node on the way
   [[gnu::always_inline]] Number& coupling(int i, int j) const noexcept {
-    return entry(Rows::coupling + Block * i + j);
+    return couples[Rows::to_coupling(i, j)];
+  }
+  /// Columns of a row of it that stand side by side.
+  [[gnu::always_inline]] Scalar* strip(int i, int g) const noexcept {
+    return couples[Rows::to_coupling(i, g * Rows::columns)].a;
   }
 
   /// @param front, f  in: block and right-hand side of the nodes of a row, less what the nodes before took away;  out: of the next

@@ -152,6 +152,12 @@ class Strip {
     Strip strip;
     return strip.v_ = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(pair)), strip;
   }
+  /// Columns that stand side by side.
+  [[gnu::always_inline]] static Strip load(const Scalar* from) noexcept {
+    Strip strip;
+    return strip.v_ = _mm256_load_pd(from), strip;
+  }
+  [[gnu::always_inline]] void store(Scalar* to) const noexcept { _mm256_store_pd(to, v_); }
   [[gnu::always_inline]] Lanes<Scalar> column(int i) const noexcept {
     return Lanes<Scalar>(i == 0 ? _mm256_castpd256_pd128(v_) : _mm256_extractf128_pd(v_, 1));
   }
@@ -183,6 +189,8 @@ class Strip<Scalar, 1> {
   [[gnu::always_inline]] static Strip repeat(const Scalar* pair) noexcept {
     return Lanes<Scalar>::load(pair);
   }
+  [[gnu::always_inline]] static Strip load(const Scalar* from) noexcept { return Lanes<Scalar>::load(from); }
+  [[gnu::always_inline]] void store(Scalar* to) const noexcept { v_.store(to); }
   [[gnu::always_inline]] Lanes<Scalar> column(int) const noexcept { return v_; }
   [[gnu::always_inline]] friend Strip operator*(const Strip& a, const Strip& b) noexcept {
     return a.v_ * b.v_;

@@ -38,17 +38,14 @@ template <int Block, typename Scalar, class Row>
     HAPBEAM_UNROLL
     for (int k = 0; k < Block; ++k) {
       constexpr int from = g * columns, to = from + columns - 1;
-      y[g][k] = Strip(row.coupling(k, from).get(), to < Block ? row.coupling(k, to).get() : x[k]);
+      y[g][k] = to < Block ? Strip::load(row.strip(k, g)) : Strip(row.coupling(k, from).get(), x[k]);
     }
   };
   // A row of P⁻¹L⁻¹C.
   const auto scale = [&](auto g, auto k) HAPBEAM_INLINED {
     const Strip scaled = y[g][k] * Strip::repeat(inverse[k]);
-    HAPBEAM_UNROLL
-    for (int n = 0; n < columns; ++n) {
-      if (g * columns + n < Block) row.coupling(k, g * columns + n).set(scaled.column(n));
-      else row.x(k).set(zx[k] = scaled.column(n));
-    }
+    scaled.store(row.strip(k, g));  // beside the last column stands nothing else
+    if (g * columns + columns > Block) row.x(k).set(zx[k] = scaled.column(columns - 1));
   };
   // What column k of L makes of column j of the block.
   const auto take_away = [&](auto k, auto j) HAPBEAM_INLINED {
