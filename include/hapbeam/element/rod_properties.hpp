@@ -9,6 +9,7 @@
 
 #include <hapbeam/element/pack.hpp>
 #include <hapbeam/rod_centreline.hpp>
+#include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
 
@@ -83,9 +84,12 @@ struct EndsAndMiddle {
   VectorOf<S, 3> v[3];    ///< directions
 
   [[gnu::always_inline]] EndsAndMiddle(const RodProperties<S>& p, const RodNode<S>& a,
-                                       const RodNode<S>& b) noexcept
-      : middle(S(1.5) * p.inverse_length * (b.r - a.r) - S(0.25) * (a.tangent + b.tangent)) {
+                                       const RodNode<S>& b) noexcept {
     using std::sqrt;
+    const S by_chord = S(1.5) * p.inverse_length;
+    HAPBEAM_UNROLL
+    for (int r = 0; r < 3; ++r)
+      middle[r] = by_chord * (b.r[r] - a.r[r]) - S(0.25) * (a.tangent[r] + b.tangent[r]);
     n[0] = sqrt(a.tangent.squaredNorm()), n[1] = sqrt(middle.squaredNorm());
     n[2] = sqrt(b.tangent.squaredNorm());
     // One division instead of three.

@@ -37,7 +37,10 @@ class RoundTwist {
     is_ = two * both, iR_ = 2 * one * both;
     beside_ = cross3(at.v[1], v);
     carried_ = iR_ * u.dot(beside_);
-    const V3<S> e = a.director - (is_ * v.dot(a.director)) * (u + v);
+    const S back = is_ * v.dot(a.director);
+    V3<S> e;
+    HAPBEAM_UNROLL
+    for (int r = 0; r < 3; ++r) e[r] = a.director[r] - back * (u[r] + v[r]);
     mismatch_ = angle(S(v.dot(cross3(e, b.director))), S(e.dot(b.director)), S(1));
     stiffness_ = p.torsion * p.inverse_length;
   }
@@ -56,26 +59,31 @@ class RoundTwist {
     const S &F = carried_, &iR = iR_, h = S(0.5) * is_, half_iR = S(0.5) * iR;
     const S T = stiffness_ * (mismatch_ - F);
     const V3<S> s = cross3(u, v), uc = cross3(u, c);
-    // Of Θ by the directions, and of m - Θ by the unknowns: D, r1', r2'.
-    const V3<S> y = -iR * s, k = is_ * s, r1 = iR * u + half_iR * v, r2 = iR * v + half_iR * u;
-    const V3<S> F1 = iR * beside_ - F * r1, F2 = iR * uc - F * r2, Fc = y - F * c;
-    const S by_D = S(1.5) * i;
-    const V3<S> gc = -ic * Fc, D = by_D * gc, g1 = i1 * (k - F1) - S(0.25) * gc,
-                g2 = i2 * (k - F2) - S(0.25) * gc;
-    const V3<S> kD = stiffness_ * D, k1 = stiffness_ * g1, k2 = stiffness_ * g2;
-
-    // Second derivatives, by T: outer products, what stands on the diagonal, and x × .
+    const S by_D = S(1.5) * i, own_k = h * (2 + w_), half = half_iR * F;
     const S cc = T * ic * ic, c1 = T * ic * i1, c2 = T * ic * i2, t11 = T * i1 * i1, t12 = T * i1 * i2,
             t22 = T * i2 * i2;
-    const V3<S> z = cc * (Fc - (S(0.5) * F) * c);
-    const V3<S> c1F = c1 * F1, c1r = c1 * r1, c2F = c2 * F2, c2r = c2 * r2;
-    const V3<S> v1 = (c1 * iR) * v, u2 = (c2 * iR) * u;
-    const S own_k = h * (2 + w_), half = half_iR * F;
-    const V3<S> A1 = t11 * (iR * F1 - own_k * k - half * u), B1 = t11 * (half_iR * F1 - h * k);
-    const V3<S> A2 = t22 * (iR * F2 - own_k * k - half * v), B2 = t22 * (half_iR * F2 - h * k);
-    const V3<S> hk = h * k, sum = u + v;
-    const V3<S> Au = t12 * (iR * F2 + (iR * F) * v - hk), Av = t12 * (half_iR * F2 - hk), AF = t12 * r2,
-                Ak = -(t12 * h) * sum, x12 = t12 * (h * sum - iR * c);
+    // Component by component: of longer expressions of vectors a compiler makes functions, where a program has several models.
+    V3<S> y, k, F1, D, g1, g2, kD, k1, k2;                                     // first derivatives
+    V3<S> z, c1F, c1r, c2F, c2r, v1, u2, A1, B1, A2, B2, Au, Av, AF, Ak, x12;  // of second ones, by T
+    HAPBEAM_UNROLL
+    for (int r = 0; r < 3; ++r) {
+      // Of Θ by the directions, and of m - Θ by the unknowns: D, r1', r2'.
+      const S r1 = iR * u[r] + half_iR * v[r], r2 = iR * v[r] + half_iR * u[r];
+      y[r] = -iR * s[r], k[r] = is_ * s[r];
+      F1[r] = iR * beside_[r] - F * r1;
+      const S F2 = iR * uc[r] - F * r2, Fc = y[r] - F * c[r], gc = -ic * Fc;
+      D[r] = by_D * gc, g1[r] = i1 * (k[r] - F1[r]) - S(0.25) * gc, g2[r] = i2 * (k[r] - F2) - S(0.25) * gc;
+      kD[r] = stiffness_ * D[r], k1[r] = stiffness_ * g1[r], k2[r] = stiffness_ * g2[r];
+      // Outer products, and x × .
+      const S hk = h * k[r], sum = u[r] + v[r];
+      z[r] = cc * (Fc - S(0.5) * F * c[r]);
+      c1F[r] = c1 * F1[r], c1r[r] = c1 * r1, c2F[r] = c2 * F2, c2r[r] = c2 * r2;
+      v1[r] = c1 * iR * v[r], u2[r] = c2 * iR * u[r];
+      A1[r] = t11 * (iR * F1[r] - own_k * k[r] - half * u[r]), B1[r] = t11 * (half_iR * F1[r] - hk);
+      A2[r] = t22 * (iR * F2 - own_k * k[r] - half * v[r]), B2[r] = t22 * (half_iR * F2 - hk);
+      Au[r] = t12 * (iR * (F2 + F * v[r]) - hk), Av[r] = t12 * (half_iR * F2 - hk), AF[r] = t12 * r2;
+      Ak[r] = -t12 * h * sum, x12[r] = t12 * (h * sum - iR * c[r]);
+    }
     const S on11 = t11 * iR * F, on22 = t22 * iR * F, on12 = t12 * half_iR * F, oncc = cc * F;
     // Entry of x × .
     const auto turn = [](const V3<S>& x, int r, int col) {

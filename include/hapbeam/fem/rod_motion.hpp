@@ -39,17 +39,27 @@ template <typename S>
   const S square = node.tangent.squaredNorm(), i = 1 / sqrt(square);
   const V u = i * node.tangent, by = i * change;
   const S share = u.dot(by);
-  const V aside = by - share * u;
+  // Component by component, as in round_twist.hpp.
+  const auto each = [](auto&& f) HAPBEAM_INLINED {
+    V made;
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 3; ++k) made[k] = f(k);
+    return made;
+  };
+  const V aside = each([&](int k) HAPBEAM_INLINED { return S(by[k] - share * u[k]); });
   S cosine, sine;  // of the angle, that over the angle
   cos_and_sin_of_square(S(aside.squaredNorm()), cosine, sine);
-  const V v = cosine * u + sine * aside;
-  node.tangent = ((1 + share) * square * i) * v;
+  const V v = each([&](int k) HAPBEAM_INLINED { return S(cosine * u[k] + sine * aside[k]); });
+  const S length = (1 + share) * square * i;
   V e = node.director;
-  e -= share_of(S(v.dot(e)), S(1 + cosine)) * (u + v);
+  const S back = share_of(S(v.dot(e)), S(1 + cosine));
+  e = each([&](int k) HAPBEAM_INLINED { return S(e[k] - back * (u[k] + v[k])); });
   if (twist) e = turn<S>(e, v, *twist);
   // Across v and unit, but for round-off: one step of Newton's method makes it so.
-  e -= v.dot(e) * v;
-  node.director = (S(1.5) - S(0.5) * e.squaredNorm()) * e;
+  const S along = v.dot(e);
+  e = each([&](int k) HAPBEAM_INLINED { return S(e[k] - along * v[k]); });
+  const S stretch = S(1.5) - S(0.5) * e.squaredNorm();
+  node.tangent = length * v, node.director = stretch * e;
 }
 /// Adds increments to all nodes, a few at a time; to their tangents and directors alone where chords turn their places.
 /// @tparam twists  whether there is φ   @param moved  out, may be the nodes
@@ -107,7 +117,10 @@ template <typename S>
   using std::sqrt;
   const S whole = sqrt(tangent.squaredNorm()) + tangent.dot(v);
   // As carry(), times that, less what is along v.
-  const VectorOf<S, 3> from = whole * director - v.dot(director) * tangent;
+  const S back = v.dot(director);
+  VectorOf<S, 3> from;
+  HAPBEAM_UNROLL
+  for (int k = 0; k < 3; ++k) from[k] = whole * director[k] - back * tangent[k];
   return {from.dot(beside), from.dot(to), whole};
 }
 
@@ -140,8 +153,12 @@ template <bool twists, class Nodes, typename Scalar>
     const Wide along = next.s - x.s - onward * (x.s - before_x.s);  // none at the ends
     // None where the last node stands again.
     const Wide share = share_of(along, Wide(before(x.s, end.s) - after(first.s, x.s)));
-    next.r += onward * (x.r - before_x.r) + along * x.tangent;
-    const Vector change = onward * (x.tangent - b) + share * (r - l);
+    Vector change;
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 3; ++k) {
+      next.r[k] += onward * (x.r[k] - before_x.r[k]) + along * x.tangent[k];
+      change[k] = onward * (x.tangent[k] - b[k]) + share * (r[k] - l[k]);
+    }
     if constexpr (twists) {
       const Vector u = unit(x.tangent), beside = cross3(x.director, u);
       const auto twist = [&](const Vector& tangent, const Vector& director) {
