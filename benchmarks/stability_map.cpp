@@ -23,9 +23,9 @@
 #include <string>
 #include <vector>
 
-#include "../tests/rod/rods.hpp"
-#include "../tests/support/ruler.hpp"
-#include "../tests/support/step_response.hpp"
+#include "rod/rods.hpp"
+#include "support/ruler.hpp"
+#include "support/step_response.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
