@@ -73,7 +73,7 @@ double force(double f, double s, double d) {
     N0 = next, excess = at.excess;
     next -= step;
     at = press(next, f, s, d);
-    if (std::abs(step) <= 1e-12) return at.force;
+    if (std::abs(step) <= 1e-12 * (std::abs(next) + f)) return at.force;
   }
   FAIL("the secant has not converged");
   return at.force;
