@@ -21,6 +21,14 @@
 #define HAPBEAM_INLINED
 #endif
 
+/// What stands in memory before this is read from there behind it.  In a loop it keeps a compiler from carrying numbers in registers from
+/// one turn to the next: where there are too few, it would store and load others instead.
+#if defined(__GNUC__)
+#define HAPBEAM_KEEP_IN_MEMORY() asm volatile("" : : : "memory")
+#else
+#define HAPBEAM_KEEP_IN_MEMORY() static_cast<void>(0)
+#endif
+
 namespace hapbeam::detail {
 
 template <int K>

@@ -100,19 +100,19 @@ class Pivots {
   [[gnu::always_inline]] void see(const V& pivot, const V& assembled) noexcept {
     const V left = subtract_product(abs(pivot), V::both(std::numeric_limits<S>::epsilon()), abs(assembled));
     least_ = lesser(least_, left);
-    unbounded_ = add_product(unbounded_, left, V::both(0));
+    sum_ = sum_ + left;
     negative_ = negative_ + negatives(pivot);
   }
   /// Whether all were numbers, and none of them but round-off of what was assembled.   @return ok | singular | non_finite
   Status status() const noexcept {
     if (least_[0] <= 0 || least_[1] <= 0) return Status::singular;
-    return unbounded_[0] == 0 && unbounded_[1] == 0 ? Status::ok : Status::non_finite;
+    return std::isfinite(sum_[0]) && std::isfinite(sum_[1]) ? Status::ok : Status::non_finite;
   }
   int negative() const noexcept { return static_cast<int>(negative_[0] + negative_[1]); }
 
  private:
   V least_ = V::both((std::numeric_limits<S>::max)());  // |pivot| - eps |its diagonal entry|
-  V unbounded_ = V::both(0);                            // no number where one was none or infinite
+  V sum_ = V::both(0);                                  // of those, no number where one was none or infinite
   V negative_ = V::both(0);                             // how many
 };
 

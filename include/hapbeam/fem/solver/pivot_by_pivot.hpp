@@ -20,19 +20,17 @@ template <int Block, typename Scalar, class Row>
                                                             Lanes<Scalar>& energy,
                                                             Pivots<Scalar>& pivots) noexcept {
   using Pair = Lanes<Scalar>;
+  HAPBEAM_KEEP_IN_MEMORY();
   // Columns of the coupling stand side by side in strips.  Some have registers while the block is factored; the others come later.  Where
   // a column is left alone, the right-hand side stands beside it, as one more.
   constexpr int columns = columns_abreast<Scalar, Block>, strips = (Block + columns - 1) / columns,
                 at_once = (std::min)(12 / Block, strips);
   constexpr bool beside = strips * columns > Block;
   using Strip = detail::Strip<Scalar, columns>;
-  Pair c[triangle_size<Block>], l[triangle_size<Block>], inverse[Block];  // LP, L, P⁻¹
-  Pair x[Block], zx[Block];  // L⁻¹ and P⁻¹L⁻¹ of the right-hand side, where it stands alone
-  Strip y[strips][Block];    // L⁻¹C
-  HAPBEAM_UNROLL
-  for (int k = 0; k < triangle_size<Block>; ++k) c[k] = front[k];
-  HAPBEAM_UNROLL
-  for (int k = 0; k < Block; ++k) x[k] = f[k];
+  // In place: a compiler would copy the block in wider registers than it was stored from, for which a processor waits.
+  Pair *const c = front, *const x = f;  // LP; L⁻¹ of the right-hand side, where it stands alone
+  Pair l[triangle_size<Block>], inverse[Block], zx[Block];  // L, P⁻¹, P⁻¹L⁻¹ of the right-hand side
+  Strip y[strips][Block];                                   // L⁻¹C
 
   const auto load = [&](auto g) HAPBEAM_INLINED {
     HAPBEAM_UNROLL
@@ -55,7 +53,7 @@ template <int Block, typename Scalar, class Row>
           subtract_product(c[triangle<Block>(i, j)], l[triangle<Block>(i, k)], c[triangle<Block>(j, k)]);
   };
   const auto use_up = [&](auto k) HAPBEAM_INLINED {
-    for_each_constant<k + 2, Block>([&](auto j) HAPBEAM_INLINED { take_away(k, j); });
+    for_each_constant<k / 2 * 2 + 4, Block>([&](auto j) HAPBEAM_INLINED { take_away(k, j); });
     for_each_constant<0, at_once>([&](auto g) HAPBEAM_INLINED { scale(g, k); });
     if (!beside) row.x(k).set(zx[k] = x[k] * inverse[k]);
     HAPBEAM_UNROLL
@@ -66,20 +64,33 @@ template <int Block, typename Scalar, class Row>
       for (int g = 0; g < at_once; ++g) y[g][i] = subtract_product(y[g][i], by, y[g][k]);
     }
   };
-
-  for_each_constant<0, at_once>(load);
-  for_each_constant<0, Block>([&](auto k) HAPBEAM_INLINED {
-    const Pair pivot = c[triangle<Block>(k, k)];
-    inverse[k] = Pair::both(1) / pivot;
-    pivots.see(pivot, row.block(k, k).get());
-    if constexpr (k > 0) use_up(constant<k - 1>);
+  const auto divide = [&](auto k) HAPBEAM_INLINED {
+    pivots.see(c[triangle<Block>(k, k)], row.block(k, k).get());
     HAPBEAM_UNROLL
     for (int i = k + 1; i < Block; ++i) {
       l[triangle<Block>(i, k)] = c[triangle<Block>(i, k)] * inverse[k];
       row.block(i, k).set(l[triangle<Block>(i, k)]);
     }
-    if constexpr (k + 1 < Block) take_away(k, constant<k + 1>);
+  };
+
+  for_each_constant<0, at_once>(load);
+  for_each_constant<0, (Block + 1) / 2>([&](auto two) HAPBEAM_INLINED {
+    constexpr int k = 2 * two;
+    constexpr bool both = k + 1 < Block;
+    // The second pivot is det/pivot, whose inverse does not wait for that of the first.
+    const Pair pivot = c[triangle<Block>(k, k)];
+    inverse[k] = Pair::both(1) / pivot;
+    if constexpr (both) {
+      const Pair across = c[triangle<Block>(k + 1, k)];
+      inverse[k + 1] = pivot / subtract_product(pivot * c[triangle<Block>(k + 1, k + 1)], across, across);
+    }
+    if constexpr (k > 0) use_up(constant<k - 2>), use_up(constant<k - 1>);
+    divide(constant<k>);
+    if constexpr (both) take_away(constant<k>, constant<k + 1>), divide(constant<k + 1>);
+    for_each_constant<k + 2, (std::min)(k + 4, Block)>(
+        [&](auto j) HAPBEAM_INLINED { take_away(constant<k>, j), take_away(constant<k + 1>, j); });
   });
+  if constexpr (Block % 2 == 0) use_up(constant<Block - 2>);
   use_up(constant<Block - 1>);
   for_each_constant<at_once, strips>([&](auto g) HAPBEAM_INLINED {
     load(g);
