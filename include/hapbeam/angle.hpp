@@ -91,11 +91,12 @@ void cos_and_sin(const S& alpha, S& cosine, S& sine) noexcept {
 /// cos √q and sin √q / √q, 0 <= q < 0.25: the first term of Taylor's series that is left out is below 1e-17.
 template <typename S>
 [[gnu::always_inline]] inline void small_square_turn(const S& q, S& cosine, S& sine) noexcept {
-  constexpr double c[] = {1,          -1. / 2,       1. / 24,        -1. / 720,
-                          1. / 40320, -1. / 3628800, 1. / 479001600, -1. / 87178291200};
-  cosine = S(c[7]), sine = S(c[7] / 15);
-  HAPBEAM_UNROLL
-  for (int k = 6; k >= 0; --k) cosine = S(c[k]) + q * cosine, sine = S(c[k] / (2 * k + 1)) + q * sine;
+  const S q2 = q * q, q4 = q2 * q2;
+  cosine = ((1 - q * S(1. / 2)) + q2 * (S(1. / 24) - q * S(1. / 720))) +
+           q4 * ((S(1. / 40320) - q * S(1. / 3628800)) + q2 * (S(1. / 479001600) - q * S(1. / 87178291200.)));
+  sine = ((1 - q * S(1. / 6)) + q2 * (S(1. / 120) - q * S(1. / 5040))) +
+         q4 * ((S(1. / 362880) - q * S(1. / 39916800)) +
+               q2 * (S(1. / 6227020800.) - q * S(1. / 1307674368000.)));
 }
 /// The same of any q >= 0.
 template <typename S>

@@ -30,15 +30,18 @@ VectorOf<Scalar, 3> turned(const VectorOf<Scalar, 3>& v, const VectorOf<Scalar, 
   cos_and_sin_of_square(Scalar(aside.squaredNorm() / square), cosine, sine);
   return (1 + share) * (cosine * v + sine * aside);
 }
-/// Adds an increment of r' and φ to a node, as turned() and set_tangent() do, but what is known to have unit length is not measured.
+/// Adds an increment of r' and φ to a node, as turned() and set_tangent() do.  What a processor would wait for is found early: the angle
+/// needs no length, and the director is made a unit vector first.
 template <typename S>
 [[gnu::always_inline]] inline void move_tangent(RodNode<S>& node, const VectorOf<S, 3>& change,
                                                 const S* twist) noexcept {
   using std::sqrt;
   using V = VectorOf<S, 3>;
-  const S square = node.tangent.squaredNorm(), i = 1 / sqrt(square);
-  const V u = i * node.tangent, by = i * change;
-  const S share = u.dot(by);
+  const V& t = node.tangent;
+  const S square = t.squaredNorm(), inverse = 1 / square, i = sqrt(inverse);
+  const S share = t.dot(change) * inverse;
+  S cosine, sine;  // of the angle, that over the angle
+  cos_and_sin_of_square(S(change.squaredNorm() * inverse - share * share), cosine, sine);
   // Component by component, as in round_twist.hpp.
   const auto each = [](auto&& f) HAPBEAM_INLINED {
     V made;
@@ -46,20 +49,16 @@ template <typename S>
     for (int k = 0; k < 3; ++k) made[k] = f(k);
     return made;
   };
-  const V aside = each([&](int k) HAPBEAM_INLINED { return S(by[k] - share * u[k]); });
-  S cosine, sine;  // of the angle, that over the angle
-  cos_and_sin_of_square(S(aside.squaredNorm()), cosine, sine);
-  const V v = each([&](int k) HAPBEAM_INLINED { return S(cosine * u[k] + sine * aside[k]); });
-  const S length = (1 + share) * square * i;
-  V e = node.director;
-  const S back = share_of(S(v.dot(e)), S(1 + cosine));
-  e = each([&](int k) HAPBEAM_INLINED { return S(e[k] - back * (u[k] + v[k])); });
+  const V u = i * t;
+  const S of_u = cosine - sine * share, of_change = sine * i;
+  const V v = each([&](int k) HAPBEAM_INLINED { return add_product(S(of_u * u[k]), of_change, change[k]); });
+  // Carried along as carry() does, which leaves what is across u across v.
+  const V& d = node.director;
+  const S stretch = S(1.5) - S(0.5) * d.squaredNorm(), part = share_of(stretch, S(1 + cosine));
+  const S back = v.dot(d) * part;
+  V e = each([&](int k) HAPBEAM_INLINED { return S(stretch * d[k] - back * (u[k] + v[k])); });
   if (twist) e = turn<S>(e, v, *twist);
-  // Across v and unit, but for round-off: one step of Newton's method makes it so.
-  const S along = v.dot(e);
-  e = each([&](int k) HAPBEAM_INLINED { return S(e[k] - along * v[k]); });
-  const S stretch = S(1.5) - S(0.5) * e.squaredNorm();
-  node.tangent = length * v, node.director = stretch * e;
+  node.tangent = ((1 + share) * square * i) * v, node.director = e;
 }
 /// Adds increments to all nodes, a few at a time; to their tangents and directors alone where chords turn their places.
 /// @tparam twists  whether there is φ   @param moved  out, may be the nodes
@@ -125,8 +124,8 @@ template <typename S>
 }
 
 /// Where nodes will be that go on as they went, foresight.hpp.   @param now, then, ahead  all nodes; of those ahead, s is known
-/// @tparam twists  whether their directors turn about the tangents
-template <bool twists, class Nodes, typename Scalar>
+/// @tparam twists  whether their directors turn about the tangents   @tparam slides  whether s is not the same in all three
+template <bool twists, bool slides, class Nodes, typename Scalar>
 [[gnu::flatten]] void go_on(const Nodes& now, const Nodes& then, Scalar ratio, Nodes& ahead) noexcept {
   using Node = RodNode<Scalar>;
   const int last = now.size() - 1;
@@ -134,43 +133,49 @@ template <bool twists, class Nodes, typename Scalar>
     using Wide = typename std::decay_t<decltype(here)>::Wide;
     using Vector = VectorOf<Wide, 3>;
     const RodNode<Wide> x = gather_nodes(here, now), before_x = gather_nodes<twists>(here, then);
-    const Vector& b = before_x.tangent;
-    // The neighbours stand in the next lane, and beyond the first and the last of these nodes.
-    const Node &first = now[(std::max)(here.of[0] - 1, 0)],
-               &end = now[(std::min)(here.of[Wide::size - 1] + 1, last)];
-    const auto left_of = [&](const Vector& of, VectorOf<Scalar, 3> Node::*member) {
-      const VectorOf<Scalar, 3>& v = first.*member;
-      return Vector(after(v[0], of[0]), after(v[1], of[1]), after(v[2], of[2]));
-    };
-    const auto right_of = [&](const Vector& of, VectorOf<Scalar, 3> Node::*member) {
-      const VectorOf<Scalar, 3>& v = end.*member;
-      return Vector(before(of[0], v[0]), before(of[1], v[1]), before(of[2], v[2]));
-    };
-    const Vector l = left_of(x.tangent, &Node::tangent), r = right_of(x.tangent, &Node::tangent);
     const Wide onward = ratio;
     RodNode<Wide> next = x;
-    next.s = gather(here, [&](int i) { return ahead[i].s; });
-    const Wide along = next.s - x.s - onward * (x.s - before_x.s);  // none at the ends
-    // None where the last node stands again.
-    const Wide share = share_of(along, Wide(before(x.s, end.s) - after(first.s, x.s)));
     Vector change;
     HAPBEAM_UNROLL
     for (int k = 0; k < 3; ++k) {
-      next.r[k] += onward * (x.r[k] - before_x.r[k]) + along * x.tangent[k];
-      change[k] = onward * (x.tangent[k] - b[k]) + share * (r[k] - l[k]);
+      next.r[k] += onward * (x.r[k] - before_x.r[k]);
+      change[k] = onward * (x.tangent[k] - before_x.tangent[k]);
     }
-    if constexpr (twists) {
-      const Vector u = unit(x.tangent), beside = cross3(x.director, u);
-      const auto twist = [&](const Vector& tangent, const Vector& director) {
-        return carried_turn<Wide>(tangent, director, u, x.director, beside);
+    Wide angle = 0;
+    const auto twist = [&](const Vector& tangent, const Vector& director) HAPBEAM_INLINED {
+      const Vector u = unit(x.tangent);
+      return carried_turn<Wide>(tangent, director, u, x.director, cross3(x.director, u));
+    };
+    if constexpr (twists) angle = onward * twist(before_x.tangent, before_x.director).value();
+    if constexpr (slides) {
+      // The neighbours stand in the next lane, and beyond the first and the last of these nodes.
+      const Node &first = now[(std::max)(here.of[0] - 1, 0)],
+                 &end = now[(std::min)(here.of[Wide::size - 1] + 1, last)];
+      const auto left_of = [&](const Vector& of, VectorOf<Scalar, 3> Node::*member) {
+        const VectorOf<Scalar, 3>& v = first.*member;
+        return Vector(after(v[0], of[0]), after(v[1], of[1]), after(v[2], of[2]));
       };
-      const auto between =
-          twist(l, left_of(x.director, &Node::director)) - twist(r, right_of(x.director, &Node::director));
-      const Wide angle = onward * twist(b, before_x.director).value() + share * between.value();
-      move_tangent(next, change, &angle);
-    } else {
-      move_tangent<Wide>(next, change, nullptr);
+      const auto right_of = [&](const Vector& of, VectorOf<Scalar, 3> Node::*member) {
+        const VectorOf<Scalar, 3>& v = end.*member;
+        return Vector(before(of[0], v[0]), before(of[1], v[1]), before(of[2], v[2]));
+      };
+      const Vector l = left_of(x.tangent, &Node::tangent), r = right_of(x.tangent, &Node::tangent);
+      next.s = gather(here, [&](int i) { return ahead[i].s; });
+      const Wide along = next.s - x.s - onward * (x.s - before_x.s);  // none at the ends
+      // None where the last node stands again.
+      const Wide share = share_of(along, Wide(before(x.s, end.s) - after(first.s, x.s)));
+      HAPBEAM_UNROLL
+      for (int k = 0; k < 3; ++k) {
+        next.r[k] += along * x.tangent[k];
+        change[k] += share * (r[k] - l[k]);
+      }
+      if constexpr (twists)
+        angle += share * (twist(l, left_of(x.director, &Node::director)) -
+                          twist(r, right_of(x.director, &Node::director)))
+                             .value();
     }
+    if constexpr (twists) move_tangent(next, change, &angle);
+    else move_tangent<Wide>(next, change, nullptr);
     scatter_nodes(here, next, ahead);
   });
 }

@@ -141,6 +141,7 @@ class RodOnMesh {
   }
 
   void take(const Mesh& mesh) noexcept {
+    if (known_ && mesh == mesh_) return;
     mesh_ = mesh;
     // Where all elements are the same their length alone changes.
     const bool alike = profile_.constant() && natural_.straight() && known_;

@@ -70,8 +70,13 @@ class RodShape {
   /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
   /// @param before  becomes what the state is now
   void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {
-    for (int i = 0; i <= elements(); ++i) saved_.nodes[i].s = mesh.position(i);
-    detail::go_on<unknowns == 7>(rod_.nodes(), before.nodes, ratio, saved_.nodes);
+    constexpr bool twist = unknowns == 7;
+    if (mesh == this->mesh() && is_here(before)) {
+      detail::go_on<twist, false>(rod_.nodes(), before.nodes, ratio, saved_.nodes);
+    } else {
+      label(mesh, saved_);
+      detail::go_on<twist, true>(rod_.nodes(), before.nodes, ratio, saved_.nodes);
+    }
     each_inner([&](int e) { saved_.twists[e] = twists()[e] + ratio * (twists()[e] - before.twists[e]); });
     before.take(rod_);
     rod_.take(mesh, saved_.nodes, saved_.twists);
@@ -178,6 +183,12 @@ class RodShape {
   Scalar length_, axial_;
 
  private:
+  /// Whether the nodes of a state have the arc positions that they have now.
+  bool is_here(const State& state) const noexcept {
+    for (int i = 0; i <= elements(); ++i)
+      if (state.nodes[i].s != node(i).s) return false;
+    return true;
+  }
   /// Calls f(element) for those with a twist of their own.
   template <class F>
   void each_inner(F&& f) const noexcept {
