@@ -61,10 +61,12 @@ class Centreline<Scalar, 3> {
     const Node &a = nodes_[i], &b = nodes_[i + 1];
     const VectorOf<Scalar, 3> middle = (a.r + b.r) / 2;
     const Scalar l = b.s - a.s, handle = l * l * (std::max)(a.tangent.squaredNorm(), b.tangent.squaredNorm());
-    // Half a chord and a quarter of that length, by one root: x + y <= √(2x² + 2y²).  1 % for round-off, which may lengthen what is
+    // Half a chord and a quarter of that length, with x + y <= √(2x² + 2y²), squared.  2 % for round-off, which may lengthen what is
     // computed of the piece.
-    const Scalar least = d + Scalar(1.01) * std::sqrt((b.r - a.r).squaredNorm() / 2 + handle / 8);
-    return (shaft.at(shaft.nearest(middle)) - middle).squaredNorm() > least * least;
+    const Scalar far = Scalar(1.02) * ((b.r - a.r).squaredNorm() / 2 + handle / 8);
+    // Farther than d and √far together, without a root.
+    const Scalar more = (shaft.at(shaft.nearest(middle)) - middle).squaredNorm() - d * d - far;
+    return more > 0 && more * more > 4 * d * d * far;
   }
   /// Calls visit(i, segment(i)) for each piece, in order.
   template <class Visitor>

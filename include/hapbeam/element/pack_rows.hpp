@@ -78,6 +78,19 @@ struct PackRows {
   }
   [[gnu::always_inline]] static void store_two(const Wide& first, const Wide& second,
                                                T* const (&rows)[Size]) noexcept {
+#if defined(__AVX512F__) && defined(__GNUC__)
+    if constexpr (in_halves) {
+      const auto put = [&rows](const __m512d& pairs, int k) {
+        const __m256d low = _mm512_castpd512_pd256(pairs), high = _mm512_extractf64x4_pd(pairs, 1);
+        _mm_storeu_pd(rows[k], _mm256_castpd256_pd128(low));
+        _mm_storeu_pd(rows[k + 2], _mm256_extractf128_pd(low, 1));
+        _mm_storeu_pd(rows[k + 4], _mm256_castpd256_pd128(high));
+        _mm_storeu_pd(rows[k + 6], _mm256_extractf128_pd(high, 1));
+      };
+      put(_mm512_unpacklo_pd(first.v_, second.v_), 0), put(_mm512_unpackhi_pd(first.v_, second.v_), 1);
+      return;
+    }
+#endif
     HAPBEAM_UNROLL
     for (int k = 0; k < Size; ++k) rows[k][0] = first[k], rows[k][1] = second[k];
   }
