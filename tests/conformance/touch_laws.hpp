@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/catch.hpp"
+#include "support/pi.hpp"
 #include "support/status.hpp"
 #include <hapbeam/contact/touch.hpp>
 
@@ -127,6 +128,34 @@ void check_friction(Make make, Scalar radius) {
     }
     CHECK(sliding > 100);
     CHECK(sticking > 0);
+
+    // Around a closed path friction takes what the hand gives, to round-off of the energy.
+    constexpr int lap = 300;
+    const auto at = [&](int k) {
+      const double turn = 2 * pi * k / lap;
+      return Vector(middle + length * static_cast<Scalar>(0.02 * std::sin(turn)),
+                    radius - length * static_cast<Scalar>(0.02 - 0.004 * std::cos(turn)));
+    };
+    touch.reset();
+    for (int k = 0; k < 100; ++k)
+      (void)touch.tick(at(0) + Vector(0, length * static_cast<Scalar>(0.03 - 0.0003 * k)));
+    auto before = touch.tick(at(0));
+    double given = 0, taken = 0;
+    bool one = true;
+    for (int k = 1; k <= 2 * lap; ++k) {
+      const auto r = touch.tick(at(k));
+      one = one && r.pressing && r.status == Status::ok;
+      if (k > lap) {
+        given -= static_cast<double>((r.force + before.force).dot(at(k) - at(k - 1))) / 2;
+        taken += static_cast<double>(r.dissipated - before.dissipated);
+      }
+      before = r;
+    }
+    CAPTURE(given, taken);
+    CHECK(one);
+    CHECK(given > 0);
+    CHECK(std::abs(given - taken) <=
+          1e6 * static_cast<double>(std::numeric_limits<Scalar>::epsilon()) * taken);
   }
 }
 

@@ -1,7 +1,7 @@
 // What a contact takes as it gives way: the coefficient of sliding is the smaller one, and the beam springs back within a tick.
 //
-// The work of the hands less the energy of beam and skins is what friction took, in the tick of the jump and on closed paths.  And the same way is
-// gone slowly beside it.  The hands are held where the slide is about to begin, and the coefficient falls to that of sliding in a
+// The work of the hands less the energy of beam and skins is what friction took, in the tick of the jump and on closed paths.  And the same
+// way is gone slowly beside it.  The hands are held where the slide is about to begin, and the coefficient falls to that of sliding in a
 // thousand steps; then all of it is a slide with one coefficient, and ∫T|slip| by trapezoids is what friction takes.  The beam's energy falls by
 // as much.
 #include <cmath>
@@ -108,7 +108,7 @@ TEST_CASE("what a contact takes as it gives way is what it takes of the same way
                    error = std::abs(at_once / slowly - 1);
       CAPTURE(holding, step, begins, at_once, balance, slowly, lost, error);
       CHECK(slowly > 1e-4);
-      CHECK(std::abs(at_once / balance - 1) <= 1e-5);
+      CHECK(std::abs(at_once / balance - 1) <= 1e-6);
       CHECK(std::abs(lost / slowly - 1) <= 1e-5);
       CHECK(error <= step / 2e-7 * 1e-2);
       CHECK((coarse == 0 || error <= coarse / 2));  // of first order in the step
@@ -140,49 +140,11 @@ TEST_CASE("a jump in which nodes follow their contacts takes what the beam loses
       if (took > 0.01) {
         CAPTURE(step, k, took, balance);
         jumps += std::abs(before.places[1].s - now.places[1].s) > 1e-3 * ruler_length;
-        CHECK(std::abs(took / balance - 1) <= 25 * step);
+        CHECK(std::abs(took / balance - 1) <= 1e-9);
       }
       before = now;
     }
     CHECK(jumps == 1);
-  }
-}
-
-namespace {
-
-/// A contact that gave way, as GivingWay sees it.
-struct Rubbing {
-  using Vector = Vector2<double>;
-  struct Place {};
-  Vector force{0, 0}, way{0, 0};
-  bool falling = false;
-  Vector acting() const { return force; }
-  Vector shear() const { return way; }
-  Place place() const { return {}; }
-  Vector carried(const Vector& v, Place) const { return v; }
-  bool slides() const { return true; }
-  bool falls() const { return falling; }
-};
-struct Falling {
-  double potential;
-  double total_potential() const { return potential; }
-};
-
-}  // namespace
-
-// The beam falls as the contact gives way, and what slides does that without friction.
-TEST_CASE("a contact that gives way into a fall dissipates nothing", "[friction][several]") {
-  for (const bool falling : {false, true}) {
-    Rubbing contact{{5, 0}, {1e-3, 0}};
-    const auto each = [&](auto&& use) { use(0, contact); };
-    detail::GivingWay<Rubbing, 1> giving_way;
-    giving_way.mark(0, Falling{1}, each);
-    contact = {{3, 0}, {3e-3, 0}, falling};
-    const double more = giving_way.beyond_trapezoids(Falling{0.99}, contact, {5, 0}, 0, each),
-                 most = giving_way.most(0, contact, {5, 0});
-    if (falling) CHECK((more == 0 && most == 0));
-    else CHECK(std::abs(more - (0.01 - 8 * 2e-3 / 2)) <= 1e-12);
-    if (!falling) CHECK(std::abs(most - (5 - 3) * 2e-3 / 2) <= 1e-15);
   }
 }
 
@@ -193,7 +155,7 @@ TEST_CASE("two contacts that give way by turns take what a closed path gives", "
     return hand == 0 ? Vector(0.1329 - 0.001 * std::cos(a), 0.0049 * up - 0.0055)
                      : Vector(0.2027 + 0.0053 * std::sin(a + 2.56), 0.0017 * up - 0.0123);
   };
-  for (const int ticks : {12000, 48000}) {
+  for (const int ticks : {12000, 24000}) {
     Model model(steel_ruler(), 32);
     Touching touch(model, {{0.005, 1, Friction(0.97, 0.68)}, {0.005, 1, Friction(0.147, 0.103)}});
     for (int k = 0; k < 40; ++k)
@@ -219,11 +181,11 @@ TEST_CASE("two contacts that give way by turns take what a closed path gives", "
     }
     CAPTURE(ticks, given, took, turned);
     CHECK(turned > 2);
-    CHECK(std::abs(given / took - 1) <= (ticks == 12000 ? 1e-5 : 5e-6));
+    CHECK(std::abs(given / took - 1) <= 1e-9);
   }
 }
 
-// As a hand gives way, so does the other one, which the beam then carries the other way: more than the first one can have.  It left 1.5e-4.
+// As a hand gives way, so does the other one, which the beam then carries the other way.
 TEST_CASE("contacts that give way within one tick share what the beam loses", "[friction][several]") {
   FemModel<Several<Corotational<>, 3>> model(steel_ruler(), 16);
   TouchSeveral touch(model, {{0.005, 1, Friction(0.508, 0.3556)}, {0.005, 1, Friction(0.0532, 0.03724)}},
@@ -265,5 +227,5 @@ TEST_CASE("contacts that give way within one tick share what the beam loses", "[
   }
   CAPTURE(given, took, together);
   CHECK(together > 20);
-  CHECK(std::abs(given - took - (stored(before, model) - energy)) <= 2e-5 * took);
+  CHECK(std::abs(given - took - (stored(before, model) - energy)) <= 1e-9 * took);
 }

@@ -8,6 +8,7 @@
 #include "support/check_cone.hpp"
 #include "support/pi.hpp"
 #include "support/random.hpp"
+#include "support/rubbing.hpp"
 #include "support/ruler.hpp"
 #include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/element/corotational.hpp>
@@ -24,9 +25,15 @@ using Touching = TouchSeveral<Model>;
 using Place = TouchPlace<double>;
 using Hands = std::array<Vector, 2>;
 
+template <class AnyModel>
+Rubbing rubbing(const AnyModel& model, const Place& place) {
+  return {place.s, place.normal, place.friction, stretch_at(model.shape(), place.s)};
+}
+
 }  // namespace
 
-// Both hands go round closed paths of their own, either way about.
+// Both hands go round closed paths of their own, either way about.  What they give is what friction took, whatever the step; ∫ T · dslip by trapezoids is as far
+// from that as a tick is long.
 TEST_CASE("work of two hands round closed paths is what friction takes at both", "[friction][several]") {
   // @param less  the coefficient of sliding, in units of the other one
   const auto worst = [](const Beam& beam, double half, double most, int paths, int ticks, int elements = 16,
@@ -68,7 +75,8 @@ TEST_CASE("work of two hands round closed paths is what friction takes at both",
         (void)touch.tick(at.data(), 2);
       }
       auto before = touch.tick(path(0).data(), 2);
-      double given = 0, taken = 0;
+      double given = 0, taken = 0, felt = 0;
+      Rubbing last[2];
       for (int k = 1; k <= 2 * ticks; ++k) {
         const Hands from = path(double(k - 1) / ticks), to = path(double(k) / ticks);
         const auto now = touch.tick(to.data(), 2);
@@ -79,28 +87,35 @@ TEST_CASE("work of two hands round closed paths is what friction takes at both",
           REQUIRE(b.touching);
           check_cone(b, friction[i]);
           REQUIRE(b.dissipated >= a.dissipated);
-          if (k <= ticks) continue;
+          if (k <= ticks) {
+            last[i] = rubbing(model, b);
+            continue;
+          }
           given -= (a.force + b.force).dot(to[std::size_t(i)] - from[std::size_t(i)]) / 2;
           taken += b.dissipated - a.dissipated;
+          const Rubbing here = rubbing(model, b);
+          felt += rubbed(last[i], here, reach);
+          last[i] = here;
         }
         before = now;
       }
       CAPTURE(n, given, taken);
       CHECK(given > 0);
-      largest = std::max(largest, std::abs(given - taken) / taken);
+      CHECK(std::abs(given - taken) <= 1e-9 * taken);
+      largest = std::max(largest, std::abs(felt - taken) / taken);
     }
     return largest;
   };
   const Beam bar(1, Section::rectangle(0.02, 0.01), Material{200e9}, Support::pinned, Support::pinned);
   CHECK(worst(steel_ruler(), 0.0005, 0.03, 4, 6000) <= 1e-6);
   CHECK(worst(bar, 0.005, 0.008, 4, 6000) <= 1e-6);
-  CHECK(worst(steel_ruler(), 0.0005, 0.03, 4, 6000, 32, 0.7) <= 3e-7);
+  CHECK(worst(steel_ruler(), 0.0005, 0.03, 4, 6000, 32, 0.7) <= 1e-5);
   CHECK(worst(bar, 0.005, 0.008, 4, 6000, 16, 0.7) <= 3e-7);
   CHECK(worst(steel_ruler(), 0.0005, 0.03, 50, 300) <= 1e-3);
   CHECK(worst(bar, 0.005, 0.008, 50, 300) <= 1e-3);
 }
 
-// Nodes follow three contacts, whose parts of the ruler are short, and would pass from one part to another on this path.  Both left 1.9e-4.
+// Nodes follow three contacts, whose parts of the ruler are short, and would pass from one part to another on this path: ∫ T · dslip then is 1.9e-4 off.
 TEST_CASE("two hands that press a ruler onto a rough peg give what friction takes with 16 elements",
           "[friction][several]") {
   FemModel<Several<Corotational<>, 3>> model(steel_ruler(), 16);
@@ -120,7 +135,8 @@ TEST_CASE("two hands that press a ruler onto a rough peg give what friction take
   }
   constexpr int ticks = 6000;
   auto before = touch.tick(path(0).data(), 2);
-  double given = 0, taken = 0, stored = 0;
+  double given = 0, taken = 0, felt = 0, stored = 0;
+  Rubbing last[3];
   for (int k = 1; k <= 2 * ticks; ++k) {
     const Hands from = path(double(k - 1) / ticks), to = path(double(k) / ticks);
     const auto now = touch.tick(to.data(), 2);
@@ -132,13 +148,17 @@ TEST_CASE("two hands that press a ruler onto a rough peg give what friction take
       REQUIRE(b.dissipated >= a.dissipated);
       if (i < 2) given -= (a.force + b.force).dot(to[i] - from[i]) / 2;
       taken += b.dissipated - a.dissipated;
+      const Rubbing here = rubbing(model, b);
+      felt += rubbed(last[i], here, 0.0055);
+      last[i] = here;
     }
     before = now;
-    if (k == ticks) given = taken = 0, stored = model.strain_energy();
+    if (k == ticks) given = taken = felt = 0, stored = model.strain_energy();
   }
-  CAPTURE(given, taken, stored, model.strain_energy());
+  CAPTURE(given, taken, felt, stored, model.strain_energy());
   CHECK(taken > 1);
-  CHECK(std::abs(given - taken - (model.strain_energy() - stored)) <= 2e-6 * taken);
+  CHECK(std::abs(given - taken - (model.strain_energy() - stored)) <= 1e-9 * taken);
+  CHECK(std::abs(felt - taken) <= 2e-6 * taken);
 }
 
 // Two hands and a peg, each with coefficients of its own; ways at the speed of a hand, jumps, and places that are none.

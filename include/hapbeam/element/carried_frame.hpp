@@ -90,9 +90,8 @@ struct CarriedPoint {
   }
   /// Curvatures and twist.   @param rate  θ' l
   void strains(S theta, S rate, S inverse_length, S (&k)[3]) const noexcept {
-    using std::cos;
-    using std::sin;
-    const S co = cos(theta), si = sin(theta);
+    S co, si;
+    cos_and_sin(theta, co, si);
     k[0] = (co * K1 + si * K2) * inverse_length;
     k[1] = (co * K2 - si * K1) * inverse_length;
     k[2] = (rate - c) * inverse_length;

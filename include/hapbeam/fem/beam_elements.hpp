@@ -133,9 +133,16 @@ class BeamElements {
   }
   /// [J]
   Scalar strain_energy() const noexcept {
-    Scalar energy = 0;
-    for (int e = 0; e < size(); ++e) energy += Element::energy(properties_[e], displacements(e));
-    return energy;
+    Scalar sum = 0;
+    if constexpr (goes_abreast<Element>) {
+      for (int first = 0; first < size(); first += Group::size) {
+        const auto energy = gather(first, [](const auto& p, const auto& d) { return Element::energy(p, d); });
+        for (int e = first; e < (std::min)(first + Group::size, size()); ++e) sum += energy[e - first];
+      }
+    } else {
+      for (int e = 0; e < size(); ++e) sum += Element::energy(properties_[e], displacements(e));
+    }
+    return sum;
   }
   /// Of λ times the loads [J].
   Scalar work(Scalar lambda) const noexcept {
@@ -153,15 +160,20 @@ class BeamElements {
   }
 
   void respond_abreast(int first, Group& group) const noexcept {
+    group.core = gather(first, [](const auto& p, const auto& d) { return Element::core(p, d); });
+  }
+  /// Of a group from its first element on: use(properties, displacements), side by side.
+  template <class Use>
+  [[gnu::always_inline]] auto gather(int first, Use&& use) const noexcept {
     using Wide = typename Group::Number;
-    const auto gather = [&](auto&& number) {
+    const auto each = [&](auto&& number) {
       return Wide::of([&](int k) { return number((std::min)(first + k, size() - 1)); });
     };
     const auto property = [&](Scalar ElementProperties<Scalar>::*member) {
-      return gather([&](int e) { return properties_[e].*member; });
+      return each([&](int e) { return properties_[e].*member; });
     };
     const auto moved = [&](int by, Scalar Node::*member) {
-      return gather([&](int e) { return nodes_[e + by].*member; });
+      return each([&](int e) { return nodes_[e + by].*member; });
     };
     using P = ElementProperties<Scalar>;
     ElementProperties<Wide> p;
@@ -174,7 +186,7 @@ class BeamElements {
     p.natural_b = property(&P::natural_b);
     const Vector6<Wide> d(moved(0, &Node::u), moved(0, &Node::w), moved(0, &Node::theta), moved(1, &Node::u),
                           moved(1, &Node::w), moved(1, &Node::theta));
-    group.core = Element::core(p, d);
+    return use(p, d);
   }
   Scalar subtract_loads(int e, Scalar lambda, const Vector6<Scalar>& d, Vector6<Scalar>& r,
                         Matrix6<Scalar>* K) const noexcept {

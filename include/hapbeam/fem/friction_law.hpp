@@ -188,20 +188,11 @@ class FrictionLaw {
     return !slides_ &&
            !(force_.squaredNorm() <= squared((1 + exact) * sticking_ * (std::max)(normal_force, Scalar(0))));
   }
-  /// Whether its force falls as it begins to slide.
-  bool gives_way() const noexcept { return sticking_ > sliding_; }
   bool slides() const noexcept { return slides_; }
   /// T of an equilibrium, after look() [N]
   Vector acting() const noexcept { return slides_ ? force_at(used_) : force_; }
-  /// e [m]
-  const Vector& shear() const noexcept { return sheared_; }
   /// Where they touch, after look().
   const Place& place() const noexcept { return now_; }
-  /// What lay across the normal of a place, turned with it to the present one.
-  Vector carried(const Vector& v, const Place& from) const noexcept {
-    if constexpr (D == 2) return v.dot(from.along) * now_.along;
-    else return carry<Scalar>(v, from.normal, now_.normal);
-  }
   /// What it can hold as it begins to slide, by the last tick [N].
   Scalar last_bound() const noexcept { return before_bound_; }
   /// Whether it slides without friction.
@@ -233,23 +224,22 @@ class FrictionLaw {
   bool torn() const noexcept { return torn_; }
 
   /// What the touch remembers of it.  @param normal_force  [N]
-  /// @return what was dissipated beyond a trapezoid between both ticks [J]
-  Scalar leave(FrictionState<Scalar, D>& state, Scalar normal_force) const noexcept {
+  void leave(FrictionState<Scalar, D>& state, Scalar normal_force) const noexcept {
     const Vector elastic = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
     const Scalar size = norm(elastic),
                  most = (slides_ ? sliding_ : sticking_) * (std::max)(normal_force, Scalar(0));
     const bool slid = size > most;
     const Vector before = carried(state.force, before_);
-    const bool falls_or_slides = state.slides || gives_way();
+    const bool falls_or_slides = state.slides || sticking_ > sliding_;
     state.force = slid ? Vector(elastic * (most / size)) : elastic;
     state.skin = slid ? Vector((state.force + damping_ * carried_) / (stiffness_ + damping_)) : sheared_;
     state.slip = norm(sheared_);
     // The sum of ½ (T before + T) · slip of all contacts is the work of the hands by trapezoids less the energy of the beam, where that is
     // quadratic, whatever happens within the tick: so it is where T falls at once.  What turns back slides with all of its force.
-    const Vector trapezoid = (before + state.force) / 2, slid_by = sheared_ - state.skin,
-                 mean = falls_or_slides && before.dot(state.force) > 0 ? trapezoid : state.force;
-    if (!fallen_) state.dissipated += mean.dot(slid_by) + damping_ * (state.skin - carried_).squaredNorm();
-    const Scalar beyond = fallen_ ? Scalar(0) : (mean - trapezoid).dot(slid_by);
+    const Vector mean =
+        falls_or_slides && before.dot(state.force) > 0 ? Vector((before + state.force) / 2) : state.force;
+    if (!fallen_)
+      state.dissipated += mean.dot(sheared_ - state.skin) + damping_ * (state.skin - carried_).squaredNorm();
     if (fallen_) state.force.setZero(), state.skin.setZero();
     const bool goes_on = state.slides;
     state.known = true;
@@ -261,8 +251,9 @@ class FrictionLaw {
     state.s = now_.s, state.ahead = now_.ahead, state.normal = now_.normal, state.along = now_.along;
     state.place = now_.place, state.axis = now_.axis;
     state.gain = gain_;
-    return beyond;
   }
+  /// Energy of the skin of a touch, after leave() [J]
+  Scalar held(const State& state) const noexcept { return stiffness_ / 2 * state.skin.squaredNorm(); }
 
  private:
   static constexpr int most_tries = 8;
@@ -272,6 +263,11 @@ class FrictionLaw {
     sheared_ = carried_ + slip();
   }
 
+  /// What lay across the normal of a place, turned with it to the present one.
+  Vector carried(const Vector& v, const Place& from) const noexcept {
+    if constexpr (D == 2) return v.dot(from.along) * now_.along;
+    else return carry<Scalar>(v, from.normal, now_.normal);
+  }
   static Scalar squared(Scalar x) noexcept { return x * x; }
   static Scalar norm(const Vector& v) noexcept { return std::sqrt(v.squaredNorm()); }
   Scalar rate() const noexcept { return std::clamp(1 - sliding_ * gain_, Scalar(0.25), Scalar(4)); }

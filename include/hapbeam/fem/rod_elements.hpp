@@ -144,14 +144,16 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
   }
   /// [J]
   Scalar strain_energy() const noexcept {
-    Scalar energy = 0;
-    for (int e = 0; e < size(); ++e) {
-      Inner inner;
-      if constexpr (has_twist) inner.twist = twists_[e];
-      energy += Element::energy(properties_[e], nodes_[e], nodes_[e + 1], inner);
-      if (!bed_.empty()) energy += bed_.energy(e, nodes_[e], nodes_[e + 1]);
+    Scalar sum = 0;
+    for (int first = 0; first < places(); first += lanes) {
+      WideInner inner;
+      RodNode<Wide> a, b;
+      gather(first, inner, a, b);
+      const Wide energy = Element::energy(abreast_.properties(first), a, b, inner);
+      for_each_lane(first, [&](int, int lane) { sum += energy[lane]; });
     }
-    return energy;
+    for (int e = 0; !bed_.empty() && e < size(); ++e) sum += bed_.energy(e, nodes_[e], nodes_[e + 1]);
+    return sum;
   }
   /// Of λ times the loads [J].
   Scalar work(Scalar lambda) const noexcept {
@@ -178,9 +180,9 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
   using Stiffness = detail::RodTangentOf<Element, Wide>;
 
   int places() const noexcept { return 2 * abreast_.order().pairs(); }
-  /// @param first  of the places of elements   @param inner, K  out   @return their energies [J]
-  [[gnu::always_inline]] Wide compute(int first, WideInner& inner,
-                                      typename Stiffness::Type& K) const noexcept {
+  /// @param first  of the places of elements   @param inner, a, b  out: their twists and nodes
+  [[gnu::always_inline]] void gather(int first, [[maybe_unused]] WideInner& inner, RodNode<Wide>& a,
+                                     RodNode<Wide>& b) const noexcept {
     const auto& order = abreast_.order();
     if constexpr (has_twist)
       if (has_inner())
@@ -191,7 +193,6 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     const Node *const left = &nodes_[order.node((std::min)(first + lanes, order.last_node() - 1))],
                       *const right = &nodes_[order.node((std::min)(first + lanes + 1, order.last_node()))];
     const RodNode<Wide> outer = detail::gather_nodes<has_twist>(of, nodes_);
-    RodNode<Wide> a, b;
     const auto take = [&](auto member, auto from) {
       HAPBEAM_UNROLL
       for (int c = 0; c < 3; ++c) {
@@ -203,6 +204,12 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     take(&RodNode<Wide>::r, &Node::r);
     take(&RodNode<Wide>::tangent, &Node::tangent);
     if constexpr (has_twist) take(&RodNode<Wide>::director, &Node::director);
+  }
+  /// @param inner, K  out   @return the energies of those from a place on [J]
+  [[gnu::always_inline]] Wide compute(int first, WideInner& inner,
+                                      typename Stiffness::Type& K) const noexcept {
+    RodNode<Wide> a, b;
+    gather(first, inner, a, b);
     return Stiffness::compute(abreast_.properties(first), a, b, inner, K);
   }
   /// Calls f(element, lane) for those from a place on.

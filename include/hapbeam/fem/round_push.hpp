@@ -16,6 +16,7 @@
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/contact_search.hpp>
 #include <hapbeam/fem/foresight.hpp>
+#include <hapbeam/fem/friction_balance.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
@@ -47,7 +48,7 @@ class RoundPush {
 
   /// To be called where something else moves the beam.
   void forget() noexcept {
-    foresight_.forget();
+    foresight_.forget(), balance_.forget();
     sharp_ = false;
     forget_shape();
   }
@@ -58,18 +59,17 @@ class RoundPush {
   /// @param state  of friction, null: without
   template <class Way, class Extent>
   Result push(Way& way, const Round& request, const Extent& range, FrictionState* state) noexcept {
-    if (!state) return find(way, request, range, nullptr);
+    if (!state) {
+      balance_.forget();
+      return find(way, request, range, nullptr);
+    }
     System& system = way.system_;
     Friction friction(*state, RoundContact{request}, system, -system.linear_reaction(), true);
     system.set_friction(&friction);
     const Result pushed = find(way, request, range, &friction);
     // What is no answer says nothing of where they touch: friction begins anew.
-    if (is_answer(pushed.status) && pushed.force < 0) {
-      system.look_at_friction();
-      (void)friction.leave(*state, -pushed.force);
-    } else {
-      state->let_go();
-    }
+    if (is_answer(pushed.status) && pushed.force < 0) leave(system, request, pushed, friction, *state);
+    else state->let_go(), balance_.forget();
     system.forget_friction();
     return pushed;
   }
@@ -105,6 +105,20 @@ class RoundPush {
       s = std::clamp(next.s, Scalar(0), system.length());
       normal = next.normal;
     }
+  }
+
+  void leave(System& system, const Round& request, const Result& pushed, const Friction& friction,
+             FrictionState& state) noexcept {
+    const Scalar before = state.dissipated;
+    const bool slid = state.slides;
+    system.look_at_friction();
+    friction.leave(state, -pushed.force);
+    if (friction.falls() || pushed.status != Status::ok) return balance_.forget();
+    balance_.begin();
+    balance_.touches(0, request, pushed, state.force);
+    const Scalar taken = state.dissipated - before;
+    const auto potential = [&] { return system.total_potential() + friction.held(state); };
+    state.dissipated = before + taken * balance_.factor(potential, taken, slid || state.slides);
   }
 
   struct Trial {
@@ -231,6 +245,7 @@ class RoundPush {
   }
 
   Foresight<System, Round> foresight_;
+  FrictionBalance<Round, Scalar, dimension, 1> balance_;
   bool sharp_ = false;  // where the last circle touched
   typename RoundContact::Curvature curvature_{};
   int curved_ = -1;  // the node that has this curvature

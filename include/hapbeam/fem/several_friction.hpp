@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <optional>
 
-#include <hapbeam/fem/giving_way.hpp>
+#include <hapbeam/fem/friction_balance.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/friction.hpp>
 
@@ -23,6 +23,7 @@ class SeveralFriction {
 
  public:
   using Friction = typename System::Friction;
+  using Vector = typename Friction::Vector;
 
   /// @param all  those that touch and have friction go on as they did
   SeveralFriction(const System& system, Obstacle* all, int count) noexcept : all_(all), count_(count) {
@@ -62,8 +63,6 @@ class SeveralFriction {
           (first < 0 || friction.last_bound() < of(first)->last_bound()))
         first = i;
     });
-    if (first >= 0 && of(first)->gives_way())
-      giving_way_.mark(first, system, [this](auto&& use) { this->each(use); });
     // What two hold between them says nothing of either: the one that holds less slides, and then the other one may stick.
     if (first >= 0 && !of(first)->settled(normal_force(first))) return false;
     bool all = true;
@@ -82,43 +81,46 @@ class SeveralFriction {
     each([&](int, Friction& friction) { any = friction.torn() || any; });
     return any;
   }
-  /// To be called where a push ends: what has no answer begins anew.  @param goal  as above, -1: none
-  template <class Goal>
-  void leave(System& system, bool answered, Goal&& goal) noexcept {
-    const int given_way = giving_way_.contact();
-    const bool any =
-        answered && given_way >= 0 && all_[given_way].touching && all_[given_way].pushed.force < 0;
-    std::array<Last, Most> last;
-    Scalar counted = 0;
+  /// To be called where a push ends: what has no answer begins anew.
+  /// @param balance  a FrictionBalance   @param goal  as above, -1: none
+  template <class Balance, class Goal>
+  void leave(System& system, Status status, Balance& balance, Goal&& goal) noexcept {
+    const bool answered = is_answer(status);
+    std::array<Scalar, Most> before{};
+    Scalar taken = 0, skins = 0;
+    bool slides = false, on_its_way = status == Status::ok && any_;
+    balance.begin();
     for (int i = 0; i < count_; ++i) {
-      if (!all_[i].friction) continue;
-      const int k = goal(i);
-      if (answered && of(i) && all_[i].touching && k >= 0 && all_[i].pushed.force < 0) {
-        system.look_at_friction(k);
-        const auto& state = *all_[i].friction;
-        if (any) last[at(i)] = {state.force, state.dissipated, state.known && !state.slides};
-        counted += of(i)->leave(*all_[i].friction, -all_[i].pushed.force);
-      } else {
-        all_[i].friction->let_go();
+      auto* state = all_[i].friction;
+      const bool touches = answered && all_[i].touching;
+      if (state) before[at(i)] = state->dissipated;
+      if (state && of(i) && touches && goal(i) >= 0 && all_[i].pushed.force < 0) {
+        system.look_at_friction(goal(i));
+        slides = slides || state->slides;
+        of(i)->leave(*state, -all_[i].pushed.force);
+        slides = slides || state->slides;
+        taken += state->dissipated - before[at(i)];
+        skins += of(i)->held(*state);
+        on_its_way = on_its_way && !of(i)->falls();
+      } else if (state) {
+        state->let_go();
       }
+      if (!touches || !any_) continue;
+      if (all_[i].kind == ObstacleKind::round)
+        balance.touches(i, all_[i].round, all_[i].pushed, state ? state->force : Vector(Vector::Zero()));
+      else balance.holds(i, all_[i].place);
     }
-    if (any) {
-      Scalar rest = giving_way_.beyond_trapezoids(system, *of(given_way), last[at(given_way)].force, counted,
-                                                  [this](auto&& use) { this->each(use); });
-      const auto take = [&](int i, const Friction& friction) {
-        const Scalar most = giving_way_.most(i, friction, last[at(i)].force),
-                     part = std::clamp(rest, -most, most);
+    if (!any_) return balance.forget();
+    if (on_its_way) {
+      const Scalar factor = balance.factor([&] { return system.total_potential() + skins; }, taken, slides);
+      each([&](int i, const Friction&) {
         Scalar& dissipated = all_[i].friction->dissipated;
-        dissipated = (std::max)(dissipated + part, last[at(i)].dissipated);
-        rest -= part;
-      };
-      take(given_way, *of(given_way));
-      // Those that have given way at it.
-      each([&](int i, const Friction& friction) {
-        if (i != given_way && last[at(i)].stuck) take(i, friction);
+        dissipated = before[at(i)] + factor * (dissipated - before[at(i)]);
       });
+    } else {
+      balance.forget();
     }
-    if (any_) system.forget_friction();
+    system.forget_friction();
   }
   /// To be called thereafter where it was answered.  @param tilts  a ContactTilt
   template <class Tilts, class Goal>
@@ -134,13 +136,6 @@ class SeveralFriction {
   }
 
  private:
-  /// Of a contact, in the push before.
-  struct Last {
-    typename Friction::Vector force = Friction::Vector::Zero();
-    Scalar dissipated = 0;
-    bool stuck = false;
-  };
-
   bool rough(int i) const noexcept {
     return all_[i].kind == ObstacleKind::round && all_[i].friction && all_[i].friction->sticking > 0;
   }
@@ -157,7 +152,6 @@ class SeveralFriction {
   int count_;
   bool any_ = false;
   std::array<std::optional<Friction>, Most> laws_;
-  GivingWay<Friction, Most> giving_way_;
 };
 
 }  // namespace hapbeam::detail

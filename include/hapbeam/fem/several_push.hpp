@@ -19,6 +19,7 @@
 
 #include <hapbeam/fem/active_set.hpp>
 #include <hapbeam/fem/contact_tilt.hpp>
+#include <hapbeam/fem/friction_balance.hpp>
 #include <hapbeam/fem/round_push.hpp>
 #include <hapbeam/fem/several_foresight.hpp>
 #include <hapbeam/fem/several_friction.hpp>
@@ -66,7 +67,7 @@ class SeveralPush : private ActiveSet<Element, System> {
   }
 
   /// To be called where something else moves the beam.
-  void forget() noexcept { foresight_.forget(), tilts_.forget(); }
+  void forget() noexcept { foresight_.forget(), tilts_.forget(), balance_.forget(); }
 
   /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
   /// @param all  in: where they are and whether they touched;  out: whether they touch, and their forces
@@ -102,7 +103,7 @@ class SeveralPush : private ActiveSet<Element, System> {
     if (snapped && status == Status::ok) status = Status::snapped;
     for (int i = 0; i < count; ++i) this->end(system, i, status);
     const auto goal = [this](int i) { return slot(i).goal; };
-    friction.leave(system, is_answer(status), goal);
+    friction.leave(system, status, balance_, goal);
     if (is_answer(status)) friction.learn(system, tilts_, goal);
     foresight_.know(all, count, status == Status::ok);
     return status;
@@ -251,6 +252,8 @@ class SeveralPush : private ActiveSet<Element, System> {
   std::array<Law, most> laws_{};
   SeveralForesight<System, Obstacle, most> foresight_;
   ContactTilt<System, most> tilts_;
+  FrictionBalance<typename SystemOf<Element>::template Round<Scalar>, Scalar, dimension_of<Element>, most>
+      balance_;
 };
 
 }  // namespace hapbeam::detail
