@@ -185,3 +185,24 @@ TEST_CASE("what a contact has dissipated ends with it, wherever the next one beg
     for (int k = 0; k < 50; ++k) (void)onto.tick(Vector(0.25, 0.05));
   }
 }
+
+// A way that was gone without friction would be a slip as friction comes back.
+TEST_CASE("a contact whose friction is taken off and put on again begins anew", "[friction][several]") {
+  Model model(steel_ruler(), 16);
+  Touching touch(model, {finger(0.4), 0.005});
+  const Vector away(0.25, -0.05);
+  double x = 0.15;
+  const auto draw = [&](double to) {
+    double dissipated = 0;
+    for (; x < to - 5e-5; x += 1e-4) dissipated = touch.tick(Vector(x, -0.01), away).places[0].dissipated;
+    return dissipated;
+  };
+  for (int k = 0; k <= 100; ++k) (void)touch.tick(Vector(x, 0.006 - 1.6e-4 * k), away);
+  const double taken = draw(0.17);
+  touch.set_friction(0, 0);
+  (void)draw(0.2);
+  touch.set_friction(0, 0.4);
+  CHECK(taken > 1e-3);
+  CHECK(draw(0.2001) <= taken * (1 + 1e-12));
+  CHECK(draw(0.205) > taken);
+}

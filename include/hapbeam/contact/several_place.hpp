@@ -41,6 +41,8 @@ struct SeveralPlace {
   void take(const Friction& coefficients) noexcept {
     friction.sticking = static_cast<Scalar>(coefficients.sticking);
     friction.sliding = static_cast<Scalar>(coefficients.sliding);
+    // It is not looked at while it has none.
+    if (coefficients.none()) friction.let_go();
   }
   bool rough() const noexcept { return friction.sticking > 0; }
   /// Whether it is a place of the beam that is held.

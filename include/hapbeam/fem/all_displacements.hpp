@@ -93,7 +93,7 @@ class AllDisplacements {
     if (!is_answer(rest_.status)) return report_.status = rest_.status, take();
     if (!system_.place_end(k, pose)) return take();
     single_valued_ = false;
-    round_.forget_shape();
+    round_.forget_shape(), several_.forget_shape();
     const auto aim = [this] { system_.set_goal(); };
     aim();
     // On the way down Newton's method may be near enough by now.

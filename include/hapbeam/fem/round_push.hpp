@@ -48,12 +48,15 @@ class RoundPush {
 
   /// To be called where something else moves the beam.
   void forget() noexcept {
-    foresight_.forget(), balance_.forget();
+    foresight_.forget();
     sharp_ = false;
     forget_shape();
   }
   /// The same where what the hand did goes on.
-  void forget_shape() noexcept { curved_ = -1; }
+  void forget_shape() noexcept {
+    curved_ = -1;
+    balance_.forget();
+  }
 
   /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
   /// @param state  of friction, null: without

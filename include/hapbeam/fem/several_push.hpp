@@ -67,7 +67,9 @@ class SeveralPush : private ActiveSet<Element, System> {
   }
 
   /// To be called where something else moves the beam.
-  void forget() noexcept { foresight_.forget(), tilts_.forget(), balance_.forget(); }
+  void forget() noexcept { foresight_.forget(), tilts_.forget(), forget_shape(); }
+  /// As RoundPush::forget_shape().
+  void forget_shape() noexcept { balance_.forget(); }
 
   /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
   /// @param all  in: where they are and whether they touched;  out: whether they touch, and their forces
