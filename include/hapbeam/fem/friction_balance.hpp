@@ -40,19 +40,22 @@ class FrictionBalance {
   /// With each body that touches.  @param pushed  of it   @param friction  on the beam [N]
   void touches(int i, const Round& round, const Pushed<Scalar, D>& pushed, const Vector& friction) noexcept {
     Body& body = bodies_[of(i)];
-    if (body.round.reach != round.reach) forget();
     const Vector force = pushed.force * pushed.normal + friction;
-    work_ += (body.force.dot(moved(body.round, round, body.point)) +
-              force.dot(moved(body.round, round, pushed.point))) /
-             2;
-    body = {round, force, pushed.point, {0, 0, Vector::Zero()}};
+    if (body.round.reach != round.reach) forget();
+    else
+      work_ += (body.force.dot(moved(body.round, round, body.point)) +
+                force.dot(moved(body.round, round, pushed.point))) /
+               2;
+    body.round = round, body.force = force, body.point = pushed.point;
+    body.place.normal.setZero();
     touching_[of(i)] = true;
   }
   /// The same of a place of the beam that is held, and does not move.
   void holds(int i, const Push<Scalar, D>& place) noexcept {
-    const Push<Scalar, D>& before = bodies_[of(i)].place;
-    if (before.s != place.s || before.d != place.d || before.normal != place.normal) forget();
-    bodies_[of(i)] = {{}, Vector::Zero(), Vector::Zero(), place};
+    Body& body = bodies_[of(i)];
+    if (body.place.s != place.s || body.place.d != place.d || body.place.normal != place.normal) forget();
+    body.place = place;
+    body.round.reach = 0;
     touching_[of(i)] = true;
   }
   /// @param potential  () -> V of the answer [J]   @param taken  Σ D [J]   @param slides  whether any of them slides now, or did before
