@@ -63,10 +63,10 @@ class Centreline<Scalar, 3> {
     const Scalar l = b.s - a.s, handle = l * l * (std::max)(a.tangent.squaredNorm(), b.tangent.squaredNorm());
     // Half a chord and a quarter of that length, with x + y <= √(2x² + 2y²), squared.  2 % for round-off, which may lengthen what is
     // computed of the piece.
-    const Scalar far = Scalar(1.02) * ((b.r - a.r).squaredNorm() / 2 + handle / 8);
-    // Farther than d and √far together, without a root.
-    const Scalar more = (shaft.at(shaft.nearest(middle)) - middle).squaredNorm() - d * d - far;
-    return more > 0 && more * more > 4 * d * d * far;
+    const Scalar least2 = Scalar(1.02) * ((b.r - a.r).squaredNorm() / 2 + handle / 8);
+    // Farther than d and √least2 together, without a root.
+    const Scalar more = (shaft.at(shaft.nearest(middle)) - middle).squaredNorm() - d * d - least2;
+    return more > 0 && more * more > 4 * d * d * least2;
   }
   /// Calls visit(i, segment(i)) for each piece, in order.
   template <class Visitor>
