@@ -1,39 +1,28 @@
 // Coulomb friction within a push: backward Euler over the tick, as a potential of which Newton's method finds the minimum.
 //
-//   e  = e₀ + slip                      shear of the avatar's skin, e₀ carried along from the tick before
-//   slip = t Δs + D Δn - a Δλ           s, λ: lengths along beam, as it is stretched, and avatar's axis, t, a: their directions, n: normal
+//   e  = e₀ + slip                      shear of the avatar's skin, e₀ carried along from the tick before;  slip: friction_place.hpp
 //   sticks:  T = k e + b (e - e₀)                                while |T| <= μₛ N
 //   slides:  T = B ê,  ê = e/|e|,  B = μ N                       and then the skin is sheared by what T shears it
 //
 // T is the tangential force on the beam.  With the avatar held, -slip is how the touched point of the beam moves along the surface, so T
 // is work-conjugate to it, and a force field of its own for each mode:  ∂T/∂e = k + b,  or (B/l)(1 - d dᵀ), with d and l what ê and |e|
 // were thought to be.  That is symmetric.  After each linear solve d turns to the direction of T, and l becomes d · e: Newton's method for
-// d × e = 0, which has no kink where the slip turns back.  N in B is that of the iteration before, extrapolated: what is not symmetric
-// about Coulomb's law is left to the iteration.  Whether the contact sticks or slides is decided where an equilibrium of the one was found
-// (settled()), so that Newton's method meets no kink.
+// d × e = 0, which has no kink where the slip turns back.  N in B is that of the iteration before (friction_bound.hpp): what is not
+// symmetric about Coulomb's law is left to the iteration.  Whether the contact sticks or slides is decided where an equilibrium of the one was
+// found (settled()), so that Newton's method meets no kink.
 // Real-time: noexcept, no allocation, O(1).   Source: return mapping, Simo and Laursen 1992; given bounds, Nečas and others 1980;
-// direction and force as unknowns of their own, Chan, Golub and Mulet 1999; extrapolation, Aitken 1926.
+// direction and force as unknowns of their own, Chan, Golub and Mulet 1999.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include <hapbeam/fem/friction_bound.hpp>
+#include <hapbeam/fem/friction_place.hpp>
 #include <hapbeam/friction.hpp>
-#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam::detail {
-
-/// Where two bodies touch.
-template <typename Scalar, int D>
-struct FrictionPlace {
-  using Vector = VectorOf<Scalar, D>;
-  Scalar s = 0;                                            ///< [m] arc position of a node of the beam
-  Scalar ahead = 0;                                        ///< [m] from there, along the stretched beam
-  Vector normal = Vector::Zero(), along = Vector::Zero();  ///< unit; along the beam
-  Scalar place = 0;                                        ///< [m] on the avatar's axis
-  Vector axis = Vector::Zero();                            ///< its direction
-};
 
 template <typename Scalar, int D>
 class FrictionLaw {
@@ -57,7 +46,6 @@ class FrictionLaw {
   /// @param hurry  [m] a long way for a tick   @param normal_force  [N] of the last tick
   void begin(const FrictionState<Scalar, D>& state, bool alone, const Place& first, Scalar stretch,
              Scalar reach, Scalar stiffest, Scalar hurry, Scalar normal_force) noexcept {
-    learns_ = D == 2 && alone;
     known_ = state.known;
     before_ =
         state.known ? Place{state.s, state.ahead, state.normal, state.along, state.place, state.axis} : first;
@@ -66,27 +54,23 @@ class FrictionLaw {
     reach_ = reach;
     stiffness_ = (std::min)(state.stiffness, stiffest);
     damping_ = (std::min)(state.damping, stiffest);
-    sticking_ = state.sticking, sliding_ = state.sliding, gain_ = state.gain;
-    bound_ = before_bound_ = sliding_ * (std::max)(normal_force, Scalar(0));
+    sticking_ = state.sticking, sliding_ = state.sliding;
+    bound_.begin(sliding_, normal_force, state.gain, D == 2 && alone);
     now_ = first;
     shear();
     // A hand that hurries slides: what stuck to it would be torn along.
     far_shear_ = sheared_;
     const Scalar carried = norm(sheared_ - carried_);
     const bool hurries = carried > hurry;
-    slides_ = !known_ || ((state.slides || hurries) && bound_ > 0);
-    // It goes on as it went, unless that was a leap.
-    if (slides_ && state.slides && std::abs(state.rise) < bound_ / 4) bound_ += state.rise;
+    slides_ = !known_ || ((state.slides || hurries) && bound_.next() > 0);
+    if (slides_ && state.slides) bound_.go_on(state.rise);
     if (slides_) aim(sheared_, (std::max)(norm(sheared_), state.slip));
     last_force_ = state.slides ? state.force : Vector(Vector::Zero());
     // In its first tick a contact slides without friction to where the touch begins.
     fallen_ = !known_;
-    if (fallen_) bound_ = used_ = 0;
+    if (fallen_) bound_.set(0);
     slid_ = slides_, stuck_ = !slides_;
-    held_ = false;
     tries_ = 0;
-    pairs_ = false;
-    begin_bound();
   }
 
   /// The hand goes on as it went.  So does what slid, though the beam may go farther than the hand: over a peg by twice its way.
@@ -101,7 +85,7 @@ class FrictionLaw {
       force_ = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
     } else {
       if (D == 3) follow();
-      force_ = force_at(bound_);
+      force_ = force_at(bound_.next());
     }
   }
   /// T [N]
@@ -111,7 +95,7 @@ class FrictionLaw {
     Matrix t = Matrix::Identity() - now_.normal * now_.normal.transpose();
     if (!slides_) return (stiffness_ + damping_) * t;
     const Vector d = across(direction_);
-    return aside(bound_) * (t - d * d.transpose());
+    return aside(bound_.next()) * (t - d * d.transpose());
   }
   /// In a plane that is a number.
   Scalar stiffness() const noexcept { return slides_ ? Scalar(0) : stiffness_ + damping_; }
@@ -119,32 +103,19 @@ class FrictionLaw {
   Scalar potential() const noexcept {
     if (!slides_)
       return (stiffness_ + damping_) / 2 * sheared_.squaredNorm() - damping_ * carried_.dot(sheared_);
-    return (force_.dot(sheared_) + bound_ * across(direction_).dot(sheared_)) / 2;
+    return (force_.dot(sheared_) + bound_.next() * across(direction_).dot(sheared_)) / 2;
   }
 
   /// To be called after each linear solve.  @param normal_force  of it [N]
   void feel(Scalar normal_force) noexcept {
-    used_ = bound_;
-    // A bound that does not come to rest is held, so that Newton's method does.
-    if (!slides_ || fallen_ || ++follows_ > most_solves) return;
-    const Scalar off = sliding_ * normal_force - used_;
-    Scalar step = off / rate();
-    if (!learns_) {
-      // What is left shrinks by the same ratio from solve to solve where nothing but the bound is on its way.
-      const Scalar ratio = off_ != 0 ? off / off_ : Scalar(0);
-      const bool steady =
-          ratio > Scalar(0.2) && ratio < Scalar(0.9) && std::abs(ratio - ratio_) < Scalar(0.15);
-      if (steady) step /= 1 - ratio;
-      off_ = steady ? Scalar(0) : off;
-      ratio_ = steady ? Scalar(0) : ratio;
-    }
-    bound_ = (std::max)(Scalar(0), used_ + step);
+    bound_.use();
+    if (slides_ && !fallen_) bound_.follow(normal_force);
   }
 
   /// The beam falls.  What slides does that without friction, and the touch begins anew where it arrives; what sticks goes along.
   void fall() noexcept {
     fallen_ = slides_;
-    if (slides_) bound_ = used_ = 0;
+    if (slides_) bound_.set(0);
   }
 
   /// To be called where an equilibrium was found, after look().  @param normal_force  of it [N]
@@ -161,24 +132,21 @@ class FrictionLaw {
       slides_ = slid_ = true;
       torn_ = pulls || size > 2 * sticking_ * normal_force;
       // From afar the last bound says more than what sticks there.
-      used_ = bound_ = torn_ && before_bound_ > 0 ? before_bound_ : most;
+      bound_.leap(torn_ && bound_.before() > 0 ? bound_.before() : most, torn_);
       aim(elastic, norm(far_shear_));
-      pairs_ = false;
-      begin_bound();
       return false;
     }
     const Vector d = across(direction_);
     // One that has stopped sticks.  With one coefficient for both that makes no difference.  What a bound stops that was too large slides on.
     const Scalar stopped = sticking_ > sliding_ ? 1 + exact : 1 - exact;
-    if (d.dot(elastic) < (std::min)(used_, most) * stopped) {
+    if (d.dot(elastic) < (std::min)(bound_.used(), most) * stopped) {
       slides_ = false;
       return false;
     }
-    learn(normal_force);
-    follows_ = held_ ? most_solves : 0;
-    const Scalar off = (elastic * (most / size) - force_at(used_)).norm();
+    bound_.see(normal_force);
+    const Scalar off = (elastic * (most / size) - acting()).norm();
     if (off <= exact * most) return true;
-    bound_ = (std::max)(Scalar(0), used_ + (most - used_) / rate());
+    bound_.approach(most);
     return false;
   }
 
@@ -189,11 +157,11 @@ class FrictionLaw {
   }
   bool slides() const noexcept { return slides_; }
   /// T of an equilibrium, after look() [N]
-  Vector acting() const noexcept { return slides_ ? force_at(used_) : force_; }
+  Vector acting() const noexcept { return slides_ ? force_at(bound_.used()) : force_; }
   /// Where they touch, after look().
   const Place& place() const noexcept { return now_; }
   /// What it can hold as it begins to slide, by the last tick [N].
-  Scalar last_bound() const noexcept { return before_bound_; }
+  Scalar last_bound() const noexcept { return bound_.before(); }
   /// Whether it slides without friction.
   bool falls() const noexcept { return fallen_; }
   /// To be called where no equilibrium is near.  A hand that pushes a beam along itself has no end of force while it sticks, and a beam that
@@ -202,20 +170,19 @@ class FrictionLaw {
   bool turn() noexcept {
     torn_ = true;
     // A bound that follows what Newton's method is far from leads it astray.  In space that has taken too many solves for another try.
-    if (D == 2 && slides_ && !fallen_ && !held_) {
-      held_ = true;
-      used_ = bound_ = before_bound_;
-      begin_bound();
+    const bool may_hold = D == 2 && slides_ && !fallen_ && !bound_.held();
+    bound_.start(true);
+    if (may_hold) {
+      bound_.hold();
       return true;
     }
-    begin_bound();
     if (slides_ && !fallen_ && !stuck_) {
       slides_ = false, stuck_ = true;
       return true;
     }
     const bool another = !slides_ && !slid_;
     slides_ = slid_ = true;
-    used_ = bound_ = fallen_ ? Scalar(0) : before_bound_;
+    bound_.set(fallen_ ? Scalar(0) : bound_.before());
     aim(far_shear_, norm(far_shear_));
     return another;
   }
@@ -228,7 +195,7 @@ class FrictionLaw {
     const Scalar size = norm(elastic),
                  most = (slides_ ? sliding_ : sticking_) * (std::max)(normal_force, Scalar(0));
     const bool slid = size > most;
-    const Vector before = carried(state.force, before_);
+    const Vector before = now_.carried(state.force, before_);
     const bool falls_or_slides = state.slides || sticking_ > sliding_;
     state.force = slid ? Vector(elastic * (most / size)) : elastic;
     state.skin = slid ? Vector((state.force + damping_ * carried_) / (stiffness_ + damping_)) : sheared_;
@@ -243,13 +210,13 @@ class FrictionLaw {
     const bool goes_on = state.slides;
     state.known = true;
     state.slides = slides_ && !fallen_;
-    state.rise = goes_on && state.slides ? most - before_bound_ : Scalar(0);
+    state.rise = goes_on && state.slides ? most - bound_.before() : Scalar(0);
     // Where the tries have ended before the changes: what acted, and what should have.
-    state.settled = tries_ <= most_tries || fallen_ ||
-                    (slides_ ? norm(state.force - force_at(used_)) <= loose * most : !slid);
+    state.settled =
+        tries_ <= most_tries || fallen_ || (slides_ ? norm(state.force - acting()) <= loose * most : !slid);
     state.s = now_.s, state.ahead = now_.ahead, state.normal = now_.normal, state.along = now_.along;
     state.place = now_.place, state.axis = now_.axis;
-    state.gain = gain_;
+    state.gain = bound_.gain();
   }
   /// Energy of the skin of a touch, after leave() [J]
   Scalar held(const State& state) const noexcept { return stiffness_ / 2 * state.skin.squaredNorm(); }
@@ -258,18 +225,12 @@ class FrictionLaw {
   static constexpr int most_tries = 8;
 
   void shear() noexcept {
-    carried_ = carried(skin_, before_);
-    sheared_ = carried_ + slip();
+    carried_ = now_.carried(skin_, before_);
+    sheared_ = carried_ + now_.slip(before_, stretch_, reach_);
   }
 
-  /// What lay across the normal of a place, turned with it to the present one.
-  Vector carried(const Vector& v, const Place& from) const noexcept {
-    if constexpr (D == 2) return v.dot(from.along) * now_.along;
-    else return carry<Scalar>(v, from.normal, now_.normal);
-  }
   static Scalar squared(Scalar x) noexcept { return x * x; }
   static Scalar norm(const Vector& v) noexcept { return std::sqrt(v.squaredNorm()); }
-  Scalar rate() const noexcept { return std::clamp(1 - sliding_ * gain_, Scalar(0.25), Scalar(4)); }
   Vector across(const Vector& v) const noexcept {
     const Vector flat = v - now_.normal * now_.normal.dot(v);
     const Scalar size = norm(flat);
@@ -280,12 +241,10 @@ class FrictionLaw {
     length_ = (std::max)(length, Scalar(0));
   }
   void follow() noexcept {
-    const Vector turned = force_at(bound_);
+    const Vector turned = force_at(bound_.next());
     if (turned.squaredNorm() > 0) direction_ = turned;
     length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
   }
-  /// On a long way the forces before its end say nothing.
-  void begin_bound() noexcept { off_ = ratio_ = 0, follows_ = torn_ || held_ ? most_solves : 0; }
   /// Stiffness across the way of sliding [N/m].
   Scalar aside(Scalar bound) const noexcept {
     const Scalar whole = stiffness_ + damping_;
@@ -295,44 +254,14 @@ class FrictionLaw {
     const Vector d = across(direction_);
     return bound * d + aside(bound) * (sheared_ - d * d.dot(sheared_));
   }
-  /// The gain, from two equilibria of different bounds.  In space directions change it more, and so do other contacts.
-  void learn(Scalar normal_force) noexcept {
-    if (learns_ && pairs_ && std::abs(used_ - pair_bound_) > Scalar(1e-3) * used_)
-      gain_ = std::clamp((normal_force - pair_force_) / (used_ - pair_bound_), Scalar(-4), Scalar(4));
-    pairs_ = true;
-    pair_bound_ = used_, pair_force_ = normal_force;
-  }
-
-  Vector slip() const noexcept {
-    const Vector &m = before_.normal, &n = now_.normal;
-    const Scalar moved = stretch_ * (now_.s - before_.s) + now_.ahead - before_.ahead, cosine = m.dot(n);
-    if (!(cosine > 0)) return Vector::Zero();  // touched from elsewhere
-    if constexpr (D == 2) {
-      const Scalar turned = std::atan2(m.x() * n.y() - m.y() * n.x(), cosine);
-      return moved * now_.along + reach_ * turned * Vector(-n.y(), n.x());
-    } else {
-      const Vector turn = n - m, middle = unit<Scalar>(m + n);
-      const Scalar half = norm(turn) / 2;
-      Vector v = moved / 2 * (before_.along + now_.along) -
-                 (now_.place - before_.place) / 2 * (before_.axis + now_.axis) +
-                 (half > 0 ? reach_ * std::asin((std::min)(half, Scalar(1))) / half : reach_) * turn;
-      v -= middle * middle.dot(v);
-      return carry<Scalar>(v, middle, n);
-    }
-  }
-
-  bool known_ = false, slides_ = false, fallen_ = false, torn_ = false, held_ = false, slid_ = false,
-       stuck_ = false;
+  bool known_ = false, slides_ = false, fallen_ = false, torn_ = false, slid_ = false, stuck_ = false;
   Place before_, now_;
   Vector skin_ = Vector::Zero(), carried_ = Vector::Zero(), sheared_ = Vector::Zero();
   Vector force_ = Vector::Zero(), direction_ = Vector::Zero(), far_shear_ = Vector::Zero();
-  Scalar stretch_ = 1, reach_ = 0, stiffness_ = 0, damping_ = 0, sticking_ = 0, sliding_ = 0, gain_ = 0;
-  Scalar bound_ = 0, used_ = 0, before_bound_ = 0, length_ = 1;
   Vector last_force_ = Vector::Zero();  // [N] of the tick before, while it slid
-  Scalar pair_bound_ = 0, pair_force_ = 0;
-  Scalar off_ = 0, ratio_ = 0;  // of the bound, in feel()
-  bool pairs_ = false, learns_ = false;
-  int tries_ = 0, follows_ = 0;
+  Scalar stretch_ = 1, reach_ = 0, stiffness_ = 0, damping_ = 0, sticking_ = 0, sliding_ = 0, length_ = 1;
+  FrictionBound<Scalar, most_solves> bound_;
+  int tries_ = 0;
 };
 
 }  // namespace hapbeam::detail
