@@ -9,6 +9,7 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -138,6 +139,9 @@ int main(int argc, char** argv) {
     }
     return run(options, std::move(trained), report);
   } catch (const cli::UsageError& error) {
+    std::fprintf(stderr, "phantom: %s\n", error.what());
+    return 2;
+  } catch (const std::invalid_argument& error) {  // options that do not go together
     std::fprintf(stderr, "phantom: %s\n", error.what());
     return 2;
   } catch (const std::exception& error) {

@@ -122,11 +122,16 @@ void choose_device(Running& running, Wish& wish) {
 }
 
 void show_state(Running& running) {
-  const hapbeam::ServoRecord& r = running.session().picture().record;
+  const Session::Picture picture = running.session().picture();
+  const hapbeam::ServoRecord& r = picture.record;
   const hapbeam::TickTimes& times = running.session().body().times();
   ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
   ImGui::Text("%.2f N", r.force.norm());
   ImGui::PopFont();
+  if (picture.second) {
+    ImGui::SameLine();
+    ImGui::TextUnformatted("on the first hand");
+  }
   ImGui::PushTextWrapPos(0);
   const Device& device = running.session().device();
   const char* state =
@@ -140,7 +145,18 @@ void show_state(Running& running) {
   if (ImGui::CalcTextSize(state, nullptr, false, ImGui::GetContentRegionAvail().x).y < 1.5f * line)
     ImGui::Dummy({0, line - ImGui::GetStyle().ItemSpacing.y});
   ImGui::Separator();
-  ImGui::Text("energy generated: %.2g J%s", r.energy_generated, r.energy_generated > 0 ? "" : " (passive)");
+  // What one hand has received the other one may have given.
+  if (picture.second)
+    ImGui::Text("energy received: %.2g J, second %.2g J", r.energy_generated,
+                picture.second->energy_generated);
+  else
+    ImGui::Text("energy generated: %.2g J%s", r.energy_generated, r.energy_generated > 0 ? "" : " (passive)");
+  if (const double friction = running.options().friction; friction > 0) {
+    if (r.pressing)
+      ImGui::Text("friction: %s, %.2f N   took: %.3g mJ", r.sliding ? "slides" : "sticks", r.friction.norm(),
+                  1e3 * r.dissipated);
+    else ImGui::Text("friction: coefficient %.3g", friction);
+  }
   ImGui::Text("force cut: %llu ticks   motors: %.0f %%", static_cast<unsigned long long>(r.saturated_ticks),
               100 * r.heat);
   ImGui::Text("tick p99: %.1f µs   missed: %llu", times.compute().quantile(0.99) * 1e6,
@@ -185,6 +201,8 @@ Wish draw_controls(Running& running, const Options* file, const std::string& not
   if (const Options& felt = running.options(); *feels(felt.scene))
     ImGui::Text("To feel: %s.", feels(felt.scene));
   else if (felt.model.empty()) ImGui::TextUnformatted(cli::describe(felt.beam).c_str());
+  if (const double friction = running.options().friction; friction > 0)
+    ImGui::Text("With friction it sticks until it is pulled aside by %.3g of what presses it.", friction);
   ImGui::PopTextWrapPos();
   if (!note.empty()) {
     ImGui::Separator();

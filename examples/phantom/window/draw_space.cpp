@@ -81,6 +81,8 @@ void SpaceDrawing::draw_floor(ImDrawList& list, float unit) const {
                           at(o.x() + w.x(), o.z() + w.z()), at(o.x() - w.x(), o.z() + w.z())};
   for (int i = 0; i < 4; ++i)
     dashed(list, reach[i], reach[(i + 1) % 4], colour::with_alpha(colour::blue, 90), 0.4f * unit);
+  const ImVec2 near{(reach[0].x + reach[3].x) / 2, (reach[0].y + reach[3].y) / 2};
+  label(list, {near.x + 0.6f * unit, near.y}, colour::blue, "device's reach");
 }
 
 void SpaceDrawing::draw_shadow(ImDrawList& list, float unit) const {
@@ -225,10 +227,11 @@ Eigen::Vector3d SpaceDrawing::device_way(const Vector& way) const {
 
 void SpaceDrawing::look(bool hovered) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) orbits_ = true;
   orbits_ = orbits_ && ImGui::IsMouseDown(ImGuiMouseButton_Right);
   if (orbits_)
     camera_.orbit(0.008 * static_cast<double>(io.MouseDelta.x), 0.008 * static_cast<double>(io.MouseDelta.y));
+  // From the next picture on: how far the mouse came before it was pressed turns nothing.
+  if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) orbits_ = true;
   if (hovered && io.KeyCtrl) camera_.zoom(std::pow(1.12, static_cast<double>(io.MouseWheel)));
   if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Middle)) camera_.reset();
 }

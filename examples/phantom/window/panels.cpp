@@ -147,8 +147,8 @@ void draw_panels(ImDrawList& list, const PanelData& data, const ImVec2& low, con
             1e3, colour::blue);
   force_against_depth(list, from[2], to[2], data);
   tick_times(list, from[3], to[3], data.history);
-  over_time(list, "energy generated", from[4], to[4], data.history, &History::Moment::energy, 1e-3, "mJ", 1e3,
-            colour::purple);
+  over_time(list, data.hands == 2 ? "energy received" : "energy generated", from[4], to[4], data.history,
+            &History::Moment::energy, 1e-3, "mJ", 1e3, colour::purple);
 }
 
 }  // namespace phantom

@@ -15,6 +15,7 @@ struct PanelData {
   double place;                      ///< [m] of the curves
   double near;                       ///< [m] beside that place, where they still hold
   double depth;                      ///< [m] of the curves
+  int hands;
 };
 
 void draw_panels(ImDrawList& list, const PanelData& data, const ImVec2& low, const ImVec2& high);

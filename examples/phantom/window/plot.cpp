@@ -59,7 +59,8 @@ void Plot::frame() {
     const std::string fx = x_.times ? power(x) : figure(x * x_.factor, i == parts ? x_.unit : "");
     const std::string fy = figure(y * y_.factor, i == parts ? y_.unit : "");
     const ImVec2 sx = ImGui::CalcTextSize(fx.c_str()), sy = ImGui::CalcTextSize(fy.c_str());
-    const float left = std::clamp(px - sx.x / 2, low_.x - unit_, high_.x + 0.7f * unit_ - sx.x);
+    // The first one does not begin below the last of the upright axis.
+    const float left = std::clamp(px - sx.x / 2, low_.x - 0.2f * unit_, high_.x + 0.7f * unit_ - sx.x);
     const bool crowded = high_.x - low_.x < 9 * unit_ && i > 0 && i < parts;
     if (!crowded) list_.AddText({left, high_.y + 0.15f * unit_}, colour::faint, fx.c_str());
     list_.AddText({low_.x - sy.x - 0.3f * unit_, py - sy.y / 2}, colour::faint, fy.c_str());
@@ -76,8 +77,9 @@ void Plot::line(std::size_t count, const std::function<double(std::size_t)>& x,
     if (points.empty() || std::hypot(point.x - points.back().x, point.y - points.back().y) > 0.7f)
       points.push_back(point);
   }
-  list_.AddPolyline(points.data(), static_cast<int>(points.size()), colour, ImDrawFlags_None,
-                    width * unit_ / 14);
+  // Piece by piece: a polyline has no width where it turns back.
+  for (std::size_t i = 1; i < points.size(); ++i)
+    list_.AddLine(points[i - 1], points[i], colour, width * unit_ / 14);
 }
 
 void Plot::bar(double from, double to, double height, ImU32 colour) {

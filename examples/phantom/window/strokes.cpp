@@ -18,7 +18,7 @@ void label(ImDrawList& list, ImVec2 at, ImU32 colour, const std::string& line) {
 void name_second(ImDrawList& list, const ImVec2& avatar, float radius, float unit) {
   const char* const name = "second hand";
   const float width = ImGui::CalcTextSize(name).x;
-  label(list, {avatar.x - radius - 0.6f * unit - width, avatar.y + 0.3f * unit}, colour::blue, name);
+  label(list, {avatar.x - radius - 0.6f * unit - width, avatar.y + 1.8f * unit}, colour::blue, name);
 }
 
 void dashed(ImDrawList& list, const ImVec2& a, const ImVec2& b, ImU32 colour, float dash) {
