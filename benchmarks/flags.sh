@@ -48,7 +48,7 @@ for _ in 1 2 3 4 5; do
   k=0
   while IFS=, read -r compiler flags several; do
     "$folder/ticks_$k" | while read -r model us _; do
-      [[ $model == VonKarman || $model == Corotational ]] &&
+      [[ $model == VonKarman || $model == Corotational || $model == *Rod ]] &&
         echo "$compiler,$model${several:+ beside others},$flags,$us"
     done >>"$folder/us" || true
     k=$((k + 1))

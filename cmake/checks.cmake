@@ -34,13 +34,11 @@ if(HAPBEAM_SANITIZE)
   endif()
 endif()
 
-# Compiles a target for this machine's processor, where the compiler knows it.  GCC 12 takes the undefined lanes of its own AVX-512 intrinsics for a mistake
-# (GCC bug 105593).
+# Compiles a target for this machine's processor, where the compiler knows it.
 include(CheckCXXCompilerFlag)
 function(hapbeam_compile_native target)
   check_cxx_compiler_flag(-march=native HAPBEAM_KNOWS_NATIVE)
   if(HAPBEAM_NATIVE AND HAPBEAM_KNOWS_NATIVE)
-    target_compile_options(${target} PRIVATE
-      -march=native $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized -Wno-array-bounds>)
+    target_compile_options(${target} PRIVATE -march=native)
   endif()
 endfunction()

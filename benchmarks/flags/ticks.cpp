@@ -16,9 +16,14 @@ Beam bar() {
   return {2.54, Section::rectangle(0.0254, 0.0254), Material{206.84e9}, Support::pinned, Support::pinned};
 }
 
-template <class Model>
-void measure(const char* name) {
-  Model model(bar(), 8);
+Rod wire() {
+  return {0.3, RodSection::circle(0.0015), RodMaterial{200e9, 77e9}, RodSupport::clamped, RodSupport::free};
+}
+
+/// @param hand  way -> where it is, of a way of 0 to 1
+template <class Model, class Body, class Path>
+void measure(const char* name, const Body& body, const Path& hand) {
+  Model model(body, 8);
   Touch<Model> touch(model, 0.010);
   constexpr int rounds = 200, ticks = 500;
   std::vector<double> us;
@@ -26,10 +31,9 @@ void measure(const char* name) {
   for (int round = 0; round < rounds; ++round) {
     const auto begin = std::chrono::steady_clock::now();
     for (int tick = 0; tick < ticks; ++tick) {
-      const double way = tick < ticks / 2 ? tick : ticks - tick;  // there and back, 20 mm deep
+      const double way = (tick < ticks / 2 ? tick : ticks - tick) / (ticks / 2.0);  // there and back
       using Scalar = typename Model::Scalar;
-      const auto hand = Vector2<double>(1.0 + 1e-4 * way, 0.0227 - 8e-5 * way).template cast<Scalar>();
-      felt += static_cast<double>(touch.tick(hand).force.y());
+      felt += static_cast<double>(touch.tick(hand(way).template cast<Scalar>()).force.y());
     }
     us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count() /
                  ticks);
@@ -38,15 +42,30 @@ void measure(const char* name) {
   std::printf("%s %.4f %.9g\n", name, us[rounds / 2], felt);
 }
 
+/// 20 mm deep, and 25 mm along the bar.
+template <class Model>
+void press_bar(const char* name) {
+  measure<Model>(name, bar(),
+                 [](double way) { return Vector2<double>(1.0 + 0.025 * way, 0.0227 - 0.02 * way); });
+}
+/// 20 mm deep, and 20 mm to the side.
+template <class Model>
+void press_wire(const char* name) {
+  measure<Model>(name, wire(),
+                 [](double way) { return Vector3<double>(0.2, 0.01 - 0.02 * way, 0.02 * way); });
+}
+
 }  // namespace
 
 int main() {
 #ifdef HAPBEAM_SEVERAL
-  measure<FemModel<Linear>>("Linear");
-  measure<FemModel<VonKarman<>, float>>("float");
-  measure<FemModel<VonKarman<>>>("VonKarman");
-  measure<FemModel<Corotational<>>>("Corotational");
+  press_bar<FemModel<Linear>>("Linear");
+  press_bar<FemModel<VonKarman<>, float>>("float");
+  press_bar<FemModel<VonKarman<>>>("VonKarman");
+  press_bar<FemModel<Corotational<>>>("Corotational");
+  press_wire<FemModel<RoundRod>>("RoundRod");
+  press_wire<FemModel<TwistedRod>>("TwistedRod");
 #else
-  measure<FemModel<>>("VonKarman");
+  press_bar<FemModel<>>("VonKarman");
 #endif
 }

@@ -41,7 +41,7 @@ function scenes() {
   choice("the same, pressed deeper than trained", "`GalerkinModel<>`, 16 × 12", "bar_50mm", "GalerkinModel", 0, 192)
   choice("a thin strip that stretches", "`GalerkinModel<>`, 16 × 12", "strip", "GalerkinModel", 0, 192)
   choice("a ruler that bends far", "`FemModel<Corotational<>>`, 8 elements", "ruler", "Corotational<VonKarman<AssumedStrain>>", 8, 0)
-  choice("an arch, up to where it snaps", "`FemModel<Corotational<>>`, 8 elements", "arch", "Corotational<VonKarman<AssumedStrain>>", 8, 0)
+  choice("an arch, past the peak of its force", "`FemModel<Corotational<>>`, 8 elements", "arch", "Corotational<VonKarman<AssumedStrain>>", 8, 0)
 }
 
 # Whether a model, of those that match, is at least as fast and as accurate as row k: whether it dominates row k.
@@ -208,7 +208,7 @@ function stability(  k, text) {
 
 # Of stability_friction.csv, where each coefficient has a row of hands with a spring and one of hands without.
 function rough(  k) {
-  line("leans on", "coefficients", "hands with a spring", "at rest", "without one", "at rest", "slides off", "moves in this loop alone")
+  line("leans on", "coefficients", "hands with a spring", "at rest", "without one", "at rest", "slides off", "slower, or in this loop alone")
   rule(8)
   for (k = 1; k < rows; k += 2)
     line(cell[k, "scene"], cell[k, "sticking"] (cell[k, "sliding"] == cell[k, "sticking"] ? "" : ", " cell[k, "sliding"]), \

@@ -1,6 +1,8 @@
 // Rods on this machine's processor, whatever stands side by side there: eight numbers with AVX-512, four with AVX, two elsewhere.  The other tests are
 // compiled for any processor of its kind, and see two.
 //
+// It is also where a compiler sees what is written for these processors, and may warn of it.
+//
 // Each number of elements fills the last register in another way.  Pressed in the middle, the contact's node is that at which both chains of the solver meet.
 #include <cmath>
 #include <cstdio>

@@ -109,7 +109,7 @@ Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const Centreline
     contact.normal = offset / gap;
   } else {
     const Scalar side = static_cast<Scalar>(contact.side);
-    contact.normal << -side * frame.direction.y(), side * frame.direction.x();
+    contact.normal = {-side * frame.direction.y(), side * frame.direction.x()};
   }
   contact.point = contact.foot + contact.normal * (thickness / 2);
   memory = {q, true, contact.touching, contact.touching && through, contact.side};

@@ -68,7 +68,7 @@ class PressContact {
   /// The force along the normal, in units of that across the beam.  @param contact  in and out: its normal never points to the other side
   Scalar along_normal(Contact<Scalar>& contact) const noexcept {
     const Scalar n_w = up_ * contact.normal.y();
-    if (n_w < 0) contact.normal << (contact.normal.x() < 0 ? Scalar(-1) : Scalar(1)), 0;
+    if (n_w < 0) contact.normal = {contact.normal.x() < 0 ? Scalar(-1) : Scalar(1), 0};
     return 1 / (std::max)(n_w, least_normal);
   }
 
@@ -99,7 +99,7 @@ class PressContact {
     const Scalar side = static_cast<Scalar>(contact.side);
     contact.s = std::clamp(line[node].s + shift, line[node - 1].s, line[node + 1].s);
     contact.foot = position - offset + shift * mean;
-    contact.normal << -side * mean.y(), side * mean.x();
+    contact.normal = {-side * mean.y(), side * mean.x()};
     contact.point = contact.foot + contact.normal * (model.thickness() / 2);
     contact.depth = reach - offset.dot(contact.normal);
     contact.touching = contact.depth > 0;
@@ -114,7 +114,7 @@ class PressContact {
       if (!(std::abs(offset.x()) < reach)) return false;
       const Scalar above = up_ * std::sqrt((reach - offset.x()) * (reach + offset.x()));
       rise = offset.y() - above;
-      contact.normal << offset.x() / reach, above / reach;
+      contact.normal = {offset.x() / reach, above / reach};
       return true;
     }
     rise = -up_ * contact.depth / (std::max)(up_ * contact.normal.y(), least_normal);

@@ -104,7 +104,7 @@ template <typename S>
   const S s1 = l * c.s1, s2 = l * c.s2, r1 = l * c.r1, r2 = l * c.r2;
   // Entry by entry, which stays in registers: an array that is copied goes through memory.  Eigen's comma initializer would check
   // what cannot fail, and is not inlined.
-  const auto put = [&K](int i, int j, S value) { K(i, j) = K(j, i) = value; };
+  const auto put = [&K](int i, int j, S value) { K.coeffRef(i, j) = K.coeffRef(j, i) = value; };
   put(0, 0, c.ss), put(1, 0, c.sr), put(2, 0, -s1), put(3, 0, -c.ss), put(4, 0, -c.sr), put(5, 0, -s2);
   put(1, 1, c.rr), put(2, 1, -r1), put(3, 1, -c.sr), put(4, 1, -c.rr), put(5, 1, -r2);
   put(2, 2, ll * c.t11), put(3, 2, s1), put(4, 2, r1), put(5, 2, ll * c.t12);

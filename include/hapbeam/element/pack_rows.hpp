@@ -16,6 +16,8 @@ template <typename T, int Size>
 struct PackRows {
   using Wide = Pack<T, Size>;
   static constexpr bool in_halves = sizeof(T) == 8 && Size == 8;  // where it has instructions for that
+  /// A mask of eight numbers.  g++ warns of functions without one: they begin with what is not set.
+  static constexpr unsigned char all = 0xff;
 
   /// As many numbers of each row as there are rows.   @param columns  out
   [[gnu::always_inline]] static void load(const T* const (&rows)[Size], Wide* columns) noexcept {
@@ -25,8 +27,8 @@ struct PackRows {
       HAPBEAM_UNROLL
       for (int i = 0; i < Size; ++i) {
         const T *const upper = rows[i % 4] + i / 4 * 4, *const lower = rows[i % 4 + 4] + i / 4 * 4;
-        columns[i].v_ =
-            _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(upper)), _mm256_loadu_pd(lower), 1);
+        columns[i].v_ = _mm512_maskz_insertf64x4(all, _mm512_castpd256_pd512(_mm256_loadu_pd(upper)),
+                                                 _mm256_loadu_pd(lower), 1);
       }
       exchange<1>(columns), exchange<2>(columns);
       return;
@@ -46,8 +48,8 @@ struct PackRows {
       HAPBEAM_UNROLL
       for (int i = 0; i < Size; ++i) {
         T *const upper = rows[i % 4] + i / 4 * 4, *const lower = rows[i % 4 + 4] + i / 4 * 4;
-        _mm256_storeu_pd(upper, _mm512_castpd512_pd256(a[i].v_));
-        _mm256_storeu_pd(lower, _mm512_extractf64x4_pd(a[i].v_, 1));
+        _mm256_storeu_pd(upper, _mm512_maskz_extractf64x4_pd(0xf, a[i].v_, 0));
+        _mm256_storeu_pd(lower, _mm512_maskz_extractf64x4_pd(0xf, a[i].v_, 1));
       }
       return;
     }
@@ -67,10 +69,11 @@ struct PackRows {
           return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(rows[k])),
                                       _mm_loadu_pd(rows[k + 2]), 1);
         };
-        return _mm512_insertf64x4(_mm512_castpd256_pd512(two(i)), two(i + 4), 1);
+        return _mm512_maskz_insertf64x4(all, _mm512_castpd256_pd512(two(i)), two(i + 4), 1);
       };
       const __m512d even = four(0), odd = four(1);
-      first.v_ = _mm512_unpacklo_pd(even, odd), second.v_ = _mm512_unpackhi_pd(even, odd);
+      first.v_ = _mm512_maskz_unpacklo_pd(all, even, odd),
+      second.v_ = _mm512_maskz_unpackhi_pd(all, even, odd);
       return;
     }
 #endif
@@ -81,13 +84,15 @@ struct PackRows {
 #if defined(__AVX512F__) && defined(__GNUC__)
     if constexpr (in_halves) {
       const auto put = [&rows](const __m512d& pairs, int k) {
-        const __m256d low = _mm512_castpd512_pd256(pairs), high = _mm512_extractf64x4_pd(pairs, 1);
+        const __m256d low = _mm512_maskz_extractf64x4_pd(0xf, pairs, 0),
+                      high = _mm512_maskz_extractf64x4_pd(0xf, pairs, 1);
         _mm_storeu_pd(rows[k], _mm256_castpd256_pd128(low));
         _mm_storeu_pd(rows[k + 2], _mm256_extractf128_pd(low, 1));
         _mm_storeu_pd(rows[k + 4], _mm256_castpd256_pd128(high));
         _mm_storeu_pd(rows[k + 6], _mm256_extractf128_pd(high, 1));
       };
-      put(_mm512_unpacklo_pd(first.v_, second.v_), 0), put(_mm512_unpackhi_pd(first.v_, second.v_), 1);
+      put(_mm512_maskz_unpacklo_pd(all, first.v_, second.v_), 0),
+          put(_mm512_maskz_unpackhi_pd(all, first.v_, second.v_), 1);
       return;
     }
 #endif

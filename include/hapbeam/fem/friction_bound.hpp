@@ -37,13 +37,13 @@ class FrictionBound {
   bool held() const noexcept { return held_; }
 
   void set(Scalar bound) noexcept { used_ = next_ = bound; }
-  /// To be called where the way to an equilibrium begins.   @param far  the normal forces on a long way say nothing of its end
-  void start(bool far) noexcept { off_ = ratio_ = 0, follows_ = far || held_ ? MostSolves : 0; }
+  /// To be called where the way to an equilibrium begins.   @param from_afar  the normal forces on a long way say nothing of its end
+  void start(bool from_afar) noexcept { off_ = ratio_ = 0, follows_ = from_afar || held_ ? MostSolves : 0; }
   /// The same after a leap: what was seen of the gain does not hold there.
-  void leap(Scalar bound, bool far) noexcept {
+  void leap(Scalar bound, bool from_afar) noexcept {
     set(bound);
     pairs_ = false;
-    start(far);
+    start(from_afar);
   }
   void hold() noexcept {
     held_ = true;

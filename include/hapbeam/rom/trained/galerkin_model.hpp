@@ -193,7 +193,7 @@ Response<Scalar> GalerkinModel<Scalar, Nodes>::press(const Press<Scalar>& reques
   if (!is_answer(response.status)) return response;
   const Scalar s = at.press.s, d = at.press.d;
   const int m = trained_->data.tensions;
-  Scalar by_tension[Shape::near_size * max_size], nearby[Shape::near_size];
+  Scalar by_tension[Shape::near_size * max_size], nearby[Shape::near_size] = {};
   detail::combine(trained_->table.data() + 4 * m, row_size(m), Shape::near_size * m, at.lx,
                   trained_->data.positions, by_tension);
   detail::combine(by_tension, Shape::near_size, Shape::near_size, at.lz, m, nearby);

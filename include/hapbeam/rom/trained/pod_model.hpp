@@ -150,7 +150,7 @@ Response<Scalar> PodModel<Scalar, Nodes>::press(const Press<Scalar>& request) no
   const Data& data = trained_->data;
   const Scalar unit = data.symmetric ? at.press.d : data.depth;
   const int m = data.depths;
-  Scalar by_depth[Shape::near_size * max_size], nearby[Shape::near_size];
+  Scalar by_depth[Shape::near_size * max_size], nearby[Shape::near_size] = {};
   detail::combine(trained_->table.data() + 2 * m, row_size(m), Shape::near_size * m, at.lx, data.positions,
                   by_depth);
   detail::combine(by_depth, Shape::near_size, Shape::near_size, at.ly, m, nearby);
