@@ -126,6 +126,14 @@ class Centreline {
     return (q - (from + to) / 2).squaredNorm() > least * least;
   }
 
+  /// Calls visit(i) for each piece from piece i to an end of the beam that is not excluded.
+  /// @param step  1 | -1   @param d  [m] may shrink with a call
+  template <class Visit>
+  void visit_near(int i, int step, const Vector2<Scalar>& q, const Scalar& d, Visit&& visit) const noexcept {
+    for (; i >= 0 && i < segments(); i += step)
+      if (!excludes(i, q, d)) visit(i);
+  }
+
   /// Curvature at node i of a centreline of finite rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.
   Scalar curvature(int i) const noexcept {
     using std::nearbyint;

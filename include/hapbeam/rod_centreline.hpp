@@ -10,6 +10,7 @@
 
 #include <hapbeam/angle.hpp>
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/shaft.hpp>
 
 namespace hapbeam {
 
@@ -56,17 +57,34 @@ class Centreline<Scalar, 3> {
   }
   /// True where no point of piece i is within d of a shaft, as its nodes alone show.  Its inner control points are a third of its
   /// length times |dr/ds| from its nodes, hence no point is farther than 3/4 of that from the chord.
-  template <class Shaft>
-  bool excludes(int i, const Shaft& shaft, Scalar d) const noexcept {
+  bool excludes(int i, const Shaft<Scalar>& shaft, Scalar d) const noexcept {
     const Node &a = nodes_[i], &b = nodes_[i + 1];
     const VectorOf<Scalar, 3> middle = (a.r + b.r) / 2;
-    const Scalar l = b.s - a.s, handle = l * l * (std::max)(a.tangent.squaredNorm(), b.tangent.squaredNorm());
-    // Half a chord and a quarter of that length, with x + y <= √(2x² + 2y²), squared.  2 % for round-off, which may lengthen what is
-    // computed of the piece.
-    const Scalar least2 = Scalar(1.02) * ((b.r - a.r).squaredNorm() / 2 + handle / 8);
-    // Farther than d and √least2 together, without a root.
-    const Scalar more = (shaft.at(shaft.nearest(middle)) - middle).squaredNorm() - d * d - least2;
-    return more > 0 && more * more > 4 * d * d * least2;
+    return is_far((shaft.at(shaft.nearest(middle)) - middle).squaredNorm(), (b.r - a.r).squaredNorm(),
+                  b.s - a.s, (std::max)(a.tangent.squaredNorm(), b.tangent.squaredNorm()), d);
+  }
+  /// Calls visit(i) for each piece from piece i to an end of the rod that is not excluded.
+  /// @param step  1 | -1   @param d  [m] may shrink with a call
+  template <class Visit>
+  void visit_near(int i, int step, const Shaft<Scalar>& shaft, const Scalar& d,
+                  Visit&& visit) const noexcept {
+    if (!shaft.is_point()) {
+      for (; i >= 0 && i < segments(); i += step)
+        if (!excludes(i, shaft, d)) visit(i);
+      return;
+    }
+    // What a node tells both of its pieces is computed once.  With m between a and b, |m|² = (|a|² + |b|²)/2 - |b - a|²/4.
+    const Node* a = &nodes_[step > 0 ? i : i + 1];
+    Scalar distance_a = (a->r - shaft.tip).squaredNorm(), stretch_a = a->tangent.squaredNorm();
+    for (; i >= 0 && i < segments(); i += step) {
+      const Node* const b = a + step;
+      const Scalar distance_b = (b->r - shaft.tip).squaredNorm(), stretch_b = b->tangent.squaredNorm(),
+                   chord = (b->r - a->r).squaredNorm();
+      if (!is_far((distance_a + distance_b) / 2 - chord / 4, chord, b->s - a->s,
+                  (std::max)(stretch_a, stretch_b), d))
+        visit(i);
+      a = b, distance_a = distance_b, stretch_a = stretch_b;
+    }
   }
   /// Calls visit(i, segment(i)) for each piece, in order.
   template <class Visitor>
@@ -113,6 +131,16 @@ class Centreline<Scalar, 3> {
   }
 
  private:
+  /// Whether no point of a piece is within d.  Squared: the distance of the middle of its chord, the chord, |dr/ds| at one of its ends.
+  static bool is_far(Scalar middle, Scalar chord, Scalar l, Scalar stretch, Scalar d) noexcept {
+    // Half a chord and a quarter of its length, with x + y <= √(2x² + 2y²), squared.  2 % for round-off, which may lengthen what is
+    // computed of the piece.
+    const Scalar least = Scalar(1.02) * (chord / 2 + l * l * stretch / 8);
+    // Farther than d and √least together, without a root.
+    const Scalar more = middle - d * d - least;
+    return more > 0 && more * more > 4 * d * d * least;
+  }
+
   const Node* nodes_;
   int size_;
 };

@@ -50,15 +50,14 @@ NearestPoint<Scalar, D> nearest_beside(const Centreline<Scalar, D>& line, int be
   NearestPoint<Scalar, D> best{beside, closest_point(line.segment(beside), q)};
   Scalar d = std::sqrt(best.at.distance_squared);
   const auto look = [&](int i) {
-    if (line.excludes(i, q, d)) return;
     const ClosestPoint<Scalar, D> candidate = closest_point(line.segment(i), q);
     const Scalar a = candidate.distance_squared, b = best.at.distance_squared;
     if (!(a < b || (a == b && i < best.segment))) return;
     best = {i, candidate};
     d = std::sqrt(a);
   };
-  for (int i = beside - 1; i >= 0; --i) look(i);
-  for (int i = beside + 1; i < line.segments(); ++i) look(i);
+  line.visit_near(beside - 1, -1, q, d, look);
+  line.visit_near(beside + 1, 1, q, d, look);
   return best;
 }
 
