@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <string>
 
 #include "json.hpp"
 #include "scene.hpp"
@@ -15,6 +16,13 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 unsigned long long number(std::uint64_t count) { return count; }
+
+/// Of the model; where it had no answer, in how many ticks.
+std::string worst(const hapbeam::ServoRecord& r) {
+  const std::string status = name(r.worst);
+  return is_answer(r.worst) ? status
+                            : status + " (" + std::to_string(r.continued_ticks + r.failed_ticks) + " ticks)";
+}
 
 void print_trained(const Options& o, const Trained& t) {
   const hapbeam::ErrorSummary& errors = t.errors.all;
@@ -117,13 +125,13 @@ void print_summary(const Run& run) {
   std::printf(
       "contact  in %llu ticks, begun %llu times; deepest press %.3f mm, largest force %.2f N; worst status "
       "%s\n",
-      number(r.contact_ticks), number(r.touches), run.deepest * 1e3, r.max_force, name(r.worst));
+      number(r.contact_ticks), number(r.touches), run.deepest * 1e3, r.max_force, worst(r).c_str());
   if (run.second)
     std::printf(
         "second   in %llu ticks, begun %llu times; largest force %.2f N, cut in %llu ticks; worst status "
         "%s\n",
         number(run.second->contact_ticks), number(run.second->touches), run.second->max_force,
-        number(run.second->saturated_ticks), name(run.second->worst));
+        number(run.second->saturated_ticks), worst(*run.second).c_str());
   if (run.peak.strain > 0)
     std::printf("strain   %.2g %% at the surface where it was largest, at %.1f mm: %.3g MPa\n",
                 100 * run.peak.strain, run.peak.s * 1e3, run.peak.strain * run.options.beam.young * 1e-6);
