@@ -81,8 +81,8 @@ void SpaceDrawing::draw_floor(ImDrawList& list, float unit) const {
                           at(o.x() + w.x(), o.z() + w.z()), at(o.x() - w.x(), o.z() + w.z())};
   for (int i = 0; i < 4; ++i)
     dashed(list, reach[i], reach[(i + 1) % 4], colour::with_alpha(colour::blue, 90), 0.4f * unit);
-  const ImVec2 near{(reach[0].x + reach[3].x) / 2, (reach[0].y + reach[3].y) / 2};
-  label(list, {near.x + 0.6f * unit, near.y}, colour::blue, "device's reach");
+  // At the corner that is left and in front as the view begins: the rod stands behind it.
+  label(list, {reach[3].x + 0.6f * unit, reach[3].y - 1.4f * unit}, colour::blue, "device's reach");
 }
 
 void SpaceDrawing::draw_shadow(ImDrawList& list, float unit) const {
