@@ -18,6 +18,7 @@
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/load_path.hpp>
+#include <hapbeam/fem/place_push.hpp>
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/round_push.hpp>
 #include <hapbeam/fem/several_push.hpp>
@@ -52,16 +53,9 @@ class AllDisplacements {
   /// @param node  [m] where the mesh has its node: at request.s, or at an end beside it   @param valid  whether there is a request
   /// @return force [N], not always finite, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
   Response<Scalar> press(const Push<Scalar, dimension>& request, Scalar node, bool valid) noexcept {
-    using std::abs;
     if (!begins(valid)) return {0, report_.status};
-    forget();
-    const Scalar last = system_.linear_reaction(), s = request.s;
-    const Scalar jump = request.d - system_.displacement(s, request.normal),
-                 from_rest = request.d - system_.displacement(rest_state_, s, request.normal);
-    if (single_valued_ && abs(from_rest) < abs(jump)) to_rest();
-    const Mesh mesh = uniform_.at(node);
-    system_.remesh(mesh);
-    return settle(last, 1, [&] { system_.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); });
+    round_.forget(), several_.forget();
+    return place_.push(*this, request, node);
   }
 
   /// Lays the beam on a circle, a rod on a capsule.   @param range  says where a node can be   @param valid  whether there is a request
@@ -70,14 +64,14 @@ class AllDisplacements {
   Pushed<Scalar, dimension> push(const Round& request, const Extent& range, bool valid,
                                  FrictionState<Scalar, dimension>* friction) noexcept {
     if (!begins(valid)) return {0, report_.status};
-    several_.forget();
+    several_.forget(), place_.forget();
     return round_.push(*this, request, range, friction);
   }
 
   /// Lays it on several.  @param all  in and out   @return the status that is common to all of them
   Status push(Obstacle<Scalar, dimension>* all, int count, const Extent& range) noexcept {
     if (!begins(true)) return report_.status;
-    round_.forget();
+    round_.forget(), place_.forget();
     return several_.push(*this, all, count, range);
   }
 
@@ -93,7 +87,7 @@ class AllDisplacements {
     if (!is_answer(rest_.status)) return report_.status = rest_.status, take();
     if (!system_.place_end(k, pose)) return take();
     single_valued_ = false;
-    round_.forget_shape(), several_.forget_shape();
+    round_.forget_shape(), several_.forget_shape(), place_.forget();
     const auto aim = [this] { system_.set_goal(); };
     aim();
     // On the way down Newton's method may be near enough by now.
@@ -169,6 +163,8 @@ class AllDisplacements {
   using Severals =
       std::conditional_t<(contacts_of<Element> > 1), detail::SeveralPush<Element, System>, detail::NoRound>;
   friend Severals;
+  using Places = detail::PlacePush<Element, System>;
+  friend Places;
   using Middle = decltype(std::declval<const System&>().middle());
 
   void to_rest() noexcept {
@@ -179,10 +175,7 @@ class AllDisplacements {
     unanswered_ = 0;
     forget();
   }
-  void forget() noexcept {
-    round_.forget();
-    several_.forget();
-  }
+  void forget() noexcept { round_.forget(), several_.forget(), place_.forget(); }
 
   /// @return whether there is a request to answer; if not, report() has its status
   bool begins(bool valid) noexcept {
@@ -329,6 +322,7 @@ class AllDisplacements {
   bool single_valued_;  // one shape for each press, as far as is known
   Rounds round_{system_};
   Severals several_{system_};
+  Places place_{system_};
   bool first_ = true;        // nothing has been solved for this request
   int left_ = 0;             // linear solves that this request may still take
   bool falling_ = false;     // off the shape that gave way, and not yet at a stable one

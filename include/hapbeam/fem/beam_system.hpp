@@ -78,6 +78,8 @@ class BeamSystem
     Contacts::restore_contacts();
   }
   Scalar size() const noexcept { return size_; }
+  /// Strain energy before the last increment [J].
+  Scalar strain() const noexcept { return size_ * size_ / 2; }
   Scalar unit() const noexcept { return unit_; }
 
   Iteration<Scalar> iterate() noexcept {
@@ -86,6 +88,7 @@ class BeamSystem
     force_ = linear_reaction_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
     others_.each([&](auto& other) { other.force = other.reaction = assembler_.reaction(other.row); });
     Contacts::feel_friction();
+    Contacts::foresee_potential(potential_, assembler_.energy());
     advance();
     return {status, increment()};
   }

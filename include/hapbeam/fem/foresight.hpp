@@ -67,6 +67,9 @@ class Foresight {
     forget();
   }
   void forget() noexcept { known_ = 0; }
+  /// Where the system was before the push.
+  const typename System::State& before() const noexcept { return before_; }
+  const Mesh& mesh() const noexcept { return mesh_; }
   /// To where the system was before the push.
   void begin_again(System& system) const noexcept { system.set_state(mesh_, before_); }
 

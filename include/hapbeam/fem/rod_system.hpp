@@ -91,6 +91,8 @@ class RodSystem
     Contacts::restore_contacts();
   }
   Scalar size() const noexcept { return size_; }
+  /// Strain energy before the last increment [J].
+  Scalar strain() const noexcept { return size_ * size_ / 2; }
   Scalar unit() const noexcept { return unit_; }
 
   /// The tangent holds what the contact's force makes of a capsule, on the way down as well: there a rod slips around a sphere.
@@ -103,6 +105,7 @@ class RodSystem
     linear_reaction_ = force_;
     for (auto& other : others_) other.reaction = other.force;
     Contacts::feel_friction();
+    Contacts::foresee_potential(potential_, assembler_.energy() + inner_energy_);
     return {status, increment()};
   }
 

@@ -15,6 +15,8 @@
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/contact_search.hpp>
+#include <hapbeam/fem/contact_work.hpp>
+#include <hapbeam/fem/continuation.hpp>
 #include <hapbeam/fem/foresight.hpp>
 #include <hapbeam/fem/friction_balance.hpp>
 #include <hapbeam/force_model.hpp>
@@ -55,29 +57,116 @@ class RoundPush {
   /// The same where what the hand did goes on.
   void forget_shape() noexcept {
     curved_ = -1;
-    balance_.forget();
+    work_.forget(), continuation_.forget(), balance_.forget();
   }
 
   /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
   /// @param state  of friction, null: without
   template <class Way, class Extent>
   Result push(Way& way, const Round& request, const Extent& range, FrictionState* state) noexcept {
-    if (!state) {
-      balance_.forget();
-      return find(way, request, range, nullptr);
+    // A straight beam that is pressed across has one shape for each press.
+    if (planar && way.single_valued_) {
+      continuation_.forget();
+      return answer(way, request, range, state);
     }
     System& system = way.system_;
+    if (!continuation_.known()) touch_down(system, request);
+    const Round from = work_.round(0);
+    struct Before {
+      Work work;
+      FrictionBalance<Scalar> balance;
+      FrictionState friction;
+      Scalar force;
+      bool sharp;
+    } before;
+    const auto go = [&](Scalar t) {
+      before = {work_, balance_, state ? *state : FrictionState{}, system.linear_reaction(), sharp_};
+      return answer(way, between(from, request, t), range, state);
+    };
+    const auto judge = [&](const Result& pushed) {
+      if (!(pushed.force < 0)) return Branch::same;
+      return continuation_.judge(
+          {potential_, work_.done() - taken_, work_.size(), system.strain(), work_.way(), system.length(),
+           system.mesh().node() == foresight_.mesh().node()},
+          [&] { return farthest(system.view(foresight_.before()), system.centreline()); });
+    };
+    const auto keep = [&](const Result& pushed) {
+      if (is_answer(pushed.status) && pushed.force < 0) continuation_.know(potential_);
+      else continuation_.forget();
+    };
+    const auto back = [&] {
+      foresight_.go_back(system, before.force);
+      work_ = before.work, balance_ = before.balance, sharp_ = before.sharp, curved_ = -1;
+      if (state) *state = before.friction;
+    };
+    const auto fall = [&] {
+      back();
+      way.descending_ = true;
+    };
+    return continuation_.follow(go, judge, keep, back, fall);
+  }
+
+ private:
+  using Work = ContactWork<Round, Scalar, dimension, 1>;
+
+  /// A beam that nothing touched will be touched: first where it lies.
+  void touch_down(const System& system, const Round& request) noexcept {
+    if (system.linear_reaction() != 0) return;
+    const RoundContact round{request};
+    const Node node = round.node_at(system.centreline(), request.s);
+    const auto view = round.look(node, 0);
+    Round start = request;
+    start.reach = (std::min)(request.reach, round.distance(view));
+    if (!(start.reach > 0)) return;
+    work_.begin();
+    work_.touches(0, start, {0, Status::ok, 0, false, request.s, round.point(view, node), view.normal},
+                  Vector::Zero());
+    continuation_.know(system.total_potential());
+  }
+
+  template <class Way, class Extent>
+  Result answer(Way& way, const Round& request, const Extent& range, FrictionState* state) noexcept {
+    System& system = way.system_;
+    taken_ = 0;
+    const auto count = [&](const Result& pushed, const Vector& rubs) {
+      if (!is_answer(pushed.status)) return work_.forget();
+      work_.begin();
+      work_.touches(0, request, pushed, rubs);
+    };
+    if (!state) {
+      balance_.forget();
+      const Result pushed = find(way, request, range, nullptr);
+      count(pushed, Vector::Zero());
+      potential_ = system.foreseen_potential();
+      return pushed;
+    }
     Friction friction(*state, RoundContact{request}, system, -system.linear_reaction(), true);
     system.set_friction(&friction);
     const Result pushed = find(way, request, range, &friction);
     // What is no answer says nothing of where they touch: friction begins anew.
-    if (is_answer(pushed.status) && pushed.force < 0) leave(system, request, pushed, friction, *state);
-    else state->let_go(), balance_.forget();
+    if (is_answer(pushed.status) && pushed.force < 0) {
+      const Scalar before = state->dissipated;
+      const bool slid = state->slides;
+      system.look_at_friction();
+      friction.leave(*state, -pushed.force);
+      count(pushed, state->force);
+      potential_ = system.foreseen_potential() - friction.potential() + friction.held(*state);
+      taken_ = state->dissipated - before;
+      if (friction.falls() || pushed.status != Status::ok) {
+        balance_.forget();
+      } else {
+        const auto potential = [&] { return system.total_potential() + friction.held(*state); };
+        taken_ *= balance_.factor(work_, potential, taken_, slid || state->slides);
+        state->dissipated = before + taken_;
+      }
+    } else {
+      state->let_go();
+      work_.forget(), balance_.forget();
+    }
     system.forget_friction();
     return pushed;
   }
 
- private:
   /// @param friction  null: none
   template <class Way, class Extent>
   Result find(Way& way, const Round& request, const Extent& range, Friction* friction) noexcept {
@@ -108,20 +197,6 @@ class RoundPush {
       s = std::clamp(next.s, Scalar(0), system.length());
       normal = next.normal;
     }
-  }
-
-  void leave(System& system, const Round& request, const Result& pushed, const Friction& friction,
-             FrictionState& state) noexcept {
-    const Scalar before = state.dissipated;
-    const bool slid = state.slides;
-    system.look_at_friction();
-    friction.leave(state, -pushed.force);
-    if (friction.falls() || pushed.status != Status::ok) return balance_.forget();
-    balance_.begin();
-    balance_.touches(0, request, pushed, state.force);
-    const Scalar taken = state.dissipated - before;
-    const auto potential = [&] { return system.total_potential() + friction.held(state); };
-    state.dissipated = before + taken * balance_.factor(potential, taken, slid || state.slides);
   }
 
   struct Trial {
@@ -248,8 +323,11 @@ class RoundPush {
   }
 
   Foresight<System, Round> foresight_;
-  FrictionBalance<Round, Scalar, dimension, 1> balance_;
-  bool sharp_ = false;  // where the last circle touched
+  Work work_;
+  Continuation<Scalar> continuation_;
+  FrictionBalance<Scalar> balance_;
+  Scalar potential_ = 0, taken_ = 0;  // of the last answer, and by friction [J]
+  bool sharp_ = false;                // where the last circle touched
   typename RoundContact::Curvature curvature_{};
   int curved_ = -1;  // the node that has this curvature
 };

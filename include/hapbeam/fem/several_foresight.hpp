@@ -81,6 +81,10 @@ class SeveralForesight {
     system.go_back(mesh_[0], before_[of(newest_)], force);
     forget();
   }
+  /// Where the system was before the push.
+  const State& before() const noexcept { return before_[of(newest_)]; }
+  /// Whether a mesh has as many elements between the same bodies as the one of then.
+  bool same_mesh(const Mesh& mesh) const noexcept { return same_nodes(mesh, mesh_[0]); }
   /// To where the system was before the push.
   void begin_again(System& system) const noexcept { system.set_state(mesh_[0], before_[of(newest_)]); }
   /// To be called after each push.  @param found  whether it was answered on the branch on which the beam was

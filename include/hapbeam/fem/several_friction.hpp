@@ -81,15 +81,22 @@ class SeveralFriction {
     each([&](int, Friction& friction) { any = friction.torn() || any; });
     return any;
   }
+  /// What a push leaves behind [J].
+  struct Left {
+    Scalar taken = 0;   ///< by friction
+    Scalar stored = 0;  ///< in sheared skins, less what the system's foreseen_potential() has of friction
+  };
   /// To be called where a push ends: what has no answer begins anew.
-  /// @param balance  a FrictionBalance   @param goal  as above, -1: none
-  template <class Balance, class Goal>
-  void leave(System& system, Status status, Balance& balance, Goal&& goal) noexcept {
+  /// @param work  a ContactWork   @param goal  as above, -1: none
+  template <class Work, class Goal>
+  Left leave(System& system, Status status, Work& work, FrictionBalance<Scalar>& balance,
+             Goal&& goal) noexcept {
     const bool answered = is_answer(status);
     std::array<Scalar, Most> before{};
-    Scalar taken = 0, skins = 0;
+    Left left;
+    Scalar skins = 0;
     bool slides = false, on_its_way = status == Status::ok && any_;
-    balance.begin();
+    work.begin();
     for (int i = 0; i < count_; ++i) {
       auto* state = all_[i].friction;
       const bool touches = answered && all_[i].touching;
@@ -99,28 +106,31 @@ class SeveralFriction {
         slides = slides || state->slides;
         of(i)->leave(*state, -all_[i].pushed.force);
         slides = slides || state->slides;
-        taken += state->dissipated - before[at(i)];
+        left.taken += state->dissipated - before[at(i)];
         skins += of(i)->held(*state);
+        left.stored += of(i)->held(*state) - of(i)->potential();
         on_its_way = on_its_way && !of(i)->falls();
       } else if (state) {
         state->let_go();
       }
-      if (!touches || !any_) continue;
+      if (!touches) continue;
       if (all_[i].kind == ObstacleKind::round)
-        balance.touches(i, all_[i].round, all_[i].pushed, state ? state->force : Vector(Vector::Zero()));
-      else balance.holds(i, all_[i].place);
+        work.touches(i, all_[i].round, all_[i].pushed, state ? state->force : Vector(Vector::Zero()));
+      else work.holds(i, all_[i].place);
     }
-    if (!any_) return balance.forget();
-    if (on_its_way) {
-      const Scalar factor = balance.factor([&] { return system.total_potential() + skins; }, taken, slides);
+    if (any_ && on_its_way) {
+      const Scalar factor = balance.factor(
+          work, [&] { return system.total_potential() + skins; }, left.taken, slides);
       each([&](int i, const Friction&) {
         Scalar& dissipated = all_[i].friction->dissipated;
         dissipated = before[at(i)] + factor * (dissipated - before[at(i)]);
       });
+      left.taken *= factor;
     } else {
       balance.forget();
     }
     system.forget_friction();
+    return left;
   }
   /// To be called thereafter where it was answered.  @param tilts  a ContactTilt
   template <class Tilts, class Goal>

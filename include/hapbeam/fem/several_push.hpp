@@ -19,6 +19,8 @@
 
 #include <hapbeam/fem/active_set.hpp>
 #include <hapbeam/fem/contact_tilt.hpp>
+#include <hapbeam/fem/contact_work.hpp>
+#include <hapbeam/fem/continuation.hpp>
 #include <hapbeam/fem/friction_balance.hpp>
 #include <hapbeam/fem/round_push.hpp>
 #include <hapbeam/fem/several_foresight.hpp>
@@ -69,13 +71,68 @@ class SeveralPush : private ActiveSet<Element, System> {
   /// To be called where something else moves the beam.
   void forget() noexcept { foresight_.forget(), tilts_.forget(), forget_shape(); }
   /// As RoundPush::forget_shape().
-  void forget_shape() noexcept { balance_.forget(); }
+  void forget_shape() noexcept { work_.forget(), balance_.forget(), continuation_.forget(); }
 
   /// @param way  AllDisplacements, which settles the system   @param range  says where a node can be
   /// @param all  in: where they are and whether they touched;  out: whether they touch, and their forces
   /// @return the worst Status of those that touch | iteration_limit where the passes have ended before the changes
   template <class Way, class Extent>
   Status push(Way& way, Obstacle* all, int count, const Extent& range) noexcept {
+    System& system = way.system_;
+    struct Answer {
+      Status status;
+    };
+    struct Before {
+      std::array<Obstacle, most> all;
+      std::array<State, most> friction;
+      Work work;
+      FrictionBalance<Scalar> balance;
+      Scalar force;
+    } before;
+    std::array<Obstacle, most> to{};
+    std::copy_n(all, count, to.begin());
+    const Work from = work_;
+    const auto go = [&](Scalar t) {
+      std::copy_n(all, count, before.all.begin());
+      for (int i = 0; i < count; ++i) {
+        if (all[i].friction) before.friction[of(i)] = *all[i].friction;
+        all[i].round = from.knows(i) ? between(from.round(i), to[of(i)].round, t) : to[of(i)].round;
+      }
+      before.work = work_, before.balance = balance_, before.force = system.linear_reaction();
+      return Answer{answer(way, all, count, range)};
+    };
+    const auto judge = [&](const Answer&) {
+      if (!began_ || !work_.same()) return Branch::same;
+      return continuation_.judge(
+          {potential_, work_.done() - taken_, work_.size(), system.strain(), work_.way(), system.length(),
+           foresight_.same_mesh(system.mesh())},
+          [&] { return farthest(system.view(foresight_.before()), system.centreline()); });
+    };
+    const auto keep = [&](const Answer& found) {
+      if (is_answer(found.status)) continuation_.know(potential_);
+      else continuation_.forget();
+    };
+    const auto back = [&] {
+      foresight_.go_back(system, before.force);
+      std::copy_n(before.all.begin(), count, all);
+      for (int i = 0; i < count; ++i)
+        if (all[i].friction) *all[i].friction = before.friction[of(i)];
+      work_ = before.work, balance_ = before.balance;
+    };
+    const auto fall = [&] {
+      back();
+      way.descending_ = true;
+    };
+    return continuation_.follow(go, judge, keep, back, fall).status;
+  }
+
+ private:
+  using Work =
+      ContactWork<typename SystemOf<Element>::template Round<Scalar>, Scalar, dimension_of<Element>, most>;
+  using State = FrictionState<Scalar, dimension_of<Element>>;
+
+  template <class Way, class Extent>
+  Status answer(Way& way, Obstacle* all, int count, const Extent& range) noexcept {
     System& system = way.system_;
     this->begin(all, count, range);
     const bool goes_on = foresight_.look(all, count);
@@ -105,13 +162,14 @@ class SeveralPush : private ActiveSet<Element, System> {
     if (snapped && status == Status::ok) status = Status::snapped;
     for (int i = 0; i < count; ++i) this->end(system, i, status);
     const auto goal = [this](int i) { return slot(i).goal; };
-    friction.leave(system, status, balance_, goal);
+    const auto left = friction.leave(system, status, work_, balance_, goal);
+    taken_ = left.taken;
+    potential_ = system.foreseen_potential() + left.stored;
     if (is_answer(status)) friction.learn(system, tilts_, goal);
     foresight_.know(all, count, status == Status::ok);
     return status;
   }
 
- private:
   template <class Way, class Extent>
   Status solve(Way& way, const Extent& range, bool first, Friction& friction) noexcept {
     System& system = way.system_;
@@ -254,8 +312,10 @@ class SeveralPush : private ActiveSet<Element, System> {
   std::array<Law, most> laws_{};
   SeveralForesight<System, Obstacle, most> foresight_;
   ContactTilt<System, most> tilts_;
-  FrictionBalance<typename SystemOf<Element>::template Round<Scalar>, Scalar, dimension_of<Element>, most>
-      balance_;
+  Work work_;
+  Continuation<Scalar> continuation_;
+  FrictionBalance<Scalar> balance_;
+  Scalar potential_ = 0, taken_ = 0;  // of the last answer, and by friction [J]
 };
 
 }  // namespace hapbeam::detail

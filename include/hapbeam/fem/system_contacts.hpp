@@ -104,6 +104,8 @@ class SystemContacts {
   /// those equations have balanced.  It is saved and restored with the state, and stays where the mesh moves or a descent
   /// is on its way: the force of the last equilibrium.
   Scalar linear_reaction() const noexcept { return linear_reaction_; }
+  /// V - λ f · x after the last iterate(), friction's included, to third order of its increment [J].
+  Scalar foreseen_potential() const noexcept { return foreseen_potential_; }
 
  protected:
   /// So far along the path.
@@ -139,6 +141,13 @@ class SystemContacts {
       if (other.friction) other.friction->feel(-other.force);
     });
   }
+  /// To be called after each linear solve, too.  @param potential  before the increment   @param energy  ΔᵀKΔ [J]
+  void foresee_potential(Scalar potential, Scalar energy) noexcept {
+    foreseen_potential_ = potential - energy / 2;
+    if (contact_.node() >= 0) foreseen_potential_ += linear_reaction_ * (d_ - contact_.displacement());
+    for (const auto& other : others_)
+      foreseen_potential_ += other.reaction * (other.d - other.point.displacement());
+  }
   /// To be called where the beam falls.
   void fall_with_friction() noexcept {
     if (friction_) friction_->fall();
@@ -168,6 +177,7 @@ class SystemContacts {
   Scalar d_ = 0, start_d_ = 0, goal_d_ = 0;            // of the first contact [m]
   Scalar linear_reaction_ = 0, saved_reaction_ = 0;    // [N]
   Scalar force_ = 0;                                   // of the last tangent's contact [N]
+  Scalar foreseen_potential_ = 0;                      // [J]
 
  private:
   System& self() noexcept { return static_cast<System&>(*this); }

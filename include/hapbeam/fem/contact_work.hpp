@@ -1,0 +1,97 @@
+// What hands give to a beam from one answer to the next: the work of its contacts, by trapezoids.
+//
+//   W = Σ ½ (F before + F) · Δx        F: on the beam, friction included; x: centre of a circle, or of the axis of a capsule what is beside the contact
+//
+// A body that grows by Δr gives -½ (f before + f) Δr, f < 0 its force along the normal.  W is the change of the beam's energy and of what friction has
+// taken, to third order of the step.
+// Real-time: noexcept, no allocation, O(1) for each body.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+/// @tparam Round  Circle<Scalar> | Capsule<Scalar>   @tparam Most  bodies
+template <class Round, typename Scalar, int D, int Most>
+class ContactWork {
+ public:
+  using Vector = VectorOf<Scalar, D>;
+
+  /// To be called where the beam moves otherwise.
+  void forget() noexcept { known_ = false; }
+  /// To be called where a push was answered, before what follows.
+  void begin() noexcept {
+    work_ = size_ = way_ = 0;
+    same_ = known_;
+    known_ = true;
+    touched_ = touching_;
+    touching_ = {};
+  }
+  /// With each body that touches.  @param pushed  of it   @param friction  on the beam [N]
+  void touches(int i, const Round& round, const Pushed<Scalar, D>& pushed, const Vector& friction) noexcept {
+    Body& body = bodies_[of(i)];
+    const Vector force = pushed.force * pushed.normal + friction;
+    const Scalar grown = round.reach - body.round.reach;
+    const Vector way = moved(body.round, round, pushed.point);
+    add(body.force.dot(moved(body.round, round, body.point)) - body.push * grown,
+        force.dot(way) - pushed.force * grown);
+    way_ = (std::max)(way_, std::sqrt(way.squaredNorm()) + std::abs(grown));
+    body = {round, force, pushed.point, pushed.force, {0, 0, Vector::Zero()}};
+    touching_[of(i)] = true;
+  }
+  /// The same of a place of the beam that is held, and does not move.
+  void holds(int i, const Push<Scalar, D>& place) noexcept {
+    Body& body = bodies_[of(i)];
+    same_ = same_ && body.place.s == place.s && body.place.d == place.d && body.place.normal == place.normal;
+    body = {};
+    body.place = place;
+    touching_[of(i)] = true;
+  }
+
+  /// Whether the same touches that touched before, and its work is known.
+  bool same() const noexcept { return same_ && touching_ == touched_; }
+  /// Whether a round body has touched last.
+  bool knows(int i) const noexcept { return known_ && touching_[of(i)] && bodies_[of(i)].push != 0; }
+  /// That touched last.
+  const Round& round(int i) const noexcept { return bodies_[of(i)].round; }
+  /// W [J]
+  Scalar done() const noexcept { return work_; }
+  /// The same without the signs of its parts [J].
+  Scalar size() const noexcept { return size_; }
+  /// How far any of them has gone [m].
+  Scalar way() const noexcept { return way_; }
+
+ private:
+  static Round nowhere() noexcept {
+    if constexpr (D == 2) return {0, Vector::Zero(), 0, 1};
+    else return {0, {Vector::Zero(), Vector::Zero()}, 0, Vector::Zero()};
+  }
+  struct Body {
+    Round round = nowhere();
+    Vector force = Vector::Zero(), point = Vector::Zero();
+    Scalar push = 0;  // along the normal [N]
+    Push<Scalar, D> place{0, 0, Vector::Zero()};
+  };
+  static std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
+  void add(Scalar before, Scalar now) noexcept {
+    work_ += (before + now) / 2;
+    size_ += std::abs(before) + std::abs(now);
+  }
+  /// How far the centre has gone, or the axis beside a point.
+  static Vector moved(const Round& from, const Round& to, const Vector& point) noexcept {
+    if constexpr (D == 2) return to.centre - from.centre;
+    else return to.axis.tip - from.axis.tip + to.axis.nearest(point) * (to.axis.way - from.axis.way);
+  }
+
+  std::array<Body, Most> bodies_{};
+  std::array<bool, Most> touching_{}, touched_{};
+  Scalar work_ = 0, size_ = 0, way_ = 0;
+  bool known_ = false, same_ = false;
+};
+
+}  // namespace hapbeam::detail

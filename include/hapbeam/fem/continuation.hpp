@@ -1,0 +1,157 @@
+// Whether an answer continues the last one: by the balance of energy.
+//
+//   V - V before = W - D        W: what the hands gave (contact_work.hpp), D: what friction has taken
+//
+// holds to third order of the step on one branch of equilibria.  Newton's method may land on another one, stable and with all pivots positive.  The energy is
+// another there, and the beam has gone farther than the hand.  (Where the mesh has moved the energy may be another, too; there the beam has not.)
+// Such an answer is sought again in halves and quarters of the hand's way, each from the one before.  The trapezoids' error falls by eight with each half.
+// What is off in a quarter still has snapped; where it has gained energy no snap leads there, and the beam falls from where it was (Descent).
+// Real-time: noexcept, no allocation, O(1) but for the answers that are sought again: at most six, and the linear solves of AllDisplacements in all.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+/// What the energy says of an answer.
+enum class Branch {
+  same,   ///< the last one's
+  doubt,  ///< the last one's, unless it is so in a shorter step
+  other,  ///< energy is missing
+  risen   ///< energy has come from nowhere
+};
+
+/// An answer, as it is judged.
+template <typename Scalar>
+struct Continued {
+  Scalar potential;  ///< V [J]
+  Scalar given;      ///< W - D [J]
+  Scalar size;       ///< of the parts of W [J]
+  Scalar strain;     ///< strain energy [J]
+  Scalar hand;       ///< how far it has gone [m]
+  Scalar length;     ///< of the beam [m]
+  bool same_mesh;    ///< as many elements on either side as before
+};
+
+/// On the way from one place of a body to the next.  @param t  0 to 1
+template <typename Scalar>
+Circle<Scalar> between(const Circle<Scalar>& from, const Circle<Scalar>& to, Scalar t) noexcept {
+  if (t >= 1) return to;
+  const auto at = [t](const auto& a, const auto& b) { return (a + t * (b - a)).eval(); };
+  const auto mean = [t](Scalar a, Scalar b) { return a + t * (b - a); };
+  return {mean(from.s, to.s), at(from.centre, to.centre), mean(from.reach, to.reach), to.side};
+}
+template <typename Scalar>
+Capsule<Scalar> between(const Capsule<Scalar>& from, const Capsule<Scalar>& to, Scalar t) noexcept {
+  if (t >= 1) return to;
+  const auto at = [t](const auto& a, const auto& b) { return (a + t * (b - a)).eval(); };
+  const auto mean = [t](Scalar a, Scalar b) { return a + t * (b - a); };
+  return {mean(from.s, to.s),
+          {at(from.axis.tip, to.axis.tip), at(from.axis.way, to.axis.way)},
+          mean(from.reach, to.reach),
+          to.normal};
+}
+
+template <typename Scalar, int D>
+Push<Scalar, D> between(const Push<Scalar, D>& from, const Push<Scalar, D>& to, Scalar t) noexcept {
+  if (t >= 1) return to;
+  const VectorOf<Scalar, D> normal = from.normal + t * (to.normal - from.normal);
+  return {from.s + t * (to.s - from.s), from.d + t * (to.d - from.d), normal.normalized()};
+}
+
+/// Of a centreline [m].
+template <typename Scalar>
+Vector2<Scalar> place_at(const Centreline<Scalar>& line, Scalar s) noexcept {
+  const Displacement<Scalar> moved = line.at(s);
+  return {s + moved.u, moved.w};
+}
+template <typename Scalar>
+VectorOf<Scalar, 3> place_at(const Centreline<Scalar, 3>& line, Scalar s) noexcept {
+  return line.at(s).r;
+}
+
+/// How far any of some places has gone from one shape to another [m].
+template <class Centreline>
+auto farthest(const Centreline& from, const Centreline& to) noexcept {
+  using Scalar = decltype(to.length());
+  constexpr int places = 16;
+  Scalar most = 0;
+  for (int i = 0; i <= places; ++i) {
+    const Scalar s = to.length() * static_cast<Scalar>(i) / places;
+    most = (std::max)(most, (place_at(to, s) - place_at(from, s)).squaredNorm());
+  }
+  return std::sqrt(most);
+}
+
+template <typename Scalar>
+class Continuation {
+ public:
+  /// Of the hand's way in a tick that is the shortest to be tried.
+  static constexpr Scalar shortest = Scalar(0.25);
+
+  void forget() noexcept { known_ = false; }
+  bool known() const noexcept { return known_; }
+  /// An answer to continue.  @param potential  V [J]
+  void know(Scalar potential) noexcept { stored_ = potential, known_ = true; }
+
+  /// @param beam  () -> how far any place of it has gone [m]
+  template <class Beam>
+  Branch judge(const Continued<Scalar>& now, Beam&& beam) const noexcept {
+    const Scalar rest = now.potential - stored_ - now.given, off = std::abs(rest) - trapezoid * now.size;
+    if (!known_ || off <= little * now.strain) return Branch::same;
+    const Scalar gone = beam();
+    if (gone <= along * now.hand + now.length / 1000) return Branch::same;
+    if (!now.same_mesh && off <= mesh * now.strain && gone <= along * now.hand + now.length / 50)
+      return Branch::doubt;
+    return rest < 0 ? Branch::other : Branch::risen;
+  }
+
+  /// Goes from the last request to the next.
+  /// @param go  t in (0, 1] of the way -> an answer with a status   @param judge  answer -> Branch   @param keep  (): the answer is to be continued
+  /// @param back  (): to where go() began   @param fall  (): back, and down from there in the next go()
+  template <class Go, class Judge, class Keep, class Back, class Fall>
+  static auto follow(Go&& go, Judge&& judge, Keep&& keep, Back&& back, Fall&& fall) noexcept {
+    bool snapped = false;
+    Scalar t = 0, step = 1;
+    for (;;) {
+      auto answer = go(t + step);
+      const Branch branch = answer.status == Status::ok ? judge(answer) : Branch::same;
+      if (branch != Branch::same && step > shortest) {
+        back();
+        step /= 2;
+        continue;
+      }
+      if (branch == Branch::risen) {
+        fall();
+        answer = go(1);
+        step = 1 - t;
+      }
+      snapped = snapped || branch == Branch::other || answer.status == Status::snapped;
+      keep(answer);
+      t += step;
+      if (!is_answer(answer.status)) return answer;
+      if (t >= 1) {
+        if (snapped && answer.status == Status::ok) answer.status = Status::snapped;
+        return answer;
+      }
+      step = (std::min)(2 * step, 1 - t);
+    }
+  }
+
+ private:
+  // Of the trapezoids' parts a quarter is missing where a force grows with the cube of the depth, from zero.
+  static constexpr Scalar trapezoid = Scalar(0.3);
+  static constexpr Scalar little = Scalar(1e-3),
+                          mesh =
+                              Scalar(0.05);  // of the energy: of a solver's answer, and of a mesh that moves
+  static constexpr Scalar along = 3;         // times as far as the hand a beam goes with it
+
+  Scalar stored_ = 0;
+  bool known_ = false;
+};
+
+}  // namespace hapbeam::detail

@@ -1,0 +1,101 @@
+// A push of a beam or rod at a given place along a given direction: the press of the thesis, and what leads it in tests and choosers.
+//
+// The mesh has its node at the place.  An answer continues the last one, or says that it does not (continuation.hpp).  The work of a push that has led
+// from n₋ · u(s₋) = d₋ to n · u(s) = d is, by trapezoids,
+//
+//   W = ½ F₋ (d - n · u₋(s)) + ½ F (n₋ · u(s₋) - d₋)
+//
+// Allocates at construction.  Real-time: all else is noexcept and allocation-free; a push takes at most the linear solves of AllDisplacements.
+#pragma once
+
+#include <cmath>
+
+#include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/continuation.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+template <class Element, class System>
+class PlacePush {
+  using Scalar = typename System::Scalar;
+  using Mesh = typename System::Mesh;
+  static constexpr int dimension = dimension_of<Element>;
+  using Request = Push<Scalar, dimension>;
+
+ public:
+  explicit PlacePush(const System& system) : before_(system.elements()), mesh_(system.mesh()) {}
+
+  /// To be called where something else moves the beam.
+  void forget() noexcept { continuation_.forget(); }
+
+  /// @param way  AllDisplacements, which settles the system   @param node  [m] where the mesh has its node: at request.s, or at an end beside it
+  template <class Way>
+  Response<Scalar> push(Way& way, const Request& request, Scalar node) noexcept {
+    // A straight beam has one shape for each press.
+    if (way.single_valued_) {
+      continuation_.forget();
+      return answer(way, request, node);
+    }
+    System& system = way.system_;
+    if (!continuation_.known() && system.linear_reaction() == 0) {
+      last_ = {request.s, system.displacement(request.s, request.normal), request.normal};
+      node_ = node;
+      continuation_.know(system.total_potential());
+    }
+    const Request from = last_;
+    const Scalar from_node = node_;
+    Request next;
+    Scalar force = 0, ahead = 0;
+    const auto go = [&](Scalar t) {
+      next = between(from, request, t);
+      node_ = t < 1 ? from_node + t * (node - from_node) : node;
+      system.keep(before_), mesh_ = system.mesh(), force = system.linear_reaction();
+      ahead = next.d - system.displacement(next.s, next.normal);
+      return answer(way, next, node_);
+    };
+    const auto judge = [&](const Response<Scalar>& found) {
+      const Scalar behind = system.displacement(last_.s, last_.normal) - last_.d;
+      const Scalar before = force * ahead, now = found.force * behind;
+      return continuation_.judge(
+          {system.foreseen_potential(), (before + now) / 2, std::abs(before) + std::abs(now), system.strain(),
+           std::abs(ahead) + std::abs(next.s - last_.s), system.length(),
+           system.mesh().node() == mesh_.node()},
+          [&] { return farthest(system.view(before_), system.centreline()); });
+    };
+    const auto keep = [&](const Response<Scalar>& found) {
+      if (!is_answer(found.status)) return continuation_.forget();
+      continuation_.know(system.foreseen_potential());
+      last_ = next;
+    };
+    const auto back = [&] { system.go_back(mesh_, before_, force); };
+    const auto fall = [&] {
+      back();
+      way.descending_ = true;
+    };
+    return continuation_.follow(go, judge, keep, back, fall);
+  }
+
+ private:
+  template <class Way>
+  static Response<Scalar> answer(Way& way, const Request& request, Scalar node) noexcept {
+    using std::abs;
+    System& system = way.system_;
+    const Scalar last = system.linear_reaction(), s = request.s;
+    const Scalar jump = request.d - system.displacement(s, request.normal),
+                 from_rest = request.d - system.displacement(way.rest_state_, s, request.normal);
+    if (way.single_valued_ && abs(from_rest) < abs(jump)) way.to_rest();
+    const Mesh mesh = way.uniform_.at(node);
+    system.remesh(mesh);
+    return way.settle(last, 1,
+                      [&] { system.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); });
+  }
+
+  typename System::State before_;
+  Mesh mesh_;                                                // of before_
+  Request last_{0, 0, VectorOf<Scalar, dimension>::Zero()};  // answered
+  Scalar node_ = 0;                                          // [m] of it
+  Continuation<Scalar> continuation_;
+};
+
+}  // namespace hapbeam::detail
