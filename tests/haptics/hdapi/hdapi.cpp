@@ -90,7 +90,7 @@ TEST_CASE("a loop that never ran is unscheduled after the scheduler has stopped"
     CHECK(floor.calls == 3);
   }
   CHECK(world.history ==
-        "init check_calibration schedule enable_force unschedule disable_device "
+        "init check_calibration schedule enable_force unschedule disable_force disable_device "
         "init check_calibration schedule enable_force start_scheduler stop_scheduler disable_device ");
   check_clean(world);
 }

@@ -13,6 +13,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <hapbeam/check.hpp>
 #include <hapbeam/haptics/device/device.hpp>
@@ -105,8 +106,27 @@ class HdConnection {
 
   /// With the scheduler's mutex.
   void disconnect() noexcept {
-    if (connected_) Scheduler::disable(client.handle);
-    connected_ = false;
+    if (!std::exchange(connected_, false)) return;
+    // While the scheduler runs the device stays open, and may have been lost with its motors on.
+    if (Scheduler::runs()) Scheduler::insist([this]() noexcept { switch_off(); });
+    Scheduler::disable(client.handle);
+  }
+
+  /// Makes the device current: what is meant for it must not reach another one.   @return whether it is
+  /// On the servo thread, or with the mutex where there is none.  Real-time: no allocation, noexcept, O(1).
+  bool select() const noexcept {
+    Api::make_current_device(client.handle);
+    return Api::get_current_device() == client.handle;
+  }
+
+  /// Switches the motors off.  Outside of a frame, else as select().   @return whether it was done without an error
+  bool switch_off() noexcept {
+    Scheduler::drain();
+    client.errors = {};
+    if (!select()) return false;
+    Api::disable(Api::force_output);
+    const HdErrorClass rest = Scheduler::drain().worst;
+    return rest == HdErrorClass::none && client.errors.worst == HdErrorClass::none;
   }
 
   /// Of a device that a person calibrates; one that calibrates itself does so in the loop.
@@ -117,8 +137,7 @@ class HdConnection {
     HdErrors errors;
     const bool asked = Scheduler::call([&]() noexcept {
       Scheduler::drain();
-      Api::make_current_device(client.handle);
-      calibrated = calibration.check(at_reset_position);
+      calibrated = select() && calibration.check(at_reset_position);
       errors = Scheduler::drain();
     });
     if (!asked || errors.worst >= HdErrorClass::fault) fail("does not tell its calibration", errors);
@@ -207,7 +226,7 @@ class HdConnection {
   }
 
   void describe() {
-    Api::make_current_device(client.handle);
+    if (!select()) fail("cannot be made current", Scheduler::drain());
     double box[6] = {}, peak = 0, continuous = 0, stiffness = 0;  // mm, N, N, N/mm
     Api::get_doublev(Api::usable_workspace, box);
     Api::get_doublev(Api::nominal_max_force, &peak);

@@ -14,8 +14,8 @@
 //                                            itself, then reset and ramp; one that a person calibrates: the loop ends
 //   communication lost; any other error, a   the servo is not called, zero is sent, forces are switched off,
 //   position that is no number, a transform  the loop ends, status() has the reason; start() reconnects
-//   that is no rotation, a frame that is
-//   not this device's
+//   that is no rotation, a frame that is     where the driver reports an error in that, it is done again in the
+//   not this device's                        next three ticks
 //
 // Several devices share one scheduler (scheduler.hpp). A device is constructed, or restarted after its loop was lost,
 // while no other runs. A healthy device starts and stops at any time. Units and origin are those of connection.hpp.
@@ -132,6 +132,7 @@ class Hdapi {
   void begin() {
     ticks_ = missed_ticks_ = force_cut_ticks_ = 0;
     stopping_ = ended_ = false;
+    last_ticks_ = most_last_ticks;
     sent_ = {};
     cut_ = ForceCut::none;
     ramp_.start();
@@ -139,27 +140,30 @@ class Hdapi {
     anew_ = true, timed_ = false;
     detail::HdErrors errors;
     scheduled_ = true;
-    Scheduler::call([this]() noexcept {
+    const bool linked = Scheduler::call([this]() noexcept {
       Scheduler::drain();
       device_.client.errors = {};
       Scheduler::link(device_.client);
     });
+    if (!linked) device_.fail("is not scheduled", errors);
     if (!Scheduler::runs()) Api::set_scheduler_rate(device_.options().rate);
     status_.store(device_.calibration.automatic() ? DeviceStatus::calibrating : DeviceStatus::running,
                   std::memory_order_release);
     schedule_ =
         Api::schedule_asynchronous(Api::template callback<&Hdapi::servo_tick>, this, Api::default_priority);
+    bool selected = true;
     const bool asked = Scheduler::call([&]() noexcept {
-      if (ended_.load(relaxed)) return;  // beside another loop this one runs by now, and has met a fault
-      Api::make_current_device(device_.client.handle);
-      Api::enable(Api::force_output);
+      if (!running()) return;  // beside another loop this one runs by now, and has met a fault
+      selected = device_.select();
+      if (selected) Api::enable(Api::force_output);
       Scheduler::drain();
       errors = device_.client.errors;
     });
     if (!asked || !has_schedule()) device_.fail("is not scheduled", errors);
-    if (errors.worst >= HdErrorClass::fault) device_.fail("does not start", errors);
+    if (!selected || errors.worst >= HdErrorClass::fault) device_.fail("does not start", errors);
     counted_ = true;
-    Scheduler::add_loop(device_.options().rate);
+    errors = Scheduler::add_loop(device_.options().rate);
+    if (errors.worst != HdErrorClass::none) device_.fail("does not start", errors);
   }
   bool has_schedule() const noexcept { return static_cast<unsigned>(schedule_) != Api::invalid_handle; }
 
@@ -172,7 +176,10 @@ class Hdapi {
     if (std::exchange(counted_, false)) Scheduler::remove_loop();
     if (std::exchange(scheduled_, false) && !ended_) {  // it never ran, or the scheduler does not answer
       if (has_schedule()) Api::unschedule(schedule_);
-      Scheduler::call([this]() noexcept { Scheduler::unlink(device_.client); });
+      Scheduler::insist([this]() noexcept {
+        device_.switch_off();
+        Scheduler::unlink(device_.client);
+      });
     }
     if (running()) status_.store(DeviceStatus::stopped, std::memory_order_release);
     if (status() == DeviceStatus::device_fault || status() == DeviceStatus::communication_lost)
@@ -200,7 +207,8 @@ class Hdapi {
     const detail::HdErrors errors = std::exchange(device_.client.errors, {});
 
     const DeviceStatus end =
-        errors.worst == HdErrorClass::communication                     ? DeviceStatus::communication_lost
+        !running()                                                      ? status()
+        : errors.worst == HdErrorClass::communication                   ? DeviceStatus::communication_lost
         : errors.worst == HdErrorClass::fault || !(current && readable) ? DeviceStatus::device_fault
         : !calibrated && !device_.calibration.automatic()               ? DeviceStatus::calibration_needed
         : stopping_.load(relaxed)                                       ? DeviceStatus::stopped
@@ -229,9 +237,9 @@ class Hdapi {
       device_.calibration.update();
       return true;
     }
-    if (current) Api::disable(Api::force_output);
-    Scheduler::unlink(device_.client);
     status_.store(end, std::memory_order_release);
+    if (!device_.switch_off() && last_ticks_-- > 0) return true;
+    Scheduler::unlink(device_.client);
     ended_.store(true, std::memory_order_release);
     return false;
   }
@@ -258,6 +266,7 @@ class Hdapi {
   }
 
   static constexpr auto relaxed = std::memory_order_relaxed;
+  static constexpr int most_last_ticks = 3;
 
   detail::HdConnection<Api> device_;
   ForceRamp ramp_;
@@ -268,6 +277,7 @@ class Hdapi {
   bool scheduled_ = false, counted_ = false;
   bool anew_ = true;    // the servo has not been asked since the arm's place is known
   bool timed_ = false;  // the clock runs
+  int last_ticks_ = 0;  // left to switch the motors off, after the loop has ended
   Wrench sent_;
   ForceCut cut_ = ForceCut::none;
   typename Clock::time_point first_{}, last_{};

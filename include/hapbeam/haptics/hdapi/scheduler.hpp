@@ -56,6 +56,15 @@ class HdScheduler {
     return call.done;
   }
 
+  /// As call(). A scheduler that does not take the function is stopped for it: no motor may keep a force because of that.
+  template <typename F>
+  static void insist(F&& f) noexcept {
+    if (call(f)) return;
+    Api::stop_scheduler();
+    f();
+    Api::start_scheduler();
+  }
+
   /// On the servo thread, or with the mutex where there is none.
   static void link(HdClient& client) noexcept { client.next = first_, first_ = &client; }
   static void unlink(HdClient& client) noexcept {
@@ -87,9 +96,16 @@ class HdScheduler {
   }
 
   /// One loop more.  Starts the scheduler for the first one.  With the mutex.
-  static void add_loop(unsigned rate) noexcept {
+  /// @return the error of the start: one that a tick may have met by now as well is not
+  static HdErrors add_loop(unsigned rate) noexcept {
+    HdErrors errors;
     rate_ = rate;
-    if (loops_++ == 0) Api::start_scheduler();
+    if (loops_++ > 0) return errors;
+    Api::start_scheduler();
+    const unsigned code = Api::get_error().errorCode;
+    const HdErrorClass kind = classify<Api>(code);
+    if (kind != HdErrorClass::warm && kind != HdErrorClass::force) errors.note(kind, code);
+    return errors;
   }
   /// One loop less.  Stops the scheduler after the last one, and disables what was to be disabled.  With the
   /// mutex.
