@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -20,15 +20,21 @@
 
 namespace phantom {
 
-/// A target for each period of the loop.
+/// Targets, each of which holds until the next one.
 struct Replay {
-  std::vector<hapbeam::HandTarget> targets;  ///< at least one
+  struct Row {
+    long long tick;  ///< periods since the start
+    hapbeam::HandTarget target;
+  };
+  std::vector<Row> rows;  ///< at least one, ascending; the first one also holds before its tick
 
   hapbeam::HandTarget operator()(double time) const noexcept {
-    const auto tick = static_cast<std::size_t>(std::llround(std::max(time, 0.0) / period));
-    return targets[std::min(tick, targets.size() - 1)];
+    const auto after = std::upper_bound(rows.begin(), rows.end(), tick(std::max(time, 0.0)),
+                                        [](long long now, const Row& row) { return now < row.tick; });
+    return after == rows.begin() ? after->target : std::prev(after)->target;
   }
-  double duration() const noexcept { return static_cast<double>(targets.size()) * period; }
+  double duration() const noexcept { return static_cast<double>(rows.back().tick + 1) * period; }
+  static long long tick(double time) noexcept { return std::llround(time / period); }
   static constexpr double period = 1e-3;  ///< [s] the simulated Phantom's
 };
 

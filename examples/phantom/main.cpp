@@ -3,10 +3,8 @@
 // Model, coupling and device make a session; here it is started and watched.
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -15,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "ending.hpp"
 #include "options.hpp"
 #include "recording.hpp"
 #include "report.hpp"
@@ -29,10 +28,6 @@ namespace {
 
 using namespace phantom;
 
-volatile std::sig_atomic_t interrupted = 0;
-
-extern "C" void interrupt(int) { interrupted = 1; }
-
 /// Real time: the device ticks on its thread, this one prints a row a second.
 template <typename Write>
 void watch(Session& session, double duration, const Write& write) {
@@ -43,7 +38,7 @@ void watch(Session& session, double duration, const Write& write) {
     return begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   };
   double next_row = 1;
-  while (!interrupted && Clock::now() < at(duration)) {
+  while (!interrupted() && Clock::now() < at(duration)) {
     std::this_thread::sleep_until(
         std::min(at(std::min(next_row, duration)), Clock::now() + std::chrono::milliseconds(50)));
     write();
@@ -52,13 +47,12 @@ void watch(Session& session, double duration, const Write& write) {
     print_row(session);
     next_row += 1;
   }
-  session.stop();
 }
 
 /// Lock step: a row for each simulated second.
 template <typename Write>
 void simulate(Session& session, double duration, const Write& write) {
-  for (double left = duration; left > 0 && !interrupted; left -= 1) {
+  for (double left = duration; left > 0 && !interrupted(); left -= 1) {
     session.run(std::min(left, 1.0));
     write();
     session.update();
@@ -66,13 +60,7 @@ void simulate(Session& session, double duration, const Write& write) {
   }
 }
 
-int write_report(std::ofstream& file, const Options& options, const std::string& report) {
-  if (options.report.empty() || file << report << std::flush) return 0;
-  std::fprintf(stderr, "phantom: %s: the report cannot be written\n", options.report.c_str());
-  return 1;
-}
-
-int run(Options options, std::shared_ptr<const Trained> trained, std::ofstream& report) {
+int run(Options options, std::shared_ptr<const Trained> trained, ReportFile& report) {
   Hand hand(options.replay.empty() ? Way(make_path(options)) : Way(read_recording(options.replay)));
   if (!options.replay.empty()) options.duration = hand.duration();
   Tape tape;
@@ -84,28 +72,25 @@ int run(Options options, std::shared_ptr<const Trained> trained, std::ofstream& 
     });
   };
   Session session(options, std::move(trained), hand, tape);
+  Ending ending([&](bool cut_short) {
+    session.stop();
+    write();
+    return finish(session, recording ? &*recording : nullptr, tape.lost(), report, cut_short);
+  });
 
   print_scene(session.body().options(), session.body().trained(), session.device().info());
   if (options.lock_step) simulate(session, options.duration, write);
   else watch(session, options.duration, write);
-  write();
-  if (recording) recording->close();
-
-  const Run result = Run::of(session, interrupted != 0);
-  print_summary(result);
-  if (tape.lost() > 0)
-    std::printf("record   %llu ticks are missing, the disk was too slow\n",
-                static_cast<unsigned long long>(tape.lost()));
-  return write_report(report, options, json(result));
+  return ending.run(interrupted());
 }
 
-/// @return the report, where there is a window in which it then has run; else nothing, and why
-std::optional<std::string> run_in_window([[maybe_unused]] const Options& options,
-                                         [[maybe_unused]] const std::shared_ptr<const Trained>& trained,
-                                         std::string& why) {
+/// @return the exit status, where there is a window in which it then has run; else nothing, and why
+std::optional<int> run_in_window([[maybe_unused]] const Options& options,
+                                 [[maybe_unused]] const std::shared_ptr<const Trained>& trained,
+                                 [[maybe_unused]] ReportFile& report, std::string& why) {
 #ifdef HAPBEAM_EXAMPLES_WINDOW
   if (const std::unique_ptr<Display> display = Display::open(options.zoom, why))
-    return run_window(*display, options, trained, interrupted);
+    return run_window(*display, options, trained, report);
 #else
   why = "it was built without GLFW, OpenGL, Dear ImGui and stb";
 #endif
@@ -117,22 +102,16 @@ std::optional<std::string> run_in_window([[maybe_unused]] const Options& options
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (cli::wants_help(arguments)) return std::fputs(help().c_str(), stdout) < 0;
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  catch_signals();
   try {
     Options options = parse(arguments);
     std::shared_ptr<const Trained> trained;
     if (!options.model.empty()) trained = std::make_shared<const Trained>(load(options));
-    std::ofstream report;
-    if (!options.report.empty()) report.open(options.report);
-    if (!report) {
-      std::fprintf(stderr, "phantom: %s: the report cannot be written\n", options.report.c_str());
-      return 1;
-    }
+    ReportFile report(options.report);
     const bool needs_window = !options.screenshot.empty() || options.tour > 0;
     if (!options.headless && (!options.lock_step || needs_window)) {
       std::string why;
-      if (const auto text = run_in_window(options, trained, why)) return write_report(report, options, *text);
+      if (const auto status = run_in_window(options, trained, report, why)) return *status;
       std::fprintf(needs_window ? stderr : stdout, "phantom: no window: %s%s\n", why.c_str(),
                    needs_window ? "" : "; runs headless");
       if (needs_window) return 1;

@@ -1,9 +1,10 @@
 #include "recording.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <initializer_list>
@@ -40,6 +41,24 @@ class Line {
   char* end_ = text_;
 };
 
+auto commas(const std::string& line) { return std::count(line.begin(), line.end(), ','); }
+
+/// The columns of the hand, each a number and nothing else.   @return false where they are not, or not near a device
+bool read_row(const std::string& line, double& time, hapbeam::HandTarget& target) {
+  double values[7];
+  const char* text = line.c_str();
+  for (double& value : values) {
+    char* end;
+    value = std::strtod(text, &end);
+    if (end == text || *end != ',') return false;
+    text = end + 1;
+  }
+  time = values[0];
+  target = {{values[1], values[2], values[3]}, {values[4], values[5], values[6]}};
+  return time >= 0 && time < longest && (target.position.array().abs() < 1).all() &&
+         (target.velocity.array().abs() < 100).all();
+}
+
 }  // namespace
 
 Recording::Recording(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "w")) {
@@ -48,6 +67,7 @@ Recording::Recording(const std::string& path) : path_(path), file_(std::fopen(pa
 }
 
 void Recording::write(const Tick& tick) {
+  if (std::ferror(file_.get())) return;  // so that no row stands behind a part of one
   const hapbeam::ServoRecord& r = tick.record;
   Line line;
   line.add({r.time});
@@ -59,10 +79,15 @@ void Recording::write(const Tick& tick) {
   std::fprintf(file_.get(), "%s,%s\n", name(r.status), name(r.model));
 }
 
-void Recording::close() {
-  const bool whole = file_ && !std::ferror(file_.get());
-  if (std::FILE* file = file_.release(); !file || std::fclose(file) != 0 || !whole)
-    throw std::runtime_error(path_ + ": the recording cannot be written");
+bool Recording::close(std::uint64_t lost) {
+  bool written = !std::ferror(file_.get());
+  written &= std::fclose(file_.release()) == 0;
+  if (!written)
+    std::fprintf(stderr, "phantom: %s: the recording cannot be written, and is cut off\n", path_.c_str());
+  if (lost > 0)
+    std::fprintf(stderr, "phantom: %s: %llu ticks are missing, the disk was too slow\n", path_.c_str(),
+                 static_cast<unsigned long long>(lost));
+  return written;
 }
 
 Replay read_recording(const std::string& path) {
@@ -71,24 +96,27 @@ Replay read_recording(const std::string& path) {
   std::string line;
   if (!std::getline(file, line) || line.rfind(head, 0) != 0)
     throw std::runtime_error(path + ": is no recording, its first line must begin with " + head);
+  const auto columns = commas(line) + 1;
   Replay replay;
   for (int number = 2; std::getline(file, line); ++number) {
+    const auto reject = [&](const std::string& why) {
+      throw std::runtime_error(path + ", line " + std::to_string(number) + ": " + why);
+    };
+    if (file.eof()) reject("is cut off, it must end with a newline");
+    if (commas(line) + 1 != columns)
+      reject("has " + std::to_string(commas(line) + 1) + " columns, it must have the " +
+             std::to_string(columns) + " of the first line");
+    Replay::Row row;
     double time;
-    Eigen::Vector3d x, v;
-    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &time, &x[0], &x[1], &x[2], &v[0], &v[1],
-                    &v[2]) != 7 ||
-        !(time >= 0 && time < longest) || !(x.array().abs() < 1).all() || !(v.array().abs() < 100).all())
-      throw std::runtime_error(path + ", line " + std::to_string(number) +
-                               ": must begin with time [s], place [m] and velocity [m/s] of a hand");
-    const hapbeam::HandTarget target{x, v};
-    const auto tick = static_cast<std::size_t>(std::llround(time / Replay::period));
-    if (tick < replay.targets.size())
-      throw std::runtime_error(path + ", line " + std::to_string(number) +
-                               ": the time must be after the one before it");
-    replay.targets.resize(tick, replay.targets.empty() ? target : replay.targets.back());
-    replay.targets.push_back(target);
+    if (!read_row(line, time, row.target))
+      reject("must begin with time [s], place [m] and velocity [m/s] of a hand");
+    row.tick = Replay::tick(time);
+    if (!replay.rows.empty() && row.tick <= replay.rows.back().tick)
+      reject("the time must be after the one before it");
+    replay.rows.push_back(row);
   }
-  if (replay.targets.empty()) throw std::runtime_error(path + ": has no ticks");
+  if (file.bad()) throw std::runtime_error(path + ": cannot be read: " + std::strerror(errno));
+  if (replay.rows.empty()) throw std::runtime_error(path + ": has no ticks");
   return replay;
 }
 

@@ -8,6 +8,7 @@
 // written, so that the same path through the same model gives the same forces to the bit, in lock step.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -22,8 +23,8 @@ class Recording {
   /// @throws std::runtime_error where the file cannot be written
   explicit Recording(const std::string& path);
   void write(const Tick& tick);
-  /// @throws std::runtime_error where not all could be written
-  void close();
+  /// @param lost  ticks that were not taken from the tape   @return whether all else was written; says what is missing
+  bool close(std::uint64_t lost);
 
  private:
   struct Close {
@@ -33,8 +34,8 @@ class Recording {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// The hand's path of a recording; periods that the loop has missed keep the target before them.
-/// @throws std::runtime_error naming file and line where it is no recording
+/// The hand's path of a recording, in memory that the file bounds; periods that the loop has missed keep the target before them.
+/// @throws std::runtime_error naming file and line where it is no recording, and of a row that is not whole
 Replay read_recording(const std::string& path);
 
 }  // namespace phantom

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include "json.hpp"
@@ -257,6 +258,17 @@ std::string json(const Run& run) {
       .add("energy_generated_J", r.energy_generated)
       .add("max_status", name(r.worst))
       .text();
+}
+
+ReportFile::ReportFile(const std::string& path) : path_(path) {
+  if (!path.empty()) file_.open(path);
+  if (!file_) throw std::runtime_error(path + ": the report cannot be written");
+}
+
+bool ReportFile::write(const std::string& text) {
+  if (path_.empty() || file_ << text << std::flush) return true;
+  std::fprintf(stderr, "phantom: %s: the report cannot be written\n", path_.c_str());
+  return false;
 }
 
 }  // namespace phantom

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <string>
 
@@ -43,5 +44,17 @@ void print_scene(const Options& options, const Trained* trained, const hapbeam::
 void print_row(Session& session);
 void print_summary(const Run& run);
 std::string json(const Run& run);
+
+/// The file of a report, opened before the run, so that a wrong path is noticed then.
+class ReportFile {
+ public:
+  /// @param path  or empty: none   @throws std::runtime_error where it cannot be written
+  explicit ReportFile(const std::string& path);
+  bool write(const std::string& text);  ///< else says so
+
+ private:
+  std::string path_;
+  std::ofstream file_;
+};
 
 }  // namespace phantom

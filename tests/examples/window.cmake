@@ -95,6 +95,18 @@ if(HAPBEAM_TIMEOUT)
     BEFORE ${display} ${HAPBEAM_TIMEOUT} --foreground --preserve-status --signal INT 1)
 endif()
 
+# The X server or the window may be lost.
+if(HAPBEAM_XDOTOOL)
+  foreach(end server window destroyed)
+    hapbeam_test_end(phantom ${end})
+    hapbeam_test_end(phantom_emulated ${end} --device phantom)
+  endforeach()
+endif()
+# A screenshot that cannot be written ends the run, and the report is written.
+hapbeam_test_example(phantom window_screenshot_not_writable STATUS 1 FIELDS ${always} interrupted=true
+  OUTPUT "^phantom: no/such/folder/x.png: the screenshot cannot be written\n$" BEFORE ${display}
+  OPTIONS --scene strip --screenshot no/such/folder/x.png --at 0.2)
+
 # What a mouse pressed in the window, the hand that is led along its recording presses without one.
 if(HAPBEAM_XDOTOOL)
   add_test(NAME examples/window_mouse WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}

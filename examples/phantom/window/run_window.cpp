@@ -1,6 +1,7 @@
 #include "run_window.hpp"
 
 #include <GLFW/glfw3.h>
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "../ending.hpp"
 #include "../recording.hpp"
 #include "../report.hpp"
 #include "../scenes.hpp"
@@ -109,14 +111,13 @@ class Window {
     if (step % 10 == 0) display_.resize(400 + 20 * (step / 10 % 10), 300 + 15 * (step / 10 % 7));
   }
 
-  /// Prints the summary, unless it was only to draw pictures.   @return the report
-  std::string close(bool interrupted, const hapbeam::TickTimes& pictures) {
+  /// @return the exit status
+  int close(ReportFile& report, bool cut_short, const hapbeam::TickTimes& pictures) {
     running_->session().stop();
     update();
-    if (recording_) recording_->close();
-    const Run result = Run::of(running_->session(), interrupted, pictures.period().summary());
-    if (first_.screenshot.empty()) print_summary(result);
-    return json(result);
+    const int status = finish(running_->session(), recording_ ? &*recording_ : nullptr, running_->lost(),
+                              report, cut_short, pictures.period().summary());
+    return std::max(status, status_);
   }
 
   /// A screenshot shows what happens at its time, however busy the machine: then time is simulated.
@@ -212,8 +213,10 @@ class Window {
     running_->session().stop();
     update();
     // The next one's clock begins anew.
-    if (recording_)
-      recording_->close(), recording_.reset(), note_ = "The recording has ended with the device.";
+    if (recording_) {
+      if (!recording_->close(running_->lost())) status_ = 1;
+      recording_.reset(), note_ = "The recording has ended with the device.";
+    }
     running_ = std::move(next);
     running_->start();
   }
@@ -239,6 +242,7 @@ class Window {
   std::unique_ptr<Running> running_;
   std::optional<Training> training_;
   std::string note_;
+  int status_ = 0;  // 1: a recording could not be written
   Eigen::Vector3d wanted_{0, 0, 0};
   bool held_ = false;  // by the mouse
   bool led_ = false;   // by the arrow keys
@@ -246,13 +250,14 @@ class Window {
 
 }  // namespace
 
-std::string run_window(Display& display, const Options& options, std::shared_ptr<const Trained> trained,
-                       const volatile std::sig_atomic_t& interrupted) {
+int run_window(Display& display, const Options& options, std::shared_ptr<const Trained> trained,
+               ReportFile& report) {
   Window window(display, options, std::move(trained));
   const auto begin = std::chrono::steady_clock::now();
   hapbeam::TickTimes times(1.0 / 60);
+  Ending ending([&](bool cut_short) { return window.close(report, cut_short, times); });
   int taken = 0;
-  for (int pictures = 0; !interrupted; ++pictures) {
+  for (int pictures = 0; !interrupted(); ++pictures) {
     std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
     if (window.simulated()) passed = std::chrono::duration<double>(picture_time(options) * pictures);
     if (options.timed && passed.count() >= options.duration) break;
@@ -273,7 +278,7 @@ std::string run_window(Display& display, const Options& options, std::shared_ptr
     taken += now;
     if (now && taken == options.frames && !options.timed) break;
   }
-  return window.close(interrupted != 0, times);
+  return ending.run(interrupted());
 }
 
 }  // namespace phantom

@@ -4,6 +4,7 @@
 // scene the hand is led to where its script begins.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -54,6 +55,7 @@ class Running {
   double curve_step() { return options().beam.length / 50; }  ///< [m] between places of curves
   double curve_depth() const { return curve_depth_; }
   const Eigen::Vector3d& target() const { return target_; }  ///< [m] device axes, newest
+  std::uint64_t lost() const { return tape_.lost(); }        ///< ticks that were not taken
   bool pulled() const { return pulled_; }                    ///< the script has been left
   Drawing& drawing() { return *drawing_; }
 

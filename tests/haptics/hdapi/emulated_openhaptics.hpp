@@ -1,6 +1,8 @@
 // Stands in for haptics/hdapi/openhaptics.hpp when the programs of the documentation are built and run: the
-// emulated HDAPI in real time, with one device that a hand holds still.
+// emulated HDAPI in real time, with one device that a hand holds still. A program that leaves its motors on is told so.
 #pragma once
+
+#include <cstdio>
 
 #include "emulated_hd.hpp"
 
@@ -10,7 +12,12 @@ using OpenHaptics = testing::EmulatedHd;
 
 namespace testing {
 struct PluggedWorld : HdWorld {
-  PluggedWorld() : HdWorld(Time::real) { plug("Default Device", HandPath({0, 0.01}).rest(1)); }
+  PluggedWorld() : HdWorld(Time::real) {}
+  ~PluggedWorld() {
+    if (phantom.enabled) std::fputs("the motors are on\n", stderr);
+    if (started()) stop_scheduler();
+  }
+  Device& phantom = plug("Default Device", HandPath({0, 0.01}).rest(1));
 };
 inline PluggedWorld plugged_world;
 }  // namespace testing

@@ -30,6 +30,7 @@ inline HHD hdInitDevice(const char*) { return 0; }
 inline HHD hdGetCurrentDevice() { return 0; }
 inline void hdDisableDevice(HHD) {}
 inline void hdEnable(HDenum) {}
+inline void hdDisable(HDenum) {}
 inline void hdBeginFrame(HHD) { hapbeam::testing::pressing_hand.time += 1e-3; }
 inline void hdEndFrame(HHD) {}
 inline void hdGetDoublev(HDenum what, HDdouble* value) {
