@@ -29,6 +29,11 @@ namespace hapbeam::detail {
   return value;
 }
 
+[[gnu::cold]] inline double not_negative(const char* field, double value, const char* unit) {
+  if (!(std::isfinite(value) && value >= 0)) reject(field, value, unit, "finite and not negative");
+  return value;
+}
+
 [[gnu::cold]] inline double finite(const char* field, double value, const char* unit) {
   if (!std::isfinite(value)) reject(field, value, unit, "finite");
   return value;

@@ -73,8 +73,7 @@ struct RodScene {
       detail::reject("s_max", s_max, "m", "on the rod, a thousandth away from an end that is held");
     detail::positive("depth", depth, "m");
     detail::positive("force_error", force_error, "");
-    if (!(force_floor >= 0 && std::isfinite(force_floor)))
-      detail::reject("force_floor", force_floor, "N", "finite and not negative");
+    detail::not_negative("force_floor", force_floor, "N");
     detail::positive("tick", tick, "s");
     return *this;
   }

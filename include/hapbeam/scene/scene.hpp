@@ -55,8 +55,7 @@ struct Scene {
                      "FemModel<Corotational<Tapered<>>> for finite rotation");
     detail::positive("depth", depth, "m");
     detail::positive("force_error", force_error, "");
-    if (!(force_floor >= 0 && std::isfinite(force_floor)))
-      detail::reject("force_floor", force_floor, "N", "finite and not negative");
+    detail::not_negative("force_floor", force_floor, "N");
     detail::positive("tick", tick, "s");
     return *this;
   }

@@ -84,6 +84,7 @@ std::vector<Scene> scenes() {
 
 DeviceInfo phantom(double period = T) {
   DeviceInfo info{};
+  info.peak_force = 37.5, info.continuous_force = 6.2;
   info.max_stiffness = 3500, info.position_resolution = 7e-6, info.friction = 0.2;
   info.period = period, info.damping = 5;
   return info;
@@ -410,16 +411,5 @@ TEST_CASE("what cannot be a coupling is refused by name, value and unit", "[coup
   CHECK_THROWS_WITH(VirtualCoupling({0, 1}), ContainsSubstring("coupling stiffness = 0 N/m"));
   CHECK_THROWS_WITH(VirtualCoupling({100, -1}), ContainsSubstring("coupling damping = -1 N·s/m"));
   CHECK_THROWS_WITH(VirtualCoupling({100, nan}), ContainsSubstring("coupling damping = nan N·s/m"));
-  const auto with = [](auto change) {
-    DeviceInfo device = phantom();
-    change(device);
-    return [device] { (void)safe_coupling(device); };
-  };
-  CHECK_THROWS_WITH(with([](auto& d) { d.damping = -1; })(), ContainsSubstring("device damping = -1 N·s/m"));
-  CHECK_THROWS_WITH(with([](auto& d) { d.period = -1; })(), ContainsSubstring("device period = -1 s"));
-  CHECK_THROWS_WITH(with([](auto& d) { d.max_stiffness = 0; })(), ContainsSubstring("max_stiffness = 0 N/m"));
-  CHECK_THROWS_WITH(with([](auto& d) { d.friction = -1; })(), ContainsSubstring("friction = -1 N"));
-  CHECK_THROWS_WITH(with([&](auto& d) { d.position_resolution = nan; })(),
-                    ContainsSubstring("resolution = nan m"));
   CHECK_THROWS_WITH(safe_coupling(phantom(), 17), ContainsSubstring("delay_ticks = 17: must be 0 to 16"));
 }

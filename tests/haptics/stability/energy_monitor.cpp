@@ -18,6 +18,7 @@ constexpr double period = 1e-3;  // [s]
 
 DeviceInfo device(double damping, double friction = 0, double resolution = 0) {
   DeviceInfo info{};
+  info.peak_force = info.continuous_force = 1e4, info.max_stiffness = 1e4;
   info.period = period;
   info.damping = damping;
   info.friction = friction;

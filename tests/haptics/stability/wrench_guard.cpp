@@ -93,7 +93,7 @@ TEST_CASE("the monitor counts the work of torque: a spring that turns gives back
           "[energy][torque]") {
   // A conservative torque -k q about one axis, sampled: its account closes as the path does, to the sampling.
   DeviceInfo device = six_axes();
-  device.gimbal.damping = device.gimbal.friction = 0;
+  device.gimbal.damping = device.gimbal.friction = 0, device.gimbal.peak_torque = 1;
   device.damping = device.friction = 0;
   Random random(6);
   for (const double sign : {1.0, -1.0}) {

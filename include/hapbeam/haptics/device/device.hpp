@@ -28,13 +28,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <type_traits>
 #include <utility>
 
 #include <Eigen/Core>
 
-#include <hapbeam/check.hpp>
+#include <hapbeam/haptics/device/device_info.hpp>
 
 namespace hapbeam {
 
@@ -106,43 +105,6 @@ struct Wrench {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m]
 };
 
-/// Figures of a gimbal, the three rotations of a device; by default there is none.
-struct GimbalInfo {
-  bool reads = false;            ///< reads the orientation of the stylus
-  double peak_torque = 0;        ///< [N·m] magnitude, short-term; 0: it renders no torque
-  double continuous_torque = 0;  ///< [N·m] without limit of time
-  double max_stiffness = 0;      ///< [N·m/rad] the largest that the maker states; 0 where unknown
-  double resolution = 0;         ///< [rad]
-  double friction = 0;           ///< [N·m] to turn the stylus by hand
-  double damping = 0;            ///< [N·m·s/rad] viscous, of the gimbal itself; 0 where unknown
-  double inertia = 0;            ///< [kg·m²] of gimbal and stylus; 0 where unknown
-};
-
-/// Figures of a device.
-struct DeviceInfo {
-  std::string name;
-  Eigen::Vector3d workspace;   ///< [m] width, height, depth, the origin in its middle
-  double peak_force;           ///< [N] short-term
-  double continuous_force;     ///< [N] without limit of time
-  double max_stiffness;        ///< [N/m] the largest that the maker states for a wall
-  double position_resolution;  ///< [m]
-  double friction;             ///< [N] to drive the arm back by hand
-  double period;               ///< [s] of the servo loop
-  double damping;              ///< [N·s/m] viscous, of the arm itself; 0 where unknown
-  double apparent_mass;        ///< [kg] of the arm at its tip; 0 where unknown
-  GimbalInfo gimbal = {};      ///< of a device with rotations
-};
-
-namespace detail {
-
-/// Checks the period of a loop: nanoseconds are counted in 64 bits, and a damper is divided by it.
-[[gnu::cold]] inline double loop_period(const char* field, double seconds) {
-  if (!(seconds >= 1e-6 && seconds <= 1e3)) reject(field, positive(field, seconds, "s"), "s", "1e-6 to 1e3");
-  return seconds;
-}
-
-}  // namespace detail
-
 /// What happened since start.
 struct DeviceCounts {
   std::uint64_t ticks = 0;            ///< calls of the servo
@@ -154,6 +116,25 @@ namespace detail {
 
 inline bool all_finite(const Eigen::Vector3d& v) noexcept {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+/// Whether a hand can be there: farther out, positions are a reading or a unit gone wrong, and their powers overflow.
+inline bool is_place(const Eigen::Vector3d& position) noexcept {
+  constexpr double farthest = 1e9;  // [m]
+  return std::abs(position[0]) <= farthest && std::abs(position[1]) <= farthest &&
+         std::abs(position[2]) <= farthest;
+}
+
+/// Whether a matrix is a rotation but for its last digits.
+inline bool is_rotation(const Eigen::Matrix3d& R) noexcept {
+  constexpr double most = 1e-2;
+  double skew = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const double error = R(0, i) * R(0, k) + R(1, i) * R(1, k) + R(2, i) * R(2, k) - (i == k);
+      skew += error * error;
+    }
+  return skew <= most * most;
 }
 
 }  // namespace detail

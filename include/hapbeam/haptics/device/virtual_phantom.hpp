@@ -265,9 +265,7 @@ template <typename Path>
 VirtualPhantomOptions VirtualPhantom<Path>::checked(const VirtualPhantomOptions& options) {
   const ArmOptions& arm = options.arm;
   const HandOptions& hand = options.hand;
-  const auto not_negative = [](const char* field, double value, const char* unit) {
-    if (!(std::isfinite(value) && value >= 0)) detail::reject(field, value, unit, "finite and not negative");
-  };
+  using detail::not_negative;
   detail::positive("apparent_mass", arm.apparent_mass, "kg");
   not_negative("arm damping", arm.damping, "N·s/m");
   not_negative("friction", arm.friction, "N");

@@ -202,15 +202,9 @@ class HdConnection {
   HdCalibration<Api> calibration{0, 1};  ///< of the connected device
 
  private:
-  static void not_negative(const char* field, double value, const char* unit) {
-    if (!(std::isfinite(value) && value >= 0)) reject(field, value, unit, "finite and not negative");
-  }
-
   /// Makes a matrix a rotation that is one but for its last digits.   @return false where it is none
   static bool make_rotation(Eigen::Matrix3d& R) noexcept {
-    constexpr double most = 1e-2;
-    const double skew = (R.transpose() * R - Eigen::Matrix3d::Identity()).norm();
-    if (!(skew <= most)) return false;
+    if (!is_rotation(R)) return false;
     const Eigen::Vector3d z = R.col(2) / R.col(2).norm();
     Eigen::Vector3d x = R.col(0) - z * z.dot(R.col(0));
     x /= x.norm();

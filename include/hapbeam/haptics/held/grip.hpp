@@ -203,8 +203,7 @@ class GripCoupling {
   static CouplingFigures checked(const CouplingFigures& figures, const char* stiffness, const char* k,
                                  const char* damping, const char* b) {
     detail::positive(stiffness, figures.stiffness, k);
-    if (!(figures.damping >= 0 && std::isfinite(figures.damping)))
-      detail::reject(damping, figures.damping, b, "finite and not negative");
+    detail::not_negative(damping, figures.damping, b);
     return figures;
   }
   double stiff(const CouplingFigures& figures) const noexcept {

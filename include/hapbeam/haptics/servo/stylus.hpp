@@ -69,8 +69,7 @@ template <typename Scalar>
 class Stylus {
  public:
   explicit Stylus(const StylusOptions& options) : o_(options) {
-    if (!(std::isfinite(o_.length) && o_.length >= 0))
-      reject("stylus length", o_.length, "m", "finite and not negative");
+    not_negative("stylus length", o_.length, "m");
     finite("stylus ahead", o_.ahead, "m");
   }
 

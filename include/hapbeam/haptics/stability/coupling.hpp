@@ -133,7 +133,11 @@ inline constexpr bool is_coupling = detail::IsCoupling<C>::value;
 /// The hand presses the beam itself.  A beam that is stiffer than the device can render is unstable: steel buzzes near a support.
 class Direct {
  public:
-  static Direct for_device(const DeviceInfo&, int) noexcept { return {}; }
+  /// @throws std::invalid_argument as DeviceInfo::check()
+  static Direct for_device(const DeviceInfo& device, int) {
+    device.check();
+    return {};
+  }
   Direct in_scene(double) const noexcept { return *this; }
   void reset() noexcept { last_.forget(); }
   /// As VirtualCoupling's.
@@ -172,14 +176,12 @@ class VirtualCoupling {
   explicit VirtualCoupling(const CouplingFigures& figures)
       : straight_(figures), stiffness_(figures.stiffness), damping_(figures.damping) {
     detail::positive("coupling stiffness", figures.stiffness, "N/m");
-    if (!(figures.damping >= 0 && std::isfinite(figures.damping)))
-      detail::reject("coupling damping", figures.damping, "N·s/m", "finite and not negative");
+    detail::not_negative("coupling damping", figures.damping, "N·s/m");
   }
   /// @param turning  K_r [N·m/rad] and B_r [N·m·s/rad] about the hand   @throws as above
   VirtualCoupling(const CouplingFigures& figures, const CouplingFigures& turning) : VirtualCoupling(figures) {
     detail::positive("turning coupling stiffness", turning.stiffness, "N·m/rad");
-    if (!(turning.damping >= 0 && std::isfinite(turning.damping)))
-      detail::reject("turning coupling damping", turning.damping, "N·m·s/rad", "finite and not negative");
+    detail::not_negative("turning coupling damping", turning.damping, "N·m·s/rad");
     turning_ = turning;
   }
   /// The largest figures that the device can render, with the margin of safe_coupling().   @throws as that

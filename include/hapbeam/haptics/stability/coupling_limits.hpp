@@ -14,11 +14,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <hapbeam/check.hpp>
-#include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/device/device_info.hpp>
 
 namespace hapbeam {
 
@@ -38,35 +37,46 @@ inline double passive_stiffness(double damping, double period, int delay_ticks) 
 /// so arm and hand together have more even if the arm has none.
 inline constexpr double least_damping = 0.5;
 
+namespace detail {
+
+/// An arm, or a gimbal with radians for metres.
+struct ArmFigures {
+  double damping;     // b [N·s/m] positive
+  double friction;    // f [N] not negative
+  double resolution;  // Δ [m] not negative
+  double hardest;     // [N/m] positive
+};
+
+/// @throws std::invalid_argument for a delay that is not 0 to 16
+inline CouplingFigures renderable(const ArmFigures& arm, double T, int delay_ticks) {
+  constexpr double spring_share = 0.4, both_share = 0.75, friction_share = 0.5;
+  if (!(delay_ticks >= 0 && delay_ticks <= 16)) reject("delay_ticks", delay_ticks, "", "0 to 16");
+  const double bound = passive_stiffness(arm.damping, T, delay_ticks);
+  double stiffness = (std::min)(arm.hardest, spring_share * bound);
+  double damping = arm.damping;
+  // An arm without friction holds no step of the grid; (1) is all there is.
+  if (arm.friction > 0 && arm.resolution > 0) {
+    const double steady = friction_share * arm.friction / arm.resolution;
+    stiffness = (std::min)(stiffness, 2 * steady);
+    damping = steady * T;
+  }
+  return {stiffness, (std::min)(damping, (both_share - stiffness / bound) * arm.damping)};
+}
+
+}  // namespace detail
+
 /// The coupling that a device can render with a margin of a quarter of (1). The spring takes two fifths of the arm's
 /// damping, or the maker's largest stiffness if that is less. The damper takes the rest up to three quarters. Of (2)
 /// and (3), half. With half of the damping the spring would be a quarter stiffer, but four times as many heavy hands
 /// would still move half a second after a step.
 /// For an arm of unknown damping (0) least_damping is assumed.
 /// @param delay_ticks  whole periods between the servo's answer and the motors, besides the one that holds it; 0 to 16
-/// @throws std::invalid_argument where the device's damping, friction, resolution, stiffness or period cannot be
+/// @throws std::invalid_argument as DeviceInfo::check(), and for another delay
 inline CouplingFigures safe_coupling(const DeviceInfo& device, int delay_ticks = 0) {
-  constexpr double spring_share = 0.4, both_share = 0.75, friction_share = 0.5;
-  if (!(std::isfinite(device.damping) && device.damping >= 0))
-    detail::reject("device damping", device.damping, "N·s/m",
-                   "finite and not negative; 0 where it is unknown");
-  const double b = device.damping > 0 ? device.damping : least_damping;
-  const double T = detail::loop_period("device period", device.period);
-  const double hardest = detail::positive("device max_stiffness", device.max_stiffness, "N/m");
-  if (!(device.friction >= 0)) detail::reject("device friction", device.friction, "N", "not negative");
-  if (!(device.position_resolution >= 0))
-    detail::reject("device position_resolution", device.position_resolution, "m", "not negative");
-  if (!(delay_ticks >= 0 && delay_ticks <= 16)) detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
-  const double bound = passive_stiffness(b, T, delay_ticks);
-  double stiffness = (std::min)(hardest, spring_share * bound);
-  double damping = b;
-  // An arm without friction holds no step of the grid; (1) is all there is.
-  if (device.friction > 0 && device.position_resolution > 0) {
-    const double held = friction_share * device.friction / device.position_resolution;
-    stiffness = (std::min)(stiffness, 2 * held);
-    damping = held * T;
-  }
-  return {stiffness, (std::min)(damping, (both_share - stiffness / bound) * b)};
+  device.check();
+  return detail::renderable({device.damping > 0 ? device.damping : least_damping, device.friction,
+                             device.position_resolution, device.max_stiffness},
+                            device.period, delay_ticks);
 }
 
 /// [m]  Distance of the fingers on a stylus from its centre of rotation. A hand's rotational stiffness, damping and
@@ -75,22 +85,15 @@ inline constexpr double grip_lever = 0.03;
 
 /// The same for the rotation: K [N·m/rad] and B [N·m·s/rad], by the same inequalities. For a gimbal of unknown damping
 /// (0) least_damping at grip_lever is assumed: 4.5e-4 N·m·s/rad.
-/// @throws as safe_coupling(), for the figures of the device's gimbal
+/// @throws as safe_coupling()
 inline CouplingFigures safe_turning_coupling(const DeviceInfo& device, int delay_ticks = 0) {
+  device.check();
   const GimbalInfo& gimbal = device.gimbal;
-  const auto not_negative = [](const char* field, double value, const char* unit) {
-    if (!(std::isfinite(value) && value >= 0))
-      detail::reject(field, value, unit, "finite and not negative; 0 where it is unknown");
-    return value;
-  };
-  DeviceInfo turning = device;  // with radians for metres
-  turning.damping = not_negative("gimbal damping", gimbal.damping, "N·m·s/rad");
-  if (turning.damping == 0) turning.damping = least_damping * grip_lever * grip_lever;
-  turning.friction = not_negative("gimbal friction", gimbal.friction, "N·m");
-  turning.position_resolution = not_negative("gimbal resolution", gimbal.resolution, "rad");
-  turning.max_stiffness = not_negative("gimbal max_stiffness", gimbal.max_stiffness, "N·m/rad");
-  if (turning.max_stiffness == 0) turning.max_stiffness = (std::numeric_limits<double>::max)();
-  return safe_coupling(turning, delay_ticks);
+  return detail::renderable(
+      {gimbal.damping > 0 ? gimbal.damping : least_damping * grip_lever * grip_lever, gimbal.friction,
+       gimbal.resolution,
+       gimbal.max_stiffness > 0 ? gimbal.max_stiffness : (std::numeric_limits<double>::max)()},
+      device.period, delay_ticks);
 }
 
 }  // namespace hapbeam

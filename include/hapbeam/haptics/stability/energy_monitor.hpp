@@ -36,13 +36,15 @@ class EnergyMonitor {
   /// @param delay_ticks  whole periods between a force and the motors, 0 to 16
   /// @throws std::invalid_argument naming field, value, unit and what is allowed
   explicit EnergyMonitor(const DeviceInfo& device, int delay_ticks = 0)
-      : period_(detail::loop_period("device period", device.period)),
-        damping_(detail::finite("device damping", device.damping, "N·s/m")),
-        friction_(detail::finite("device friction", device.friction, "N")),
-        step_(detail::finite("device position_resolution", device.position_resolution, "m")),
-        gimbal_damping_(detail::finite("gimbal damping", device.gimbal.damping, "N·m·s/rad")),
-        gimbal_friction_(detail::finite("gimbal friction", device.gimbal.friction, "N·m")),
-        gimbal_step_(detail::finite("gimbal resolution", device.gimbal.resolution, "rad")),
+      : period_(device.check().period),
+        damping_(device.damping),
+        friction_(device.friction),
+        step_(device.position_resolution),
+        peak_(device.peak_force),
+        gimbal_damping_(device.gimbal.damping),
+        gimbal_friction_(device.gimbal.friction),
+        gimbal_step_(device.gimbal.resolution),
+        peak_torque_(device.gimbal.peak_torque),
         delay_(delay_ticks) {
     if (!(delay_ticks >= 0 && delay_ticks <= max_delay))
       detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
@@ -67,7 +69,7 @@ class EnergyMonitor {
 
   /// A period has ended.   @param position [m] now   @param sent [N] by the loop in the tick before   @param dt [s] since, positive
   void observe(const Eigen::Vector3d& position, const Eigen::Vector3d& sent, double dt) noexcept {
-    const Eigen::Vector3d held = hold(sent_, sent);
+    const Eigen::Vector3d held = hold(sent_, sent, peak_);
     const double work = of_way(position, held, dt);
     if (held.isZero(0)) end_contact();
     else add(work);
@@ -75,7 +77,8 @@ class EnergyMonitor {
   /// The same of a device that turns.   @param orientation  now   @param sent  by the loop in the tick before
   void observe(const Eigen::Vector3d& position, const Eigen::Matrix3d& orientation, const Wrench& sent,
                double dt) noexcept {
-    const Eigen::Vector3d held = hold(sent_, sent.force), torque = hold(sent_torque_, sent.torque);
+    const Eigen::Vector3d held = hold(sent_, sent.force, peak_),
+                          torque = hold(sent_torque_, sent.torque, peak_torque_);
     const double work = of_way(position, held, dt) + of_turn(orientation, torque, dt);
     if (held.isZero(0) && torque.isZero(0)) end_contact();
     else add(work);
@@ -94,10 +97,11 @@ class EnergyMonitor {
  private:
   using Sent = std::array<Eigen::Vector3d, max_delay + 1>;
 
-  /// Newest first: what the motors held is `delay` ticks older.
-  Eigen::Vector3d hold(Sent& all, const Eigen::Vector3d& sent) const noexcept {
+  /// Newest first: what the motors held is `delay` ticks older, and no more than they can.
+  Eigen::Vector3d hold(Sent& all, const Eigen::Vector3d& sent, double peak) const noexcept {
     std::move_backward(all.begin(), all.end() - 1, all.end());
     all[0] = sent;
+    if (detail::all_finite(sent)) (void)limit_force(all[0], peak);
     return all[static_cast<std::size_t>(delay_)];
   }
   /// [J]  Work of a held force since the reading before, less what the arm took.
@@ -146,8 +150,8 @@ class EnergyMonitor {
     net_ = 0;
   }
 
-  double period_, damping_, friction_, step_;
-  double gimbal_damping_, gimbal_friction_, gimbal_step_;
+  double period_, damping_, friction_, step_, peak_;
+  double gimbal_damping_, gimbal_friction_, gimbal_step_, peak_torque_;
   int delay_;
   double ended_ = 0, net_ = 0;
   bool known_ = false, turn_known_ = false;

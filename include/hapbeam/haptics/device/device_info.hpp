@@ -1,0 +1,81 @@
+// What a device can do, and the one check of it.
+//
+// Coupling, energy monitor and force guard take their figures from here. Each of them calls check(): a figure that one of them
+// rejects is rejected by all.
+// Offline: throws std::invalid_argument naming field, value, unit and what is allowed.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include <hapbeam/check.hpp>
+
+namespace hapbeam {
+
+namespace detail {
+
+/// Checks the period of a loop: nanoseconds are counted in 64 bits, and a damper is divided by it.
+[[gnu::cold]] inline double loop_period(const char* field, double seconds) {
+  if (!(seconds >= 1e-6 && seconds <= 1e3)) reject(field, positive(field, seconds, "s"), "s", "1e-6 to 1e3");
+  return seconds;
+}
+
+}  // namespace detail
+
+/// Figures of a gimbal, the three rotations of a device; by default there is none.
+struct GimbalInfo {
+  bool reads = false;            ///< reads the orientation of the stylus
+  double peak_torque = 0;        ///< [N·m] magnitude, short-term; 0: it renders no torque
+  double continuous_torque = 0;  ///< [N·m] without limit of time
+  double max_stiffness = 0;      ///< [N·m/rad] the largest that the maker states; 0 where unknown
+  double resolution = 0;         ///< [rad]
+  double friction = 0;           ///< [N·m] to turn the stylus by hand
+  double damping = 0;            ///< [N·m·s/rad] viscous, of the gimbal itself; 0 where unknown
+  double inertia = 0;            ///< [kg·m²] of gimbal and stylus; 0 where unknown
+
+  /// @throws std::invalid_argument where a figure is negative or not finite, or a torque has no lasting share
+  void check() const {
+    detail::not_negative("gimbal peak_torque", peak_torque, "N·m");
+    if (peak_torque > 0) detail::positive("gimbal continuous_torque", continuous_torque, "N·m");
+    else detail::not_negative("gimbal continuous_torque", continuous_torque, "N·m");
+    detail::not_negative("gimbal max_stiffness", max_stiffness, "N·m/rad");
+    detail::not_negative("gimbal resolution", resolution, "rad");
+    detail::not_negative("gimbal friction", friction, "N·m");
+    detail::not_negative("gimbal damping", damping, "N·m·s/rad");
+    detail::not_negative("gimbal inertia", inertia, "kg·m²");
+  }
+};
+
+/// Figures of a device.
+struct DeviceInfo {
+  std::string name;
+  Eigen::Vector3d workspace;   ///< [m] width, height, depth, the origin in its middle
+  double peak_force;           ///< [N] short-term
+  double continuous_force;     ///< [N] without limit of time
+  double max_stiffness;        ///< [N/m] the largest that the maker states for a wall
+  double position_resolution;  ///< [m]
+  double friction;             ///< [N] to drive the arm back by hand
+  double period;               ///< [s] of the servo loop
+  double damping;              ///< [N·s/m] viscous, of the arm itself; 0 where unknown
+  double apparent_mass;        ///< [kg] of the arm at its tip; 0 where unknown
+  GimbalInfo gimbal = {};      ///< of a device with rotations
+
+  /// @throws std::invalid_argument unless forces and stiffness are positive, the period is 1e-6 to 1e3 s, the others are not
+  /// negative, and all are finite.  Name and workspace are for programs: no loop uses them.
+  /// @return the same figures
+  const DeviceInfo& check() const {
+    detail::positive("device peak_force", peak_force, "N");
+    detail::positive("device continuous_force", continuous_force, "N");
+    detail::positive("device max_stiffness", max_stiffness, "N/m");
+    detail::not_negative("device position_resolution", position_resolution, "m");
+    detail::not_negative("device friction", friction, "N");
+    detail::loop_period("device period", period);
+    detail::not_negative("device damping", damping, "N·s/m");
+    detail::not_negative("device apparent_mass", apparent_mass, "kg");
+    gimbal.check();
+    return *this;
+  }
+};
+
+}  // namespace hapbeam
