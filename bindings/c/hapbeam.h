@@ -104,7 +104,7 @@ HAPBEAM_API hapbeam_servo* hapbeam_servo_create(const hapbeam_touch* touch, cons
                                                 double w, double scale, char* message);
 HAPBEAM_API void hapbeam_servo_destroy(hapbeam_servo* servo);
 /* position [m], velocity [m/s] of the device; dt [s] since the tick before; force [N] for the device.  Returns the model's
-   status. */
+   status.  The force comes in over 0.2 s after the first tick, a reset, a failure, or a dt of more than 0.1 s. */
 HAPBEAM_API int hapbeam_servo_tick(hapbeam_servo* servo, const double position[3], const double velocity[3], double dt,
                                    double force[3]);
 HAPBEAM_API void hapbeam_servo_reset(hapbeam_servo* servo);

@@ -45,6 +45,15 @@ static void touch_and_servo(void) {
   hapbeam_servo_tick(servo, position, velocity, NAN, force);
   CHECK(isfinite(force[1]));
   hapbeam_servo_destroy(servo);
+  /* Three ticks after a start and after a pause: 3/200 of the device's 12 N at most. */
+  servo = hapbeam_servo_create(touch, "omega.3", 1e-3, 1.27, 0.0227, 1, why);
+  position[1] = -0.01;
+  for (i = 0; i < 700; ++i) {
+    hapbeam_servo_tick(servo, position, velocity, i % 350 == 0 ? 0.25 : 1e-3, force);
+    if (i % 350 < 3) CHECK(force[1] > 0 && force[1] <= 12 * (i % 350 + 1) / 200.0 * (1 + 1e-9));
+  }
+  CHECK(force[1] > 1);
+  hapbeam_servo_destroy(servo);
   hapbeam_touch_destroy(touch);
 }
 

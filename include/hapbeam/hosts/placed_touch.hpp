@@ -13,12 +13,13 @@
 //   τ = (c - p) × F      c: where rod and shaft touch, p: the hand's place
 //
 // The force is that of Touch, bit by bit if the placement only exchanges axes. Force and torque are zero where the status is no
-// answer. There is no coupling and no guard: use a Servo for a beam stiffer than the device can render.
+// answer. A position beyond 1e9 or an orientation that is no rotation is invalid_request. There is no coupling and no guard: use a Servo for a beam stiffer than the device can render.
 // Real-time: tick() does not allocate and is noexcept, wait-free, and bounded as Touch::tick(). One other thread may
 // call picture(), wait-free.
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <type_traits>
 
 #include <hapbeam/contact/touch.hpp>
@@ -56,6 +57,7 @@ class PlacedTouch {
   /// With a round tool.
   /// @param position  in the host's axes and units of length   @return [N] on the hand, host's axes; always finite
   [[nodiscard]] Eigen::Vector3d tick(const Eigen::Vector3d& position) noexcept {
+    if (!detail::is_place(position)) return keep_nothing().force;
     const VectorOf<double, dimension> hand = placement_.template position_of<dimension>(position);
     felt_ = touch_.tick(hand.template cast<Scalar>());
     const Eigen::Vector3d avatar = detail::in_scene(hand);
@@ -68,6 +70,7 @@ class PlacedTouch {
   template <typename Pose, int D = dimension,
             std::enable_if_t<D == 3 && std::is_same_v<Pose, HandPose>, int> = 0>
   [[nodiscard]] Wrench tick(const Pose& hand) noexcept {
+    if (!(detail::is_place(hand.place) && detail::is_rotation(hand.turn))) return keep_nothing();
     const HandPose there{placement_.scene_position(hand.place), placement_.scene_orientation(hand.turn)};
     const Shaft<double> axis{there.place + stylus_.tip(there), stylus_.shaft(there)};
     felt_ = touch_.tick(axis.tip.template cast<Scalar>(), axis.way.template cast<Scalar>());
@@ -110,12 +113,23 @@ class PlacedTouch {
       felt = {placement_.device_force(detail::in_scene(felt_.force)), placement_.device_torque(torque)};
       if (!felt.torque.allFinite()) felt = {};
     }
+    record_.position = position;
+    record_.hand = hand;
+    record_.avatar = avatar.tip, record_.shaft = avatar.way;
+    keep(felt);
+    return felt;
+  }
+  /// Of a reading that is no place: those of the last one that was stay.
+  Wrench keep_nothing() noexcept {
+    felt_ = touch_.tick(VectorOf<Scalar, dimension>::Constant(std::numeric_limits<Scalar>::quiet_NaN()));
+    const Wrench none;
+    keep(none);
+    return none;
+  }
+  void keep(const Wrench& felt) noexcept {
     ServoRecord& r = record_;
     r.status = status();
     r.model = felt_.status;
-    r.position = position;
-    r.hand = hand;
-    r.avatar = avatar.tip, r.shaft = avatar.way;
     r.force = felt.force, r.torque = felt.torque;
     r.press = {static_cast<double>(felt_.press.s), static_cast<double>(felt_.press.d)};
     r.pressing = felt_.pressing;
@@ -123,7 +137,6 @@ class PlacedTouch {
     r.contact_ticks += r.pressing;
     r.failed_ticks += r.status == LoopStatus::no_answer;
     publish();
-    return felt;
   }
 
   void publish() noexcept {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "support/catch.hpp"
+#include "support/engagement.hpp"
 #include "support/random.hpp"
 #include <hapbeam/haptics/stability/force_guard.hpp>
 
@@ -174,7 +175,94 @@ TEST_CASE("after start, failure, reset and pause the force comes in linearly", "
   guard.reset();
   ramp();
   time += o.longest_pause;  // and a period
-  CHECK(guard.limit(wanted, time += T, true).force.norm() <= 5 * (o.longest_pause + T) / 0.2 * (1 + 1e-9));
+  ramp();
+  time = -7;  // a clock that begins anew
+  CHECK(guard.limit(wanted, time, true).force.isZero(0));
+  ramp();
+}
+
+// Whatever is wanted, more than the peak too; engaged is a share of what may be sent.
+TEST_CASE("n ticks after a start, failure, reset or pause at most n T / 0.2 s of what may be sent",
+          "[guard][pause]") {
+  Random random(40);
+  const DeviceInfo device{"", {0.4, 0.3, 0.2}, 37.5, 6.2, 3500, 7e-6, 0.2, T, 5, 0.2, {true, 0.2, 0.1}};
+  const long all = inputs();
+  long wrong = 0, soft = 0;
+  for (long done = 0; done < all;) {
+    ForceGuard guard(ForceGuard::for_device(device));
+    Engagement engagement(device);
+    double time = random.integer(0, 1) ? 0 : random(1e6), begun = 0;
+    bool honest = false;  // the clock has only gone on since the force began to come in
+    const Wrench wanted{random.integer(0, 3) ? Vector(0, 30, 0) : Vector(1e9, 0, 0),
+                        random.integer(0, 3) ? Vector(0, 0.1, 0) : Vector(0, 0, 1e300)};
+    const double most = std::min(wanted.force.norm(), device.peak_force);
+    for (int tick = 0; tick < 1000 && done < all; ++tick, ++done) {
+      bool safe = true, begins = tick == 0;
+      time += random(0.7, 1.3) * T;
+      switch (random.integer(0, 700)) {
+        case 0: safe = false; break;
+        case 1: guard.reset(), begins = true; break;
+        case 2: time += random(0.1, 0.3), begins = true; break;
+        case 3: time += std::pow(10, random(-0.9, 6)), begins = true; break;
+        case 4: time -= random(0.11, 1e6), begins = true; break;
+        case 5: time += random(0, 0.09); break;
+        case 6: time -= random(0, 0.05), honest = false; break;
+        case 7: safe = false, time += random(0, 1); break;
+        default: break;
+      }
+      if (begins) engagement.begins(), begun = time, honest = true;
+      const GuardedWrench sent = guard.limit(wanted, time, safe);
+      wrong += !engagement.allows({sent.force, sent.torque});
+      wrong += honest && sent.force.norm() > (time - begun + T) / 0.2 * most * (1 + 1e-9);
+      wrong += !safe && !(sent.force.isZero(0) && sent.torque.isZero(0));
+      soft += sent.engaging;
+      if (!safe) engagement.begins(), honest = false;
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(soft > all / 10);
+  CHECK(soft < all);
+}
+
+TEST_CASE("what a pause leaves is told: all that came in, in the tick in which it does", "[guard][pause]") {
+  ForceGuardOptions o = options();
+  o.engage_time = 0.2;
+  ForceGuard guard(o);
+  double time = 0;
+  const auto tick = [&](double dt, bool safe = true) {
+    (void)guard.limit(Vector(0, 5, 0), time += dt, safe);
+    return guard.came_in();
+  };
+  double sum = 0;
+  for (int i = 0; i < 300; ++i) sum += tick(T);
+  CHECK(sum == Approx(1));
+  for (const double pause : {0.11, 1.0, 100.0}) {
+    sum = tick(pause);
+    CHECK(sum == Approx(T / 0.2));
+    for (int i = 0; i < 300; ++i) sum += tick(T);
+    CHECK(sum == Approx(1));
+  }
+  CHECK(tick(T, false) == 0);
+  CHECK(tick(T) == Approx(T / 0.2));
+}
+
+// The motors hold the last force through it.
+TEST_CASE("a pause under force heats the motors", "[guard][pause]") {
+  ForceGuard guard(options());
+  double time = 0;
+  for (int i = 0; i < 10; ++i) (void)guard.limit(Vector(0, 6.2, 0), time += T, true);
+  (void)guard.limit(Vector(0, 6.2, 0), time += 10, true);
+  CHECK(guard.heat() == Approx(1 - std::exp(-1.0)).epsilon(1e-2));
+}
+
+TEST_CASE("a loop whose ticks are farther apart than the longest pause has a force", "[guard][pause]") {
+  ForceGuardOptions o = options();
+  o.period = 0.15, o.engage_time = 0.6;
+  ForceGuard guard(o);
+  for (int n = 1; n <= 8; ++n) {
+    (void)guard.limit(Vector(0, 4, 0), 1000 + 0.15 * n, true);
+    CHECK(guard.force().y() == Approx(std::min(n / 4.0, 1.0) * 4));
+  }
 }
 
 TEST_CASE("to fall it may at once, to rise by the slew rate, along a turn by both", "[guard]") {
@@ -195,7 +283,7 @@ TEST_CASE("to fall it may at once, to rise by the slew rate, along a turn by bot
 
 TEST_CASE("the limits are the device's own, one that was told to be weaker included", "[guard]") {
   DeviceInfo device{};
-  device.peak_force = 37.5, device.continuous_force = 6.2, device.period = T;
+  device.peak_force = 37.5, device.continuous_force = 6.2, device.max_stiffness = 3500, device.period = T;
   CHECK(ForceGuard::for_device(device).peak_force == 37.5);
   CHECK(ForceGuard::for_device(device).continuous_force == 6.2);
   device.peak_force = 1;

@@ -14,12 +14,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
 #include <hapbeam/contact/touch.hpp>
+#include <hapbeam/haptics/device/loop_clock.hpp>
 #include <hapbeam/haptics/servo/exchange.hpp>
-#include <hapbeam/haptics/servo/loop_clock.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo_picture.hpp>
 #include <hapbeam/haptics/servo/servo_record.hpp>
@@ -104,13 +105,13 @@ class Servo {
   }
 
   /// For a host that hands over its own time step, or runs free.
-  /// @param position [m] of the device   @param velocity [m/s]   @param dt [s] since the tick before; another than a positive
-  /// number counts as a clock that stands   @return as above
+  /// @param position [m] of the device   @param velocity [m/s]   @param dt [s] since the tick before, at most 1e6; another than
+  /// a positive number counts as a clock that stands   @return as above
   [[nodiscard]] Eigen::Vector3d tick(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity,
                                      double dt) noexcept {
     DeviceState state;
     state.position = position, state.velocity = velocity;
-    state.time = record_.time + (dt > 0 && std::isfinite(dt) ? dt : 0);
+    state.time = record_.time + (dt > 0 && std::isfinite(dt) ? (std::min)(dt, 1e6) : 0);
     state.reset = record_.ticks == 0;
     return tick(state);
   }
@@ -149,6 +150,13 @@ class Servo {
   static constexpr bool oriented = std::is_same_v<State, OrientedState>;
 
   template <typename State>
+  static bool readable(const State& state) noexcept {
+    if constexpr (oriented<State>)
+      if (!detail::is_rotation(state.orientation)) return false;
+    return detail::is_place(state.position);
+  }
+
+  template <typename State>
   [[nodiscard]] auto couple(const State& state, double dt) noexcept;
   template <typename State>
   void observe(const State& state, double dt) noexcept {
@@ -160,7 +168,7 @@ class Servo {
     else energy_.observe(state.position, force, dt);
   }
 
-  /// The position of the hand is unknown: no contact.
+  /// The hand may be anywhere: no contact, and what reaches it begins anew.
   void release() noexcept {
     touch_.reset();
     coupling_.reset();
@@ -182,10 +190,21 @@ class Servo {
 
   void keep(const DeviceState& state, const Coupled& coupled, const GuardedForce& guarded,
             bool safe) noexcept;
+  template <typename State>
+  void keep_place(const State& state, const Coupled& coupled) noexcept {
+    record_.position = state.position;
+    record_.hand = detail::in_scene(options_.placement.template position_of<dimension>(state.position));
+    record_.avatar = detail::in_scene(coupled.avatar);
+    if constexpr (oriented<State> && !couples_pose) {
+      const HandPose hand{record_.hand, options_.placement.scene_orientation(state.orientation)};
+      record_.avatar += stylus_.tip(hand), record_.shaft = stylus_.shaft(hand);
+    }
+  }
 
   void publish() noexcept;
 
   static constexpr int shape_period = 8;  // [ticks]
+  static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
   const Model& model_;
   ServoOptions options_;
@@ -245,30 +264,30 @@ template <typename State>
 auto Servo<Model, Coupling>::run(const State& state) noexcept {
   if (state.reset) times_.pause();  // the device had no ticks for it meanwhile
   times_.begin();
-  const double dt = clock_.passed(state.time);
-  observe(state, dt);
-  if (state.reset) release();
-  const auto coupled = couple(state, dt);
+  const bool known = readable(state);
+  // Ticks in which nobody knows where the hand is are no time of the loop: many of them are a pause.
+  const LoopClock::Passed passed = clock_.passed(known ? state.time : not_a_number);
+  observe(state, passed.step);
+  if (state.reset || passed.pause) release();
+  auto coupled = decltype(couple(state, passed.step)){};
+  if (known) coupled = couple(state, passed.step);
+  else coupled.touch.status = Status::invalid_request;
   const bool safe = is_answer(coupled.touch.status) || coupled.continued;
   Eigen::Vector3d force = options_.placement.device_force(detail::in_scene(coupled.force));
   if (options_.dissipate && coupled.touch.pressing) force += energy_.dissipation(state.velocity);
   if constexpr (couples_pose)
     if (!coupled.touch.pressing) guard_.reset();  // the hand has let go: what it takes again comes in anew
-  const double engaged = guard_.engaged();
   const auto guarded = [&] {
     if constexpr (oriented<State>)
       return guard_.limit(Wrench{force, options_.placement.device_torque(coupled.torque)}, state.time, safe);
     else return guard_.limit(force, state.time, safe);
   }();
-  energy_.lend((guard_.engaged() - engaged) * coupled.energy / options_.placement.scale());
+  energy_.lend(guard_.came_in() * coupled.energy / options_.placement.scale());
   keep(state, coupled, guarded, safe);
+  if (known) keep_place(state, coupled);
   if constexpr (oriented<State>) {
     record_.torque = guarded.torque;
     record_.max_torque = (std::max)(record_.max_torque, guarded.torque.norm());
-    if constexpr (!couples_pose) {
-      const HandPose hand{record_.hand, options_.placement.scene_orientation(state.orientation)};
-      record_.avatar += stylus_.tip(hand), record_.shaft = stylus_.shaft(hand);
-    }
   }
   publish();
   times_.end();
@@ -284,9 +303,6 @@ void Servo<Model, Coupling>::keep(const DeviceState& state, const Coupled& coupl
   r.status = status(state, coupled, guarded, safe);
   r.model = coupled.touch.status;
   r.time = state.time;
-  r.position = state.position;
-  r.hand = detail::in_scene(options_.placement.template position_of<dimension>(state.position));
-  r.avatar = detail::in_scene(coupled.avatar);
   r.force = guarded.force;
   r.press = {static_cast<double>(coupled.touch.press.s), static_cast<double>(coupled.touch.press.d)};
   r.pressing = pressing;

@@ -41,6 +41,8 @@ constexpr const char* name(LoopStatus status) noexcept {
   return "unknown";
 }
 
+/// All numbers are finite for every finite state of the device.  After a reading that is no place, `position`, `hand`, `avatar` and
+/// `shaft` are those of the last one that was.
 struct ServoRecord {
   LoopStatus status = LoopStatus::free;
   Status model = Status::ok;                           ///< what the beam said

@@ -2,15 +2,17 @@
 //
 // In this order, each tick:
 //   failure      a force that is not finite, or a tick that the caller calls unsafe: zero at once, and engage anew
-//   engage       after start, failure or a pause the force comes in linearly over engage_time
 //   peak         |F| <= peak
 //   heat         of the motors, which goes with F²:  q' = (F²/Fc² - q)/τ.  The force that is allowed falls from peak to
 //                the continuous Fc as q goes from warm to 1, so q <= 1 always: Fc for ever, more for a moment
+//   engage       after start, failure or a pause what is allowed comes in linearly over engage_time
 //   slew         the force grows by at most slew_rate · dt; toward zero it may fall at once
 //
 // dt is the time since the tick before, by the device's clock. If the clock stands, runs backwards or is NaN, nothing
 // grows, and the motors are heated for a period. After a late tick the force grows by no more than in two periods.
-// After longest_pause the hand may be anywhere, so the force engages anew.
+// After longest_pause, or where the clock has been set back by more, the hand may be anywhere: the force engages anew.
+// A tick engages for a period T at most, however late it is: n ticks after start, failure or pause the force is at most
+// n T / engage_time of what is allowed. A pause is no time in which the force has come in.
 // For every input the force is finite and within the peak, and lies within slew_rate · 2 periods of the segment from
 // the last force to zero. q <= 1 while ticks are on time.
 // A torque is treated likewise, with limits and motors of its own. Failure and engagement apply to both.
@@ -24,19 +26,20 @@
 
 #include <hapbeam/check.hpp>
 #include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/device/loop_clock.hpp>
 
 namespace hapbeam {
 
 struct ForceGuardOptions {
-  double peak_force;              ///< [N] positive
-  double continuous_force;        ///< Fc [N] positive, at most the peak
-  double period;                  ///< [s] of the loop, 1e-6 to 1e3
-  double slew_rate = 1e4;         ///< [N/s] positive; 10 N a millisecond is faster than any hand
-  double thermal_time = 10;       ///< τ [s] positive; of small motors' windings, of housings minutes
-  double engage_time = 0.2;       ///< [s] not negative
-  double longest_pause = 0.1;     ///< [s] not negative
-  double peak_torque = 0;         ///< [N·m] not negative; 0: no torque is sent
-  double continuous_torque = 0;   ///< [N·m] positive, at most the peak, where there is one
+  double peak_force;         ///< [N] positive
+  double continuous_force;   ///< Fc [N] positive, at most the peak
+  double period;             ///< [s] of the loop, 1e-6 to 1e3
+  double slew_rate = 1e4;    ///< [N/s] positive; 10 N a millisecond is faster than any hand
+  double thermal_time = 10;  ///< τ [s] positive; of small motors' windings, of housings minutes
+  double engage_time = 0.2;  ///< [s] not negative
+  double longest_pause = default_longest_pause;  ///< [s] not negative; two periods are no pause
+  double peak_torque = 0;                        ///< [N·m] not negative; 0: no torque is sent
+  double continuous_torque = 0;                  ///< [N·m] positive, at most the peak, where there is one
   double torque_slew_rate = 100;  ///< [N·m/s] positive; at a lever of 0.1 m a tenth of the force's
 };
 
@@ -71,10 +74,12 @@ class GuardedMotors {
     const double ratio = sent_.norm() / o_.lasting;
     heat_ += -std::expm1(-(dt > 0 ? dt : o_.period) / o_.thermal_time) * (ratio * ratio - heat_);
   }
-  /// @param asked  finite   @param dt [s] 0 where nothing may grow   @return whether it was cut; sent() is what is left
-  bool limit(const Eigen::Vector3d& asked, double dt) noexcept {
+  /// @param asked  finite   @param share  of what is allowed   @param dt [s] 0 where nothing may grow
+  /// @return whether it was cut; sent() is what is left
+  bool limit(const Eigen::Vector3d& asked, double share, double dt) noexcept {
     Eigen::Vector3d force = asked;
     bool limited = limit_force(force, allowed()) != ForceCut::none;
+    force *= share;
     limited |= limit_growth(force, o_.slew_rate * (std::min)(dt, 2 * o_.period));
     sent_ = force;
     return limited;
@@ -115,12 +120,14 @@ class ForceGuard {
   /// @throws std::invalid_argument naming field, value, unit and what is allowed
   explicit ForceGuard(const ForceGuardOptions& options)
       : o_(checked(options)),
+        clock_(o_.period, o_.longest_pause),
         force_({o_.peak_force, o_.continuous_force, o_.slew_rate, o_.period, o_.thermal_time}),
         torque_({o_.peak_torque, o_.peak_torque > 0 ? o_.continuous_torque : 1, o_.torque_slew_rate,
                  o_.period, o_.thermal_time}) {}
 
-  /// The device's own limits, the rest by default.
+  /// The device's own limits, the rest by default.   @throws std::invalid_argument as DeviceInfo::check()
   static ForceGuardOptions for_device(const DeviceInfo& device) {
+    device.check();
     ForceGuardOptions options{device.peak_force, (std::min)(device.continuous_force, device.peak_force),
                               device.period};
     options.peak_torque = device.gimbal.peak_torque;
@@ -133,8 +140,8 @@ class ForceGuard {
   const Eigen::Vector3d& force() const noexcept { return force_.sent(); }    ///< [N] sent last
   const Eigen::Vector3d& torque() const noexcept { return torque_.sent(); }  ///< [N·m] sent last
 
-  /// Share of the force that has come in, 0 to 1.
-  double engaged() const noexcept { return engaged_; }
+  /// Share of the force that came in in the last tick, 0 to 1.
+  double came_in() const noexcept { return came_in_; }
 
   /// Zero, and engage anew.  The motors stay as warm as they are.
   void reset() noexcept {
@@ -144,35 +151,30 @@ class ForceGuard {
 
   /// @param wanted [N]   @param time [s] of the device's clock   @param safe  false: zero, whatever is wanted
   GuardedForce limit(const Eigen::Vector3d& wanted, double time, bool safe) noexcept {
-    const double dt = step(time);
-    force_.warm_up(dt);
-    if (!engage(dt, safe && detail::all_finite(wanted))) return {force(), false, true};
-    const bool limited = force_.limit(engaged_ * wanted, dt);
+    const LoopClock::Passed passed = clock_.passed(time);
+    force_.warm_up(passed.dt);
+    if (!engage(passed, safe && detail::all_finite(wanted))) return {force(), false, true};
+    const bool limited = force_.limit(wanted, engaged_, passed.dt);
     return {force(), limited, engaged_ < 1};
   }
   /// The same of both.
   GuardedWrench limit(const Wrench& wanted, double time, bool safe) noexcept {
-    const double dt = step(time);
-    force_.warm_up(dt), torque_.warm_up(dt);
-    if (!engage(dt, safe && detail::all_finite(wanted.force) && detail::all_finite(wanted.torque)))
+    const LoopClock::Passed passed = clock_.passed(time);
+    force_.warm_up(passed.dt), torque_.warm_up(passed.dt);
+    if (!engage(passed, safe && detail::all_finite(wanted.force) && detail::all_finite(wanted.torque)))
       return {{force(), false, true}, torque()};
-    bool limited = force_.limit(engaged_ * wanted.force, dt);
-    if (o_.peak_torque > 0) limited |= torque_.limit(engaged_ * wanted.torque, dt);
+    bool limited = force_.limit(wanted.force, engaged_, passed.dt);
+    if (o_.peak_torque > 0) limited |= torque_.limit(wanted.torque, engaged_, passed.dt);
     return {{force(), limited, engaged_ < 1}, torque()};
   }
 
  private:
-  /// @return [s] since the tick before; 0 where the clock is wrong
-  double step(double time) noexcept {
-    const double dt = time - time_;
-    const bool good = dt > 0 && std::isfinite(dt);
-    if (std::isfinite(time)) time_ = time;
-    return good ? dt : 0;
-  }
   /// @return whether anything may be sent
-  bool engage(double dt, bool good) noexcept {
-    if (dt > o_.longest_pause || !good) reset();
-    if (good) engaged_ = o_.engage_time > 0 ? (std::min)(1.0, engaged_ + dt / o_.engage_time) : 1;
+  bool engage(const LoopClock::Passed& passed, bool good) noexcept {
+    if (passed.pause || !good) reset();
+    const double before = engaged_, most = (std::min)(passed.dt, o_.period);
+    if (good) engaged_ = most < o_.engage_time ? (std::min)(1.0, engaged_ + most / o_.engage_time) : 1;
+    came_in_ = engaged_ - before;
     return good;
   }
 
@@ -184,12 +186,9 @@ class ForceGuard {
     detail::loop_period("period", o.period);
     detail::positive("slew_rate", o.slew_rate, "N/s");
     detail::positive("thermal_time", o.thermal_time, "s");
-    if (!(o.engage_time >= 0 && std::isfinite(o.engage_time)))
-      detail::reject("engage_time", o.engage_time, "s", "finite and not negative");
-    if (!(o.longest_pause >= 0 && std::isfinite(o.longest_pause)))
-      detail::reject("longest_pause", o.longest_pause, "s", "finite and not negative");
-    if (!(o.peak_torque >= 0 && std::isfinite(o.peak_torque)))
-      detail::reject("peak_torque", o.peak_torque, "N·m", "finite and not negative");
+    detail::not_negative("engage_time", o.engage_time, "s");
+    detail::not_negative("longest_pause", o.longest_pause, "s");
+    detail::not_negative("peak_torque", o.peak_torque, "N·m");
     if (o.peak_torque > 0 && !(o.continuous_torque > 0 && o.continuous_torque <= o.peak_torque))
       detail::reject("continuous_torque", o.continuous_torque, "N·m", "positive, at most the peak torque");
     detail::positive("torque_slew_rate", o.torque_slew_rate, "N·m/s");
@@ -197,9 +196,9 @@ class ForceGuard {
   }
 
   ForceGuardOptions o_;
+  LoopClock clock_;
   detail::GuardedMotors force_, torque_;
-  double time_ = 0;
-  double engaged_ = 0;
+  double engaged_ = 0, came_in_ = 0;  // shares of the force
 };
 
 }  // namespace hapbeam
