@@ -4,9 +4,11 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+
+#include <hapbeam/rom/file/replaced_file.hpp>
 
 namespace train {
 
@@ -99,20 +101,18 @@ void plot(const Options& options, const Result& result) {
   if (std::system("gnuplot --version >/dev/null 2>&1") != 0)
     throw std::runtime_error(options.plot +
                              ": gnuplot is needed to draw it and cannot be run; the model was written");
-  // gnuplot draws under another name, so that a picture is whole or not there.
-  const std::string part = options.plot + ".part";
-  if (!std::ofstream(part))
-    throw std::runtime_error(options.plot + ": the picture cannot be written; the model was");
   std::signal(SIGPIPE, SIG_IGN);
-  std::FILE* gnuplot = popen("gnuplot 2>/dev/null", "w");
-  bool drawn = gnuplot && std::fputs(script_of(options, result, part).c_str(), gnuplot) >= 0;
-  drawn = gnuplot && pclose(gnuplot) == 0 && drawn;
-  if (drawn && std::rename(part.c_str(), options.plot.c_str()) == 0) {
-    std::printf("plot     %s\n", options.plot.c_str());
-    return;
+  try {
+    hapbeam::detail::ReplacedFile file(options.plot);  // a picture is whole or not there
+    std::FILE* gnuplot = popen("gnuplot 2>/dev/null", "w");
+    bool drawn = gnuplot && std::fputs(script_of(options, result, file.temporary()).c_str(), gnuplot) >= 0;
+    drawn = gnuplot && pclose(gnuplot) == 0 && drawn;
+    if (!drawn) throw std::runtime_error(options.plot + ": gnuplot could not draw it");
+    file.replace();
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(std::string(error.what()) + "; the model was written");
   }
-  std::remove(part.c_str());
-  throw std::runtime_error(options.plot + ": gnuplot could not draw it; the model was written");
+  std::printf("plot     %s\n", options.plot.c_str());
 }
 
 }  // namespace train

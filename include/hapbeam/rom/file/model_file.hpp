@@ -28,6 +28,7 @@
 #include <hapbeam/rom/file/json_reader.hpp>
 #include <hapbeam/rom/file/json_writer.hpp>
 #include <hapbeam/rom/file/model_fields.hpp>
+#include <hapbeam/rom/file/replaced_file.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
 
@@ -159,29 +160,15 @@ inline constexpr std::size_t memory_per_byte = 16, memory_to_begin = 1 << 15;
   return text;
 }
 
-/// Writes all of the text under that name, or nothing: a complete temporary file replaces the old one.
+/// Writes all of the text under that name, or nothing.
 [[gnu::cold]] inline void write_file(const std::string& path, const std::string& text) {
-  errno = 0;
-  // A name of its own where two programs save at once.
-  std::string temporary;
-  std::FILE* file = nullptr;
-  for (int k = 0; k < 100 && !file; ++k) {
-    temporary = path + ".part" + std::to_string(k);
-    file = std::fopen(temporary.c_str(), "wbx");
-    if (!file && errno != EEXIST) break;
+  try {
+    ReplacedFile file(path);
+    file.write(text);
+    file.replace();
+  } catch (const std::runtime_error& error) {
+    throw ModelFileError(error.what());
   }
-  if (!file) reject_file(temporary, "cannot be made");
-  bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  written = std::fclose(file) == 0 && written;
-#ifdef _WIN32
-  // Its rename replaces nothing.
-  if (written) std::remove(path.c_str());
-#endif
-  if (written && std::rename(temporary.c_str(), path.c_str()) == 0) return;
-  const int why = errno;
-  std::remove(temporary.c_str());
-  errno = why;
-  reject_file(path, "cannot be written");
 }
 
 }  // namespace detail
@@ -217,7 +204,7 @@ template <class Model>
   }
 }
 
-/// Writes a model's file, or throws and leaves the old file.
+/// Writes a model's file, or throws and leaves the old file: as replaced_file.hpp says.
 /// @tparam Model  PodModel | GalerkinModel   @throws ModelFileError
 template <class Model>
 [[gnu::cold]] void save_model(const Model& model, const std::string& path) {
