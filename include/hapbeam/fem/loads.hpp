@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -55,17 +56,46 @@ inline constexpr std::array<double, 5> gauss_weights = {0.11846344252809454376, 
                                                         0.28444444444444444444, 0.23931433524968323402,
                                                         0.11846344252809454376};
 
-inline double sample(const DistributedLoad& load, const char* field, double s) {
-  return load ? finite(field, load(s), "N/m") : 0;
-}
+/// Beside a force of EI/L² over the unit round-off of the model's scalar no digit is left of what bends the beam: there is no answer.
+template <typename Scalar>
+class LargestLoad {
+ public:
+  /// @param bending  EI [N·m²]   @param length  L [m]
+  LargestLoad(double bending, double length) noexcept
+      : length_(length),
+        force_(bending / (length * length) / static_cast<double>(std::numeric_limits<Scalar>::epsilon())) {}
+
+  /// @throws std::invalid_argument unless it is finite and no larger   @return the value
+  double force(const char* field, double value) const { return check(field, value, force_, "N"); }
+  double moment(const char* field, double value) const {
+    return check(field, value, force_ * length_, "N·m");
+  }
+  double distributed(const char* field, double value) const {
+    return check(field, value, force_ / length_, "N/m");
+  }
+  double sample(const DistributedLoad& load, const char* field, double s) const {
+    return load ? distributed(field, load(s)) : 0;
+  }
+
+ private:
+  static double check(const char* field, double value, double most, const char* unit) {
+    if (std::abs(finite(field, value, unit)) <= most) return value;
+    reject(field, value, unit,
+           ("at most " + number(most) + " " + unit + " in size: beyond it the model's scalar holds no answer")
+               .c_str());
+  }
+
+  double length_, force_;  // [m, N]
+};
 
 }  // namespace detail
 
 /// All dead loads of a beam as point forces, in order of s.
-/// @throws std::invalid_argument where a distributed load is not finite.
+/// @throws std::invalid_argument where a load is not finite, or larger than LargestLoad says.
 template <typename Scalar>
 std::vector<PointForce<Scalar>> point_forces(const Beam& beam, int elements) {
   std::vector<PointForce<Scalar>> forces;
+  const detail::LargestLoad<Scalar> largest(beam.bending_stiffness(), beam.length());
   if (beam.transverse() || beam.axial()) {
     const double h = beam.length() / elements;
     const ContactMesh<Scalar> mesh(elements, static_cast<Scalar>(beam.length()));
@@ -78,8 +108,8 @@ std::vector<PointForce<Scalar>> point_forces(const Beam& beam, int elements) {
       std::array<double, 4> right{};
       for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
         const double t = detail::gauss_points[k], weight = h * detail::gauss_weights[k];
-        const double axial = weight * detail::sample(beam.axial(), "axial load", (e + t) * h);
-        const double transverse = weight * detail::sample(beam.transverse(), "transverse load", (e + t) * h);
+        const double axial = weight * largest.sample(beam.axial(), "axial load", (e + t) * h);
+        const double transverse = weight * largest.sample(beam.transverse(), "transverse load", (e + t) * h);
         const Vector6<double> f = ShapeFunctions<double>(t, h).nodal_forces(axial, transverse, 0);
         const double bow = axial * h * t * (1 - t) / 2;  // -u'' h² t(1 - t)/2 is what the linear u leaves out
         left[0] += f[0], left[1] += f[1], left[2] += bow, left[3] -= f[2];
@@ -91,8 +121,9 @@ std::vector<PointForce<Scalar>> point_forces(const Beam& beam, int elements) {
     push(elements);
   }
   for (const PointLoad& load : beam.point_loads())
-    forces.push_back(
-        {Scalar(load.s), Scalar(load.axial), Scalar(load.transverse), Scalar(load.moment), 0, 0});
+    forces.push_back({Scalar(load.s), Scalar(largest.force("point load axial", load.axial)),
+                      Scalar(largest.force("point load transverse", load.transverse)),
+                      Scalar(largest.moment("point load moment", load.moment)), 0, 0});
   std::stable_sort(forces.begin(), forces.end(),
                    [](const PointForce<Scalar>& a, const PointForce<Scalar>& b) { return a.s < b.s; });
   return forces;
@@ -251,12 +282,13 @@ class DeadLoads {
     if (!beam.transverse() && !beam.axial()) return;
     const ContactMesh<Scalar> mesh(elements, static_cast<Scalar>(beam.length()));
     const double h = beam.length() / elements;
+    const detail::LargestLoad<Scalar> largest(beam.bending_stiffness(), beam.length());
     cell_length_ = static_cast<Scalar>(h);
     for (int e = 0; e < elements; ++e)
       cells_.push_back(
           {mesh.position(e),
-           {static_cast<Scalar>(detail::sample(beam.axial(), "axial load", (e + 0.5) * h)),
-            static_cast<Scalar>(detail::sample(beam.transverse(), "transverse load", (e + 0.5) * h))}});
+           {static_cast<Scalar>(largest.sample(beam.axial(), "axial load", (e + 0.5) * h)),
+            static_cast<Scalar>(largest.sample(beam.transverse(), "transverse load", (e + 0.5) * h))}});
   }
 
   bool empty() const noexcept { return forces_.empty(); }

@@ -6,6 +6,7 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -20,10 +21,15 @@ class RodLoads {
   using Vector3 = VectorOf<Scalar, 3>;
 
  public:
-  /// @throws std::invalid_argument where a distributed load is not finite
+  /// @throws std::invalid_argument where a load is not finite, or larger than LargestLoad says
   [[gnu::cold]] RodLoads(const Rod& rod, int elements) : forces_(elements) {
-    if (rod.load()) spread_over_nodes(rod, elements);
-    for (const RodForce& force : rod.forces()) add(force.s, force.force, VectorOf<double, 3>(0, 0, 0));
+    const detail::LargestLoad<Scalar> largest((std::min)(rod.stiffness().bending1, rod.stiffness().bending2),
+                                              rod.length());
+    if (rod.load()) spread_over_nodes(rod, elements, largest);
+    for (const RodForce& force : rod.forces()) {
+      for (int c = 0; c < 3; ++c) (void)largest.force("force", force.force[c]);
+      add(force.s, force.force, VectorOf<double, 3>(0, 0, 0));
+    }
   }
   bool empty() const noexcept { return loads_.empty(); }
 
@@ -94,7 +100,7 @@ class RodLoads {
   void add(double s, const VectorOf<double, 3>& force, const VectorOf<double, 3>& couple) {
     loads_.push_back({static_cast<Scalar>(s), force.template cast<Scalar>(), couple.template cast<Scalar>()});
   }
-  void spread_over_nodes(const Rod& rod, int elements) {
+  void spread_over_nodes(const Rod& rod, int elements, const detail::LargestLoad<Scalar>& largest) {
     using Vector = VectorOf<double, 3>;
     const double h = rod.length() / elements;
     const RodLoad distributed = rod.load();
@@ -105,7 +111,7 @@ class RodLoads {
       for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
         const double t = detail::gauss_points[k], u = 1 - t, weight = h * detail::gauss_weights[k];
         Vector f = distributed((e + t) * h);
-        for (int c = 0; c < 3; ++c) detail::finite("load", f[c], "N/m");
+        for (int c = 0; c < 3; ++c) (void)largest.distributed("load", f[c]);
         f *= weight;
         auto &a = on[static_cast<std::size_t>(e)], &b = on[static_cast<std::size_t>(e) + 1];
         cells_[static_cast<std::size_t>(e)] += (f / h).template cast<Scalar>();
