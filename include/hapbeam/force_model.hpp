@@ -119,10 +119,10 @@ struct Push {
 /// A frictionless circle that the centreline touches at one point, which is part of the answer.
 template <typename Scalar>
 struct Circle {
-  Scalar s;                ///< [m] arc position beside which the point is sought
-  Vector2<Scalar> centre;  ///< [m]
-  Scalar reach;            ///< [m] radius of the circle, from its centre to the centreline
-  Scalar side;             ///< of the centreline on which the centre lies: +1 left of its direction, -1
+  Scalar s;                                          ///< [m] arc position beside which the point is sought
+  Vector2<Scalar> centre = Vector2<Scalar>::Zero();  ///< [m]
+  Scalar reach;  ///< [m] radius of the circle, from its centre to the centreline
+  Scalar side;   ///< of the centreline on which the centre lies: +1 left of its direction, -1
 };
 
 /// A frictionless capsule, or a sphere, that the centreline of a rod touches at one point, which is part of the answer.
@@ -131,8 +131,9 @@ struct Capsule {
   Scalar s;            ///< [m] arc position beside which the point is sought
   Shaft<Scalar> axis;  ///< of the capsule; a sphere's is a point
   Scalar reach;        ///< [m] from the axis to the centreline
-  VectorOf<Scalar, 3>
-      normal;  ///< about from the centreline to the axis, unit: from where the capsule has come
+  VectorOf<Scalar, 3> normal =
+      VectorOf<Scalar,
+               3>::Zero();  ///< about from the centreline to the axis, unit: from where the capsule has come
 };
 
 template <typename Scalar>

@@ -12,8 +12,8 @@ namespace hapbeam {
 /// From its tip to its other end; a point where `way` is zero.
 template <typename Scalar>
 struct Shaft {
-  VectorOf<Scalar, 3> tip;  ///< [m]
-  VectorOf<Scalar, 3> way;  ///< [m] from the tip to the other end
+  VectorOf<Scalar, 3> tip = VectorOf<Scalar, 3>::Zero();  ///< [m]
+  VectorOf<Scalar, 3> way = VectorOf<Scalar, 3>::Zero();  ///< [m] from the tip to the other end
 
   /// Where along the way, 0 to 1, it is nearest to a point.
   [[nodiscard]] Scalar nearest(const VectorOf<Scalar, 3>& point) const noexcept {

@@ -113,7 +113,7 @@ class TurningPlane {
     const RodPose& pose = rod.left_pose();
     at_ = pose.at.template cast<Scalar>();
     axis_ = pose.along.template cast<Scalar>();
-    up_ = pose.director.template cast<Scalar>();
+    up_ = home_ = pose.director.template cast<Scalar>();
     nodes_.resize(static_cast<std::size_t>(model_.shape().size()));
   }
 
@@ -169,7 +169,10 @@ class TurningPlane {
     if constexpr (takes_push<Model>) return model_.release();
     else return model_.reset(), Status::ok;
   }
-  void reset() noexcept { model_.reset(), drawn_ = false; }
+  void reset() noexcept {
+    model_.reset();
+    up_ = home_, drawn_ = false;
+  }
 
   const Model& planar() const noexcept { return model_; }
 
@@ -194,6 +197,7 @@ class TurningPlane {
 
   Model model_;
   VectorOf<Scalar, 3> at_, axis_, up_;  // the left end, and the plane: x and w
+  VectorOf<Scalar, 3> home_;            // w before the first push
   mutable std::vector<RodNode<Scalar>> nodes_;
   mutable bool drawn_ = false;
 };

@@ -71,6 +71,17 @@ TEST_CASE("a planar model that turns gives the answers of the rod in space", "[r
     }
 }
 
+TEST_CASE("after a reset the plane is the one of before", "[rod][reset]") {
+  const Rod rod = bar(RodSupport::clamped, RodSupport::free);
+  TurningPlane<FemModel<Corotational<>>> lifted(rod, {beam_in_any_plane(rod), 8});
+  const VectorOf<double, 3> before = lifted.shape()[8].director;
+  const Point n = across(2.5);
+  REQUIRE(lifted.push({0.2, n.dot(rod.left_pose().at) + 0.02, n}).status == Status::ok);
+  REQUIRE((lifted.shape()[8].director - before).norm() > 0.1);
+  lifted.reset();
+  CHECK(lifted.shape()[8].director == before);
+}
+
 TEST_CASE("a trained model answers in space", "[rod]") {
   const Rod rod = bar(RodSupport::hinged, RodSupport::cardan);
   const Beam beam = beam_in_any_plane(rod);

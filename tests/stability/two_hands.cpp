@@ -1,7 +1,9 @@
 // Two devices on one beam: each with a servo and a time of its own, in lock step.  Do they come to rest, and give nothing that they were not given?
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <thread>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -280,4 +282,69 @@ TEST_CASE("what one hand does to the beam does not confuse the other hand's coup
   CHECK(without == 0);
   // It reaches the bent ruler in the last 30 of its 100 ticks.
   CHECK(steepest <= 4 * (before - least) / 30);
+}
+
+// The ruler is lifted from below, and the hand is above it at rest when its loop begins anew.
+TEST_CASE("servos that begin anew feel what new ones feel, to the last bit", "[two_hands][reset]") {
+  using Ruler = FemModel<Several<Corotational<>, 2>>;
+  enum class How { servos, devices, other_hand };
+  const How how = GENERATE(How::servos, How::devices, How::other_hand);
+  const double lift = GENERATE(0.01, 0.02, 0.04, 0.06);
+  CAPTURE(static_cast<int>(how), lift);
+  const DeviceInfo device{"mine", {0.4, 0.3, 0.2}, 37.5, 6.2, 3500, 7e-6, 0.2, 1e-3, 5, 0.2};
+  ServoOptions options;
+  options.placement = Placement::in_plane({0.2, 0});
+  struct Pair {
+    Ruler model{steel_ruler(), 16};
+    TwoHands<Ruler> hands{model};
+    Servo<Hand<Ruler>> first, second;
+    Pair(const DeviceInfo& device, const ServoOptions& options)
+        : first(hands[0], device, options), second(hands[1], device, options) {}
+  } used(device, options), fresh(device, options);
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 1500; ++i) {
+    (void)used.first.tick({0.05, -0.01 + (lift + 0.01) * std::min(1.0, i / 1000.0), 0}, none, 1e-3);
+    (void)used.second.tick({-0.1, 0.1, 0}, none, 1e-3);
+  }
+  REQUIRE(used.first.record().force.y() < -1);
+  if (how == How::servos) used.first.reset(), used.second.reset();
+  if (how == How::other_hand) used.first.reset();
+  auto &mine = how == How::other_hand ? used.second : used.first,
+       &theirs = how == How::other_hand ? fresh.second : fresh.first;
+  int differ = 0;
+  double most = 0;
+  for (int i = 0; i < 3000; ++i) {
+    DeviceState state;
+    state.position = {0.05, lift / 2 + 0.006 - (lift / 2 + 0.016) * std::clamp(i / 1000.0 - 1, 0.0, 1.0), 0};
+    state.time = 100 + 1e-3 * i;
+    state.reset = i == 0 && how != How::servos;
+    state.sent = mine.record().force;
+    const Eigen::Vector3d felt = mine.tick(state), expected = theirs.tick(state);
+    differ += felt != expected;
+    most = std::max(most, expected.y());
+  }
+  CHECK(differ == 0);
+  CHECK(most > 1);
+}
+
+// ServoLoop::start() of one device, in the program's thread, while that of the other one ticks.
+TEST_CASE("a servo begins anew while that of the other hand ticks", "[two_hands][reset]") {
+  FemModel<Several<Corotational<>, 2>> model(steel_ruler(), 16);
+  TwoHands hands(model);
+  Servo left(hands[0], VirtualPhantom<>(HandPath({0, 0})).info()),
+      right(hands[1], VirtualPhantom<>(HandPath({0, 0})).info());
+  std::atomic<int> ticks{0};
+  std::atomic<bool> done{false};
+  std::thread loop([&] {
+    DeviceState state;
+    for (int k = 0; !done.load(); ++k, ++ticks) {
+      state.time = 1e-3 * k, state.position = {0.2, 0.01 - 0.03 * ((k % 1000) / 1000.0), 0};
+      (void)left.tick(state);
+    }
+  });
+  for (int resets = 0; resets < 1000 || ticks.load() < 1000; ++resets) right.reset();
+  done = true;
+  loop.join();
+  CHECK(left.record().contact_ticks > 0);
+  CHECK_FALSE(right.record().pressing);
 }

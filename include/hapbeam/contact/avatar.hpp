@@ -13,15 +13,16 @@ namespace hapbeam {
 /// @tparam D  of the space in which the beam bends: 2 | 3
 template <typename Scalar, int D = 2>
 struct Avatar {
-  VectorOf<Scalar, D> position;  ///< [m] centre
-  Scalar radius;                 ///< [m] >= 0
+  VectorOf<Scalar, D> position = VectorOf<Scalar, D>::Zero();  ///< [m] centre
+  Scalar radius;                                               ///< [m] >= 0
 };
 
 /// A sphere or, where it has a shaft, a capsule.
 template <typename Scalar>
 struct Avatar<Scalar, 3> {
-  VectorOf<Scalar, 3> position;  ///< [m] centre of the sphere, tip of the capsule's axis
-  Scalar radius;                 ///< [m] >= 0
+  VectorOf<Scalar, 3> position =
+      VectorOf<Scalar, 3>::Zero();  ///< [m] centre of the sphere, tip of the capsule's axis
+  Scalar radius;                    ///< [m] >= 0
   VectorOf<Scalar, 3> shaft = VectorOf<Scalar, 3>::Zero();  ///< [m] from the tip to the other end of the axis
 
   [[nodiscard]] Shaft<Scalar> axis() const noexcept { return {position, shaft}; }

@@ -53,7 +53,7 @@ struct SeveralPlace {
     forget_friction();
     if (at_end) obstacle.kind = ObstacleKind::round, at_end = false;
     obstacle.touching = false;
-    obstacle.pushed.force = 0;
+    obstacle.round = {}, obstacle.pushed = {0, Status::ok};
   }
 
   /// Where it lies to the beam.   @param volumes  () -> those of the present shape   @param again  the place before is of the same avatar
@@ -97,8 +97,10 @@ struct SeveralPlace {
 
  private:
   void forget_friction() noexcept {
-    friction.begin();
-    friction.dissipated = 0;
+    FrictionState<Scalar, dimension> fresh;
+    fresh.sticking = friction.sticking, fresh.sliding = friction.sliding;
+    fresh.stiffness = friction.stiffness, fresh.damping = friction.damping;
+    friction = fresh;
   }
   void rub(TouchPlace<Scalar, dimension>& to) const noexcept {
     to.friction = friction.on_hand(-obstacle.pushed.force);

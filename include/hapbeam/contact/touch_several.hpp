@@ -53,11 +53,7 @@ class TouchSeveral : private detail::TouchingBodies<Model> {
   void reset() noexcept {
     model_.reset();
     moved_ = true;
-    for (int i = 0; i < size_; ++i) places_[at(i)].forget();
-    for (int i = 0; i < size_; ++i) {
-      answer_[at(i)] = {};
-      answer_[at(i)].body = places_[at(i)].obstacle.body;
-    }
+    for (int i = 0; i < size_; ++i) places_[at(i)].forget(), forget_answer(i);
     moving_ = false;
     unanswered_ = 0;
     begin();
@@ -83,11 +79,25 @@ class TouchSeveral : private detail::TouchingBodies<Model> {
   /// One avatar moves, and the others stay where they are.   @param shaft  of a capsule in space
   [[nodiscard]] Result tick(int avatar, const Vector& position,
                             const Vector& shaft = Vector::Zero()) noexcept;
-  using Bodies::lift;
+  /// An avatar leaves the scene, until it is moved again.
+  void lift(int avatar) noexcept {
+    for (int i = 0; i < size_; ++i)
+      if (places_[at(i)].obstacle.body == avatar) {
+        places_[at(i)].forget(), forget_answer(i);
+        places_[at(i)].away = true;
+      }
+  }
+  /// Nobody moves.
+  [[nodiscard]] Result tick_still() noexcept { return solve(); }
+  /// Whether a tick takes it, else invalid_request.
+  [[nodiscard]] static bool is_place(const Vector& position, const Vector& shaft) noexcept {
+    return std::isfinite(position.squaredNorm()) && std::isfinite(shaft.squaredNorm());
+  }
   using Bodies::rough;
   using Bodies::set_friction;
   using Bodies::set_radius;
   using Bodies::soften;
+  using Bodies::touching;
   /// The contact of the beam as it lies now with an avatar, gone straight to a place from that of its last tick.
   [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
       int avatar, const Vector& position, const Vector& shaft = Vector::Zero()) noexcept {
@@ -129,6 +139,10 @@ class TouchSeveral : private detail::TouchingBodies<Model> {
     return result;
   }
 
+  void forget_answer(int i) noexcept {
+    answer_[at(i)] = {};
+    answer_[at(i)].body = places_[at(i)].obstacle.body;
+  }
   /// To be called where the beam is at rest.
   void begin() noexcept {
     for (int i = 0; i < size_; ++i) places_[at(i)].end.begin(model_);
@@ -175,9 +189,9 @@ class TouchSeveral : private detail::TouchingBodies<Model> {
 
 template <class Model>
 auto TouchSeveral<Model>::tick(const Vector* positions, const Vector* shafts, int count) noexcept -> Result {
-  const auto is_place = [](const Vector& x) { return std::isfinite(x.squaredNorm()); };
   bool valid = count == avatars_;
-  for (int k = 0; valid && k < count; ++k) valid = is_place(positions[k]) && (!shafts || is_place(shafts[k]));
+  for (int k = 0; valid && k < count; ++k)
+    valid = is_place(positions[k], shafts ? shafts[k] : Vector(Vector::Zero()));
   if (!valid) return invalid();
   for (int i = 0; i < size_; ++i) {
     Place& place = places_[at(i)];
@@ -192,7 +206,7 @@ auto TouchSeveral<Model>::tick(const Vector* positions, const Vector* shafts, in
 
 template <class Model>
 auto TouchSeveral<Model>::tick(int avatar, const Vector& position, const Vector& shaft) noexcept -> Result {
-  if (!(std::isfinite(position.squaredNorm()) && std::isfinite(shaft.squaredNorm()))) return invalid();
+  if (!is_place(position, shaft)) return invalid();
   each_of(avatar, [&](Place& place) {
     place.away = false;
     place.avatar.position = position;

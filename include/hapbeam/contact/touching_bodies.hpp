@@ -40,9 +40,11 @@ class TouchingBodies {
   static constexpr int dimension = dimension_of<Model>;
   static constexpr int most = Model::contacts;
 
-  /// An avatar leaves the scene, until it is moved again.
-  void lift(int avatar) noexcept {
-    each_of(avatar, [](Place& place) { place.forget(), place.away = true; });
+  /// Whether an avatar touched in the last tick.
+  [[nodiscard]] bool touching(int avatar) noexcept {
+    bool any = false;
+    each_of(avatar, [&](const Place& place) { any = any || place.obstacle.touching; });
+    return any;
   }
   /// @param radius [m]   @throws std::invalid_argument
   void set_radius(int avatar, double radius) {

@@ -9,10 +9,13 @@
 // has left it. The hands may tick at different rates. One thread ticks both: they share the beam, and nothing is locked.
 // OpenHaptics calls the servos of all devices from one thread. In lock step the forces are deterministic.
 // A hand whose loop has stopped is lifted off the beam after `patience` ticks of the other one.
+// A reset takes a hand off the beam.  Where nobody touches the beam then, the scene is as it was built: beam, props and friction.
+// Where the other hand touches it, that one keeps it, and the one that was reset comes back after the next tick of the other one.
 // Real-time: ticks are noexcept, allocation-free and bounded, as those of TouchSeveral.  Constructors allocate and throw.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <initializer_list>
 
@@ -77,29 +80,86 @@ class TwoHands {
   using Result = typename TouchSeveral<Model>::Result;
   using Vector = typename TouchSeveral<Model>::Vector;
 
+  enum class Presence {
+    away,     ///< comes with its next tick
+    waiting,  ///< was reset while the other one touched: away once that one has ticked
+    behind,   ///< the scene was rebuilt around it: comes where it does not touch
+    here
+  };
+
   Result tick(int hand, const Vector& position, const Vector& shaft) noexcept {
-    const Result result = touch_.tick(hand, position, shaft);
+    carry_out_resets();
     // A position that is none is no tick: the hand stays where it was, as one whose loop has stopped.
-    if (result.status == Status::invalid_request) return result;
+    if (!touch_.is_place(position, shaft)) return touch_.tick(hand, position, shaft);
+    if (comes(hand, position, shaft)) presence_[at(hand)] = Presence::here;
+    const Result result = here(hand) ? touch_.tick(hand, position, shaft) : touch_.tick_still();
     const int other = 1 - hand;
-    silent_[at(hand)] = 0, changed_[at(hand)] = false;
+    Presence& others = presence_[at(other)];
+    if (others == Presence::waiting) others = Presence::away;
+    silent_[at(hand)] = 0, changed_[at(hand)] = missed_[at(hand)] = false;
     if (is_answer(result.status))
       meanwhile_[at(other)] = result.force(other) - result.friction(other), changed_[at(other)] = true;
-    if (silent_[at(other)] < patience && ++silent_[at(other)] == patience) touch_.lift(other);
+    if (here(other) && ++silent_[at(other)] == patience) {
+      take_off(other, Presence::away);
+      if (!leans(hand)) rebuild(), take_off(hand, Presence::behind);
+    }
     return result;
   }
-  void lift(int hand) noexcept {
+  hapbeam::Contact<Scalar, dimension_of<Model>> contact_at(int hand, const Vector& position,
+                                                           const Vector& shaft) noexcept {
+    if (!here(hand)) return {};
+    const auto contact = touch_.contact_at(hand, position, shaft);
+    missed_[at(hand)] = contact.touching;
+    return contact;
+  }
+  bool comes(int hand, const Vector& position, const Vector& shaft) noexcept {
+    const Presence presence = presence_[at(hand)];
+    return presence == Presence::away ||
+           (presence == Presence::behind && !touch_.contact_at(hand, position, shaft).touching);
+  }
+  bool here(int hand) const noexcept { return presence_[at(hand)] == Presence::here; }
+  void take_off(int hand, Presence presence) noexcept {
     touch_.lift(hand);
-    changed_[at(hand)] = false;
+    presence_[at(hand)] = presence;
+    silent_[at(hand)] = 0, changed_[at(hand)] = missed_[at(hand)] = false;
+  }
+  /// It touches, or does so but for its avatar.
+  bool leans(int hand) noexcept { return touch_.touching(hand) || missed_[at(hand)]; }
+
+  /// From any thread: wait-free.
+  void reset(int hand) noexcept { resets_[at(hand)].store(true, std::memory_order_release); }
+  void carry_out_resets() noexcept {
+    bool any = false;
+    for (const int hand : {0, 1}) {
+      std::atomic<bool>& asked = resets_[at(hand)];
+      if (!asked.load(std::memory_order_relaxed) || !asked.exchange(false, std::memory_order_acquire))
+        continue;
+      take_off(hand, Presence::waiting);
+      any = true;
+    }
+    if (any && !leans(0) && !leans(1)) rebuild();
+  }
+  /// The scene as it was built.  A hand in the air is on the side of the beam on which it is then.
+  void rebuild() noexcept {
+    touch_.reset();
+    for (const int hand : {0, 1}) {
+      const Presence presence = presence_[at(hand)];
+      take_off(hand, presence == Presence::waiting ? Presence::away
+                     : presence == Presence::here  ? Presence::behind
+                                                   : presence);
+    }
   }
   static std::size_t at(int hand) noexcept { return static_cast<std::size_t>(hand); }
 
   Model& model_;
   TouchSeveral<Model> touch_;
   std::array<Hand<Model>, 2> hands_;
+  std::array<std::atomic<bool>, 2> resets_{};  // asked for, and not yet carried out
+  std::array<Presence, 2> presence_{Presence::away, Presence::away};
   std::array<Vector, 2> meanwhile_{Vector::Zero(), Vector::Zero()};  // on a hand, since its last tick [N]
   std::array<bool, 2> changed_{false, false};                        // there was an answer since
-  std::array<int, 2> silent_{0, 0};  // ticks of the other hand since the last one of this
+  std::array<bool, 2> missed_{false, false};  // the avatar has left the beam, in which the hand still is
+  std::array<int, 2> silent_{0, 0};           // ticks of the other hand since the last one of this
 };
 
 template <class Model>
@@ -124,18 +184,20 @@ class Touch<Hand<Model>> {
     reset();
   }
 
-  /// This hand leaves the beam; the other one stays.   Real-time: O(1).
+  /// This hand leaves the beam; the other one stays.  The next tick of either carries it out.
+  /// Real-time: wait-free, O(1), also while the other one ticks.
   void reset() noexcept {
-    hands_.lift(index_);
+    hands_.reset(index_);
     pressing_ = false;
   }
-  bool pressing() const noexcept { return pressing_ && hands_.silent_[at()] < TwoHands<Model>::patience; }
+  bool pressing() const noexcept { return pressing_ && hands_.here(index_); }
   /// As Touch.
   bool rough() const noexcept { return hands_.touch_.rough(index_); }
   void soften(Scalar stiffness, Scalar damping) noexcept { hands_.touch_.soften(index_, stiffness, damping); }
-  /// The normal force on the hand at the place of its last tick, as ticks of the other one have left the beam [N]; null where there were none.
+  /// The normal force on a hand that presses, at the place of its last tick, as ticks of the other one have left the beam [N].  Null where
+  /// there were none.
   const Vector* meanwhile() const noexcept {
-    return hands_.changed_[at()] ? &hands_.meanwhile_[at()] : nullptr;
+    return pressing_ && hands_.changed_[at()] ? &hands_.meanwhile_[at()] : nullptr;
   }
 
   /// One tick.  @param position [m] of the avatar   @param shaft [m] in space, of a capsule: from there to the other end of its axis
@@ -156,7 +218,7 @@ class Touch<Hand<Model>> {
   }
   [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
       const Vector& position, const Vector& shaft = Vector::Zero()) noexcept {
-    return hands_.touch_.contact_at(index_, position, shaft);
+    return hands_.contact_at(index_, position, shaft);
   }
 
  private:

@@ -138,6 +138,7 @@ class AllDisplacements {
   /// Back to the shape that construction has found, and to steps of the size that a new model takes.
   void reset() noexcept {
     to_rest();
+    several_.reset();
     report_.step = 1;
   }
 

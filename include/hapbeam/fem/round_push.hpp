@@ -337,6 +337,7 @@ struct NoRound {
   template <class System>
   explicit NoRound(const System&) noexcept {}
   void forget() noexcept {}
+  void reset() noexcept {}
   void forget_shape() noexcept {}
 };
 

@@ -70,6 +70,11 @@ class SeveralPush : private ActiveSet<Element, System> {
 
   /// To be called where something else moves the beam.
   void forget() noexcept { foresight_.forget(), tilts_.forget(), forget_shape(); }
+  /// To be called between two pushes, where the beam is as it was built.
+  void reset() noexcept {
+    forget();
+    for (int i = 0; i < most; ++i) slot(i).sharp = false;
+  }
   /// As RoundPush::forget_shape().
   void forget_shape() noexcept { work_.forget(), balance_.forget(), continuation_.forget(); }
 

@@ -326,6 +326,8 @@ template <typename Model, typename Coupling>
 void Servo<Model, Coupling>::publish() noexcept {
   Picture& draft = pictures_.draft();
   draft.record = record_;
+  // What another hand may move now is drawn by ticks alone.
+  if (detail::is_shared<Touch<Model>> && record_.ticks == 0) return pictures_.publish();
   if constexpr (Drawn<Model>::for_who_looks) {
     if (record_.ticks % shape_period == 0 && looked_.exchange(false, std::memory_order_relaxed))
       seen_.take(Drawn<Model>::of(model_, touch_));

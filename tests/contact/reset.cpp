@@ -1,0 +1,300 @@
+// A reset means the scene as it was built: whatever was pressed before, a stroke after it gives the forces of a new scene.
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include "support/ruler.hpp"
+#include <hapbeam/contact/two_hands.hpp>
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/element/rod.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+constexpr double radius = 0.005, surface = radius + ruler_thickness / 2;
+
+using Ruler = FemModel<Several<Corotational<>, 4>>;
+using Wire = FemModel<Several<RoundRod, 3>>;
+
+Ruler make(const Ruler*) { return Ruler(steel_ruler(), 16); }
+Wire make(const Wire*) {
+  return Wire(Rod(0.3, RodSection::circle(0.001), {200e9, 77e9}, RodSupport::clamped, RodSupport::free), 12);
+}
+
+template <class Model>
+struct Pair {
+  using Held = Touch<Hand<Model>>;
+  using Place = typename Held::Vector;
+
+  explicit Pair(std::initializer_list<Prop<dimension_of<Model>>> props, const Friction& friction = {})
+      : hands(model, props), touch{{hands[0], radius, friction}, {hands[1], radius, friction}} {}
+
+  auto tick(int hand, const Place& at) noexcept { return touch[hand].tick(at); }
+  void reset() noexcept { touch[0].reset(), touch[1].reset(); }
+
+  Model model = make(static_cast<const Model*>(nullptr));
+  TwoHands<Model> hands;
+  Held touch[2];
+};
+
+/// Two hands that go from place to place, with a jump here and there.
+template <int D>
+class Wander {
+ public:
+  using Place = VectorOf<double, D>;
+  explicit Wander(std::uint64_t seed) : random_(seed) { next(), next(); }
+
+  /// @return of both hands
+  const Place* step() {
+    if (step_ == steps_) next();
+    ++step_;
+    for (int h = 0; h < 2; ++h) at_[h] = from_[h] + (to_[h] - from_[h]) * (double(step_) / steps_);
+    return at_;
+  }
+
+ private:
+  void next() {
+    steps_ = random_.integer(0, 7) == 0 ? 1 : 30, step_ = 0;
+    for (int h = 0; h < 2; ++h) {
+      from_[h] = to_[h];
+      to_[h][0] = random_(0.2, 1.02) * ruler_length;
+      to_[h][1] = random_(0.04);
+      if constexpr (D == 3) to_[h][2] = random_(0.004);
+    }
+  }
+
+  Random random_;
+  Place from_[2], to_[2]{Place::Zero(), Place::Zero()}, at_[2];
+  int step_ = 0, steps_ = 1;
+};
+
+/// Both are led by the same hands.   @return how many of the forces differ in any bit
+template <class A, class B>
+int differences(A& used, B& fresh, std::uint64_t seed, int ticks, int& pressing) {
+  Wander<A::Held::dimension> wander(seed);
+  int differ = 0;
+  for (int k = 0; k < ticks; ++k) {
+    const auto* const at = wander.step();
+    for (int h = 0; h < 2; ++h) {
+      const auto a = used.tick(h, at[h]), b = fresh.tick(h, at[h]);
+      differ += a.force != b.force || a.status != b.status || a.contact.s != b.contact.s ||
+                a.dissipated != b.dissipated;
+      pressing += b.pressing;
+    }
+  }
+  return differ;
+}
+
+template <class Model>
+void check_as_new(std::initializer_list<Prop<dimension_of<Model>>> props, const Friction& friction,
+                  int histories) {
+  Pair<Model> used(props, friction);
+  Random random(7);
+  int pressing = 0;
+  for (int i = 0; i < histories; ++i) {
+    Wander<dimension_of<Model>> wander(100 + static_cast<std::uint64_t>(i));
+    for (int k = random.integer(1, 200); k > 0; --k) {
+      const auto* const at = wander.step();
+      for (int h = 0; h < 2; ++h) (void)used.tick(h, at[h]);
+    }
+    used.reset();
+    Pair<Model> fresh(props, friction);
+    CAPTURE(i);
+    CHECK(differences(used, fresh, 500 + static_cast<std::uint64_t>(i), 120, pressing) == 0);
+  }
+  CHECK(pressing > 20 * histories);
+}
+
+}  // namespace
+
+TEST_CASE("after a reset of both hands the scene is a new one, to the last bit", "[two_hands][reset]") {
+  using P = Prop<>;
+  SECTION("a ruler") { check_as_new<Ruler>({}, {}, 40); }
+  SECTION("with friction") { check_as_new<Ruler>({}, 0.3, 20); }
+  SECTION("over a peg and a stop") {
+    check_as_new<Ruler>({P::peg({0.2, -0.012}, 0.008), P::stop(0.3, 0.02, {0, 1})}, {}, 40);
+  }
+  SECTION("over rough pegs") {
+    check_as_new<Ruler>({P::peg({0.2, -0.012}, 0.008).rough(0.3), P::peg({0.25, 0.02}, 0.008).rough(0.2)},
+                        0.3, 20);
+  }
+  SECTION("a wire in space, over a bar") {
+    check_as_new<Wire>({Prop<3>::bar({0.2, -0.012, -0.1}, {0.2, -0.012, 0.1}, 0.008)}, {}, 15);
+  }
+  SECTION("a rough wire") { check_as_new<Wire>({}, 0.3, 15); }
+}
+
+TEST_CASE("TouchSeveral is a new one after a reset, to the last bit", "[several][reset]") {
+  using Place = Vector2<double>;
+  const auto peg = Prop<>::peg({0.2, -0.012}, 0.008).rough(0.2);
+  Ruler model(steel_ruler(), 16);
+  TouchSeveral used(model, {{radius, 2, 0.3}, radius}, {peg});
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    Wander<2> before(i), after(50 + i);
+    for (int k = 0; k < 100; ++k) {
+      const Place* const at = before.step();
+      (void)used.tick(at[0], at[1]);
+    }
+    used.reset();
+    Ruler other(steel_ruler(), 16);
+    TouchSeveral fresh(other, {{radius, 2, 0.3}, radius}, {peg});
+    int differ = 0;
+    for (int k = 0; k < 100; ++k) {
+      const Place* const at = after.step();
+      const auto a = used.tick(at[0], at[1]), b = fresh.tick(at[0], at[1]);
+      for (const int hand : {0, 1, 2}) differ += a.force(hand) != b.force(hand);
+      differ += a.status != b.status;
+    }
+    CHECK(differ == 0);
+  }
+}
+
+TEST_CASE("Touch is a new one after a reset, to the last bit", "[touch][reset]") {
+  using One = FemModel<Corotational<>>;
+  for (const double mu : {0.0, 0.3}) {
+    One model(steel_ruler(), 16);
+    Touch<One> used(model, radius, mu);
+    int differ = 0, pressing = 0;
+    for (std::uint64_t i = 0; i < 60; ++i) {
+      Wander<2> before(i), after(500 + i);
+      for (int k = 0; k < 100; ++k) (void)used.tick(before.step()[0]);
+      used.reset();
+      One other(steel_ruler(), 16);
+      Touch<One> fresh(other, radius, mu);
+      for (int k = 0; k < 100; ++k) {
+        const Vector2<double> at = after.step()[0];
+        const auto a = used.tick(at), b = fresh.tick(at);
+        differ += a.force != b.force || a.status != b.status || a.dissipated != b.dissipated;
+        pressing += b.pressing;
+      }
+    }
+    CAPTURE(mu);
+    CHECK(differ == 0);
+    CHECK(pressing > 1000);
+  }
+}
+
+// The ruler is lifted by the one hand, and that one is above it after its reset.
+TEST_CASE("a hand that was reset does not meet the beam as it bent it", "[two_hands][reset]") {
+  Pair<Ruler> pair({});
+  const auto lift = [&](int hand) {
+    for (int k = 0; k <= 100; ++k) (void)pair.tick(hand, {0.25, -surface + 4e-4 * k});
+  };
+  const auto above = [&](int hand) { return pair.tick(hand, {0.25, 0.02}); };
+  SECTION("alone") {
+    lift(0);
+    pair.touch[0].reset();
+    CHECK_FALSE(above(0).pressing);
+  }
+  SECTION("while the other one is in the air") {
+    (void)pair.tick(1, {0.1, 0.1});
+    lift(0);
+    (void)pair.tick(1, {0.1, 0.1});
+    pair.touch[0].reset();
+    CHECK_FALSE(above(0).pressing);
+  }
+  SECTION("while the other one holds the beam: that one keeps it, and feels what it felt alone") {
+    Pair<Ruler> alone({});
+    for (int k = 0; k <= 100; ++k) {
+      const double y = surface - 1e-4 * k;
+      (void)pair.tick(1, {0.1, y}), (void)alone.tick(1, {0.1, y});
+      (void)pair.tick(0, {0.25, -surface + (k < 50 ? 0 : 1e-3 * (k - 50))});
+    }
+    const double expected = alone.tick(1, {0.1, surface - 0.01}).force.norm();
+    REQUIRE(pair.tick(0, {0.25, 0.05 - surface}).pressing);
+    pair.touch[0].reset();
+    CHECK_FALSE(above(0).pressing);
+    const auto kept = pair.tick(1, {0.1, surface - 0.01});
+    CHECK(kept.pressing);
+    CHECK(kept.force.norm() == Approx(expected).epsilon(1e-6));
+    CHECK_FALSE(above(0).pressing);
+    // It comes down on the upper side.
+    for (int k = 1; k <= 100; ++k)
+      (void)pair.tick(0, {0.25, 0.02 - 5e-4 * k}), (void)pair.tick(1, {0.1, surface - 0.01});
+    CHECK(pair.tick(0, {0.25, -0.03}).force.y() > 0);
+  }
+  SECTION("the loop of the one has stopped, and the other one was reset") {
+    lift(0);
+    pair.touch[1].reset();
+    for (int k = 0; k < 2 * TwoHands<Ruler>::patience; ++k) REQUIRE_FALSE(above(1).pressing);
+    for (int k = 1; k <= 100; ++k) (void)pair.tick(1, {0.25, 0.02 - 4e-4 * k});
+    CHECK(pair.tick(1, {0.25, -0.02}).force.y() > 0);
+  }
+}
+
+TEST_CASE("a hand in the air feels nothing of the reset of the other one", "[two_hands][reset]") {
+  Pair<Ruler> pair({});
+  // Where the ruler lies at rest, and beneath the ruler that the other one holds up.
+  for (int k = 0; k <= 100; ++k) (void)pair.tick(0, {0.25, -surface + 4e-4 * k});
+  const double inside = GENERATE(0.0, 0.002, 0.02);
+  CAPTURE(inside);
+  const auto hover = [&] { return pair.tick(1, {0.2, inside}); };
+  for (int k = 0; k < 3; ++k)
+    REQUIRE_FALSE((hover().pressing || !pair.tick(0, {0.25, 0.04 - surface}).pressing));
+  pair.touch[0].reset();
+  for (int k = 0; k < 300; ++k) {
+    REQUIRE(hover().force.isZero(0));
+    REQUIRE(pair.tick(0, {0.25, 0.1}).force.isZero(0));
+  }
+  // It touches again once it has left.
+  (void)pair.tick(1, {0.2, 0.05});
+  for (int k = 1; k <= 60; ++k) (void)pair.tick(1, {0.2, 0.05 - 1e-3 * k});
+  CHECK(pair.tick(1, {0.2, -0.01}).force.y() > 0);
+}
+
+TEST_CASE("a beam that was thrown over a peg is back after a reset", "[two_hands][reset]") {
+  Pair<Ruler> pair({Prop<>::peg({0.26, 0.02}, 0.004)});
+  // Lifted far it slips round the peg, and rests on it.
+  const auto lead = [&](double from, double to) {
+    for (int k = 0; k <= 300; ++k) (void)pair.tick(0, {0.15, -surface + from + (to - from) * k / 300});
+  };
+  const auto tip = [&] { return pair.model.shape()[16].w; };
+  lead(0, 0.1), lead(0.1, -0.2);
+  REQUIRE(tip() > 0.024);
+  pair.touch[0].reset();
+  (void)pair.tick(0, {0.15, -0.2});
+  CHECK(tip() == 0);
+  lead(-0.05, 0.01);
+  CHECK(pair.model.shape().at(0.26).w < 0.02);
+}
+
+TEST_CASE("an unanswered tick after a reset has no force of before", "[two_hands][reset]") {
+  Pair<Ruler> pair({Prop<>::peg({0.15, -0.006}, 0.005)});
+  for (int k = 0; k <= 100; ++k) (void)pair.tick(0, {0.25, surface - 2e-4 * k});
+  REQUIRE(pair.tick(0, {0.25, surface - 0.02}).pressing);
+  // The other hand jams the beam on the peg.
+  int jammed = 0;
+  for (int k = 0; k < 100; ++k) {
+    const auto felt = pair.tick(1, {0.15, surface - 2e-4 * k});
+    if (is_answer(felt.status)) continue;
+    pair.touch[0].reset();
+    const auto after = pair.tick(0, {0.25, 0.1});
+    jammed += !is_answer(after.status);
+    REQUIRE((after.force.isZero(0) && !after.pressing));
+    break;
+  }
+  CHECK(jammed == 1);
+}
+
+// As a loop is started beside one that runs.
+TEST_CASE("a hand is reset from another thread while the other one ticks", "[two_hands][reset]") {
+  Pair<Ruler> pair({});
+  std::atomic<bool> done{false};
+  std::atomic<int> resets{0};
+  std::thread other([&] {
+    while (!done.load()) pair.touch[1].reset(), ++resets;
+  });
+  int wild = 0;
+  for (int k = 0; k < 2000 || resets.load() == 0; ++k)
+    wild += !pair.tick(0, {0.2, surface - 1e-5 * k}).force.allFinite();
+  done = true;
+  other.join();
+  CHECK(wild == 0);
+  CHECK(pair.tick(0, {0.2, surface - 0.02}).force.y() > 0);
+}
