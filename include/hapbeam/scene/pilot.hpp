@@ -141,23 +141,33 @@ class Pilot {
     }
   }
 
-  /// @throws std::invalid_argument unless there is a place where presses to either side of rest are answered
+  /// @throws std::invalid_argument unless presses to either side of rest are answered: somewhere to all of the depth, and beside
+  /// a support to nine tenths at least of what is answered there of a beam that rests straight
   static void check_depth(const Scene& scene, const Reference& rest) {
-    double deepest = 0, hangs = 0;
+    struct Place {
+      double s, w, depth;  // [m] the last: the deepest press, from rest at w, that is answered to either side
+    };
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Place deepest{0, 0, -infinity}, corner{0, 0, infinity};
     for (int k = 0; k <= 64; ++k) {
-      const double s = scene.s_min + (scene.s_max - scene.s_min) * k / 64, w = std::abs(rest.shape().at(s).w);
-      deepest = (std::max)(deepest, rest.range().depth_at(s) - w), hangs = (std::max)(hangs, w);
+      const double s = scene.s_min + (scene.s_max - scene.s_min) * k / 64, w = std::abs(rest.shape().at(s).w),
+                   straight = rest.range().depth_at(s), depth = straight - w;
+      if (depth > deepest.depth) deepest = {s, w, depth};
+      if (depth < (std::min)(scene.depth, 0.9 * straight) && depth < corner.depth) corner = {s, w, depth};
     }
-    if (scene.depth <= deepest) return;
-    char allowed[160];
-    if (deepest > 0)
-      std::snprintf(allowed, sizeof allowed, "at most %.4g m, the deepest press that is answered there",
-                    0.999 * deepest);
+    const Place& limit = scene.depth > deepest.depth ? deepest : corner;
+    if (scene.depth <= limit.depth) return;
+    char allowed[200];
+    if (limit.depth > 0)
+      std::snprintf(allowed, sizeof allowed,
+                    "at most %.4g m, the deepest press that is answered to both sides of rest, %.4g m aside, "
+                    "at s = %.4g m",
+                    0.999 * limit.depth, limit.w, limit.s);
     else
-      std::snprintf(
-          allowed, sizeof allowed,
-          "of presses that are answered; this beam hangs %.4g m deep at rest, which is deeper than those",
-          hangs);
+      std::snprintf(allowed, sizeof allowed,
+                    "of presses that are answered; this beam hangs %.4g m deep at rest at s = %.4g m, which "
+                    "is deeper than those",
+                    limit.w, limit.s);
     detail::reject("depth", scene.depth, "m", allowed);
   }
 

@@ -12,9 +12,9 @@ namespace hapbeam {
 struct Scene {
   Beam beam;
   double s_min, s_max;  ///< [m] where it is pressed; equal: at one place
-  double
-      depth;  ///< [m] how deep, from the untouched beam, to either side; beside a support as deep as press() of
-              ///< Corotational<> answers, a third of the distance or so
+  /// [m] How deep, from the untouched beam, to either side.  Beside a support no deeper than press() of Corotational<> answers, a third
+  /// of the distance or so.  A beam that rests aside by more than a tenth of that limit needs a depth that is answered there from rest.
+  double depth;
   double force_error = 0.05;  ///< largest relative error of the force; a hand tells forces apart from 7 % on
   double force_floor = 0;  ///< [N] smaller forces count as this one, where they change sign or cannot be felt
   double tick = 50e-6;     ///< [s] largest time of a press
