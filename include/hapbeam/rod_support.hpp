@@ -15,8 +15,8 @@
 
 namespace hapbeam {
 
-/// Stiffness against each motion of an end; infinity holds it, 0 leaves it free.  The moment of a turn by α is 2 sin α/2 times its
-/// stiffness, up to half a turn; that of a twist is proportional to its angle.
+/// Stiffness against each motion of an end; infinity holds it, 0 leaves it free.  The moment of a turn by α is sin α times its
+/// stiffness: most at a quarter of a turn, none at half a turn.  That of a twist is proportional to its angle.
 struct RodSupport {
   double place1;  ///< [N/m] along d1
   double place2;  ///< [N/m] along d2

@@ -40,6 +40,23 @@ TEST_CASE("the springs of an end add what springs in series add", "[rod]") {
   CHECK(pulled.force.x() / (EA * d / (2 * length)) == Approx(1).epsilon(1e-6));
 }
 
+// V = 2 k sin² α/2, so M = k sin α.  A rod of EI = 1e4 k L bends by 1e-4 of that turn, P L²/3EI; across its tip P has the arm L cos α.
+TEST_CASE("the moment of an end's spring against a turn by α is k sin α", "[rod]") {
+  const double k = 1;
+  for (const double load : {0.1, 0.5, 1.0, 2.0, 4.0})
+    for (const Point& across : {Point{0, 1, 0}, Point{0, 0, 1}}) {
+      Rod rod(length, {1e9, 1e5 * k * length, 1e5 * k * length, 1e5 * k * length}, 0.005,
+              RodSupport::elastic(held, held, held, k, k, held), RodSupport::free);
+      rod.add(RodForce{length, load * k / length * across});
+      const FemModel<TwistedRod> model(rod, 8);
+      const Point tip = model.shape().at(length).r;
+      const double turn = std::atan2(tip.dot(across), tip.x());
+      CAPTURE(load, turn);
+      CHECK(model.rest().status == Status::ok);
+      CHECK(load * std::cos(turn) / std::sin(turn) == Approx(1).epsilon(1e-4));
+    }
+}
+
 TEST_CASE("derivatives of an end's springs are those of their energy", "[rod]") {
   Random random(61);
   for (int trial = 0; trial < 30; ++trial) {

@@ -3,7 +3,7 @@
 //
 // With displacement x, unit tangent u, axes d1, d2, d3 and twist φ against the carried director of the support
 //
-//   V = ½ Σ k (d·x)² + Σ k (d·u)²/(1 + d3·u) + ½ k φ²        for a turn by α in one plane, 2 k sin² α/2
+//   V = ½ Σ k (d·x)² + Σ k (d·u)²/(1 + d3·u) + ½ k φ²        for a turn by α in one plane, 2 k sin² α/2, of moment k sin α
 //
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
