@@ -1,16 +1,25 @@
 #!/usr/bin/env bash
-# choose.sh PACE X,Y X,Y PHANTOM OPTION...: a mouse opens a list in the window and chooses from it, and the window is closed once
-# a model may have been trained.  On a display of its own (xvfb-run); PACE [s] is for several pictures.
+# choose.sh FOLDER X,Y X,Y PHANTOM OPTION...: a mouse opens a list in the window and chooses from it, and the window is closed once
+# the list shows another choice: a model has been trained, or a device is connected.  On a display of its own, whose picture is in FOLDER (screen.sh).
 set -eu
-pace=$1 list=$2 entry=$3
+source "$(dirname "${BASH_SOURCE[0]}")/screen.sh"
+list=$2 entry=$3
+open_screen "$1"
 shift 3
 "$@" &
 phantom=$!
 trap 'kill "$phantom" 2>/dev/null || true' EXIT
-timeout 60 xdotool search --sync --onlyvisible --name '^hapbeam$' >/dev/null
-for place in "$list" "$entry"; do
-  xdotool mousemove "${place%,*}" "${place#*,}" sleep "$pace" mousedown 1 sleep "$pace" mouseup 1 sleep "$pace"
-done
-for _ in {1..30}; do sleep "$pace"; done
+move() { xdotool mousemove "${1%,*}" "${1#*,}"; }
+
+xdotool search --sync --onlyvisible --name '^hapbeam$' >/dev/null
+move 1,1
+until_drawn "$list"
+chosen=$(left_of "$list")
+until_changed "$list" move "$list"
+until_changed "$entry" xdotool click 1
+until_changed "$entry" move "$entry"
+until_changed "$entry" xdotool click 1
+move 1,1
+until_other "$list" "$chosen"
 kill -TERM "$phantom"
 wait "$phantom"
