@@ -9,8 +9,8 @@
 // has left it. The hands may tick at different rates. One thread ticks both: they share the beam, and nothing is locked.
 // OpenHaptics calls the servos of all devices from one thread. In lock step the forces are deterministic.
 // A hand whose loop has stopped is lifted off the beam after `patience` ticks of the other one.
-// A reset takes a hand off the beam.  Where nobody touches the beam then, the scene is as it was built: beam, props and friction.
-// Where the other hand touches it, that one keeps it, and the one that was reset comes back after the next tick of the other one.
+// A reset takes a hand off the beam.  Where nobody touches the beam without it, the scene is as it was built: beam, props and friction.
+// Where the other hand does, that one keeps it, and the one that was reset comes back after the next tick of the other one.
 // Real-time: ticks are noexcept, allocation-free and bounded, as those of TouchSeveral.  Constructors allocate and throw.
 #pragma once
 
@@ -82,8 +82,7 @@ class TwoHands {
 
   enum class Presence {
     away,     ///< comes with its next tick
-    waiting,  ///< was reset while the other one touched: away once that one has ticked
-    behind,   ///< the scene was rebuilt around it: comes where it does not touch
+    waiting,  ///< was reset, and the beam may still lie as it was pressed
     here
   };
 
@@ -91,18 +90,17 @@ class TwoHands {
     carry_out_resets();
     // A position that is none is no tick: the hand stays where it was, as one whose loop has stopped.
     if (!touch_.is_place(position, shaft)) return touch_.tick(hand, position, shaft);
-    if (comes(hand, position, shaft)) presence_[at(hand)] = Presence::here;
+    if (presence_[at(hand)] == Presence::away) presence_[at(hand)] = Presence::here;
     const Result result = here(hand) ? touch_.tick(hand, position, shaft) : touch_.tick_still();
     const int other = 1 - hand;
-    Presence& others = presence_[at(other)];
-    if (others == Presence::waiting) others = Presence::away;
     silent_[at(hand)] = 0, changed_[at(hand)] = missed_[at(hand)] = false;
     if (is_answer(result.status))
       meanwhile_[at(other)] = result.force(other) - result.friction(other), changed_[at(other)] = true;
-    if (here(other) && ++silent_[at(other)] == patience) {
-      take_off(other, Presence::away);
-      if (!leans(hand)) rebuild(), take_off(hand, Presence::behind);
-    }
+    if (here(other) && ++silent_[at(other)] == patience) take_off(other, Presence::away);
+    // Without those who wait the beam lies as the other one holds it, if that one is there.
+    const bool waits = presence_[at(0)] == Presence::waiting || presence_[at(1)] == Presence::waiting;
+    if (waits && !leans(0) && !leans(1)) rebuild();
+    else if (presence_[at(other)] == Presence::waiting) presence_[at(other)] = Presence::away;
     return result;
   }
   hapbeam::Contact<Scalar, dimension_of<Model>> contact_at(int hand, const Vector& position,
@@ -111,11 +109,6 @@ class TwoHands {
     const auto contact = touch_.contact_at(hand, position, shaft);
     missed_[at(hand)] = contact.touching;
     return contact;
-  }
-  bool comes(int hand, const Vector& position, const Vector& shaft) noexcept {
-    const Presence presence = presence_[at(hand)];
-    return presence == Presence::away ||
-           (presence == Presence::behind && !touch_.contact_at(hand, position, shaft).touching);
   }
   bool here(int hand) const noexcept { return presence_[at(hand)] == Presence::here; }
   void take_off(int hand, Presence presence) noexcept {
@@ -137,17 +130,14 @@ class TwoHands {
       take_off(hand, Presence::waiting);
       any = true;
     }
-    if (any && !leans(0) && !leans(1)) rebuild();
+    if (any && !here(0) && !here(1)) rebuild();
   }
-  /// The scene as it was built.  A hand in the air is on the side of the beam on which it is then.
+  /// The scene as it was built.
   void rebuild() noexcept {
     touch_.reset();
-    for (const int hand : {0, 1}) {
-      const Presence presence = presence_[at(hand)];
-      take_off(hand, presence == Presence::waiting ? Presence::away
-                     : presence == Presence::here  ? Presence::behind
-                                                   : presence);
-    }
+    for (Presence& presence : presence_)
+      if (presence == Presence::waiting) presence = Presence::away;
+    changed_ = {false, false};
   }
   static std::size_t at(int hand) noexcept { return static_cast<std::size_t>(hand); }
 

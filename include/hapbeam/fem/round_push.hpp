@@ -70,6 +70,8 @@ class RoundPush {
       return answer(way, request, range, state);
     }
     System& system = way.system_;
+    // What touches elsewhere does not continue where it was.
+    if (std::abs(request.s - work_.round(0).s) > request.reach + system.length() / 10) continuation_.forget();
     if (!continuation_.known()) touch_down(system, request);
     const Round from = work_.round(0);
     struct Before {

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <string>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -20,7 +21,7 @@ namespace {
 
 /// A folder of the test's own, empty at the beginning and removed at the end.
 struct Folder {
-  fs::path path = fs::absolute("replaced_file_test");
+  fs::path path = fs::absolute("replaced_file_" + std::to_string(std::random_device{}()));
   Folder() { fs::remove_all(path), fs::create_directory(path); }
   ~Folder() { fs::remove_all(path); }
   std::string operator/(const std::string& name) const { return (path / name).string(); }
