@@ -77,6 +77,7 @@ class Contest {
         fem<FemModel<Linear>>(scene, "Linear", sizes);
         fem<FemModel<VonKarman<FullIntegration>>>(scene, "VonKarman<FullIntegration>", sizes);
         fem<FemModel<VonKarman<ReducedIntegration>>>(scene, "VonKarman<ReducedIntegration>", sizes);
+        fem<FemModel<>>(scene, "VonKarman<StabilityFunctions>", sizes);
         fem<FemModel<VonKarman<AssumedStrain>>>(scene, "VonKarman<AssumedStrain>", sizes);
       }
       fem<FemModel<Corotational<Linear>>>(scene, "Corotational<Linear>", sizes);

@@ -24,7 +24,7 @@ using hapbeam::testing::instructions;
 
 namespace {
 
-/// The same element by another name, of which the model does not know that one tension serves all.
+/// The same element by another name, whose closed form the model does not take.
 struct NodeByNode : VonKarman<> {};
 
 constexpr double start = 1.0, pressed = 0.02;
@@ -71,7 +71,7 @@ void ticks(const char* name, int elements, bool slides) {
 /// The parts of a press that has one unknown.
 void parts(int elements, bool slides) {
   const char* const hand = slides ? "slides" : "presses";
-  TautSystem<VonKarman<>, double, Eigen::Dynamic, Eigen::Dynamic> system(thesis_beam(), elements);
+  TautSystem<double, Eigen::Dynamic, Eigen::Dynamic> system(thesis_beam(), elements);
   const ContactMesh<double> uniform(elements, length);
   double s = start, d = -pressed;
   ContactMesh<double> mesh = uniform;
@@ -79,7 +79,7 @@ void parts(int elements, bool slides) {
   const auto go = [&] {
     (slides ? s : d) += slides ? 1e-3 : -1e-5;
     mesh = uniform.at(s);
-    system.set_goal(mesh, d, 0);
+    system.set_goal(mesh, s, d);
   };
   const auto solve = [&] { report = NewtonRaphson{}.solve(system); };
   for (int k = 0; k < 3; ++k) go(), solve(), system.lay();

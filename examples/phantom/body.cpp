@@ -116,11 +116,11 @@ std::unique_ptr<Body> make_body(const Options& options, std::shared_ptr<const Tr
     case ElementChoice::full: return couple_full<VonKarman<FullIntegration>>(std::move(parts));
     case ElementChoice::reduced: return couple_full<VonKarman<ReducedIntegration>>(std::move(parts));
     case ElementChoice::corotational: return couple_full<Corotational<>>(std::move(parts));
-    case ElementChoice::assumed_strain:
+    case ElementChoice::stability_functions:
     case ElementChoice::round_rod:
     case ElementChoice::twisted_rod: break;
   }
-  return couple_full<VonKarman<AssumedStrain>>(std::move(parts));
+  return couple_full<VonKarman<>>(std::move(parts));
 }
 
 }  // namespace phantom

@@ -14,7 +14,7 @@ namespace {
 using cli::count, cli::figure, cli::file, cli::flag, cli::one_of;
 
 constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice::full,
-                                      ElementChoice::reduced,      ElementChoice::assumed_strain,
+                                      ElementChoice::reduced,      ElementChoice::stability_functions,
                                       ElementChoice::corotational, ElementChoice::round_rod,
                                       ElementChoice::twisted_rod};
 constexpr Script scripts[] = {Script::slide, Script::press, Script::tap, Script::around};
@@ -32,7 +32,7 @@ cli::Entries entries(Options& o) {
   const cli::Entries own = {
       count("--elements", "number of finite elements, 2 to 4096; 16 by default", o.elements, 2, 4096),
       {"--element", "KIND",
-       "linear, or von Karman with a membrane: full, reduced, assumed-strain (default), or right at any "
+       "linear, or von Karman with a membrane: full, reduced, stability-functions (default), or right at any "
        "rotation: "
        "corotational.  Of a rod in space: round-rod, which no one twists (its default where it is straight), "
        "or twisted-rod",
@@ -167,7 +167,7 @@ const char* name(ElementChoice element) {
     case ElementChoice::linear: return "linear";
     case ElementChoice::full: return "full";
     case ElementChoice::reduced: return "reduced";
-    case ElementChoice::assumed_strain: return "assumed-strain";
+    case ElementChoice::stability_functions: return "stability-functions";
     case ElementChoice::corotational: return "corotational";
     case ElementChoice::round_rod: return "round-rod";
     case ElementChoice::twisted_rod: return "twisted-rod";

@@ -9,7 +9,7 @@
 
 namespace phantom {
 
-enum class ElementChoice { linear, full, reduced, assumed_strain, corotational, round_rod, twisted_rod };
+enum class ElementChoice { linear, full, reduced, stability_functions, corotational, round_rod, twisted_rod };
 enum class Script { slide, press, tap, around };
 enum class CouplingChoice { direct, virtual_coupling };
 enum class ModelChoice { finite_elements, pod, galerkin };
@@ -19,7 +19,7 @@ enum class DeviceChoice { simulated, phantom };
 struct Options {
   std::string scene;  ///< or empty
   cli::BeamOptions beam;
-  ElementChoice element = ElementChoice::assumed_strain;
+  ElementChoice element = ElementChoice::stability_functions;
   int elements = 16;
   ModelChoice model_choice = ModelChoice::finite_elements;
   std::string model;     ///< file of a trained model, whose beam it is, or empty

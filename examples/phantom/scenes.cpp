@@ -23,16 +23,16 @@ constexpr double middle = std::numeric_limits<double>::quiet_NaN();
 // docs/scenes.md says the same at more length, and what is measured.  No hand presses so hard for so long that the device
 // cuts the force: what is felt is the beam.
 constexpr NamedScene scenes[] = {
-    {"thesis", ElementChoice::assumed_strain, Script::slide, middle, 0.014, 1,
+    {"thesis", ElementChoice::stability_functions, Script::slide, middle, 0.014, 1,
      "a wall that gives a little: the bar is stiffer than the device, and what moves is the coupling"},
     {"ruler", ElementChoice::corotational, Script::press, 0.15, 0.1, 3,
      "it resists, turns, and lets the hand slide down along it: the force falls while the hand goes on, "
      "until it "
      "slips off"},
-    {"strip", ElementChoice::assumed_strain, Script::press, middle, 0.028, 0.2,
+    {"strip", ElementChoice::stability_functions, Script::press, middle, 0.028, 0.2,
      "nothing, then more and more, then a wall: it bends like paper and stretches like steel, with the cube "
      "of the depth"},
-    {"string", ElementChoice::assumed_strain, Script::slide, middle, 0.03, 0.5,
+    {"string", ElementChoice::stability_functions, Script::slide, middle, 0.03, 0.5,
      "a spring that is soft in the middle and hard at the ends: its tension, not its stiffness, pushes back"},
     {"arch", ElementChoice::corotational, Script::press, middle, 0.04, 0.5,
      "a click: it resists, tilts, gives way under the finger and is gone, to stand on the other side"},

@@ -28,7 +28,7 @@ struct Stroke {
 
 /// @param change  in this tick; negative: never   @param stop [m]
 Stroke press(const hapbeam::DeviceInfo& device, int change, double stop) {
-  const auto first = ruler("corotational", device), next = ruler("assumed-strain", device);
+  const auto first = ruler("corotational", device), next = ruler("stability-functions", device);
   phantom::Tape tape;
   phantom::Relay relay(*first, device, tape, nullptr);
   Stroke stroke;

@@ -71,8 +71,8 @@ TEST_CASE("the same path in float takes at most 6 solves a tick", "[press][float
 
 // Nothing but the contact moves then, so that it alone tells how far the state has gone.
 TEMPLATE_TEST_CASE("two elements between clamped ends answer a press of their middle as their cubics do",
-                   "[press]", FemModel<>, (FemModel<VonKarman<>, float>),
-                   (FemModel<VonKarman<>, double, 2, 2, Dense>)) {
+                   "[press]", FemModel<VonKarman<AssumedStrain>>, (FemModel<VonKarman<AssumedStrain>, float>),
+                   (FemModel<VonKarman<AssumedStrain>, double, 2, 2, Dense>)) {
   using Scalar = typename TestType::Scalar;
   const Beam beam = thesis_beam(Support::clamped, Support::clamped);
   TestType model(beam, 2);

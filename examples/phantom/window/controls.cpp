@@ -14,11 +14,11 @@ namespace {
 constexpr const char* scene_labels[] = {"thesis", "ruler",  "strip", "string",     "arch",
                                         "comb",   "needle", "hook",  "fishing-rod"};
 constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice::full,
-                                      ElementChoice::reduced,      ElementChoice::assumed_strain,
+                                      ElementChoice::reduced,      ElementChoice::stability_functions,
                                       ElementChoice::corotational, ElementChoice::round_rod,
                                       ElementChoice::twisted_rod};
 constexpr const char* element_labels[] = {
-    "linear",       "von Karman, full",    "von Karman, reduced", "von Karman, assumed strain",
+    "linear",       "von Karman, full",    "von Karman, reduced", "von Karman, stability functions",
     "corotational", "round rod, no twist", "twisted rod"};
 
 void caption(const char* text) {

@@ -94,7 +94,7 @@ class Window {
   void tour(int step) {
     constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip", "string", "arch"};
     constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::corotational,
-                                          ElementChoice::assumed_strain, ElementChoice::reduced,
+                                          ElementChoice::stability_functions, ElementChoice::reduced,
                                           ElementChoice::full};
     Options options = first_;
     // Two changes under the hand that presses, then another scene.

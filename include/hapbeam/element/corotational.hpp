@@ -10,7 +10,8 @@
 // are the exact derivatives of V. The tangent is therefore symmetric, and rigid motion, several turns included, does no
 // work.
 // The order in the element's length is that of the local element: two with Linear (the textbooks' element), four with
-// VonKarman<AssumedStrain>, whose strain includes that a bent piece is longer than its chord.
+// VonKarman<AssumedStrain>, whose strain includes that a bent piece is longer than its chord.  VonKarman<StabilityFunctions>
+// has no error but that of large rotations against the chord.
 // Valid while each end of an element rotates by less than half a turn against its chord.
 // Source: Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1, ch. 7.3; the tangent is
 // derived anew.
@@ -25,7 +26,7 @@
 
 namespace hapbeam {
 
-/// @tparam Local  Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain>
+/// @tparam Local  Linear | VonKarman<Membrane> | Tapered<Local>
 template <class Local = VonKarman<AssumedStrain>>
 struct Corotational : ElementFromCore<Corotational<Local>> {
   static_assert(
@@ -33,9 +34,12 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
       "a Local element needs static noexcept respond(const ElementProperties<S>&, const Deformation<S>&) -> "
       "CoreResponse<S> and name() -> const char*: see hapbeam/element/corotational.hpp");
   static constexpr bool any_rotation = true;
-  using Abreast = std::conditional_t<std::is_same_v<Local, VonKarman<AssumedStrain>>, Corotational, void>;
+  using Abreast = std::conditional_t<std::is_same_v<Local, VonKarman<AssumedStrain>> || goes_abreast<Local>,
+                                     Corotational, void>;
   static constexpr bool tapers = detail::Tapers<Local>::value;
   static constexpr const char* name() noexcept {
+    if constexpr (std::is_same_v<Local, VonKarman<StabilityFunctions>>)
+      return "corotational-stability-functions";
     if constexpr (std::is_same_v<Local, Linear>) return "corotational-linear";
     if constexpr (std::is_same_v<Local, VonKarman<FullIntegration>>) return "corotational-full";
     if constexpr (std::is_same_v<Local, VonKarman<ReducedIntegration>>) return "corotational-reduced";

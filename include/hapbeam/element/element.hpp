@@ -11,9 +11,11 @@
 //   E::any_rotation            bool, optional, true: valid at finite rotation
 //   E::tapers                  bool, optional, true: takes beams whose section changes, p.taper11 and the like
 //   E::membrane_feels_slope    bool, optional, true: ε contains ½ w'², so an axial load on the element bends it
-//   E::OneStrain               type, optional, E itself: the membrane strain is one number, (u2-u1)/l plus a positive definite
-//                              quadratic form of rise, lθ1 and lθ2, and E has respond(p, e) as below.  A class derived from E
-//                              does not have it: there the name is E's, not its own
+//   E::ExactUnderTension       type, optional, E itself: a prismatic element without load solves the equations of moderate rotation
+//                              exactly, so that any number of elements gives the same answers.  A class derived from E does not
+//                              have it: there the name is E's, not its own
+//   E::OnMesh                  type, beside it: the element of beams that need a mesh, as they are loaded, bent by nature or pushed
+//                              together
 //   E::Abreast                 type, optional, E itself: E::respond(p, d) takes detail::Pack<S> for S, too, so that a few elements are
 //                              computed side by side
 //
@@ -178,9 +180,10 @@ template <class E>
 struct Tapers<E, std::void_t<decltype(E::tapers)>> : std::bool_constant<E::tapers> {};
 
 template <class E, typename = void>
-struct OneStrain : std::false_type {};
+struct ExactUnderTension : std::false_type {};
 template <class E>
-struct OneStrain<E, std::void_t<typename E::OneStrain>> : std::is_same<typename E::OneStrain, E> {};
+struct ExactUnderTension<E, std::void_t<typename E::ExactUnderTension>>
+    : std::is_same<typename E::ExactUnderTension, E> {};
 
 }  // namespace detail
 
@@ -237,9 +240,22 @@ inline constexpr bool any_rotation = detail::AnyRotation<E>::value;
 template <class E>
 inline constexpr bool goes_abreast = detail::IsAbreast<E>::value;
 
-/// True where E, or a membrane policy, has a membrane strain of one number.
+/// True where E, or a membrane policy, is exact under a tension that is constant along it.
 template <class E>
-inline constexpr bool one_strain = detail::OneStrain<E>::value;
+inline constexpr bool exact_under_tension = detail::ExactUnderTension<E>::value;
+
+namespace detail {
+
+template <class E, bool = exact_under_tension<E>>
+struct OnMesh {
+  using Type = E;
+};
+template <class E>
+struct OnMesh<E, true> {
+  using Type = typename E::OnMesh;
+};
+
+}  // namespace detail
 
 /// An element of beams that may be touched at several places at once, as FemModel<Several<Corotational<>, 3>>.
 /// @tparam Contacts  the most of them

@@ -35,7 +35,6 @@ template <typename S>
 }  // namespace detail
 
 struct Linear : ElementFromCore<Linear> {
-  using OneStrain = Linear;
   static constexpr const char* name() noexcept { return "linear"; }
 
   template <typename S>

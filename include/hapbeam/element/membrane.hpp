@@ -11,7 +11,8 @@
 //   --------------------   -----------------   -----------------------------------------------------------------
 //   M::respond(p, e)       CoreResponse<S>     of an ElementProperties<S> and a Deformation<S>; static, noexcept
 //   M::name()              const char*
-//   M::OneStrain           type, optional, M itself: ε is one number, with ½ w'² averaged over the whole element
+//   M::ExactUnderTension   type, optional, M itself: element.hpp
+//   M::Abreast             type, optional, M itself: element.hpp
 //
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
@@ -69,8 +70,8 @@ struct FullIntegration {
   }
 };
 
-/// One Gauss point in the middle of the element (Reddy; the thesis). Its strain is one number, but it has no OneStrain:
-/// where N l² > 16 EI the element has no bending stiffness at a given tension.
+/// One Gauss point in the middle of the element (Reddy; the thesis). Where N l² > 16 EI the element has no bending stiffness at a
+/// given tension.
 struct ReducedIntegration {
   static constexpr const char* name() noexcept { return "reduced"; }
   template <typename S>
@@ -82,7 +83,6 @@ struct ReducedIntegration {
 
 /// The element's mean strain, in closed form:  l² ∫w'² dx/l = rise² + (2a² - ab + 2b²)/15.
 struct AssumedStrain {
-  using OneStrain = AssumedStrain;
   static constexpr const char* name() noexcept { return "assumed-strain"; }
   template <typename S>
   [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,

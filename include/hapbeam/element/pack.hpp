@@ -208,6 +208,15 @@ class Pack {
     return true;
 #endif
   }
+  /// The larger of both, of each.
+  [[gnu::always_inline]] friend Pack larger(Pack a, const Pack& b) noexcept {
+#if defined(__GNUC__)
+    return a.v_ = a.v_ < b.v_ ? b.v_ : a.v_, a;
+#else
+    for (int i = 0; i < size; ++i) a.v_[i] = (std::max)(a.v_[i], b.v_[i]);
+    return a;
+#endif
+  }
   /// atan2(y, x).  @param length  √(x² + y²)
   [[gnu::always_inline]] friend Pack angle(const Pack& y, const Pack& x, const Pack& length) noexcept {
     const Pack whole = length + x;

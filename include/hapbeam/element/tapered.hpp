@@ -12,7 +12,7 @@
 namespace hapbeam {
 
 /// As FemModel<Tapered<>>, and FemModel<Corotational<Tapered<>>> for finite rotation.
-/// @tparam Local  Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain>
+/// @tparam Local  Linear | VonKarman<Membrane>
 template <class Local = VonKarman<AssumedStrain>>
 struct Tapered : ElementFromCore<Tapered<Local>> {
   static_assert(

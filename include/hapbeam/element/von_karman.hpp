@@ -1,5 +1,5 @@
-// The von Kármán (moderate rotation) Euler–Bernoulli element of the thesis. Bending is that of the linear element. The
-// membrane force includes the slope, ε = u' + ½ w'².
+// The von Kármán (moderate rotation) Euler–Bernoulli element. Bending is that of the linear element, and the membrane
+// policy adds what the strain ε = u' + ½ w'² makes of it: the default the whole of it, the thesis' a part.
 //
 // Valid while rotations are moderate. Error of the mid-span deflection under uniform load on sliding ends, against the
 // inextensible elastica: 0.2 % at an end slope of 0.067, 9 % at 0.42 and 63 % at 0.95.
@@ -10,18 +10,21 @@
 
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/membrane.hpp>
+#include <hapbeam/element/stability_functions.hpp>
 
 namespace hapbeam {
 
-/// @tparam Membrane  FullIntegration | ReducedIntegration | AssumedStrain, or one of your own: membrane.hpp
-template <class Membrane = AssumedStrain>
+/// @tparam Membrane  StabilityFunctions | AssumedStrain | ReducedIntegration | FullIntegration, or one of your own: membrane.hpp
+template <class Membrane = StabilityFunctions>
 struct VonKarman : ElementFromCore<VonKarman<Membrane>> {
   static_assert(responds_to_deformation<Membrane, double>,
                 "a Membrane policy needs static noexcept respond(const ElementProperties<S>&, const "
                 "Deformation<S>&) -> "
                 "CoreResponse<S> and name() -> const char*: see hapbeam/element/membrane.hpp");
   static constexpr bool membrane_feels_slope = true;
-  using OneStrain = std::conditional_t<one_strain<Membrane>, VonKarman, void>;
+  using ExactUnderTension = std::conditional_t<exact_under_tension<Membrane>, VonKarman, void>;
+  using OnMesh = std::conditional_t<exact_under_tension<Membrane>, VonKarman<AssumedStrain>, VonKarman>;
+  using Abreast = std::conditional_t<goes_abreast<Membrane>, VonKarman, void>;
   static constexpr const char* name() noexcept { return Membrane::name(); }
 
   template <typename S>

@@ -10,9 +10,8 @@
 // more than one shape at rest keeps to the branch on which it is; where that ends or gives way it falls to a stable one,
 // and the status says snapped.
 // There are two ways to the answer, and the beam decides when it is built.  A straight beam without dead loads whose ends stand
-// no closer than it is long has one unknown, the tension; of elements whose membrane strain is one number the model solves for
-// that alone (one_tension.hpp).  All else is solved for the displacements of all nodes (all_displacements.hpp).  The answers
-// are the same.
+// no closer than it is long has one unknown, the tension; of elements that are exact under theirs the model solves for that alone,
+// without the error of a mesh (one_tension.hpp).  All else is solved for the displacements of all nodes (all_displacements.hpp).
 // Composed of policies: Element × Assembler × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
@@ -37,13 +36,13 @@
 
 namespace hapbeam {
 
-/// @tparam Element    Linear | VonKarman<FullIntegration | ReducedIntegration | AssumedStrain> | Corotational<Local>
+/// @tparam Element    Linear | VonKarman<Membrane> | Corotational<Local>
 /// @tparam ScalarType double | float
 /// @tparam Elements   number of elements, or Eigen::Dynamic      @tparam MaxElements  largest number, or Eigen::Dynamic
 /// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates, and always of all displacements)   @tparam Solver  NewtonRaphson
-template <class Element = VonKarman<AssumedStrain>, typename ScalarType = double,
-          int Elements = Eigen::Dynamic, int MaxElements = Elements,
-          template <typename, int, int, int> class Assembler = BlockTridiagonal, class Solver = NewtonRaphson>
+template <class Element = VonKarman<>, typename ScalarType = double, int Elements = Eigen::Dynamic,
+          int MaxElements = Elements, template <typename, int, int, int> class Assembler = BlockTridiagonal,
+          class Solver = NewtonRaphson>
 class FemModel {
   using Of = detail::SystemOf<Element>;
   using Extent = typename Of::template Range<ScalarType>;
@@ -76,7 +75,7 @@ class FemModel {
 
   /// Prescribes the centreline's transverse displacement d [m] at arc position s [m]: its w, from the x axis.
   /// Within range() the answer is that of the request; else, out_of_range, that of the nearest request in range.
-  /// Beside an end that yields, closer than a thousandth of the length (3 % in float), an element up to the contact
+  /// Beside an end that yields, closer than a thousandth of the length (3 % in float), an element of a mesh up to the contact
   /// would lose the force to round-off; there the end's node is pressed through a straight tip, whose error is about
   /// (δ/L)³ at a free end and (δ/L)² at a guided one.
   /// @return force [N] and ok | out_of_range | snapped | invalid_request | iteration_limit | singular | non_finite
@@ -171,11 +170,12 @@ class FemModel {
   InternalForces<Scalar, dimension> internal_forces(int element, Scalar s) const noexcept;
 
  private:
-  using General = AllDisplacements<Element, Scalar, Elements, MaxElements, Assembler, Solver>;
-  using Taut = OneTension<Element, Scalar, Elements, MaxElements, Solver>;
+  using General = AllDisplacements<typename detail::OnMesh<Element>::Type, Scalar, Elements, MaxElements,
+                                   Assembler, Solver>;
+  using Taut = OneTension<Scalar, Elements, MaxElements, Solver>;
   static constexpr bool may_be_taut =
-      one_strain<Element> && std::is_same_v<Assembler<Scalar, Elements, MaxElements, 3>,
-                                            BlockTridiagonal<Scalar, Elements, MaxElements>>;
+      exact_under_tension<Element> && std::is_same_v<Assembler<Scalar, Elements, MaxElements, 3>,
+                                                     BlockTridiagonal<Scalar, Elements, MaxElements>>;
   using Ways = std::conditional_t<may_be_taut, std::variant<General, Taut>, std::variant<General>>;
 
   static Ways make_way(const Body& beam, int elements, const Solver& solver);

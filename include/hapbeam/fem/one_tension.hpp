@@ -3,7 +3,7 @@
 // TautSystem is solved for its one unknown by Newton–Raphson, from the last press on.  There is one equilibrium for each press,
 // and it is stable: letting go leads back to rest.
 // Allocates at construction; every other member is noexcept and allocation-free, and takes at most solver.max_solves
-// iterations of O(elements).
+// iterations of O(1) and lays the shape in O(elements).
 #pragma once
 
 #include <cmath>
@@ -17,8 +17,7 @@
 namespace hapbeam {
 
 /// The members are those of AllDisplacements.
-/// @tparam Element  one whose membrane strain is one number: one_strain<Element>
-template <class Element, typename ScalarType, int Elements, int MaxElements, class Solver>
+template <typename ScalarType, int Elements, int MaxElements, class Solver>
 class OneTension {
  public:
   using Scalar = ScalarType;
@@ -27,14 +26,15 @@ class OneTension {
   OneTension(const Beam& beam, int elements, const Solver& solver)
       : system_(beam, elements), uniform_(elements, system_.length()), solver_(solver) {}
 
+  /// @param node  [m] at or beside the contact, where the shape has a node
   Response<Scalar> press(const Push<Scalar>& request, Scalar node, bool valid) noexcept {
     const Scalar first_step = report_.step;
     report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
     if (!valid) return {0, Status::invalid_request};
-    const ContactMesh<Scalar> mesh = uniform_.at(node);
-    system_.set_goal(mesh, request.d, request.s - mesh.s());
+    system_.set_goal(uniform_.at(node), request.s, request.d);
     report_ = solver_.solve(system_, first_step);
     if (report_.steps > 0) system_.lay();
+    else system_.take_back();
     const Scalar force = system_.reaction();
     if (!std::isfinite(force)) report_.status = Status::non_finite;
     return {force, report_.status};
@@ -49,7 +49,7 @@ class OneTension {
     report_.step = 1;
   }
 
-  int elements() const noexcept { return system_.elements(); }
+  int elements() const noexcept { return uniform_.elements(); }
   Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
   Scalar strain_energy() const noexcept { return system_.strain_energy(); }
   InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
@@ -59,7 +59,7 @@ class OneTension {
   const SolveReport<Scalar>& report() const noexcept { return report_; }
 
  private:
-  TautSystem<Element, Scalar, Elements, MaxElements> system_;
+  TautSystem<Scalar, Elements, MaxElements> system_;
   ContactMesh<Scalar> uniform_;
   Solver solver_;
   SolveReport<Scalar> rest_{Status::ok, 0, 1, 1, 0, 1}, report_ = rest_;

@@ -8,8 +8,10 @@
 // The potential is convex: there is one equilibrium, it is stable, and N >= EA δ/L >= 0.  As k' falls like C/(N + a)², an
 // iteration takes that function through the value and slope at the present N and solves for N what is then a cubic; it
 // converges from anywhere.  An end that slides leaves N = 0, and one iteration.
+// Between its ends and the contact the beam is two pieces in closed form (taut_piece.hpp): there is no mesh, and no error of one.
+// The nodes are places at which the shape is drawn.
 // It takes the place of BeamSystem, whose iterations solve for u, w, θ of all nodes.
-// Allocates at construction; every other member is noexcept and allocation-free, O(n).
+// Allocates at construction; every other member is noexcept and allocation-free.  An iteration is O(1), the shape O(n).
 // Source: the function is that of the secular equations of trust regions: Moré and Sorensen, Computing a trust region step,
 // SIAM J. Sci. Stat. Comput. 4 (1983).
 #pragma once
@@ -19,11 +21,11 @@
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/fem/beam_forces.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
-#include <hapbeam/fem/solver/two_spans.hpp>
+#include <hapbeam/fem/taut_piece.hpp>
+#include <hapbeam/internal_forces.hpp>
 
 namespace hapbeam {
 
@@ -35,54 +37,56 @@ inline bool is_taut(const Beam& beam) noexcept {
          !beam.axial() && l.w == 0 && l.theta == 0 && r.w == 0 && r.theta == 0 && drawn_apart;
 }
 
-/// @tparam Element  one whose membrane strain is one number: one_strain<Element>
-template <class Element, typename ScalarType, int Elements, int MaxElements>
+template <typename ScalarType, int Elements, int MaxElements>
 class TautSystem {
  public:
   using Scalar = ScalarType;
   using Node = CentrelineNode<Scalar>;
 
-  /// @throws std::invalid_argument where elements does not fit the type
-  TautSystem(const Beam& beam, int elements)
-      : nodes_(elements),
-        spans_(elements, beam.left(), beam.right()),
+  /// @param segments  at whose ends the shape is drawn   @throws std::invalid_argument where they do not fit the type
+  TautSystem(const Beam& beam, int segments)
+      : nodes_(segments),
+        left_(beam.left()),
+        right_(beam.right()),
+        supports_{beam.left(), beam.right()},
         length_(static_cast<Scalar>(beam.length())),
         force_unit_(static_cast<Scalar>(beam.bending_stiffness() / beam.length() / beam.length())),
         flexibility_(static_cast<Scalar>(beam.bending_stiffness() / beam.axial_stiffness() / beam.length() /
                                          beam.length())),
         between_ends_(fixes_u(beam.left()) && fixes_u(beam.right())),
-        from_left_(fixes_u(beam.left())),
         place_{static_cast<Scalar>(beam.left_place().u / beam.length()),
                static_cast<Scalar>(beam.right_place().u / beam.length())},
         drawn_(static_cast<Scalar>((beam.right_place().u - beam.left_place().u) / beam.length()) /
-               flexibility_) {
+               flexibility_),
+        mesh_(segments, length_),
+        laid_mesh_(mesh_) {
     rest();
   }
 
-  int elements() const noexcept { return nodes_.size() - 1; }
   Scalar length() const noexcept { return length_; }
   Centreline<Scalar> centreline() const noexcept { return {nodes_.data(), nodes_.size()}; }
-  const Node& node(int i) const noexcept { return nodes_[i]; }
 
-  /// Untouched, on the uniform mesh.
+  /// Untouched, drawn on the uniform mesh.
   void rest() noexcept {
-    const ContactMesh<Scalar> mesh(elements(), length_);
-    set_goal(mesh, 0, 0);
+    const ContactMesh<Scalar> mesh(centreline().segments(), length_);
+    set_goal(mesh, mesh.s(), 0);
     tension_ = between_ends_ ? drawn_ : Scalar(0);
     known_ = before_ = {contact_s_, tension_, 0, 0};
     d_ = 0;
-    for (int i = 0; i <= elements(); ++i) nodes_[i].s = mesh.position(i);
+    condensed_ = condense();
     lay();
   }
 
-  /// Where the path ends.  @param mesh with its node at or beside the contact   @param d [m]   @param lever [m] as in BeamSystem
-  void set_goal(const ContactMesh<Scalar>& mesh, Scalar d, Scalar lever) noexcept {
-    mesh_node_ = mesh.node();
-    mesh_s_ = mesh.s();
-    spans_.set(mesh_node_, elements() - mesh_node_, mesh_s_ / length_, lever / length_);
-    contact_s_ = mesh_s_ + lever;
+  /// Where the path ends.  @param mesh  at which the shape is drawn   @param s  [m] of the contact   @param d [m]
+  void set_goal(const ContactMesh<Scalar>& mesh, Scalar s, Scalar d) noexcept {
+    mesh_ = mesh;
+    contact_s_ = s;
+    left_.set(s / length_);
+    right_.set((length_ - s) / length_);
     goal_d_ = d / length_;
   }
+  /// Back to the place of lay(), where no step went on from there.
+  void take_back() noexcept { set_goal(laid_mesh_, laid_s_, d_ * length_); }
 
   // What NewtonRaphson asks of a system, in units of EI/L.
 
@@ -104,17 +108,18 @@ class TautSystem {
   }
   Scalar size() const noexcept { return size_; }
   Scalar unit() const noexcept { return 1; }
+  int elements() const noexcept { return 2; }
 
   Iteration<Scalar> iterate() noexcept {
     using std::sqrt;
-    const detail::Taylor<Scalar> k = spans_.stiffness(tension_);
-    const Scalar square = d_ * d_, longer = k.c1 * square / 2;
-    const Scalar doubled = k.c0 * square - 2 * tension_ * longer + tension_ * tension_ * flexibility_;
+    const Condensed at = condensed_ = condense();
+    const Scalar square = d_ * d_, longer = at.k1 * square / 2;
+    const Scalar doubled = at.k * square - 2 * tension_ * longer + tension_ * tension_ * flexibility_;
     size_ = sqrt((std::max)(doubled, Scalar(0)));
-    if (!(std::isfinite(doubled) && std::isfinite(k.c2))) return {Status::non_finite, 0};
+    if (!(std::isfinite(doubled) && std::isfinite(at.k2))) return {Status::non_finite, 0};
     if (!between_ends_) return {Status::ok, 0};
     if (known_.s != contact_s_) before_ = known_;
-    known_ = {contact_s_, tension_, k.c1 / 2, k.c2 < 0 ? -k.c2 / k.c1 : Scalar(0)};
+    known_ = {contact_s_, tension_, at.k1 / 2, at.k2 < 0 ? -at.k2 / (2 * at.k1) : Scalar(0)};
     const Scalar change = fit(known_, d_);
     tension_ += change;
     return {std::isfinite(tension_) ? Status::ok : Status::non_finite,
@@ -123,17 +128,30 @@ class TautSystem {
 
   /// Computes the shape that belongs to tension and d, and its force.
   void lay() noexcept {
-    const int last = elements();
-    const auto place = [this](int i, Scalar distance, Scalar u, Scalar w, Scalar theta) {
-      nodes_[i] = {mesh_s_ + distance, u, w, theta};
-    };
-    stiffness_ = spans_.lay(tension_, flexibility_, d_, length_, place);
-    nodes_[0].s = 0;
-    nodes_[last].s = length_;
-    const Scalar shift =
-        from_left_ ? place_[0] * length_ - nodes_[0].u : place_[1] * length_ - nodes_[last].u;
-    for (Node& node : nodes_) node.u += shift;
-    if (between_ends_) nodes_[last].u = place_[1] * length_;
+    // From the last iteration's tension a parabola leads to this one, unless a step was taken back.
+    if (!(std::abs(tension_ - condensed_.tension) * known_.beta <= Scalar(1e-5))) condensed_ = condense();
+    const Scalar by = tension_ - condensed_.tension, turn = (condensed_.turn + by * condensed_.turn1) * d_;
+    stiffness_ = condensed_.k + by * (condensed_.k1 + by * condensed_.k2 / 2);
+    left_.bend(tension_, d_, turn);
+    right_.bend(tension_, d_, -turn);
+    place_nodes();
+    // Without tension an end that slides is where the length of the arc leaves it.
+    Scalar ends[2] = {place_[0], place_[1]};
+    if (!between_ends_) {
+      const Scalar span = left_.shortening() + right_.shortening();
+      if (fixes_u(supports_[0])) ends[1] = ends[0] - span;
+      else ends[0] = ends[1] + span;
+    }
+    const int last = nodes_.size() - 1, node = mesh_.node(),
+              on_left = node + (mesh_.s() <= contact_s_ ? 1 : 0);
+    lay(left_, on_left, ends[0], 1, [this](int j) -> Node& { return nodes_[j]; });
+    lay(right_, last + 1 - on_left, ends[1], -1, [this, last](int j) -> Node& { return nodes_[last - j]; });
+    if (mesh_.s() == contact_s_) nodes_[node].w = d_ * length_;
+    for (const int k : {0, 1}) {
+      Node& end = nodes_[k == 0 ? 0 : last];
+      if (fixes_w(supports_[k])) end.w = 0;
+      if (fixes_theta(supports_[k])) end.theta = 0;
+    }
   }
   /// That holds the contact in the shape of lay() [N].
   Scalar reaction() const noexcept { return force_unit_ * stiffness_ * d_; }
@@ -144,22 +162,81 @@ class TautSystem {
     return force_unit_ * length_ *
            ((stiffness_ * d_ * d_ + tension_ * tension_ * flexibility_) / 2 - tension_ * longer);
   }
-  /// What the section at s carries, in element e of the shape of lay(), which holds s.   @param thickness [m]
+  /// What the section at s carries in the shape of lay(); at the contact, on the side of segment e.   @param thickness [m]
   InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
-    const Scalar EI = force_unit_ * length_ * length_, EA = force_unit_ / flexibility_;
-    const Node &a = nodes_[e], &b = nodes_[e + 1];
-    Vector6<Scalar> r;
-    Element::residual(ElementProperties<Scalar>(b.s - a.s, EA, EI),
-                      Vector6<Scalar>(a.u, a.w, a.theta, b.u, b.w, b.theta), r);
-    const DeadLoads<Scalar>* const none = nullptr;
-    return detail::cut_beam<Element>(centreline(), e, s, r, none, Scalar(0)).in_section(EA, EI, thickness);
+    using std::abs;
+    const Scalar at = (std::min)((std::max)(s, Scalar(0)), length_);
+    const bool right = beyond(e + 1, at);
+    const auto c = place(right, at);
+    const Scalar moment = -c.bend * force_unit_ * length_, strain = tension_ * flexibility_;
+    return {tension_ * force_unit_, (right ? c.shear : -c.shear) * force_unit_, moment, strain,
+            abs(strain) + abs(c.bend) / length_ * thickness / 2};
   }
 
  private:
+  void place_nodes() noexcept {
+    const int node = mesh_.node(), last = nodes_.size() - 1;
+    const Scalar s = mesh_.s(), on_left = node > 0 ? s / Scalar(node) : Scalar(0),
+                 on_right = node < last ? (length_ - s) / Scalar(last - node) : Scalar(0);
+    for (int i = 0; i < last; ++i)
+      nodes_[i].s = i < node ? on_left * Scalar(i) : s + on_right * Scalar(i - node);
+    nodes_[last].s = length_;
+    laid_mesh_ = mesh_;
+    laid_s_ = contact_s_;
+  }
+
+  /// The nodes of a piece.  @param end  u of its end [L]   @param side  1 on the left, -1 on the right   @param node  the j-th from the end
+  template <class NodeAt>
+  void lay(const detail::TautPiece<Scalar>& piece, int count, Scalar end, Scalar side,
+           NodeAt&& node) noexcept {
+    if (count == 0) return;
+    struct Powers {
+      Scalar &first, &second;
+    };
+    const Scalar spacing = count > 1 ? std::abs(node(1).s - node(0).s) / length_ : Scalar(0),
+                 stretch = tension_ * flexibility_ * spacing;
+    piece.visit(
+        count, spacing,
+        [&](int j) {
+          return Powers{node(j).w, node(j).theta};
+        },
+        [&](int j, const auto& c) {
+          Node& to = node(j);
+          to.u = (end + side * (stretch * Scalar(j) - c.shortening)) * length_;
+          to.w = c.w * length_;
+          to.theta = -side * c.slope;
+        });
+  }
+
   /// How much longer than its chord the arc is, over d², as far as it is known: rate/(1 + β (ν - tension))².
   struct Longer {
     Scalar s, tension, rate, beta;
   };
+  /// Force at the contact over its displacement, k(ν), its derivatives, and the rotation there over the displacement.
+  struct Condensed {
+    Scalar tension, k, k1, k2, turn, turn1;
+  };
+
+  /// Both pieces meet at the contact, where w and θ are those of both.  The derivatives are those of the energy ½ k d², stationary in θ.
+  Condensed condense() const noexcept {
+    const auto l = left_.stiffness(tension_), r = right_.stiffness(tension_);
+    const Scalar turning = 1 / (l.k.tt + r.k.tt), turn = (r.k.wt - l.k.wt) * turning;
+    const auto along = [turn](const auto& a, const auto& b) {
+      return a.ww + b.ww + turn * (2 * (a.wt - b.wt) + turn * (a.tt + b.tt));
+    };
+    const Scalar slide = l.k1.wt - r.k1.wt + turn * (l.k1.tt + r.k1.tt);
+    const Scalar k = l.determinant + r.determinant + l.k.ww * r.k.tt + r.k.ww * l.k.tt + 2 * l.k.wt * r.k.wt;
+    return {tension_, k * turning,     along(l.k1, r.k1), along(l.k2, r.k2) - 2 * slide * slide * turning,
+            turn,     -slide * turning};
+  }
+
+  /// Whether a place is on the right of the contact; the contact itself, where its node is not the one given.
+  bool beyond(int node, Scalar s) const noexcept {
+    return s > contact_s_ || (s == contact_s_ && node > mesh_.node());
+  }
+  auto place(bool right, Scalar s) const noexcept {
+    return right ? right_.at((length_ - s) / length_) : left_.at(s / length_);
+  }
 
   /// The predictor: the function of the last press, and where the hand slides on by at most as much again, its rate as it goes
   /// on from the last two.
@@ -191,13 +268,15 @@ class TautSystem {
   }
 
   detail::PerNode<Node, Elements, MaxElements> nodes_;
-  detail::TwoSpans<Element, Scalar, Elements, MaxElements> spans_;
+  detail::TautPiece<Scalar> left_, right_;
+  Support supports_[2];
   Scalar length_, force_unit_, flexibility_;  // L, EI/L², EI/(EA L²)
-  bool between_ends_, from_left_;
+  bool between_ends_;
   Scalar place_[2];  // u of the ends [L]
   Scalar drawn_;     // ν at rest
-  int mesh_node_ = 0;
-  Scalar mesh_s_ = 0, contact_s_ = 0;
+  ContactMesh<Scalar> mesh_, laid_mesh_;
+  Scalar contact_s_ = 0, laid_s_ = 0;
+  Condensed condensed_{0, 0, 0, 0, 0, 0};          // of the last iteration
   Longer known_{0, 0, 0, 0}, before_{0, 0, 0, 0};  // of the last iteration, and at the place before
   Scalar tension_ = 0, saved_tension_ = 0, d_ = 0, saved_d_ = 0, goal_d_ = 0;
   Scalar size_ = 0, stiffness_ = 0;

@@ -6,7 +6,7 @@
 
 namespace hapbeam::testing {
 
-/// Of the library's full_model() with so many elements, assumed strain.
+/// Of the library's full_model() with so many elements.
 PodModelData<double> trained_pod(const Beam& beam, const TrainingPlan& plan, int elements = 256);
 GalerkinModelData<double> trained_galerkin(const Beam& beam, const TrainingPlan& plan, int elements = 256);
 /// Of other elements and other snapshots.
