@@ -162,7 +162,8 @@ TEST_CASE("two exact elements with a free node between them are one", "[element]
   });
 }
 
-TEST_CASE("under little tension the exact element is that of assumed strain, to a twentieth of q", "[element]") {
+TEST_CASE("under little tension the exact element is that of assumed strain, to a twentieth of q",
+          "[element]") {
   Random random(54);
   for (const double size : {1e-2, 1e-3, 1e-4}) {
     const ElementProperties<double> p(1, 1e4, 1);
