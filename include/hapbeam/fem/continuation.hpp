@@ -6,7 +6,7 @@
 // another there, and the beam has gone farther than the hand.  (Where the mesh has moved the energy may be another, too; there the beam has not.)
 // Such an answer is sought again in halves and quarters of the hand's way, each from the one before.  The trapezoids' error falls by eight with each half.
 // What is off in a quarter still has snapped; where it has gained energy no snap leads there, and the beam falls from where it was (Descent).
-// Real-time: noexcept, no allocation, O(1) but for the answers that are sought again: at most six, and the linear solves of AllDisplacements in all.
+// Real-time: noexcept, no allocation, O(1) but for the answers that are sought again: at most eight times, and the linear solves of AllDisplacements in all.
 #pragma once
 
 #include <algorithm>
@@ -41,26 +41,24 @@ struct Continued {
 template <typename Scalar>
 Circle<Scalar> between(const Circle<Scalar>& from, const Circle<Scalar>& to, Scalar t) noexcept {
   if (t >= 1) return to;
-  const auto at = [t](const auto& a, const auto& b) { return (a + t * (b - a)).eval(); };
-  const auto mean = [t](Scalar a, Scalar b) { return a + t * (b - a); };
-  return {mean(from.s, to.s), at(from.centre, to.centre), mean(from.reach, to.reach), to.side};
+  const Scalar u = 1 - t;
+  return {u * from.s + t * to.s, u * from.centre + t * to.centre, u * from.reach + t * to.reach, to.side};
 }
 template <typename Scalar>
 Capsule<Scalar> between(const Capsule<Scalar>& from, const Capsule<Scalar>& to, Scalar t) noexcept {
   if (t >= 1) return to;
-  const auto at = [t](const auto& a, const auto& b) { return (a + t * (b - a)).eval(); };
-  const auto mean = [t](Scalar a, Scalar b) { return a + t * (b - a); };
-  return {mean(from.s, to.s),
-          {at(from.axis.tip, to.axis.tip), at(from.axis.way, to.axis.way)},
-          mean(from.reach, to.reach),
+  const Scalar u = 1 - t;
+  return {u * from.s + t * to.s,
+          {u * from.axis.tip + t * to.axis.tip, u * from.axis.way + t * to.axis.way},
+          u * from.reach + t * to.reach,
           to.normal};
 }
-
+/// Of two normals less than a right angle apart.
 template <typename Scalar, int D>
 Push<Scalar, D> between(const Push<Scalar, D>& from, const Push<Scalar, D>& to, Scalar t) noexcept {
   if (t >= 1) return to;
-  const VectorOf<Scalar, D> normal = from.normal + t * (to.normal - from.normal);
-  return {from.s + t * (to.s - from.s), from.d + t * (to.d - from.d), normal.normalized()};
+  const Scalar u = 1 - t;
+  return {u * from.s + t * to.s, u * from.d + t * to.d, (u * from.normal + t * to.normal).normalized()};
 }
 
 /// Of a centreline [m].
@@ -145,10 +143,9 @@ class Continuation {
  private:
   // Of the trapezoids' parts a quarter is missing where a force grows with the cube of the depth, from zero.
   static constexpr Scalar trapezoid = Scalar(0.3);
-  static constexpr Scalar little = Scalar(1e-3),
-                          mesh =
-                              Scalar(0.05);  // of the energy: of a solver's answer, and of a mesh that moves
-  static constexpr Scalar along = 3;         // times as far as the hand a beam goes with it
+  // Of the strain energy: what solvers and meshes that follow a contact leave, and what those do whose elements change sides.
+  static constexpr Scalar little = Scalar(1e-3), mesh = Scalar(0.05);
+  static constexpr Scalar along = 3;  // times as far as the hand a beam goes with it
 
   Scalar stored_ = 0;
   bool known_ = false;

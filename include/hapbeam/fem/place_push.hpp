@@ -38,6 +38,7 @@ class PlacePush {
       return answer(way, request, node);
     }
     System& system = way.system_;
+    if (!(last_.normal.dot(request.normal) > 0)) continuation_.forget();
     if (!continuation_.known() && system.linear_reaction() == 0) {
       last_ = {request.s, system.displacement(request.s, request.normal), request.normal};
       node_ = node;
