@@ -26,7 +26,7 @@ class ContactWork {
   void forget() noexcept { known_ = false; }
   /// To be called where a push was answered, before what follows.
   void begin() noexcept {
-    work_ = size_ = way_ = 0;
+    work_ = size_ = change_ = way_ = 0;
     same_ = known_;
     known_ = true;
     touched_ = touching_;
@@ -43,6 +43,14 @@ class ContactWork {
     way_ = (std::max)(way_, std::sqrt(way.squaredNorm()) + std::abs(grown));
     body = {round, force, pushed.point, pushed.force, {0, 0, Vector::Zero()}};
     touching_[of(i)] = true;
+  }
+  /// With each body that does not touch, or not any more.
+  void apart(int i, const Round& round) noexcept {
+    Body& body = bodies_[of(i)];
+    add(body.force.dot(moved(body.round, round, body.point)) - body.push * (round.reach - body.round.reach),
+        0);
+    body = {};
+    body.round = round;
   }
   /// The same of a place of the beam that is held, and does not move.
   void holds(int i, const Push<Scalar, D>& place) noexcept {
@@ -61,8 +69,10 @@ class ContactWork {
   const Round& round(int i) const noexcept { return bodies_[of(i)].round; }
   /// W [J]
   Scalar done() const noexcept { return work_; }
-  /// The same without the signs of its parts [J].
+  /// Its parts without their signs [J].
   Scalar size() const noexcept { return size_; }
+  /// By how much they change [J].
+  Scalar change() const noexcept { return change_; }
   /// How far any of them has gone [m].
   Scalar way() const noexcept { return way_; }
 
@@ -81,6 +91,7 @@ class ContactWork {
   void add(Scalar before, Scalar now) noexcept {
     work_ += (before + now) / 2;
     size_ += std::abs(before) + std::abs(now);
+    change_ += std::abs(now - before);
   }
   /// How far the centre has gone, or the axis beside a point.
   static Vector moved(const Round& from, const Round& to, const Vector& point) noexcept {
@@ -90,7 +101,7 @@ class ContactWork {
 
   std::array<Body, Most> bodies_{};
   std::array<bool, Most> touching_{}, touched_{};
-  Scalar work_ = 0, size_ = 0, way_ = 0;
+  Scalar work_ = 0, size_ = 0, change_ = 0, way_ = 0;
   bool known_ = false, same_ = false;
 };
 

@@ -5,7 +5,7 @@
 // holds to third order of the step on one branch of equilibria.  Newton's method may land on another one, stable and with all pivots positive.  The energy is
 // another there, and the beam has gone farther than the hand.  (Where the mesh has moved the energy may be another, too; there the beam has not.)
 // Such an answer is sought again in halves and quarters of the hand's way, each from the one before.  The trapezoids' error falls by eight with each half.
-// What is off in a quarter still has snapped; where it has gained energy no snap leads there, and the beam falls from where it was (Descent).
+// What is off in a quarter still has snapped; where most of its energy has come from nowhere no snap leads there, and the beam falls from where it was (Descent).
 // Real-time: noexcept, no allocation, O(1) but for the answers that are sought again: at most eight times, and the linear solves of AllDisplacements in all.
 #pragma once
 
@@ -21,8 +21,8 @@ namespace hapbeam::detail {
 enum class Branch {
   same,   ///< the last one's
   doubt,  ///< the last one's, unless it is so in a shorter step
-  other,  ///< energy is missing
-  risen   ///< energy has come from nowhere
+  other,  ///< another one
+  risen   ///< another one, and most of its energy has come from nowhere
 };
 
 /// An answer, as it is judged.
@@ -30,12 +30,18 @@ template <typename Scalar>
 struct Continued {
   Scalar potential;  ///< V [J]
   Scalar given;      ///< W - D [J]
-  Scalar size;       ///< of the parts of W [J]
+  Scalar loose;      ///< what trapezoids may leave [J]
   Scalar strain;     ///< strain energy [J]
   Scalar hand;       ///< how far it has gone [m]
   Scalar length;     ///< of the beam [m]
   bool same_mesh;    ///< as many elements on either side as before
 };
+
+/// What trapezoids may leave of forces that rise or fall all along, and a tenth of them besides [J].
+template <typename Scalar>
+Scalar loose(Scalar size, Scalar change) noexcept {
+  return change / 2 + size / 10;
+}
 
 /// On the way from one place of a body to the next.  @param t  0 to 1
 template <typename Scalar>
@@ -99,13 +105,13 @@ class Continuation {
   /// @param beam  () -> how far any place of it has gone [m]
   template <class Beam>
   Branch judge(const Continued<Scalar>& now, Beam&& beam) const noexcept {
-    const Scalar rest = now.potential - stored_ - now.given, off = std::abs(rest) - trapezoid * now.size;
+    const Scalar rest = now.potential - stored_ - now.given, off = std::abs(rest) - now.loose;
     if (!known_ || off <= little * now.strain) return Branch::same;
     const Scalar gone = beam();
     if (gone <= along * now.hand + now.length / 1000) return Branch::same;
     if (!now.same_mesh && off <= mesh * now.strain && gone <= along * now.hand + now.length / 50)
       return Branch::doubt;
-    return rest < 0 ? Branch::other : Branch::risen;
+    return rest > stored_ && rest > now.strain / 2 ? Branch::risen : Branch::other;
   }
 
   /// Goes from the last request to the next.
@@ -141,8 +147,6 @@ class Continuation {
   }
 
  private:
-  // Of the trapezoids' parts a quarter is missing where a force grows with the cube of the depth, from zero.
-  static constexpr Scalar trapezoid = Scalar(0.3);
   // Of the strain energy: what solvers and meshes that follow a contact leave, and what those do whose elements change sides.
   static constexpr Scalar little = Scalar(1e-3), mesh = Scalar(0.05);
   static constexpr Scalar along = 3;  // times as far as the hand a beam goes with it

@@ -39,11 +39,6 @@ class PlacePush {
     }
     System& system = way.system_;
     if (!(last_.normal.dot(request.normal) > 0)) continuation_.forget();
-    if (!continuation_.known() && system.linear_reaction() == 0) {
-      last_ = {request.s, system.displacement(request.s, request.normal), request.normal};
-      node_ = node;
-      continuation_.know(system.total_potential());
-    }
     const Request from = last_;
     const Scalar from_node = node_;
     Request next;
@@ -58,11 +53,11 @@ class PlacePush {
     const auto judge = [&](const Response<Scalar>& found) {
       const Scalar behind = system.displacement(last_.s, last_.normal) - last_.d;
       const Scalar before = force * ahead, now = found.force * behind;
-      return continuation_.judge(
-          {system.foreseen_potential(), (before + now) / 2, std::abs(before) + std::abs(now), system.strain(),
-           std::abs(ahead) + std::abs(next.s - last_.s), system.length(),
-           system.mesh().node() == mesh_.node()},
-          [&] { return farthest(system.view(before_), system.centreline()); });
+      return continuation_.judge({system.foreseen_potential(), (before + now) / 2,
+                                  loose(std::abs(before) + std::abs(now), std::abs(now - before)),
+                                  system.strain(), std::abs(ahead) + std::abs(next.s - last_.s),
+                                  system.length(), system.mesh().node() == mesh_.node()},
+                                 [&] { return farthest(system.view(before_), system.centreline()); });
     };
     const auto keep = [&](const Response<Scalar>& found) {
       if (!is_answer(found.status)) return continuation_.forget();
@@ -83,9 +78,9 @@ class PlacePush {
     using std::abs;
     System& system = way.system_;
     const Scalar last = system.linear_reaction(), s = request.s;
-    const Scalar jump = request.d - system.displacement(s, request.normal),
-                 from_rest = request.d - system.displacement(way.rest_state_, s, request.normal);
-    if (way.single_valued_ && abs(from_rest) < abs(jump)) way.to_rest();
+    if (way.single_valued_ && abs(request.d - system.displacement(way.rest_state_, s, request.normal)) <
+                                  abs(request.d - system.displacement(s, request.normal)))
+      way.to_rest();
     const Mesh mesh = way.uniform_.at(node);
     system.remesh(mesh);
     return way.settle(last, 1,

@@ -72,24 +72,19 @@ class RoundPush {
     System& system = way.system_;
     // What touches elsewhere does not continue where it was.
     if (std::abs(request.s - work_.round(0).s) > request.reach + system.length() / 10) continuation_.forget();
-    if (!continuation_.known()) touch_down(system, request);
     const Round from = work_.round(0);
-    struct Before {
-      Work work;
-      FrictionBalance<Scalar> balance;
-      FrictionState friction;
-      Scalar force;
-      bool sharp;
-    } before;
+    Before& before = before_;
     const auto go = [&](Scalar t) {
-      before = {work_, balance_, state ? *state : FrictionState{}, system.linear_reaction(), sharp_};
+      before.work = work_, before.balance = balance_, before.force = system.linear_reaction(),
+      before.sharp = sharp_;
+      if (state) before.friction = *state;
       return answer(way, between(from, request, t), range, state);
     };
     const auto judge = [&](const Result& pushed) {
       if (!(pushed.force < 0)) return Branch::same;
       return continuation_.judge(
-          {potential_, work_.done() - taken_, work_.size(), system.strain(), work_.way(), system.length(),
-           system.mesh().node() == foresight_.mesh().node()},
+          {potential_, work_.done() - taken_, loose(work_.size(), work_.change()), system.strain(),
+           work_.way(), system.length(), system.mesh().node() == foresight_.mesh().node()},
           [&] { return farthest(system.view(foresight_.before()), system.centreline()); });
     };
     const auto keep = [&](const Result& pushed) {
@@ -110,21 +105,14 @@ class RoundPush {
 
  private:
   using Work = ContactWork<Round, Scalar, dimension, 1>;
-
-  /// A beam that nothing touched will be touched: first where it lies.
-  void touch_down(const System& system, const Round& request) noexcept {
-    if (system.linear_reaction() != 0) return;
-    const RoundContact round{request};
-    const Node node = round.node_at(system.centreline(), request.s);
-    const auto view = round.look(node, 0);
-    Round start = request;
-    start.reach = (std::min)(request.reach, round.distance(view));
-    if (!(start.reach > 0)) return;
-    work_.begin();
-    work_.touches(0, start, {0, Status::ok, 0, false, request.s, round.point(view, node), view.normal},
-                  Vector::Zero());
-    continuation_.know(system.total_potential());
-  }
+  /// What answer() changes.
+  struct Before {
+    Work work;
+    FrictionBalance<Scalar> balance;
+    FrictionState friction;
+    Scalar force;
+    bool sharp;
+  };
 
   template <class Way, class Extent>
   Result answer(Way& way, const Round& request, const Extent& range, FrictionState* state) noexcept {
@@ -326,6 +314,7 @@ class RoundPush {
 
   Foresight<System, Round> foresight_;
   Work work_;
+  Before before_{};
   Continuation<Scalar> continuation_;
   FrictionBalance<Scalar> balance_;
   Scalar potential_ = 0, taken_ = 0;  // of the last answer, and by friction [J]

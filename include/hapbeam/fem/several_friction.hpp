@@ -113,7 +113,10 @@ class SeveralFriction {
       } else if (state) {
         state->let_go();
       }
-      if (!touches) continue;
+      if (!touches) {
+        if (all_[i].kind == ObstacleKind::round) work.apart(i, all_[i].round);
+        continue;
+      }
       if (all_[i].kind == ObstacleKind::round)
         work.touches(i, all_[i].round, all_[i].pushed, state ? state->force : Vector(Vector::Zero()));
       else work.holds(i, all_[i].place);

@@ -87,30 +87,23 @@ class SeveralPush : private ActiveSet<Element, System> {
     struct Answer {
       Status status;
     };
-    struct Before {
-      std::array<Obstacle, most> all;
-      std::array<State, most> friction;
-      Work work;
-      FrictionBalance<Scalar> balance;
-      Scalar force;
-    } before;
-    std::array<Obstacle, most> to{};
-    std::copy_n(all, count, to.begin());
-    const Work from = work_;
+    Before& before = before_;
+    for (int i = 0; i < count; ++i) to_[of(i)] = all[i].round;
+    from_ = work_;
     const auto go = [&](Scalar t) {
       std::copy_n(all, count, before.all.begin());
       for (int i = 0; i < count; ++i) {
         if (all[i].friction) before.friction[of(i)] = *all[i].friction;
-        all[i].round = from.knows(i) ? between(from.round(i), to[of(i)].round, t) : to[of(i)].round;
+        all[i].round = t < 1 && from_.knows(i) ? between(from_.round(i), to_[of(i)], t) : to_[of(i)];
       }
       before.work = work_, before.balance = balance_, before.force = system.linear_reaction();
       return Answer{answer(way, all, count, range)};
     };
     const auto judge = [&](const Answer&) {
-      if (!began_ || !work_.same()) return Branch::same;
+      if (!began_) return Branch::same;
       return continuation_.judge(
-          {potential_, work_.done() - taken_, work_.size(), system.strain(), work_.way(), system.length(),
-           foresight_.same_mesh(system.mesh())},
+          {potential_, work_.done() - taken_, loose(work_.size(), work_.change()), system.strain(),
+           work_.way(), system.length(), foresight_.same_mesh(system.mesh())},
           [&] { return farthest(system.view(foresight_.before()), system.centreline()); });
     };
     const auto keep = [&](const Answer& found) {
@@ -135,6 +128,14 @@ class SeveralPush : private ActiveSet<Element, System> {
   using Work =
       ContactWork<typename SystemOf<Element>::template Round<Scalar>, Scalar, dimension_of<Element>, most>;
   using State = FrictionState<Scalar, dimension_of<Element>>;
+  /// What answer() changes.
+  struct Before {
+    std::array<Obstacle, most> all{};
+    std::array<State, most> friction{};
+    Work work;
+    FrictionBalance<Scalar> balance;
+    Scalar force = 0;
+  };
 
   template <class Way, class Extent>
   Status answer(Way& way, Obstacle* all, int count, const Extent& range) noexcept {
@@ -317,7 +318,9 @@ class SeveralPush : private ActiveSet<Element, System> {
   std::array<Law, most> laws_{};
   SeveralForesight<System, Obstacle, most> foresight_;
   ContactTilt<System, most> tilts_;
-  Work work_;
+  Work work_, from_;
+  Before before_;
+  std::array<typename SystemOf<Element>::template Round<Scalar>, most> to_{};
   Continuation<Scalar> continuation_;
   FrictionBalance<Scalar> balance_;
   Scalar potential_ = 0, taken_ = 0;  // of the last answer, and by friction [J]
