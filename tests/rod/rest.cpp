@@ -89,3 +89,51 @@ TEST_CASE("a rod without stress answers a push that leaves it where it is", "[ro
   CHECK(not_ok == 0);
   CHECK(largest <= 1e-9);  // of 4 N/mm at the clamp
 }
+
+TEMPLATE_TEST_CASE("a catenary in space hangs where its weight pulls it, and nothing has snapped", "[rod]",
+                   TwistedRod, RoundRod) {
+  for (const int elements : {8, 9, 15, 32})
+    for (const double slack : {0.001, 0.01, 0.05, 0.2})
+      for (const double load : {0.01, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5}) {
+        Rod rod(1, RodSection::circle(0.002), RodMaterial::isotropic(2e9, 0.3), RodSupport::clamped,
+                RodSupport::clamped);
+        const Point pull = detail::unit(Point(0, 0.6, -0.8));
+        rod.place_right({{1 - slack, 0, 0}, {1, 0, 0}, {0, 0, 1}})
+            .load(Point(load * rod.stiffness().bending1 * pull));
+        const FemModel<TestType> model(rod, elements);
+        CAPTURE(elements, slack, load, model.rest().solves);
+        CHECK(model.rest().status == Status::ok);
+        CHECK(model.shape().at(0.5).r.dot(pull) > 0);
+      }
+}
+
+// A corner within an element has another natural shape on each mesh.  A push moves the mesh: the corner has to stay.
+TEST_CASE("an L in space answers a push that leaves it where it is", "[rod]") {
+  const double leg = 0.24;
+  for (const int elements : {8, 9, 12, 15, 16, 32, 64})
+    for (const double radius : {1e-4, 1e-3, 0.01, 0.1})
+      for (const RodSupport end : {RodSupport::free, RodSupport::hinged, RodSupport::clamped}) {
+        const double arc = pi / 2 * radius, straight = leg - radius, length = 2 * straight + arc;
+        const auto hook = [&](RodSupport right) {
+          Rod rod(length, RodSection::rectangle(0.0006, 0.03), RodMaterial::isotropic(71.24e9, 0.31),
+                  RodSupport::clamped, right);
+          rod.place_left({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}});
+          return rod.naturally({{straight, 0, 0, 0}, {straight + arc, 1 / radius, 0, 0}});
+        };
+        Rod rod = hook(end);
+        if (end != RodSupport::free) {
+          const RodNode<double> tip =
+              FemModel<TwistedRod>(hook(RodSupport::free), elements).shape()[elements];
+          rod.place_right({tip.r, detail::unit(tip.tangent), tip.director});
+        }
+        FemModel<TwistedRod> model(rod, elements);
+        for (const double share : {0.1, 0.3, 0.45, 0.5, 0.52, 0.55, 0.8, 0.95})
+          for (const Point& n : {Point(0, 0, 1), Point(1, 0, 0), Point(0, 1, 0)}) {
+            const double s = share * length;
+            const Response<double> answer = model.push({s, n.dot(model.shape().at(s).r), n});
+            CAPTURE(elements, radius, name(end), share, n.x(), n.y());
+            CHECK(answer.status == Status::ok);
+            CHECK(std::abs(answer.force) <= 1e-15 * elements * rod.stiffness().axial);
+          }
+      }
+}

@@ -35,9 +35,13 @@ class NaturalRod {
 
   /// The node at s [m]: place, tangent and director.
   RodNode<Scalar> at(Scalar s) const noexcept {
-    std::size_t k = 0;
-    while (k + 1 < pieces_.size() && pieces_[k].end <= s) ++k;
-    return along(pieces_[k].from, pieces_[k].omega, s - pieces_[k].from.s);
+    const Piece& piece = pieces_[piece_at(s)];
+    return along(piece.from, piece.omega, s - piece.from.s);
+  }
+  /// Whether one piece ends and another begins between two places, in order.
+  bool changes_within(Scalar a, Scalar b) const noexcept {
+    const std::size_t k = piece_at(a);
+    return k + 1 < pieces_.size() && pieces_[k].end < b;
   }
 
   /// Goes a way s along a piece that begins at a node.
@@ -85,6 +89,12 @@ class NaturalRod {
   static RodNode<Scalar> cast(const RodNode<double>& n) {
     return {static_cast<Scalar>(n.s), n.r.template cast<Scalar>(), n.tangent.template cast<Scalar>(),
             n.director.template cast<Scalar>()};
+  }
+
+  std::size_t piece_at(Scalar s) const noexcept {
+    std::size_t k = 0;
+    while (k + 1 < pieces_.size() && pieces_[k].end <= s) ++k;
+    return k;
   }
 
   std::vector<Piece> pieces_;

@@ -155,6 +155,8 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     for (int e = 0; !bed_.empty() && e < size(); ++e) sum += bed_.energy(e, nodes_[e], nodes_[e + 1]);
     return sum;
   }
+  /// Whether λ times the loads are any.
+  bool loaded(Scalar lambda) const noexcept { return lambda != 0 && !loads_.empty(); }
   /// Of λ times the loads [J].
   Scalar work(Scalar lambda) const noexcept {
     Scalar work = 0;

@@ -3,6 +3,7 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(elements).
 #pragma once
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -44,22 +45,14 @@ class RodOnMesh {
   /// Moves to another mesh of as many elements and carries the shape over.  @param scratch, more  overwritten
   void remesh(const Mesh& mesh, Nodes& scratch, Twists& more) noexcept {
     for (int i = 0; i < nodes_.size(); ++i) scratch[i] = nodes_[i], more[i] = twists_[i];
-    const Centreline<Scalar, 3> line = view(scratch);
     int piece = 0;
     const auto look = [&](Scalar s) {
-      while (piece + 1 < line.segments() && scratch[piece + 1].s <= s) ++piece;
+      while (piece + 1 < size() && scratch[piece + 1].s <= s) ++piece;
       if (s == scratch[piece].s) return scratch[piece];
-      const RodPoint<Scalar> at = line.at(piece, s);
-      Node node{s, at.r, at.tangent, scratch[piece].director};
       const Node &a = scratch[piece], &b = scratch[piece + 1];
-      if constexpr (has_twist) {
-        RodProperties<Scalar> p;
-        p.length = b.s - a.s, p.inverse_length = 1 / p.length, p.round = round_;
-        node.director = Element::director(p, a, b, more[piece], (s - a.s) * p.inverse_length);
-      } else {
-        node.director = carry(a.director, unit(a.tangent), unit(at.tangent));
-      }
-      node.director = across(node.director, unit(node.tangent));
+      Node node = between(a, b, more[piece], s);
+      if constexpr (has_twist)
+        if (natural_.changes_within(a.s, b.s)) as_natural(a.s, b.s, node);
       return node;
     };
     nodes_[0] = look(0);
@@ -128,6 +121,44 @@ class RodOnMesh {
   RodBed<Scalar> bed_;
 
  private:
+  /// What an element has at s.
+  Node between(const Node& a, const Node& b, [[maybe_unused]] Scalar twist, Scalar s) const noexcept {
+    const Node ends[] = {a, b};
+    const RodPoint<Scalar> at = Centreline<Scalar, 3>(ends, 2).at(0, s);
+    Node node{s, at.r, at.tangent, a.director};
+    if constexpr (has_twist) {
+      const RodProperties<Scalar> p = of_length(b.s - a.s);
+      node.director = Element::director(p, a, b, twist, (s - a.s) * p.inverse_length);
+    } else {
+      node.director = carry(a.director, unit(a.tangent), unit(at.tangent));
+    }
+    node.director = across(node.director, unit(node.tangent));
+    return node;
+  }
+  /// Moves a node within an element from a to b as its natural shape would move from what an element makes of that, a corner of it.
+  void as_natural(Scalar a, Scalar b, Node& node) const noexcept {
+    const Node left = natural_.at(a), right = natural_.at(b), there = natural_.at(node.s);
+    const Scalar twist = Element::twist_to(of_length(b - a), left, right, natural_.at((a + b) / 2).director);
+    const Node drawn = between(left, right, twist, node.s);
+    const auto turn = [from = frame(drawn), to = frame(node)](const VectorOf<Scalar, 3>& v) {
+      return (to * (from.transpose() * v)).eval();
+    };
+    node.r += turn(there.r - drawn.r);
+    node.tangent = turn(there.tangent) * std::sqrt(node.tangent.squaredNorm() / drawn.tangent.squaredNorm());
+    node.director = turn(there.director);
+  }
+  static Eigen::Matrix<Scalar, 3, 3> frame(const Node& node) noexcept {
+    Eigen::Matrix<Scalar, 3, 3> axes;
+    const VectorOf<Scalar, 3> along = unit(node.tangent);
+    axes << node.director, cross3(along, node.director), along;
+    return axes;
+  }
+  RodProperties<Scalar> of_length(Scalar length) const noexcept {
+    RodProperties<Scalar> p;
+    p.length = length, p.inverse_length = 1 / length, p.round = round_;
+    return p;
+  }
+
   Scalar middle(int e) const noexcept { return (nodes_[e].s + nodes_[e + 1].s) / 2; }
 
   void find_twist(int e, const VectorOf<Scalar, 3>& director) noexcept {

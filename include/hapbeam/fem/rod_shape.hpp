@@ -163,16 +163,14 @@ class RodShape {
     for (int i = 0; i <= elements(); ++i) rod_.nodes()[i] = saved_.nodes[i];
     each_inner([this](int e) { rod_.twists()[e] = saved_.twists[e]; });
   }
-  /// Bends the rod a little, along the director in its middle and half as much across that.
-  /// @param size  [m]   @param c  where the bow changes its side, of the length; negative: nowhere
-  void bow(Scalar size, Scalar c) noexcept {
+  /// Bends the rod a little.
+  /// @param e  how far and where to [m]   @param c  where the bow changes its side, of the length; negative: nowhere
+  void bow(const Vector3& e, Scalar c) noexcept {
     settle();
-    const Node& middle = node(elements() / 2);
-    const Vector3 e = middle.director + cross3(middle.tangent, middle.director) / 2;
     for (Node& node : rod_.nodes()) {
-      const Scalar t = node.s / length_, q = 1 - t, f = 16 * size * t * t * q * q,
+      const Scalar t = node.s / length_, q = 1 - t, f = 16 * t * t * q * q,
                    g = c < 0 ? (3 + t) / Scalar(3.5) : 4 * (t - c),
-                   slope = 32 * size * t * q * (1 - 2 * t) * g + f * (c < 0 ? 1 / Scalar(3.5) : Scalar(4));
+                   slope = 32 * t * q * (1 - 2 * t) * g + f * (c < 0 ? 1 / Scalar(3.5) : Scalar(4));
       node.r += f * g * e;
       set_tangent<Scalar>(node, node.tangent + slope / length_ * e);
     }

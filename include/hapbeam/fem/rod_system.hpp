@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_friction.hpp>
@@ -91,8 +92,8 @@ class RodSystem
     Contacts::restore_contacts();
   }
   Scalar size() const noexcept { return size_; }
-  /// Strain energy before the last increment [J].
-  Scalar strain() const noexcept { return size_ * size_ / 2; }
+  /// Strain energy before the last increment, at least that of a bend by 10⁻⁴ rad, of which no snap is told [J].
+  Scalar strain() const noexcept { return (size_ * size_ + Scalar(1e-8) * unit_ * unit_) / 2; }
   Scalar unit() const noexcept { return unit_; }
 
   /// The tangent holds what the contact's force makes of a capsule, on the way down as well: there a rod slips around a sphere.
@@ -127,9 +128,19 @@ class RodSystem
   /// V - λ f · x before the last increment was added [J].
   Scalar potential() const noexcept { return potential_; }
   int negative_pivots() const noexcept { return assembler_.negative_pivots(); }
-  /// Bends the rod a little where nothing makes it leave an equilibrium.  @param size  [m]
+  /// Bends the rod a little where nothing makes it leave an equilibrium, without a contact to where its loads push.  @param size  [m]
   void nudge(Scalar size) noexcept {
-    Shape::bow(size, contact_.node() < 0 ? Scalar(-1) : node(contact_.node()).s / length_);
+    const bool pressed = contact_.node() >= 0;
+    const Node& middle = node(elements() / 2);
+    const Vector3 d1 = middle.director, d2 = detail::cross3(detail::unit(middle.tangent), d1);
+    // Where nothing pushes, along the director and half as much across it.
+    Vector3 way = d1 + d2 / 2;
+    if (!pressed && rod_.loaded(load_)) {
+      const Vector3 pushed = pushed_by(size, d1) * d1 + pushed_by(size, d2) * d2;
+      // A flat rod may stand aside across that alone.
+      if (const Scalar most = pushed.norm(); most > 0) way = pushed / most + way / 100;
+    }
+    Shape::bow(size * way, pressed ? node(contact_.node()).s / length_ : Scalar(-1));
     ends_.correct(rod_.nodes());
   }
 
@@ -205,6 +216,16 @@ class RodSystem
     if (contact_.holds(i)) return &contact_;
     const auto* const other = others_.at(i);
     return other ? &other->point : nullptr;
+  }
+  /// The part of the work of its loads in a bow that changes its sign with that: none, where it is round-off [J].
+  Scalar pushed_by(Scalar size, const Vector3& d) noexcept {
+    Shape::bow(size * d, -1);
+    const Scalar there = rod_.work(load_);
+    Shape::bow(-2 * size * d, -1);
+    const Scalar back = rod_.work(load_);
+    Shape::bow(size * d, -1);
+    const Scalar round_off = std::sqrt(std::numeric_limits<Scalar>::epsilon());
+    return std::abs(there - back) > round_off * (std::abs(there) + std::abs(back)) ? there - back : Scalar(0);
   }
   void begin_path() noexcept {
     start_load_ = load_;

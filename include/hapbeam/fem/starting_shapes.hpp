@@ -38,12 +38,13 @@ void lay(const NaturalShape<Scalar>& shape, const EndSupport<Scalar>& left, cons
   }
 }
 
-/// Bends a straight beam whose ends are to stand closer, in its own direction and facing each other, by some slack: to its
-/// upper side, as far as its length allows, so that its search for rest begins on the buckled side.
+/// Bends a straight beam whose ends are to stand closer, in its own direction and facing each other, by some slack: to one
+/// side, as far as its length allows, so that its search for rest begins on the buckled side.
 ///   w = a f(s/L),  f = 16 t² (1 - t)²,  u' = -½ w'²,  a² ∫f'² dt = 2 slack L          along and across the beam
-/// @param nodes  in and out, as lay() lays a straight beam
+/// @param side  1: the upper, -1: the lower   @param nodes  in and out, as lay() lays a straight beam
 template <typename Scalar, class Nodes>
-void bow(const EndSupport<Scalar>& left, const EndSupport<Scalar>& right, Nodes& nodes) noexcept {
+void bow(const EndSupport<Scalar>& left, const EndSupport<Scalar>& right, Scalar side,
+         Nodes& nodes) noexcept {
   using std::abs;
   using std::cos;
   using std::sin;
@@ -56,7 +57,7 @@ void bow(const EndSupport<Scalar>& left, const EndSupport<Scalar>& right, Nodes&
   const bool placed_across = left.held[1] && right.held[1] && abs(across) > round_off * length,
              facing = !right.held[2] || abs(right.goal[2] - turn) <= round_off * (1 + abs(turn));
   if (!left.held[0] || !right.held[0] || placed_across || !facing || !(slack > round_off * length)) return;
-  const Scalar a = sqrt(2 * slack * length * Scalar(210. / 1024));
+  const Scalar a = side * sqrt(2 * slack * length * Scalar(210. / 1024));
   const auto slope = [a, length](Scalar position) {
     const Scalar t = position / length;
     return 32 * a * t * (1 - t) * (1 - 2 * t) / length;
@@ -74,6 +75,12 @@ void bow(const EndSupport<Scalar>& left, const EndSupport<Scalar>& right, Nodes&
     node.w += c * w - s * u;
     node.theta -= slope(node.s);
   }
+}
+
+/// Whether loads push a beam to its lower side.  @param up, down  their work as it stands aside there [J]
+template <typename Scalar>
+bool push_down(Scalar up, Scalar down) noexcept {
+  return down - up > std::sqrt(std::numeric_limits<Scalar>::epsilon()) * (std::abs(up) + std::abs(down));
 }
 
 /// Bends a beam a little: up, most in the middle and a little more on its right, or with a contact up on its right and
