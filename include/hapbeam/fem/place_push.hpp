@@ -43,15 +43,17 @@ class PlacePush {
     const Scalar from_node = node_;
     Request next;
     Scalar force = 0, ahead = 0;
+    bool stays = false;  // at its place, along its direction
     const auto go = [&](Scalar t) {
       next = between(from, request, t);
       node_ = t < 1 ? from_node + t * (node - from_node) : node;
       system.keep(before_), mesh_ = system.mesh(), force = system.linear_reaction();
-      ahead = next.d - system.displacement(next.s, next.normal);
+      stays = continuation_.known() && next.s == last_.s && next.normal == last_.normal;
+      ahead = next.d - (stays ? last_.d : system.displacement(next.s, next.normal));
       return answer(way, next, node_);
     };
     const auto judge = [&](const Response<Scalar>& found) {
-      const Scalar behind = system.displacement(last_.s, last_.normal) - last_.d;
+      const Scalar behind = stays ? ahead : system.displacement(last_.s, last_.normal) - last_.d;
       const Scalar before = force * ahead, now = found.force * behind;
       return continuation_.judge({system.foreseen_potential(), (before + now) / 2,
                                   loose(std::abs(before) + std::abs(now), std::abs(now - before)),

@@ -89,7 +89,7 @@ class SeveralPush : private ActiveSet<Element, System> {
     };
     Before& before = before_;
     for (int i = 0; i < count; ++i) to_[of(i)] = all[i].round;
-    from_ = work_;
+    bool whole = true;  // the first answer, for all of the way
     const auto go = [&](Scalar t) {
       std::copy_n(all, count, before.all.begin());
       for (int i = 0; i < count; ++i) {
@@ -111,6 +111,8 @@ class SeveralPush : private ActiveSet<Element, System> {
       else continuation_.forget();
     };
     const auto back = [&] {
+      if (whole) from_ = before.work;
+      whole = false;
       foresight_.go_back(system, before.force);
       std::copy_n(before.all.begin(), count, all);
       for (int i = 0; i < count; ++i)
