@@ -40,8 +40,8 @@ class ContactWork {
     const Vector way = moved(body.round, round, pushed.point);
     add(body.force.dot(moved(body.round, round, body.point)) - body.push * grown,
         force.dot(way) - pushed.force * grown);
-    way_ = (std::max)(way_, std::sqrt(way.squaredNorm()) + std::abs(grown));
-    body = {round, force, pushed.point, pushed.force, {0, 0, Vector::Zero()}};
+    way_ = (std::max)(way_, way.squaredNorm() + grown * grown);
+    body.round = round, body.force = force, body.point = pushed.point, body.push = pushed.force;
     touching_[of(i)] = true;
   }
   /// With each body that does not touch, or not any more.
@@ -49,15 +49,14 @@ class ContactWork {
     Body& body = bodies_[of(i)];
     add(body.force.dot(moved(body.round, round, body.point)) - body.push * (round.reach - body.round.reach),
         0);
-    body = {};
-    body.round = round;
+    body.round = round, body.force.setZero(), body.push = 0;
   }
   /// The same of a place of the beam that is held, and does not move.
   void holds(int i, const Push<Scalar, D>& place) noexcept {
-    Body& body = bodies_[of(i)];
-    same_ = same_ && body.place.s == place.s && body.place.d == place.d && body.place.normal == place.normal;
-    body = {};
-    body.place = place;
+    Push<Scalar, D>& before = places_[of(i)];
+    same_ = same_ && before.s == place.s && before.d == place.d && before.normal == place.normal;
+    before = place;
+    bodies_[of(i)].force.setZero(), bodies_[of(i)].push = 0;
     touching_[of(i)] = true;
   }
 
@@ -74,7 +73,7 @@ class ContactWork {
   /// By how much they change [J].
   Scalar change() const noexcept { return change_; }
   /// How far any of them has gone [m].
-  Scalar way() const noexcept { return way_; }
+  Scalar way() const noexcept { return std::sqrt(way_); }
 
  private:
   static Round nowhere() noexcept {
@@ -85,7 +84,6 @@ class ContactWork {
     Round round = nowhere();
     Vector force = Vector::Zero(), point = Vector::Zero();
     Scalar push = 0;  // along the normal [N]
-    Push<Scalar, D> place{0, 0, Vector::Zero()};
   };
   static std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
   void add(Scalar before, Scalar now) noexcept {
@@ -100,8 +98,9 @@ class ContactWork {
   }
 
   std::array<Body, Most> bodies_{};
+  std::array<Push<Scalar, D>, (Most > 1 ? Most : 0)> places_{};
   std::array<bool, Most> touching_{}, touched_{};
-  Scalar work_ = 0, size_ = 0, change_ = 0, way_ = 0;
+  Scalar work_ = 0, size_ = 0, change_ = 0, way_ = 0;  // [J], [m²]
   bool known_ = false, same_ = false;
 };
 

@@ -32,7 +32,6 @@ struct Continued {
   Scalar given;      ///< W - D [J]
   Scalar loose;      ///< what trapezoids may leave [J]
   Scalar strain;     ///< strain energy [J]
-  Scalar hand;       ///< how far it has gone [m]
   Scalar length;     ///< of the beam [m]
   bool same_mesh;    ///< as many elements on either side as before
 };
@@ -91,6 +90,12 @@ auto farthest(const Centreline& from, const Centreline& to) noexcept {
   return std::sqrt(most);
 }
 
+/// [m]
+template <typename Scalar>
+struct Gone {
+  Scalar hand, beam;
+};
+
 template <typename Scalar>
 class Continuation {
  public:
@@ -102,14 +107,14 @@ class Continuation {
   /// An answer to continue.  @param potential  V [J]
   void know(Scalar potential) noexcept { stored_ = potential, known_ = true; }
 
-  /// @param beam  () -> how far any place of it has gone [m]
-  template <class Beam>
-  Branch judge(const Continued<Scalar>& now, Beam&& beam) const noexcept {
+  /// @param how_far  () -> how far the hand has gone, and any place of the beam [m]
+  template <class HowFar>
+  Branch judge(const Continued<Scalar>& now, HowFar&& how_far) const noexcept {
     const Scalar rest = now.potential - stored_ - now.given, off = std::abs(rest) - now.loose;
     if (!known_ || off <= little * now.strain) return Branch::same;
-    const Scalar gone = beam();
-    if (gone <= along * now.hand + now.length / 1000) return Branch::same;
-    if (!now.same_mesh && off <= mesh * now.strain && gone <= along * now.hand + now.length / 50)
+    const auto [hand, gone] = how_far();
+    if (gone <= along * hand + now.length / 1000) return Branch::same;
+    if (!now.same_mesh && off <= mesh * now.strain && gone <= along * hand + now.length / 50)
       return Branch::doubt;
     return rest > stored_ && rest > now.strain / 2 ? Branch::risen : Branch::other;
   }

@@ -57,9 +57,11 @@ class PlacePush {
       const Scalar before = force * ahead, now = found.force * behind;
       return continuation_.judge({system.foreseen_potential(), (before + now) / 2,
                                   loose(std::abs(before) + std::abs(now), std::abs(now - before)),
-                                  system.strain(), std::abs(ahead) + std::abs(next.s - last_.s),
-                                  system.length(), system.mesh().node() == mesh_.node()},
-                                 [&] { return farthest(system.view(before_), system.centreline()); });
+                                  system.strain(), system.length(), system.mesh().node() == mesh_.node()},
+                                 [&] {
+                                   return Gone<Scalar>{std::abs(ahead) + std::abs(next.s - last_.s),
+                                                       farthest(system.view(before_), system.centreline())};
+                                 });
     };
     const auto keep = [&](const Response<Scalar>& found) {
       if (!is_answer(found.status)) return continuation_.forget();

@@ -67,7 +67,9 @@ class RoundPush {
     // A straight beam that is pressed across has one shape for each press.
     if (planar && way.single_valued_) {
       continuation_.forget();
-      return answer(way, request, range, state);
+      if (state) return answer(way, request, range, state);
+      work_.forget(), balance_.forget();
+      return find(way, request, range, nullptr);
     }
     System& system = way.system_;
     // What touches elsewhere does not continue where it was.
@@ -84,8 +86,10 @@ class RoundPush {
       if (!(pushed.force < 0)) return Branch::same;
       return continuation_.judge(
           {potential_, work_.done() - taken_, loose(work_.size(), work_.change()), system.strain(),
-           work_.way(), system.length(), system.mesh().node() == foresight_.mesh().node()},
-          [&] { return farthest(system.view(foresight_.before()), system.centreline()); });
+           system.length(), system.mesh().node() == foresight_.mesh().node()},
+          [&] {
+            return Gone<Scalar>{work_.way(), farthest(system.view(foresight_.before()), system.centreline())};
+          });
     };
     const auto keep = [&](const Result& pushed) {
       if (is_answer(pushed.status) && pushed.force < 0) continuation_.know(potential_);

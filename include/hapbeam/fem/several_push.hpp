@@ -91,10 +91,10 @@ class SeveralPush : private ActiveSet<Element, System> {
     for (int i = 0; i < count; ++i) to_[of(i)] = all[i].round;
     bool whole = true;  // the first answer, for all of the way
     const auto go = [&](Scalar t) {
-      std::copy_n(all, count, before.all.begin());
       for (int i = 0; i < count; ++i) {
+        before.pushed[of(i)] = all[i].pushed, before.touching[of(i)] = all[i].touching;
         if (all[i].friction) before.friction[of(i)] = *all[i].friction;
-        all[i].round = t < 1 && from_.knows(i) ? between(from_.round(i), to_[of(i)], t) : to_[of(i)];
+        if (!whole) all[i].round = from_.knows(i) ? between(from_.round(i), to_[of(i)], t) : to_[of(i)];
       }
       before.work = work_, before.balance = balance_, before.force = system.linear_reaction();
       return Answer{answer(way, all, count, range)};
@@ -103,8 +103,10 @@ class SeveralPush : private ActiveSet<Element, System> {
       if (!began_) return Branch::same;
       return continuation_.judge(
           {potential_, work_.done() - taken_, loose(work_.size(), work_.change()), system.strain(),
-           work_.way(), system.length(), foresight_.same_mesh(system.mesh())},
-          [&] { return farthest(system.view(foresight_.before()), system.centreline()); });
+           system.length(), foresight_.same_mesh(system.mesh())},
+          [&] {
+            return Gone<Scalar>{work_.way(), farthest(system.view(foresight_.before()), system.centreline())};
+          });
     };
     const auto keep = [&](const Answer& found) {
       if (is_answer(found.status)) continuation_.know(potential_);
@@ -114,9 +116,10 @@ class SeveralPush : private ActiveSet<Element, System> {
       if (whole) from_ = before.work;
       whole = false;
       foresight_.go_back(system, before.force);
-      std::copy_n(before.all.begin(), count, all);
-      for (int i = 0; i < count; ++i)
+      for (int i = 0; i < count; ++i) {
+        all[i].pushed = before.pushed[of(i)], all[i].touching = before.touching[of(i)];
         if (all[i].friction) *all[i].friction = before.friction[of(i)];
+      }
       work_ = before.work, balance_ = before.balance;
     };
     const auto fall = [&] {
@@ -132,7 +135,8 @@ class SeveralPush : private ActiveSet<Element, System> {
   using State = FrictionState<Scalar, dimension_of<Element>>;
   /// What answer() changes.
   struct Before {
-    std::array<Obstacle, most> all{};
+    std::array<decltype(Obstacle::pushed), most> pushed{};
+    std::array<bool, most> touching{};
     std::array<State, most> friction{};
     Work work;
     FrictionBalance<Scalar> balance;
