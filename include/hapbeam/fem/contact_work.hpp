@@ -31,25 +31,38 @@ class ContactWork {
     known_ = true;
     touched_ = touching_;
     touching_ = {};
+    if (!same_) placed_ = {};
   }
   /// With each body that touches.  @param pushed  of it   @param friction  on the beam [N]
   void touches(int i, const Round& round, const Pushed<Scalar, D>& pushed, const Vector& friction) noexcept {
     Body& body = bodies_[of(i)];
     const Vector force = pushed.force * pushed.normal + friction;
+    touching_[of(i)] = true;
+    if (!placed_[of(i)]) {
+      placed_[of(i)] = true;
+      body.round = round, body.force = force, body.point = pushed.point, body.push = pushed.force;
+      return;
+    }
     const Scalar grown = round.reach - body.round.reach;
     const Vector way = moved(body.round, round, pushed.point);
     add(body.force.dot(moved(body.round, round, body.point)) - body.push * grown,
         force.dot(way) - pushed.force * grown);
     way_ = (std::max)(way_, way.squaredNorm() + grown * grown);
     body.round = round, body.force = force, body.point = pushed.point, body.push = pushed.force;
-    touching_[of(i)] = true;
   }
   /// With each body that does not touch, or not any more.
   void apart(int i, const Round& round) noexcept {
     Body& body = bodies_[of(i)];
-    add(body.force.dot(moved(body.round, round, body.point)) - body.push * (round.reach - body.round.reach),
-        0);
+    if (touched_[of(i)] && placed_[of(i)])
+      add(body.force.dot(moved(body.round, round, body.point)) - body.push * (round.reach - body.round.reach),
+          0);
     body.round = round, body.force.setZero(), body.push = 0;
+    placed_[of(i)] = true;
+  }
+  /// With each body that is nowhere.
+  void absent(int i) noexcept {
+    bodies_[of(i)].force.setZero(), bodies_[of(i)].push = 0;
+    placed_[of(i)] = false;
   }
   /// The same of a place of the beam that is held, and does not move.
   void holds(int i, const Push<Scalar, D>& place) noexcept {
@@ -62,6 +75,8 @@ class ContactWork {
 
   /// Whether the same touches that touched before, and its work is known.
   bool same() const noexcept { return same_ && touching_ == touched_; }
+  /// Whether anything touches.
+  bool any() const noexcept { return std::find(touching_.begin(), touching_.end(), true) != touching_.end(); }
   /// Whether a round body has touched last.
   bool knows(int i) const noexcept { return known_ && touching_[of(i)] && bodies_[of(i)].push != 0; }
   /// That touched last.
@@ -99,8 +114,8 @@ class ContactWork {
 
   std::array<Body, Most> bodies_{};
   std::array<Push<Scalar, D>, (Most > 1 ? Most : 0)> places_{};
-  std::array<bool, Most> touching_{}, touched_{};
-  Scalar work_ = 0, size_ = 0, change_ = 0, way_ = 0;  // [J], [m²]
+  std::array<bool, Most> touching_{}, touched_{}, placed_{};  // placed: where it was is known
+  Scalar work_ = 0, size_ = 0, change_ = 0, way_ = 0;         // [J], [m²]
   bool known_ = false, same_ = false;
 };
 

@@ -114,7 +114,8 @@ class SeveralFriction {
         state->let_go();
       }
       if (!touches) {
-        if (all_[i].kind == ObstacleKind::round) work.apart(i, all_[i].round);
+        if (!all_[i].valid) work.absent(i);
+        else if (all_[i].kind == ObstacleKind::round) work.apart(i, all_[i].round);
         continue;
       }
       if (all_[i].kind == ObstacleKind::round)

@@ -109,7 +109,7 @@ class SeveralPush : private ActiveSet<Element, System> {
           });
     };
     const auto keep = [&](const Answer& found) {
-      if (is_answer(found.status)) continuation_.know(potential_);
+      if (is_answer(found.status) && work_.any()) continuation_.know(potential_);
       else continuation_.forget();
     };
     const auto back = [&] {
