@@ -22,6 +22,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "support/assembled_by.hpp"
 #include "support/sparse_assemblers.hpp"
 #include "support/statistics.hpp"
 #include "support/thesis_beam.hpp"
@@ -37,9 +38,6 @@ constexpr double force_at_50_mm = 11105.121222;  // [N] closed form: tests/data/
 /// The same element by another name, whose closed form the model does not take.
 template <class Membrane>
 struct NodeByNode : VonKarman<Membrane> {};
-
-template <class Membrane, template <typename, int, int, int> class Assembler>
-using Model = FemModel<VonKarman<Membrane>, double, Eigen::Dynamic, Eigen::Dynamic, Assembler>;
 
 /// solve_ns of every run, by solver and number of elements.
 std::map<std::pair<std::string, int>, std::vector<double>> runs;
@@ -133,11 +131,11 @@ const bool registered = [] {
       add<FemModel<NodeByNode<StabilityFunctions>>>(name, path, "block_tridiagonal/stability_functions",
                                                     elements);
       add<FemModel<VonKarman<ReducedIntegration>>>(name, path, ours, elements);
-      add<Model<ReducedIntegration, SimplicialLdltNatural>>(name, path, theirs[0], elements);
-      add<Model<ReducedIntegration, SimplicialLdltAmd>>(name, path, theirs[1], elements);
+      add<Solved<VonKarman<ReducedIntegration>, SimplicialLdltNatural>>(name, path, theirs[0], elements);
+      add<Solved<VonKarman<ReducedIntegration>, SimplicialLdltAmd>>(name, path, theirs[1], elements);
       if (elements <= 1024)
-        add<Model<ReducedIntegration, SparseLuFromTriplets>>(name, path, "sparse_lu_from_triplets/reduced",
-                                                             elements);
+        add<Solved<VonKarman<ReducedIntegration>, SparseLuFromTriplets>>(
+            name, path, "sparse_lu_from_triplets/reduced", elements);
     }
   benchmark::RegisterBenchmark("summary", summary)->Iterations(1)->UseManualTime();
   return true;

@@ -46,7 +46,7 @@ struct Answer {
 
 template <class Element>
 Answer press(const Beam& beam, int elements, double s, double d) {
-  BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal> system(beam, elements);
+  BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic> system(beam, elements);
   const ContactMesh<double> mesh = ContactMesh<double>(elements, length).at(s);
   system.remesh(mesh);
   system.set_goal(mesh.node(), d);

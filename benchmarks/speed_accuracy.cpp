@@ -24,9 +24,11 @@
 
 #include <benchmark/benchmark.h>
 
+#include "support/assembled_by.hpp"
 #include "support/closed_form_model.hpp"
 #include "support/contender.hpp"
 #include "support/crisfield.hpp"
+#include "support/dense_assembler.hpp"
 #include "support/heap.hpp"
 #include "support/mass_spring.hpp"
 #include "support/sparse_assemblers.hpp"
@@ -43,7 +45,6 @@
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/fem/rod_system.hpp>
-#include <hapbeam/fem/solver/dense.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
 
@@ -139,8 +140,8 @@ class Contest {
     // It cannot tell an arch that gives way.
     if (scene.beam.straight()) fem<Solved<Element, SparseLuFromTriplets>>(scene, "Newton + SparseLU", sizes);
     // Of order n³: 64 elements take milliseconds.
-    fem<Solved<Element, Dense>>(scene, "Newton + dense LDLT",
-                                {sizes.begin(), std::min(sizes.begin() + 3, sizes.end())});
+    fem<Solved<Element, DenseLdlt>>(scene, "Newton + dense LDLT",
+                                    {sizes.begin(), std::min(sizes.begin() + 3, sizes.end())});
   }
 
   void trained(const TouchScene& scene) {

@@ -14,7 +14,6 @@
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/fem/rod_system.hpp>
-#include <hapbeam/fem/solver/dense.hpp>
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 #include <hapbeam/haptics/servo/servo.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>

@@ -51,7 +51,7 @@ template <typename Scalar>
 double beside(double part) {
   double worst = 0;
   for (int k = 1; k <= 10; ++k) {
-    BeamSystem<Linear, Scalar, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal> system(pinned(), 8);
+    BeamSystem<Linear, Scalar, Eigen::Dynamic, Eigen::Dynamic> system(pinned(), 8);
     const Scalar s = static_cast<Scalar>(part * L * (1 + 0.01 * k)), d = s / 100;
     const ContactMesh<Scalar> mesh = ContactMesh<Scalar>(8, Scalar(L)).at(s);
     system.remesh(mesh);
@@ -78,7 +78,7 @@ void next_to_support(Report& report) {
     const Press<double> press{part * L, L / 10};
     FemModel<> model(beam, 8);
     if (library) return model.press(press), std::abs(model.shape()[8].u) / L;
-    BeamSystem<VonKarman<>, double, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal> system(beam, 8);
+    BeamSystem<VonKarman<>, double, Eigen::Dynamic, Eigen::Dynamic> system(beam, 8);
     const auto mesh = ContactMesh<double>(8, L).at(press.s);
     system.remesh(mesh);
     system.set_goal(mesh.node(), press.d);

@@ -40,7 +40,7 @@ double least_residual(int n) {
 }
 
 int naive_float_solves(int n) {
-  BeamSystem<VonKarman<>, float, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal> system(pinned(), n);
+  BeamSystem<VonKarman<>, float, Eigen::Dynamic, Eigen::Dynamic> system(pinned(), n);
   const auto mesh = ContactMesh<float>(n, float(thesis_length)).at(float(s));
   system.remesh(mesh);
   system.set_goal(mesh.node(), float(d));

@@ -24,8 +24,4 @@ class Contender {
 template <class Model, class... Arguments>
 std::unique_ptr<Contender<dimension_of<Model>>> contender(const Arguments&... arguments);
 
-/// FemModel over another assembler.
-template <class Element, template <typename, int, int, int> class Assembler>
-using Solved = FemModel<Element, double, Eigen::Dynamic, Eigen::Dynamic, Assembler>;
-
 }  // namespace hapbeam::benchmarks

@@ -3,9 +3,11 @@
 
 #include <memory>
 
+#include "assembled_by.hpp"
 #include "closed_form_model.hpp"
 #include "contender.hpp"
 #include "crisfield.hpp"
+#include "dense_assembler.hpp"
 #include "mass_spring.hpp"
 #include "sparse_assemblers.hpp"
 #include "touch_scenes.hpp"
@@ -15,7 +17,6 @@
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/fem/rod_system.hpp>
-#include <hapbeam/fem/solver/dense.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
 

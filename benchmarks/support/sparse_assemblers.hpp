@@ -1,7 +1,7 @@
 // What hapbeam's assembler is measured against: the same FemModel, the same Newton, mesh, elements and convergence
-// rule, over Eigen's general sparse solvers.
+// rule, over Eigen's general sparse solvers (assembled_by.hpp).
 //
-// Both fulfil the Assembler policy (compare hapbeam/fem/solver/dense.hpp), so that the linear algebra is the only difference.
+// Both have the members of BlockTridiagonal that BeamSystem calls for one contact, so that the linear algebra is the only difference.
 // Written as well as one can from outside: SimplicialLdlt analyses its pattern once, refills the values in place
 // without searching, and allocates nothing of its own in a solve.  SparseLuFromTriplets is what one writes first.
 #pragma once
@@ -14,7 +14,6 @@
 #include <Eigen/SparseLU>
 
 #include <hapbeam/element/element.hpp>
-#include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::benchmarks {
@@ -27,6 +26,8 @@ class SimplicialLdlt {
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
  public:
+  struct HeldRow {};
+
   explicit SimplicialLdlt(int elements)
       : K_(3 * (elements + 1), 3 * (elements + 1)), rhs_(K_.rows()), x_(K_.rows()) {
     // The upper triangle, column by column: the coupling to the node before, then this node's own triangle.
@@ -115,18 +116,20 @@ class SimplicialLdlt {
   Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Ordering> solver_;
 };
 
-template <typename Scalar, int, int, int>
+template <typename Scalar>
 using SimplicialLdltNatural = SimplicialLdlt<Scalar, Eigen::NaturalOrdering<int>>;
-template <typename Scalar, int, int, int>
+template <typename Scalar>
 using SimplicialLdltAmd = SimplicialLdlt<Scalar, Eigen::AMDOrdering<int>>;
 
 /// A list of triplets, a matrix of it, a new factorisation: everything anew in each iteration.
-template <typename Scalar, int, int, int>
+template <typename Scalar>
 class SparseLuFromTriplets {
   using Matrix = Eigen::SparseMatrix<Scalar>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
  public:
+  struct HeldRow {};
+
   explicit SparseLuFromTriplets(int elements)
       : K_(3 * (elements + 1), 3 * (elements + 1)),
         rhs_(K_.rows()),

@@ -18,7 +18,6 @@
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/fem/rod_system.hpp>
-#include <hapbeam/fem/solver/dense.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 #include <hapbeam/haptics/servo/exchange.hpp>

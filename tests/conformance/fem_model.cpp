@@ -1,4 +1,4 @@
-// FemModel as a ForceModel: each element, scalar, kind of size and assembler; those of any rotation in corotational.cpp.
+// FemModel as a ForceModel: each element, scalar and kind of size; those of any rotation in corotational.cpp.
 #include <string>
 
 #include "conformance/force_model_suite.hpp"
@@ -7,7 +7,6 @@
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/fem/solver/dense.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -43,10 +42,4 @@ TEMPLATE_TEST_CASE("FemModel keeps the contract of a ForceModel on other support
                                                                {Support::guided, Support::pinned}}));
   const Support one = left, other = right;
   check_force_model([one, other] { return TestType(thesis_beam(one, other), 8); });
-}
-
-TEST_CASE("FemModel on the dense assembler keeps the contract of a ForceModel", "[contract]") {
-  using Reference = FemModel<VonKarman<>, double, any, any, Dense>;
-  static_assert(!takes_push<Reference>);
-  check_force_model([] { return Reference(thesis_beam(Support::pinned, Support::pinned), 6); });
 }

@@ -11,7 +11,6 @@
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/fem/solver/dense.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -72,7 +71,7 @@ TEST_CASE("the same path in float takes at most 6 solves a tick", "[press][float
 // Nothing but the contact moves then, so that it alone tells how far the state has gone.
 TEMPLATE_TEST_CASE("two elements between clamped ends answer a press of their middle as their cubics do",
                    "[press]", FemModel<VonKarman<AssumedStrain>>, (FemModel<VonKarman<AssumedStrain>, float>),
-                   (FemModel<VonKarman<AssumedStrain>, double, 2, 2, Dense>)) {
+                   (FemModel<VonKarman<AssumedStrain>, double, 2>)) {
   using Scalar = typename TestType::Scalar;
   const Beam beam = thesis_beam(Support::clamped, Support::clamped);
   TestType model(beam, 2);

@@ -1,10 +1,13 @@
 // The assembled tangent of a rod that a sphere has pushed is symmetric, and the derivative of the assembled residual.
+#include <type_traits>
 #include <vector>
+
+#include <Eigen/SVD>
 
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
 #include "support/status.hpp"
-#include <hapbeam/fem/solver/dense.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -16,14 +19,14 @@ static Eigen::VectorXd residual;           // likewise
 
 /// Keeps what is added.
 template <typename Scalar, int Elements, int MaxElements, int Block>
-class Recorder : public Dense<Scalar, Elements, MaxElements, Block> {
-  using Base = Dense<Scalar, Elements, MaxElements, Block>;
+class Recorder : public BlockTridiagonal<Scalar, Elements, MaxElements, Block> {
+  using Base = BlockTridiagonal<Scalar, Elements, MaxElements, Block>;
 
  public:
   explicit Recorder(int elements) : Base(elements), elements_(elements) {}
 
   template <class Tangent, class Residual>
-  void add_pairs(int first, Tangent& K, Residual& r) noexcept {
+  void add_pairs(int first, const Tangent& K, const Residual& r) noexcept {
     const detail::PairOrder order{elements_};
     const int size = Block * (elements_ + 1);
     if (first == 0)
@@ -50,7 +53,17 @@ class Recorder : public Dense<Scalar, Elements, MaxElements, Block> {
   int elements_;
 };
 
+template <class Element>
+struct Recorded : Element {
+  using Abreast = std::conditional_t<goes_abreast<Element>, Recorded, void>;
+};
+
 }  // namespace rod_tangent
+
+template <class Element, typename Scalar, int Elements, int MaxElements>
+struct hapbeam::detail::Assembling<rod_tangent::Recorded<Element>, Scalar, Elements, MaxElements> {
+  using Type = rod_tangent::Recorder<Scalar, Elements, MaxElements, Element::unknowns>;
+};
 
 using namespace rod_tangent;
 
@@ -58,7 +71,7 @@ namespace {
 
 template <class Element>
 void check_tangent(const Rod& rod, int elements) {
-  using System = RodSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic, Recorder>;
+  using System = RodSystem<Recorded<Element>, double, Eigen::Dynamic, Eigen::Dynamic>;
   constexpr int unknowns = Element::unknowns;
   System system(rod, elements);
   const int c = 2 * elements / 3;
@@ -133,7 +146,7 @@ double stiffness_under_axial_couples(double torque) {
   const double EI = 2, GJ = 8, angle = torque * EI / GJ;
   Rod shaft(1, RodStiffness{1e7, EI, EI, GJ}, 0.01, RodSupport::cardan, RodSupport::cardan);
   shaft.place_right({{1, 0, 0}, {1, 0, 0}, {0, std::cos(angle), std::sin(angle)}});
-  RodSystem<TwistedRod, double, Eigen::Dynamic, Eigen::Dynamic, Recorder> system(shaft, elements);
+  RodSystem<Recorded<TwistedRod>, double, Eigen::Dynamic, Eigen::Dynamic> system(shaft, elements);
   system.set_goal();
   REQUIRE(NewtonRaphson{}.solve(system).status == Status::ok);
   REQUIRE(system.factor(0) == Status::ok);

@@ -97,7 +97,7 @@ TEST_CASE("a 45-degree bend under a force across it", "[rod]") {
 
 namespace {
 
-using System = RodSystem<TwistedRod, double, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal>;
+using System = RodSystem<TwistedRod, double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Where the tangent of an equilibrium first has a negative pivot.  @param stable  x -> whether it has none
 template <class Stable>

@@ -51,8 +51,7 @@ TEST_CASE("next to a support a depth is a slope: the beam's other end would be a
           "[contact]") {
   const Beam beam = thesis_beam(Support::pinned, Support::roller);
   const Press<double> press{L / 1000, L / 10};
-  BeamSystem<VonKarman<AssumedStrain>, double, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal> system(beam,
-                                                                                                        8);
+  BeamSystem<VonKarman<AssumedStrain>, double, Eigen::Dynamic, Eigen::Dynamic> system(beam, 8);
   const auto mesh = ContactMesh<double>(8, L).at(press.s);
   system.remesh(mesh);
   system.set_goal(mesh.node(), press.d);

@@ -36,7 +36,7 @@ double discretisation(int n) { return 4e-5 * std::pow(4.0 / n, 4); }
 /// A press from rest, by Newton's method as it is first written.
 template <typename Scalar, class Criterion>
 NaiveSolve naive_press(int n, int most, Criterion&& done) {
-  BeamSystem<VonKarman<>, Scalar, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal> system(pinned(), n);
+  BeamSystem<VonKarman<>, Scalar, Eigen::Dynamic, Eigen::Dynamic> system(pinned(), n);
   const auto mesh = ContactMesh<Scalar>(n, Scalar(thesis_length)).at(Scalar(s));
   system.remesh(mesh);
   system.set_goal(mesh.node(), Scalar(d));

@@ -22,7 +22,7 @@ struct Path {
 };
 
 template <class Element = Corotational<>>
-using System = BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal>;
+using System = BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Lays the beam along the x axis, wherever its supports are placed: where a naive solve begins.  @param length  [m]
 template <class Element>

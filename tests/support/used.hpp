@@ -79,9 +79,9 @@ void use_system(const Body& body) {
   static_cast<void>(NewtonRaphson{}.solve(system));
 }
 template <class Element, typename Scalar = double>
-using PlanarSystem = BeamSystem<Element, Scalar, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal>;
+using PlanarSystem = BeamSystem<Element, Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 template <class Element>
-using SpatialSystem = RodSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal>;
+using SpatialSystem = RodSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic>;
 
 inline void used(const Beam& beam, const Rod& rod, const PodModelData<double>& pod,
                  const GalerkinModelData<double>& galerkin) {

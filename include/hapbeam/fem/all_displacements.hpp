@@ -4,7 +4,7 @@
 // rest, whichever is closer.  A beam with more than one shape at rest keeps to the branch on which it is; where that ends or
 // gives way it falls to a stable one (Descent), and the status says snapped.
 // Offline: construction allocates, finds the shape at rest and may throw.  Servo: every other member is noexcept and
-// allocation-free where the assembler is; a press, a push or a release takes at most solver.max_solves linear solves of
+// allocation-free; a press, a push or a release takes at most solver.max_solves linear solves of
 // O(elements), a fall included, and two more on each mesh where the beam gives way.
 #pragma once
 
@@ -26,8 +26,7 @@
 
 namespace hapbeam {
 
-template <class Element, typename ScalarType, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler, class Solver>
+template <class Element, typename ScalarType, int Elements, int MaxElements, class Solver>
 class AllDisplacements {
  public:
   using Scalar = ScalarType;
@@ -155,7 +154,7 @@ class AllDisplacements {
 
  private:
   template <typename S>
-  using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements, Assembler>;
+  using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements>;
   using System = SystemIn<Scalar>;
   using Mesh = typename System::Mesh;
   using Rounds = std::conditional_t<any_rotation<Element> || dimension == 3,

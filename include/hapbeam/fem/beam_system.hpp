@@ -26,15 +26,14 @@
 
 namespace hapbeam {
 
-template <class Element, typename ScalarType, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler>
+template <class Element, typename ScalarType, int Elements, int MaxElements>
 class BeamSystem
     : public detail::BeamShape<Element, ScalarType, Elements, MaxElements>,
       public detail::SystemContacts<
-          BeamSystem<Element, ScalarType, Elements, MaxElements, Assembler>, ScalarType,
+          BeamSystem<Element, ScalarType, Elements, MaxElements>, ScalarType,
           detail::ContactPoint<ScalarType, any_rotation<Element>>, Vector2<ScalarType>,
           detail::CircleOnCurve<ScalarType>, detail::ContactFriction<ScalarType, 2, detail::RoundContact>,
-          typename detail::HeldRowOf<Assembler<ScalarType, Elements, MaxElements, 3>>::Type,
+          typename detail::AssemblerOf<Element, ScalarType, Elements, MaxElements>::HeldRow,
           contacts_of<Element> - 1> {
   using Contacts = typename BeamSystem::SystemContacts;
   using Shape = detail::BeamShape<Element, ScalarType, Elements, MaxElements>;
@@ -327,7 +326,7 @@ class BeamSystem
     }
   }
 
-  Assembler<Scalar, Elements, MaxElements, 3> assembler_;
+  detail::AssemblerOf<Element, Scalar, Elements, MaxElements> assembler_;
   std::array<detail::EndSupport<Scalar>, 2> ends_;
   Scalar size_ = 0, potential_ = 0, unit_;
 };
@@ -339,9 +338,8 @@ template <class Element, typename = void>
 struct SystemOf {
   static_assert(dimension_of<Element> == 2, "#include <hapbeam/fem/rod_system.hpp> for elements in space");
   using Body = Beam;
-  template <typename Scalar, int Elements, int MaxElements,
-            template <typename, int, int, int> class Assembler>
-  using System = BeamSystem<Element, Scalar, Elements, MaxElements, Assembler>;
+  template <typename Scalar, int Elements, int MaxElements>
+  using System = BeamSystem<Element, Scalar, Elements, MaxElements>;
   template <typename Scalar>
   using Range = PressRange<Element, Scalar>;
   template <typename Scalar>

@@ -12,7 +12,7 @@
 // There are two ways to the answer, and the beam decides when it is built.  A straight beam without dead loads whose ends stand
 // no closer than it is long has one unknown, the tension; of elements that are exact under theirs the model solves for that alone,
 // without the error of a mesh (one_tension.hpp).  All else is solved for the displacements of all nodes (all_displacements.hpp).
-// Composed of policies: Element × Assembler × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
+// Composed of policies: Element × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
 // and allocation-free; a press, a push or a release takes at most solver.max_solves linear solves of O(elements), the way of
@@ -39,10 +39,9 @@ namespace hapbeam {
 /// @tparam Element    Linear | VonKarman<Membrane> | Corotational<Local>
 /// @tparam ScalarType double | float
 /// @tparam Elements   number of elements, or Eigen::Dynamic      @tparam MaxElements  largest number, or Eigen::Dynamic
-/// @tparam Assembler  BlockTridiagonal | Dense (reference, allocates, and always of all displacements)   @tparam Solver  NewtonRaphson
+/// @tparam Solver     NewtonRaphson
 template <class Element = VonKarman<>, typename ScalarType = double, int Elements = Eigen::Dynamic,
-          int MaxElements = Elements, template <typename, int, int, int> class Assembler = BlockTridiagonal,
-          class Solver = NewtonRaphson>
+          int MaxElements = Elements, class Solver = NewtonRaphson>
 class FemModel {
   using Of = detail::SystemOf<Element>;
   using Extent = typename Of::template Range<ScalarType>;
@@ -170,12 +169,10 @@ class FemModel {
   InternalForces<Scalar, dimension> internal_forces(int element, Scalar s) const noexcept;
 
  private:
-  using General = AllDisplacements<typename detail::OnMesh<Element>::Type, Scalar, Elements, MaxElements,
-                                   Assembler, Solver>;
+  using General =
+      AllDisplacements<typename detail::OnMesh<Element>::Type, Scalar, Elements, MaxElements, Solver>;
   using Taut = OneTension<Scalar, Elements, MaxElements, Solver>;
-  static constexpr bool may_be_taut =
-      exact_under_tension<Element> && std::is_same_v<Assembler<Scalar, Elements, MaxElements, 3>,
-                                                     BlockTridiagonal<Scalar, Elements, MaxElements>>;
+  static constexpr bool may_be_taut = exact_under_tension<Element>;
   using Ways = std::conditional_t<may_be_taut, std::variant<General, Taut>, std::variant<General>>;
 
   static Ways make_way(const Body& beam, int elements, const Solver& solver);
@@ -232,20 +229,16 @@ class FemModel {
 
 // What costs a compiler seconds is defined outside of the class: only so does "extern template class FemModel<>;" keep it
 // out of all files but one.
-template <class Element, typename Scalar, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler, class Solver>
-auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::make_way(const Body& beam,
-                                                                                   int elements,
-                                                                                   const Solver& solver)
-    -> Ways {
+template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
+auto FemModel<Element, Scalar, Elements, MaxElements, Solver>::make_way(const Body& beam, int elements,
+                                                                        const Solver& solver) -> Ways {
   if constexpr (may_be_taut)
     if (is_taut(beam)) return Ways(std::in_place_type<Taut>, beam, elements, solver);
   return Ways(std::in_place_type<General>, beam, elements, solver);
 }
 
-template <class Element, typename Scalar, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler, class Solver>
-Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::solve(
+template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
+Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Solver>::solve(
     const Push<Scalar, dimension>& nearest, bool valid, bool in_range) noexcept {
   const Scalar node = range_.node(nearest.s);
   const Response<Scalar> response = take(ways_, [&](auto& way) { return way.press(nearest, node, valid); });
@@ -253,10 +246,9 @@ Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Assembler, Sol
       {response.force, response.status == Status::ok && !in_range ? Status::out_of_range : response.status});
 }
 
-template <class Element, typename Scalar, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler, class Solver>
+template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
 template <class E, std::enable_if_t<any_rotation<E>, int>>
-auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::push_round(
+auto FemModel<Element, Scalar, Elements, MaxElements, Solver>::push_round(
     const typename Of::template Round<Scalar>& request, FrictionState<Scalar, dimension>* friction) noexcept
     -> Pushed<Scalar, dimension> {
   const bool valid = is_finite(request) && range_.on_beam(request.s);
@@ -267,11 +259,10 @@ auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::push_r
   return pushed;
 }
 
-template <class Element, typename Scalar, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler, class Solver>
+template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
 template <class E, std::enable_if_t<(contacts_of<E> > 1), int>>
-Status FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::push(
-    Obstacle<Scalar, dimension>* obstacles, int count) noexcept {
+Status FemModel<Element, Scalar, Elements, MaxElements, Solver>::push(Obstacle<Scalar, dimension>* obstacles,
+                                                                      int count) noexcept {
   if (count < 0 || count > contacts_of<Element>) return Status::invalid_request;
   for (int i = 0; i < count; ++i) {
     auto& obstacle = obstacles[i];
@@ -287,36 +278,32 @@ Status FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::push
   return status;
 }
 
-template <class Element, typename Scalar, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler, class Solver>
+template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
 template <class InSpace>
-auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::hold(
+auto FemModel<Element, Scalar, Elements, MaxElements, Solver>::hold(
     typename InSpace::Side side, const typename InSpace::Pose& pose) noexcept -> HeldEnd<Scalar> {
   return std::get<General>(ways_).hold(side, pose);
 }
 
-template <class Element, typename Scalar, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler, class Solver>
-Status FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::release() noexcept {
+template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
+Status FemModel<Element, Scalar, Elements, MaxElements, Solver>::release() noexcept {
   return take(ways_, [](auto& way) { return way.release(); });
 }
 
-template <class Element, typename Scalar, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler, class Solver>
-void FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::reset() noexcept {
+template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
+void FemModel<Element, Scalar, Elements, MaxElements, Solver>::reset() noexcept {
   take(ways_, [](auto& way) { way.reset(); });
 }
 
-template <class Element, typename Scalar, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler, class Solver>
-Scalar FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::strain_energy() const noexcept {
+template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
+Scalar FemModel<Element, Scalar, Elements, MaxElements, Solver>::strain_energy() const noexcept {
   return take(ways_, [](const auto& way) { return way.strain_energy(); });
 }
 
-template <class Element, typename Scalar, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler, class Solver>
-auto FemModel<Element, Scalar, Elements, MaxElements, Assembler, Solver>::internal_forces(
-    int element, Scalar s) const noexcept -> InternalForces<Scalar, dimension> {
+template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
+auto FemModel<Element, Scalar, Elements, MaxElements, Solver>::internal_forces(int element,
+                                                                               Scalar s) const noexcept
+    -> InternalForces<Scalar, dimension> {
   return take(ways_, [&](const auto& way) { return way.internal_forces(element, s, thickness_); });
 }
 

@@ -6,19 +6,8 @@
 
 #include <array>
 #include <cstddef>
-#include <type_traits>
 
 namespace hapbeam::detail {
-
-/// What an assembler keeps to answer for its reaction(); an assembler for one contact need not have it.
-template <class Assembler, typename = void>
-struct HeldRowOf {
-  struct Type {};
-};
-template <class Assembler>
-struct HeldRowOf<Assembler, std::void_t<typename Assembler::HeldRow>> {
-  using Type = typename Assembler::HeldRow;
-};
 
 /// @tparam Point  ContactPoint | RodContact   @tparam Friction  of a contact   @tparam Row  of the assembler, to ask for the reaction
 template <class Point, typename Scalar, class Friction, class Row>

@@ -28,15 +28,14 @@
 
 namespace hapbeam {
 
-template <class Element, typename ScalarType, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler>
+template <class Element, typename ScalarType, int Elements, int MaxElements>
 class RodSystem
     : public detail::RodShape<Element, ScalarType, Elements, MaxElements>,
       public detail::SystemContacts<
-          RodSystem<Element, ScalarType, Elements, MaxElements, Assembler>, ScalarType,
-          detail::RodContact<ScalarType>, VectorOf<ScalarType, 3>, detail::CapsuleOnCurve<ScalarType>,
+          RodSystem<Element, ScalarType, Elements, MaxElements>, ScalarType, detail::RodContact<ScalarType>,
+          VectorOf<ScalarType, 3>, detail::CapsuleOnCurve<ScalarType>,
           detail::ContactFriction<ScalarType, 3, detail::RodRoundContact>,
-          typename detail::HeldRowOf<Assembler<ScalarType, Elements, MaxElements, Element::unknowns>>::Type,
+          typename detail::AssemblerOf<Element, ScalarType, Elements, MaxElements>::HeldRow,
           contacts_of<Element> - 1> {
   using Contacts = typename RodSystem::SystemContacts;
   using Shape = detail::RodShape<Element, ScalarType, Elements, MaxElements>;
@@ -244,7 +243,7 @@ class RodSystem
   }
 
   detail::RodIncrements<Scalar, Elements, MaxElements, unknowns> increments_;  // in advance()
-  Assembler<Scalar, Elements, MaxElements, unknowns> assembler_;
+  detail::AssemblerOf<Element, Scalar, Elements, MaxElements> assembler_;
   detail::RodEnds<Scalar, unknowns> ends_;
   Scalar moves_ = 0;
   bool no_mechanism_ = false;  // its ends and springs hold it
@@ -252,9 +251,8 @@ class RodSystem
 };
 
 // Outside of the class: only so does "extern template class RodSystem<…>;" keep a compiler from them.
-template <class Element, typename Scalar, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler>
-Status RodSystem<Element, Scalar, Elements, MaxElements, Assembler>::factor(Scalar shift) noexcept {
+template <class Element, typename Scalar, int Elements, int MaxElements>
+Status RodSystem<Element, Scalar, Elements, MaxElements>::factor(Scalar shift) noexcept {
   if (!ends_.follow(rod_.nodes())) return Status::iteration_limit;
   const int c = contact_.node();
   Contacts::look_at_contacts();
@@ -292,9 +290,8 @@ Status RodSystem<Element, Scalar, Elements, MaxElements, Assembler>::factor(Scal
   return status;
 }
 
-template <class Element, typename Scalar, int Elements, int MaxElements,
-          template <typename, int, int, int> class Assembler>
-void RodSystem<Element, Scalar, Elements, MaxElements, Assembler>::advance() noexcept {
+template <class Element, typename Scalar, int Elements, int MaxElements>
+void RodSystem<Element, Scalar, Elements, MaxElements>::advance() noexcept {
   force_ = contact_.node() < 0 ? Scalar(0) : contact_.along(assembler_.reaction());
   others_.each([&](auto& other) { other.force = other.point.along(assembler_.reaction(other.row)); });
   increments_.take(assembler_);
@@ -320,9 +317,8 @@ struct SystemOf<Element, std::enable_if_t<dimension_of<Element> == 3>> {
   using Body = Rod;
   using Side = RodSide;
   using Pose = RodPose;
-  template <typename Scalar, int Elements, int MaxElements,
-            template <typename, int, int, int> class Assembler>
-  using System = RodSystem<Element, Scalar, Elements, MaxElements, Assembler>;
+  template <typename Scalar, int Elements, int MaxElements>
+  using System = RodSystem<Element, Scalar, Elements, MaxElements>;
   template <typename Scalar>
   using Range = RodRange<Scalar>;
   template <typename Scalar>

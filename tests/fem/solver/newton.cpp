@@ -15,7 +15,7 @@ using namespace hapbeam::testing;
 
 namespace {
 
-using System = BeamSystem<VonKarman<>, double, Eigen::Dynamic, Eigen::Dynamic, BlockTridiagonal>;
+using System = BeamSystem<VonKarman<>, double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// A spring k x = λ f of one unknown that can be told to fail: the least that NewtonRaphson can solve.
 struct Spring {

@@ -21,6 +21,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include <hapbeam/centreline.hpp>
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/element/pack.hpp>
 #include <hapbeam/fem/solver/chain_node.hpp>
@@ -325,5 +326,23 @@ Status BlockTridiagonal<Scalar, Elements, MaxElements, Block>::solve() noexcept 
   const Status status = pivots.status();
   return status == Status::ok && !std::isfinite(energy_) ? Status::non_finite : status;
 }
+
+namespace detail {
+
+/// Unknowns of a node between such elements.
+template <class Element>
+constexpr int unknowns_of() noexcept {
+  if constexpr (dimension_of<Element> == 2) return 3;
+  else return Element::unknowns;
+}
+/// What solves for a chain of such elements.  A program that measures another assembler specialises it for an element of its own.
+template <class Element, typename Scalar, int Elements, int MaxElements>
+struct Assembling {
+  using Type = BlockTridiagonal<Scalar, Elements, MaxElements, unknowns_of<Element>()>;
+};
+template <class Element, typename Scalar, int Elements, int MaxElements>
+using AssemblerOf = typename Assembling<Element, Scalar, Elements, MaxElements>::Type;
+
+}  // namespace detail
 
 }  // namespace hapbeam

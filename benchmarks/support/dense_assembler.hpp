@@ -1,0 +1,77 @@
+// The whole tangent as one dense matrix, factored by Eigen, in the place of hapbeam's assembler (assembled_by.hpp): O(n³).
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+
+#include <hapbeam/element/element.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::benchmarks {
+
+template <typename Scalar>
+class DenseLdlt {
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+ public:
+  struct HeldRow {};
+
+  explicit DenseLdlt(int elements) : K_(3 * (elements + 1), 3 * (elements + 1)), x_(K_.rows()) {}
+
+  void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
+    if (e == 0) {
+      K_.setZero();
+      x_.setZero();
+    }
+    K_.template block<6, 6>(3 * e, 3 * e) += K;
+    x_.template segment<6>(3 * e) -= r;
+  }
+
+  void prescribe(int node, int component, Scalar increment) noexcept {
+    const int k = 3 * node + component;
+    const Scalar pivot = K_(k, k);
+    x_ -= increment * K_.col(k);
+    x_[k] = 0;
+    K_.row(k).setZero();
+    K_.col(k).setZero();
+    K_(k, k) = pivot;
+  }
+
+  void hold(int node, int component, Scalar increment) noexcept {
+    const int k = 3 * node + component;
+    held_by_ = K_.col(k);
+    held_by_[k] = 0;
+    held_by_loads_ = K_(k, k) * increment - x_[k];
+    prescribe(node, component, increment);
+  }
+
+  Status solve() {
+    if (!K_.allFinite() || !x_.allFinite()) return Status::non_finite;
+    const Vector assembled = K_.diagonal(), rhs = x_;
+    const Eigen::LDLT<Matrix> factor(K_);
+    x_ = factor.solve(rhs);
+    energy_ = rhs.dot(x_);
+    negative_pivots_ = static_cast<int>((factor.vectorD().array() < 0).count());
+    // Its order of elimination is not the beam's, so a pivot that should be zero holds the round-off of all rows.
+    const Scalar epsilon = std::numeric_limits<Scalar>::epsilon() * static_cast<Scalar>(K_.rows());
+    const Vector unpermuted = factor.transpositionsP().transpose() * factor.vectorD();
+    return (unpermuted.array().abs() > epsilon * assembled.array().abs()).all() ? Status::ok
+                                                                                : Status::singular;
+  }
+
+  Scalar energy() const noexcept { return energy_; }
+  Scalar reaction() const noexcept { return held_by_loads_ + held_by_.dot(x_); }
+  int negative_pivots() const noexcept { return negative_pivots_; }
+  Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
+
+ private:
+  Matrix K_;
+  Vector x_, held_by_;
+  Scalar held_by_loads_ = 0, energy_ = 0;
+  int negative_pivots_ = 0;
+};
+
+}  // namespace hapbeam::benchmarks
