@@ -95,7 +95,7 @@ do for [format in 'svg png'] {
   set ylabel 'load, EI/L²'
   set xrange [0:2.5]
   set yrange [0:3.6]
-  plot file('limit_path') every ::1 using 1:2 with lines lw 5 lc rgb '#cccccc' title 'ArcLength', \
+  plot file('limit_path') every ::1 using 1:2 with lines lw 5 lc rgb '#cccccc' title 'by arc length', \
        file('limit_load') every ::1 using 1:2 with linespoints ls 1 dt (3, 3) title 'load raised step by step', \
        file('limit_press') every ::1 using 1:2 with points ls 3 title 'press'
   eval next_panel

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "support/arc_length.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/beam_system.hpp>
-#include <hapbeam/fem/solver/arc_length.hpp>
 
 namespace hapbeam::testing {
 
@@ -21,8 +21,22 @@ struct Path {
   std::vector<Equilibrium> points;
 };
 
+/// The equations of a beam whose loads go where a test likes.
 template <class Element = Corotational<>>
-using System = BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic>;
+class System : public BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic> {
+  using Contacts = typename System::SystemContacts;
+
+ public:
+  using System::BeamSystem::BeamSystem;
+
+  /// Lets go of the contact, places the ends and sets the factor λ on all dead loads.
+  void set_load(double factor) noexcept {
+    this->set_goal();
+    this->set_target(1);
+    Contacts::load_ = factor;
+  }
+  double load() const noexcept { return Contacts::load_; }
+};
 
 /// Lays the beam along the x axis, wherever its supports are placed: where a naive solve begins.  @param length  [m]
 template <class Element>

@@ -113,11 +113,6 @@ class BeamElements {
     Element::residual(properties_[e], d, r);
     subtract_loads(e, lambda, d, r, nullptr);
   }
-  /// Its derivative by λ.
-  void load_rate(int e, Vector6<Scalar>& r) const noexcept {
-    r.setZero();
-    subtract_loads(e, 1, displacements(e), r, nullptr);
-  }
   /// What the section at s carries, in element e, which holds s.   @param thickness [m]
   InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar lambda, Scalar thickness) const noexcept {
     Vector6<Scalar> r;

@@ -102,7 +102,51 @@ class BeamSystem
   /// Assembles and solves for an increment, and leaves the state as it is.
   /// @param shift  what is added to the tangent: so many times EI/L³ on each displacement and EI/L on each rotation,
   ///               shared out over the nodes   @return ok | singular | non_finite
-  Status factor(Scalar shift) noexcept { return assemble_and_solve<false>(shift); }
+  Status factor(Scalar shift) noexcept {
+    Scalar energy = 0, work = 0;
+    const int c = contact_.node();
+    Contacts::look_at_contacts();
+    // What most elements need takes no address of their tangent: it stays in registers.
+    typename Shape::Parts::Group group;
+    const auto add = [&](int e, auto&& change) {
+      Matrix6<Scalar> K;
+      Vector6<Scalar> r;
+      energy += beam_.tangent(e, group, r, K);
+      change(r, K);
+      assembler_.add(e, K, r);
+    };
+    const bool plain = shift == 0 && !beam_.loaded(load_);
+    for (int e = 0; e < elements(); ++e) {
+      beam_.respond(e, group);
+      if (plain && !contact_.holds(e) && !contact_.holds(e + 1) && !others_.at(e) && !others_.at(e + 1)) {
+        add(e, [](auto&, auto&) {});
+        continue;
+      }
+      add(e, [&](Vector6<Scalar>& r, Matrix6<Scalar>& K) {
+        work += beam_.subtract_loads(e, load_, r, K);
+        if (shift != 0) add_shift(shift, e, K);
+        if (contact_.holds(e)) contact_.transform(node(e), true, e == 0, r, K);
+        if (contact_.holds(e + 1)) contact_.transform(node(e + 1), false, true, r, K);
+        if (const auto* const other = others_.at(e)) other->point.transform(node(e), true, e == 0, r, K);
+        if (const auto* const other = others_.at(e + 1))
+          other->point.transform(node(e + 1), false, true, r, K);
+        if (friction_) add_friction(e, contact_, *friction_, r, K);
+        others_.each([&](const auto& other) {
+          if (other.friction) add_friction(e, other.point, *other.friction, r, K);
+        });
+      });
+    }
+    size_ = std::sqrt(2 * energy);
+    potential_ = energy - work;
+    potential_ += Contacts::friction_potential();
+    for (std::size_t k = 0; k < 2; ++k)
+      ends_[k].visit(node(end(k)), [&](int component, Scalar now, Scalar target) {
+        assembler_.prescribe(end(k), component, target - now);
+      });
+    if (c >= 0) assembler_.hold(c, 1, d_ - contact_.displacement());
+    others_.each([&](auto& other) { hold(other); });
+    return assembler_.solve();
+  }
   /// The tangent holds what the contact's force makes of a circle.  On the way down the force of before is no longer there.
   void forget_force() noexcept {
     force_ = 0;
@@ -162,18 +206,7 @@ class BeamSystem
     return largest;
   }
 
-  // What ArcLength asks beyond that.
-
-  /// Lets go of the contact, places the ends and sets the factor λ on all dead loads, which goes where it likes.
-  void set_load(Scalar factor) noexcept {
-    contact_ = {};
-    for (auto& end : ends_) end.set_target(1);
-    load_ = factor;
-  }
-  Scalar load() const noexcept { return load_; }
-  /// As factor(0), but for the rate of the state with λ, K⁻¹f.
-  Status load_rate() noexcept { return assemble_and_solve<true>(0); }
-  /// Of node i after factor() or load_rate() [u, w, θ].
+  /// Of node i after factor() [u, w, θ].
   Vector3<Scalar> increment(int i) const noexcept {
     if (const auto* const other = others_.at(i)) return other->point.back(assembler_.increment(i));
     return contact_.holds(i) ? contact_.back(assembler_.increment(i)) : assembler_.increment(i);
@@ -235,55 +268,6 @@ class BeamSystem
   void begin_path() noexcept {
     start_load_ = load_;
     for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
-  }
-
-  /// @tparam Rate  whether the right-hand side is that of load_rate()
-  template <bool Rate>
-  Status assemble_and_solve(Scalar shift) noexcept {
-    Scalar energy = 0, work = 0;
-    const int c = contact_.node();
-    Contacts::look_at_contacts();
-    // What most elements need takes no address of their tangent: it stays in registers.
-    typename Shape::Parts::Group group;
-    const auto add = [&](int e, auto&& change) {
-      Matrix6<Scalar> K;
-      Vector6<Scalar> r;
-      energy += beam_.tangent(e, group, r, K);
-      change(r, K);
-      assembler_.add(e, K, r);
-    };
-    const bool plain = !Rate && shift == 0 && !beam_.loaded(load_);
-    for (int e = 0; e < elements(); ++e) {
-      beam_.respond(e, group);
-      if (plain && !contact_.holds(e) && !contact_.holds(e + 1) && !others_.at(e) && !others_.at(e + 1)) {
-        add(e, [](auto&, auto&) {});
-        continue;
-      }
-      add(e, [&](Vector6<Scalar>& r, Matrix6<Scalar>& K) {
-        work += beam_.subtract_loads(e, load_, r, K);
-        if (Rate) beam_.load_rate(e, r);
-        if (shift != 0) add_shift(shift, e, K);
-        if (contact_.holds(e)) contact_.transform(node(e), true, e == 0, r, K);
-        if (contact_.holds(e + 1)) contact_.transform(node(e + 1), false, true, r, K);
-        if (const auto* const other = others_.at(e)) other->point.transform(node(e), true, e == 0, r, K);
-        if (const auto* const other = others_.at(e + 1))
-          other->point.transform(node(e + 1), false, true, r, K);
-        if (friction_) add_friction(e, contact_, *friction_, r, K);
-        others_.each([&](const auto& other) {
-          if (other.friction) add_friction(e, other.point, *other.friction, r, K);
-        });
-      });
-    }
-    size_ = std::sqrt(2 * energy);
-    potential_ = energy - work;
-    potential_ += Contacts::friction_potential();
-    for (std::size_t k = 0; k < 2; ++k)
-      ends_[k].visit(node(end(k)), [&](int component, Scalar now, Scalar target) {
-        assembler_.prescribe(end(k), component, target - now);
-      });
-    if (c >= 0) assembler_.hold(c, 1, d_ - contact_.displacement());
-    others_.each([&](auto& other) { hold(other); });
-    return assembler_.solve();
   }
 
   /// Puts the ends and the contact exactly where they belong.
