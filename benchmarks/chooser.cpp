@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "../tests/support/random_scene.hpp"
+#include "support/measure_tick_costs.hpp"
 #include <hapbeam/scene/choose.hpp>
-#include <hapbeam/scene/measure_tick_costs.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -124,7 +124,7 @@ std::optional<Choice> try_choose(const Scene& scene, const TickCosts& costs) {
 int main(int argc, char** argv) {
   const int scenes = argc > 1 ? std::atoi(argv[1]) : 400;
   Random random(argc > 2 ? static_cast<std::uint64_t>(std::atoll(argv[2])) : 1);
-  const TickCosts costs = measure_tick_costs();
+  const TickCosts costs = benchmarks::measure_tick_costs();
   std::puts(
       "scene,ends,length_m,height_per_length,EI_Nm2,tension_L2_per_EI,s_min_per_length,s_max_per_length,"
       "depth_per_length,tolerance,budget_us,shape,choose_ms,chosen,error,tick_us,cheapest,cheapest_error,"

@@ -1,7 +1,7 @@
 // What a press of each model costs, in seconds: a line over its size.
 //
 // Plain data; the figures of typical() were measured on one processor (docs/benchmarks.md says which) and are meant to be
-// compared with each other.  measure_tick_costs() replaces them by those of the machine at hand.
+// compared with each other.  choose() takes others.
 #pragma once
 
 namespace hapbeam {

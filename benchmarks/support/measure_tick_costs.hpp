@@ -18,9 +18,7 @@
 #include <hapbeam/scene/build.hpp>
 #include <hapbeam/scene/tick_costs.hpp>
 
-namespace hapbeam {
-
-namespace detail {
+namespace hapbeam::benchmarks {
 
 /// Mean time of a press of a hand that presses and slides at about 50 mm/s, a press a millisecond [s].
 inline double time_press(SceneModel& model, const Scene& scene, bool shape) {
@@ -36,7 +34,7 @@ inline double time_press(SceneModel& model, const Scene& scene, bool shape) {
         const double part = (k + 1.0) / presses;
         const Press<double> press{scene.s_min + (scene.s_max - scene.s_min) * part,
                                   scene.depth * (0.2 + 0.8 * part)};
-        sink = shape ? chosen.press(press).force : force_of(chosen, press).force;
+        sink = shape ? chosen.press(press).force : hapbeam::detail::force_of(chosen, press).force;
       }
       least = (std::min)(least, std::chrono::duration<double>(Clock::now() - begin).count() / presses);
     }
@@ -72,8 +70,6 @@ inline TickCost line_through(int few, double few_time, int many, double many_tim
   return {(std::max)(few_time - per_unit * few, 0.0), per_unit};
 }
 
-}  // namespace detail
-
 inline TickCosts measure_tick_costs() {
   const Beam bar(2.54, Section::rectangle(0.0254, 0.0254), Material{206.84e9}, Support::pinned,
                  Support::pinned);
@@ -82,20 +78,17 @@ inline TickCosts measure_tick_costs() {
   const auto elements = [&](Kinematics kinematics) {
     SceneModel few = build(slide, {kinematics, Reduction::none, 4}),
                many = build(slide, {kinematics, Reduction::none, 64});
-    return detail::line_through(4, detail::time_press(few, slide, true), 64,
-                                detail::time_press(many, slide, true));
+    return line_through(4, time_press(few, slide, true), 64, time_press(many, slide, true));
   };
   const auto rods = [](auto element) {
     using Element = decltype(element);
-    return detail::line_through(4, detail::time_push<Element>(4), 32, detail::time_push<Element>(32));
+    return line_through(4, time_push<Element>(4), 32, time_push<Element>(32));
   };
   const auto trained = [&](Reduction reduction, TickCost& force, TickCost& shape) {
     SceneModel few = build(hold, {Kinematics::von_karman, reduction, 64, false, 1, 8}),
                many = build(slide, {Kinematics::von_karman, reduction, 64, false, 16, 12});
-    force = detail::line_through(8, detail::time_press(few, hold, false), 192,
-                                 detail::time_press(many, slide, false));
-    shape = detail::line_through(8, detail::time_press(few, hold, true), 192,
-                                 detail::time_press(many, slide, true));
+    force = line_through(8, time_press(few, hold, false), 192, time_press(many, slide, false));
+    shape = line_through(8, time_press(few, hold, true), 192, time_press(many, slide, true));
   };
   TickCosts costs{elements(Kinematics::linear),
                   elements(Kinematics::von_karman),
@@ -111,4 +104,4 @@ inline TickCosts measure_tick_costs() {
   return costs;
 }
 
-}  // namespace hapbeam
+}  // namespace hapbeam::benchmarks
