@@ -64,7 +64,6 @@ TEST_CASE("right, up and toward the user stay so under a placement in the plane"
   const Placement placement = Placement::in_plane({1.27, 0.02}, 2);
   CHECK(placement.beam_position({0, 0, 0}) == Vector2<double>(1.27, 0.02));
   CHECK(placement.beam_position({0.5, -0.25, 0.1}) == Vector2<double>(2.27, -0.48));
-  CHECK(placement.beam_velocity({0.5, -0.25, 0.1}) == Vector2<double>(1, -0.5));
   CHECK(placement.device_force_of_beam({3, 4}) == Eigen::Vector3d(3, 4, 0));
   CHECK(Placement().scene_position({1, 2, 3}) == Eigen::Vector3d(1, 2, 3));
 }

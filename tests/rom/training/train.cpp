@@ -5,6 +5,7 @@
 #include "support/error.hpp"
 #include "support/solver.hpp"
 #include "support/thesis_beam.hpp"
+#include <hapbeam/element/linear.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
 #include <hapbeam/rom/training/train.hpp>
 
@@ -16,23 +17,6 @@ namespace {
 constexpr double L = thesis_length;
 
 }  // namespace
-
-TEST_CASE("½ xᵀKx of a snapshot is the strain energy of the linear beam, on any supports", "[train]") {
-  const auto [left, right] = GENERATE(table<Support, Support>({{Support::pinned, Support::pinned},
-                                                               {Support::clamped, Support::free},
-                                                               {Support::roller, Support::guided}}));
-  const Beam beam = thesis_beam(left, right);
-  FemModel<Linear> full(beam, 16, tight_solver());
-  TrainingPlan plan = TrainingPlan::at(0.375 * L, 0.03, 3);  // node 6 of 16, in the model as in the frame
-  plan.segments = 16;
-  const Snapshots snapshots = take_snapshots(beam, full, plan);
-  const Eigen::MatrixXd X = snapshot_matrix(snapshots), K = stiffness_matrix(snapshots);
-  full.press({0.375 * L, 0.03});
-  for (Eigen::Index k = 0; k < X.cols(); ++k)
-    CHECK(relative_error(X.col(k).dot(K * X.col(k)) / 2, full.strain_energy()) <= 1e-9);
-  CHECK((K - K.transpose()).cwiseAbs().maxCoeff() <= 1e-12 * K.cwiseAbs().maxCoeff());
-  CHECK_NOTHROW(StiffnessInnerProduct(K));
-}
 
 // Freed of units: shapes of a linear beam are the same column at every depth.
 TEST_CASE("snapshots of a linear beam are one shape", "[train]") {

@@ -105,11 +105,6 @@ class Placement {
     const Eigen::Vector3d scene = scene_position(device);
     return {scene[0], scene[1]};
   }
-  /// @param device [m/s]   @return [m/s] along x and w
-  Vector2<double> beam_velocity(const Eigen::Vector3d& device) const noexcept {
-    const Eigen::Vector3d scene = scene_velocity(device);
-    return {scene[0], scene[1]};
-  }
   /// Of a rod in space, whose axes are the scene's, all is seen.
   /// @tparam D  of the space in which the beam bends: 2 | 3   @param device [m]   @return [m]
   template <int D>

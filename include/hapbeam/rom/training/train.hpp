@@ -14,10 +14,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include <hapbeam/element/linear.hpp>
 #include <hapbeam/rom/training/full_model.hpp>
 #include <hapbeam/rom/training/pod.hpp>
 #include <hapbeam/rom/training/snapshots.hpp>
@@ -41,52 +39,12 @@ inline Eigen::MatrixXd snapshot_matrix(const Snapshots& snapshots) {
   return X;
 }
 
-/// The linear beam's stiffness for columns of snapshot_matrix(): ½ xᵀ K x is the strain energy [J] of a shape x, for a
-/// press by the plan's depth at the middle of its positions. Displacements held by supports get the largest diagonal
-/// entry, so that K is positive definite.
-/// For StiffnessInnerProduct. With dimensionless displacements the plain product requires fewer modes: 10 instead of 16
-/// for shapes within a percent, because stretching dominates an energy.
-inline Eigen::MatrixXd stiffness_matrix(const Snapshots& snapshots) {
-  const BeamData<double>& beam = snapshots.beam;
-  const ContactFrame<double> frame(beam, snapshots.plan.segments, snapshots.contact_node);
-  const double s = (snapshots.plan.s_min + snapshots.plan.s_max) / 2, unit = snapshots.plan.depth;
-  const Eigen::Index rows = 3 * (frame.segments() + 1);
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(rows, rows);
-  Eigen::VectorXd size(rows);
-  Vector6<double> r;
-  Matrix6<double> k;
-  for (int i = 0; i <= frame.segments(); ++i) {
-    const double per_side = unit / frame.side(i, s);
-    size.segment<3>(3 * i) << unit * per_side, unit, per_side;
-    if (i == frame.segments()) break;
-    const double length = frame.position(i + 1, s) - frame.position(i, s);
-    Linear::tangent(ElementProperties<double>(length, beam.axial_stiffness, beam.bending_stiffness),
-                    Vector6<double>::Zero().eval(), r, k);
-    K.block<6, 6>(3 * i, 3 * i) += k;
-  }
-  K = size.asDiagonal() * K * size.asDiagonal();
-  const double largest = K.diagonal().maxCoeff();
-  const auto hold = [&](Eigen::Index row, bool held) {
-    if (!held) return;
-    K.row(row).setZero();
-    K.col(row).setZero();
-    K(row, row) = largest;
-  };
-  for (const auto& [first, end] : {std::pair{Eigen::Index(0), beam.left}, std::pair{rows - 3, beam.right}}) {
-    hold(first, fixes_u(end));
-    hold(first + 1, fixes_w(end));
-    hold(first + 2, fixes_theta(end));
-  }
-  return K;
-}
-
 namespace detail {
 
-template <class Reducer, class InnerProduct>
-ShapeData<double> reduce_shapes(const Snapshots& snapshots, const Truncation& truncation,
-                                const InnerProduct& product) {
+template <class Reducer>
+ShapeData<double> reduce_shapes(const Snapshots& snapshots, const Truncation& truncation) {
   const Eigen::MatrixXd X = snapshot_matrix(snapshots);
-  const Pod<Reducer, InnerProduct> pod(X, truncation, product);
+  const Pod<Reducer> pod(X, truncation);
   const Eigen::MatrixXd C = pod.coefficients(X);
   ShapeData<double> shape{snapshots.plan.segments, snapshots.contact_node, pod.modes(), {}, {},
                           snapshots.rest_shape};
@@ -160,10 +118,9 @@ void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coord
 
 /// A PodModel's numbers.   @param truncation  of the shape's modes
 /// @throws std::invalid_argument where snapshots have other nodes, or are too few for the depth
-template <class Nodes = ChebyshevNodes, class Reducer = Svd, class InnerProduct = PlainInnerProduct>
+template <class Nodes = ChebyshevNodes, class Reducer = Svd>
 PodModelData<double> train_pod(const Snapshots& snapshots,
-                               const Truncation& truncation = Truncation::error(1e-4),
-                               const InnerProduct& product = {}) {
+                               const Truncation& truncation = Truncation::error(1e-4)) {
   detail::check_nodes<Nodes>(snapshots);
   const TrainingPlan& plan = snapshots.plan;
   const PositionCoordinate<double> position(snapshots.beam);
@@ -180,7 +137,7 @@ PodModelData<double> train_pod(const Snapshots& snapshots,
                             snapshots.y_high,
                             {},
                             snapshots.rest,
-                            detail::reduce_shapes<Reducer>(snapshots, truncation, product),
+                            detail::reduce_shapes<Reducer>(snapshots, truncation),
                             {}};
   std::vector<double> K(static_cast<std::size_t>(plan.depths));
   for (auto snapshot = snapshots.grid.begin(); snapshot != snapshots.grid.end();) {
@@ -194,10 +151,9 @@ PodModelData<double> train_pod(const Snapshots& snapshots,
 }
 
 /// A GalerkinModel's numbers, from snapshots at tensions.   @param truncation  of the shape's modes
-template <class Nodes = ChebyshevNodes, class Reducer = Svd, class InnerProduct = PlainInnerProduct>
+template <class Nodes = ChebyshevNodes, class Reducer = Svd>
 GalerkinModelData<double> train_galerkin(const Snapshots& snapshots,
-                                         const Truncation& truncation = Truncation::error(1e-4),
-                                         const InnerProduct& product = {}) {
+                                         const Truncation& truncation = Truncation::error(1e-4)) {
   detail::check_nodes<Nodes>(snapshots);
   const TrainingPlan& plan = snapshots.plan;
   const PositionCoordinate<double> position(snapshots.beam);
@@ -209,7 +165,7 @@ GalerkinModelData<double> train_galerkin(const Snapshots& snapshots,
                                  snapshots.columns,
                                  snapshots.tension,
                                  {},
-                                 detail::reduce_shapes<Reducer>(snapshots, truncation, product),
+                                 detail::reduce_shapes<Reducer>(snapshots, truncation),
                                  {}};
   for (const Snapshot& snapshot : snapshots.grid)
     data.log_stiffness.push_back(std::log(position.scale(snapshot.s) * snapshot.stiffness));
