@@ -376,8 +376,8 @@ void check_changes(Random& random, bool clamped) {
     }
     const Vector3<double> axis = Vector3<double>(random(1.0), random(1.0), random(1.0)).normalized(),
                           part(random(1.0), random(1.0), random(1.0));
-    const Matrix3<double> mirror = Matrix3<double>::Identity() - 2 * axis * axis.transpose();
-    Matrix3<double> cycle;
+    const Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity() - 2 * axis * axis.transpose();
+    Eigen::Matrix3d cycle;
     cycle << 0, 1, 0, 0, 0, 1, 1, 0, 0;
     const int unknown = random.integer(0, 2);
     Eigen::Matrix<double, 6, 1> parts;

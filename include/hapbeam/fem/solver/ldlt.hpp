@@ -18,8 +18,6 @@ namespace hapbeam {
 
 template <typename Scalar>
 using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
-template <typename Scalar>
-using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
 
 namespace detail {
 
