@@ -44,6 +44,7 @@ ElementProperties<double> random_bent(Random& random) {
   ElementProperties<double> p = random_properties(random);
   p.natural_a = random(0.2) * p.length;
   p.natural_b = random(0.2) * p.length;
+  p.natural_stretch = random(0.02) * p.length;
   return p;
 }
 
@@ -272,6 +273,7 @@ TEMPLATE_TEST_CASE("elements side by side answer as each of them alone", "[eleme
       put(&Narrow::bending_per_length3, &Properties::bending_per_length3, q.bending_per_length3);
       put(&Narrow::natural_a, &Properties::natural_a, q.natural_a);
       put(&Narrow::natural_b, &Properties::natural_b, q.natural_b);
+      put(&Narrow::natural_stretch, &Properties::natural_stretch, q.natural_stretch);
       for (int i = 0; i < 6; ++i) d[i].set(k, states[k][i]);
     }
     const auto abreast = numbers(Turning::core(p, d), p.axial_stiffness, p.length);

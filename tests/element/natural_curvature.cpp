@@ -2,6 +2,7 @@
 #include "element/elements.hpp"
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include <hapbeam/element/tapered.hpp>
 #include <hapbeam/fem/natural_shape.hpp>
 
 using namespace hapbeam;
@@ -24,39 +25,55 @@ NaturalShape<double> circle(double length, double curvature) {
 
 }  // namespace
 
-// With x = κl/2 the chord of an arc is l sin x/x = l (1 - x²/6 + x⁴/120 - …).  AssumedStrain knows the first term,
-// 5 (κl²/2)²/30l², so that x⁴/120 = (κl)⁴/1920 is left, by next terms of x²/42; Linear knows none.
-TEST_CASE("at its natural arc an element is strained by the fourth power of its angle",
-          "[element][natural]") {
-  for (const double angle : {0.05, 0.2, -0.5, 1.0})
-    for (const double start :
-         {0.0, 3.0, 20.0}) {  // turned by where it is on the circle, twenty radians included
-      const double length = 0.3, k = angle / length, x = angle / 2;
-      const NaturalShape<double> shape = circle(100, k);
-      ElementProperties<double> p(length, 1e6, 10);
-      shape.apply(start * length, p);
-      const Vector6<double> d = natural_state(shape, start * length, length);
-      Vector6<double> r;
-      Turning::residual(p, d, r);
-      const double left = p.axial_stiffness * std::pow(x, 4) / 120;
-      // Positions up to 20 l are rounded to 20 eps l.
-      const double round_off = 1e2 * 2.2e-16 * p.axial_stiffness;
-      INFO("angle " << angle << " from " << start << ": " << r.transpose());
-      CHECK(std::abs(r.segment<2>(3).norm() - left) <= left * x * x / 20 + round_off);
-      // Its moment is that of N on the bow: N l θ'/6 with θ' = x.
-      CHECK(std::abs(r[5]) <= left * length * std::abs(x) / 6 * (1 + x * x / 20) + round_off * length);
-      TurningLinear::residual(p, d, r);
-      const double textbook = p.axial_stiffness * x * x / 6;
-      CHECK(std::abs(r.segment<2>(3).norm() - textbook) <= textbook * x * x / 10 + round_off);
+// Chains of arcs and corners of up to a right angle, turned by where they are on the beam, several turns included.
+TEMPLATE_TEST_CASE("at its natural shape an element of any rotation has neither force nor energy",
+                   "[element][natural]", TurningLinear, TurningFull, TurningReduced, Turning,
+                   Corotational<VonKarman<StabilityFunctions>>, Corotational<Tapered<Linear>>) {
+  Random random(73);
+  double force = 0, energy = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    std::vector<Arc> arcs;
+    double end = 0;
+    while (end < 4) {
+      const bool corner = random(0.0, 1.0) < 0.3;
+      const double length = corner ? 1e-3 : random(0.05, 0.6);
+      arcs.push_back({end += length, corner ? random(pi / 2) / length : random(2.0)});
     }
+    const NaturalShape<double> shape(Beam(5, 1, 1, 0.1, Support::clamped, Support::free).naturally(arcs));
+    const double length = random(0.01, 0.3), s = random(0.0, 4.0);
+    ElementProperties<double> p(length, 1e6, 10);
+    shape.apply(s, p);
+    const Vector6<double> d = natural_state(shape, s, length);
+    Vector6<double> r;
+    TestType::residual(p, d, r);
+    force = std::max(force, r.norm() * length / p.axial_stiffness);
+    energy = std::max(energy, TestType::energy(p, d) * length / p.axial_stiffness);
+  }
+  // Positions up to 5 are rounded to eps of them, elements as short as 1/100.
+  const double round_off = 5 * 64 * 2.2e-16;
+  CHECK(force <= round_off);
+  CHECK(energy <= round_off * round_off / 2);
+}
+
+// With sin x/x of half of the angle the chord of an arc, as far as the digits go.
+TEST_CASE("the natural chord of an arc has all digits, however flat it is", "[element][natural]") {
+  for (const double angle : {1e-9, 1e-3, 0.4, -1.9, 2.1, 6.0}) {
+    const double length = 0.3;
+    ElementProperties<double> p(length, 1, 1);
+    circle(1, angle / length).apply(0.2, p);
+    const long double x = std::abs(angle) / 2, q = x * x;
+    const long double excess = x < 1e-2L ? -q / 6 * (1 - q / 20 * (1 - q / 42)) : (std::sin(x) - x) / x;
+    CHECK(relative_error(p.natural_stretch, static_cast<double>(length * excess)) <= 8 * 2.2e-16);
+  }
 }
 
 // Forces are the bending moment EI (κ - κ0) taken by the curvatures of the cubic, ∂κ/∂θ1 = -(4 - 6t)/l and
-// ∂κ/∂θ2 = (6t - 2)/l, integrated piece by piece: exact where a corner, an arc shorter than the element, lies in it.
+// ∂κ/∂θ2 = (6t - 2)/l, integrated piece by piece: exact to the first order of the arcs' angles, where a corner, an arc shorter than the element, lies in it, too.
 TEMPLATE_TEST_CASE("an element bends against its natural curvature as the integral over the beam says",
                    "[element][natural]", Linear, TurningLinear) {
   const double length = 0.7, EI = 3;
-  const std::vector<Arc> arcs{{0.1, 2}, {0.31, -1}, {0.32, 40}, {0.9, 0.5}, {1.5, 0}, {1.6, -7}};
+  std::vector<Arc> arcs{{0.1, 2}, {0.31, -1}, {0.32, 40}, {0.9, 0.5}, {1.5, 0}, {1.6, -7}};
+  for (Arc& arc : arcs) arc.curvature *= 1e-5;  // the next order is the third
   const NaturalShape<double> shape(Beam(2, 1, 1, 0.1, Support::clamped, Support::free).naturally(arcs));
   Random random(71);
   for (int trial = 0; trial < 200; ++trial) {
@@ -81,21 +98,22 @@ TEMPLATE_TEST_CASE("an element bends against its natural curvature as the integr
   }
 }
 
-TEST_CASE("at rest on its natural rotations every element is free of moment, and has no energy of bending",
-          "[element][natural]") {
+TEMPLATE_TEST_CASE("at its natural stretch and rotations every element is free of force and energy",
+                   "[element][natural]", Linear, Full, Reduced, Assumed, VonKarman<StabilityFunctions>) {
   Random random(72);
   for (int trial = 0; trial < 100; ++trial) {
     ElementProperties<double> p = random_properties(random);
     p.natural_a = random(0.3) * p.length;
     p.natural_b = random(0.3) * p.length;
+    // Against the chord's own length, and by no more than the policy's own mean of the slopes' squares.
+    p.natural_stretch = random(0.02) * p.length;
     Vector6<double> d = Vector6<double>::Zero(), r;
     d[2] = p.natural_a / p.length;
+    d[3] = p.natural_stretch;
     d[5] = p.natural_b / p.length;
-    const double EI = p.bending_per_length3 * std::pow(p.length, 3);
-    Linear::residual(p, d, r);
-    CHECK(r.norm() <= 64 * 2.2e-16 * EI / (p.length * p.length) * (1 + p.length));
-    CHECK(Linear::energy(p, d) <= 1e-28 * EI / p.length);
-    TurningLinear::residual(p, d, r);
-    CHECK(r.norm() <= 64 * 2.2e-16 * EI / (p.length * p.length) * (1 + p.length));
+    TestType::residual(p, d, r);
+    const double round_off = 64 * 2.2e-16;
+    CHECK(r.norm() <= round_off * p.axial_stiffness);
+    CHECK(TestType::energy(p, d) <= round_off * round_off * p.axial_stiffness * p.length);
   }
 }

@@ -85,7 +85,7 @@ TEST_CASE("a beam without arcs is naturally straight", "[natural]") {
   CHECK_FALSE(natural(2, {{1, 0.5}}).straight());
   ElementProperties<double> p(0.3, 1, 1);
   shape.apply(0.4, p);
-  CHECK((p.natural_a == 0 && p.natural_b == 0));
+  CHECK((p.natural_a == 0 && p.natural_b == 0 && p.natural_stretch == 0));
   const Displacement<double> at = shape.at(1.7);
   CHECK((at.u == 0 && at.w == 0 && at.theta == 0));
 }
@@ -103,9 +103,10 @@ TEST_CASE("an element on one arc gets half of its angle at either end", "[natura
     }
 }
 
-// (b - a)/l = ∫κ ds, the turn from end to end, and (a + b)/2 = ∫κ (s - middle) ds, each piece by its middle.
-TEST_CASE("an element over arcs, corners and the straight rest takes turn and moment of their curvature",
-          "[natural]") {
+// Where its ends stand: the chord from one to the other, and the curve's directions there against it.
+TEST_CASE(
+    "an element over arcs, corners and the straight rest takes the chord and the end rotations of its piece",
+    "[natural]") {
   Random random(81);
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<Arc> arcs;
@@ -116,18 +117,17 @@ TEST_CASE("an element over arcs, corners and the straight rest takes turn and mo
     }
     const NaturalShape<double> shape = natural(3, arcs);
     const double length = random(0.05, 1), s = trial % 5 == 0 ? arcs[1].end : random(0, 3 - length);
-    double turn = 0, moment = 0, from = 0;
-    for (const Arc& arc : arcs) {
-      const double low = std::max(from, s), high = std::min(arc.end, s + length);
-      from = arc.end;
-      if (low < high) turn += arc.curvature * (high - low);
-      if (low < high) moment += arc.curvature * (high - low) * ((low + high) / 2 - s - length / 2);
-    }
+    const Displacement<double> a = shape.at(s), b = shape.at(s + length);
+    const double x = length + b.u - a.u, y = b.w - a.w, chord = std::hypot(x, y);
     ElementProperties<double> p(length, 1, 1);
     shape.apply(s, p);
     INFO("from " << s << " over " << length);
-    CHECK(std::abs((p.natural_b - p.natural_a) / length - turn) <= 64 * eps * 5);
-    CHECK(std::abs((p.natural_b + p.natural_a) / 2 - moment) <= 64 * eps * 5);
+    CHECK(std::abs(p.natural_stretch - (chord - length)) <= 64 * eps);
+    CHECK(std::abs((p.natural_b - p.natural_a) / length - (b.theta - a.theta)) <= 64 * eps * 5);
+    // The angle of the chord, counted against θ, is that of (x, y).
+    const double angle = p.natural_a / length - a.theta;
+    CHECK(std::abs(std::cos(angle) - x / chord) <= 64 * eps / chord);
+    CHECK(std::abs(std::sin(angle) - y / chord) <= 64 * eps / chord);
   }
 }
 

@@ -1,6 +1,6 @@
 // An element of finite rotation: a local element in a frame that turns with the chord.
 //
-//   l = |x2 - x1|,  α = angle of the chord (up is positive),  stretch = l - L,  θi' = θi + α
+//   l = |x2 - x1|,  α = angle of the chord (up is positive),  stretch = l - L - that of the natural shape,  θi' = θi + α
 //
 //   V(d) = V_local(stretch, θ1', θ2')
 //   ∂V/∂Δ = N e + (M/l) z                      Δ = (u2 - u1, w2 - w1),  e = (cos α, sin α),  z = (-sin α, cos α)
@@ -110,7 +110,7 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
       angle = angle_near(w, x, length, S(-(d[2] + d[5]) / 2));
     }
     Deformation<S> local(const ElementProperties<S>& p, const Vector6<S>& d) const noexcept {
-      return {stretch, p.length * (d[2] + angle), p.length * (d[5] + angle)};
+      return {stretch - p.natural_stretch, p.length * (d[2] + angle), p.length * (d[5] + angle)};
     }
   };
 };

@@ -56,6 +56,7 @@ struct ElementProperties {
   Scalar bending_per_length3 = 0;  ///< EI/l³ [N/m]
   Scalar natural_a = 0;            ///< l times the rotation of end 1 against the chord that bends nothing [m]
   Scalar natural_b = 0;            ///< the same at end 2 [m]
+  Scalar natural_stretch = 0;      ///< the natural shape's chord less l [m]
   /// What a section that changes adds to 4, 2 and 4 EI/l³, for Tapered alone [N/m].
   Scalar taper11 = 0, taper12 = 0, taper22 = 0;
 };
@@ -63,13 +64,16 @@ struct ElementProperties {
 /// Strains of one element in coordinates that a rigid translation does not change.
 template <typename S>
 struct Deformation {
-  S stretch;  ///< u2 - u1 [m]
+  S stretch;  ///< u2 - u1, less that of the natural shape [m]
   S rise;     ///< w2 - w1 [m]
   S a;        ///< l θ1 + rise: minus the slope against the chord at node 1, times l [m]
   S b;        ///< l θ2 + rise: the same at node 2 [m]
 
   Deformation(const ElementProperties<S>& p, const Vector6<S>& d) noexcept
-      : stretch(d[3] - d[0]), rise(d[4] - d[1]), a(p.length * d[2] + rise), b(p.length * d[5] + rise) {}
+      : stretch(d[3] - d[0] - p.natural_stretch),
+        rise(d[4] - d[1]),
+        a(p.length * d[2] + rise),
+        b(p.length * d[5] + rise) {}
 
   /// Seen along the chord, which does not rise.
   Deformation(S stretch_, S a_, S b_) noexcept : stretch(stretch_), rise(0), a(a_), b(b_) {}
@@ -90,6 +94,13 @@ struct CoreResponse {
 };
 
 namespace detail {
+
+/// l² times the mean of w'² in the natural shape, (2 a0² - a0 b0 + 2 b0²)/15 [m²].
+template <typename S>
+[[gnu::always_inline]] inline S natural_mean_square(const ElementProperties<S>& p) noexcept {
+  const S &a = p.natural_a, &b = p.natural_b;
+  return (2 * (a * a + b * b) - a * b) * S(1. / 15);
+}
 
 /// Residual from its core: ∂V/∂(stretch, rise, lθ1, lθ2) [N].
 template <typename S>

@@ -2,6 +2,7 @@
 //
 //   ε(x) = (u2 - u1)/l + ½ w'(x)²                      thesis eq. 3.13
 //
+// less the ε of the natural shape, which is free of force.
 // u' is constant over the element and w'² is not. FullIntegration counts that difference as strain energy and locks.
 // ReducedIntegration evaluates the middle alone. AssumedStrain takes the mean of ε over the element, which is the
 // constant membrane force of equilibrium. A policy returns energy, first and second derivatives in the coordinates
@@ -44,7 +45,8 @@ template <typename S>
   // l w' = rise + a g1 + b g2: the Hermite cubic about its chord.  f, g1, g2: its derivatives by rise, lθ1, lθ2.
   const S g1 = (t - 1) * (1 - 3 * t), g2 = t * (2 - 3 * t), f = 1 + g1 + g2;
   const S slope = (e.rise + e.a * g1 + e.b * g2) * p.inverse_length;
-  const S strain = e.stretch * p.inverse_length + slope * slope / 2;
+  const S natural = (p.natural_a * g1 + p.natural_b * g2) * p.inverse_length;
+  const S strain = e.stretch * p.inverse_length + (slope * slope - natural * natural) / 2;
   const S normal = weight * p.axial_stiffness * strain, c = normal * slope;
   const S ks = weight * p.axial_per_length, kg = ks * slope, k = ks * strain + kg * slope;
   const S kf = k * f, k1 = k * g1;
@@ -90,7 +92,7 @@ struct AssumedStrain {
     const S i = p.inverse_length;
     // g = ½ ∂(l² mean w'²)/∂(rise, lθ1, lθ2)
     const S g1 = (4 * e.a - e.b) * S(1. / 30), g2 = (4 * e.b - e.a) * S(1. / 30), gr = e.rise + g1 + g2;
-    const S mean_square = e.rise * e.rise + e.a * g1 + e.b * g2;
+    const S mean_square = e.rise * e.rise + e.a * g1 + e.b * g2 - detail::natural_mean_square(p);
     const S strain = (e.stretch + mean_square * i / 2) * i;
     const S normal = p.axial_stiffness * strain, n = normal * i;
     const S ks = p.axial_per_length, kg = ks * i, kgg = kg * i;

@@ -1,9 +1,9 @@
 // The membrane policy that makes a straight element exact: what its tension does to its stretch and to its bending.
 //
-//   V(d, N) = N e - N² l/2EA + EI/4l³ ((B - 6)(a + b)² + (A - 2)(a - b)²),     e = u2 - u1 + rise²/2l,     q = N l²/EI
+//   V(d, N) = N e - N² l/2EA + EI/4l³ ((B - 6)(a + b)² + (A - 2)(a - b)²),     e = u2 - u1 + rise²/2l - e0,     q = N l²/EI
 //
 // stationary in N, the element's own unknown, which is condensed.  A(q) and B(q) are those of tension_stiffness.hpp; 2 and 6 are the
-// element's bending without tension, which VonKarman adds.  Without a load on it, or as a part of a polygon of constant tension, the
+// element's bending without tension, which VonKarman adds; e0 is the e of the natural shape without tension.  Without a load on it, or as a part of a polygon of constant tension, the
 // element solves EI w'''' = N w'' exactly.  AssumedStrain is its first order, A = 2 + q/6 and B = 6 + q/10.
 //
 //   ∂V/∂N = 0:    N l/EA = e + (B'(a + b)² + A'(a - b)²)/4l
@@ -78,7 +78,8 @@ struct StabilityFunctions {
   [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
                                                         const Deformation<S>& d) noexcept {
     const S i = p.inverse_length, half = p.bending_per_length3 / 2;
-    const S across = d.a + d.b, about = d.a - d.b, e = d.stretch + d.rise * d.rise * i / 2;
+    const S across = d.a + d.b, about = d.a - d.b,
+            e = d.stretch + (d.rise * d.rise - detail::natural_mean_square(p)) * i / 2;
     const detail::ElementTension<S> t(p, e, S(across * across), S(about * about));
     const S unit = p.bending_per_length3 * p.length, normal = t.q * unit, n = normal * i;
     const S bx = half * t.k.b * across, ax = half * t.k.a * about, m1 = bx + ax, m2 = bx - ax;

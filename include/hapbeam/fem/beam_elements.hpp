@@ -177,8 +177,11 @@ class BeamElements {
     p.axial_stiffness = property(&P::axial_stiffness);
     p.axial_per_length = property(&P::axial_per_length);
     p.bending_per_length3 = property(&P::bending_per_length3);
-    p.natural_a = property(&P::natural_a);
-    p.natural_b = property(&P::natural_b);
+    if (!natural_.straight()) {
+      p.natural_a = property(&P::natural_a);
+      p.natural_b = property(&P::natural_b);
+      p.natural_stretch = property(&P::natural_stretch);
+    }
     const Vector6<Wide> d(moved(0, &Node::u), moved(0, &Node::w), moved(0, &Node::theta), moved(1, &Node::u),
                           moved(1, &Node::w), moved(1, &Node::theta));
     return use(p, d);

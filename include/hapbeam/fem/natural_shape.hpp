@@ -1,14 +1,16 @@
 // The shape that a beam has by nature: a chain of arcs, ready for a mesh whose nodes move.
 //
-// An element bends against the linear function that is nearest to the natural curvature over its length.  For that it
-// needs the integrals of the curvature and of its moment, which are exact for arcs of any length; so an arc shorter
-// than an element, a corner, does what it should.
+// An element is free of force where its ends stand to each other as those of its piece of the chain do: chord, and end
+// rotations against the chord.  The chain is integrated exactly, so an arc shorter than an element, a corner, does what
+// it should.
 // Allocates at construction; all else is noexcept and allocation-free.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include <hapbeam/angle.hpp>
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/element/element.hpp>
@@ -25,38 +27,62 @@ class NaturalShape {
 
   bool straight() const noexcept { return arcs_.empty(); }
 
-  /// Gives the element from s to s + p.length its natural rotations against the chord.
-  /// With κ(x) = I0/l + 12 I1 x/l³ about the middle these are -I0/2 + I1/l and I0/2 + I1/l.
+  /// Gives the element from s to s + p.length its natural chord and rotations against it.  To first order in the angle
+  /// these are those of the linear function nearest to the natural curvature, which the cubic bends against.
   void apply(Scalar s, ElementProperties<Scalar>& p) const noexcept {
-    const Scalar middle = s + p.length / 2;
-    Scalar turn = 0, moment = 0;  // ∫κ ds [rad], ∫κ (s - middle) ds [m rad]
-    for_each_piece(s, s + p.length, [&](Scalar from, Scalar to, Scalar curvature) {
-      turn += curvature * (to - from);
-      moment += curvature * (to - from) * ((from + to) / 2 - middle);
-    });
-    p.natural_a = moment - turn * p.length / 2;
-    p.natural_b = moment + turn * p.length / 2;
+    using std::sqrt;
+    const Scalar l = p.length, end = s + l;
+    const auto arc =
+        std::find_if(arcs_.begin(), arcs_.end(), [s](const Piece& piece) { return piece.end > s; });
+    if (arc == arcs_.end() || end <= arc->end) {
+      const Scalar half = arc == arcs_.end() ? Scalar(0) : arc->curvature * l / 2;
+      p.natural_a = -l * half;
+      p.natural_b = l * half;
+      p.natural_stretch = l * chord_excess(half);
+      return;
+    }
+    const Displacement<Scalar> to = between(s, end);
+    const Scalar x = l + to.u, chord = sqrt(x * x + to.w * to.w),
+                 angle = detail::angle_near(to.w, x, chord, -to.theta / 2);
+    p.natural_a = l * angle;
+    p.natural_b = l * (to.theta + angle);
+    p.natural_stretch = (to.u * (l + x) + to.w * to.w) / (chord + l);
   }
 
   /// The point at s of the natural shape that leaves its start with θ = 0.
-  Displacement<Scalar> at(Scalar s) const noexcept {
-    using std::cos;
-    using std::sin;
-    Displacement<Scalar> point{0, 0, 0};
-    for_each_piece(0, s, [&](Scalar from, Scalar to, Scalar curvature) {
-      const Scalar length = to - from, half = curvature * length / 2;
-      const Scalar chord = half == 0 ? length : length * sin(half) / half, direction = point.theta + half;
-      point.u += chord * cos(direction) - length;
-      point.w -= chord * sin(direction);
-      point.theta += 2 * half;
-    });
-    return point;
-  }
+  Displacement<Scalar> at(Scalar s) const noexcept { return between(0, s); }
 
  private:
   struct Piece {
     Scalar end, curvature;
   };
+
+  /// Chord of an arc over its length, less 1:  sin x/x - 1,  x half of its angle.
+  static Scalar chord_excess(Scalar x) noexcept {
+    using std::abs;
+    using std::sin;
+    if (abs(x) > 1) return sin(x) / x - 1;
+    const Scalar q = x * x;
+    Scalar sum = 1;
+    for (int k = 8; k >= 1; --k) sum = 1 - sum * q / Scalar((2 * k + 2) * (2 * k + 3));
+    return -sum * q / 6;
+  }
+
+  /// Displacement of the end of a piece against its start, which it leaves with θ = 0.
+  Displacement<Scalar> between(Scalar start, Scalar end) const noexcept {
+    using std::cos;
+    using std::sin;
+    Displacement<Scalar> point{0, 0, 0};
+    for_each_piece(start, end, [&](Scalar from, Scalar to, Scalar curvature) {
+      const Scalar length = to - from, half = curvature * length / 2, direction = point.theta + half;
+      const Scalar excess = chord_excess(half), quarter = sin(direction / 2);
+      // (1 + excess) cos(direction) - 1, without the cancellation
+      point.u += length * (excess * cos(direction) - 2 * quarter * quarter);
+      point.w -= length * (1 + excess) * sin(direction);
+      point.theta += 2 * half;
+    });
+    return point;
+  }
 
   template <class Visit>
   void for_each_piece(Scalar from, Scalar to, Visit&& visit) const noexcept {
