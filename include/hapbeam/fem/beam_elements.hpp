@@ -7,6 +7,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <type_traits>
 
 #include <hapbeam/beam.hpp>
@@ -64,6 +66,8 @@ class BeamElements {
   void remesh(const Mesh& mesh, Nodes& scratch) noexcept {
     for (int i = 0; i < nodes_.size(); ++i) scratch[i] = nodes_[i];
     transfer(view(scratch), mesh, nodes_.data());
+    if (!natural_.straight())
+      for (Node& node : nodes_) as_natural(scratch, node);
     take(mesh);
   }
   /// Sets the whole state.  @param nodes those of the given mesh
@@ -149,6 +153,27 @@ class BeamElements {
   }
 
  private:
+  /// Moves a node within an element of other nodes as its natural shape would move from what an element makes of that, a corner of it or
+  /// an arc of more than half a radian.
+  void as_natural(const Nodes& others, Node& node) const noexcept {
+    using std::cos;
+    using std::sin;
+    const int e = view(others).segment_at(node.s);
+    const Scalar a = others[e].s, b = others[e + 1].s;
+    const bool bent = std::abs(properties_[e].natural_b - properties_[e].natural_a) > (b - a) / 2;
+    if (!(a < node.s && node.s < b) || !(bent || natural_.changes_within(a, b))) return;
+    const auto lie = [this](Scalar s) {
+      const Displacement<Scalar> at = natural_.at(s);
+      return Node{s, at.u, at.w, at.theta};
+    };
+    const std::array<Node, 2> ends{lie(a), lie(b)};
+    const Node there = lie(node.s);
+    const Displacement<Scalar> drawn = Centreline<Scalar>(ends.data(), 2, any_rotation<Element>).at(node.s);
+    const Scalar u = there.u - drawn.u, w = there.w - drawn.w, turn = node.theta - drawn.theta;
+    node.u += cos(turn) * u + sin(turn) * w;
+    node.w += cos(turn) * w - sin(turn) * u;
+    node.theta += there.theta - drawn.theta;
+  }
   Vector6<Scalar> displacements(int e) const noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
     return {a.u, a.w, a.theta, b.u, b.w, b.theta};

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/fem/beam_shape.hpp>
@@ -85,6 +86,15 @@ class BeamSystem
   /// Strain energy before the last increment, at least that of a bend by 10⁻⁴ rad, of which no snap is told [J].
   Scalar strain() const noexcept { return (size_ * size_ + Scalar(1e-8) * unit_ * unit_) / 2; }
   Scalar unit() const noexcept { return unit_; }
+  /// Of a beam without stress, of which nothing is left but what the round-off of displacements stretches its shortest element by [√J].
+  Scalar round_off() const noexcept {
+    const int n = elements();
+    const auto moved = [this](int i) { return std::abs(node(i).u) + std::abs(node(i).w); };
+    const Scalar shortest = (std::min)(beam_.mesh().position(1), length_ - beam_.mesh().position(n - 1)),
+                 off = std::numeric_limits<Scalar>::epsilon() * (moved(0) + moved(n / 2) + moved(n)),
+                 energy = beam_.properties()[0].axial_stiffness * static_cast<Scalar>(n) * off * off;
+    return size_ * size_ * shortest <= energy ? std::sqrt(energy / shortest) : Scalar(0);
+  }
 
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);

@@ -27,14 +27,19 @@ class NaturalShape {
 
   bool straight() const noexcept { return arcs_.empty(); }
 
+  /// Whether one arc ends and another, or the straight rest, begins between two places, in order.
+  bool changes_within(Scalar a, Scalar b) const noexcept {
+    const auto arc = arc_at(a);
+    return arc != arcs_.end() && arc->end < b;
+  }
+
   /// Gives the element from s to s + p.length its natural chord and rotations against it.  To first order in the angle
   /// these are those of the linear function nearest to the natural curvature, which the cubic bends against.
   void apply(Scalar s, ElementProperties<Scalar>& p) const noexcept {
     using std::sqrt;
     const Scalar l = p.length, end = s + l;
-    const auto arc =
-        std::find_if(arcs_.begin(), arcs_.end(), [s](const Piece& piece) { return piece.end > s; });
-    if (arc == arcs_.end() || end <= arc->end) {
+    if (!changes_within(s, end)) {
+      const auto arc = arc_at(s);
       const Scalar half = arc == arcs_.end() ? Scalar(0) : arc->curvature * l / 2;
       p.natural_a = -l * half;
       p.natural_b = l * half;
@@ -56,6 +61,11 @@ class NaturalShape {
   struct Piece {
     Scalar end, curvature;
   };
+
+  /// The arc that goes on from s.
+  auto arc_at(Scalar s) const noexcept {
+    return std::find_if(arcs_.begin(), arcs_.end(), [s](const Piece& arc) { return arc.end > s; });
+  }
 
   /// Chord of an arc over its length, less 1:  sin x/x - 1,  x half of its angle.
   static Scalar chord_excess(Scalar x) noexcept {

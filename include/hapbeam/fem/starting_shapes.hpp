@@ -21,14 +21,19 @@ void lay(const NaturalShape<Scalar>& shape, const EndSupport<Scalar>& left, cons
          const Mesh& mesh, Nodes& nodes) noexcept {
   using std::atan2;
   using std::cos;
+  using std::nearbyint;
   using std::sin;
+  constexpr Scalar whole_turn = Scalar(6.283185307179586476925);
   const Scalar length = mesh.position(mesh.elements());
   const Displacement<Scalar> end = shape.at(length);
   const Scalar *from = left.goal, *to = right.goal;
   Scalar turn = from[2];
-  if (!left.held[2])
+  if (!left.held[2]) {
+    const Scalar by_right = to[2] - end.theta;
     turn = right.held[1] ? atan2(end.w, length + end.u) - atan2(to[1] - from[1], length + to[0] - from[0])
-                         : to[2] - end.theta;
+                         : by_right;
+    if (right.held[2]) turn -= whole_turn * nearbyint((turn - by_right) / whole_turn);
+  }
   const Scalar c = cos(turn), s = sin(turn);
   for (int i = 0; i < nodes.size(); ++i) {
     const Scalar position = mesh.position(i);

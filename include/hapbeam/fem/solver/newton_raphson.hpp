@@ -30,7 +30,7 @@
 //   s.size()                     √(2V) of the state before the last step [√J]
 //   s.unit()                     √(EI/L), the size of a rotation by 1 rad [√J]
 //   s.elements()                 n
-//   s.round_off()                |Δ| of an increment that is round-off whatever the state, which ends a step; may be left out
+//   s.round_off()                |Δ| of an increment that is round-off in this state, which ends a step; may be left out
 //
 // Real-time: noexcept and no allocation where the system's are; at most max_solves linear solves.
 #pragma once
@@ -116,7 +116,6 @@ struct NewtonRaphson {
     const S n = static_cast<S>(system.elements());
     const S floor = S(absolute_tolerance) * system.unit();
     const S noise = n * std::sqrt(std::numeric_limits<S>::epsilon()) / 20;
-    const S least = detail::round_off(system, 0);
     const S lost = 10 * std::sqrt(std::numeric_limits<S>::epsilon());
     S before = 0, measured_before = 0;
     bool shrinks = false;
@@ -134,7 +133,8 @@ struct NewtonRaphson {
           state > 0 ? (std::min)(curvature * iteration.size, S(1)) * iteration.size : iteration.size;
       report.error = state > 0 ? next / state : S(0);
       if (!std::isfinite(state)) return Status::non_finite;
-      if (next <= (std::max)(tolerance, floor) || iteration.size <= (std::max)(noise * state, least))
+      if (next <= (std::max)(tolerance, floor) || iteration.size <= noise * state ||
+          iteration.size <= detail::round_off(system, 0))
         return Status::ok;
       if (k == 8 && iteration.size > S(0.9) * state) return Status::iteration_limit;
       shrinks = iteration.size <= before / 2;
