@@ -6,7 +6,6 @@
 // Allocates at construction; all else is noexcept and allocation-free.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -29,24 +28,24 @@ class NaturalShape {
 
   /// Whether one arc ends and another, or the straight rest, begins between two places, in order.
   bool changes_within(Scalar a, Scalar b) const noexcept {
-    const auto arc = arc_at(a);
-    return arc != arcs_.end() && arc->end < b;
+    const Piece* const arc = arc_at(a);
+    return arc && arc->end < b;
   }
 
   /// Gives the element from s to s + p.length its natural chord and rotations against it.  To first order in the angle
   /// these are those of the linear function nearest to the natural curvature, which the cubic bends against.
   void apply(Scalar s, ElementProperties<Scalar>& p) const noexcept {
     using std::sqrt;
-    const Scalar l = p.length, end = s + l;
-    if (!changes_within(s, end)) {
-      const auto arc = arc_at(s);
-      const Scalar half = arc == arcs_.end() ? Scalar(0) : arc->curvature * l / 2;
+    const Scalar l = p.length;
+    const Piece* const arc = arc_at(s);
+    if (!arc || l <= arc->end - s) {
+      const Scalar half = arc ? arc->curvature * l / 2 : Scalar(0);
       p.natural_a = -l * half;
       p.natural_b = l * half;
       p.natural_stretch = l * chord_excess(half);
       return;
     }
-    const Displacement<Scalar> to = between(s, end);
+    const Displacement<Scalar> to = between(s, s + l);
     const Scalar x = l + to.u, chord = sqrt(x * x + to.w * to.w),
                  angle = detail::angle_near(to.w, x, chord, -to.theta / 2);
     p.natural_a = l * angle;
@@ -62,9 +61,11 @@ class NaturalShape {
     Scalar end, curvature;
   };
 
-  /// The arc that goes on from s.
-  auto arc_at(Scalar s) const noexcept {
-    return std::find_if(arcs_.begin(), arcs_.end(), [s](const Piece& arc) { return arc.end > s; });
+  /// The arc that goes on from s, null: the straight rest.
+  const Piece* arc_at(Scalar s) const noexcept {
+    for (const Piece& arc : arcs_)
+      if (arc.end > s) return &arc;
+    return nullptr;
   }
 
   /// Chord of an arc over its length, less 1:  sin x/x - 1,  x half of its angle.
@@ -72,10 +73,12 @@ class NaturalShape {
     using std::abs;
     using std::sin;
     if (abs(x) > 1) return sin(x) / x - 1;
-    const Scalar q = x * x;
-    Scalar sum = 1;
-    for (int k = 8; k >= 1; --k) sum = 1 - sum * q / Scalar((2 * k + 2) * (2 * k + 3));
-    return -sum * q / 6;
+    // Taylor's series
+    const Scalar q = x * x, q2 = q * q, q4 = q2 * q2;
+    return q *
+           ((Scalar(-1. / 6) + q * Scalar(1. / 120)) + q2 * (Scalar(-1. / 5040) + q * Scalar(1. / 362880)) +
+            q4 * ((Scalar(-1. / 39916800) + q * Scalar(1. / 6227020800.)) +
+                  q2 * (Scalar(-1. / 1307674368000.) + q * Scalar(1. / 355687428096000.))));
   }
 
   /// Displacement of the end of a piece against its start, which it leaves with θ = 0.
