@@ -7,6 +7,7 @@
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
+using namespace hapbeam::testing::resets;
 
 // Long histories are in tests/stability.
 TEST_CASE("after a reset of both hands the scene is a new one, to the last bit", "[two_hands][reset]") {

@@ -2,7 +2,7 @@
 #include "support/as_new.hpp"
 #include "support/catch.hpp"
 
-using namespace hapbeam::testing;
+using namespace hapbeam::testing::resets;
 
 TEST_CASE("after any history a reset of both hands makes the scene a new one, to the last bit",
           "[two_hands][reset]") {

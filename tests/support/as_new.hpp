@@ -13,7 +13,7 @@
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/fem/rod_system.hpp>
 
-namespace hapbeam::testing {
+namespace hapbeam::testing::resets {
 
 inline constexpr double radius = 0.005, surface = radius + ruler_thickness / 2;
 
@@ -152,4 +152,4 @@ inline void check_two_hands_as_new(int tenths) {
   SECTION("a rough wire") { check_as_new<Wire>({}, 0.3, 2 * tenths); }
 }
 
-}  // namespace hapbeam::testing
+}  // namespace hapbeam::testing::resets
