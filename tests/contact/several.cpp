@@ -108,6 +108,28 @@ TEST_CASE("two contacts take the forces of the reference, with the fourth power 
   }
 }
 
+TEST_CASE("supports that are led along are no snap, and what they give is in the beam", "[several]") {
+  // The ruler, held at two places and bent into an S by both: what the hand that leads them does is stored.
+  for (const int ticks : {60, 600}) {
+    Model<2> model(steel_ruler(), 16);
+    Obstacle<double> both[2];
+    double work = 0;
+    for (int k = 1; k <= ticks; ++k) {
+      const double before[2] = {both[0].pushed.force, both[1].pushed.force};
+      for (int i = 0; i < 2; ++i) {
+        both[i].kind = ObstacleKind::support;
+        both[i].place = {i == 0 ? 0.15 : 0.28, (i == 0 ? -0.02 : 0.01) * k / ticks, Vector(0, 1)};
+        both[i].valid = true;
+      }
+      REQUIRE(model.push(both, 2) == Status::ok);
+      for (int i = 0; i < 2; ++i)
+        work += (before[i] + both[i].pushed.force) / 2 * (i == 0 ? -0.02 : 0.01) / ticks;
+    }
+    INFO("work " << work << " J, stored " << model.strain_energy());
+    CHECK(std::abs(work / model.strain_energy() - 1) <= 0.3 / (ticks * ticks) + 1e-6);
+  }
+}
+
 // q presses the bar onto a stop in its middle, where it would sag 5qL⁴/384EI; a hand at a lifts it there by Fa(3L² - 4a²)/48EI.
 TEST_CASE("a bar that is lifted leaves its middle support at the load that beam theory says", "[several]") {
   const double q = -0.2, L = 1, a = 0.25, EI = 200e9 * 0.02 * 1e-6 / 12;

@@ -259,6 +259,9 @@ class BeamSystem
     return beam_.internal_forces(e, s, load_, thickness);
   }
 
+ protected:
+  using Contacts::load_;
+
  private:
   friend Contacts;  // sets its shape
   using Contacts::contact_;
@@ -266,7 +269,6 @@ class BeamSystem
   using Contacts::force_;
   using Contacts::friction_;
   using Contacts::linear_reaction_;
-  using Contacts::load_;
   using Contacts::others_;
   using Contacts::start_load_;
 

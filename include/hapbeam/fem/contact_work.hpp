@@ -2,7 +2,7 @@
 //
 //   W = Σ ½ (F before + F) · Δx        F: on the beam, friction included; x: centre of a circle, or of the axis of a capsule what is beside the contact
 //
-// A body that grows by Δr gives -½ (f before + f) Δr, f < 0 its force along the normal.  W is the change of the beam's energy and of what friction has
+// A body that grows by Δr gives -½ (f before + f) Δr, f < 0 its force along the normal, and a place that is led along its normal by Δd gives ½ (f before + f) Δd.  W is the change of the beam's energy and of what friction has
 // taken, to third order of the step.
 // Real-time: noexcept, no allocation, O(1) for each body.
 #pragma once
@@ -27,6 +27,7 @@ class ContactWork {
   /// To be called where a push was answered, before what follows.
   void begin() noexcept {
     work_ = size_ = change_ = way_ = 0;
+    strange_ = false;
     same_ = known_;
     known_ = true;
     touched_ = touching_;
@@ -64,15 +65,24 @@ class ContactWork {
     bodies_[of(i)].force.setZero(), bodies_[of(i)].push = 0;
     placed_[of(i)] = false;
   }
-  /// The same of a place of the beam that is held, and does not move.
-  void holds(int i, const Push<Scalar, D>& place) noexcept {
-    Push<Scalar, D>& before = places_[of(i)];
-    same_ = same_ && before.s == place.s && before.d == place.d && before.normal == place.normal;
-    before = place;
+  /// The same of a place of the beam that is held.   @param force  along its normal, on the beam [N]
+  void holds(int i, const Push<Scalar, D>& place, Scalar force) noexcept {
+    Held& last = held_[of(i)];
+    const bool stays = last.place.s == place.s && last.place.normal == place.normal;
+    same_ = same_ && stays && last.place.d == place.d;
+    if (touched_[of(i)] && stays) {
+      const Scalar by = place.d - last.place.d;
+      add(last.force * by, force * by);
+      way_ = (std::max)(way_, by * by);
+    }
+    strange_ = strange_ || (touched_[of(i)] && !stays);
+    last = {place, force};
     bodies_[of(i)].force.setZero(), bodies_[of(i)].push = 0;
     touching_[of(i)] = true;
   }
 
+  /// Whether another place is held than before: what that gives is not known.
+  bool strange() const noexcept { return strange_; }
   /// Whether the same touches that touched before, and its work is known.
   bool same() const noexcept { return same_ && touching_ == touched_; }
   /// Whether anything touches.
@@ -100,6 +110,10 @@ class ContactWork {
     Vector force = Vector::Zero(), point = Vector::Zero();
     Scalar push = 0;  // along the normal [N]
   };
+  struct Held {
+    Push<Scalar, D> place{0, 0, Vector::Zero()};
+    Scalar force = 0;  // along its normal [N]
+  };
   static std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
   void add(Scalar before, Scalar now) noexcept {
     work_ += (before + now) / 2;
@@ -113,10 +127,10 @@ class ContactWork {
   }
 
   std::array<Body, Most> bodies_{};
-  std::array<Push<Scalar, D>, (Most > 1 ? Most : 0)> places_{};
+  std::array<Held, (Most > 1 ? Most : 0)> held_{};
   std::array<bool, Most> touching_{}, touched_{}, placed_{};  // placed: where it was is known
   Scalar work_ = 0, size_ = 0, change_ = 0, way_ = 0;         // [J], [m²]
-  bool known_ = false, same_ = false;
+  bool known_ = false, same_ = false, strange_ = false;
 };
 
 }  // namespace hapbeam::detail

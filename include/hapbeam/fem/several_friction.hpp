@@ -120,7 +120,7 @@ class SeveralFriction {
       }
       if (all_[i].kind == ObstacleKind::round)
         work.touches(i, all_[i].round, all_[i].pushed, state ? state->force : Vector(Vector::Zero()));
-      else work.holds(i, all_[i].place);
+      else work.holds(i, all_[i].place, all_[i].pushed.force);
     }
     if (any_ && on_its_way) {
       const Scalar factor = balance.factor(

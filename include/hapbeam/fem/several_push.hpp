@@ -100,7 +100,7 @@ class SeveralPush : private ActiveSet<Element, System> {
       return Answer{answer(way, all, count, range)};
     };
     const auto judge = [&](const Answer&) {
-      if (!began_) return Branch::same;
+      if (!began_ || work_.strange()) return Branch::same;
       return continuation_.judge(
           {potential_, work_.done() - taken_, loose(work_.size(), work_.change()), system.strain(),
            system.length(), foresight_.same_mesh(system.mesh())},
