@@ -40,6 +40,22 @@ constexpr double millijoule = 1e-3;
 
 }  // namespace
 
+TEST_CASE("what leads a held place along gives the mean of its force times its way", "[friction]") {
+  Balance balance;
+  const auto lead = [&](double s, double d, double force) {
+    balance.work.begin();
+    balance.work.holds(1, {s, d, Vector(0, 1)}, force);
+  };
+  lead(0.3, 0, 2);
+  lead(0.3, 0.01, 4);
+  CHECK(balance.work.done() == Approx(0.03));
+  CHECK(balance.work.way() == Approx(0.01));
+  CHECK_FALSE(balance.work.strange());
+  lead(0.4, 0.01, 4);  // another place: what that gives is not known
+  CHECK(balance.work.done() == 0);
+  CHECK(balance.work.strange());
+}
+
 TEST_CASE("what the hands gave is stored or was dissipated", "[friction]") {
   const auto tick = [](double stored, double taken, bool slides = true) {
     Balance balance;

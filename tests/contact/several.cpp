@@ -109,7 +109,8 @@ TEST_CASE("two contacts take the forces of the reference, with the fourth power 
 }
 
 TEST_CASE("supports that are led along are no snap, and what they give is in the beam", "[several]") {
-  // The ruler, held at two places and bent into an S by both: what the hand that leads them does is stored.
+  // The ruler, held at two places and bent into an S by both, as in the reference: what leads them is stored.
+  const double depth[] = {0.03, -0.06};
   for (const int ticks : {60, 600}) {
     Model<2> model(steel_ruler(), 16);
     Obstacle<double> both[2];
@@ -118,15 +119,14 @@ TEST_CASE("supports that are led along are no snap, and what they give is in the
       const double before[2] = {both[0].pushed.force, both[1].pushed.force};
       for (int i = 0; i < 2; ++i) {
         both[i].kind = ObstacleKind::support;
-        both[i].place = {i == 0 ? 0.15 : 0.28, (i == 0 ? -0.02 : 0.01) * k / ticks, Vector(0, 1)};
+        both[i].place = {i == 0 ? 0.15 : 0.28, depth[i] * k / ticks, Vector(0, 1)};
         both[i].valid = true;
       }
       REQUIRE(model.push(both, 2) == Status::ok);
-      for (int i = 0; i < 2; ++i)
-        work += (before[i] + both[i].pushed.force) / 2 * (i == 0 ? -0.02 : 0.01) / ticks;
+      for (int i = 0; i < 2; ++i) work += (before[i] + both[i].pushed.force) / 2 * depth[i] / ticks;
     }
     INFO("work " << work << " J, stored " << model.strain_energy());
-    CHECK(std::abs(work / model.strain_energy() - 1) <= 0.3 / (ticks * ticks) + 1e-6);
+    CHECK(std::abs(work / model.strain_energy() - 1) <= 0.4 / (ticks * ticks) + 1e-6);
   }
 }
 

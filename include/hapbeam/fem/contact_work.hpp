@@ -2,8 +2,8 @@
 //
 //   W = Σ ½ (F before + F) · Δx        F: on the beam, friction included; x: centre of a circle, or of the axis of a capsule what is beside the contact
 //
-// A body that grows by Δr gives -½ (f before + f) Δr, f < 0 its force along the normal, and a place that is led along its normal by Δd gives ½ (f before + f) Δd.  W is the change of the beam's energy and of what friction has
-// taken, to third order of the step.
+// A body that grows by Δr gives -½ (f before + f) Δr, f < 0 its force along the normal.  A place that is led along its normal by Δd gives
+// ½ (f before + f) Δd.  W is the change of the beam's energy and of what friction has taken, to third order of the step.
 // Real-time: noexcept, no allocation, O(1) for each body.
 #pragma once
 
