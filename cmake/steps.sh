@@ -6,10 +6,17 @@ trap 'rm -f "$log"' EXIT
 
 # step WHAT COMMAND...: one line with the seconds taken; the output only if the command fails.
 step() {
-  local what=$1 begin=$SECONDS
+  local what=$1 begin=$SECONDS watcher status
   shift
-  printf '%s ... ' "$what"
-  if "$@" >"$log" 2>&1 </dev/null; then
+  : >"$log"
+  begin_line "$what"
+  watch "$what" &
+  watcher=$!
+  "$@" >"$log" 2>&1 </dev/null
+  status=$?
+  { kill "$watcher"; wait "$watcher"; } 2>/dev/null
+  [[ ! -t 1 ]] || printf '\r\e[K%s ... ' "$what"
+  if [[ $status == 0 ]]; then
     printf '%d s\n' $((SECONDS - begin))
   else
     printf 'failed after %d s\n' $((SECONDS - begin))
@@ -18,6 +25,31 @@ step() {
     if [[ $(wc -l <"$log") -le 300 ]]; then cat "$log"; else head -n 200 "$log" && echo '[...]' && tail -n 100 "$log"; fi
     return 1
   fi
+}
+
+# begin_line WHAT: a terminal's line begins anew, and is short enough to stay one.
+begin_line() { if [[ -t 1 ]]; then printf '\r\e[K%.50s ... ' "$1"; else printf '%s ... ' "$1"; fi; }
+
+# watch WHAT: says how far the command of a step is, by the count of Ninja or make: on a terminal each second, elsewhere by a line each half
+# minute.
+watch() {
+  local begin=$SECONDS every=30 next passed count
+  [[ ! -t 1 ]] || every=1
+  next=$every
+  # Ctrl-C does not reach it.  Its last sleep outlasts it, and must not hold a pipe open.
+  while sleep 1 >/dev/null 2>&1 && kill -0 $$; do
+    passed=$((SECONDS - begin))
+    [[ $passed -ge $next ]] || continue
+    next=$((passed + every))
+    count=$(grep -oE '^\[ *[0-9]+(/[0-9]+|%)\]' "$log" | tail -n 1)
+    if [[ -t 1 ]]; then
+      begin_line "$1"
+      printf '%s%d s' "${count:+$count }" "$passed"
+    else
+      printf '%safter %d s\n' "${count:+$count }" "$passed"
+      begin_line "$1"
+    fi
+  done
 }
 
 # need PACKAGE...: installs those that are missing.  Without apt, configuring says what is not there.
