@@ -2,10 +2,9 @@
 //
 //   V(d, N) = N e - N² l/2EA + EI/4l³ ((B - 6)(a + b)² + (A - 2)(a - b)²),     e = u2 - u1 + rise²/2l - e0,     q = N l²/EI
 //
-// stationary in N, the element's own unknown, which is condensed.  A(q) and B(q) are those of tension_stiffness.hpp; 2 and 6 are the
-// element's bending without tension, which VonKarman adds; e0 is the e of the natural shape without tension.
-// Without a load on it, or as a part of a polygon of constant tension, the element solves EI w'''' = N w'' exactly.  AssumedStrain is
-// its first order, A = 2 + q/6 and B = 6 + q/10.
+// stationary in N, the element's own unknown, which is condensed.  A(q), B(q): tension_stiffness.hpp; 2 and 6: the bending without
+// tension, which VonKarman adds; e0: the e of the natural shape without tension.  Without a load on it, or as a part of a polygon of
+// constant tension, the element solves EI w'''' = N w'' exactly.  AssumedStrain is its first order, A = 2 + q/6 and B = 6 + q/10.
 //
 //   ∂V/∂N = 0:    N l/EA = e + (B'(a + b)² + A'(a - b)²)/4l
 //
