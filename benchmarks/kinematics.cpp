@@ -47,9 +47,7 @@ struct Answer {
 template <class Element>
 Answer press(const Beam& beam, int elements, double s, double d) {
   BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic> system(beam, elements);
-  const ContactMesh<double> mesh = ContactMesh<double>(elements, length).at(s);
-  system.remesh(mesh);
-  system.set_goal(mesh.node(), d);
+  system.set_goal(Push<double>{s, d, {0, 1}});
   NewtonRaphson patient;
   patient.max_solves = 1000;
   if (patient.solve(system).status != Status::ok) {
@@ -58,7 +56,7 @@ Answer press(const Beam& beam, int elements, double s, double d) {
   }
   double rotation = 0;
   for (const auto& node : system.centreline()) rotation = std::max(rotation, std::abs(node.theta));
-  return {system.reaction(), rotation};
+  return {system.linear_reaction(), rotation};
 }
 
 template <class Element>

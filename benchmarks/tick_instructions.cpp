@@ -25,7 +25,9 @@ using hapbeam::testing::instructions;
 namespace {
 
 /// The same element by another name, whose closed form the model does not take.
-struct NodeByNode : VonKarman<> {};
+struct NodeByNode : VonKarman<> {
+  using Abreast = NodeByNode;
+};
 
 constexpr double start = 1.0, pressed = 0.02;
 

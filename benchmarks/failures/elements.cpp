@@ -3,6 +3,7 @@
 
 #include "report.hpp"
 #include "support/error.hpp"
+#include "support/mesh_nodes.hpp"
 #include "support/rod.hpp"
 #include "support/solver.hpp"
 #include "support/thesis_beam.hpp"
@@ -23,7 +24,7 @@ double locking_error(double load, int elements) {
   beam.transverse(load);
   const FemModel<Element> model(beam, elements, patient_solver());
   const double exact = 5 * load * std::pow(thesis_length, 4) / (384 * thesis_EI);
-  return relative_error(model.shape()[elements].w, exact);
+  return relative_error(mesh_node(model, elements).w, exact);
 }
 
 void locking(Report& report) {
@@ -66,7 +67,7 @@ template <class Element>
 double tip(double alpha, int elements) {
   Beam beam(1, 1e8, 1, 0.01, Support::clamped, Support::free);
   beam.add({1, 0, alpha, 0});
-  return FemModel<Element>(beam, elements, patient_solver()).shape()[elements].w;
+  return mesh_node(FemModel<Element>(beam, elements, patient_solver()), elements).w;
 }
 
 void rotation(Report& report) {

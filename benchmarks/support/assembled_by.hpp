@@ -17,7 +17,7 @@ struct AssembledBy : Element {
 
 /// Of all displacements, as a beam with dead loads needs.
 template <class Element, template <typename> class Assembler>
-using Solved = FemModel<AssembledBy<typename hapbeam::detail::OnMesh<Element>::Type, Assembler>>;
+using Solved = FemModel<AssembledBy<Element, Assembler>>;
 
 }  // namespace benchmarks
 

@@ -6,18 +6,21 @@
 
 #include <Eigen/Cholesky>
 
+#include "whole_columns.hpp"
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::benchmarks {
 
 template <typename Scalar>
-class DenseLdlt {
+class DenseLdlt : public WholeColumns<DenseLdlt<Scalar>, Scalar> {
+  using Columns = WholeColumns<DenseLdlt<Scalar>, Scalar>;
+  friend Columns;
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
  public:
-  struct HeldRow {};
+  using Columns::add;
 
   explicit DenseLdlt(int elements) : K_(3 * (elements + 1), 3 * (elements + 1)), x_(K_.rows()) {}
 
@@ -40,37 +43,31 @@ class DenseLdlt {
     K_(k, k) = pivot;
   }
 
-  void hold(int node, int component, Scalar increment) noexcept {
-    const int k = 3 * node + component;
-    held_by_ = K_.col(k);
-    held_by_[k] = 0;
-    held_by_loads_ = K_(k, k) * increment - x_[k];
-    prescribe(node, component, increment);
-  }
-
-  Status solve() {
+  Status factor() {
     if (!K_.allFinite() || !x_.allFinite()) return Status::non_finite;
     const Vector assembled = K_.diagonal(), rhs = x_;
-    const Eigen::LDLT<Matrix> factor(K_);
-    x_ = factor.solve(rhs);
+    factor_.compute(K_);
+    x_ = solved(rhs);
     energy_ = rhs.dot(x_);
-    negative_pivots_ = static_cast<int>((factor.vectorD().array() < 0).count());
+    negative_pivots_ = static_cast<int>((factor_.vectorD().array() < 0).count());
     // Its order of elimination is not the beam's, so a pivot that should be zero holds the round-off of all rows.
     const Scalar epsilon = std::numeric_limits<Scalar>::epsilon() * static_cast<Scalar>(K_.rows());
-    const Vector unpermuted = factor.transpositionsP().transpose() * factor.vectorD();
+    const Vector unpermuted = factor_.transpositionsP().transpose() * factor_.vectorD();
     return (unpermuted.array().abs() > epsilon * assembled.array().abs()).all() ? Status::ok
                                                                                 : Status::singular;
   }
 
   Scalar energy() const noexcept { return energy_; }
-  Scalar reaction() const noexcept { return held_by_loads_ + held_by_.dot(x_); }
   int negative_pivots() const noexcept { return negative_pivots_; }
   Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
 
  private:
+  Vector solved(const Vector& b) const { return factor_.solve(b); }
+
   Matrix K_;
-  Vector x_, held_by_;
-  Scalar held_by_loads_ = 0, energy_ = 0;
+  Vector x_;
+  Eigen::LDLT<Matrix> factor_;
+  Scalar energy_ = 0;
   int negative_pivots_ = 0;
 };
 

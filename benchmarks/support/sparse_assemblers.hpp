@@ -1,18 +1,19 @@
 // What hapbeam's assembler is measured against: the same FemModel, the same Newton, mesh, elements and convergence
 // rule, over Eigen's general sparse solvers (assembled_by.hpp).
 //
-// Both have the members of BlockTridiagonal that BeamSystem calls for one contact, so that the linear algebra is the only difference.
+// Both have the members of BlockTridiagonal that BeamSystem calls, so that the linear algebra is the only difference.
 // Written as well as one can from outside: SimplicialLdlt analyses its pattern once, refills the values in place
 // without searching, and allocates nothing of its own in a solve.  SparseLuFromTriplets is what one writes first.
 #pragma once
 
 #include <algorithm>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 
+#include "whole_columns.hpp"
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/force_model.hpp>
 
@@ -21,12 +22,14 @@ namespace hapbeam::benchmarks {
 /// @tparam Ordering  Eigen::NaturalOrdering<int>: a chain fills in nothing, and with the upper triangle Eigen need not
 ///                   copy the matrix first; Eigen::AMDOrdering<int>: Eigen's default
 template <typename Scalar, class Ordering>
-class SimplicialLdlt {
+class SimplicialLdlt : public WholeColumns<SimplicialLdlt<Scalar, Ordering>, Scalar> {
+  using Columns = WholeColumns<SimplicialLdlt<Scalar, Ordering>, Scalar>;
+  friend Columns;
   using Matrix = Eigen::SparseMatrix<Scalar>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
  public:
-  struct HeldRow {};
+  using Columns::add;
 
   explicit SimplicialLdlt(int elements)
       : K_(3 * (elements + 1), 3 * (elements + 1)), rhs_(K_.rows()), x_(K_.rows()) {
@@ -37,7 +40,6 @@ class SimplicialLdlt {
         entries.emplace_back(row, column, 1);
     K_.setFromTriplets(entries.begin(), entries.end());
     solver_.analyzePattern(K_);
-    held_by_.reserve(8);
   }
 
   void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
@@ -65,30 +67,20 @@ class SimplicialLdlt {
     rhs_[3 * node + component] = 0;
   }
 
-  void hold(int node, int component, Scalar increment) noexcept {
-    held_by_loads_ = own(node, component)[component] * increment - rhs_[3 * node + component];
-    held_by_.clear();
-    visit_row(node, component, [&](Scalar& entry, int column) { held_by_.push_back({column, entry}); });
-    prescribe(node, component, increment);
-  }
-
-  Status solve() {
+  Status factor() {
     solver_.factorize(K_);
     if (solver_.info() != Eigen::Success) return Status::singular;
-    x_ = solver_.solve(rhs_);
+    x_ = solved(rhs_);
+    energy_ = rhs_.dot(x_);
     return x_.allFinite() ? Status::ok : Status::non_finite;
   }
 
-  Scalar energy() const noexcept { return rhs_.dot(x_); }
-  Scalar reaction() const noexcept {
-    Scalar sum = held_by_loads_;
-    for (const auto& [column, entry] : held_by_) sum += entry * x_[column];
-    return sum;
-  }
+  Scalar energy() const noexcept { return energy_; }
   int negative_pivots() const { return static_cast<int>((solver_.vectorD().array() < 0).count()); }
   Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
 
  private:
+  Vector solved(const Vector& b) const { return solver_.solve(b); }
   /// Entry (0, j) of a node's diagonal block; the entries above it are the coupling's.
   Scalar* own(int node, int j) noexcept {
     return K_.valuePtr() + K_.outerIndexPtr()[3 * node + j] + (node > 0 ? 3 : 0);
@@ -111,8 +103,7 @@ class SimplicialLdlt {
 
   Matrix K_;
   Vector rhs_, x_;
-  std::vector<std::pair<int, Scalar>> held_by_;
-  Scalar held_by_loads_ = 0;
+  Scalar energy_ = 0;
   Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Ordering> solver_;
 };
 
@@ -123,12 +114,14 @@ using SimplicialLdltAmd = SimplicialLdlt<Scalar, Eigen::AMDOrdering<int>>;
 
 /// A list of triplets, a matrix of it, a new factorisation: everything anew in each iteration.
 template <typename Scalar>
-class SparseLuFromTriplets {
+class SparseLuFromTriplets : public WholeColumns<SparseLuFromTriplets<Scalar>, Scalar> {
+  using Columns = WholeColumns<SparseLuFromTriplets<Scalar>, Scalar>;
+  friend Columns;
   using Matrix = Eigen::SparseMatrix<Scalar>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
  public:
-  struct HeldRow {};
+  using Columns::add;
 
   explicit SparseLuFromTriplets(int elements)
       : K_(3 * (elements + 1), 3 * (elements + 1)),
@@ -153,19 +146,7 @@ class SparseLuFromTriplets {
     given_[3 * node + component] = increment;
   }
 
-  void hold(int node, int component, Scalar increment) {
-    prescribe(node, component, increment);
-    held_ = 3 * node + component;
-  }
-
-  Status solve() {
-    held_by_.clear();
-    held_by_loads_ = -rhs_[held_];
-    for (const auto& entry : triplets_) {
-      if (entry.row() != held_) continue;
-      if (fixed_[entry.col()] != 0) held_by_loads_ += entry.value() * given_[entry.col()];
-      else held_by_.push_back(entry);
-    }
+  Status factor() {
     for (auto& entry : triplets_) {
       const bool row = fixed_[entry.row()] != 0, column = fixed_[entry.col()] != 0;
       if (column) rhs_[entry.row()] -= given_[entry.col()] * entry.value();
@@ -173,25 +154,23 @@ class SparseLuFromTriplets {
     }
     rhs_ = (fixed_.array() != 0).select(0, rhs_);
     K_.setFromTriplets(triplets_.begin(), triplets_.end());
-    Eigen::SparseLU<Matrix> solver(K_);
-    if (solver.info() != Eigen::Success) return Status::singular;
-    x_ = solver.solve(rhs_);
+    solver_.emplace(K_);
+    if (solver_->info() != Eigen::Success) return Status::singular;
+    x_ = solved(rhs_);
+    energy_ = rhs_.dot(x_);
     return x_.allFinite() ? Status::ok : Status::non_finite;
   }
 
-  Scalar energy() const noexcept { return rhs_.dot(x_); }
-  Scalar reaction() const noexcept {
-    Scalar sum = held_by_loads_;
-    for (const auto& entry : held_by_) sum += entry.value() * x_[entry.col()];
-    return sum;
-  }
+  Scalar energy() const noexcept { return energy_; }
   int negative_pivots() const noexcept { return 0; }  // LU does not tell; the benchmark's beams are stable
   Vector3<Scalar> increment(int node) const noexcept { return x_.template segment<3>(3 * node); }
 
  private:
-  std::vector<Eigen::Triplet<Scalar>> triplets_, held_by_;
-  int held_ = 0;
-  Scalar held_by_loads_ = 0;
+  Vector solved(const Vector& b) const { return solver_->solve(b); }
+
+  std::vector<Eigen::Triplet<Scalar>> triplets_;
+  std::optional<Eigen::SparseLU<Matrix>> solver_;
+  Scalar energy_ = 0;
   Matrix K_;
   Vector rhs_, x_, fixed_, given_;
 };

@@ -24,7 +24,7 @@ int main() {
     if (k % 100 != 0) continue;
     std::printf("%4d ms  left %6.2f N, %-9s right %6.2f N, %-9s end at %6.2f mm\n", k,
                 left.record().force.y(), name(left.record().status), right.record().force.y(),
-                name(right.record().status), 1e3 * model.shape()[16].w);
+                name(right.record().status), 1e3 * model.shape().at(0.3).w);
   }
   const bool both = left.record().touches > 0 && right.record().touches > 0;
   return both && left.record().failed_ticks + right.record().failed_ticks == 0 ? 0 : 1;

@@ -66,8 +66,11 @@ void check(const Tally& tally, double reach) {
   CAPTURE(tally.ticks, tally.pressing, tally.refused, tally.missed, tally.missed_again, tally.deepest,
           tally.widest);
   const double sample = length / 300;
-  CHECK(tally.deepest <= 1e-6);
-  CHECK(tally.widest <= 1e-6 + 1.5 * sample * sample / (8 * reach));
+  // Where pieces that turn by more than a radian push along the beam, by up to a twentieth of the contact's force, its place is off by that angle.
+  const double askew = 0.05;
+  CHECK(tally.deepest <= 1e-6 + reach * askew * askew / 2);
+  // Between two samples the circle goes away from a chord, and the beam, which is bent to half of the circle's radius at most, the other way.
+  CHECK(tally.widest <= 1e-6 + 3 * sample * sample / (8 * reach));
   // A beam that springs back may come to lie where the hand is by then: found the tick after, and never later.
   CHECK(tally.missed_again == 0);
   CHECK(tally.missed <= tally.ticks / 1000);

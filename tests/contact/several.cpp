@@ -95,16 +95,19 @@ struct Hands {
 
 }  // namespace
 
-// The bar that is bent two ways, with 12 mm between places 150 mm apart, is the stiffest: 2.2e-4 with 16 elements.
+// The bar that is bent two ways, with 12 mm between places 150 mm apart, is the stiffest: 3e-5 with 8 elements.  The ruler turns by 50 degrees.
 TEST_CASE("two contacts take the forces of the reference, with the fourth power of the element's length",
           "[several]") {
   const Csv table("contacts.csv");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     INFO(table.text(row, "case") << " " << table.text(row, "depth1"));
     const double of16 = error(table, row, 16), of32 = error(table, row, 32);
-    CHECK(of16 <= 1e-3);
-    CHECK(of32 <= 1e-4);
-    CHECK(of32 <= std::max(of16 / 8, 1e-6));
+    const double of8 = error(table, row, 8);
+    const bool bar = table.text(row, "case") != "ruler_s_bend";
+    CHECK(of8 <= (bar ? 5e-5 : 1e-3));
+    CHECK(of16 <= (bar ? 5e-6 : 4e-5));
+    CHECK(of32 <= (bar ? 5e-7 : 2e-6));
+    CHECK(of32 <= std::max(of16 / 8, 1e-8));
   }
 }
 
@@ -349,8 +352,8 @@ TEST_CASE("four contacts share one mesh, and each more costs as much as the one 
     for (const auto& place : felt) sum += place.force;
     if (t > 10) CHECK((felt.touching(0) && felt.touching(1) && felt.touching(2)));
   }
-  // What goes on as it went is foreseen and takes one; where a peg is met, a few.
-  CHECK(solves <= 2 * 89);
+  // What goes on as it went is foreseen and takes two; one more where a contact passes into the next element.
+  CHECK(solves <= 2 * 89 + 1);
 }
 
 TEST_CASE("what makes no sense of avatars and props is rejected, and positions that are none change nothing",

@@ -2,8 +2,8 @@
 #include "element/elements.hpp"
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include <hapbeam/body/natural_shape.hpp>
 #include <hapbeam/element/tapered.hpp>
-#include <hapbeam/fem/natural_shape.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

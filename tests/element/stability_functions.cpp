@@ -120,6 +120,79 @@ TEST_CASE("residual and tangent of the exact element are the derivatives of its 
   CHECK(asymmetry <= 4 * 2.2e-16);
 }
 
+// Of Π, which is what is left of the energy without what is missing.
+TEMPLATE_TEST_CASE("what an element answers with its tension as an unknown are the derivatives of one energy",
+                   "[element]", Exact, Corotational<>) {
+  double worst_tension = 0, worst_residual = 0, worst_row = 0, worst_stiffness = 0, worst_energy = 0;
+  Random random(57);
+  each_state(58, [&](const ElementProperties<double>& p, const Vector6<double>& d) {
+    const auto of = [&](const Vector6<double>& x, double normal, OwnTension<double>& tension) {
+      tension.normal = normal;
+      return TestType::core(p, x, tension);
+    };
+    const auto residual = [&](const CoreResponse<double>& c) {
+      Vector6<double> r;
+      detail::expand(p, c.s, c.r, c.t1, c.t2, r);
+      return r;
+    };
+    const auto free = [&](const Vector6<double>& x, double normal) {
+      OwnTension<double> tension;
+      const double energy = of(x, normal, tension).energy;
+      return energy - tension.missing * tension.lack / 2;
+    };
+    const auto lack = [&](const Vector6<double>& x, double normal) {
+      OwnTension<double> tension;
+      (void)of(x, normal, tension);
+      return tension.lack;
+    };
+    const double unit = p.bending_per_length3 * p.length, l = p.length;
+    OwnTension<double> tension;
+    // From half to twice what the nodes say, and as much as bends the element.
+    of(d, 0, tension);
+    double balance = 0;
+    for (int k = 0; k < 40; ++k) (void)of(d, balance, tension), balance += tension.missing;
+    const double normal = balance * (1.25 + random(0.75)) + random(1.0) * unit,
+                 h = 1e-3 * (unit + std::abs(normal));
+    const CoreResponse<double> core = of(d, normal, tension);
+    const auto by_tension = [&](auto&& f) {
+      return (8 * (f(normal + h) - f(normal - h)) - (f(normal + 2 * h) - f(normal - 2 * h))) / (12 * h);
+    };
+    const double slope = by_tension([&](double n) { return free(d, n); }),
+                 stiffness = by_tension([&](double n) { return lack(d, n); });
+    const double work = std::abs(tension.lack) + std::abs(normal) * l / p.axial_stiffness;
+    worst_tension = std::max(worst_tension, std::abs(slope - tension.lack) / work);
+    worst_stiffness = std::max(worst_stiffness, relative_error(tension.missing, -tension.lack / stiffness));
+    const double thin = std::sqrt(unit / p.axial_per_length);
+    Vector6<double> want, row, expected, scale;
+    for (int i = 0; i < 6; ++i) {
+      scale[i] = thin * (i % 3 == 0 ? thin * l : i % 3 == 1 ? l : 1);
+      want[i] = derivative([&](const Vector6<double>& x) { return free(x, normal); }, d, i, 0.01 * scale[i]);
+      expected[i] =
+          derivative([&](const Vector6<double>& x) { return lack(x, normal); }, d, i, 0.01 * scale[i]);
+    }
+    detail::expand(p, tension.s, tension.r, tension.t1, tension.t2, row);
+    const double follow = -1 / stiffness;
+    const Vector6<double> condensed = want + tension.missing * expected;
+    worst_residual =
+        std::max(worst_residual, scale.cwiseProduct(residual(core) - condensed).norm() /
+                                     (scale.cwiseProduct(want).norm() +
+                                      std::abs(tension.missing) * scale.cwiseProduct(expected).norm()));
+    worst_row = std::max(worst_row, scale.cwiseProduct(row - follow * expected).norm() /
+                                        (follow * scale.cwiseProduct(expected).norm()));
+    // Where N is nearly in balance, V is that of the nodes.
+    const double near = balance + 1e-3 * (unit + std::abs(balance));
+    worst_energy =
+        std::max(worst_energy, relative_error(of(d, near, tension).energy, TestType::energy(p, d)));
+  });
+  INFO(worst_tension << " " << worst_stiffness << " " << worst_residual << " " << worst_row << " "
+                     << worst_energy);
+  CHECK(worst_tension <= 1e-8);
+  CHECK(worst_stiffness <= 1e-8);
+  CHECK(worst_residual <= 1e-7);
+  CHECK(worst_row <= 1e-7);
+  CHECK(worst_energy <= 1e-8);
+}
+
 // N l/EA = e + ½ by how much the bending makes the piece longer, which the curve says by itself.
 TEST_CASE("an element's tension is that of its curve, and its moments bend it", "[element]") {
   each_state(52, [&](const ElementProperties<double>& p, const Vector6<double>& d) {

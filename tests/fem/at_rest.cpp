@@ -4,9 +4,9 @@
 #include "support/pi.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
+#include <hapbeam/body/natural_shape.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/fem/natural_shape.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

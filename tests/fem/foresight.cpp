@@ -81,10 +81,11 @@ TEST_CASE("the force of a foreseen shape is that of a hand which rests there", "
   }
 }
 
-// In the middle it gives way to the side, and only a look at the tangent says so.
+// In the middle it gives way to the side, and only a look at the tangent says so.  The first tick past that is within a step of it, and the fall ends
+// with the third one.
 TEST_CASE("an arch snaps at the same place however long the steps are", "[push]") {
   const double middle = 0.2 / 0.5 * std::sin(0.25);
-  for (const double x : {0.085, middle}) {
+  for (const double x : {0.0848, middle}) {
     const auto snaps_at = [&](double step) {
       Hand hand(bow());
       hand.s = x == middle ? 0.1 : x;
@@ -98,7 +99,7 @@ TEST_CASE("an arch snaps at the same place however long the steps are", "[push]"
       CAPTURE(x, step);
       const double at = snaps_at(step);
       CHECK(at > exact - 5e-6);
-      CHECK(at < exact + 2.01 * step);
+      CHECK(at < exact + 3.01 * step);
     }
   }
 }

@@ -2,7 +2,7 @@
 #include "support/catch.hpp"
 #include "support/pi.hpp"
 #include "support/random.hpp"
-#include <hapbeam/fem/natural_shape.hpp>
+#include <hapbeam/body/natural_shape.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -34,7 +34,7 @@ TEMPLATE_TEST_CASE("a simulated Phantom strokes a brush: felt, finite, nothing g
     seen = std::max(seen, picture.size());
     for (int i = 0; i < picture.size(); ++i) {
       REQUIRE((picture.beam(i) >= 0 && picture.beam(i) < brush.size()));
-      REQUIRE(picture.shape(i).size() == 9);
+      REQUIRE(picture.shape(i).size() == 10);
       REQUIRE(picture.shape(i).any_rotation());
     }
   }

@@ -10,7 +10,9 @@ using namespace hapbeam::testing;
 namespace {
 
 /// The same element by another name, of which the model does not know that one tension serves all.
-struct NodeByNode : VonKarman<> {};
+struct NodeByNode : VonKarman<> {
+  using Abreast = NodeByNode;
+};
 
 }  // namespace
 

@@ -145,12 +145,13 @@ TEST_CASE("a stylus across a strip feels what a finger feels that is led down pa
   CHECK(place <= 1e-6);
 }
 
+// The planar beam has the fourth order of its own elements, and takes so many that nothing of it is left.
 TEST_CASE("a wire pushed in a plane is the planar beam, to the fourth order of its elements", "[rod]") {
   const Beam beam(0.3, Section::circle(0.002), Material{200e9}, Support::clamped, Support::free);
   const Rod rod(0.3, RodSection::circle(0.002), spring_steel, RodSupport::clamped, RodSupport::free);
   double worst[2] = {0, 0};
   for (const int fine : {0, 1}) {
-    FemModel<Corotational<>> in_plane(beam, 8 << fine);
+    FemModel<Corotational<>> in_plane(beam, 64);
     FemModel<RoundRod> in_space(rod, 8 << fine);
     Touch<FemModel<Corotational<>>> planar(in_plane, 0.005);
     Touch<FemModel<RoundRod>> touch(in_space, 0.005);

@@ -240,7 +240,7 @@ TEST_CASE("a scene gets no more model than it needs", "[scene]") {
   }
   SECTION("the middle of a symmetric beam that cannot be trained takes half of it") {
     Scene scene = Scene::at(tensioned(pinned(), 1e5), thesis_length / 2, 0.02);
-    scene.force_error = 1e-3;
+    scene.force_error = 2e-6;  // two elements, which are no more than half of four, have 2.7e-6
     const Choice choice = choose(scene);
     CHECK(choice.model().mirrored);
     CHECK_THAT(choice.reason(verdict_of(choice, Kinematics::corotational, Reduction::pod)),
@@ -271,7 +271,7 @@ TEST_CASE("where nothing is admissible it says what to relax", "[scene]") {
 
 TEST_CASE("what is said to be relaxed is enough", "[scene]") {
   Scene scene = Scene::anywhere(pinned(), 0.02);
-  scene.force_error = 1e-3;
+  scene.force_error = 2e-4;  // two elements have 4.5e-4
   TickCosts costs = TickCosts::typical();
   costs.pod_shape.fixed = costs.galerkin_shape.fixed = 1e-3;
   const auto after = [](const std::string& text, const std::string& words) {
@@ -279,7 +279,7 @@ TEST_CASE("what is said to be relaxed is enough", "[scene]") {
     REQUIRE(at != std::string::npos);
     return std::stod(text.substr(at + words.size()));
   };
-  scene.tick = 1.01 * costs.corotational(3);  // fast, and not right
+  scene.tick = 1.01 * costs.corotational(2);  // fast, and not right
   const Choice choice = choose(scene, costs);
   INFO(choice.advice);
   REQUIRE_FALSE(choice.candidate);

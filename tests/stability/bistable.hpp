@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "support/arch.hpp"
+#include "support/mesh_nodes.hpp"
 #include "support/path.hpp"
 
 namespace hapbeam::testing {
@@ -26,9 +27,11 @@ double first_critical_load(Beam beam, const Model& resting, int side) {
   const double s = beam.length() / 2;
   beam.add({s, 0, -1.0 * side, 0});
   System<Element> system(beam, n);
-  typename System<Element>::State nodes(n);
-  std::copy(resting.shape().begin(), resting.shape().end(), nodes.begin());
-  system.set_state(ContactMesh<double>(n, beam.length()), nodes);
+  typename System<Element>::State state(n);
+  const auto nodes = mesh_nodes(resting);
+  std::copy(nodes.begin(), nodes.end(), state.nodes.begin());
+  system.go_back(state, 0);
+  system.find_tensions();
   ArcLength arc;
   arc.first_step = arc.largest_step = 2e-5;
   double before = 0, critical = 0;

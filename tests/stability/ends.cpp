@@ -5,6 +5,7 @@
 #include "support/error.hpp"
 #include "support/status.hpp"
 #include "support/thesis_beam.hpp"
+#include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
@@ -12,7 +13,7 @@ using namespace hapbeam;
 using namespace hapbeam::testing;
 
 TEST_CASE("the range keeps the shortest element from a rigid support and reaches a yielding end", "[ends]") {
-  const double shortest = ContactMesh<double>::shortest(thesis_length);
+  const double shortest = detail::shortest_element<double>(thesis_length);
   const FemModel<> pinned(thesis_beam(Support::pinned, Support::clamped), 8);
   CHECK(pinned.range().s_min == shortest);
   CHECK(pinned.range().s_max == thesis_length - shortest);
@@ -50,7 +51,7 @@ TEST_CASE("beside a free end round-off of the force is at most 4 eps (L/l)³", "
   const Beam beam = thesis_beam(Support::clamped, Support::free);
   const auto worst = [&](auto model) {
     using Scalar = typename decltype(model)::Scalar;
-    const Scalar length = static_cast<Scalar>(thesis_length), l = ContactMesh<Scalar>::shortest(length);
+    const Scalar length = static_cast<Scalar>(thesis_length), l = detail::shortest_element<Scalar>(length);
     double error = 0;
     for (int k = 1; k <= 50; ++k) {
       const Press<Scalar> press{length - l, static_cast<Scalar>(1e-3 * k)};
@@ -71,7 +72,7 @@ TEST_CASE("beside a free end round-off of the force is at most 4 eps (L/l)³", "
 // of pressing there, too.  Linear, so that the closed form is exact; 4 eps (L/l)³ of round-off at the shortest element.
 TEMPLATE_TEST_CASE("beside a free end the force is that of the place pressed, without a step", "[ends]",
                    double, float) {
-  const TestType length = TestType(thesis_length), shortest = ContactMesh<TestType>::shortest(length);
+  const TestType length = TestType(thesis_length), shortest = detail::shortest_element<TestType>(length);
   const TestType d = TestType(10e-3);
   const Beam beam = thesis_beam(Support::clamped, Support::free),
              mirrored = thesis_beam(Support::free, Support::clamped);
@@ -97,7 +98,7 @@ TEST_CASE("a dead load beside a pressed free end is felt in full", "[ends]") {
   Beam beam = thesis_beam(Support::clamped, Support::free);
   beam.transverse(q);
   FemModel<Linear> model(beam, 8);
-  const double EI = beam.bending_stiffness(), shortest = ContactMesh<double>::shortest(length);
+  const double EI = beam.bending_stiffness(), shortest = detail::shortest_element<double>(length);
   for (const double part : {0.0, 0.3, 0.9}) {
     const double s = length - part * shortest, k = 3 * EI / (s * s * s);
     const double sag = q * s * s * (6 * length * length - 4 * length * s + s * s) / (24 * EI);

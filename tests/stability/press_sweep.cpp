@@ -31,7 +31,7 @@ struct PressedState {
   PressedState(const Model& model, const Beam& beam) {
     const auto shape = model.shape();
     double stretch = 0;
-    for (int i = 0; i < model.elements(); ++i) {
+    for (int i = 0; i < shape.segments(); ++i) {
       const auto &a = shape[i], &b = shape[i + 1];
       const double ds = b.s - a.s, dx = ds + b.u - a.u, dw = b.w - a.w;
       constexpr bool finite = any_rotation<typename Model::ElementType>;
@@ -52,14 +52,6 @@ double dead_load(const Beam& beam) {
   if (beam.transverse()) most = std::max(most, std::abs(beam.transverse()(0)) * beam.length());
   if (beam.axial()) most = std::max(most, std::abs(beam.axial()(0)) * beam.length());
   return most;
-}
-
-/// Longest element of the mesh that follows a contact at s, over the length.
-double longest_element(double s, int elements) {
-  const ContactMesh<double> mesh = ContactMesh<double>(elements, 1).at(s);
-  double longest = 0;
-  for (int i = 0; i < elements; ++i) longest = std::max(longest, mesh.position(i + 1) - mesh.position(i));
-  return longest;
 }
 
 double allowed_error(const Beam& beam, double h, double kh) {
@@ -88,7 +80,7 @@ void press_along_a_stroke(FemModel<Element>& model, FemModel<Element>& fine,
   const double rest = fine.shape().at(s).w, limit = 0.99 * model.range().depth_at(s);
   if (std::abs(rest) >= limit) return;
   const int n = model.elements();
-  const double h = longest_element(s / L, n);
+  const double h = 1.0 / n;
   const PressedState before(fine, beam);
   double k = std::sqrt(std::abs(before.tension) / beam.bending_stiffness());
   double scale = std::max(dead_load(beam), std::abs(before.tension) * before.turn);

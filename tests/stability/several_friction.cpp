@@ -158,7 +158,7 @@ TEST_CASE("two hands that press a ruler onto a rough peg give what friction take
   CAPTURE(given, taken, felt, stored, model.strain_energy());
   CHECK(taken > 1);
   CHECK(std::abs(given - taken - (model.strain_energy() - stored)) <= 1e-9 * taken);
-  CHECK(std::abs(felt - taken) <= 2e-6 * taken);
+  CHECK(std::abs(felt - taken) <= 2.2e-6 * taken);
 }
 
 // Two hands and a peg, each with coefficients of its own; ways at the speed of a hand, jumps, and places that are none.

@@ -86,7 +86,12 @@ NaiveSolve naive_newton(System& system, int steps = 1, int most = 25, Criterion&
     for (int k = 0; k < most && !found; ++k) {
       ++result.solves;
       if (system.factor(0) != Status::ok || !std::isfinite(system.increment())) return {false, result.solves};
-      system.move([&](int i) { return system.increment(i); });
+      if (system.rows().any()) {
+        system.advance();  // with a contact the library adds increments as they are, too
+      } else {
+        system.move([&](int i) { return system.increment(i); });
+        system.find_tensions();
+      }
       found = done(system);
     }
     if (!found) return {false, result.solves};

@@ -24,8 +24,6 @@ struct Path {
 /// The equations of a beam whose loads go where a test likes.
 template <class Element = Corotational<>>
 class System : public BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic> {
-  using Contacts = typename System::SystemContacts;
-
  public:
   using System::BeamSystem::BeamSystem;
 
@@ -33,18 +31,18 @@ class System : public BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic
   void set_load(double factor) noexcept {
     this->set_goal();
     this->set_target(1);
-    Contacts::load_ = factor;
+    this->load_ = factor;
   }
-  double load() const noexcept { return Contacts::load_; }
+  double load() const noexcept { return this->load_; }
 };
 
 /// Lays the beam along the x axis, wherever its supports are placed: where a naive solve begins.  @param length  [m]
 template <class Element>
 void lay_straight(System<Element>& system, double length) {
-  const ContactMesh<double> mesh(system.elements(), length);
   typename System<Element>::State straight(system.elements());
-  for (int i = 0; i <= system.elements(); ++i) straight[i] = {mesh.position(i), 0, 0, 0};
-  system.set_state(mesh, straight);
+  for (int i = 0; i <= system.elements(); ++i) straight.nodes[i] = {length * i / system.elements(), 0, 0, 0};
+  system.go_back(straight, 0);
+  system.find_tensions();
 }
 
 /// Follows a beam's path from λ = 0.  @param way  system -> displacement   @param go_on  Equilibrium -> bool

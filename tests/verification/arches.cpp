@@ -2,12 +2,13 @@
 // where they are held straight.
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/mesh_nodes.hpp"
 #include "support/pi.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
+#include <hapbeam/body/natural_shape.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/fem/natural_shape.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -30,7 +31,7 @@ double distance(const Turning& model, const Beam& beam, double phi) {
   const NaturalShape<double> natural(beam);
   const double c = std::cos(phi), s = std::sin(phi);
   double worst = 0;
-  for (const auto& node : model.shape()) {
+  for (const auto& node : mesh_nodes(model)) {
     const Displacement<double> at = natural.at(node.s);
     const double x = node.s + at.u;
     worst = std::max(worst, std::hypot(c * x + s * at.w - node.s - node.u, c * at.w - s * x - node.w));
@@ -77,7 +78,7 @@ TEST_CASE("a naturally bent strip that is held straight stores EI κ² L/2", "[a
   Beam beam(L, EA, EI, 0.01, Support::clamped, Support::clamped);
   const Turning model(beam.naturally({{L, k}}), 8, patient_solver());
   REQUIRE(model.rest().status == Status::ok);
-  for (const auto& node : model.shape()) {
+  for (const auto& node : mesh_nodes(model)) {
     CHECK(std::abs(node.u) <= 1e-12);
     CHECK(std::abs(node.w) <= 1e-12);
     CHECK(std::abs(node.theta) <= 1e-11);
@@ -94,7 +95,7 @@ TEST_CASE("moments of EI κ bend a natural arc straight, and twice as much to it
     beam.add({L, 0, 0, -factor * EI * k});
     const Turning model(beam, 16, patient_solver());
     REQUIRE(model.rest().status == Status::ok);
-    const auto& tip = model.shape()[16];
+    const auto tip = mesh_node(model, 16);
     const double left = k * (1 - factor), x = 1.2 / 32;
     CAPTURE(factor, tip.u, tip.w, tip.theta);
     CHECK(std::abs(tip.theta - left * L) <= 1e-8);

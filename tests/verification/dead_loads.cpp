@@ -2,6 +2,7 @@
 // given as consistent nodal forces, so every bound is round-off: eps = 2.2e-16, amplified by the condition of
 // n elements in bending, of which n² reaches the displacements.
 #include "support/catch.hpp"
+#include "support/mesh_nodes.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
@@ -26,7 +27,7 @@ void check_rest(const Beam& beam, U&& u, W&& w, double quadrature = 0) {
       largest_u = std::max(largest_u, std::abs(u(i * L / 64)));
       largest_w = std::max(largest_w, std::abs(w(i * L / 64)));
     }
-    for (const auto& node : model.shape()) {
+    for (const auto& node : mesh_nodes(model)) {
       error_u = std::max(error_u, std::abs(node.u - u(node.s)));
       error_w = std::max(error_w, std::abs(node.w - w(node.s)));
     }

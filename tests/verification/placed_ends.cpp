@@ -1,6 +1,7 @@
 // Beams whose ends are held elsewhere than in the straight beam: inclined, stretched, shortened, bent round.
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/mesh_nodes.hpp"
 #include "support/pi.hpp"
 #include "support/random.hpp"
 #include "support/solver.hpp"
@@ -66,7 +67,7 @@ TEST_CASE("an inclined beam under loads that are turned along answers as the hor
       REQUIRE(one.rest().status == Status::ok);
       REQUIRE(turned.rest().status == Status::ok);
       const double off = distance(one.shape(), turned.shape(), phi);
-      CAPTURE(name(left), name(right), phi, off, one.shape()[4].w);
+      CAPTURE(name(left), name(right), phi, off, mesh_node(one, 4).w);
       CHECK(off <= 1e-12);
       CHECK(relative_error(turned.strain_energy(), one.strain_energy()) <= 1e-11);
     }
@@ -82,7 +83,7 @@ TEST_CASE("a uniform load may be inclined, too, and its arms turn along", "[plac
     REQUIRE(one.rest().status == Status::ok);
     REQUIRE(turned.rest().status == Status::ok);
     const double off = distance(one.shape(), turned.shape(), phi);
-    CAPTURE(phi, off, one.shape()[8].w);
+    CAPTURE(phi, off, mesh_node(one, 8).w);
     CHECK(off <= 1e-12);
   }
 }
@@ -120,8 +121,8 @@ TEST_CASE("an inclined strip buckles as the level one does, to its own upper sid
       REQUIRE(one.rest().status == Status::ok);
       REQUIRE(turned.rest().status == Status::ok);
       const double off = distance(one.shape(), turned.shape(), phi);
-      CAPTURE(name(end), phi, off, one.shape()[8].w);
-      CHECK(one.shape()[8].w > 0.1 * L);
+      CAPTURE(name(end), phi, off, mesh_node(one, 8).w);
+      CHECK(mesh_node(one, 8).w > 0.1 * L);
       CHECK(off <= 1e-10);
     }
 }
@@ -182,7 +183,7 @@ TEMPLATE_TEST_CASE("stretched as far as it likes a beam rests straight and even,
     CHECK(model.rest().solves <= 4);
     const double round_off = 16 * static_cast<double>(std::numeric_limits<TestType>::epsilon());
     double off = 0;
-    for (const auto& node : model.shape())
+    for (const auto& node : mesh_nodes(model))
       off = std::max({off, std::abs(node.u - stretch * static_cast<double>(node.s)),
                       std::abs(static_cast<double>(node.w)), std::abs(static_cast<double>(node.theta))});
     CHECK(off <= round_off * (1 + elements * stretch));
@@ -214,7 +215,7 @@ TEST_CASE("stretched between its ends a beam has N = EA δ/L and is straight", "
       const auto energy = [&](double delta) {
         const Turning model(beam.place({}, {delta, 0, 0}), 8, patient_solver());
         REQUIRE(model.rest().status == Status::ok);
-        for (const auto& node : model.shape()) {
+        for (const auto& node : mesh_nodes(model)) {
           // Shortened, it comes from the buckled side, to what the solver leaves.
           const double left_over = delta > 0 ? 4 * 2.2e-16 : 1e-12;
           CHECK(std::abs(node.u - delta * node.s / L) <= left_over);
@@ -267,7 +268,7 @@ TEST_CASE("a beam whose ends are put onto a circle, along it, becomes the arc", 
       CAPTURE(angle, n, error[k]);
       // ½ EA ε² L, and what ε saves in bending, angle times the chord's excess: both below ε.
       CHECK(error[k] <= (EA * L * strain * strain / 2) / (EI * angle * angle / 2) + 2 * strain + 1e-11);
-      for (const auto& node : model.shape()) {
+      for (const auto& node : mesh_nodes(model)) {
         const double place = std::hypot(node.s + node.u - radius * std::sin(node.s / radius),
                                         node.w - radius * (std::cos(node.s / radius) - 1));
         CHECK(place <= std::pow(x, 4) / 120 * L + 1e-11);

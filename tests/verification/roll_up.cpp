@@ -4,6 +4,7 @@
 // those of an arc, (sin x)/x l, but for x⁴/120, and as all are alike the polygon closes exactly.
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/mesh_nodes.hpp"
 #include "support/pi.hpp"
 #include "support/status.hpp"
 #include <hapbeam/element/corotational.hpp>
@@ -31,7 +32,7 @@ TEST_CASE("end moments of 2π and 4π EI/L roll 8 elements up to one and two cir
   for (const int turns : {1, 2, -1, -2}) {
     const auto model = rolled(turns, 8);
     const int solves = model.rest().solves, steps = model.rest().steps;
-    const auto& tip = model.shape()[8];
+    const auto tip = mesh_node(model, 8);
     CAPTURE(turns, solves, steps, L + tip.u, tip.w, tip.theta - 2 * pi * turns);
     CHECK(model.rest().status == Status::ok);
     CHECK(solves <= 48);
@@ -43,7 +44,7 @@ TEST_CASE("end moments of 2π and 4π EI/L roll 8 elements up to one and two cir
 TEST_CASE("finer meshes and other local parts roll up as well, in 48 solves at most", "[roll-up]") {
   const auto check = [](const auto& model, const char* element, double turns) {
     const int last = model.elements(), solves = model.rest().solves, steps = model.rest().steps;
-    const auto& tip = model.shape()[last];
+    const auto tip = mesh_node(model, last);
     CAPTURE(element, last, turns, solves, steps);
     CHECK(model.rest().status == Status::ok);
     CHECK(solves <= 48);
@@ -64,7 +65,7 @@ TEST_CASE("the circle is round: half-way it is L/π across, to (π/n)⁴/120", "
     const int n = 8 << k;
     const auto model = rolled(1, n);
     REQUIRE(model.rest().status == Status::ok);
-    const auto& half = model.shape()[n / 2];
+    const auto half = mesh_node(model, n / 2);
     const double x = pi / n, expected = 1 - x * (1 - x * x / 6) / std::sin(x);
     error[k] = relative_error(-half.w, L / pi);
     CAPTURE(n, error[k], expected);
@@ -82,7 +83,7 @@ TEST_CASE("partial and many turns: every node lies on its circle, at its angle",
     const auto model = rolled(turns, n);
     REQUIRE(model.rest().status == Status::ok);
     const double k = 2 * pi * turns / L, x = k * L / n / 2;
-    for (const auto& node : model.shape()) {
+    for (const auto& node : mesh_nodes(model)) {
       CAPTURE(turns, node.s);
       CHECK(std::abs(node.theta - k * node.s) <= 1e-6);
       const double place =
@@ -95,7 +96,7 @@ TEST_CASE("partial and many turns: every node lies on its circle, at its angle",
 // In float the tip is told to 2^-24 of positions and of 2π: 1e-6 after sums over n elements.
 TEST_CASE("in float the beam rolls up to a circle, to its round-off", "[roll-up][float]") {
   const auto model = rolled<Corotational<>, float>(1, 8);
-  const auto& tip = model.shape()[8];
+  const auto tip = mesh_node(model, 8);
   CAPTURE(model.rest().solves, model.rest().steps);
   CHECK(model.rest().status == Status::ok);
   CHECK(std::hypot(L + static_cast<double>(tip.u), static_cast<double>(tip.w)) <= 64 * 6e-8 * L);

@@ -6,6 +6,7 @@
 #include "support/catch.hpp"
 #include "support/csv.hpp"
 #include "support/error.hpp"
+#include "support/mesh_nodes.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
 #include "support/thesis_beam.hpp"
@@ -73,7 +74,7 @@ TEST_CASE("Table 3.2 of the thesis is met by the element of any rotation, to the
     const std::string column = std::string("fem_") + depth;
     for (int i = 0; i <= 4; ++i) {
       const std::size_t first = 3 * static_cast<std::size_t>(i);
-      const auto& node = model.shape()[i];
+      const auto node = mesh_node(model, i);
       CHECK(std::abs(1e3 * node.w - table.number(first + 1, column)) <= 0.5e-4 + 8e-4);
       CHECK(std::abs(node.theta - table.number(first + 2, column)) <= 0.5e-4 + 1e-6);
     }

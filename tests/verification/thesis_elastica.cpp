@@ -8,6 +8,7 @@
 #include "support/catch.hpp"
 #include "support/csv.hpp"
 #include "support/error.hpp"
+#include "support/mesh_nodes.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
 #include "support/thesis_beam.hpp"
@@ -30,7 +31,7 @@ Errors errors(const Csv& table, std::size_t row, double stiffer, int elements) {
   Beam beam(thesis_length / 2, EA, thesis_EI, inch, Support::roller, Support::guided);
   const FemModel<Element> model(beam.transverse(q), elements, patient_solver());
   REQUIRE(model.rest().status == Status::ok);
-  const auto &end = model.shape()[0], &middle = model.shape()[elements];
+  const auto end = model.shape()[0], middle = mesh_node(model, elements);
   const double slope = table.number(row, "elastica_end_slope_rad"),
                slide = 1e-3 * table.number(row, "elastica_end_slide_mm"),
                stretch = q * thesis_length / 2 / EA;

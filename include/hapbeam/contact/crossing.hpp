@@ -28,8 +28,8 @@ Scalar cross(const Vector2<Scalar>& a, const Vector2<Scalar>& b) noexcept {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Crossings of the path p0 -> p1 with one piece.  Over neighbouring pieces they add up: a crossing at their
-/// common node counts once.
+/// Crossings of the path p0 -> p1 with one piece, p1 included and p0 not: what a step ends on it has crossed, and the next has left behind.  Over
+/// neighbouring pieces they add up: a crossing at their common node counts once.
 /// @param b  [m] control points   @param p0, p1  [m]
 /// Real-time: noexcept, no allocation, bounded.
 template <typename Scalar>
@@ -53,7 +53,7 @@ Crossings crossings(const CubicSegment<Scalar>& b, const Vector2<Scalar>& p0,
     };
     const Scalar t = detail::polish_root(change, [&](Scalar at) { return evaluate(side, at); });
     const Scalar reached = evaluate(along, t).value;
-    if (!(reached >= 0 && reached <= length_squared)) return;
+    if (!(reached > 0 && reached <= length_squared)) return;
     ++result.count;
     result.net += change.rising ? 1 : -1;
   });

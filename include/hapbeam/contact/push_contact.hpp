@@ -2,8 +2,8 @@
 // capsule.
 //
 // The model places its centreline at the distance `reach` from the avatar's centre or axis, and returns the point of
-// contact. It starts at the nearest point plus the motion of that point in the last two ticks: its mesh has a node
-// there already.
+// contact. It starts at the nearest point; in space plus the motion of that point in the last two ticks: the mesh of a rod has a
+// node there already.
 // Real-time: noexcept, no allocation; one push.
 #pragma once
 
@@ -42,7 +42,7 @@ class PushContact {
     const Scalar length = model.shape().length(), first = contact.s;
     // No beam goes along with a hand farther than it is long.
     if (contact.depth > reach + length) return {Hold::lost, 0, Status::iteration_limit};
-    const Scalar s = std::clamp(first + (2 * slid_ - before_), Scalar(0), length);
+    const Scalar s = D == 2 ? first : std::clamp(first + (2 * slid_ - before_), Scalar(0), length);
     const Pushed<Scalar, D> pushed = push(model, s, avatar, reach, contact);
     asked = {pushed.s, D == 2 ? pushed.point.y() : pushed.normal.dot(pushed.point)};
     const bool answer = is_answer(pushed.status), found = pushed.miss <= too_far * reach,

@@ -27,7 +27,7 @@
 namespace hapbeam {
 
 /// @tparam Local  Linear | VonKarman<Membrane> | Tapered<Local>
-template <class Local = VonKarman<AssumedStrain>>
+template <class Local = VonKarman<>>
 struct Corotational : ElementFromCore<Corotational<Local>> {
   static_assert(
       responds_to_deformation<Local, double>,
@@ -50,19 +50,24 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
   [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
                                                         const Vector6<S>& d) noexcept {
     const Chord<S> chord(p, d);
-    const S L = p.length, i = 1 / chord.length, c = chord.x * i, s = chord.w * i;
     const CoreResponse<S> q = Local::respond(p, chord.local(p, d));
-    // By α: L times the sums over both ends, because the core is in Lθ.
-    const S h = L * i, M = h * (q.t1 + q.t2), a1 = h * (q.k.t11 + q.k.t12), a2 = h * (q.k.t12 + q.k.t22);
-    const S ez = h * (q.k.s1 + q.k.s2) - M * i, zz = h * (a1 + a2) + q.s * i, ss = q.k.ss;
-    return {q.energy,
-            q.s * c - M * s,
-            q.s * s + M * c,
-            q.t1,
-            q.t2,
-            {ss * c * c - 2 * ez * c * s + zz * s * s, (ss - zz) * c * s + ez * (c * c - s * s),
-             q.k.s1 * c - a1 * s, q.k.s2 * c - a2 * s, ss * s * s + 2 * ez * c * s + zz * c * c,
-             q.k.s1 * s + a1 * c, q.k.s2 * s + a2 * c, q.k.t11, q.k.t12, q.k.t22}};
+    return turned(p, chord, q, q.s, S(q.t1 + q.t2));
+  }
+  /// Nodes that are moved as a linear beam stretch what they turn, by a tension that no load makes and that is missing in N.  Far from an
+  /// equilibrium it turns with the chord nevertheless: that keeps the next increment from turning the chord before it is short again.
+  template <typename S, class L = Local, std::enable_if_t<has_own_tension<L>, int> = 0>
+  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p, const Vector6<S>& d,
+                                                        OwnTension<S>& tension) noexcept {
+    const Chord<S> chord(p, d);
+    const CoreResponse<S> q = L::respond(p, chord.local(p, d), tension);
+    using detail::larger;
+    const S i = 1 / chord.length, c = chord.x * i, s = chord.w * i, both = tension.t1 + tension.t2;
+    const CoreResponse<S> core =
+        turned(p, chord, q, larger(tension.normal, S(tension.normal + tension.turning * tension.missing)),
+               S(q.t1 + q.t2 - tension.lack * both));
+    tension.r = tension.s * s + p.length * i * both * c;
+    tension.s = tension.s * c - p.length * i * both * s;
+    return core;
   }
 
   /// Change of the chord, x2 - x1 [m], under an increment of the displacements that may be large. The chord turns by
@@ -74,21 +79,15 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
   template <typename S>
   static Vector2<S> chord_change(const ElementProperties<S>& p, const Vector6<S>& d,
                                  const Vector6<S>& x) noexcept {
-    using std::cos;
-    using std::sin;
-    const Chord<S> chord(p, d);
-    const S L = p.length, i = 1 / chord.length, dx = x[3] - x[0], dw = x[4] - x[1];
-    const S extends = (chord.x * dx + chord.w * dw) * i, turns = (chord.x * dw - chord.w * dx) * i * i;
-    const Deformation<S> before = chord.local(p, d);
-    const S da = L * (x[2] + turns), db = L * (x[5] + turns);
-    const CoreResponse<S> q = Local::respond(p, before);
-    const S foreseen = q.s + q.k.ss * extends + q.k.s1 * da + q.k.s2 * db;
-    const Deformation<S> after(before.stretch + extends, before.a + da, before.b + db);
-    const S grows = extends + (foreseen - Local::respond(p, after).s) / q.k.ss;
-    // (l + grows) e(α + turns) - l e(α), with e(α + turns) - e(α) = 2 sin(turns/2) z(α + turns/2)
-    const S half = turns / 2, middle = chord.angle + half, bow = 2 * chord.length * sin(half),
-            end = middle + half;
-    return {grows * cos(end) - bow * sin(middle), grows * sin(end) + bow * cos(middle)};
+    const Turn<S> to(p, d, x);
+    const CoreResponse<S> q = Local::respond(p, to.before);
+    return lengthened(p, to, S(q.s + q.k.ss * to.extends + q.k.s1 * to.a + q.k.s2 * to.b));
+  }
+  /// The same where the normal force is known, as that of an unknown is.   @param normal  after the increment [N]
+  template <typename S>
+  static Vector2<S> chord_change(const ElementProperties<S>& p, const Vector6<S>& d, const Vector6<S>& x,
+                                 const S& normal) noexcept {
+    return lengthened(p, Turn<S>(p, d, x), normal);
   }
 
  private:
@@ -113,6 +112,63 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
       return {stretch - p.natural_stretch, p.length * (d[2] + angle), p.length * (d[5] + angle)};
     }
   };
+
+  /// A chord, and what an increment does to its element.
+  template <typename S>
+  struct Turn {
+    Chord<S> chord;
+    Deformation<S> before;
+    S extends, turns;  ///< the chord [m, rad]
+    S a, b;            ///< of the deformation [m]
+
+    Turn(const ElementProperties<S>& p, const Vector6<S>& d, const Vector6<S>& x) noexcept
+        : chord(p, d), before(chord.local(p, d)) {
+      const S i = 1 / chord.length, dx = x[3] - x[0], dw = x[4] - x[1];
+      extends = (chord.x * dx + chord.w * dw) * i, turns = (chord.x * dw - chord.w * dx) * i * i;
+      a = p.length * (x[2] + turns), b = p.length * (x[5] + turns);
+    }
+  };
+
+  /// Change of the chord that turns and has then a normal force: N is linear in the stretch, or else it is the unknown.
+  template <typename S>
+  static Vector2<S> lengthened(const ElementProperties<S>& p, const Turn<S>& to, const S& normal) noexcept {
+    using std::cos;
+    using std::sin;
+    const Deformation<S> after(to.before.stretch + to.extends, to.before.a + to.a, to.before.b + to.b);
+    S grows = to.extends;
+    if constexpr (has_own_tension<Local>) {
+      OwnTension<S> tension;
+      tension.normal = normal;
+      (void)Local::respond(p, after, tension);
+      grows -= tension.lack;
+    } else {
+      const CoreResponse<S> q = Local::respond(p, after);
+      grows += (normal - q.s) / q.k.ss;
+    }
+    // (l + grows) e(α + turns) - l e(α), with e(α + turns) - e(α) = 2 sin(turns/2) z(α + turns/2)
+    const S half = to.turns / 2, middle = to.chord.angle + half, bow = 2 * to.chord.length * sin(half),
+            end = middle + half;
+    return {grows * cos(end) - bow * sin(middle), grows * sin(end) + bow * cos(middle)};
+  }
+
+  /// The core of the local element, q, in the frame that has not turned.   @param normal, turns  force and sum of the moments over L that turn
+  template <typename S>
+  [[gnu::always_inline]] static CoreResponse<S> turned(const ElementProperties<S>& p, const Chord<S>& chord,
+                                                       const CoreResponse<S>& q, const S& normal,
+                                                       const S& turns) noexcept {
+    const S L = p.length, i = 1 / chord.length, c = chord.x * i, s = chord.w * i;
+    // By α: L times the sums over both ends, because the core is in Lθ.
+    const S h = L * i, M = h * (q.t1 + q.t2), a1 = h * (q.k.t11 + q.k.t12), a2 = h * (q.k.t12 + q.k.t22);
+    const S ez = h * (q.k.s1 + q.k.s2) - h * turns * i, zz = h * (a1 + a2) + normal * i, ss = q.k.ss;
+    return {q.energy,
+            q.s * c - M * s,
+            q.s * s + M * c,
+            q.t1,
+            q.t2,
+            {ss * c * c - 2 * ez * c * s + zz * s * s, (ss - zz) * c * s + ez * (c * c - s * s),
+             q.k.s1 * c - a1 * s, q.k.s2 * c - a2 * s, ss * s * s + 2 * ez * c * s + zz * c * c,
+             q.k.s1 * s + a1 * c, q.k.s2 * s + a2 * c, q.k.t11, q.k.t12, q.k.t22}};
+  }
 };
 
 }  // namespace hapbeam

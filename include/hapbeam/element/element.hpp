@@ -14,10 +14,9 @@
 //   E::ExactUnderTension       type, optional, E itself: a prismatic element without load solves the equations of moderate rotation
 //                              exactly, so that any number of elements gives the same answers.  A class derived from E does not
 //                              have it: there the name is E's, not its own
-//   E::OnMesh                  type, beside it: the element of beams that need a mesh, as they are loaded, bent by nature or pushed
-//                              together
 //   E::Abreast                 type, optional, E itself: E::respond(p, d) takes detail::Pack<S> for S, too, so that a few elements are
 //                              computed side by side
+//   E::respond(p, d, tension)  CoreResponse<S>, optional, beside E::Abreast: the element's tension is an unknown of its own, an OwnTension<S>
 //
 // with p an ElementProperties<S>.  An element is stateless: static functions, templated on the scalar S.
 // Real-time: no allocation, noexcept, O(1).
@@ -68,6 +67,8 @@ struct Deformation {
   S rise;     ///< w2 - w1 [m]
   S a;        ///< l θ1 + rise: minus the slope against the chord at node 1, times l [m]
   S b;        ///< l θ2 + rise: the same at node 2 [m]
+  S chord =
+      S(0);  ///< 1 where it is seen along the chord, which turns and is as long as the element is stretched
 
   Deformation(const ElementProperties<S>& p, const Vector6<S>& d) noexcept
       : stretch(d[3] - d[0] - p.natural_stretch),
@@ -76,7 +77,7 @@ struct Deformation {
         b(p.length * d[5] + rise) {}
 
   /// Seen along the chord, which does not rise.
-  Deformation(S stretch_, S a_, S b_) noexcept : stretch(stretch_), rise(0), a(a_), b(b_) {}
+  Deformation(S stretch_, S a_, S b_) noexcept : stretch(stretch_), rise(0), a(a_), b(b_), chord(1) {}
 };
 
 /// Symmetric second derivatives in the coordinates (stretch, rise, lθ1, lθ2) [N/m].
@@ -91,6 +92,18 @@ struct CoreResponse {
   S energy;          ///< [J]
   S s, r, t1, t2;    ///< [N]
   CoreTangent<S> k;  ///< [N/m]
+};
+
+/// The tension of an element as an unknown of its own, N: its energy V(d) is that of Π(d, N) where ∂Π/∂N = 0.  Condensed in the tangent,
+/// N follows the nodes by Newton's method, one evaluation an iteration:
+///   ΔN = missing + s Δstretch + r Δrise + t1 Δ(lθ1) + t2 Δ(lθ2)
+template <typename S>
+struct OwnTension {
+  S normal = 0;    ///< N [N]
+  S missing;       ///< by which it is off where the nodes are [N]
+  S lack;          ///< the same as a stretch, ∂Π/∂N [m]
+  S s, r, t1, t2;  ///< how it follows them [N/m]
+  S turning = 1;   ///< share of what is missing that turns with the chord, 0: near an equilibrium
 };
 
 namespace detail {
@@ -185,10 +198,25 @@ struct IsAbreast : std::false_type {};
 template <class E>
 struct IsAbreast<E, std::void_t<typename E::Abreast>> : std::is_same<typename E::Abreast, E> {};
 
+/// @tparam Of  Deformation<S> | Vector6<S>
+template <class E, typename S, class Of, typename = void>
+struct RespondsWithTension : std::false_type {};
+template <class E, typename S, class Of>
+struct RespondsWithTension<
+    E, S, Of,
+    std::void_t<decltype(E::respond(std::declval<const ElementProperties<S>&>(), std::declval<const Of&>(),
+                                    std::declval<OwnTension<S>&>()))>> : std::true_type {};
+
 template <class E, typename = void>
 struct Tapers : std::false_type {};
 template <class E>
 struct Tapers<E, std::void_t<decltype(E::tapers)>> : std::bool_constant<E::tapers> {};
+
+template <class E, typename = void>
+struct MembraneFeelsSlope : std::false_type {};
+template <class E>
+struct MembraneFeelsSlope<E, std::void_t<decltype(E::membrane_feels_slope)>>
+    : std::bool_constant<E::membrane_feels_slope> {};
 
 template <class E, typename = void>
 struct ExactUnderTension : std::false_type {};
@@ -241,6 +269,13 @@ struct ElementFromCore {
     if constexpr (responds_to_deformation<E, S>) return E::respond(p, Deformation<S>(p, d));
     else return E::respond(p, d);
   }
+  /// The same where its tension is an unknown of its own.
+  template <typename S>
+  [[gnu::always_inline]] static CoreResponse<S> core(const ElementProperties<S>& p, const Vector6<S>& d,
+                                                     OwnTension<S>& tension) noexcept {
+    if constexpr (responds_to_deformation<E, S>) return E::respond(p, Deformation<S>(p, d), tension);
+    else return E::respond(p, d, tension);
+  }
 };
 
 /// True where E is declared valid at finite rotation.
@@ -255,18 +290,11 @@ inline constexpr bool goes_abreast = detail::IsAbreast<E>::value;
 template <class E>
 inline constexpr bool exact_under_tension = detail::ExactUnderTension<E>::value;
 
-namespace detail {
-
-template <class E, bool = exact_under_tension<E>>
-struct OnMesh {
-  using Type = E;
-};
+/// True where the tension of an element, or of a membrane policy, is an unknown of its own.
 template <class E>
-struct OnMesh<E, true> {
-  using Type = typename E::OnMesh;
-};
-
-}  // namespace detail
+inline constexpr bool has_own_tension = goes_abreast<E> &&
+                                        (detail::RespondsWithTension<E, double, Deformation<double>>::value ||
+                                         detail::RespondsWithTension<E, double, Vector6<double>>::value);
 
 /// An element of beams that may be touched at several places at once, as FemModel<Several<Corotational<>, 3>>.
 /// @tparam Contacts  the most of them

@@ -1,14 +1,23 @@
 // The membrane policy that makes a straight element exact: what its tension does to its stretch and to its bending.
 //
-//   V(d, N) = N e - N² l/2EA + EI/4l³ ((B - 6)(a + b)² + (A - 2)(a - b)²),     e = u2 - u1 + rise²/2l - e0,     q = N l²/EI
+//   Π(d, N) = N e - N² l/2EA + EI/4l³ ((B - 6)(a + b)² + (A - 2)(a - b)²),     e = u2 - u1 + rise²/2l - e0,     q = N l²/EI
 //
-// stationary in N, the element's own unknown, which is condensed.  A(q), B(q): tension_stiffness.hpp; 2 and 6: the bending without
+// stationary in N, the element's own unknown.  A(q), B(q): tension_stiffness.hpp; 2 and 6: the bending without
 // tension, which VonKarman adds; e0: the e of the natural shape without tension.  Without a load on it, or as a part of a polygon of
 // constant tension, the element solves EI w'''' = N w'' exactly.  AssumedStrain is its first order, A = 2 + q/6 and B = 6 + q/10.
 //
-//   ∂V/∂N = 0:    N l/EA = e + (B'(a + b)² + A'(a - b)²)/4l
+//   ∂Π/∂N = 0:    N l/EA = e + (B'(a + b)² + A'(a - b)²)/4l
 //
-// The right side falls with N and is convex: Newton's method rises to its one root, from e alone or from the first step of N = 0.
+// Along a chord, which turns, N bends what is 1 + N/EA times as long: q = N (1 + N/EA) l²/EI.
+//
+// Condensed, the nodes see
+//
+//   r = ∂Π/∂d + ΔN ∂²Π/∂d∂N,   K = ∂²Π/∂d² + k ∂²Π/∂d∂N (∂²Π/∂d∂N)ᵀ,   ΔN = k ∂Π/∂N,   1/k = -∂²Π/∂N² > 0
+//
+// and V = Π + ½ k (∂Π/∂N)², to third order of what is missing.  In equilibrium ΔN = 0.
+//
+// By the nodes alone, N is found from N = EA e/l on, or from the first step of N = 0: ∂Π/∂N falls with N and is convex, so that
+// Newton's method rises to its one root.
 // Real-time: no allocation, noexcept, O(1).
 // Source: derived here; docs/theory.md, The element.
 #pragma once
@@ -29,44 +38,6 @@ template <typename S>
   return a < b;
 }
 
-/// q of an element and what follows from it.
-template <typename S>
-struct ElementTension {
-  S q;
-  TensionStiffness<S> k;
-  S compliance;  ///< ∂e/∂N at held rotations, times (EA/l) (EI/l³) l [N]
-
-  /// @param across, about  squares of a + b and a - b
-  [[gnu::always_inline]] ElementTension(const ElementProperties<S>& p, const S& e, const S& across,
-                                        const S& about) noexcept {
-    using detail::all_less;
-    const S unit = p.bending_per_length3 * p.length, stiff = p.axial_per_length,
-            quarter = p.inverse_length / 4;
-    const auto lack = [&](const S& b1, const S& a1) {
-      return stiff * (e + quarter * (b1 * across + a1 * about));
-    };
-    const auto slope = [&](const S& b2, const S& a2) {
-      return unit - stiff * quarter * (b2 * across + a2 * about);
-    };
-    const S first = lack(S(1. / 10), S(1. / 6)) / slope(S(-1. / 700), S(-1. / 180));
-    q = larger(first, S(stiff * e / unit));
-    const S eps = S(Eigen::NumTraits<S>::epsilon());
-    // The last step is entered to second order: what is left is of its third.
-    for (int i = 0; i < most; ++i) {
-      k = tension_stiffness(q);
-      compliance = slope(k.b2, k.a2);
-      const S step = (lack(k.b1, k.a1) - unit * q) / compliance;
-      q += step;
-      k.a += step * (k.a1 + step * k.a2 / 2), k.a1 += step * k.a2;
-      k.b += step * (k.b1 + step * k.b2 / 2), k.b1 += step * k.b2;
-      if (all_less(S(step * step), S(eps * (1 + q * q)))) break;
-    }
-  }
-
- private:
-  static constexpr int most = 12;
-};
-
 }  // namespace detail
 
 struct StabilityFunctions {
@@ -74,29 +45,69 @@ struct StabilityFunctions {
   using Abreast = StabilityFunctions;
   static constexpr const char* name() noexcept { return "stability-functions"; }
 
+  /// By the nodes alone.
   template <typename S>
   [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
                                                         const Deformation<S>& d) noexcept {
-    const S i = p.inverse_length, half = p.bending_per_length3 / 2;
-    const S across = d.a + d.b, about = d.a - d.b,
-            e = d.stretch + (d.rise * d.rise - detail::natural_mean_square(p)) * i / 2;
-    const detail::ElementTension<S> t(p, e, S(across * across), S(about * about));
-    const S unit = p.bending_per_length3 * p.length, normal = t.q * unit, n = normal * i;
-    const S bx = half * t.k.b * across, ax = half * t.k.a * about, m1 = bx + ax, m2 = bx - ax;
-    // ∂²V/∂N∂(rise, lθ1, lθ2)
-    const S b1 = t.k.b1 * across * i / 2, a1 = t.k.a1 * about * i / 2, n1 = b1 + a1, n2 = b1 - a1,
+    using detail::all_less;
+    using detail::larger;
+    const S unit = p.bending_per_length3 * p.length, eps = S(Eigen::NumTraits<S>::epsilon());
+    OwnTension<S> tension;
+    (void)respond(p, d, tension);
+    tension.normal = larger(tension.missing, S(p.axial_per_length * elongation(p, d)));
+    CoreResponse<S> core = respond(p, d, tension);
+    for (int i = 0; i < most; ++i) {
+      const S step = tension.missing, size = unit * unit + tension.normal * tension.normal;
+      if (all_less(S(step * step), S(eps * eps * size))) break;
+      tension.normal += step;
+      core = respond(p, d, tension);
+    }
+    return core;
+  }
+  /// With N an unknown.
+  template <typename S>
+  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                        const Deformation<S>& d,
+                                                        OwnTension<S>& tension) noexcept {
+    using detail::larger;
+    const S i = p.inverse_length, half = p.bending_per_length3 / 2, quarter = i / 4;
+    const S unit = p.bending_per_length3 * p.length, stiff = p.axial_per_length, normal = tension.normal;
+    const S across = d.a + d.b, about = d.a - d.b, across2 = across * across, about2 = about * about;
+    const S yields = d.chord * i / stiff, strain = yields * normal, by_normal = 1 + 2 * strain;
+    detail::TensionStiffness<S> k = detail::tension_stiffness(S((normal + normal * strain) / unit));
+    // From here on by N EI/l² instead of q.
+    const S curved = 2 * yields * unit;
+    k.a2 = k.a2 * by_normal * by_normal + k.a1 * curved, k.a1 *= by_normal;
+    k.b2 = k.b2 * by_normal * by_normal + k.b1 * curved, k.b1 *= by_normal;
+    const S e = elongation(p, d), lack = e + quarter * (k.b1 * across2 + k.a1 * about2) - normal / stiff;
+    const S follow = stiff * unit / (unit - stiff * quarter * (k.b2 * across2 + k.a2 * about2));
+    const S missing = follow * lack;
+    // ∂²Π/∂N∂(rise, lθ1, lθ2)
+    const S b1 = k.b1 * across * i / 2, a1 = k.a1 * about * i / 2, n1 = b1 + a1, n2 = b1 - a1,
             nr = d.rise * i + n1 + n2;
-    const S stiff = p.axial_per_length * unit / t.compliance, k11 = half * (t.k.b + t.k.a),
-            k12 = half * (t.k.b - t.k.a), sum = 2 * half * t.k.b;
-    const S s1 = stiff * n1, s2 = stiff * n2, sr = stiff * nr;
-    const S stretched = e - normal / p.axial_per_length / 2;
-    return {normal * stretched + (bx * across + ax * about) / 2,
-            normal,
-            n * d.rise + m1 + m2,
-            m1,
-            m2,
-            {stiff, sr, s1, s2, n + 2 * sum + sr * nr, sum + sr * n1, sum + sr * n2, k11 + s1 * n1,
+    const S bx = half * k.b * across, ax = half * k.a * about, m1 = bx + ax, m2 = bx - ax;
+    const S turns = larger(normal, S(normal + tension.turning * missing)) * i, k11 = half * (k.b + k.a),
+            k12 = half * (k.b - k.a), sum = 2 * half * k.b;
+    const S s1 = follow * n1, s2 = follow * n2, sr = follow * nr;
+    tension.missing = missing, tension.lack = lack;
+    tension.s = follow, tension.r = sr, tension.t1 = s1, tension.t2 = s2;
+    return {normal * (e - normal / stiff / 2) + (bx * across + ax * about + missing * lack) / 2,
+            normal + missing,
+            normal * i * d.rise + m1 + m2 + missing * nr,
+            m1 + missing * n1,
+            m2 + missing * n2,
+            {follow, sr, s1, s2, turns + 2 * sum + sr * nr, sum + sr * n1, sum + sr * n2, k11 + s1 * n1,
              k12 + s1 * n2, k11 + s2 * n2}};
+  }
+
+ private:
+  static constexpr int most = 16;
+
+  /// e
+  template <typename S>
+  [[gnu::always_inline]] static S elongation(const ElementProperties<S>& p,
+                                             const Deformation<S>& d) noexcept {
+    return d.stretch + (d.rise * d.rise - detail::natural_mean_square(p)) * p.inverse_length / 2;
   }
 };
 

@@ -23,7 +23,6 @@ struct VonKarman : ElementFromCore<VonKarman<Membrane>> {
                 "CoreResponse<S> and name() -> const char*: see hapbeam/element/membrane.hpp");
   static constexpr bool membrane_feels_slope = true;
   using ExactUnderTension = std::conditional_t<exact_under_tension<Membrane>, VonKarman, void>;
-  using OnMesh = std::conditional_t<exact_under_tension<Membrane>, VonKarman<AssumedStrain>, VonKarman>;
   using Abreast = std::conditional_t<goes_abreast<Membrane>, VonKarman, void>;
   static constexpr const char* name() noexcept { return Membrane::name(); }
 
@@ -31,6 +30,14 @@ struct VonKarman : ElementFromCore<VonKarman<Membrane>> {
   [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
                                                         const Deformation<S>& e) noexcept {
     CoreResponse<S> core = Membrane::respond(p, e);
+    detail::add_bending(p, e, core);
+    return core;
+  }
+  template <typename S, class M = Membrane, std::enable_if_t<has_own_tension<M>, int> = 0>
+  [[gnu::always_inline]] static CoreResponse<S> respond(const ElementProperties<S>& p,
+                                                        const Deformation<S>& e,
+                                                        OwnTension<S>& tension) noexcept {
+    CoreResponse<S> core = M::respond(p, e, tension);
     detail::add_bending(p, e, core);
     return core;
   }

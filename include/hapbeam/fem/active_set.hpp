@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/fem/obstacle_gap.hpp>
 #include <hapbeam/fem/obstacle_nodes.hpp>
 #include <hapbeam/fem/round_push.hpp>
@@ -26,7 +27,6 @@ class ActiveSet : protected ObstacleNodes<Element, System> {
   using Nodes::beside_a_touch;
   using Nodes::count_;
   using Nodes::end_at;
-  using Nodes::planar;
   using Nodes::slot;
   using Nodes::twin;
   using typename Nodes::Node;
@@ -47,7 +47,7 @@ class ActiveSet : protected ObstacleNodes<Element, System> {
     for (int i = 0; i < count_; ++i) {
       Slot& now = slot(i);
       if (!all_[i].touching) continue;
-      all_[i].pushed.force = system.linear_reaction(now.goal) / now.across;
+      all_[i].pushed.force = system.linear_reaction(now.goal);
       // What is touched by nothing pulls the least.
       if (all_[i].kind == ObstacleKind::support) continue;
       if (!(all_[i].pushed.force < 0) && (worst < 0 || all_[i].pushed.force > most_pull))
@@ -163,7 +163,7 @@ class ActiveSet : protected ObstacleNodes<Element, System> {
     const Scalar length = system.length();
     const Gap gap = other < 0
                         ? Gap(system, round)
-                        : Gap(system, round, slot(other).node, slot(other).s, 2 * Mesh::shortest(length));
+                        : Gap(system, round, slot(other).node, slot(other).s, 2 * shortest_element(length));
     Slot& now = slot(i);
     now.depth = gap.depth;
     if (std::isfinite(gap.depth)) now.s = gap.s;

@@ -1,11 +1,11 @@
-// A press of any beam, solved for the displacements of all nodes: the general way of FemModel.
+// A press of any beam or rod, solved for the displacements of all nodes: the general way of FemModel.
 //
-// The mesh moves so that a node lies at the contact, and BeamSystem is solved by Newton–Raphson from the last press or from
-// rest, whichever is closer.  A beam with more than one shape at rest keeps to the branch on which it is; where that ends or
+// BeamSystem, on a mesh that stays, or RodSystem, whose node follows the contact, is solved by Newton–Raphson from the last press or
+// from rest, whichever is closer.  A beam with more than one shape at rest keeps to the branch on which it is; where that ends or
 // gives way it falls to a stable one (Descent), and the status says snapped.
 // Offline: construction allocates, finds the shape at rest and may throw.  Servo: every other member is noexcept and
 // allocation-free; a press, a push or a release takes at most solver.max_solves linear solves of
-// O(elements), a fall included, and two more on each mesh where the beam gives way.
+// O(elements), a fall included, and two more in each solution where the beam gives way.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,7 @@
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/load_path.hpp>
 #include <hapbeam/fem/place_push.hpp>
+#include <hapbeam/fem/plane_push.hpp>
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/round_push.hpp>
 #include <hapbeam/fem/several_push.hpp>
@@ -46,6 +47,7 @@ class AllDisplacements {
     find_rest(beam);
     system_.keep(rest_state_);
     home_ = system_.middle();
+    drawn(0);
   }
 
   /// Prescribes the displacement along request.normal at request.s.
@@ -54,7 +56,7 @@ class AllDisplacements {
   Response<Scalar> press(const Push<Scalar, dimension>& request, Scalar node, bool valid) noexcept {
     if (!begins(valid)) return {0, report_.status};
     round_.forget(), several_.forget();
-    return place_.push(*this, request, node);
+    return drawn(place_.push(*this, request, node));
   }
 
   /// Lays the beam on a circle, a rod on a capsule.   @param range  says where a node can be   @param valid  whether there is a request
@@ -64,14 +66,19 @@ class AllDisplacements {
                                  FrictionState<Scalar, dimension>* friction) noexcept {
     if (!begins(valid)) return {0, report_.status};
     several_.forget(), place_.forget();
-    return round_.push(*this, request, range, friction);
+    return drawn(round_.push(*this, request, range, friction));
   }
 
   /// Lays it on several.  @param all  in and out   @return the status that is common to all of them
   Status push(Obstacle<Scalar, dimension>* all, int count, const Extent& range) noexcept {
     if (!begins(true)) return report_.status;
-    round_.forget(), place_.forget();
-    return several_.push(*this, all, count, range);
+    place_.forget();
+    if constexpr (plane) {
+      return drawn(round_.push(*this, all, count, range));
+    } else {
+      round_.forget();
+      return several_.push(*this, all, count, range);
+    }
   }
 
   /// Moves a clamped end of a rod, without a contact.
@@ -113,7 +120,8 @@ class AllDisplacements {
 
   /// Falls to the shape at rest on whose slope the beam is; one that is folded, which only a request beyond all reach leaves,
   /// and which may be stable, goes back to where it began.   @return ok | snapped | iteration_limit
-  Status release() noexcept {
+  Status release() noexcept { return drawn(let_go()); }
+  Status let_go() noexcept {
     forget();
     if (single_valued_) {
       reset();
@@ -139,10 +147,14 @@ class AllDisplacements {
     to_rest();
     several_.reset();
     report_.step = 1;
+    drawn(0);
   }
 
   int elements() const noexcept { return system_.elements(); }
-  Centreline<Scalar, dimension> shape() const noexcept { return system_.centreline(); }
+  Centreline<Scalar, dimension> shape() const noexcept {
+    if constexpr (dimension == 2) return system_.drawn();
+    else return system_.centreline();
+  }
   Scalar strain_energy() const noexcept { return system_.strain_energy(); }
   InternalForces<Scalar, dimension> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
     return system_.internal_forces(e, s, thickness);
@@ -157,11 +169,14 @@ class AllDisplacements {
   using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements>;
   using System = SystemIn<Scalar>;
   using Mesh = typename System::Mesh;
-  using Rounds = std::conditional_t<any_rotation<Element> || dimension == 3,
-                                    detail::RoundPush<Element, System>, detail::NoRound>;
+  // In the plane one push is for one contact and several; in space there are two.
+  static constexpr bool plane = dimension == 2;
+  using Rounds = std::conditional_t<
+      plane, std::conditional_t<any_rotation<Element>, detail::PlanePush<Element, System>, detail::NoRound>,
+      detail::RoundPush<Element, System>>;
   friend Rounds;
-  using Severals =
-      std::conditional_t<(contacts_of<Element> > 1), detail::SeveralPush<Element, System>, detail::NoRound>;
+  using Severals = std::conditional_t<!plane && (contacts_of<Element> > 1),
+                                      detail::SeveralPush<Element, System>, detail::NoRound>;
   friend Severals;
   using Places = detail::PlacePush<Element, System>;
   friend Places;
@@ -174,6 +189,12 @@ class AllDisplacements {
     falling_ = descending_ = false;
     unanswered_ = 0;
     forget();
+  }
+  /// What was answered, and the beam can be seen.
+  template <class Answer>
+  const Answer& drawn(const Answer& answer) noexcept {
+    if constexpr (dimension == 2) system_.draw();
+    return answer;
   }
   void forget() noexcept { round_.forget(), several_.forget(), place_.forget(); }
 

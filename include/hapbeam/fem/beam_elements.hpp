@@ -1,24 +1,25 @@
-// The elements of one beam on a mesh whose nodes move: displacements, strain energy, dead loads, and their derivatives.
+// The elements of one beam on a mesh that stays: displacements, strain energy, dead loads, and their derivatives.
 //
 // Displacements are those from the straight beam, of arches too: an arch is a beam that bends nothing where it is bent,
-// between ends that stand closer.  Nodes carry their arc positions, so a mesh that follows the contact changes element
-// lengths and natural rotations and nothing else.
+// between ends that stand closer.  The tension of each element is an unknown of its own where the element has one; it moves with the nodes.
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 
 #include <hapbeam/beam.hpp>
+#include <hapbeam/body/beam_pieces.hpp>
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/element/pack.hpp>
 #include <hapbeam/fem/beam_forces.hpp>
-#include <hapbeam/fem/beam_profile.hpp>
-#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/laid_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
-#include <hapbeam/fem/natural_shape.hpp>
+#include <hapbeam/fem/rod_lanes.hpp>
+#include <hapbeam/fem/solver/ldlt.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 
 namespace hapbeam {
@@ -27,10 +28,13 @@ template <class Element, typename ScalarType, int Elements, int MaxElements>
 class BeamElements {
  public:
   using Scalar = ScalarType;
-  using Mesh = ContactMesh<Scalar, contacts_of<Element>>;
   using Node = CentrelineNode<Scalar>;
   using Nodes = detail::PerNode<Node, Elements, MaxElements>;
   using Properties = detail::PerNode<ElementProperties<Scalar>, Elements, MaxElements>;
+  using Tensions = detail::PerNode<Scalar, Elements, MaxElements>;
+  using Pieces = detail::BeamPieces<Element, Scalar>;
+  /// Whether the tensions of the elements are unknowns, which move with the nodes.
+  static constexpr bool has_tensions = has_own_tension<Element>;
   static_assert(
       is_element<Element, Scalar>,
       "an Element needs static noexcept energy(p, d), residual(p, d, r), tangent(p, d, r, K) and name(): "
@@ -41,39 +45,74 @@ class BeamElements {
   BeamElements(const Beam& beam, int elements)
       : nodes_(elements),
         properties_(elements),
+        tensions_(elements),
+        own_(detail::groups_of<Scalar>(elements)),
         loads_(beam, elements),
-        natural_(beam),
-        profile_(beam),
-        mesh_(elements, static_cast<Scalar>(beam.length())),
-        axial_stiffness_(static_cast<Scalar>(beam.axial_stiffness())),
-        bending_stiffness_(static_cast<Scalar>(beam.bending_stiffness())) {
-    for (int i = 0; i <= elements; ++i) nodes_[i] = {mesh_.position(i), 0, 0, 0};
-    take(mesh_);
+        pieces_(beam) {
+    lay_mesh<Scalar>(beam, elements, [this](int i, Scalar s) { nodes_[i] = {s, 0, 0, 0}; });
+    for (int e = 0; e < elements; ++e) properties_[e] = pieces_.between(nodes_[e].s, nodes_[e + 1].s);
   }
 
   int size() const noexcept { return nodes_.size() - 1; }
   Nodes& nodes() noexcept { return nodes_; }
   const Nodes& nodes() const noexcept { return nodes_; }
   const Properties& properties() const noexcept { return properties_; }
-  const NaturalShape<Scalar>& natural_shape() const noexcept { return natural_; }
-  const Mesh& mesh() const noexcept { return mesh_; }
+  /// N of each element [N].
+  Tensions& tensions() noexcept { return tensions_; }
+  const Tensions& tensions() const noexcept { return tensions_; }
+  /// Of which the elements are made, and parts of them.
+  const Pieces& pieces() const noexcept { return pieces_; }
+  const NaturalShape<Scalar>& natural_shape() const noexcept { return pieces_.natural_shape(); }
   /// Any nodes of this beam, seen with its kinematics.
   static Centreline<Scalar> view(const Nodes& nodes) noexcept {
     return {nodes.data(), nodes.size(), any_rotation<Element>};
   }
 
-  /// Moves to another mesh of as many elements and carries the displacements over.  @param scratch  overwritten
-  void remesh(const Mesh& mesh, Nodes& scratch) noexcept {
-    for (int i = 0; i < nodes_.size(); ++i) scratch[i] = nodes_[i];
-    transfer(view(scratch), mesh, nodes_.data());
-    if (!natural_.straight())
-      for (Node& node : nodes_) as_natural(scratch, node);
-    take(mesh);
-  }
-  /// Sets the whole state.  @param nodes those of the given mesh
-  void set(const Mesh& mesh, const Node* nodes) noexcept {
+  /// Sets the whole state.
+  void set(const Nodes& nodes, const Tensions& tensions) noexcept {
     for (int i = 0; i < nodes_.size(); ++i) nodes_[i] = nodes[i];
-    take(mesh);
+    for (int e = 0; e < size(); ++e) tensions_[e] = tensions[e];
+  }
+  /// Those that belong to the displacements.
+  void find_tensions() noexcept {
+    if constexpr (has_tensions)
+      for (int e = 0; e < size(); ++e) {
+        OwnTension<Scalar> own;
+        own.normal = tensions_[e];
+        for (int k = 0; k < most_tensions; ++k) {
+          (void)Element::core(properties_[e], displacements(e), own);
+          own.normal += own.missing;
+          if (!(std::abs(own.missing) > Scalar(1e-4) * std::abs(own.normal))) break;  // left: its square
+        }
+        tensions_[e] = own.normal;
+      }
+  }
+  /// To be called where the nodes have moved.   @param increment  i -> [u, w, θ] of node i   @param skip  (e) -> whether it follows otherwise
+  /// @return Σ |∂²Π/∂N²| (ΔN² - (ΔN - m)²), m: what N lacked: by so much the increment is longer than its nodes alone say [J]
+  template <class Increment, class Skip>
+  [[gnu::always_inline]] Scalar follow([[maybe_unused]] Increment&& increment,
+                                       [[maybe_unused]] Skip&& skip) noexcept {
+    Scalar longer = 0;
+    if constexpr (has_tensions) {
+      Vector3<Scalar> x = increment(0);
+      for (int e = 0; e < size(); ++e) {
+        const Vector3<Scalar> y = increment(e + 1);
+        const auto& own = own_[e / Group::size];
+        const int k = e % Group::size;
+        const ElementProperties<Scalar>& p = properties_[e];
+        const Scalar by = own.missing[k] + own.s[k] * (y[0] - x[0]) + own.r[k] * (y[1] - x[1]) +
+                          p.length * (own.t1[k] * x[2] + own.t2[k] * y[2]);
+        // A step far into compression, which has no bending stiffness left, leads nowhere.
+        if (!skip(e)) {
+          const Scalar before = tensions_[e];
+          tensions_[e] = (std::max)(
+              before + by, (std::min)(before, Scalar(0)) - largest_push * p.bending_per_length3 * p.length);
+          longer += own.lack[k] * (2 * by - own.missing[k]);
+        }
+        x = y;
+      }
+    }
+    return longer;
   }
 
   /// Elements that are computed side by side, from the one on whose number is a multiple of their size.
@@ -83,7 +122,7 @@ class BeamElements {
     CoreResponse<Number> core;
   };
   /// To be called with each element, in order.
-  [[gnu::always_inline]] void respond([[maybe_unused]] int e, [[maybe_unused]] Group& group) const noexcept {
+  [[gnu::always_inline]] void respond([[maybe_unused]] int e, [[maybe_unused]] Group& group) noexcept {
     if constexpr (goes_abreast<Element>)
       if (e % Group::size == 0) respond_abreast(e, group);
   }
@@ -111,37 +150,42 @@ class BeamElements {
   Scalar subtract_loads(int e, Scalar lambda, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
     return subtract_loads(e, lambda, displacements(e), r, &K);
   }
+  Scalar subtract_loads(int e, Scalar lambda, Vector6<Scalar>& r) const noexcept {
+    return subtract_loads(e, lambda, displacements(e), r, nullptr);
+  }
   /// The residual alone.
   void residual(int e, Scalar lambda, Vector6<Scalar>& r) const noexcept {
     const Vector6<Scalar> d = displacements(e);
-    Element::residual(properties_[e], d, r);
+    if constexpr (has_tensions) {
+      const CoreResponse<Scalar> c = core(e);
+      detail::expand(properties_[e], c.s, c.r, c.t1, c.t2, r);
+    } else {
+      Element::residual(properties_[e], d, r);
+    }
     subtract_loads(e, lambda, d, r, nullptr);
   }
   /// What the section at s carries, in element e, which holds s.   @param thickness [m]
   InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar lambda, Scalar thickness) const noexcept {
     Vector6<Scalar> r;
     residual(e, lambda, r);
-    const auto cut =
-        detail::cut_beam<Element>(view(nodes_), e, s, r, loaded(lambda) ? &loads_ : nullptr, lambda);
-    if constexpr (detail::Tapers<Element>::value) {
-      const auto [EA, EI] = profile_.at(s);
-      return cut.in_section(EA, EI, thickness);
-    } else {
-      return cut.in_section(axial_stiffness_, bending_stiffness_, thickness);
-    }
+    return internal_forces(
+        e, nodes_[e].s, s, lambda, thickness, r, [&](Scalar at) { return view(nodes_).at(e, at); }, nullptr,
+        0);
+  }
+  /// The same of one that is touched.   @param begin  of the piece of it [m]   @param r  its forces on its nodes, less loads   @param place  s -> Displacement within it
+  template <class Place>
+  InternalForces<Scalar> internal_forces(int e, Scalar begin, Scalar s, Scalar lambda, Scalar thickness,
+                                         const Vector6<Scalar>& r, Place&& place,
+                                         const PointForce<Scalar>* contacts, int count) const noexcept {
+    const auto cut = detail::cut_beam<Element>(
+        view(nodes_), e, begin, s, r, loaded(lambda) ? &loads_ : nullptr, lambda, place, contacts, count);
+    const auto stiffness = pieces_.stiffness(s);
+    return cut.in_section(stiffness.axial, stiffness.bending, thickness);
   }
   /// [J]
-  Scalar strain_energy() const noexcept {
-    Scalar sum = 0;
-    if constexpr (goes_abreast<Element>) {
-      for (int first = 0; first < size(); first += Group::size) {
-        const auto energy = gather(first, [](const auto& p, const auto& d) { return Element::energy(p, d); });
-        for (int e = first; e < (std::min)(first + Group::size, size()); ++e) sum += energy[e - first];
-      }
-    } else {
-      for (int e = 0; e < size(); ++e) sum += Element::energy(properties_[e], displacements(e));
-    }
-    return sum;
+  Scalar strain_energy(int e) const noexcept {
+    if constexpr (has_tensions) return core(e).energy;
+    else return Element::energy(properties_[e], displacements(e));
   }
   /// Of λ times the loads [J].
   Scalar work(Scalar lambda) const noexcept {
@@ -152,35 +196,36 @@ class BeamElements {
     return work;
   }
 
- private:
-  /// Moves a node within an element of other nodes as its natural shape would move from what an element makes of that, a corner of it or
-  /// an arc of more than half a radian.
-  void as_natural(const Nodes& others, Node& node) const noexcept {
-    using std::cos;
-    using std::sin;
-    const int e = view(others).segment_at(node.s);
-    const Scalar a = others[e].s, b = others[e + 1].s;
-    const bool bent = std::abs(properties_[e].natural_b - properties_[e].natural_a) > (b - a) / 2;
-    if (!(a < node.s && node.s < b) || !(bent || natural_.changes_within(a, b))) return;
-    const auto lie = [this](Scalar s) {
-      const Displacement<Scalar> at = natural_.at(s);
-      return Node{s, at.u, at.w, at.theta};
-    };
-    const std::array<Node, 2> ends{lie(a), lie(b)};
-    const Node there = lie(node.s);
-    const Displacement<Scalar> drawn = Centreline<Scalar>(ends.data(), 2, any_rotation<Element>).at(node.s);
-    const Scalar u = there.u - drawn.u, w = there.w - drawn.w, turn = node.theta - drawn.theta;
-    node.u += cos(turn) * u + sin(turn) * w;
-    node.w += cos(turn) * w - sin(turn) * u;
-    node.theta += there.theta - drawn.theta;
-  }
+  /// Of both nodes of an element.
   Vector6<Scalar> displacements(int e) const noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
     return {a.u, a.w, a.theta, b.u, b.w, b.theta};
   }
+  Scalar tension(int e) const noexcept { return tensions_[e]; }
+  void set_tension(int e, Scalar N) noexcept { tensions_[e] = N; }
+  /// As of OwnTension.
+  Scalar turning() const noexcept { return turning_; }
+  void set_turning(Scalar share) noexcept { turning_ = share; }
 
-  void respond_abreast(int first, Group& group) const noexcept {
-    group.core = gather(first, [](const auto& p, const auto& d) { return Element::core(p, d); });
+ private:
+  static constexpr int most_tensions = 16;
+  static constexpr Scalar largest_push = 8;  // in one increment [EI/l²]
+
+  /// Of one element under its own tension.
+  CoreResponse<Scalar> core(int e) const noexcept {
+    OwnTension<Scalar> own;
+    own.normal = tensions_[e];
+    return Element::core(properties_[e], displacements(e), own);
+  }
+  void respond_abreast(int first, Group& group) noexcept {
+    if constexpr (has_tensions) {
+      auto& own = own_[first / Group::size];
+      own.normal = Group::Number::of([&](int k) { return tensions_[(std::min)(first + k, size() - 1)]; });
+      own.turning = turning_;
+      group.core = gather(first, [&own](const auto& p, const auto& d) { return Element::core(p, d, own); });
+    } else {
+      group.core = gather(first, [](const auto& p, const auto& d) { return Element::core(p, d); });
+    }
   }
   /// Of a group from its first element on: use(properties, displacements), side by side.
   template <class Use>
@@ -202,7 +247,7 @@ class BeamElements {
     p.axial_stiffness = property(&P::axial_stiffness);
     p.axial_per_length = property(&P::axial_per_length);
     p.bending_per_length3 = property(&P::bending_per_length3);
-    if (!natural_.straight()) {
+    if (!natural_shape().straight()) {
       p.natural_a = property(&P::natural_a);
       p.natural_b = property(&P::natural_b);
       p.natural_stretch = property(&P::natural_stretch);
@@ -218,24 +263,15 @@ class BeamElements {
                                              properties_[e], d, r, K);
   }
 
-  void take(const Mesh& mesh) noexcept {
-    mesh_ = mesh;
-    for (int e = 0; e < size(); ++e) {
-      const Scalar length = nodes_[e + 1].s - nodes_[e].s;
-      if (properties_[e].length != length)
-        properties_[e] = ElementProperties<Scalar>(length, axial_stiffness_, bending_stiffness_);
-      if constexpr (detail::Tapers<Element>::value) profile_.apply(nodes_[e].s, length, properties_[e]);
-      if (!natural_.straight()) natural_.apply(nodes_[e].s, properties_[e]);
-    }
-  }
-
   Nodes nodes_;
   Properties properties_;
+  Tensions tensions_;
+  Scalar turning_ = 1;
+  detail::PerNode<OwnTension<typename Group::Number>, detail::groups_of<Scalar>(Elements),
+                  detail::groups_of<Scalar>(MaxElements)>
+      own_;  // since respond()
   DeadLoads<Scalar> loads_;
-  NaturalShape<Scalar> natural_;
-  std::conditional_t<detail::Tapers<Element>::value, BeamProfile<Scalar>, detail::OneSection> profile_;
-  Mesh mesh_;
-  Scalar axial_stiffness_, bending_stiffness_;
+  Pieces pieces_;
 };
 
 }  // namespace hapbeam

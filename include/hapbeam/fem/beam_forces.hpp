@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/fem/loads.hpp>
@@ -69,27 +70,36 @@ struct BeamCut {
   using S = Scalar;
 };
 
-/// The cut at s in element e.
+/// The cut at s in element e.   @param begin  of what is cut: at a load there, what is on its right [m]
 /// @param r  forces of that element on its nodes, less its dead loads   @param loads  λ times them
-template <class Element, typename Scalar>
-BeamCut<Element, Scalar> cut_beam(const Centreline<Scalar>& line, int e, Scalar at, const Vector6<Scalar>& r,
-                                  const DeadLoads<Scalar>* loads, Scalar lambda) noexcept {
+/// @param place  s -> Displacement in that element   @param contacts  within it, count of them in order of s
+template <class Element, typename Scalar, class Place>
+BeamCut<Element, Scalar> cut_beam(const Centreline<Scalar>& line, int e, Scalar begin, Scalar at,
+                                  const Vector6<Scalar>& r, const DeadLoads<Scalar>* loads, Scalar lambda,
+                                  Place&& place, const PointForce<Scalar>* contacts, int count) noexcept {
   const CentrelineNode<Scalar>&a = line[e], &b = line[e + 1];
   const Scalar s = (std::min)((std::max)(at, a.s), b.s);
   BeamCut<Element, Scalar> cut{{-r[0], -r[1]}, -r[2], a.s, {a.u, a.w, a.theta}}, end = cut;
-  // On the side of this element, where it is cut at a node.
-  const auto before_cut = [&](Scalar x) { return x < s || (x == s && s == a.s); };
+  const auto before_cut = [&](Scalar x) { return x < s || (x == s && s == begin); };
+  const auto meet = [&](const PointForce<Scalar>& load, Scalar share) {
+    const Displacement<Scalar> there = place(load.s);
+    end.go(load.s, there);
+    end.pass(load, share);
+    if (!before_cut(load.s)) return;
+    cut.go(load.s, there);
+    cut.pass(load, share);
+  };
+  const auto meet_contacts = [&](Scalar until) {
+    for (; count > 0 && contacts->s < until; ++contacts, --count) meet(*contacts, 1);
+  };
   if (loads)
     loads->visit(a.s, b.s, e + 1 == line.segments(), [&](const PointForce<Scalar>& load) {
-      const Displacement<Scalar> place = line.at(e, load.s);
-      end.go(load.s, place);
-      end.pass(load, lambda);
-      if (!before_cut(load.s)) return;
-      cut.go(load.s, place);
-      cut.pass(load, lambda);
+      meet_contacts(load.s);
+      meet(load, lambda);
     });
+  meet_contacts(std::numeric_limits<Scalar>::infinity());
   end.go(b.s, {b.u, b.w, b.theta});
-  cut.go(s, line.at(e, s));
+  cut.go(s, place(s));
   cut.moment += (s - a.s) / (b.s - a.s) * (r[5] - end.moment);
   if (loads)
     loads->visit_cell(before_cut, [&](const Vector2<Scalar>& q, Scalar start, Scalar length) {

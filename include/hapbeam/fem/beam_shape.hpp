@@ -19,69 +19,66 @@ class BeamShape {
  public:
   using Node = CentrelineNode<Scalar>;
   using Nodes = typename Parts::Nodes;
-  using State = Nodes;
-  using Mesh = typename Parts::Mesh;
+  using Tensions = typename Parts::Tensions;
+  /// A shape, and the tensions of its elements.
+  struct State {
+    explicit State(int elements) : nodes(elements), tensions(elements) {}
+    Nodes nodes;
+    Tensions tensions;
+  };
+  /// It stays: all states have the same, which their nodes know.
+  struct Mesh {
+    Mesh() = default;
+    Mesh(int, Scalar) noexcept {}
+    int node() const noexcept { return 0; }
+  };
 
   int elements() const noexcept { return beam_.size(); }
   Scalar length() const noexcept { return length_; }
   Centreline<Scalar> centreline() const noexcept { return view(beam_.nodes()); }
   /// Other nodes of this beam, seen with its kinematics.
   Centreline<Scalar> view(const Nodes& nodes) const noexcept { return beam_.view(nodes); }
+  Centreline<Scalar> view(const State& state) const noexcept { return view(state.nodes); }
   const Node& node(int i) const noexcept { return beam_.nodes()[i]; }
-  const Mesh& mesh() const noexcept { return beam_.mesh(); }
-  /// Moves to another mesh of as many elements and carries the displacements over.
-  void remesh(const Mesh& mesh) noexcept {
-    if (!(mesh == beam_.mesh())) beam_.remesh(mesh, saved_);
-  }
-
+  /// N of an element [N].
+  Scalar tension(int e) const noexcept { return beam_.tensions()[e]; }
+  Mesh mesh() const noexcept { return {}; }
   /// The state as it is.  @param state  out
   void keep(State& state) const noexcept {
-    for (int i = 0; i <= elements(); ++i) state[i] = node(i);
+    for (int i = 0; i <= elements(); ++i) state.nodes[i] = node(i);
+    each_tension([&](int e) { state.tensions[e] = beam_.tensions()[e]; });
   }
-  /// Gives nodes other arc positions and leaves them where they are.  @param state  in, out
-  static void label(const Mesh& mesh, State& state) noexcept {
-    for (int i = 0; i <= mesh.elements(); ++i) {
-      Node& node = state[i];
-      const Scalar s = mesh.position(i);
-      node.u -= s - node.s;
-      node.s = s;
+  /// Gives each element the tension that belongs to the displacements of its nodes: where those alone were set.
+  void find_tensions() noexcept { beam_.find_tensions(); }
+  /// Goes on as it went from a state before, so many times as far.   @param before  becomes what the state is now
+  void go_on(State& before, Scalar ratio) noexcept {
+    const auto on = [ratio](Scalar& now, Scalar& then) {
+      const Scalar was = now;
+      now += ratio * (now - then);
+      then = was;
+    };
+    for (int i = 0; i <= elements(); ++i) {
+      Node &x = beam_.nodes()[i], &b = before.nodes[i];
+      on(x.u, b.u), on(x.w, b.w), on(x.theta, b.theta);
     }
-  }
-  /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
-  /// @param before  becomes what the state is now
-  void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {
-    const int n = elements();
-    for (int i = 0; i <= n; ++i) {
-      const Node &x = node(i), &b = before[i];
-      Node& ahead = saved_[i];
-      ahead = {mesh.position(i), x.u + ratio * (x.u - b.u), x.w + ratio * (x.w - b.w),
-               x.theta + ratio * (x.theta - b.theta)};
-      const Scalar along = ahead.s - x.s - ratio * (x.s - b.s);
-      if (i == 0 || i == n || along == 0) continue;
-      const Vector2<Scalar> tangent = direction(-ahead.theta);
-      ahead.u += along * (tangent.x() - 1);
-      ahead.w += along * tangent.y();
-      ahead.theta += along * (node(i + 1).theta - node(i - 1).theta) / (node(i + 1).s - node(i - 1).s);
-    }
-    keep(before);
-    beam_.set(mesh, saved_.data());
+    each_tension([&](int e) { on(beam_.tensions()[e], before.tensions[e]); });
   }
   /// What goes on as from one state to another.  @param from  becomes the state now, less the way from there to `to`
   void carry(State& from, const State& to) const noexcept {
     for (int i = 0; i <= elements(); ++i) {
-      const Node &x = node(i), &b = to[i];
-      Node& a = from[i];
-      a = {x.s - (b.s - a.s), x.u - (b.u - a.u), x.w - (b.w - a.w), x.theta - (b.theta - a.theta)};
+      const Node &x = node(i), &b = to.nodes[i];
+      Node& a = from.nodes[i];
+      a = {x.s, x.u - (b.u - a.u), x.w - (b.w - a.w), x.theta - (b.theta - a.theta)};
     }
+    each_tension([&](int e) { from.tensions[e] += beam_.tensions()[e] - to.tensions[e]; });
   }
 
   /// n · (u, w) of a state at s [m].
   Scalar displacement(const State& state, Scalar s, const Vector2<Scalar>& normal) const noexcept {
-    const Displacement<Scalar> at = view(state).at(s);
-    return normal.x() * at.u + normal.y() * at.w;
+    return displacement_of(view(state), s, normal);
   }
   Scalar displacement(Scalar s, const Vector2<Scalar>& normal) const noexcept {
-    return displacement(beam_.nodes(), s, normal);
+    return displacement_of(centreline(), s, normal);
   }
   /// Where the middle of the beam is, across [m].
   VectorOf<Scalar, 1> middle() const noexcept {
@@ -95,27 +92,41 @@ class BeamShape {
   }
 
  protected:
+  static Scalar displacement_of(const Centreline<Scalar>& line, Scalar s,
+                                const Vector2<Scalar>& normal) noexcept {
+    const Displacement<Scalar> at = line.at(s);
+    return normal.x() * at.u + normal.y() * at.w;
+  }
   /// On the x axis.  @throws std::invalid_argument as BeamElements
   BeamShape(const Beam& beam, int elements)
       : beam_(beam, elements), saved_(elements), length_(static_cast<Scalar>(beam.length())) {}
 
-  void set(const Mesh& mesh, const State& state) noexcept { beam_.set(mesh, state.data()); }
-  /// The shape of the same beam in another scalar, on the uniform mesh.
+  void set(const State& state) noexcept { beam_.set(state.nodes, state.tensions); }
+  /// The shape of the same beam in another scalar, on the same mesh.
   template <class Other>
   void take(const Other& other) noexcept {
-    const Mesh uniform(elements(), length_);
-    for (int i = 0; i <= elements(); ++i)
-      saved_[i] = {uniform.position(i), static_cast<Scalar>(other.node(i).u),
-                   static_cast<Scalar>(other.node(i).w), static_cast<Scalar>(other.node(i).theta)};
-    set(uniform, saved_);
+    for (int i = 0; i <= elements(); ++i) {
+      Node& to = beam_.nodes()[i];
+      to.u = static_cast<Scalar>(other.node(i).u);
+      to.w = static_cast<Scalar>(other.node(i).w);
+      to.theta = static_cast<Scalar>(other.node(i).theta);
+    }
+    each_tension([&](int e) { beam_.tensions()[e] = static_cast<Scalar>(other.tension(e)); });
   }
-  /// Where its mesh is as it was when the shape was kept.
+  /// To the shape that was kept.
   void take_back() noexcept {
-    for (int i = 0; i <= elements(); ++i) beam_.nodes()[i] = saved_[i];
+    for (int i = 0; i <= elements(); ++i) beam_.nodes()[i] = saved_.nodes[i];
+    each_tension([&](int e) { beam_.tensions()[e] = saved_.tensions[e]; });
+  }
+
+  /// A touched element has one whatever it is made of.
+  template <class F>
+  void each_tension(F&& f) const noexcept {
+    for (int e = 0; e < elements(); ++e) f(e);
   }
 
   Parts beam_;
-  Nodes saved_;
+  State saved_;
   Scalar length_;
 };
 

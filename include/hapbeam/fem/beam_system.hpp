@@ -1,9 +1,9 @@
-// The nonlinear equations of one beam: its elements, its supports, and one prescribed contact displacement.
+// The nonlinear equations of one beam: its elements, its supports, and what touches it.
 //
-//   ∂V/∂x = λ f,   n · (u, w)(contact) = d        unknown x: u, w, θ of every node
+//   ∂V/∂x = t f + contacts        unknown x: u, w, θ of every node, N of every element, force and place of every contact
 //
-// One Newton step assembles residual and tangent element by element, enters supports and contact as known
-// increments, solves and adds.
+// One Newton step assembles residual and tangent element by element, enters supports as known increments and contacts as rows
+// (contact_rows.hpp), solves and adds.  The mesh stays; a contact is at any place of it.
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
 #pragma once
 
@@ -11,38 +11,35 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/fem/beam_shape.hpp>
 #include <hapbeam/fem/chain.hpp>
 #include <hapbeam/fem/contact_friction.hpp>
-#include <hapbeam/fem/contact_point.hpp>
+#include <hapbeam/fem/contact_rows.hpp>
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/round_contact.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/starting_shapes.hpp>
 #include <hapbeam/fem/supports.hpp>
-#include <hapbeam/fem/system_contacts.hpp>
 
 namespace hapbeam {
 
 template <class Element, typename ScalarType, int Elements, int MaxElements>
-class BeamSystem
-    : public detail::BeamShape<Element, ScalarType, Elements, MaxElements>,
-      public detail::SystemContacts<
-          BeamSystem<Element, ScalarType, Elements, MaxElements>, ScalarType,
-          detail::ContactPoint<ScalarType, any_rotation<Element>>, Vector2<ScalarType>,
-          detail::CircleOnCurve<ScalarType>, detail::ContactFriction<ScalarType, 2, detail::RoundContact>,
-          typename detail::AssemblerOf<Element, ScalarType, Elements, MaxElements>::HeldRow,
-          contacts_of<Element> - 1> {
-  using Contacts = typename BeamSystem::SystemContacts;
+class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxElements> {
   using Shape = detail::BeamShape<Element, ScalarType, Elements, MaxElements>;
+  using Assembler = detail::AssemblerOf<Element, ScalarType, Elements, MaxElements>;
 
  public:
   using Scalar = ScalarType;
+  using typename Shape::Mesh;
   using typename Shape::Node;
+  using typename Shape::State;
   using Friction = detail::ContactFriction<Scalar, 2, detail::RoundContact>;
+  using Rows = detail::ContactRows<Element, Scalar, Assembler, Friction, contacts_of<Element>>;
+  using Contact = typename Rows::Contact;
   using Shape::elements;
   using Shape::node;
 
@@ -51,60 +48,134 @@ class BeamSystem
   BeamSystem(const Beam& beam, int number)
       : Shape(beam, number),
         assembler_(number),
+        rows_(number),
+        before_(number),
         ends_{detail::EndSupport<Scalar>(beam.left(), beam.left_place()),
               detail::EndSupport<Scalar>(beam.right(), beam.right_place())},
         unit_(static_cast<Scalar>(std::sqrt(beam.bending_stiffness() / beam.length()))) {
     const NaturalShape<Scalar>& natural = beam_.natural_shape();
     const auto stand = [&](Scalar side) {
-      detail::lay(natural, ends_[0], ends_[1], beam_.mesh(), beam_.nodes());
+      detail::lay(natural, ends_[0], ends_[1], beam_.nodes());
       if (natural.straight()) detail::bow(ends_[0], ends_[1], side, beam_.nodes());
       return beam_.work(1);
     };
     const Scalar down = stand(-1), up = stand(1);
     if (detail::push_down(up, down)) stand(-1);
+    Shape::find_tensions();
+    for (int e = 0; e < number; ++e) {
+      const ElementProperties<Scalar>& p = beam_.properties()[e];
+      stiffness_ += p.axial_per_length + 12 * p.bending_per_length3;
+    }
   }
 
-  using Contacts::set_goal;
-  /// Across the beam.
-  void set_goal(int contact, Scalar d, Scalar lever = 0) noexcept { set_goal(contact, d, lever, {0, 1}); }
+  // The goal of a path: all of the dead loads, the ends where they are placed, and contacts.
+
+  /// Without a contact.
+  void set_goal() noexcept {
+    rows_.clear();
+    start_load_ = load_;
+    for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
+  }
+  /// One contact more.   @param friction  null: none
+  void add_goal(const Contact& goal, Friction* friction) noexcept {
+    rows_.add(goal, element_at(goal.s, goal.piece.element), friction);
+  }
+  /// With a place that is held.   @param force  along its normal, about [N]
+  void set_goal(const Push<Scalar>& place, Scalar force = 0) noexcept {
+    Contact contact;
+    if (rows_.size() == 1 && rows_[0].kind == Contact::Kind::along && rows_[0].s == place.s)
+      contact = rows_[0];
+    contact.kind = Contact::Kind::along;
+    contact.s = place.s, contact.normal = place.normal, contact.reach = place.d, contact.force = force;
+    contact.moves = false;
+    set_goal();
+    add_goal(contact, nullptr);
+  }
+  /// As they are, after look().
+  const Rows& rows() const noexcept { return rows_; }
+  /// To be called where the beam has moved.
+  void look(int k) noexcept {
+    const int e = rows_.element(k);
+    beam_.set_tension(e, rows_.look(beam_, e));
+  }
+  void look_at_friction(int k) noexcept {
+    look(k);
+    rows_.friction(k)->look(rows_[k]);
+  }
+  /// Of no contact any more.
+  void forget_friction() noexcept { rows_.forget_friction(); }
+  /// The force of contact k of the last linear equations, along the normal of a held place or toward the centre of what is round.
+  /// It stays where a descent is on its way: that of the last equilibrium [N].
+  Scalar linear_reaction(int k = 0) const noexcept { return reactions_[at(k)]; }
+  /// V - λ f · x after the last iterate(), friction's included, to third order of its increment [J].
+  Scalar foreseen_potential() const noexcept { return foreseen_potential_; }
+
+  /// Sets the whole state, without a contact.
+  void set_state(const Mesh&, const State& state) noexcept { go_back(state, 0); }
+  /// Back to an equilibrium that was left.  @param force  of its first contact [N]
+  void go_back(const State& state, Scalar force) noexcept {
+    Shape::set(state);
+    rows_.clear();
+    reactions_[0] = force;
+  }
+  /// The state of the same system in another scalar.
+  template <class Other>
+  void take_state(const Other& other) noexcept {
+    Shape::take(other);
+    rows_.clear();
+    reactions_ = {};
+  }
 
   // Required by NewtonRaphson.
 
+  static constexpr bool in_pairs = Shape::Parts::has_tensions;
+
   void set_target(Scalar t) noexcept {
-    Contacts::aim(t);
+    load_ = t < 1 ? start_load_ + t * (1 - start_load_) : Scalar(1);
+    rows_.aim(t, [this](int k) { return reach_now(k); });
     for (auto& end : ends_) end.set_target(t);
+    beam_.set_turning(1);
+    last_size_ = std::numeric_limits<Scalar>::infinity();
   }
   void save() noexcept {
     this->keep(saved_);
-    Contacts::save_contacts();
+    rows_.save();
+    saved_load_ = load_, saved_reactions_ = reactions_;
   }
   void restore() noexcept {
     Shape::take_back();
-    Contacts::restore_contacts();
+    rows_.restore();
+    load_ = saved_load_, reactions_ = saved_reactions_;
   }
-  Scalar size() const noexcept { return size_; }
+  /// √(2V), or what the weakest of several contacts is worth, the force of which has to be exact, too [√J].
+  Scalar size() const noexcept { return weight_; }
   /// Strain energy before the last increment, at least that of a bend by 10⁻⁴ rad, of which no snap is told [J].
   Scalar strain() const noexcept { return (size_ * size_ + Scalar(1e-8) * unit_ * unit_) / 2; }
   Scalar unit() const noexcept { return unit_; }
-  /// Of a beam without stress, of which nothing is left but what the round-off of displacements stretches its shortest element by [√J].
+  /// Of a beam without stress, of which nothing is left but what the round-off of displacements stretches and bends its elements by [√J].
   Scalar round_off() const noexcept {
     const int n = elements();
     const auto moved = [this](int i) { return std::abs(node(i).u) + std::abs(node(i).w); };
-    const Scalar shortest = (std::min)(beam_.mesh().position(1), length_ - beam_.mesh().position(n - 1)),
-                 off = std::numeric_limits<Scalar>::epsilon() * (moved(0) + moved(n / 2) + moved(n)),
-                 energy = beam_.properties()[0].axial_stiffness * static_cast<Scalar>(n) * off * off;
-    return size_ * size_ * shortest <= energy ? std::sqrt(energy / shortest) : Scalar(0);
+    const Scalar off = std::numeric_limits<Scalar>::epsilon() * (moved(0) + moved(n / 2) + moved(n)),
+                 energy = stiffness_ * off * off;
+    return 16 * size_ * size_ <= energy ? std::sqrt(energy) : Scalar(0);
   }
 
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
-    force_ = linear_reaction_ = contact_.node() < 0 ? Scalar(0) : assembler_.reaction();
-    others_.each([&](auto& other) { other.force = other.reaction = assembler_.reaction(other.row); });
-    Contacts::feel_friction();
-    Contacts::foresee_potential(potential_, assembler_.energy());
+    for (int k = 0; k < rows_.size(); ++k) reactions_[at(k)] = rows_.reaction(k);
+    if (!rows_.any()) reactions_[0] = 0;
+    rows_.feel_friction();
+    if constexpr (Rows::most > 1)
+      if (rows_.size() > 1) weight_ = std::clamp(std::sqrt(rows_.weakest()), least_weight * size_, size_);
+    foreseen_potential_ = potential_ + (rows_.any() ? rows_.foreseen_change() : -assembler_.energy() / 2);
     advance();
-    return {status, increment()};
+    const Scalar size = increment();
+    // Where the last increment has blown the state up, this one is small beside it.
+    beam_.set_turning(size < near_ * (std::min)(size_, last_size_) ? Scalar(0) : Scalar(1));
+    last_size_ = size_;
+    return {status, size};
   }
 
   // Required by Descent, in addition: the two halves of an iteration.
@@ -114,8 +185,6 @@ class BeamSystem
   ///               shared out over the nodes   @return ok | singular | non_finite
   Status factor(Scalar shift) noexcept {
     Scalar energy = 0, work = 0;
-    const int c = contact_.node();
-    Contacts::look_at_contacts();
     // What most elements need takes no address of their tangent: it stays in registers.
     typename Shape::Parts::Group group;
     const auto add = [&](int e, auto&& change) {
@@ -128,46 +197,40 @@ class BeamSystem
     const bool plain = shift == 0 && !beam_.loaded(load_);
     for (int e = 0; e < elements(); ++e) {
       beam_.respond(e, group);
-      if (plain && !contact_.holds(e) && !contact_.holds(e + 1) && !others_.at(e) && !others_.at(e + 1)) {
-        add(e, [](auto&, auto&) {});
-        continue;
-      }
-      add(e, [&](Vector6<Scalar>& r, Matrix6<Scalar>& K) {
+      const auto load_and_shift = [&](Vector6<Scalar>& r, Matrix6<Scalar>& K) {
         work += beam_.subtract_loads(e, load_, r, K);
         if (shift != 0) add_shift(shift, e, K);
-        if (contact_.holds(e)) contact_.transform(node(e), true, e == 0, r, K);
-        if (contact_.holds(e + 1)) contact_.transform(node(e + 1), false, true, r, K);
-        if (const auto* const other = others_.at(e)) other->point.transform(node(e), true, e == 0, r, K);
-        if (const auto* const other = others_.at(e + 1))
-          other->point.transform(node(e + 1), false, true, r, K);
-        if (friction_) add_friction(e, contact_, *friction_, r, K);
-        others_.each([&](const auto& other) {
-          if (other.friction) add_friction(e, other.point, *other.friction, r, K);
-        });
-      });
+      };
+      if (rows_.in(e)) {
+        Matrix6<Scalar> K;
+        Vector6<Scalar> r;
+        energy += rows_.touch(beam_, e, r, K);
+        if (!plain) load_and_shift(r, K);
+        assembler_.add(e, K, r);
+      } else if (plain) {
+        add(e, [](auto&, auto&) {});
+      } else {
+        add(e, load_and_shift);
+      }
     }
-    size_ = std::sqrt(2 * energy);
+    longer_ = 0;
+    // Where tensions are far from those of the nodes the energy has either sign.
+    weight_ = size_ = std::sqrt(2 * std::abs(energy));
     potential_ = energy - work;
-    potential_ += Contacts::friction_potential();
+    if (rows_.any()) potential_ += rows_.potential() + rows_.friction_potential();
     for (std::size_t k = 0; k < 2; ++k)
       ends_[k].visit(node(end(k)), [&](int component, Scalar now, Scalar target) {
+        rows_.prescribe(end(k), component, target - now);
         assembler_.prescribe(end(k), component, target - now);
       });
-    if (c >= 0) assembler_.hold(c, 1, d_ - contact_.displacement());
-    others_.each([&](auto& other) { hold(other); });
-    return assembler_.solve();
+    return rows_.any() ? rows_.solve(assembler_) : assembler_.solve();
   }
-  /// The tangent holds what the contact's force makes of a circle.  On the way down the force of before is no longer there.
-  void forget_force() noexcept {
-    force_ = 0;
-    for (auto& other : others_) other.force = 0;
-    Contacts::fall_with_friction();
-  }
+  /// On the way down the forces of before are no longer there.
+  void forget_force() noexcept { rows_.fall(); }
   /// Adds the increment to the state.
   void advance() noexcept {
-    const auto change = [this](int i) { return increment(i); };
     if constexpr (any_rotation<Element>) {
-      if (contact_.node() < 0) {
+      if (!rows_.any()) {
         // Prescribed increments answer 0; a chain that ended where they were would share them out a second time.
         const auto with_ends = [this](int i) {
           Vector3<Scalar> x = increment(i);
@@ -177,26 +240,39 @@ class BeamSystem
                              [&x](int component, Scalar now, Scalar target) { x[component] = target - now; });
           return x;
         };
-        detail::lay_chain<Element, Scalar>(beam_.nodes(), beam_.properties(), with_ends);
+        longer_ = beam_.follow(with_ends, [](int) { return false; });
+        detail::lay_chain<Element, Scalar>(beam_.nodes(), beam_.properties(), beam_.tensions(), with_ends);
         detail::close_chain(beam_.nodes(), ends_[0], ends_[1]);
-        return place();
+        return place_ends();
       }
     }
-    move(change);
+    move([this](int i) { return increment(i); });
+    longer_ += rows_.advance(
+        [this](int e) {
+          const Node &a = before_[e], &b = before_[e + 1];
+          return Vector6<Scalar>(beam_.displacements(e) -
+                                 Vector6<Scalar>(a.u, a.w, a.theta, b.u, b.w, b.theta));
+        },
+        [this](int e, Scalar N) { beam_.set_tension(e, N); },
+        [this](Scalar s, int e) { return element_at(s, e); });
   }
   /// As a shift: a stiffness that is none.
   static constexpr Scalar neutral() noexcept { return 0; }
   /// Size of the last increment in the norm of the tangent [√J].
-  Scalar increment() const noexcept { return std::sqrt(std::abs(assembler_.energy())); }
+  Scalar increment() const noexcept {
+    return std::sqrt(std::abs((rows_.any() ? rows_.energy() : assembler_.energy()) + longer_));
+  }
   /// V - λ f · x before the last increment was added [J].
   Scalar potential() const noexcept { return potential_; }
   /// How many directions there are along which the tangent of the last increment is not stiff but gives way.
-  int negative_pivots() const noexcept { return assembler_.negative_pivots(); }
+  int negative_pivots() const noexcept {
+    return rows_.any() ? rows_.negative_pivots() : assembler_.negative_pivots();
+  }
   /// Bends the beam a little where nothing makes it leave an equilibrium, without a contact to where its loads push.  @param size  [m]
   void nudge(Scalar size) noexcept {
-    const int c = contact_.node();
-    const auto move = [&](Scalar by) { detail::nudge(beam_.nodes(), c < 0 ? Scalar(-1) : node(c).s, by); };
-    if (c < 0 && beam_.loaded(load_)) {
+    const Scalar contact = rows_.any() ? rows_[0].s : Scalar(-1);
+    const auto move = [&](Scalar by) { detail::nudge(beam_.nodes(), contact, by); };
+    if (contact < 0 && beam_.loaded(load_)) {
       move(size);
       const Scalar up = beam_.work(load_);
       move(-2 * size);
@@ -212,103 +288,170 @@ class BeamSystem
   /// Largest rotation of a node in the last increment [rad].
   Scalar turn() const noexcept {
     Scalar largest = 0;
-    for (int i = 0; i <= elements(); ++i) largest = (std::max)(largest, std::abs(assembler_.increment(i)[2]));
+    for (int i = 0; i <= elements(); ++i) largest = (std::max)(largest, std::abs(increment(i)[2]));
     return largest;
   }
 
   /// Of node i after factor() [u, w, θ].
-  Vector3<Scalar> increment(int i) const noexcept {
-    if (const auto* const other = others_.at(i)) return other->point.back(assembler_.increment(i));
-    return contact_.holds(i) ? contact_.back(assembler_.increment(i)) : assembler_.increment(i);
-  }
+  Vector3<Scalar> increment(int i) const noexcept { return assembler_.increment(i); }
   /// Adds to the state.  @param change  i -> [u, w, θ]
   template <class Change>
   void move(Change&& change) noexcept {
     for (int i = 0; i <= elements(); ++i) {
       const Vector3<Scalar> x = change(i);
       Node& to = beam_.nodes()[i];
+      before_[i] = to;
       to.u += x[0];
       to.w += x[1];
       to.theta += x[2];
     }
-    place();
-  }
-
-  /// Force along n that holds the contact at d, thesis eq. 3.42 [N].
-  Scalar reaction() const noexcept {
-    const int c = contact_.node();
-    Vector6<Scalar> r;
-    Vector2<Scalar> force = Vector2<Scalar>::Zero();
-    if (c < elements()) {
-      beam_.residual(c, load_, r);
-      force += r.template head<2>();
-    }
-    if (c > 0) {
-      beam_.residual(c - 1, load_, r);
-      force += r.template segment<2>(3);
-    }
-    return contact_.normal().dot(force);
+    place_ends();
+    longer_ = beam_.follow(
+        [this](int i) {
+          const Node &now = node(i), &then = before_[i];
+          return Vector3<Scalar>(now.u - then.u, now.w - then.w, now.theta - then.theta);
+        },
+        [this](int e) { return rows_.in(e); });
   }
 
   /// Strain energy [J].
-  Scalar strain_energy() const noexcept { return beam_.strain_energy(); }
+  Scalar strain_energy() const noexcept {
+    Scalar sum = 0;
+    for (int e = 0; e < elements(); ++e)
+      sum += rows_.in(e) ? rows_.strain_energy(beam_, e) : beam_.strain_energy(e);
+    return sum;
+  }
   /// V - λ f · x as it lies now [J].
   Scalar total_potential() const noexcept { return strain_energy() - beam_.work(load_); }
-  /// What the section at s carries, in element e, which holds s.   @param thickness [m]
-  InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
-    return beam_.internal_forces(e, s, load_, thickness);
+  /// What the section at s carries, in a piece of drawn(), which holds s.   @param thickness [m]
+  InternalForces<Scalar> internal_forces(int piece, Scalar s, Scalar thickness) const noexcept {
+    int e = piece;
+    for (int k = 0; k < Rows::most; ++k)
+      if (marks_[at(k)] <= piece) --e;
+    // Where a contact was drawn instead of a node.
+    if (e > 0 && s < node(e).s) --e;
+    else if (e + 1 < elements() && s > node(e + 1).s) ++e;
+    if (!rows_.in(e)) return beam_.internal_forces(e, s, load_, thickness);
+    // As it lies, with what touches it.
+    typename Rows::Touched touched(beam_, e);
+    std::array<Contact, Rows::most> contacts;
+    std::array<PointForce<Scalar>, Rows::most> forces;
+    int count = 0;
+    for (int k = 0; k < rows_.size(); ++k)
+      if (rows_.element(k) == e) touched.add(contacts[at(k)] = rows_[k], k);
+    Vector6<Scalar> r;
+    Matrix6<Scalar> K;
+    (void)touched.condense(r, K, [](int) {});
+    for (int k = 0; k < rows_.size(); ++k) {
+      if (rows_.element(k) != e) continue;
+      const Contact& contact = contacts[at(k)];
+      const Vector2<Scalar> force = contact.force * contact.normal + contact.friction;
+      forces[at(count++)] = {contact.s, force.x(), force.y(), 0, 0, 0};
+    }
+    std::sort(forces.begin(), forces.begin() + count, [](const auto& a, const auto& b) { return a.s < b.s; });
+    (void)beam_.subtract_loads(e, load_, r);
+    return beam_.internal_forces(
+        e, drawn_[piece].s, s, load_, thickness, r, [this](Scalar x) { return drawn().at(x); }, forces.data(),
+        count);
+  }
+
+  // What is seen: the mesh, and in it the places of contacts.
+
+  /// To be called where the beam has moved.
+  void draw() noexcept {
+    // Where contacts are that are apart from each other and from nodes; what is left stands in the middle of other elements.
+    std::array<Node, Rows::most> marks;
+    int count = 0;
+    const auto is_apart = [&](Scalar s) {
+      const int e = element_at(s);
+      const Scalar apart = (node(e + 1).s - node(e).s) / 1000;
+      bool is = s - node(e).s > apart && node(e + 1).s - s > apart;
+      for (int k = 0; k < count; ++k) is = is && std::abs(marks[at(k)].s - s) > apart;
+      return is;
+    };
+    // One that is beside a node of the mesh is drawn instead of it.
+    std::array<std::pair<int, Node>, Rows::most> instead;
+    int replaced = 0;
+    for (int k = 0; k < rows_.size(); ++k) {
+      const int e = element_at(rows_[k].s),
+                near = rows_[k].s - node(e).s < node(e + 1).s - rows_[k].s ? e : e + 1;
+      if (is_apart(rows_[k].s)) marks[at(count++)] = mark(k);
+      else if (0 < near && near < elements() &&
+               std::abs(rows_[k].s - node(near).s) < (node(e + 1).s - node(e).s) / 50)
+        instead[at(replaced++)] = {near, mark(k)};
+    }
+    for (int e = 0; count < Rows::most; ++e) {
+      const Scalar from = node(e).s, to = node(e + 1).s, middle = (from + to) / 2;
+      bool empty = true;
+      for (int k = 0; k < count; ++k) empty = empty && !(from < marks[at(k)].s && marks[at(k)].s < to);
+      if (!empty) continue;
+      const Node &a = node(e), &b = node(e + 1);
+      const bool straight = a.theta == 0 && b.theta == 0 && a.u == b.u && a.w == b.w;
+      const Displacement<Scalar> there =
+          straight ? Displacement<Scalar>{a.u, a.w, 0} : this->centreline().at(e, middle);
+      marks[at(count++)] = {middle, there.u, there.w, there.theta};
+    }
+    std::sort(marks.begin(), marks.end(), [](const Node& a, const Node& b) { return a.s < b.s; });
+    int to = 0, next = 0;
+    for (int i = 0; i <= elements(); ++i) {
+      for (; next < Rows::most && marks[at(next)].s < node(i).s; ++next) {
+        marks_[at(next)] = to;
+        drawn_[to++] = marks[at(next)];
+      }
+      drawn_[to] = node(i);
+      for (int k = 0; k < replaced; ++k)
+        if (instead[at(k)].first == i) drawn_[to] = instead[at(k)].second;
+      ++to;
+    }
+  }
+  Centreline<Scalar> drawn() const noexcept { return {drawn_.data(), drawn_.size(), any_rotation<Element>}; }
+  /// n · (u, w) of it at s [m].
+  using Shape::displacement;
+  Scalar displacement(Scalar s, const Vector2<Scalar>& normal) const noexcept {
+    return Shape::displacement_of(drawn(), s, normal);
   }
 
  protected:
-  using Contacts::load_;
+  Scalar load_ = 0;  // of the dead loads
 
  private:
-  friend Contacts;  // sets its shape
-  using Contacts::contact_;
-  using Contacts::d_;
-  using Contacts::force_;
-  using Contacts::friction_;
-  using Contacts::linear_reaction_;
-  using Contacts::others_;
-  using Contacts::start_load_;
-
   using Shape::beam_;
   using Shape::length_;
   using Shape::saved_;
+  static constexpr std::size_t at(int k) noexcept { return static_cast<std::size_t>(k); }
+  static constexpr int with_marks(int size) noexcept {
+    return size == Eigen::Dynamic ? size : size + contacts_of<Element>;
+  }
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
 
-  void begin_path() noexcept {
-    start_load_ = load_;
-    for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
+  int element_at(Scalar s) const noexcept { return this->centreline().segment_at(s); }
+  /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one.  Where a body bends the beam by a radian within
+  /// an element, those on both sides of a node put the contact up to a hundredth of it apart.
+  int element_at(Scalar s, int before) const noexcept {
+    const Scalar from = node(before).s, to = node(before + 1).s, over = (to - from) / 100;
+    return from - over <= s && s <= to + over ? before : element_at(s);
+  }
+  /// At which contact k is where it is.
+  Scalar reach_now(int k) noexcept {
+    const Contact& contact = rows_[k];
+    look(k);
+    if (contact.kind == Contact::Kind::round) return contact.normal.dot(contact.place - contact.centre);
+    return contact.normal.dot(contact.place - Vector2<Scalar>(contact.s, 0));
+  }
+  /// A node of drawn() where a contact is.
+  Node mark(int k) noexcept {
+    look(k);
+    const Contact& contact = rows_[k];
+    // On what touches it, where an equilibrium was found: the last increment has left that by its square.
+    const Scalar left = std::abs(contact.gap) < length_ / 1000 ? contact.gap : Scalar(0);
+    const Vector2<Scalar> moved = contact.moved - left * contact.normal;
+    return {contact.s, moved.x(), moved.y(), contact.theta};
   }
 
-  /// Puts the ends and the contact exactly where they belong.
-  void place() noexcept {
+  /// Puts the ends exactly where they belong.
+  void place_ends() noexcept {
     for (std::size_t k = 0; k < 2; ++k)
       ends_[k].visit(beam_.nodes()[end(k)], [](int, Scalar& now, Scalar target) { now = target; });
-    Contacts::correct_contacts(beam_.nodes());
-  }
-  template <class Other>
-  void hold(Other& other) noexcept {
-    const Scalar increment = other.d - other.point.displacement();
-    const int c = other.point.node();
-    assembler_.hold(c, 1, increment, other.row);
-    assembler_.know(c, 1, increment, assembler_.held());
-    for (auto& before : others_) {
-      if (&before == &other) break;
-      assembler_.know(c, 1, increment, before.row);
-    }
-  }
-
-  /// Friction, along the surface, of a contact of element e.
-  template <class Point>
-  static void add_friction(int e, const Point& contact, const Friction& friction, Vector6<Scalar>& r,
-                           Matrix6<Scalar>& K) noexcept {
-    if (!contact.holds(e + 1) && !(e == 0 && contact.holds(0))) return;
-    const int at = contact.holds(e + 1) ? 3 : 0;  // first row of its node
-    const Vector2<Scalar>& n = contact.normal();
-    r[at] -= n.y() * friction.force().x() - n.x() * friction.force().y();
-    K(at, at) += friction.stiffness();
   }
 
   /// An element's share of the shift, half of it to either node.
@@ -322,9 +465,18 @@ class BeamSystem
     }
   }
 
-  detail::AssemblerOf<Element, Scalar, Elements, MaxElements> assembler_;
+  Assembler assembler_;
+  Rows rows_;
+  typename Shape::Nodes before_;  // the last increment
   std::array<detail::EndSupport<Scalar>, 2> ends_;
-  Scalar size_ = 0, potential_ = 0, unit_;
+  std::array<Scalar, contacts_of<Element>> reactions_{}, saved_reactions_{};  // [N]
+  Scalar saved_load_ = 0, start_load_ = 0;
+  static constexpr Scalar near_ = Scalar(0.05);  // to an equilibrium: an increment in units of the state
+  static constexpr Scalar least_weight = Scalar(0.1);  // of a contact that may let go
+  Scalar size_ = 0, last_size_ = 0, weight_ = 0, longer_ = 0, potential_ = 0, foreseen_potential_ = 0, unit_;
+  Scalar stiffness_ = 0;  // of all elements, along and across [N/m]
+  detail::PerNode<Node, with_marks(Elements), with_marks(MaxElements)> drawn_{with_marks(elements())};
+  std::array<int, contacts_of<Element>> marks_{};  // nodes of drawn() that are not of the mesh
 };
 
 namespace detail {

@@ -18,9 +18,10 @@
 
 namespace hapbeam::detail {
 
-/// Lays the chain.  @param increment  i -> [u, w, θ] of node i   @param properties  of each element
-template <class Element, typename Scalar, class Nodes, class Properties, class Increment>
-void lay_chain(Nodes& nodes, const Properties& properties, Increment&& increment) noexcept {
+/// Lays the chain.  @param increment  i -> [u, w, θ] of node i   @param properties  of each element   @param tensions  where they are unknowns: after it [N]
+template <class Element, typename Scalar, class Nodes, class Properties, class Tensions, class Increment>
+void lay_chain(Nodes& nodes, const Properties& properties, [[maybe_unused]] const Tensions& tensions,
+               Increment&& increment) noexcept {
   CentrelineNode<Scalar> before = nodes[0];
   Vector3<Scalar> x = increment(0);
   Vector2<Scalar> way(x[0], x[1]);  // that the last node has moved
@@ -30,7 +31,9 @@ void lay_chain(Nodes& nodes, const Properties& properties, Increment&& increment
     const Vector3<Scalar> y = increment(i);
     const Vector6<Scalar> d(before.u, before.w, before.theta, node.u, node.w, node.theta),
         change(x[0], x[1], x[2], y[0], y[1], y[2]);
-    way += Element::chord_change(properties[i - 1], d, change);
+    if constexpr (has_own_tension<Element>)
+      way += Element::chord_change(properties[i - 1], d, change, tensions[i - 1]);
+    else way += Element::chord_change(properties[i - 1], d, change);
     nodes[i] = {node.s, node.u + way.x(), node.w + way.y(), node.theta + y[2]};
     before = node;
     x = y;

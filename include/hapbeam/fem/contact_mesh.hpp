@@ -93,14 +93,6 @@ class ContactMesh {
     return s(k) + (length_ - s(k)) * Scalar(i - node(k)) / Scalar(elements_ - node(k));
   }
 
-  /// Shortest element that round-off allows [m]: it costs 12 eps (L/l)² of the force beside a support that holds w and
-  /// up to 4 eps (L/l)³ beside a free end, here 1e-9 and 1e-6 in double, 1e-3 and 1e-2 in float.
-  static Scalar shortest(Scalar length) noexcept {
-    using std::sqrt;
-    const Scalar by_round_off = 100 * sqrt(std::numeric_limits<Scalar>::epsilon());
-    return length * (by_round_off > Scalar(1e-3) ? by_round_off : Scalar(1e-3));
-  }
-
  private:
   struct Following {
     int node;

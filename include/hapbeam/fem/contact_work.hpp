@@ -127,7 +127,7 @@ class ContactWork {
   }
 
   std::array<Body, Most> bodies_{};
-  std::array<Held, (Most > 1 ? Most : 0)> held_{};
+  std::array<Held, Most> held_{};
   std::array<bool, Most> touching_{}, touched_{}, placed_{};  // placed: where it was is known
   Scalar work_ = 0, size_ = 0, change_ = 0, way_ = 0;         // [J], [m²]
   bool known_ = false, same_ = false, strange_ = false;

@@ -3,7 +3,7 @@
 //   V - V before = W - D        W: what the hands gave (contact_work.hpp), D: what friction has taken
 //
 // holds to third order of the step on one branch of equilibria.  Newton's method may land on another one, stable and with all pivots positive.  The energy is
-// another there, and the beam has gone farther than the hand.  (Where the mesh has moved the energy may be another, too; there the beam has not.)
+// another there, and the beam has gone farther than the hand.  (Where the mesh of a rod has moved the energy may be another, too; there the rod has not.)
 // Such an answer is sought again in halves and quarters of the hand's way, each from the one before.  The trapezoids' error falls by eight with each half.
 // What is off in a quarter still has snapped; where most of its energy has come from nowhere no snap leads there, and the beam falls from where it was (Descent).
 // Real-time: noexcept, no allocation, O(1) but for the answers that are sought again: at most eight times, and the linear solves of AllDisplacements in all.
@@ -102,7 +102,7 @@ class Continuation {
   /// Of the hand's way in a tick that is the shortest to be tried.
   static constexpr Scalar shortest = Scalar(0.25);
 
-  void forget() noexcept { known_ = false; }
+  void forget() noexcept { known_ = snapped_ = false; }
   bool known() const noexcept { return known_; }
   /// An answer to continue.  @param potential  V [J]
   void know(Scalar potential) noexcept { stored_ = potential, known_ = true; }
@@ -119,12 +119,13 @@ class Continuation {
     return rest > stored_ && rest > now.strain / 2 ? Branch::risen : Branch::other;
   }
 
-  /// Goes from the last request to the next.
+  /// Goes from the last request to the next.  A snap on the way to where there is no answer is told with the next one.
   /// @param go  t in (0, 1] of the way -> an answer with a status   @param judge  answer -> Branch   @param keep  (): the answer is to be continued
   /// @param back  (): to where go() began   @param fall  (): back, and down from there in the next go()
   template <class Go, class Judge, class Keep, class Back, class Fall>
-  static auto follow(Go&& go, Judge&& judge, Keep&& keep, Back&& back, Fall&& fall) noexcept {
-    bool snapped = false;
+  auto follow(Go&& go, Judge&& judge, Keep&& keep, Back&& back, Fall&& fall) noexcept {
+    bool snapped = snapped_;
+    snapped_ = false;
     Scalar t = 0, step = 1;
     for (;;) {
       auto answer = go(t + step);
@@ -142,7 +143,10 @@ class Continuation {
       snapped = snapped || branch == Branch::other || answer.status == Status::snapped;
       keep(answer);
       t += step;
-      if (!is_answer(answer.status)) return answer;
+      if (!is_answer(answer.status)) {
+        snapped_ = snapped;
+        return answer;
+      }
       if (t >= 1) {
         if (snapped && answer.status == Status::ok) answer.status = Status::snapped;
         return answer;
@@ -157,7 +161,7 @@ class Continuation {
   static constexpr Scalar along = 3;  // times as far as the hand a beam goes with it
 
   Scalar stored_ = 0;
-  bool known_ = false;
+  bool known_ = false, snapped_ = false;
 };
 
 }  // namespace hapbeam::detail

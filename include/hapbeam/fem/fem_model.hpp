@@ -3,9 +3,9 @@
 //   FemModel<> model(beam, 8);
 //   const auto [force, status] = model.press({0.5 * beam.length(), -2e-3});
 //
-// press() moves the mesh so that a node lies at the contact, prescribes its transverse displacement, solves by
-// Newton–Raphson with the tangent as predictor, from the last press or from rest, whichever is closer, and returns
-// the reaction (thesis eq. 3.40–3.42).  Elements of finite rotation take a push() along any direction as well, and
+// press() prescribes the transverse displacement of any place, solves by Newton–Raphson with the tangent as predictor, from the
+// last press or from rest, whichever is closer, and returns the reaction (thesis eq. 3.40–3.42).  In the plane the mesh stays and
+// the place lies within an element (contact_rows.hpp); that of a rod in space has a node there.  Elements of finite rotation take a push() along any direction as well, and
 // one by a circle.  A beam with
 // more than one shape at rest keeps to the branch on which it is; where that ends or gives way it falls to a stable one,
 // and the status says snapped.
@@ -16,7 +16,7 @@
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
 // and allocation-free; a press, a push or a release takes at most solver.max_solves linear solves of O(elements), the way of
-// a beam that falls included, and two more on each mesh where it gives way.  What is not done then is
+// a beam that falls included, and two more in each solution where it gives way.  What is not done then is
 // iteration_limit: the force is that of the last equilibrium, and the next call continues.
 #pragma once
 
@@ -169,8 +169,7 @@ class FemModel {
   InternalForces<Scalar, dimension> internal_forces(int element, Scalar s) const noexcept;
 
  private:
-  using General =
-      AllDisplacements<typename detail::OnMesh<Element>::Type, Scalar, Elements, MaxElements, Solver>;
+  using General = AllDisplacements<Element, Scalar, Elements, MaxElements, Solver>;
   using Taut = OneTension<Scalar, Elements, MaxElements, Solver>;
   static constexpr bool may_be_taut = exact_under_tension<Element>;
   using Ways = std::conditional_t<may_be_taut, std::variant<General, Taut>, std::variant<General>>;

@@ -18,11 +18,7 @@
 
 namespace hapbeam::detail {
 
-/// Where a hand is: the centre of a circle, or both ends of a capsule's axis [m].
-template <typename Scalar>
-Vector2<Scalar> hand_of(const Circle<Scalar>& circle) noexcept {
-  return circle.centre;
-}
+/// Where a hand is: both ends of a capsule's axis [m].
 template <typename Scalar>
 VectorOf<Scalar, 6> hand_of(const Capsule<Scalar>& capsule) noexcept {
   VectorOf<Scalar, 6> ends;
@@ -30,7 +26,7 @@ VectorOf<Scalar, 6> hand_of(const Capsule<Scalar>& capsule) noexcept {
   return ends;
 }
 
-/// @tparam Request  Circle | Capsule
+/// @tparam Request  Capsule
 template <class System, class Request>
 class Foresight {
   using Scalar = typename System::Scalar;

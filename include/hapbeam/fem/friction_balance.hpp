@@ -4,8 +4,8 @@
 //
 //   Σ D = W - ΔV        W: what the hands give (contact_work.hpp), V: energy of the beam and of sheared skins
 //
-// to third order of the step where nothing happens within the tick.  A contact that gives way or turns back makes forces fall at once, and nodes of the
-// mesh that follow contacts change V by more or less than friction takes.  All of them then take by the same factor more or less, so that what the
+// to third order of the step where nothing happens within the tick.  A contact that gives way or turns back makes forces fall at once, and nodes of a
+// rod that follow contacts change V by more or less than friction takes.  All of them then take by the same factor more or less, so that what the
 // hands give, by trapezoids, is in V or was dissipated.  While all of them stick V is what they give, and need not be computed.
 //
 // No factor is farther than a quarter from one: what is beyond is left for the next tick.  So is a tick in which all turns back, whose force is zero in the

@@ -73,6 +73,17 @@ class FrictionLaw {
     tries_ = 0;
   }
 
+  /// In a plane, where this is a copy of that of another place: it has come along with that.
+  void begin_beside(const Place& here) noexcept {
+    const Vector &from = now_.normal, &to = here.normal;
+    const Scalar c = from.dot(to), s = from.x() * to.y() - from.y() * to.x();
+    for (Vector* way : {&before_.normal, &before_.along})
+      *way = Vector(c * way->x() - s * way->y(), s * way->x() + c * way->y());
+    before_.s += here.s - now_.s, before_.ahead += here.ahead - now_.ahead;
+    now_ = here;
+    tries_ = 0;
+  }
+
   /// The hand goes on as it went.  So does what slid, though the beam may go farther than the hand: over a peg by twice its way.
   void go_on() noexcept {
     if (slides_ && !last_force_.isZero(0)) direction_ = last_force_;

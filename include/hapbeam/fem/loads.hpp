@@ -32,7 +32,7 @@
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/element/hermite.hpp>
-#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/laid_mesh.hpp>
 
 namespace hapbeam {
 
@@ -97,28 +97,28 @@ std::vector<PointForce<Scalar>> point_forces(const Beam& beam, int elements) {
   std::vector<PointForce<Scalar>> forces;
   const detail::LargestLoad<Scalar> largest(beam.bending_stiffness(), beam.length());
   if (beam.transverse() || beam.axial()) {
-    const double h = beam.length() / elements;
-    const ContactMesh<Scalar> mesh(elements, static_cast<Scalar>(beam.length()));
+    const std::vector<Scalar> mesh = lay_mesh<Scalar>(beam, elements);
     std::array<double, 4> left{};  // axial, transverse, and their arms
-    const auto push = [&](int node) {
-      forces.push_back(
-          {mesh.position(node), Scalar(left[0]), Scalar(left[1]), 0, Scalar(left[2]), Scalar(left[3])});
+    const auto push = [&](Scalar node) {
+      forces.push_back({node, Scalar(left[0]), Scalar(left[1]), 0, Scalar(left[2]), Scalar(left[3])});
     };
-    for (int e = 0; e < elements; ++e) {
+    for (std::size_t e = 0; e + 1 < mesh.size(); ++e) {
+      const double from = static_cast<double>(mesh[e]), h = static_cast<double>(mesh[e + 1]) - from;
       std::array<double, 4> right{};
       for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
         const double t = detail::gauss_points[k], weight = h * detail::gauss_weights[k];
-        const double axial = weight * largest.sample(beam.axial(), "axial load", (e + t) * h);
-        const double transverse = weight * largest.sample(beam.transverse(), "transverse load", (e + t) * h);
+        const double s = from + t * h;
+        const double axial = weight * largest.sample(beam.axial(), "axial load", s);
+        const double transverse = weight * largest.sample(beam.transverse(), "transverse load", s);
         const Vector6<double> f = ShapeFunctions<double>(t, h).nodal_forces(axial, transverse, 0);
         const double bow = axial * h * t * (1 - t) / 2;  // -u'' h² t(1 - t)/2 is what the linear u leaves out
         left[0] += f[0], left[1] += f[1], left[2] += bow, left[3] -= f[2];
         right[0] += f[3], right[1] += f[4], right[2] -= bow, right[3] -= f[5];
       }
-      push(e);
+      push(mesh[e]);
       left = right;
     }
-    push(elements);
+    push(mesh.back());
   }
   for (const PointLoad& load : beam.point_loads())
     forces.push_back({Scalar(load.s), Scalar(largest.force("point load axial", load.axial)),
@@ -146,12 +146,6 @@ struct Bow {
  private:
   using S = Scalar;
 };
-
-template <class E, typename = void>
-struct MembraneFeelsSlope : std::false_type {};
-template <class E>
-struct MembraneFeelsSlope<E, std::void_t<decltype(E::membrane_feels_slope)>>
-    : std::bool_constant<E::membrane_feels_slope> {};
 
 }  // namespace detail
 
@@ -274,21 +268,21 @@ Scalar subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
   return work;
 }
 
-/// The dead loads of a beam, element by element of whatever mesh.
+/// The dead loads of a beam, element by element.
 template <typename Scalar>
 class DeadLoads {
  public:
   DeadLoads(const Beam& beam, int elements) : forces_(point_forces<Scalar>(beam, elements)) {
     if (!beam.transverse() && !beam.axial()) return;
-    const ContactMesh<Scalar> mesh(elements, static_cast<Scalar>(beam.length()));
-    const double h = beam.length() / elements;
+    const std::vector<Scalar> mesh = lay_mesh<Scalar>(beam, elements);
     const detail::LargestLoad<Scalar> largest(beam.bending_stiffness(), beam.length());
-    cell_length_ = static_cast<Scalar>(h);
-    for (int e = 0; e < elements; ++e)
-      cells_.push_back(
-          {mesh.position(e),
-           {static_cast<Scalar>(largest.sample(beam.axial(), "axial load", (e + 0.5) * h)),
-            static_cast<Scalar>(largest.sample(beam.transverse(), "transverse load", (e + 0.5) * h))}});
+    for (std::size_t e = 0; e + 1 < mesh.size(); ++e) {
+      const double middle = (static_cast<double>(mesh[e]) + static_cast<double>(mesh[e + 1])) / 2;
+      cells_.push_back({mesh[e],
+                        mesh[e + 1] - mesh[e],
+                        {static_cast<Scalar>(largest.sample(beam.axial(), "axial load", middle)),
+                         static_cast<Scalar>(largest.sample(beam.transverse(), "transverse load", middle))}});
+    }
   }
 
   bool empty() const noexcept { return forces_.empty(); }
@@ -300,7 +294,7 @@ class DeadLoads {
                                      [begin](const PointForce<Scalar>& force) { return force.s < begin; });
     for (; load != forces_.end() && (load->s < end || last); ++load) visit(*load);
   }
-  /// Calls visit(q, start, length) with the distributed loads, along u and w [N/m], and the cell of the uniform mesh that they made nodal
+  /// Calls visit(q, start, length) with the distributed loads, along u and w [N/m], and the cell of the mesh that they made nodal
   /// forces of: the last one that begins before a place.   @param before  whether a cell that begins at s does   O(log elements)
   template <class Before, class Visit>
   void visit_cell(Before&& before, Visit&& visit) const noexcept {
@@ -308,7 +302,7 @@ class DeadLoads {
     auto cell = std::partition_point(cells_.begin(), cells_.end(),
                                      [&before](const Cell& each) { return before(each.start); });
     if (cell != cells_.begin()) --cell;
-    visit(cell->load, cell->start, cell_length_);
+    visit(cell->load, cell->start, cell->length);
   }
 
   /// Subtracts λ times the loads from begin to end, the end itself where it is the last, as the functions above do.
@@ -329,12 +323,11 @@ class DeadLoads {
 
  private:
   struct Cell {
-    Scalar start;  // [m]
+    Scalar start, length;  // [m]
     Vector2<Scalar> load;
   };
   std::vector<PointForce<Scalar>> forces_;  // in order of s
-  std::vector<Cell> cells_;                 // of the uniform mesh, where there are distributed loads
-  Scalar cell_length_ = 0;
+  std::vector<Cell> cells_;                 // of the mesh, where there are distributed loads
 };
 
 }  // namespace hapbeam

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_search.hpp>
@@ -25,7 +26,6 @@ class ObstacleNodes {
   using Mesh = typename System::Mesh;
   using RoundContact = typename SystemOf<Element>::template RoundContact<Scalar>;
   static constexpr int dimension = dimension_of<Element>;
-  static constexpr bool planar = dimension == 2;
   static constexpr int most = contacts_of<Element>;
   using Vector = VectorOf<Scalar, dimension>;
   using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
@@ -36,13 +36,12 @@ class ObstacleNodes {
     Scalar s = 0;   ///< [m] where its node is or would be
     int node = -1;  ///< of the mesh, -1: none
     int goal = -1;  ///< number of its contact in the system, -1: none
-    bool by_plane = false, sharp = false, wall = false;
+    bool by_plane = false, sharp = false;
     bool short_of_it = false;  ///< the range ends before where its node would be
     bool let_go = false;       ///< in this push
     bool crowded = false;      ///< too near another contact to have a node
     bool close =
-        false;          ///< the gap is small: it has a node, so that the mesh stays as it touches and lets go
-    Scalar across = 1;  ///< component of the force that the beam takes
+        false;  ///< the gap is small: it has a node, so that the mesh stays as it touches and lets go
     Scalar ahead = 0, miss = 0, depth = 0;
     Vector normal = Vector::Zero();
     Search search;
@@ -60,7 +59,7 @@ class ObstacleNodes {
   /// it bends so sharply that it takes the shortest
   template <class Extent>
   void choose_nodes(System& system, const Extent& range, bool keeps) noexcept {
-    const Scalar apart = Mesh::shortest(system.length());
+    const Scalar apart = shortest_element(system.length());
     ordered_ = 0;
     for (int i = 0; i < count_; ++i) {
       Slot& now = slot(i);
@@ -97,12 +96,6 @@ class ObstacleNodes {
     for (int k = 0; k < nodes; ++k) slot(order_[of(k)]).node = mesh_.node(k);
   }
 
-  template <class Extent>
-  static bool beside_support(const Extent& range, Scalar s, Scalar reach) noexcept {
-    if constexpr (!planar) return false;
-    const auto where = range.range();
-    return s - where.left_support < 2 * reach || where.right_support - s < 2 * reach;
-  }
   int end_at(const System& system, int node) const noexcept {
     return node == 0 ? -1 : node == system.elements() ? 1 : 0;
   }

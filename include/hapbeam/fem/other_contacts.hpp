@@ -9,7 +9,7 @@
 
 namespace hapbeam::detail {
 
-/// @tparam Point  ContactPoint | RodContact   @tparam Friction  of a contact   @tparam Row  of the assembler, to ask for the reaction
+/// @tparam Point  RodContact   @tparam Friction  of a contact   @tparam Row  of the assembler, to ask for the reaction
 template <class Point, typename Scalar, class Friction, class Row>
 struct OtherContact {
   Point point;

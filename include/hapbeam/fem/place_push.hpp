@@ -1,6 +1,6 @@
 // A push of a beam or rod at a given place along a given direction: the press of the thesis, and what leads it in tests and choosers.
 //
-// The mesh has its node at the place.  An answer continues the last one, or says that it does not (continuation.hpp).  The work of a push that has led
+// In the plane the place lies within an element of a mesh that stays; that of a rod has its node there.  An answer continues the last one, or says that it does not (continuation.hpp).  The work of a push that has led
 // from n₋ · u(s₋) = d₋ to n · u(s) = d is, by trapezoids,
 //
 //   W = ½ F₋ (d - n · u₋(s)) + ½ F (n₋ · u(s₋) - d₋)
@@ -68,7 +68,10 @@ class PlacePush {
       continuation_.know(system.foreseen_potential());
       last_ = next;
     };
-    const auto back = [&] { system.go_back(mesh_, before_, force); };
+    const auto back = [&] {
+      if constexpr (dimension == 2) system.go_back(before_, force);
+      else system.go_back(mesh_, before_, force);
+    };
     const auto fall = [&] {
       back();
       way.descending_ = true;
@@ -85,10 +88,17 @@ class PlacePush {
     if (way.single_valued_ && abs(request.d - system.displacement(way.rest_state_, s, request.normal)) <
                                   abs(request.d - system.displacement(s, request.normal)))
       way.to_rest();
-    const Mesh mesh = way.uniform_.at(node);
-    system.remesh(mesh);
-    return way.settle(last, 1,
-                      [&] { system.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); });
+    if constexpr (dimension == 2) {
+      // Within an element of a mesh that stays.
+      const Response<Scalar> found = way.settle(last, 1, [&] { system.set_goal(request, last); });
+      system.draw();
+      return found;
+    } else {
+      const Mesh mesh = way.uniform_.at(node);
+      system.remesh(mesh);
+      return way.settle(last, 1,
+                        [&] { system.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); });
+    }
   }
 
   typename System::State before_;

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include <hapbeam/beam.hpp>
+#include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/force_model.hpp>
@@ -23,7 +24,7 @@ class PressRange {
  public:
   explicit PressRange(const Beam& beam) noexcept
       : length_(static_cast<Scalar>(beam.length())),
-        shortest_(ContactMesh<Scalar>::shortest(length_)),
+        shortest_(detail::shortest_element<Scalar>(length_)),
         depth_(length_ / 10),
         left_yields_(!fixes_w(beam.left())),
         right_yields_(!fixes_w(beam.right())),

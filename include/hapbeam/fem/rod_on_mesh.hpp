@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <hapbeam/body/rod_profile.hpp>
 #include <hapbeam/element/carried_frame.hpp>
 #include <hapbeam/element/rod_properties.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
@@ -14,7 +15,6 @@
 #include <hapbeam/fem/rod_abreast.hpp>
 #include <hapbeam/fem/rod_bed.hpp>
 #include <hapbeam/fem/rod_loads.hpp>
-#include <hapbeam/fem/rod_profile.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 
 namespace hapbeam::detail {

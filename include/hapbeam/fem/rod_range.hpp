@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rod.hpp>
@@ -18,7 +19,7 @@ class RodRange {
  public:
   explicit RodRange(const Rod& rod) noexcept
       : length_(static_cast<Scalar>(rod.length())),
-        shortest_(ContactMesh<Scalar>::shortest(length_)),
+        shortest_(detail::shortest_element<Scalar>(length_)),
         left_yields_(yields(rod.left())),
         right_yields_(yields(rod.right())) {}
 

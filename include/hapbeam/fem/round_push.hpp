@@ -31,7 +31,6 @@ class RoundPush {
   using Round = typename SystemOf<Element>::template Round<Scalar>;
   using RoundContact = typename SystemOf<Element>::template RoundContact<Scalar>;
   static constexpr int dimension = dimension_of<Element>;
-  static constexpr bool planar = dimension == 2;
   using Vector = VectorOf<Scalar, dimension>;
   using Result = Pushed<Scalar, dimension>;
   using Search = ContactSearch<Scalar, dimension>;
@@ -64,13 +63,6 @@ class RoundPush {
   /// @param state  of friction, null: without
   template <class Way, class Extent>
   Result push(Way& way, const Round& request, const Extent& range, FrictionState* state) noexcept {
-    // A straight beam that is pressed across has one shape for each press.
-    if (planar && way.single_valued_) {
-      continuation_.forget();
-      if (state) return answer(way, request, range, state);
-      work_.forget(), balance_.forget();
-      return find(way, request, range, nullptr);
-    }
     System& system = way.system_;
     // What touches elsewhere does not continue where it was.
     if (std::abs(request.s - work_.round(0).s) > request.reach + system.length() / 10) continuation_.forget();
@@ -214,41 +206,20 @@ class RoundPush {
     const Scalar s = range.range().nearest({trial.s, 0}).s, length = system.length();
     const Mesh mesh = way.uniform_.at(range.node(s));
     const int c = mesh.node(), end = c == 0 ? -1 : c == system.elements() ? 1 : 0;
-    const bool outside = planar && s != trial.s;
-    bool wall = false, beside_support = false;
-    if constexpr (planar) {
-      wall = range.on_wall(mesh.s());
-      // There a hand soon bends the beam more sharply than the mesh can show.
-      const Scalar clear = 2 * request.reach;
-      beside_support =
-          outside || s - range.range().left_support < clear || range.range().right_support - s < clear;
-    }
     const Scalar last = system.linear_reaction();
-    // The contact's node; beside a support, where there is none, the place that takes its displacement.
-    const auto node = [&] { return outside ? round.node_at(system.centreline(), trial.s) : system.node(c); };
+    const auto node = [&] { return system.node(c); };
     const auto look = [&](const Node& seen) { return round.look(seen, end); };
     const auto law_at = [&](int i) { return round.beside(system.centreline(), i, end); };
     if (const int i = system.mesh().node(); i != curved_) curvature_ = system.centreline().curvature(i);
     const auto last_law = round.beside(system.node(system.mesh().node()), curvature_, end);
     bool foreseen = trial.first && foresight_.go_on(system, mesh, request);
     if (friction && foreseen && foresight_.forth()) friction->go_on();
-    const auto through = [&] {
-      if constexpr (planar) return false;
-      else return round.is_through(node(), end);
-    };
-    Scalar across = 1;  // component of the force that the beam takes
     const auto aim = [&] {
       const auto law = foreseen ? last_law : law_at(c);  // what is foreseen has no second derivative
-      trial.by_plane = wall || beside_support || sharp_ || law.sharp(request.reach) || through();
+      trial.by_plane = sharp_ || law.sharp(request.reach) || round.is_through(node(), end);
       if (!trial.by_plane) return system.set_goal(c, -request.reach, law);
-      if (trial.normal.isZero(0) || wall) trial.normal = round.normal(look(node()));
-      const Vector& normal = trial.normal;
-      const Scalar d = round.plane(normal, trial.s, node());
-      if (!wall) return system.set_goal(c, d, 0, normal);
-      if constexpr (planar) {
-        across = std::copysign((std::max)(Scalar(0.5), abs(normal.y())), normal.y());
-        system.set_goal(c, (d - normal.x() * system.node(c).u) / across);
-      }
+      if (trial.normal.isZero(0)) trial.normal = round.normal(round.look(node(), end));
+      system.set_goal(c, round.plane(trial.normal, trial.s, node()), 0, trial.normal);
     };
 
     // With friction what is near is tried first; `all` of the way may be a fall.
@@ -305,7 +276,7 @@ class RoundPush {
     // What is no answer may have left that mesh.
     const Node now = answer ? node() : round.node_at(system.centreline(), trial.s);
     const auto view = answer && !trial.by_plane ? system.contact() : look(now);
-    Result pushed{response.force / across, response.status};
+    Result pushed{response.force, response.status};
     pushed.past_end = answer ? view.past_end : past_end;
     pushed.point = round.point(view, now);
     pushed.normal = view.normal;

@@ -25,16 +25,23 @@ class SeveralFriction {
   using Friction = typename System::Friction;
   using Vector = typename Friction::Vector;
 
-  /// @param all  those that touch and have friction go on as they did
-  SeveralFriction(const System& system, Obstacle* all, int count) noexcept : all_(all), count_(count) {
+  /// @param all  those that touch and have friction go on as they did   @param alone  whether there is one alone
+  SeveralFriction(const System& system, Obstacle* all, int count, bool alone = false) noexcept
+      : all_(all), count_(count), alone_(alone) {
     for (int i = 0; i < count; ++i)
       if (all[i].touching) meet(system, i);
   }
   /// An obstacle has a contact now.
   void meet(const System& system, int i) noexcept {
     if (!rough(i)) return;
-    law(i).emplace(*all_[i].friction, RoundContact{all_[i].round}, system, -all_[i].pushed.force, false);
+    law(i).emplace(*all_[i].friction, RoundContact{all_[i].round}, system, -all_[i].pushed.force, alone_);
     any_ = true;
+  }
+  /// The same where another place of its body has one already, and it goes on as that does.   @param s  [m]
+  void meet_beside(const System& system, int i, int other, Scalar s) noexcept {
+    if (!of(other)) return meet(system, i);
+    law(i).emplace(*of(other));
+    law(i)->begin_beside(RoundContact::node_at(system.drawn(), s));
   }
 
   /// The hands go on as they went.
@@ -164,6 +171,7 @@ class SeveralFriction {
 
   Obstacle* all_;
   int count_;
+  bool alone_;  // the only contact
   bool any_ = false;
   std::array<std::optional<Friction>, Most> laws_;
 };

@@ -40,7 +40,6 @@ class SeveralPush : private ActiveSet<Element, System> {
   using Set::of;
   using Set::order_;
   using Set::ordered_;
-  using Set::planar;
   using Set::slot;
   using typename Set::Mesh;
   using typename Set::Node;
@@ -162,7 +161,7 @@ class SeveralPush : private ActiveSet<Element, System> {
     int meshes = 1;
     for (int pass = 1;; ++pass) {
       this->choose_nodes(system, range, friction.any());
-      status = solve(way, range, pass == 1, friction);
+      status = solve(way, pass == 1, friction);
       snapped = snapped || status == Status::snapped;
       if (!is_answer(status)) break;
       if (!this->review(system, range, meshes, friction)) break;
@@ -182,14 +181,14 @@ class SeveralPush : private ActiveSet<Element, System> {
     return status;
   }
 
-  template <class Way, class Extent>
-  Status solve(Way& way, const Extent& range, bool first, Friction& friction) noexcept {
+  template <class Way>
+  Status solve(Way& way, bool first, Friction& friction) noexcept {
     System& system = way.system_;
     int contacts = 0;
     for (int k = 0; k < ordered_; ++k)
       if (all_[order_[of(k)]].touching) ++contacts;
     if (contacts == 0) {
-      if (!way.single_valued_) return way.release();
+      if (!way.single_valued_) return way.let_go();
       way.to_rest();
       if (ordered_ > 0) system.remesh(mesh_);
       return Status::ok;
@@ -201,7 +200,7 @@ class SeveralPush : private ActiveSet<Element, System> {
       int goals = 0;
       for (int k = 0; k < ordered_; ++k)
         if (const int i = order_[of(k)]; all_[i].touching)
-          set_goal(system, range, i, goals++, foreseen ? laws_[of(i)] : law_of(system, i), force[of(i)],
+          set_goal(system, i, goals++, foreseen ? laws_[of(i)] : law_of(system, i), force[of(i)],
                    friction.of(i));
     };
     // As in RoundPush: with friction what is near is tried first.
@@ -280,10 +279,8 @@ class SeveralPush : private ActiveSet<Element, System> {
     if (all_[i].friction && all_[i].friction->tilt != 0) law.tilt(all_[i].friction->tilt);
     return law;
   }
-  template <class Extent>
-  void set_goal(System& system, const Extent& range, int i, int goal, const Law& law, Scalar force,
+  void set_goal(System& system, int i, int goal, const Law& law, Scalar force,
                 typename Friction::Friction* friction) noexcept {
-    using std::abs;
     Slot& now = slot(i);
     const RoundContact round{all_[i].round};
     const Scalar reach = round.request().reach;
@@ -300,19 +297,10 @@ class SeveralPush : private ActiveSet<Element, System> {
     if (goal == 0) system.set_force(force), system.set_friction(friction);
     now.goal = goal;
     if (all_[i].kind != ObstacleKind::round) return set(all_[i].place.d, Scalar(0), all_[i].place.normal);
-    now.by_plane = now.sharp || law.sharp(reach) || this->beside_support(range, now.s, reach);
-    now.across = 1;
-    if constexpr (planar) now.wall = range.on_wall(now.s);
-    else now.by_plane = now.by_plane || round.is_through(system.node(c), end);
-    now.by_plane = now.by_plane || now.wall;
+    now.by_plane = now.sharp || law.sharp(reach) || round.is_through(system.node(c), end);
     if (!now.by_plane) return set(-reach, law);
-    if (now.normal.isZero(0) || now.wall) now.normal = round.normal(round.look(system.node(c), end));
-    const Scalar d = round.plane(now.normal, now.s, system.node(c));
-    if (!now.wall) return set(d, Scalar(0), now.normal);
-    if constexpr (planar) {
-      now.across = std::copysign((std::max)(Scalar(0.5), abs(now.normal.y())), now.normal.y());
-      set((d - now.normal.x() * system.node(c).u) / now.across);
-    }
+    if (now.normal.isZero(0)) now.normal = round.normal(round.look(system.node(c), end));
+    set(round.plane(now.normal, now.s, system.node(c)), Scalar(0), now.normal);
   }
   static Vector up() noexcept {
     Vector w = Vector::Zero();

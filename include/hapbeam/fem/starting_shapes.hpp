@@ -7,24 +7,23 @@
 #include <cmath>
 #include <limits>
 
+#include <hapbeam/body/natural_shape.hpp>
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/fem/contact_mesh.hpp>
-#include <hapbeam/fem/natural_shape.hpp>
 #include <hapbeam/fem/supports.hpp>
 
 namespace hapbeam::detail {
 
 /// Lays the natural shape from the left end's place, turned toward the right end's place unless the left end is clamped.
-/// @param nodes  out, those of the mesh
-template <typename Scalar, class Mesh, class Nodes>
+/// @param nodes  in and out: where along the beam they are stays
+template <typename Scalar, class Nodes>
 void lay(const NaturalShape<Scalar>& shape, const EndSupport<Scalar>& left, const EndSupport<Scalar>& right,
-         const Mesh& mesh, Nodes& nodes) noexcept {
+         Nodes& nodes) noexcept {
   using std::atan2;
   using std::cos;
   using std::nearbyint;
   using std::sin;
   constexpr Scalar whole_turn = Scalar(6.283185307179586476925);
-  const Scalar length = mesh.position(mesh.elements());
+  const Scalar length = nodes[nodes.size() - 1].s;
   const Displacement<Scalar> end = shape.at(length);
   const Scalar *from = left.goal, *to = right.goal;
   Scalar turn = from[2];
@@ -36,7 +35,7 @@ void lay(const NaturalShape<Scalar>& shape, const EndSupport<Scalar>& left, cons
   }
   const Scalar c = cos(turn), s = sin(turn);
   for (int i = 0; i < nodes.size(); ++i) {
-    const Scalar position = mesh.position(i);
+    const Scalar position = nodes[i].s;
     const Displacement<Scalar> at = shape.at(position);
     const Scalar x = position + at.u;
     nodes[i] = {position, from[0] + c * x + s * at.w - position, from[1] - s * x + c * at.w, at.theta + turn};

@@ -1,5 +1,4 @@
-// What the equations of a beam and those of a rod have in common: contacts with prescribed displacements, the path that leads
-// to them, the share of the loads, and friction.
+// The contacts of a rod at nodes of its mesh: prescribed displacements, the path that leads to them, the share of the loads, and friction.
 //
 // The first contact is a point of its own; those beyond it cost nothing where there are none (other_contacts.hpp).
 // Real-time: noexcept, no allocation, O(contacts).
@@ -11,7 +10,7 @@
 namespace hapbeam::detail {
 
 /// Base class of a System.
-/// @tparam Point  ContactPoint | RodContact   @tparam Round  CircleOnCurve | CapsuleOnCurve   @tparam Friction  of a contact
+/// @tparam Point  RodContact   @tparam Round  CapsuleOnCurve   @tparam Friction  of a contact
 /// @tparam Row  of the assembler, to ask for a reaction   @tparam Others  the most contacts beyond the first
 template <class System, typename Scalar, class Point, class Vector, class Round, class Friction, class Row,
           int Others>

@@ -126,7 +126,7 @@ TEST_CASE("the picture draws a beam of any rotation as its model does", "[servo]
     DeviceState now = state(0.001 - 5e-5 * tick, tick);
     (void)servo.tick(now);
   }
-  REQUIRE(ruler.shape()[4].theta > 0.7);
+  REQUIRE(ruler.shape()[ruler.shape().segments()].theta > 0.7);
   for (int k = 0; k <= 50; ++k) {
     const double s = 0.006 * k;
     const Displacement<double> own = ruler.shape().at(s), drawn = servo.picture().shape().at(s);

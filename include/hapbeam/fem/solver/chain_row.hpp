@@ -84,7 +84,7 @@ struct alignas(2 * Abreast * sizeof(Scalar)) ChainRows {
   }
 };
 
-/// One of them.  Eliminating leaves the diagonal as it is, for the last look at the pivots, and puts L below it, P⁻¹Y into the coupling
+/// One of them.  Eliminating puts P⁻¹ on the diagonal, after a last look at the pivots, and L below it, P⁻¹Y into the coupling
 /// to the nodes that are eliminated later, and P⁻¹L⁻¹ of the right-hand side into x.
 template <typename Scalar, int Block, int Abreast>
 struct ChainRow {
@@ -118,7 +118,7 @@ struct ChainRow {
     else eliminate_block_first(row, next, front, f, energy, pivots);
   }
 
-  /// Solves for the node at which both chains end.  @param f  in: right-hand sides of both, out: its increment in both lanes
+  /// The same for the node at which both chains end, in lane 0.  @param f  right-hand sides of both
   static void join(const ChainRow row, Pair* front, Pair* f, Pair& energy, Pivots<Scalar>& pivots) noexcept {
     for (int k = 0; k < triangle_size<Block>; ++k) front[k] = front[k] + front[k].swapped();
     for (int k = 0; k < Block; ++k) f[k] = f[k] + f[k].swapped();
@@ -129,14 +129,41 @@ struct ChainRow {
     const Pair twice = less<Block>(Pair::both(0), f, z);
     energy = energy + twice * Pair(1, 0);
     HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) pivots.see(Pair(factor.p[j][0], 1), row.block(j, j).get());
+    for (int j = 0; j < Block; ++j) {
+      pivots.see(Pair(factor.p[j][0], 1), row.block(j, j).get());
+      row.block(j, j).a[0] = factor.i[j][0];
+      HAPBEAM_UNROLL
+      for (int i = j + 1; i < Block; ++i) row.block(i, j).a[0] = factor.l[triangle<Block>(i, j)][0];
+      row.x(j).a[0] = z[j][0];
+    }
+  }
+  /// Increment of that node, in both lanes.
+  [[gnu::always_inline]] static void substitute_last(const ChainRow row, Pair* increment) noexcept {
     HAPBEAM_UNROLL
     for (int j = Block - 1; j >= 0; --j) {
+      Scalar sum = row.x(j).a[0];
       HAPBEAM_UNROLL
-      for (int k = Block - 1; k > j; --k)
-        z[j] = subtract_product(z[j], factor.l[triangle<Block>(k, j)], z[k]);
+      for (int k = Block - 1; k > j; --k) sum -= row.block(k, j).a[0] * increment[k][0];
+      increment[j] = Pair::both(sum);
+      row.x(j).a[0] = sum;
     }
-    for (int k = 0; k < Block; ++k) f[k] = z[k], row.x(k).a[0] = z[k][0];
+  }
+
+  /// One step of a column: f becomes L⁻¹f, what it makes of the next row is taken off next.   @return P⁻¹L⁻¹f in scaled
+  static void forward(const ChainRow row, int lane, Scalar* f, Scalar* scaled) noexcept {
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Block; ++k) {
+      HAPBEAM_UNROLL
+      for (int i = k + 1; i < Block; ++i) f[i] -= row.block(i, k).a[lane] * f[k];
+      scaled[k] = f[k] * row.block(k, k).a[lane];
+    }
+  }
+  static void pass_on(const ChainRow row, int lane, const Scalar* f, Scalar* next) noexcept {
+    HAPBEAM_UNROLL
+    for (int j = 0; j < Block; ++j) {
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Block; ++k) next[j] -= row.coupling(k, j).a[lane] * f[k];
+    }
   }
 
   /// Increments of the nodes from those of the next on their way.  @param later  in: of those, out: of these
@@ -170,6 +197,7 @@ struct ChainRow {
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
       pivots.see(factor.p[j], row.block(j, j).get());
+      row.block(j, j).set(factor.i[j]);
       HAPBEAM_UNROLL
       for (int i = j + 1; i < Block; ++i) row.block(i, j).set(factor.l[triangle<Block>(i, j)]);
     }

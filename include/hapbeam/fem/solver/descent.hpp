@@ -12,6 +12,8 @@
 //   s.negative_pivots()       of the last factor()
 //   s.potential()             V - λ f · x at the last factor() [J]
 //   s.neutral()               as μ: a stiffness that is none, but for round-off
+//   s.find_tensions()         of what is an unknown beside the shape: potentials are those of shapes; may be left out
+//   s.turn()                  largest rotation of a node in the last increment [rad]
 //
 // Real-time: noexcept and no allocation where the system's are; at most max_solves linear solves.
 // Source: Levenberg 1944 and Marquardt 1963, on the potential of a beam.
@@ -25,10 +27,22 @@
 
 namespace hapbeam {
 
+namespace detail {
+
+template <class System>
+auto find_tensions(System& system, int) noexcept -> decltype(system.find_tensions()) {
+  system.find_tensions();
+}
+template <class System>
+void find_tensions(System&, long) noexcept {}
+
+}  // namespace detail
+
 struct Descent {
   int max_solves = 48;         ///< what bounds a tick
   double first_shift = 100;    ///< μ
   double largest_shift = 1e9;  ///< where no step goes down, there is none
+  double farthest = 1;         ///< [rad] that the first step turns a node: nothing says whether it goes down
   double enough = 1e-3;  ///< [rad] a step of Newton's no larger, as √(ΔᵀKΔ L/EI), leaves the rest to it
 
   /// Goes down from where the system is.
@@ -46,6 +60,7 @@ struct Descent {
     bool stepped = false;
     for (const int last = solves + max_solves; solves < last;) {
       ++solves;
+      detail::find_tensions(system, 0);
       Status status = system.factor(shift);
       // What costs nothing has a pivot of either sign: a second look decides.
       if (System::neutral() > 0 && shift == 0 && status == Status::ok && system.negative_pivots() > 0) {
@@ -61,6 +76,8 @@ struct Descent {
         // Just above the least shift that will do, a step goes far along what gives way.
         bad = (std::max)(shift, S(0.1));
         shift = good > S(1.3) * bad ? std::sqrt(good * bad) : good > bad ? good : 10 * bad;
+      } else if (!stepped && system.turn() > S(farthest)) {
+        shift *= 10;
       } else {
         system.save();
         // The first step also brings the contact to its place, from where potentials can be compared.

@@ -12,13 +12,14 @@
 // weigh what they cost, and which bounds the relative error of the contact force: |δF|/F <= about |Δ|/√(2V).
 // A step has converged when the increment that would come next is below the tolerance; it need not be computed to be
 // known, because Newton is quadratic: |Δ(k+1)| = C|Δ(k)|² with C taken for four times the larger of the last two that were
-// measured, but no less than 10/√(2V), or 100/√(2V) while there are none (0.1 to 40 is usual; in nearly inextensible beams
-// increments can come in pairs, one of u and one of w, which is why one measurement is not believed; and what is measured
-// of an increment that leads back from a state that has blown up is nothing).  The tolerance is relative √(2V), never
+// measured, but no less than 10/√(2V), or 100/√(2V) while there are none (0.1 to 40 is usual; what is measured of an increment that leads back
+// from a state that has blown up is nothing).  Where normal forces are unknowns of a nearly inextensible beam increments come in pairs, one of u and one
+// of w, and the one of w follows from that of u: then C is 20 000/√(2V) at least, and 1000/√(2V) of the first increment.  The tolerance is relative √(2V), never
 // below absolute √(EI/L): a relative criterion has no meaning at rest.
 // An increment that is 1/(10 √eps) times the one before ends a step without: where the energy has grown by the square of
 // that, round-off keeps nothing of the state that it was, and where Newton's method then arrives is anywhere.
-// An increment below n √eps/20 √(2V) also ends a step.  Increments stop shrinking at round-off, √eps n² of the state where
+// An increment below ε = n √eps/20, in units of √(2V), also ends a step where the one before was below √ε: after a larger one an increment of N may
+// follow, which leaves the next one of w larger than itself.  Increments stop shrinking at round-off, √eps n² of the state where
 // bending is worst, of which no C can be measured; with C = 100/√(2V) the error of the step that was taken is eps n²/4.  That
 // holds for the linear equations' force and not for one that is computed anew from rounded nodes.
 //
@@ -27,9 +28,10 @@
 //   s.set_target(t)              loads and prescribed displacement at path position t, from the saved state
 //   s.iterate()                  one Newton step  -> {Status, |Δ|}
 //   s.save(), s.restore()        keep the state; go back to the kept one
-//   s.size()                     √(2V) of the state before the last step [√J]
+//   s.size()                     √(2V) of the state before the last step, or of what else is to be as exact [√J]
 //   s.unit()                     √(EI/L), the size of a rotation by 1 rad [√J]
 //   s.elements()                 n
+//   System::in_pairs             true where normal forces are unknowns; may be left out
 //   s.round_off()                |Δ| of an increment that is round-off in this state, which ends a step; may be left out
 //
 // Real-time: noexcept and no allocation where the system's are; at most max_solves linear solves.
@@ -38,6 +40,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include <hapbeam/force_model.hpp>
 
@@ -71,6 +74,11 @@ template <class System>
 typename System::Scalar round_off(const System&, long) noexcept {
   return 0;
 }
+
+template <class System, typename = void>
+struct InPairs : std::false_type {};
+template <class System>
+struct InPairs<System, std::enable_if_t<System::in_pairs>> : std::true_type {};
 
 }  // namespace detail
 
@@ -111,6 +119,12 @@ struct NewtonRaphson {
   }
 
  private:
+  /// C √(2V) of increment k, until more is measured.
+  template <class System>
+  static constexpr auto least_curvature(int k) noexcept -> typename System::Scalar {
+    if (detail::InPairs<System>::value) return k > 1 ? 20000 : 1000;
+    return k > 2 ? 10 : 100;
+  }
   template <class System, typename S>
   Status iterate(System& system, SolveReport<S>& report) const noexcept {
     const S n = static_cast<S>(system.elements());
@@ -126,14 +140,16 @@ struct NewtonRaphson {
       if (k > 1 && iteration.size * lost > before) return Status::iteration_limit;
       const S state = system.size(), tolerance = S(relative_tolerance) * state;
       // The first increment holds the jump of the contact, which the tangent's norm overstates: C is measured without it.
-      const S measured = k > 2 ? 4 * iteration.size / (before * before) : state > 0 ? 100 / state : S(0);
-      const S curvature = (std::max)({measured, measured_before, state > 0 ? 10 / state : S(0)});
+      const S measured = k > 2 ? 4 * iteration.size / (before * before) : S(0);
+      const S curvature =
+          (std::max)({measured, measured_before, state > 0 ? least_curvature<System>(k) / state : S(0)});
       // No larger than this one, which is what round-off would else make of it.
       const S next =
           state > 0 ? (std::min)(curvature * iteration.size, S(1)) * iteration.size : iteration.size;
       report.error = state > 0 ? next / state : S(0);
       if (!std::isfinite(state)) return Status::non_finite;
-      if (next <= (std::max)(tolerance, floor) || iteration.size <= noise * state ||
+      const bool lands = k == 1 || before <= std::sqrt(noise) * state;
+      if (next <= (std::max)(tolerance, floor) || (lands && iteration.size <= noise * state) ||
           iteration.size <= detail::round_off(system, 0))
         return Status::ok;
       if (k == 8 && iteration.size > S(0.9) * state) return Status::iteration_limit;

@@ -66,6 +66,7 @@ template <int Block, typename Scalar, class Row>
   };
   const auto divide = [&](auto k) HAPBEAM_INLINED {
     pivots.see(c[triangle<Block>(k, k)], row.block(k, k).get());
+    row.block(k, k).set(inverse[k]);
     HAPBEAM_UNROLL
     for (int i = k + 1; i < Block; ++i) {
       l[triangle<Block>(i, k)] = c[triangle<Block>(i, k)] * inverse[k];

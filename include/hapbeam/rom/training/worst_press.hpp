@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rom/training/training_run.hpp>
 
@@ -91,7 +91,7 @@ class PressComparison {
 
   /// To the end itself or to the foot of the tip, whichever is nearer.
   double off_tips(double s) const noexcept {
-    const double L = length(), tip = ContactMesh<double>::shortest(L);
+    const double L = length(), tip = detail::shortest_element<double>(L);
     if (s > 0 && s < tip) return s < tip / 2 ? 0 : tip;
     if (s < L && s > L - tip) return s > L - tip / 2 ? L : L - tip;
     return s;

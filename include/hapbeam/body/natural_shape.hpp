@@ -32,25 +32,34 @@ class NaturalShape {
     return arc && arc->end < b;
   }
 
+  /// A piece of it, seen along its chord.
+  struct Ends {
+    Scalar shorter;                   ///< chord over length, less 1
+    Scalar a, b;                      ///< rotations of both ends against the chord [rad]
+    Scalar curvature_a, curvature_b;  ///< there, within the piece [1/m]
+  };
+  Ends ends(Scalar from, Scalar to) const noexcept {
+    using std::sqrt;
+    const Scalar l = to - from;
+    const Piece* const arc = arc_at(from);
+    const Scalar curvature = arc ? arc->curvature : Scalar(0);
+    if (!arc || to <= arc->end) {
+      const Scalar half = curvature * l / 2;
+      return {chord_excess(half), -half, half, curvature, curvature};
+    }
+    const Displacement<Scalar> end = between(from, to);
+    const Scalar x = l + end.u, chord = sqrt(x * x + end.w * end.w),
+                 angle = detail::angle_near(end.w, x, chord, -end.theta / 2);
+    return {(end.u * (l + x) + end.w * end.w) / ((chord + l) * l), angle, end.theta + angle, curvature,
+            curvature_before(to)};
+  }
+
   /// Gives the element from s to s + p.length its natural chord and rotations against it.  To first order in the angle
   /// these are those of the linear function nearest to the natural curvature, which the cubic bends against.
   void apply(Scalar s, ElementProperties<Scalar>& p) const noexcept {
-    using std::sqrt;
     const Scalar l = p.length;
-    const Piece* const arc = arc_at(s);
-    if (!arc || l <= arc->end - s) {
-      const Scalar half = arc ? arc->curvature * l / 2 : Scalar(0);
-      p.natural_a = -l * half;
-      p.natural_b = l * half;
-      p.natural_stretch = l * chord_excess(half);
-      return;
-    }
-    const Displacement<Scalar> to = between(s, s + l);
-    const Scalar x = l + to.u, chord = sqrt(x * x + to.w * to.w),
-                 angle = detail::angle_near(to.w, x, chord, -to.theta / 2);
-    p.natural_a = l * angle;
-    p.natural_b = l * (to.theta + angle);
-    p.natural_stretch = (to.u * (l + x) + to.w * to.w) / (chord + l);
+    const Ends natural = ends(s, s + l);
+    p.natural_a = l * natural.a, p.natural_b = l * natural.b, p.natural_stretch = l * natural.shorter;
   }
 
   /// The point at s of the natural shape that leaves its start with θ = 0.
@@ -66,6 +75,13 @@ class NaturalShape {
     for (const Piece& arc : arcs_)
       if (arc.end > s) return &arc;
     return nullptr;
+  }
+
+  /// Of the arc that comes to s [1/m].
+  Scalar curvature_before(Scalar s) const noexcept {
+    for (const Piece& arc : arcs_)
+      if (arc.end >= s) return arc.curvature;
+    return 0;
   }
 
   /// Chord of an arc over its length, less 1:  sin x/x - 1,  x half of its angle.

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include <hapbeam/beam.hpp>
+#include <hapbeam/body/rod_profile.hpp>
 #include <hapbeam/element/element.hpp>
-#include <hapbeam/fem/rod_profile.hpp>
 
 namespace hapbeam {
 

@@ -1,0 +1,471 @@
+// What a touched element, a chain of pieces with a node at each contact, is to its beam: residual, tangent and a column for each contact.
+//
+//   Π = Σ V - Σ λ g                g = D - R of a circle, n · (u, w) - d of a held place
+//
+// Place s is where two lengths change: ∂Π/∂s = 0 says that the curve is tangent, because the mesh carries no force of its own there.
+// Deformations, tensions and places are unknowns of the element alone and are condensed, from the longest piece outward; the forces λ stay, as columns of
+// the beam's system.
+// Real-time: noexcept, no allocation, O(contacts²).
+// Source: derived here; docs/theory.md, Contact within an element.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include <hapbeam/body/piece_chain.hpp>
+
+namespace hapbeam::detail {
+
+/// @tparam Most  contacts
+template <class Element, typename S, int Most>
+class TouchedElement : private PieceChain<Element, S, Most> {
+  static_assert(has_own_tension<Element>,
+                "pieces are exact under a tension of their own: other elements are a SplitElement");
+  using Base = PieceChain<Element, S, Most>;
+  using Base::bridge_density;
+  using Base::chain_;
+  using Base::contacts_;
+  using Base::count_;
+  using Base::density;
+  using Base::find_pieces;
+  using Base::id;
+  using Base::in_order;
+  using Base::lay_nodes;
+  using Base::length;
+  using Base::longest_;
+  using Base::N_;
+  using Base::nodes_;
+  using Base::number_;
+  using Base::of;
+  using Base::properties_;
+  using Base::root_of;
+  using Base::see;
+  using Base::shortest;
+  using Base::turning_;
+  using Base::Turns;
+  using typename Base::Chord;
+  using typename Base::Contact;
+  using typename Base::Density;
+  using typename Base::Node;
+  using typename Base::Piece;
+  using typename Base::Vector;
+  // Of a front: u, w, θ, s of both nodes between which pieces have been condensed, forces, and the gradient.  Of a piece that is condensed into it its
+  // own come first; a node of the mesh has no s.
+  static constexpr int state = 4, both = 2 * state, gradient = both + Most, wide = gradient + 1;
+  static constexpr int own = 4, ends = Most > 1 ? 4 : 3, made = own + ends, all = made + ends;
+  using Front = std::array<std::array<S, wide>, both>;
+
+ public:
+  using Base::add;
+  using Base::Base;
+  using Base::look;
+  using Base::strain_energy;
+  using Base::tension;
+
+  /// Residual and tangent, its contacts included.   @param rub  (id of a contact) sets its friction, where it touches   @return V [J]
+  template <class Rub>
+  S condense(Vector6<S>& r, Matrix6<S>& K, Rub&& rub) noexcept {
+    find_pieces();
+    lay_nodes();
+    for (auto& row : yields_) row.fill(0);
+    change_ = longer_ = 0;
+    turned_ = 0;
+    bridge();
+    for (int k = longest_ - 1; k >= 0; --k) touch(k, 0, rub), stand(k, 0);
+    for (int k = longest_; k < count_; ++k) touch(k, state, rub), stand(k, state);
+    for (int i = 0; i < 6; ++i) {
+      const auto& row = front_[of(i < 3 ? i : i + 1)];
+      r[i] = row[gradient];
+      for (int j = 0; j < 6; ++j) K(i, j) = row[of(j < 3 ? j : j + 1)];
+      for (int k = 0; k < count_; ++k) columns_[of(k)][i] = row[of(both + k)];
+    }
+    return energy_;
+  }
+  /// By how much Π changes as all that is condensed finds its own, but for what the nodes and forces make of that [J].
+  S local_change() const noexcept { return change_; }
+
+  /// How many negative pivots of the beam are of places where the curve is sharper than what touches it, and not of the beam.
+  int turned() const noexcept { return turned_; }
+
+  // Of contact k, after condense().
+
+  /// ∂²Π/∂λ∂(u, w, θ) of both nodes.
+  const Vector6<S>& column(int k) const noexcept { return columns_[of(k)]; }
+  /// ∂Π/∂λ [m]
+  S residual(int k) const noexcept { return residual_[of(k)]; }
+  /// ∂²Π/∂λ∂λ' [m/N]
+  S yields(int k, int other) const noexcept {
+    return yields_[of((std::min)(k, other))][of((std::max)(k, other))];
+  }
+
+  /// All that was condensed, after an increment.  @param by  of the nodes   @param forces  of the contacts [N]
+  /// @param longer  in and out: as of BeamElements::follow() [J]   @return tension of the longest piece [N]
+  S advance(const Vector6<S>& by, const std::array<S, Most>& forces, S& longer) noexcept {
+    // Of nodes and contacts, from node 1 to node 2: each piece after those that were condensed into it later.
+    std::array<std::array<S, state>, Most + 2> nodes{};
+    for (int i = 0; i < 3; ++i) nodes[0][of(i)] = by[i], nodes[of(count_ + 1)][of(i)] = by[3 + i];
+    const auto go = [&](int k, int root, int other) {
+      std::array<S, all> x{};
+      for (int i = 0; i < ends; ++i)
+        x[of(own + i)] = nodes[of(root)][of(i)], x[of(made + i)] = nodes[of(other)][of(i)];
+      nodes[of(k + 1)] = recover(k, x, forces, longer);
+    };
+    for (int k = count_ - 1; k >= longest_; --k) go(k, k + 2, 0);
+    for (int k = 0; k < longest_; ++k) go(k, k, longest_ + 1);
+    S change = bridge_.lack;
+    for (int i = 0; i < state; ++i)
+      change += bridge_.by[of(i)] * nodes[of(longest_)][of(i)] +
+                bridge_.by[of(state + i)] * nodes[of(longest_ + 1)][of(i)];
+    const S step = -change / bridge_.stiff;
+    longer += longer_ + bridge_.lack * (2 * step + bridge_.lack / bridge_.stiff);
+    for (int k = 0; k < count_; ++k) contacts_[of(k)]->force += forces[of(k)];
+    return N_ + step;
+  }
+
+ private:
+  /// Compliance of its length [m/N].
+  S softest() const noexcept {
+    const S l = nodes_[1].s - nodes_[0].s;
+    return l * l * l / properties_.EI;
+  }
+  /// The longest piece, between its nodes.
+  void bridge() noexcept {
+    const Node &a = chain_[of(longest_)], &b = chain_[of(longest_ + 1)];
+    const Chord chord(a, b);
+    const S l = b.s - a.s, i = 1 / l;
+    S stretch, p, q;
+    const Density D = bridge_density(stretch, p, q);
+    energy_ = l * D.D;
+    const S lack = l * D.N, stiff = l * D.NN, missing = -lack / stiff, inverse = 1 / stiff;
+    change_ += lack * missing / 2;
+    // By stretch, rotation of either end and length, without N.
+    const S Nl = D.N + l * D.Nl - (1 + stretch) - D.pN * p - D.qN * q;
+    const S fp = D.pp * i, fq = D.pq * i, pl = D.pl - fp * p - fq * q, ql = D.ql - fq * p - fp * q,
+            ll = 2 * D.l + l * D.ll - 2 * (p * D.pl + q * D.ql) + fp * (p * p + q * q) + 2 * fq * p * q;
+    const S cc = -inverse, cp = -D.pN * inverse, cq = -D.qN * inverse, cl = -Nl * inverse;
+    const S pp = fp + D.pN * cp, pq = fq + D.pN * cq, qq = fp + D.qN * cq, pL = pl + D.pN * cl,
+            qL = ql + D.qN * cl, lL = ll + Nl * cl;
+    const S pull = N_ + missing, gp = D.p + D.pN * missing, gq = D.q + D.qN * missing,
+            gl = D.D + l * D.l - N_ * (1 + stretch) - p * D.p - q * D.q + Nl * missing;
+    // By place of B against A, and length: of the chord, and of its angle.
+    using Vector3 = VectorOf<S, 3>;
+    Vector3 along, turn, shrink;
+    const S turns = larger(N_, S(N_ + turning_ * missing)), swings = gp + gq;
+    S bow, across;
+    if constexpr (Turns) {
+      const S j = 1 / chord.length;
+      along = Vector3(chord.along.x(), chord.along.y(), 0), turn = Vector3(-along.y() * j, along.x() * j, 0);
+      shrink = along, bow = turns * chord.length, across = swings * j;
+    } else {
+      const S alpha = chord.angle;
+      along = Vector3(1, alpha, -alpha * alpha / 2), turn = Vector3(0, i, -chord.angle * i);
+      shrink = Vector3(0, 0, 1), bow = turns * l, across = swings * i;
+    }
+    const Vector3 e(0, 0, 1), by_a = cp * along + (pp + pq) * turn + pL * e,
+                              by_b = cq * along + (pq + qq) * turn + qL * e;
+    const Vector3 to_turn = (cp + cq) * along - across * shrink + (pL + qL) * e;
+    Eigen::Matrix<S, 3, 3> K;
+    for (int m = 0; m < 3; ++m)
+      for (int n = 0; n <= m; ++n)
+        K(m, n) = K(n, m) = cc * along[m] * along[n] + to_turn[m] * turn[n] + turn[m] * to_turn[n] +
+                            (pp + 2 * pq + qq + bow) * turn[m] * turn[n] +
+                            cl * (along[m] * e[n] + e[m] * along[n]) + lL * e[m] * e[n];
+    const Vector3 pulls = pull * along + swings * turn + gl * e,
+                  lacks = along + (D.pN + D.qN) * turn + Nl * e;
+    // A takes it off, and B adds it.
+    const std::array<std::size_t, 3> of_a{0, 1, 3}, of_b{4, 5, 7};
+    for (int m = 0; m < 3; ++m) {
+      const std::size_t ma = of_a[of(m)], mb = of_b[of(m)];
+      for (int n = 0; n < 3; ++n) {
+        const std::size_t na = of_a[of(n)], nb = of_b[of(n)];
+        front_[ma][na] = front_[mb][nb] = K(m, n);
+        front_[ma][nb] = front_[mb][na] = -K(m, n);
+      }
+      front_[ma][2] = front_[2][ma] = -by_a[m], front_[mb][2] = front_[2][mb] = by_a[m];
+      front_[ma][6] = front_[6][ma] = -by_b[m], front_[mb][6] = front_[6][mb] = by_b[m];
+      front_[ma][gradient] = -pulls[m], front_[mb][gradient] = pulls[m];
+      bridge_.by[ma] = -lacks[m], bridge_.by[mb] = lacks[m];
+    }
+    front_[2][2] = pp, front_[6][6] = qq, front_[2][6] = front_[6][2] = pq;
+    front_[2][gradient] = gp, front_[6][gradient] = gq, bridge_.by[2] = D.pN, bridge_.by[6] = D.qN;
+    for (auto& row : front_)
+      for (int k = 0; k < Most; ++k) row[of(both + k)] = 0;
+    bridge_.lack = lack, bridge_.stiff = stiff;
+  }
+  /// A contact at an end of the front, which is at `from` of it.
+  template <class Rub>
+  void touch(int k, int from, Rub&& rub) noexcept {
+    see(k);
+    Contact& contact = in_order(k);
+    const S bend = contact.kind == Contact::Kind::round && contact.gap > -contact.reach / 2
+                       ? contact.force / (contact.gap + contact.reach)
+                       : S(0);
+    const int number = number_[of(k)];
+    const Vector n = contact.normal, t(-n.y(), n.x());
+    residual_[of(number)] = -contact.gap;
+    for (int i = 0; i < 2; ++i) {
+      auto& row = front_[of(from + i)];
+      row[gradient] -= contact.force * n[i];
+      row[of(both + number)] -= n[i];
+      for (int j = 0; j < 2; ++j) row[of(from + j)] -= bend * t[i] * t[j];
+    }
+    if (contact.kind == Contact::Kind::along) {
+      const S arm = contact.s - chain_[of(k + 1)].s;
+      const Vector left = Turns ? Vector(-contact.tangent.y(), contact.tangent.x()) : Vector(0, 1);
+      auto& row = front_[of(from + 2)];
+      row[gradient] += contact.force * arm * n.dot(left);
+      row[of(both + number)] += arm * n.dot(left);
+      if (Turns) row[of(from + 2)] += contact.force * arm * n.dot(contact.tangent);
+    }
+    // Friction is at this place of the beam: it moves with the curve, less as far as s goes along it.
+    rub(id(k));
+    const S rubs = contact.friction.dot(t), stiff = contact.friction_stiffness;
+    if (rubs == 0 && stiff == 0) return;
+    // The jump of N + N²/2EA is that of N times the mean of 1 + N/EA.
+    const int beside = k < longest_ ? k + 1 : k - 1;
+    const S N = k + 1 == longest_ || k == longest_ ? N_ : in_order(beside).piece.tension,
+            stretched = 1 + (contact.piece.tension + N) / (2 * properties_.EA);
+    const std::array<S, 4> slides{t.x(), t.y(), 0, -stretched * t.dot(contact.tangent)};
+    for (int i = 0; i < 4; ++i) {
+      auto& row = front_[of(from + i)];
+      row[gradient] -= rubs * slides[of(i)];
+      for (int j = 0; j < 4; ++j) row[of(from + j)] += stiff * slides[of(i)] * slides[of(j)];
+    }
+  }
+
+  /// Condenses a piece whose tip is that end of the front: then its root is.
+  void stand(int k, int from) noexcept {
+    Contact& contact = in_order(k);
+    const Piece& piece = contact.piece;
+    const bool is_left = from == 0;
+    const Node& root = root_of(k);
+    const S side = is_left ? S(1) : S(-1), l = length(k), stretch = piece.stretch, p = piece.at_root,
+            q = piece.at_tip, N = piece.tension, alpha = l * p - root.theta;
+    const Density D = density(k);
+    energy_ += l * D.D;
+    Record& record = records_[of(k)];
+    record.side = side;
+
+    // The way from root to tip is l h(ε, α), with derivatives.
+    Vector h, by_stretch, by_turn, both_by, turn_twice;
+    if constexpr (Turns) {
+      const Vector e = direction(alpha), z(-e.y(), e.x());
+      h = (1 + stretch) * e, by_stretch = e, by_turn = (1 + stretch) * z, both_by = z, turn_twice = -h;
+    } else {
+      h = Vector(1 + stretch - alpha * alpha / 2, alpha), by_stretch = Vector(1, 0),
+      by_turn = Vector(-alpha, 1);
+      both_by = Vector(0, 0), turn_twice = Vector(-1, 0);
+    }
+    // What is by u, w, θ, s of the tip, by what the tip is made of.
+    Tip& tip = record.tip;
+    tip = {l * by_stretch * side, l * by_turn * side, h + l * p * by_turn, l, side * (q - p)};
+    std::array<std::array<S, all + Most + 1>, all> A;  // the upper triangle
+    constexpr std::size_t last = all + Most;
+    const std::size_t from_tip = of(from), from_other = of(state - from);
+    const auto column = [&](std::size_t j) {
+      return tip.spread(front_[from_tip][j], front_[from_tip + 1][j], front_[from_tip + 2][j],
+                        front_[from_tip + 3][j]);
+    };
+    const std::array<std::array<S, made>, 4> half{column(from_tip), column(from_tip + 1),
+                                                  column(from_tip + 2), column(from_tip + 3)};
+    for (std::size_t i = 0; i < made; ++i) {
+      const auto row = tip.spread(half[0][i], half[1][i], half[2][i], half[3][i]);
+      for (std::size_t j = i; j < made; ++j) A[i][j] = row[j];
+    }
+    const auto take = [&](std::size_t j, const std::array<S, made>& values) {
+      for (std::size_t i = 0; i < made; ++i) A[i][j] = values[i];
+    };
+    for (std::size_t c = 0; c < ends; ++c) take(made + c, column(from_other + c));
+    for (std::size_t c = 0; c <= Most; ++c) take(all + c, column(both + c));
+    for (std::size_t i = 0; i < ends; ++i) {
+      for (std::size_t j = i; j < ends; ++j) A[made + i][made + j] = front_[from_other + i][from_other + j];
+      for (std::size_t c = 0; c <= Most; ++c) A[made + i][all + c] = front_[from_other + i][both + c];
+    }
+    // Its own energy, without N, and what its way bends the forces on the tip.
+    const S lack = l * D.N, stiff = l * D.NN, inverse = 1 / stiff, missing = -lack * inverse;
+    change_ += lack * missing / 2;
+    const std::array<S, 4> row{l, l * D.pN, l * D.qN, l * D.Nl};
+    record.tension = row, record.lack = lack, record.stiff = stiff;
+    const Vector f = side * Vector(front_[from_tip][gradient], front_[from_tip + 1][gradient]);
+    const S swings = f.dot(by_turn), g3 = l * f.dot(both_by), g4 = l * f.dot(turn_twice), sp = side * p;
+    const auto own_of = [&](std::size_t i, std::size_t j) { return -row[i] * row[j] * inverse; };
+    A[0][0] += own_of(0, 0), A[0][1] += own_of(0, 1) + g3 * l, A[0][2] += own_of(0, 2);
+    A[1][1] += own_of(1, 1) + l * D.pp + g4 * l * l, A[1][2] += own_of(1, 2) + l * D.pq,
+        A[2][2] += own_of(2, 2) + l * D.pp;
+    // By s of the tip, and by s of its root, which takes it off.  What is not in balance is left out: its share of a length that changes is nothing that
+    // deformations of a unit of length should make up for.
+    const S es = side * (own_of(0, 3) - missing) + g3 * sp,
+            ps = side * (own_of(1, 3) + l * (D.pl + swings) - D.pN * missing) + g4 * l * sp,
+            qs = side * (own_of(2, 3) + l * D.ql - D.qN * missing),
+            ss = own_of(3, 3) + 2 * D.l + l * D.ll + 2 * swings * p + g4 * p * p,
+            st = -side * swings - g4 * sp, gs = side * (D.D + l * D.l + row[3] * missing);
+    A[0][3] += es, A[1][3] += ps, A[2][3] += qs, A[3][3] += ss, A[3][6] += st;
+    A[0][6] -= g3, A[1][6] -= g4 * l, A[6][6] += g4;
+    A[0][last] += l * N + row[0] * missing, A[1][last] += l * D.p + row[1] * missing,
+        A[2][last] += l * D.q + row[2] * missing, A[3][last] += gs;
+    if constexpr (Most > 1)
+      A[0][7] -= es, A[1][7] -= ps, A[2][7] -= qs, A[3][7] -= ss, A[6][7] -= st, A[7][7] += ss,
+          A[7][last] -= gs;
+
+    const S along = std::abs(front_[from_tip + 3][from_tip + 3]);  // of which little is left
+    const auto eliminate = [&](auto number) {
+      constexpr std::size_t u = decltype(number)::value;
+      const auto& row_u = A[u];
+      const S over = 1 / row_u[u];
+      for (std::size_t i = u + 1; i < all; ++i) {
+        const S factor = row_u[i] * over;
+        for (std::size_t j = i; j <= last; ++j) A[i][j] -= factor * row_u[j];
+      }
+      for (std::size_t c = 0; c < Most; ++c) {
+        const S factor = row_u[all + c] * over;
+        residual_[c] -= factor * row_u[last];
+        for (std::size_t d = c; d < Most; ++d) yields_[c][d] -= factor * row_u[all + d];
+      }
+      const S by = row_u[last] * row_u[last] * over;
+      change_ -= by / 2;
+      if (u < 3) longer_ += std::abs(by);
+      record.rows[u] = row_u;
+    };
+    eliminate(std::integral_constant<std::size_t, 0>());
+    eliminate(std::integral_constant<std::size_t, 1>());
+    eliminate(std::integral_constant<std::size_t, 2>());
+    // A force of the pieces along the beam, which exact ones would not have, is not to be taken for that of the contact, nor what is out of balance for what
+    // that bends.  What friction jams keeps its row longer: between that and the foot it would go to and fro.
+    const S theirs = A[3][last] + contact.force * contact.normal.dot(contact.tangent),
+            most = contact.friction.isZero(0) ? S(0.05) : S(0.25);
+    const bool told = std::abs(theirs) <= most * std::abs(contact.force) &&
+                      std::abs(change_) <= contact.force * contact.force * softest() &&
+                      std::abs(A[3][3]) > 64 * std::numeric_limits<S>::epsilon() * along;
+    if (told) contact.sharp = A[3][3] * contact.force > contact.curvature * contact.force * contact.force;
+    record.moves = told && contact.moves && !contact.waits && !contact.rests;
+    record.waits = told && contact.moves && contact.waits && !contact.rests;
+    if (record.waits) record.rows[3] = A[3];
+    if (record.moves) {
+      // Along a curve that is flatter than the circle the distance has a minimum; where it is as sharp it has none.
+      const S least = std::sqrt(std::numeric_limits<S>::epsilon()) *
+                      std::abs(contact.force / (contact.gap + contact.reach));
+      if (std::abs(A[3][3]) < least) A[3][3] = std::copysign(least, A[3][3]);
+      if (A[3][3] * contact.force > 0) turned_ += contact.force > 0 ? 1 : -1;
+      eliminate(std::integral_constant<std::size_t, 3>());
+    }
+    const auto give = [&](std::size_t i, std::size_t row_a, std::size_t j, std::size_t column_a) {
+      front_[i][j] = front_[j][i] = A[row_a][column_a];
+    };
+    for (std::size_t i = 0; i < ends; ++i) {
+      for (std::size_t j = i; j < ends; ++j) {
+        give(from_tip + i, own + i, from_tip + j, own + j);
+        give(from_other + i, made + i, from_other + j, made + j);
+      }
+      for (std::size_t j = 0; j < ends; ++j) give(from_tip + i, own + i, from_other + j, made + j);
+      for (std::size_t c = 0; c <= Most; ++c)
+        front_[from_tip + i][both + c] = A[own + i][all + c],
+                                    front_[from_other + i][both + c] = A[made + i][all + c];
+    }
+  }
+
+  /// What was condensed with a piece, and its tip.   @param x  increments of its root and of the other end of the front, from own on   @return that of its tip
+  std::array<S, state> recover(int k, std::array<S, all>& x, const std::array<S, Most>& forces,
+                               S& longer) noexcept {
+    const Record& record = records_[of(k)];
+    Contact& contact = in_order(k);
+    // A place is where λ n · t = 0.  A force that becomes a multiple of itself would take it as many times too far as n · t is not yet none.
+    const int number = number_[of(k)];
+    const S by = forces[of(number)], most = std::abs(contact.force),
+            beyond = by - std::clamp(by, -most, most);
+    const auto lacks = [&](int u) {
+      const auto& row = record.rows[of(u)];
+      S sum = row[all + Most];
+      for (int i = u + 1; i < all; ++i) sum += row[of(i)] * x[of(i)];
+      for (int c = 0; c < Most; ++c) sum += row[of(all + c)] * forces[of(c)];
+      if (u == 3) sum -= row[of(all + number)] * beyond;
+      return sum;
+    };
+    for (int u = record.moves ? 3 : 2; u >= 0; --u) x[of(u)] = -lacks(u) / record.rows[of(u)][of(u)];
+    S change = record.lack + record.tension[3] * record.side * (Most > 1 ? x[3] - x[own + 3] : x[3]);
+    for (std::size_t i = 0; i < 3; ++i) change += record.tension[i] * x[i];
+    const S step = -change / record.stiff, l = nodes_[1].s - nodes_[0].s;
+    longer += record.lack * (2 * step + record.lack / record.stiff);
+    Piece& piece = contact.piece;
+    piece.stretch += x[0], piece.at_root += x[1], piece.at_tip += x[2], piece.tension += step;
+    const std::array<S, state> tip = record.tip.move(x);
+    contact.moved += Vector(tip[0] - tip[3], tip[1]), contact.theta += tip[2];
+    // Beside a node it stays where it is held off that.
+    const auto beside = [&](S s) {
+      const S near = S(1.01) * shortest(true);
+      return std::abs(s - nodes_[0].s) < near || std::abs(s - nodes_[1].s) < near;
+    };
+    S goes = std::clamp(x[3], -l, l), stiff = std::abs(record.rows[3][3]);
+    if (contact.waits || contact.rests) {
+      // The force along the beam that it lacks, as if that bent as sharply as the circle.
+      if (record.waits) longer += lacks(3) * lacks(3) * contact.reach / std::abs(contact.force);
+      contact.waits = false;
+      return tip;
+    }
+    if (contact.moves && !record.moves) {
+      // A force that is next to none says nothing of its place.  That is the foot of the centre.
+      const Vector off(contact.moved.x() - (contact.centre.x() - contact.s),
+                       contact.moved.y() - contact.centre.y());
+      goes = std::clamp(S(-direction(S(-contact.theta)).dot(off)), -l, l),
+      stiff = std::abs(contact.force) / off.norm();
+    }
+    if (contact.moves && !(beside(contact.s) && beside(contact.s + goes))) {
+      longer += stiff * goes * goes;
+      contact.s += goes;
+    }
+    return tip;
+  }
+
+  /// Derivatives of u, w, θ, s of a tip by ε, p, q, its s, and u, w, θ, s of its root.
+  struct Tip {
+    Vector stretch, turn;  // l times those of its way by ε and α
+    Vector slides;         // of the way by l
+    S l, turns;            // of θ by s
+
+    /// Of a function of the tip.
+    std::array<S, made> spread(S u, S w, S theta, S s) const noexcept {
+      const S by_turn = turn.x() * u + turn.y() * w, slide = slides.x() * u + slides.y() * w + turns * theta;
+      std::array<S, made> by{stretch.x() * u + stretch.y() * w,
+                             l * (by_turn - theta),
+                             l * theta,
+                             slide + s,
+                             u,
+                             w,
+                             theta - by_turn};
+      if constexpr (Most > 1) by[7] = -slide;
+      return by;
+    }
+    std::array<S, state> move(const std::array<S, all>& x) const noexcept {
+      const S alpha = l * x[1] - x[6], s = Most > 1 ? x[3] - x[own + 3] : x[3];
+      return {x[4] + stretch.x() * x[0] + turn.x() * alpha + slides.x() * s,
+              x[5] + stretch.y() * x[0] + turn.y() * alpha + slides.y() * s, l * x[2] - alpha + turns * s,
+              x[3]};
+    }
+  };
+  /// What advance() needs of a piece that was condensed.
+  struct Record {
+    bool moves = false, waits = false;
+    S side = 1;
+    std::array<std::array<S, all + Most + 1>, 4> rows;
+    Tip tip;
+    std::array<S, 4> tension;
+    S lack, stiff;
+  };
+  struct Bridge {
+    std::array<S, both> by;
+    S lack, stiff;
+  };
+
+  Front front_;
+  Bridge bridge_;
+  std::array<Record, Most> records_;
+  std::array<std::array<S, Most>, Most> yields_;
+  std::array<S, Most> residual_;
+  std::array<Vector6<S>, Most> columns_;
+  int turned_ = 0;
+  S energy_ = 0, change_ = 0, longer_ = 0;
+};
+
+}  // namespace hapbeam::detail

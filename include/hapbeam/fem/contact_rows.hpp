@@ -1,0 +1,345 @@
+// Contacts at any places of a beam on a mesh that stays: rows of its equations, with the forces as unknowns.
+//
+//   | K  b | | Δx |   | -r |
+//   | bᵀ -c| | Δλ | = | -ρ |          b, ρ, c: of the touched elements, whose inner nodes are condensed: touched_element.hpp where elements are exact, split_element.hpp
+//
+// is solved through one column more for each, L⁻¹b:  (c + bᵀK⁻¹b) Δλ = ρ + bᵀK⁻¹(-r).  An equilibrium is stable where K has as many negative
+// pivots as c + bᵀK⁻¹b, which is as large as there are contacts.
+// Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(contacts · elements + contacts³).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <hapbeam/body/split_element.hpp>
+#include <hapbeam/body/touched_element.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+/// @tparam Most  contacts
+template <class Element, typename Scalar, class Assembler, class Friction, int Most>
+class ContactRows {
+ public:
+  using Contact = InnerContact<Scalar>;
+  using Touched = std::conditional_t<has_own_tension<Element>, TouchedElement<Element, Scalar, Most>,
+                                     SplitElement<Element, Scalar, Most>>;
+  static constexpr int most = Most;
+
+  explicit ContactRows(int elements) : ContactRows(elements, std::make_index_sequence<Most>()) {}
+
+  int size() const noexcept { return size_; }
+  bool any() const noexcept { return size_ > 0; }
+  const Contact& operator[](int k) const noexcept { return rows_[of(k)].contact; }
+  Friction* friction(int k) const noexcept { return rows_[of(k)].friction; }
+  int element(int k) const noexcept { return rows_[of(k)].element; }
+  /// Whether an element is touched.
+  bool in(int e) const noexcept {
+    for (int k = 0; k < size_; ++k)
+      if (rows_[of(k)].element == e) return true;
+    return false;
+  }
+
+  void clear() noexcept { size_ = 0; }
+  /// @param goal  its reach is where the path ends; its piece, where that is of this element, goes on   @param element  that holds it
+  /// @param friction  null: none
+  void add(const Contact& goal, int element, Friction* friction) noexcept {
+    Row& row = rows_[of(size_++)];
+    row.contact = goal, row.element = element, row.friction = friction;
+    RootedPiece<Scalar>& piece = row.contact.piece;
+    if (piece.element != element) piece.root = RootedPiece<Scalar>::Root::none;
+    piece.element = element;
+    if (piece.next >= 0) piece.next = unknown;
+    row.goal = goal.reach, row.centre = goal.centre, row.by = 0, row.from = -1;
+    starts_known_ = false;
+  }
+  /// So far along the path.  @param now  (k) -> reach at which contact k is where it is
+  template <class Now>
+  void aim(Scalar t, Now&& now) noexcept {
+    const bool starts = t < 1 && !starts_known_;
+    for (int k = 0; k < size_; ++k) {
+      Row& row = rows_[of(k)];
+      Contact& contact = row.contact;
+      if (starts) row.start = now(k);
+      if (contact.kind == Contact::Kind::along) {
+        contact.reach = t < 1 ? row.start + t * (row.goal - row.start) : row.goal;
+        continue;
+      }
+      // From where the circle touches the beam as it lies.
+      const Vector2<Scalar> across =
+          contact.side * Vector2<Scalar>(contact.tangent.y(), -contact.tangent.x());
+      if (starts) row.way = contact.place - row.goal / across.norm() * across - row.centre;
+      contact.centre = t < 1 ? row.centre + (1 - t) * row.way : row.centre;
+    }
+    starts_known_ = starts_known_ || starts;
+  }
+  void save() noexcept {
+    for (int k = 0; k < size_; ++k)
+      rows_[of(k)].saved = rows_[of(k)].contact, rows_[of(k)].saved_in = rows_[of(k)].element;
+  }
+  void restore() noexcept {
+    for (int k = 0; k < size_; ++k) {
+      Row& row = rows_[of(k)];
+      const Scalar reach = row.contact.reach;
+      const Vector2<Scalar> centre = row.contact.centre;
+      row.contact = row.saved, row.element = row.saved_in, row.by = 0;
+      row.contact.reach = reach, row.contact.centre = centre;
+    }
+  }
+  /// The beam falls, and the forces of before are no longer there.
+  void fall() noexcept {
+    for (int k = 0; k < size_; ++k) {
+      rows_[of(k)].contact.force = 0;
+      if (Friction* const friction = rows_[of(k)].friction) friction->fall();
+    }
+  }
+  void forget_friction() noexcept {
+    for (int k = 0; k < size_; ++k) rows_[of(k)].friction = nullptr;
+  }
+  /// What friction stores [J].
+  Scalar friction_potential() const noexcept {
+    Scalar sum = 0;
+    for (int k = 0; k < size_; ++k)
+      if (const Friction* const friction = rows_[of(k)].friction) sum += friction->potential();
+    return sum;
+  }
+
+  /// Places, normals and tangents of contacts as their element lies now.  @param beam  BeamElements  @return tension of its longest piece [N]
+  template <class Parts>
+  Scalar look(const Parts& beam, int e) noexcept {
+    Touched touched(beam, e);
+    each_in(e, [&](int k) { touched.add(rows_[of(k)].contact, k); });
+    touched.look();
+    return touched.tension();
+  }
+  /// Strain energy of a touched element [J].
+  template <class Parts>
+  Scalar strain_energy(const Parts& beam, int e) const noexcept {
+    Touched touched(beam, e);
+    std::array<Contact, Most> contacts;
+    each_in(e, [&](int k) { touched.add(contacts[of(k)] = rows_[of(k)].contact, k); });
+    return touched.strain_energy();
+  }
+
+  /// Residual and tangent of a touched element, its contacts included.  @return V [J]
+  template <class Parts>
+  Scalar touch(const Parts& beam, int e, Vector6<Scalar>& r, Matrix6<Scalar>& K) noexcept {
+    int first = -1, number = 0;
+    Touched* touched = nullptr;
+    each_in(e, [&](int k) {
+      Row& row = rows_[of(k)];
+      if (first < 0) first = k, touched = &row.touched.emplace(beam, e);
+      row.first = first, row.number = number++;
+      touched->add(row.contact, k);
+    });
+    const Scalar energy = touched->condense(r, K, [this](int k) {
+      Row& row = rows_[of(k)];
+      if (!row.friction) return;
+      row.friction->look(row.contact);
+      row.contact.friction = row.friction->force();
+      row.contact.friction_stiffness = row.friction->stiffness();
+    });
+    each_in(e, [&](int k) {
+      Row& row = rows_[of(k)];
+      row.b = touched->column(row.number);
+      row.residual = touched->residual(row.number);
+    });
+    return energy;
+  }
+  /// Of an unknown of a node whose increment is known.
+  void prescribe(int node, int component, Scalar increment) noexcept {
+    for (int k = 0; k < size_; ++k) {
+      Row& row = rows_[of(k)];
+      if (node != row.element && node != row.element + 1) continue;
+      const int i = component + (node == row.element ? 0 : 3);
+      row.residual += row.b[i] * increment;
+      row.b[i] = 0;
+    }
+  }
+  Status solve(Assembler& assembler) noexcept {
+    Status status = assembler.factor();
+    std::array<Scalar, Most> right{}, before{};
+    for (int k = 0; k < size_; ++k) {
+      Row& row = rows_[of(k)];
+      assembler.forward(row.element, row.b, row.column);
+      before[of(k)] = assembler.product(row.column);
+      right[of(k)] = row.residual + before[of(k)];
+      for (int j = 0; j <= k; ++j) {
+        const Row& other = rows_[of(j)];
+        stiff_[of(k)][of(j)] =
+            assembler.product(row.column, other.column) -
+            (row.first == other.first ? touched(row).yields(row.number, other.number) : Scalar(0));
+      }
+    }
+    int negative = 0;
+    solve_forces(right, negative);
+    // At a support nothing moves.
+    if (status == Status::ok && size_ == 1 && rows_[0].by == 0 && right[0] != 0) status = Status::singular;
+    Scalar change = 0, more = 0;
+    energy_ = 0;
+    for (int k = 0; k < size_; ++k) {
+      const Row& row = rows_[of(k)];
+      assembler.add(row.column, -row.by);
+      change += row.by * (before[of(k)] + row.residual);
+      more += row.by * (row.residual - before[of(k)]);
+      if (row.number == 0) {
+        change += 2 * touched(row).local_change();
+        negative += touched(row).turned();
+      }
+    }
+    assembler.substitute();
+    energy_ = assembler.energy() + more;
+    foreseen_ = (change - assembler.energy()) / 2;
+    negative_ = assembler.negative_pivots() - negative;
+    return status == Status::ok && !std::isfinite(energy_) ? Status::non_finite : status;
+  }
+  /// ΔᵀKΔ of the last solve(), that of the forces included [J].
+  Scalar energy() const noexcept { return energy_; }
+  int negative_pivots() const noexcept { return negative_; }
+  /// After solve(), of several: what the weakest force is worth where the other contacts stay, λ²/(S⁻¹)ₖₖ [J].  S = c + bᵀK⁻¹b, and an increment Δ
+  /// changes λ by no more than √(ΔᵀKΔ (S⁻¹)ₖₖ).
+  Scalar weakest() const noexcept {
+    Scalar least = std::numeric_limits<Scalar>::infinity();
+    for (int k = 0; k < size_; ++k) {
+      // Row k of S⁻¹ by its factors.
+      std::array<Scalar, Most> y{};
+      Scalar stiff = 0;
+      y[of(k)] = 1;
+      for (int i = k; i < size_; ++i) {
+        for (int j = k; j < i; ++j) y[of(i)] -= stiff_[of(i)][of(j)] * y[of(j)];
+        if (pivot_[of(i)] != 0) stiff += y[of(i)] * y[of(i)] / std::abs(pivot_[of(i)]);
+      }
+      const Scalar force = reaction(k);
+      if (stiff > 0) least = (std::min)(least, force * force / stiff);
+    }
+    return least;
+  }
+  /// After solve(), of contact k: along the normal of a held place, or toward the centre of what is round [N].
+  Scalar reaction(int k) const noexcept {
+    const Row& row = rows_[of(k)];
+    const Scalar next = row.contact.force + row.by;
+    return row.contact.kind == Contact::Kind::round ? -next : next;
+  }
+  /// To be called after solve(): the normal forces that friction feels.
+  void feel_friction() noexcept {
+    for (int k = 0; k < size_; ++k)
+      if (Friction* const friction = rows_[of(k)].friction) friction->feel(-reaction(k));
+  }
+  /// What contacts add to V at the last look: -λ g [J].
+  Scalar potential() const noexcept {
+    Scalar sum = 0;
+    for (int k = 0; k < size_; ++k) sum -= rows_[of(k)].contact.force * rows_[of(k)].contact.gap;
+    return sum;
+  }
+  /// By how much all of that and V change with the last increment, to third order of it [J].
+  Scalar foreseen_change() const noexcept { return foreseen_; }
+  /// To be called where the nodes have moved.  @param by  (e) -> increments of both nodes   @param set  (e, N)
+  /// @param element_at  (s, e) -> element, e where that holds it as well   @return as of BeamElements::follow() [J]
+  template <class By, class Set, class ElementAt>
+  Scalar advance(By&& by, Set&& set, ElementAt&& element_at) noexcept {
+    Scalar longer = 0;
+    for (int k = 0; k < size_; ++k) {
+      Row& row = rows_[of(k)];
+      if (row.number != 0) continue;
+      std::array<Scalar, Most> forces{};
+      for (int j = k; j < size_; ++j)
+        if (rows_[of(j)].first == k) forces[of(rows_[of(j)].number)] = rows_[of(j)].by;
+      set(row.element, touched(row).advance(by(row.element), forces, longer));
+    }
+    for (int k = 0; k < size_; ++k) {
+      Row& row = rows_[of(k)];
+      Contact& contact = row.contact;
+      row.by = 0;
+      if (contact.kind != Contact::Kind::round) continue;
+      // Beyond an end its last point is touched, until the centre comes back.
+      const Scalar at = std::clamp(contact.s, contact.least, contact.most);
+      if (at != contact.s) contact.moves = false;
+      contact.s = at;
+      const int left = row.element;
+      row.element = element_at(at, left);
+      if (row.element != left) {
+        // Where each side sends it back by little, it lies at the node between them.
+        contact.rests = row.element == row.from && std::abs(at - row.crossed) < near * contact.most;
+        row.from = left, row.crossed = at;
+      }
+      if (row.element == contact.piece.element) continue;
+      contact.piece.root = RootedPiece<Scalar>::Root::none;
+      contact.piece.element = row.element;
+    }
+    return longer;
+  }
+
+ private:
+  static constexpr int unknown = -2;
+  static constexpr Scalar near = Scalar(1e-4);  // of a length
+  struct Row {
+    explicit Row(int elements) : column(elements) {}
+    Contact contact, saved;
+    int element = 0, saved_in = 0;
+    int from = -1;       ///< element that it has left,
+    Scalar crossed = 0;  ///< and where it came from there [m]
+    Friction* friction = nullptr;
+    Scalar start = 0, goal = 0;               ///< of reach, on the path [m]
+    Vector2<Scalar> centre{0, 0}, way{0, 0};  ///< where the path ends, and from where it begins [m]
+    std::optional<Touched> touched;
+    int first = 0;   ///< row that has its element
+    int number = 0;  ///< in that
+    Vector6<Scalar> b = Vector6<Scalar>::Zero();
+    Scalar residual = 0, by = 0;  ///< [m], Δλ [N]
+    typename Assembler::Column column;
+  };
+
+  template <std::size_t... K>
+  ContactRows(int elements, std::index_sequence<K...>) : rows_{((void)K, Row(elements))...} {}
+  Touched& touched(const Row& row) noexcept { return *rows_[of(row.first)].touched; }
+  static constexpr std::size_t of(int k) noexcept { return static_cast<std::size_t>(k); }
+  template <class F>
+  void each_in(int e, F&& f) const noexcept {
+    for (int k = 0; k < size_; ++k)
+      if (rows_[of(k)].element == e) f(k);
+  }
+
+  /// By LDLᵀ.  Of contacts that are at one place the last ones keep their forces.   @param negative  in and out: pivots
+  void solve_forces(const std::array<Scalar, Most>& right, int& negative) noexcept {
+    constexpr Scalar nothing = 256 * std::numeric_limits<Scalar>::epsilon();
+    std::array<Scalar, Most> x = right;
+    auto& l = stiff_;
+    auto& pivot = pivot_;
+    for (int k = 0; k < size_; ++k) {
+      const Scalar whole = l[of(k)][of(k)];
+      Scalar rest = whole;
+      for (int j = 0; j < k; ++j) {
+        Scalar sum = l[of(k)][of(j)];
+        for (int i = 0; i < j; ++i) sum -= l[of(k)][of(i)] * l[of(j)][of(i)] * pivot[of(i)];
+        const Scalar factor = pivot[of(j)] != 0 ? sum / pivot[of(j)] : Scalar(0);
+        l[of(k)][of(j)] = factor;
+        rest -= factor * factor * pivot[of(j)];
+        x[of(k)] -= factor * x[of(j)];
+      }
+      pivot[of(k)] = std::abs(rest) > nothing * std::abs(whole) ? rest : Scalar(0);
+      if (rest < 0 && pivot[of(k)] != 0) ++negative;
+    }
+    for (int k = size_ - 1; k >= 0; --k) {
+      Scalar sum = pivot[of(k)] != 0 ? x[of(k)] / pivot[of(k)] : Scalar(0);
+      if (pivot[of(k)] != 0)
+        for (int j = k + 1; j < size_; ++j) sum -= l[of(j)][of(k)] * rows_[of(j)].by;
+      rows_[of(k)].by = sum;
+    }
+  }
+
+  std::array<Row, Most> rows_;
+  int size_ = 0;
+  bool starts_known_ = false;
+  std::array<std::array<Scalar, Most>, Most> stiff_{};  // S, then its factor L
+  std::array<Scalar, Most> pivot_{};
+  Scalar energy_ = 0, foreseen_ = 0;
+  int negative_ = 0;
+};
+
+}  // namespace hapbeam::detail

@@ -1,0 +1,92 @@
+// Nodes of the mesh of a beam in the plane, which stays: one wherever something begins or ends, and the others shared out evenly.
+//
+// That is where an arc of the natural shape ends, or a part with a section of its own, and where a point load acts.  An element bends against the linear
+// function nearest to its natural curvature, and no load acts between the contacts of one that is touched.  Where there are too few elements, what is close to another one is left out.
+// Each further element goes to the part whose elements are the longest.  A beam of which nothing changes has the uniform mesh.
+// Offline.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <hapbeam/beam.hpp>
+#include <hapbeam/body/shortest_element.hpp>
+#include <hapbeam/fem/contact_mesh.hpp>
+
+namespace hapbeam {
+
+namespace detail {
+
+/// Arc positions at which a mesh is to have nodes, both ends among them [m].   @param apart  least distance of two [m]
+inline std::vector<double> where_beam_changes(const Beam& beam, double apart) {
+  const double most = beam.length() - apart;
+  std::vector<double> places{0};
+  const auto& arcs = beam.arcs();
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const double next = i + 1 < arcs.size() ? arcs[i + 1].curvature : 0;
+    // An arc shorter than an element may be lies in one of its own.
+    const double s = (std::max)(arcs[i].end, places.back() + apart);
+    if (arcs[i].curvature != next && s <= most) places.push_back(s);
+  }
+  const auto add = [&](double s) {
+    const bool is_apart =
+        std::none_of(places.begin(), places.end(), [&](double place) { return std::abs(place - s) < apart; });
+    if (is_apart && s <= most) places.push_back(s);
+  };
+  for (const BeamPart& part : beam.parts()) add(part.end);
+  for (const PointLoad& load : beam.point_loads()) add(load.s);
+  places.push_back(beam.length());
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+}  // namespace detail
+
+/// Calls set(i, s) with each node and its arc position, from 0 to the length [m].  Of a beam of which nothing changes it takes no memory.
+/// @param elements  one or more
+template <typename Scalar, class Set>
+void lay_mesh(const Beam& beam, int elements, Set&& set) {
+  int next = 0;
+  const auto lay = [&](Scalar from, Scalar to, int share) {
+    const ContactMesh<Scalar> part(share, to - from);
+    for (int i = 0; i < share; ++i) set(next++, from + part.position(i));
+  };
+  const Scalar length = static_cast<Scalar>(beam.length());
+  if (beam.arcs().empty() && beam.parts().empty() && beam.point_loads().empty()) {
+    lay(0, length, elements);
+    return set(elements, length);
+  }
+  std::vector<double> places =
+      detail::where_beam_changes(beam, static_cast<double>(detail::shortest_element<Scalar>(length)));
+  const auto size = static_cast<std::size_t>(elements);
+  while (places.size() > size + 1) {
+    std::size_t least = 1;
+    for (std::size_t k = 1; k + 1 < places.size(); ++k)
+      if (places[k + 1] - places[k - 1] < places[least + 1] - places[least - 1]) least = k;
+    places.erase(places.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  std::vector<int> shares(places.size() - 1, 1);
+  for (std::size_t left = size - shares.size(); left > 0; --left) {
+    const auto longer = [&](std::size_t a, std::size_t b) {
+      return (places[a + 1] - places[a]) * shares[b] > (places[b + 1] - places[b]) * shares[a];
+    };
+    std::size_t longest = 0;
+    for (std::size_t k = 1; k < shares.size(); ++k)
+      if (longer(k, longest)) longest = k;
+    ++shares[longest];
+  }
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    lay(static_cast<Scalar>(places[k]), static_cast<Scalar>(places[k + 1]), shares[k]);
+  set(elements, length);
+}
+/// The same.   @return arc positions [m]
+template <typename Scalar>
+std::vector<Scalar> lay_mesh(const Beam& beam, int elements) {
+  std::vector<Scalar> nodes(static_cast<std::size_t>(elements) + 1);
+  lay_mesh<Scalar>(beam, elements, [&](int i, Scalar s) { nodes[static_cast<std::size_t>(i)] = s; });
+  return nodes;
+}
+
+}  // namespace hapbeam

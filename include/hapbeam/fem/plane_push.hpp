@@ -1,0 +1,345 @@
+// A beam in the plane is laid on circles, or held at places: which of them touch, where, and the equilibrium are found together.
+//
+//   force >= 0,  gap >= 0,  force · gap = 0        for each obstacle
+//
+// A small complementarity problem, solved by an active set (plane_contacts.hpp) of equilibria whose unknowns the places are, too.  It begins with
+// those that touched in the push before, which mostly is the last one: then there is one solution.  A hand that goes on as it went finds beam, places and
+// forces where they were foreseen.  An answer continues the last one, or says that it does not (continuation.hpp).
+// Allocates at construction.  Real-time: all else is noexcept and allocation-free, at most most_passes solutions, and the linear solves of
+// AllDisplacements in all.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <hapbeam/fem/contact_work.hpp>
+#include <hapbeam/fem/continuation.hpp>
+#include <hapbeam/fem/friction_balance.hpp>
+#include <hapbeam/fem/plane_contacts.hpp>
+#include <hapbeam/fem/row_foresight.hpp>
+#include <hapbeam/fem/several_friction.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+template <class Element, class System>
+class PlanePush : private PlaneContacts<Element, System> {
+  using Base = PlaneContacts<Element, System>;
+  using Base::all_;
+  using Base::count_;
+  using Base::most;
+  using Base::of;
+  using Base::slot;
+  using typename Base::Contact;
+  using typename Base::Obstacle;
+  using typename Base::RoundContact;
+  using typename Base::Scalar;
+  using typename Base::Slot;
+  using Round = Circle<Scalar>;
+  using State = FrictionState<Scalar, 2>;
+  using Friction = SeveralFriction<System, Obstacle, RoundContact, most>;
+  using Work = ContactWork<Round, Scalar, 2, most>;
+  using Foresight = RowForesight<System, most>;
+
+ public:
+  /// Forces are exact to so many times the solver's tolerance.
+  static constexpr int slack = 10;
+  /// Solutions of a push: each obstacle touches or lets go.
+  static constexpr int most_passes = 4 + 2 * most;
+  /// Linear solves in which an equilibrium that is near is found, and with friction of several.
+  static constexpr int near = 6, near_with_friction = 16;
+
+  /// @throws std::invalid_argument where there are too few elements for so many contacts
+  explicit PlanePush(const System& system) : foresight_(system) {
+    if (system.elements() < most + 1)
+      throw std::invalid_argument("elements = " + std::to_string(system.elements()) + ": must be at least " +
+                                  std::to_string(most + 1) + " for " + std::to_string(most) + " contacts");
+  }
+
+  /// To be called where something else moves the beam.
+  void forget() noexcept {
+    foresight_.forget();
+    alone_.pushed.force = 0, last_count_ = 0;
+    this->forget_pieces();
+    forget_shape();
+  }
+  /// The same where what the hands did goes on.
+  void forget_shape() noexcept { work_.forget(), balance_.forget(), continuation_.forget(); }
+
+  /// One circle, which pulls, too.   @param friction  null: none
+  template <class Way, class Extent>
+  Pushed<Scalar, 2> push(Way& way, const Round& request, const Extent& range, State* friction) noexcept {
+    const bool beside = std::abs(request.s - alone_.pushed.s) <= request.reach + way.system_.length() / 10;
+    // One that jumps touches where it is nearest to the beam now: the way along the beam from where it was is long.
+    const bool touches = beside && alone_.pushed.force != 0,
+               jumps = (request.centre - alone_.round.centre).norm() > request.reach;
+    const Scalar s =
+        touches && !jumps && !this->held_beside_support(0)
+            ? slot(0).s
+            : Base::foot(way.system_, request, touches ? slot(0).s : request.s, way.system_.length() / 10);
+    if (!beside) continuation_.forget();
+    if (!beside || alone_.pushed.force == 0) alone_.pushed = {}, alone_.pushed.s = s;
+    alone_.round = request;
+    alone_.round.s = s;
+    alone_.valid = alone_.touching = true;
+    alone_.friction = friction;
+    push(way, &alone_, 1, range, true);
+    const Pushed<Scalar, 2> pushed = alone_.pushed;
+    if (!is_answer(pushed.status)) alone_.pushed.force = 0;
+    return pushed;
+  }
+
+  /// @param way  AllDisplacements, which settles the system   @param range  says where they can touch
+  /// @param all  in: where they are and whether they touched;  out: whether they touch, and their forces   @param holds  whether they pull, too
+  /// @return the worst Status of those that touch | iteration_limit where the passes have ended before the changes
+  template <class Way, class Extent>
+  Status push(Way& way, Obstacle* all, int count, const Extent& range, bool holds = false) noexcept {
+    System& system = way.system_;
+    // A straight beam that is pressed across has one shape for each press.
+    if (holds && way.single_valued_) {
+      continuation_.forget();
+      return answer(way, all, count, range, holds);
+    }
+    struct Answer {
+      Status status;
+    };
+    Before& before = before_;
+    for (int i = 0; i < count; ++i) to_[of(i)] = all[i].round;
+    bool whole = true;  // the first answer, for all of the way
+    const auto go = [&](Scalar t) {
+      for (int i = 0; i < count; ++i) {
+        before.pushed[of(i)] = all[i].pushed, before.touching[of(i)] = all[i].touching;
+        before.state[of(i)] = slot(i);
+        if (all[i].friction) before.friction[of(i)] = *all[i].friction;
+        if (!whole) all[i].round = from_.knows(i) ? between(from_.round(i), to_[of(i)], t) : to_[of(i)];
+      }
+      before.work = work_, before.balance = balance_, before.force = system.linear_reaction();
+      return Answer{answer(way, all, count, range, holds)};
+    };
+    const auto judge = [&](const Answer&) {
+      // What begins to pull is let go by who touches it, and ends there.
+      const bool begins_to_pull = holds && !(all[0].pushed.force < 0) && !(before.pushed[0].force > 0);
+      if (!began_ || work_.strange() || begins_to_pull) return Branch::same;
+      return continuation_.judge(
+          {potential_, work_.done() - taken_, loose(work_.size(), work_.change()), system.strain(),
+           system.length(), true},
+          [&] {
+            return Gone<Scalar>{work_.way(), farthest(system.view(foresight_.before()), system.centreline())};
+          });
+    };
+    const auto keep = [&](const Answer& found) {
+      if (is_answer(found.status) && work_.any()) continuation_.know(potential_);
+      else continuation_.forget();
+    };
+    const auto back = [&] {
+      if (whole) from_ = before.work;
+      whole = false;
+      foresight_.go_back(system, before.force);
+      for (int i = 0; i < count; ++i) {
+        all[i].pushed = before.pushed[of(i)], all[i].touching = before.touching[of(i)];
+        static_cast<InnerState<Scalar>&>(slot(i)) = before.state[of(i)];
+        if (all[i].friction) *all[i].friction = before.friction[of(i)];
+      }
+      work_ = before.work, balance_ = before.balance;
+    };
+    const auto fall = [&] {
+      back();
+      way.descending_ = true;
+    };
+    const Status status = continuation_.follow(go, judge, keep, back, fall).status;
+    if (holds) all[0].pushed.status = status;
+    return status;
+  }
+
+ private:
+  /// What answer() changes.
+  struct Before {
+    std::array<decltype(Obstacle::pushed), most> pushed{};
+    std::array<bool, most> touching{};
+    std::array<State, most> friction{};
+    std::array<InnerState<Scalar>, most> state{};
+    Work work;
+    FrictionBalance<Scalar> balance;
+    Scalar force = 0;
+  };
+
+  template <class Way, class Extent>
+  Status answer(Way& way, Obstacle* all, int count, const Extent& range, bool holds) noexcept {
+    System& system = way.system_;
+    this->begin(system, all, count, range, holds);
+    const bool goes_on = look_ahead(system);
+    if (!holds)
+      for (int i = 0; i < count; ++i)
+        if (all[i].touching && !(all[i].pushed.force < 0) && this->beside_a_touch(i)) all[i].touching = false;
+    Friction friction(system, all, count, count == 1);
+    if (foresight_.forth()) friction.go_on();
+    began_ = false;
+    Status status = Status::ok;
+    bool snapped = false;
+    for (int pass = 1;; ++pass) {
+      if (count > 1) this->part(system);
+      status = solve(way, pass == 1, goes_on, friction);
+      snapped = snapped || status == Status::snapped;
+      if (!is_answer(status)) {
+        this->lose(system);
+        break;
+      }
+      this->take(system);
+      if (!this->review(system, range, friction)) break;
+      if (pass == most_passes) {
+        if (!holds) status = Status::iteration_limit;
+        break;
+      }
+    }
+    if (snapped && status == Status::ok) status = Status::snapped;
+    for (int i = 0; i < count; ++i) this->end(system, i, status);
+    const auto left = friction.leave(system, status, work_, balance_, [this](int i) { return slot(i).goal; });
+    taken_ = left.taken;
+    potential_ = system.foreseen_potential() + left.stored;
+    remember(status == Status::ok);
+    return status;
+  }
+
+  /// @return whether the hands go on as they went
+  bool look_ahead(const System& system) noexcept {
+    VectorOf<Scalar, 2 * most> hands = VectorOf<Scalar, 2 * most>::Zero();
+    bool same = count_ == last_count_;
+    for (int i = 0; i < count_; ++i) {
+      hands.template segment<2>(2 * i) = all_[i].round.centre;
+      same = same && all_[i].touching == touched_[of(i)] && all_[i].kind == kind_[of(i)];
+    }
+    const bool goes_on = foresight_.look(hands, same);
+    for (int i = 0; i < count_; ++i) {
+      Slot& now = slot(i);
+      if (!all_[i].touching) continue;
+      now.begins = now;
+      if (!goes_on) continue;
+      const InnerState<Scalar> ahead = foresight_.ahead(i);
+      now.force = ahead.force, now.piece = ahead.piece, now.was = ahead.was, now.moved = ahead.moved,
+      now.theta = ahead.theta;
+      if (all_[i].kind == ObstacleKind::round && !now.held) this->place(system, i, ahead.s);
+    }
+    return goes_on;
+  }
+  void remember(bool found) noexcept {
+    typename Foresight::All all{};
+    for (int i = 0; i < count_; ++i) {
+      found = found && (count_ != last_count_ || all_[i].touching == touched_[of(i)]);
+      touched_[of(i)] = all_[i].touching, kind_[of(i)] = all_[i].kind;
+      all[of(i)] = slot(i);
+      all[of(i)].force = this->force_of(all_[i]);
+    }
+    last_count_ = count_;
+    foresight_.know(all, found);
+  }
+
+  template <class Way>
+  Status solve(Way& way, bool first, bool goes_on, Friction& friction) noexcept {
+    System& system = way.system_;
+    int contacts = 0;
+    for (int i = 0; i < count_; ++i) slot(i).goal = all_[i].touching ? contacts++ : -1;
+    if (contacts == 0) {
+      if (!way.single_valued_) return way.let_go();
+      way.to_rest();
+      return Status::ok;
+    }
+    const auto aim = [&] {
+      system.set_goal();
+      for (int i = 0; i < count_; ++i)
+        if (slot(i).goal >= 0) system.add_goal(this->contact(i), friction.of(i));
+    };
+    // With friction what is near is tried first; all of the way may be a fall.
+    const bool rough = friction.any();
+    const int few = rough && most > 1 ? near_with_friction : near;
+    bool all = !rough || way.descending_ || friction.falls();
+    const auto begin_again = [&] {
+      for (int i = 0; i < count_; ++i)
+        if (slot(i).goal >= 0) static_cast<InnerState<Scalar>&>(slot(i)) = slot(i).begins;
+    };
+    // Whether Coulomb's law holds.
+    const auto agrees = [&](Status found) {
+      if (!rough) return true;
+      if (is_answer(found)) {
+        if (friction.settled(system, [this](int i) { return slot(i).goal; })) return true;
+        this->take(system);
+      } else {
+        if (all) return true;
+        all = !friction.turn();
+      }
+      if (friction.torn() && began_) {
+        foresight_.begin_again(system);
+        begin_again();
+      }
+      return false;
+    };
+    const Scalar last = system.linear_reaction();
+    if (first) {
+      foresight_.go_on(system);
+      began_ = true;
+      if (goes_on) {
+        Status status;
+        do status = way.settle_at_once(slack, aim, few).status;
+        while (!agrees(status) && !all);
+        if (status == Status::ok) return status;
+        foresight_.go_back(system, last);
+        begin_again();
+        if (!rough && this->hold_sharp(system)) {
+          status = way.settle_at_once(slack, aim, few).status;
+          if (status == Status::ok) return status;
+          foresight_.go_back(system, last);
+          begin_again();
+        }
+      }
+      if (way.single_valued_ && nearer_at_rest(way)) {
+        way.to_rest();
+        this->begin_at_rest(system);
+      }
+    }
+    Status status;
+    do status = (all ? way.settle(last, slack, aim) : way.settle_at_once(slack, aim, few)).status;
+    while (!agrees(status));
+    return status;
+  }
+
+  /// Whether all that touch are nearer to the shape at rest than to the present one.
+  template <class Way>
+  bool nearer_at_rest(const Way& way) noexcept {
+    const System& system = way.system_;
+    Scalar jump = 0, from_rest = 0;
+    for (int i = 0; i < count_; ++i) {
+      if (slot(i).goal < 0 || all_[i].kind != ObstacleKind::round) continue;
+      const Scalar s = slot(i).s;
+      const auto off = [&](const Centreline<Scalar>& line) {
+        const Displacement<Scalar> at = line.at(s);
+        return std::abs((Vector2<Scalar>(s + at.u, at.w) - all_[i].round.centre).norm() -
+                        all_[i].round.reach);
+      };
+      jump = (std::max)(jump, off(system.centreline()));
+      from_rest = (std::max)(from_rest, off(system.view(way.rest_state_)));
+    }
+    return jump > system.length() / 1000 && from_rest < jump;
+  }
+
+  Foresight foresight_;
+  bool began_ = false;  // foresight_ has the state before this push
+  int last_count_ = 0;
+  std::array<bool, most> touched_{};
+  std::array<ObstacleKind, most> kind_{};
+  Obstacle alone_{};  // the one circle of a push by one
+  Work work_, from_;
+  Before before_;
+  std::array<Round, most> to_ = [] {
+    std::array<Round, most> all;
+    all.fill(Round{0, {0, 0}, 0, 1});
+    return all;
+  }();
+  Continuation<Scalar> continuation_;
+  FrictionBalance<Scalar> balance_;
+  Scalar potential_ = 0, taken_ = 0;  // of the last answer, and by friction [J]
+};
+
+}  // namespace hapbeam::detail

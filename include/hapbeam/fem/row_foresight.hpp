@@ -1,0 +1,118 @@
+// Extrapolated initial guess of a lasting push in the plane: nodes, tensions, places and forces go on as in a push before.
+//
+//   x₊ = x + r (x - x₋)            r: the hands' step in units of the step before
+//
+// From there the error is of second order in the step, and Newton's method takes one solve less.  Two hands that move by turns go on as in the push
+// before the last.  Hands that turn aside or hurry have nothing foreseen.
+// Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(elements).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <hapbeam/body/inner_contact.hpp>
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+/// @tparam Most  contacts
+template <class System, int Most>
+class RowForesight {
+  using Scalar = typename System::Scalar;
+  using State = typename System::State;
+  using Hands = VectorOf<Scalar, 2 * Most>;
+
+ public:
+  using All = std::array<InnerState<Scalar>, Most>;
+
+  explicit RowForesight(const System& system) : before_{State(system.elements()), State(system.elements())} {}
+
+  /// To be called before each push.  @param hands  of all, 0 where there is none [m]   @param same  whether what touched then touches now
+  /// @return whether the hands go on as they went
+  bool look(const Hands& hands, bool same) noexcept {
+    const Hands step = hands - hands_;
+    hands_ = hands;
+    like_ = 0;
+    ratio_ = 0;
+    forth_ = false;
+    for (int k = 1; k <= (Most > 1 ? 2 : 1) && like_ == 0 && !forth_; ++k) {
+      const Hands& then = step_[of(k - 1)];
+      ratio_ = step.dot(then) / then.squaredNorm();
+      const bool straight_on = std::abs(ratio_) < fastest &&
+                               (step - ratio_ * then).squaredNorm() <= aside * aside * step.squaredNorm();
+      forth_ = straight_on && ratio_ > 0;
+      if (same && straight_on && known_ > k) like_ = k;
+    }
+    step_ = {step, step_[0]};
+    return like_ > 0;
+  }
+  /// Whether the hands go on and do not turn back, whatever they touch.
+  bool forth() const noexcept { return forth_; }
+  /// What is foreseen of contact i.
+  InnerState<Scalar> ahead(int i) const noexcept {
+    InnerState<Scalar> next = all_[0][of(i)];
+    const InnerState<Scalar>&to = all_[of(like_ - 1)][of(i)], &from = all_[of(like_)][of(i)];
+    const auto on = [this](auto& value, const auto& end, const auto& start) {
+      value += ratio_ * (end - start);
+    };
+    on(next.s, to.s, from.s), on(next.force, to.force, from.force);
+    on(next.was, to.was, from.was), on(next.moved, to.moved, from.moved),
+        on(next.theta, to.theta, from.theta);
+    const auto same = [&next](const InnerState<Scalar>& other) {
+      return other.piece.root == next.piece.root && other.piece.element == next.piece.element;
+    };
+    if (!same(to) || !same(from)) return next;
+    auto& piece = next.piece;
+    on(piece.stretch, to.piece.stretch, from.piece.stretch),
+        on(piece.tension, to.piece.tension, from.piece.tension);
+    on(piece.at_root, to.piece.at_root, from.piece.at_root),
+        on(piece.at_tip, to.piece.at_tip, from.piece.at_tip);
+    return next;
+  }
+  const All& last() const noexcept { return all_[0]; }
+
+  /// To be called once in each push, before it moves the system: which goes on if hands do.
+  void go_on(System& system) noexcept {
+    newest_ = 1 - newest_;
+    State &older = before_[of(1 - newest_)], &newer = before_[of(newest_)];
+    if (like_ == 0) return system.keep(newer);
+    if (like_ == 1) newer = older;
+    else system.carry(newer, older);
+    system.go_on(newer, ratio_);
+  }
+  /// Back to where the system was before go_on().  @param force  of its first contact then [N]
+  void go_back(System& system, Scalar force) noexcept {
+    system.go_back(before_[of(newest_)], force);
+    forget();
+  }
+  /// Where the system was before the push.
+  const State& before() const noexcept { return before_[of(newest_)]; }
+  /// To where the system was before the push.
+  void begin_again(System& system) const noexcept { system.go_back(before(), 0); }
+  /// To be called after each push.   @param found  whether it was answered on the branch on which the beam was, by the same contacts
+  void know(const All& all, bool found) noexcept {
+    all_ = {all, all_[0], all_[1]};
+    known_ = found ? (std::min)(known_ + 1, 3) : 0;
+  }
+  void forget() noexcept { known_ = 0; }
+
+ private:
+  static constexpr Scalar fastest = 2,
+                          aside = Scalar(0.1);  // of a step, in units of the one before and of itself
+  static constexpr std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
+
+  std::array<State, 2> before_;  // the last push, and the one before
+  int newest_ = 0;
+  Hands hands_ = Hands::Zero();  // in the last push [m]
+  std::array<Hands, 2> step_{Hands::Zero(), Hands::Zero()};
+  std::array<All, 3> all_{};  // after the last three pushes
+  Scalar ratio_ = 0;
+  bool forth_ = false;
+  int like_ = 0;   // the push that goes on: the last one or the one before; 0: none
+  int known_ = 0;  // pushes without a break, as far as they matter
+};
+
+}  // namespace hapbeam::detail
