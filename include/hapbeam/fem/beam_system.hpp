@@ -346,9 +346,12 @@ class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxEl
       if (rows_.element(k) != e) continue;
       const Contact& contact = contacts[at(k)];
       const Vector2<Scalar> force = contact.force * contact.normal + contact.friction;
-      forces[at(count++)] = {contact.s, force.x(), force.y(), 0, 0, 0};
+      forces[at(count)] = {contact.s, force.x(), force.y(), 0, 0, 0};
+      if constexpr (Rows::most > 1)
+        for (int i = count; i > 0 && forces[at(i)].s < forces[at(i - 1)].s; --i)
+          std::swap(forces[at(i)], forces[at(i - 1)]);
+      ++count;
     }
-    std::sort(forces.begin(), forces.begin() + count, [](const auto& a, const auto& b) { return a.s < b.s; });
     (void)beam_.subtract_loads(e, load_, r);
     return beam_.internal_forces(
         e, drawn_[piece].s, s, load_, thickness, r, [this](Scalar x) { return drawn().at(x); }, forces.data(),

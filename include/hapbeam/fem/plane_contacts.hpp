@@ -226,7 +226,7 @@ class PlaneContacts {
     const int other = twin(deepest);
     if (other >= 0) friction.meet_beside(system, deepest, other, slot(deepest).s);
     else friction.meet(system, deepest);
-    spread(system, deepest);
+    if constexpr (most > 1) spread(system, deepest);
     for (int i = 0; i < count_ && !slot(deepest).let_go; ++i)
       if (all_[i].touching && beside(i, deepest)) let_go(i);
     return true;
