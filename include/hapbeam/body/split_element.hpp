@@ -175,13 +175,13 @@ class SplitElement {
     for (int k = 0; k < count_; ++k) {
       Contact& contact = in_order(k);
       // One that goes to and fro between a node of its own and one of the mesh stays.
-      const S near = contact.piece.root == Root::right ? S(1.5) * least : least;
+      const S close_by = contact.piece.root == Root::right ? S(1.5) * least : least;
       S& at = s[of(k)] = contact.s;
       if (inner_ > 0 && spots_[of(k - 1)].node == inner_) at = (std::max)(at, s[of(k - 1)] + least);
       if (contact.moves) contact.s = at;
       Spot& spot = spots_[of(k)] = {};
-      if (at - ends_[0].s < near) spot.arm = at - ends_[0].s;
-      else if (ends_[1].s - at < near) spot.node = Most + 1, spot.arm = at - ends_[1].s;
+      if (at - ends_[0].s < close_by) spot.arm = at - ends_[0].s;
+      else if (ends_[1].s - at < close_by) spot.node = Most + 1, spot.arm = at - ends_[1].s;
       else spot.node = ++inner_;
     }
     for (int k = 0; k < count_; ++k)

@@ -394,8 +394,8 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     contact.moved += Vector(tip[0] - tip[3], tip[1]), contact.theta += tip[2];
     // Beside a node it stays where it is held off that.
     const auto beside = [&](S s) {
-      const S near = S(1.01) * shortest(true);
-      return std::abs(s - nodes_[0].s) < near || std::abs(s - nodes_[1].s) < near;
+      const S close_by = S(1.01) * shortest(true);
+      return std::abs(s - nodes_[0].s) < close_by || std::abs(s - nodes_[1].s) < close_by;
     };
     S goes = std::clamp(x[3], -l, l), stiff = std::abs(record.rows[3][3]);
     if (contact.waits || contact.rests) {

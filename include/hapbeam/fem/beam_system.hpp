@@ -377,11 +377,11 @@ class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxEl
     int replaced = 0;
     for (int k = 0; k < rows_.size(); ++k) {
       const int e = element_at(rows_[k].s),
-                near = rows_[k].s - node(e).s < node(e + 1).s - rows_[k].s ? e : e + 1;
+                close_by = rows_[k].s - node(e).s < node(e + 1).s - rows_[k].s ? e : e + 1;
       if (is_apart(rows_[k].s)) marks[at(count++)] = mark(k);
-      else if (0 < near && near < elements() &&
-               std::abs(rows_[k].s - node(near).s) < (node(e + 1).s - node(e).s) / 50)
-        instead[at(replaced++)] = {near, mark(k)};
+      else if (0 < close_by && close_by < elements() &&
+               std::abs(rows_[k].s - node(close_by).s) < (node(e + 1).s - node(e).s) / 50)
+        instead[at(replaced++)] = {close_by, mark(k)};
     }
     for (int e = 0; count < Rows::most; ++e) {
       const Scalar from = node(e).s, to = node(e + 1).s, middle = (from + to) / 2;

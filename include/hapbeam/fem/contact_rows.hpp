@@ -265,7 +265,7 @@ class ContactRows {
       row.element = element_at(at, left);
       if (row.element != left) {
         // Where each side sends it back by little, it lies at the node between them.
-        contact.rests = row.element == row.from && std::abs(at - row.crossed) < near * contact.most;
+        contact.rests = row.element == row.from && std::abs(at - row.crossed) < close_by * contact.most;
         row.from = left, row.crossed = at;
       }
       if (row.element == contact.piece.element) continue;
@@ -277,7 +277,7 @@ class ContactRows {
 
  private:
   static constexpr int unknown = -2;
-  static constexpr Scalar near = Scalar(1e-4);  // of a length
+  static constexpr Scalar close_by = Scalar(1e-4);  // of a length
   struct Row {
     explicit Row(int elements) : column(elements) {}
     Contact contact, saved;

@@ -186,11 +186,11 @@ class PlaneContacts {
 
   /// Where there is no equilibrium, what was at an end has been pushed past it.
   void lose(const System& system) noexcept {
-    const Scalar length = system.length(), near = length / 1000;
+    const Scalar length = system.length(), close_by = length / 1000;
     for (int i = 0; i < count_; ++i)
       if (all_[i].touching && all_[i].kind == ObstacleKind::round)
         all_[i].pushed.past_end =
-            (least_ == 0 && slot(i).s < near) || (most_ == length && slot(i).s > length - near);
+            (least_ == 0 && slot(i).s < close_by) || (most_ == length && slot(i).s > length - close_by);
   }
   /// What the equilibrium says of all of them, after take().   @return whether there has to be another one
   template <class Extent, class Friction>

@@ -51,7 +51,7 @@ class PlanePush : private PlaneContacts<Element, System> {
   /// Solutions of a push: each obstacle touches or lets go.
   static constexpr int most_passes = 4 + 2 * most;
   /// Linear solves in which an equilibrium that is near is found, and with friction of several.
-  static constexpr int near = 6, near_with_friction = 16;
+  static constexpr int close_by = 6, near_with_friction = 16;
 
   /// @throws std::invalid_argument where there are too few elements for so many contacts
   explicit PlanePush(const System& system) : foresight_(system) {
@@ -254,7 +254,7 @@ class PlanePush : private PlaneContacts<Element, System> {
     };
     // With friction what is near is tried first; all of the way may be a fall.
     const bool rough = friction.any();
-    const int few = rough && most > 1 ? near_with_friction : near;
+    const int few = rough && most > 1 ? near_with_friction : close_by;
     bool all = !rough || way.descending_ || friction.falls();
     const auto begin_again = [&] {
       for (int i = 0; i < count_; ++i)
