@@ -36,10 +36,11 @@ struct Continued {
   bool same_mesh;    ///< as many elements on either side as before
 };
 
-/// What trapezoids may leave of forces that rise or fall all along, and a tenth of them besides [J].
+/// What trapezoids may leave of forces that rise or fall all along, and a twentieth of the work besides [J].
+/// @param size, change  of the forces times the way, before and now: the sum, the difference [J]
 template <typename Scalar>
 Scalar loose(Scalar size, Scalar change) noexcept {
-  return change / 2 + size / 10;
+  return change / 2 + size / 40;
 }
 
 /// On the way from one place of a body to the next.  @param t  0 to 1
@@ -158,7 +159,7 @@ class Continuation {
  private:
   // Of the strain energy: what solvers and meshes that follow a contact leave, and what those do whose elements change sides.
   static constexpr Scalar little = Scalar(1e-3), mesh = Scalar(0.05);
-  static constexpr Scalar along = 3;  // times as far as the hand a beam goes with it
+  static constexpr Scalar along = 2;  // times as far as the hand a beam goes with it
 
   Scalar stored_ = 0;
   bool known_ = false, snapped_ = false;
