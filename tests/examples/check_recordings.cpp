@@ -1,6 +1,7 @@
 // What recordings of phantom must fulfil.
 //
-//   check_recordings slew FILE RATE [N/s]            the force never changes faster, up or down
+//   check_recordings slew FILE RATE [N/s]            the force never changes faster, up or down; a beam that is said to snap may
+//                                                    let go at once
 //   check_recordings beside FILE DISTANCE [m]       the beam is felt where the hand is so far from the line of a script that
 //                                                    presses straight down
 //   check_recordings sides FILE                     the hand is pushed up by half a newton, and toward who looks, at different times
@@ -21,6 +22,7 @@ struct Row {
   double time, hand_x, x, y, z;  ///< [s, m, N, N, N]
   double rubs, dissipated;       ///< [N, J]
   int slides;
+  bool snapped;
 };
 
 std::vector<Row> read(const char* path) {
@@ -31,26 +33,35 @@ std::vector<Row> read(const char* path) {
   while (std::getline(file, line)) {
     Row row{};
     double fx, fy, fz;
-    if (std::sscanf(line.c_str(),
-                    "%lf,%lf,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%lf,%lf,%lf,%*f,%*f,%lf,%lf,%lf,%d,%lf",
-                    &row.time, &row.hand_x, &row.x, &row.y, &row.z, &fx, &fy, &fz, &row.slides,
-                    &row.dissipated) != 10) {
+    char model[32];
+    if (std::sscanf(
+            line.c_str(),
+            "%lf,%lf,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%*f,%lf,%lf,%lf,%*f,%*f,%lf,%lf,%lf,%d,%lf,%*[^,],%31s",
+            &row.time, &row.hand_x, &row.x, &row.y, &row.z, &fx, &fy, &fz, &row.slides, &row.dissipated,
+            model) != 11) {
       std::fprintf(stderr, "%s: is no recording\n", path);
       std::exit(2);
     }
     row.rubs = std::hypot(fx, fy, fz);
+    row.snapped = std::strcmp(model, "snapped") == 0;
     rows.push_back(row);
   }
   return rows;
+}
+
+/// Of the force [N].  A snap, which lets go at once, is measured from the nearest of the forces from the last one to none.
+double change(const Row& from, const Row& to) {
+  const double square = from.x * from.x + from.y * from.y + from.z * from.z;
+  const double along = to.x * from.x + to.y * from.y + to.z * from.z;
+  const double left = to.snapped && square > 0 ? std::min(std::max(along / square, 0.0), 1.0) : 1;
+  return std::hypot(to.x - left * from.x, to.y - left * from.y, to.z - left * from.z);
 }
 
 int slew(const char* path, double rate) {
   const std::vector<Row> rows = read(path);
   double most = 0, at = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const double change =
-        std::hypot(rows[i].x - rows[i - 1].x, rows[i].y - rows[i - 1].y, rows[i].z - rows[i - 1].z);
-    const double speed = change / (rows[i].time - rows[i - 1].time);
+    const double speed = change(rows[i - 1], rows[i]) / (rows[i].time - rows[i - 1].time);
     if (speed > most) most = speed, at = rows[i].time;
   }
   std::printf("%zu ticks, the force changes by %.6g N/s at most, at %.3f s\n", rows.size(), most, at);

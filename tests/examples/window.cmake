@@ -65,7 +65,7 @@ if(NOT HAPBEAM_SANITIZE)
 endif()
 
 # A thousand changes of scene, model and coupling, a hand that presses and windows of other sizes in between: the force
-# changes by no more than the guard's 10 N a millisecond.  Under sanitizers sixty.
+# changes by no more than the guard's 10 N a millisecond, but where the arch snaps and lets go.  Under sanitizers sixty.
 set(changes 1000)
 if(HAPBEAM_SANITIZE)
   set(changes 60)
