@@ -14,8 +14,8 @@
 // known, because Newton is quadratic: |Δ(k+1)| = C|Δ(k)|² with C taken for four times the larger of the last two that were
 // measured, but no less than 10/√(2V), or 100/√(2V) while there are none (0.1 to 40 is usual; what is measured of an increment that leads back
 // from a state that has blown up is nothing).  Where normal forces are unknowns of a nearly inextensible beam increments come in pairs, one of u and one
-// of w, and the one of w follows from that of u: then C is 20 000/√(2V) at least, and 1000/√(2V) of the first increment.  The tolerance is relative √(2V), never
-// below absolute √(EI/L): a relative criterion has no meaning at rest.
+// of w, and the one of w follows from that of u: then C is 1000/√(2V) at least of the first increment, 20 000/√(2V) after one above a twentieth of
+// √(2V), and 50/√(2V) else.  The tolerance is relative √(2V), never below absolute √(EI/L): a relative criterion has no meaning at rest.
 // An increment that is 1/(10 √eps) times the one before ends a step without: where the energy has grown by the square of
 // that, round-off keeps nothing of the state that it was, and where Newton's method then arrives is anywhere.
 // An increment below ε = n √eps/20, in units of √(2V), also ends a step where the one before was below √ε: after a larger one an increment of N may
@@ -119,10 +119,10 @@ struct NewtonRaphson {
   }
 
  private:
-  /// C √(2V) of increment k, until more is measured.
+  /// C √(2V) of increment k, until more is measured.   @param from_afar  after an increment above a twentieth of the state
   template <class System>
-  static constexpr auto least_curvature(int k) noexcept -> typename System::Scalar {
-    if (detail::InPairs<System>::value) return k > 1 ? 20000 : 1000;
+  static constexpr auto least_curvature(int k, bool from_afar) noexcept -> typename System::Scalar {
+    if (detail::InPairs<System>::value) return k == 1 ? 1000 : from_afar ? 20000 : 50;
     return k > 2 ? 10 : 100;
   }
   template <class System, typename S>
@@ -132,7 +132,7 @@ struct NewtonRaphson {
     const S noise = n * std::sqrt(std::numeric_limits<S>::epsilon()) / 20;
     const S lost = 10 * std::sqrt(std::numeric_limits<S>::epsilon());
     S before = 0, measured_before = 0;
-    bool shrinks = false;
+    bool shrinks = false, from_afar = false;
     for (int k = 1; (k <= max_iterations || shrinks) && report.solves < max_solves; ++k) {
       const Iteration<S> iteration = system.iterate();
       ++report.solves;
@@ -141,8 +141,8 @@ struct NewtonRaphson {
       const S state = system.size(), tolerance = S(relative_tolerance) * state;
       // The first increment holds the jump of the contact, which the tangent's norm overstates: C is measured without it.
       const S measured = k > 2 ? 4 * iteration.size / (before * before) : S(0);
-      const S curvature =
-          (std::max)({measured, measured_before, state > 0 ? least_curvature<System>(k) / state : S(0)});
+      const S curvature = (std::max)(
+          {measured, measured_before, state > 0 ? least_curvature<System>(k, from_afar) / state : S(0)});
       // No larger than this one, which is what round-off would else make of it.
       const S next =
           state > 0 ? (std::min)(curvature * iteration.size, S(1)) * iteration.size : iteration.size;
@@ -154,6 +154,7 @@ struct NewtonRaphson {
         return Status::ok;
       if (k == 8 && iteration.size > S(0.9) * state) return Status::iteration_limit;
       shrinks = iteration.size <= before / 2;
+      from_afar = from_afar || iteration.size > S(0.05) * state;
       before = iteration.size;
       measured_before = measured;
     }
