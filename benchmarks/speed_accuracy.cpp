@@ -82,8 +82,7 @@ class Contest {
         fem<FemModel<VonKarman<AssumedStrain>>>(scene, "VonKarman<AssumedStrain>", sizes);
       }
       fem<FemModel<Corotational<Linear>>>(scene, "Corotational<Linear>", sizes);
-      fem<FemModel<Corotational<VonKarman<AssumedStrain>>>>(scene, "Corotational<VonKarman<AssumedStrain>>",
-                                                            sizes);
+      fem<FemModel<Corotational<>>>(scene, "Corotational<VonKarman<StabilityFunctions>>", sizes);
       if (turns) solvers<Corotational<>>(scene, few);
       else solvers<VonKarman<>>(scene, few);
       for (const int n : few) {

@@ -13,7 +13,7 @@ row(scene, model, n) = rows(scene, model) . \
 array models[19] = ['Linear', 'VonKarman<FullIntegration>', 'VonKarman<ReducedIntegration>', 'Corotational<Linear>', \
   'mass-spring', 'Newton + SparseLU', 'Newton + dense LDLT', 'Newton + SimplicialLDLT', 'PodModel<EquispacedNodes>', \
   'PodModel<ChebyshevNodes>', 'GalerkinModel', 'closed form', 'VonKarman<AssumedStrain>', \
-  'Corotational<VonKarman<AssumedStrain>>', 'RoundRod', 'TwistedRod', 'MuJoCo', 'CrisfieldRod', 'VonKarman<StabilityFunctions>']
+  'Corotational<VonKarman<StabilityFunctions>>', 'RoundRod', 'TwistedRod', 'MuJoCo', 'CrisfieldRod', 'VonKarman<StabilityFunctions>']
 array colours[19] = [grey, orange, orange, sky, purple, grey, grey, grey, green, green, black, black, orange, blue, vermilion, blue, orange, sky, vermilion]
 array shapes[19] = [2, 4, 6, 8, 12, 1, 2, 3, 6, 7, 13, 9, 8, 5, 7, 5, 4, 8, 7]
 array names[19] = ['Linear', 'full integration', 'reduced integration', 'textbook corotational', 'masses and springs', \

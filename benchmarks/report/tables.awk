@@ -39,8 +39,8 @@ function scenes() {
   choice("the same, trained first", "`PodModel<>`, 16 × 12", "bar_50mm", "PodModel<ChebyshevNodes>", 0, 192)
   choice("the same, pressed deeper than trained", "`GalerkinModel<>`, 16 × 12", "bar_50mm", "GalerkinModel", 0, 192)
   choice("a thin strip that stretches", "`FemModel<>`, 8 elements", "strip", "VonKarman<StabilityFunctions>", 8, 0)
-  choice("a ruler that bends far", "`FemModel<Corotational<>>`, 8 elements", "ruler", "Corotational<VonKarman<AssumedStrain>>", 8, 0)
-  choice("an arch, past the peak of its force", "`FemModel<Corotational<>>`, 8 elements", "arch", "Corotational<VonKarman<AssumedStrain>>", 8, 0)
+  choice("a ruler that bends far", "`FemModel<Corotational<>>`, 8 elements", "ruler", "Corotational<VonKarman<StabilityFunctions>>", 8, 0)
+  choice("an arch, past the peak of its force", "`FemModel<Corotational<>>`, 8 elements", "arch", "Corotational<VonKarman<StabilityFunctions>>", 8, 0)
 }
 
 # Whether a model, of those that match, is at least as fast and as accurate as row k: whether it dominates row k.
@@ -69,7 +69,7 @@ function fronts(  n, s, m, k, all, scene, model, own, sizes, on, ours, form, eve
   rule(8)
   for (s = 1; s <= all; ++s) {
     m = split(s <= 3 ? "VonKarman<StabilityFunctions> PodModel<ChebyshevNodes> GalerkinModel" : \
-      s <= 5 ? "Corotational<VonKarman<AssumedStrain>>" : s == 6 ? "RoundRod TwistedRod" : "TwistedRod", model, " ")
+      s <= 5 ? "Corotational<VonKarman<StabilityFunctions>>" : s == 6 ? "RoundRod TwistedRod" : "TwistedRod", model, " ")
     for (n = 1; n <= m; ++n) {
       sizes = on = ours = form = even = others = 0
       for (k = 1; k <= rows; ++k) {
