@@ -51,13 +51,19 @@ struct ContactOnNode {
     J << 1, 0, turns.x(), 0, 1, turns.y();
     GapChange<S> gap;
     const bool round = contact.kind == Contact::Kind::round;
-    const S distance = round ? look_at_circle(contact) : contact.normal.dot(contact.moved);
+    bool is_plane = false;
+    const S distance = round ? look_at_circle(contact, is_plane) : contact.normal.dot(contact.moved);
     contact.gap = distance - contact.reach;
     const Vector n = contact.normal, t(-n.y(), n.x());
     gap.by = J.transpose() * n, gap.slides = J.transpose() * t;
     gap.twice.setZero();
     gap.twice(2, 2) = n.dot(turns_twice);
     if (!round) return gap;
+    if (is_plane) {
+      slope = contact.tangent.dot(contact.place - contact.centre) / contact.tangent.squaredNorm();
+      by.setZero(), bend = 1;
+      return gap;
+    }
     gap.twice += gap.slides * gap.slides.transpose() / distance;
     if (!contact.moves) return gap;
     const S across = t.dot(contact.tangent), turn = n.dot(left_of(contact.tangent));
@@ -83,14 +89,17 @@ struct ContactOnNode {
   static Vector left_of(const Vector& tangent) noexcept {
     return Turns ? Vector(-tangent.y(), tangent.x()) : Vector(0, 1);
   }
+  /// @param is_plane  out: nearer to the centre than half of the reach a plane stands for the circle, for there the direction to the centre says nothing
   /// @return D
-  static S look_at_circle(Contact& contact) noexcept {
-    const Vector off = contact.place - contact.centre;
+  static S look_at_circle(Contact& contact, bool& is_plane) noexcept {
+    const Vector off = contact.place - contact.centre, &t = contact.tangent;
     const S distance = std::sqrt(off.squaredNorm());
     // The centre may have passed the curve.
-    const bool passed = (contact.tangent.x() * off.y() - contact.tangent.y() * off.x()) * contact.side > 0;
-    contact.normal = off / (passed ? -distance : distance);
-    return passed ? -distance : distance;
+    const bool passed = (t.x() * off.y() - t.y() * off.x()) * contact.side > 0;
+    is_plane = passed || distance < contact.reach / 2;
+    if (!is_plane) return contact.normal = off / distance, distance;
+    contact.normal = contact.side * Vector(t.y(), -t.x()) / std::sqrt(t.squaredNorm());
+    return contact.normal.dot(off);
   }
 };
 

@@ -145,8 +145,11 @@ class PlaneContacts {
     Contact contact;
     static_cast<InnerState<Scalar>&>(contact) = now;
     contact.least = least_, contact.most = most_;
-    // Between places of one body the beam is nearly as sharp as that: they are sought where the gaps are closed.
-    contact.waits = now.moves && twin(i) >= 0;
+    // Between places of one body the beam is nearly as sharp as that: they are sought where the gaps are closed.  So they are where a hand has jumped: the circle
+    // that has passed the beam says nothing of the place.
+    const bool jumps = now.force != 0 && all_[i].kind == ObstacleKind::round &&
+                       (all_[i].round.centre - centres_[of(i)]).norm() > all_[i].round.reach / 2;
+    contact.waits = now.moves && (jumps || twin(i) >= 0);
     if (all_[i].kind == ObstacleKind::round) {
       const Circle<Scalar>& round = all_[i].round;
       contact.centre = round.centre, contact.side = round.side, contact.reach = round.reach;
