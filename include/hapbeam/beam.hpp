@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <hapbeam/centreline.hpp>
 #include <hapbeam/support.hpp>
 
 namespace hapbeam {
@@ -95,6 +96,7 @@ class Beam {
              material.young * detail::positive("inertia", section.inertia, "m⁴"), section.thickness, left,
              right) {
     young_ = material.young;
+    area_ = [area = section.area](double) { return area; };
   }
 
   /// For a section known by its stiffness.
@@ -121,14 +123,26 @@ class Beam {
     return *this;
   }
   /// Sets the distributed transverse load q [N/m], along w.  It must be finite on all of the beam.
-  Beam& transverse(DistributedLoad q) { return transverse_ = std::move(q), *this; }
+  Beam& transverse(DistributedLoad q) { return transverse_ = std::move(q), specific_weight_.y() = 0, *this; }
   Beam& transverse(double q) {
     return detail::finite("transverse load", q, "N/m"), transverse([q](double) { return q; });
   }
   /// Sets the distributed axial load f [N/m], along x.
-  Beam& axial(DistributedLoad f) { return axial_ = std::move(f), *this; }
+  Beam& axial(DistributedLoad f) { return axial_ = std::move(f), specific_weight_.x() = 0, *this; }
   Beam& axial(double f) {
     return detail::finite("axial load", f, "N/m"), axial([f](double) { return f; });
+  }
+  /// Its own weight, in place of other distributed loads; each of those that is set later replaces its part in that direction.
+  /// @param density [kg/m³]   @param gravity [m/s²] direction and size, (x, w): {0, -9.81} where w points up
+  Beam& weight(double density, const Vector2<double>& gravity) {
+    detail::positive("density", density, "kg/m³");
+    for (int k = 0; k < 2; ++k) detail::finite("gravity", gravity[k], "m/s²");
+    if (!area_)
+      detail::reject(
+          "area", 0, "m²",
+          "known for a weight: a beam that is given by its stiffness has transverse() and axial()");
+    transverse_ = axial_ = nullptr;
+    return specific_weight_ = density * gravity, weigh(), *this;
   }
 
   /// Gives the beam a natural shape of arcs, from the left end on; straight where they end.
@@ -158,7 +172,13 @@ class Beam {
     }
     if (!(from >= length_ * (1 - 1e-12)))
       detail::reject("part end", from, "m", "the beam's length for the last part");
-    return parts_ = std::move(parts), *this;
+    parts_ = std::move(parts);
+    area_ = [parts = parts_](double s) {
+      std::size_t k = 0;
+      while (k + 1 < parts.size() && parts[k].end <= s) ++k;
+      return parts[k].section(s).area;
+    };
+    return weigh(), *this;
   }
   /// The same with one section that changes along all of the beam.
   Beam& section(std::function<Section(double)> by_s) {
@@ -196,10 +216,21 @@ class Beam {
   }
 
  private:
+  /// The loads that are a weight, by the sections as they are.
+  void weigh() {
+    const auto load = [this](double specific) -> DistributedLoad {
+      return [area = area_, specific](double s) { return area(s) * specific; };
+    };
+    if (specific_weight_.x() != 0) axial_ = load(specific_weight_.x());
+    if (specific_weight_.y() != 0) transverse_ = load(specific_weight_.y());
+  }
+
   double length_, axial_stiffness_, bending_stiffness_, thickness_, young_ = 0;
   Support left_, right_;
   std::vector<PointLoad> point_loads_;
+  std::function<double(double)> area_;  // empty where only the stiffness is known
   DistributedLoad transverse_, axial_;
+  Vector2<double> specific_weight_{0, 0};  // [N/m³] along x and w
   std::vector<Arc> arcs_;
   std::vector<BeamPart> parts_;
   EndPlace left_place_, right_place_;

@@ -70,6 +70,42 @@ TEST_CASE("loads must be finite", "[beam]") {
   }
 }
 
+TEST_CASE("a weight needs a density, a gravity and a known section", "[beam]") {
+  for (const double bad : {0.0, -7850.0, infinity, not_a_number})
+    check_rejection(
+        [=] {
+          hinged().weight(bad, {0, -9.81});
+        },
+        "density", bad, "kg/m³", "positive and finite");
+  for (const double bad : {infinity, -infinity, not_a_number}) {
+    check_rejection([=] { hinged().weight(7850, {bad, 0}); }, "gravity", bad, "m/s²", "finite");
+    check_rejection([=] { hinged().weight(7850, {0, bad}); }, "gravity", bad, "m/s²", "finite");
+  }
+  const Beam stiffness_alone(1, 1e6, 1e3, 0.01, Support::pinned, Support::roller);
+  check_rejection(
+      [=] {
+        Beam(stiffness_alone).weight(7850, {0, -9.81});
+      },
+      "area", 0, "m²",
+      "known for a weight: a beam that is given by its stiffness has transverse() and axial()");
+}
+
+TEST_CASE("a weight and other distributed loads replace each other", "[beam]") {
+  Beam beam(1, Section::rectangle(0.02, 0.01), Material{2e11}, Support::clamped, Support::free);
+  beam.transverse(5).axial(6).weight(1000, {0, -10});
+  CHECK(beam.transverse()(0.3) == Approx(-2).epsilon(1e-14));
+  CHECK_FALSE(beam.axial());
+  beam.weight(1000, {3, -10}).transverse(5);
+  CHECK(beam.axial()(0.3) == Approx(0.6).epsilon(1e-14));
+  // Other sections change what is left of the weight, and no other load.
+  beam.section([](double s) { return Section::rectangle(0.02, 0.01 * (2 - s)); });
+  CHECK(beam.axial()(0.3) == Approx(0.6 * 1.7).epsilon(1e-14));
+  CHECK(beam.transverse()(0.3) == 5);
+  beam.weight(1000, {0, 0});
+  CHECK_FALSE(beam.transverse());
+  CHECK_FALSE(beam.axial());
+}
+
 TEST_CASE("a point load must lie on the beam", "[beam]") {
   for (const double s : {-1e-12, thesis_length + 1e-9, infinity, not_a_number})
     check_rejection(

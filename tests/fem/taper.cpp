@@ -73,6 +73,48 @@ TEST_CASE("a step of the section is exact wherever it stands", "[taper]") {
   }
 }
 
+TEST_CASE("a stepped beam sags under its own weight as its closed form says", "[taper]") {
+  // M(L - s)/EI, integrated over the thin part of length l and the thick one of length a.
+  const double density = 1200, g = 9.81;
+  for (const double at : {0.5, 0.43, 0.77}) {
+    const Section thick = taper_section(0.008), thin = taper_section(0.004);
+    const double a = at * taper_length, l = taper_length - a, q = density * g * thick.area,
+                 p = density * g * thin.area;
+    const double sag =
+        p * l * l * l * l / (8 * taper_young * thin.inertia) +
+        (p * l * (a * a * a / 3 + 0.75 * l * a * a + l * l * a / 2) + q * a * a * a * (l / 6 + a / 8)) /
+            (taper_young * thick.inertia);
+    const FemModel<Tapered<Linear>> model(stepped(at).weight(density, {0, -g}), 5);
+    CHECK(model.shape().at(taper_length).w == Approx(-sag).epsilon(1e-9));
+  }
+}
+
+TEST_CASE(
+    "a triangular leaf sags under its own weight as its closed form says, with an error of fourth order",
+    "[taper]") {
+  // At z from its point M = ρgbh z³/6L and EI = Ebh³ z/12L, hence w'' = -2ρg z²/Eh².
+  const double density = 1200, g = 9.81, h = 0.004, L = taper_length;
+  Beam leaf(L, taper_section(h), Material{taper_young}, Support::clamped, Support::free);
+  leaf.weight(density, {0, -g}).section([=](double s) {
+    return Section::rectangle(taper_width * (1 - s / L), h);
+  });
+  const auto sag = [=](double s) {
+    return density * g * (std::pow(L - s, 4) - std::pow(L, 4) + 4 * std::pow(L, 3) * s) /
+           (6 * taper_young * h * h);
+  };
+  const auto error = [&](int elements) {
+    const FemModel<Tapered<Linear>> model(leaf, elements);
+    double largest = 0;
+    for (const auto& node : model.shape()) largest = std::max(largest, std::abs(node.w + sag(node.s)));
+    return largest / sag(L);
+  };
+  const double e8 = error(8), e16 = error(16), e32 = error(32);
+  INFO("errors " << e8 << ", " << e16 << ", " << e32);
+  CHECK(e32 <= 1e-7);
+  CHECK(observed_order(e8, e16) >= 3.8);
+  CHECK(observed_order(e16, e32) >= 3.8);
+}
+
 TEST_CASE("a tapered beam that bends far is of fourth order", "[taper]") {
   using Model = FemModel<Corotational<Tapered<>>>;
   for (const Support right : {Support::free, Support::pinned}) {

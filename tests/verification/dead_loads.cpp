@@ -105,6 +105,20 @@ TEST_CASE("a load of half a sine wave on a simply supported beam: w = q0 (L/π)�
       beam, zero, [&](double x) { return q0 * std::sin(k * x) / (k * k * k * k * EI); }, 2e-8);
 }
 
+TEST_CASE("a cantilever under its own weight sags by ρAg L⁴/8EI, and an upright one is ρg L²/2E shorter",
+          "[load]") {
+  const Section section = Section::rectangle(0.03, 0.02);
+  const double E = 70e9, density = 2700, g = 9.81;
+  const Beam cantilever(L, section, Material{E}, Support::clamped, Support::free);
+  const double q = density * section.area * g;
+  check_rest(Beam(cantilever).weight(density, {0, -g}), zero, [&](double x) {
+    return -q * x * x * (6 * L * L - 4 * L * x + x * x) / (24 * E * section.inertia);
+  });
+  check_rest(
+      Beam(cantilever).weight(density, {-g, 0}),
+      [&](double x) { return -density * g * x * (2 * L - x) / (2 * E); }, zero);
+}
+
 TEST_CASE("an axial load f = f0 x/L on a bar held at the left: EA u'' = -f", "[load]") {
   const double f0 = 1e6;
   Beam beam = thesis_beam(Support::pinned, Support::roller);
