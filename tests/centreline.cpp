@@ -5,7 +5,7 @@
 #include "support/error.hpp"
 #include "support/pi.hpp"
 #include "support/random.hpp"
-#include <hapbeam/centreline.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -37,7 +37,8 @@ Nodes ragged(Random& random) {
   return nodes;
 }
 
-Vector2<double> point(const CubicSegment<double>& b, double t) {
+template <int D>
+VectorOf<double, D> point(const CubicSegment<double, D>& b, double t) {
   const double r = 1 - t;
   return r * r * r * b.col(0) + 3 * r * r * t * b.col(1) + 3 * r * t * t * b.col(2) + t * t * t * b.col(3);
 }
@@ -76,10 +77,35 @@ TEST_CASE("displacements between nodes are those of the piece's cubic", "[centre
     const int i = random.integer(0, line.segments() - 1);
     const double t = random(0, 1), s = line[i].s + t * (line[i + 1].s - line[i].s);
     const Displacement<double> at = line.at(i, s);
-    const Vector2<double> expected = point(line.segment(i), t);
+    const Vector2<double> expected = point<2>(line.segment(i), t);
     CHECK(std::abs(s + at.u - expected.x()) <= 64 * eps);
     CHECK(std::abs(at.w - expected.y()) <= 64 * eps);
   }
+}
+
+template <int D>
+void check_positions(const Centreline<double, D>& line) {
+  line.visit_segments([&](int i, const CubicSegment<double, D>& piece) {
+    const auto &a = line[i], &b = line[i + 1];
+    CHECK(a.position() == piece.col(0));
+    CHECK(b.position() == piece.col(3));
+    for (const double t : {0.0, 0.3, 0.8}) {
+      const VectorOf<double, D> on_curve = point<D>(piece, t);
+      CHECK((line.position(a.s + t * (b.s - a.s)) - on_curve).norm() <= 64 * eps);
+    }
+  });
+}
+
+TEST_CASE("a position is a point of the curve, in the plane and in space", "[centreline]") {
+  Random random(93);
+  const Nodes nodes = ragged(random);
+  check_positions(view(nodes));
+  check_positions(view(nodes, false));
+  std::vector<RodNode<double>> in_space;
+  for (const auto& node : nodes)
+    in_space.push_back(
+        {node.s, {random(1), random(1), random(1)}, {random(1), random(1), random(1)}, {0, 1, 0}});
+  check_positions(Centreline<double, 3>(in_space.data(), static_cast<int>(in_space.size())));
 }
 
 // A node belongs to the piece on its right, the last one to that on its left.

@@ -97,11 +97,7 @@ class MassSpring {
     EA_ = beam.axial_stiffness();
     bending_ = beam.bending_stiffness() / link_;
     const FemModel<Corotational<>> resting(beam, links);
-    for (int i = 0; i <= links; ++i) {
-      const double s = i * link_;
-      const Displacement<double> at = resting.shape().at(s);
-      rest_.emplace_back(s + at.u, at.w);
-    }
+    for (int i = 0; i <= links; ++i) rest_.push_back(resting.shape().position(i * link_));
     link_ = (rest_[1] - rest_[0]).norm();  // the chord of what may be an arc
     const auto direction = [](double theta) { return Vector(std::cos(theta), -std::sin(theta)); };
     wall_ = {direction(beam.left_place().theta), direction(beam.right_place().theta)};

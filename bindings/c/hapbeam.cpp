@@ -109,9 +109,8 @@ int write_shape(const Centreline<double>& line, double* x_w, int count) noexcept
   if (!x_w || count < 2) return 0;
   for (int i = 0; i < count; ++i) {
     const double s = std::min(line.length() * i / (count - 1), line.length());
-    const Displacement<double> at = line.at(s);
-    x_w[2 * i] = s + at.u;
-    x_w[2 * i + 1] = at.w;
+    const Vector2<double> at = line.position(s);
+    std::copy(at.data(), at.data() + 2, x_w + 2 * i);
   }
   return count;
 }

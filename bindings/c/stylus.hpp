@@ -47,7 +47,7 @@ class StylusOn final : public hapbeam_stylus {
     const auto line = model_.shape();
     for (int i = 0; i < count; ++i) {
       const double s = (std::min)(line.length() * i / (count - 1), line.length());
-      const Eigen::Vector3d at = touch_.placement().device_position(detail::in_scene(line.at(s).r));
+      const Eigen::Vector3d at = touch_.placement().device_position(detail::in_scene(line.position(s)));
       std::copy(at.data(), at.data() + 3, x_y_z + 3 * i);
     }
     return count;

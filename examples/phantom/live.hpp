@@ -24,7 +24,7 @@ inline Eigen::Vector3d at_rest(const Options& options, const hapbeam::Centreline
   return {place, options.beam.rest(place), 0};
 }
 inline Eigen::Vector3d at_rest(const Options&, const hapbeam::Centreline<double, 3>& rest, double place) {
-  return rest.at(place).r;
+  return rest.position(place);
 }
 
 /// @param place  [m] along the beam, that is to be pressed
@@ -119,7 +119,7 @@ class Live final : public Body {
     if constexpr (dimension == 2) return o.beam.rest(r.press.s) - r.press.d;
     // Along the normal; the device's axes are the scene's.
     else if (const double force = r.force.norm(); force > 0)
-      return r.force.dot(rest_.shape().at(r.press.s).r - r.avatar) / force + reach_of(o);
+      return r.force.dot(rest_.shape().position(r.press.s) - r.avatar) / force + reach_of(o);
     return 0;
   }
   double deepest() const noexcept override { return dimension == 3 ? deepest_ : record().max_press; }

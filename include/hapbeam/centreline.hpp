@@ -32,6 +32,8 @@ struct CentrelineNode {
   Scalar u;      ///< [m] axial displacement
   Scalar w;      ///< [m] transverse displacement
   Scalar theta;  ///< [rad] rotation, -dw/dx
+
+  Vector2<Scalar> position() const noexcept { return {s + u, w}; }  ///< [m] where it is, (x, w)
 };
 
 namespace detail {
@@ -121,7 +123,7 @@ class Centreline {
   /// are 0.42 chords from its nodes at most (arc()), hence no point is farther than 3/4 · 0.42 chords from the chord.
   bool excludes(int i, const Vector2<Scalar>& q, Scalar d) const noexcept {
     const Node &a = nodes_[i], &b = nodes_[i + 1];
-    const Vector2<Scalar> from(a.s + a.u, a.w), to(b.s + b.u, b.w);
+    const Vector2<Scalar> from = a.position(), to = b.position();
     const Scalar least = d + Scalar(0.82) * std::sqrt((to - from).squaredNorm());
     return (q - (from + to) / 2).squaredNorm() > least * least;
   }
@@ -186,6 +188,11 @@ class Centreline {
   /// Index of the node that is nearest to arc position s.
   int node_near(Scalar s) const noexcept { return detail::node_near(*this, s); }
 
+  /// Where the point at arc position s is [m], as in a centreline in space.
+  Vector2<Scalar> position(Scalar s) const noexcept {
+    const Displacement<Scalar> moved = at(s);
+    return {s + moved.u, moved.w};
+  }
   /// Displacements at arc position s [m].
   Displacement<Scalar> at(Scalar s) const noexcept { return at(segment_at(s), s); }
 

@@ -21,6 +21,8 @@ struct RodNode {
   VectorOf<Scalar, 3> r;         ///< [m] place
   VectorOf<Scalar, 3> tangent;   ///< dr/ds: 1 + ε long
   VectorOf<Scalar, 3> director;  ///< d1 of the section, a unit vector across the tangent; d2 = tangent × d1
+
+  VectorOf<Scalar, 3> position() const noexcept { return r; }  ///< [m] as of a planar centreline
 };
 
 /// A point of the centreline.
@@ -119,6 +121,8 @@ class Centreline<Scalar, 3> {
   /// Index of the node that is nearest to arc position s.
   int node_near(Scalar s) const noexcept { return detail::node_near(*this, s); }
 
+  /// Where the point at arc position s is [m], as in a planar centreline.
+  VectorOf<Scalar, 3> position(Scalar s) const noexcept { return at(s).r; }
   /// The point at arc position s [m].
   RodPoint<Scalar> at(Scalar s) const noexcept { return at(segment_at(s), s); }
   /// The same, in a piece that is known to hold s.
