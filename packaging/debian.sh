@@ -6,8 +6,7 @@ set -eu
 source "$(dirname "${BASH_SOURCE[0]}")/../cmake/steps.sh"
 folder=$(realpath -m "${1:-$top/build/debian}")
 need build-essential debhelper cmake git libeigen3-dev libjansson-dev
-part() { sed -nE "s/^#define HAPBEAM_VERSION_$1 //p" "$top/include/hapbeam/version.hpp"; }
-version=$(part MAJOR).$(part MINOR).$(part PATCH)
+version=$(<"$top/VERSION")
 tree=$folder/hapbeam-$version
 rm -rf "$tree"
 mkdir -p "$tree"

@@ -1,7 +1,6 @@
 """Conan 2: conan create packaging/conan, from the top of a checkout."""
 
 import os
-import re
 
 from conan import ConanFile
 from conan.tools.files import copy, load
@@ -19,9 +18,7 @@ class Hapbeam(ConanFile):
     no_copy_source = True
 
     def set_version(self):
-        header = load(self, os.path.join(self.recipe_folder, "../../include/hapbeam/version.hpp"))
-        self.version = ".".join(
-            re.search(rf"#define HAPBEAM_VERSION_{part} (\d+)", header).group(1) for part in ("MAJOR", "MINOR", "PATCH"))
+        self.version = load(self, os.path.join(self.recipe_folder, "../../VERSION")).strip()
 
     def export_sources(self):
         top = os.path.join(self.recipe_folder, "../..")
