@@ -1,11 +1,15 @@
 // Dead loads of the linear beam against closed forms.  Cubics are exact at their nodes for any load that is
 // given as consistent nodal forces, so every bound is round-off: eps = 2.2e-16, amplified by the condition of
-// n elements in bending, of which n² reaches the displacements.
+// n elements in bending, of which n² reaches the displacements.  The weight of a beam that bends far is compared with that of a rod.
 #include "support/catch.hpp"
+#include "support/error.hpp"
 #include "support/mesh_nodes.hpp"
 #include "support/thesis_beam.hpp"
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
+#include <hapbeam/element/rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -117,6 +121,32 @@ TEST_CASE("a cantilever under its own weight sags by ρAg L⁴/8EI, and an uprig
   check_rest(
       Beam(cantilever).weight(density, {-g, 0}),
       [&](double x) { return -density * g * x * (2 * L - x) / (2 * E); }, zero);
+}
+
+TEST_CASE("a beam and a rod of one section sag alike by their weight, in gravity from any side", "[load]") {
+  const double length = 0.8, diameter = 0.002, density = 7850;
+  for (const Vector2<double>& gravity : {Vector2<double>(3, -9.81), Vector2<double>(-6, 7)}) {
+    Beam beam(length, Section::circle(diameter), Material{200e9}, Support::clamped, Support::free);
+    Rod rod(length, RodSection::circle(diameter), RodMaterial::isotropic(200e9, 0.3), RodSupport::clamped,
+            RodSupport::free);
+    beam.weight(density, gravity), rod.weight(density, {gravity.x(), gravity.y(), 0});
+    const auto difference = [&](int elements) {
+      const FemModel<Corotational<>> planar(beam, elements);
+      const FemModel<RoundRod> in_space(rod, elements);
+      double largest = 0;
+      for (double s = 0; s <= length; s += length / 10) {
+        const VectorOf<double, 3> there = in_space.shape().position(s);
+        CHECK(std::abs(there.z()) <= 1e-15);
+        largest = std::max(largest, (planar.shape().position(s) - there.head<2>()).norm());
+      }
+      return largest / length;
+    };
+    // Both have errors of fourth order.
+    const double e8 = difference(8), e16 = difference(16);
+    INFO("differences " << e8 << ", " << e16);
+    CHECK(e16 <= 1e-7);
+    CHECK(observed_order(e8, e16) >= 3.5);
+  }
 }
 
 TEST_CASE("an axial load f = f0 x/L on a bar held at the left: EA u'' = -f", "[load]") {
