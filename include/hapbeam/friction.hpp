@@ -68,7 +68,6 @@ struct FrictionState {
   Scalar rise = 0;                 ///< [N] of its bound in that tick, while it slid
   Scalar gain = 0;                 ///< change of the normal force by a tangential one, as it was
   Scalar dissipated = 0;           ///< [J] since the touch began
-  Scalar tilt = 0;                 ///< [rad] of several contacts: fem/contact_tilt.hpp
 
   /// A contact begins: nothing of the one before is left but what the touch has dissipated.
   void begin() noexcept {
@@ -85,7 +84,6 @@ struct FrictionState {
     known = slides = false;
     settled = true;
     skin.setZero(), force.setZero();
-    tilt = 0;
   }
 };
 

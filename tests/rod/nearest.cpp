@@ -45,7 +45,7 @@ TEST_CASE("the nearest point of a rod to a sphere or a capsule is exact to 1e-9 
     const PressedRod pressed = pressed_rod(name);
     FemModel<TwistedRod> model(pressed.rod, 8 * pressed.turns);
     const double size = pressed.rod.length() / 2;
-    BoundingVolumes<double, 3> volumes(model.elements());
+    BoundingVolumes<double, 3> volumes(model.shape().segments());
     for (int trial = 0; trial < 60; ++trial) {
       if (trial % 20 == 0) (void)model.push({pressed.s, random(size / 5), pressed.normal});
       const auto line = model.shape();
@@ -76,7 +76,7 @@ TEST_CASE("near where it was the contact of a rod is that of the whole rod, to t
     const PressedRod pressed = pressed_rod(name);
     FemModel<TwistedRod> model(pressed.rod, 8 * pressed.turns);
     const double size = pressed.rod.length();
-    BoundingVolumes<double, 3> volumes(model.elements());
+    BoundingVolumes<double, 3> volumes(model.shape().segments());
     for (int trial = 0; trial < 4000; ++trial) {
       if (trial % 200 == 0) {
         const double depth = random(size / 10);

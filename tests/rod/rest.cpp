@@ -122,8 +122,8 @@ TEST_CASE("an L in space answers a push that leaves it where it is", "[rod]") {
         };
         Rod rod = hook(end);
         if (end != RodSupport::free) {
-          const RodNode<double> tip =
-              FemModel<TwistedRod>(hook(RodSupport::free), elements).shape()[elements];
+          const FemModel<TwistedRod> at_rest(hook(RodSupport::free), elements);
+          const RodNode<double> tip = at_rest.shape()[at_rest.shape().segments()];
           rod.place_right({tip.r, detail::unit(tip.tangent), tip.director});
         }
         FemModel<TwistedRod> model(rod, elements);

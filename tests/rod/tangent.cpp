@@ -1,4 +1,5 @@
-// The assembled tangent of a rod that a sphere has pushed is symmetric, and the derivative of the assembled residual.
+// The assembled tangent of a rod that a sphere has pushed is symmetric, and the derivative of the assembled residual: what is condensed of the
+// contact included.
 #include <type_traits>
 #include <vector>
 
@@ -49,6 +50,13 @@ class Recorder : public BlockTridiagonal<Scalar, Elements, MaxElements, Block> {
     Base::add_at(node, K, r);
   }
 
+  template <class Tangent, class Residual>
+  void add_more(int e, const Tangent& K, const Residual& r) noexcept {
+    residual.segment<2 * Block>(Block * e) += r;
+    assembled_tangent.block<2 * Block, 2 * Block>(Block * e, Block * e) += K;
+    Base::add_more(e, K, r);
+  }
+
  private:
   int elements_;
 };
@@ -74,40 +82,39 @@ void check_tangent(const Rod& rod, int elements) {
   using System = RodSystem<Recorded<Element>, double, Eigen::Dynamic, Eigen::Dynamic>;
   constexpr int unknowns = Element::unknowns;
   System system(rod, elements);
-  const int c = 2 * elements / 3;
-  const double reach = 0.02, h = 1e-6;
+  // Within an element, and nearer to one of its ends.
+  const double length = rod.length(), place = 0.63 * length, reach = 0.02, h = 1e-6;
   const Point n = detail::unit(Point(0.3, 1, -0.4));
-  const Point centre = system.node(c).r + (reach - 0.03) * n + 0.001 * system.node(c).tangent;
-  const auto law = [&] {
-    return detail::CapsuleOnCurve<double>({centre, Point::Zero()}, system.node(c),
-                                          system.centreline().curvature(c), 0);
+  const auto at = system.centreline().at(place);
+  typename System::Contact contact;
+  contact.s = place, contact.reach = reach, contact.most = length;
+  contact.side = n, contact.normal = -n;
+  contact.axis = {at.r + (reach - 0.03) * n + 0.001 * at.tangent, Point::Zero()};
+  const auto aim = [&] {
+    system.set_goal();
+    system.add_goal(contact, nullptr);
   };
-  for (int k = 0; k < 3; ++k) {  // the curvature there is that of the state before
-    system.set_goal(c, -reach, law());
-    REQUIRE(NewtonRaphson{1e-13, 1e-14}.solve(system).status == Status::ok);
-  }
-  const double force = system.linear_reaction();
-  const auto beside = law();
-  system.set_goal(c, -reach, beside);
+  aim();
+  REQUIRE(NewtonRaphson{1e-13, 1e-14}.solve(system).status == Status::ok);
+  contact = system.rows()[0];
+  const double force = contact.force;
+  aim();
   system.set_target(1);
   REQUIRE(system.factor(0) == Status::ok);
   const Eigen::MatrixXd K = assembled_tangent;
   typename System::State state(elements);
   system.keep(state);
-  const ContactMesh<double> mesh = system.mesh();
-  const auto gradient = [&](const typename System::State& at) -> Eigen::VectorXd {
-    system.set_state(mesh, at);
+  const auto gradient = [&](const typename System::State& of) -> Eigen::VectorXd {
+    system.set_state(of);
+    aim();
+    system.set_target(1);
     REQUIRE(system.factor(0) == Status::ok);
-    Eigen::VectorXd sum = residual;
-    const auto view = beside.at(at.nodes[c]);
-    sum.segment<3>(unknowns * c) -= force * view.normal;
-    sum.segment<3>(unknowns * c + 3) -= force * view.arm;
-    return sum;
+    return residual;
   };
   const int first = unknowns, count = unknowns * elements;  // all but the end that is held
   CHECK(std::abs(force) > 1e-3);
   CHECK((K - K.transpose()).norm() <= 1e-14 * K.norm());
-  CHECK(gradient(state).tail(count).norm() <= 1e-8 * residual.norm());
+  CHECK(gradient(state).tail(count).norm() <= 1e-8 * std::abs(force));
   double worst = 0;
   for (int k = first; k < first + count; ++k) {
     const int i = k / unknowns, component = k % unknowns;

@@ -22,7 +22,7 @@ inline void check_law(const Felt& r) {
 /// How far the centreline lies within the avatar's reach [m].
 template <class Model>
 double penetration(const Model& model, const Shaft<double>& axis, double reach) {
-  BoundingVolumes<double, 3> volumes(model.elements());
+  BoundingVolumes<double, 3> volumes(model.shape().segments());
   volumes.refit(model.shape());
   return reach - std::sqrt(volumes.nearest(model.shape(), axis).at.distance_squared);
 }

@@ -1,7 +1,6 @@
 // What the force of a rod's contact is beside the gradient of the energy that the rod stores, as the hand sees it.
 //
-// The mesh moves with the contact, so a rod of n elements stores a little more or less as the contact slides along it, and the force, which
-// is across the rod, has no part of that.  Both differ by the error of the elements: of fourth order.
+// The mesh stays, and what is condensed of a contact is where the energy is stationary: the force is that gradient with any number of elements.
 #include <algorithm>
 #include <cmath>
 
@@ -101,17 +100,20 @@ double gain(int elements) {
 
 }  // namespace
 
-// Of fourth order: a sixteenth for twice the elements, and half as much again for what is not asymptotic with 8.
-TEST_CASE("a rod's contact force is the gradient of the energy it stores, to fourth order", "[rod]") {
-  const double coarse = off_gradient(8), fine = off_gradient(16);
-  INFO(coarse << ", " << fine);
-  CHECK(coarse <= 4e-5);
-  CHECK(fine <= coarse / 10);
+// What central differences of 20 µm leave of a force that changes within millimetres: 7e-7, with 16 elements as with 8.
+TEST_CASE("a rod's contact force is the gradient of the energy it stores, whatever its mesh", "[rod]") {
+  for (const int elements : {8, 16}) {
+    const double off = off_gradient(elements);
+    INFO(elements << ": " << off);
+    CHECK(off <= 1e-6);
+  }
 }
 
-TEST_CASE("around a closed path a rod gives back what it stores, to fourth order", "[rod]") {
-  const double coarse = gain(8), fine = gain(16);
-  INFO(coarse << ", " << fine);
-  CHECK(coarse <= 8e-5);
-  CHECK(fine <= coarse / 10);
+// Solves stop at 1e-9 of a force.
+TEST_CASE("around a closed path a rod gives back what it stores, whatever its mesh", "[rod]") {
+  for (const int elements : {8, 16}) {
+    const double off = gain(elements);
+    INFO(elements << ": " << off);
+    CHECK(off <= 1e-7);
+  }
 }

@@ -23,7 +23,7 @@ int negative_pivots(Beam beam, int elements, double shortening) {
   typename System<Element>::State state(elements);
   for (int i = 0; i <= elements; ++i)
     state.nodes[i] = {mesh.position(i), -shortening * mesh.position(i), 0, 0};
-  system.set_state(system.mesh(), state);
+  system.set_state(state);
   system.find_tensions();
   system.set_goal();
   system.set_target(1);
@@ -48,7 +48,7 @@ int negative_pivots_of_weight(Beam beam, int elements, double load) {
   const ContactMesh<double> mesh(elements, L);
   typename System<Element>::State state(elements);
   for (int i = 0; i <= elements; ++i) state.nodes[i] = {mesh.position(i), 0, 0, 0};
-  system.set_state(system.mesh(), state);
+  system.set_state(state);
   system.find_tensions();
   system.set_load(1);
   for (int k = 0; k < 4; ++k) {

@@ -3,7 +3,7 @@
 //   round    a circle of that reach lies on the centreline:  D = reach,  D from its centre to the curve;  the place s is an unknown
 //   along    the place s is held so far along a direction:  n · (u, w) = d
 //
-// Unknown of both is the force λ, which pushes the beam away from the centre, or along n.
+// Unknown of both is the force λ, which pushes the beam away from the centre, or along n.  Those of a rod in space are in rod_inner_contact.hpp.
 #pragma once
 
 #include <hapbeam/centreline.hpp>
@@ -26,7 +26,7 @@ struct RootedPiece {
 };
 
 /// What stays of a contact from one push to the next.
-template <typename S>
+template <typename S, int D = 2>
 struct InnerState {
   S s = 0;             ///< [m]
   S force = 0;         ///< λ [N]
@@ -36,11 +36,46 @@ struct InnerState {
   S was = 0;               ///< the place where u, w and θ were these [m]
   Vector2<S> moved{0, 0};  ///< u, w [m]
   S theta = 0;             ///< [rad]
+
+  int element() const noexcept { return piece.element; }
+  /// It is in an element, with what was known of it there.
+  void enter(int element) noexcept {
+    if (piece.element != element) piece.root = RootedPiece<S>::Root::none;
+    piece.element = element;
+  }
+  /// Another contact has its number now.
+  void forget_order() noexcept {
+    if (piece.next >= 0) piece.next = -2;
+  }
+  /// What was found of the curve there is not known any more.
+  void forget() noexcept { piece = {}; }
+  /// Goes on as from one state to another.
+  void go_on(const InnerState& to, const InnerState& from, S ratio) noexcept {
+    const auto on = [ratio](auto& value, const auto& end, const auto& start) {
+      value += ratio * (end - start);
+    };
+    on(s, to.s, from.s), on(force, to.force, from.force);
+    on(was, to.was, from.was), on(moved, to.moved, from.moved), on(theta, to.theta, from.theta);
+    const auto same = [this](const InnerState& other) {
+      return other.piece.root == piece.root && other.piece.element == piece.element;
+    };
+    if (!same(to) || !same(from)) return;
+    on(piece.stretch, to.piece.stretch, from.piece.stretch),
+        on(piece.tension, to.piece.tension, from.piece.tension);
+    on(piece.at_root, to.piece.at_root, from.piece.at_root),
+        on(piece.at_tip, to.piece.at_tip, from.piece.at_tip);
+  }
+  /// Another's curve, but not its place and force.
+  void take_curve(const InnerState& other) noexcept {
+    piece = other.piece, was = other.was, moved = other.moved, theta = other.theta;
+  }
 };
 
-template <typename S>
+enum class InnerKind { round, along };
+
+template <typename S, int D = 2>
 struct InnerContact : InnerState<S> {
-  enum class Kind { round, along };
+  using Kind = InnerKind;
 
   Kind kind = Kind::round;
   Vector2<S> centre{0, 0};  ///< [m]
@@ -52,6 +87,7 @@ struct InnerContact : InnerState<S> {
 
   bool waits = false;         ///< s stays in the next solve
   bool rests = false;         ///< s stays, between two elements
+  bool rough = false;         ///< there is friction
   Vector2<S> friction{0, 0};  ///< on the beam [N]
   S friction_stiffness = 0;   ///< along the surface [N/m]
 
@@ -59,6 +95,16 @@ struct InnerContact : InnerState<S> {
   S gap = 0;                 ///< D - reach, or n · (u, w) - d [m]
   Vector2<S> place{0, 0};    ///< of the curve [m]
   Vector2<S> tangent{1, 0};  ///< of it
+
+  /// What is led along a path [m].
+  Vector2<S>& centre_or_tip() noexcept { return centre; }
+  /// From there to where the circle would touch the curve as it lies.
+  Vector2<S> way_to_curve() const noexcept {
+    const Vector2<S> across = side * Vector2<S>(tangent.y(), -tangent.x());
+    return place - reach / across.norm() * across - centre;
+  }
+  /// How far the place has moved from where it is at rest [m].
+  Vector2<S> displacement() const noexcept { return place - Vector2<S>(this->s, 0); }
 };
 
 }  // namespace hapbeam::detail

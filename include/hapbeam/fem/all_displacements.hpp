@@ -1,6 +1,6 @@
 // A press of any beam or rod, solved for the displacements of all nodes: the general way of FemModel.
 //
-// BeamSystem, on a mesh that stays, or RodSystem, whose node follows the contact, is solved by Newton–Raphson from the last press or
+// BeamSystem or RodSystem is solved by Newton–Raphson from the last press or
 // from rest, whichever is closer.  A beam with more than one shape at rest keeps to the branch on which it is; where that ends or
 // gives way it falls to a stable one (Descent), and the status says snapped.
 // Offline: construction allocates, finds the shape at rest and may throw.  Servo: every other member is noexcept and
@@ -16,13 +16,10 @@
 #include <utility>
 
 #include <hapbeam/fem/beam_system.hpp>
-#include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/fem/load_path.hpp>
 #include <hapbeam/fem/place_push.hpp>
-#include <hapbeam/fem/plane_push.hpp>
 #include <hapbeam/fem/press_range.hpp>
-#include <hapbeam/fem/round_push.hpp>
-#include <hapbeam/fem/several_push.hpp>
+#include <hapbeam/fem/row_push.hpp>
 #include <hapbeam/fem/solver/descent.hpp>
 
 namespace hapbeam {
@@ -39,11 +36,7 @@ class AllDisplacements {
   /// Finds the shape at rest.
   /// @throws std::invalid_argument as BeamSystem, and where the scalar cannot tell so many elements apart
   AllDisplacements(const Body& beam, int elements, const Solver& solver)
-      : system_(beam, elements),
-        rest_state_(elements),
-        uniform_(elements, system_.length()),
-        solver_(solver),
-        single_valued_(beam.straight()) {
+      : system_(beam, elements), rest_state_(elements), solver_(solver), single_valued_(beam.straight()) {
     find_rest(beam);
     system_.keep(rest_state_);
     home_ = system_.middle();
@@ -51,12 +44,12 @@ class AllDisplacements {
   }
 
   /// Prescribes the displacement along request.normal at request.s.
-  /// @param node  [m] where the mesh has its node: at request.s, or at an end beside it   @param valid  whether there is a request
+  /// @param valid  whether there is a request
   /// @return force [N], not always finite, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
-  Response<Scalar> press(const Push<Scalar, dimension>& request, Scalar node, bool valid) noexcept {
+  Response<Scalar> press(const Push<Scalar, dimension>& request, bool valid) noexcept {
     if (!begins(valid)) return {0, report_.status};
-    round_.forget(), several_.forget();
-    return drawn(place_.push(*this, request, node));
+    pushes_.forget();
+    return drawn(place_.push(*this, request));
   }
 
   /// Lays the beam on a circle, a rod on a capsule.   @param range  says where a node can be   @param valid  whether there is a request
@@ -65,20 +58,15 @@ class AllDisplacements {
   Pushed<Scalar, dimension> push(const Round& request, const Extent& range, bool valid,
                                  FrictionState<Scalar, dimension>* friction) noexcept {
     if (!begins(valid)) return {0, report_.status};
-    several_.forget(), place_.forget();
-    return drawn(round_.push(*this, request, range, friction));
+    place_.forget();
+    return drawn(pushes_.push(*this, request, range, friction));
   }
 
   /// Lays it on several.  @param all  in and out   @return the status that is common to all of them
   Status push(Obstacle<Scalar, dimension>* all, int count, const Extent& range) noexcept {
     if (!begins(true)) return report_.status;
     place_.forget();
-    if constexpr (plane) {
-      return drawn(round_.push(*this, all, count, range));
-    } else {
-      round_.forget();
-      return several_.push(*this, all, count, range);
-    }
+    return drawn(pushes_.push(*this, all, count, range));
   }
 
   /// Moves a clamped end of a rod, without a contact.
@@ -93,7 +81,7 @@ class AllDisplacements {
     if (!is_answer(rest_.status)) return report_.status = rest_.status, take();
     if (!system_.place_end(k, pose)) return take();
     single_valued_ = false;
-    round_.forget_shape(), several_.forget_shape(), place_.forget();
+    pushes_.forget_shape(), place_.forget();
     const auto aim = [this] { system_.set_goal(); };
     aim();
     // On the way down Newton's method may be near enough by now.
@@ -105,7 +93,7 @@ class AllDisplacements {
     if ((on_ridge || (report_.status == Status::iteration_limit && !on_its_way)) &&
         !fall(on_ridge, descent, aim))
       reset();
-    HeldEnd<Scalar> held = take();
+    HeldEnd<Scalar> held = drawn(take());
     if (!held.force.allFinite() || !held.moment.allFinite())
       held.force.setZero(), held.moment.setZero(), held.status = report_.status = Status::non_finite;
     // A shape from which no way leads to where a hand waits is left for that at rest.
@@ -145,16 +133,12 @@ class AllDisplacements {
   /// Back to the shape that construction has found, and to steps of the size that a new model takes.
   void reset() noexcept {
     to_rest();
-    several_.reset();
     report_.step = 1;
     drawn(0);
   }
 
   int elements() const noexcept { return system_.elements(); }
-  Centreline<Scalar, dimension> shape() const noexcept {
-    if constexpr (dimension == 2) return system_.drawn();
-    else return system_.centreline();
-  }
+  Centreline<Scalar, dimension> shape() const noexcept { return system_.drawn(); }
   Scalar strain_energy() const noexcept { return system_.strain_energy(); }
   InternalForces<Scalar, dimension> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
     return system_.internal_forces(e, s, thickness);
@@ -168,22 +152,14 @@ class AllDisplacements {
   template <typename S>
   using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements>;
   using System = SystemIn<Scalar>;
-  using Mesh = typename System::Mesh;
-  // In the plane one push is for one contact and several; in space there are two.
-  static constexpr bool plane = dimension == 2;
-  using Rounds = std::conditional_t<
-      plane, std::conditional_t<any_rotation<Element>, detail::PlanePush<Element, System>, detail::NoRound>,
-      detail::RoundPush<Element, System>>;
-  friend Rounds;
-  using Severals = std::conditional_t<!plane && (contacts_of<Element> > 1),
-                                      detail::SeveralPush<Element, System>, detail::NoRound>;
-  friend Severals;
+  using Pushes = std::conditional_t<any_rotation<Element>, detail::RowPush<Element, System>, detail::NoPush>;
+  friend Pushes;
   using Places = detail::PlacePush<Element, System>;
   friend Places;
   using Middle = decltype(std::declval<const System&>().middle());
 
   void to_rest() noexcept {
-    system_.set_state(uniform_, rest_state_);
+    system_.set_state(rest_state_);
     if constexpr (dimension == 3) system_.go_home();
     home_ = system_.middle();
     falling_ = descending_ = false;
@@ -193,10 +169,10 @@ class AllDisplacements {
   /// What was answered, and the beam can be seen.
   template <class Answer>
   const Answer& drawn(const Answer& answer) noexcept {
-    if constexpr (dimension == 2) system_.draw();
+    system_.draw();
     return answer;
   }
-  void forget() noexcept { round_.forget(), several_.forget(), place_.forget(); }
+  void forget() noexcept { pushes_.forget(), place_.forget(); }
 
   /// @return whether there is a request to answer; if not, report() has its status
   bool begins(bool valid) noexcept {
@@ -338,11 +314,9 @@ class AllDisplacements {
 
   System system_;
   typename System::State rest_state_;
-  Mesh uniform_;
   Solver solver_;
   bool single_valued_;  // one shape for each press, as far as is known
-  Rounds round_{system_};
-  Severals several_{system_};
+  Pushes pushes_{system_};
   Places place_{system_};
   bool first_ = true;        // nothing has been solved for this request
   int left_ = 0;             // linear solves that this request may still take

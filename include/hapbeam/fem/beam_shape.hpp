@@ -26,13 +26,6 @@ class BeamShape {
     Nodes nodes;
     Tensions tensions;
   };
-  /// It stays: all states have the same, which their nodes know.
-  struct Mesh {
-    Mesh() = default;
-    Mesh(int, Scalar) noexcept {}
-    int node() const noexcept { return 0; }
-  };
-
   int elements() const noexcept { return beam_.size(); }
   Scalar length() const noexcept { return length_; }
   Centreline<Scalar> centreline() const noexcept { return view(beam_.nodes()); }
@@ -42,7 +35,6 @@ class BeamShape {
   const Node& node(int i) const noexcept { return beam_.nodes()[i]; }
   /// N of an element [N].
   Scalar tension(int e) const noexcept { return beam_.tensions()[e]; }
-  Mesh mesh() const noexcept { return {}; }
   /// The state as it is.  @param state  out
   void keep(State& state) const noexcept {
     for (int i = 0; i <= elements(); ++i) state.nodes[i] = node(i);

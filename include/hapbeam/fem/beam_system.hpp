@@ -18,37 +18,46 @@
 #include <hapbeam/fem/chain.hpp>
 #include <hapbeam/fem/contact_friction.hpp>
 #include <hapbeam/fem/contact_rows.hpp>
+#include <hapbeam/fem/drawn_mesh.hpp>
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/round_contact.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/starting_shapes.hpp>
 #include <hapbeam/fem/supports.hpp>
+#include <hapbeam/fem/system_contacts.hpp>
 
 namespace hapbeam {
 
 template <class Element, typename ScalarType, int Elements, int MaxElements>
-class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxElements> {
+class BeamSystem
+    : public detail::BeamShape<Element, ScalarType, Elements, MaxElements>,
+      public detail::SystemContacts<
+          BeamSystem<Element, ScalarType, Elements, MaxElements>, ScalarType,
+          detail::ContactFriction<ScalarType, 2, detail::RoundContact>,
+          detail::ContactRows<
+              Element, ScalarType, detail::AssemblerOf<Element, ScalarType, Elements, MaxElements>,
+              detail::ContactFriction<ScalarType, 2, detail::RoundContact>, contacts_of<Element>>> {
   using Shape = detail::BeamShape<Element, ScalarType, Elements, MaxElements>;
+  using Contacts = typename BeamSystem::SystemContacts;
   using Assembler = detail::AssemblerOf<Element, ScalarType, Elements, MaxElements>;
 
  public:
   using Scalar = ScalarType;
-  using typename Shape::Mesh;
   using typename Shape::Node;
   using typename Shape::State;
   using Friction = detail::ContactFriction<Scalar, 2, detail::RoundContact>;
-  using Rows = detail::ContactRows<Element, Scalar, Assembler, Friction, contacts_of<Element>>;
-  using Contact = typename Rows::Contact;
   using Shape::elements;
   using Shape::node;
+  using typename Contacts::Contact;
+  using typename Contacts::Rows;
 
   /// @param number  of elements
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or the number does not fit the type
   BeamSystem(const Beam& beam, int number)
       : Shape(beam, number),
+        Contacts(number),
         assembler_(number),
-        rows_(number),
         before_(number),
         ends_{detail::EndSupport<Scalar>(beam.left(), beam.left_place()),
               detail::EndSupport<Scalar>(beam.right(), beam.right_place())},
@@ -68,62 +77,23 @@ class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxEl
     }
   }
 
-  // The goal of a path: all of the dead loads, the ends where they are placed, and contacts.
-
-  /// Without a contact.
-  void set_goal() noexcept {
-    rows_.clear();
-    start_load_ = load_;
-    for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
-  }
-  /// One contact more.   @param friction  null: none
-  void add_goal(const Contact& goal, Friction* friction) noexcept {
-    rows_.add(goal, element_at(goal.s, goal.piece.element), friction);
-  }
-  /// With a place that is held.   @param force  along its normal, about [N]
-  void set_goal(const Push<Scalar>& place, Scalar force = 0) noexcept {
-    Contact contact;
-    if (rows_.size() == 1 && rows_[0].kind == Contact::Kind::along && rows_[0].s == place.s)
-      contact = rows_[0];
-    contact.kind = Contact::Kind::along;
-    contact.s = place.s, contact.normal = place.normal, contact.reach = place.d, contact.force = force;
-    contact.moves = false;
-    set_goal();
-    add_goal(contact, nullptr);
-  }
-  /// As they are, after look().
-  const Rows& rows() const noexcept { return rows_; }
   /// To be called where the beam has moved.
   void look(int k) noexcept {
     const int e = rows_.element(k);
     beam_.set_tension(e, rows_.look(beam_, e));
   }
-  void look_at_friction(int k) noexcept {
-    look(k);
-    rows_.friction(k)->look(rows_[k]);
-  }
-  /// Of no contact any more.
-  void forget_friction() noexcept { rows_.forget_friction(); }
-  /// The force of contact k of the last linear equations, along the normal of a held place or toward the centre of what is round.
-  /// It stays where a descent is on its way: that of the last equilibrium [N].
-  Scalar linear_reaction(int k = 0) const noexcept { return reactions_[at(k)]; }
-  /// V - λ f · x after the last iterate(), friction's included, to third order of its increment [J].
-  Scalar foreseen_potential() const noexcept { return foreseen_potential_; }
-
   /// Sets the whole state, without a contact.
-  void set_state(const Mesh&, const State& state) noexcept { go_back(state, 0); }
+  void set_state(const State& state) noexcept { go_back(state, 0); }
   /// Back to an equilibrium that was left.  @param force  of its first contact [N]
   void go_back(const State& state, Scalar force) noexcept {
     Shape::set(state);
-    rows_.clear();
-    reactions_[0] = force;
+    Contacts::let_go(force);
   }
   /// The state of the same system in another scalar.
   template <class Other>
   void take_state(const Other& other) noexcept {
     Shape::take(other);
-    rows_.clear();
-    reactions_ = {};
+    Contacts::let_go(0);
   }
 
   // Required by NewtonRaphson.
@@ -131,23 +101,19 @@ class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxEl
   static constexpr bool in_pairs = Shape::Parts::has_tensions;
 
   void set_target(Scalar t) noexcept {
-    load_ = t < 1 ? start_load_ + t * (1 - start_load_) : Scalar(1);
-    rows_.aim(t, [this](int k) { return reach_now(k); });
+    Contacts::aim(t);
     for (auto& end : ends_) end.set_target(t);
     beam_.set_turning(1);
     last_size_ = std::numeric_limits<Scalar>::infinity();
   }
   void save() noexcept {
     this->keep(saved_);
-    rows_.save();
-    saved_load_ = load_, saved_reactions_ = reactions_;
+    Contacts::save_contacts();
   }
   void restore() noexcept {
     Shape::take_back();
-    rows_.restore();
-    load_ = saved_load_, reactions_ = saved_reactions_;
+    Contacts::restore_contacts();
   }
-  /// √(2V), or what the weakest of several contacts is worth, the force of which has to be exact, too [√J].
   Scalar size() const noexcept { return weight_; }
   /// Strain energy before the last increment, at least that of a bend by 10⁻⁴ rad, of which no snap is told [J].
   Scalar strain() const noexcept { return (size_ * size_ + Scalar(1e-8) * unit_ * unit_) / 2; }
@@ -164,12 +130,8 @@ class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxEl
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
-    for (int k = 0; k < rows_.size(); ++k) reactions_[at(k)] = rows_.reaction(k);
-    if (!rows_.any()) reactions_[0] = 0;
-    rows_.feel_friction();
-    if constexpr (Rows::most > 1)
-      if (rows_.size() > 1) weight_ = std::clamp(std::sqrt(rows_.weakest()), least_weight * size_, size_);
-    foreseen_potential_ = potential_ + (rows_.any() ? rows_.foreseen_change() : -assembler_.energy() / 2);
+    Contacts::feel(potential_, assembler_.energy());
+    weight_ = Contacts::weight(size_);
     advance();
     const Scalar size = increment();
     // Where the last increment has blown the state up, this one is small beside it.
@@ -325,9 +287,7 @@ class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxEl
   Scalar total_potential() const noexcept { return strain_energy() - beam_.work(load_); }
   /// What the section at s carries, in a piece of drawn(), which holds s.   @param thickness [m]
   InternalForces<Scalar> internal_forces(int piece, Scalar s, Scalar thickness) const noexcept {
-    int e = piece;
-    for (int k = 0; k < Rows::most; ++k)
-      if (marks_[at(k)] <= piece) --e;
+    int e = drawn_.element_of(piece);
     // Where a contact was drawn instead of a node.
     if (e > 0 && s < node(e).s) --e;
     else if (e + 1 < elements() && s > node(e + 1).s) ++e;
@@ -362,50 +322,17 @@ class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxEl
 
   /// To be called where the beam has moved.
   void draw() noexcept {
-    // Where contacts are that are apart from each other and from nodes; what is left stands in the middle of other elements.
-    std::array<Node, Rows::most> marks;
-    int count = 0;
-    const auto is_apart = [&](Scalar s) {
-      const int e = element_at(s);
-      const Scalar apart = (node(e + 1).s - node(e).s) / 1000;
-      bool is = s - node(e).s > apart && node(e + 1).s - s > apart;
-      for (int k = 0; k < count; ++k) is = is && std::abs(marks[at(k)].s - s) > apart;
-      return is;
-    };
-    // One that is beside a node of the mesh is drawn instead of it.
-    std::array<std::pair<int, Node>, Rows::most> instead;
-    int replaced = 0;
-    for (int k = 0; k < rows_.size(); ++k) {
-      const int e = element_at(rows_[k].s),
-                close_by = rows_[k].s - node(e).s < node(e + 1).s - rows_[k].s ? e : e + 1;
-      if (is_apart(rows_[k].s)) marks[at(count++)] = mark(k);
-      else if (0 < close_by && close_by < elements() &&
-               std::abs(rows_[k].s - node(close_by).s) < (node(e + 1).s - node(e).s) / 50)
-        instead[at(replaced++)] = {close_by, mark(k)};
-    }
-    for (int e = 0; count < Rows::most; ++e) {
-      const Scalar from = node(e).s, to = node(e + 1).s, middle = (from + to) / 2;
-      bool empty = true;
-      for (int k = 0; k < count; ++k) empty = empty && !(from < marks[at(k)].s && marks[at(k)].s < to);
-      if (!empty) continue;
-      const Node &a = node(e), &b = node(e + 1);
-      const bool straight = a.theta == 0 && b.theta == 0 && a.u == b.u && a.w == b.w;
-      const Displacement<Scalar> there =
-          straight ? Displacement<Scalar>{a.u, a.w, 0} : this->centreline().at(e, middle);
-      marks[at(count++)] = {middle, there.u, there.w, there.theta};
-    }
-    std::sort(marks.begin(), marks.end(), [](const Node& a, const Node& b) { return a.s < b.s; });
-    int to = 0, next = 0;
-    for (int i = 0; i <= elements(); ++i) {
-      for (; next < Rows::most && marks[at(next)].s < node(i).s; ++next) {
-        marks_[at(next)] = to;
-        drawn_[to++] = marks[at(next)];
-      }
-      drawn_[to] = node(i);
-      for (int k = 0; k < replaced; ++k)
-        if (instead[at(k)].first == i) drawn_[to] = instead[at(k)].second;
-      ++to;
-    }
+    drawn_.draw(
+        elements(), [this](int i) -> const Node& { return node(i); },
+        [this](Scalar s) { return element_at(s); }, rows_.size(), [this](int k) { return rows_[k].s; },
+        [this](int k) { return mark(k); },
+        [this](int e, Scalar s) {
+          const Node &a = node(e), &b = node(e + 1);
+          const bool straight = a.theta == 0 && b.theta == 0 && a.u == b.u && a.w == b.w;
+          const Displacement<Scalar> there =
+              straight ? Displacement<Scalar>{a.u, a.w, 0} : this->centreline().at(e, s);
+          return Node{s, there.u, there.w, there.theta};
+        });
   }
   Centreline<Scalar> drawn() const noexcept { return {drawn_.data(), drawn_.size(), any_rotation<Element>}; }
   /// n · (u, w) of it at s [m].
@@ -415,17 +342,19 @@ class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxEl
   }
 
  protected:
-  Scalar load_ = 0;  // of the dead loads
+  using Contacts::load_;
 
  private:
+  friend Contacts;
+  using Contacts::rows_;
   using Shape::beam_;
   using Shape::length_;
   using Shape::saved_;
   static constexpr std::size_t at(int k) noexcept { return static_cast<std::size_t>(k); }
-  static constexpr int with_marks(int size) noexcept {
-    return size == Eigen::Dynamic ? size : size + contacts_of<Element>;
-  }
   int end(std::size_t k) const noexcept { return k == 0 ? 0 : elements(); }
+  void begin_path() noexcept {
+    for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(node(end(k)));
+  }
 
   int element_at(Scalar s) const noexcept { return this->centreline().segment_at(s); }
   /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one.  Where a body bends the beam by a radian within
@@ -433,13 +362,6 @@ class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxEl
   int element_at(Scalar s, int before) const noexcept {
     const Scalar from = node(before).s, to = node(before + 1).s, over = (to - from) / 100;
     return from - over <= s && s <= to + over ? before : element_at(s);
-  }
-  /// At which contact k is where it is.
-  Scalar reach_now(int k) noexcept {
-    const Contact& contact = rows_[k];
-    look(k);
-    if (contact.kind == Contact::Kind::round) return contact.normal.dot(contact.place - contact.centre);
-    return contact.normal.dot(contact.place - Vector2<Scalar>(contact.s, 0));
   }
   /// A node of drawn() where a contact is.
   Node mark(int k) noexcept {
@@ -469,17 +391,12 @@ class BeamSystem : public detail::BeamShape<Element, ScalarType, Elements, MaxEl
   }
 
   Assembler assembler_;
-  Rows rows_;
   typename Shape::Nodes before_;  // the last increment
   std::array<detail::EndSupport<Scalar>, 2> ends_;
-  std::array<Scalar, contacts_of<Element>> reactions_{}, saved_reactions_{};  // [N]
-  Scalar saved_load_ = 0, start_load_ = 0;
   static constexpr Scalar near_ = Scalar(0.05);  // to an equilibrium: an increment in units of the state
-  static constexpr Scalar least_weight = Scalar(0.1);  // of a contact that may let go
-  Scalar size_ = 0, last_size_ = 0, weight_ = 0, longer_ = 0, potential_ = 0, foreseen_potential_ = 0, unit_;
+  Scalar size_ = 0, last_size_ = 0, weight_ = 0, longer_ = 0, potential_ = 0, unit_;
   Scalar stiffness_ = 0;  // of all elements, along and across [N/m]
-  detail::PerNode<Node, with_marks(Elements), with_marks(MaxElements)> drawn_{with_marks(elements())};
-  std::array<int, contacts_of<Element>> marks_{};  // nodes of drawn() that are not of the mesh
+  detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>> drawn_{elements()};
 };
 
 namespace detail {

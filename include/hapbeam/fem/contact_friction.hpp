@@ -21,10 +21,7 @@ class ContactFriction : public FrictionLaw<Scalar, D> {
   ContactFriction(const FrictionState<Scalar, D>& state, const RoundContact<Scalar>& round,
                   const System& system, Scalar normal_force, bool alone) noexcept
       : round_(round) {
-    const auto line = [&system] {
-      if constexpr (D == 2) return system.drawn();
-      else return system.centreline();
-    }();
+    const auto line = system.drawn();
     const auto node = round.node_at(line, round.request().s);
     const Scalar per_length = system.unit() / system.length();
     const int beside = line.node_near(round.request().s);
@@ -36,22 +33,22 @@ class ContactFriction : public FrictionLaw<Scalar, D> {
                 system.length() / 1000, normal_force);
   }
 
-  /// In a plane, where this is a copy of that of another place of the avatar.   @param node  where they touch
+  /// Where this is a copy of that of another place of the avatar.   @param node  where they touch
   template <class Node>
   void begin_beside(const Node& node) noexcept {
-    const VectorOf<Scalar, D> way = round_.request().centre - round_.place_of(node);
-    FrictionLaw<Scalar, D>::begin_beside(round_.place(node.s, VectorOf<Scalar, D>(way.normalized())));
+    FrictionLaw<Scalar, D>::begin_beside(round_.place(round_.look(node, 0), node));
   }
   /// To be called where the beam has moved.  @param contact  an InnerContact
   template <class Contact>
   void look(const Contact& contact) noexcept {
-    FrictionLaw<Scalar, D>::look(round_.place(contact.s, VectorOf<Scalar, D>(-contact.normal)));
+    FrictionLaw<Scalar, D>::look(round_.friction_place(contact));
   }
-  /// The same of one at a node.  @param contact  of the system   @param node  of it
-  template <class Contact, class Node>
-  void look(const Contact& contact, const Node& node) noexcept {
-    FrictionLaw<Scalar, D>::look(contact.round() ? round_.place(contact.view(node), node)
-                                                 : round_.place(contact.normal(), node));
+  /// Its force on the contact, after that.
+  template <class Contact>
+  void give(Contact& contact) const noexcept {
+    contact.friction = this->force();
+    if constexpr (D == 2) contact.friction_stiffness = this->stiffness();
+    else contact.friction_tangent = this->tangent();
   }
 
  private:

@@ -19,18 +19,28 @@
 
 #include <hapbeam/body/split_element.hpp>
 #include <hapbeam/body/touched_element.hpp>
+#include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
+
+/// What an element is to a beam that is touched there.  Elements in space have theirs in touched_rod.hpp.
+template <class Element, typename Scalar, int Most, typename = void>
+struct TouchedOf {
+  using Type = std::conditional_t<has_own_tension<Element>, TouchedElement<Element, Scalar, Most>,
+                                  SplitElement<Element, Scalar, Most>>;
+};
 
 /// @tparam Most  contacts
 template <class Element, typename Scalar, class Assembler, class Friction, int Most>
 class ContactRows {
  public:
-  using Contact = InnerContact<Scalar>;
-  using Touched = std::conditional_t<has_own_tension<Element>, TouchedElement<Element, Scalar, Most>,
-                                     SplitElement<Element, Scalar, Most>>;
-  static constexpr int most = Most;
+  using Contact = InnerContact<Scalar, dimension_of<Element>>;
+  using Touched = typename TouchedOf<Element, Scalar, Most>::Type;
+  using Vector = VectorOf<Scalar, dimension_of<Element>>;
+  static constexpr int most = Most, unknowns = unknowns_of<Element>();
+  using Residual = VectorOf<Scalar, 2 * unknowns>;
+  using Tangent = Eigen::Matrix<Scalar, 2 * unknowns, 2 * unknowns>;
 
   explicit ContactRows(int elements) : ContactRows(elements, std::make_index_sequence<Most>()) {}
 
@@ -52,11 +62,9 @@ class ContactRows {
   void add(const Contact& goal, int element, Friction* friction) noexcept {
     Row& row = rows_[of(size_++)];
     row.contact = goal, row.element = element, row.friction = friction;
-    RootedPiece<Scalar>& piece = row.contact.piece;
-    if (piece.element != element) piece.root = RootedPiece<Scalar>::Root::none;
-    piece.element = element;
-    if (piece.next >= 0) piece.next = unknown;
-    row.goal = goal.reach, row.centre = goal.centre, row.by = 0, row.from = -1;
+    row.contact.rough = friction != nullptr;
+    row.contact.enter(element), row.contact.forget_order();
+    row.goal = goal.reach, row.centre = row.contact.centre_or_tip(), row.by = 0, row.from = -1;
     starts_known_ = false;
   }
   /// So far along the path.  @param now  (k) -> reach at which contact k is where it is
@@ -71,11 +79,8 @@ class ContactRows {
         contact.reach = t < 1 ? row.start + t * (row.goal - row.start) : row.goal;
         continue;
       }
-      // From where the circle touches the beam as it lies.
-      const Vector2<Scalar> across =
-          contact.side * Vector2<Scalar>(contact.tangent.y(), -contact.tangent.x());
-      if (starts) row.way = contact.place - row.goal / across.norm() * across - row.centre;
-      contact.centre = t < 1 ? row.centre + (1 - t) * row.way : row.centre;
+      if (starts) row.way = contact.way_to_curve();
+      contact.centre_or_tip() = t < 1 ? Vector(row.centre + (1 - t) * row.way) : row.centre;
     }
     starts_known_ = starts_known_ || starts;
   }
@@ -87,9 +92,9 @@ class ContactRows {
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[of(k)];
       const Scalar reach = row.contact.reach;
-      const Vector2<Scalar> centre = row.contact.centre;
+      const Vector centre = row.contact.centre_or_tip();
       row.contact = row.saved, row.element = row.saved_in, row.by = 0;
-      row.contact.reach = reach, row.contact.centre = centre;
+      row.contact.reach = reach, row.contact.centre_or_tip() = centre;
     }
   }
   /// The beam falls, and the forces of before are no longer there.
@@ -118,6 +123,15 @@ class ContactRows {
     touched.look();
     return touched.tension();
   }
+  /// Brings contacts to where they touch the curve as it lies.
+  template <class Parts>
+  void seek(const Parts& beam) noexcept {
+    for (int k = 0; k < size_; ++k) {
+      Row& row = rows_[of(k)];
+      if (row.contact.kind == Contact::Kind::round && row.contact.moves && row.contact.seeks)
+        Touched::seek(beam, row.element, row.contact);
+    }
+  }
   /// Strain energy of a touched element [J].
   template <class Parts>
   Scalar strain_energy(const Parts& beam, int e) const noexcept {
@@ -129,7 +143,7 @@ class ContactRows {
 
   /// Residual and tangent of a touched element, its contacts included.  @return V [J]
   template <class Parts>
-  Scalar touch(const Parts& beam, int e, Vector6<Scalar>& r, Matrix6<Scalar>& K) noexcept {
+  Scalar touch(const Parts& beam, int e, Residual& r, Tangent& K) noexcept {
     int first = -1, number = 0;
     Touched* touched = nullptr;
     each_in(e, [&](int k) {
@@ -142,8 +156,7 @@ class ContactRows {
       Row& row = rows_[of(k)];
       if (!row.friction) return;
       row.friction->look(row.contact);
-      row.contact.friction = row.friction->force();
-      row.contact.friction_stiffness = row.friction->stiffness();
+      row.friction->give(row.contact);
     });
     each_in(e, [&](int k) {
       Row& row = rows_[of(k)];
@@ -152,15 +165,21 @@ class ContactRows {
     });
     return energy;
   }
-  /// Of an unknown of a node whose increment is known.
-  void prescribe(int node, int component, Scalar increment) noexcept {
+  /// Calls change(what each row has of the unknowns of a node, its residual).
+  template <class Change>
+  void visit_node(int node, Change&& change) noexcept {
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[of(k)];
-      if (node != row.element && node != row.element + 1) continue;
-      const int i = component + (node == row.element ? 0 : 3);
-      row.residual += row.b[i] * increment;
-      row.b[i] = 0;
+      if (node == row.element) change(row.b.template head<unknowns>(), row.residual);
+      else if (node == row.element + 1) change(row.b.template tail<unknowns>(), row.residual);
     }
+  }
+  /// Of an unknown of a node whose increment is known.
+  void prescribe(int node, int component, Scalar increment) noexcept {
+    visit_node(node, [&](auto&& b, Scalar& residual) {
+      residual += b[component] * increment;
+      b[component] = 0;
+    });
   }
   Status solve(Assembler& assembler) noexcept {
     Status status = assembler.factor();
@@ -268,15 +287,12 @@ class ContactRows {
         contact.rests = row.element == row.from && std::abs(at - row.crossed) < close_by * contact.most;
         row.from = left, row.crossed = at;
       }
-      if (row.element == contact.piece.element) continue;
-      contact.piece.root = RootedPiece<Scalar>::Root::none;
-      contact.piece.element = row.element;
+      contact.enter(row.element);
     }
     return longer;
   }
 
  private:
-  static constexpr int unknown = -2;
   static constexpr Scalar close_by = Scalar(1e-4);  // of a length
   struct Row {
     explicit Row(int elements) : column(elements) {}
@@ -285,12 +301,13 @@ class ContactRows {
     int from = -1;       ///< element that it has left,
     Scalar crossed = 0;  ///< and where it came from there [m]
     Friction* friction = nullptr;
-    Scalar start = 0, goal = 0;               ///< of reach, on the path [m]
-    Vector2<Scalar> centre{0, 0}, way{0, 0};  ///< where the path ends, and from where it begins [m]
+    Scalar start = 0, goal = 0;  ///< of reach, on the path [m]
+    Vector centre = Vector::Zero(),
+           way = Vector::Zero();  ///< where the path ends, and from where it begins [m]
     std::optional<Touched> touched;
     int first = 0;   ///< row that has its element
     int number = 0;  ///< in that
-    Vector6<Scalar> b = Vector6<Scalar>::Zero();
+    Residual b = Residual::Zero();
     Scalar residual = 0, by = 0;  ///< [m], Δλ [N]
     typename Assembler::Column column;
   };

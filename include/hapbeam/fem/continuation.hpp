@@ -3,7 +3,7 @@
 //   V - V before = W - D        W: what the hands gave (contact_work.hpp), D: what friction has taken
 //
 // holds to third order of the step on one branch of equilibria.  Newton's method may land on another one, stable and with all pivots positive.  The energy is
-// another there, and the beam has gone farther than the hand.  (Where the mesh of a rod has moved the energy may be another, too; there the rod has not.)
+// another there, and the beam has gone farther than the hand.
 // Such an answer is sought again in halves and quarters of the hand's way, each from the one before.  The trapezoids' error falls by eight with each half.
 // What is off in a quarter still has snapped; where most of its energy has come from nowhere no snap leads there, and the beam falls from where it was (Descent).
 // Real-time: noexcept, no allocation, O(1) but for the answers that are sought again: at most eight times, and the linear solves of AllDisplacements in all.
@@ -20,7 +20,6 @@ namespace hapbeam::detail {
 /// What the energy says of an answer.
 enum class Branch {
   same,   ///< the last one's
-  doubt,  ///< the last one's, unless it is so in a shorter step
   other,  ///< another one
   risen   ///< another one, and most of its energy has come from nowhere
 };
@@ -33,7 +32,6 @@ struct Continued {
   Scalar loose;      ///< what trapezoids may leave [J]
   Scalar strain;     ///< strain energy [J]
   Scalar length;     ///< of the beam [m]
-  bool same_mesh;    ///< as many elements on either side as before
 };
 
 /// What trapezoids may leave of forces that rise or fall all along, and a twentieth of the work besides [J].
@@ -115,8 +113,6 @@ class Continuation {
     if (!known_ || off <= little * now.strain) return Branch::same;
     const auto [hand, gone] = how_far();
     if (gone <= along * hand + now.length / 1000) return Branch::same;
-    if (!now.same_mesh && off <= mesh * now.strain && gone <= along * hand + now.length / 50)
-      return Branch::doubt;
     return rest > stored_ && rest > now.strain / 2 ? Branch::risen : Branch::other;
   }
 
@@ -157,9 +153,8 @@ class Continuation {
   }
 
  private:
-  // Of the strain energy: what solvers and meshes that follow a contact leave, and what those do whose elements change sides.
-  static constexpr Scalar little = Scalar(1e-3), mesh = Scalar(0.05);
-  static constexpr Scalar along = 2;  // times as far as the hand a beam goes with it
+  static constexpr Scalar little = Scalar(1e-3);  // of the strain energy: what solvers leave
+  static constexpr Scalar along = 2;              // times as far as the hand a beam goes with it
 
   Scalar stored_ = 0;
   bool known_ = false, snapped_ = false;

@@ -4,8 +4,8 @@
 //   const auto [force, status] = model.press({0.5 * beam.length(), -2e-3});
 //
 // press() prescribes the transverse displacement of any place, solves by Newton–Raphson with the tangent as predictor, from the
-// last press or from rest, whichever is closer, and returns the reaction (thesis eq. 3.40–3.42).  In the plane the mesh stays and
-// the place lies within an element (contact_rows.hpp); that of a rod in space has a node there.  Elements of finite rotation take a push() along any direction as well, and
+// last press or from rest, whichever is closer, and returns the reaction (thesis eq. 3.40–3.42).  The mesh stays, and
+// the place lies within an element (contact_rows.hpp).  Elements of finite rotation take a push() along any direction as well, and
 // one by a circle.  A beam with
 // more than one shape at rest keeps to the branch on which it is; where that ends or gives way it falls to a stable one,
 // and the status says snapped.
@@ -90,12 +90,12 @@ class FemModel {
   /// @return as press(); invalid_request also where the normal is not unit to half a thousandth
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Response<Scalar> push(const Push<Scalar, dimension>& request) noexcept {
-    const Scalar s = range().nearest({request.s, 0}).s, node = range_.node(s);
+    const Scalar s = range().nearest({request.s, 0}).s;
     const bool is_unit =
         std::abs(request.normal.squaredNorm() - 1) < Scalar(1e-3);  // false for what is no number
     const bool valid = std::isfinite(request.d) && is_unit && range_.on_beam(request.s);
     if constexpr (dimension == 2)
-      if (range_.on_wall(node)) return push_wall(request, s, node, valid);
+      if (const Scalar end = range_.node(s); range_.on_wall(end)) return push_wall(request, s, end, valid);
     return solve({s, request.d, request.normal}, valid, s == request.s);
   }
 
@@ -239,8 +239,7 @@ auto FemModel<Element, Scalar, Elements, MaxElements, Solver>::make_way(const Bo
 template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
 Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Solver>::solve(
     const Push<Scalar, dimension>& nearest, bool valid, bool in_range) noexcept {
-  const Scalar node = range_.node(nearest.s);
-  const Response<Scalar> response = take(ways_, [&](auto& way) { return way.press(nearest, node, valid); });
+  const Response<Scalar> response = take(ways_, [&](auto& way) { return way.press(nearest, valid); });
   return finite(
       {response.force, response.status == Status::ok && !in_range ? Status::out_of_range : response.status});
 }

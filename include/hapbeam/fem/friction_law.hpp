@@ -73,12 +73,12 @@ class FrictionLaw {
     tries_ = 0;
   }
 
-  /// In a plane, where this is a copy of that of another place: it has come along with that.
+  /// Where this is a copy of that of another place: it has come along with that.
   void begin_beside(const Place& here) noexcept {
-    const Vector &from = now_.normal, &to = here.normal;
-    const Scalar c = from.dot(to), s = from.x() * to.y() - from.y() * to.x();
-    for (Vector* way : {&before_.normal, &before_.along})
-      *way = Vector(c * way->x() - s * way->y(), s * way->x() + c * way->y());
+    for (Vector* way : {&before_.normal, &before_.along}) {
+      const Scalar out = way->dot(now_.normal);
+      *way = out * here.normal + here.carried(*way - out * now_.normal, now_);
+    }
     before_.s += here.s - now_.s, before_.ahead += here.ahead - now_.ahead;
     now_ = here;
     tries_ = 0;
@@ -169,8 +169,6 @@ class FrictionLaw {
   bool slides() const noexcept { return slides_; }
   /// T of an equilibrium, after look() [N]
   Vector acting() const noexcept { return slides_ ? force_at(bound_.used()) : force_; }
-  /// Where they touch, after look().
-  const Place& place() const noexcept { return now_; }
   /// What it can hold as it begins to slide, by the last tick [N].
   Scalar last_bound() const noexcept { return bound_.before(); }
   /// Whether it slides without friction.

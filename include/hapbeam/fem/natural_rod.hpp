@@ -38,12 +38,6 @@ class NaturalRod {
     const Piece& piece = pieces_[piece_at(s)];
     return along(piece.from, piece.omega, s - piece.from.s);
   }
-  /// Whether one piece ends and another begins between two places, in order.
-  bool changes_within(Scalar a, Scalar b) const noexcept {
-    const std::size_t k = piece_at(a);
-    return k + 1 < pieces_.size() && pieces_[k].end < b;
-  }
-
   /// Goes a way s along a piece that begins at a node.
   static RodNode<Scalar> along(const RodNode<Scalar>& from, const Vector3& omega, Scalar s) noexcept {
     using std::cos;

@@ -8,13 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hapbeam::detail {
 
-/// @tparam RoundContact  RoundContact<Scalar> | RodRoundContact<Scalar>
-template <class System, class RoundContact>
+/// @tparam Line  Centreline   @tparam RoundContact  RoundContact<Scalar> | RodRoundContact<Scalar>
+template <class Line, class RoundContact>
 class ObstacleGap {
-  using Scalar = typename System::Scalar;
+  using Scalar = decltype(std::declval<const Line&>().length());
 
  public:
   /// Steps of the search.
@@ -23,15 +24,14 @@ class ObstacleGap {
   Scalar s = 0;                                             ///< [m] arc position, where it is near
   Scalar depth = -std::numeric_limits<Scalar>::infinity();  ///< [m] of the beam in it; infinite: far away
 
-  /// @param system  as it lies
-  ObstacleGap(const System& system, const RoundContact& round) noexcept : system_(system), round_(round) {
-    for (int k = 0; k <= system.elements(); ++k) take(k, round.clearance(system.node(k)));
+  /// @param line  as it lies
+  ObstacleGap(const Line& line, const RoundContact& round) noexcept : line_(line), round_(round) {
+    for (int k = 0; k < line.size(); ++k) take(k, round.clearance(line[k]));
     look();
   }
   /// The same for a twin.  @param node, touched  where it touches already   @param apart  [m] least distance from there
-  ObstacleGap(const System& system, const RoundContact& round, int node, Scalar touched,
-              Scalar apart) noexcept
-      : system_(system), round_(round) {
+  ObstacleGap(const Line& line, const RoundContact& round, int node, Scalar touched, Scalar apart) noexcept
+      : line_(line), round_(round) {
     look_beyond(node);
     look_beside(touched, apart);
     look();
@@ -45,15 +45,14 @@ class ObstacleGap {
     s = at, left_ = from, right_ = to, clearance_ = clearance;
   }
   void take(int k, Scalar clearance) noexcept {
-    take(system_.node(k).s, system_.node((std::max)(k - 1, 0)).s,
-         system_.node((std::min)(k + 1, system_.elements())).s, clearance);
+    take(line_[k].s, line_[(std::max)(k - 1, 0)].s, line_[(std::min)(k + 1, line_.segments())].s, clearance);
   }
   void look_beyond(int node) noexcept {
     for (const int step : {-1, 1}) {
       bool falls = false;
-      Scalar before = round_.clearance(system_.node(node));
-      for (int k = node + step; k >= 0 && k <= system_.elements(); k += step) {
-        const Scalar clearance = round_.clearance(system_.node(k));
+      Scalar before = round_.clearance(line_[node]);
+      for (int k = node + step; k >= 0 && k < line_.size(); k += step) {
+        const Scalar clearance = round_.clearance(line_[k]);
         falls = falls || clearance < before;
         if (falls) take(k, clearance);
         before = clearance;
@@ -61,11 +60,11 @@ class ObstacleGap {
     }
   }
   void look_beside(Scalar touched, Scalar apart) noexcept {
-    const Scalar reach = round_.request().reach, length = system_.length();
+    const Scalar reach = round_.request().reach, length = line_.length();
     for (const Scalar way : {-reach / 2, -reach / 4, reach / 4, reach / 2}) {
       const Scalar at = touched + way;
       if (!(std::abs(way) > apart) || at < 0 || at > length) continue;
-      const Scalar clearance = round_.clearance(round_.node_at(system_.centreline(), at));
+      const Scalar clearance = round_.clearance(round_.node_at(line_, at));
       if (clearance < reach)
         take(at, way < 0 ? (std::max)(touched + 2 * way, Scalar(0)) : touched + apart,
              way < 0 ? touched - apart : (std::min)(touched + 2 * way, length), clearance);
@@ -73,19 +72,18 @@ class ObstacleGap {
   }
   void look() noexcept {
     if (!known_) return;
-    const auto line = system_.centreline();
-    const Scalar length = system_.length(), reach = round_.request().reach;
+    const Scalar length = line_.length(), reach = round_.request().reach;
     const auto view_at = [&](const auto& node) {
       return round_.look(node, s <= 0 ? -1 : s >= length ? 1 : 0);
     };
     // What is far away does not touch, unless the beam has gone past it in this push.
-    const auto start = round_.node_at(line, s);
+    const auto start = round_.node_at(line_, s);
     const auto beside = view_at(start);
     if (round_.clearance(start) - reach > right_ - left_ + length / 100 &&
         (beside.past_end || round_.distance(beside) > 0))
       return;
     for (int step = 0; step < most_looks; ++step) {
-      const auto view = view_at(round_.node_at(line, s));
+      const auto view = view_at(round_.node_at(line_, s));
       depth = reach - round_.distance(view);
       const Scalar next = std::clamp(s + round_.ahead(view), left_, right_);
       if (std::abs(next - s) <= Scalar(1e-6) * length) break;
@@ -93,7 +91,7 @@ class ObstacleGap {
     }
   }
 
-  const System& system_;
+  const Line& line_;
   const RoundContact round_;
   bool known_ = false;
   Scalar left_ = 0, right_ = 0, clearance_ = 0;

@@ -26,12 +26,11 @@ class OneTension {
   OneTension(const Beam& beam, int elements, const Solver& solver)
       : system_(beam, elements), uniform_(elements, system_.length()), solver_(solver) {}
 
-  /// @param node  [m] at or beside the contact, where the shape has a node
-  Response<Scalar> press(const Push<Scalar>& request, Scalar node, bool valid) noexcept {
+  Response<Scalar> press(const Push<Scalar>& request, bool valid) noexcept {
     const Scalar first_step = report_.step;
     report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
     if (!valid) return {0, Status::invalid_request};
-    system_.set_goal(uniform_.at(node), request.s, request.d);
+    system_.set_goal(uniform_.at(request.s), request.s, request.d);
     report_ = solver_.solve(system_, first_step);
     if (report_.steps > 0) system_.lay();
     else system_.take_back();

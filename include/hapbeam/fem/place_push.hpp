@@ -1,6 +1,6 @@
 // A push of a beam or rod at a given place along a given direction: the press of the thesis, and what leads it in tests and choosers.
 //
-// In the plane the place lies within an element of a mesh that stays; that of a rod has its node there.  An answer continues the last one, or says that it does not (continuation.hpp).  The work of a push that has led
+// The place lies within an element of a mesh that stays.  An answer continues the last one, or says that it does not (continuation.hpp).  The work of a push that has led
 // from n₋ · u(s₋) = d₋ to n · u(s) = d is, by trapezoids,
 //
 //   W = ½ F₋ (d - n · u₋(s)) + ½ F (n₋ · u(s₋) - d₋)
@@ -19,59 +19,53 @@ namespace hapbeam::detail {
 template <class Element, class System>
 class PlacePush {
   using Scalar = typename System::Scalar;
-  using Mesh = typename System::Mesh;
   static constexpr int dimension = dimension_of<Element>;
   using Request = Push<Scalar, dimension>;
 
  public:
-  explicit PlacePush(const System& system) : before_(system.elements()), mesh_(system.mesh()) {}
+  explicit PlacePush(const System& system) : before_(system.elements()) {}
 
   /// To be called where something else moves the beam.
   void forget() noexcept { continuation_.forget(); }
 
-  /// @param way  AllDisplacements, which settles the system   @param node  [m] where the mesh has its node: at request.s, or at an end beside it
+  /// @param way  AllDisplacements, which settles the system
   template <class Way>
-  Response<Scalar> push(Way& way, const Request& request, Scalar node) noexcept {
+  Response<Scalar> push(Way& way, const Request& request) noexcept {
     // A straight beam has one shape for each press.
     if (way.single_valued_) {
       continuation_.forget();
-      return answer(way, request, node);
+      return answer(way, request);
     }
     System& system = way.system_;
     if (!(last_.normal.dot(request.normal) > 0)) continuation_.forget();
     const Request from = last_;
-    const Scalar from_node = node_;
     Request next;
     Scalar force = 0, ahead = 0;
     bool stays = false;  // at its place, along its direction
     const auto go = [&](Scalar t) {
       next = between(from, request, t);
-      node_ = t < 1 ? from_node + t * (node - from_node) : node;
-      system.keep(before_), mesh_ = system.mesh(), force = system.linear_reaction();
+      system.keep(before_), force = system.linear_reaction();
       stays = continuation_.known() && next.s == last_.s && next.normal == last_.normal;
       ahead = next.d - (stays ? last_.d : system.displacement(next.s, next.normal));
-      return answer(way, next, node_);
+      return answer(way, next);
     };
     const auto judge = [&](const Response<Scalar>& found) {
       const Scalar behind = stays ? ahead : system.displacement(last_.s, last_.normal) - last_.d;
       const Scalar before = force * ahead, now = found.force * behind;
-      return continuation_.judge({system.foreseen_potential(), (before + now) / 2,
-                                  loose(std::abs(before) + std::abs(now), std::abs(now - before)),
-                                  system.strain(), system.length(), system.mesh().node() == mesh_.node()},
-                                 [&] {
-                                   return Gone<Scalar>{std::abs(ahead) + std::abs(next.s - last_.s),
-                                                       farthest(system.view(before_), system.centreline())};
-                                 });
+      return continuation_.judge(
+          {system.foreseen_potential(), (before + now) / 2,
+           loose(std::abs(before) + std::abs(now), std::abs(now - before)), system.strain(), system.length()},
+          [&] {
+            return Gone<Scalar>{std::abs(ahead) + std::abs(next.s - last_.s),
+                                farthest(system.view(before_), system.centreline())};
+          });
     };
     const auto keep = [&](const Response<Scalar>& found) {
       if (!is_answer(found.status)) return continuation_.forget();
       continuation_.know(system.foreseen_potential());
       last_ = next;
     };
-    const auto back = [&] {
-      if constexpr (dimension == 2) system.go_back(before_, force);
-      else system.go_back(mesh_, before_, force);
-    };
+    const auto back = [&] { system.go_back(before_, force); };
     const auto fall = [&] {
       back();
       way.descending_ = true;
@@ -81,30 +75,20 @@ class PlacePush {
 
  private:
   template <class Way>
-  static Response<Scalar> answer(Way& way, const Request& request, Scalar node) noexcept {
+  static Response<Scalar> answer(Way& way, const Request& request) noexcept {
     using std::abs;
     System& system = way.system_;
     const Scalar last = system.linear_reaction(), s = request.s;
     if (way.single_valued_ && abs(request.d - system.displacement(way.rest_state_, s, request.normal)) <
                                   abs(request.d - system.displacement(s, request.normal)))
       way.to_rest();
-    if constexpr (dimension == 2) {
-      // Within an element of a mesh that stays.
-      const Response<Scalar> found = way.settle(last, 1, [&] { system.set_goal(request, last); });
-      system.draw();
-      return found;
-    } else {
-      const Mesh mesh = way.uniform_.at(node);
-      system.remesh(mesh);
-      return way.settle(last, 1,
-                        [&] { system.set_goal(mesh.node(), request.d, s - mesh.s(), request.normal); });
-    }
+    const Response<Scalar> found = way.settle(last, 1, [&] { system.set_goal(request, last); });
+    system.draw();
+    return found;
   }
 
   typename System::State before_;
-  Mesh mesh_;                                                // of before_
   Request last_{0, 0, VectorOf<Scalar, dimension>::Zero()};  // answered
-  Scalar node_ = 0;                                          // [m] of it
   Continuation<Scalar> continuation_;
 };
 

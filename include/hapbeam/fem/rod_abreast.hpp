@@ -45,16 +45,6 @@ class RodAbreast {
     });
     take_length(e, from);
   }
-  /// The lengths alone of all.
-  template <class AllProperties>
-  void take_lengths(const AllProperties& all) noexcept {
-    for (int first = 0; first < 2 * order_.pairs(); first += lanes) {
-      const auto which = elements(first);
-      auto& to = wide_[first / lanes];
-      to.length = gather(which, [&all](int e) { return all[e].length; });
-      to.inverse_length = gather(which, [&all](int e) { return all[e].inverse_length; });
-    }
-  }
 
  private:
   void take_length(int e, const RodProperties<Scalar>& from) noexcept {

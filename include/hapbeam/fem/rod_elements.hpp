@@ -1,10 +1,11 @@
-// The elements of one rod on a mesh whose nodes move: strain energy, dead loads, foundations, and their derivatives; and what a
+// The elements of one rod on a mesh that stays: strain energy, dead loads, foundations, and their derivatives; and what a
 // section carries.
 //
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include <hapbeam/element/pack.hpp>
@@ -110,14 +111,39 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     if (!bed_.empty()) (void)bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, unused);
     if (!loads_.empty()) loads_.template subtract<unknowns>(e, lambda, r);
   }
+  /// A node where the mesh has none, in element e, which holds s.
+  Node node_within(int e, Scalar s) const noexcept {
+    const Node &a = nodes_[e], &b = nodes_[e + 1];
+    const RodPoint<Scalar> at = view(nodes_).at(e, s);
+    return {s, at.r, at.tangent,
+            detail::across(director_within(e, (s - a.s) / (b.s - a.s)), detail::unit(at.tangent))};
+  }
   /// What the section at s carries, in element e, which holds s.
-  InternalForces<Scalar, 3> internal_forces(int e, Scalar at, Scalar lambda) const noexcept {
+  /// @param contacts  calls its argument with place, force and point of each of that element [m], [N]
+  template <class EachContact>
+  InternalForces<Scalar, 3> internal_forces(int e, Scalar at, Scalar lambda,
+                                            EachContact&& contacts) const noexcept {
     using Vector3 = VectorOf<Scalar, 3>;
     const Node &a = nodes_[e], &b = nodes_[e + 1];
     const Scalar s = (std::min)((std::max)(at, a.s), b.s), t = (s - a.s) / (b.s - a.s);
     const Centreline<Scalar, 3> line = view(nodes_);
     Residual r;
     residual(e, lambda, r);
+    contacts([&](Scalar x, const Vector3& force, const Vector3& there) {
+      const RodPoint<Scalar> on_cubic = line.at(e, x);
+      const Scalar f = (x - a.s) * properties_[e].inverse_length, g = 1 - f, l = properties_[e].length;
+      const detail::CubicWeights<Scalar> w(f, properties_[e].inverse_length);
+      // What stands off the cubic has a moment, which turns the tangent there.
+      const Scalar stretched = std::sqrt(on_cubic.tangent.squaredNorm());
+      const Vector3 u = on_cubic.tangent / stretched,
+                    moment = detail::cross3<Scalar>(there - on_cubic.r, force),
+                    turns = detail::cross3<Scalar>(moment, u) / stretched;
+      r.template segment<3>(0) -= g * g * (1 + 2 * f) * force - w.a * turns;
+      r.template segment<3>(3) -= l * f * g * g * force + w.a1 * turns;
+      r.template segment<3>(unknowns) -= f * f * (3 - 2 * f) * force + w.a * turns;
+      r.template segment<3>(unknowns + 3) -= w.a2 * turns - l * f * f * g * force;
+      if constexpr (has_twist) r[6] -= g * u.dot(moment), r[13] -= f * u.dot(moment);
+    });
     const auto moment = [&r](int row, const Vector3& tangent) {
       Vector3 m = detail::cross3<Scalar>(tangent, r.template segment<3>(row + 3));
       if constexpr (has_twist) m += r[row + 6] * detail::unit(tangent);
@@ -128,6 +154,10 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     cut.go(place.r);
     end.go(b.r);
     loads_.pass(line, e, lambda, s, cut, end);
+    contacts([&](Scalar x, const Vector3& force, const Vector3& there) {
+      end.pass(force, there);
+      if (x < s) cut.pass(force, there);
+    });
     const auto lie = [&](detail::RodCut<Scalar>& of, Scalar to) {
       bed_.visit(a.s, to, natural_, [&](Scalar x, const Eigen::Matrix<Scalar, 3, 3>& k, const Vector3& home) {
         const Vector3 there = line.at(e, x).r;
@@ -137,10 +167,7 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     if (!bed_.empty()) lie(end, b.s), lie(cut, s);
     cut.moment += t * (moment(unknowns, b.tangent) - end.moment);
     loads_.spread(lambda, s, a.s, place.tangent, cut);
-    Vector3 director;
-    if constexpr (has_twist) director = Element::director(properties_[e], a, b, twists_[e], t);
-    else director = detail::CarriedFrame<Scalar>(properties_[e], a, b).director(a.director, 0, t);
-    return cut.in_section(director, detail::unit(place.tangent), profile_.at(s), surface_);
+    return cut.in_section(director_within(e, t), detail::unit(place.tangent), profile_.at(s), surface_);
   }
   /// [J]
   Scalar strain_energy() const noexcept {
@@ -181,6 +208,12 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
   using WideInner = typename Element::template Inner<Wide>;
   using Stiffness = detail::RodTangentOf<Element, Wide>;
 
+  /// @param t  ξ
+  VectorOf<Scalar, 3> director_within(int e, Scalar t) const noexcept {
+    const Node &a = nodes_[e], &b = nodes_[e + 1];
+    if constexpr (has_twist) return Element::director(properties_[e], a, b, twists_[e], t);
+    else return detail::CarriedFrame<Scalar>(properties_[e], a, b).director(a.director, 0, t);
+  }
   int places() const noexcept { return 2 * abreast_.order().pairs(); }
   /// @param first  of the places of elements   @param inner, a, b  out: their twists and nodes
   [[gnu::always_inline]] void gather(int first, [[maybe_unused]] WideInner& inner, RodNode<Wide>& a,

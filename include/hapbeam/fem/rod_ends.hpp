@@ -7,7 +7,6 @@
 
 #include <cstddef>
 
-#include <hapbeam/fem/rod_contact.hpp>
 #include <hapbeam/fem/rod_end.hpp>
 
 namespace hapbeam::detail {
@@ -20,7 +19,6 @@ class RodEnds {
   using Matrix = Eigen::Matrix<Scalar, 3, 3>;
   using Increment = VectorOf<Scalar, Unknowns>;
   using Block = Eigen::Matrix<Scalar, Unknowns, Unknowns>;
-  using Contact = RodContact<Scalar>;
 
  public:
   /// @param nodes  of the natural shape
@@ -33,10 +31,9 @@ class RodEnds {
   RodEnd<Scalar>* begin() noexcept { return ends_; }
   RodEnd<Scalar>* end() noexcept { return ends_ + 2; }
   int node(std::size_t k) const noexcept { return k == 0 ? 0 : last_; }
-  /// Whether a node is an end that holds something, or at which the rod is touched.
-  bool has(int node, const Contact* contact) const noexcept {
-    return (node == 0 && (contact || !ends_[0].is_free())) ||
-           (node == last_ && (contact || !ends_[1].is_free()));
+  /// Whether a node is an end that holds something.
+  bool has(int node) const noexcept {
+    return (node == 0 && !ends_[0].is_free()) || (node == last_ && !ends_[1].is_free());
   }
 
   /// A path begins where the ends are.
@@ -76,30 +73,49 @@ class RodEnds {
     return energy;
   }
 
-  /// After all else is in the assembler's system, but for a contact within the rod.  @param contact  at end k, null: none
+  /// After all else is in the assembler's system.
   template <class Assembler, class Node>
-  void hold(std::size_t k, const Node& at, const Contact* contact, Assembler& assembler) noexcept {
-    const int i = node(k);
-    if (is_clamped(k, contact)) {
+  void hold(std::size_t k, const Node& at, Assembler& assembler) noexcept {
+    if (is_clamped(k)) {
       prescribed_[k] = ends_[k].template way<Increment>(at);
-      assembler.clamp(i, ends_[k].direction(), prescribed_[k]);
+      assembler.clamp(node(k), ends_[k].direction(), prescribed_[k]);
+    } else if (!ends_[k].is_free()) {
+      hold_part(k, at, assembler);
+    }
+  }
+  /// The same of a row of the system, of what that has of an end's node.   @param b  in and out   @param residual  in and out
+  template <class Part, class Node>
+  void hold_row(std::size_t k, const Node& at, Part&& b, Scalar& residual) const noexcept {
+    if (ends_[k].is_free()) return;
+    if (is_clamped(k)) {
+      const Scalar along = ends_[k].direction().dot(b.template segment<3>(3));
+      residual += b.dot(prescribed_[k]);
+      b.setZero();
+      b[5] = along;
       return;
     }
-    if (has(i, contact)) hold_part(k, at, contact, assembler);
+    if constexpr (has_twist)
+      if (ends_[k].is_joint()) b.template segment<3>(3) -= b[6] * ends_[k].arm(at);
+    if (const Matrix* const R = ends_[k].place_axes())
+      b.template segment<3>(0) = (R->transpose() * b.template segment<3>(0)).eval();
+    if (const Matrix* const T = ends_[k].tangent_axes())
+      b.template segment<3>(3) = (T->transpose() * b.template segment<3>(3)).eval();
+    ends_[k].template visit<has_twist>(at, [&](int component, Scalar increment) {
+      residual += b[component] * increment;
+      b[component] = 0;
+    });
   }
-  /// Of a node for which has() is true, from the assembler's answer: r, r' and φ in space.  @param moves  of the contact [m]
+  /// Of a node for which has() is true, from the assembler's answer: r, r' and φ in space.
   template <class Node>
-  Increment increment(const Increment& answer, int i, const Node& at, const Contact* contact,
-                      Scalar moves) const noexcept {
+  Increment increment(const Increment& answer, int i, const Node& at) const noexcept {
     const std::size_t k = i == 0 ? 0 : 1;
     Increment x = prescribed_[k];
-    if (is_clamped(k, contact)) {
+    if (is_clamped(k)) {
       x.template segment<3>(3) += answer[5] * ends_[k].direction();
       return x;
     }
     x += answer;
-    const Matrix *const R = place_axes(k, contact), *const T = ends_[k].tangent_axes();
-    if (contact) contact->complete(x, moves, T);
+    const Matrix *const R = ends_[k].place_axes(), *const T = ends_[k].tangent_axes();
     const auto turn = [&x](int from, const Matrix& Q) {
       const Vector3 v(x[from], x[from + 1], x[from + 2]);
       for (int c = 0; c < 3; ++c) x[from + c] = Q(c, 0) * v[0] + Q(c, 1) * v[1] + Q(c, 2) * v[2];
@@ -114,8 +130,7 @@ class RodEnds {
  private:
   /// The same of an end that is not clamped.  Not inlined by intent: few rods have one, and factor() is long.
   template <class Assembler, class Node>
-  [[gnu::noinline]] void hold_part(std::size_t k, const Node& at, const Contact* contact,
-                                   Assembler& assembler) noexcept {
+  [[gnu::noinline]] void hold_part(std::size_t k, const Node& at, Assembler& assembler) noexcept {
     const int i = node(k);
     if constexpr (has_twist)
       if (ends_[k].is_joint()) {
@@ -124,23 +139,16 @@ class RodEnds {
         assembler.add_at(i, K, Increment::Zero());
         assembler.template lean<6, 3>(i, ends_[k].arm(at));
       }
-    const Matrix *const R = place_axes(k, contact), *const T = ends_[k].tangent_axes();
+    const Matrix *const R = ends_[k].place_axes(), *const T = ends_[k].tangent_axes();
     if (R) assembler.template turn<0>(i, *R);
     if (T) assembler.template turn<3>(i, *T);
-    if (contact) assembler.lean(i, contact->leading(), contact->share(T));
     prescribed_[k].setZero();
     ends_[k].template visit<has_twist>(at, [&](int component, Scalar increment) {
       prescribed_[k][component] = increment;
       assembler.prescribe(i, component, increment);
     });
   }
-  bool is_clamped(std::size_t k, const Contact* contact) const noexcept {
-    return !contact && ends_[k].template is_clamped<has_twist>();
-  }
-  /// Null: those of space, as a contact's are.
-  const Matrix* place_axes(std::size_t k, const Contact* contact) const noexcept {
-    return contact ? nullptr : ends_[k].place_axes();
-  }
+  bool is_clamped(std::size_t k) const noexcept { return ends_[k].template is_clamped<has_twist>(); }
 
   int last_;
   RodEnd<Scalar> ends_[2];

@@ -123,59 +123,31 @@ template <typename S>
   return {from.dot(beside), from.dot(to), whole};
 }
 
-/// Where nodes will be that go on as they went, foresight.hpp.   @param now, then, ahead  all nodes; of those ahead, s is known
-/// @tparam twists  whether their directors turn about the tangents   @tparam slides  whether s is not the same in all three
-template <bool twists, bool slides, class Nodes, typename Scalar>
+/// Where nodes will be that go on as they went.   @param now, then, ahead  all nodes; of those ahead, s is known
+/// @tparam twists  whether their directors turn about the tangents
+template <bool twists, class Nodes, typename Scalar>
 [[gnu::flatten]] void go_on(const Nodes& now, const Nodes& then, Scalar ratio, Nodes& ahead) noexcept {
-  using Node = RodNode<Scalar>;
-  const int last = now.size() - 1;
-  for_each_abreast<Scalar>(last, [&](const auto& here) {
+  for_each_abreast<Scalar>(now.size() - 1, [&](const auto& here) {
     using Wide = typename std::decay_t<decltype(here)>::Wide;
     using Vector = VectorOf<Wide, 3>;
-    const RodNode<Wide> x = gather_nodes(here, now), before_x = gather_nodes<twists>(here, then);
+    const RodNode<Wide> x = gather_nodes(here, now), before = gather_nodes<twists>(here, then);
     const Wide onward = ratio;
     RodNode<Wide> next = x;
     Vector change;
     HAPBEAM_UNROLL
     for (int k = 0; k < 3; ++k) {
-      next.r[k] += onward * (x.r[k] - before_x.r[k]);
-      change[k] = onward * (x.tangent[k] - before_x.tangent[k]);
+      next.r[k] += onward * (x.r[k] - before.r[k]);
+      change[k] = onward * (x.tangent[k] - before.tangent[k]);
     }
-    Wide angle = 0;
-    const auto twist = [&](const Vector& tangent, const Vector& director) HAPBEAM_INLINED {
+    if constexpr (twists) {
       const Vector u = unit(x.tangent);
-      return carried_turn<Wide>(tangent, director, u, x.director, cross3(x.director, u));
-    };
-    if constexpr (twists) angle = onward * twist(before_x.tangent, before_x.director).value();
-    if constexpr (slides) {
-      // The neighbours stand in the next lane, and beyond the first and the last of these nodes.
-      const Node &first = now[(std::max)(here.of[0] - 1, 0)],
-                 &end = now[(std::min)(here.of[Wide::size - 1] + 1, last)];
-      const auto left_of = [&](const Vector& of, VectorOf<Scalar, 3> Node::*member) {
-        const VectorOf<Scalar, 3>& v = first.*member;
-        return Vector(after(v[0], of[0]), after(v[1], of[1]), after(v[2], of[2]));
-      };
-      const auto right_of = [&](const Vector& of, VectorOf<Scalar, 3> Node::*member) {
-        const VectorOf<Scalar, 3>& v = end.*member;
-        return Vector(before(of[0], v[0]), before(of[1], v[1]), before(of[2], v[2]));
-      };
-      const Vector l = left_of(x.tangent, &Node::tangent), r = right_of(x.tangent, &Node::tangent);
-      next.s = gather(here, [&](int i) { return ahead[i].s; });
-      const Wide along = next.s - x.s - onward * (x.s - before_x.s);  // none at the ends
-      // None where the last node stands again.
-      const Wide share = share_of(along, Wide(before(x.s, end.s) - after(first.s, x.s)));
-      HAPBEAM_UNROLL
-      for (int k = 0; k < 3; ++k) {
-        next.r[k] += along * x.tangent[k];
-        change[k] += share * (r[k] - l[k]);
-      }
-      if constexpr (twists)
-        angle += share * (twist(l, left_of(x.director, &Node::director)) -
-                          twist(r, right_of(x.director, &Node::director)))
-                             .value();
+      const Wide angle =
+          onward *
+          carried_turn<Wide>(before.tangent, before.director, u, x.director, cross3(x.director, u)).value();
+      move_tangent(next, change, &angle);
+    } else {
+      move_tangent<Wide>(next, change, nullptr);
     }
-    if constexpr (twists) move_tangent(next, change, &angle);
-    else move_tangent<Wide>(next, change, nullptr);
     scatter_nodes(here, next, ahead);
   });
 }

@@ -1,4 +1,4 @@
-// Where a push of a finite-element rod is answered, and at which place its mesh takes the contact.
+// Where a push of a finite-element rod is answered.
 //
 // A support that holds its place is rigid: the shortest element keeps its distance from it.  A push has no limit of depth.
 // Real-time: noexcept, no allocation, O(1).
@@ -8,7 +8,6 @@
 #include <limits>
 
 #include <hapbeam/body/shortest_element.hpp>
-#include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rod.hpp>
 
@@ -38,11 +37,6 @@ class RodRange {
             infinity,
             left_yields_ ? -infinity : Scalar(0),
             right_yields_ ? infinity : length_};
-  }
-
-  /// Where the node of a contact at s goes: s, or the end beside which an element would be too short for round-off.
-  Scalar node(Scalar s) const noexcept {
-    return s < shortest_ && left_yields_ ? Scalar(0) : length_ - s < shortest_ && right_yields_ ? length_ : s;
   }
 
  private:

@@ -1,80 +1,91 @@
-// What a push by a capsule in space asks of its geometry, in the words of round_contact.hpp, which has a circle in a plane.
+// A capsule, seen from a rod, in the words of round_contact.hpp, which has a circle in a plane.
 //
 // Real-time: noexcept, no allocation, O(1) but for the search of a place, which is O(log n).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
-#include <hapbeam/fem/capsule_on_curve.hpp>
-#include <hapbeam/fem/friction_law.hpp>
+#include <hapbeam/fem/friction_place.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam::detail {
 
-/// A capsule, seen from a rod.
 template <typename Scalar>
 struct RodRoundContact {
   using Node = RodNode<Scalar>;
   using Vector = VectorOf<Scalar, 3>;
-  using Law = CapsuleOnCurve<Scalar>;
-  using View = typename Law::View;
   const Capsule<Scalar>& capsule;
   const Capsule<Scalar>& request() const noexcept { return capsule; }
 
-  using Curvature = Vector;
-  Law beside(const Node& node, const Vector& curvature, int end) const noexcept {
-    return {capsule.axis, node, curvature, end};
-  }
-  Law beside(const Centreline<Scalar, 3>& line, int node, int end) const noexcept {
-    return beside(line[node], line.curvature(node), end);
-  }
-  /// Whether the curve is too sharp for that law.
-  bool sharp(const Node& node, const Vector& curvature) const noexcept {
-    return Law::sharp(capsule.axis, node.r, curvature, capsule.reach);
-  }
+  /// How the capsule lies beside a node, as if the curve were straight there.
+  struct View {
+    Vector normal;    ///< unit, toward the axis
+    Scalar distance;  ///< of the axis from the curve, negative: from its other side [m]
+    Scalar ahead;     ///< arc length from the node to where they would touch [m]
+    bool past_end;    ///< the end point is touched
+  };
+  /// @param end  -1 or +1 where the curve begins or ends at the node, 0 within
   View look(const Node& node, int end) const noexcept {
-    return Law(capsule.axis, node, Vector::Zero(), end).at(node);
-  }
-  Scalar distance(const View& view) const noexcept {
-    return std::copysign(view.distance, view.normal.dot(capsule.normal));
-  }
-  /// The way round the axis is not the way that the capsule has come.
-  bool is_through(const View& view) const noexcept { return !(2 * distance(view) > capsule.reach); }
-  /// The same beside a node.  A sphere lies across the tangent there.
-  bool is_through(const Node& node, int end) const noexcept {
-    if (end != 0 || !capsule.axis.way.isZero(0)) return is_through(look(node, end));
-    const Vector way = capsule.axis.tip - node.r, &t = node.tangent,
-                 across = way - t * (t.dot(way) / t.squaredNorm());
-    return !(across.dot(capsule.normal) > 0 && 4 * across.squaredNorm() > capsule.reach * capsule.reach);
-  }
-  static Vector place_of(const Node& node) noexcept { return node.r; }
-  Scalar clearance(const Node& node) const noexcept {
-    return std::sqrt((capsule.axis.at(capsule.axis.nearest(node.r)) - node.r).squaredNorm());
-  }
-  Vector normal(const View&) const noexcept { return capsule.normal; }
-  Scalar plane(const Vector& n, Scalar, const Node& node) const noexcept {
-    return n.dot(capsule.axis.at(capsule.axis.nearest(node.r))) - capsule.reach;
-  }
-  Scalar ahead(const View& view) const noexcept { return view.lever / view.length; }
-  Vector point(const View& view, const Node& node) const noexcept { return node.r + view.f; }
-  /// For friction, beside a node.
-  FrictionPlace<Scalar, 3> place(const View& view, const Node& node) const noexcept {
-    return place(node.s, view.lever, view.normal, unit(view.t), node.r + view.f + view.w);
-  }
-  FrictionPlace<Scalar, 3> place(const Vector& n, const Node& node) const noexcept {
-    const Vector on_axis = capsule.axis.at(capsule.axis.nearest(node.r));
-    const Vector along = unit<Scalar>(node.tangent - n * n.dot(node.tangent));
-    return place(node.s, along.dot(on_axis - node.r), n, along, on_axis);
-  }
-  Scalar miss(const Vector& n, const Node& node) const noexcept {
     using std::sqrt;
-    const Vector way = capsule.axis.at(capsule.axis.nearest(node.r)) - node.r;
-    return sqrt((way - n.dot(way) * n).squaredNorm());
+    const Scalar length = sqrt(node.tangent.squaredNorm());
+    const Vector t = node.tangent / length, to_tip = capsule.axis.tip - node.r, &way = capsule.axis.way;
+    // Both nearest points of a line and a line; where they are nearly parallel the node itself is touched.
+    const Scalar squared = way.squaredNorm(), leans = t.dot(way), aside = squared - leans * leans;
+    Scalar along = t.dot(to_tip);
+    if (squared > 0) {
+      const Scalar free = aside > parallel * squared ? (leans * t.dot(to_tip) - way.dot(to_tip)) / aside
+                                                     : -way.dot(to_tip) / squared;
+      along = aside > parallel * squared ? along + leans * std::clamp(free, Scalar(0), Scalar(1)) : Scalar(0);
+    }
+    const bool past_end = Scalar(end) * along > 0;
+    if (past_end) along = 0;
+    const Vector at = node.r + along * t, w = capsule.axis.at(capsule.axis.nearest(at)) - at;
+    const Scalar distance = sqrt(w.squaredNorm());
+    const Vector normal = distance > 0 ? Vector(w / distance) : facing(t);
+    return {normal, std::copysign(distance, normal.dot(capsule.normal)), along / length, past_end};
   }
-  VectorOf<Scalar, 4> residual(Scalar ahead, const Vector& from, const Vector& to) const noexcept {
-    const Vector turned = capsule.reach * (to - from);
-    return {ahead, turned.x(), turned.y(), turned.z()};
+  Scalar distance(const View& view) const noexcept { return view.distance; }
+  Scalar ahead(const View& view) const noexcept { return view.ahead; }
+  static Vector place_of(const Node& node) noexcept { return node.r; }
+  /// The point of the axis that is nearest.
+  Vector centre(const Vector& point) const noexcept { return capsule.axis.at(capsule.axis.nearest(point)); }
+  /// Across a tangent, to where the capsule has come from; unit.
+  Vector facing(const Vector& tangent) const noexcept {
+    const Vector across = capsule.normal - tangent * (tangent.dot(capsule.normal) / tangent.squaredNorm());
+    const Scalar size = std::sqrt(across.squaredNorm());
+    return size > 0 ? Vector(across / size) : capsule.normal;
   }
+  static Vector tangent(const Node& node) noexcept { return node.tangent; }
+  /// So far a way leads along the curve, in its arc position [m].
+  static Scalar along(const Node& node, const Vector& way) noexcept {
+    return node.tangent.dot(way) / node.tangent.squaredNorm();
+  }
+  /// The place from which the displacement of a contact is counted [m].
+  static Vector place_at_rest(Scalar) noexcept { return Vector::Zero(); }
+  /// As a contact of the system.
+  template <class Contact>
+  void set(Contact& contact) const noexcept {
+    contact.axis = capsule.axis, contact.side = capsule.normal;
+    contact.normal = -capsule.normal;
+  }
+  /// From a node to the axis [m].
+  Scalar clearance(const Node& node) const noexcept {
+    return std::sqrt((centre(node.r) - node.r).squaredNorm());
+  }
+  /// Where they touch, for friction.
+  FrictionPlace<Scalar, 3> place(const View& view, const Node& node) const noexcept {
+    const Scalar length = std::sqrt(node.tangent.squaredNorm());
+    return place(node.s, view.ahead * length, view.normal, node.tangent / length,
+                 centre(node.r + view.ahead * node.tangent));
+  }
+  /// Of a contact of the system.
+  template <class Contact>
+  FrictionPlace<Scalar, 3> friction_place(const Contact& contact) const noexcept {
+    return place(contact.s, 0, -contact.normal, unit(contact.tangent), centre(contact.place));
+  }
+  /// A node where the mesh has none.
   static Node node_at(const Centreline<Scalar, 3>& line, Scalar s) noexcept {
     const int i = line.segment_at(s);
     const RodPoint<Scalar> at = line.at(i, s);
@@ -82,6 +93,8 @@ struct RodRoundContact {
   }
 
  private:
+  /// Of the square of a sine.
+  static constexpr Scalar parallel = Scalar(1e-3);
   FrictionPlace<Scalar, 3> place(Scalar s, Scalar ahead, const Vector& n, const Vector& along,
                                  const Vector& on_axis) const noexcept {
     const Scalar squared = capsule.axis.way.squaredNorm();

@@ -21,7 +21,6 @@ class RodShape {
  public:
   using Node = RodNode<Scalar>;
   using Nodes = typename Parts::Nodes;
-  using Mesh = typename Parts::Mesh;
   using Twists = typename Parts::Twists;
   using Vector3 = VectorOf<Scalar, 3>;
   static constexpr int unknowns = Element::unknowns;
@@ -34,12 +33,6 @@ class RodShape {
   const Twists& twists() const noexcept { return rod_.twists(); }
   /// What is an element's own, as of the last tangent.
   typename Parts::Inner inner(int e) const noexcept { return rod_.inner(e); }
-  const Mesh& mesh() const noexcept { return rod_.mesh(); }
-  /// Moves to another mesh of as many elements and carries the shape over.
-  void remesh(const Mesh& mesh) noexcept {
-    if (!(mesh == rod_.mesh())) rod_.remesh(mesh, saved_.nodes, saved_.twists);
-  }
-
   /// What changes as the rod moves.
   struct State {
     explicit State(int elements) : nodes(elements), twists(elements) {}
@@ -63,30 +56,19 @@ class RodShape {
     here_ = true;
     if constexpr (!Nodes::exchanges) settle();
   }
-  /// Gives nodes other arc positions and leaves them where they are.  @param state  in, out
-  static void label(const Mesh& mesh, State& state) noexcept {
-    for (int i = 0; i <= mesh.elements(); ++i) state.nodes[i].s = mesh.position(i);
-  }
-  /// Goes on as it went from a state before, so many times as far, to a mesh with the same node at the contact: foresight.hpp.
-  /// @param before  becomes what the state is now
-  void go_on(State& before, const Mesh& mesh, Scalar ratio) noexcept {
-    constexpr bool twist = unknowns == 7;
-    if (mesh == this->mesh() && is_here(before)) {
-      detail::go_on<twist, false>(rod_.nodes(), before.nodes, ratio, saved_.nodes);
-    } else {
-      label(mesh, saved_);
-      detail::go_on<twist, true>(rod_.nodes(), before.nodes, ratio, saved_.nodes);
-    }
+  /// Goes on as it went from a state before, so many times as far.   @param before  becomes what the state is now
+  void go_on(State& before, Scalar ratio) noexcept {
+    detail::go_on<unknowns == 7>(rod_.nodes(), before.nodes, ratio, saved_.nodes);
     each_inner([&](int e) { saved_.twists[e] = twists()[e] + ratio * (twists()[e] - before.twists[e]); });
+    here_ = false;
     before.take(rod_);
-    rod_.take(mesh, saved_.nodes, saved_.twists);
+    rod_.take(saved_.nodes, saved_.twists);
   }
   /// What goes on as from one state to another.  @param from  becomes the state now, less the way from there to `to`
   void carry(State& from, const State& to) const noexcept {
     for (int i = 0; i <= elements(); ++i) {
       const auto &x = node(i), &b = to.nodes[i];
       auto& a = from.nodes[i];
-      a.s = x.s - (b.s - a.s);
       a.r = x.r - (b.r - a.r);
       a.tangent = x.tangent - (b.tangent - a.tangent);
       a.director = x.director - (b.director - a.director);
@@ -112,7 +94,7 @@ class RodShape {
   /// |Δ| of an increment that is the round-off of places, which stretches the shortest element [√J].
   Scalar round_off() const noexcept {
     const int n = elements();
-    const Scalar shortest = (std::min)(mesh().position(1), length_ - mesh().position(n - 1)),
+    const Scalar shortest = (std::min)(node(1).s, length_ - node(n - 1).s),
                  farthest = std::sqrt(node(0).r.squaredNorm()) + length_;
     return std::numeric_limits<Scalar>::epsilon() * farthest *
            std::sqrt(axial_ * static_cast<Scalar>(n) / shortest);
@@ -126,9 +108,9 @@ class RodShape {
         length_(static_cast<Scalar>(rod.length())),
         axial_(static_cast<Scalar>(rod.stiffness().axial)) {}
 
-  void set(const Mesh& mesh, const State& state) noexcept {
+  void set(const State& state) noexcept {
     settle();
-    rod_.set(mesh, state.nodes, state.twists);
+    rod_.set(state.nodes, state.twists);
   }
   /// Adds increments.   @param increments  RodIncrements   @param chords  whether chords turn places
   template <class Increments>
@@ -144,20 +126,19 @@ class RodShape {
     move_nodes<unknowns == 7>(rod_.nodes(), increments, !chords, leaves ? saved_.nodes : rod_.nodes());
     if (leaves) rod_.nodes().exchange(saved_.nodes);
   }
-  /// The shape of the same rod in another scalar, on the uniform mesh.
+  /// The shape of the same rod in another scalar, on the same mesh.
   template <class Other>
   void take(const Other& other) noexcept {
-    const Mesh uniform(elements(), length_);
     const auto vector = [](const auto& x) { return Vector3(x.template cast<Scalar>()); };
     for (int i = 0; i <= elements(); ++i) {
       const auto& n = other.node(i);
-      saved_.nodes[i] = {uniform.position(i), vector(n.r), vector(n.tangent), vector(n.director)};
+      saved_.nodes[i] = {node(i).s, vector(n.r), vector(n.tangent), vector(n.director)};
     }
     each_inner([&](int e) { saved_.twists[e] = static_cast<Scalar>(other.twists()[e]); });
     here_ = false;
-    set(uniform, saved_);
+    set(saved_);
   }
-  /// Where its mesh is as it was when the shape was kept.
+  /// To the shape that was kept.
   void take_back() noexcept {
     if (here_) return;
     for (int i = 0; i <= elements(); ++i) rod_.nodes()[i] = saved_.nodes[i];
@@ -181,12 +162,6 @@ class RodShape {
   Scalar length_, axial_;
 
  private:
-  /// Whether the nodes of a state have the arc positions that they have now.
-  bool is_here(const State& state) const noexcept {
-    for (int i = 0; i <= elements(); ++i)
-      if (state.nodes[i].s != node(i).s) return false;
-    return true;
-  }
   /// Calls f(element) for those with a twist of their own.
   template <class F>
   void each_inner(F&& f) const noexcept {

@@ -1,10 +1,9 @@
-// The nonlinear equations of one rod in space: its elements, its ends, and one prescribed contact displacement.
+// The nonlinear equations of one rod in space: its elements, its ends, and what touches it.
 //
-//   ∂V/∂x = λ f,   n · r(contact) = d        unknown x: r, r' and, with twist, φ of every node
+//   ∂V/∂x = t f + contacts        unknown x: r, r' and, with twist, φ of every node, force and place of every contact
 //
-// The expressions are those of BeamSystem, so that Newton's method, descents and load paths are the same.  The unknowns of an
-// end are those in its own axes, d1, d2 and tangent, where what a clamp holds are components; the unknowns of the contact's
-// node are those of rod_contact.hpp.
+// The expressions are those of BeamSystem, so that Newton's method, descents, load paths and pushes are the same.  The unknowns of an
+// end are those in its own axes, d1, d2 and tangent, where what a clamp holds are components.  The mesh stays; a contact is at any place of it.
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
 #pragma once
 
@@ -12,10 +11,11 @@
 #include <cmath>
 #include <limits>
 
+#include <hapbeam/body/touched_rod.hpp>
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact_friction.hpp>
-#include <hapbeam/fem/rod_contact.hpp>
-#include <hapbeam/fem/rod_contact_rows.hpp>
+#include <hapbeam/fem/contact_rows.hpp>
+#include <hapbeam/fem/drawn_mesh.hpp>
 #include <hapbeam/fem/rod_ends.hpp>
 #include <hapbeam/fem/rod_increments.hpp>
 #include <hapbeam/fem/rod_motion.hpp>
@@ -28,26 +28,37 @@
 
 namespace hapbeam {
 
+namespace detail {
+
+template <class Element, typename Scalar, int Most>
+struct TouchedOf<Element, Scalar, Most, std::enable_if_t<dimension_of<Element> == 3>> {
+  using Type = TouchedRod<Element, Scalar, Most>;
+};
+
+}  // namespace detail
+
 template <class Element, typename ScalarType, int Elements, int MaxElements>
 class RodSystem
     : public detail::RodShape<Element, ScalarType, Elements, MaxElements>,
       public detail::SystemContacts<
-          RodSystem<Element, ScalarType, Elements, MaxElements>, ScalarType, detail::RodContact<ScalarType>,
-          VectorOf<ScalarType, 3>, detail::CapsuleOnCurve<ScalarType>,
+          RodSystem<Element, ScalarType, Elements, MaxElements>, ScalarType,
           detail::ContactFriction<ScalarType, 3, detail::RodRoundContact>,
-          typename detail::AssemblerOf<Element, ScalarType, Elements, MaxElements>::HeldRow,
-          contacts_of<Element> - 1> {
+          detail::ContactRows<
+              Element, ScalarType, detail::AssemblerOf<Element, ScalarType, Elements, MaxElements>,
+              detail::ContactFriction<ScalarType, 3, detail::RodRoundContact>, contacts_of<Element>>> {
   using Contacts = typename RodSystem::SystemContacts;
   using Shape = detail::RodShape<Element, ScalarType, Elements, MaxElements>;
 
  public:
   using Scalar = ScalarType;
   using Body = Rod;
+  using typename Contacts::Contact;
+  using typename Contacts::Rows;
   using typename Shape::Node;
+  using typename Shape::State;
   using typename Shape::Vector3;
   using Friction = detail::ContactFriction<Scalar, 3, detail::RodRoundContact>;
   using Shape::elements;
-  using Shape::mesh;
   using Shape::node;
   using Shape::unknowns;
   using Increment = VectorOf<Scalar, unknowns>;
@@ -55,6 +66,7 @@ class RodSystem
   /// @param number  of elements   @throws std::invalid_argument as RodElements
   RodSystem(const Rod& rod, int number)
       : Shape(rod, number),
+        Contacts(number),
         increments_(number),
         assembler_(number),
         ends_(rod, rod_.nodes()),
@@ -62,6 +74,23 @@ class RodSystem
             std::sqrt((std::min)(rod.stiffness().bending1, rod.stiffness().bending2) / rod.length()))) {
     no_mechanism_ = factor(0) == Status::ok;  // in its natural shape
     if (rod.right_pose()) ends_[1].place_home(*rod.right_pose());
+  }
+
+  /// To be called where the rod has moved.
+  void look(int k) noexcept { (void)rows_.look(rod_, rows_.element(k)); }
+
+  /// Sets the whole state, without a contact.
+  void set_state(const State& state) noexcept { go_back(state, 0); }
+  /// Back to an equilibrium that was left.  @param force  of its first contact [N]
+  void go_back(const State& state, Scalar force) noexcept {
+    Shape::set(state);
+    Contacts::let_go(force);
+  }
+  /// The state of the same system in another scalar.
+  template <class Other>
+  void take_state(const Other& other) noexcept {
+    Shape::take(other);
+    Contacts::let_go(0);
   }
 
   /// Its ends belong where they do at rest.
@@ -90,22 +119,20 @@ class RodSystem
     Shape::take_back();
     Contacts::restore_contacts();
   }
-  Scalar size() const noexcept { return size_; }
+  Scalar size() const noexcept { return weight_; }
   /// Strain energy before the last increment, at least that of a bend by 10⁻⁴ rad, of which no snap is told [J].
   Scalar strain() const noexcept { return (size_ * size_ + Scalar(1e-8) * unit_ * unit_) / 2; }
   Scalar unit() const noexcept { return unit_; }
 
-  /// The tangent holds what the contact's force makes of a capsule, on the way down as well: there a rod slips around a sphere.
-  void forget_force() noexcept { Contacts::fall_with_friction(); }
+  /// On the way down the forces of before are no longer there.
+  void forget_force() noexcept { rows_.fall(); }
 
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
+    Contacts::feel(potential_, assembler_.energy() + inner_energy_);
+    weight_ = Contacts::weight(size_);
     advance();
-    linear_reaction_ = force_;
-    for (auto& other : others_) other.reaction = other.force;
-    Contacts::feel_friction();
-    Contacts::foresee_potential(potential_, assembler_.energy() + inner_energy_);
     return {status, increment()};
   }
 
@@ -122,14 +149,17 @@ class RodSystem
   static constexpr Scalar neutral() noexcept { return Scalar(1e-6); }
   /// Size of the last increment in the norm of the tangent [√J].
   Scalar increment() const noexcept {
-    return std::sqrt(std::abs(assembler_.energy()) + std::abs(inner_energy_));
+    return std::sqrt(std::abs(rows_.any() ? rows_.energy() : assembler_.energy()) + std::abs(inner_energy_) +
+                     longer_);
   }
   /// V - λ f · x before the last increment was added [J].
   Scalar potential() const noexcept { return potential_; }
-  int negative_pivots() const noexcept { return assembler_.negative_pivots(); }
+  int negative_pivots() const noexcept {
+    return rows_.any() ? rows_.negative_pivots() : assembler_.negative_pivots();
+  }
   /// Bends the rod a little where nothing makes it leave an equilibrium, without a contact to where its loads push.  @param size  [m]
   void nudge(Scalar size) noexcept {
-    const bool pressed = contact_.node() >= 0;
+    const bool pressed = rows_.any();
     const Node& middle = node(elements() / 2);
     const Vector3 d1 = middle.director, d2 = detail::cross3(detail::unit(middle.tangent), d1);
     // Where nothing pushes, along the director and half as much across it.
@@ -139,7 +169,7 @@ class RodSystem
       // A flat rod may stand aside across that alone.
       if (const Scalar most = pushed.norm(); most > 0) way = pushed / most + way / 100;
     }
-    Shape::bow(size * way, pressed ? node(contact_.node()).s / length_ : Scalar(-1));
+    Shape::bow(size * way, pressed ? rows_[0].s / length_ : Scalar(-1));
     ends_.correct(rod_.nodes());
   }
 
@@ -160,15 +190,11 @@ class RodSystem
 
   /// Of node i after factor(): r [m], r' and φ [rad].
   Increment increment(int i) const noexcept {
-    Increment x = assembler_.increment(i);
-    const auto* const contact = contact_at(i);
-    const Scalar moves = !contact ? Scalar(0) : contact == &contact_ ? moves_ : others_.at(i)->moves;
-    if (ends_.has(i, contact)) return ends_.increment(x, i, node(i), contact, moves);
-    if (contact) contact->complete(x, moves);
-    return x;
+    const Increment x = assembler_.increment(i);
+    return ends_.has(i) ? ends_.increment(x, i, node(i)) : x;
   }
 
-  /// What holds an end: force [N] and moment about the end [N·m], in space.
+  /// What holds an end of a rod that nothing touches: force [N] and moment about the end [N·m], in space.
   struct Hold {
     Vector3 force, moment;
   };
@@ -182,39 +208,87 @@ class RodSystem
     return {at.template segment<3>(0), moment};
   }
 
-  /// What the section at s carries, in element e, which holds s.
-  InternalForces<Scalar, 3> internal_forces(int e, Scalar s, Scalar) const noexcept {
-    return rod_.internal_forces(e, s, load_);
+  /// What the section at s carries, in a piece of drawn(), which holds s.
+  InternalForces<Scalar, 3> internal_forces(int piece, Scalar s, Scalar) const noexcept {
+    int e = drawn_.element_of(piece);
+    // Where a contact was drawn instead of a node.
+    if (e > 0 && s < node(e).s) --e;
+    else if (e + 1 < elements() && s > node(e + 1).s) ++e;
+    return rod_.internal_forces(e, s, load_, [&](auto&& touch) {
+      for (int k = 0; k < rows_.size(); ++k)
+        if (const Contact& contact = rows_[k]; rows_.element(k) == e)
+          touch(contact.s, Vector3(contact.force * contact.normal + contact.friction), contact.place);
+    });
   }
 
   /// Strain energy, that of the springs that hold it included [J].
   Scalar strain_energy() const noexcept {
-    return rod_.strain_energy() +
-           ends_.visit_springs(rod_.nodes(), [](int, const Block&, const Increment&) {});
+    Scalar energy = rod_.strain_energy();
+    each_touched([&](int e) { energy += rows_.strain_energy(rod_, e); });
+    return energy + ends_.visit_springs(rod_.nodes(), [](int, const Block&, const Increment&) {});
   }
   /// V - λ f · x as it lies now [J].
   Scalar total_potential() const noexcept { return strain_energy() - rod_.work(load_); }
 
- private:
-  friend Contacts;  // sets its shape
-  using Contacts::contact_;
-  using Contacts::d_;
-  using Contacts::force_;
-  using Contacts::friction_;
-  using Contacts::linear_reaction_;
-  using Contacts::load_;
-  using Contacts::others_;
-  using Contacts::start_load_;
+  // What is seen: the mesh, and in it the places of contacts.
 
+  /// To be called where the rod has moved.
+  void draw() noexcept {
+    each_touched([this](int e) { (void)rows_.look(rod_, e); });
+    drawn_.draw(
+        elements(), [this](int i) -> const Node& { return node(i); },
+        [this](Scalar s) { return element_at(s); }, rows_.size(), [this](int k) { return rows_[k].s; },
+        [this](int k) { return mark(k); }, [this](int e, Scalar s) { return rod_.node_within(e, s); });
+  }
+  Centreline<Scalar, 3> drawn() const noexcept { return {drawn_.data(), drawn_.size()}; }
+  /// n · r of it at s [m].
+  using Shape::displacement;
+  Scalar displacement(Scalar s, const Vector3& normal) const noexcept { return normal.dot(drawn().at(s).r); }
+
+ private:
+  friend Contacts;
+  using Contacts::load_;
+  using Contacts::rows_;
   using Shape::length_;
   using Shape::rod_;
   using Residual = typename Shape::Parts::Residual;
   using Block = Eigen::Matrix<Scalar, unknowns, unknowns>;
-  /// The contact that a node has, null: none.
-  const detail::RodContact<Scalar>* contact_at(int i) const noexcept {
-    if (contact_.holds(i)) return &contact_;
-    const auto* const other = others_.at(i);
-    return other ? &other->point : nullptr;
+  int element_at(Scalar s) const noexcept { return this->centreline().segment_at(s); }
+  /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one.
+  int element_at(Scalar s, int before) const noexcept {
+    const Scalar from = node(before).s, to = node(before + 1).s, over = (to - from) / 100;
+    return from - over <= s && s <= to + over ? before : element_at(s);
+  }
+  /// Calls f(e) for each element that is touched.
+  template <class F>
+  void each_touched(F&& f) const noexcept {
+    for (int k = 0; k < rows_.size(); ++k) {
+      bool first = true;
+      for (int j = 0; j < k; ++j) first = first && rows_.element(j) != rows_.element(k);
+      if (first) f(rows_.element(k));
+    }
+  }
+  /// What contacts are to their elements.  Not inlined by intent: factor() is long, and what all elements need comes first.   @return their energy [J]
+  [[gnu::noinline]] Scalar add_contacts() noexcept {
+    Scalar energy = 0;
+    rows_.seek(rod_);
+    each_touched([&](int e) {
+      Residual r;
+      typename Rows::Tangent K;
+      energy += rows_.touch(rod_, e, r, K);
+      assembler_.add_more(e, K, r);
+    });
+    return energy;
+  }
+  /// A node of drawn() where a contact is.
+  Node mark(int k) noexcept {
+    const Contact& contact = rows_[k];
+    Node at = rod_.node_within(rows_.element(k), contact.s);
+    // On what touches it, where an equilibrium was found: the last increment has left that by its square.
+    const Scalar left = std::abs(contact.gap) < length_ / 1000 ? contact.gap : Scalar(0);
+    at.r = contact.place - left * contact.normal;
+    detail::set_tangent<Scalar>(at, contact.tangent);
+    return at;
   }
   /// The part of the work of its loads in a bow that changes its sign with that: none, where it is round-off [J].
   Scalar pushed_by(Scalar size, const Vector3& d) noexcept {
@@ -226,10 +300,7 @@ class RodSystem
     const Scalar round_off = std::sqrt(std::numeric_limits<Scalar>::epsilon());
     return std::abs(there - back) > round_off * (std::abs(there) + std::abs(back)) ? there - back : Scalar(0);
   }
-  void begin_path() noexcept {
-    start_load_ = load_;
-    ends_.begin_path(rod_.nodes());
-  }
+  void begin_path() noexcept { ends_.begin_path(rod_.nodes()); }
 
   /// An element's share of the shift is half of either node's.
   void add_shift(Scalar shift) noexcept {
@@ -245,46 +316,33 @@ class RodSystem
   detail::RodIncrements<Scalar, Elements, MaxElements, unknowns> increments_;  // in advance()
   detail::AssemblerOf<Element, Scalar, Elements, MaxElements> assembler_;
   detail::RodEnds<Scalar, unknowns> ends_;
-  Scalar moves_ = 0;
   bool no_mechanism_ = false;  // its ends and springs hold it
-  Scalar size_ = 0, potential_ = 0, inner_energy_ = 0, unit_;
+  Scalar size_ = 0, weight_ = 0, potential_ = 0, inner_energy_ = 0, longer_ = 0, unit_;
+  detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>> drawn_{elements()};
 };
 
 // Outside of the class: only so does "extern template class RodSystem<…>;" keep a compiler from them.
 template <class Element, typename Scalar, int Elements, int MaxElements>
 Status RodSystem<Element, Scalar, Elements, MaxElements>::factor(Scalar shift) noexcept {
   if (!ends_.follow(rod_.nodes())) return Status::iteration_limit;
-  const int c = contact_.node();
-  Contacts::look_at_contacts();
   const auto [strain, work, inner] =
       rod_.visit_tangents(load_, [&](int first, auto& K, auto& r) { assembler_.add_pairs(first, K, r); });
-  inner_energy_ = inner;
+  inner_energy_ = inner, longer_ = 0;
   Scalar energy = strain;
   if (shift != 0) add_shift(shift);
   energy += ends_.visit_springs(
       rod_.nodes(), [this](int i, const Block& K, const Increment& r) { assembler_.add_at(i, K, r); });
-  if (c >= 0) detail::add_bend<unknowns>(contact_, assembler_);
-  for (const auto& other : others_) detail::add_bend<unknowns>(other.point, assembler_);
-  const auto rub = [this](const auto& contact, const Friction* friction) {
-    if (friction) detail::add_friction<unknowns>(contact, node(contact.node()), *friction, assembler_);
-  };
-  if (c >= 0) rub(contact_, friction_);
-  others_.each([&](const auto& other) { rub(other.point, other.friction); });
-  for (std::size_t k = 0; k < 2; ++k)
-    ends_.hold(k, node(ends_.node(k)), contact_at(ends_.node(k)), assembler_);
-  const auto lean_within = [this](const auto& contact) {
-    const int i = contact.node();
-    if (i > 0 && i < elements()) assembler_.lean(i, contact.leading(), contact.share());
-  };
-  lean_within(contact_);
-  for (const auto& other : others_) lean_within(other.point);
-  size_ = std::sqrt(2 * (std::max)(energy, Scalar(0)));  // of a rod without stress round-off has either sign
+  if (rows_.any()) energy += add_contacts();
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Node& at = node(ends_.node(k));
+    ends_.hold(k, at, assembler_);
+    rows_.visit_node(ends_.node(k), [&](auto&& b, Scalar& residual) { ends_.hold_row(k, at, b, residual); });
+  }
+  weight_ = size_ =
+      std::sqrt(2 * (std::max)(energy, Scalar(0)));  // of a rod without stress round-off has either sign
   potential_ = energy - work;
-  potential_ += Contacts::friction_potential();
-  moves_ = 0;
-  if (c >= 0) detail::hold(contact_, moves_ = d_ - contact_.displacement(), assembler_, assembler_.held());
-  others_.each([&](auto& other) { detail::hold_other<Scalar>(other, assembler_, others_); });
-  const Status status = assembler_.solve();
+  if (rows_.any()) potential_ += rows_.potential() + rows_.friction_potential();
+  const Status status = rows_.any() ? rows_.solve(assembler_) : assembler_.solve();
   // A round rod that is bowed between two ends on one axis may roll about it: that takes no force, and leads nowhere.
   if (status == Status::singular && shift == 0 && no_mechanism_) return factor(neutral());
   return status;
@@ -292,22 +350,21 @@ Status RodSystem<Element, Scalar, Elements, MaxElements>::factor(Scalar shift) n
 
 template <class Element, typename Scalar, int Elements, int MaxElements>
 void RodSystem<Element, Scalar, Elements, MaxElements>::advance() noexcept {
-  force_ = contact_.node() < 0 ? Scalar(0) : contact_.along(assembler_.reaction());
-  others_.each([&](auto& other) { other.force = other.point.along(assembler_.reaction(other.row)); });
   increments_.take(assembler_);
-  const auto set = [&](int i) { increments_.set(i, increment(i)); };
   for (std::size_t k = 0; k < 2; ++k)
-    if (const int i = ends_.node(k); ends_.has(i, contact_at(i))) set(i);
-  const auto set_within = [&](int i) {
-    if (i > 0 && i < elements()) set(i);
-  };
-  set_within(contact_.node());
-  for (const auto& other : others_) set_within(other.point.node());
-  const bool free = contact_.node() < 0;
+    if (const int i = ends_.node(k); ends_.has(i)) increments_.set(i, increment(i));
+  const bool free = !rows_.any();
+  if (!free)
+    longer_ += rows_.advance(
+        [this](int e) {
+          Residual both;
+          both << increments_[e], increments_[e + 1];
+          return both;
+        },
+        [](int, Scalar) {}, [this](Scalar s, int e) { return element_at(s, e); });
   Shape::move(increments_, free);
   if (free) ends_.close_chain(rod_.nodes(), length_);
   ends_.correct(rod_.nodes());
-  Contacts::correct_contacts(rod_.nodes());
 }
 
 namespace detail {

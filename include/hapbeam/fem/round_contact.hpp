@@ -40,6 +40,22 @@ struct RoundContact {
   Scalar distance(const View& view) const noexcept { return view.distance; }
   Scalar ahead(const View& view) const noexcept { return view.ahead; }
   static Vector place_of(const Node& node) noexcept { return {node.s + node.u, node.w}; }
+  Vector centre(const Vector&) const noexcept { return circle.centre; }
+  /// Across a tangent, to the side on which the circle is; unit where that is.
+  Vector facing(const Vector& tangent) const noexcept {
+    return circle.side * Vector(-tangent.y(), tangent.x());
+  }
+  static Vector tangent(const Node& node) noexcept { return direction(-node.theta); }
+  /// So far a way leads along the curve, in its arc position [m].
+  static Scalar along(const Node& node, const Vector& way) noexcept { return tangent(node).dot(way); }
+  /// The place from which the displacement of a contact is counted [m].
+  static Vector place_at_rest(Scalar s) noexcept { return {s, 0}; }
+  /// As a contact of the system.
+  template <class Contact>
+  void set(Contact& contact) const noexcept {
+    contact.centre = circle.centre, contact.side = circle.side;
+    contact.normal = Vector(0, -circle.side);
+  }
   /// From a node to the centre [m].
   Scalar clearance(const Node& node) const noexcept {
     const Scalar x = (circle.centre.x() - node.s) - node.u, y = circle.centre.y() - node.w;
@@ -53,6 +69,11 @@ struct RoundContact {
     FrictionPlace<Scalar, 2> place = this->place(node.s, view.normal);
     place.ahead = view.ahead;
     return place;
+  }
+  /// Of a contact of the system.
+  template <class Contact>
+  FrictionPlace<Scalar, 2> friction_place(const Contact& contact) const noexcept {
+    return place(contact.s, Vector(-contact.normal));
   }
   /// A node where the mesh has none.
   static Node node_at(const Centreline<Scalar>& line, Scalar s) noexcept {

@@ -1,4 +1,4 @@
-// Extrapolated initial guess of a lasting push in the plane: nodes, tensions, places and forces go on as in a push before.
+// Extrapolated initial guess of a lasting push: nodes, places and forces go on as in a push before.
 //
 //   x₊ = x + r (x - x₋)            r: the hands' step in units of the step before
 //
@@ -18,15 +18,29 @@
 
 namespace hapbeam::detail {
 
-/// @tparam Most  contacts
-template <class System, int Most>
+/// Where a hand is: its centre, or both ends of its axis [m].
+template <typename Scalar>
+Vector2<Scalar> hand_of(const Circle<Scalar>& circle) noexcept {
+  return circle.centre;
+}
+template <typename Scalar>
+VectorOf<Scalar, 6> hand_of(const Capsule<Scalar>& capsule) noexcept {
+  VectorOf<Scalar, 6> ends;
+  ends << capsule.axis.tip, capsule.axis.at(1);
+  return ends;
+}
+
+/// @tparam Most  contacts   @tparam D  dimension
+template <class System, int Most, int D>
 class RowForesight {
   using Scalar = typename System::Scalar;
   using State = typename System::State;
-  using Hands = VectorOf<Scalar, 2 * Most>;
 
  public:
-  using All = std::array<InnerState<Scalar>, Most>;
+  using Contact = InnerState<Scalar, D>;
+  using All = std::array<Contact, Most>;
+  static constexpr int each = D == 2 ? 2 : 6;  ///< numbers of a hand
+  using Hands = VectorOf<Scalar, each * Most>;
 
   explicit RowForesight(const System& system) : before_{State(system.elements()), State(system.elements())} {}
 
@@ -52,27 +66,11 @@ class RowForesight {
   /// Whether the hands go on and do not turn back, whatever they touch.
   bool forth() const noexcept { return forth_; }
   /// What is foreseen of contact i.
-  InnerState<Scalar> ahead(int i) const noexcept {
-    InnerState<Scalar> next = all_[0][of(i)];
-    const InnerState<Scalar>&to = all_[of(like_ - 1)][of(i)], &from = all_[of(like_)][of(i)];
-    const auto on = [this](auto& value, const auto& end, const auto& start) {
-      value += ratio_ * (end - start);
-    };
-    on(next.s, to.s, from.s), on(next.force, to.force, from.force);
-    on(next.was, to.was, from.was), on(next.moved, to.moved, from.moved),
-        on(next.theta, to.theta, from.theta);
-    const auto same = [&next](const InnerState<Scalar>& other) {
-      return other.piece.root == next.piece.root && other.piece.element == next.piece.element;
-    };
-    if (!same(to) || !same(from)) return next;
-    auto& piece = next.piece;
-    on(piece.stretch, to.piece.stretch, from.piece.stretch),
-        on(piece.tension, to.piece.tension, from.piece.tension);
-    on(piece.at_root, to.piece.at_root, from.piece.at_root),
-        on(piece.at_tip, to.piece.at_tip, from.piece.at_tip);
+  Contact ahead(int i) const noexcept {
+    Contact next = all_[0][of(i)];
+    next.go_on(all_[of(like_ - 1)][of(i)], all_[of(like_)][of(i)], ratio_);
     return next;
   }
-  const All& last() const noexcept { return all_[0]; }
 
   /// To be called once in each push, before it moves the system: which goes on if hands do.
   void go_on(System& system) noexcept {
@@ -98,6 +96,12 @@ class RowForesight {
     known_ = found ? (std::min)(known_ + 1, 3) : 0;
   }
   void forget() noexcept { known_ = 0; }
+  /// Of hands that have never been anywhere.
+  void reset() noexcept {
+    forget();
+    hands_.setZero();
+    for (Hands& step : step_) step.setZero();
+  }
 
  private:
   static constexpr Scalar fastest = 2,

@@ -143,18 +143,6 @@ class SeveralFriction {
     system.forget_friction();
     return left;
   }
-  /// To be called thereafter where it was answered.  @param tilts  a ContactTilt
-  template <class Tilts, class Goal>
-  void learn(System& system, Tilts& tilts, Goal&& goal) noexcept {
-    if (!any_) return;
-    tilts.begin();
-    each([&](int i, Friction& friction) {
-      const Scalar normal_force = -all_[i].pushed.force;
-      if (!(normal_force > 0)) return;
-      tilts.learn(i, system, goal(i), friction.acting().dot(friction.place().along), normal_force,
-                  all_[i].friction->tilt);
-    });
-  }
 
  private:
   bool rough(int i) const noexcept {

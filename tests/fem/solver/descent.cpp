@@ -34,7 +34,7 @@ void crumple(Sys& system, Random& random, double size) {
     }
     state.nodes[i] = {mesh.position(i), -0.05 * t, w, theta};
   }
-  system.set_state(system.mesh(), state);
+  system.set_state(state);
   system.find_tensions();
   system.set_goal();
 }
@@ -139,7 +139,7 @@ TEST_CASE("a descent from a ridge needs a nudge, and goes to the side to which i
     const ContactMesh<double> mesh(12, 1.0);
     System<>::State state(12);
     for (int i = 0; i <= 12; ++i) state.nodes[i] = {mesh.position(i), -shortening * mesh.position(i), 0, 0};
-    system.set_state(system.mesh(), state);
+    system.set_state(state);
     system.find_tensions();
     system.set_goal();
     system.set_target(1);

@@ -73,7 +73,6 @@ class BlockTridiagonal {
     const int p = at.lane, q = to.lane;
     if (e == 0) {
       for (int k = 0; k < Rows::coupling; ++k) a.entry(k).a[p] = 0;
-      held_energy_ = 0;
     }
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
@@ -110,7 +109,6 @@ class BlockTridiagonal {
     const bool odd = odd_ && first == 0;
     if (first == 0) {
       for (int k = 0; k < Rows::coupling; ++k) this->row(0).entry(k).set(Lanes::both(0));
-      held_energy_ = 0;
     }
     Rows* const rows = &rows_[row / abreast];
     if (count == abreast && !odd) Rows::template add<true>(rows, count, odd, K, r);
@@ -131,6 +129,20 @@ class BlockTridiagonal {
       own[j] -= r[j];
     }
   }
+  /// Adds to the tangent and to the residual of both nodes of an element, after all are in.   @param K, r  as of add()
+  template <class Tangent, class Residual>
+  void add_more(int e, const Tangent& K, const Residual& r) noexcept {
+    const Place left = place(e), right = place(e + 1);
+    const auto a = own_of(e), b = own_of(e + 1);
+    const bool inward = right.lane == 0;
+    const Row coupled = row(inward ? left.row : right.row);
+    for (int j = 0; j < Block; ++j) {
+      for (int i = j; i < Block; ++i) a(i, j) += K(i, j), b(i, j) += K(Block + i, Block + j);
+      a[j] -= r[j], b[j] -= r[Block + j];
+      for (int i = 0; i < Block; ++i)
+        (inward ? coupled.coupling(i, j).a[0] : coupled.coupling(j, i).a[1]) += K(i, Block + j);
+    }
+  }
   /// Residual of one unknown of a node so far.
   Scalar residual(int node, int component) noexcept { return -own_of(node)[component]; }
 
@@ -145,12 +157,6 @@ class BlockTridiagonal {
   void lean(int node, const Part& part) noexcept {
     at(node).template lean<Unknown, Others>(part);
   }
-  /// One of the first three unknowns of a node, and a part of the first six:  old = new - part · (those).
-  /// @param part  [i] -> of unknown i, nothing of its own
-  template <class Part>
-  void lean(int node, int unknown, const Part& part) noexcept {
-    at(node).lean(unknown, part);
-  }
   /// Prescribes the increment of a node, after all elements are in, but for how much longer r' becomes along u: of its unknowns 3 to 5,
   /// which are those of r', the last one is that from now on.   @param by  [i] -> increment of unknown i, as it was
   template <class Three, class Increment>
@@ -159,54 +165,10 @@ class BlockTridiagonal {
   }
 
   /// Prescribes the increment of one degree of freedom (in a plane 0: u, 1: w, 2: θ) of a node, after all elements are in: its
-  /// column goes to the right-hand side, its row answers 0.  Inlined by intent, as hold(): the caller knows the component.
+  /// column goes to the right-hand side, its row answers 0.  Inlined by intent: the caller knows the component.
   [[gnu::always_inline]] void prescribe(int node, int component, Scalar increment) noexcept {
     at(node).prescribe(component, increment);
   }
-
-  /// The row of a degree of freedom that is held: what is known of it, and the entries of the node before, of its own and of the
-  /// node after.
-  struct HeldRow {
-    int node = 0;
-    Scalar by_loads = 0;
-    Scalar by[3][Block] = {};
-  };
-
-  /// The same for a degree of freedom whose reaction() is wanted, after all others are prescribed.
-  [[gnu::always_inline]] void hold(int node, int component, Scalar increment) noexcept {
-    hold(node, component, increment, held_);
-  }
-  /// The same for one of several.  @param row  for reaction()
-  [[gnu::always_inline]] void hold(int i, int component, Scalar increment, HeldRow& row) noexcept {
-    const auto node = at(i);
-    const auto& own = node.own;
-    const Scalar diagonal = own(component, component);
-    row.node = i;
-    row.by_loads = diagonal * increment - own[component];
-    held_energy_ += diagonal * increment * increment;
-    keep(node, component, row);
-    node.prescribe(component, increment);
-  }
-  /// The same for one of the first three unknowns of a node, where all three move along with it.
-  /// @param by  [i] -> increment of unknown i; to it those that are not held add what is solved for
-  template <class Three>
-  void hold_along(int i, int component, const Three& by, HeldRow& row) noexcept {
-    const auto node = at(i);
-    const Scalar before = node.own[component];
-    Scalar alone, in_row;
-    node.move(by, component, alone, in_row);
-    row.node = i;
-    row.by_loads = in_row - before;
-    held_energy_ += alone;
-    keep(node, component, row);
-    node.prescribe(component, 0);
-  }
-  /// What the first of hold() has to know of one that comes after it: beside its node the increment is no unknown.
-  void know(int node, int component, Scalar increment, HeldRow& row) const noexcept {
-    const int k = node - row.node;
-    if (k == 1 || k == -1) row.by_loads += row.by[k + 1][component] * increment;
-  }
-  HeldRow& held() noexcept { return held_; }
 
   /// Factors and solves.  @return ok | singular | non_finite
   Status solve() noexcept {
@@ -274,8 +236,7 @@ class BlockTridiagonal {
   }
 
   /// xᵀKx of the last solve() [J]: the increment's length in the norm of the tangent, squared; negative where K is not
-  /// positive along it.  No less than what the increment of hold() costs while all else stays: in two elements between
-  /// clamped ends nothing else moves when their middle is pressed, and x is zero however far that goes.
+  /// positive along it.
   Scalar energy() const noexcept { return energy_; }
 
   /// Increment of one node, after solve(); 0 where it was prescribed.
@@ -295,33 +256,10 @@ class BlockTridiagonal {
     for (int k = 0; k < Block; ++k) std::memcpy(x[k], rows.entry[Rows::x + k], sizeof x[k]);
   }
 
-  /// What holds the degree of freedom of hold() after the increment, of the linear equations: its row of r + Kx [N].
-  Scalar reaction() const noexcept { return reaction(held_); }
-  Scalar reaction(const HeldRow& row) const noexcept {
-    Scalar sum = row.by_loads;
-    for (int k = -1; k <= 1; ++k) {
-      if (row.node + k < 0 || row.node + k > last_) continue;
-      const Vector x = increment(row.node + k);
-      for (int i = 0; i < Block; ++i) sum += row.by[k + 1][i] * x[i];
-    }
-    return sum;
-  }
-
   /// Number of negative pivots of the last solve(): the number of negative eigenvalues of the tangent.
   int negative_pivots() const noexcept { return negative_pivots_; }
 
  private:
-  template <class Node>
-  [[gnu::always_inline]] static void keep(const Node& node, int component, HeldRow& row) noexcept {
-    for (int k = 0; k < Block; ++k) {
-      row.by[0][k] = row.by[2][k] = 0;
-      row.by[1][k] = k == component ? Scalar(0) : node.own(k, component);
-    }
-    node.each_neighbour([&](const auto&, const auto& coupling, bool left) {
-      for (int k = 0; k < Block; ++k) row.by[left ? 0 : 2][k] = coupling(component, k);
-    });
-  }
-
   /// Both chains share the middle node, which stands in lane 0.
   void join_middle() noexcept {
     for (int k = 0; k < Rows::coupling; ++k) {
@@ -377,8 +315,6 @@ class BlockTridiagonal {
       rows_;
   int negative_pivots_ = 0;
   Scalar energy_ = 0;
-  Scalar held_energy_ = 0;
-  HeldRow held_;  // of the first or only hold()
 };
 
 // Outside of the class: only so does "extern template class BlockTridiagonal<…>;" keep a compiler from it.
@@ -391,7 +327,6 @@ Status BlockTridiagonal<Scalar, Elements, MaxElements, Block>::factor() noexcept
   for (int i = 0; i < pairs_; ++i) Row::eliminate(row(i), row(i + 1), front, f, energy, pivots);
   Row::join(row(pairs_), front, f, energy, pivots);
   energy_ = -(energy[0] + energy[1]);
-  if (held_energy_ > std::abs(energy_)) energy_ = held_energy_;
   negative_pivots_ = pivots.negative();
   const Status status = pivots.status();
   return status == Status::ok && !std::isfinite(energy_) ? Status::non_finite : status;

@@ -93,47 +93,6 @@ struct ChainNode {
     }
   }
 
-  /// One of the first three unknowns is from now on its old self and a part of the first six:  old = new - part · (those).
-  /// @param part  [i] -> of unknown i, nothing of its own
-  template <class Part>
-  [[gnu::always_inline]] void lean(int unknown, const Part& part) const noexcept {
-    each_neighbour([&](const auto&, const auto& c, bool) {
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) {
-        const Scalar by = c(unknown, k);
-        HAPBEAM_UNROLL
-        for (int j = 0; j < 6; ++j) c(j, k) -= part[j] * by;
-      }
-    });
-    const Scalar diagonal = own(unknown, unknown), rhs = own[unknown];
-    Scalar row[Block];
-    HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) row[k] = own(k, unknown);
-    HAPBEAM_UNROLL
-    for (int j = 0; j < 6; ++j) {
-      own[j] -= part[j] * rhs;
-      const Scalar half = row[j] - part[j] * diagonal;
-      HAPBEAM_UNROLL
-      for (int i = j; i < Block; ++i)
-        own(i, j) -= i < 6 ? part[j] * row[i] + part[i] * half : part[j] * row[i];
-    }
-  }
-  /// The first three unknowns move by so much before they are solved for.   @param by  [i] -> of unknown i
-  /// @return what that costs alone, bᵀKb, and what of K it makes in one of their rows
-  template <class Vector3>
-  [[gnu::always_inline]] void move(const Vector3& by, int row, Scalar& alone, Scalar& in_row) const noexcept {
-    const auto times = [&by](Scalar x, Scalar y, Scalar z) { return by[0] * x + by[1] * y + by[2] * z; };
-    Scalar made[Block];
-    HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) own[k] -= made[k] = times(own(k, 0), own(k, 1), own(k, 2));
-    alone = times(made[0], made[1], made[2]);
-    in_row = made[row];
-    each_neighbour([&](const auto& other, const auto& c, bool) {
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) other[k] -= times(c(0, k), c(1, k), c(2, k));
-    });
-  }
-
   /// Prescribes all but the length of r', unknowns 3 to 5, which grows along u: that is unknown 5 from now on.
   /// @param by  the increment of all unknowns but for that
   template <class Vector3, class Increment>

@@ -1,8 +1,8 @@
-// A beam in the plane is laid on circles, or held at places: which of them touch, where, and the equilibrium are found together.
+// A beam is laid on circles, a rod on capsules, or they are held at places: which of them touch, where, and the equilibrium are found together.
 //
 //   force >= 0,  gap >= 0,  force · gap = 0        for each obstacle
 //
-// A small complementarity problem, solved by an active set (plane_contacts.hpp) of equilibria whose unknowns the places are, too.  It begins with
+// A small complementarity problem, solved by an active set (row_contacts.hpp) of equilibria whose unknowns the places are, too.  It begins with
 // those that touched in the push before, which mostly is the last one: then there is one solution.  A hand that goes on as it went finds beam, places and
 // forces where they were foreseen.  An answer continues the last one, or says that it does not (continuation.hpp).
 // Allocates at construction.  Real-time: all else is noexcept and allocation-free, at most most_passes solutions, and the linear solves of
@@ -19,7 +19,7 @@
 #include <hapbeam/fem/contact_work.hpp>
 #include <hapbeam/fem/continuation.hpp>
 #include <hapbeam/fem/friction_balance.hpp>
-#include <hapbeam/fem/plane_contacts.hpp>
+#include <hapbeam/fem/row_contacts.hpp>
 #include <hapbeam/fem/row_foresight.hpp>
 #include <hapbeam/fem/several_friction.hpp>
 #include <hapbeam/force_model.hpp>
@@ -27,34 +27,37 @@
 namespace hapbeam::detail {
 
 template <class Element, class System>
-class PlanePush : private PlaneContacts<Element, System> {
-  using Base = PlaneContacts<Element, System>;
+class RowPush : private RowContacts<Element, System> {
+  using Base = RowContacts<Element, System>;
   using Base::all_;
   using Base::count_;
+  using Base::dimension;
   using Base::most;
   using Base::of;
   using Base::slot;
   using typename Base::Contact;
   using typename Base::Obstacle;
+  using typename Base::Round;
   using typename Base::RoundContact;
   using typename Base::Scalar;
   using typename Base::Slot;
-  using Round = Circle<Scalar>;
-  using State = FrictionState<Scalar, 2>;
+  using typename Base::State;
+  using typename Base::Vector;
+  using FrictionState = hapbeam::FrictionState<Scalar, dimension>;
   using Friction = SeveralFriction<System, Obstacle, RoundContact, most>;
-  using Work = ContactWork<Round, Scalar, 2, most>;
-  using Foresight = RowForesight<System, most>;
+  using Work = ContactWork<Round, Scalar, dimension, most>;
+  using Foresight = RowForesight<System, most, dimension>;
 
  public:
-  /// Forces are exact to so many times the solver's tolerance.
-  static constexpr int slack = 10;
+  /// Forces are exact to so many times the solver's tolerance.  Where normal forces are no unknowns the next increment is smaller than it is taken for.
+  static constexpr int slack = dimension == 2 ? 10 : 100;
   /// Solutions of a push: each obstacle touches or lets go.
   static constexpr int most_passes = 4 + 2 * most;
   /// Linear solves in which an equilibrium that is near is found, and with friction of several.
   static constexpr int close_by = 6, near_with_friction = 16;
 
   /// @throws std::invalid_argument where there are too few elements for so many contacts
-  explicit PlanePush(const System& system) : foresight_(system) {
+  explicit RowPush(const System& system) : foresight_(system) {
     if (system.elements() < most + 1)
       throw std::invalid_argument("elements = " + std::to_string(system.elements()) + ": must be at least " +
                                   std::to_string(most + 1) + " for " + std::to_string(most) + " contacts");
@@ -62,7 +65,7 @@ class PlanePush : private PlaneContacts<Element, System> {
 
   /// To be called where something else moves the beam.
   void forget() noexcept {
-    foresight_.forget();
+    foresight_.reset();
     alone_.pushed.force = 0, last_count_ = 0;
     this->forget_pieces();
     forget_shape();
@@ -72,11 +75,11 @@ class PlanePush : private PlaneContacts<Element, System> {
 
   /// One circle, which pulls, too.   @param friction  null: none
   template <class Way, class Extent>
-  Pushed<Scalar, 2> push(Way& way, const Round& request, const Extent& range, State* friction) noexcept {
+  Pushed<Scalar, dimension> push(Way& way, const Round& request, const Extent& range,
+                                 FrictionState* friction) noexcept {
     const bool beside = std::abs(request.s - alone_.pushed.s) <= request.reach + way.system_.length() / 10;
     // One that jumps touches where it is nearest to the beam now: the way along the beam from where it was is long.
-    const bool touches = beside && alone_.pushed.force != 0,
-               jumps = (request.centre - alone_.round.centre).norm() > request.reach;
+    const bool touches = beside && alone_.pushed.force != 0, jumps = this->jumped(0, request) > request.reach;
     const Scalar s =
         touches && !jumps && !this->held_beside_support(0)
             ? slot(0).s
@@ -88,7 +91,7 @@ class PlanePush : private PlaneContacts<Element, System> {
     alone_.valid = alone_.touching = true;
     alone_.friction = friction;
     push(way, &alone_, 1, range, true);
-    const Pushed<Scalar, 2> pushed = alone_.pushed;
+    const Pushed<Scalar, dimension> pushed = alone_.pushed;
     if (!is_answer(pushed.status)) alone_.pushed.force = 0;
     return pushed;
   }
@@ -126,7 +129,7 @@ class PlanePush : private PlaneContacts<Element, System> {
       if (!began_ || work_.strange() || begins_to_pull) return Branch::same;
       return continuation_.judge(
           {potential_, work_.done() - taken_, loose(work_.size(), work_.change()), system.strain(),
-           system.length(), true},
+           system.length()},
           [&] {
             return Gone<Scalar>{work_.way(), farthest(system.view(foresight_.before()), system.centreline())};
           });
@@ -141,7 +144,7 @@ class PlanePush : private PlaneContacts<Element, System> {
       foresight_.go_back(system, before.force);
       for (int i = 0; i < count; ++i) {
         all[i].pushed = before.pushed[of(i)], all[i].touching = before.touching[of(i)];
-        static_cast<InnerState<Scalar>&>(slot(i)) = before.state[of(i)];
+        static_cast<State&>(slot(i)) = before.state[of(i)];
         if (all[i].friction) *all[i].friction = before.friction[of(i)];
       }
       work_ = before.work, balance_ = before.balance;
@@ -151,7 +154,7 @@ class PlanePush : private PlaneContacts<Element, System> {
       way.descending_ = true;
     };
     const Status status = continuation_.follow(go, judge, keep, back, fall).status;
-    if (holds) all[0].pushed.status = status;
+    if (holds && status != Status::ok) all[0].pushed.status = status;
     return status;
   }
 
@@ -160,8 +163,8 @@ class PlanePush : private PlaneContacts<Element, System> {
   struct Before {
     std::array<decltype(Obstacle::pushed), most> pushed{};
     std::array<bool, most> touching{};
-    std::array<State, most> friction{};
-    std::array<InnerState<Scalar>, most> state{};
+    std::array<FrictionState, most> friction{};
+    std::array<State, most> state{};
     Work work;
     FrictionBalance<Scalar> balance;
     Scalar force = 0;
@@ -206,10 +209,10 @@ class PlanePush : private PlaneContacts<Element, System> {
 
   /// @return whether the hands go on as they went
   bool look_ahead(const System& system) noexcept {
-    VectorOf<Scalar, 2 * most> hands = VectorOf<Scalar, 2 * most>::Zero();
+    typename Foresight::Hands hands = Foresight::Hands::Zero();
     bool same = count_ == last_count_;
     for (int i = 0; i < count_; ++i) {
-      hands.template segment<2>(2 * i) = all_[i].round.centre;
+      hands.template segment<Foresight::each>(Foresight::each * i) = hand_of(all_[i].round);
       same = same && all_[i].touching == touched_[of(i)] && all_[i].kind == kind_[of(i)];
     }
     const bool goes_on = foresight_.look(hands, same);
@@ -218,9 +221,8 @@ class PlanePush : private PlaneContacts<Element, System> {
       if (!all_[i].touching) continue;
       now.begins = now;
       if (!goes_on) continue;
-      const InnerState<Scalar> ahead = foresight_.ahead(i);
-      now.force = ahead.force, now.piece = ahead.piece, now.was = ahead.was, now.moved = ahead.moved,
-      now.theta = ahead.theta;
+      const State ahead = foresight_.ahead(i);
+      now.force = ahead.force, now.take_curve(ahead);
       if (all_[i].kind == ObstacleKind::round && !now.held) this->place(system, i, ahead.s);
     }
     return goes_on;
@@ -258,7 +260,7 @@ class PlanePush : private PlaneContacts<Element, System> {
     bool all = !rough || way.descending_ || friction.falls();
     const auto begin_again = [&] {
       for (int i = 0; i < count_; ++i)
-        if (slot(i).goal >= 0) static_cast<InnerState<Scalar>&>(slot(i)) = slot(i).begins;
+        if (slot(i).goal >= 0) static_cast<State&>(slot(i)) = slot(i).begins;
     };
     // Whether Coulomb's law holds.
     const auto agrees = [&](Status found) {
@@ -313,10 +315,9 @@ class PlanePush : private PlaneContacts<Element, System> {
     for (int i = 0; i < count_; ++i) {
       if (slot(i).goal < 0 || all_[i].kind != ObstacleKind::round) continue;
       const Scalar s = slot(i).s;
-      const auto off = [&](const Centreline<Scalar>& line) {
-        const Displacement<Scalar> at = line.at(s);
-        return std::abs((Vector2<Scalar>(s + at.u, at.w) - all_[i].round.centre).norm() -
-                        all_[i].round.reach);
+      const RoundContact round{all_[i].round};
+      const auto off = [&](const auto& line) {
+        return std::abs(round.clearance(round.node_at(line, s)) - all_[i].round.reach);
       };
       jump = (std::max)(jump, off(system.centreline()));
       from_rest = (std::max)(from_rest, off(system.view(way.rest_state_)));
@@ -332,14 +333,18 @@ class PlanePush : private PlaneContacts<Element, System> {
   Obstacle alone_{};  // the one circle of a push by one
   Work work_, from_;
   Before before_;
-  std::array<Round, most> to_ = [] {
-    std::array<Round, most> all;
-    all.fill(Round{0, {0, 0}, 0, 1});
-    return all;
-  }();
+  std::array<Round, most> to_{};
   Continuation<Scalar> continuation_;
   FrictionBalance<Scalar> balance_;
   Scalar potential_ = 0, taken_ = 0;  // of the last answer, and by friction [J]
+};
+
+/// Of a beam that nothing round pushes.
+struct NoPush {
+  template <class System>
+  explicit NoPush(const System&) noexcept {}
+  void forget() noexcept {}
+  void forget_shape() noexcept {}
 };
 
 }  // namespace hapbeam::detail

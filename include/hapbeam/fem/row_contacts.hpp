@@ -1,4 +1,4 @@
-// Which obstacles touch a beam in the plane, and where: what a push knows of each, and what an equilibrium says of it.
+// Which obstacles touch a beam or rod, and where: what a push knows of each, and what an equilibrium says of it.
 //
 // By an active set: of those that would have to pull the worst lets go; where none would, the one that the beam lies deepest in is added.
 // Two that are beside each other bend the beam with forces a thousand times their difference, so a new one takes the place of the one beside it, which
@@ -20,38 +20,30 @@
 
 namespace hapbeam::detail {
 
-/// What is seen of a beam, as ObstacleGap looks at it.
-template <typename S>
-struct Drawn {
-  using Scalar = S;
-  Centreline<S> line;
-
-  int elements() const noexcept { return line.segments(); }
-  const CentrelineNode<S>& node(int i) const noexcept { return line[i]; }
-  Centreline<S> centreline() const noexcept { return line; }
-  S length() const noexcept { return line.length(); }
-};
-
 template <class Element, class System>
-class PlaneContacts {
+class RowContacts {
  protected:
   using Scalar = typename System::Scalar;
   using Contact = typename System::Contact;
-  using RoundContact = detail::RoundContact<Scalar>;
-  using Obstacle = hapbeam::Obstacle<Scalar, 2>;
-  static constexpr int most = contacts_of<Element>;
+  using RoundContact = typename SystemOf<Element>::template RoundContact<Scalar>;
+  using Round = typename SystemOf<Element>::template Round<Scalar>;
+  static constexpr int most = contacts_of<Element>, dimension = dimension_of<Element>;
+  using Vector = VectorOf<Scalar, dimension>;
+  using State = InnerState<Scalar, dimension>;
+  using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
 
   /// Of an obstacle during a push.
-  struct Slot : InnerState<Scalar> {
-    int goal = -1;         ///< number of its contact in the system, -1: none
-    bool let_go = false;   ///< in this push
-    bool crowded = false;  ///< too near another contact, or past an end that is held
+  struct Slot : State {
+    int goal = -1;                  ///< number of its contact in the system, -1: none
+    bool let_go = false;            ///< in this push
+    bool crowded = false;           ///< too near another contact, or past an end that is held
+    Vector place = Vector::Zero();  ///< of the curve, as it was seen last [m]
     bool held =
         false;  ///< along its normal, where its place cannot be sought: the beam is bent too sharply, or a support is too near
-    Vector2<Scalar> normal{0, 1};  ///< of that
-    Scalar of = 0;                 ///< the place whose displacement it has then [m]
-    Scalar depth = 0;              ///< [m]
-    InnerState<Scalar> begins;     ///< from where its way begins anew
+    Vector normal = Vector::Zero();  ///< of that
+    Scalar of = 0;                   ///< the place whose displacement it has then [m]
+    Scalar depth = 0;                ///< [m]
+    State begins;                    ///< from where its way begins anew
   };
   Slot& slot(int i) noexcept { return slots_[of(i)]; }
   static constexpr std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
@@ -67,15 +59,17 @@ class PlaneContacts {
       // What had no answer at an end that has been pushed past it slips off.
       const bool off = round && !holds && all[i].pushed.past_end && !is_answer(all[i].pushed.status);
       all[i].touching = all[i].valid && !off && (all[i].touching || all[i].kind == ObstacleKind::support);
-      const InnerState<Scalar> before = all[i].touching ? slot(i) : InnerState<Scalar>{};
+      const State before = all[i].touching ? slot(i) : State{};
       const bool sharp = round && all[i].touching && force_of(all[i]) != 0 && slot(i).sharp,
                  was_held = sharp && slot(i).held;
+      const Vector place = slot(i).place;
       slot(i) = {};
-      static_cast<InnerState<Scalar>&>(slot(i)) = before;
+      static_cast<State&>(slot(i)) = before;
+      slot(i).place = place;
       slot(i).sharp = sharp, slot(i).moves = true, slot(i).crowded = off;
       if (!round) slot(i).s = std::clamp(all[i].place.s, Scalar(0), range.length()), slot(i).moves = false;
       else if (was_held) hold(system, i);
-      else place(system, i, all[i].round.s);
+      else this->place(system, i, all[i].round.s);
       slot(i).force = force_of(all[i]);
     }
   }
@@ -83,15 +77,14 @@ class PlaneContacts {
   static Scalar force_of(const Obstacle& obstacle) noexcept {
     return obstacle.kind == ObstacleKind::round ? -obstacle.pushed.force : obstacle.pushed.force;
   }
-  /// The place of the beam that is nearest to a circle, from where that is sought, no farther than that [m].
-  static Scalar foot(const System& system, const Circle<Scalar>& round, Scalar from,
-                     Scalar farthest) noexcept {
-    const Centreline<Scalar> line = system.drawn();
+  /// The place of the beam that is nearest to what is round, from where that is sought, no farther than that [m].
+  static Scalar foot(const System& system, const Round& request, Scalar from, Scalar farthest) noexcept {
+    const auto line = system.drawn();
+    const RoundContact round{request};
     Scalar s = from;
     for (int k = 0; k < 4; ++k) {
       s = std::clamp(s, Scalar(0), system.length());
-      const Displacement<Scalar> at = line.at(s);
-      s += direction(-at.theta).dot(round.centre - Vector2<Scalar>(s + at.u, at.w));
+      s += round.look(round.node_at(line, s), 0).ahead;
     }
     return std::abs(s - from) < farthest ? s : from;
   }
@@ -121,43 +114,50 @@ class PlaneContacts {
   }
   /// Where no place is nearest, the one that was goes with the hand, along the normal that the beam had there.
   void hold(const System& system, int i) noexcept {
-    const Circle<Scalar>& round = all_[i].round;
+    const RoundContact round{all_[i].round};
+    const Scalar s = all_[i].round.s;
     Slot& now = slot(i);
-    const Centreline<Scalar> line = system.drawn();
-    const Displacement<Scalar> was = line.at(round.s);
-    const Vector2<Scalar> way = round.centre - centres_[of(i)],
-                          off = round.centre - Vector2<Scalar>(round.s + was.u, was.w);
-    place(system, i, round.s + direction(-was.theta).dot(way + returns * off));
+    const auto node = round.node_at(system.drawn(), s);
+    const Vector at = round.place_of(node), centre = round.centre(at), way = centre - centre_before(i, at);
+    place(system, i, s + round.along(node, Vector(way + returns * (centre - at))));
     if (!now.moves) return;
-    hold_along(system, i, round.s);
+    hold_along(system, i, s);
     now.of = now.s;
+  }
+  /// How far what is round has come since the push before [m].
+  Scalar jumped(int i, const Round& round) noexcept {
+    const Vector& at = slot(i).place;
+    return std::sqrt((RoundContact{round}.centre(at) - centre_before(i, at)).squaredNorm());
   }
   bool held_beside_support(int i) noexcept { return slot(i).held && !slot(i).sharp; }
   /// Where it is, along the normal that the beam has there.
   void hold_along(const System& system, int i, Scalar there) noexcept {
-    const Vector2<Scalar> tangent = direction(-system.drawn().at(there).theta);
+    const RoundContact round{all_[i].round};
     Slot& now = slot(i);
-    now.normal = all_[i].round.side * Vector2<Scalar>(tangent.y(), -tangent.x());
+    const auto node = round.node_at(system.drawn(), there);
+    now.normal = -round.facing(round.tangent(node));
+    now.place = round.place_of(node);
     now.held = true, now.moves = false, now.of = there;
   }
   Contact contact(int i) noexcept {
     const Slot& now = slot(i);
     Contact contact;
-    static_cast<InnerState<Scalar>&>(contact) = now;
+    static_cast<State&>(contact) = now;
     contact.least = least_, contact.most = most_;
     // Between places of one body the beam is nearly as sharp as that: they are sought where the gaps are closed.  So they are where a hand has jumped: the circle
     // that has passed the beam says nothing of the place.
-    const bool jumps = now.force != 0 && all_[i].kind == ObstacleKind::round &&
-                       (all_[i].round.centre - centres_[of(i)]).norm() > all_[i].round.reach / 2;
-    contact.waits = now.moves && (jumps || twin(i) >= 0);
-    if (all_[i].kind == ObstacleKind::round) {
-      const Circle<Scalar>& round = all_[i].round;
-      contact.centre = round.centre, contact.side = round.side, contact.reach = round.reach;
-      contact.normal = Vector2<Scalar>(0, -round.side);
+    const bool is_round = all_[i].kind == ObstacleKind::round;
+    const bool jumps = is_round && now.force != 0 && jumped(i, all_[i].round) > all_[i].round.reach / 2;
+    contact.waits = now.moves && ((jumps && dimension == 2) || twin(i) >= 0);
+    if constexpr (dimension == 3) contact.seeks = twin(i) < 0;
+    if (is_round) {
+      const RoundContact round{all_[i].round};
+      round.set(contact);
+      contact.reach = all_[i].round.reach;
       if (now.held) {
         contact.kind = Contact::Kind::along;
-        contact.normal = now.normal, contact.curvature = 1 / round.reach;
-        contact.reach += contact.normal.dot(round.centre - Vector2<Scalar>(now.of, 0));
+        contact.normal = now.normal, contact.curvature = 1 / contact.reach;
+        contact.reach += contact.normal.dot(round.centre(now.place) - round.place_at_rest(now.of));
       }
     } else {
       contact.kind = Contact::Kind::along;
@@ -172,12 +172,13 @@ class PlaneContacts {
       if (now.goal < 0) continue;
       system.look(now.goal);
       const Contact& found = system.rows()[now.goal];
-      static_cast<InnerState<Scalar>&>(now) = found;
+      static_cast<State&>(now) = found;
+      now.place = found.place;
       auto& pushed = all_[i].pushed;
       pushed.force = now.held ? -system.linear_reaction(now.goal) : system.linear_reaction(now.goal);
       pushed.point = found.place;
       if (all_[i].kind != ObstacleKind::round) continue;
-      const Scalar beyond = now.moves || now.held ? Scalar(0) : outward(system, found);
+      const Scalar beyond = now.moves || now.held ? Scalar(0) : outward(all_[i].round, found);
       pushed.past_end = beyond > 0 && (now.s == 0 || now.s == system.length());
       pushed.normal = -found.normal;
       pushed.s = beyond > 0 ? std::clamp(now.s == least_ ? now.s - beyond : now.s + beyond, Scalar(0),
@@ -187,13 +188,21 @@ class PlaneContacts {
     }
   }
 
-  /// Where there is no equilibrium, what was at an end has been pushed past it.
-  void lose(const System& system) noexcept {
+  /// Where there is no equilibrium, what was at an end has been pushed past it, and what has touched first feels the last one.
+  void lose(System& system) noexcept {
     const Scalar length = system.length(), close_by = length / 1000;
-    for (int i = 0; i < count_; ++i)
-      if (all_[i].touching && all_[i].kind == ObstacleKind::round)
-        all_[i].pushed.past_end =
-            (least_ == 0 && slot(i).s < close_by) || (most_ == length && slot(i).s > length - close_by);
+    for (int i = 0; i < count_; ++i) {
+      if (!all_[i].touching || all_[i].kind != ObstacleKind::round) continue;
+      auto& pushed = all_[i].pushed;
+      pushed.past_end =
+          (least_ == 0 && slot(i).s < close_by) || (most_ == length && slot(i).s > length - close_by);
+      const int goal = slot(i).goal;
+      if (pushed.force != 0 || goal < 0 || !(system.linear_reaction(goal) < 0)) continue;
+      system.look(goal);
+      const Contact& found = system.rows()[goal];
+      pushed.force = system.linear_reaction(goal);
+      pushed.point = found.place, pushed.normal = -found.normal, pushed.s = found.s;
+    }
   }
   /// What the equilibrium says of all of them, after take().   @return whether there has to be another one
   template <class Extent, class Friction>
@@ -205,7 +214,7 @@ class PlaneContacts {
       if (now.goal < 0 || all_[i].kind != ObstacleKind::round) continue;
       // What lies beyond an end comes back where the end turns away.
       const Contact& found = system.rows()[now.goal];
-      if (!now.moves && !now.held && outward(system, found) < 0) now.moves = again = true;
+      if (!now.moves && !now.held && outward(all_[i].round, found) < 0) now.moves = again = true;
     }
     if (again || holds_) return again;
     if (slip_off(system, range)) return true;
@@ -224,7 +233,7 @@ class PlaneContacts {
     if (deepest < 0) return false;
     all_[deepest].touching = true;
     slot(deepest).force = 0;
-    slot(deepest).piece = {};
+    slot(deepest).forget();
     slot(deepest).begins = slot(deepest);
     const int other = twin(deepest);
     if (other >= 0) friction.meet_beside(system, deepest, other, slot(deepest).s);
@@ -245,7 +254,7 @@ class PlaneContacts {
           continue;
         if (twins) {
           place(system, k, (slot(i).s + slot(k).s) / 2);
-          slot(k).force += slot(i).force, slot(k).piece = {}, slot(k).begins = slot(k);
+          slot(k).force += slot(i).force, slot(k).forget(), slot(k).begins = slot(k);
           let_go(i);
           continue;
         }
@@ -254,12 +263,13 @@ class PlaneContacts {
         slot(away).crowded = true;
       }
   }
-  void end(const System& system, int i, Status status) noexcept {
+  void end(System& system, int i, Status status) noexcept {
     auto& pushed = all_[i].pushed;
-    centres_[of(i)] = all_[i].round.centre;
-    pushed.status = !all_[i].valid                                              ? Status::invalid_request
-                    : slot(i).crowded || (status == Status::ok && slot(i).held) ? Status::out_of_range
-                                                                                : status;
+    before_[of(i)] = all_[i].round;
+    pushed.status = !all_[i].valid ? Status::invalid_request
+                    : slot(i).crowded || (status == Status::ok && (slot(i).held || touches_again(system, i)))
+                        ? Status::out_of_range
+                        : status;
     if (!all_[i].touching || (pushed.force > 0 && !holds_ && all_[i].kind != ObstacleKind::support))
       pushed.force = 0;
     if (all_[i].kind == ObstacleKind::round) return;
@@ -278,7 +288,7 @@ class PlaneContacts {
 
   /// To be called where something else moves the beam.
   void forget_pieces() noexcept {
-    for (Slot& slot : slots_) slot.piece = {}, slot.sharp = slot.held = false;
+    for (Slot& slot : slots_) slot.forget(), slot.sharp = slot.held = false;
   }
 
   Obstacle* all_ = nullptr;
@@ -301,10 +311,9 @@ class PlaneContacts {
     slot(i).let_go = true;
   }
   /// How far a centre lies beyond the end of what can be touched, negative: beside it [m].
-  Scalar outward(const System& system, const Contact& found) const noexcept {
-    const Vector2<Scalar> tangent = found.tangent / found.tangent.norm();
-    const Scalar along = tangent.dot(found.centre - found.place);
-    (void)system;
+  Scalar outward(const Round& round, const Contact& found) const noexcept {
+    const Vector centre = RoundContact{round}.centre(found.place);
+    const Scalar along = found.tangent.dot(centre - found.place) / std::sqrt(found.tangent.squaredNorm());
     return found.s <= least_ ? -along : found.s >= most_ ? along : Scalar(-1);
   }
   /// An end that holds w may slide away under an obstacle.   @return whether one has
@@ -324,6 +333,20 @@ class PlaneContacts {
       slot(i).crowded = any = true;
     }
     return any;
+  }
+  /// Whether a rod lies in what is round beside where it touches that, too: bent as sharply, it has another place there.
+  bool touches_again(System& system, int i) noexcept {
+    if constexpr (dimension == 3 && most == 1) {
+      const Slot& now = slot(i);
+      if (now.goal < 0 || !now.moves || !(system.rows()[now.goal].wraps > sharpest)) return false;
+      system.draw();
+      const auto line = system.drawn();
+      const ObstacleGap<decltype(line), RoundContact> gap(line, RoundContact{all_[i].round},
+                                                          line.node_near(now.s), now.s,
+                                                          shortest_element<Scalar>(system.length()));
+      return gap.depth > Scalar(1e-6) * system.length();
+    }
+    return false;
   }
   /// Whether two bodies lie on the beam side by side.
   bool beside(int i, int k) noexcept {
@@ -362,20 +385,21 @@ class PlaneContacts {
     for (int k = 0; k < n; ++k) {
       Slot& now = at(k);
       place(system, order[of(k)], middle + wide * (Scalar(k) / Scalar(n - 1) - Scalar(0.5)));
-      now.force = force / Scalar(n), now.piece = {}, now.sharp = false;
+      now.force = force / Scalar(n), now.forget(), now.sharp = false;
       now.moves = now.moves && n == 2;  // the others once their forces are known
       now.begins = now;
     }
   }
   /// How deep the beam lies in what does not touch it, and where.
   void seek(const System& system, int i) noexcept {
-    using Gap = ObstacleGap<Drawn<Scalar>, RoundContact>;
-    const Drawn<Scalar> drawn{system.drawn()};
+    using Line = decltype(system.drawn());
+    using Gap = ObstacleGap<Line, RoundContact>;
+    const Line line = system.drawn();
     const RoundContact round{all_[i].round};
     const int other = twin(i);
     const Scalar length = system.length();
-    const Gap gap = other < 0 ? Gap(drawn, round)
-                              : Gap(drawn, round, drawn.line.node_near(slot(other).s), slot(other).s,
+    const Gap gap = other < 0 ? Gap(line, round)
+                              : Gap(line, round, line.node_near(slot(other).s), slot(other).s,
                                     2 * shortest_element<Scalar>(length));
     Slot& now = slot(i);
     now.depth = gap.depth;
@@ -384,20 +408,23 @@ class PlaneContacts {
     if (gap.s < least_ || gap.s > most_) now.depth = -std::numeric_limits<Scalar>::infinity();
   }
 
+  // Of wraps: from there the distance may have another minimum.
+  static constexpr Scalar sharpest = Scalar(0.25);
   // So much over n² longer is the way from the first to the last of n places of a body where the last one comes: a string lies on two and on three with
   // the same force where that is 1.16, by closed form; on three and on four it measures 1.09.
   static constexpr Scalar wider = Scalar(1.44);
   // In a push, of what a centre is off the normal of a place that is held.
   static constexpr Scalar returns = Scalar(0.02);
 
+  /// Where the centre, or the axis beside a point, was in the push before [m].
+  Vector centre_before(int i, const Vector& at) const noexcept {
+    return RoundContact{before_[of(i)]}.centre(at);
+  }
+
   bool holds_ = false;
   Scalar least_ = 0, most_ = 0;
   std::array<Slot, most> slots_{};
-  std::array<Vector2<Scalar>, most> centres_ = [] {
-    std::array<Vector2<Scalar>, most> all;
-    all.fill(Vector2<Scalar>::Zero());
-    return all;
-  }();  // in the push before [m]
+  std::array<Round, most> before_{};  // in the push before
 };
 
 }  // namespace hapbeam::detail

@@ -1,0 +1,245 @@
+// Contacts within an element of a rod, as it lies: the curve beside each, which its bubble bends off the element's cubic, and how all of them yield.
+//
+//   place       p = r(s) + v,   v = Σ C(s, s') F'                C: what the cubic lacks of the curve (clamped_piece.hpp)
+//   force       F = λ n + T                                      T: of friction
+//
+// Real-time: noexcept, no allocation, O(contacts²).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <hapbeam/body/clamped_piece.hpp>
+#include <hapbeam/body/rod_inner_contact.hpp>
+#include <hapbeam/body/stacked.hpp>
+#include <hapbeam/element/carried_frame.hpp>
+
+namespace hapbeam::detail {
+
+/// Base class of TouchedRod.   @tparam Most  contacts
+template <class Element, typename S, int Most>
+class RodBubbles : protected Stacked<S, Most> {
+  using Base = Stacked<S, Most>;
+
+ protected:
+  static constexpr int unknowns = Element::unknowns;
+  using Contact = InnerContact<S, 3>;
+  using Column = VectorOf<S, 2 * unknowns>;
+  using Base::at;
+  using Base::count_;
+  using Base::put;
+  using Base::size;
+  using Base::times;
+  using Base::vector;
+  using typename Base::Matrix;
+  using typename Base::Square;
+  using typename Base::Stack;
+  using typename Base::Vector;
+
+ public:
+  /// @param rod  RodElements   @param e  of its elements
+  template <class Parts>
+  RodBubbles(const Parts& rod, int e) noexcept
+      : a_(&rod.nodes()[e]), b_(&rod.nodes()[e + 1]), p_(&rod.properties(e)), twist_(rod.twists()[e]) {
+    for (int g = 0; g < p_->number; ++g) {
+      const auto& point = p_->points[g];
+      const S weight = S(gauss_rule(p_->number).weight[g]);
+      // Against a turn about one axis of the section it moves along the other.
+      soft_[0] += weight / point.bending2, soft_[1] += weight / point.bending1;
+      even_ = even_ && point.bending1 == point.bending2;
+    }
+  }
+
+  /// @param contact  its place is in this element; stays until the last call   @param id  of no other one
+  void add(Contact& contact, int id) noexcept {
+    contacts_[at(count_)] = &contact;
+    ids_[at(count_++)] = id;
+  }
+  /// Where the contacts are as it lies, after all have been added.
+  void look() noexcept {
+    for (int k = 0; k < count_; ++k) look(k);
+    fill();
+    for (int k = 0; k < count_; ++k) {
+      Contact& contact = *contacts_[at(k)];
+      const Spot& spot = spots_[at(k)];
+      const S x = contact.s - a_->s, flat = spot.t.dot(Vector(spot.curved * spot.t));
+      const Vector curvature =
+          spot.k + ClampedPiece<S>(p_->length, x, x).first_twice * (between(k, k) * vector(force_, k));
+      contact.wraps = flat > 0 ? -contact.normal.dot(curvature) / flat : S(0);
+    }
+  }
+  /// What contacts bend of it alone, as it lies [J].
+  S strain_energy() noexcept {
+    look();
+    S sum = 0;
+    for (int i = 0; i < size(); ++i) sum += force_[at(i)] * yield_[at(i)] / 2;
+    return sum;
+  }
+
+ protected:
+  /// The curve beside a contact.
+  struct Spot {
+    S h[4], h1[4];   // r and r' as of r1, r1', r2, r2'
+    Vector t, k, u;  // r', r'', direction of r'
+    S stretched, x;  // |r'|, ξ
+    Vector zeta;     // λ D'' r'
+    Matrix curved;   // D''
+    Matrix axes;     // along which C is the same: all, or those across r'
+    Vector softer;   // of the section
+    Vector turns;    // moment with which C turns with the section, crossed with u
+
+    Vector move(const Column& by) const noexcept {
+      Vector sum = h[0] * by.template segment<3>(0);
+      for (int q = 1; q < 4; ++q) sum += h[q] * by.template segment<3>(start(q));
+      return sum;
+    }
+  };
+  /// Where r1, r1', r2 and r2' stand among the unknowns.
+  static constexpr int start(int q) noexcept { return q < 2 ? 3 * q : unknowns + 3 * (q - 2); }
+  /// Of what the second derivative of the distance is across.
+  static constexpr S parallel = S(1e-3);
+
+  /// From the place of the only contact to where the curve is tangent, no farther than an element [m].
+  S way_to_foot() noexcept {
+    look(0);
+    const Contact& contact = *contacts_[0];
+    const Spot& spot = spots_[0];
+    // Near enough for where it begins, the bubble is that of the force along n.
+    const S rise = ClampedPiece<S>(p_->length, contact.s - a_->s).by_first * contact.force / 2;
+    const S off = contact.normal.dot(spot.t) + rise * (std::min)(soft_[0], soft_[1]),
+            bends = contact.normal.dot(spot.k), round = spot.t.dot(Vector(spot.curved * spot.t));
+    // Along a curve that is flatter than the capsule the distance has a minimum.
+    const S least = parallel * spot.t.squaredNorm() / contact.reach;
+    if (!(bends + round > least)) return 0;
+    return std::clamp(-off / (bends + round), -p_->length, p_->length);
+  }
+  void look(int k) noexcept {
+    using std::sqrt;
+    Contact& contact = *contacts_[at(k)];
+    Spot& spot = spots_[at(k)];
+    const S l = p_->length, x = (contact.s - a_->s) * p_->inverse_length, y = 1 - x;
+    const CubicWeights<S> w(x, p_->inverse_length);
+    spot.x = x;
+    spot.h[0] = y * y * (1 + 2 * x), spot.h[1] = l * x * y * y, spot.h[2] = 1 - spot.h[0],
+    spot.h[3] = -l * x * x * y;
+    spot.h1[0] = -w.a, spot.h1[1] = w.a1, spot.h1[2] = w.a, spot.h1[3] = w.a2;
+    const Vector chord = b_->r - a_->r;
+    spot.t = w.a * chord + w.a1 * a_->tangent + w.a2 * b_->tangent;
+    spot.k = w.b * chord + w.b1 * a_->tangent + w.b2 * b_->tangent;
+    spot.stretched = sqrt(spot.t.squaredNorm());
+    spot.u = spot.t / spot.stretched;
+    contact.place =
+        a_->r + spot.h[2] * chord + spot.h[1] * a_->tangent + spot.h[3] * b_->tangent + contact.bubble;
+    spot.curved.setZero();
+    if (contact.kind == Contact::Kind::along) {
+      contact.gap = contact.normal.dot(contact.place) - contact.reach;
+      return;
+    }
+    const S along = contact.axis.nearest(contact.place);
+    const Vector off = contact.place - contact.axis.at(along);
+    const S distance = sqrt(off.squaredNorm());
+    const Vector side = contact.side - spot.u * spot.u.dot(contact.side);
+    // The axis may have passed the curve.  Nearer to it than half of the reach a plane stands for the capsule: there the direction to the axis says nothing.
+    if (off.dot(side) < 0 && 2 * distance > contact.reach) {
+      contact.normal = off / distance;
+      contact.gap = distance - contact.reach;
+      spot.curved = Matrix::Identity() - contact.normal * contact.normal.transpose();
+      if (along > 0 && along < 1) {
+        const Vector axis = contact.axis.way / sqrt(contact.axis.way.squaredNorm());
+        spot.curved -= axis * axis.transpose();
+      }
+      spot.curved /= distance;
+    } else {
+      const S square = side.squaredNorm();
+      if (square > 0) contact.normal = -side / sqrt(square);
+      contact.gap = contact.normal.dot(off) - contact.reach;
+    }
+  }
+
+  /// Compliances, forces, and what they make of the curve, of all contacts as they lie.
+  void fill() noexcept {
+    for (int k = 0; k < count_; ++k) {
+      Spot& spot = spots_[at(k)];
+      const Contact& contact = *contacts_[at(k)];
+      const Vector force = contact.force * contact.normal + contact.friction;
+      for (int i = 0; i < 3; ++i) force_[at(3 * k + i)] = force[i];
+      // Along itself the curve yields to nothing; but what pushes across the true curve, and so not quite across the cubic, moves it along itself.
+      spot.axes = Matrix::Identity();
+      if (contact.rough || contact.kind == Contact::Kind::along) spot.axes -= spot.u * spot.u.transpose();
+      if constexpr (unknowns == 7)
+        if (!even_) {
+          const Vector d1 = Element::director(*p_, *a_, *b_, twist_, spot.x);
+          spot.softer = soft_[0] > soft_[1] ? d1 : cross3(spot.u, d1);
+        }
+    }
+    slope_ = {};
+    for (int k = 0; k < count_; ++k) {
+      J_[at(k)] = {};
+      for (auto& twice : turned_twice_[at(k)]) twice = 0;
+    }
+    for (int i = 0; i < count_; ++i) {
+      const S x = contacts_[at(i)]->s - a_->s;
+      const ClampedPiece<S> own(p_->length, x);
+      const Matrix shape = between(i, i);
+      put(C_, i, i, own.g * shape);
+      bend(i, i, i, own.by_first * shape);
+      lean(i, i, own.by_first / 2 * shape);
+      turned_twice_[at(i)][at(i)] += half_product(i, i, own.first_twice * shape);
+      for (int j = 0; j < i; ++j) {
+        const S y = contacts_[at(j)]->s - a_->s;
+        const int first = x <= y ? i : j, second = first == i ? j : i;
+        const ClampedPiece<S> to(p_->length, (std::min)(x, y), (std::max)(x, y));
+        const Matrix both = between(first, second);
+        put(C_, first, second, to.g * both), put(C_, second, first, to.g * both.transpose());
+        bend(first, first, second, to.by_first * both);
+        bend(second, second, first, to.by_second * both.transpose());
+        lean(first, second, to.by_first * both), lean(second, first, to.by_second * both.transpose());
+        turned_twice_[at(first)][at(first)] += 2 * half_product(first, second, to.first_twice * both);
+        turned_twice_[at(second)][at(second)] += 2 * half_product(first, second, to.second_twice * both);
+        const S mixed = 2 * half_product(first, second, to.by_both * both);
+        turned_twice_[at(i)][at(j)] += mixed, turned_twice_[at(j)][at(i)] += mixed;
+      }
+    }
+    yield_ = times(C_, force_);
+    for (int k = 0; k < count_; ++k) contacts_[at(k)]->tangent = spots_[at(k)].t + vector(slope_, k);
+  }
+  /// How two places yield to each other, in units of a piece's.
+  Matrix between(int i, int j) const noexcept {
+    const Spot &a = spots_[at(i)], &b = spots_[at(j)];
+    Matrix sum = (std::min)(soft_[0], soft_[1]) * (i == j ? a.axes : Matrix(a.axes * b.axes));
+    if (!even_) sum += std::abs(soft_[0] - soft_[1]) * a.softer * b.softer.transpose();
+    return sum;
+  }
+  /// As place k moves: what C between it and another has of CF, and of ½ F · CF.
+  void bend(int k, int i, int j, const Matrix& by) noexcept {
+    const Vector here = vector(force_, i), there = vector(force_, j), moved = by * there;
+    for (int c = 0; c < 3; ++c) J_[at(k)][at(3 * i + c)] += moved[c];
+    if (i == j) return;
+    const Vector back = by.transpose() * here;
+    for (int c = 0; c < 3; ++c) J_[at(k)][at(3 * j + c)] += back[c];
+  }
+  /// How steep the force at j makes the curve at i.
+  void lean(int i, int j, const Matrix& by) noexcept {
+    const Vector slope = by * vector(force_, j);
+    for (int c = 0; c < 3; ++c) slope_[at(3 * i + c)] += slope[c];
+  }
+  S half_product(int i, int j, const Matrix& by) const noexcept {
+    return vector(force_, i).dot(Vector(by * vector(force_, j))) / 2;
+  }
+
+  const RodNode<S>*a_, *b_;
+  const RodProperties<S>* p_;
+  S twist_;
+  S soft_[2] = {0, 0};  // 1/EI along d1 and d2 [1/(N·m²)]
+  bool even_ = true;    // both the same
+  std::array<Contact*, std::size_t(Most)> contacts_{};
+  std::array<int, std::size_t(Most)> ids_{};
+  std::array<Spot, std::size_t(Most)> spots_;
+  Square C_;
+  Stack force_, yield_, slope_;                                                   // F, CF, how steep that is
+  std::array<Stack, std::size_t(Most)> J_;                                        // C'F of each place
+  std::array<std::array<S, std::size_t(Most)>, std::size_t(Most)> turned_twice_;  // ½ F · C''F
+};
+
+}  // namespace hapbeam::detail

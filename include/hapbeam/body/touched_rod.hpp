@@ -1,0 +1,357 @@
+// What contacts within an element of a rod add to its residual and tangent, and a column for each of them.
+//
+//   place       p = r(s) + v,   v = Σ C(s, s') F'                C: what the cubic lacks of the curve (clamped_piece.hpp)
+//   force       F = λ n + T                                      T: of friction
+//
+//   Π = V + Σ ½ F · v - Σ λ g                g = D(p) - R of a capsule, n · p - d of a held place
+//
+// Place s is where ∂Π/∂s = 0: where the true curve, which v bends, is tangent.  With H = -λ D'' + ∂T, of a contact as it lies, and e what v is off,
+// an increment of the nodes by w at s gives
+//
+//   δv + w = A (w - e + J δs + C n δλ),  δF = -H (δv + w) + ζ δs + n δλ,   A = (I + C H)⁻¹,  J = C'F + C ζ,  ζ = λ D'' r'
+//
+// v and s are condensed; the forces λ stay, as columns of the rod's system.  How C turns with the section is in the residual (its moment is v × F), and in
+// the tangent by the force and the twist.
+// Real-time: noexcept, no allocation, O(contacts³).
+// Source: derived here; docs/theory.md, Contact within an element.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <hapbeam/body/rod_bubbles.hpp>
+
+namespace hapbeam::detail {
+
+/// @tparam Most  contacts
+template <class Element, typename S, int Most>
+class TouchedRod : private RodBubbles<Element, S, Most> {
+  using Base = RodBubbles<Element, S, Most>;
+  using Base::at;
+  using Base::block;
+  using Base::blocks;
+  using Base::C_;
+  using Base::contacts_;
+  using Base::count_;
+  using Base::even_;
+  using Base::fill;
+  using Base::force_;
+  using Base::ids_;
+  using Base::inverse;
+  using Base::J_;
+  using Base::p_;
+  using Base::parallel;
+  using Base::product;
+  using Base::size;
+  using Base::spots_;
+  using Base::start;
+  using Base::times;
+  using Base::turned_twice_;
+  using Base::unknowns;
+  using Base::vector;
+  using Base::yield_;
+  using typename Base::Column;
+  using typename Base::Contact;
+  using typename Base::Matrix;
+  using typename Base::Spot;
+  using typename Base::Square;
+  using typename Base::Stack;
+  using typename Base::Vector;
+  using Tangent = Eigen::Matrix<S, 2 * unknowns, 2 * unknowns>;
+
+ public:
+  using Base::add;
+  using Base::Base;
+  using Base::look;
+  using Base::strain_energy;
+
+  /// Where a contact touches the curve as it lies: λ h(s) = 0 has a root λ = 0, and where λ is small Newton's method would take it.
+  /// @param rod  RodElements   @param e  in and out: element
+  template <class Parts>
+  static void seek(const Parts& rod, int& e, Contact& contact) noexcept {
+    for (int step = 0; step < most_steps; ++step) {
+      TouchedRod here(rod, e);
+      here.add(contact, 0);
+      const S by = here.way_to_foot();
+      if (!(std::abs(by) > close_by * contact.reach)) break;
+      const S s = std::clamp(contact.s + by, contact.least, contact.most);
+      if (s != contact.s + by) contact.moves = false;
+      contact.s = s;
+      while (e > 0 && s < rod.nodes()[e].s) --e;
+      while (e + 1 < rod.size() && s > rod.nodes()[e + 1].s) ++e;
+      if (!contact.moves) break;
+    }
+    contact.enter(e);
+  }
+  S tension() const noexcept { return 0; }
+
+  /// What they add to residual and tangent.   @param rub  (id of a contact) sets its friction, where it touches
+  /// @return the energy of what they bend [J]
+  template <class Rub>
+  S condense(Column& r, Tangent& K, Rub&& rub) noexcept {
+    for (int k = 0; k < count_; ++k) look(k), rub(ids_[at(k)]);
+    fill();
+    const int n = size();
+    // H of each, (I + C H)⁻¹, and what comes of them.
+    Square H;
+    blocks(H, [&](int k) {
+      const Contact& contact = *contacts_[at(k)];
+      return Matrix(contact.friction_tangent - contact.force * spots_[at(k)].curved);
+    });
+    Square CH = product(C_, H);
+    for (int i = 0; i < n; ++i) CH[at(i)][at(i)] += 1;
+    A_ = inverse(CH);
+    H_ = product(H, A_);
+    AC_ = product(A_, C_);
+    S energy = 0;
+    for (int i = 0; i < n; ++i) off_[at(i)] = -yield_[at(i)];
+    for (int k = 0; k < count_; ++k)
+      for (int i = 0; i < 3; ++i) off_[at(3 * k + i)] += contacts_[at(k)]->bubble[i];
+    const Stack He = times(H_, off_);
+    for (int i = 0; i < n; ++i)
+      energy += force_[at(i)] * (yield_[at(i)] / 2 + off_[at(i)]) + off_[at(i)] * He[at(i)] / 2;
+    r.setZero(), K.setZero();
+    spread(He, r, K);
+    condense_places(r, K);
+    return energy;
+  }
+  /// By how much Π changes as all that is condensed finds its own, but for what the nodes and forces make of that [J].
+  S local_change() const noexcept { return change_; }
+  /// How many negative pivots of the rod are of places where the curve is sharper than what touches it, and not of the rod.
+  int turned() const noexcept { return turned_; }
+
+  // Of contact k, after condense().
+
+  /// ∂²Π/∂λ∂ of both nodes.
+  const Column& column(int k) const noexcept { return columns_[at(k)]; }
+  /// ∂Π/∂λ [m]
+  S residual(int k) const noexcept { return residual_[at(k)]; }
+  /// ∂²Π/∂λ∂λ' [m/N]
+  S yields(int k, int other) const noexcept { return yields_[at(k)][at(other)]; }
+
+  /// All that was condensed, after an increment.  @param by  of the nodes   @param forces  of the contacts [N]
+  /// @param longer  in and out: what the residuals of places were worth [J]   @return tension()
+  S advance(const Column& by, const std::array<S, std::size_t(Most)>& forces, S& longer) noexcept {
+    std::array<S, std::size_t(Most)> goes{};
+    for (int i = count_ - 1; i >= 0; --i) {
+      Contact& contact = *contacts_[at(i)];
+      Way& way = ways_[at(i)];
+      if (way.moves || contact.waits) {
+        S sum = way.residual + way.by_nodes.dot(by);
+        for (int j = i + 1; j < count_; ++j) sum += way.by_place[at(j)] * goes[at(j)];
+        for (int j = 0; j < count_; ++j) sum += way.by_force[at(j)] * forces[at(j)];
+        // A force that becomes a multiple of itself would take the place as many times too far as n · t is not yet none.
+        const S change = forces[at(i)], before = std::abs(contact.force);
+        sum -= way.by_force[at(i)] * (change - std::clamp(change, -before, before));
+        if (way.moves) {
+          goes[at(i)] = std::clamp(-sum / way.stiff, -p_->length, p_->length);
+          longer += std::abs(sum * goes[at(i)]);
+        } else if (contact.force != 0) {
+          longer += sum * sum * contact.reach / std::abs(contact.force);
+        }
+      }
+      contact.waits = false;
+    }
+    const int n = size();
+    Stack w{}, z;
+    for (int k = 0; k < count_; ++k) {
+      const Vector moved = spots_[at(k)].move(by);
+      for (int i = 0; i < 3; ++i) w[at(3 * k + i)] = moved[i];
+    }
+    for (int i = 0; i < n; ++i) z[at(i)] = w[at(i)] - off_[at(i)];
+    for (int k = 0; k < count_; ++k)
+      for (int i = 0; i < n; ++i) z[at(i)] += J_[at(k)][at(i)] * goes[at(k)];
+    z = times(A_, z);
+    for (int k = 0; k < count_; ++k) {
+      const Contact& contact = *contacts_[at(k)];
+      for (int i = 0; i < n; ++i) {
+        const auto& row = AC_[at(i)];
+        for (int c = 0; c < 3; ++c)
+          z[at(i)] +=
+              row[at(3 * k + c)] * (contact.normal[c] * forces[at(k)] + spots_[at(k)].zeta[c] * goes[at(k)]);
+      }
+    }
+    for (int k = 0; k < count_; ++k) {
+      Contact& contact = *contacts_[at(k)];
+      for (int i = 0; i < 3; ++i) contact.bubble[i] += z[at(3 * k + i)] - w[at(3 * k + i)];
+      // Of friction that begins to slide the tangent says more than its bound allows.
+      const S most = 2 * (vector(yield_, k).norm() +
+                          (block(C_, k, k) * contact.normal).norm() * std::abs(forces[at(k)])),
+              bubble = contact.bubble.norm();
+      if (contact.rough && bubble > most) contact.bubble *= most / bubble;
+      contact.force += forces[at(k)];
+      contact.s += goes[at(k)];
+    }
+    return 0;
+  }
+
+ private:
+  /// What is condensed of a place.
+  struct Way {
+    bool moves = false;
+    S residual = 0, stiff = 0;
+    Column by_nodes;
+    std::array<S, std::size_t(Most)> by_place, by_force;
+  };
+
+  static constexpr int most_steps = 8;
+  static constexpr S close_by = S(1e-3);  // of the reach: from there Newton's method goes with the rest
+
+  /// Adds what all contacts are to the nodes, and finds their columns and what their places are.
+  void spread(const Stack& He, Column& r, Tangent& K) noexcept {
+    const int n = size();
+    for (int k = 0; k < count_; ++k) {
+      Spot& spot = spots_[at(k)];
+      const Vector moment = cross3(vector(yield_, k), vector(force_, k));
+      const Vector sum = vector(force_, k) + vector(He, k);
+      spot.turns = cross3(moment, spot.u) / spot.stretched;
+      for (int q = 0; q < 4; ++q) r.template segment<3>(start(q)) -= spot.h[q] * sum;
+      if (!spot.turns.isZero(0)) turn(spot, moment, r);
+      if constexpr (unknowns == 7)
+        if (!even_) {
+          // By how much it grows as the section twists.
+          const Vector F = vector(force_, k);
+          const Vector turned = cross3<S>(spot.u, vector(yield_, k)) - block(C_, k, k) * cross3<S>(spot.u, F);
+          const S rise = spot.u.dot(cross3<S>(turned, F)), x = spot.x, y = 1 - x;
+          K(6, 6) -= y * y * rise, K(13, 13) -= x * x * rise;
+          K(6, 13) -= x * y * rise, K(13, 6) -= x * y * rise;
+        }
+      for (int j = 0; j < count_; ++j) {
+        const Matrix stiff = block(H_, k, j);
+        const Spot& other = spots_[at(j)];
+        for (int q = 0; q < 4; ++q)
+          for (int o = 0; o < 4; ++o)
+            K.template block<3, 3>(start(q), start(o)) += (spot.h[q] * other.h[o]) * stiff;
+      }
+    }
+    // Of the places: Way, and J with C ζ.
+    std::array<Stack, std::size_t(Most)> bends = J_;  // C'F
+    std::array<Stack, std::size_t(Most)> normals;     // M n, M = I - H C
+    for (int k = 0; k < count_; ++k) {
+      Spot& spot = spots_[at(k)];
+      const Contact& contact = *contacts_[at(k)];
+      spot.zeta = contact.force * (spot.curved * spot.t);
+      normals[at(k)] = lessened(k, contact.normal);
+      Column& column = columns_[at(k)];
+      column.setZero();
+      pull(normals[at(k)], column);
+      // The moment with which C turns grows with the force.
+      if (!spot.turns.isZero(0)) {
+        const Vector rises = cross3<S>(block(C_, k, k) * contact.normal, vector(force_, k)) +
+                             cross3<S>(vector(yield_, k), contact.normal);
+        turn(spot, rises, column);
+      }
+      S off = contact.gap;
+      for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < n; ++i) off -= contact.normal[c] * A_[at(3 * k + c)][at(i)] * off_[at(i)];
+      residual_[at(k)] = -off;
+      for (int j = 0; j < count_; ++j) {
+        const Vector there = block(AC_, k, j) * contacts_[at(j)]->normal;
+        yields_[at(k)][at(j)] = -contact.normal.dot(there);
+      }
+    }
+    for (int i = 0; i < count_; ++i) {
+      const Spot& spot = spots_[at(i)];
+      const Contact& contact = *contacts_[at(i)];
+      Way& way = ways_[at(i)];
+      const Vector pushes = contact.force * contact.normal;
+      Stack steep = lessened(i, spot.zeta);  // M ζ - H C'F
+      const Stack stiff = times(H_, bends[at(i)]);
+      for (int c = 0; c < n; ++c) steep[at(c)] -= stiff[at(c)];
+      way.residual = -pushes.dot(spot.t) - spot.turns.dot(spot.k);
+      for (int c = 0; c < n; ++c)
+        way.residual += steep[at(c)] * off_[at(c)] - force_[at(c)] * bends[at(i)][at(c)] / 2;
+      way.by_nodes.setZero();
+      pull(steep, way.by_nodes);
+      for (int q = 0; q < 4; ++q) way.by_nodes.template segment<3>(start(q)) -= spot.h1[q] * pushes;
+      for (int j = 0; j < count_; ++j) {
+        const Spot& other = spots_[at(j)];
+        S sum = -turned_twice_[at(i)][at(j)];
+        if (i == j) sum -= pushes.dot(spot.k) + spot.t.dot(spot.zeta);
+        sum -= spot.zeta.dot(Vector(block(AC_, i, j) * other.zeta));
+        for (int c = 0; c < 3; ++c)
+          for (int m = 0; m < n; ++m)
+            sum -= spot.zeta[c] * A_[at(3 * i + c)][at(m)] * bends[at(j)][at(m)] +
+                   other.zeta[c] * A_[at(3 * j + c)][at(m)] * bends[at(i)][at(m)];
+        for (int c = 0; c < n; ++c) sum += bends[at(j)][at(c)] * stiff[at(c)];
+        way.by_place[at(j)] = sum;
+        const Vector& normal = contacts_[at(j)]->normal;
+        S by = i == j ? -spot.t.dot(normal) : S(0);
+        by -= spot.zeta.dot(Vector(block(AC_, i, j) * normal));
+        for (int c = 0; c < n; ++c) by -= bends[at(i)][at(c)] * normals[at(j)][at(c)];
+        way.by_force[at(j)] = by;
+      }
+    }
+  }
+  /// Takes off a moment that turns with the section.
+  void turn(const Spot& spot, const Vector& moment, Column& of) const noexcept {
+    const Vector turns = cross3(moment, spot.u) / spot.stretched;
+    for (int q = 0; q < 4; ++q) of.template segment<3>(start(q)) -= spot.h1[q] * turns;
+    if constexpr (unknowns == 7) {
+      const S about = moment.dot(spot.u);
+      of[6] -= (1 - spot.x) * about, of[13] -= spot.x * about;
+    }
+  }
+  /// Condenses the places that are sought.
+  void condense_places(Column& r, Tangent& K) noexcept {
+    change_ = 0, turned_ = 0;
+    for (int i = 0; i < count_; ++i) {
+      Contact& contact = *contacts_[at(i)];
+      Way& way = ways_[at(i)];
+      way.stiff = way.by_place[at(i)];
+      const S scale = std::abs(contact.force) * spots_[at(i)].t.squaredNorm() / contact.reach;
+      const bool told = contact.kind == Contact::Kind::round && contact.force != 0 &&
+                        std::abs(way.stiff) > parallel * scale;
+      // Along a curve that is flatter than the capsule the distance has a minimum.
+      if (told) contact.sharp = way.stiff * contact.force > 0;
+      way.moves = told && contact.moves && !contact.waits && !contact.rests;
+      if (!way.moves) continue;
+      if (contact.sharp) turned_ += contact.force > 0 ? 1 : -1;
+      const S over = 1 / way.stiff;
+      change_ -= way.residual * way.residual * over / 2;
+      r -= (way.residual * over) * way.by_nodes;
+      K -= (over * way.by_nodes) * way.by_nodes.transpose();
+      for (int k = 0; k < count_; ++k) {
+        columns_[at(k)] -= (way.by_force[at(k)] * over) * way.by_nodes;
+        residual_[at(k)] -= way.by_force[at(k)] * over * way.residual;
+        for (int j = 0; j < count_; ++j)
+          yields_[at(k)][at(j)] -= way.by_force[at(k)] * over * way.by_force[at(j)];
+      }
+      for (int j = i + 1; j < count_; ++j) {
+        Way& next = ways_[at(j)];
+        const S part = way.by_place[at(j)] * over;
+        next.residual -= part * way.residual;
+        next.by_nodes -= part * way.by_nodes;
+        for (int k = 0; k < count_; ++k) {
+          next.by_place[at(k)] -= part * way.by_place[at(k)];
+          next.by_force[at(k)] -= part * way.by_force[at(k)];
+        }
+      }
+    }
+  }
+  /// Adds -Nᵀf of all contacts.
+  void pull(const Stack& f, Column& to) const noexcept {
+    for (int k = 0; k < count_; ++k)
+      for (int q = 0; q < 4; ++q) to.template segment<3>(start(q)) -= spots_[at(k)].h[q] * vector(f, k);
+  }
+
+  /// (I - H C) of a vector of contact k:  Aᵀ, for H and C are symmetric.
+  Stack lessened(int k, const Vector& v) const noexcept {
+    Stack sum{};
+    for (int i = 0; i < size(); ++i)
+      for (int c = 0; c < 3; ++c) sum[at(i)] += A_[at(3 * k + c)][at(i)] * v[c];
+    return sum;
+  }
+
+  Square A_, H_, AC_;
+  Stack off_;  // v - CF
+  std::array<Way, std::size_t(Most)> ways_;
+  std::array<Column, std::size_t(Most)> columns_;
+  std::array<S, std::size_t(Most)> residual_{};
+  std::array<std::array<S, std::size_t(Most)>, std::size_t(Most)> yields_{};
+  S change_ = 0;
+  int turned_ = 0;
+};
+
+}  // namespace hapbeam::detail

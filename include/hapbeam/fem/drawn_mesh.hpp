@@ -1,0 +1,88 @@
+// What is seen of a beam or rod: the nodes of its mesh, and in it the places of its contacts.
+//
+// It has as many nodes as the mesh and one for each contact that there may be.  Those that are left stand in the middle of other elements.
+// Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(elements).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <hapbeam/fem/solver/per_node.hpp>
+
+namespace hapbeam::detail {
+
+/// @tparam Most  contacts
+template <class Node, int Elements, int MaxElements, int Most>
+class DrawnMesh {
+ public:
+  explicit DrawnMesh(int elements) : nodes_(elements + Most) {}
+
+  const Node* data() const noexcept { return nodes_.data(); }
+  int size() const noexcept { return nodes_.size(); }
+  const Node& operator[](int i) const noexcept { return nodes_[i]; }
+
+  /// @param mesh  (i) -> node of the mesh   @param elements  of it   @param element_at  (s) -> element
+  /// @param contacts  how many there are   @param place  (k) -> s of one   @param mark  (k) -> node there   @param within  (e, s) -> node in an element
+  template <class Mesh, class ElementAt, class Place, class Mark, class Within>
+  void draw(int elements, Mesh&& mesh, ElementAt&& element_at, int contacts, Place&& place, Mark&& mark,
+            Within&& within) noexcept {
+    // Where contacts are that are apart from each other and from nodes.
+    std::array<Node, std::size_t(Most)> marks;
+    int count = 0;
+    const auto is_apart = [&](auto s) {
+      const int e = element_at(s);
+      const auto apart = (mesh(e + 1).s - mesh(e).s) / 1000;
+      bool is = s - mesh(e).s > apart && mesh(e + 1).s - s > apart;
+      for (int k = 0; k < count; ++k) is = is && std::abs(marks[at(k)].s - s) > apart;
+      return is;
+    };
+    // One that is beside a node of the mesh is drawn instead of it.
+    std::array<std::pair<int, Node>, std::size_t(Most)> instead;
+    int replaced = 0;
+    for (int k = 0; k < contacts; ++k) {
+      const auto s = place(k);
+      const int e = element_at(s), close_by = s - mesh(e).s < mesh(e + 1).s - s ? e : e + 1;
+      if (is_apart(s)) marks[at(count++)] = mark(k);
+      else if (0 < close_by && close_by < elements &&
+               std::abs(s - mesh(close_by).s) < (mesh(e + 1).s - mesh(e).s) / 50)
+        instead[at(replaced++)] = {close_by, mark(k)};
+    }
+    for (int e = 0; count < Most; ++e) {
+      const auto from = mesh(e).s, to = mesh(e + 1).s;
+      bool empty = true;
+      for (int k = 0; k < count; ++k) empty = empty && !(from < marks[at(k)].s && marks[at(k)].s < to);
+      if (empty) marks[at(count++)] = within(e, (from + to) / 2);
+    }
+    std::sort(marks.begin(), marks.end(), [](const Node& a, const Node& b) { return a.s < b.s; });
+    int to = 0, next = 0;
+    for (int i = 0; i <= elements; ++i) {
+      for (; next < Most && marks[at(next)].s < mesh(i).s; ++next) {
+        marks_[at(next)] = to;
+        nodes_[to++] = marks[at(next)];
+      }
+      nodes_[to] = mesh(i);
+      for (int k = 0; k < replaced; ++k)
+        if (instead[at(k)].first == i) nodes_[to] = instead[at(k)].second;
+      ++to;
+    }
+  }
+  /// The element of the mesh of which a piece is.
+  int element_of(int piece) const noexcept {
+    int e = piece;
+    for (const int mark : marks_)
+      if (mark <= piece) --e;
+    return e;
+  }
+
+ private:
+  static constexpr std::size_t at(int k) noexcept { return static_cast<std::size_t>(k); }
+  static constexpr int with_marks(int size) noexcept { return size == Eigen::Dynamic ? size : size + Most; }
+
+  PerNode<Node, with_marks(Elements), with_marks(MaxElements)> nodes_;
+  std::array<int, std::size_t(Most)> marks_{};  // those that are not of the mesh
+};
+
+}  // namespace hapbeam::detail
