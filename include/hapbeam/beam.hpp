@@ -73,6 +73,8 @@ struct EndPlace {
 struct Arc {
   double end;        ///< [m] arc position at which it ends; it begins where the one before it does
   double curvature;  ///< dθ/ds [1/m] without load: positive where the beam bulges up
+
+  bool bends_as(const Arc& other) const noexcept { return curvature == other.curvature; }
 };
 
 /// A part of the beam with a section of its own, which may change along it.

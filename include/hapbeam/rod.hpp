@@ -27,6 +27,10 @@ struct RodArc {
   double curvature1;  ///< [1/m] about d1: positive turns the tangent from d3 toward -d2
   double curvature2;  ///< [1/m] about d2: positive turns it toward d1
   double twist;       ///< [1/m] of d1 and d2 about d3
+
+  bool bends_as(const RodArc& other) const noexcept {
+    return curvature1 == other.curvature1 && curvature2 == other.curvature2 && twist == other.twist;
+  }
 };
 
 /// A part of the rod with a section of its own, which may change along it: a taper, a step.

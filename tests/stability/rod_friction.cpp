@@ -184,6 +184,25 @@ TEST_CASE("two spheres on a wire give what friction takes at both", "[rod][frict
     }
 }
 
+// A taut wire holds the friction of two spheres between them: where they go on in another direction than they came, both of it turn within a tick.
+TEST_CASE("two spheres that turn off on a taut wire slide from the first tick on",
+          "[rod][friction][several]") {
+  using Both = FemModel<Several<RoundRod, 2>>;
+  const Rod rod(0.2, RodSection::circle(0.002), spring_steel, RodSupport::clamped, RodSupport::clamped);
+  for (int where = 0; where < 5; ++where) {
+    Both model(rod, 16);
+    TouchSeveral touch(model, {RoundAvatar(0.01, 1, 0.2), RoundAvatar(0.01, 1, 0.4)});
+    for (int k = 0; k <= 120; ++k) {
+      const double down = std::min(k, 100) / 100.0, gone = 2e-5 * std::max(0, k - 100);
+      const std::array<Point, 2> at{Point(0.07 + 1e-5 * where + gone, 1e-3 * down - 0.011, 0),
+                                    Point(0.14, 0.011 - 2e-3 * down, gone / 2)};
+      const auto felt = touch.tick(at.data(), 2);
+      CAPTURE(where, k);
+      if (k > 0) CHECK(felt.status == Status::ok);
+    }
+  }
+}
+
 TEST_CASE("friction on a wire keeps its cone whatever the hand does", "[rod][friction]") {
   const Friction friction(0.5, 0.3);
   for (const double mu : {0.0, 1.0}) {

@@ -1,4 +1,4 @@
-// Stiffness of a beam whose section changes along it, ready for a mesh whose nodes move.
+// Stiffness of a beam whose section changes along it.
 //
 // An element carries a moment that is linear between its ends, and one normal force. Its flexibility against end moments is
 //

@@ -1,4 +1,4 @@
-// The shape that a beam has by nature: a chain of arcs, ready for a mesh whose nodes move.
+// The shape that a beam has by nature: a chain of arcs.
 //
 // An element is free of force where its ends stand to each other as those of its piece of the chain do: chord, and end
 // rotations against the chord.  The chain is integrated exactly, so an arc shorter than an element, a corner, does what

@@ -1,4 +1,4 @@
-// Stiffness of a rod whose section changes along it, ready for a mesh whose nodes move.
+// Stiffness of a rod whose section changes along it.
 //
 // An element within one part takes the stiffnesses at its Gauss points.  One in which a part ends takes at each point the mean
 // compliance of the stretch of the element that the point stands for, which is what a step does to a bending moment; EA is of the

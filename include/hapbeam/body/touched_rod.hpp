@@ -10,7 +10,8 @@
 //
 //   δv + w = A (w - e + J δs + C n δλ),  δF = -H (δv + w) + ζ δs + n δλ,   A = (I + C H)⁻¹,  J = C'F + C ζ,  ζ = λ D'' r'
 //
-// v and s are condensed; the forces λ stay, as columns of the rod's system.  How C turns with the section is in the residual (its moment is v × F), and in
+// v and s are condensed; the forces λ stay, as columns of the rod's system.  With friction s stays until an equilibrium is found: what T does as its place moves is
+// not symmetric, and without that a contact that hardly slides is not found.  How C turns with the section is in the residual (its moment is v × F), and in
 // the tangent by the force and the twist.
 // Real-time: noexcept, no allocation, O(contacts³).
 // Source: derived here; docs/theory.md, Contact within an element.
@@ -137,15 +138,19 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     for (int i = count_ - 1; i >= 0; --i) {
       Contact& contact = *contacts_[at(i)];
       Way& way = ways_[at(i)];
-      if (way.moves || contact.waits) {
+      contact.off = 0;
+      if (way.sought || contact.waits) {
         S sum = way.residual + way.by_nodes.dot(by);
         for (int j = i + 1; j < count_; ++j) sum += way.by_place[at(j)] * goes[at(j)];
         for (int j = 0; j < count_; ++j) sum += way.by_force[at(j)] * forces[at(j)];
         // A force that becomes a multiple of itself would take the place as many times too far as n · t is not yet none.
         const S change = forces[at(i)], before = std::abs(contact.force);
         sum -= way.by_force[at(i)] * (change - std::clamp(change, -before, before));
-        if (way.moves) {
-          goes[at(i)] = std::clamp(-sum / way.stiff, -p_->length, p_->length);
+        const S ahead = way.sought ? std::clamp(-sum / way.stiff, -p_->length, p_->length) : S(0);
+        if (way.sought && contact.rough) {
+          contact.off = -ahead;
+        } else if (way.sought) {
+          goes[at(i)] = ahead;
           longer += std::abs(sum * goes[at(i)]);
         } else if (contact.force != 0) {
           longer += sum * sum * contact.reach / std::abs(contact.force);
@@ -189,7 +194,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
  private:
   /// What is condensed of a place.
   struct Way {
-    bool moves = false;
+    bool sought = false;
     S residual = 0, stiff = 0;
     Column by_nodes;
     std::array<S, std::size_t(Most)> by_place, by_force;
@@ -305,8 +310,8 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
                         std::abs(way.stiff) > parallel * scale;
       // Along a curve that is flatter than the capsule the distance has a minimum.
       if (told) contact.sharp = way.stiff * contact.force > 0;
-      way.moves = told && contact.moves && !contact.waits && !contact.rests;
-      if (!way.moves) continue;
+      way.sought = told && contact.moves && !contact.waits && !contact.rests;
+      if (!way.sought || contact.rough) continue;
       if (contact.sharp) turned_ += contact.force > 0 ? 1 : -1;
       const S over = 1 / way.stiff;
       change_ -= way.residual * way.residual * over / 2;

@@ -49,7 +49,9 @@ class BeamElements {
         own_(detail::groups_of<Scalar>(elements)),
         loads_(beam, elements),
         pieces_(beam) {
-    lay_mesh<Scalar>(beam, elements, [this](int i, Scalar s) { nodes_[i] = {s, 0, 0, 0}; });
+    lay_mesh<Scalar>(beam, beam.point_loads(), elements, [this](int i, Scalar s) {
+      nodes_[i] = {s, 0, 0, 0};
+    });
     for (int e = 0; e < elements; ++e) properties_[e] = pieces_.between(nodes_[e].s, nodes_[e + 1].s);
   }
 

@@ -38,7 +38,7 @@ class ContactRows {
   using Contact = InnerContact<Scalar, dimension_of<Element>>;
   using Touched = typename TouchedOf<Element, Scalar, Most>::Type;
   using Vector = VectorOf<Scalar, dimension_of<Element>>;
-  static constexpr int most = Most, unknowns = unknowns_of<Element>();
+  static constexpr int most = Most, dimension = dimension_of<Element>, unknowns = unknowns_of<Element>();
   using Residual = VectorOf<Scalar, 2 * unknowns>;
   using Tangent = Eigen::Matrix<Scalar, 2 * unknowns, 2 * unknowns>;
 
@@ -128,9 +128,29 @@ class ContactRows {
   void seek(const Parts& beam) noexcept {
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[of(k)];
-      if (row.contact.kind == Contact::Kind::round && row.contact.moves && row.contact.seeks)
-        Touched::seek(beam, row.element, row.contact);
+      if (row.contact.kind != Contact::Kind::round || !row.contact.moves || !row.contact.seeks) continue;
+      Touched::seek(beam, row.element, row.contact);
+      row.contact.seeks = !row.contact.rough;
     }
+  }
+  /// Where a place with friction has stayed, it goes to where the curve is tangent in the equilibrium that was found.
+  /// @param element_at  as of advance()   @param length  of the beam [m]   @return whether that is another equilibrium
+  template <class ElementAt>
+  bool go_on_to_tangent(ElementAt&& element_at, Scalar length) noexcept {
+    constexpr Scalar exact = (std::max)(Scalar(1e-6), 1000 * std::numeric_limits<Scalar>::epsilon());
+    bool another = false;
+    for (int k = 0; k < size_; ++k) {
+      Row& row = rows_[of(k)];
+      Contact& contact = row.contact;
+      const Scalar off = std::abs(contact.off), normal = std::abs(contact.force);
+      // Its friction has another moment there, and the gap another size by the square.
+      another = another || off * (contact.friction.norm() * contact.reach + 1000 * normal * off) >
+                               exact * normal * length * contact.reach;
+      contact.s -= contact.off;
+      contact.off = 0;
+      stay_on_beam(row, element_at);
+    }
+    return another;
   }
   /// Strain energy of a touched element [J].
   template <class Parts>
@@ -273,21 +293,8 @@ class ContactRows {
     }
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[of(k)];
-      Contact& contact = row.contact;
       row.by = 0;
-      if (contact.kind != Contact::Kind::round) continue;
-      // Beyond an end its last point is touched, until the centre comes back.
-      const Scalar at = std::clamp(contact.s, contact.least, contact.most);
-      if (at != contact.s) contact.moves = false;
-      contact.s = at;
-      const int left = row.element;
-      row.element = element_at(at, left);
-      if (row.element != left) {
-        // Where each side sends it back by little, it lies at the node between them.
-        contact.rests = row.element == row.from && std::abs(at - row.crossed) < close_by * contact.most;
-        row.from = left, row.crossed = at;
-      }
-      contact.enter(row.element);
+      if (row.contact.kind == Contact::Kind::round) stay_on_beam(row, element_at);
     }
     return longer;
   }
@@ -312,6 +319,23 @@ class ContactRows {
     typename Assembler::Column column;
   };
 
+  /// To be called where a place has moved.
+  template <class ElementAt>
+  void stay_on_beam(Row& row, ElementAt&& element_at) noexcept {
+    Contact& contact = row.contact;
+    // Beyond an end its last point is touched, until the centre comes back.
+    const Scalar at = std::clamp(contact.s, contact.least, contact.most);
+    if (at != contact.s) contact.moves = false;
+    contact.s = at;
+    const int left = row.element;
+    row.element = element_at(at, left);
+    if (row.element != left) {
+      // Where each side sends it back by little, it lies at the node between them.
+      contact.rests = row.element == row.from && std::abs(at - row.crossed) < close_by * contact.most;
+      row.from = left, row.crossed = at;
+    }
+    contact.enter(row.element);
+  }
   template <std::size_t... K>
   ContactRows(int elements, std::index_sequence<K...>) : rows_{((void)K, Row(elements))...} {}
   Touched& touched(const Row& row) noexcept { return *rows_[of(row.first)].touched; }

@@ -1,7 +1,7 @@
-// Nodes of the mesh of a beam in the plane, which stays: one wherever something begins or ends, and the others shared out evenly.
+// Nodes of the mesh of a beam or rod, which stays: one wherever something begins or ends, and the others shared out evenly.
 //
-// That is where an arc of the natural shape ends, or a part with a section of its own, and where a point load acts.  An element bends against the linear
-// function nearest to its natural curvature, and no load acts between the contacts of one that is touched.  Where there are too few elements, what is close to another one is left out.
+// That is where an arc of the natural shape ends, or a part with a section of its own, and where a point load acts.  An element in the plane bends against
+// the linear function nearest to its natural curvature, and no load acts between the contacts of one that is touched; one in space has one natural curvature.  Where there are too few elements, what is close to another one is left out.
 // Each further element goes to the part whose elements are the longest.  A beam of which nothing changes has the uniform mesh.
 // Offline.
 #pragma once
@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <vector>
 
-#include <hapbeam/beam.hpp>
 #include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 
@@ -20,46 +19,47 @@ namespace hapbeam {
 namespace detail {
 
 /// Arc positions at which a mesh is to have nodes, both ends among them [m].   @param apart  least distance of two [m]
-inline std::vector<double> where_beam_changes(const Beam& beam, double apart) {
-  const double most = beam.length() - apart;
+template <class Body, class Forces>
+std::vector<double> where_it_changes(const Body& body, const Forces& forces, double apart) {
+  const double most = body.length() - apart;
   std::vector<double> places{0};
-  const auto& arcs = beam.arcs();
+  const auto& arcs = body.arcs();
   for (std::size_t i = 0; i < arcs.size(); ++i) {
-    const double next = i + 1 < arcs.size() ? arcs[i + 1].curvature : 0;
+    const bool goes_on = i + 1 < arcs.size() ? arcs[i].bends_as(arcs[i + 1]) : arcs[i].bends_as({});
     // An arc shorter than an element may be lies in one of its own.
     const double s = (std::max)(arcs[i].end, places.back() + apart);
-    if (arcs[i].curvature != next && s <= most) places.push_back(s);
+    if (!goes_on && s <= most) places.push_back(s);
   }
   const auto add = [&](double s) {
     const bool is_apart =
         std::none_of(places.begin(), places.end(), [&](double place) { return std::abs(place - s) < apart; });
     if (is_apart && s <= most) places.push_back(s);
   };
-  for (const BeamPart& part : beam.parts()) add(part.end);
-  for (const PointLoad& load : beam.point_loads()) add(load.s);
-  places.push_back(beam.length());
+  for (const auto& part : body.parts()) add(part.end);
+  for (const auto& force : forces) add(force.s);
+  places.push_back(body.length());
   std::sort(places.begin(), places.end());
   return places;
 }
 
 }  // namespace detail
 
-/// Calls set(i, s) with each node and its arc position, from 0 to the length [m].  Of a beam of which nothing changes it takes no memory.
-/// @param elements  one or more
-template <typename Scalar, class Set>
-void lay_mesh(const Beam& beam, int elements, Set&& set) {
+/// Calls set(i, s) with each node and its arc position, from 0 to the length [m].  Where nothing changes it takes no memory.
+/// @param body  Beam | Rod   @param forces  that act at points of it   @param elements  one or more
+template <typename Scalar, class Body, class Forces, class Set>
+void lay_mesh(const Body& body, const Forces& forces, int elements, Set&& set) {
   int next = 0;
   const auto lay = [&](Scalar from, Scalar to, int share) {
     const ContactMesh<Scalar> part(share, to - from);
     for (int i = 0; i < share; ++i) set(next++, from + part.position(i));
   };
-  const Scalar length = static_cast<Scalar>(beam.length());
-  if (beam.arcs().empty() && beam.parts().empty() && beam.point_loads().empty()) {
+  const Scalar length = static_cast<Scalar>(body.length());
+  if (body.arcs().empty() && body.parts().empty() && forces.empty()) {
     lay(0, length, elements);
     return set(elements, length);
   }
   std::vector<double> places =
-      detail::where_beam_changes(beam, static_cast<double>(detail::shortest_element<Scalar>(length)));
+      detail::where_it_changes(body, forces, static_cast<double>(detail::shortest_element<Scalar>(length)));
   const auto size = static_cast<std::size_t>(elements);
   while (places.size() > size + 1) {
     std::size_t least = 1;
@@ -82,10 +82,10 @@ void lay_mesh(const Beam& beam, int elements, Set&& set) {
   set(elements, length);
 }
 /// The same.   @return arc positions [m]
-template <typename Scalar>
-std::vector<Scalar> lay_mesh(const Beam& beam, int elements) {
+template <typename Scalar, class Body, class Forces>
+std::vector<Scalar> lay_mesh(const Body& body, const Forces& forces, int elements) {
   std::vector<Scalar> nodes(static_cast<std::size_t>(elements) + 1);
-  lay_mesh<Scalar>(beam, elements, [&](int i, Scalar s) { nodes[static_cast<std::size_t>(i)] = s; });
+  lay_mesh<Scalar>(body, forces, elements, [&](int i, Scalar s) { nodes[static_cast<std::size_t>(i)] = s; });
   return nodes;
 }
 

@@ -1,4 +1,4 @@
-// Dead loads as forces at fixed points, ready for a mesh whose nodes move.
+// Dead loads as forces at fixed points.
 //
 // A distributed load becomes the consistent nodal forces of the uniform mesh (thesis eq. 3.31), once; point loads stay
 // where they are.  Each is then given to whichever element holds it.  On the uniform mesh that is the consistent load
@@ -97,7 +97,7 @@ std::vector<PointForce<Scalar>> point_forces(const Beam& beam, int elements) {
   std::vector<PointForce<Scalar>> forces;
   const detail::LargestLoad<Scalar> largest(beam.bending_stiffness(), beam.length());
   if (beam.transverse() || beam.axial()) {
-    const std::vector<Scalar> mesh = lay_mesh<Scalar>(beam, elements);
+    const std::vector<Scalar> mesh = lay_mesh<Scalar>(beam, beam.point_loads(), elements);
     std::array<double, 4> left{};  // axial, transverse, and their arms
     const auto push = [&](Scalar node) {
       forces.push_back({node, Scalar(left[0]), Scalar(left[1]), 0, Scalar(left[2]), Scalar(left[3])});
@@ -274,7 +274,7 @@ class DeadLoads {
  public:
   DeadLoads(const Beam& beam, int elements) : forces_(point_forces<Scalar>(beam, elements)) {
     if (!beam.transverse() && !beam.axial()) return;
-    const std::vector<Scalar> mesh = lay_mesh<Scalar>(beam, elements);
+    const std::vector<Scalar> mesh = lay_mesh<Scalar>(beam, beam.point_loads(), elements);
     const detail::LargestLoad<Scalar> largest(beam.bending_stiffness(), beam.length());
     for (std::size_t e = 0; e + 1 < mesh.size(); ++e) {
       const double middle = (static_cast<double>(mesh[e]) + static_cast<double>(mesh[e + 1])) / 2;

@@ -1,4 +1,4 @@
-// The elastic foundations of a rod on a mesh whose nodes move.
+// The elastic foundations of a rod on its mesh.
 //
 //   V = ½ ∫ (r - r°)ᵀ (k⊥ I + (k∥ - k⊥) t° t°ᵀ) (r - r°) ds        ° of the natural shape, t° its tangent
 //

@@ -1,8 +1,7 @@
-// The dead loads of a rod on a mesh whose nodes move.
+// The dead loads of a rod on its mesh.
 //
 // A dead load does work on places and tangents, which the cubic has as linear functions of the nodes: the loads of an element
-// are a constant vector, exact wherever they stand in it.  A distributed load is made the consistent load of the uniform
-// mesh, once.
+// are a constant vector, exact wherever they stand in it.  A distributed load is made the consistent load of the mesh.
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
@@ -10,6 +9,7 @@
 #include <array>
 #include <vector>
 
+#include <hapbeam/fem/laid_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
 #include <hapbeam/fem/rod_forces.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
@@ -102,15 +102,17 @@ class RodLoads {
   }
   void spread_over_nodes(const Rod& rod, int elements, const detail::LargestLoad<Scalar>& largest) {
     using Vector = VectorOf<double, 3>;
-    const double h = rod.length() / elements;
+    const std::vector<Scalar> mesh = lay_mesh<Scalar>(rod, rod.forces(), elements);
+    const auto at = [&mesh](int i) { return static_cast<double>(mesh[static_cast<std::size_t>(i)]); };
     const RodLoad distributed = rod.load();
     std::vector<std::array<Vector, 2>> on(static_cast<std::size_t>(elements) + 1,
                                           {Vector(0, 0, 0), Vector(0, 0, 0)});
     cells_.assign(static_cast<std::size_t>(elements), Vector3::Zero());
-    for (int e = 0; e < elements; ++e)
+    for (int e = 0; e < elements; ++e) {
+      const double h = at(e + 1) - at(e);
       for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
         const double t = detail::gauss_points[k], u = 1 - t, weight = h * detail::gauss_weights[k];
-        Vector f = distributed((e + t) * h);
+        Vector f = distributed(at(e) + t * h);
         for (int c = 0; c < 3; ++c) (void)largest.distributed("load", f[c]);
         f *= weight;
         auto &a = on[static_cast<std::size_t>(e)], &b = on[static_cast<std::size_t>(e) + 1];
@@ -118,9 +120,10 @@ class RodLoads {
         a[0] += u * u * (1 + 2 * t) * f, a[1] += h * t * u * u * f;
         b[0] += t * t * (3 - 2 * t) * f, b[1] -= h * t * t * u * f;
       }
+    }
     for (int i = 0; i <= elements; ++i) {
       const auto& of = on[static_cast<std::size_t>(i)];
-      add(i == elements ? rod.length() : i * h, of[0], of[1]);
+      add(at(i), of[0], of[1]);
     }
   }
 

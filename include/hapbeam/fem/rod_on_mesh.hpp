@@ -9,6 +9,7 @@
 #include <hapbeam/body/rod_profile.hpp>
 #include <hapbeam/element/carried_frame.hpp>
 #include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/fem/laid_mesh.hpp>
 #include <hapbeam/fem/natural_rod.hpp>
 #include <hapbeam/fem/rod_abreast.hpp>
 #include <hapbeam/fem/rod_bed.hpp>
@@ -75,9 +76,7 @@ class RodOnMesh {
         throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
                                     ": TwistedRod turns about its axis, hold its twist at one end");
     round_ = natural_.straight() && profile_.round() && profile_.smooth();
-    const Scalar length = static_cast<Scalar>(rod.length());
-    for (int i = 0; i <= elements; ++i)
-      nodes_[i] = natural_.at(i == elements ? length : length * Scalar(i) / Scalar(elements));
+    lay_mesh<Scalar>(rod, rod.forces(), elements, [this](int i, Scalar s) { nodes_[i] = natural_.at(s); });
     for (int e = 0; e < elements; ++e) make(e);
     if (!loads_.empty()) loads_.take(view(nodes_));
   }

@@ -55,6 +55,8 @@ class RowPush : private RowContacts<Element, System> {
   static constexpr int most_passes = 4 + 2 * most;
   /// Linear solves in which an equilibrium that is near is found, and with friction of several.
   static constexpr int close_by = 6, near_with_friction = 16;
+  /// Times that places with friction go on, in an equilibrium of Coulomb's law.
+  static constexpr int most_moves = 4;
 
   /// @throws std::invalid_argument where there are too few elements for so many contacts
   explicit RowPush(const System& system) : foresight_(system) {
@@ -262,11 +264,14 @@ class RowPush : private RowContacts<Element, System> {
       for (int i = 0; i < count_; ++i)
         if (slot(i).goal >= 0) static_cast<State&>(slot(i)) = slot(i).begins;
     };
-    // Whether Coulomb's law holds.
+    // Whether Coulomb's law holds, and the places are those of the equilibrium.
+    int moves = 0;
     const auto agrees = [&](Status found) {
       if (!rough) return true;
       if (is_answer(found)) {
-        if (friction.settled(system, [this](int i) { return slot(i).goal; })) return true;
+        const bool settled = friction.settled(system, [this](int i) { return slot(i).goal; }),
+                   moved = system.places_go_on();
+        if (settled && (!moved || ++moves > most_moves)) return true;
         this->take(system);
       } else {
         if (all) return true;

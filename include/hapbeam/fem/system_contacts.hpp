@@ -52,6 +52,13 @@ class SystemContacts {
     self().look(k);
     rows_.friction(k)->look(rows_[k]);
   }
+  /// To be called in an equilibrium with friction.   @return whether the places of contacts are those of another one
+  bool places_go_on() noexcept {
+    if constexpr (Rows::dimension == 2) return false;
+    else
+      return rows_.go_on_to_tangent([this](Scalar s, int e) { return self().element_at(s, e); },
+                                    self().length());
+  }
   /// Of no contact any more.
   void forget_friction() noexcept { rows_.forget_friction(); }
   /// The force of contact k of the last linear equations, along the normal of a held place or toward what is round.  It is accurate to what Newton's next
