@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "support/catch.hpp"
-#include <hapbeam/fem/contact_work.hpp>
-#include <hapbeam/fem/friction_balance.hpp>
+#include <hapbeam/fem/contact/contact_work.hpp>
+#include <hapbeam/fem/contact/friction_balance.hpp>
 
 using namespace hapbeam;
 

@@ -13,7 +13,7 @@
 #include <hapbeam/body/clamped_piece.hpp>
 #include <hapbeam/body/rod_inner_contact.hpp>
 #include <hapbeam/body/stacked.hpp>
-#include <hapbeam/element/carried_frame.hpp>
+#include <hapbeam/element/rod/carried_frame.hpp>
 
 namespace hapbeam::detail {
 

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <vector>
 
-#include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/element/rod/rod_properties.hpp>
 #include <hapbeam/rod.hpp>
 
 namespace hapbeam {

@@ -15,9 +15,9 @@
 
 #include <cmath>
 
-#include <hapbeam/element/rod_properties.hpp>
-#include <hapbeam/element/rod_tangent.hpp>
-#include <hapbeam/element/round_strains.hpp>
+#include <hapbeam/element/rod/rod_properties.hpp>
+#include <hapbeam/element/rod/rod_tangent.hpp>
+#include <hapbeam/element/rod/round_strains.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam {

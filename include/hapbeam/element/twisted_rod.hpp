@@ -31,12 +31,12 @@
 
 #include <cmath>
 
-#include <hapbeam/element/carried_frame.hpp>
 #include <hapbeam/element/rod.hpp>
-#include <hapbeam/element/rod_properties.hpp>
-#include <hapbeam/element/round_twist.hpp>
-#include <hapbeam/element/twisted_core.hpp>
-#include <hapbeam/element/twisted_strains.hpp>
+#include <hapbeam/element/rod/carried_frame.hpp>
+#include <hapbeam/element/rod/rod_properties.hpp>
+#include <hapbeam/element/rod/round_twist.hpp>
+#include <hapbeam/element/rod/twisted_core.hpp>
+#include <hapbeam/element/rod/twisted_strains.hpp>
 
 namespace hapbeam {
 

@@ -16,10 +16,10 @@
 #include <utility>
 
 #include <hapbeam/fem/beam_system.hpp>
+#include <hapbeam/fem/contact/place_push.hpp>
+#include <hapbeam/fem/contact/row_push.hpp>
 #include <hapbeam/fem/load_path.hpp>
-#include <hapbeam/fem/place_push.hpp>
 #include <hapbeam/fem/press_range.hpp>
-#include <hapbeam/fem/row_push.hpp>
 #include <hapbeam/fem/solver/descent.hpp>
 
 namespace hapbeam {
@@ -29,9 +29,9 @@ class AllDisplacements {
  public:
   using Scalar = ScalarType;
   using Body = typename detail::SystemOf<Element>::Body;
-  using Round = typename detail::SystemOf<Element>::template Round<Scalar>;
   using Extent = typename detail::SystemOf<Element>::template Range<Scalar>;
   static constexpr int dimension = dimension_of<Element>;
+  using Round = typename detail::RoundOf<Scalar, dimension>::Type;
 
   /// Finds the shape at rest.
   /// @throws std::invalid_argument as BeamSystem, and where the scalar cannot tell so many elements apart

@@ -18,7 +18,7 @@
 #include <hapbeam/fem/beam_forces.hpp>
 #include <hapbeam/fem/laid_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
-#include <hapbeam/fem/rod_lanes.hpp>
+#include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/fem/solver/ldlt.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 

@@ -16,16 +16,16 @@
 #include <hapbeam/beam.hpp>
 #include <hapbeam/fem/beam_shape.hpp>
 #include <hapbeam/fem/chain.hpp>
-#include <hapbeam/fem/contact_friction.hpp>
-#include <hapbeam/fem/contact_rows.hpp>
-#include <hapbeam/fem/drawn_mesh.hpp>
+#include <hapbeam/fem/contact/contact_friction.hpp>
+#include <hapbeam/fem/contact/contact_rows.hpp>
+#include <hapbeam/fem/contact/drawn_mesh.hpp>
+#include <hapbeam/fem/contact/round_contact.hpp>
+#include <hapbeam/fem/contact/system_contacts.hpp>
 #include <hapbeam/fem/press_range.hpp>
-#include <hapbeam/fem/round_contact.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/starting_shapes.hpp>
 #include <hapbeam/fem/supports.hpp>
-#include <hapbeam/fem/system_contacts.hpp>
 
 namespace hapbeam {
 
@@ -46,6 +46,7 @@ class BeamSystem
   using Scalar = ScalarType;
   using typename Shape::Node;
   using typename Shape::State;
+  using RoundContact = detail::RoundContact<Scalar>;
   using Friction = detail::ContactFriction<Scalar, 2, detail::RoundContact>;
   using Shape::elements;
   using Shape::node;
@@ -410,10 +411,6 @@ struct SystemOf {
   using System = BeamSystem<Element, Scalar, Elements, MaxElements>;
   template <typename Scalar>
   using Range = PressRange<Element, Scalar>;
-  template <typename Scalar>
-  using Round = Circle<Scalar>;
-  template <typename Scalar>
-  using RoundContact = detail::RoundContact<Scalar>;
 };
 
 }  // namespace detail

@@ -50,6 +50,7 @@ class FemModel {
   using Scalar = ScalarType;
   using Body = typename Of::Body;  ///< Beam, or Rod in space
   static constexpr int dimension = dimension_of<Element>;
+  using Round = typename detail::RoundOf<Scalar, dimension>::Type;  ///< Circle, or Capsule in space
   using ElementType = Element;
   /// At how many places it may be touched at once.
   static constexpr int contacts = contacts_of<Element>;
@@ -103,13 +104,12 @@ class FemModel {
   /// equilibrium are found together.  out_of_range: they touch nearer to a support than range() says.
   /// @return as press()
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
-  Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request) noexcept {
+  Pushed<Scalar, dimension> push(const Round& request) noexcept {
     return push_round(request, nullptr);
   }
   /// The same with friction.  @param friction  of the touch: friction.hpp
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
-  Pushed<Scalar, dimension> push(const typename Of::template Round<Scalar>& request,
-                                 FrictionState<Scalar, dimension>& friction) noexcept {
+  Pushed<Scalar, dimension> push(const Round& request, FrictionState<Scalar, dimension>& friction) noexcept {
     return push_round(request, &friction);
   }
 
@@ -215,7 +215,7 @@ class FemModel {
     return finite({across.force / n_w, across.status});
   }
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
-  Pushed<Scalar, dimension> push_round(const typename Of::template Round<Scalar>& request,
+  Pushed<Scalar, dimension> push_round(const Round& request,
                                        FrictionState<Scalar, dimension>* friction) noexcept;
   static Response<Scalar> finite(const Response<Scalar>& response) noexcept {
     return std::isfinite(response.force) ? response : Response<Scalar>{0, Status::non_finite};
@@ -247,8 +247,7 @@ Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Solver>::solve
 template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
 template <class E, std::enable_if_t<any_rotation<E>, int>>
 auto FemModel<Element, Scalar, Elements, MaxElements, Solver>::push_round(
-    const typename Of::template Round<Scalar>& request, FrictionState<Scalar, dimension>* friction) noexcept
-    -> Pushed<Scalar, dimension> {
+    const Round& request, FrictionState<Scalar, dimension>* friction) noexcept -> Pushed<Scalar, dimension> {
   const bool valid = is_finite(request) && range_.on_beam(request.s);
   Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid, friction);
   if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;

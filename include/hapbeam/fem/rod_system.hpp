@@ -13,18 +13,18 @@
 
 #include <hapbeam/body/touched_rod.hpp>
 #include <hapbeam/fem/beam_system.hpp>
-#include <hapbeam/fem/contact_friction.hpp>
-#include <hapbeam/fem/contact_rows.hpp>
-#include <hapbeam/fem/drawn_mesh.hpp>
-#include <hapbeam/fem/rod_ends.hpp>
-#include <hapbeam/fem/rod_increments.hpp>
-#include <hapbeam/fem/rod_motion.hpp>
-#include <hapbeam/fem/rod_range.hpp>
-#include <hapbeam/fem/rod_round_contact.hpp>
-#include <hapbeam/fem/rod_shape.hpp>
+#include <hapbeam/fem/contact/contact_friction.hpp>
+#include <hapbeam/fem/contact/contact_rows.hpp>
+#include <hapbeam/fem/contact/drawn_mesh.hpp>
+#include <hapbeam/fem/contact/rod_round_contact.hpp>
+#include <hapbeam/fem/contact/system_contacts.hpp>
+#include <hapbeam/fem/rod/rod_ends.hpp>
+#include <hapbeam/fem/rod/rod_increments.hpp>
+#include <hapbeam/fem/rod/rod_motion.hpp>
+#include <hapbeam/fem/rod/rod_range.hpp>
+#include <hapbeam/fem/rod/rod_shape.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
-#include <hapbeam/fem/system_contacts.hpp>
 
 namespace hapbeam {
 
@@ -57,6 +57,7 @@ class RodSystem
   using typename Shape::Node;
   using typename Shape::State;
   using typename Shape::Vector3;
+  using RoundContact = detail::RodRoundContact<Scalar>;
   using Friction = detail::ContactFriction<Scalar, 3, detail::RodRoundContact>;
   using Shape::elements;
   using Shape::node;
@@ -378,10 +379,6 @@ struct SystemOf<Element, std::enable_if_t<dimension_of<Element> == 3>> {
   using System = RodSystem<Element, Scalar, Elements, MaxElements>;
   template <typename Scalar>
   using Range = RodRange<Scalar>;
-  template <typename Scalar>
-  using Round = Capsule<Scalar>;
-  template <typename Scalar>
-  using RoundContact = RodRoundContact<Scalar>;
 };
 
 }  // namespace detail

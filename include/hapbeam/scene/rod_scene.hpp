@@ -10,7 +10,7 @@
 
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/fem/rod_range.hpp>
+#include <hapbeam/fem/rod/rod_range.hpp>
 #include <hapbeam/rod.hpp>
 #include <hapbeam/scene/scene.hpp>
 #include <hapbeam/turning_plane.hpp>

@@ -4,8 +4,8 @@
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
 
-#include <hapbeam/element/carried_frame.hpp>
-#include <hapbeam/element/rod_tangent.hpp>
+#include <hapbeam/element/rod/carried_frame.hpp>
+#include <hapbeam/element/rod/rod_tangent.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {

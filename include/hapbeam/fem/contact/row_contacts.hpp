@@ -14,8 +14,7 @@
 
 #include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/fem/beam_system.hpp>
-#include <hapbeam/fem/obstacle_gap.hpp>
+#include <hapbeam/fem/contact/obstacle_gap.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
@@ -25,9 +24,9 @@ class RowContacts {
  protected:
   using Scalar = typename System::Scalar;
   using Contact = typename System::Contact;
-  using RoundContact = typename SystemOf<Element>::template RoundContact<Scalar>;
-  using Round = typename SystemOf<Element>::template Round<Scalar>;
+  using RoundContact = typename System::RoundContact;
   static constexpr int most = contacts_of<Element>, dimension = dimension_of<Element>;
+  using Round = typename RoundOf<Scalar, dimension>::Type;
   using Vector = VectorOf<Scalar, dimension>;
   using State = InnerState<Scalar, dimension>;
   using Obstacle = hapbeam::Obstacle<Scalar, dimension>;

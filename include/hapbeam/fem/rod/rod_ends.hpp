@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-#include <hapbeam/fem/rod_end.hpp>
+#include <hapbeam/fem/rod/rod_end.hpp>
 
 namespace hapbeam::detail {
 

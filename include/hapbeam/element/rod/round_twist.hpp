@@ -18,9 +18,9 @@
 
 #include <cmath>
 
-#include <hapbeam/element/carried_frame.hpp>
-#include <hapbeam/element/rod_properties.hpp>
-#include <hapbeam/element/rod_tangent.hpp>
+#include <hapbeam/element/rod/carried_frame.hpp>
+#include <hapbeam/element/rod/rod_properties.hpp>
+#include <hapbeam/element/rod/rod_tangent.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {

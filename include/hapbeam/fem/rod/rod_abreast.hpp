@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include <hapbeam/element/pack.hpp>
-#include <hapbeam/element/rod_properties.hpp>
-#include <hapbeam/fem/rod_lanes.hpp>
+#include <hapbeam/element/rod/rod_properties.hpp>
+#include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/fem/solver/pair_order.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 

@@ -11,7 +11,7 @@
 
 #include <hapbeam/fem/laid_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
-#include <hapbeam/fem/rod_forces.hpp>
+#include <hapbeam/fem/rod/rod_forces.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 
 namespace hapbeam {

@@ -18,8 +18,8 @@
 #include <cmath>
 #include <limits>
 
-#include <hapbeam/fem/friction_bound.hpp>
-#include <hapbeam/fem/friction_place.hpp>
+#include <hapbeam/fem/contact/friction_bound.hpp>
+#include <hapbeam/fem/contact/friction_place.hpp>
 #include <hapbeam/friction.hpp>
 
 namespace hapbeam::detail {

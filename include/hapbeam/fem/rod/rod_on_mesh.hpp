@@ -7,13 +7,13 @@
 #include <string>
 
 #include <hapbeam/body/rod_profile.hpp>
-#include <hapbeam/element/carried_frame.hpp>
-#include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/element/rod/carried_frame.hpp>
+#include <hapbeam/element/rod/rod_properties.hpp>
 #include <hapbeam/fem/laid_mesh.hpp>
-#include <hapbeam/fem/natural_rod.hpp>
-#include <hapbeam/fem/rod_abreast.hpp>
-#include <hapbeam/fem/rod_bed.hpp>
-#include <hapbeam/fem/rod_loads.hpp>
+#include <hapbeam/fem/rod/natural_rod.hpp>
+#include <hapbeam/fem/rod/rod_abreast.hpp>
+#include <hapbeam/fem/rod/rod_bed.hpp>
+#include <hapbeam/fem/rod/rod_loads.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 
 namespace hapbeam::detail {

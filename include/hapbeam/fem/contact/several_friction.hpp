@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <optional>
 
-#include <hapbeam/fem/friction_balance.hpp>
+#include <hapbeam/fem/contact/friction_balance.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/friction.hpp>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include <hapbeam/fem/rod_lanes.hpp>
+#include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/rod_centreline.hpp>
 #include <hapbeam/unroll.hpp>
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <hapbeam/fem/loads.hpp>
-#include <hapbeam/fem/natural_rod.hpp>
+#include <hapbeam/fem/rod/natural_rod.hpp>
 
 namespace hapbeam {
 

@@ -16,12 +16,12 @@
 #include <string>
 #include <utility>
 
-#include <hapbeam/fem/contact_work.hpp>
-#include <hapbeam/fem/continuation.hpp>
-#include <hapbeam/fem/friction_balance.hpp>
-#include <hapbeam/fem/row_contacts.hpp>
-#include <hapbeam/fem/row_foresight.hpp>
-#include <hapbeam/fem/several_friction.hpp>
+#include <hapbeam/fem/contact/contact_work.hpp>
+#include <hapbeam/fem/contact/continuation.hpp>
+#include <hapbeam/fem/contact/friction_balance.hpp>
+#include <hapbeam/fem/contact/row_contacts.hpp>
+#include <hapbeam/fem/contact/row_foresight.hpp>
+#include <hapbeam/fem/contact/several_friction.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {

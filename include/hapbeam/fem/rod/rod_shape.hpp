@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include <hapbeam/fem/rod_elements.hpp>
-#include <hapbeam/fem/rod_motion.hpp>
+#include <hapbeam/fem/rod/rod_elements.hpp>
+#include <hapbeam/fem/rod/rod_motion.hpp>
 
 namespace hapbeam::detail {
 

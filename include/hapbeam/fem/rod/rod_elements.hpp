@@ -9,10 +9,10 @@
 #include <type_traits>
 
 #include <hapbeam/element/pack.hpp>
-#include <hapbeam/element/rod_tangent.hpp>
-#include <hapbeam/fem/rod_forces.hpp>
-#include <hapbeam/fem/rod_lanes.hpp>
-#include <hapbeam/fem/rod_on_mesh.hpp>
+#include <hapbeam/element/rod/rod_tangent.hpp>
+#include <hapbeam/fem/rod/rod_forces.hpp>
+#include <hapbeam/fem/rod/rod_lanes.hpp>
+#include <hapbeam/fem/rod/rod_on_mesh.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam {

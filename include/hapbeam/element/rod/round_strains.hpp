@@ -4,7 +4,7 @@
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
 
-#include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/element/rod/rod_properties.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include <hapbeam/element/rod_properties.hpp>
+#include <hapbeam/element/rod/rod_properties.hpp>
 
 namespace hapbeam {
 

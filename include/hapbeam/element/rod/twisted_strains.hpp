@@ -7,9 +7,9 @@
 
 #include <cmath>
 
-#include <hapbeam/element/carried_frame.hpp>
-#include <hapbeam/element/rod_properties.hpp>
-#include <hapbeam/element/twisted_core.hpp>
+#include <hapbeam/element/rod/carried_frame.hpp>
+#include <hapbeam/element/rod/rod_properties.hpp>
+#include <hapbeam/element/rod/twisted_core.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include <hapbeam/fem/friction_law.hpp>
+#include <hapbeam/fem/contact/friction_law.hpp>
 
 namespace hapbeam::detail {
 

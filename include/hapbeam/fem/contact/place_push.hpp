@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include <hapbeam/element/element.hpp>
-#include <hapbeam/fem/continuation.hpp>
+#include <hapbeam/fem/contact/continuation.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {

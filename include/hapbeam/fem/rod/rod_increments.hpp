@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include <hapbeam/element/pack.hpp>
-#include <hapbeam/fem/rod_lanes.hpp>
+#include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/fem/solver/pair_order.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/unroll.hpp>

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <hapbeam/fem/friction_place.hpp>
+#include <hapbeam/fem/contact/friction_place.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rod_centreline.hpp>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include <hapbeam/angle.hpp>
-#include <hapbeam/fem/friction_place.hpp>
+#include <hapbeam/fem/contact/friction_place.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
