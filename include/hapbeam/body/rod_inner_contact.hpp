@@ -57,7 +57,8 @@ struct InnerContact<S, 3> : InnerState<S, 3> {
   bool waits = false;  ///< s stays in the next solve
   bool seeks = true;   ///< where the curve is tangent, before that; not beside another place of its body
   bool rests = false;  ///< s stays, between two elements
-  bool rough = false;  ///< there is friction: s stays until an equilibrium is found,
+  bool rough = false;  ///< there is friction
+  bool stays = false;  ///< s stays until an equilibrium is found,
   S off = 0;           ///< and is so far from where the curve is tangent then [m]
   Vector friction = Vector::Zero();          ///< on the rod [N]
   Matrix friction_tangent = Matrix::Zero();  ///< across the normal [N/m]

@@ -10,8 +10,8 @@
 //
 //   δv + w = A (w - e + J δs + C n δλ),  δF = -H (δv + w) + ζ δs + n δλ,   A = (I + C H)⁻¹,  J = C'F + C ζ,  ζ = λ D'' r'
 //
-// v and s are condensed; the forces λ stay, as columns of the rod's system.  With friction s stays until an equilibrium is found: what T does as its place moves is
-// not symmetric, and without that a contact that hardly slides is not found.  How C turns with the section is in the residual (its moment is v × F), and in
+// v and s are condensed; the forces λ stay, as columns of the rod's system.  What T does to the nodes as s moves is not
+// symmetric, and left out.  Where a contact hardly slides no equilibrium may be found without it: there s stays while that is sought.  How C turns with the section is in the residual (its moment is v × F), and in
 // the tangent by the force and the twist.
 // Real-time: noexcept, no allocation, O(contacts³).
 // Source: derived here; docs/theory.md, Contact within an element.
@@ -147,7 +147,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         const S change = forces[at(i)], before = std::abs(contact.force);
         sum -= way.by_force[at(i)] * (change - std::clamp(change, -before, before));
         const S ahead = way.sought ? std::clamp(-sum / way.stiff, -p_->length, p_->length) : S(0);
-        if (way.sought && contact.rough) {
+        if (way.sought && contact.stays) {
           contact.off = -ahead;
         } else if (way.sought) {
           goes[at(i)] = ahead;
@@ -311,7 +311,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       // Along a curve that is flatter than the capsule the distance has a minimum.
       if (told) contact.sharp = way.stiff * contact.force > 0;
       way.sought = told && contact.moves && !contact.waits && !contact.rests;
-      if (!way.sought || contact.rough) continue;
+      if (!way.sought || contact.stays) continue;
       if (contact.sharp) turned_ += contact.force > 0 ? 1 : -1;
       const S over = 1 / way.stiff;
       change_ -= way.residual * way.residual * over / 2;

@@ -59,10 +59,13 @@ class ContactRows {
   void clear() noexcept { size_ = 0; }
   /// @param goal  its reach is where the path ends; its piece, where that is of this element, goes on   @param element  that holds it
   /// @param friction  null: none
-  void add(const Contact& goal, int element, Friction* friction) noexcept {
+  /// @param stays  s, until an equilibrium is found
+  void add(const Contact& goal, int element, Friction* friction,
+           [[maybe_unused]] bool stays = false) noexcept {
     Row& row = rows_[of(size_++)];
     row.contact = goal, row.element = element, row.friction = friction;
     row.contact.rough = friction != nullptr;
+    if constexpr (dimension == 3) row.contact.stays = friction && stays;
     row.contact.enter(element), row.contact.forget_order();
     row.goal = goal.reach, row.centre = row.contact.centre_or_tip(), row.by = 0, row.from = -1;
     starts_known_ = false;
@@ -130,10 +133,10 @@ class ContactRows {
       Row& row = rows_[of(k)];
       if (row.contact.kind != Contact::Kind::round || !row.contact.moves || !row.contact.seeks) continue;
       Touched::seek(beam, row.element, row.contact);
-      row.contact.seeks = !row.contact.rough;
+      row.contact.seeks = !row.contact.stays;
     }
   }
-  /// Where a place with friction has stayed, it goes to where the curve is tangent in the equilibrium that was found.
+  /// Where a place has stayed, it goes to where the curve is tangent in the equilibrium that was found.
   /// @param element_at  as of advance()   @param length  of the beam [m]   @return whether that is another equilibrium
   template <class ElementAt>
   bool go_on_to_tangent(ElementAt&& element_at, Scalar length) noexcept {

@@ -251,30 +251,40 @@ class RowPush : private RowContacts<Element, System> {
       way.to_rest();
       return Status::ok;
     }
+    // With friction what is near is tried first; all of the way may be a fall.
+    const bool rough = friction.any();
+    // Places in space stay in that where something hardly slides: else there may be none.
+    bool stay = dimension == 2 || friction.hardly_slides(system.length() / 100000);
+    int moves = 0;
     const auto aim = [&] {
       system.set_goal();
       for (int i = 0; i < count_; ++i)
-        if (slot(i).goal >= 0) system.add_goal(this->contact(i), friction.of(i));
+        if (slot(i).goal >= 0) system.add_goal(this->contact(i), friction.of(i), stay);
     };
-    // With friction what is near is tried first; all of the way may be a fall.
-    const bool rough = friction.any();
-    const int few = rough && most > 1 ? near_with_friction : close_by;
+    const auto few = [&] {
+      return !rough || most == 1 ? close_by : stay ? near_with_friction : near_with_friction / 2;
+    };
     bool all = !rough || way.descending_ || friction.falls();
     const auto begin_again = [&] {
       for (int i = 0; i < count_; ++i)
         if (slot(i).goal >= 0) static_cast<State&>(slot(i)) = slot(i).begins;
     };
     // Whether Coulomb's law holds, and the places are those of the equilibrium.
-    int moves = 0;
     const auto agrees = [&](Status found) {
       if (!rough) return true;
       if (is_answer(found)) {
         const bool settled = friction.settled(system, [this](int i) { return slot(i).goal; }),
-                   moved = system.places_go_on();
+                   moved = stay && system.places_go_on();
         if (settled && (!moved || ++moves > most_moves)) return true;
         this->take(system);
       } else {
         if (all) return true;
+        if (!stay) {
+          stay = true;
+          friction.begin_again(system);
+          if (began_) foresight_.begin_again(system), begin_again();
+          return false;
+        }
         all = !friction.turn();
       }
       if (friction.torn() && began_) {
@@ -289,13 +299,13 @@ class RowPush : private RowContacts<Element, System> {
       began_ = true;
       if (goes_on) {
         Status status;
-        do status = way.settle_at_once(slack, aim, few).status;
+        do status = way.settle_at_once(slack, aim, few()).status;
         while (!agrees(status) && !all);
         if (status == Status::ok) return status;
         foresight_.go_back(system, last);
         begin_again();
         if (!rough && this->hold_sharp(system)) {
-          status = way.settle_at_once(slack, aim, few).status;
+          status = way.settle_at_once(slack, aim, few()).status;
           if (status == Status::ok) return status;
           foresight_.go_back(system, last);
           begin_again();
@@ -307,7 +317,7 @@ class RowPush : private RowContacts<Element, System> {
       }
     }
     Status status;
-    do status = (all ? way.settle(last, slack, aim) : way.settle_at_once(slack, aim, few)).status;
+    do status = (all ? way.settle(last, slack, aim) : way.settle_at_once(slack, aim, few())).status;
     while (!agrees(status));
     return status;
   }

@@ -44,6 +44,18 @@ class SeveralFriction {
     law(i)->begin_beside(RoundContact::node_at(system.drawn(), s));
   }
 
+  /// Whether one of them stuck in the push before, or slid by less than that.  @param way  [m]
+  bool hardly_slides(Scalar way) const noexcept {
+    for (int i = 0; any_ && i < count_; ++i)
+      if (all_[i].touching && rough(i) && !(all_[i].friction->slides && all_[i].friction->slip > way))
+        return true;
+    return false;
+  }
+  /// To be called where the way to an equilibrium begins anew.
+  void begin_again(const System& system) noexcept {
+    for (int i = 0; i < count_; ++i)
+      if (all_[i].touching && law(i)) meet(system, i);
+  }
   /// The hands go on as they went.
   void go_on() noexcept {
     each([](int, Friction& friction) { friction.go_on(); });

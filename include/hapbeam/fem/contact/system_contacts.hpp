@@ -28,9 +28,9 @@ class SystemContacts {
     start_load_ = load_;
     self().begin_path();
   }
-  /// One contact more.   @param friction  null: none
-  void add_goal(const Contact& goal, Friction* friction) noexcept {
-    rows_.add(goal, self().element_at(goal.s, goal.element()), friction);
+  /// One contact more.   @param friction  null: none   @param stays  its place, until an equilibrium is found
+  void add_goal(const Contact& goal, Friction* friction, bool stays = false) noexcept {
+    rows_.add(goal, self().element_at(goal.s, goal.element()), friction, stays);
   }
   /// With a place that is held.   @param force  along its normal, about [N]
   template <int D>
@@ -52,7 +52,7 @@ class SystemContacts {
     self().look(k);
     rows_.friction(k)->look(rows_[k]);
   }
-  /// To be called in an equilibrium with friction.   @return whether the places of contacts are those of another one
+  /// To be called in an equilibrium where they have stayed.   @return whether the places of contacts are those of another one
   bool places_go_on() noexcept {
     if constexpr (Rows::dimension == 2) return false;
     else
