@@ -56,7 +56,7 @@ class RowPush : private RowContacts<Element, System> {
   /// Linear solves in which an equilibrium that is near is found, and with friction of several.
   static constexpr int close_by = 6, near_with_friction = 16;
   /// Times that places with friction go on, in an equilibrium of Coulomb's law.
-  static constexpr int most_moves = 4;
+  static constexpr int most_moves = 2;
 
   /// @throws std::invalid_argument where there are too few elements for so many contacts
   explicit RowPush(const System& system) : foresight_(system) {
@@ -279,7 +279,8 @@ class RowPush : private RowContacts<Element, System> {
         this->take(system);
       } else {
         if (all) return true;
-        if (!stay) {
+        // What two hold between them turns late.
+        if (!stay && most > 1) {
           stay = true;
           friction.begin_again(system);
           if (began_) foresight_.begin_again(system), begin_again();
