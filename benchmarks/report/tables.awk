@@ -182,16 +182,19 @@ function at(k, part) {
   return sprintf("%.3g°, %.2g L, " (cell[k, "press_" part] + 0 < 99.5 ? "%.2g" : "%.0f") " h", cell[k, "slope_" part], \
     cell[k, "deflection_" part], cell[k, "press_" part])
 }
-function limits(  i, j, n, k, ends, section, element, shown) {
+function limits(  i, k, ends, at_1, at_5, at_10, linear, best) {
   split("pinned-pinned clamped-clamped pinned-roller clamped-free", ends, " ")
-  split("thick thin", section, " "); split("linear von_karman corotational", element, " ")
-  split("`Linear` `VonKarman` `Corotational`", shown, " ")
-  line("ends", "h/L", "element", "1 %", "5 %", "10 %", "at the deepest")
-  rule(7)
-  for (i = 1; i <= 4; ++i) for (j = 1; j <= 2; ++j) for (n = 1; n <= 3; ++n) for (k = 1; k <= rows; ++k)
-    if (cell[k, "ends"] == ends[i] && cell[k, "section"] == section[j] && cell[k, "element"] == element[n])
-      line(ends[i], "1/" (j == 1 ? 100 : 1000), shown[n], at(k, 1), at(k, 5), at(k, 10), \
-        sprintf("%.1g at %g L", cell[k, "error_at_deepest"], cell[k, "deepest"]))
+  line("ends", "`Linear`, 1 %", "`VonKarman`, 1 %", "5 %", "10 %", "`Corotational`, at the deepest")
+  rule(6)
+  for (i = 1; i <= 4; ++i) {
+    for (k = 1; k <= rows; ++k) {
+      if (cell[k, "ends"] != ends[i] || cell[k, "section"] != "thick") continue
+      if (cell[k, "element"] == "linear") linear = at(k, 1)
+      if (cell[k, "element"] == "von_karman") { at_1 = at(k, 1); at_5 = at(k, 5); at_10 = at(k, 10) }
+      if (cell[k, "element"] == "corotational") best = sprintf("%.1g at %g L", cell[k, "error_at_deepest"], cell[k, "deepest"])
+    }
+    line(ends[i], linear, at_1, at_5, at_10, best)
+  }
 }
 
 # Of stability_sweep.csv.
@@ -205,14 +208,23 @@ function stability(  k, text) {
       cell[k, "slow_as_the_arm_itself"], cell[k, "slides_off"] + cell[k, "lost"])
 }
 
-# Of stability_friction.csv, where each coefficient has a row of hands with a spring and one of hands without.
-function rough(  k) {
+# Of stability_friction.csv, where each coefficient has a row of hands with a spring and one of hands without: all coefficients together.
+function rough(  k, n, s, where, least, most, with, rest, without, still, off, slow) {
+  for (k = 1; k < rows; k += 2) {
+    s = cell[k, "scene"]
+    if (!(s in with)) { where[++n] = s; least[s] = most[s] = cell[k, "sticking"] }
+    if (cell[k, "sticking"] + 0 < least[s] + 0) least[s] = cell[k, "sticking"]
+    if (cell[k, "sticking"] + 0 > most[s] + 0) most[s] = cell[k, "sticking"]
+    with[s] += cell[k, "combinations"]; rest[s] += cell[k, "at_rest"]
+    without[s] += cell[k + 1, "combinations"]; still[s] += cell[k + 1, "at_rest"]
+    off[s] += cell[k + 1, "slides_off"]; slow[s] += cell[k + 1, "slow"]
+  }
   line("leans on", "coefficients", "hands with a spring", "at rest", "without one", "at rest", "slides off", "slower, or in this loop alone")
   rule(8)
-  for (k = 1; k < rows; k += 2)
-    line(cell[k, "scene"], cell[k, "sticking"] (cell[k, "sliding"] == cell[k, "sticking"] ? "" : ", " cell[k, "sliding"]), \
-      cell[k, "combinations"], cell[k, "at_rest"], cell[k + 1, "combinations"], cell[k + 1, "at_rest"], cell[k + 1, "slides_off"], \
-      cell[k + 1, "slow"])
+  for (k = 1; k <= n; ++k) {
+    s = where[k]
+    line(s, least[s] " to " most[s], with[s], rest[s], without[s], still[s], off[s], slow[s])
+  }
 }
 
 # Of turning_sweep.csv: all rods together.
@@ -274,13 +286,18 @@ function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst
   line("longest choice", sprintf("%.0f ms", slowest))
 }
 
-# Of hostile_hands.csv.
-function hostile(  k) {
-  line("beam or rod", "touched by", "ticks without an answer", "most in a row", "forces that are wrong", "felt as new on return")
-  rule(6)
-  for (k = 1; k <= rows; ++k)
-    line(cell[k, "what"], cell[k, "touched_by"], percent(cell[k, "unanswered"] / cell[k, "ticks"]), cell[k, "most_in_a_row"], \
-      cell[k, "not_finite"] + cell[k, "pulls"] + cell[k, "beyond_the_cone"], cell[k, "as_new"] " of " cell[k, "returns"])
+# Of hostile_hands.csv: of each way to touch the beam or rod that has most ticks without an answer.
+function hostile(  k, n, by, kinds, share, most, wrong) {
+  for (k = 1; k <= rows; ++k) {
+    by = cell[k, "touched_by"]
+    if (!(by in share)) { kinds[++n] = by; share[by] = most[by] = wrong[by] = 0 }
+    if (cell[k, "unanswered"] / cell[k, "ticks"] > share[by]) share[by] = cell[k, "unanswered"] / cell[k, "ticks"]
+    if (cell[k, "most_in_a_row"] + 0 > most[by]) most[by] = cell[k, "most_in_a_row"] + 0
+    wrong[by] += cell[k, "not_finite"] + cell[k, "pulls"] + cell[k, "beyond_the_cone"]
+  }
+  line("touched by", "ticks without an answer", "most in a row", "forces that are wrong")
+  rule(4)
+  for (k = 1; k <= n; ++k) line(kinds[k], percent(share[kinds[k]]), most[kinds[k]], wrong[kinds[k]])
 }
 
 # Of chooser_rods.csv.
