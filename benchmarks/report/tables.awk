@@ -197,15 +197,23 @@ function limits(  i, k, ends, at_1, at_5, at_10, linear, best) {
   }
 }
 
-# Of stability_sweep.csv.
-function stability(  k, text) {
+# Of stability_sweep.csv: all pushes of a scene together.
+function stability(  k, n, s, text, where, least, most, runs, rest, slow, own, off) {
   text["bar_tenth"] = "bar, a tenth of the span"; text["bar_middle"] = "bar, mid-span"
   text["strip_middle"] = "strip 500 × 20 × 0.5 mm, mid-span"; text["ruler_tip"] = "ruler 300 × 30 × 1 mm, clamped, tip"
-  line("pressed", "push", "at rest within 0.5 s", "slower", "slower, as the arm itself", "slides off")
-  rule(6)
-  for (k = 1; k <= rows; ++k)
-    line(text[cell[k, "scene"]], cell[k, "push_N"] " N", cell[k, "at_rest"], cell[k, "slow"], \
-      cell[k, "slow_as_the_arm_itself"], cell[k, "slides_off"] + cell[k, "lost"])
+  for (k = 1; k <= rows; ++k) {
+    s = cell[k, "scene"]
+    if (!(s in runs)) { where[++n] = s; least[s] = cell[k, "push_N"] }
+    most[s] = cell[k, "push_N"]
+    runs[s] += cell[k, "combinations"]; rest[s] += cell[k, "at_rest"]; slow[s] += cell[k, "slow"]
+    own[s] += cell[k, "slow_as_the_arm_itself"]; off[s] += cell[k, "slides_off"] + cell[k, "lost"]
+  }
+  line("pressed", "push", "runs", "at rest within 0.5 s", "slower", "slower, as the arm itself", "slides off")
+  rule(7)
+  for (k = 1; k <= n; ++k) {
+    s = where[k]
+    line(text[s], least[s] " to " most[s] " N", runs[s], rest[s], slow[s], own[s], off[s])
+  }
 }
 
 # Of stability_friction.csv, where each coefficient has a row of hands with a spring and one of hands without: all coefficients together.
