@@ -62,29 +62,30 @@ function truncated(k,  j) {
       memo[k] = 1
   return memo[k]
 }
-function fronts(  n, s, m, k, all, scene, model, own, sizes, on, ours, form, even, others) {
-  all = split("bar_5mm bar_50mm strip ruler arch wire hook", scene, " ")
+function fronts(  n, m, k, model, own, sizes, on, ours, form, even, others) {
+  m = split("VonKarman<StabilityFunctions> PodModel<ChebyshevNodes> GalerkinModel Corotational<VonKarman<StabilityFunctions>> RoundRod TwistedRod", model, " ")
   own = "^VonKarman<StabilityFunctions>|^Corotational<VonKarman|^PodModel<Chebyshev|^GalerkinModel|^RoundRod|^TwistedRod"
-  line("scene", "default", "sizes", "on the front", "dominated by other defaults", "by the closed form", "by equispaced nodes", "by anything else")
-  rule(8)
-  for (s = 1; s <= all; ++s) {
-    m = split(s <= 3 ? "VonKarman<StabilityFunctions> PodModel<ChebyshevNodes> GalerkinModel" : \
-      s <= 5 ? "Corotational<VonKarman<StabilityFunctions>>" : s == 6 ? "RoundRod TwistedRod" : "TwistedRod", model, " ")
-    for (n = 1; n <= m; ++n) {
-      sizes = on = ours = form = even = others = 0
-      for (k = 1; k <= rows; ++k) {
-        if (cell[k, "scene"] != scene[s] || cell[k, "model"] != model[n] || truncated(k)) continue
-        ++sizes
-        on += !passed(k, ".")
-        ours += passed(k, own)
-        form += passed(k, "^closed form")
-        even += passed(k, "Equispaced")
-        others += passed(k, "^Linear|Integration|^VonKarman<AssumedStrain>|^Corotational<Linear>|^Newton|^mass-spring|^MuJoCo|^CrisfieldRod")
-      }
-      if (!sizes) continue  # measured before there was that scene
-      line(scene[s], "`" model[n] "`", sizes, on, ours, form, even, others)
+  line("default", "sizes", "on the front", "dominated by other defaults", "by the closed form", "by equispaced nodes", "by anything else")
+  rule(7)
+  for (n = 1; n <= m; ++n) {
+    sizes = on = ours = form = even = others = 0
+    for (k = 1; k <= rows; ++k) {
+      if (!default_in(model[n], cell[k, "scene"]) || cell[k, "model"] != model[n] || truncated(k)) continue
+      ++sizes
+      on += !passed(k, ".")
+      ours += passed(k, own)
+      form += passed(k, "^closed form")
+      even += passed(k, "Equispaced")
+      others += passed(k, "^Linear|Integration|^VonKarman<AssumedStrain>|^Corotational<Linear>|^Newton|^mass-spring|^MuJoCo|^CrisfieldRod")
     }
+    if (sizes) line("`" model[n] "`", sizes, on, ours, form, even, others)
   }
+}
+# Whether a model is one that a scene is for.
+function default_in(model, scene) {
+  if (scene ~ /^(bar_5mm|bar_50mm|strip)$/) return model ~ /^(VonKarman<StabilityFunctions>|PodModel<ChebyshevNodes>|GalerkinModel)$/
+  if (scene ~ /^(ruler|arch)$/) return model ~ /^Corotational/
+  return model == "TwistedRod" || (scene == "wire" && model == "RoundRod")
 }
 
 # Of reduced_press.csv.
@@ -343,14 +344,15 @@ function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, e
   line("a choice, time of the processor", sprintf("%.1f s in the mean, %.0f s at most", mean / 1e3, slowest / 1e3))
 }
 
-# A tick with each combination of flags: a row for each, a column for each compiler and model.
+# A tick with each combination of flags, but for -DNDEBUG, beside other models: a row for each, a column for each compiler and model.
 function flags(  k, c, f, title, text) {
   for (k = 1; k <= rows; ++k) {
+    if (cell[k, "flags"] ~ /NDEBUG/ || cell[k, "model"] !~ / beside others$/) continue
     title = cell[k, "compiler"] ", `" cell[k, "model"] "`"
-    sub(/ beside others`/, "` beside others", title)
+    sub(/ beside others`/, "`", title)
     if (!(title in seen)) { seen[title] = 1; column[++c] = title }
     if (!(cell[k, "flags"] in known)) { known[cell[k, "flags"]] = 1; row[++f] = cell[k, "flags"] }
-    us[title, cell[k, "flags"]] = digits(cell[k, "tick_us"]) " µs, " sprintf("%.2f", cell[k, "over_best"])
+    over[title, cell[k, "flags"]] = sprintf("%.2f", cell[k, "over_best"])
   }
   text = "| flags |"
   for (k = 1; k <= c; ++k) text = text " " column[k] " |"
@@ -358,14 +360,17 @@ function flags(  k, c, f, title, text) {
   rule(c + 1)
   for (f = 1; f in row; ++f) {
     text = "| `" row[f] "` |"
-    for (k = 1; k <= c; ++k) text = text " " us[column[k], row[f]] " |"
+    for (k = 1; k <= c; ++k) text = text " " over[column[k], row[f]] " |"
     print text
   }
 }
 
-# What a file costs the compiler, dearest first: the README's programs or the headers.
-function compile_times(programs,  k, j, n, order, t) {
-  for (k = 1; k <= rows; ++k) if ((cell[k, "file"] ~ /^README/) == programs) order[++n] = k
+# What a file costs the compiler, dearest first: the README's programs or the headers that programs name most.
+function compile_times(programs,  k, j, n, order, t, shown) {
+  shown = "^hapbeam/(hapbeam|fem/fem_model|fem/rod_system|contact/touch|haptics/servo/servo_loop|haptics/device/virtual_phantom|" \
+    "haptics/hdapi/hdapi|rom/trained/pod_model|rom/file/model_file|rom/training/train|scene/choose|scene/choose_rod)\\.hpp$"
+  for (k = 1; k <= rows; ++k)
+    if (cell[k, "file"] ~ (programs ? "^README" : shown)) order[++n] = k
   for (k = 2; k <= n; ++k)
     for (j = k; j > 1 && cell[order[j], "of_eigen"] + 0 > cell[order[j - 1], "of_eigen"] + 0; --j) {
       t = order[j]; order[j] = order[j - 1]; order[j - 1] = t
