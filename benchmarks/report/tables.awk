@@ -262,6 +262,21 @@ function turning(  k, by, friction, factor, key, ways, frictions, factors, f, w,
     }
 }
 
+# Of many_beams.csv: the median tick of arrays, and the 99th percentile where most beams are touched.
+function many(  k, key, n, order, title) {
+  title["fem"] = "`FemModel<>`"; title["pod"] = "`PodModel<>`"
+  for (k = 1; k <= rows; ++k) {
+    if (!(cell[k, "model"] in title)) continue
+    key = title[cell[k, "model"]] ", " cell[k, "beams"]
+    if (!(key in tick)) { order[++n] = key; tick[key] = 1 }
+    tick[key, cell[k, "contacts"]] = digits(cell[k, "p50_us"]) " µs"
+    tick[key, "p99"] = digits(cell[k, "p99_us"]) " µs"
+  }
+  line("beams", "none touched", "about 10", "about 100", "p99 of the most touched")
+  rule(5)
+  for (k = 1; k <= n; ++k) print "| " order[k] " | " tick[order[k], 0] " | " tick[order[k], 10] " | " tick[order[k], 100] " | " tick[order[k], "p99"] " |"
+}
+
 # Of chooser.csv.
 function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst, missed, unanswered, ratio, dear, dearest, slowest, text) {
   n = split("POD Galerkin Linear VonKarman Corotational", kinds, " ")
@@ -415,6 +430,7 @@ END {
   else if (table == "rough") rough()
   else if (table == "turning") turning()
   else if (table == "hostile") hostile()
+  else if (table == "many") many()
   else if (table == "chosen") chosen()
   else if (table == "chosen_rods") chosen_rods()
   else if (table == "flags") flags()
