@@ -157,8 +157,8 @@ function rotation(  k, text) {
   line("finite rotation, 16 elements", "a tick", "times moderate rotation", "error")
   rule(4)
   for (k = 1; k <= rows; ++k)
-    if (cell[k, "elements"] == 16 && cell[k, "model"] != "von_karman")
-      line(cell[k, "scene"] ", `" (cell[k, "model"] == "corotational" ? "Corotational<>" : "Corotational<Linear>") "`", \
+    if (cell[k, "elements"] == 16 && cell[k, "model"] == "corotational")
+      line(cell[k, "scene"] ", `Corotational<>`", \
         digits(cell[k, "p50_us"]) " µs", digits(cell[k, "ratio"]), percent(cell[k, "force_error"]))
 }
 
@@ -262,11 +262,15 @@ function turning(  k, by, friction, factor, key, ways, frictions, factors, f, w,
     }
 }
 
-# Of many_beams.csv: the median tick of arrays, and the 99th percentile where most beams are touched.
+function most_beams(  k, most) {
+  for (k = 1; k <= rows; ++k) if (cell[k, "model"] == "pod" && cell[k, "beams"] + 0 > most + 0) most = cell[k, "beams"]
+  return most
+}
+# Of many_beams.csv: the median tick of arrays, of trained models for the largest alone, and the 99th percentile where most beams are touched.
 function many(  k, key, n, order, title) {
   title["fem"] = "`FemModel<>`"; title["pod"] = "`PodModel<>`"
   for (k = 1; k <= rows; ++k) {
-    if (!(cell[k, "model"] in title)) continue
+    if (!(cell[k, "model"] in title) || (cell[k, "model"] == "pod" && cell[k, "beams"] != most_beams())) continue
     key = title[cell[k, "model"]] ", " cell[k, "beams"]
     if (!(key in tick)) { order[++n] = key; tick[key] = 1 }
     tick[key, cell[k, "contacts"]] = digits(cell[k, "p50_us"]) " µs"
