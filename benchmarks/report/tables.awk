@@ -89,26 +89,24 @@ function default_in(model, scene) {
 }
 
 # Of reduced_press.csv.
-function press_row(where, model, what, shown,  k) {
+function press_row(model, what, shown,  k) {
   for (k = 1; k <= rows; ++k)
-    if (cell[k, "path"] == where && cell[k, "model"] == model && cell[k, "what"] == what)
-      line(shown, digits(cell[k, "p50_us"]), digits(cell[k, "p99_us"]), percent(cell[k, "force_error_median"]), \
-        percent(cell[k, "force_error_max"]), \
+    if (cell[k, "path"] == "press" && cell[k, "model"] == model && cell[k, "what"] == what)
+      line(shown, digits(cell[k, "p50_us"]), percent(cell[k, "force_error_median"]), percent(cell[k, "force_error_max"]), \
         cell[k, "pod_ms"] == "" ? "–" : digits(cell[k, "snapshots_ms"] + cell[k, "pod_ms"]))
 }
-function presses(where, shown, one,  k, models, titles, n) {
-  line(shown, "tick, µs", "p99, µs", "force error, median", "largest", "training, ms")
-  rule(6)
-  n = split(one ? "pod_1 galerkin_1 pod_2 galerkin_2" : "pod_2 galerkin_2", models, " ")
-  split(one ? "PodModel, 14;GalerkinModel, 14;PodModel, 16 × 12;GalerkinModel, 16 × 12" : \
-    "PodModel, 16 × 12;GalerkinModel, 16 × 12", titles, ";")
+function presses(  k, models, titles, n) {
+  line("pressed at mid-span, 0 to 50 mm", "tick, µs", "force error, median", "largest", "training, ms")
+  rule(5)
+  n = split("pod_1 galerkin_1 pod_2 galerkin_2", models, " ")
+  split("PodModel, 14;GalerkinModel, 14;PodModel, 16 × 12;GalerkinModel, 16 × 12", titles, ";")
   for (k = 1; k <= n; ++k) {
-    press_row(where, models[k], "force", titles[k] ", force")
-    press_row(where, models[k], "shape", titles[k] ", force and shape")
+    press_row(models[k], "force", titles[k] ", force")
+    press_row(models[k], "shape", titles[k] ", force and shape")
   }
-  press_row(where, "fem", "8", "FemModel, 8 elements")
-  press_row(where, "fem", "64", "FemModel, 64 elements")
-  press_row(where, "fem", "1024", "FemModel, 1024 elements")
+  press_row("fem", "8", "FemModel, 8 elements")
+  press_row("fem", "64", "FemModel, 64 elements")
+  press_row("fem", "1024", "FemModel, 1024 elements")
 }
 function trained_row(model, what, shown, deeper,  k) {
   for (k = 1; k <= rows; ++k)
@@ -122,20 +120,6 @@ function trained() {
   trained_row("fem", "64", "`FemModel<>`, 64 elements", "the same")
   trained_row("pod_2", "shape", "`PodModel<>`: interpolated work, POD shapes", "continues with constant stiffness and status `out_of_range`")
   trained_row("galerkin_2", "shape", "`GalerkinModel<>`: one unknown, the tension", "solves on")
-}
-function hand_over(  k, e, kind, what) {
-  line("hand-over of a Guarded model", "elements", "p50, µs", "p99, µs", "longest, µs")
-  rule(5)
-  split("alone near;first near;first rest", kind, ";")
-  split("any tick of FemModel alone, the same path;the tick that hands over, 20 ticks after the full model rested;" \
-    "the tick that hands over, from rest", what, ";")
-  for (e = 8; e <= 64; e *= 8)
-    for (n = 1; n <= 3; ++n) {
-      split(kind[n], part, " ")
-      for (k = 1; k <= rows; ++k)
-        if (cell[k, "path"] == "hand_over" && cell[k, "model"] == part[2] && cell[k, "what"] == e "/" part[1])
-          line(what[n], e, digits(cell[k, "p50_us"]), digits(cell[k, "p99_us"]), digits(cell[k, "max_us"]))
-    }
 }
 
 # Of fem_press.csv: a Newton iteration, by solver and number of elements.
@@ -247,9 +231,9 @@ function turning(  k, by, friction, factor, key, ways, frictions, factors, f, w,
     all[by, friction, factor] += cell[k, "combinations"]; moves[key] += cell[k, "moves"]
     gives[key] += cell[k, "gives_energy"]; off[key] += cell[k, "slips_off"]
   }
-  line("touched by", "friction of the gimbal", "runs each", "× 1", "× 2", "× 4", "× 8", "K_r × 8, no B_r")
-  rule(8)
-  split("tip shaft grip", ways, " "); split("none some", frictions, " "); n = split("1,1 2,2 4,4 8,8 8,0", factors, " ")
+  line("touched by", "friction of the gimbal", "runs each", "× 1", "× 4", "× 8", "K_r × 8, no B_r")
+  rule(7)
+  split("tip shaft grip", ways, " "); split("none some", frictions, " "); n = split("1,1 4,4 8,8 8,0", factors, " ")
   for (w = 1; w <= 3; ++w)
     for (f = 1; f <= 2; ++f) {
       for (k = 1; k <= n; ++k) {
@@ -258,7 +242,7 @@ function turning(  k, by, friction, factor, key, ways, frictions, factors, f, w,
           (gives[key] ? gives[key] " give energy" : "") (off[key] ? (moves[key] || gives[key] ? ", " : "") off[key] " slip off" : "")
         if (row[k] == "") row[k] = "–"
       }
-      line(text[ways[w]], text[frictions[f]], all[ways[w], frictions[f], factors[1]], row[1], row[2], row[3], row[4], row[5])
+      line(text[ways[w]], text[frictions[f]], all[ways[w], frictions[f], factors[1]], row[1], row[2], row[3], row[4])
     }
 }
 
@@ -422,10 +406,8 @@ END {
   if (table == "machine") print head "."
   else if (table == "scenes") scenes()
   else if (table == "fronts") fronts()
-  else if (table == "press") presses("press", "pressed at mid-span, 0 to 50 mm", 1)
-  else if (table == "slide") presses("slide", "sliding from 0.3 L to 0.7 L at 20 mm", 0)
+  else if (table == "press") presses()
   else if (table == "trained") trained()
-  else if (table == "hand_over") hand_over()
   else if (table == "solvers") solvers()
   else if (table == "rotation") rotation()
   else if (table == "rod_ticks") rod_ticks()
