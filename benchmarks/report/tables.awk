@@ -62,52 +62,51 @@ function truncated(k,  j) {
       memo[k] = 1
   return memo[k]
 }
-function fronts(  n, s, m, k, all, scene, model, own, sizes, on, ours, form, even, others) {
-  all = split("bar_5mm bar_50mm strip ruler arch wire hook", scene, " ")
+function fronts(  n, m, k, model, own, sizes, on, ours, form, even, others) {
+  m = split("VonKarman<StabilityFunctions> PodModel<ChebyshevNodes> GalerkinModel Corotational<VonKarman<StabilityFunctions>> RoundRod TwistedRod", model, " ")
   own = "^VonKarman<StabilityFunctions>|^Corotational<VonKarman|^PodModel<Chebyshev|^GalerkinModel|^RoundRod|^TwistedRod"
-  line("scene", "default", "sizes", "on the front", "dominated by other defaults", "by the closed form", "by equispaced nodes", "by anything else")
-  rule(8)
-  for (s = 1; s <= all; ++s) {
-    m = split(s <= 3 ? "VonKarman<StabilityFunctions> PodModel<ChebyshevNodes> GalerkinModel" : \
-      s <= 5 ? "Corotational<VonKarman<StabilityFunctions>>" : s == 6 ? "RoundRod TwistedRod" : "TwistedRod", model, " ")
-    for (n = 1; n <= m; ++n) {
-      sizes = on = ours = form = even = others = 0
-      for (k = 1; k <= rows; ++k) {
-        if (cell[k, "scene"] != scene[s] || cell[k, "model"] != model[n] || truncated(k)) continue
-        ++sizes
-        on += !passed(k, ".")
-        ours += passed(k, own)
-        form += passed(k, "^closed form")
-        even += passed(k, "Equispaced")
-        others += passed(k, "^Linear|Integration|^VonKarman<AssumedStrain>|^Corotational<Linear>|^Newton|^mass-spring|^MuJoCo|^CrisfieldRod")
-      }
-      if (!sizes) continue  # measured before there was that scene
-      line(scene[s], "`" model[n] "`", sizes, on, ours, form, even, others)
+  line("default", "sizes", "on the front", "dominated by other defaults", "by the closed form", "by equispaced nodes", "by anything else")
+  rule(7)
+  for (n = 1; n <= m; ++n) {
+    sizes = on = ours = form = even = others = 0
+    for (k = 1; k <= rows; ++k) {
+      if (!default_in(model[n], cell[k, "scene"]) || cell[k, "model"] != model[n] || truncated(k)) continue
+      ++sizes
+      on += !passed(k, ".")
+      ours += passed(k, own)
+      form += passed(k, "^closed form")
+      even += passed(k, "Equispaced")
+      others += passed(k, "^Linear|Integration|^VonKarman<AssumedStrain>|^Corotational<Linear>|^Newton|^mass-spring|^MuJoCo|^CrisfieldRod")
     }
+    if (sizes) line("`" model[n] "`", sizes, on, ours, form, even, others)
   }
+}
+# Whether a model is one that a scene is for.
+function default_in(model, scene) {
+  if (scene ~ /^(bar_5mm|bar_50mm|strip)$/) return model ~ /^(VonKarman<StabilityFunctions>|PodModel<ChebyshevNodes>|GalerkinModel)$/
+  if (scene ~ /^(ruler|arch)$/) return model ~ /^Corotational/
+  return model == "TwistedRod" || (scene == "wire" && model == "RoundRod")
 }
 
 # Of reduced_press.csv.
-function press_row(where, model, what, shown,  k) {
+function press_row(model, what, shown,  k) {
   for (k = 1; k <= rows; ++k)
-    if (cell[k, "path"] == where && cell[k, "model"] == model && cell[k, "what"] == what)
-      line(shown, digits(cell[k, "p50_us"]), digits(cell[k, "p99_us"]), percent(cell[k, "force_error_median"]), \
-        percent(cell[k, "force_error_max"]), \
+    if (cell[k, "path"] == "press" && cell[k, "model"] == model && cell[k, "what"] == what)
+      line(shown, digits(cell[k, "p50_us"]), percent(cell[k, "force_error_median"]), percent(cell[k, "force_error_max"]), \
         cell[k, "pod_ms"] == "" ? "–" : digits(cell[k, "snapshots_ms"] + cell[k, "pod_ms"]))
 }
-function presses(where, shown, one,  k, models, titles, n) {
-  line(shown, "tick, µs", "p99, µs", "force error, median", "largest", "training, ms")
-  rule(6)
-  n = split(one ? "pod_1 galerkin_1 pod_2 galerkin_2" : "pod_2 galerkin_2", models, " ")
-  split(one ? "PodModel, 14;GalerkinModel, 14;PodModel, 16 × 12;GalerkinModel, 16 × 12" : \
-    "PodModel, 16 × 12;GalerkinModel, 16 × 12", titles, ";")
+function presses(  k, models, titles, n) {
+  line("pressed at mid-span, 0 to 50 mm", "tick, µs", "force error, median", "largest", "training, ms")
+  rule(5)
+  n = split("pod_1 galerkin_1 pod_2 galerkin_2", models, " ")
+  split("PodModel, 14;GalerkinModel, 14;PodModel, 16 × 12;GalerkinModel, 16 × 12", titles, ";")
   for (k = 1; k <= n; ++k) {
-    press_row(where, models[k], "force", titles[k] ", force")
-    press_row(where, models[k], "shape", titles[k] ", force and shape")
+    press_row(models[k], "force", titles[k] ", force")
+    press_row(models[k], "shape", titles[k] ", force and shape")
   }
-  press_row(where, "fem", "8", "FemModel, 8 elements")
-  press_row(where, "fem", "64", "FemModel, 64 elements")
-  press_row(where, "fem", "1024", "FemModel, 1024 elements")
+  press_row("fem", "8", "FemModel, 8 elements")
+  press_row("fem", "64", "FemModel, 64 elements")
+  press_row("fem", "1024", "FemModel, 1024 elements")
 }
 function trained_row(model, what, shown, deeper,  k) {
   for (k = 1; k <= rows; ++k)
@@ -121,20 +120,6 @@ function trained() {
   trained_row("fem", "64", "`FemModel<>`, 64 elements", "the same")
   trained_row("pod_2", "shape", "`PodModel<>`: interpolated work, POD shapes", "continues with constant stiffness and status `out_of_range`")
   trained_row("galerkin_2", "shape", "`GalerkinModel<>`: one unknown, the tension", "solves on")
-}
-function hand_over(  k, e, kind, what) {
-  line("hand-over of a Guarded model", "elements", "p50, µs", "p99, µs", "longest, µs")
-  rule(5)
-  split("alone near;first near;first rest", kind, ";")
-  split("any tick of FemModel alone, the same path;the tick that hands over, 20 ticks after the full model rested;" \
-    "the tick that hands over, from rest", what, ";")
-  for (e = 8; e <= 64; e *= 8)
-    for (n = 1; n <= 3; ++n) {
-      split(kind[n], part, " ")
-      for (k = 1; k <= rows; ++k)
-        if (cell[k, "path"] == "hand_over" && cell[k, "model"] == part[2] && cell[k, "what"] == e "/" part[1])
-          line(what[n], e, digits(cell[k, "p50_us"]), digits(cell[k, "p99_us"]), digits(cell[k, "max_us"]))
-    }
 }
 
 # Of fem_press.csv: a Newton iteration, by solver and number of elements.
@@ -156,8 +141,8 @@ function rotation(  k, text) {
   line("finite rotation, 16 elements", "a tick", "times moderate rotation", "error")
   rule(4)
   for (k = 1; k <= rows; ++k)
-    if (cell[k, "elements"] == 16 && cell[k, "model"] != "von_karman")
-      line(cell[k, "scene"] ", `" (cell[k, "model"] == "corotational" ? "Corotational<>" : "Corotational<Linear>") "`", \
+    if (cell[k, "elements"] == 16 && cell[k, "model"] == "corotational")
+      line(cell[k, "scene"] ", `Corotational<>`", \
         digits(cell[k, "p50_us"]) " µs", digits(cell[k, "ratio"]), percent(cell[k, "force_error"]))
 }
 
@@ -182,37 +167,57 @@ function at(k, part) {
   return sprintf("%.3g°, %.2g L, " (cell[k, "press_" part] + 0 < 99.5 ? "%.2g" : "%.0f") " h", cell[k, "slope_" part], \
     cell[k, "deflection_" part], cell[k, "press_" part])
 }
-function limits(  i, j, n, k, ends, section, element, shown) {
+function limits(  i, k, ends, at_1, at_5, at_10, linear, best) {
   split("pinned-pinned clamped-clamped pinned-roller clamped-free", ends, " ")
-  split("thick thin", section, " "); split("linear von_karman corotational", element, " ")
-  split("`Linear` `VonKarman` `Corotational`", shown, " ")
-  line("ends", "h/L", "element", "1 %", "5 %", "10 %", "at the deepest")
-  rule(7)
-  for (i = 1; i <= 4; ++i) for (j = 1; j <= 2; ++j) for (n = 1; n <= 3; ++n) for (k = 1; k <= rows; ++k)
-    if (cell[k, "ends"] == ends[i] && cell[k, "section"] == section[j] && cell[k, "element"] == element[n])
-      line(ends[i], "1/" (j == 1 ? 100 : 1000), shown[n], at(k, 1), at(k, 5), at(k, 10), \
-        sprintf("%.1g at %g L", cell[k, "error_at_deepest"], cell[k, "deepest"]))
+  line("ends", "`Linear`, 1 %", "`VonKarman`, 1 %", "5 %", "10 %", "`Corotational`, at the deepest")
+  rule(6)
+  for (i = 1; i <= 4; ++i) {
+    for (k = 1; k <= rows; ++k) {
+      if (cell[k, "ends"] != ends[i] || cell[k, "section"] != "thick") continue
+      if (cell[k, "element"] == "linear") linear = at(k, 1)
+      if (cell[k, "element"] == "von_karman") { at_1 = at(k, 1); at_5 = at(k, 5); at_10 = at(k, 10) }
+      if (cell[k, "element"] == "corotational") best = sprintf("%.1g at %g L", cell[k, "error_at_deepest"], cell[k, "deepest"])
+    }
+    line(ends[i], linear, at_1, at_5, at_10, best)
+  }
 }
 
-# Of stability_sweep.csv.
-function stability(  k, text) {
+# Of stability_sweep.csv: all pushes of a scene together.
+function stability(  k, n, s, text, where, least, most, runs, rest, slow, own, off) {
   text["bar_tenth"] = "bar, a tenth of the span"; text["bar_middle"] = "bar, mid-span"
   text["strip_middle"] = "strip 500 × 20 × 0.5 mm, mid-span"; text["ruler_tip"] = "ruler 300 × 30 × 1 mm, clamped, tip"
-  line("pressed", "push", "at rest within 0.5 s", "slower", "slower, as the arm itself", "slides off")
-  rule(6)
-  for (k = 1; k <= rows; ++k)
-    line(text[cell[k, "scene"]], cell[k, "push_N"] " N", cell[k, "at_rest"], cell[k, "slow"], \
-      cell[k, "slow_as_the_arm_itself"], cell[k, "slides_off"] + cell[k, "lost"])
+  for (k = 1; k <= rows; ++k) {
+    s = cell[k, "scene"]
+    if (!(s in runs)) { where[++n] = s; least[s] = cell[k, "push_N"] }
+    most[s] = cell[k, "push_N"]
+    runs[s] += cell[k, "combinations"]; rest[s] += cell[k, "at_rest"]; slow[s] += cell[k, "slow"]
+    own[s] += cell[k, "slow_as_the_arm_itself"]; off[s] += cell[k, "slides_off"] + cell[k, "lost"]
+  }
+  line("pressed", "push", "runs", "at rest within 0.5 s", "slower", "slower, as the arm itself", "slides off")
+  rule(7)
+  for (k = 1; k <= n; ++k) {
+    s = where[k]
+    line(text[s], least[s] " to " most[s] " N", runs[s], rest[s], slow[s], own[s], off[s])
+  }
 }
 
-# Of stability_friction.csv, where each coefficient has a row of hands with a spring and one of hands without.
-function rough(  k) {
+# Of stability_friction.csv, where each coefficient has a row of hands with a spring and one of hands without: all coefficients together.
+function rough(  k, n, s, where, least, most, with, rest, without, still, off, slow) {
+  for (k = 1; k < rows; k += 2) {
+    s = cell[k, "scene"]
+    if (!(s in with)) { where[++n] = s; least[s] = most[s] = cell[k, "sticking"] }
+    if (cell[k, "sticking"] + 0 < least[s] + 0) least[s] = cell[k, "sticking"]
+    if (cell[k, "sticking"] + 0 > most[s] + 0) most[s] = cell[k, "sticking"]
+    with[s] += cell[k, "combinations"]; rest[s] += cell[k, "at_rest"]
+    without[s] += cell[k + 1, "combinations"]; still[s] += cell[k + 1, "at_rest"]
+    off[s] += cell[k + 1, "slides_off"]; slow[s] += cell[k + 1, "slow"]
+  }
   line("leans on", "coefficients", "hands with a spring", "at rest", "without one", "at rest", "slides off", "slower, or in this loop alone")
   rule(8)
-  for (k = 1; k < rows; k += 2)
-    line(cell[k, "scene"], cell[k, "sticking"] (cell[k, "sliding"] == cell[k, "sticking"] ? "" : ", " cell[k, "sliding"]), \
-      cell[k, "combinations"], cell[k, "at_rest"], cell[k + 1, "combinations"], cell[k + 1, "at_rest"], cell[k + 1, "slides_off"], \
-      cell[k + 1, "slow"])
+  for (k = 1; k <= n; ++k) {
+    s = where[k]
+    line(s, least[s] " to " most[s], with[s], rest[s], without[s], still[s], off[s], slow[s])
+  }
 }
 
 # Of turning_sweep.csv: all rods together.
@@ -226,9 +231,9 @@ function turning(  k, by, friction, factor, key, ways, frictions, factors, f, w,
     all[by, friction, factor] += cell[k, "combinations"]; moves[key] += cell[k, "moves"]
     gives[key] += cell[k, "gives_energy"]; off[key] += cell[k, "slips_off"]
   }
-  line("touched by", "friction of the gimbal", "runs each", "× 1", "× 2", "× 4", "× 8", "K_r × 8, no B_r")
-  rule(8)
-  split("tip shaft grip", ways, " "); split("none some", frictions, " "); n = split("1,1 2,2 4,4 8,8 8,0", factors, " ")
+  line("touched by", "friction of the gimbal", "runs each", "× 1", "× 4", "× 8", "K_r × 8, no B_r")
+  rule(7)
+  split("tip shaft grip", ways, " "); split("none some", frictions, " "); n = split("1,1 4,4 8,8 8,0", factors, " ")
   for (w = 1; w <= 3; ++w)
     for (f = 1; f <= 2; ++f) {
       for (k = 1; k <= n; ++k) {
@@ -237,8 +242,27 @@ function turning(  k, by, friction, factor, key, ways, frictions, factors, f, w,
           (gives[key] ? gives[key] " give energy" : "") (off[key] ? (moves[key] || gives[key] ? ", " : "") off[key] " slip off" : "")
         if (row[k] == "") row[k] = "–"
       }
-      line(text[ways[w]], text[frictions[f]], all[ways[w], frictions[f], factors[1]], row[1], row[2], row[3], row[4], row[5])
+      line(text[ways[w]], text[frictions[f]], all[ways[w], frictions[f], factors[1]], row[1], row[2], row[3], row[4])
     }
+}
+
+function most_beams(  k, most) {
+  for (k = 1; k <= rows; ++k) if (cell[k, "model"] == "pod" && cell[k, "beams"] + 0 > most + 0) most = cell[k, "beams"]
+  return most
+}
+# Of many_beams.csv: the median tick of arrays, of trained models for the largest alone, and the 99th percentile where most beams are touched.
+function many(  k, key, n, order, title) {
+  title["fem"] = "`FemModel<>`"; title["pod"] = "`PodModel<>`"
+  for (k = 1; k <= rows; ++k) {
+    if (!(cell[k, "model"] in title) || (cell[k, "model"] == "pod" && cell[k, "beams"] != most_beams())) continue
+    key = title[cell[k, "model"]] ", " cell[k, "beams"]
+    if (!(key in tick)) { order[++n] = key; tick[key] = 1 }
+    tick[key, cell[k, "contacts"]] = digits(cell[k, "p50_us"]) " µs"
+    tick[key, "p99"] = digits(cell[k, "p99_us"]) " µs"
+  }
+  line("beams", "none touched", "about 10", "about 100", "p99 of the most touched")
+  rule(5)
+  for (k = 1; k <= n; ++k) print "| " order[k] " | " tick[order[k], 0] " | " tick[order[k], 10] " | " tick[order[k], 100] " | " tick[order[k], "p99"] " |"
 }
 
 # Of chooser.csv.
@@ -274,13 +298,18 @@ function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst
   line("longest choice", sprintf("%.0f ms", slowest))
 }
 
-# Of hostile_hands.csv.
-function hostile(  k) {
-  line("beam or rod", "touched by", "ticks without an answer", "most in a row", "forces that are wrong", "felt as new on return")
-  rule(6)
-  for (k = 1; k <= rows; ++k)
-    line(cell[k, "what"], cell[k, "touched_by"], percent(cell[k, "unanswered"] / cell[k, "ticks"]), cell[k, "most_in_a_row"], \
-      cell[k, "not_finite"] + cell[k, "pulls"] + cell[k, "beyond_the_cone"], cell[k, "as_new"] " of " cell[k, "returns"])
+# Of hostile_hands.csv: of each way to touch the beam or rod that has most ticks without an answer.
+function hostile(  k, n, by, kinds, share, most, wrong) {
+  for (k = 1; k <= rows; ++k) {
+    by = cell[k, "touched_by"]
+    if (!(by in share)) { kinds[++n] = by; share[by] = most[by] = wrong[by] = 0 }
+    if (cell[k, "unanswered"] / cell[k, "ticks"] > share[by]) share[by] = cell[k, "unanswered"] / cell[k, "ticks"]
+    if (cell[k, "most_in_a_row"] + 0 > most[by]) most[by] = cell[k, "most_in_a_row"] + 0
+    wrong[by] += cell[k, "not_finite"] + cell[k, "pulls"] + cell[k, "beyond_the_cone"]
+  }
+  line("touched by", "ticks without an answer", "most in a row", "forces that are wrong")
+  rule(4)
+  for (k = 1; k <= n; ++k) line(kinds[k], percent(share[kinds[k]]), most[kinds[k]], wrong[kinds[k]])
 }
 
 # Of chooser_rods.csv.
@@ -318,14 +347,15 @@ function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, e
   line("a choice, time of the processor", sprintf("%.1f s in the mean, %.0f s at most", mean / 1e3, slowest / 1e3))
 }
 
-# A tick with each combination of flags: a row for each, a column for each compiler and model.
+# A tick with each combination of flags, but for -DNDEBUG, beside other models: a row for each, a column for each compiler and model.
 function flags(  k, c, f, title, text) {
   for (k = 1; k <= rows; ++k) {
+    if (cell[k, "flags"] ~ /NDEBUG/ || cell[k, "model"] !~ / beside others$/) continue
     title = cell[k, "compiler"] ", `" cell[k, "model"] "`"
-    sub(/ beside others`/, "` beside others", title)
+    sub(/ beside others`/, "`", title)
     if (!(title in seen)) { seen[title] = 1; column[++c] = title }
     if (!(cell[k, "flags"] in known)) { known[cell[k, "flags"]] = 1; row[++f] = cell[k, "flags"] }
-    us[title, cell[k, "flags"]] = digits(cell[k, "tick_us"]) " µs, " sprintf("%.2f", cell[k, "over_best"])
+    over[title, cell[k, "flags"]] = sprintf("%.2f", cell[k, "over_best"])
   }
   text = "| flags |"
   for (k = 1; k <= c; ++k) text = text " " column[k] " |"
@@ -333,14 +363,17 @@ function flags(  k, c, f, title, text) {
   rule(c + 1)
   for (f = 1; f in row; ++f) {
     text = "| `" row[f] "` |"
-    for (k = 1; k <= c; ++k) text = text " " us[column[k], row[f]] " |"
+    for (k = 1; k <= c; ++k) text = text " " over[column[k], row[f]] " |"
     print text
   }
 }
 
-# What a file costs the compiler, dearest first: the README's programs or the headers.
-function compile_times(programs,  k, j, n, order, t) {
-  for (k = 1; k <= rows; ++k) if ((cell[k, "file"] ~ /^README/) == programs) order[++n] = k
+# What a file costs the compiler, dearest first: the README's programs or the headers that programs name most.
+function compile_times(programs,  k, j, n, order, t, shown) {
+  shown = "^hapbeam/(hapbeam|fem/fem_model|fem/rod_system|contact/touch|haptics/servo/servo_loop|haptics/device/virtual_phantom|" \
+    "haptics/hdapi/hdapi|rom/trained/pod_model|rom/file/model_file|rom/training/train|scene/choose|scene/choose_rod)\\.hpp$"
+  for (k = 1; k <= rows; ++k)
+    if (cell[k, "file"] ~ (programs ? "^README" : shown)) order[++n] = k
   for (k = 2; k <= n; ++k)
     for (j = k; j > 1 && cell[order[j], "of_eigen"] + 0 > cell[order[j - 1], "of_eigen"] + 0; --j) {
       t = order[j]; order[j] = order[j - 1]; order[j - 1] = t
@@ -373,10 +406,8 @@ END {
   if (table == "machine") print head "."
   else if (table == "scenes") scenes()
   else if (table == "fronts") fronts()
-  else if (table == "press") presses("press", "pressed at mid-span, 0 to 50 mm", 1)
-  else if (table == "slide") presses("slide", "sliding from 0.3 L to 0.7 L at 20 mm", 0)
+  else if (table == "press") presses()
   else if (table == "trained") trained()
-  else if (table == "hand_over") hand_over()
   else if (table == "solvers") solvers()
   else if (table == "rotation") rotation()
   else if (table == "rod_ticks") rod_ticks()
@@ -385,6 +416,7 @@ END {
   else if (table == "rough") rough()
   else if (table == "turning") turning()
   else if (table == "hostile") hostile()
+  else if (table == "many") many()
   else if (table == "chosen") chosen()
   else if (table == "chosen_rods") chosen_rods()
   else if (table == "flags") flags()

@@ -97,7 +97,7 @@ HAPBEAM_API double hapbeam_touch_peak_strain(const hapbeam_touch* touch, double*
 
 typedef struct hapbeam_servo hapbeam_servo;
 
-/* The device's figures are those of hapbeam's table (docs/devices.md) under its name.  The device's origin lies at (x, w) in the
+/* The device's figures are those of hapbeam's table (docs/haptics.md) under its name.  The device's origin lies at (x, w) in the
    scene, its x along the beam and its y along w; `scale` metres of the scene are one of the device's.  period: [s] of the loop,
    on average.  The servo has a beam of its own, like that of the touch, which stays yours. */
 HAPBEAM_API hapbeam_servo* hapbeam_servo_create(const hapbeam_touch* touch, const char* device, double period, double x,

@@ -443,6 +443,6 @@ TEST_CASE(
   CHECK_THROWS_WITH(touch({0.3, 0.4}), "friction sliding = 0.4: must be 0 to that of sticking");
   CHECK_THROWS_WITH(Touch<FemModel<>>(across, 0.005, 0.3),
                     "friction = 0.3: must be 0 for a model that is pressed across the beam: see "
-                    "docs/friction.md");
+                    "docs/contact.md");
   CHECK_NOTHROW(Touch<FemModel<>>(across, 0.005, 0));
 }

@@ -30,7 +30,7 @@ double taken(const Felt& felt) {
   return sum;
 }
 
-/// Of the skins at both contacts, which are as stiff as a scalar allows (docs/friction.md) [J].
+/// Of the skins at both contacts, which are as stiff as a scalar allows (docs/contact.md) [J].
 template <class Felt>
 double sheared(const Felt& felt, const Beam& beam) {
   const double length = beam.length(), stiffness = beam.bending_stiffness() / (length * length * length) /

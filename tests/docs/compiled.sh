@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fails where docs/data/compile_cost.csv, which docs/compile_times.md quotes, has a header that is gone, or lacks one.
+# Fails where docs/data/compile_cost.csv, which docs/benchmarks.md quotes, has a header that is gone, or lacks one.
 #
 #   bash tests/docs/compiled.sh [--headers FOLDER]
 #

@@ -6,6 +6,21 @@
 // at 5 % of the length and two thicknesses from the ends.  For beams that are bent by nature it is six times that where
 // hk <= 1.  Beyond, such a beam has no digit: what is asserted is that the force has not blown up.
 //
+// Largest errors of 67 000 presses on 4000 beams: five pairs of ends, h/L 1/10 to 1/1000, -0.7 to 20 Euler loads, stretch to 30 %,
+// dead loads, natural arcs, depths up to the range.  The median of each entry is smaller by a factor of 60 to 10⁷.
+//
+//                       hk          4 to 7 elements   8 to 15    16 to 31   32 to 63   64 to 512
+//     straight          below 0.3   3·10⁻³            1.2·10⁻³   5·10⁻⁴     5·10⁻⁵     6·10⁻⁵
+//                       0.3 to 1    8·10⁻³            2·10⁻³     1.2·10⁻³   5·10⁻⁴     8·10⁻⁵
+//                       1 to 3      4 %               3·10⁻³     6·10⁻⁴     8·10⁻⁴     3·10⁻⁴
+//                       3 to 10     1.7 %             1.4·10⁻³   1.4·10⁻³   8·10⁻⁵     1.2·10⁻⁴
+//                       above 10    6·10⁻³            1.6·10⁻⁴   1.8·10⁻³   5·10⁻⁶     3·10⁻⁶
+//     bent by nature    below 0.3   1.2 %             2.3 %      3·10⁻⁴     6·10⁻⁵     7·10⁻⁵
+//                       0.3 to 1    1.5 %             4 %        10⁻³       8·10⁻⁴     5·10⁻⁵
+//                       1 to 3      5 %               12 %       2·10⁻³     7·10⁻⁴     1.1·10⁻⁴
+//                       3 to 10     1.8 %             5·10⁻³     9·10⁻⁴     7·10⁻⁴     5·10⁻⁴
+//                       above 10    8·10⁻³            8·10⁻⁴     2·10⁻⁴     8·10⁻⁵     3·10⁻⁵
+//
 // A part of the beams runs with the other tests; all of them take half a minute: test_stability "[sweep]".
 #include <memory>
 #include <stdexcept>

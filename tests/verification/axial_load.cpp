@@ -53,7 +53,7 @@ struct Ends {
   Support left, right;
   double
       buckles;  ///< the least load that does, in EI/L³, where the right end may slide.  Timoshenko and Gere, Theory of Elastic Stability, 2.12
-  std::array<double, 3> error;  ///< that docs/limits.md states, with 8, 16 and 32 elements
+  std::array<double, 3> error;  ///< with 8, 16 and 32 elements; docs/limits.md states the largest
 
   bool slides() const { return !fixes_u(right); }
   /// The two of the state that vanish at the right end.
@@ -109,7 +109,7 @@ const std::vector<Ends> all_ends{{Support::pinned, Support::pinned, 18.569, {5e-
 
 }  // namespace
 
-// The figures of docs/limits.md.  A load that pulls where its end slides, or pulls one half where both are held, makes the boundary layer
+// A load that pulls where its end slides, or pulls one half where both are held, makes the boundary layer
 // short; one that presses makes the force small.  The worst places are near supports and the largest loads, and are tried first.
 TEST_CASE("a beam under a load along its axis is pressed to what the page states, at any place and depth",
           "[load]") {

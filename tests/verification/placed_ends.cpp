@@ -127,7 +127,7 @@ TEST_CASE("an inclined strip buckles as the level one does, to its own upper sid
     }
 }
 
-// The figures of docs/limits.md.  F/d = N / (ab/L - sinh ka sinh kb / (k sinh kL)), k² = N/EI, a and b from the hand to the
+// F/d = N / (ab/L - sinh ka sinh kb / (k sinh kL)), k² = N/EI, a and b from the hand to the
 // hinges; tension makes the beam longer by 1e-5 of itself, which is what the formula leaves out.
 TEMPLATE_TEST_CASE("shallow presses of a tensioned beam are met where elements resolve its boundary layer",
                    "[placed]", VonKarman<>, Corotational<>) {

@@ -75,7 +75,7 @@ class Touch {
     friction.check();
     if (!takes_friction<Model> && !friction.none())
       detail::reject("friction", friction.sticking, "",
-                     "0 for a model that is pressed across the beam: see docs/friction.md");
+                     "0 for a model that is pressed across the beam: see docs/contact.md");
     pusher_.friction_state().sticking = static_cast<Scalar>(friction.sticking);
     pusher_.friction_state().sliding = static_cast<Scalar>(friction.sliding);
     reset();

@@ -21,7 +21,7 @@ std::string number(double value) {
 }  // namespace
 
 TEST_CASE("each known device is one that a loop can be built for, and stands in the page", "[devices]") {
-  std::ifstream file(HAPBEAM_TEST_DATA_DIR "/../../docs/devices.md");
+  std::ifstream file(HAPBEAM_TEST_DATA_DIR "/../../docs/haptics.md");
   std::stringstream page;
   page << file.rdbuf();
   for (const DeviceInfo& d : known_devices()) {

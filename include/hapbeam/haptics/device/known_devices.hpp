@@ -11,7 +11,7 @@
 // The figures were not checked against the sheets: compare them with the one that came with the device before a force is sent.
 // Not found, and 0: friction of the parallel arms, viscous damping (see safe_coupling()), and resolution, friction, damping and
 // inertia of the gimbals.  Nothing is published about the Inverse3: its figures are low on purpose.
-// docs/devices.md has the table.  The rate is 1 kHz: set `period` for a loop at another rate.
+// docs/haptics.md has the table.  The rate is 1 kHz: set `period` for a loop at another rate.
 // Offline: allocates.
 #pragma once
 

@@ -39,7 +39,7 @@ struct ServoOptions {
   double avatar_radius = 0.005;  ///< [m] in the scene, not negative
   int delay_ticks = 0;           ///< whole periods between the servo's answer and the motors, 0 to 16
   bool dissipate = false;        ///< energy that the loop has generated is taken back by damping
-  Friction friction = {};        ///< between avatar and beam: docs/friction.md
+  Friction friction = {};        ///< between avatar and beam: docs/contact.md
   StylusOptions stylus =
       {};  ///< what touches a rod in space, where the device reads its orientation; else a sphere
 };
@@ -53,7 +53,7 @@ Touch<Model> make_touch(Model& model, Scalar radius, const Friction& friction) {
     return Touch<Model>(model, radius, friction);
   } else {
     friction.check();
-    if (!friction.none()) reject("friction", friction.sticking, "", "0 for this model: see docs/friction.md");
+    if (!friction.none()) reject("friction", friction.sticking, "", "0 for this model: see docs/contact.md");
     return Touch<Model>(model, radius);
   }
 }

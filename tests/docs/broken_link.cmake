@@ -1,0 +1,16 @@
+# cmake -D BASH=bash -D CHECK=links.sh -D SOURCE=folder -D COPY=folder -D LINE=text -D WHY=regex -P broken_link.cmake
+# Succeeds if the check fails, and says WHY, where README.md has LINE, too.
+file(REMOVE_RECURSE ${COPY})
+file(GLOB pages ${SOURCE}/*.md)
+foreach(part ${pages} ${SOURCE}/VERSION ${SOURCE}/LICENSE ${SOURCE}/docs ${SOURCE}/.github ${SOURCE}/examples/numbered)
+  if(EXISTS ${part})
+    get_filename_component(folder ${part} DIRECTORY)
+    file(RELATIVE_PATH folder ${SOURCE} ${folder})
+    file(COPY ${part} DESTINATION ${COPY}/${folder})
+  endif()
+endforeach()
+file(APPEND ${COPY}/README.md "${LINE}\n")
+execute_process(COMMAND ${BASH} ${CHECK} --pages ${COPY} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(status EQUAL 0 OR NOT output MATCHES "${WHY}")
+  message(FATAL_ERROR "exit status ${status}; '${WHY}' should have been said:\n${output}")
+endif()
