@@ -77,7 +77,7 @@ py::array_t<double> places_of(const Nodes& nodes, int dimension, double length, 
             dimension == 3 ? spatial[i].r : Place(flat[i].s + flat[i].u, flat[i].w, 0));
     return all;
   }
-  if (py::isinstance<py::int_>(which)) {
+  if (PyIndex_Check(which.ptr()) && !py::isinstance<py::array>(which)) {
     const auto n = which.cast<py::ssize_t>();
     if (n < 2) throw std::invalid_argument("points = " + std::to_string(n) + ": must be 2 or more");
     py::array_t<double> all = table(n);

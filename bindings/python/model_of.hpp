@@ -20,7 +20,8 @@ class ModelOf : public Base {
   static constexpr bool several = takes_obstacles<Model>;
 
  public:
-  ModelOf(Model model, const char* kind) : model_(std::move(model)), kind_(kind) {}
+  template <class... Args>
+  explicit ModelOf(const char* kind, Args&&... args) : model_(std::forward<Args>(args)...), kind_(kind) {}
 
   int dimension() const noexcept override { return D; }
   std::string kind() const override { return kind_; }

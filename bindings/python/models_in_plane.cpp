@@ -12,7 +12,7 @@ namespace {
 
 template <class Element, Also also = Also::nothing>
 FemPointer made(const Beam& beam, int elements, const char* kind) {
-  return std::make_unique<FemOf<FemModel<Element>, also>>(FemModel<Element>(beam, elements), kind);
+  return std::make_unique<FemOf<FemModel<Element>, also>>(kind, beam, elements);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 template <class Element, Also also = Also::nothing>
 FemPointer made(const Rod& rod, int elements, const char* kind) {
-  return std::make_unique<FemOf<FemModel<Element>, also>>(FemModel<Element>(rod, elements), kind);
+  return std::make_unique<FemOf<FemModel<Element>, also>>(kind, rod, elements);
 }
 
 }  // namespace

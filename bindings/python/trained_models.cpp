@@ -37,8 +37,8 @@ template <class Model>
 class TrainedOf final : public ModelOf<Model, AnyTrained> {
  public:
   explicit TrainedOf(Model model)
-      : ModelOf<Model, AnyTrained>(std::move(model),
-                                   std::is_same_v<Model, PodModel<>> ? "PodModel" : "GalerkinModel") {}
+      : ModelOf<Model, AnyTrained>(std::is_same_v<Model, PodModel<>> ? "PodModel" : "GalerkinModel",
+                                   std::move(model)) {}
   const ErrorReport& errors() const noexcept override { return this->model_.errors(); }
   void save(const std::string& path) const override {
 #ifdef HAPBEAM_PYTHON_HAS_MODEL_FILES
