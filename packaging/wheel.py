@@ -1,4 +1,6 @@
-"""Packs the package hapbeam, as CMake has built it, into a wheel: python3 wheel.py PACKAGE VERSION FOLDER
+"""Packs the package hapbeam, as CMake has built it, into a wheel.
+
+    python3 wheel.py PACKAGE VERSION FOLDER
 
 PACKAGE is the folder hapbeam of the build, with its module and stub; the wheel lands in FOLDER.
 Standard library alone.  The same files give the same bytes.

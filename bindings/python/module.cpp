@@ -39,5 +39,6 @@ PYBIND11_MODULE(_core, m) {
   add_models(m);
   add_touch(m);
   add_several(m);
+  add_devices(m);
   add_servo(m);
 }

@@ -10,6 +10,7 @@ void add_rods(pybind11::module_& m);
 void add_models(pybind11::module_& m);
 void add_touch(pybind11::module_& m);
 void add_several(pybind11::module_& m);
+void add_devices(pybind11::module_& m);
 void add_servo(pybind11::module_& m);
 
 }  // namespace hapbeam::python

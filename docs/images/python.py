@@ -16,7 +16,7 @@ left.plot(1e3 * down, touch.ticks(hands).force[:, 1], color="grey")     # 301 ti
 touch.reset()
 for part in np.split(np.arange(300), 5):
     felt = touch.ticks(hands[part])
-    x, w = 1e3 * model.shape(101).T                                     # 101 points of the centreline
+    x, w = 1e3 * model.shape(101).T                                     # 101 points of the beam
     line, = right.plot(x, w)
     left.plot(1e3 * down[part[-1]], felt.force[-1, 1], "o", color=line.get_color())
 left.set(xlabel="hand, down [mm]", ylabel="force on the hand [N]")

@@ -27,15 +27,17 @@ def test_sections_have_the_areas_of_geometry():
     (lambda: hb.Beam(-1, STRIP, STEEL, hb.Support.clamped, hb.Support.free),
      "length = -1 m: must be positive and finite"),
     (lambda: hb.Beam(1, STRIP, STEEL, hb.Support.free, hb.Support.pinned),
-     "supports = free, pinned: the beam is a mechanism, it turns about its only hinge; hold theta or the"
-     " other end"),
+     "supports = free, pinned: the beam is a mechanism, it turns about its only hinge; hold theta"
+     " or the other end"),
     (lambda: hb.Section.tube(0.01, 0.02),
      "section inner_diameter = 0.02 m: must be less than outer_diameter"),
     (lambda: cantilever().add(0.5), "point load s = 0.5 m: must be on the beam, 0 to its length"),
     (lambda: hb.Rod(1, hb.RodSection.circle(0.001), hb.RodMaterial(1e9, 1e9), hb.RodSupport.free,
                     hb.RodSupport.hinged),
-     "supports = free, hinged: the rod is a mechanism, hold the direction of one end or the place of both"),
-    (lambda: hb.RodMaterial.isotropic(1e9, 0.7), "poisson = 0.7: must be more than -1 and at most 0.5"),
+     "supports = free, hinged: the rod is a mechanism, hold the direction of one end or the place"
+     " of both"),
+    (lambda: hb.RodMaterial.isotropic(1e9, 0.7),
+     "poisson = 0.7: must be more than -1 and at most 0.5"),
     (lambda: hb.FemModel(cantilever(), 1), None),
     (lambda: cantilever().weight(7850, (0, 1, 2)), "gravity of shape (3): must be 2 numbers"),
 ])

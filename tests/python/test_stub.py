@@ -49,7 +49,12 @@ def test_members_of_each_class():
         else:
             assert named(node.body) == members(cls), node.name
             bases = [base.id for base in node.bases]
-            assert bases == [base.__name__ for base in cls.__bases__ if base.__module__ == "hapbeam"]
+            assert bases == [base.__name__ for base in cls.__bases__
+                             if base.__module__ == "hapbeam"]
+
+
+def is_property(function):
+    return any(isinstance(d, ast.Name) and d.id == "property" for d in function.decorator_list)
 
 
 def test_arguments_of_functions_and_methods():
@@ -76,8 +81,7 @@ def test_arguments_of_functions_and_methods():
             checked += check(hb, node)
         elif isinstance(node, ast.ClassDef):
             for item in node.body:
-                if isinstance(item, ast.FunctionDef) and not any(
-                        isinstance(d, ast.Name) and d.id == "property" for d in item.decorator_list):
+                if isinstance(item, ast.FunctionDef) and not is_property(item):
                     checked += check(getattr(hb, node.name), item)
     assert checked >= 90
 

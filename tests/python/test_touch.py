@@ -31,7 +31,8 @@ def test_a_finger_slides_along_a_ruler_as_the_elastica_with_friction_says():
 
 
 def test_a_curve_is_its_ticks_to_the_last_bit():
-    hands = np.column_stack([np.linspace(0.1, 0.28, 300), 0.006 - 0.03 * np.sin(np.arange(300) / 40)])
+    hands = np.column_stack([np.linspace(0.1, 0.28, 300),
+                             0.006 - 0.03 * np.sin(np.arange(300) / 40)])
     for element in (hb.Element.VonKarman, hb.Element.Corotational):
         curve = hb.Touch(hb.FemModel(ruler(), 8, element), 0.005).ticks(hands)
         touch = hb.Touch(hb.FemModel(ruler(), 8, element), 0.005)

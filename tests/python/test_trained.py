@@ -20,7 +20,8 @@ def test_no_press_is_farther_from_the_full_model_than_the_bound(trained, name):
     model, full = trained[name], hb.FemModel(bar(), 8)
     random = np.random.default_rng(7)
     s = random.uniform(0.05, 0.95, 500) * model.length
-    d = random.uniform(0.02, 1, 500) * np.minimum(PLAN_DEPTH, [model.range().depth_at(x) for x in s])
+    deepest = np.minimum(PLAN_DEPTH, [model.range().depth_at(x) for x in s])
+    d = random.uniform(0.02, 1, 500) * deepest
     forces, statuses = model.presses(s, d)
     exact, _ = full.presses(s, d)
     assert (statuses == hb.Status.ok).all()
@@ -78,7 +79,8 @@ def test_files_of_cpp_are_read_and_broken_ones_rejected(tmp_path):
     assert hb.load_model(str(DATA / "models" / "galerkin_double.json")).kind == "GalerkinModel"
     broken = tmp_path / "broken.json"
     broken.write_text((DATA / "models" / "pod_double.json").read_text().replace("1", "2", 3))
-    for path in (broken, tmp_path / "nothing.json", DATA / "models" / "pod_double_force_overflow.json"):
+    for path in (broken, tmp_path / "nothing.json",
+                 DATA / "models" / "pod_double_force_overflow.json"):
         with pytest.raises(ValueError, match=path.name):
             hb.load_model(str(path))
 

@@ -19,7 +19,8 @@ VERSION = (TOP / "VERSION").read_text().strip()
 
 
 def pack(package, folder):
-    return subprocess.run([sys.executable, TOP / "packaging" / "wheel.py", package, VERSION, folder],
+    program = TOP / "packaging" / "wheel.py"
+    return subprocess.run([sys.executable, program, package, VERSION, folder],
                           capture_output=True, text=True)
 
 
@@ -58,10 +59,11 @@ def test_it_says_its_version_and_for_which_python_it_is(wheel):
 def test_it_presses_a_beam_where_it_is_unpacked(wheel, tmp_path):
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(tmp_path)
-    program = ("import hapbeam as hb; print(hb.__file__); b = hb.Beam(1, 1e6, 1, 0.01, "
-               "hb.Support.clamped, hb.Support.free); print(hb.FemModel(b, 8).press(1, 1e-6).force)")
-    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True,
-                         env={**os.environ, "PYTHONPATH": str(tmp_path)}, cwd=tmp_path)
+    program = ("import hapbeam as hb; print(hb.__file__); "
+               "b = hb.Beam(1, 1e6, 1, 0.01, hb.Support.clamped, hb.Support.free); "
+               "print(hb.FemModel(b, 8).press(1, 1e-6).force)")
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                         env={**os.environ, "PYTHONPATH": str(tmp_path)}, cwd=tmp_path, check=True)
     file, force = run.stdout.split()
     assert Path(file).is_relative_to(tmp_path)
     assert float(force) == pytest.approx(3e-6, rel=1e-6)
