@@ -123,3 +123,14 @@ function(hapbeam_find_benchmark)
       GIT_REPOSITORY https://github.com/google/benchmark GIT_TAG v1.7.1 GIT_SHALLOW TRUE)
   endif()
 endfunction()
+
+# pybind11 2.10 or later, and the Python that it compiles for.  A macro: pybind11_add_module reads variables that these set.
+macro(hapbeam_find_pybind11)
+  find_package(Python3 COMPONENTS Interpreter Development.Module REQUIRED)
+  set(PYTHON_EXECUTABLE ${Python3_EXECUTABLE})
+  find_package(pybind11 2.10 CONFIG QUIET)
+  if(NOT pybind11_FOUND)
+    hapbeam_fetch(pybind11 "pybind11 2.10 or later, which the package for Python needs (HAPBEAM_BUILD_PYTHON),"
+      GIT_REPOSITORY https://github.com/pybind/pybind11 GIT_TAG v2.10.3 GIT_SHALLOW TRUE)
+  endif()
+endmacro()

@@ -79,6 +79,8 @@ build() {
   [[ $preset != *clang* ]] || compiler=(clang)
   # With its sanitizers, and what finds names for their reports.
   [[ $preset != asan-ubsan && $preset != tsan ]] || compiler=(clang libclang-rt-dev llvm)
+  # With what the package for Python is built and tested by.
+  [[ $preset != strict-gcc ]] || compiler=(g++ pybind11-dev python3-dev python3-numpy python3-pytest)
   [[ $preset != mingw ]] || compiler=(g++ g++-mingw-w64-x86-64-posix wine64)
   [[ $preset != aarch64 ]] || compiler=(g++ g++-aarch64-linux-gnu qemu-user)
   need "${compiler[@]}" cmake ninja-build libeigen3-dev libjansson-dev catch2 libbenchmark-dev \

@@ -11,6 +11,8 @@ names CITATION.cff "version: $version"
 names packaging/vcpkg/hapbeam/vcpkg.json "\"version\": \"$version\""
 names docs/packages.md "libhapbeam-dev_${version}_all.deb"
 names docs/packages.md "find_package(hapbeam $(part MAJOR).$(part MINOR) "
+names docs/packages.md "hapbeam-${version}-cp311"
+names docs/python.md "hapbeam-${version}-cp311"
 names docs/haptics.md "find_package(hapbeam $(part MAJOR).$(part MINOR) "
 names CHANGELOG.md "$version"
 exit $wrong

@@ -1,0 +1,37 @@
+// Planar models.
+#include "factories.hpp"
+#include "fem_of.hpp"
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/element/linear.hpp>
+#include <hapbeam/element/tapered.hpp>
+#include <hapbeam/element/von_karman.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+namespace hapbeam::python {
+namespace {
+
+template <class Element, Also also = Also::nothing>
+FemPointer made(const Beam& beam, int elements, const char* kind) {
+  return std::make_unique<FemOf<FemModel<Element>, also>>(kind, beam, elements);
+}
+
+}  // namespace
+
+FemPointer model_in_plane(Element element, const Beam& beam, int elements) {
+  const char* const kind = name(element);
+  switch (element) {
+    case Element::Linear: return made<Linear>(beam, elements, kind);
+    case Element::VonKarman: return made<VonKarman<>, Also::arrays>(beam, elements, kind);
+    case Element::AssumedStrain: return made<VonKarman<AssumedStrain>>(beam, elements, kind);
+    case Element::Corotational:
+      if (beam.parts().empty()) return made<Corotational<>, Also::arrays>(beam, elements, kind);
+      return made<Corotational<Tapered<>>>(beam, elements, kind);
+    default: throw NotOffered("Element.RoundRod and TwistedRod: of a Rod, not of a Beam");
+  }
+}
+
+FemPointer several_in_plane(const Beam& beam, int elements) {
+  return made<Several<Corotational<>, most_in_plane>>(beam, elements, name(Element::Corotational));
+}
+
+}  // namespace hapbeam::python

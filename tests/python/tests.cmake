@@ -1,0 +1,17 @@
+# The package for Python, used as a program uses it: by pytest, where that and numpy are installed.
+execute_process(COMMAND ${Python3_EXECUTABLE} -c "import numpy, pytest" RESULT_VARIABLE lacks OUTPUT_QUIET ERROR_QUIET)
+if(lacks)
+  message(STATUS "No numpy or pytest for ${Python3_EXECUTABLE}: the package for Python is not tested")
+  return()
+endif()
+add_executable(python_reference python/reference.cpp)
+target_link_libraries(python_reference PRIVATE hapbeam_once hapbeam_checks)
+target_precompile_headers(python_reference REUSE_FROM hapbeam_once)
+add_dependencies(hapbeam_tests hapbeam_python python_reference)
+file(GLOB files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/python python/test_*.py)
+foreach(file IN LISTS files)
+  string(REGEX REPLACE "^test_(.*)[.]py$" "\\1" name ${file})
+  add_test(NAME python/${name} COMMAND ${Python3_EXECUTABLE} -m pytest -q -p no:cacheprovider ${CMAKE_CURRENT_SOURCE_DIR}/python/${file})
+  set_tests_properties(python/${name} PROPERTIES LABELS python TIMEOUT 120
+    ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/bindings/python;PYTHONDONTWRITEBYTECODE=1;HAPBEAM_REFERENCES=$<TARGET_FILE_DIR:python_reference>")
+endforeach()
