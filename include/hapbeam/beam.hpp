@@ -48,7 +48,8 @@ struct Section {
 
 /// Linear elastic material.
 struct Material {
-  double young;  ///< Young's modulus E [Pa]
+  double young;        ///< Young's modulus E [Pa]
+  double density = 0;  ///< [kg/m³]; 0: not known, and the beam has no mass
 };
 
 /// A force and a moment at one point of the beam.  They keep their direction as the beam turns (dead, non-follower loads).
@@ -98,6 +99,7 @@ class Beam {
              material.young * detail::positive("inertia", section.inertia, "m⁴"), section.thickness, left,
              right) {
     young_ = material.young;
+    density_ = detail::not_negative("density", material.density, "kg/m³");
     area_ = [area = section.area](double) { return area; };
   }
 
@@ -146,6 +148,9 @@ class Beam {
     transverse_ = axial_ = nullptr;
     return specific_weight_ = density * gravity, weigh(), *this;
   }
+
+  /// [kg/m], 0: it has no mass
+  double mass_per_length(double s) const { return density_ > 0 ? density_ * area_(s) : 0; }
 
   /// Gives the beam a natural shape of arcs, from the left end on; straight where they end.
   /// @throws std::invalid_argument unless the ends increase, within the length
@@ -227,7 +232,7 @@ class Beam {
     if (specific_weight_.y() != 0) transverse_ = load(specific_weight_.y());
   }
 
-  double length_, axial_stiffness_, bending_stiffness_, thickness_, young_ = 0;
+  double length_, axial_stiffness_, bending_stiffness_, thickness_, young_ = 0, density_ = 0;
   Support left_, right_;
   std::vector<PointLoad> point_loads_;
   std::function<double(double)> area_;  // empty where only the stiffness is known

@@ -83,6 +83,7 @@ struct InnerContact : InnerState<S> {
   S reach = 0;              ///< [m], or d
   S side = 1;               ///< of the beam on which the circle is
   S curvature = 0;          ///< of the circle for which a place is held [1/m]
+  S compliance = 0;         ///< of what holds the circle [m/N]:  D = reach - λ compliance
   S least = 0, most = 0;    ///< s stays between them [m]
 
   bool waits = false;         ///< s stays in the next solve

@@ -52,6 +52,7 @@ struct InnerContact<S, 3> : InnerState<S, 3> {
   Vector normal = Vector::UnitZ();  ///< n, unit; of a capsule from the axis to the curve, found
   S reach = 0;                      ///< [m], or d
   S curvature = 0;                  ///< of the capsule for which a place is held [1/m]
+  S compliance = 0;                 ///< of what holds the capsule [m/N]:  D = reach - λ compliance
   S least = 0, most = 0;            ///< s stays between them [m]
 
   bool waits = false;  ///< s stays in the next solve

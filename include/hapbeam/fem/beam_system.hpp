@@ -21,6 +21,7 @@
 #include <hapbeam/fem/contact/drawn_mesh.hpp>
 #include <hapbeam/fem/contact/round_contact.hpp>
 #include <hapbeam/fem/contact/system_contacts.hpp>
+#include <hapbeam/fem/dynamics/inertia.hpp>
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
@@ -78,6 +79,9 @@ class BeamSystem
     }
   }
 
+  using Inertia = detail::Inertia<Scalar, Elements, MaxElements>;
+  /// Of what it is in motion with; null: at rest.
+  void move_with(const Inertia* inertia) noexcept { inertia_ = inertia; }
   /// To be called where the beam has moved.
   void look(int k) noexcept {
     const int e = rows_.element(k);
@@ -157,12 +161,13 @@ class BeamSystem
       change(r, K);
       assembler_.add(e, K, r);
     };
-    const bool plain = shift == 0 && !beam_.loaded(load_);
+    const bool plain = shift == 0 && !beam_.loaded(load_) && !inertia_;
     for (int e = 0; e < elements(); ++e) {
       beam_.respond(e, group);
       const auto load_and_shift = [&](Vector6<Scalar>& r, Matrix6<Scalar>& K) {
         work += beam_.subtract_loads(e, load_, r, K);
         if (shift != 0) add_shift(shift, e, K);
+        if (inertia_) energy += inertia_->add(e, node(e), node(e + 1), r, K);
       };
       if (rows_.in(e)) {
         Matrix6<Scalar> K;
@@ -178,7 +183,7 @@ class BeamSystem
     }
     longer_ = 0;
     // Where tensions are far from those of the nodes the energy has either sign.
-    weight_ = size_ = std::sqrt(2 * std::abs(energy));
+    weight_ = size_ = std::sqrt(2 * (std::abs(energy) + (inertia_ ? inertia_->scale() : Scalar(0))));
     potential_ = energy - work;
     if (rows_.any()) potential_ += rows_.potential() + rows_.friction_potential();
     for (std::size_t k = 0; k < 2; ++k)
@@ -193,7 +198,7 @@ class BeamSystem
   /// Adds the increment to the state.
   void advance() noexcept {
     if constexpr (any_rotation<Element>) {
-      if (!rows_.any()) {
+      if (!rows_.any() && !inertia_) {
         // Prescribed increments answer 0; a chain that ended where they were would share them out a second time.
         const auto with_ends = [this](int i) {
           Vector3<Scalar> x = increment(i);
@@ -369,7 +374,8 @@ class BeamSystem
     look(k);
     const Contact& contact = rows_[k];
     // On what touches it, where an equilibrium was found: the last increment has left that by its square.
-    const Scalar left = std::abs(contact.gap) < length_ / 1000 ? contact.gap : Scalar(0);
+    const Scalar off = contact.gap + contact.force * contact.compliance,
+                 left = std::abs(off) < length_ / 1000 ? off : Scalar(0);
     const Vector2<Scalar> moved = contact.moved - left * contact.normal;
     return {contact.s, moved.x(), moved.y(), contact.theta};
   }
@@ -392,7 +398,8 @@ class BeamSystem
   }
 
   Assembler assembler_;
-  typename Shape::Nodes before_;  // the last increment
+  typename Shape::Nodes before_;      // the last increment
+  const Inertia* inertia_ = nullptr;  // of what it is in motion with
   std::array<detail::EndSupport<Scalar>, 2> ends_;
   static constexpr Scalar near_ = Scalar(0.05);  // to an equilibrium: an increment in units of the state
   Scalar size_ = 0, last_size_ = 0, weight_ = 0, longer_ = 0, potential_ = 0, unit_;

@@ -286,7 +286,8 @@ class RodSystem
     const Contact& contact = rows_[k];
     Node at = rod_.node_within(rows_.element(k), contact.s);
     // On what touches it, where an equilibrium was found: the last increment has left that by its square.
-    const Scalar left = std::abs(contact.gap) < length_ / 1000 ? contact.gap : Scalar(0);
+    const Scalar off = contact.gap + contact.force * contact.compliance,
+                 left = std::abs(off) < length_ / 1000 ? off : Scalar(0);
     at.r = contact.place - left * contact.normal;
     detail::set_tangent<Scalar>(at, contact.tangent);
     return at;

@@ -184,7 +184,7 @@ class ContactRows {
     each_in(e, [&](int k) {
       Row& row = rows_[of(k)];
       row.b = touched->column(row.number);
-      row.residual = touched->residual(row.number);
+      row.residual = touched->residual(row.number) - row.contact.force * row.contact.compliance;
     });
     return energy;
   }
@@ -218,6 +218,7 @@ class ContactRows {
             assembler.product(row.column, other.column) -
             (row.first == other.first ? touched(row).yields(row.number, other.number) : Scalar(0));
       }
+      stiff_[of(k)][of(k)] += row.contact.compliance;
     }
     int negative = 0;
     solve_forces(right, negative);
@@ -273,10 +274,13 @@ class ContactRows {
     for (int k = 0; k < size_; ++k)
       if (Friction* const friction = rows_[of(k)].friction) friction->feel(-reaction(k));
   }
-  /// What contacts add to V at the last look: -λ g [J].
+  /// What contacts add to V at the last look: -λ g - λ² c/2 [J].
   Scalar potential() const noexcept {
     Scalar sum = 0;
-    for (int k = 0; k < size_; ++k) sum -= rows_[of(k)].contact.force * rows_[of(k)].contact.gap;
+    for (int k = 0; k < size_; ++k) {
+      const Contact& contact = rows_[of(k)].contact;
+      sum -= contact.force * (contact.gap + contact.force * contact.compliance / 2);
+    }
     return sum;
   }
   /// By how much all of that and V change with the last increment, to third order of it [J].

@@ -1,0 +1,285 @@
+// A beam in the plane with mass: it swings, and what touches it meets its inertia.
+//
+//   M q" + α M q' + V'(q) = forces
+//
+// step() goes on by a time, alone or with a hand.  Each of its parts is a static solve with one term more, the inertia (fem/dynamics/): the elements, supports
+// and contacts are those of FemModel, and the beam stays where that does.  A hand touches through its coupling, a spring and a damper, within the step: a
+// massless avatar between them has no place of its own, so that no blow is infinite.  Where a part has no solution it is taken back and halved.
+// Allocates and throws at construction.  Real-time: every other member is noexcept and allocation-free, at most 8 parts of substeps() and their solves.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/dynamics/tr_bdf2.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+namespace hapbeam {
+
+/// A hand that holds an avatar by its coupling.
+template <typename Scalar>
+struct Coupled {
+  Circle<Scalar> hand;      ///< where the avatar would be without the beam
+  Scalar stiffness = 1000;  ///< K [N/m]
+  Scalar damping = 0;       ///< B [N·s/m]
+};
+
+/// @tparam Element  of finite rotation, as Corotational<>
+template <class Element = Corotational<>, typename ScalarType = double, int Elements = Eigen::Dynamic,
+          int MaxElements = Elements>
+class DynamicModel {
+  static_assert(any_rotation<Element> && dimension_of<Element> == 2,
+                "DynamicModel takes elements as Corotational<>");
+  using System = BeamSystem<Element, ScalarType, Elements, MaxElements>;
+  using Contact = typename System::Contact;
+  using RoundContact = typename System::RoundContact;
+
+ public:
+  using Scalar = ScalarType;
+  /// No step is longer: what a late tick has missed is left out [s].
+  static constexpr Scalar longest = Scalar(2e-3);
+  /// Times that a part is halved.
+  static constexpr int most_halvings = 3;
+
+  /// At rest under its dead loads.
+  /// @param substeps  parts of a step, each of two solves   @param drag  α of the air [1/s]: 2 ζ ω of a mode
+  /// @throws std::invalid_argument where the beam has no density, or as FemModel
+  DynamicModel(const Beam& beam, int elements, int substeps = 4, double drag = 0)
+      : system_(beam, elements),
+        inertia_(beam, elements, [this](int i) { return system_.node(i).s; }),
+        steps_(elements),
+        rest_(elements),
+        before_(elements),
+        substeps_(substeps),
+        drag_(static_cast<Scalar>(detail::not_negative("drag", drag, "1/s"))) {
+    if (substeps < 1) detail::reject("substeps", substeps, "", "1 or more");
+    let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
+    system_.keep(rest_);
+  }
+
+  /// Back to rest.
+  void reset() noexcept { begin(rest_); }
+  /// Lets it go from another shape, without velocity.   @param shape  of the same beam, as of a FemModel
+  void let_go_from(const Centreline<Scalar>& shape) noexcept {
+    system_.keep(before_);
+    for (int i = 0; i <= system_.elements(); ++i) {
+      auto& node = before_.nodes[i];
+      const Displacement<Scalar> at = shape.at(node.s);
+      node.u = at.u, node.w = at.w, node.theta = at.theta;
+    }
+    system_.set_state(before_);
+    system_.find_tensions();
+    system_.keep(before_);
+    begin(before_);
+  }
+
+  /// Goes on by a time.   @param dt [s]   @return ok | iteration_limit: it has stopped where no part had a solution
+  Status step(Scalar dt) noexcept { return go(dt, nullptr).status; }
+  /// The same with a hand, which moves evenly from where it was.   @return force and place at the end of the step
+  Pushed<Scalar> step(Scalar dt, const Coupled<Scalar>& hand) noexcept { return go(dt, &hand); }
+
+  int elements() const noexcept { return system_.elements(); }
+  int substeps() const noexcept { return substeps_; }
+  Centreline<Scalar> shape() const noexcept { return system_.drawn(); }
+  /// [m/s] at arc position s.
+  Vector2<Scalar> velocity(Scalar s) const noexcept {
+    const Centreline<Scalar> line = system_.centreline();
+    const int e = line.segment_at(s);
+    const Scalar l = line[e + 1].s - line[e].s, t = (s - line[e].s) / l, u = 1 - t;
+    const auto &a = steps_[e].v, &b = steps_[e + 1].v;
+    return u * u * (1 + 2 * t) * a.template head<2>() + l * t * u * u * a.template tail<2>() +
+           t * t * (3 - 2 * t) * b.template head<2>() - l * t * t * u * b.template tail<2>();
+  }
+  struct Energy {
+    Scalar kinetic, strain, loads;  ///< [J], the last of the dead loads
+    Scalar sum() const noexcept { return kinetic + strain + loads; }
+  };
+  Energy energy() const noexcept {
+    const Scalar strain = system_.strain_energy();
+    return {kinetic(), strain, system_.total_potential() - strain};
+  }
+  /// Linear solves of the last step.
+  int solves() const noexcept { return solves_; }
+
+ private:
+  Scalar kinetic() const noexcept {
+    return inertia_.energy([this](int i) -> const auto& { return steps_[i].v; });
+  }
+  void begin(const typename System::State& state) noexcept {
+    system_.set_state(state);
+    stop();
+    penetration_ = 0, contact_ = {}, known_ = touches_ = false;
+    starts_ = true;
+    system_.draw();
+  }
+  /// All velocity is gone.
+  void stop() noexcept {
+    for (int i = 0; i <= system_.elements(); ++i) {
+      steps_[i] = {};
+      steps_[i].q = detail::placed(system_.node(i));
+    }
+  }
+  /// What pulls at it accelerates it: as it does within a hundredth of the first part.
+  void accelerate(Scalar part) noexcept {
+    starts_ = false;
+    const auto* const hand = std::exchange(hand_, nullptr);
+    if (go_on(part / 100, 0, 1, most_halvings)) {
+      steps_.start_again();
+      system_.set_state(before_);
+    }
+    hand_ = hand;
+  }
+
+  Pushed<Scalar> go(Scalar dt, const Coupled<Scalar>* hand) noexcept {
+    Pushed<Scalar> pushed{0, Status::ok};
+    solves_ = 0;
+    const bool valid = dt >= 0 && std::isfinite(dt) &&
+                       (!hand || (is_finite(hand->hand) && hand->stiffness > 0 && hand->damping >= 0));
+    if (!valid) return {0, Status::invalid_request};
+    if (!(dt > 0)) return pushed;
+    system_.move_with(&inertia_);
+    hand_ = hand;
+    if (hand && !known_) from_ = hand->hand.centre, penetration_ = 0;
+    known_ = hand != nullptr;
+    const Scalar all = (std::min)(dt, longest), part = all / Scalar(substeps_);
+    if (starts_) accelerate(part);
+    for (int k = 0; k < substeps_ && pushed.status == Status::ok; ++k) {
+      const Scalar begin = Scalar(k) / Scalar(substeps_), end = Scalar(k + 1) / Scalar(substeps_);
+      if (!go_on(part, begin, end, 0)) pushed.status = Status::iteration_limit;
+    }
+    system_.move_with(nullptr);
+    if (pushed.status != Status::ok) stop(), contact_ = {}, touches_ = false;
+    if (hand) from_ = hand->hand.centre;
+    system_.draw();
+    if (touches_) {
+      const Contact& found = system_.rows()[0];
+      pushed.force = -contact_.force;
+      pushed.s = found.s, pushed.point = found.place, pushed.normal = -found.normal;
+    }
+    return pushed;
+  }
+  /// A part of a step.  @param begin, end  of the hand's way in it
+  bool go_on(Scalar dt, Scalar begin, Scalar end, int halvings) noexcept {
+    system_.keep(before_);
+    const auto contact = contact_;
+    const Scalar penetration = penetration_;
+    const Vector2<Scalar> outward = outward_;
+    const bool touches = touches_;
+    steps_.begin(dt, drag_);
+    inertia_.set_scale(kinetic());
+    bool found = true;
+    for (int stage = 0; stage < steps_.stages && found; ++stage)
+      found = solve(stage, begin + steps_.end(stage) * (end - begin));
+    if (found) return true;
+    system_.set_state(before_);
+    steps_.take_back();
+    contact_ = contact, penetration_ = penetration, outward_ = outward, touches_ = touches;
+    const Scalar middle = (begin + end) / 2;
+    return halvings < most_halvings && go_on(dt / 2, begin, middle, halvings + 1) &&
+           go_on(dt / 2, middle, end, halvings + 1);
+  }
+  /// One stage.   @param way  of the hand
+  bool solve(int stage, Scalar way) noexcept {
+    const int n = system_.elements();
+    steps_.aim(stage, inertia_);
+    system_.move([&](int i) {
+      const auto q = steps_.foreseen(stage, i);
+      const auto& now = system_.node(i);
+      const auto at = detail::placed(now);
+      // As the tangent turns from where it is.
+      const Scalar turn = std::atan2(at[2] * q[3] - at[3] * q[2], at[2] * q[2] + at[3] * q[3]);
+      return Vector3<Scalar>(q[0] - at[0], q[1] - at[1], -turn);
+    });
+    if (!equilibrium(steps_.length(stage), way)) return false;
+    for (int i = 0; i <= n; ++i) steps_.know(stage, i, detail::placed(system_.node(i)));
+    return true;
+  }
+  /// With or without the hand, whichever has an answer.   @param time  of the stage [s]
+  bool equilibrium(Scalar time, Scalar way) noexcept {
+    if (!hand_) {
+      touches_ = false;
+      return newton();
+    }
+    const Scalar by_time = hand_->damping / time, whole = hand_->stiffness + by_time,
+                 lasting = by_time * penetration_ / whole;
+    Circle<Scalar> circle = hand_->hand;
+    // Where the avatar is about: on the beam, and not in it as far as the hand.
+    const Scalar ahead = penetration_;
+    circle.centre = from_ + way * (hand_->hand.centre - from_) + ahead * outward_;
+    circle.reach += ahead - lasting;
+    bool let_go = false;
+    for (int pass = 0; pass < most_passes; ++pass) {
+      if (!touches_) {
+        contact_.force = 0;
+        contact_.s = foot(circle);
+        system_.set_goal();
+        if (!newton()) return false;
+        contact_.s = foot(circle);
+        const auto view =
+            RoundContact{circle}.look(RoundContact::node_at(system_.centreline(), contact_.s), 0);
+        // What has let go in this stage is at its edge.
+        if (let_go || !(view.distance < circle.reach)) {
+          penetration_ = (std::max)(lasting, Scalar(0));
+          return true;
+        }
+        touches_ = true;
+      }
+      Contact contact = contact_;
+      RoundContact{circle}.set(contact);
+      contact.reach = circle.reach, contact.compliance = 1 / whole;
+      contact.least = 0, contact.most = system_.length();
+      contact.moves = true, contact.waits = contact.force == 0;
+      system_.set_goal();
+      system_.add_goal(contact, nullptr);
+      if (!newton()) return false;
+      const Scalar force = -system_.linear_reaction();
+      system_.look(0);
+      static_cast<typename Contact::InnerState&>(contact_) = system_.rows()[0];
+      contact_.force = force;
+      outward_ = -system_.rows()[0].normal;
+      if (force > 0) {
+        penetration_ = lasting + force / whole;
+        return true;
+      }
+      touches_ = false, let_go = true;
+    }
+    return false;
+  }
+  bool newton() noexcept {
+    if (!hand_ || !touches_) system_.set_goal();
+    NewtonRaphson solver;
+    solver.smallest_step = 1;  // a part of a step is halved, not its path
+    const auto report = solver.solve(system_);
+    solves_ += report.solves;
+    return report.status == Status::ok;
+  }
+  /// Where the circle is nearest to the beam as it lies [m].
+  Scalar foot(const Circle<Scalar>& circle) const noexcept {
+    const auto line = system_.centreline();
+    Scalar s = contact_.s > 0 ? contact_.s : circle.s;
+    for (int k = 0; k < 4; ++k) {
+      s = std::clamp(s, Scalar(0), system_.length());
+      s += RoundContact{circle}.look(RoundContact::node_at(line, s), 0).ahead;
+    }
+    return std::clamp(s, Scalar(0), system_.length());
+  }
+
+  static constexpr int most_passes = 4;
+
+  System system_;
+  typename System::Inertia inertia_;
+  TrBdf2<Scalar, Elements, MaxElements> steps_;
+  typename System::State rest_, before_;
+  int substeps_, solves_ = 0;
+  Scalar drag_;
+  const Coupled<Scalar>* hand_ = nullptr;
+  Vector2<Scalar> from_ = Vector2<Scalar>::Zero();  // where the hand was
+  Scalar penetration_ = 0;                          // of the hand in the beam, as it lasts in the damper [m]
+  Vector2<Scalar> outward_ = Vector2<Scalar>::Zero();  // from the beam to the hand, where they touched
+  Contact contact_{};
+  bool known_ = false, touches_ = false, starts_ = true;
+};
+
+}  // namespace hapbeam

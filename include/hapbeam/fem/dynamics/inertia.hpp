@@ -1,0 +1,126 @@
+// The inertia of a beam in the plane, as a step of time sees it: a spring to where it would be without force.
+//
+//   Π = V + ½ c |q - q~|²          |·|² = qᵀ M q,   q: place and unit tangent (x, y, cos θ, -sin θ) of each node
+//
+// In these unknowns the consistent mass of the cubic is constant.  A beam that turns has the inertia of its places; that of its sections, ρI, is left out:
+// (πh/L)²/24 of the first mode's.
+// Allocates and throws at construction; all else is noexcept and allocation-free.   Source: derived here; consistent mass, Archer 1963.
+#pragma once
+
+#include <array>
+
+#include <hapbeam/angle.hpp>
+#include <hapbeam/beam.hpp>
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/solver/per_node.hpp>
+
+namespace hapbeam::detail {
+
+/// Place [m] and unit tangent of a node.
+template <typename S>
+using Placed = Eigen::Matrix<S, 4, 1>;
+
+template <typename S>
+Placed<S> placed(const CentrelineNode<S>& node) noexcept {
+  const Vector2<S> along = direction(-node.theta);
+  return Placed<S>(node.s + node.u, node.w, along.x(), along.y());
+}
+
+template <typename S, int Elements, int MaxElements>
+class Inertia {
+  using Values = PerNode<Placed<S>, Elements, MaxElements>;
+
+ public:
+  /// @param at  (i) -> arc position of node i [m]   @throws std::invalid_argument where the beam has no density
+  template <class At>
+  Inertia(const Beam& beam, int elements, At&& at) : masses_(elements), ghost_(elements) {
+    for (int e = 0; e < elements; ++e) {
+      const double from = static_cast<double>(at(e)), l = static_cast<double>(at(e + 1)) - from;
+      Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+      // Exact where the mass is even or tapers linearly.
+      constexpr std::array<double, 4> x{0.0694318442029737124, 0.330009478207571868, 0.669990521792428132,
+                                        0.930568155797026288},
+          w{0.173927422568726929, 0.326072577431273071, 0.326072577431273071, 0.173927422568726929};
+      for (std::size_t g = 0; g < x.size(); ++g) {
+        const double t = x[g], u = 1 - t;
+        const Eigen::Vector4d h(u * u * (1 + 2 * t), l * t * u * u, t * t * (3 - 2 * t), -l * t * t * u);
+        const double mass = beam.mass_per_length(from + t * l);
+        if (!(mass > 0))
+          reject("density", mass, "kg/m³", "known for a beam that moves: Material{young, density}");
+        sum += w[g] * l * mass * h * h.transpose();
+      }
+      masses_[e] = sum.template cast<S>();
+    }
+  }
+
+  /// c [1/s²]
+  S rate() const noexcept { return rate_; }
+  void set_rate(S c) noexcept { rate_ = c; }
+  Values& ghost() noexcept { return ghost_; }
+  const Values& ghost() const noexcept { return ghost_; }
+  /// What increments are measured by, beside the strain energy [J].
+  S scale() const noexcept { return scale_; }
+  void set_scale(S energy) noexcept { scale_ = energy; }
+
+  /// Adds its part of an element's residual and tangent.   @return ½ c |q - q~|² [J]
+  S add(int e, const CentrelineNode<S>& a, const CentrelineNode<S>& b, Vector6<S>& r,
+        Matrix6<S>& K) const noexcept {
+    const Placed<S> q[2] = {placed(a), placed(b)};
+    const auto& M = masses_[e];
+    // What it is off, by component: of places and tangents of both nodes.
+    S x[4], y[4];
+    for (int k = 0; k < 2; ++k) {
+      const Placed<S>& ghost = ghost_[e + k];
+      x[2 * k] = q[k][0] - ghost[0], x[2 * k + 1] = q[k][2] - ghost[2];
+      y[2 * k] = q[k][1] - ghost[1], y[2 * k + 1] = q[k][3] - ghost[3];
+    }
+    S sum = 0;
+    for (int k = 0; k < 2; ++k) {
+      // ∂(cos θ, -sin θ)/∂θ = (-sin θ, -cos θ)
+      const int at = 3 * k;
+      const S cx = q[k][3], cy = -q[k][2];
+      S f[2], g[2];  // c M of that, along x and y
+      for (int d = 0; d < 2; ++d) {
+        f[d] = g[d] = 0;
+        for (int j = 0; j < 4; ++j) {
+          const S m = rate_ * M(2 * k + d, j);
+          f[d] += m * x[j], g[d] += m * y[j];
+        }
+        sum += x[2 * k + d] * f[d] + y[2 * k + d] * g[d];
+      }
+      r[at] += f[0], r[at + 1] += g[0], r[at + 2] += cx * f[1] + cy * g[1];
+      K(at + 2, at + 2) += cy * f[1] - cx * g[1];
+      for (int j = 0; j < 2; ++j) {
+        const int to = 3 * j;
+        const S dx = q[j][3], dy = -q[j][2];
+        const S m = rate_ * M(2 * k, 2 * j), mt = rate_ * M(2 * k, 2 * j + 1),
+                tm = rate_ * M(2 * k + 1, 2 * j), tt = rate_ * M(2 * k + 1, 2 * j + 1);
+        K(at, to) += m, K(at + 1, to + 1) += m;
+        K(at, to + 2) += mt * dx, K(at + 1, to + 2) += mt * dy;
+        K(at + 2, to) += tm * cx, K(at + 2, to + 1) += tm * cy;
+        K(at + 2, to + 2) += tt * (cx * dx + cy * dy);
+      }
+    }
+    return sum / 2;
+  }
+  /// ½ |v|² [J].   @param v  (i) -> Placed of node i
+  template <class V>
+  S energy(V&& v) const noexcept {
+    S sum = 0;
+    for (int e = 0; e < masses_.size() - 1; ++e) {
+      const Placed<S> a = v(e), b = v(e + 1);
+      const Eigen::Matrix<S, 4, 1> x(a[0], a[2], b[0], b[2]), y(a[1], a[3], b[1], b[3]);
+      sum += x.dot(masses_[e] * x) + y.dot(masses_[e] * y);
+    }
+    return sum / 2;
+  }
+
+ private:
+  PerNode<Eigen::Matrix<S, 4, 4>, Elements, MaxElements>
+      masses_;    // of places and tangents, a component [kg], [kg·m], [kg·m²]
+  Values ghost_;  // q~
+  S rate_ = 0, scale_ = 0;
+};
+
+}  // namespace hapbeam::detail
