@@ -12,8 +12,11 @@
 #include <cstddef>
 #include <limits>
 
+#include <hapbeam/body/inner_contact.hpp>
+#include <hapbeam/body/rod_inner_contact.hpp>
 #include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/element/element.hpp>
 #include <hapbeam/fem/contact/obstacle_gap.hpp>
 #include <hapbeam/force_model.hpp>
 
