@@ -165,6 +165,22 @@ TEST_CASE("a hand that rests feels what a beam without mass gives", "[dynamics]"
   }
 }
 
+// It has a spring that is bent by 20 mm, and has not come that way within the step.
+TEST_CASE("a hand that begins within the beam pushes by its spring alone", "[dynamics]") {
+  for (const int parts : {1, 4}) {
+    DynamicModel<> model(ruler(), 8, parts);
+    double before = 1000 * 0.02;
+    for (int tick = 0; tick < 6; ++tick) {
+      const auto felt = model.step(1e-3, {{0.25, {0.25, -0.015}, 0.005, 1}, 1000, 2});
+      CAPTURE(parts, tick);
+      CHECK(felt.status == Status::ok);
+      CHECK(-felt.force > 0);
+      CHECK(-felt.force < before);  // as the beam gives way
+      before = -felt.force;
+    }
+  }
+}
+
 TEST_CASE("a reset stops it where it was built, to the last bit", "[dynamics]") {
   Random random(3);
   DynamicModel<> used(ruler(), 8), fresh(ruler(), 8);

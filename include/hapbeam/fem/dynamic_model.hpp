@@ -141,7 +141,11 @@ class DynamicModel {
     if (!(dt > 0)) return pushed;
     system_.move_with(&inertia_);
     hand_ = hand;
-    if (hand && !known_) from_ = hand->hand.centre, penetration_ = 0;
+    if (hand && !known_) {
+      // One that comes from nowhere has its spring bent as it lies, and a damper at rest.
+      from_ = hand->hand.centre, contact_ = {};
+      penetration_ = (std::max)(hand->hand.reach - look(hand->hand).distance, Scalar(0));
+    }
     known_ = hand != nullptr;
     const Scalar all = (std::min)(dt, longest), part = all / Scalar(substeps_);
     if (starts_) accelerate(part);
@@ -165,7 +169,6 @@ class DynamicModel {
     system_.keep(before_);
     const auto contact = contact_;
     const Scalar penetration = penetration_;
-    const Vector2<Scalar> outward = outward_;
     const bool touches = touches_;
     steps_.begin(dt, drag_);
     inertia_.set_scale(kinetic());
@@ -175,7 +178,7 @@ class DynamicModel {
     if (found) return true;
     system_.set_state(before_);
     steps_.take_back();
-    contact_ = contact, penetration_ = penetration, outward_ = outward, touches_ = touches;
+    contact_ = contact, penetration_ = penetration, touches_ = touches;
     const Scalar middle = (begin + end) / 2;
     return halvings < most_halvings && go_on(dt / 2, begin, middle, halvings + 1) &&
            go_on(dt / 2, middle, end, halvings + 1);
@@ -205,30 +208,28 @@ class DynamicModel {
     const Scalar by_time = hand_->damping / time, whole = hand_->stiffness + by_time,
                  lasting = by_time * penetration_ / whole;
     Circle<Scalar> circle = hand_->hand;
-    // Where the avatar is about: on the beam, and not in it as far as the hand.
-    const Scalar ahead = penetration_;
-    circle.centre = from_ + way * (hand_->hand.centre - from_) + ahead * outward_;
-    circle.reach += ahead - lasting;
+    circle.centre = from_ + way * (hand_->hand.centre - from_);
     bool let_go = false;
     for (int pass = 0; pass < most_passes; ++pass) {
       if (!touches_) {
         contact_.force = 0;
-        contact_.s = foot(circle);
         system_.set_goal();
         if (!newton()) return false;
-        contact_.s = foot(circle);
-        const auto view =
-            RoundContact{circle}.look(RoundContact::node_at(system_.centreline(), contact_.s), 0);
         // What has let go in this stage is at its edge.
-        if (let_go || !(view.distance < circle.reach)) {
-          penetration_ = (std::max)(lasting, Scalar(0));
+        if (let_go || !(look(circle).distance < circle.reach - lasting)) {
+          penetration_ = lasting;
           return true;
         }
         touches_ = true;
       }
+      // From where the avatar is about: on the beam, and not in it as far as the hand.
+      const auto view = look(circle);
+      const Scalar ahead = (std::max)(circle.reach - view.distance, Scalar(0));
+      const Circle<Scalar> avatar{contact_.s, circle.centre + ahead * view.normal,
+                                  circle.reach + ahead - lasting, circle.side};
       Contact contact = contact_;
-      RoundContact{circle}.set(contact);
-      contact.reach = circle.reach, contact.compliance = 1 / whole;
+      RoundContact{avatar}.set(contact);
+      contact.reach = avatar.reach, contact.compliance = 1 / whole;
       contact.least = 0, contact.most = system_.length();
       contact.moves = true, contact.waits = contact.force == 0;
       system_.set_goal();
@@ -238,7 +239,6 @@ class DynamicModel {
       system_.look(0);
       static_cast<typename Contact::InnerState&>(contact_) = system_.rows()[0];
       contact_.force = force;
-      outward_ = -system_.rows()[0].normal;
       if (force > 0) {
         penetration_ = lasting + force / whole;
         return true;
@@ -255,15 +255,14 @@ class DynamicModel {
     solves_ += report.solves;
     return report.status == Status::ok;
   }
-  /// Where the circle is nearest to the beam as it lies [m].
-  Scalar foot(const Circle<Scalar>& circle) const noexcept {
+  /// How the circle lies beside the beam, which is nearest to it at contact_.s then.
+  auto look(const Circle<Scalar>& circle) noexcept {
     const auto line = system_.centreline();
-    Scalar s = contact_.s > 0 ? contact_.s : circle.s;
-    for (int k = 0; k < 4; ++k) {
-      s = std::clamp(s, Scalar(0), system_.length());
-      s += RoundContact{circle}.look(RoundContact::node_at(line, s), 0).ahead;
-    }
-    return std::clamp(s, Scalar(0), system_.length());
+    const auto view = [&] { return RoundContact{circle}.look(RoundContact::node_at(line, contact_.s), 0); };
+    if (!(contact_.s > 0)) contact_.s = circle.s;
+    for (int k = 0; k < 4; ++k)
+      contact_.s = std::clamp(contact_.s + view().ahead, Scalar(0), system_.length());
+    return view();
   }
 
   static constexpr int most_passes = 4;
@@ -277,7 +276,6 @@ class DynamicModel {
   const Coupled<Scalar>* hand_ = nullptr;
   Vector2<Scalar> from_ = Vector2<Scalar>::Zero();  // where the hand was
   Scalar penetration_ = 0;                          // of the hand in the beam, as it lasts in the damper [m]
-  Vector2<Scalar> outward_ = Vector2<Scalar>::Zero();  // from the beam to the hand, where they touched
   Contact contact_{};
   bool known_ = false, touches_ = false, starts_ = true;
 };
