@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What every function at the border to C shares: messages in place of exceptions.
 #pragma once
 

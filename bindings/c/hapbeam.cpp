@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The C interface: one object for each model that a program in C can name, and no exception across the border.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* hapbeam for programs in C and for what calls C: Python, Unity, Unreal, MATLAB.
 
      hapbeam_beam ruler = hapbeam_rectangle(0.3, 0.025, 0.001, 210e9, HAPBEAM_CLAMPED, HAPBEAM_FREE);

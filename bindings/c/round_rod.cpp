@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A stylus on a rod of RoundRod.
 #include "stylus.hpp"
 #include <hapbeam/element/rod.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A stylus that touches a rod in space, for C: the rod, where it lies, and the ticks.
 #include "stylus.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A stylus on a rod, whatever the elements of the rod are; each of them is compiled in a file of its own.
 #pragma once
 

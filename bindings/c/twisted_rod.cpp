@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A stylus on a rod of TwistedRod.
 #include "stylus.hpp"
 #include <hapbeam/element/twisted_rod.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What Python sees of models and of what presses them: one class each, whatever the elements and the space are.
 //
 // Places, forces and directions have three components here; in the plane of a beam the third is zero. What a model does not offer throws

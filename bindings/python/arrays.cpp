@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Views of the nodes of a shape.
 #include "arrays.hpp"
 

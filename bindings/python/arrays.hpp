@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vectors and tables of numbers between numpy and C++.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Beams in a plane: section, material, supports, loads, natural shape.
 #include <functional>
 #include <pybind11/functional.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Devices: figures of known ones, and a simulated one with the hand that holds it, which runs a servo in simulated time.
 #include <cmath>
 #include <cstdint>

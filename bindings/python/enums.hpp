@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Enumerations of hapbeam as enumerations of Python, whose members are named by C++.
 //
 // A Status is an IntEnum, so that an array of statuses, which holds int8, is compared with its members at the speed of numpy.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Models by their names; each function is compiled in a file of its own.
 #pragma once
 

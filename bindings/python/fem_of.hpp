@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // AnyFem of a FemModel.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A model belongs to one call at a time, from whichever thread of Python it comes.
 #pragma once
 

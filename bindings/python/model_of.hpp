@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // AnyModel of a model.
 #pragma once
 

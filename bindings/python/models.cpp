@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Models: what takes a press or a push, and how it then lies.
 #include <memory>
 #include <string>

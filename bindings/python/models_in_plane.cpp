@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Planar models.
 #include "factories.hpp"
 #include "fem_of.hpp"

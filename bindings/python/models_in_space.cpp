@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Models of rods.
 #include "factories.hpp"
 #include "fem_of.hpp"

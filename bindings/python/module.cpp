@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The module hapbeam._core, which the package hapbeam shows as its own: its enumerations and its version.
 #include "module.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The parts of the module, in the order in which they name each other.
 #pragma once
 

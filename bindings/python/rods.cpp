@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rods in space: section, material, supports, loads, natural shape.
 #include <array>
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One tick of the loop: a servo of a model, or of a hand that holds an end of a rod.
 #include <array>
 #include <memory>

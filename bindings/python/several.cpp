@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Several avatars and props on one model.
 #include <memory>
 #include <pybind11/stl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // AnyTouchSeveral of a model: TouchSeveral, whose constructor takes lists that a program writes out, of numbers that are known when it runs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the plane of a beam, whose third component is zero, to space and back.
 #pragma once
 

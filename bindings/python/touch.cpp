@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One avatar: on a beam, on a rod, on an array of beams.
 #include <cstdint>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // AnyTouch, AnyServo, AnyGrip and AnyArray of a model.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Trained models: made offline, and kept in files where the module was built with jansson.
 #include <stdexcept>
 #include <utility>

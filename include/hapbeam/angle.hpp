@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Angles and directions in the plane, in a third of the library's instructions and without branches where a beam mostly is.
 //
 // The angle of a vector whose length is known is 2 atan r, r = y/(|v| + x).  Up to a right angle r is at most 1, and atan r / r a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is modelled: a slender beam, its section and material, its two ends and its dead loads, which keep their direction.
 //
 // Plain values in SI, checked where they enter: every function here throws std::invalid_argument naming field,

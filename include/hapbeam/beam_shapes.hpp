@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Beams that are curved or prestressed: through given points, an arch, a string, a buckled strip.
 //
 // Each is a Beam with a natural shape of arcs, or with ends that are placed.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The deformed centreline of a beam: nodes joined by cubics.
 //
 // A view: it owns nothing and is valid until the model that gave it is called again.  Each piece is a plane cubic, so

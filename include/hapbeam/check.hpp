@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks of input values, made where a value enters the library.
 //
 // Offline: each check throws std::invalid_argument naming field, value, unit and what is allowed.

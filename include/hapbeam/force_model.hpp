@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The contract that every beam model fulfils, and the small types that cross it.
 //
 // A ForceModel answers one question: the centreline is displaced by d at arc position s; which force and which shape

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coulomb friction between avatar and beam, and what a touch with friction remembers.
 //
 // The avatar does not turn.  Slip is how far it has gone along the surface of the beam beyond the point of the beam that it touches; a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a section of a beam carries: normal force, shear, bending moment, torsion, and the strain that they make.
 //
 //   const auto cut = model.internal_forces(s);          // at arc position s, of the model's present shape

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is modelled in space: a slender rod, its section and material, its natural shape, its two ends, its bed and its dead loads.
 //
 //   Rod wire(0.2, RodSection::circle(0.001), RodMaterial{200e9, 77e9}, RodSupport::clamped, RodSupport::free);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The deformed centreline of a rod in space, as the models hand it out: nodes joined by cubics.
 //
 // A view: it owns nothing and is valid until the model that gave it is called again.  Each piece is the cubic that its

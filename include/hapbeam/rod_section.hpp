@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a rod is made of at one place: its section and its material.
 //
 // Plain values in SI, checked where they enter: std::invalid_argument names field, value, unit and what is allowed.  Offline only.

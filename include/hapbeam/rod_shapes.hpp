@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rods of a natural shape through points in space.
 //
 // Offline: allocates, throws std::invalid_argument naming field, value, unit and what is allowed.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How an end of a rod is held, and where.
 //
 // An end has six motions, in the axes of its pose: along d1, d2 and d3, turns of its tangent about d1 and d2, and twist about d3.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The axis of an avatar in space: a straight piece, or a point.
 //
 // A plain value.  No allocation, noexcept, O(1).

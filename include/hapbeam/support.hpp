@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How the ends of a beam are held.
 //
 // What a trained model needs to know of a beam.  beam.hpp has the rest: loads, which are functions, and which a program

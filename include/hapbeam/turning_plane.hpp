@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The plane that turns: a planar model of a straight round rod, lifted into space.
 //
 //   const Rod wire(0.2, RodSection::circle(0.001), RodMaterial{200e9, 77e9}, RodSupport::clamped, RodSupport::free);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A loop of known length that is to be written out: HAPBEAM_UNROLL stands before it.
 //
 // g++ -O2 leaves short loops over small matrices as they are, and what they touch goes through memory.  clang leaves one whose length hangs on an

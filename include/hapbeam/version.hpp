@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The version, for a program that has to know: HAPBEAM_VERSION >= 100 is 0.1.0 or later.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What any piece of a beam is made of: stiffness, and the shape that it has by nature.
 //
 // Allocates and throws at construction; all else is noexcept and allocation-free, O(parts and arcs of the beam).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Stiffness of a beam whose section changes along it.
 //
 // An element carries a moment that is linear between its ends, and one normal force. Its flexibility against end moments is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a piece of a beam that is clamped at both ends yields to a force within it.
 //
 //   EI g(x, y) = x² Y² [3 (l - x)(l - Y) - x Y] / 6 l³        x <= y,  Y = l - y;    on itself  EI g = x³ (l - x)³ / 3 l³

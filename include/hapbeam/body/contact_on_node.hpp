@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A contact that acts on a node of a beam, or so far from it along an arc with the curvature that the beam has there.
 //
 // D of a circle is that of the foot of its centre: with D(s) along the curve, D' = n · r', D'' = |t|²/D + n · r'',

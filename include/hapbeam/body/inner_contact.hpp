@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A contact at any place of a beam whose mesh does not move, as a body sees it: a row of its equations, and a node within the element.
 //
 //   round    a circle of that reach lies on the centreline:  D = reach,  D from its centre to the curve;  the place s is an unknown

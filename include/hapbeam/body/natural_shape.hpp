@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The shape that a beam has by nature: a chain of arcs.
 //
 // An element is free of force where its ends stand to each other as those of its piece of the chain do: chord, and end

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Condensation of the nodes of a chain, from one of its ends on, with the forces of contacts as columns.
 //
 // The front has the first node and the last one that is known; with the next piece that one is condensed.

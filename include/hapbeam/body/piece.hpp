@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A piece of an element, exact under its own tension: energy of a unit of its length, and derivatives of that by all that a piece has.
 //
 //   V = l D,   D = N (ε - ε0) - N²/2EA + ¼ EI (6 (P - P0)² + 2 (M - M0)² + (B - 6) P² + (A - 2) M²),   P = p + q,   M = p - q

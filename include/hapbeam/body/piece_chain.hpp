@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An element that is touched at places within it: a chain of pieces between its nodes, each exact under its own tension, with a node at each contact.
 //
 // The longest piece lies between two nodes, as an element does.  The others stand on the node on their other side, their root, and carry their tip:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Contacts within an element of a rod, as it lies: the curve beside each, which its bubble bends off the element's cubic, and how all of them yield.
 //
 //   place       p = r(s) + v,   v = Σ C(s, s') F'                C: what the cubic lacks of the curve (clamped_piece.hpp)

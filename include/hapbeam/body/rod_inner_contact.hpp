@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A contact at any place of a rod whose mesh does not move, in the words of inner_contact.hpp, which has one of a beam in the plane.
 //
 //   round    a capsule of that reach lies on the centreline:  D = reach,  D from its axis to the curve;  the place s is an unknown

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Stiffness of a rod whose section changes along it.
 //
 // An element within one part takes the stiffnesses at its Gauss points.  One in which a part ends takes at each point the mean

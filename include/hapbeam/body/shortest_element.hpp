@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How short an element may be.
 #pragma once
 

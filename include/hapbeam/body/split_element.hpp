@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An element that is touched at places within it, split there: a chain of ordinary elements between its nodes, with a node at each contact.
 //
 //   Π = Σ V - Σ λ g                g = D - R of a circle, n · (u, w) - d of a held place

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vectors of a few contacts one behind the other, and matrices by two of them.
 //
 // Real-time: noexcept, no allocation, O(contacts²), an inverse O(contacts³).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a touched element, a chain of pieces with a node at each contact, is to its beam: residual, tangent and a column for each contact.
 //
 //   Π = Σ V - Σ λ g                g = D - R of a circle, n · (u, w) - d of a held place

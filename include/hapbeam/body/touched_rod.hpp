@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What contacts within an element of a rod add to its residual and tangent, and a column for each of them.
 //
 //   place       p = r(s) + v,   v = Σ C(s, s') F'                C: what the cubic lacks of the curve (clamped_piece.hpp)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The avatar, or haptic interaction point: the body that the hand moves. It is a disc in the plane of a beam, and a
 // sphere or a capsule beside a rod in space.
 //

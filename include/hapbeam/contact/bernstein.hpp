@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a polynomial in Bernstein form changes sign on [0, 1], and the root polished there.
 //
 // The coefficients bound the polynomial and change sign at least as often as it does. No change means no root, and one

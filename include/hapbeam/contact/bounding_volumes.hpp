@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An axis-aligned bounding-volume hierarchy over the pieces of a centreline.
 //
 // An implicit complete binary tree in one array: node 1 is the root, 2i and 2i+1 are the children of i. The pieces are

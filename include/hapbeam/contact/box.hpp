@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An axis-aligned box in a plane or in space.
 //
 // A plain value.  No allocation, noexcept, O(1).

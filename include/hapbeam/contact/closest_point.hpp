@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The point of a cubic that is nearest to a given point, in a plane or in space, or to a shaft in space: the global
 // minimum over t in [0, 1].
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a straight path crosses a plane cubic, for an avatar that moves farther in a tick than it is thick.
 //
 // The signed distance of the cubic from the path's line is a cubic in t with the same Bernstein weights. Each of its

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One of several contacts beside or past an end that holds w.
 //
 // Such an end does not yield, and no push lays the beam on a circle that reaches over it.  As Touch does, the beam is pressed across there, no

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The contact of the avatar with the deformed beam: place, depth and side.
 //
 // The beam is the set of points within half its thickness of the centreline, so its ends are round. Left of the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The contact of a lasting touch: sought near the last one, with a proof that no other piece is nearer.
 //
 // In its range a beam of moderate rotation runs along x without turning back. Let d be the distance of the avatar's

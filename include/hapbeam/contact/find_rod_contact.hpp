@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The contact of a sphere or a capsule with the deformed rod: place, depth and normal.
 //
 // A rod is the set of points within half its thickness of the centreline. It has no sides: the normal points from the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Contact by a model that is pressed across the beam.
 //
 // The depth along the normal n is removed by moving the foot point by depth / n_w across the beam, Newton's step for

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What stands beside a beam and is moved by nobody: a peg, a wall, a stop, a support.
 //
 // Two pegs are a gap.  A plain value; offline.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Contact by a model that can be pushed along any direction. The avatar is a circle on a deformable curve, in space a
 // capsule.
 //

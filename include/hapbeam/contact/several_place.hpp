@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One place at which an avatar or a prop of several may touch a beam: where it lies to the beam from tick to tick, what it remembers, and what is
 // felt there.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What TouchSeveral says of a tick: where each body touches the beam, and the force on it.
 //
 // Plain values.  No allocation, noexcept.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How contact ends at a support: past an end that holds w the hand touches a fixed point.
 //
 // Such an end does not yield. The force has the size of a press by the same depth at the nearest place in range. It

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The force on the hand for a position of the hand: contact, press and unilateral law, one call a tick, in a plane or
 // in space.
 //

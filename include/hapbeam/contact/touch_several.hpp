@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the places of several hands to the force on each: several avatars and props on one beam, one call a tick, in a plane or in space.
 //
 //   FemModel<Several<Corotational<>, 3>> model(beam, 16);

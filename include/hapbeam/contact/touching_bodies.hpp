@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The bodies that may touch one beam at several places: round avatars, which hands move, and props, which nobody moves.
 //
 // Bodies are numbered: avatars in their order, then props in theirs.  Each has one place of contact (several_place.hpp), or as many as it may touch at.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Two hands on one beam, each with a loop of its own: its device, coupling and guard.
 //
 //   FemModel<Several<Corotational<>, 2>> model(ruler, 16);

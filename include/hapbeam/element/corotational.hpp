@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An element of finite rotation: a local element in a frame that turns with the chord.
 //
 //   l = |x2 - x1|,  α = angle of the chord (up is positive),  stretch = l - L - that of the natural shape,  θi' = θi + α

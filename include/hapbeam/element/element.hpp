@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The contract of an element: strain energy V(d), residual and tangent of six degrees of freedom.
 //
 //   d = [u1, w1, θ1, u2, w2, θ2]  [m, m, rad, m, m, rad]   θ = -dw/dx

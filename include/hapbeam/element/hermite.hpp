@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shape functions of the six degrees of freedom (thesis eq. 3.22, 3.28): linear in u, cubic Hermite in w, θ = -dw/dx.
 #pragma once
 

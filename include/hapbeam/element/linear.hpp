@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The linear Euler–Bernoulli element: bending and stretching without their coupling.
 //
 //   V = EA/(2l) (u2-u1)² + EI/(2l³) (4a² + 4ab + 4b²),   a = lθ1 + w2 - w1 - a0,  b = lθ2 + w2 - w1 - b0

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How the membrane strain of a von Kármán element is averaged: three policies, one element.
 //
 //   ε(x) = (u2 - u1)/l + ½ w'(x)²                      thesis eq. 3.13

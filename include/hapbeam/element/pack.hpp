@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A few numbers computed side by side, in one register where the compiler has vectors. It is a scalar type for
 // elements, which are templates of their scalar.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What stands in rows in memory, as columns that are computed side by side: number k of all rows in one Pack.
 //
 // Rows are read and written whole and exchanged in registers, as butterflies do, which takes a third of what it takes number by number.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The element of a naturally straight round rod whose ends do not hold its twist: no rotation, no frame.
 //
 //   V = ½ l εᵀ EA M ε + ½ l Σ w EI |r′ × r″|²/|r′|⁴        sum over three Gauss points

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The membrane policy that makes a straight element exact: what its tension does to its stretch and to its bending.
 //
 //   Π(d, N) = N e - N² l/2EA + EI/4l³ ((B - 6)(a + b)² + (A - 2)(a - b)²),     e = u2 - u1 + rise²/2l - e0,     q = N l²/EI

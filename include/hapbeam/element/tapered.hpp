@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A local element whose section changes along it, smoothly or by steps.
 //
 //   V = V_Local + ½ (a, b) T (a, b)ᵀ,   a = lθ1 + w2 - w1 - a0,  b = lθ2 + w2 - w1 - b0

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How stiff a straight piece of a beam is against rotations of its ends, under a tension N that is the same all along it.
 //
 //   EI w'''' = N w'',   V = EI/(4l³) (B (a + b)² + A (a - b)²) + N rise²/(2l),     q = N l²/EI

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The curve of a straight piece of a beam under a tension that is the same all along it, and by how much its slope makes it longer
 // than its chord.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The element of a rod in space of any section and natural shape: exact derivatives of an energy that no rigid motion changes.
 //
 // Centreline: the cubic of rod_properties.hpp.  Frame: the director of node 1 is carried to the tangent at ξ by the smallest

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The von Kármán (moderate rotation) Euler–Bernoulli element. Bending is that of the linear element, and the membrane
 // policy adds what the strain ε = u' + ½ w'² makes of it: the default the whole of it, the thesis' a part.
 //

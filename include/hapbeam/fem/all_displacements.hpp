@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A press of any beam or rod, solved for the displacements of all nodes: the general way of FemModel.
 //
 // BeamSystem or RodSystem is solved by Newton–Raphson from the last press or

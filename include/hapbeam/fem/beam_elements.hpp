@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The elements of one beam on a mesh that stays: displacements, strain energy, dead loads, and their derivatives.
 //
 // Displacements are those from the straight beam, of arches too: an arch is a beam that bends nothing where it is bent,

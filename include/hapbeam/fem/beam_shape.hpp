@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The shape of a beam while its equations are solved, and the shapes that it had: what of a BeamSystem no equation needs.
 //
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).

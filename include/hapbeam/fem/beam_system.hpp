@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The nonlinear equations of one beam: its elements, its supports, and what touches it.
 //
 //   ∂V/∂x = t f + contacts        unknown x: u, w, θ of every node, N of every element, force and place of every contact

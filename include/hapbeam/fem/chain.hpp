@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How large increments are added to a beam that turns: element by element, as a chain.
 //
 // The displacements that one Newton step finds are those of a linear beam.  Added as they are, they lengthen every

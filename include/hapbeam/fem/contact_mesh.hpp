@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a beam in closed form is drawn: nodes shared out evenly, one at the contact among them.
 //
 // Real-time: noexcept, no allocation, O(1).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A beam in the plane with mass: it swings, and what touches it meets its inertia.
 //
 //   M q" + α M q' + V'(q) = forces

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The full model: a finite-element beam under a prescribed displacement, as a ForceModel.
 //
 //   FemModel<> model(beam, 8);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Nodes of the mesh of a beam or rod, which stays: one wherever something begins or ends, and the others shared out evenly.
 //
 // That is where an arc of the natural shape ends, or a part with a section of its own, and where a point load acts.  An element in the plane bends against

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The branch of equilibria that a beam follows while its loads rise and its ends are moved, from nothing to their full size.
 //
 // Newton's method under the full load finds an equilibrium, but not always that of the branch: a cantilever under PL²/EI = 15

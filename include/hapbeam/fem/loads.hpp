@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Dead loads as forces at fixed points.
 //
 // A distributed load becomes the consistent nodal forces of the uniform mesh (thesis eq. 3.31), once; point loads stay

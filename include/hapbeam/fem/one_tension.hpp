@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A press of a straight beam without dead loads whose ends stand no closer than it is long: the taut way of FemModel.
 //
 // TautSystem is solved for its one unknown by Newton–Raphson, from the last press on.  There is one equilibrium for each press,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a press of a finite-element beam is answered, and at which place its mesh takes the contact.
 //
 // A support that holds w is rigid: the shortest element keeps its distance from it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The nonlinear equations of one rod in space: its elements, its ends, and what touches it.
 //
 //   ∂V/∂x = t f + contacts        unknown x: r, r' and, with twist, φ of every node, force and place of every contact

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a search for equilibrium begins: the natural shape, the bow of a beam whose ends stand too close, and a nudge off
 // an equilibrium that gives way.
 //

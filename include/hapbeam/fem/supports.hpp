@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The two ends of a beam: which displacements are held, and where, on the way to where they belong.
 //
 // Real-time: noexcept, no allocation, O(1).

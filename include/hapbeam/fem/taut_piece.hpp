@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The part of a straight, unloaded beam between one of its ends and the contact, under a tension, in closed form.
 //
 // It is seen from its end: ξ is 0 there and 1 at the contact, and rotations are turned about on the right, so that either side is

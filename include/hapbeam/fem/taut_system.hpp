@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The equations of a straight beam without dead loads whose ends stand no closer than it is long: one unknown, the tension.
 //
 // Without axial load the tension N is the same in all elements, and under N the beam is linear.  What is left is that the arc,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The axes of hosts whose x is not to the right and whose y is not up: a Placement for each.
 //
 //   host                          x                y           z                 placement of a beam that lies to the right, w up

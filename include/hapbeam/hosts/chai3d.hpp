@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A beam as an object of CHAI3D's scene graph: tools touch it, and cameras draw it.
 //
 //   auto* ruler = new Chai3dBeam<FemModel<>>(model, 0.005);   // the world deletes it; the model has to live longer

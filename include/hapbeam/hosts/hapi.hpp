@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A beam as a force effect of HAPI, and so of H3D.
 //
 //   device->addEffect(new HapiBeam<FemModel<>>(model, 0.005, Placement::in_plane({0.15, 0.02})));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A beam placed in a host's space, for hosts that request the force at a position, and couple, limit and send it
 // themselves: CHAI3D, SOFA, HAPI, HLAPI.
 //

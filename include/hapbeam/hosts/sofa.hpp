@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A beam as a ForceFeedback component of SOFA, asked by a haptic device driver of the same node (Geomagic, Haply, …).
 //
 //   node->addObject(sofa::core::objectmodel::New<SofaBeam<FemModel<>>>(model, 0.005, placement));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Many beams in one plane: hair, a brush, grass, the strings of a harp.
 //
 //   BeamArray brush(FemModel<>(bristle, 8), places);   // all alike; or a list of kinds

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A bounding-volume hierarchy over fixed boxes: finds those that a step of the avatar meets.
 //
 // An implicit complete binary tree in one array, as in contact/bounding_volumes.hpp: node 1 is the root, 2i and 2i+1

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One avatar (the round tool, or haptic interaction point) on an array of beams: a Touch for each beam that it meets,
 // and the sum of their forces.
 //

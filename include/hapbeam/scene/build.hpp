@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Builds the model that a scene has chosen; trains it where it is a trained one.
 //
 // Offline: allocates; throws what training throws.  Includes an SVD, which takes seconds to compile.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The models among which a scene chooses, and what each is expected to cost.
 //
 // Plain data.

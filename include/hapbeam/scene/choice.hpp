@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What choose() found, in numbers and in words.
 //
 // Plain data.

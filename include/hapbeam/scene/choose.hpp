@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The least model that a scene needs.
 //
 //   Scene scene = Scene::anywhere(beam, 0.02);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The least model that a scene in space needs.
 //
 //   RodScene scene = RodScene::anywhere(rod, 0.01);

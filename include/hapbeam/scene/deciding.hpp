@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What all choosers share: judging candidates, the fewest elements that are enough, and the cheapest of what is.
 //
 // Offline: allocates.

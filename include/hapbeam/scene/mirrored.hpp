@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A beam that is alike on both sides of the place where it is pressed, by a model of its left half.
 //
 // The half ends in a plane of symmetry (Support::guided), where it is pressed with half of the force.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Presses by which candidates are judged: a few lines of increasing depth, answered by a reference whose error is known.
 //
 // The reference is Corotational<>, with as many elements as it takes until half of them give the same force to a twentieth of the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The model that a scene in space needs, whichever it is, as one ForceModel.
 //
 //   RodModel model = build(scene, choose(scene).model());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pushes by which candidates for a rod are judged: lines of increasing depth, at five places and to several sides.
 //
 // As pilot.hpp has it in the plane.  The reference is TwistedRod, or RoundRod where nobody holds the twist, with as many elements as

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a scene in space asks of a model: a rod, where and how deep it is pushed, and what error and time are allowed.
 //
 // Offline: throws std::invalid_argument naming field, value, unit and what is allowed.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The requirements of a scene: a beam, where and how deep it is pressed, and the tolerated error and time.
 //
 // Offline: throws std::invalid_argument naming field, value, unit and what is allowed.

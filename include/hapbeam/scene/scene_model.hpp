@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The model that a scene needs, whichever it is, as one ForceModel.
 //
 //   SceneModel model = build(scene, choose(scene).model());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a press of each model costs, in seconds: a line over its size.
 //
 // Plain data; the figures of typical() were measured on one processor (docs/benchmarks.md says which) and are meant to be

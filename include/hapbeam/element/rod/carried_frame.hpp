@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The frame of an element of a rod that twists: the director of its first node, carried along the cubic by the smallest rotation.
 //
 // In the axes of node 1, (d1, d2, tangent), with a = r' = (x, y, z), b = r'' = (p, q, s), n = |a|, D = n (n + z):

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What elements of a rod in space share: properties, and the cubic between two nodes.
 //
 //   r(ξ) = cubic of Hermite with r and r' = dr/ds of both nodes,   s the arc length of the rod when it is not loaded

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Residual and tangent of an element of a rod.  Its energy depends on the places of both nodes by Δ = r2 - r1 alone, so each
 // derivative by Δ stands here once, and what is symmetric by its lower triangle.
 //

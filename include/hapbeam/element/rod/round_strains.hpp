@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bending of a round rod at a Gauss point, and its stretch, with their derivatives by what they depend on.
 //
 // rod.hpp says of what, and brings them to the unknowns of both nodes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Twist of an element whose section is round and that is straight by nature, with all derivatives.
 //
 // Bending costs the same about all axes there, so nothing but the ends turns a section: torque is the same all along an element, and

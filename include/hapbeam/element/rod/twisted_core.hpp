@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Transforms energy derivatives of an element that twists from the axes of its first node to the unknowns of both
 // nodes. The element's own twist is condensed, and the axes turn with that node.
 //

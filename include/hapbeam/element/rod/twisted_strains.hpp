@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Strain energy of an element that twists, with its derivatives by what its strains depend on, in the axes of node 1.
 //
 // Stretch is interpolated, bending and twist are summed over Gauss points.  twisted_rod.hpp says of what, carried_frame.hpp has the

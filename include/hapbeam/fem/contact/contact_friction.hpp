@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coulomb friction of the contact of one push, as a system knows it: the law, and where the two bodies touch.
 //
 // It is made where a push begins, taken by the system for its goals, and gone where the push ends: a model without friction carries none of it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Contacts at any places of a beam on a mesh that stays: rows of its equations, with the forces as unknowns.
 //
 //   | K  b | | Δx |   | -r |

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What hands give to a beam from one answer to the next: the work of its contacts, by trapezoids.
 //
 //   W = Σ ½ (F before + F) · Δx        F: on the beam, friction included; x: centre of a circle, or of the axis of a capsule what is beside the contact

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether an answer continues the last one: by the balance of energy.
 //
 //   V - V before = W - D        W: what the hands gave (contact_work.hpp), D: what friction has taken

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is seen of a beam or rod: the nodes of its mesh, and in it the places of its contacts.
 //
 // It has as many nodes as the mesh and one for each contact that there may be.  Those that are left stand in the middle of other elements.

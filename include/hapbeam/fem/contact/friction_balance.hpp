@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What contacts dissipate in a tick, so that the energy is balanced.
 //
 // FrictionLaw::leave() takes a trapezoid for each contact, D = ½ (T before + T) · slip.  Their sum is

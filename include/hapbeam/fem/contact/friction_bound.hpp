@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The bound of a contact that slides, B = μN.
 //
 // Within a push N answers to B: each linear solve computes with a bound and finds another normal force.  The bound follows it from solve to solve,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coulomb friction within a push: backward Euler over the tick, as a potential of which Newton's method finds the minimum.
 //
 //   e  = e₀ + slip                      shear of the avatar's skin, e₀ carried along from the tick before;  slip: friction_place.hpp

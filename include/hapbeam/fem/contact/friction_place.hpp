@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a beam and an avatar touch, and how far their surfaces slip from one such place to another.
 //
 //   slip = t Δs + R Δn - a Δλ           s, λ: lengths along beam, as it is stretched, and avatar's axis, t, a: their directions, n: normal

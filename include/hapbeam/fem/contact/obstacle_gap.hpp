@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How deep a beam or rod lies in a circle or capsule that does not touch it, and where.
 //
 // Of one that touches at another place already, a twin, the place is beyond one that is farther away; or it is beside the twin, where the beam

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A push of a beam or rod at a given place along a given direction: the press of the thesis, and what leads it in tests and choosers.
 //
 // The place lies within an element of a mesh that stays.  An answer continues the last one, or says that it does not (continuation.hpp).  The work of a push that has led

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A capsule, seen from a rod, in the words of round_contact.hpp, which has a circle in a plane.
 //
 // Real-time: noexcept, no allocation, O(1) but for the search of a place, which is O(log n).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A circle, seen from a beam, in the words of rod_round_contact.hpp, which has a capsule in space.
 //
 // Real-time: noexcept, no allocation, O(1) but for the search of a place, which is O(log n).

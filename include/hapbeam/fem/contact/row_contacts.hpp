@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which obstacles touch a beam or rod, and where: what a push knows of each, and what an equilibrium says of it.
 //
 // By an active set: of those that would have to pull the worst lets go; where none would, the one that the beam lies deepest in is added.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Extrapolated initial guess of a lasting push: nodes, places and forces go on as in a push before.
 //
 //   x₊ = x + r (x - x₋)            r: the hands' step in units of the step before

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A beam is laid on circles, a rod on capsules, or they are held at places: which of them touch, where, and the equilibrium are found together.
 //
 //   force >= 0,  gap >= 0,  force · gap = 0        for each obstacle

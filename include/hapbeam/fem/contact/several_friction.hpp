@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Friction at each of several contacts of a push (friction_law.hpp).
 //
 // Each has a law of its own, with a bound that follows its own normal force.  An equilibrium is one of Coulomb's where all of them have settled.

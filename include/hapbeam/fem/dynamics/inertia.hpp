@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The inertia of a beam in the plane, as a step of time sees it: a spring to where it would be without force.
 //
 //   Π = V + ½ c |q - q~|²          |·|² = qᵀ M q,   q: place and unit tangent (x, y, cos θ, -sin θ) of each node

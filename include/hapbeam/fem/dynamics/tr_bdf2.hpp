@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A step of time: the trapezoidal rule to a part G of it, then the second backward difference.
 //
 //   minimise V(x) + ½ c |q(x) - q~|²       twice, with one c:  M c (q - q~) is the inertia, and the air's drag M α v

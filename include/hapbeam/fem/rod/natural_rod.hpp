@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The natural shape of a rod: a chain of pieces of constant curvature and twist, which are helices.
 //
 // In a piece the frame turns about an axis that is fixed in space, Ω = κ1 d1 + κ2 d2 + τ d3:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The elements of a rod side by side in the lanes of registers: their order, and what each is made of.
 //
 // Real-time: noexcept, no allocation after construction, O(1).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The elastic foundations of a rod on its mesh.
 //
 //   V = ½ ∫ (r - r°)ᵀ (k⊥ I + (k∥ - k⊥) t° t°ᵀ) (r - r°) ds        ° of the natural shape, t° its tangent

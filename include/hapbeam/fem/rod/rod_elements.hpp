@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The elements of one rod on a mesh that stays: strain energy, dead loads, foundations, and their derivatives; and what a
 // section carries.
 //

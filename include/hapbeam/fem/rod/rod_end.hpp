@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One end of a rod: what its support holds, in the axes of the support, and where, on the way to where it belongs; and its
 // springs.
 //

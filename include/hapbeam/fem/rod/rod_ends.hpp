@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Both ends of a rod in its equations: what they hold is prescribed, in their own axes, and their springs are added.
 //
 // A clamped end has one unknown, how much longer r' becomes.  Any other end keeps its own: those of place and of r' along the axes of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a section of a rod carries, from its elements: equilibrium of a piece that is cut out.
 //
 // The forces of an element on its nodes, less its dead loads, are those of the neighbours:  F and  M = r' × g + φ t,  with g and φ

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The increments of all nodes of a rod side by side, in the order in which its chain is solved from both ends.
 //
 // Allocates at construction; every other member is noexcept and allocation-free.

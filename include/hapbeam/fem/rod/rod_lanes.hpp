@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Nodes of a rod side by side in the lanes of a register: what is computed of each alone is computed of a few at a time.
 //
 // Real-time: noexcept, no allocation, O(1).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The dead loads of a rod on its mesh.
 //
 // A dead load does work on places and tangents, which the cubic has as linear functions of the nodes: the loads of an element

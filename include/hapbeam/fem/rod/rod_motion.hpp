@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a node of a rod moves by an increment: what turns keeps its length, and its director goes along.
 //
 // Real-time: noexcept, no allocation, O(1) a node.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A rod on a mesh that stays: where its nodes are, and what each element is made of.
 //
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(elements).

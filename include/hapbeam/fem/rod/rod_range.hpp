@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a push of a finite-element rod is answered.
 //
 // A support that holds its place is rigid: the shortest element keeps its distance from it.  A push has no limit of depth.

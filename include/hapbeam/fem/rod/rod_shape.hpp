@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The shape of a rod while its equations are solved, and the shapes that it had: what of a RodSystem no equation needs.
 //
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The assembler for a chain of elements: a symmetric block-tridiagonal system, solved by LDLᵀ.
 // A block is as large as a node has unknowns: 3 in a plane, 6 or 7 in space.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a chain's system has of one node: its block and right-hand side, and what couples it with its neighbours.
 //
 // Unknowns of a node are exchanged for others, or prescribed, after all elements are in.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A row of a chain that is eliminated from both ends at once: a node of the left part in lane 0, and one of the right part in lane 1.
 //
 // Real-time: noexcept, no allocation, O(1): about 75 multiply-adds and 3 divisions a node of 3 unknowns.

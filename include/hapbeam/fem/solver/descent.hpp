@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Downhill to a stable equilibrium, where Newton's method has none to go to: the beam after a snap.
 //
 // Each step solves (K + μM) Δ = -r.  With μ so large that all pivots are positive that leads downhill; a step that

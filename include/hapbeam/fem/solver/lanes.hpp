@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Two numbers that are computed side by side, in one register where the compiler has vectors.
 //
 // Written on the compiler's own vectors and not on Eigen's arrays, whose expressions g++ -O2 leaves half in memory.

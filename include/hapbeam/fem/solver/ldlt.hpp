@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The small pieces of a block elimination: LDLᵀ of one symmetric block, and what its pivots tell.
 //
 // Each is done for two blocks side by side, in the two lanes of a register.  Blocks are small and their size is known, so each loop is

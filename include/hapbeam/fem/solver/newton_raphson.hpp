@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Newton–Raphson with load stepping (thesis eq. 3.34–3.37) for any system that can take one Newton step.
 //
 // The path to the wanted state is a number t in [0, 1] that scales loads and prescribed displacements together.

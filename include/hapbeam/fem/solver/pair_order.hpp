@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The order of elements in which a chain is assembled from both ends at once: the first, the last, the second, the last but one, …
 //
 // An odd number of elements leaves the left chain without one; its first place is empty.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Storage of one value a node (or element): inside the object where a maximum is known at compile time, on the
 // heap, allocated once at construction, where it is not.
 #pragma once

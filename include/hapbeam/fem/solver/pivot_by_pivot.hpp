@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a row of a chain whose nodes have many unknowns is eliminated: LDLᵀ of its block, and pivot by pivot what that makes of its right-hand side
 // and of what couples it with the next row.
 //

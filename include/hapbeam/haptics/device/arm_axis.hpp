@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The mechanics of one axis of a haptic arm in a hand:
 //
 //   m x'' = F + k (p - x) + c (p' - x') - b x' - friction

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The contract between a haptic device and the computation that gives it force.
 //
 // A device owns the servo loop. Once a period, on its own thread, it reads the position of the hand, calls a servo for

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a device can do, and the one check of it.
 //
 // Coupling, energy monitor and force guard take their figures from here. Each of them calls check(): a figure that one of them

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Encoders of a simulated device: positions on a grid, and a velocity estimated from them.
 //
 // Position: the nearest point of a grid of the resolution, axis by axis.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gain of the force after a start, after a force error and with warm motors.
 //
 // The gain is zero in the tick of a start or of a force error, and then rises linearly to 1 within the ramp time. With

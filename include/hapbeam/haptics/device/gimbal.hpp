@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The gimbal that turns a simulated stylus, in a simulated hand.
 //
 // Three axes, one within the other: yaw a about the device's y, pitch b about x, roll c about the stylus' own z,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Target of a scripted hand: timed way-points in the plane, joined by minimum-jerk motion.
 //
 // Between two way-points the hand moves on the straight line with minimum jerk (Flash and Hogan, J. Neurosci. 5(7),

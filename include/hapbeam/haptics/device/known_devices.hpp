@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Published figures of devices that people have, for those who cannot measure their own.
 //
 //   Servo<FemModel<>> servo(model, known_device("omega.3"));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The time that has passed since the tick before, by the clock of the loop.
 //
 // A host's loop comes early, late or in bursts. Its clock may begin anywhere, stand, be set back or be no number. Nothing may be

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A simulated Phantom Premium 1.5/6DOF High Force and the hand that holds it.
 //
 // The arm is a mass with viscous damping and Coulomb friction on each axis (arm_axis.hpp). Encoders read it

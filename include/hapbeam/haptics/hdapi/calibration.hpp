@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Calibration of a device of HDAPI.
 //
 //   style            who calibrates, and when

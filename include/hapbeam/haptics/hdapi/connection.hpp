@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One device of HDAPI: connection, figures, calibration, reading, disconnection.
 //
 // mm become m, N/mm N/m and mN·m N·m here and nowhere else. The origin becomes the middle of the workspace. Forces are

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the adapter needs from OpenHaptics' HDAPI: a struct `Api` of static functions and constants.
 //
 // The real one is haptics/hdapi/openhaptics.hpp; tests have an emulated one. Functions have the vendor's names without

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A device of OpenHaptics' HDAPI behind the device contract (device.hpp).
 //
 //   Hdapi<OpenHaptics> device;          // connects; docs/haptics.md has a complete program

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // OpenHaptics' HDAPI as an Api of Hdapi (contract.hpp): the only header that includes the vendor's.
 //
 // It requires the OpenHaptics developer kit, 3.0 or later; with CMake link hapbeam::openhaptics. Each function calls

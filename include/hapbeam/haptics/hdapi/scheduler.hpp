@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What all devices of one Api share: the scheduler, its one servo thread, and the one stack of errors.
 //
 // Loops are counted: the first one starts the scheduler, the last one stops it. While it runs, calls of a device are

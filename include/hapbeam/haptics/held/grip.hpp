@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A hand that holds an end of a rod: a fishing rod, a whip, a catheter.
 //
 //   const auto coupling = GripCoupling::for_device(device.info());

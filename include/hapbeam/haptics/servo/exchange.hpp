@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The newest value from one thread to another, without waiting and without torn reads: from the servo to the
 // graphics (a shape, a state), or back (settings).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the device's workspace lies in the scene: from the hand to the beam and, for forces, back.
 //
 //   p_scene = origin + scale R p_device      v_scene = scale R v_device      F_device = Rᵀ F_scene

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Asks the system to let a thread run when it has to: a priority before all ordinary threads, and memory that
 // is never paged out.
 //

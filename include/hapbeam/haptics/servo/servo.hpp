@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One tick of the loop, for a program that has a loop of its own: CHAI3D, an HDAPI callback, Force Dimension's SDK, …
 //
 //   Servo<FemModel<>> servo(model, device_info, options);        // offline: allocates

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A device and a model make a loop that runs until it is told to stop.
 //
 //   FemModel<> model(beam, 16);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A Servo on an array of beams: what it draws.
 //
 //   BeamArray<FemModel<>> brush(bristle, places);

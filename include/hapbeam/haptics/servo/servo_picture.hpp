@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What one thread draws while another one ticks: the newest record and the shape of the model.
 //
 // Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(nodes).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a servo tells those who watch it: the latest tick and what has happened since the start.
 //
 // Plain values.  No allocation, noexcept.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A stylus that touches with all of its shaft: the avatar is a capsule that turns with the hand, and what presses on it at a
 // distance from the hand turns the hand.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How long the ticks of a servo loop take and how regularly they come, in fixed memory: the servo adds,
 // anybody reads.
 //

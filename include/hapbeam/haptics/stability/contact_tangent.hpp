@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Prediction of the force a little deeper: the last valid force, continued along its tangent.
 //
 //   f(p) = f0 - k n·(p - p0)      never below zero: a beam does not pull

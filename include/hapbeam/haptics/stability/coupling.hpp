@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The connection of hand and beam: direct, or a virtual coupling, a spring and a damper that the device can render.
 //
 //   a coupling C

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How stiff and how damped a coupling may be in the hands of a device.
 //
 // A spring K with a damper B is sampled at T. Its force is held over the period and late by n more periods. Held and

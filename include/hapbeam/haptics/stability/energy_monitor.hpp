@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A passivity observer, which measures the energy that the loop generates, and a controller that dissipates it.
 //
 //   W += F·Δx - b |Δx|²/T - f |Δx|      over each period of a contact

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The last stage before the device: limits force and torque, whatever the servo has computed.
 //
 // In this order, each tick:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A hand that turns, and couplings that take its orientation.
 //
 //   a coupling C of a hand that turns

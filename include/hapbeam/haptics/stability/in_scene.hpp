@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vectors of a beam and of the scene: a beam that bends in a plane lies in the scene's x and y.
 //
 // Real-time: no allocation, noexcept, wait-free, O(1).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The last valid response, for ticks in which the model has none.
 //
 // Keeps the tangent of the last valid response through at most max_continued ticks in which the model exhausted its

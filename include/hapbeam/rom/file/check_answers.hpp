@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks a model that was read from a file by presses all over its range, and far beyond.
 //
 // The members of a file may be valid one by one and yet make no model: a potential that vanishes between two positions,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // CRC-32, as zlib, gzip and PNG compute it: reflected, polynomial 0xEDB88320.
 //
 // Finds every error of up to 32 bits in a row, and all but one of 4·10⁹ others.  No protection against intent.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What reading and writing a model file share: the error, the ownership of a JSON value, and how a value looks in a message.
 //
 // It compiles fast, for programs that only load a model. Messages are composed by printf and names compared as C

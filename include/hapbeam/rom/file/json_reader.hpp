@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Members of a JSON object, read by name and unit.
 //
 // JsonReader and JsonWriter offer the same functions, so that one list of a model's fields, in model_fields.hpp, serves both.

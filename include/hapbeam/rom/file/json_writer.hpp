@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Members of a JSON object, written by name and unit: the other side of json_reader.hpp.
 //
 // Members stand in the order of the calls, so that the same model gives the same text.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The members of a model file: where each number of a trained model stands in it, and in what unit.
 //
 // One list for each kind, for JsonReader and JsonWriter alike.

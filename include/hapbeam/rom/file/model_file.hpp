@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Trained models in files: written after training, read by the program that has the servo loop.
 //
 //   save_model(model, "bar.json");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A file that is replaced as a whole, or not at all.
 //
 //   ReplacedFile file("bar.json");

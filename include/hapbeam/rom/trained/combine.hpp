@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The one loop that a trained model spends its time in: a linear combination of columns.
 //
 // Real-time: noexcept, no allocation, O(rows × columns).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The coordinates in which a beam's response is smooth enough for a polynomial.
 //
 // Toward an end that holds w the stiffness grows without bound: as the 2nd power of the inverse distance beside a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The errors of a trained model, measured on presses that it was not trained with.
 //
 // Kept with the model and in its file.  Plain data.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A trained beam that still solves its equation, in one unknown, as a ForceModel.
 //
 // Without axial load the tension N is uniform. The deflection is then a multiple of g(x; s, N), the response to a unit

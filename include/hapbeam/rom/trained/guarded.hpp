@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A fast model in its trained range, a full one elsewhere, as one ForceModel.
 //
 //   Guarded<PodModel<>, FemModel<>> model(load_model<PodModel<>>("bar.json"), FemModel<>(beam, 32));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lagrange interpolation in barycentric form, over a policy for the nodes (thesis eq. 3.67).
 //
 //   p(x) = Σ l_k(x) f_k,    l_k(x) = (w_k/(x - x_k)) / Σ_j w_j/(x - x_j)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What training makes and a file keeps: the numbers of a trained model, and the check that they are one.
 //
 // Plain data in SI.  The models are constructed from it, and reject what check() rejects.

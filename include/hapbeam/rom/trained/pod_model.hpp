@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A trained beam: force and shape by interpolation between presses of the full model, as a ForceModel.
 //
 // The work V of a press is interpolated, as 2V/e² in the coordinates of coordinates.hpp. The force is its derivative, F

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The deformed shape of a trained model: POD modes, and their coefficients on a grid of presses.
 //
 // Nodes at fixed places are not accurate. At the contact w''' jumps, and the jump moves with the contact. Shapes at

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The full model to train with: many elements, a tight solver, and its beam.
 //
 // Offline: construction allocates, and throws std::invalid_argument.

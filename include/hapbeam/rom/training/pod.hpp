@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Proper orthogonal decomposition of a matrix of snapshots (thesis eq. 3.43–3.66).
 //
 //   X = U Σ Vᵀ,    x ≈ Σ_{i ≤ l} c_i φ_i,    ε²(l) = Σ_{i > l} σ_i²

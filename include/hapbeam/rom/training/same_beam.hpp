@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether a full model and a trained model are of the same beam: their data and their forces are compared.
 //
 // Offline: allocates; throws std::invalid_argument.

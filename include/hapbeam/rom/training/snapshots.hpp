@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Presses of a full model, taken for training: on a grid of depths, or of tensions.
 //
 // Threads share the positions, each with its own copy of the model. A press that the full model does not answer with ok

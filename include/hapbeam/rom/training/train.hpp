@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From snapshots to the numbers of a model: POD of the shapes, and what is interpolated of the force.
 //
 //   #include <hapbeam/rom/trained/pod_model.hpp>, <…/train.hpp>, <…/validate.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which presses a model is trained with.
 //
 // Offline; throws std::invalid_argument naming field, value, unit and what is allowed.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Running a full model for training: presses that must be answered, shared out to threads.
 //
 // Offline: allocates; throws TrainingError for a press that the full model does not answer with ok.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The error of a trained model, measured on presses that it was not trained with, against a full model.
 //
 //   data.errors = validate(PodModel<>(data), full_model(beam));

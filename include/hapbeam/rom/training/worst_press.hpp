@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Largest difference of two models: a climb from the worst presses of a sample.
 //
 // The error of an interpolation has a local maximum, a hill, between any four nodes of its grid, and a sample hardly hits them.
