@@ -1,0 +1,39 @@
+// A steel ruler over the edge of a table is bent and let go: its tip as it swings, and its sound in twang.wav.
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include <hapbeam/fem/dynamic_model.hpp>
+
+int main(int count, char** arguments) {
+  using namespace hapbeam;
+  constexpr int rate = 48000, seconds = 2;
+  const Beam ruler(0.12, Section::rectangle(0.025, 0.001), Material{200e9, 7850}, Support::clamped,
+                   Support::free);
+  Beam bent = ruler;
+  bent.add(PointLoad{0.12, 0, -15, 0});  // 15 N at its tip
+
+  DynamicModel<> model(ruler, 8, 1,
+                       8.0);  // 8 elements, one part a step, and air, which leaves 1/e of the energy in 1/8 s
+  model.let_go_from(FemModel<Corotational<>>(bent, 8).shape());
+
+  std::vector<std::int16_t> sound;
+  const double loudest =
+      std::abs(2 * 3.14159 * 56.6 * model.shape().at(0.12).w);  // [m/s] of its tip, in its first mode
+  for (int k = 0; k < seconds * rate; ++k) {
+    if (model.step(1.0 / rate) != Status::ok) return 1;
+    if (k % 240 == 0 && k < 4800)
+      std::printf("%5.1f ms  tip %6.2f mm\n", 1e3 * k / rate, 1e3 * model.shape().at(0.12).w);
+    sound.push_back(static_cast<std::int16_t>(12000 * model.velocity(0.12).y() / loudest));
+  }
+
+  std::FILE* file = std::fopen(count > 1 ? arguments[1] : "twang.wav", "wb");
+  if (!file) return 1;
+  const auto bytes = static_cast<std::uint32_t>(2 * sound.size());
+  const std::uint32_t head[] = {0x46464952, 36 + bytes, 0x45564157, 0x20746d66, 16,   0x00010001,
+                                rate,       2 * rate,   0x00100002, 0x61746164, bytes};
+  const bool written = std::fwrite(head, sizeof head, 1, file) == 1 &&
+                       std::fwrite(sound.data(), bytes, 1, file) == 1;  // RIFF, mono, 16 bits
+  return std::fclose(file) == 0 && written ? 0 : 1;
+}
