@@ -14,13 +14,12 @@ int main(int count, char** arguments) {
   Beam bent = ruler;
   bent.add(PointLoad{0.12, 0, -15, 0});  // 15 N at its tip
 
-  DynamicModel<> model(ruler, 8, 1,
-                       8.0);  // 8 elements, one part a step, and air, which leaves 1/e of the energy in 1/8 s
+  // 8 elements, one part a step, and air, which leaves 1/e of the energy in 1/8 s
+  DynamicModel<> model(ruler, 8, 1, 8.0);
   model.let_go_from(FemModel<Corotational<>>(bent, 8).shape());
 
   std::vector<std::int16_t> sound;
-  const double loudest =
-      std::abs(2 * 3.14159 * 56.6 * model.shape().at(0.12).w);  // [m/s] of its tip, in its first mode
+  const double loudest = std::abs(2 * 3.14159 * 56.6 * model.shape().at(0.12).w);  // [m/s], first mode
   for (int k = 0; k < seconds * rate; ++k) {
     if (model.step(1.0 / rate) != Status::ok) return 1;
     if (k % 240 == 0 && k < 4800)
