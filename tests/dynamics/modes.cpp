@@ -25,28 +25,31 @@ std::vector<double> frequencies(int n, const std::array<bool, 4>& held) {
   inertia.set_rate(1);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(2 * n + 2, 2 * n + 2), M = K;
   const ElementProperties<double> p(1.0 / n, EA, 1);
-  std::vector<CentrelineNode<double>> nodes;
-  for (int i = 0; i <= n; ++i) {
-    nodes.push_back({double(i) / n, 0, 0, 0});
-    inertia.ghost()[i] = detail::placed(nodes.back());
-  }
+  const auto node = [n](int i) { return CentrelineNode<double>{double(i) / n, 0, 0, 0}; };
+  for (int i = 0; i <= n; ++i) inertia.ghost()[i] = detail::placed(node(i));
   for (int e = 0; e < n; ++e) {
     Vector6<double> r, no_r = Vector6<double>::Zero();
     Matrix6<double> k, m = Matrix6<double>::Zero();
     (void)Corotational<>::tangent(p, Vector6<double>(Vector6<double>::Zero()), r, k);
-    CHECK(inertia.add(e, nodes[e], nodes[e + 1], no_r, m) == 0);
+    CHECK(inertia.add(e, node(e), node(e + 1), no_r, m) == 0);
     const int of[4] = {1, 2, 4, 5};
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j)
         K(2 * e + i, 2 * e + j) += k(of[i], of[j]), M(2 * e + i, 2 * e + j) += m(of[i], of[j]);
   }
   std::vector<int> free;
-  for (int i = 0; i < 2 * n + 2; ++i)
-    if (!(i < 2 ? held[i] : i >= 2 * n ? held[i - 2 * n + 2] : false)) free.push_back(i);
+  for (int i = 0; i < 2 * n + 2; ++i) {
+    const int end = i < 2 ? i : i - 2 * n + 2;
+    if (!(end >= 0 && end < 4 && (i < 2 || i >= 2 * n) && held[static_cast<std::size_t>(end)]))
+      free.push_back(i);
+  }
   const auto size = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd k(size, size), m(size, size);
   for (Eigen::Index i = 0; i < size; ++i)
-    for (Eigen::Index j = 0; j < size; ++j) k(i, j) = K(free[i], free[j]), m(i, j) = M(free[i], free[j]);
+    for (Eigen::Index j = 0; j < size; ++j) {
+      const int row = free[static_cast<std::size_t>(i)], column = free[static_cast<std::size_t>(j)];
+      k(i, j) = K(row, column), m(i, j) = M(row, column);
+    }
   // M = V D Vᵀ, and the spectrum of D^-½ Vᵀ K V D^-½.
   const Spectrum mass(m);
   Eigen::MatrixXd half = mass.vectors;
