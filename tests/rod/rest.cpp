@@ -93,7 +93,7 @@ TEST_CASE("a rod without stress answers a push that leaves it where it is", "[ro
 TEMPLATE_TEST_CASE("a catenary in space hangs where its weight pulls it, and nothing has snapped", "[rod]",
                    TwistedRod, RoundRod) {
   for (const int elements : {8, 9, 15, 32})
-    for (const double slack : {0.001, 0.01, 0.05, 0.2})
+    for (const double slack : {0.001, 0.01, 0.05, 0.2, 0.5})
       for (const double load : {0.01, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5}) {
         Rod rod(1, RodSection::circle(0.002), RodMaterial::isotropic(2e9, 0.3), RodSupport::clamped,
                 RodSupport::clamped);

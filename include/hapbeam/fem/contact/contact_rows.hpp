@@ -146,6 +146,7 @@ class ContactRows {
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[of(k)];
       Contact& contact = row.contact;
+      if (!contact.stays) continue;
       const Scalar off = std::abs(contact.off), normal = std::abs(contact.force);
       // Its friction has another moment there, and the gap another size by the square.
       another = another || off * (contact.friction.norm() * contact.reach + 1000 * normal * off) >

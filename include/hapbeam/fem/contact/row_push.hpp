@@ -254,16 +254,22 @@ class RowPush : private RowContacts<Element, System> {
     }
     // With friction what is near is tried first; all of the way may be a fall.
     const bool rough = friction.any();
-    // Places in space stay in that where something hardly slides: else there may be none.
-    bool stay = dimension == 2 || friction.hardly_slides(system.length() / 100000);
+    // Places in space stay in that where they hardly slide, and all do where there was none: else there may be none.
+    bool stay = dimension == 2;
+    const auto stays = [&](int i) {
+      return dimension == 3 && friction.hardly_slides(i, system.length() / 100000);
+    };
     int moves = 0;
     const auto aim = [&] {
       system.set_goal();
       for (int i = 0; i < count_; ++i)
-        if (slot(i).goal >= 0) system.add_goal(this->contact(i), friction.of(i), stay);
+        if (slot(i).goal >= 0) system.add_goal(this->contact(i), friction.of(i), stay || stays(i));
     };
+    // Where some stay, all may have to, and the solves of a push are for both ways.
+    bool some = false;
+    for (int i = 0; i < count_; ++i) some = some || (slot(i).goal >= 0 && stays(i));
     const auto few = [&] {
-      return !rough || most == 1 ? close_by : stay ? near_with_friction : near_with_friction / 2;
+      return !rough || most == 1 ? close_by : some && !stay ? near_with_friction * 3 / 4 : near_with_friction;
     };
     bool all = !rough || way.descending_ || friction.falls();
     const auto begin_again = [&] {
@@ -275,7 +281,7 @@ class RowPush : private RowContacts<Element, System> {
       if (!rough) return true;
       if (is_answer(found)) {
         const bool settled = friction.settled(system, [this](int i) { return slot(i).goal; }),
-                   moved = stay && system.places_go_on();
+                   moved = system.places_go_on();
         if (settled && (!moved || ++moves > most_moves)) return true;
         this->take(system);
       } else {

@@ -45,12 +45,9 @@ class SeveralFriction {
     law(i)->begin_beside(RoundContact::node_at(system.drawn(), s));
   }
 
-  /// Whether one of them stuck in the push before, or slid by less than that.  @param way  [m]
-  bool hardly_slides(Scalar way) const noexcept {
-    for (int i = 0; any_ && i < count_; ++i)
-      if (all_[i].touching && rough(i) && !(all_[i].friction->slides && all_[i].friction->slip > way))
-        return true;
-    return false;
+  /// Whether it stuck in the push before, or slid by less than that.  @param way  [m]
+  bool hardly_slides(int i, Scalar way) const noexcept {
+    return rough(i) && all_[i].friction->known && !(all_[i].friction->slides && all_[i].friction->slip > way);
   }
   /// To be called where the way to an equilibrium begins anew.
   void begin_again(const System& system) noexcept {
