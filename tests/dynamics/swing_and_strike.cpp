@@ -181,6 +181,30 @@ TEST_CASE("a hand that begins within the beam pushes by its spring alone", "[dyn
   }
 }
 
+// A hand that jumps about until a step has no answer, and holds still then.
+TEST_CASE("after a step without an answer the hand is felt again", "[dynamics]") {
+  int failed = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    Random random(static_cast<std::uint64_t>(trial));
+    DynamicModel<> model(ruler(), 8, 1 + trial % 4);
+    const auto hold = [&](double x, double y) { return model.step(1e-3, {{x, {x, y}, 0.005, 1}, 3500, 2}); };
+    bool fails = false;
+    for (int k = 0; k < 100 && !fails; ++k) fails = hold(random(0, 0.35), random(0.2)).status != Status::ok;
+    if (!fails) continue;
+    ++failed;
+    const double x = random(0.05, 0.28), y = random(-0.04, 0.004);
+    int unanswered = 0, felt = 0;
+    for (int k = 0; k < 50; ++k) {
+      const auto now = hold(x, y);
+      unanswered += now.status != Status::ok, felt += now.force < 0;
+    }
+    CAPTURE(trial, x, y, unanswered, felt);
+    CHECK(unanswered <= 2);
+    CHECK(felt > 0);
+  }
+  CHECK(failed > 12);
+}
+
 TEST_CASE("a reset stops it where it was built, to the last bit", "[dynamics]") {
   Random random(3);
   DynamicModel<> used(ruler(), 8), fresh(ruler(), 8);

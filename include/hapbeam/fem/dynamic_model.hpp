@@ -155,7 +155,8 @@ class DynamicModel {
       if (!go_on(part, begin, end, 0)) pushed.status = Status::iteration_limit;
     }
     system_.move_with(nullptr);
-    if (pushed.status != Status::ok) stop(), contact_ = {}, touches_ = false;
+    // The next one begins as after a reset, where the beam has stopped.
+    if (pushed.status != Status::ok) stop(), starts_ = true, known_ = touches_ = false;
     if (hand) from_ = hand->hand.centre;
     system_.draw();
     if (touches_) {
