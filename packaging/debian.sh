@@ -6,7 +6,7 @@ set -eu
 source "$(dirname "${BASH_SOURCE[0]}")/../cmake/steps.sh"
 folder=$(realpath -m "${1:-$top/build/debian}")
 need build-essential debhelper cmake git libeigen3-dev libjansson-dev
-version=$(<"$top/VERSION")
+version=$(<"$top/packaging/VERSION")
 tree=$folder/hapbeam-$version
 rm -rf "$tree"
 mkdir -p "$tree"

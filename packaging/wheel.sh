@@ -21,4 +21,4 @@ jansson() {
 step 'configure' configure &&
   step 'build' cmake --build "$folder/build" --parallel "$(nproc)" --target hapbeam_python &&
   step 'jansson' jansson &&
-  /usr/bin/python3 "$top/packaging/wheel.py" "$package" "$(<"$top/VERSION")" "$folder"
+  /usr/bin/python3 "$top/packaging/wheel.py" "$package" "$(<"$top/packaging/VERSION")" "$folder"

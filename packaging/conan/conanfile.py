@@ -18,7 +18,7 @@ class Hapbeam(ConanFile):
     no_copy_source = True
 
     def set_version(self):
-        self.version = load(self, os.path.join(self.recipe_folder, "../../VERSION")).strip()
+        self.version = load(self, os.path.join(self.recipe_folder, "../VERSION")).strip()
 
     def export_sources(self):
         top = os.path.join(self.recipe_folder, "../..")

@@ -2,7 +2,7 @@
 # Succeeds if the check fails, and says WHY, where README.md has LINE, too.
 file(REMOVE_RECURSE ${COPY})
 file(GLOB pages ${SOURCE}/*.md)
-foreach(part ${pages} ${SOURCE}/VERSION ${SOURCE}/LICENSE ${SOURCE}/docs ${SOURCE}/.github ${SOURCE}/examples/numbered)
+foreach(part ${pages} ${SOURCE}/packaging/VERSION ${SOURCE}/LICENSE ${SOURCE}/docs ${SOURCE}/.github ${SOURCE}/examples/numbered)
   if(EXISTS ${part})
     get_filename_component(folder ${part} DIRECTORY)
     file(RELATIVE_PATH folder ${SOURCE} ${folder})

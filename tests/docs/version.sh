@@ -6,7 +6,7 @@ part() { sed -nE "s/^#define HAPBEAM_VERSION_$1 //p" include/hapbeam/version.hpp
 version=$(part MAJOR).$(part MINOR).$(part PATCH)
 wrong=0
 names() { grep -qF -- "$2" "$1" || { echo "$1: does not say $2"; wrong=1; }; }
-[[ $(<VERSION) == "$version" ]] || { echo "VERSION: is not $version"; wrong=1; }
+[[ $(<packaging/VERSION) == "$version" ]] || { echo "packaging/VERSION: is not $version"; wrong=1; }
 names CITATION.cff "version: $version"
 names packaging/vcpkg/hapbeam/vcpkg.json "\"version\": \"$version\""
 names docs/packages.md "libhapbeam-dev_${version}_all.deb"

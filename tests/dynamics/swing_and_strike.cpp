@@ -34,7 +34,6 @@ double circular_frequency(const Beam& beam) {
 
 }  // namespace
 
-// Backward Euler at 1 ms keeps 15 % of it, and the midpoint rule blows up.
 TEST_CASE("a ruler that is let go never has more energy, and keeps it", "[dynamics]") {
   struct Rule {
     double dt, lost;

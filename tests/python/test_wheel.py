@@ -15,7 +15,7 @@ import pytest
 import hapbeam as hb
 
 TOP = Path(__file__).resolve().parents[2]
-VERSION = (TOP / "VERSION").read_text().strip()
+VERSION = (TOP / "packaging" / "VERSION").read_text().strip()
 
 
 def pack(package, folder):

@@ -6,7 +6,7 @@
 // step() goes on by a time, alone or with a hand.  Each of its parts is a static solve with one term more, the inertia (fem/dynamics/): the elements, supports
 // and contacts are those of FemModel, and the beam stays where that does.  A hand touches through its coupling, a spring and a damper, within the step: a
 // massless avatar between them has no place of its own, so that no blow is infinite.  Where a part has no solution it is taken back and halved.
-// Allocates and throws at construction.  Real-time: every other member is noexcept and allocation-free, at most 8 parts of substeps() and their solves.
+// Allocates and throws at construction.  Real-time: every other member is noexcept and allocation-free, at most 15 tries of each part, of two stages.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +23,8 @@ namespace hapbeam {
 template <typename Scalar>
 struct Coupled {
   Circle<Scalar> hand;      ///< where the avatar would be without the beam
-  Scalar stiffness = 1000;  ///< K [N/m]
-  Scalar damping = 0;       ///< B [N·s/m]
+  Scalar stiffness = 1000;  ///< K [N/m], positive
+  Scalar damping = 0;       ///< B [N·s/m], not negative
 };
 
 /// @tparam Element  of finite rotation, as Corotational<>
@@ -76,9 +76,10 @@ class DynamicModel {
     begin(before_);
   }
 
-  /// Goes on by a time.   @param dt [s]   @return ok | iteration_limit: it has stopped where no part had a solution
+  /// Goes on by a time.   @param dt [s], not negative
+  /// @return ok | iteration_limit: it has stopped where a part had no solution | invalid_request: nothing has changed
   Status step(Scalar dt) noexcept { return go(dt, nullptr).status; }
-  /// The same with a hand, which moves evenly from where it was.   @return force and place at the end of the step
+  /// The same with a hand, which moves evenly from where it was.   @return force and place at the end of the step; not limited in size
   Pushed<Scalar> step(Scalar dt, const Coupled<Scalar>& hand) noexcept { return go(dt, &hand); }
 
   int elements() const noexcept { return system_.elements(); }

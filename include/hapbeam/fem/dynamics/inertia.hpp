@@ -3,8 +3,8 @@
 //
 //   Π = V + ½ c |q - q~|²          |·|² = qᵀ M q,   q: place and unit tangent (x, y, cos θ, -sin θ) of each node
 //
-// In these unknowns the consistent mass of the cubic is constant.  A beam that turns has the inertia of its places; that of its sections, ρI, is left out:
-// (πh/L)²/24 of the first mode's.
+// In these unknowns the consistent mass of the cubic is constant.  That of sections that turn, ρI, is left out: the first frequency between hinges is
+// (πh/L)²/24 of itself too high, h: height.
 // Allocates and throws at construction; all else is noexcept and allocation-free.   Source: derived here; consistent mass, Archer 1963.
 #pragma once
 
