@@ -28,6 +28,7 @@ class ContactWork {
   /// To be called where a push was answered, before what follows.
   void begin() noexcept {
     work_ = size_ = change_ = way_ = 0;
+    straight_ = 1;
     strange_ = false;
     same_ = known_;
     known_ = true;
@@ -42,7 +43,7 @@ class ContactWork {
     touching_[of(i)] = true;
     if (!placed_[of(i)]) {
       placed_[of(i)] = true;
-      body.round = round, body.force = force, body.point = pushed.point, body.push = pushed.force;
+      body.take(round, force, pushed);
       return;
     }
     const Scalar grown = round.reach - body.round.reach;
@@ -50,7 +51,8 @@ class ContactWork {
     add(body.force.dot(moved(body.round, round, body.point)) - body.push * grown,
         force.dot(way) - pushed.force * grown);
     way_ = (std::max)(way_, way.squaredNorm() + grown * grown);
-    body.round = round, body.force = force, body.point = pushed.point, body.push = pushed.force;
+    if (body.push != 0) straight_ = (std::min)(straight_, pushed.normal.dot(body.normal));
+    body.take(round, force, pushed);
   }
   /// With each body that does not touch, or not any more.
   void apart(int i, const Round& round) noexcept {
@@ -98,6 +100,8 @@ class ContactWork {
   Scalar size() const noexcept { return size_; }
   /// By how much they change [J].
   Scalar change() const noexcept { return change_; }
+  /// Cosine of how far the normal of any of them has turned.
+  Scalar straight() const noexcept { return straight_; }
   /// How far any of them has gone [m].
   Scalar way() const noexcept { return std::sqrt(way_); }
 
@@ -108,8 +112,12 @@ class ContactWork {
   }
   struct Body {
     Round round = nowhere();
-    Vector force = Vector::Zero(), point = Vector::Zero();
+    Vector force = Vector::Zero(), point = Vector::Zero(), normal = Vector::Zero();
     Scalar push = 0;  // along the normal [N]
+
+    void take(const Round& now, const Vector& felt, const Pushed<Scalar, D>& pushed) noexcept {
+      round = now, force = felt, point = pushed.point, normal = pushed.normal, push = pushed.force;
+    }
   };
   struct Held {
     Push<Scalar, D> place{0, 0, Vector::Zero()};
@@ -131,6 +139,7 @@ class ContactWork {
   std::array<Held, Most> held_{};
   std::array<bool, Most> touching_{}, touched_{}, placed_{};  // placed: where it was is known
   Scalar work_ = 0, size_ = 0, change_ = 0, way_ = 0;         // [J], [m²]
+  Scalar straight_ = 1;
   bool known_ = false, same_ = false, strange_ = false;
 };
 

@@ -6,7 +6,8 @@
 // holds to third order of the step on one branch of equilibria.  Newton's method may land on another one, stable and with all pivots positive.  The energy is
 // another there, and the beam has gone farther than the hand.
 // Such an answer is sought again in halves and quarters of the hand's way, each from the one before.  The trapezoids' error falls by eight with each half.
-// What is off in a quarter still has snapped; where most of its energy has come from nowhere no snap leads there, and the beam falls from where it was (Descent).
+// So is one whose normal has turned by more than a sixth of a right angle: a rod slips off a ball to either side with the same energy, and the side is that
+// of many short ticks only if the way across its top is.  What is off in a quarter still has snapped; where most of its energy has come from nowhere no snap leads there, and the beam falls from where it was (Descent).
 // Real-time: noexcept, no allocation, O(1) but for the answers that are sought again: at most eight times, and the linear solves of AllDisplacements in all.
 #pragma once
 
@@ -20,19 +21,21 @@ namespace hapbeam::detail {
 
 /// What the energy says of an answer.
 enum class Branch {
-  same,   ///< the last one's
-  other,  ///< another one
-  risen   ///< another one, and most of its energy has come from nowhere
+  same,    ///< the last one's
+  turned,  ///< the last one's, or what mirrors it: a normal has turned far, and both sides of a body have the same energy
+  other,   ///< another one
+  risen    ///< another one, and most of its energy has come from nowhere
 };
 
 /// An answer, as it is judged.
 template <typename Scalar>
 struct Continued {
-  Scalar potential;  ///< V [J]
-  Scalar given;      ///< W - D [J]
-  Scalar loose;      ///< what trapezoids may leave [J]
-  Scalar strain;     ///< strain energy [J]
-  Scalar length;     ///< of the beam [m]
+  Scalar potential;     ///< V [J]
+  Scalar given;         ///< W - D [J]
+  Scalar loose;         ///< what trapezoids may leave [J]
+  Scalar strain;        ///< strain energy [J]
+  Scalar length;        ///< of the beam [m]
+  Scalar straight = 1;  ///< cosine of how far the normal of any body has turned
 };
 
 /// What trapezoids may leave of forces that rise or fall all along, and a twentieth of the work besides [J].
@@ -110,10 +113,12 @@ class Continuation {
   /// @param how_far  () -> how far the hand has gone, and any place of the beam [m]
   template <class HowFar>
   Branch judge(const Continued<Scalar>& now, HowFar&& how_far) const noexcept {
+    if (!known_) return Branch::same;
+    const Branch near = now.straight < most_turn ? Branch::turned : Branch::same;
     const Scalar rest = now.potential - stored_ - now.given, off = std::abs(rest) - now.loose;
-    if (!known_ || off <= little * now.strain) return Branch::same;
+    if (off <= little * now.strain) return near;
     const auto [hand, gone] = how_far();
-    if (gone <= along * hand + now.length / 1000) return Branch::same;
+    if (gone <= along * hand + now.length / 1000) return near;
     return rest > stored_ && rest > now.strain / 2 ? Branch::risen : Branch::other;
   }
 
@@ -154,8 +159,9 @@ class Continuation {
   }
 
  private:
-  static constexpr Scalar little = Scalar(1e-3);  // of the strain energy: what solvers leave
-  static constexpr Scalar along = 2;              // times as far as the hand a beam goes with it
+  static constexpr Scalar little = Scalar(1e-3);      // of the strain energy: what solvers leave
+  static constexpr Scalar most_turn = Scalar(0.966);  // cosine of 15 degrees
+  static constexpr Scalar along = 2;                  // times as far as the hand a beam goes with it
 
   Scalar stored_ = 0;
   bool known_ = false, snapped_ = false;

@@ -132,7 +132,7 @@ class RowPush : private RowContacts<Element, System> {
       if (!began_ || work_.strange() || begins_to_pull) return Branch::same;
       return continuation_.judge(
           {potential_, work_.done() - taken_, loose(work_.size(), work_.change()), system.strain(),
-           system.length()},
+           system.length(), work_.straight()},
           [&] {
             return Gone<Scalar>{work_.way(), farthest(system.view(foresight_.before()), system.centreline())};
           });
