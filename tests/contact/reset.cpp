@@ -9,11 +9,7 @@ using namespace hapbeam;
 using namespace hapbeam::testing;
 using namespace hapbeam::testing::resets;
 
-// Long histories are in tests/stability.
-TEST_CASE("after a reset of both hands the scene is a new one, to the last bit", "[two_hands][reset]") {
-  check_two_hands_as_new(1);
-}
-
+// Two hands, and long histories, are in tests/stability.
 TEST_CASE("TouchSeveral is a new one after a reset, to the last bit", "[several][reset]") {
   check_several_as_new(2);
 }

@@ -1,9 +1,6 @@
 # The window of phantom on a display that nobody sees: its pictures, its changes while it runs, a mouse in it.
 
-# The driver's threads are not ours to judge.
-set(display ${CMAKE_COMMAND} -E env LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1
-  TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_SOURCE_DIR}/tsan.supp:print_suppressions=0
-  ${HAPBEAM_XVFB_RUN} -a -s "-screen 0 1280x720x24")
+set(display ${CMAKE_COMMAND} -E env ${driver} ${HAPBEAM_XVFB_RUN} -a -s "-screen 0 1280x720x24")
 
 # hapbeam_test_file(NAME NEEDS fixture [REFUSED] COMMAND command...): what a program says of a file that was made.
 function(hapbeam_test_file name)

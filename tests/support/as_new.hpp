@@ -134,22 +134,21 @@ inline void check_several_as_new(int histories) {
   }
 }
 
-/// Tenths of all histories.
-inline void check_two_hands_as_new(int tenths) {
+inline void check_two_hands_as_new() {
   using P = Prop<>;
-  SECTION("a ruler") { check_as_new<Ruler>({}, {}, 4 * tenths); }
-  SECTION("with friction") { check_as_new<Ruler>({}, 0.3, 2 * tenths); }
+  SECTION("a ruler") { check_as_new<Ruler>({}, {}, 40); }
+  SECTION("with friction") { check_as_new<Ruler>({}, 0.3, 20); }
   SECTION("over a peg and a stop") {
-    check_as_new<Ruler>({P::peg({0.2, -0.012}, 0.008), P::stop(0.3, 0.02, {0, 1})}, {}, 4 * tenths);
+    check_as_new<Ruler>({P::peg({0.2, -0.012}, 0.008), P::stop(0.3, 0.02, {0, 1})}, {}, 40);
   }
   SECTION("over rough pegs") {
     check_as_new<Ruler>({P::peg({0.2, -0.012}, 0.008).rough(0.3), P::peg({0.25, 0.02}, 0.008).rough(0.2)},
-                        0.3, 2 * tenths);
+                        0.3, 20);
   }
   SECTION("a wire in space, over a bar") {
-    check_as_new<Wire>({Prop<3>::bar({0.2, -0.012, -0.1}, {0.2, -0.012, 0.1}, 0.008)}, {}, 2 * tenths);
+    check_as_new<Wire>({Prop<3>::bar({0.2, -0.012, -0.1}, {0.2, -0.012, 0.1}, 0.008)}, {}, 20);
   }
-  SECTION("a rough wire") { check_as_new<Wire>({}, 0.3, 2 * tenths); }
+  SECTION("a rough wire") { check_as_new<Wire>({}, 0.3, 20); }
 }
 
 }  // namespace hapbeam::testing::resets
