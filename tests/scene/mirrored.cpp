@@ -6,7 +6,7 @@
 #include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/scene/mirrored.hpp>
+#include <hapbeam/scene/scene_model.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include <hapbeam/rom/training/train.hpp>
-#include <hapbeam/scene/candidate.hpp>
+#include <hapbeam/scene/choice.hpp>
 #include <hapbeam/scene/scene.hpp>
 #include <hapbeam/scene/scene_model.hpp>
 
@@ -27,7 +27,6 @@ double hang_of(const Model& model) noexcept {
   return hang;
 }
 
-/// @param segments  of the shape that is drawn; 2 where only the force is looked at
 template <class Element>
 SceneModel build(const Scene& scene, const Candidate& candidate, int segments) {
   const Beam& beam = scene.beam;
@@ -50,23 +49,21 @@ SceneModel build(const Scene& scene, const Candidate& candidate, int segments) {
   return SceneModel(GalerkinModel<>(train_galerkin(take_snapshots_at_tensions(beam, full, plan))));
 }
 
-inline SceneModel build(const Scene& scene, const Candidate& candidate, int segments) {
+}  // namespace detail
+
+/// @param segments  of the shape that a trained model draws; 2 where only the force is looked at
+/// @throws std::invalid_argument, TrainingError
+inline SceneModel build(const Scene& scene, const Candidate& candidate, int segments = 32) {
+  scene.check();
   switch (candidate.kinematics) {
-    case Kinematics::linear: return build<Linear>(scene, candidate, segments);
-    case Kinematics::von_karman: return build<VonKarman<>>(scene, candidate, segments);
-    case Kinematics::corotational: return build<Corotational<>>(scene, candidate, segments);
+    case Kinematics::linear: return detail::build<Linear>(scene, candidate, segments);
+    case Kinematics::von_karman: return detail::build<VonKarman<>>(scene, candidate, segments);
+    case Kinematics::corotational: return detail::build<Corotational<>>(scene, candidate, segments);
     case Kinematics::round_rod:
     case Kinematics::twisted_rod: break;
   }
   throw std::invalid_argument(std::string("kinematics = ") + name(candidate.kinematics) +
                               ": must be that of a beam for a Scene");
-}
-
-}  // namespace detail
-
-/// @throws std::invalid_argument, TrainingError
-inline SceneModel build(const Scene& scene, const Candidate& candidate) {
-  return detail::build(scene.check(), candidate, 32);
 }
 
 }  // namespace hapbeam

@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: MIT
-// What a scene in space asks of a model: a rod, where and how deep it is pushed, and what error and time are allowed.
+// The requirements of a scene in space: a rod, where and how deep it is pushed, and the tolerated error and time; and the model for it.
 //
-// Offline: throws std::invalid_argument naming field, value, unit and what is allowed.
+//   RodModel model = build(scene, choose(scene).model());
+//   model.push({s, d, n});                           // one switch and the model's own push: nothing virtual
+//
+// Offline: allocates; throws std::invalid_argument naming field, value, unit and what is allowed.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
 
-#include <hapbeam/element/corotational.hpp>
-#include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/rod/rod_range.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/rod.hpp>
-#include <hapbeam/scene/scene.hpp>
+#include <hapbeam/scene/build.hpp>
 #include <hapbeam/turning_plane.hpp>
 
 namespace hapbeam {
@@ -65,19 +72,42 @@ struct RodScene {
   /// @throws std::invalid_argument
   const RodScene& check() const {
     const Range<double> range = RodRange<double>(rod).range();
-    detail::finite("s_min", s_min, "m");
-    detail::finite("s_max", s_max, "m");
-    if (!(s_min >= 0.999999 * range.s_min && s_min <= s_max))
-      detail::reject("s_min", s_min, "m",
-                     "on the rod, at most s_max, a thousandth away from an end that is held");
-    if (!(s_max <= range.s_max + 1e-6 * range.s_min))
-      detail::reject("s_max", s_max, "m", "on the rod, a thousandth away from an end that is held");
-    detail::positive("depth", depth, "m");
-    detail::positive("force_error", force_error, "");
-    detail::not_negative("force_floor", force_floor, "N");
-    detail::positive("tick", tick, "s");
+    detail::check_scene(*this, 0.999999 * range.s_min, range.s_max + 1e-6 * range.s_min, "rod");
     return *this;
   }
 };
+
+namespace detail {
+
+/// Those of a scene in the plane, turned; and the rods.
+template <class Planar>
+struct ModelsInSpace;
+template <class... Planar>
+struct ModelsInSpace<AnyOf<2, Planar...>> {
+  using Type = AnyOf<3, TurningPlane<Planar>..., FemModel<RoundRod>, FemModel<TwistedRod>>;
+};
+
+}  // namespace detail
+
+/// The model that a scene in space needs, whichever it is, as one ForceModel.
+using RodModel = detail::ModelsInSpace<SceneModel>::Type;
+
+/// @throws std::invalid_argument, TrainingError
+inline RodModel build(const RodScene& scene, const Candidate& candidate, int segments = 32) {
+  scene.check();
+  if (candidate.kinematics == Kinematics::round_rod)
+    return RodModel(FemModel<RoundRod>(scene.rod, candidate.elements));
+  if (candidate.kinematics == Kinematics::twisted_rod)
+    return RodModel(FemModel<TwistedRod>(scene.rod, candidate.elements));
+  const auto planar = scene.in_any_plane();
+  if (!planar)
+    throw std::invalid_argument(std::string("kinematics = ") + name(candidate.kinematics) +
+                                ": must be that of a rod, for this one is not the same in each plane");
+  SceneModel model = build(*planar, candidate, segments);
+  return model.visit([&](auto& chosen) {
+    using Model = std::decay_t<decltype(chosen)>;
+    return RodModel(TurningPlane<Model>(scene.rod, std::move(chosen)));
+  });
+}
 
 }  // namespace hapbeam

@@ -5,10 +5,30 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 #include <hapbeam/beam.hpp>
 
 namespace hapbeam {
+
+namespace detail {
+
+/// What a Scene and a RodScene have alike.   @param low, high [m] where it may be pressed
+template <class S>
+[[gnu::cold]] void check_scene(const S& scene, double low, double high, const char* body) {
+  const std::string allowed = std::string("on the ") + body + ", a thousandth away from an end that is held";
+  finite("s_min", scene.s_min, "m");
+  finite("s_max", scene.s_max, "m");
+  if (!(scene.s_min >= low && scene.s_min <= scene.s_max))
+    reject("s_min", scene.s_min, "m", (allowed + ", at most s_max").c_str());
+  if (!(scene.s_max <= high)) reject("s_max", scene.s_max, "m", allowed.c_str());
+  positive("depth", scene.depth, "m");
+  positive("force_error", scene.force_error, "");
+  not_negative("force_floor", scene.force_floor, "N");
+  positive("tick", scene.tick, "s");
+}
+
+}  // namespace detail
 
 struct Scene {
   Beam beam;
@@ -42,22 +62,13 @@ struct Scene {
 
   /// @throws std::invalid_argument
   const Scene& check() const {
-    detail::finite("s_min", s_min, "m");
-    detail::finite("s_max", s_max, "m");
     const double margin = 0.999999 * beam.length() / 1000;
-    if (!(s_min >= (fixes_w(beam.left()) ? margin : 0) && s_min <= s_max))
-      detail::reject("s_min", s_min, "m",
-                     "on the beam, at most s_max, a thousandth away from an end that is held");
-    if (!(s_max <= beam.length() - (fixes_w(beam.right()) ? margin : 0)))
-      detail::reject("s_max", s_max, "m", "on the beam, a thousandth away from an end that is held");
+    detail::check_scene(*this, fixes_w(beam.left()) ? margin : 0,
+                        beam.length() - (fixes_w(beam.right()) ? margin : 0), "beam");
     if (!beam.parts().empty())
       detail::reject("scene beam sections", static_cast<double>(beam.parts().size()), "",
                      "none, one section for all of it: take FemModel<Tapered<>>, or "
                      "FemModel<Corotational<Tapered<>>> for finite rotation");
-    detail::positive("depth", depth, "m");
-    detail::positive("force_error", force_error, "");
-    detail::not_negative("force_floor", force_floor, "N");
-    detail::positive("tick", tick, "s");
     return *this;
   }
 };
