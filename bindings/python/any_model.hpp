@@ -20,7 +20,7 @@
 #include <hapbeam/internal_forces.hpp>
 #include <hapbeam/many/beam_array.hpp>
 #include <hapbeam/rod_support.hpp>
-#include <hapbeam/rom/trained/error_report.hpp>
+#include <hapbeam/rom/trained/model_data.hpp>
 
 namespace hapbeam::python {
 

@@ -29,8 +29,8 @@
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo.hpp>
 #include <hapbeam/haptics/servo/stylus.hpp>
-#include <hapbeam/haptics/stability/hand_pose.hpp>
-#include <hapbeam/haptics/stability/in_scene.hpp>
+#include <hapbeam/haptics/stability/coupling.hpp>
+#include <hapbeam/haptics/stability/contact_tangent.hpp>
 
 namespace hapbeam {
 

@@ -173,56 +173,46 @@ inline bool is_rotation(const Eigen::Matrix3d& R) noexcept {
 
 namespace detail {
 
-template <typename S, typename = void>
-struct IsServo : std::false_type {};
+// Signatures alone, to be called with null pointers: a contract is met where the first of two takes them.
 template <typename S>
-struct IsServo<S, std::void_t<decltype(std::declval<S&>()(std::declval<const DeviceState&>()))>>
+auto as_servo(S* s, const DeviceState* state)
     // Eigen::Vector3d itself: an Eigen expression would refer to what the servo has already left.
-    : std::bool_constant<
-          noexcept(std::declval<S&>()(std::declval<const DeviceState&>())) &&
-          std::is_same_v<decltype(std::declval<S&>()(std::declval<const DeviceState&>())), Eigen::Vector3d>> {
-};
+    -> std::bool_constant<noexcept((*s)(*state)) && std::is_same_v<decltype((*s)(*state)), Eigen::Vector3d>>;
+template <typename>
+std::false_type as_servo(...);
 
-template <typename S, typename = void>
-struct TakesOrientation : std::false_type {};
 template <typename S>
-struct TakesOrientation<S, std::void_t<decltype(std::declval<S&>()(std::declval<const OrientedState&>()))>>
-    : std::is_same<decltype(std::declval<S&>()(std::declval<const OrientedState&>())), Wrench> {};
+auto as_turning(S* s, const OrientedState* state) -> std::is_same<decltype((*s)(*state)), Wrench>;
+template <typename>
+std::false_type as_turning(...);
 
 struct AnyServo {
   Eigen::Vector3d operator()(const DeviceState&) noexcept;
 };
-
-template <typename D, typename = void>
-struct IsDevice : std::false_type {};
 template <typename D>
-struct IsDevice<
-    D, std::void_t<decltype(std::declval<D&>().start(std::declval<AnyServo&>())),
-                   decltype(std::declval<D&>().stop()), decltype(std::declval<const D&>().info()),
-                   decltype(std::declval<const D&>().running()), decltype(std::declval<const D&>().status()),
-                   decltype(std::declval<const D&>().counts())>>
-    : std::bool_constant<
-          std::is_same_v<std::decay_t<decltype(std::declval<const D&>().info())>, DeviceInfo>&& noexcept(
-              std::declval<D&>().stop())&& noexcept(std::declval<const D&>().running()) &&
-          std::is_same_v<decltype(std::declval<const D&>().running()), bool>&& noexcept(
-              std::declval<const D&>().status()) &&
-          std::is_same_v<decltype(std::declval<const D&>().status()), DeviceStatus>&& noexcept(
-              std::declval<const D&>().counts()) &&
-          std::is_same_v<decltype(std::declval<const D&>().counts()), DeviceCounts>> {};
+auto as_device(D* d, const D* seen, AnyServo* servo, decltype(d->start(*servo))* = nullptr)
+    -> std::bool_constant<
+        std::is_same_v<std::decay_t<decltype(seen->info())>, DeviceInfo>&& noexcept(d->stop()) && noexcept(
+            seen->running()) && noexcept(seen->status()) && noexcept(seen->counts()) &&
+        std::is_same_v<decltype(seen->running()), bool> &&
+        std::is_same_v<decltype(seen->status()), DeviceStatus> &&
+        std::is_same_v<decltype(seen->counts()), DeviceCounts>>;
+template <typename>
+std::false_type as_device(...);
 
 }  // namespace detail
 
 /// True where S can be called in a servo loop, noexcept included.
 template <typename S>
-inline constexpr bool is_servo = detail::IsServo<S>::value;
+inline constexpr bool is_servo = decltype(detail::as_servo<S>(nullptr, nullptr))::value;
 
 /// True where S takes an orientation and answers with a torque besides.
 template <typename S>
-inline constexpr bool takes_orientation = detail::TakesOrientation<S>::value;
+inline constexpr bool takes_orientation = decltype(detail::as_turning<S>(nullptr, nullptr))::value;
 
 /// True where D fulfils the contract above, every noexcept included.
 template <typename D>
-inline constexpr bool is_device = detail::IsDevice<D>::value;
+inline constexpr bool is_device = decltype(detail::as_device<D>(nullptr, nullptr, nullptr))::value;
 
 /// Stops compilation with the signature that is missing.
 template <typename S>

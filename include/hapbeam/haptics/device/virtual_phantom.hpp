@@ -2,7 +2,7 @@
 // A simulated Phantom Premium 1.5/6DOF High Force and the hand that holds it.
 //
 // The arm is a mass with viscous damping and Coulomb friction on each axis (arm_axis.hpp). Encoders read it
-// (encoders.hpp). Its force is held over the period and limited to the peak. A hand of mass, spring and damper pulls
+// (arm_axis.hpp). Its force is held over the period and limited to the peak. A hand of mass, spring and damper pulls
 // the arm along a path (hand_path.hpp). Figures: thesis Table 2.1. There are three translations and, optionally, a
 // gimbal (gimbal.hpp), which the torque turns. There are no end stops.
 //
@@ -25,7 +25,6 @@
 
 #include <hapbeam/haptics/device/arm_axis.hpp>
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/device/encoders.hpp>
 #include <hapbeam/haptics/device/gimbal.hpp>
 #include <hapbeam/haptics/device/hand_path.hpp>
 

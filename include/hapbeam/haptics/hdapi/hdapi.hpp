@@ -32,7 +32,7 @@
 #include <utility>
 
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/device/force_ramp.hpp>
+#include <hapbeam/haptics/hdapi/calibration.hpp>
 #include <hapbeam/haptics/hdapi/connection.hpp>
 
 namespace hapbeam {

@@ -17,9 +17,8 @@
 
 #include <hapbeam/check.hpp>
 #include <hapbeam/contact/touch.hpp>
+#include <hapbeam/haptics/stability/contact_tangent.hpp>
 #include <hapbeam/haptics/stability/coupling.hpp>
-#include <hapbeam/haptics/stability/hand_pose.hpp>
-#include <hapbeam/haptics/stability/in_scene.hpp>
 #include <hapbeam/shaft.hpp>
 
 namespace hapbeam {
@@ -60,10 +59,10 @@ struct CapsuleTouch {
 };
 
 template <typename C, typename = void>
-struct Moves : std::false_type {};
+inline constexpr bool moves = false;
 template <typename C>
-struct Moves<C, std::void_t<decltype(std::declval<C&>().move(std::declval<const Eigen::Vector3d&>()))>>
-    : std::true_type {};
+inline constexpr bool
+    moves<C, std::void_t<decltype(std::declval<C&>().move(std::declval<const Eigen::Vector3d&>()))>> = true;
 
 /// @tparam Scalar  of the rod
 template <typename Scalar>
@@ -93,7 +92,7 @@ class Stylus {
     const auto& contact = felt.touch.contact;
     if (felt.touch.pressing && !felt.continued && contact.segment >= 0) {
       arm_ = capsule.arm(felt.touch, felt.avatar);
-      if constexpr (Moves<Coupling>::value) {
+      if constexpr (moves<Coupling>) {
         const Eigen::Vector3d now = axis.at(axis.nearest(arm_));
         coupling.move(now - tied);
         tied_ = hand.turn.transpose() * now;

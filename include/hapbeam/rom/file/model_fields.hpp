@@ -19,16 +19,6 @@ constexpr const char* kind_of(const GalerkinModelData<Scalar>&) noexcept {
   return "galerkin";
 }
 
-/// Size of the grid along its other axis than that of the positions.
-template <typename Scalar>
-constexpr int second_axis(const PodModelData<Scalar>& data) noexcept {
-  return data.depths;
-}
-template <typename Scalar>
-constexpr int second_axis(const GalerkinModelData<Scalar>& data) noexcept {
-  return data.tensions;
-}
-
 template <typename Scalar>
 constexpr const char* scalar_name() noexcept {
   static_assert(std::is_same_v<Scalar, double> || std::is_same_v<Scalar, float>,

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/rom/trained/combine.hpp>
 #include <hapbeam/rom/trained/coordinates.hpp>
+#include <hapbeam/rom/trained/lagrange.hpp>
 
 namespace hapbeam {
 

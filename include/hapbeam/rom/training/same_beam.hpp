@@ -16,11 +16,11 @@
 namespace hapbeam::detail {
 
 template <class Model, typename = void>
-struct IsFiniteElements : std::false_type {};
+inline constexpr bool is_finite_elements = false;
 template <class Model>
-struct IsFiniteElements<
-    Model, std::void_t<typename Model::ElementType, decltype(std::declval<const Model&>().elements())>>
-    : std::true_type {};
+inline constexpr bool is_finite_elements<
+    Model, std::void_t<typename Model::ElementType, decltype(std::declval<const Model&>().elements())>> =
+    true;
 
 /// Compares length and thickness of any ForceModel. With finite elements, which can be rebuilt for the beam, forces are
 /// compared as well. A difference in stiffness, ends, dead loads or natural shape changes the force.
@@ -34,7 +34,7 @@ void check_same_beam(const Beam& beam, const Model& full, const TrainingPlan& pl
   };
   compare("length of the full model", static_cast<double>(full.shape().length()), beam.length());
   compare("thickness of the full model", static_cast<double>(full.thickness()), beam.thickness());
-  if constexpr (IsFiniteElements<Model>::value) {
+  if constexpr (is_finite_elements<Model>) {
     Model given(full);
     FemModel<typename Model::ElementType, S> own(beam, full.elements());
     const double s = (plan.s_min + plan.s_max) / 2;
