@@ -17,8 +17,8 @@
 #include <vector>
 
 #include <hapbeam/check.hpp>
-#include <hapbeam/rod_section.hpp>
 #include <hapbeam/rod_support.hpp>
+#include <hapbeam/section.hpp>
 
 namespace hapbeam {
 
@@ -32,18 +32,15 @@ struct RodArc {
   bool bends_as(const RodArc& other) const noexcept {
     return curvature1 == other.curvature1 && curvature2 == other.curvature2 && twist == other.twist;
   }
+  void check() const {
+    detail::finite("arc curvature1", curvature1, "1/m");
+    detail::finite("arc curvature2", curvature2, "1/m");
+    detail::finite("arc twist", twist, "1/m");
+  }
 };
 
 /// A part of the rod with a section of its own, which may change along it: a taper, a step.
-struct RodPart {
-  double end;                                 ///< [m] arc position at which it ends
-  std::function<RodSection(double)> section;  ///< by arc position s [m]; smooth within the part
-
-  RodPart(double part_end, std::function<RodSection(double)> by_s)
-      : end(part_end), section(std::move(by_s)) {}
-  RodPart(double part_end, const RodSection& same)
-      : end(part_end), section([same](double) { return same; }) {}
-};
+using RodPart = detail::PartOf<RodSection>;
 
 /// Springs along a part of the rod that pull each point back to where it is in the natural shape: a needle in tissue.
 struct RodFoundation {
@@ -69,8 +66,10 @@ struct RodOutline {
 
 /// A rod, its ends and its loads; straight, unless it is given a natural shape, and its right end where that shape puts it,
 /// unless it is placed elsewhere.  An immutable value but for what is added to it.
-class Rod {
+class Rod : public detail::Slender<Rod, RodSection, RodArc> {
  public:
+  static constexpr const char* word = "rod";
+
   /// @param length [m], positive
   [[gnu::cold]] Rod(double length, const RodSection& section, const RodMaterial& material,
                     const RodSupport& left, const RodSupport& right)
@@ -78,15 +77,14 @@ class Rod {
     material_ = material;
     outline_ = {section.width > 0 ? section.width : thickness_,
                 section.height > 0 ? section.height : thickness_, section.corners};
-    area_ = [area = section.area](double) { return area; };
+    build_of(material.young, section.area);
   }
 
   /// For a section known by its stiffness.   @param length [m]   @param thickness [m]
   [[gnu::cold]] Rod(double length, const RodStiffness& stiffness, double thickness, const RodSupport& left,
                     const RodSupport& right)
-      : length_(detail::positive("length", length, "m")),
+      : Slender(length, thickness),
         stiffness_(stiffness),
-        thickness_(detail::positive("thickness", thickness, "m")),
         outline_{thickness, thickness, false},
         left_(left),
         right_(right) {
@@ -95,49 +93,6 @@ class Rod {
     detail::positive("bending2 stiffness", stiffness.bending2, "N·m²");
     detail::positive("torsion stiffness", stiffness.torsion, "N·m²");
     detail::check_supports(left, right);
-  }
-
-  /// Gives the rod a natural shape, from the left end on; straight and without twist where the parts end.
-  /// @throws std::invalid_argument unless the ends increase, within the length
-  Rod& naturally(std::vector<RodArc> arcs) {
-    double from = 0;
-    for (const RodArc& arc : arcs) {
-      if (!(arc.end > from && arc.end <= length_ * (1 + 1e-12)))
-        detail::reject("arc end", arc.end, "m", "beyond the arc before it and on the rod");
-      detail::finite("arc curvature1", arc.curvature1, "1/m");
-      detail::finite("arc curvature2", arc.curvature2, "1/m");
-      detail::finite("arc twist", arc.twist, "1/m");
-      from = arc.end;
-    }
-    return arcs_ = std::move(arcs), *this;
-  }
-
-  /// Gives parts of the rod sections of their own, from the left end on.
-  /// The avatar touches a round surface of the thickness that the rod was built with.
-  /// @throws std::invalid_argument unless the ends increase, up to the length, and the material is known
-  Rod& sections(std::vector<RodPart> parts) {
-    if (!(material_.young > 0))
-      detail::reject("young", material_.young, "Pa",
-                     "known for sections: build the rod of a section and a material");
-    double from = 0;
-    for (const RodPart& part : parts) {
-      if (!(part.end > from && part.end <= length_ * (1 + 1e-12)))
-        detail::reject("part end", part.end, "m", "beyond the part before it and on the rod");
-      from = part.end;
-    }
-    if (!(from >= length_ * (1 - 1e-12)))
-      detail::reject("part end", from, "m", "the rod's length for the last part");
-    parts_ = std::move(parts);
-    area_ = [parts = parts_](double s) {
-      std::size_t k = 0;
-      while (k + 1 < parts.size() && parts[k].end <= s) ++k;
-      return parts[k].section(s).area;
-    };
-    return *this;
-  }
-  /// The same with one section that changes along all of the rod.
-  Rod& section(std::function<RodSection(double)> by_s) {
-    return sections({RodPart(length_, std::move(by_s))});
   }
 
   /// Lays a part of the rod in an elastic foundation.
@@ -181,20 +136,14 @@ class Rod {
     return forces_.push_back(force), *this;
   }
 
-  double length() const noexcept { return length_; }  ///< L [m]
   const RodStiffness& stiffness() const noexcept { return stiffness_; }
-  double thickness() const noexcept { return thickness_; }  ///< [m]
   /// Of the section that it was built with; a rod that is given by its stiffness has a round one of its thickness.
   const RodOutline& outline() const noexcept { return outline_; }
   const RodSupport& left() const noexcept { return left_; }
   const RodSupport& right() const noexcept { return right_; }
-  const std::vector<RodPart>& parts() const noexcept {
-    return parts_;
-  }  ///< empty where all of it has one section
   /// That of a section of its parts.   @throws std::invalid_argument where it makes no sense
   RodStiffness stiffness(const RodSection& section) const { return stiffness(section, material_); }
   const std::vector<RodFoundation>& foundations() const noexcept { return foundations_; }
-  const std::vector<RodArc>& arcs() const noexcept { return arcs_; }  ///< empty where naturally straight
   const RodPose& left_pose() const noexcept { return left_pose_; }
   /// Null where the natural shape places it.
   const RodPose* right_pose() const noexcept { return right_is_placed_ ? &right_pose_ : nullptr; }
@@ -232,16 +181,11 @@ class Rod {
     return unit;
   }
 
-  double length_;
   RodStiffness stiffness_;
   RodMaterial material_{0, 0};  // not known where the stiffness is given
-  std::function<double(double)> area_;
-  double thickness_;
   RodOutline outline_;
   RodSupport left_, right_;
-  std::vector<RodPart> parts_;
   std::vector<RodFoundation> foundations_;
-  std::vector<RodArc> arcs_;
   RodPose left_pose_, right_pose_;
   bool right_is_placed_ = false;
   RodLoad load_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What reading and writing a model file share: the error, the ownership of a JSON value, and how a value looks in a message.
+// What reading and writing a model file share: the error, the ownership of a JSON value, how a value looks in a message, the checksum.
 //
 // It compiles fast, for programs that only load a model. Messages are composed by printf and names compared as C
 // strings: optimising string arithmetic would take the compiler longer than all of Eigen/Core. [[gnu::cold]] functions
@@ -9,6 +9,7 @@
 
 #include <cstdarg>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <jansson.h>
 #include <stdexcept>
@@ -72,5 +73,22 @@ struct ShownJson {
   }
 };
 
+/// CRC-32, as zlib, gzip and PNG compute it: reflected, polynomial 0xEDB88320.  Finds every error of up to 32 bits in a row, and all but
+/// one of 4·10⁹ others.  No protection against intent.   Source: ISO 3309; the check value of "123456789" is 0xCBF43926.
+inline std::uint32_t crc32(const char* bytes, std::size_t size) noexcept {
+  // Remainders of four bits.
+  constexpr std::uint32_t of[16] = {0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC, 0x76DC4190, 0x6B6B51F4,
+                                    0x4DB26158, 0x5005713C, 0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C,
+                                    0x9B64C2B0, 0x86D3D2D4, 0xA00AE278, 0xBDBDF21C};
+  std::uint32_t rest = 0xFFFFFFFFu;
+  for (std::size_t k = 0; k < size; ++k) {
+    rest ^= std::uint32_t{static_cast<unsigned char>(bytes[k])};
+    rest = (rest >> 4) ^ of[rest & 15];
+    rest = (rest >> 4) ^ of[rest & 15];
+  }
+  return ~rest;
+}
+
 }  // namespace detail
+
 }  // namespace hapbeam

@@ -24,8 +24,6 @@
 #include <stdexcept>
 #include <string>
 
-#include <hapbeam/rom/file/check_answers.hpp>
-#include <hapbeam/rom/file/checksum.hpp>
 #include <hapbeam/rom/file/json_reader.hpp>
 #include <hapbeam/rom/file/json_writer.hpp>
 #include <hapbeam/rom/file/model_fields.hpp>

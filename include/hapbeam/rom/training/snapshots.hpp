@@ -18,9 +18,8 @@
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rom/trained/coordinates.hpp>
 #include <hapbeam/rom/trained/lagrange.hpp>
-#include <hapbeam/rom/training/same_beam.hpp>
+#include <hapbeam/rom/training/full_model.hpp>
 #include <hapbeam/rom/training/training_plan.hpp>
-#include <hapbeam/rom/training/training_run.hpp>
 
 namespace hapbeam {
 

@@ -16,7 +16,7 @@
 
 #include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/force_model.hpp>
-#include <hapbeam/rom/training/training_run.hpp>
+#include <hapbeam/rom/training/training_plan.hpp>
 
 namespace hapbeam {
 
