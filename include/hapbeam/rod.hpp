@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -111,10 +112,7 @@ class Rod : public detail::Slender<Rod, RodSection, RodArc> {
   /// Places the left end; the rod begins there.
   Rod& place_left(const RodPose& pose) { return left_pose_ = checked(pose), *this; }
   /// Places the right end elsewhere than where the natural shape has it.
-  Rod& place_right(const RodPose& pose) {
-    right_pose_ = checked(pose);
-    return right_is_placed_ = true, *this;
-  }
+  Rod& place_right(const RodPose& pose) { return right_pose_ = checked(pose), *this; }
 
   /// Sets the distributed dead load [N/m]; it must be finite on all of the rod.
   Rod& load(RodLoad f) { return load_ = std::move(f), specific_weight_.setZero(), *this; }
@@ -146,7 +144,7 @@ class Rod : public detail::Slender<Rod, RodSection, RodArc> {
   const std::vector<RodFoundation>& foundations() const noexcept { return foundations_; }
   const RodPose& left_pose() const noexcept { return left_pose_; }
   /// Null where the natural shape places it.
-  const RodPose* right_pose() const noexcept { return right_is_placed_ ? &right_pose_ : nullptr; }
+  const RodPose* right_pose() const noexcept { return right_pose_ ? &*right_pose_ : nullptr; }
   /// Empty where there is none.
   RodLoad load() const {
     if (specific_weight_.isZero(0)) return load_;
@@ -156,7 +154,7 @@ class Rod : public detail::Slender<Rod, RodSection, RodArc> {
   const std::vector<RodForce>& forces() const noexcept { return forces_; }
   /// Whether it has one natural shape, straight, from which nothing bends it.
   bool straight() const noexcept {
-    return arcs_.empty() && !right_is_placed_ && !load_ && specific_weight_.isZero(0) && forces_.empty();
+    return arcs_.empty() && !right_pose_ && !load_ && specific_weight_.isZero(0) && forces_.empty();
   }
 
  private:
@@ -186,8 +184,8 @@ class Rod : public detail::Slender<Rod, RodSection, RodArc> {
   RodOutline outline_;
   RodSupport left_, right_;
   std::vector<RodFoundation> foundations_;
-  RodPose left_pose_, right_pose_;
-  bool right_is_placed_ = false;
+  RodPose left_pose_;
+  std::optional<RodPose> right_pose_;  // none: where the natural shape has it
   RodLoad load_;
   VectorOf<double, 3> specific_weight_{0, 0, 0};
   std::vector<RodForce> forces_;

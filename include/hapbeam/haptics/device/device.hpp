@@ -27,7 +27,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
@@ -137,6 +139,26 @@ inline bool is_rotation(const Eigen::Matrix3d& R) noexcept {
     }
   return skew <= most * most;
 }
+
+/// What is late by whole ticks.
+class DelayLine {
+ public:
+  static constexpr int longest = 16;
+
+  /// @param newest  of this tick   @param ticks  0 to longest   @return of so many ticks ago; zero where there was none
+  const Eigen::Vector3d& pass(const Eigen::Vector3d& newest, int ticks) noexcept {
+    std::move_backward(all_.begin(), all_.end() - 1, all_.end());
+    all_[0] = newest;
+    return all_[static_cast<std::size_t>(ticks)];
+  }
+  void clear() noexcept { all_.fill(Eigen::Vector3d::Zero()); }
+
+ private:
+  std::array<Eigen::Vector3d, longest + 1> all_ = [] {
+    std::array<Eigen::Vector3d, longest + 1> none;
+    return none.fill(Eigen::Vector3d::Zero()), none;
+  }();
+};
 
 }  // namespace detail
 
