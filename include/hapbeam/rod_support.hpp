@@ -8,8 +8,6 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 #include <hapbeam/check.hpp>
 #include <hapbeam/rod_centreline.hpp>
@@ -114,10 +112,9 @@ namespace detail {
                          (holds_across(right) && holds_direction(right)),
              both = holds_across(left) && holds_across(right), along = left.along > 0 || right.along > 0;
   if (along && (direction || both)) return;
-  throw std::invalid_argument(std::string("supports = ") + name(left) + ", " + name(right) +
-                              ": the rod is a mechanism, " +
-                              (along ? "hold the direction of one end or the place of both"
-                                     : "it slides along its axis; hold that at one end"));
+  refuse("supports = %s, %s: the rod is a mechanism, %s", name(left), name(right),
+         along ? "hold the direction of one end or the place of both"
+               : "it slides along its axis; hold that at one end");
 }
 
 }  // namespace detail

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -157,13 +156,11 @@ class Slender {
   /// @throws std::invalid_argument unless the ends increase, up to the length, and it was built of a material
   Body& sections(std::vector<Part> parts) {
     if (!(young_ > 0))
-      reject("young", young_, "Pa",
-             (std::string("known for sections: build the ") + Body::word + " of a section and a material")
-                 .c_str());
+      refuse("young = %g Pa: must be known for sections: build the %s of a section and a material", young_,
+             Body::word);
     const double last = check_order("part", parts);
     if (!(last >= length_ * (1 - 1e-12)))
-      reject("part end", last, "m",
-             (std::string("the ") + Body::word + "'s length for the last part").c_str());
+      refuse("part end = %g m: must be the %s's length for the last part", last, Body::word);
     parts_ = std::move(parts);
     area_ = [parts = parts_](double s) {
       std::size_t k = 0;
@@ -200,12 +197,12 @@ class Slender {
   Body& body() noexcept { return static_cast<Body&>(*this); }
   /// @return where the last one ends
   template <class Parts>
-  double check_order(const std::string& what, const Parts& parts) const {
+  double check_order(const char* what, const Parts& parts) const {
     double from = 0;
     for (const auto& part : parts) {
       if (!(part.end > from && part.end <= length_ * (1 + 1e-12)))
-        reject((what + " end").c_str(), part.end, "m",
-               ("beyond the " + what + " before it and on the " + Body::word).c_str());
+        refuse("%s end = %g m: must be beyond the %s before it and on the %s", what, part.end, what,
+               Body::word);
       from = part.end;
     }
     return from;

@@ -7,9 +7,6 @@
 // noexcept.
 #pragma once
 
-#include <cstdio>
-#include <stdexcept>
-
 #include <hapbeam/check.hpp>
 
 namespace hapbeam {
@@ -52,11 +49,7 @@ namespace detail {
   if (!fixes_u(left) && !fixes_u(right)) why = "slides along its axis; hold u at one end";
   if (held_w == 0) why = "moves across its axis; hold w at one end";
   if (held_w == 1 && !held_theta) why = "turns about its only hinge; hold theta or the other end";
-  if (!why) return;
-  char text[160];
-  std::snprintf(text, sizeof text, "supports = %s, %s: the beam is a mechanism, it %s", name(left),
-                name(right), why);
-  throw std::invalid_argument(text);
+  if (why) refuse("supports = %s, %s: the beam is a mechanism, it %s", name(left), name(right), why);
 }
 
 }  // namespace detail

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 
 #include <hapbeam/rom/training/train.hpp>
@@ -62,8 +60,7 @@ inline SceneModel build(const Scene& scene, const Candidate& candidate, int segm
     case Kinematics::round_rod:
     case Kinematics::twisted_rod: break;
   }
-  throw std::invalid_argument(std::string("kinematics = ") + name(candidate.kinematics) +
-                              ": must be that of a beam for a Scene");
+  detail::refuse("kinematics = %s: must be that of a beam for a Scene", name(candidate.kinematics));
 }
 
 }  // namespace hapbeam

@@ -14,10 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <hapbeam/element/corotational.hpp>
@@ -109,10 +106,8 @@ class PilotOf {
       for (std::size_t k = 0; k < line.depths.size(); ++k) {
         const Response<double> response = line.go(reference, k);
         if (response.status != Status::ok)
-          throw std::invalid_argument("depth = " + number(depth) + " m: must be one that a " + Line::body +
-                                      " answers everywhere; at s = " + number(line.s) + " m a " +
-                                      Line::motion + " to " + number(line.depths[k]) + " m is " +
-                                      name(response.status));
+          refuse("depth = %g m: must be one that a %s answers everywhere; at s = %g m a %s to %g m is %s",
+                 depth, Line::body, line.s, Line::motion, line.depths[k], name(response.status));
         line.forces.push_back(response.force);
       }
     }
@@ -194,18 +189,17 @@ class Pilot : public detail::PilotOf<detail::PressLine> {
     }
     const Place& limit = scene.depth > deepest.depth ? deepest : corner;
     if (scene.depth <= limit.depth) return;
-    char allowed[200];
     if (limit.depth > 0)
-      std::snprintf(allowed, sizeof allowed,
-                    "at most %.4g m, the deepest press that is answered to both sides of rest, %.4g m aside, "
-                    "at s = %.4g m",
-                    0.999 * limit.depth, limit.w, limit.s);
-    else
-      std::snprintf(allowed, sizeof allowed,
-                    "of presses that are answered; this beam hangs %.4g m deep at rest at s = %.4g m, which "
-                    "is deeper than those",
-                    limit.w, limit.s);
-    detail::reject("depth", scene.depth, "m", allowed);
+      detail::refuse(
+          "depth = %g m: must be at most %.4g m, the deepest press that is answered to both sides of rest, "
+          "%.4g m "
+          "aside, at s = %.4g m",
+          scene.depth, 0.999 * limit.depth, limit.w, limit.s);
+    detail::refuse(
+        "depth = %g m: must be of presses that are answered; this beam hangs %.4g m deep at rest at s = %.4g "
+        "m, "
+        "which is deeper than those",
+        scene.depth, limit.w, limit.s);
   }
 
   std::size_t main_lines_ = 0;  // of those the ones that go all the way down

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -101,8 +100,8 @@ inline RodModel build(const RodScene& scene, const Candidate& candidate, int seg
     return RodModel(FemModel<TwistedRod>(scene.rod, candidate.elements));
   const auto planar = scene.in_any_plane();
   if (!planar)
-    throw std::invalid_argument(std::string("kinematics = ") + name(candidate.kinematics) +
-                                ": must be that of a rod, for this one is not the same in each plane");
+    detail::refuse("kinematics = %s: must be that of a rod, for this one is not the same in each plane",
+                   name(candidate.kinematics));
   SceneModel model = build(*planar, candidate, segments);
   return model.visit([&](auto& chosen) {
     using Model = std::decay_t<decltype(chosen)>;

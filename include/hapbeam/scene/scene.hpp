@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cmath>
-#include <string>
 
 #include <hapbeam/beam.hpp>
 
@@ -16,12 +15,12 @@ namespace detail {
 /// What a Scene and a RodScene have alike.   @param low, high [m] where it may be pressed
 template <class S>
 [[gnu::cold]] void check_scene(const S& scene, double low, double high, const char* body) {
-  const std::string on = std::string("on the ") + body, away = ", a thousandth away from an end that is held";
   finite("s_min", scene.s_min, "m");
   finite("s_max", scene.s_max, "m");
+  const char* const away = "a thousandth away from an end that is held";
   if (!(scene.s_min >= low && scene.s_min <= scene.s_max))
-    reject("s_min", scene.s_min, "m", (on + ", at most s_max" + away).c_str());
-  if (!(scene.s_max <= high)) reject("s_max", scene.s_max, "m", (on + away).c_str());
+    refuse("s_min = %g m: must be on the %s, at most s_max, %s", scene.s_min, body, away);
+  if (!(scene.s_max <= high)) refuse("s_max = %g m: must be on the %s, %s", scene.s_max, body, away);
   positive("depth", scene.depth, "m");
   positive("force_error", scene.force_error, "");
   not_negative("force_floor", scene.force_floor, "N");

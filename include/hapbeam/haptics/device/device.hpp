@@ -140,6 +140,15 @@ inline bool is_rotation(const Eigen::Matrix3d& R) noexcept {
   return skew <= most * most;
 }
 
+/// Axis times angle of a rotation [rad].   @param R  its entries, R(i, j)
+template <class Rotation>
+Eigen::Vector3d rotation_vector(const Rotation& R) noexcept {
+  const Eigen::Vector3d twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+  const double sine = twice.norm() / 2;
+  if (!(sine > 0)) return Eigen::Vector3d::Zero();
+  return twice * (std::atan2(sine, (R(0, 0) + R(1, 1) + R(2, 2) - 1) / 2) / (2 * sine));
+}
+
 /// What is late by whole ticks.
 class DelayLine {
  public:

@@ -175,7 +175,7 @@ class GripCoupling {
     result.touch.press = {touch.s(), 0};
     if (is_answer(held.status)) {
       const HandPose end = touch.end();
-      gap_ = end.place - at.place, turn_ = rotation_vector(end.turn * at.turn.transpose());
+      gap_ = end.place - at.place, turn_ = detail::rotation_vector(end.turn * at.turn.transpose());
       last_ = {-detail::in_scene(held.force), -detail::in_scene(held.moment)};
       continued_ = 0;
       const double angle = turn_.norm();
@@ -228,13 +228,6 @@ class GripCoupling {
     }
     return R;
   }
-  static Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R) noexcept {
-    const Eigen::Vector3d twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
-    const double sine = twice.norm() / 2;
-    if (!(sine > 0)) return Eigen::Vector3d::Zero();
-    return twice * (std::atan2(sine, (R.trace() - 1) / 2) / (2 * sine));
-  }
-
   CouplingFigures place_, turning_;
   double period_;
   Eigen::Vector3d gap_ = Eigen::Vector3d::Zero();   // g [m]

@@ -118,12 +118,8 @@ class EnergyMonitor {
       for (int k = 0; k < 3; ++k) sum += orientation(i, k) * last(j, k);
       return sum;
     };
-    const double trace = by(0, 0) + by(1, 1) + by(2, 2);
-    Eigen::Vector3d turned(by(2, 1) - by(1, 2), by(0, 2) - by(2, 0), by(1, 0) - by(0, 1));
-    const double sine = turned.norm() / 2;
-    const bool finite = std::isfinite(sine) && std::isfinite(trace);
-    if (orientation_ && finite && sine > 0) turned *= std::atan2(sine, (trace - 1) / 2) / (2 * sine);
-    else turned.setZero();
+    const bool finite = orientation.allFinite();
+    const Eigen::Vector3d turned = orientation_ && finite ? detail::rotation_vector(by) : zero();
     if (finite) orientation_ = orientation;
     const double way = least(turned.norm(), gimbal_step_);
     return held.dot(turned) - gimbal_damping_ * way * way / dt - gimbal_friction_ * way;

@@ -8,8 +8,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdio>
-#include <stdexcept>
 #include <type_traits>
 
 #include <hapbeam/force_model.hpp>
@@ -17,15 +15,6 @@
 #include <hapbeam/rom/trained/model_data.hpp>
 
 namespace hapbeam::detail {
-
-template <typename Scalar>
-constexpr const char* kind_of(const PodModelData<Scalar>&) noexcept {
-  return "pod";
-}
-template <typename Scalar>
-constexpr const char* kind_of(const GalerkinModelData<Scalar>&) noexcept {
-  return "galerkin";
-}
 
 template <typename Scalar>
 constexpr const char* scalar_name() noexcept {
@@ -134,10 +123,8 @@ template <class Model>
       const S d = size > 1 ? 1000 * part * data.beam.length : data.depth * part * size;
       const Response<S> response = model.press({s, d});
       if (is_answer(response.status) && std::isfinite(response.force) && is_finite(model.shape())) continue;
-      char text[120];
-      std::snprintf(text, sizeof text, "is no model: its press at s = %g m, d = %g m is %s", double(s),
-                    double(d), is_answer(response.status) ? "not finite" : name(response.status));
-      throw std::invalid_argument(text);
+      refuse("is no model: its press at s = %g m, d = %g m is %s", double(s), double(d),
+             is_answer(response.status) ? "not finite" : name(response.status));
     }
   model.reset();
 }

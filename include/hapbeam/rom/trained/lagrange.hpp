@@ -23,12 +23,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <stdexcept>
 #include <type_traits>
 
 #include <Eigen/Core>
+
+#include <hapbeam/check.hpp>
 
 namespace hapbeam {
 
@@ -55,32 +55,19 @@ struct EquispacedNodes {
 };
 
 namespace detail {
-[[noreturn, gnu::cold]] inline void reject_nodes(int size, int most) {
-  char text[80];
-  std::snprintf(text, sizeof text, "nodes = %d: must be 1 to %d", size, most);
-  throw std::invalid_argument(text);
-}
-[[noreturn, gnu::cold]] inline void reject_interval(double low, double high, const char* allowed) {
-  char text[120];
-  std::snprintf(text, sizeof text, "interval = %g to %g: must be %s", low, high, allowed);
-  throw std::invalid_argument(text);
-}
-}  // namespace detail
-
-namespace detail {
-template <class N, typename = void>
-struct IsNodes : std::false_type {};
 template <class N>
-struct IsNodes<N, std::void_t<decltype(N::node(0, 1)), decltype(N::weight(0, 1)), decltype(N::name())>>
-    : std::bool_constant<std::is_convertible_v<decltype(N::node(0, 1)), double> &&
-                         std::is_convertible_v<decltype(N::weight(0, 1)), double> &&
-                         std::is_convertible_v<decltype(N::name()), const char*>> {};
+auto as_nodes(N*) -> std::bool_constant<std::is_convertible_v<decltype(N::node(0, 1)), double> &&
+                                        std::is_convertible_v<decltype(N::weight(0, 1)), double> &&
+                                        std::is_convertible_v<decltype(N::name()), const char*>>;
+template <typename>
+std::false_type as_nodes(...);
+
 }  // namespace detail
 
 /// @tparam Nodes   ChebyshevNodes | EquispacedNodes | a class as above
 template <class Nodes = ChebyshevNodes, typename Scalar = double>
 class Lagrange {
-  static_assert(detail::IsNodes<Nodes>::value,
+  static_assert(decltype(detail::as_nodes<Nodes>(nullptr))::value,
                 "a Nodes policy needs static node(int k, int n) -> double, weight(int k, int n) -> double "
                 "and name()");
 
@@ -92,9 +79,9 @@ class Lagrange {
   /// @param size 1 to max_size   @param low, high  ends of the interval; equal only where size is 1
   /// @throws std::invalid_argument
   [[gnu::cold]] Lagrange(int size, Scalar low, Scalar high) : size_(size), low_(low), high_(high) {
-    if (size < 1 || size > max_size) detail::reject_nodes(size, max_size);
+    if (size < 1 || size > max_size) detail::refuse("nodes = %d: must be 1 to %d", size, max_size);
     if (!(std::isfinite(low) && std::isfinite(high) && (low < high || (low == high && size == 1))))
-      detail::reject_interval(double(low), double(high), "finite and ascending");
+      detail::refuse("interval = %g to %g: must be finite and ascending", double(low), double(high));
     std::fill_n(nodes_, max_size, std::numeric_limits<Scalar>::infinity());
     std::fill_n(weights_, max_size, Scalar(0));
     const double middle = (double(low) + double(high)) / 2, half = (double(high) - double(low)) / 2;
@@ -104,7 +91,7 @@ class Lagrange {
       // Differences of neighbours must have digits left.
       const Scalar least = 1000 * std::numeric_limits<Scalar>::epsilon() * std::abs(nodes_[k]);
       if (k > 0 && !(nodes_[k] - nodes_[k - 1] > least))
-        detail::reject_interval(double(low), double(high), "wider for so many nodes");
+        detail::refuse("interval = %g to %g: must be wider for so many nodes", double(low), double(high));
     }
   }
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -56,6 +55,7 @@ struct ErrorReport {
 /// Of a PodModel.  Grids run through the positions, and for each through the depths.
 template <typename Scalar>
 struct PodModelData {
+  static constexpr const char* kind = "pod";
   BeamData<Scalar> beam;
   Scalar s_min, s_max;            ///< [m] equal where one position was trained
   Scalar depth;                   ///< [m] largest |d| in range
@@ -66,11 +66,14 @@ struct PodModelData {
   std::vector<Scalar> rest;  ///< positions: w of the untouched beam [m], from which e = d - rest is measured
   ShapeData<Scalar> shape;
   ErrorReport errors;
+
+  int others() const noexcept { return depths; }  ///< size of the grid along its other axis
 };
 
 /// Of a GalerkinModel.  Grids run through the positions, and for each through the tensions.
 template <typename Scalar>
 struct GalerkinModelData {
+  static constexpr const char* kind = "galerkin";
   BeamData<Scalar> beam;
   Scalar s_min, s_max;                ///< [m]
   Scalar depth;                       ///< [m] largest |d| in range
@@ -79,19 +82,11 @@ struct GalerkinModelData {
   std::vector<Scalar> log_stiffness;  ///< positions × tensions: ln(scale(s) F/d) of the force in N/m
   ShapeData<Scalar> shape;
   ErrorReport errors;
+
+  int others() const noexcept { return tensions; }  ///< size of the grid along its other axis
 };
 
 namespace detail {
-
-/// Size of the grid along its other axis than that of the positions.
-template <typename Scalar>
-constexpr int second_axis(const PodModelData<Scalar>& data) noexcept {
-  return data.depths;
-}
-template <typename Scalar>
-constexpr int second_axis(const GalerkinModelData<Scalar>& data) noexcept {
-  return data.tensions;
-}
 
 [[gnu::cold]] [[noreturn]] inline void reject_data(const char* field, double value, const char* allowed) {
   reject(field, value, "", allowed);
@@ -100,17 +95,12 @@ constexpr int second_axis(const GalerkinModelData<Scalar>& data) noexcept {
 /// At most this many numbers in a table: 128 MB in double.
 inline constexpr std::size_t largest_table = std::size_t(1) << 24;
 
-[[noreturn, gnu::cold]] inline void reject_size(const char* field, std::size_t size, std::size_t wanted) {
-  char allowed[40];
-  std::snprintf(allowed, sizeof allowed, "%lu numbers", static_cast<unsigned long>(wanted));
-  reject_data(field, static_cast<double>(size), allowed);
-}
-
 /// @param low, high  that every entry must be above, and not above
 template <typename Scalar>
 [[gnu::cold]] void check_table(const char* field, const std::vector<Scalar>& values, std::size_t wanted,
                                Scalar low, Scalar high, const char* allowed) {
-  if (values.size() != wanted) reject_size(field, values.size(), wanted);
+  if (values.size() != wanted)
+    refuse("%s = %g: must be %g numbers", field, double(values.size()), double(wanted));
   for (const Scalar value : values)
     if (!(value > low && value <= high)) reject_data(field, static_cast<double>(value), allowed);
 }
@@ -127,11 +117,7 @@ template <typename Scalar>
 }
 
 [[gnu::cold]] inline std::size_t check_count(const char* field, int value, int low, int high) {
-  if (value < low || value > high) {
-    char allowed[40];
-    std::snprintf(allowed, sizeof allowed, "%d to %d", low, high);
-    reject_data(field, value, allowed);
-  }
+  if (value < low || value > high) refuse("%s = %g: must be %d to %d", field, double(value), low, high);
   return static_cast<std::size_t>(value);
 }
 

@@ -114,7 +114,7 @@ struct TrainedTable {
       for (int j = 0; j < others(); ++j) Shape::tabulate(data.shape, i * others() + j, nearby(row, j));
   }
 
-  int others() const noexcept { return second_axis(data); }
+  int others() const noexcept { return data.others(); }
   int row_size() const noexcept { return (first + Shape::near_size) * others(); }
   Scalar* nearby(Scalar* row, int j) const noexcept { return row + first * others() + Shape::near_size * j; }
 };

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <stdexcept>
 #include <type_traits>
 
 #include <hapbeam/fem/fem_model.hpp>
@@ -78,13 +76,12 @@ void check_same_beam(const Beam& beam, const Model& full, const TrainingPlan& pl
       off = (std::max)(off, std::abs(static_cast<double>(a.force) - static_cast<double>(b.force)));
       size = (std::max)(size, std::abs(static_cast<double>(b.force)));
     }
-    if (!(off > 1e-3 * size)) return;
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "full model: must be of the beam that is trained; pressed at s = %g m their forces are "
-                  "%.3g N apart of %.3g N",
-                  s, off, size);
-    throw std::invalid_argument(text);
+    if (off > 1e-3 * size)
+      refuse(
+          "full model: must be of the beam that is trained; pressed at s = %g m their forces are %.3g N "
+          "apart of "
+          "%.3g N",
+          s, off, size);
   }
 }
 

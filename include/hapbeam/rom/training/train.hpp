@@ -13,8 +13,6 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <hapbeam/rom/training/full_model.hpp>
@@ -85,8 +83,8 @@ namespace detail {
 template <class Nodes>
 void check_nodes(const Snapshots& snapshots) {
   if (snapshots.nodes != Nodes::name())
-    throw std::invalid_argument("nodes = " + snapshots.nodes + ": must be " + Nodes::name() +
-                                ", as the model is to have them; take_snapshots<Nodes>() says which");
+    refuse("nodes = %s: must be %s, as the model is to have them; take_snapshots<Nodes>() says which",
+           snapshots.nodes.c_str(), Nodes::name());
 }
 
 /// Between its nodes the interpolant must push back, and harder the deeper: with too few depths it does not.
@@ -107,10 +105,10 @@ void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coord
     }
     const double stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
     if (!(value > 0 && stiffness > 0 && force > before))
-      reject(
-          "depths", n, "",
-          ("more, or the plan less deep: at s = " + number(s) + " m the force between them is not a beam's")
-              .c_str());
+      refuse(
+          "depths = %d: must be more, or the plan less deep: at s = %g m the force between them is not a "
+          "beam's",
+          n, s);
     before = force;
   }
 }

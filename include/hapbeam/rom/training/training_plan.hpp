@@ -57,7 +57,7 @@ struct TrainingPlan {
     detail::check_count("segments", segments, 2, 1 << 14);
     if (positions > 1 && segments % 2 != 0) detail::reject_data("segments", segments, "even");
     if (!beam.straight())
-      throw std::invalid_argument(
+      detail::refuse(
           "beam: must be straight, with its ends where they are in the straight beam, to train a model of "
           "it");
     detail::check_range(BeamData<double>::of(beam), s_min, s_max, depth, positions);
