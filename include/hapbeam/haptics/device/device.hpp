@@ -264,4 +264,16 @@ constexpr void require_device() noexcept {
                 "counts() const noexcept -> DeviceCounts");
 }
 
+namespace detail {
+
+/// The servo's answer, with a torque where it takes the orientation.   @param oriented  the device reads one
+template <typename Servo>
+Wrench ask(Servo& servo, const OrientedState& state, [[maybe_unused]] bool oriented) noexcept {
+  if constexpr (takes_orientation<Servo>)
+    if (oriented) return servo(state);
+  return {servo(static_cast<const DeviceState&>(state)), Eigen::Vector3d::Zero()};
+}
+
+}  // namespace detail
+
 }  // namespace hapbeam

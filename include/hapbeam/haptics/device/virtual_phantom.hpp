@@ -138,34 +138,15 @@ class VirtualPhantom {
 
   template <typename Servo>
   void tick(Servo& servo) noexcept {
-    const DeviceState state{encoders_.position(),
-                            encoders_.velocity(),
-                            time_,
-                            cut_,
-                            force_,
-                            DeviceStatus::running,
-                            ticks_.load(std::memory_order_relaxed) == 0};
-    if constexpr (takes_orientation<Servo>) {
-      if (options_.gimbal.present) ask_oriented(servo, state);
-      else ask(servo, state);
-    } else {
-      ask(servo, state);
-    }
+    OrientedState state;
+    state.position = encoders_.position(), state.velocity = encoders_.velocity();
+    state.time = time_, state.cut = cut_, state.sent = sent_.force, state.sent_torque = sent_.torque;
+    state.reset = ticks_.load(std::memory_order_relaxed) == 0;
+    if (options_.gimbal.present) state.orientation = gimbal_.orientation();
+    sent_ = detail::ask(servo, state, options_.gimbal.present);
+    cut_ = limit_wrench(sent_, options_.arm.peak_force, info_.gimbal.peak_torque);
     ticks_.fetch_add(1, std::memory_order_relaxed);
     if (cut_ != ForceCut::none) force_cut_ticks_.fetch_add(1, std::memory_order_relaxed);
-  }
-
-  template <typename Servo>
-  void ask(Servo& servo, const DeviceState& state) noexcept {
-    Eigen::Vector3d force = servo(state);
-    cut_ = limit_force(force, options_.arm.peak_force);
-    force_ = force;
-  }
-  template <typename Servo>
-  void ask_oriented(Servo& servo, const DeviceState& state) noexcept {
-    Wrench wrench = servo(OrientedState{state, gimbal_.orientation(), torque_});
-    cut_ = limit_wrench(wrench, options_.arm.peak_force, info_.gimbal.peak_torque);
-    force_ = wrench.force, torque_ = wrench.torque;
   }
 
   /// One period under the last force.
@@ -213,8 +194,7 @@ class VirtualPhantom {
   Encoders encoders_{options_.arm.resolution, options_.arm.velocity_cutoff};
   Gimbal gimbal_{options_.gimbal, options_.arm.velocity_cutoff};
   HandTarget target_{};
-  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d torque_ = Eigen::Vector3d::Zero();
+  Wrench sent_;
   detail::DelayLine late_, late_motors_;  // the last: of the gimbal
   ForceCut cut_ = ForceCut::none;
   std::uint64_t periods_ = 0;
@@ -231,7 +211,7 @@ void VirtualPhantom<Path>::reset() noexcept {
   periods_ = 0;
   time_ = 0;
   ticks_ = missed_ticks_ = force_cut_ticks_ = 0;
-  force_.setZero(), torque_.setZero();
+  sent_ = {};
   late_.clear(), late_motors_.clear();
   cut_ = ForceCut::none;
   target_ = path_(0);
@@ -246,14 +226,14 @@ void VirtualPhantom<Path>::advance() noexcept {
   const HandTarget from = target_;
   target_ = path_(time_);
   const int delay = options_.arm.delay_ticks;
-  const Eigen::Vector3d force = late_.pass(force_, delay) + from.push;
+  const Eigen::Vector3d force = late_.pass(sent_.force, delay) + from.push;
   for (int i = 0; i < 3; ++i)
     axes_[i].advance(axes_[i].drive(force[i], from.position[i], from.velocity[i], target_.position[i],
                                     target_.velocity[i], options_.hand.damping, period),
                      period);
   encoders_.read(tip().position, period);
   if (!options_.gimbal.present) return;
-  gimbal_.advance(late_motors_.pass(gimbal_.by_axes(torque_), delay), from, target_, period);
+  gimbal_.advance(late_motors_.pass(gimbal_.by_axes(sent_.torque), delay), from, target_, period);
 }
 
 template <typename Path>

@@ -128,8 +128,8 @@ class GripCoupling {
   /// @param place  K [N/m] and B [N·s/m]   @param turning  K_r [N·m/rad] and B_r [N·m·s/rad]   @param period T [s]
   /// @throws std::invalid_argument unless stiffnesses are positive, dampings not negative and all finite
   GripCoupling(const CouplingFigures& place, const CouplingFigures& turning, double period)
-      : place_(checked(place, "grip stiffness", "N/m", "grip damping", "N·s/m")),
-        turning_(checked(turning, "grip turning stiffness", "N·m/rad", "grip turning damping", "N·m·s/rad")),
+      : place_(detail::checked(place, "grip", "N/m", "N·s/m")),
+        turning_(detail::checked(turning, "grip turning", "N·m/rad", "N·m·s/rad")),
         period_(detail::loop_period("grip period", period)) {}
   /// What the device can render.   @throws as safe_coupling()
   static GripCoupling for_device(const DeviceInfo& device, int delay_ticks = 0) {
@@ -142,7 +142,7 @@ class GripCoupling {
   GripCoupling in_scene(double scale) const noexcept {
     GripCoupling scaled = *this;
     scaled.place_ = {place_.stiffness / scale, place_.damping / scale};
-    scaled.turning_ = {turning_.stiffness * scale, turning_.damping * scale};
+    scaled.turning_ = turning_ * scale;
     return scaled;
   }
   /// How the held end of the rod is supported: K' and K_r'.   @throws std::invalid_argument where the scene's scale overflows them
@@ -201,12 +201,6 @@ class GripCoupling {
   }
 
  private:
-  static CouplingFigures checked(const CouplingFigures& figures, const char* stiffness, const char* k,
-                                 const char* damping, const char* b) {
-    detail::positive(stiffness, figures.stiffness, k);
-    detail::not_negative(damping, figures.damping, b);
-    return figures;
-  }
   double stiff(const CouplingFigures& figures) const noexcept {
     return figures.stiffness + figures.damping / period_;
   }

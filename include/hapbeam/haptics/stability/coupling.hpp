@@ -170,15 +170,12 @@ class VirtualCoupling {
   /// @param figures  K [N/m] and B [N·s/m]
   /// @throws std::invalid_argument unless K is positive, B not negative and both finite
   explicit VirtualCoupling(const CouplingFigures& figures)
-      : straight_(figures), stiffness_(figures.stiffness), damping_(figures.damping) {
-    detail::positive("coupling stiffness", figures.stiffness, "N/m");
-    detail::not_negative("coupling damping", figures.damping, "N·s/m");
-  }
+      : straight_(detail::checked(figures, "coupling", "N/m", "N·s/m")),
+        stiffness_(figures.stiffness),
+        damping_(figures.damping) {}
   /// @param turning  K_r [N·m/rad] and B_r [N·m·s/rad] about the hand   @throws as above
   VirtualCoupling(const CouplingFigures& figures, const CouplingFigures& turning) : VirtualCoupling(figures) {
-    detail::positive("turning coupling stiffness", turning.stiffness, "N·m/rad");
-    detail::not_negative("turning coupling damping", turning.damping, "N·m·s/rad");
-    turning_ = turning;
+    turning_ = detail::checked(turning, "turning coupling", "N·m/rad", "N·m·s/rad");
   }
   /// The largest figures that the device can render, with the margin of safe_coupling().   @throws as that
   static VirtualCoupling for_device(const DeviceInfo& device, int delay_ticks = 0) {
@@ -196,7 +193,7 @@ class VirtualCoupling {
   VirtualCoupling in_scene(double scale) const noexcept {
     VirtualCoupling scaled = *this;
     scaled.straight_ = {straight_.stiffness / scale, straight_.damping / scale};
-    scaled.turning_ = {turning_.stiffness * scale, turning_.damping * scale};
+    scaled.turning_ = turning_ * scale;
     scaled.reset();
     return scaled;
   }

@@ -136,8 +136,9 @@ PodModelData<double> train_pod(const Snapshots& snapshots,
                             snapshots.y_high,
                             {},
                             snapshots.rest,
-                            detail::reduce_shapes<Reducer>(snapshots, truncation),
+                            {},
                             {}};
+  data.shape = detail::reduce_shapes<Reducer>(snapshots, truncation);
   std::vector<double> K(static_cast<std::size_t>(plan.depths));
   for (auto snapshot = snapshots.grid.begin(); snapshot != snapshots.grid.end();) {
     const double s = snapshot->s;
@@ -156,16 +157,9 @@ GalerkinModelData<double> train_galerkin(const Snapshots& snapshots,
   detail::check_nodes<Nodes>(snapshots);
   const TrainingPlan& plan = snapshots.plan;
   const PositionCoordinate<double> position(snapshots.beam);
-  GalerkinModelData<double> data{snapshots.beam,
-                                 plan.s_min,
-                                 plan.s_max,
-                                 plan.depth,
-                                 plan.positions,
-                                 snapshots.columns,
-                                 snapshots.tension,
-                                 {},
-                                 detail::reduce_shapes<Reducer>(snapshots, truncation),
-                                 {}};
+  GalerkinModelData<double> data{snapshots.beam,    plan.s_min,        plan.s_max, plan.depth, plan.positions,
+                                 snapshots.columns, snapshots.tension, {},         {},         {}};
+  data.shape = detail::reduce_shapes<Reducer>(snapshots, truncation);
   for (const Snapshot& snapshot : snapshots.grid)
     data.log_stiffness.push_back(std::log(position.scale(snapshot.s) * snapshot.stiffness));
   return data;
