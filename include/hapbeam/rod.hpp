@@ -18,8 +18,8 @@
 #include <vector>
 
 #include <hapbeam/check.hpp>
-#include <hapbeam/rod_support.hpp>
 #include <hapbeam/section.hpp>
+#include <hapbeam/support.hpp>
 
 namespace hapbeam {
 

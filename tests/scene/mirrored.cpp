@@ -5,7 +5,7 @@
 #include "support/thesis_beam.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/scene/scene_model.hpp>
+#include <hapbeam/scene/build.hpp>
 #include <hapbeam/shapes.hpp>
 
 using namespace hapbeam;

@@ -22,8 +22,8 @@
 #include <string>
 
 #include <hapbeam/scene/build.hpp>
-#include <hapbeam/scene/choice.hpp>
 #include <hapbeam/scene/pilot.hpp>
+#include <hapbeam/scene/scene.hpp>
 
 namespace hapbeam {
 

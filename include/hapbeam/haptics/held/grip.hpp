@@ -26,7 +26,7 @@
 
 #include <hapbeam/haptics/servo/servo.hpp>
 #include <hapbeam/haptics/stability/coupling_limits.hpp>
-#include <hapbeam/rod_support.hpp>
+#include <hapbeam/support.hpp>
 
 namespace hapbeam {
 

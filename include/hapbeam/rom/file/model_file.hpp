@@ -24,8 +24,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <hapbeam/rom/file/json.hpp>
 #include <hapbeam/rom/file/json_reader.hpp>
-#include <hapbeam/rom/file/json_writer.hpp>
 #include <hapbeam/rom/file/model_fields.hpp>
 #include <hapbeam/rom/file/replaced_file.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>

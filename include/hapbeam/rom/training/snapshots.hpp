@@ -37,12 +37,12 @@ struct Snapshots {
   TrainingPlan plan;
   std::string nodes;  ///< name() of the policy that placed them
   int contact_node;
-  double y_low = 0, y_high = 0;    ///< of DepthCoordinate; 0 where tensions were trained
-  double tension = 0;              ///< [N] largest trained; 0 where depths were, or none arises
-  int columns = 0;                 ///< depths or tensions at each position
-  std::vector<Snapshot> grid;      ///< position by position
-  std::vector<double> rest;        ///< w of the untouched beam by position [m]
-  std::vector<double> rest_shape;  ///< (u, w, θ) of the untouched beam at even nodes
+  double y_low = 0, y_high = 0;         ///< of DepthCoordinate; 0 where tensions were trained
+  double tension = 0;                   ///< [N] largest trained; 0 where depths were, or none arises
+  int columns = 0;                      ///< depths or tensions at each position
+  std::vector<Snapshot> grid = {};      ///< position by position
+  std::vector<double> rest = {};        ///< w of the untouched beam by position [m]
+  std::vector<double> rest_shape = {};  ///< (u, w, θ) of the untouched beam at even nodes
 };
 
 namespace detail {
