@@ -62,7 +62,7 @@ Touch<Model> make_touch(Model& model, Scalar radius, const Friction& friction) {
 /// What is drawn of a model: its shape.  Arrays have another (servo_many.hpp).
 template <typename Model>
 struct Drawn {
-  using Picture = ServoPicture<typename Model::Scalar, detail::dimension_of_touch<Touch<Model>>>;
+  using Picture = ServoPicture<typename Model::Scalar, dimension_of<Touch<Model>>>;
   static constexpr bool for_who_looks = detail::OffersPart<Model>::value;  ///< it costs more than the force
   static auto of(const Model& model, const Touch<Model>&) noexcept { return model.shape(); }
 };
@@ -83,7 +83,7 @@ class Servo {
  public:
   using Scalar = typename Model::Scalar;
   using Picture = typename Drawn<Model>::Picture;
-  static constexpr int dimension = detail::dimension_of_touch<Touch<Model>>;
+  static constexpr int dimension = dimension_of<Touch<Model>>;
 
   /// @param model   kept by reference, and pressed by this object alone
   /// @param device  what the loop's device can do; its limits are the guard's
@@ -149,7 +149,7 @@ class Servo {
  private:
   using Coupled = CoupledForce<Scalar, dimension>;
   static constexpr bool couples_pose = detail::couples_pose<Coupling, Touch<Model>>;
-  using Stylus = detail::StylusOf<Scalar, dimension>;
+  using Stylus = detail::Stylus<Scalar, dimension>;
 
   template <typename State>
   [[nodiscard]] auto run(const State& state) noexcept;

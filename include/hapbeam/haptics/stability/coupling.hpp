@@ -65,12 +65,6 @@ struct CoupledForce {
 
 namespace detail {
 
-/// Dimension of the space in which the beam of a touch bends: 2 unless stated.
-template <typename Touch, typename = void>
-inline constexpr int dimension_of_touch = 2;
-template <typename Touch>
-inline constexpr int dimension_of_touch<Touch, std::void_t<decltype(Touch::dimension)>> = Touch::dimension;
-
 /// Whether a touch may have friction.
 template <typename Touch, typename = void>
 inline constexpr bool may_be_rough = false;
@@ -79,9 +73,9 @@ inline constexpr bool may_be_rough<Touch, std::void_t<decltype(std::declval<Touc
 
 /// Where the hand of a touch is [m].
 template <typename Touch>
-using HandOf = VectorOf<double, dimension_of_touch<Touch>>;
+using HandOf = VectorOf<double, dimension_of<Touch>>;
 template <typename Touch>
-using CoupledForceOf = CoupledForce<typename Touch::Scalar, dimension_of_touch<Touch>>;
+using CoupledForceOf = CoupledForce<typename Touch::Scalar, dimension_of<Touch>>;
 
 /// Whether a touch turns the hand, by a lever ρ [m].
 template <typename Touch, typename = void>
@@ -142,7 +136,7 @@ class Direct {
   /// @param touch  of the same beam each tick   @param hand [m]
   template <typename Touch>
   [[nodiscard]] auto tick(Touch& touch, const detail::HandOf<Touch>& hand, double) noexcept {
-    constexpr int D = detail::dimension_of_touch<Touch>;
+    constexpr int D = dimension_of<Touch>;
     detail::CoupledForceOf<Touch> result;
     detail::look_at_others(touch, last_);
     result.avatar = hand;
@@ -207,7 +201,7 @@ class VirtualCoupling {
   template <typename Touch>
   [[nodiscard]] auto tick(Touch& touch, const detail::HandOf<Touch>& hand, double dt) noexcept {
     using Scalar = typename Touch::Scalar;
-    constexpr int D = detail::dimension_of_touch<Touch>;
+    constexpr int D = dimension_of<Touch>;
     const Eigen::Vector3d from = detail::in_scene(hand);
     const auto normal = [&] { return detail::of_beam<double, D>(last_.tangent().normal()); };
     detail::CoupledForceOf<Touch> result;

@@ -87,7 +87,7 @@ class TrainedModel {
     combine(by_other, Shape::near_size, Shape::near_size, lo, m, nearby);
     const Scalar theta = rotation(nearby[Shape::own]);
     if (positions > 1 && !std::isfinite(theta)) return false;
-    shape_.press(press.s, press.d, unit, positions > 1 ? &theta : nullptr, lx, lo, nearby);
+    shape_.press(press.s, press.d, unit, positions > 1 ? std::optional(theta) : std::nullopt, lx, lo, nearby);
     return true;
   }
 
