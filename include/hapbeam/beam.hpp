@@ -111,8 +111,9 @@ class Beam : public detail::Slender<Beam, Section, Arc> {
   /// [kg/m], 0: it has no mass
   double mass_per_length(double s) const { return density_ > 0 ? density_ * area_(s) : 0; }
 
-  /// Elements of Tapered<Local> take sections of their own; a FemModel of other elements rejects the beam.
-  /// @throws std::invalid_argument as for a rod
+  /// Gives parts of the beam sections of their own: a taper or steps.  Elements of Tapered<Local> take them; a FemModel of other
+  /// elements rejects the beam.
+  /// @throws std::invalid_argument unless the ends increase, up to the length, and the beam was built of a material
   Beam& sections(std::vector<BeamPart> parts) { return Slender::sections(std::move(parts)), weigh(), *this; }
   /// Places the ends: an end shortening or a stretch, an arch or an inclined beam.
   Beam& place(const EndPlace& left, const EndPlace& right) {

@@ -37,6 +37,7 @@
 
 namespace hapbeam {
 
+/// The requirements of a scene in space: a rod, where and how deep it is pushed, and the tolerated error and time.
 struct RodScene {
   Rod rod;
   double s_min, s_max;  ///< [m] where it is pushed; equal: at one place

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A simulated Phantom Premium 1.5/6DOF High Force and the hand that holds it.
 //
-// The arm is a mass with viscous damping and Coulomb friction on each axis (arm_axis.hpp). Encoders read it
-// (arm_axis.hpp). Its force is held over the period and limited to the peak. A hand of mass, spring and damper pulls
+// The arm is a mass with viscous damping and Coulomb friction on each axis, which encoders read (arm_axis.hpp). Its force is held over the period and limited to the peak. A hand of mass, spring and damper pulls
 // the arm along a path (hand_path.hpp). Figures: thesis Table 2.1. There are three translations and, optionally, a
 // gimbal (gimbal.hpp), which the torque turns. There are no end stops.
 //
@@ -12,11 +11,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 #include <thread>
