@@ -12,6 +12,7 @@
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/rod.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam {
 
