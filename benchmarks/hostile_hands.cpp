@@ -16,10 +16,10 @@
 #include "rod/rods.hpp"
 #include "support/random.hpp"
 #include "support/ruler.hpp"
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/element/corotational.hpp>
+#include <hapbeam/shapes.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -16,7 +16,7 @@
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/scene/build.hpp>
-#include <hapbeam/scene/tick_costs.hpp>
+#include <hapbeam/scene/scene.hpp>
 
 namespace hapbeam::benchmarks {
 

@@ -5,9 +5,9 @@
 #include "closed_form.hpp"
 #include "random_stops.hpp"
 #include "thesis_beam.hpp"
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/shapes.hpp>
 
 namespace hapbeam::benchmarks {
 

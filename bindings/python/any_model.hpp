@@ -19,8 +19,8 @@
 #include <hapbeam/haptics/servo/servo.hpp>
 #include <hapbeam/internal_forces.hpp>
 #include <hapbeam/many/beam_array.hpp>
-#include <hapbeam/rod_support.hpp>
-#include <hapbeam/rom/trained/error_report.hpp>
+#include <hapbeam/rom/trained/model_data.hpp>
+#include <hapbeam/support.hpp>
 
 namespace hapbeam::python {
 

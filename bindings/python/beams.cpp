@@ -9,7 +9,7 @@
 #include "arrays.hpp"
 #include "enums.hpp"
 #include "module.hpp"
-#include <hapbeam/beam_shapes.hpp>
+#include <hapbeam/shapes.hpp>
 
 namespace hapbeam::python {
 namespace {

@@ -10,7 +10,6 @@
 
 #include "factories.hpp"
 #include <hapbeam/haptics/servo/servo_record.hpp>
-#include <hapbeam/rod_support.hpp>
 #include <hapbeam/support.hpp>
 
 namespace hapbeam::python {

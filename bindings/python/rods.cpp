@@ -10,7 +10,7 @@
 #include "arrays.hpp"
 #include "enums.hpp"
 #include "module.hpp"
-#include <hapbeam/rod_shapes.hpp>
+#include <hapbeam/shapes.hpp>
 
 namespace hapbeam::python {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/haptics/device/hand_path.hpp>
+#include <hapbeam/shapes.hpp>
 
 namespace page {
 

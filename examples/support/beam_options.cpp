@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include <hapbeam/beam_shapes.hpp>
+#include <hapbeam/shapes.hpp>
 
 namespace cli {
 

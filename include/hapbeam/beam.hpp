@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is modelled: a slender beam, its section and material, its two ends and its dead loads, which keep their direction.
+// What is modelled: a slender beam, its two ends and its dead loads, which keep their direction.
 //
 // Plain values in SI, checked where they enter: every function here throws std::invalid_argument naming field,
 // value, unit and the permitted range.  Offline only: nothing here is called in a servo tick.
@@ -11,47 +11,10 @@
 #include <vector>
 
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/section.hpp>
 #include <hapbeam/support.hpp>
 
 namespace hapbeam {
-
-/// Cross-section: area, second moment about the bending axis, and extent in the bending direction.
-struct Section {
-  double area;     ///< A [m²]
-  double inertia;  ///< I [m⁴]
-  double
-      thickness;  ///< [m] across the beam, in the plane of bending; what the avatar, the round tool, touches
-
-  /// @param width [m] out of the plane of bending   @param height [m] in it
-  static Section rectangle(double width, double height) {
-    detail::positive("section width", width, "m");
-    detail::positive("section height", height, "m");
-    return {width * height, width * height * height * height / 12, height};
-  }
-  /// @param diameter [m]
-  static Section circle(double diameter) {
-    const double r = detail::positive("section diameter", diameter, "m") / 2;
-    return {pi * r * r, pi * r * r * r * r / 4, diameter};
-  }
-  /// @param outer_diameter [m]   @param inner_diameter [m] of the hole, not the thickness of the wall
-  static Section tube(double outer_diameter, double inner_diameter) {
-    const Section full = circle(detail::positive("section outer_diameter", outer_diameter, "m"));
-    detail::positive("section inner_diameter", inner_diameter, "m");
-    if (!(inner_diameter < outer_diameter))
-      detail::reject("section inner_diameter", inner_diameter, "m", "less than outer_diameter");
-    const Section hole = circle(inner_diameter);
-    return {full.area - hole.area, full.inertia - hole.inertia, outer_diameter};
-  }
-
- private:
-  static constexpr double pi = 3.141592653589793238462643;
-};
-
-/// Linear elastic material.
-struct Material {
-  double young;        ///< Young's modulus E [Pa]
-  double density = 0;  ///< [kg/m³]; 0: not known, and the beam has no mass
-};
 
 /// A force and a moment at one point of the beam.  They keep their direction as the beam turns (dead, non-follower loads).
 struct PointLoad {
@@ -77,21 +40,18 @@ struct Arc {
   double curvature;  ///< dθ/ds [1/m] without load: positive where the beam bulges up
 
   bool bends_as(const Arc& other) const noexcept { return curvature == other.curvature; }
+  void check() const { detail::finite("arc curvature", curvature, "1/m"); }
 };
 
 /// A part of the beam with a section of its own, which may change along it.
-struct BeamPart {
-  double end;                              ///< [m] arc position at which it ends
-  std::function<Section(double)> section;  ///< by arc position s [m]; smooth within the part
-
-  BeamPart(double part_end, std::function<Section(double)> by_s) : end(part_end), section(std::move(by_s)) {}
-  BeamPart(double part_end, const Section& same) : end(part_end), section([same](double) { return same; }) {}
-};
+using BeamPart = detail::PartOf<Section>;
 
 /// A beam, its ends and its loads. It is prismatic unless sections() says otherwise. It is straight unless naturally() gives it a curvature. Its ends are those
 /// of the straight beam unless place() moves them. Immutable but for what is added to it.
-class Beam {
+class Beam : public detail::Slender<Beam, Section, Arc> {
  public:
+  static constexpr const char* word = "beam";
+
   /// @param length [m], positive
   [[gnu::cold]] Beam(double length, const Section& section, const Material& material, Support left,
                      Support right)
@@ -99,19 +59,17 @@ class Beam {
              detail::positive("young", material.young, "Pa") * detail::positive("area", section.area, "m²"),
              material.young * detail::positive("inertia", section.inertia, "m⁴"), section.thickness, left,
              right) {
-    young_ = material.young;
+    build_of(material.young, section.area);
     density_ = detail::not_negative("density", material.density, "kg/m³");
-    area_ = [area = section.area](double) { return area; };
   }
 
   /// For a section known by its stiffness.
   /// @param length [m]   @param axial_stiffness EA [N]   @param bending_stiffness EI [N·m²]   @param thickness [m]
   [[gnu::cold]] Beam(double length, double axial_stiffness, double bending_stiffness, double thickness,
                      Support left, Support right)
-      : length_(detail::positive("length", length, "m")),
+      : Slender(length, thickness),
         axial_stiffness_(detail::positive("axial_stiffness", axial_stiffness, "N")),
         bending_stiffness_(detail::positive("bending_stiffness", bending_stiffness, "N·m²")),
-        thickness_(detail::positive("thickness", thickness, "m")),
         left_(left),
         right_(right) {
     detail::check_supports(left, right);
@@ -153,45 +111,10 @@ class Beam {
   /// [kg/m], 0: it has no mass
   double mass_per_length(double s) const { return density_ > 0 ? density_ * area_(s) : 0; }
 
-  /// Gives the beam a natural shape of arcs, from the left end on; straight where they end.
-  /// @throws std::invalid_argument unless the ends increase, within the length
-  Beam& naturally(std::vector<Arc> arcs) {
-    double from = 0;
-    for (const Arc& arc : arcs) {
-      if (!(arc.end > from && arc.end <= length_ * (1 + 1e-12)))
-        detail::reject("arc end", arc.end, "m", "beyond the arc before it and on the beam");
-      detail::finite("arc curvature", arc.curvature, "1/m");
-      from = arc.end;
-    }
-    return arcs_ = std::move(arcs), *this;
-  }
-  /// Gives parts of the beam sections of their own, from the left end on: a taper or steps. Elements of Tapered<Local> take them;
-  /// a FemModel of other elements rejects the beam. The avatar touches a surface of the thickness that the beam was built
-  /// with, and the strain there is that of this thickness.
+  /// Gives parts of the beam sections of their own: a taper or steps.  Elements of Tapered<Local> take them; a FemModel of other
+  /// elements rejects the beam.
   /// @throws std::invalid_argument unless the ends increase, up to the length, and the beam was built of a material
-  Beam& sections(std::vector<BeamPart> parts) {
-    if (!(young_ > 0))
-      detail::reject("young", young_, "Pa", "known for sections: build the beam of a section and a material");
-    double from = 0;
-    for (const BeamPart& part : parts) {
-      if (!(part.end > from && part.end <= length_ * (1 + 1e-12)))
-        detail::reject("part end", part.end, "m", "beyond the part before it and on the beam");
-      from = part.end;
-    }
-    if (!(from >= length_ * (1 - 1e-12)))
-      detail::reject("part end", from, "m", "the beam's length for the last part");
-    parts_ = std::move(parts);
-    area_ = [parts = parts_](double s) {
-      std::size_t k = 0;
-      while (k + 1 < parts.size() && parts[k].end <= s) ++k;
-      return parts[k].section(s).area;
-    };
-    return weigh(), *this;
-  }
-  /// The same with one section that changes along all of the beam.
-  Beam& section(std::function<Section(double)> by_s) {
-    return sections({BeamPart(length_, std::move(by_s))});
-  }
+  Beam& sections(std::vector<BeamPart> parts) { return Slender::sections(std::move(parts)), weigh(), *this; }
   /// Places the ends: an end shortening or a stretch, an arch or an inclined beam.
   Beam& place(const EndPlace& left, const EndPlace& right) {
     for (const EndPlace* end : {&left, &right}) {
@@ -202,19 +125,15 @@ class Beam {
     return left_place_ = left, right_place_ = right, *this;
   }
 
-  double length() const noexcept { return length_; }  ///< L [m]
   /// Of the section that the beam was built with.
   double axial_stiffness() const noexcept { return axial_stiffness_; }      ///< EA [N]
   double bending_stiffness() const noexcept { return bending_stiffness_; }  ///< EI [N·m²]
   double young() const noexcept { return young_; }  ///< E [Pa]; 0 where only the stiffness is known
-  const std::vector<BeamPart>& parts() const noexcept { return parts_; }  ///< empty where prismatic
-  double thickness() const noexcept { return thickness_; }                ///< [m]
   Support left() const noexcept { return left_; }
   Support right() const noexcept { return right_; }
   const std::vector<PointLoad>& point_loads() const noexcept { return point_loads_; }
   const DistributedLoad& transverse() const noexcept { return transverse_; }  ///< empty where there is none
   const DistributedLoad& axial() const noexcept { return axial_; }            ///< empty where there is none
-  const std::vector<Arc>& arcs() const noexcept { return arcs_; }  ///< empty where naturally straight
   const EndPlace& left_place() const noexcept { return left_place_; }
   const EndPlace& right_place() const noexcept { return right_place_; }
   /// Whether it lies on the x axis, at full length, where nothing loads it.
@@ -233,14 +152,11 @@ class Beam {
     if (specific_weight_.y() != 0) transverse_ = load(specific_weight_.y());
   }
 
-  double length_, axial_stiffness_, bending_stiffness_, thickness_, young_ = 0, density_ = 0;
+  double axial_stiffness_, bending_stiffness_, density_ = 0;
   Support left_, right_;
   std::vector<PointLoad> point_loads_;
-  std::function<double(double)> area_;  // empty where only the stiffness is known
   DistributedLoad transverse_, axial_;
   Vector2<double> specific_weight_{0, 0};  // [N/m³] along x and w
-  std::vector<Arc> arcs_;
-  std::vector<BeamPart> parts_;
   EndPlace left_place_, right_place_;
 };
 

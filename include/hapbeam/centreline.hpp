@@ -44,23 +44,41 @@ struct Dimension : std::integral_constant<int, 2> {};
 template <class M>
 struct Dimension<M, std::void_t<decltype(M::dimension)>> : std::integral_constant<int, M::dimension> {};
 
-/// Index of the piece between nodes that holds arc position s; the first or last one where s lies off.
-template <class Node, typename Scalar>
-int piece_at(const Node* nodes, int pieces, Scalar s) noexcept {
-  int low = 0, high = pieces - 1;
-  while (low < high) {
-    const int middle = (low + high + 1) / 2;
-    if (nodes[middle].s <= s) low = middle;
-    else high = middle - 1;
-  }
-  return low;
-}
+/// Nodes in a row, of a centreline in the plane or in space.
+template <class NodeType, typename Scalar>
+class NodeView {
+ public:
+  using Node = NodeType;
 
-template <class Line, typename Scalar>
-int node_near(const Line& line, Scalar s) noexcept {
-  const int i = line.segment_at(s);
-  return 2 * s > line[i].s + line[i + 1].s ? i + 1 : i;
-}
+  NodeView(const Node* nodes, int size) noexcept : nodes_(nodes), size_(size) {}
+
+  int size() const noexcept { return size_; }
+  int segments() const noexcept { return size_ - 1; }
+  const Node& operator[](int i) const noexcept { return nodes_[i]; }
+  const Node* begin() const noexcept { return nodes_; }
+  const Node* end() const noexcept { return nodes_ + size_; }
+  Scalar length() const noexcept { return nodes_[size_ - 1].s; }
+
+  /// Index of the piece that holds arc position s; the first or last one where s lies off the beam.
+  int segment_at(Scalar s) const noexcept {
+    int low = 0, high = segments() - 1;
+    while (low < high) {
+      const int middle = (low + high + 1) / 2;
+      if (nodes_[middle].s <= s) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+  /// Index of the node that is nearest to arc position s.
+  int node_near(Scalar s) const noexcept {
+    const int i = segment_at(s);
+    return 2 * s > nodes_[i].s + nodes_[i + 1].s ? i + 1 : i;
+  }
+
+ protected:
+  const Node* nodes_;
+  int size_;
+};
 
 }  // namespace detail
 
@@ -88,21 +106,18 @@ struct Displacement {
 
 /// @tparam D  2 | 3, which rod_centreline.hpp has
 template <typename Scalar, int D = 2>
-class Centreline {
+class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
   static_assert(D == 2, "#include <hapbeam/rod_centreline.hpp> for centrelines in space");
+  using Base = detail::NodeView<CentrelineNode<Scalar>, Scalar>;
+  using Base::nodes_;
 
  public:
-  using Node = CentrelineNode<Scalar>;
+  using Base::segment_at, Base::segments;
+  using typename Base::Node;
 
   Centreline(const Node* nodes, int size, bool any_rotation = false) noexcept
-      : nodes_(nodes), size_(size), any_rotation_(any_rotation) {}
+      : Base(nodes, size), any_rotation_(any_rotation) {}
 
-  int size() const noexcept { return size_; }
-  int segments() const noexcept { return size_ - 1; }
-  const Node& operator[](int i) const noexcept { return nodes_[i]; }
-  const Node* begin() const noexcept { return nodes_; }
-  const Node* end() const noexcept { return nodes_ + size_; }
-  Scalar length() const noexcept { return nodes_[size_ - 1].s; }
   /// Which cubic joins the nodes, above.
   bool any_rotation() const noexcept { return any_rotation_; }
 
@@ -183,12 +198,6 @@ class Centreline {
     return sum / sides;
   }
 
-  /// Index of the piece that holds arc position s; the first or last one where s lies off the beam.
-  int segment_at(Scalar s) const noexcept { return detail::piece_at(nodes_, segments(), s); }
-
-  /// Index of the node that is nearest to arc position s.
-  int node_near(Scalar s) const noexcept { return detail::node_near(*this, s); }
-
   /// Where the point at arc position s is [m], as in a centreline in space.
   Vector2<Scalar> position(Scalar s) const noexcept {
     const Displacement<Scalar> moved = at(s);
@@ -264,8 +273,6 @@ class Centreline {
     return {a.u + (way.x() - (s - a.s)), a.w + way.y(), a.theta - turned};
   }
 
-  const Node* nodes_;
-  int size_;
   bool any_rotation_;
 };
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdarg>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -18,11 +19,18 @@ namespace hapbeam::detail {
   return text;
 }
 
+/// @param format, ...  as printf's   @throws std::invalid_argument
+[[noreturn, gnu::cold, gnu::format(printf, 1, 2)]] inline void refuse(const char* format, ...) {
+  char text[400];
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  throw std::invalid_argument(text);
+}
 [[gnu::cold]] [[noreturn]] inline void reject(const char* field, double value, const char* unit,
                                               const char* allowed) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%s = %g%s%s: must be %s", field, value, *unit ? " " : "", unit, allowed);
-  throw std::invalid_argument(text);
+  refuse("%s = %g%s%s: must be %s", field, value, *unit ? " " : "", unit, allowed);
 }
 
 [[gnu::cold]] inline double positive(const char* field, double value, const char* unit) {

@@ -90,20 +90,17 @@ struct FrictionState {
 
 namespace detail {
 
-template <typename M, typename = void>
-struct TakesFriction : std::false_type {};
+// Signatures alone, to be called with null pointers.
 template <typename M>
-struct TakesFriction<M, std::void_t<decltype(std::declval<M&>().push(
-                            std::declval<const typename PushOf<M>::Type&>(),
-                            std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))>>
-    : std::bool_constant<noexcept(
-          std::declval<M&>().push(std::declval<const typename PushOf<M>::Type&>(),
-                                  std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))> {};
-
+auto with_friction(M* m, const typename PushOf<M>::Type* round,
+                   FrictionState<typename M::Scalar, dimension_of<M>>* state)
+    -> std::bool_constant<noexcept(m->push(*round, *state))>;
+template <typename>
+std::false_type with_friction(...);
 }  // namespace detail
 
 /// True where M can be pushed with friction, noexcept included.
 template <typename M>
-inline constexpr bool takes_friction = detail::TakesFriction<M>::value;
+inline constexpr bool takes_friction = decltype(detail::with_friction<M>(nullptr, nullptr, nullptr))::value;
 
 }  // namespace hapbeam

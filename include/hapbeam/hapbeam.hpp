@@ -6,7 +6,6 @@
 #pragma once
 
 #include <hapbeam/beam.hpp>
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/contact/touch_several.hpp>
@@ -27,9 +26,9 @@
 #include <hapbeam/haptics/servo/servo_many.hpp>
 #include <hapbeam/haptics/servo/tick_times.hpp>
 #include <hapbeam/many/touch_many.hpp>
-#include <hapbeam/rod_shapes.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/guarded.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
+#include <hapbeam/shapes.hpp>
 #include <hapbeam/turning_plane.hpp>
 #include <hapbeam/version.hpp>

@@ -51,13 +51,11 @@ struct PeakStrain {
 
 namespace detail {
 
-template <typename M, typename = void>
-struct HasInternalForces : std::false_type {};
 template <typename M>
-struct HasInternalForces<
-    M, std::void_t<decltype(std::declval<const M&>().internal_forces(0, std::declval<typename M::Scalar>()))>>
-    : std::bool_constant<noexcept(
-          std::declval<const M&>().internal_forces(0, std::declval<typename M::Scalar>()))> {};
+auto with_internal_forces(const M* m, typename M::Scalar s)
+    -> std::bool_constant<noexcept(m->internal_forces(0, s))>;
+template <typename>
+std::false_type with_internal_forces(...);
 
 }  // namespace detail
 
@@ -65,7 +63,7 @@ struct HasInternalForces<
 ///   `m.internal_forces(s) const noexcept -> InternalForces<S, D>`, and `m.internal_forces(i, s)` in piece i of m.shape(), which
 ///   holds s: at a node on the side of that piece
 template <typename M>
-inline constexpr bool has_internal_forces = detail::HasInternalForces<M>::value;
+inline constexpr bool has_internal_forces = decltype(detail::with_internal_forces<M>(nullptr, 0))::value;
 
 /// Largest strain of a model's present shape.  Each piece is looked at at its ends and in its middle, and where a parabola
 /// through those has its top.   O(n)

@@ -13,12 +13,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <hapbeam/check.hpp>
-#include <hapbeam/rod_section.hpp>
-#include <hapbeam/rod_support.hpp>
+#include <hapbeam/section.hpp>
+#include <hapbeam/support.hpp>
 
 namespace hapbeam {
 
@@ -32,18 +33,15 @@ struct RodArc {
   bool bends_as(const RodArc& other) const noexcept {
     return curvature1 == other.curvature1 && curvature2 == other.curvature2 && twist == other.twist;
   }
+  void check() const {
+    detail::finite("arc curvature1", curvature1, "1/m");
+    detail::finite("arc curvature2", curvature2, "1/m");
+    detail::finite("arc twist", twist, "1/m");
+  }
 };
 
 /// A part of the rod with a section of its own, which may change along it: a taper, a step.
-struct RodPart {
-  double end;                                 ///< [m] arc position at which it ends
-  std::function<RodSection(double)> section;  ///< by arc position s [m]; smooth within the part
-
-  RodPart(double part_end, std::function<RodSection(double)> by_s)
-      : end(part_end), section(std::move(by_s)) {}
-  RodPart(double part_end, const RodSection& same)
-      : end(part_end), section([same](double) { return same; }) {}
-};
+using RodPart = detail::PartOf<RodSection>;
 
 /// Springs along a part of the rod that pull each point back to where it is in the natural shape: a needle in tissue.
 struct RodFoundation {
@@ -69,8 +67,10 @@ struct RodOutline {
 
 /// A rod, its ends and its loads; straight, unless it is given a natural shape, and its right end where that shape puts it,
 /// unless it is placed elsewhere.  An immutable value but for what is added to it.
-class Rod {
+class Rod : public detail::Slender<Rod, RodSection, RodArc> {
  public:
+  static constexpr const char* word = "rod";
+
   /// @param length [m], positive
   [[gnu::cold]] Rod(double length, const RodSection& section, const RodMaterial& material,
                     const RodSupport& left, const RodSupport& right)
@@ -78,15 +78,14 @@ class Rod {
     material_ = material;
     outline_ = {section.width > 0 ? section.width : thickness_,
                 section.height > 0 ? section.height : thickness_, section.corners};
-    area_ = [area = section.area](double) { return area; };
+    build_of(material.young, section.area);
   }
 
   /// For a section known by its stiffness.   @param length [m]   @param thickness [m]
   [[gnu::cold]] Rod(double length, const RodStiffness& stiffness, double thickness, const RodSupport& left,
                     const RodSupport& right)
-      : length_(detail::positive("length", length, "m")),
+      : Slender(length, thickness),
         stiffness_(stiffness),
-        thickness_(detail::positive("thickness", thickness, "m")),
         outline_{thickness, thickness, false},
         left_(left),
         right_(right) {
@@ -95,49 +94,6 @@ class Rod {
     detail::positive("bending2 stiffness", stiffness.bending2, "N·m²");
     detail::positive("torsion stiffness", stiffness.torsion, "N·m²");
     detail::check_supports(left, right);
-  }
-
-  /// Gives the rod a natural shape, from the left end on; straight and without twist where the parts end.
-  /// @throws std::invalid_argument unless the ends increase, within the length
-  Rod& naturally(std::vector<RodArc> arcs) {
-    double from = 0;
-    for (const RodArc& arc : arcs) {
-      if (!(arc.end > from && arc.end <= length_ * (1 + 1e-12)))
-        detail::reject("arc end", arc.end, "m", "beyond the arc before it and on the rod");
-      detail::finite("arc curvature1", arc.curvature1, "1/m");
-      detail::finite("arc curvature2", arc.curvature2, "1/m");
-      detail::finite("arc twist", arc.twist, "1/m");
-      from = arc.end;
-    }
-    return arcs_ = std::move(arcs), *this;
-  }
-
-  /// Gives parts of the rod sections of their own, from the left end on.
-  /// The avatar touches a round surface of the thickness that the rod was built with.
-  /// @throws std::invalid_argument unless the ends increase, up to the length, and the material is known
-  Rod& sections(std::vector<RodPart> parts) {
-    if (!(material_.young > 0))
-      detail::reject("young", material_.young, "Pa",
-                     "known for sections: build the rod of a section and a material");
-    double from = 0;
-    for (const RodPart& part : parts) {
-      if (!(part.end > from && part.end <= length_ * (1 + 1e-12)))
-        detail::reject("part end", part.end, "m", "beyond the part before it and on the rod");
-      from = part.end;
-    }
-    if (!(from >= length_ * (1 - 1e-12)))
-      detail::reject("part end", from, "m", "the rod's length for the last part");
-    parts_ = std::move(parts);
-    area_ = [parts = parts_](double s) {
-      std::size_t k = 0;
-      while (k + 1 < parts.size() && parts[k].end <= s) ++k;
-      return parts[k].section(s).area;
-    };
-    return *this;
-  }
-  /// The same with one section that changes along all of the rod.
-  Rod& section(std::function<RodSection(double)> by_s) {
-    return sections({RodPart(length_, std::move(by_s))});
   }
 
   /// Lays a part of the rod in an elastic foundation.
@@ -156,10 +112,7 @@ class Rod {
   /// Places the left end; the rod begins there.
   Rod& place_left(const RodPose& pose) { return left_pose_ = checked(pose), *this; }
   /// Places the right end elsewhere than where the natural shape has it.
-  Rod& place_right(const RodPose& pose) {
-    right_pose_ = checked(pose);
-    return right_is_placed_ = true, *this;
-  }
+  Rod& place_right(const RodPose& pose) { return right_pose_ = checked(pose), *this; }
 
   /// Sets the distributed dead load [N/m]; it must be finite on all of the rod.
   Rod& load(RodLoad f) { return load_ = std::move(f), specific_weight_.setZero(), *this; }
@@ -181,23 +134,17 @@ class Rod {
     return forces_.push_back(force), *this;
   }
 
-  double length() const noexcept { return length_; }  ///< L [m]
   const RodStiffness& stiffness() const noexcept { return stiffness_; }
-  double thickness() const noexcept { return thickness_; }  ///< [m]
   /// Of the section that it was built with; a rod that is given by its stiffness has a round one of its thickness.
   const RodOutline& outline() const noexcept { return outline_; }
   const RodSupport& left() const noexcept { return left_; }
   const RodSupport& right() const noexcept { return right_; }
-  const std::vector<RodPart>& parts() const noexcept {
-    return parts_;
-  }  ///< empty where all of it has one section
   /// That of a section of its parts.   @throws std::invalid_argument where it makes no sense
   RodStiffness stiffness(const RodSection& section) const { return stiffness(section, material_); }
   const std::vector<RodFoundation>& foundations() const noexcept { return foundations_; }
-  const std::vector<RodArc>& arcs() const noexcept { return arcs_; }  ///< empty where naturally straight
   const RodPose& left_pose() const noexcept { return left_pose_; }
   /// Null where the natural shape places it.
-  const RodPose* right_pose() const noexcept { return right_is_placed_ ? &right_pose_ : nullptr; }
+  const RodPose* right_pose() const noexcept { return right_pose_ ? &*right_pose_ : nullptr; }
   /// Empty where there is none.
   RodLoad load() const {
     if (specific_weight_.isZero(0)) return load_;
@@ -207,7 +154,7 @@ class Rod {
   const std::vector<RodForce>& forces() const noexcept { return forces_; }
   /// Whether it has one natural shape, straight, from which nothing bends it.
   bool straight() const noexcept {
-    return arcs_.empty() && !right_is_placed_ && !load_ && specific_weight_.isZero(0) && forces_.empty();
+    return arcs_.empty() && !right_pose_ && !load_ && specific_weight_.isZero(0) && forces_.empty();
   }
 
  private:
@@ -232,18 +179,13 @@ class Rod {
     return unit;
   }
 
-  double length_;
   RodStiffness stiffness_;
   RodMaterial material_{0, 0};  // not known where the stiffness is given
-  std::function<double(double)> area_;
-  double thickness_;
   RodOutline outline_;
   RodSupport left_, right_;
-  std::vector<RodPart> parts_;
   std::vector<RodFoundation> foundations_;
-  std::vector<RodArc> arcs_;
-  RodPose left_pose_, right_pose_;
-  bool right_is_placed_ = false;
+  RodPose left_pose_;
+  std::optional<RodPose> right_pose_;  // none: where the natural shape has it
   RodLoad load_;
   VectorOf<double, 3> specific_weight_{0, 0, 0};
   std::vector<RodForce> forces_;

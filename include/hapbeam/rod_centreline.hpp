@@ -34,18 +34,13 @@ struct RodPoint {
 };
 
 template <typename Scalar>
-class Centreline<Scalar, 3> {
+class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
+  using Base = detail::NodeView<RodNode<Scalar>, Scalar>;
+  using Base::nodes_;
+
  public:
-  using Node = RodNode<Scalar>;
-
-  Centreline(const Node* nodes, int size) noexcept : nodes_(nodes), size_(size) {}
-
-  int size() const noexcept { return size_; }
-  int segments() const noexcept { return size_ - 1; }
-  const Node& operator[](int i) const noexcept { return nodes_[i]; }
-  const Node* begin() const noexcept { return nodes_; }
-  const Node* end() const noexcept { return nodes_ + size_; }
-  Scalar length() const noexcept { return nodes_[size_ - 1].s; }
+  using Base::Base, Base::segment_at, Base::segments;
+  using typename Base::Node;
 
   /// The piece between nodes i and i + 1 [m].
   CubicSegment<Scalar, 3> segment(int i) const noexcept {
@@ -117,11 +112,6 @@ class Centreline<Scalar, 3> {
   /// The same: a node has its own.
   Scalar extrapolated_stretch(int i) const noexcept { return stretch(i); }
 
-  /// Index of the piece that holds arc position s; the first or last one where s lies off the rod.
-  int segment_at(Scalar s) const noexcept { return detail::piece_at(nodes_, segments(), s); }
-  /// Index of the node that is nearest to arc position s.
-  int node_near(Scalar s) const noexcept { return detail::node_near(*this, s); }
-
   /// Where the point at arc position s is [m], as in a planar centreline.
   VectorOf<Scalar, 3> position(Scalar s) const noexcept { return at(s).r; }
   /// The point at arc position s [m].
@@ -145,9 +135,6 @@ class Centreline<Scalar, 3> {
     const Scalar more = middle - d * d - least;
     return more > 0 && more * more > 4 * d * d * least;
   }
-
-  const Node* nodes_;
-  int size_;
 };
 
 /// Whether all of a node is a number.

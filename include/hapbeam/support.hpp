@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// How the ends of a beam are held.
+// How the ends of a beam or a rod are held, and where those of a rod are.
 //
 // What a trained model needs to know of a beam.  beam.hpp has the rest: loads, which are functions, and which a program
 // that only loads a model would compile for nothing.
-// Offline: checks throw std::invalid_argument naming field, value, unit and what is allowed.  Names and predicates are
-// noexcept.
+// An end of a rod has six motions, in the axes of its pose: along d1, d2 and d3, turns of its tangent about d1 and d2, and twist about
+// d3.  Each is held, free, or on a spring.
+// Offline: checks throw std::invalid_argument naming field, value, unit and what is allowed.  All else is noexcept.
 #pragma once
 
-#include <cstdio>
-#include <stdexcept>
+#include <cmath>
+#include <limits>
 
+#include <hapbeam/centreline.hpp>
 #include <hapbeam/check.hpp>
 
 namespace hapbeam {
@@ -52,11 +54,112 @@ namespace detail {
   if (!fixes_u(left) && !fixes_u(right)) why = "slides along its axis; hold u at one end";
   if (held_w == 0) why = "moves across its axis; hold w at one end";
   if (held_w == 1 && !held_theta) why = "turns about its only hinge; hold theta or the other end";
-  if (!why) return;
-  char text[160];
-  std::snprintf(text, sizeof text, "supports = %s, %s: the beam is a mechanism, it %s", name(left),
-                name(right), why);
-  throw std::invalid_argument(text);
+  if (why) refuse("supports = %s, %s: the beam is a mechanism, it %s", name(left), name(right), why);
+}
+
+}  // namespace detail
+
+/// Stiffness against each motion of an end; infinity holds it, 0 leaves it free.  The moment of a turn by α is sin α times its
+/// stiffness: most at a quarter of a turn, none at half a turn.  That of a twist is proportional to its angle.
+struct RodSupport {
+  double place1;  ///< [N/m] along d1
+  double place2;  ///< [N/m] along d2
+  double along;   ///< [N/m] along d3
+  double turn1;   ///< [N·m/rad] of the tangent about d1; held where turn2 is
+  double turn2;   ///< [N·m/rad] about d2
+  double twist;   ///< [N·m/rad] of the section about the tangent
+
+  static const RodSupport free;     ///< not held at all
+  static const RodSupport clamped;  ///< place, direction and twist
+  static const RodSupport hinged;   ///< place: a ball joint
+  static const RodSupport
+      cardan;  ///< place and twist: a universal joint, whose director follows the tangent by the smallest rotation
+  static const RodSupport sliding;  ///< all but the place along d3: a sleeve
+
+  /// @throws std::invalid_argument where a stiffness is negative or no number, or one turn alone is held
+  static RodSupport elastic(double place1, double place2, double along, double turn1, double turn2,
+                            double twist) {
+    const auto checked = [](const char* field, double value, const char* unit) {
+      if (!(value >= 0)) detail::reject(field, value, unit, "0 (free), positive, or infinity (held)");
+      return value;
+    };
+    const RodSupport support{
+        checked("support place1", place1, "N/m"),   checked("support place2", place2, "N/m"),
+        checked("support along", along, "N/m"),     checked("support turn1", turn1, "N·m/rad"),
+        checked("support turn2", turn2, "N·m/rad"), checked("support twist", twist, "N·m/rad")};
+    if (std::isinf(turn1) != std::isinf(turn2))
+      detail::reject("support turn2", turn2, "N·m/rad", "held where turn1 is, and only there");
+    return support;
+  }
+
+  friend constexpr bool operator==(const RodSupport& a, const RodSupport& b) noexcept {
+    return a.place1 == b.place1 && a.place2 == b.place2 && a.along == b.along && a.turn1 == b.turn1 &&
+           a.turn2 == b.turn2 && a.twist == b.twist;
+  }
+  friend constexpr bool operator!=(const RodSupport& a, const RodSupport& b) noexcept { return !(a == b); }
+};
+
+namespace detail {
+inline constexpr double held = std::numeric_limits<double>::infinity();
+}  // namespace detail
+
+inline constexpr RodSupport RodSupport::free{0, 0, 0, 0, 0, 0};
+inline constexpr RodSupport RodSupport::clamped{detail::held, detail::held, detail::held,
+                                                detail::held, detail::held, detail::held};
+inline constexpr RodSupport RodSupport::hinged{detail::held, detail::held, detail::held, 0, 0, 0};
+inline constexpr RodSupport RodSupport::cardan{detail::held, detail::held, detail::held, 0, 0, detail::held};
+inline constexpr RodSupport RodSupport::sliding{detail::held, detail::held, 0,
+                                                detail::held, detail::held, detail::held};
+
+/// Whether the end resists a turn of the section about the tangent.
+constexpr bool holds_twist(const RodSupport& support) noexcept { return support.twist > 0; }
+/// Whether it resists turns of the tangent about both axes.
+constexpr bool holds_direction(const RodSupport& support) noexcept {
+  return support.turn1 > 0 && support.turn2 > 0;
+}
+/// Whether it resists motions across d3.
+constexpr bool holds_across(const RodSupport& support) noexcept {
+  return support.place1 > 0 && support.place2 > 0;
+}
+
+constexpr const char* name(const RodSupport& support) noexcept {
+  return support == RodSupport::free      ? "free"
+         : support == RodSupport::clamped ? "clamped"
+         : support == RodSupport::hinged  ? "hinged"
+         : support == RodSupport::cardan  ? "cardan"
+         : support == RodSupport::sliding ? "sliding"
+                                          : "elastic";
+}
+
+/// Where an end is, and how its section is turned.
+struct RodPose {
+  VectorOf<double, 3> at{0, 0, 0};     ///< [m]
+  VectorOf<double, 3> along{1, 0, 0};  ///< d3: direction of the tangent, from the left end to the right one
+  VectorOf<double, 3> director{0, 1, 0};  ///< d1
+
+  /// Makes both directions unit and perpendicular.  @return false where there are none
+  bool make_valid() noexcept {
+    along /= std::sqrt(along.squaredNorm());
+    director -= along * along.dot(director);
+    director /= std::sqrt(director.squaredNorm());
+    return at.allFinite() && along.allFinite() && director.allFinite();
+  }
+};
+
+/// Which end.
+enum class RodSide { left, right };
+
+namespace detail {
+
+/// @throws std::invalid_argument where a rod with these ends, at d3 of the same direction, is a mechanism
+[[gnu::cold]] inline void check_supports(const RodSupport& left, const RodSupport& right) {
+  const bool direction = (holds_across(left) && holds_direction(left)) ||
+                         (holds_across(right) && holds_direction(right)),
+             both = holds_across(left) && holds_across(right), along = left.along > 0 || right.along > 0;
+  if (along && (direction || both)) return;
+  refuse("supports = %s, %s: the rod is a mechanism, %s", name(left), name(right),
+         along ? "hold the direction of one end or the place of both"
+               : "it slides along its axis; hold that at one end");
 }
 
 }  // namespace detail

@@ -14,8 +14,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -39,9 +37,8 @@ namespace detail {
   if (loose == RodSupport::hinged) return Support::pinned;
   loose.along = RodSupport::hinged.along;
   if (support.along == 0 && loose == RodSupport::hinged) return Support::roller;
-  throw std::invalid_argument(
-      std::string(field) + " = " + name(support) +
-      ": must be free, clamped, hinged, cardan, or a hinge that slides along the axis");
+  refuse("%s = %s: must be free, clamped, hinged, cardan, or a hinge that slides along the axis", field,
+         name(support));
 }
 
 }  // namespace detail

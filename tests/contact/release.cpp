@@ -5,10 +5,10 @@
 #include "support/random.hpp"
 #include "support/ruler.hpp"
 #include "support/status.hpp"
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/shapes.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

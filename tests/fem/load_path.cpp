@@ -7,8 +7,8 @@
 #include "support/path.hpp"
 #include "support/pi.hpp"
 #include "support/status.hpp"
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/shapes.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -13,9 +13,9 @@
 #include "support/status.hpp"
 #include "support/tense_press.hpp"
 #include "support/thesis_beam.hpp"
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/shapes.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -1,7 +1,7 @@
 #include "instructions/strokes.hpp"
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/shapes.hpp>
 
 void hapbeam::testing::bent() {
   using Model = FemModel<Corotational<>>;

@@ -5,7 +5,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
-#include <hapbeam/rod_shapes.hpp>
+#include <hapbeam/shapes.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

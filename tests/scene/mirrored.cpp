@@ -3,10 +3,10 @@
 #include "support/error.hpp"
 #include "support/mesh_nodes.hpp"
 #include "support/thesis_beam.hpp"
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/scene/mirrored.hpp>
+#include <hapbeam/scene/build.hpp>
+#include <hapbeam/shapes.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

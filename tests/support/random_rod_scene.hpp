@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "random_scene.hpp"
-#include <hapbeam/scene/rod_scene.hpp>
+#include <hapbeam/scene/choose_rod.hpp>
 
 namespace hapbeam::testing {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "random.hpp"
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/rom/training/full_model.hpp>
 #include <hapbeam/scene/scene.hpp>
+#include <hapbeam/shapes.hpp>
 
 namespace hapbeam::testing {
 

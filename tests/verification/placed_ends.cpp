@@ -6,9 +6,9 @@
 #include "support/random.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/shapes.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

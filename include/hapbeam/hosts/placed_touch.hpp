@@ -29,8 +29,8 @@
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo.hpp>
 #include <hapbeam/haptics/servo/stylus.hpp>
-#include <hapbeam/haptics/stability/hand_pose.hpp>
-#include <hapbeam/haptics/stability/in_scene.hpp>
+#include <hapbeam/haptics/stability/contact_tangent.hpp>
+#include <hapbeam/haptics/stability/coupling.hpp>
 
 namespace hapbeam {
 
@@ -155,7 +155,7 @@ class PlacedTouch {
   const Model& model_;
   Placement placement_;
   Touch<Model> touch_;
-  detail::StylusOf<Scalar, dimension> stylus_;
+  detail::Stylus<Scalar, dimension> stylus_;
   TouchResult<Scalar, dimension> felt_;
   ServoRecord record_;
   Picture seen_;

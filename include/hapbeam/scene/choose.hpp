@@ -15,46 +15,48 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <exception>
 #include <limits>
-#include <utility>
+#include <optional>
+#include <string>
 
 #include <hapbeam/scene/build.hpp>
-#include <hapbeam/scene/choice.hpp>
-#include <hapbeam/scene/deciding.hpp>
 #include <hapbeam/scene/pilot.hpp>
+#include <hapbeam/scene/scene.hpp>
 
 namespace hapbeam {
 
 namespace detail {
 
-class Chooser : Deciding {
+/// Tries candidates on the presses of a pilot.
+/// @tparam S  Scene | RodScene, of which build() makes models   @tparam P  Pilot | RodPilot
+template <class S, class P>
+class Chooser {
  public:
-  Chooser(const Scene& scene, const TickCosts& costs)
-      : Deciding(scene.force_error, scene.tick), scene_(scene), costs_(costs), pilot_(scene) {
-    own_error_ = pilot_.own_error();
+  /// The pilot's presses do not meet the worst press of all, so a model has to do better on them than is tolerated.
+  /// Finite elements are at their worst at the corners of the range, which the pilot meets, and interpolation is between.
+  static constexpr double elements_margin = 0.85, trained_margin = 0.6;
+  /// Where no candidate is that much better, one is taken whose error on the pilot is just below the tolerated one.
+  static constexpr double elements_least = 0.97, trained_least = 0.85;
+
+  Chooser(const S& scene, const TickCosts& costs) : scene_(scene), costs_(costs), pilot_(scene) {
+    choice_.force_error = scene.force_error, choice_.tick = scene.tick;
   }
 
-  Choice choose() {
-    for (const Kinematics kinematics :
-         {Kinematics::linear, Kinematics::von_karman, Kinematics::corotational}) {
-      elements(kinematics, false);
-      if (scene_.mirrored() && kinematics != Kinematics::linear) elements(kinematics, true);
+  /// Finite elements: the fewest that are accurate enough, if many are.   @param least, multiple  that a model can have
+  void elements(Kinematics kinematics, int least, bool mirrored = false) {
+    const auto of = [&](int n) { return judge({kinematics, Reduction::none, n, mirrored}); };
+    Verdict verdict = of(pilot_.elements());
+    for (const int n : {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384}) {
+      if (!barely_right(verdict) || n >= pilot_.elements()) break;
+      if (n < least || (mirrored && n % 2 != 0)) continue;
+      const Verdict fewer = of(n);
+      if (!fewer.right) continue;
+      verdict = fewer;
+      break;
     }
-    // The model that trains costs nothing in a tick, so the most accurate one is taken.  Galerkin's equation is von Kármán's.
-    trained(Reduction::pod, Kinematics::corotational);
-    trained(Reduction::galerkin, Kinematics::von_karman);
-    decide();
-    return std::move(choice_);
-  }
-
- private:
-  static constexpr double nothing = std::numeric_limits<double>::infinity();
-
-  void elements(Kinematics kinematics, bool mirrored) {
-    fewest(pilot_.elements(), mirrored ? 4 : 2, mirrored ? 2 : 1, [&](int n) {
-      return judge({kinematics, Reduction::none, n, mirrored});
-    });
+    choice_.verdicts.push_back(verdict);
   }
 
   /// Interpolation: first as many depths as one place takes, then as many places.
@@ -62,7 +64,7 @@ class Chooser : Deciding {
     const Verdict& full = of(kinematics);
     // Fourth order: twice the elements leave a sixteenth of the error to the full model.
     Candidate candidate{kinematics, reduction, 2 * full.candidate.elements, false, 1, 2};
-    Verdict verdict{candidate, nothing, candidate.tick(costs_, scene_.shape), false, {}};
+    Verdict verdict{candidate, infinity, candidate.tick(costs_, scene_.shape), false, {}};
     if (!full.right)
       verdict.refusal =
           std::string(name(kinematics)) + ", which would train it, is not accurate enough itself";
@@ -89,6 +91,40 @@ class Chooser : Deciding {
     choice_.verdicts.push_back(verdict);
   }
 
+  /// The cheapest of what is accurate enough and fast enough, or what to relax.
+  Choice decide() {
+    const Verdict* least = nullptr;
+    for (const Verdict& verdict : choice_.verdicts)
+      if (verdict.right && (!least || verdict.tick < least->tick)) least = &verdict;
+    if (least && least->tick <= choice_.tick) {
+      choice_.candidate = least->candidate;
+      return choice_;
+    }
+    if (barely_) {
+      barely_->right = true;
+      choice_.candidate = barely_->candidate;
+      choice_.verdicts.push_back(*barely_);
+      return choice_;
+    }
+    // A twentieth more than that, for it is written with two digits.
+    char text[400], slower[150] = "", coarser[150] = "";
+    if (least)
+      std::snprintf(slower, sizeof slower, "a tick of %.2g us (%s)", 1.05e6 * least->tick,
+                    least->candidate.text().c_str());
+    const double enough = 1.05 * (in_time_.error + pilot_.own_error()) / trained_margin;
+    if (enough < 1)
+      std::snprintf(coarser, sizeof coarser, "%sa force error of %.2g %% (%s)", least ? ", or " : "",
+                    100 * enough, in_time_.candidate.text().c_str());
+    std::snprintf(text, sizeof text, "no model is within %.2g %% of the force in %.2g us: %s%s%s",
+                  100 * choice_.force_error, 1e6 * choice_.tick,
+                  least || *coarser ? "allow " : "press less deep or in a smaller range", slower, coarser);
+    choice_.advice = text;
+    return choice_;
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
   /// Of one kinematics by itself, on the whole beam.
   const Verdict& of(Kinematics kinematics) const {
     const auto is = [&](const Verdict& verdict) { return verdict.candidate.kinematics == kinematics; };
@@ -100,7 +136,7 @@ class Chooser : Deciding {
       for (const double s : pilot_.places()) {
         Scene place = scene_;
         place.s_min = place.s_max = s;
-        SceneModel model = detail::build(place, candidate, 2);
+        SceneModel model = build(place, candidate, 2);
         if (!(pilot_.error_at(model, s) <= 0.8 * wanted(candidate))) return false;
       }
       return true;
@@ -110,15 +146,36 @@ class Chooser : Deciding {
   }
 
   Verdict judge(const Candidate& candidate) {
-    return Deciding::judge(candidate, candidate.tick(costs_, scene_.shape), [&] {
-      SceneModel model = detail::build(scene_, candidate, 2);
-      return pilot_.error(model);
-    });
+    Verdict verdict{candidate, infinity, candidate.tick(costs_, scene_.shape), false, {}};
+    try {
+      auto model = build(scene_, candidate, 2);
+      verdict.error = pilot_.error(model);
+      verdict.right = verdict.error + pilot_.own_error() <= wanted(candidate);
+    } catch (const std::exception& why) {
+      verdict.refusal = why.what();
+    }
+    const bool in_time = verdict.tick <= choice_.tick;
+    if (in_time && verdict.error < in_time_.error) in_time_ = verdict;
+    if (in_time && barely_right(verdict) && (!barely_ || verdict.tick < barely_->tick)) barely_ = verdict;
+    return verdict;
   }
 
-  const Scene& scene_;
+  bool barely_right(const Verdict& verdict) const noexcept {
+    const bool trained = verdict.candidate.reduction != Reduction::none;
+    return verdict.error + pilot_.own_error() <=
+           (trained ? trained_least : elements_least) * choice_.force_error;
+  }
+
+  double wanted(const Candidate& candidate) const noexcept {
+    return (candidate.reduction == Reduction::none ? elements_margin : trained_margin) * choice_.force_error;
+  }
+
+  const S& scene_;
   const TickCosts& costs_;
-  Pilot pilot_;
+  P pilot_;
+  Choice choice_;
+  Verdict in_time_{{}, infinity, 0, false, {}};  // the least error of all that are fast enough
+  std::optional<Verdict> barely_;                // the cheapest that is fast enough and barely_right()
 };
 
 }  // namespace detail
@@ -126,7 +183,15 @@ class Chooser : Deciding {
 /// @param costs  what presses cost on the machine that will run them
 /// @throws std::invalid_argument for a scene that makes no sense
 inline Choice choose(const Scene& scene, const TickCosts& costs = TickCosts::typical()) {
-  return detail::Chooser(scene, costs).choose();
+  detail::Chooser<Scene, Pilot> chooser(scene, costs);
+  for (const Kinematics kinematics : {Kinematics::linear, Kinematics::von_karman, Kinematics::corotational}) {
+    chooser.elements(kinematics, 2);
+    if (scene.mirrored() && kinematics != Kinematics::linear) chooser.elements(kinematics, 4, true);
+  }
+  // The model that trains costs nothing in a tick, so the most accurate one is taken.  Galerkin's equation is von Kármán's.
+  chooser.trained(Reduction::pod, Kinematics::corotational);
+  chooser.trained(Reduction::galerkin, Kinematics::von_karman);
+  return chooser.decide();
 }
 
 }  // namespace hapbeam

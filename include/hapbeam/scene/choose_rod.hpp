@@ -7,22 +7,106 @@
 //
 // A rod that answers in any plane alike is chosen for as a beam is (choose.hpp), and its model turned (turning_plane.hpp).  For all
 // others RoundRod and TwistedRod are tried at growing size on the pushes of a RodPilot.
+// The pilot's reference is TwistedRod, or RoundRod where nobody holds the twist, with as many elements as
+// it takes until half of them give the same force to a twentieth of the tolerated error, or with 256.  A rod that rests straight is
+// pushed along three directions across it, from a hundredth of the depth on; another along eight, from a thousandth on.
+// A bent rod gives way to one side many times as much as to another, and the relative error of its force peaks near the stiffest
+// side, in a range of angles that is the narrower the more the stiffnesses differ.  With C the compliance across the rod,
+//
+//   F = d/(nᵀC n),   n ~ C^(-½) m:   δF/F = -mᵀ C^(-½) δC C^(-½) m        for unit m
+//
+// is a plain quadratic form of m.  So m is spread evenly, and n follows: directions are close where the rod is stiff.  Of a form
+// with one sign, four of them and their opposites meet 0.85 of the largest value at least, which is the margin of choose().
 // Offline: allocates; takes tenths of a second; throws std::invalid_argument for a scene that makes no sense.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
+#include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
+#include <hapbeam/fem/rod/rod_range.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/scene/choose.hpp>
-#include <hapbeam/scene/deciding.hpp>
-#include <hapbeam/scene/rod_model.hpp>
-#include <hapbeam/scene/rod_pilot.hpp>
+#include <hapbeam/turning_plane.hpp>
 
 namespace hapbeam {
 
+/// The requirements of a scene in space: a rod, where and how deep it is pushed, and the tolerated error and time.
+struct RodScene {
+  Rod rod;
+  double s_min, s_max;  ///< [m] where it is pushed; equal: at one place
+  double
+      depth;  ///< [m] how far it is pushed from where it rests, to any side; beside a support a fifth of the distance
+  double force_error = 0.05;  ///< largest relative error of the force; a hand tells forces apart from 7 % on
+  double force_floor = 0;  ///< [N] smaller forces count as this one, where they change sign or cannot be felt
+  double tick = 50e-6;     ///< [s] largest time of a push
+  bool shape = true;       ///< contact and drawing want the shape in each tick
+
+  /// Anywhere from 5 to 95 % of the length, or up to an end that yields.
+  static RodScene anywhere(const Rod& rod, double depth) {
+    const double L = rod.length();
+    const Range<double> range = RodRange<double>(rod).range();
+    return {rod, range.s_min > 0 ? 0.05 * L : 0, range.s_max < L ? 0.95 * L : L, depth};
+  }
+  /// At one place.
+  static RodScene at(const Rod& rod, double s, double depth) { return {rod, s, s, depth}; }
+
+  bool one_place() const noexcept { return s_min == s_max; }
+
+  /// How deep it is pushed at s along cos d1 + sin d2 [m].  A flat rod that is pushed askew gives way across the push: its depth is
+  /// less by that, as a straight one's of even stiffness is.
+  double depth_at(double s, double cosine, double sine) const noexcept {
+    const Range<double> range = RodRange<double>(rod).range();
+    double deep = depth;
+    if (range.s_min > 0) deep = (std::min)(deep, s / 5);
+    if (range.s_max < rod.length()) deep = (std::min)(deep, (rod.length() - s) / 5);
+    const double x = cosine / rod.stiffness().bending2, y = sine / rod.stiffness().bending1;
+    return deep * (cosine * x + sine * y) / std::hypot(x, y);
+  }
+
+  /// The same in a plane, where that is exact: turning_plane.hpp.
+  std::optional<Scene> in_any_plane() const {
+    try {
+      const Beam beam = beam_in_any_plane(rod);
+      (void)TurningPlane<FemModel<Corotational<>>>(rod, {beam, 16});  // it rests straight
+      // Turned, a push by all of the depth is a press by that and its round-off.
+      return Scene{beam, s_min, s_max, depth * (1 + 1e-12), force_error, force_floor, tick, shape};
+    } catch (const std::invalid_argument&) {
+      return {};
+    }
+  }
+
+  /// @throws std::invalid_argument
+  const RodScene& check() const {
+    const Range<double> range = RodRange<double>(rod).range();
+    detail::check_scene(*this, 0.999999 * range.s_min, range.s_max + 1e-6 * range.s_min, "rod");
+    return *this;
+  }
+};
+
+namespace detail {
+
+/// Those of a scene in the plane, turned; and the rods.
+template <class Planar>
+struct ModelsInSpace;
+template <class... Planar>
+struct ModelsInSpace<AnyOf<2, Planar...>> {
+  using Type = AnyOf<3, TurningPlane<Planar>..., FemModel<RoundRod>, FemModel<TwistedRod>>;
+};
+
+}  // namespace detail
+
+/// The model that a scene in space needs, whichever it is, as one ForceModel.
+using RodModel = detail::ModelsInSpace<SceneModel>::Type;
+
 /// @throws std::invalid_argument, TrainingError
-inline RodModel build(const RodScene& scene, const Candidate& candidate) {
+inline RodModel build(const RodScene& scene, const Candidate& candidate, int segments = 32) {
   scene.check();
   if (candidate.kinematics == Kinematics::round_rod)
     return RodModel(FemModel<RoundRod>(scene.rod, candidate.elements));
@@ -30,9 +114,9 @@ inline RodModel build(const RodScene& scene, const Candidate& candidate) {
     return RodModel(FemModel<TwistedRod>(scene.rod, candidate.elements));
   const auto planar = scene.in_any_plane();
   if (!planar)
-    throw std::invalid_argument(std::string("kinematics = ") + name(candidate.kinematics) +
-                                ": must be that of a rod, for this one is not the same in each plane");
-  SceneModel model = build(*planar, candidate);
+    detail::refuse("kinematics = %s: must be that of a rod, for this one is not the same in each plane",
+                   name(candidate.kinematics));
+  SceneModel model = build(*planar, candidate, segments);
   return model.visit([&](auto& chosen) {
     using Model = std::decay_t<decltype(chosen)>;
     return RodModel(TurningPlane<Model>(scene.rod, std::move(chosen)));
@@ -41,38 +125,103 @@ inline RodModel build(const RodScene& scene, const Candidate& candidate) {
 
 namespace detail {
 
-class RodChooser : Deciding {
- public:
-  RodChooser(const RodScene& scene, const TickCosts& costs)
-      : Deciding(scene.force_error, scene.tick), scene_(scene), costs_(costs), pilot_(scene) {
-    own_error_ = pilot_.own_error();
-  }
+/// Pushes at one place and to one side, from rest outward.
+struct PushLine {
+  static constexpr const char *body = "rod", *motion = "push";
+  double s;
+  VectorOf<double, 3> normal;
+  double home;                 // n · r at rest [m]
+  std::vector<double> depths;  // n · r [m]
+  std::vector<double> forces;  // [N] of the reference
 
-  Choice choose() {
-    elements(Kinematics::round_rod);
-    elements(Kinematics::twisted_rod);
-    decide();
-    return std::move(choice_);
+  /// On to the next depth, as a hand goes.
+  template <class Model>
+  Response<double> go(Model& model, std::size_t k) const {
+    const double from = k > 0 ? depths[k - 1] : home, to = depths[k];
+    for (const double share : {0.25, 0.5, 0.75}) (void)model.push({s, from + share * (to - from), normal});
+    return model.push({s, to, normal});
   }
-
- private:
-  void elements(Kinematics kinematics) {
-    // Two or three elements of a bent rod turn by so much each that they are accurate to one side alone, by chance.
-    fewest(pilot_.elements(), scene_.rod.straight() ? 2 : 4, 1, [&](int n) {
-      const Candidate candidate{kinematics, Reduction::none, n};
-      return judge(candidate, candidate.tick(costs_, scene_.shape), [&] {
-        RodModel model = build(scene_, candidate);
-        return pilot_.error(model);
-      });
-    });
-  }
-
-  const RodScene& scene_;
-  const TickCosts& costs_;
-  RodPilot pilot_;
 };
 
 }  // namespace detail
+
+class RodPilot : public detail::PilotOf<detail::PushLine> {
+  using Vector3 = VectorOf<double, 3>;
+
+ public:
+  explicit RodPilot(const RodScene& scene) : PilotOf(scene.check().force_floor) {
+    const bool twists = holds_twist(scene.rod.left()) || holds_twist(scene.rod.right());
+    twists ? search<TwistedRod>(scene) : search<RoundRod>(scene);
+  }
+
+ private:
+  template <class Element>
+  void search(const RodScene& scene) {
+    const double length = scene.rod.length();
+    const Range<double> range = RodRange<double>(scene.rod).range();
+    const double left = range.s_min > 0 ? scene.s_min : length,
+                 right = range.s_max < length ? length - scene.s_max : length;
+    FemModel<Element> resting(scene.rod, 64);
+    place(scene, resting);
+    refine(length, (std::min)(left, right), 256, scene.force_error, scene.depth,
+           [&](int n) { return FemModel<Element>(scene.rod, n); });
+  }
+
+  template <class Model>
+  void place(const RodScene& scene, Model& model) {
+    const bool straight = scene.rod.straight();
+    // Uneven, lest they meet what is symmetric.
+    for (const double along : {0.0, 0.23, 0.52, 0.78, 1.0}) {
+      if (scene.one_place() && along > 0) break;
+      const double s = scene.s_min + (scene.s_max - scene.s_min) * along;
+      model.reset();
+      const Centreline<double, 3> rest = model.shape();
+      const Vector3 r = rest.at(s).r, d3 = detail::unit(rest.at(s).tangent),
+                    d1 = detail::across(rest[rest.segment_at(s)].director, d3),
+                    d2 = detail::cross3<double>(d3, d1);
+      const auto toward = [&](double cosine, double sine, int steps) {
+        const Vector3 normal = cosine * d1 + sine * d2;
+        const double home = normal.dot(r);
+        detail::PushLine line{s, normal, home, {}, {}};
+        for (int k = steps; k >= 0; --k)
+          line.depths.push_back(home + scene.depth_at(s, cosine, sine) * std::pow(10.0, -k / 4.0));
+        return line;
+      };
+      if (straight) {
+        for (const double angle : {0.04, 0.79, 1.54})
+          lines_.push_back(toward(std::cos(angle), std::sin(angle), 8));
+        continue;
+      }
+      const Compliance c = compliance([&](double cosine, double sine) {
+        detail::PushLine shallow = toward(cosine, sine, 8);
+        shallow.depths.resize(1);
+        model.reset();
+        return (shallow.depths[0] - shallow.home) / shallow.go(model, 0).force;
+      });
+      for (int side = 0; side < 8; ++side) {
+        const double angle = 0.04 + side * 0.785, m1 = std::cos(angle), m2 = std::sin(angle);
+        const double n1 = (c.c22 + c.root) * m1 - c.c12 * m2, n2 = (c.c11 + c.root) * m2 - c.c12 * m1,
+                     size = std::hypot(n1, n2);
+        lines_.push_back(toward(n1 / size, n2 / size, 12));
+      }
+    }
+  }
+
+  /// C across the rod, in the axes d1 and d2.
+  struct Compliance {
+    double c11 = 1, c12 = 0, c22 = 1;  // [m/N]
+    double root = 1;                   // of its determinant
+  };
+  /// @param along  (cosine, sine) -> nᵀC n, where small pushes are answered   @return the same to all sides where they are not
+  template <class Along>
+  static Compliance compliance(Along&& along) {
+    const double half = 0.5, root3 = std::sqrt(3.0);
+    const double c0 = along(1, 0), c1 = along(half, root3 / 2), c2 = along(-half, root3 / 2);
+    const double c22 = (2 * (c1 + c2) - c0) / 3, c12 = (c1 - c2) / root3, determinant = c0 * c22 - c12 * c12;
+    if (!(c0 > 0 && determinant > 0 && std::isfinite(determinant))) return {};
+    return {c0, c12, c22, std::sqrt(determinant)};
+  }
+};
 
 /// @param costs  what presses cost on the machine that will run them
 /// @throws std::invalid_argument for a scene that makes no sense
@@ -86,7 +235,11 @@ inline Choice choose(const RodScene& scene, const TickCosts& costs = TickCosts::
     } catch (const std::invalid_argument&) {  // deeper than a press across the axis goes: pushes go on
     }
   }
-  return detail::RodChooser(scene, costs).choose();
+  detail::Chooser<RodScene, RodPilot> chooser(scene, costs);
+  // Two or three elements of a bent rod turn by so much each that they are accurate to one side alone, by chance.
+  for (const Kinematics kinematics : {Kinematics::round_rod, Kinematics::twisted_rod})
+    chooser.elements(kinematics, scene.rod.straight() ? 2 : 4);
+  return chooser.decide();
 }
 
 }  // namespace hapbeam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Presses by which candidates are judged: a few lines of increasing depth, answered by a reference whose error is known.
+// Presses and pushes by which candidates are judged: a few lines of increasing depth, answered by a reference whose error is known.
 //
 // The reference is Corotational<>, with as many elements as it takes until half of them give the same force to a twentieth of the
 // tolerated error, or with 512.  own_error() is a third of what they differ by then: the error of the reference where it is
@@ -14,9 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include <hapbeam/element/corotational.hpp>
@@ -26,26 +24,25 @@
 
 namespace hapbeam {
 
-class Pilot {
- public:
-  using Reference = FullModel<Corotational<>>;
+namespace detail {
 
-  explicit Pilot(const Scene& scene) : floor_(scene.check().force_floor) {
-    place(scene);
-    // Four elements at least between a support and the nearest press, or half as many would be no other mesh there.
-    const double length = scene.beam.length();
-    const double left = fixes_w(scene.beam.left()) ? scene.s_min : length;
-    const double right = fixes_w(scene.beam.right()) ? length - scene.s_max : length;
-    for (elements_ = 32; elements_ < 512 && elements_ * (std::min)(left, right) < 4 * length;) elements_ *= 2;
-    for (;; elements_ *= 2) {
-      Reference coarse(scene.beam, elements_ / 2), reference(scene.beam, elements_);
-      press(reference, scene.depth);
-      const double apart = error(coarse);
-      own_error_ = apart / 3;
-      if (apart <= scene.force_error / 20 || elements_ == 512) return;
-    }
+/// Presses at one place, from rest outward.
+struct PressLine {
+  static constexpr const char *body = "beam", *motion = "press";
+  double s;
+  std::vector<double> depths;  // d [m]
+  std::vector<double> forces;  // [N] of the reference
+
+  template <class Model>
+  Response<double> go(Model& model, std::size_t k) const {
+    return model.press({s, depths[k]});
   }
+};
 
+/// @tparam Line  as PressLine
+template <class Line>
+class PilotOf {
+ public:
   /// Largest relative error of the force; infinite where a press is not answered with ok.
   template <class Model>
   double error(Model& model) const {
@@ -53,7 +50,7 @@ class Pilot {
     for (const Line& line : lines_) most = (std::max)(most, error(model, line));
     return most;
   }
-  /// The same at one of places().
+  /// The same at one place.
   template <class Model>
   double error_at(Model& model, double s) const {
     double most = 0;
@@ -61,53 +58,87 @@ class Pilot {
       if (line.s == s) most = (std::max)(most, error(model, line));
     return most;
   }
-  /// Both ends of the range and its middle [m].
-  std::vector<double> places() const {
-    return {lines_.front().s, lines_[main_lines_ / 2].s, lines_[main_lines_ - 1].s};
-  }
-
   int elements() const noexcept { return elements_; }  ///< of the reference
   double own_error() const noexcept {
     return own_error_;
   }  ///< of half as many elements: more than the reference's
 
- private:
-  struct Line {
-    double s;
-    std::vector<double> depths;  // d [m], from rest outward
-    std::vector<double> forces;  // [N] of the reference
-  };
+ protected:
+  explicit PilotOf(double force_floor) noexcept : floor_(force_floor) {}
 
+  /// Refines a reference until it is known well enough, and keeps its answers.
+  /// @param length [m]   @param beside [m] from the nearest line to a support   @param model_of  elements -> model
+  template <class ModelOf>
+  void refine(double length, double beside, int most, double force_error, double depth, ModelOf&& model_of) {
+    // Four elements at least between a support and the nearest line, or half as many would be no other mesh there.
+    for (elements_ = 32; elements_ < most && elements_ * beside < 4 * length;) elements_ *= 2;
+    for (;; elements_ *= 2) {
+      auto coarse = model_of(elements_ / 2), reference = model_of(elements_);
+      answer(reference, depth);
+      const double apart = error(coarse);
+      own_error_ = apart / 3;
+      if (apart <= force_error / 20 || elements_ >= most) return;
+    }
+  }
+
+  std::vector<Line> lines_;
+
+ private:
   template <class Model>
   double error(Model& model, const Line& line) const {
+    constexpr double least = (std::numeric_limits<double>::min)();
     model.reset();
     double most = 0;
     for (std::size_t k = 0; k < line.depths.size(); ++k) {
-      const Response<double> response = model.press({line.s, line.depths[k]});
+      const Response<double> response = line.go(model, k);
       if (response.status != Status::ok) return std::numeric_limits<double>::infinity();
-      most = (std::max)(
-          most, std::abs(response.force - line.forces[k]) / (std::max)(std::abs(line.forces[k]), floor_));
+      most = (std::max)(most, std::abs(response.force - line.forces[k]) /
+                                  (std::max)({std::abs(line.forces[k]), floor_, least}));
     }
     return most;
   }
 
-  /// Answers of a reference, kept with the lines.
-  void press(Reference& reference, double depth) {
+  template <class Reference>
+  void answer(Reference& reference, double depth) {
     for (Line& line : lines_) {
       line.forces.clear();
       reference.reset();
-      for (const double d : line.depths) {
-        const Response<double> response = reference.press({line.s, d});
+      for (std::size_t k = 0; k < line.depths.size(); ++k) {
+        const Response<double> response = line.go(reference, k);
         if (response.status != Status::ok)
-          throw std::invalid_argument(
-              "depth = " + detail::number(depth) +
-              " m: must be one that a beam answers everywhere; at s = " + detail::number(line.s) +
-              " m a press of " + detail::number(d) + " m is " + name(response.status));
+          refuse("depth = %g m: must be one that a %s answers everywhere; at s = %g m a %s to %g m is %s",
+                 depth, Line::body, line.s, Line::motion, line.depths[k], name(response.status));
         line.forces.push_back(response.force);
       }
     }
   }
 
+  double floor_;
+  int elements_ = 0;
+  double own_error_ = 0;
+};
+
+}  // namespace detail
+
+class Pilot : public detail::PilotOf<detail::PressLine> {
+ public:
+  using Reference = FullModel<Corotational<>>;
+
+  explicit Pilot(const Scene& scene) : PilotOf(scene.check().force_floor) {
+    place(scene);
+    const double length = scene.beam.length();
+    const double left = fixes_w(scene.beam.left()) ? scene.s_min : length;
+    const double right = fixes_w(scene.beam.right()) ? length - scene.s_max : length;
+    refine(length, (std::min)(left, right), 512, scene.force_error, scene.depth,
+           [&](int n) { return Reference(scene.beam, n); });
+  }
+
+  /// Both ends of the range and its middle [m].
+  std::vector<double> places() const {
+    return {lines_.front().s, lines_[main_lines_ / 2].s, lines_[main_lines_ - 1].s};
+  }
+
+ private:
   void place(const Scene& scene) {
     const Reference rest(scene.beam, 32);
     check_depth(scene, rest);
@@ -120,7 +151,7 @@ class Pilot {
       const double w = rest.shape().at(s).w;
       for (const double sign : {1.0, -1.0}) {
         if (flat && sign < 0) continue;
-        Line line{s, {}, {}};
+        detail::PressLine line{s, {}, {}};
         const double depth = (std::min)(scene.depth, 0.999 * rest.range().depth_at(s) - sign * w);
         for (int k = shallowest; k >= deepest; --k)
           line.depths.push_back(w + sign * depth * std::pow(10.0, -k / 10.0));
@@ -158,25 +189,20 @@ class Pilot {
     }
     const Place& limit = scene.depth > deepest.depth ? deepest : corner;
     if (scene.depth <= limit.depth) return;
-    char allowed[200];
     if (limit.depth > 0)
-      std::snprintf(allowed, sizeof allowed,
-                    "at most %.4g m, the deepest press that is answered to both sides of rest, %.4g m aside, "
-                    "at s = %.4g m",
-                    0.999 * limit.depth, limit.w, limit.s);
-    else
-      std::snprintf(allowed, sizeof allowed,
-                    "of presses that are answered; this beam hangs %.4g m deep at rest at s = %.4g m, which "
-                    "is deeper than those",
-                    limit.w, limit.s);
-    detail::reject("depth", scene.depth, "m", allowed);
+      detail::refuse(
+          "depth = %g m: must be at most %.4g m, the deepest press that is answered to both sides of rest, "
+          "%.4g m "
+          "aside, at s = %.4g m",
+          scene.depth, 0.999 * limit.depth, limit.w, limit.s);
+    detail::refuse(
+        "depth = %g m: must be of presses that are answered; this beam hangs %.4g m deep at rest at s = %.4g "
+        "m, "
+        "which is deeper than those",
+        scene.depth, limit.w, limit.s);
   }
 
-  double floor_;
-  std::vector<Line> lines_;
   std::size_t main_lines_ = 0;  // of those the ones that go all the way down
-  int elements_ = 0;
-  double own_error_ = 0;
 };
 
 }  // namespace hapbeam

@@ -1,14 +1,41 @@
 // SPDX-License-Identifier: MIT
-// The requirements of a scene: a beam, where and how deep it is pressed, and the tolerated error and time.
+// The requirements of a scene: a beam, where and how deep it is pressed, and the tolerated error and time; the models among which it
+// chooses, what each is expected to cost, and what choose() found, in numbers and in words.
 //
+// Plain data; the figures of TickCosts::typical() were measured on one processor (docs/benchmarks.md says which) and are meant to be
+// compared with each other.  choose() takes others.
 // Offline: throws std::invalid_argument naming field, value, unit and what is allowed.
 #pragma once
 
 #include <cmath>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <hapbeam/beam.hpp>
 
 namespace hapbeam {
+
+namespace detail {
+
+/// What a Scene and a RodScene have alike.   @param low, high [m] where it may be pressed
+template <class S>
+[[gnu::cold]] void check_scene(const S& scene, double low, double high, const char* body) {
+  finite("s_min", scene.s_min, "m");
+  finite("s_max", scene.s_max, "m");
+  const char* const away = "a thousandth away from an end that is held";
+  if (!(scene.s_min >= low && scene.s_min <= scene.s_max))
+    refuse("s_min = %g m: must be on the %s, at most s_max, %s", scene.s_min, body, away);
+  if (!(scene.s_max <= high)) refuse("s_max = %g m: must be on the %s, %s", scene.s_max, body, away);
+  positive("depth", scene.depth, "m");
+  positive("force_error", scene.force_error, "");
+  not_negative("force_floor", scene.force_floor, "N");
+  positive("tick", scene.tick, "s");
+}
+
+}  // namespace detail
 
 struct Scene {
   Beam beam;
@@ -42,23 +69,139 @@ struct Scene {
 
   /// @throws std::invalid_argument
   const Scene& check() const {
-    detail::finite("s_min", s_min, "m");
-    detail::finite("s_max", s_max, "m");
     const double margin = 0.999999 * beam.length() / 1000;
-    if (!(s_min >= (fixes_w(beam.left()) ? margin : 0) && s_min <= s_max))
-      detail::reject("s_min", s_min, "m",
-                     "on the beam, at most s_max, a thousandth away from an end that is held");
-    if (!(s_max <= beam.length() - (fixes_w(beam.right()) ? margin : 0)))
-      detail::reject("s_max", s_max, "m", "on the beam, a thousandth away from an end that is held");
+    detail::check_scene(*this, fixes_w(beam.left()) ? margin : 0,
+                        beam.length() - (fixes_w(beam.right()) ? margin : 0), "beam");
     if (!beam.parts().empty())
       detail::reject("scene beam sections", static_cast<double>(beam.parts().size()), "",
                      "none, one section for all of it: take FemModel<Tapered<>>, or "
                      "FemModel<Corotational<Tapered<>>> for finite rotation");
-    detail::positive("depth", depth, "m");
-    detail::positive("force_error", force_error, "");
-    detail::not_negative("force_floor", force_floor, "N");
-    detail::positive("tick", tick, "s");
     return *this;
+  }
+};
+
+/// fixed + per_unit × size, in seconds.
+struct TickCost {
+  double fixed, per_unit;
+  double operator()(int size) const noexcept { return fixed + per_unit * size; }
+};
+
+/// A moving hand's press, from the press of a tick before.  Finite elements: by element.  Trained models: by snapshot.
+struct TickCosts {
+  TickCost linear, von_karman, corotational;
+  TickCost pod_force, pod_shape, galerkin_force, galerkin_shape;
+  TickCost round_rod, twisted_rod;  ///< pushes of rods in space, by element
+
+  static TickCosts typical() noexcept {
+    return {{170e-9, 70e-9},   {205e-9, 100e-9},  {300e-9, 207e-9},  {50e-9, 0.4e-9},   {190e-9, 0.77e-9},
+            {178e-9, 0.58e-9}, {310e-9, 1.13e-9}, {1500e-9, 630e-9}, {2000e-9, 1250e-9}};
+  }
+};
+
+enum class Kinematics {
+  linear,
+  von_karman,
+  corotational,
+  round_rod,
+  twisted_rod
+};  ///< the last two: of rods
+enum class Reduction { none, pod, galerkin };
+
+constexpr const char* name(Kinematics kinematics) noexcept {
+  switch (kinematics) {
+    case Kinematics::linear: return "Linear";
+    case Kinematics::von_karman: return "VonKarman";
+    case Kinematics::corotational: return "Corotational";
+    case Kinematics::round_rod: return "RoundRod";
+    case Kinematics::twisted_rod: return "TwistedRod";
+  }
+  return "unknown";
+}
+
+/// One model: build() makes it.
+struct Candidate {
+  Kinematics kinematics;
+  Reduction reduction;
+  int elements;           ///< of the model, or of the one that trains it
+  bool mirrored = false;  ///< half of the beam, with half of the elements
+  int positions = 0,
+      depths = 0;        ///< snapshots of a trained model, at Chebyshev's nodes; tensions for Galerkin's
+  bool turning = false;  ///< planar, of a rod in space: TurningPlane
+
+  int snapshots() const noexcept { return positions * depths; }
+
+  /// Expected time of a press [s].
+  double tick(const TickCosts& costs, bool shape) const noexcept {
+    if (reduction == Reduction::pod) return (shape ? costs.pod_shape : costs.pod_force)(snapshots());
+    if (reduction == Reduction::galerkin)
+      return (shape ? costs.galerkin_shape : costs.galerkin_force)(snapshots());
+    const TickCost& cost = kinematics == Kinematics::linear        ? costs.linear
+                           : kinematics == Kinematics::von_karman  ? costs.von_karman
+                           : kinematics == Kinematics::round_rod   ? costs.round_rod
+                           : kinematics == Kinematics::twisted_rod ? costs.twisted_rod
+                                                                   : costs.corotational;
+    return cost(mirrored ? elements / 2 : elements);
+  }
+
+  /// In words, as "VonKarman, 8 elements" or "POD of VonKarman, 16 x 12 snapshots".
+  std::string text() const {
+    const char* const plane = turning ? ", in the plane that turns" : "";
+    char text[120];
+    if (reduction == Reduction::none)
+      std::snprintf(text, sizeof text, "%s, %d elements%s%s", name(kinematics), elements,
+                    mirrored ? ", half of them by symmetry" : "", plane);
+    else
+      std::snprintf(text, sizeof text, "%s of %s, %d x %d snapshots%s",
+                    reduction == Reduction::pod ? "POD" : "Galerkin", name(kinematics), positions, depths,
+                    plane);
+    return text;
+  }
+};
+
+/// What became of one family of models.
+struct Verdict {
+  Candidate candidate;  ///< its least size that is accurate enough; where none is, the best that was tried
+  double error;  ///< [-] largest relative error of the force that was seen; infinite where it did not answer
+  double tick;   ///< [s] expected time of a press
+  bool right;    ///< whether the error is small enough
+  std::string refusal;  ///< reason why it could not be built, or empty
+};
+
+struct Choice {
+  std::optional<Candidate> candidate;  ///< empty where no model is admissible
+  std::vector<Verdict> verdicts;       ///< of every family
+  double force_error;                  ///< [-] that was allowed
+  double tick;                         ///< [s] that was allowed
+  std::string advice;                  ///< what to relax, where no model is admissible
+
+  /// @throws std::runtime_error with the advice, where no model is admissible
+  const Candidate& model() const {
+    if (!candidate) throw std::runtime_error(advice);
+    return *candidate;
+  }
+
+  /// The choice, and a line for each family: which bound rejected it, or what it would cost.
+  std::string text() const {
+    std::string out = candidate ? "chosen: " + candidate->text() + "\n" : advice + "\n";
+    for (const Verdict& verdict : verdicts)
+      out += "  " + verdict.candidate.text() + ": " + reason(verdict) + "\n";
+    return out;
+  }
+
+  std::string reason(const Verdict& verdict) const {
+    if (!verdict.refusal.empty()) return "not built: " + verdict.refusal;
+    char text[160];
+    const double percent = 100 * verdict.error, micro = 1e6 * verdict.tick;
+    const bool elements = verdict.candidate.reduction == Reduction::none;
+    if (!std::isfinite(verdict.error)) std::snprintf(text, sizeof text, "does not answer all presses");
+    else if (!verdict.right)
+      std::snprintf(text, sizeof text, "force error %.2g %% %s; allowed %.2g %%", percent,
+                    elements ? "with any number of elements" : "at best", 100 * force_error);
+    else if (verdict.tick > tick)
+      std::snprintf(text, sizeof text, "force within %.2g %%, but %.2g us a press; allowed %.2g us", percent,
+                    micro, 1e6 * tick);
+    else std::snprintf(text, sizeof text, "force within %.2g %%, %.2g us a press", percent, micro);
+    return text;
   }
 };
 

@@ -6,11 +6,11 @@
 #include "support/error.hpp"
 #include "support/solver.hpp"
 #include "support/thesis_beam.hpp"
-#include <hapbeam/beam_shapes.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/rom/training/snapshots.hpp>
+#include <hapbeam/shapes.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -27,7 +27,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
@@ -138,6 +140,35 @@ inline bool is_rotation(const Eigen::Matrix3d& R) noexcept {
   return skew <= most * most;
 }
 
+/// Axis times angle of a rotation [rad].   @param R  its entries, R(i, j)
+template <class Rotation>
+Eigen::Vector3d rotation_vector(const Rotation& R) noexcept {
+  const Eigen::Vector3d twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+  const double sine = twice.norm() / 2;
+  if (!(sine > 0)) return Eigen::Vector3d::Zero();
+  return twice * (std::atan2(sine, (R(0, 0) + R(1, 1) + R(2, 2) - 1) / 2) / (2 * sine));
+}
+
+/// What is late by whole ticks.
+class DelayLine {
+ public:
+  static constexpr int longest = 16;
+
+  /// @param newest  of this tick   @param ticks  0 to longest   @return of so many ticks ago; zero where there was none
+  const Eigen::Vector3d& pass(const Eigen::Vector3d& newest, int ticks) noexcept {
+    std::move_backward(all_.begin(), all_.end() - 1, all_.end());
+    all_[0] = newest;
+    return all_[static_cast<std::size_t>(ticks)];
+  }
+  void clear() noexcept { all_.fill(Eigen::Vector3d::Zero()); }
+
+ private:
+  std::array<Eigen::Vector3d, longest + 1> all_ = [] {
+    std::array<Eigen::Vector3d, longest + 1> none;
+    return none.fill(Eigen::Vector3d::Zero()), none;
+  }();
+};
+
 }  // namespace detail
 
 /// The force that a device may send: finite and no longer than its peak.
@@ -173,56 +204,46 @@ inline bool is_rotation(const Eigen::Matrix3d& R) noexcept {
 
 namespace detail {
 
-template <typename S, typename = void>
-struct IsServo : std::false_type {};
+// Signatures alone, to be called with null pointers: a contract is met where the first of two takes them.
 template <typename S>
-struct IsServo<S, std::void_t<decltype(std::declval<S&>()(std::declval<const DeviceState&>()))>>
+auto as_servo(S* s, const DeviceState* state)
     // Eigen::Vector3d itself: an Eigen expression would refer to what the servo has already left.
-    : std::bool_constant<
-          noexcept(std::declval<S&>()(std::declval<const DeviceState&>())) &&
-          std::is_same_v<decltype(std::declval<S&>()(std::declval<const DeviceState&>())), Eigen::Vector3d>> {
-};
+    -> std::bool_constant<noexcept((*s)(*state)) && std::is_same_v<decltype((*s)(*state)), Eigen::Vector3d>>;
+template <typename>
+std::false_type as_servo(...);
 
-template <typename S, typename = void>
-struct TakesOrientation : std::false_type {};
 template <typename S>
-struct TakesOrientation<S, std::void_t<decltype(std::declval<S&>()(std::declval<const OrientedState&>()))>>
-    : std::is_same<decltype(std::declval<S&>()(std::declval<const OrientedState&>())), Wrench> {};
+auto as_turning(S* s, const OrientedState* state) -> std::is_same<decltype((*s)(*state)), Wrench>;
+template <typename>
+std::false_type as_turning(...);
 
 struct AnyServo {
   Eigen::Vector3d operator()(const DeviceState&) noexcept;
 };
-
-template <typename D, typename = void>
-struct IsDevice : std::false_type {};
 template <typename D>
-struct IsDevice<
-    D, std::void_t<decltype(std::declval<D&>().start(std::declval<AnyServo&>())),
-                   decltype(std::declval<D&>().stop()), decltype(std::declval<const D&>().info()),
-                   decltype(std::declval<const D&>().running()), decltype(std::declval<const D&>().status()),
-                   decltype(std::declval<const D&>().counts())>>
-    : std::bool_constant<
-          std::is_same_v<std::decay_t<decltype(std::declval<const D&>().info())>, DeviceInfo>&& noexcept(
-              std::declval<D&>().stop())&& noexcept(std::declval<const D&>().running()) &&
-          std::is_same_v<decltype(std::declval<const D&>().running()), bool>&& noexcept(
-              std::declval<const D&>().status()) &&
-          std::is_same_v<decltype(std::declval<const D&>().status()), DeviceStatus>&& noexcept(
-              std::declval<const D&>().counts()) &&
-          std::is_same_v<decltype(std::declval<const D&>().counts()), DeviceCounts>> {};
+auto as_device(D* d, const D* seen, AnyServo* servo, decltype(d->start(*servo))* = nullptr)
+    -> std::bool_constant<
+        std::is_same_v<std::decay_t<decltype(seen->info())>, DeviceInfo>&& noexcept(d->stop()) && noexcept(
+            seen->running()) && noexcept(seen->status()) && noexcept(seen->counts()) &&
+        std::is_same_v<decltype(seen->running()), bool> &&
+        std::is_same_v<decltype(seen->status()), DeviceStatus> &&
+        std::is_same_v<decltype(seen->counts()), DeviceCounts>>;
+template <typename>
+std::false_type as_device(...);
 
 }  // namespace detail
 
 /// True where S can be called in a servo loop, noexcept included.
 template <typename S>
-inline constexpr bool is_servo = detail::IsServo<S>::value;
+inline constexpr bool is_servo = decltype(detail::as_servo<S>(nullptr, nullptr))::value;
 
 /// True where S takes an orientation and answers with a torque besides.
 template <typename S>
-inline constexpr bool takes_orientation = detail::TakesOrientation<S>::value;
+inline constexpr bool takes_orientation = decltype(detail::as_turning<S>(nullptr, nullptr))::value;
 
 /// True where D fulfils the contract above, every noexcept included.
 template <typename D>
-inline constexpr bool is_device = detail::IsDevice<D>::value;
+inline constexpr bool is_device = decltype(detail::as_device<D>(nullptr, nullptr, nullptr))::value;
 
 /// Stops compilation with the signature that is missing.
 template <typename S>
@@ -242,5 +263,17 @@ constexpr void require_device() noexcept {
                 "running() const noexcept -> bool; status() const noexcept -> DeviceStatus; "
                 "counts() const noexcept -> DeviceCounts");
 }
+
+namespace detail {
+
+/// The servo's answer, with a torque where it takes the orientation.   @param oriented  the device reads one
+template <typename Servo>
+Wrench ask(Servo& servo, const OrientedState& state, [[maybe_unused]] bool oriented) noexcept {
+  if constexpr (takes_orientation<Servo>)
+    if (oriented) return servo(state);
+  return {servo(static_cast<const DeviceState&>(state)), Eigen::Vector3d::Zero()};
+}
+
+}  // namespace detail
 
 }  // namespace hapbeam

@@ -19,7 +19,6 @@
 
 #include <hapbeam/haptics/device/arm_axis.hpp>
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/device/encoders.hpp>
 #include <hapbeam/haptics/device/hand_path.hpp>
 
 namespace hapbeam {

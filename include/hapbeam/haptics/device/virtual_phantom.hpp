@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A simulated Phantom Premium 1.5/6DOF High Force and the hand that holds it.
 //
-// The arm is a mass with viscous damping and Coulomb friction on each axis (arm_axis.hpp). Encoders read it
-// (encoders.hpp). Its force is held over the period and limited to the peak. A hand of mass, spring and damper pulls
+// The arm is a mass with viscous damping and Coulomb friction on each axis, which encoders read (arm_axis.hpp). Its force is held over the period and limited to the peak. A hand of mass, spring and damper pulls
 // the arm along a path (hand_path.hpp). Figures: thesis Table 2.1. There are three translations and, optionally, a
 // gimbal (gimbal.hpp), which the torque turns. There are no end stops.
 //
@@ -12,11 +11,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 #include <thread>
@@ -25,7 +22,6 @@
 
 #include <hapbeam/haptics/device/arm_axis.hpp>
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/device/encoders.hpp>
 #include <hapbeam/haptics/device/gimbal.hpp>
 #include <hapbeam/haptics/device/hand_path.hpp>
 
@@ -83,7 +79,7 @@ class VirtualPhantom {
 
   const DeviceInfo& info() const noexcept { return info_; }
   const VirtualPhantomOptions& options() const noexcept { return options_; }
-  bool running() const noexcept { return running_.load(std::memory_order_acquire); }
+  bool running() const noexcept { return loop_.load(std::memory_order_acquire) != Loop::none; }
   DeviceStatus status() const noexcept { return running() ? DeviceStatus::running : DeviceStatus::stopped; }
   DeviceCounts counts() const noexcept {
     return {ticks_.load(std::memory_order_relaxed), missed_ticks_.load(std::memory_order_relaxed),
@@ -100,15 +96,14 @@ class VirtualPhantom {
     if (running()) throw std::logic_error("VirtualPhantom: runs already");
     stop();
     reset();
-    stopping_.store(false, std::memory_order_relaxed);
     thread_ = std::thread([this, &servo]() noexcept { run_in_real_time(servo); });
-    running_.store(true, std::memory_order_release);
+    loop_.store(Loop::runs, std::memory_order_release);
   }
   void stop() noexcept {
     if (!thread_.joinable()) return;
-    stopping_.store(true, std::memory_order_relaxed);
+    loop_.store(Loop::ends, std::memory_order_relaxed);
     thread_.join();
-    running_.store(false, std::memory_order_release);
+    loop_.store(Loop::none, std::memory_order_release);
   }
 
   /// Lock step: one tick and one period of simulated time.  Only while it does not run.
@@ -136,38 +131,19 @@ class VirtualPhantom {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr int max_delay = 16;
+  enum class Loop : std::uint8_t { none, runs, ends };
 
   template <typename Servo>
   void tick(Servo& servo) noexcept {
-    const DeviceState state{encoders_.position(),
-                            encoders_.velocity(),
-                            time_,
-                            cut_,
-                            force_,
-                            DeviceStatus::running,
-                            ticks_.load(std::memory_order_relaxed) == 0};
-    if constexpr (takes_orientation<Servo>) {
-      if (options_.gimbal.present) ask_oriented(servo, state);
-      else ask(servo, state);
-    } else {
-      ask(servo, state);
-    }
+    OrientedState state;
+    state.position = encoders_.position(), state.velocity = encoders_.velocity();
+    state.time = time_, state.cut = cut_, state.sent = sent_.force, state.sent_torque = sent_.torque;
+    state.reset = ticks_.load(std::memory_order_relaxed) == 0;
+    if (options_.gimbal.present) state.orientation = gimbal_.orientation();
+    sent_ = detail::ask(servo, state, options_.gimbal.present);
+    cut_ = limit_wrench(sent_, options_.arm.peak_force, info_.gimbal.peak_torque);
     ticks_.fetch_add(1, std::memory_order_relaxed);
     if (cut_ != ForceCut::none) force_cut_ticks_.fetch_add(1, std::memory_order_relaxed);
-  }
-
-  template <typename Servo>
-  void ask(Servo& servo, const DeviceState& state) noexcept {
-    Eigen::Vector3d force = servo(state);
-    cut_ = limit_force(force, options_.arm.peak_force);
-    force_ = force;
-  }
-  template <typename Servo>
-  void ask_oriented(Servo& servo, const DeviceState& state) noexcept {
-    Wrench wrench = servo(OrientedState{state, gimbal_.orientation(), torque_});
-    cut_ = limit_wrench(wrench, options_.arm.peak_force, info_.gimbal.peak_torque);
-    force_ = wrench.force, torque_ = wrench.torque;
   }
 
   /// One period under the last force.
@@ -188,7 +164,7 @@ class VirtualPhantom {
     const auto period =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options_.arm.period));
     auto deadline = Clock::now();
-    while (!stopping_.load(std::memory_order_relaxed)) {
+    while (loop_.load(std::memory_order_relaxed) != Loop::ends) {
       tick(servo);
       deadline += period;
       std::this_thread::sleep_until(deadline);
@@ -215,15 +191,13 @@ class VirtualPhantom {
   Encoders encoders_{options_.arm.resolution, options_.arm.velocity_cutoff};
   Gimbal gimbal_{options_.gimbal, options_.arm.velocity_cutoff};
   HandTarget target_{};
-  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d torque_ = Eigen::Vector3d::Zero();
-  std::array<Eigen::Vector3d, max_delay + 1> late_;         // newest first
-  std::array<Eigen::Vector3d, max_delay + 1> late_motors_;  // of the gimbal
+  Wrench sent_;
+  detail::DelayLine late_, late_motors_;  // the last: of the gimbal
   ForceCut cut_ = ForceCut::none;
   std::uint64_t periods_ = 0;
   double time_ = 0;  // [s]
   std::atomic<std::uint64_t> ticks_{0}, missed_ticks_{0}, force_cut_ticks_{0};
-  std::atomic<bool> running_{false}, stopping_{false};
+  std::atomic<Loop> loop_{Loop::none};
   std::thread thread_;
   static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "counting in a tick must not lock");
 };
@@ -234,8 +208,8 @@ void VirtualPhantom<Path>::reset() noexcept {
   periods_ = 0;
   time_ = 0;
   ticks_ = missed_ticks_ = force_cut_ticks_ = 0;
-  force_.setZero(), torque_.setZero();
-  late_.fill(force_), late_motors_.fill(torque_);
+  sent_ = {};
+  late_.clear(), late_motors_.clear();
   cut_ = ForceCut::none;
   target_ = path_(0);
   for (int i = 0; i < 3; ++i) axes_[i].place(target_.position[i]);
@@ -248,18 +222,15 @@ void VirtualPhantom<Path>::advance() noexcept {
   const double begun = std::exchange(time_, next_time()), period = time_ - begun;
   const HandTarget from = target_;
   target_ = path_(time_);
-  std::move_backward(late_.begin(), late_.end() - 1, late_.end());
-  late_[0] = force_;
-  const Eigen::Vector3d force = late_[static_cast<std::size_t>(options_.arm.delay_ticks)] + from.push;
+  const int delay = options_.arm.delay_ticks;
+  const Eigen::Vector3d force = late_.pass(sent_.force, delay) + from.push;
   for (int i = 0; i < 3; ++i)
     axes_[i].advance(axes_[i].drive(force[i], from.position[i], from.velocity[i], target_.position[i],
                                     target_.velocity[i], options_.hand.damping, period),
                      period);
   encoders_.read(tip().position, period);
   if (!options_.gimbal.present) return;
-  std::move_backward(late_motors_.begin(), late_motors_.end() - 1, late_motors_.end());
-  late_motors_[0] = gimbal_.by_axes(torque_);
-  gimbal_.advance(late_motors_[static_cast<std::size_t>(options_.arm.delay_ticks)], from, target_, period);
+  gimbal_.advance(late_motors_.pass(gimbal_.by_axes(sent_.torque), delay), from, target_, period);
 }
 
 template <typename Path>
@@ -274,7 +245,7 @@ VirtualPhantomOptions VirtualPhantom<Path>::checked(const VirtualPhantomOptions&
   detail::positive("velocity_cutoff", arm.velocity_cutoff, "Hz");
   detail::positive("peak_force", arm.peak_force, "N");
   if (!(arm.period >= 1e-5 && arm.period <= 1)) detail::reject("period", arm.period, "s", "1e-5 to 1");
-  if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= max_delay))
+  if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= detail::DelayLine::longest))
     detail::reject("delay_ticks", arm.delay_ticks, "", "0 to 16");
   if (!(arm.jitter >= 0 && arm.jitter <= 0.9)) detail::reject("jitter", arm.jitter, "", "0 to 0.9");
   not_negative("hand stiffness", hand.stiffness, "N/m");

@@ -32,7 +32,7 @@
 #include <utility>
 
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/device/force_ramp.hpp>
+#include <hapbeam/haptics/hdapi/calibration.hpp>
 #include <hapbeam/haptics/hdapi/connection.hpp>
 
 namespace hapbeam {
@@ -97,12 +97,8 @@ class Hdapi {
       detail::reject("rate", rate, "Hz", "that of the devices that run already");
     prepare([this] { device_.calibrate(false); });
     servo_ = &servo;
-    ask_ = [](void* object, const OrientedState& state, bool oriented) noexcept -> Wrench {
-      Servo& asked = *static_cast<Servo*>(object);
-      if constexpr (takes_orientation<Servo>)
-        if (oriented) return asked(state);
-      (void)oriented;
-      return {asked(static_cast<const DeviceState&>(state))};
+    ask_ = [](void* object, const OrientedState& state, bool oriented) noexcept {
+      return detail::ask(*static_cast<Servo*>(object), state, oriented);
     };
     oriented_ = takes_orientation<Servo> && info().gimbal.reads;
     prepare([this] { begin(); });
@@ -140,7 +136,7 @@ class Hdapi {
     device_.calibration.start();
     anew_ = true, timed_ = false;
     detail::HdErrors errors;
-    scheduled_ = true;
+    part_ = Part::scheduled;
     const bool linked = Scheduler::call([this]() noexcept {
       Scheduler::drain();
       device_.client.errors = {};
@@ -162,7 +158,7 @@ class Hdapi {
     });
     if (!asked || !has_schedule()) device_.fail("is not scheduled", errors);
     if (!selected || errors.worst >= HdErrorClass::fault) device_.fail("does not start", errors);
-    counted_ = true;
+    part_ = Part::counted;
     errors = Scheduler::add_loop(device_.options().rate);
     if (errors.worst != HdErrorClass::none) device_.fail("does not start", errors);
   }
@@ -172,10 +168,11 @@ class Hdapi {
   void end() noexcept {
     stopping_.store(true, relaxed);
     // What is called synchronously returns after this tick or the next: the loop has then ended itself.
-    for (int i = 0; i < 10 && scheduled_ && Scheduler::runs() && has_schedule() && !ended_; ++i)
+    for (int i = 0; i < 10 && part_ != Part::none && Scheduler::runs() && has_schedule() && !ended_; ++i)
       Scheduler::call([]() noexcept {});
-    if (std::exchange(counted_, false)) Scheduler::remove_loop();
-    if (std::exchange(scheduled_, false) && !ended_) {  // it never ran, or the scheduler does not answer
+    const Part part = std::exchange(part_, Part::none);
+    if (part == Part::counted) Scheduler::remove_loop();
+    if (part != Part::none && !ended_) {  // it never ran, or the scheduler does not answer
       if (has_schedule()) Api::unschedule(schedule_);
       Scheduler::insist([this]() noexcept {
         device_.switch_off();
@@ -266,6 +263,9 @@ class Hdapi {
     return std::chrono::duration<double>(now - first_).count();
   }
 
+  /// What of the scheduler this loop has: its tick is scheduled, then it counts as one that runs.
+  enum class Part : std::uint8_t { none, scheduled, counted };
+
   static constexpr auto relaxed = std::memory_order_relaxed;
   static constexpr int most_last_ticks = 3;
 
@@ -275,7 +275,7 @@ class Hdapi {
   Wrench (*ask_)(void*, const OrientedState&, bool oriented) noexcept = nullptr;
   bool oriented_ = false;  // the servo takes what the device reads of its orientation
   unsigned long schedule_ = 0;
-  bool scheduled_ = false, counted_ = false;
+  Part part_ = Part::none;
   bool anew_ = true;    // the servo has not been asked since the arm's place is known
   bool timed_ = false;  // the clock runs
   int last_ticks_ = 0;  // left to switch the motors off, after the loop has ended

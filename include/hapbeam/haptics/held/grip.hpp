@@ -26,7 +26,7 @@
 
 #include <hapbeam/haptics/servo/servo.hpp>
 #include <hapbeam/haptics/stability/coupling_limits.hpp>
-#include <hapbeam/rod_support.hpp>
+#include <hapbeam/support.hpp>
 
 namespace hapbeam {
 
@@ -128,8 +128,8 @@ class GripCoupling {
   /// @param place  K [N/m] and B [N·s/m]   @param turning  K_r [N·m/rad] and B_r [N·m·s/rad]   @param period T [s]
   /// @throws std::invalid_argument unless stiffnesses are positive, dampings not negative and all finite
   GripCoupling(const CouplingFigures& place, const CouplingFigures& turning, double period)
-      : place_(checked(place, "grip stiffness", "N/m", "grip damping", "N·s/m")),
-        turning_(checked(turning, "grip turning stiffness", "N·m/rad", "grip turning damping", "N·m·s/rad")),
+      : place_(detail::checked(place, "grip", "N/m", "N·s/m")),
+        turning_(detail::checked(turning, "grip turning", "N·m/rad", "N·m·s/rad")),
         period_(detail::loop_period("grip period", period)) {}
   /// What the device can render.   @throws as safe_coupling()
   static GripCoupling for_device(const DeviceInfo& device, int delay_ticks = 0) {
@@ -142,7 +142,7 @@ class GripCoupling {
   GripCoupling in_scene(double scale) const noexcept {
     GripCoupling scaled = *this;
     scaled.place_ = {place_.stiffness / scale, place_.damping / scale};
-    scaled.turning_ = {turning_.stiffness * scale, turning_.damping * scale};
+    scaled.turning_ = turning_ * scale;
     return scaled;
   }
   /// How the held end of the rod is supported: K' and K_r'.   @throws std::invalid_argument where the scene's scale overflows them
@@ -175,7 +175,7 @@ class GripCoupling {
     result.touch.press = {touch.s(), 0};
     if (is_answer(held.status)) {
       const HandPose end = touch.end();
-      gap_ = end.place - at.place, turn_ = rotation_vector(end.turn * at.turn.transpose());
+      gap_ = end.place - at.place, turn_ = detail::rotation_vector(end.turn * at.turn.transpose());
       last_ = {-detail::in_scene(held.force), -detail::in_scene(held.moment)};
       continued_ = 0;
       const double angle = turn_.norm();
@@ -201,12 +201,6 @@ class GripCoupling {
   }
 
  private:
-  static CouplingFigures checked(const CouplingFigures& figures, const char* stiffness, const char* k,
-                                 const char* damping, const char* b) {
-    detail::positive(stiffness, figures.stiffness, k);
-    detail::not_negative(damping, figures.damping, b);
-    return figures;
-  }
   double stiff(const CouplingFigures& figures) const noexcept {
     return figures.stiffness + figures.damping / period_;
   }
@@ -228,13 +222,6 @@ class GripCoupling {
     }
     return R;
   }
-  static Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R) noexcept {
-    const Eigen::Vector3d twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
-    const double sine = twice.norm() / 2;
-    if (!(sine > 0)) return Eigen::Vector3d::Zero();
-    return twice * (std::atan2(sine, (R.trace() - 1) / 2) / (2 * sine));
-  }
-
   CouplingFigures place_, turning_;
   double period_;
   Eigen::Vector3d gap_ = Eigen::Vector3d::Zero();   // g [m]

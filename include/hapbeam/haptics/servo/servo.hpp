@@ -20,18 +20,16 @@
 #include <utility>
 
 #include <hapbeam/contact/touch.hpp>
-#include <hapbeam/haptics/device/loop_clock.hpp>
+#include <hapbeam/haptics/device/device_info.hpp>
 #include <hapbeam/haptics/servo/exchange.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
-#include <hapbeam/haptics/servo/servo_picture.hpp>
 #include <hapbeam/haptics/servo/servo_record.hpp>
 #include <hapbeam/haptics/servo/stylus.hpp>
 #include <hapbeam/haptics/servo/tick_times.hpp>
+#include <hapbeam/haptics/stability/contact_tangent.hpp>
 #include <hapbeam/haptics/stability/coupling.hpp>
 #include <hapbeam/haptics/stability/energy_monitor.hpp>
 #include <hapbeam/haptics/stability/force_guard.hpp>
-#include <hapbeam/haptics/stability/hand_pose.hpp>
-#include <hapbeam/haptics/stability/in_scene.hpp>
 
 namespace hapbeam {
 
@@ -61,6 +59,14 @@ Touch<Model> make_touch(Model& model, Scalar radius, const Friction& friction) {
 
 }  // namespace detail
 
+/// What is drawn of a model: its shape.  Arrays have another (servo_many.hpp).
+template <typename Model>
+struct Drawn {
+  using Picture = ServoPicture<typename Model::Scalar, dimension_of<Touch<Model>>>;
+  static constexpr bool for_who_looks = detail::OffersPart<Model>::value;  ///< it costs more than the force
+  static auto of(const Model& model, const Touch<Model>&) noexcept { return model.shape(); }
+};
+
 /// The coupling of a servo that is given none.
 template <typename Model>
 struct CouplingOf {
@@ -69,7 +75,7 @@ struct CouplingOf {
 
 template <typename Model, typename Coupling = typename CouplingOf<Model>::Type>
 class Servo {
-  static_assert(is_coupling<Coupling> || detail::CouplesPose<Coupling, Touch<Model>>::value,
+  static_assert(is_coupling<Coupling> || detail::couples_pose<Coupling, Touch<Model>>,
                 "a coupling has: tick(touch, hand, dt) noexcept -> CoupledForce<Scalar>; in_scene(scale) "
                 "const noexcept -> "
                 "itself; reset() noexcept; static for_device(info, delay_ticks) -> itself");
@@ -77,7 +83,7 @@ class Servo {
  public:
   using Scalar = typename Model::Scalar;
   using Picture = typename Drawn<Model>::Picture;
-  static constexpr int dimension = detail::dimension_of_touch<Touch<Model>>;
+  static constexpr int dimension = dimension_of<Touch<Model>>;
 
   /// @param model   kept by reference, and pressed by this object alone
   /// @param device  what the loop's device can do; its limits are the guard's
@@ -142,8 +148,8 @@ class Servo {
 
  private:
   using Coupled = CoupledForce<Scalar, dimension>;
-  static constexpr bool couples_pose = detail::CouplesPose<Coupling, Touch<Model>>::value;
-  using Stylus = detail::StylusOf<Scalar, dimension>;
+  static constexpr bool couples_pose = detail::couples_pose<Coupling, Touch<Model>>;
+  using Stylus = detail::Stylus<Scalar, dimension>;
 
   template <typename State>
   [[nodiscard]] auto run(const State& state) noexcept;

@@ -17,9 +17,8 @@
 
 #include <hapbeam/check.hpp>
 #include <hapbeam/contact/touch.hpp>
+#include <hapbeam/haptics/stability/contact_tangent.hpp>
 #include <hapbeam/haptics/stability/coupling.hpp>
-#include <hapbeam/haptics/stability/hand_pose.hpp>
-#include <hapbeam/haptics/stability/in_scene.hpp>
 #include <hapbeam/shaft.hpp>
 
 namespace hapbeam {
@@ -60,18 +59,20 @@ struct CapsuleTouch {
 };
 
 template <typename C, typename = void>
-struct Moves : std::false_type {};
+inline constexpr bool moves = false;
 template <typename C>
-struct Moves<C, std::void_t<decltype(std::declval<C&>().move(std::declval<const Eigen::Vector3d&>()))>>
-    : std::true_type {};
+inline constexpr bool
+    moves<C, std::void_t<decltype(std::declval<C&>().move(std::declval<const Eigen::Vector3d&>()))>> = true;
 
-/// @tparam Scalar  of the rod
-template <typename Scalar>
+/// @tparam D  of the space in which the beam bends: 2, where no shaft touches it, or 3
+template <typename Scalar, int D>
 class Stylus {
  public:
   explicit Stylus(const StylusOptions& options) : o_(options) {
     not_negative("stylus length", o_.length, "m");
     finite("stylus ahead", o_.ahead, "m");
+    if (D == 2 && (o_.length != 0 || o_.ahead != 0))
+      reject("stylus length", o_.length, "m", "0 for a beam in a plane, as ahead");
   }
 
   void reset() noexcept { tied_.setZero(), arm_.setZero(); }
@@ -93,7 +94,7 @@ class Stylus {
     const auto& contact = felt.touch.contact;
     if (felt.touch.pressing && !felt.continued && contact.segment >= 0) {
       arm_ = capsule.arm(felt.touch, felt.avatar);
-      if constexpr (Moves<Coupling>::value) {
+      if constexpr (moves<Coupling>) {
         const Eigen::Vector3d now = axis.at(axis.nearest(arm_));
         coupling.move(now - tied);
         tied_ = hand.turn.transpose() * now;
@@ -116,19 +117,6 @@ class Stylus {
       Eigen::Vector3d::Zero();                     // from the hand to the tied point, in the stylus' axes [m]
   Eigen::Vector3d arm_ = Eigen::Vector3d::Zero();  // from the hand to the contact, in the scene [m]
 };
-
-/// Of a beam in a plane, which no shaft touches.
-struct NoStylus {
-  explicit NoStylus(const StylusOptions& options) {
-    if (options.length != 0 || options.ahead != 0)
-      reject("stylus length", options.length, "m", "0 for a beam in a plane, as ahead");
-  }
-  void reset() noexcept {}
-};
-
-/// @tparam D  of the space in which the beam bends: 2 | 3
-template <typename Scalar, int D>
-using StylusOf = std::conditional_t<D == 3, Stylus<Scalar>, NoStylus>;
 
 }  // namespace detail
 

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include <hapbeam/haptics/device/device.hpp>
 
@@ -118,20 +119,21 @@ class BasicTickTimes {
   /// First in a tick.  One thread.  Real-time: no allocation, noexcept, wait-free; reads the clock.
   void begin() noexcept {
     const auto now = Clock::now();
-    if (begun_) {
-      const std::int64_t gap = nanoseconds(now - begin_);
+    if (begin_) {
+      const std::int64_t gap = nanoseconds(now - *begin_);
       period_.add(gap);
       // As a device counts them: deadlines that passed by a whole period before a tick began.
       if (const std::int64_t missed = gap / period_ns_ - 1; missed > 0)
         missed_.store(missed_.load(relaxed) + static_cast<std::uint64_t>(missed), relaxed);
     }
     begin_ = now;
-    begun_ = true;
   }
   /// Last in a tick.  The same.
-  void end() noexcept { compute_.add(nanoseconds(Clock::now() - begin_)); }
+  void end() noexcept {
+    if (begin_) compute_.add(nanoseconds(Clock::now() - *begin_));
+  }
   /// Where the loop was stopped: the time until the next begin() is no period.  While no tick runs.
-  void pause() noexcept { begun_ = false; }
+  void pause() noexcept { begin_.reset(); }
 
   const TimeHistogram& compute() const noexcept { return compute_; }  ///< from begin() to end()
   const TimeHistogram& period() const noexcept { return period_; }    ///< from one begin() to the next
@@ -145,8 +147,7 @@ class BasicTickTimes {
   }
 
   std::int64_t period_ns_;
-  bool begun_ = false;
-  typename Clock::time_point begin_{};
+  std::optional<typename Clock::time_point> begin_;  // none: after a pause
   TimeHistogram compute_, period_;
   std::atomic<std::uint64_t> missed_{0};
 };

@@ -9,6 +9,7 @@
 //   C::for_device(info, delay_ticks)   C   its default; may throw std::invalid_argument
 //   c.reset()             void           noexcept; no contact
 //
+// A coupling of a hand that turns takes a HandPose and returns a CoupledWrench.
 // Touch is Touch<Model>, or a class with its tick(position) and contact_at(position).
 //
 // VirtualCoupling: a steel beam is stiffer than a sampled loop can render. So the hand h does not press the beam
@@ -29,7 +30,7 @@
 // With friction the surface of the avatar has a spring and a damper of the same figures along the beam, within the
 // model's own equilibrium. Sticking is then rendered through the coupling in every direction.
 //
-// If the model exhausts its budget, the last valid force is continued along its tangent (last_response.hpp). With any
+// If the model exhausts its budget, the last valid force is continued along its tangent (contact_tangent.hpp). With any
 // other failure the force is zero. In both cases the status is touch.status.
 // Real-time: no allocation, noexcept, wait-free; as touch.tick() and O(1).
 // Source: Colgate, Stanley and Brown, "Issues in the haptic display of tool use", IROS 1995; the massless
@@ -41,11 +42,13 @@
 #include <type_traits>
 #include <utility>
 
+#include <Eigen/Core>
+
 #include <hapbeam/check.hpp>
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/stability/contact_tangent.hpp>
 #include <hapbeam/haptics/stability/coupling_limits.hpp>
-#include <hapbeam/haptics/stability/last_response.hpp>
 
 namespace hapbeam {
 
@@ -62,12 +65,6 @@ struct CoupledForce {
 
 namespace detail {
 
-/// Dimension of the space in which the beam of a touch bends: 2 unless stated.
-template <typename Touch, typename = void>
-inline constexpr int dimension_of_touch = 2;
-template <typename Touch>
-inline constexpr int dimension_of_touch<Touch, std::void_t<decltype(Touch::dimension)>> = Touch::dimension;
-
 /// Whether a touch may have friction.
 template <typename Touch, typename = void>
 inline constexpr bool may_be_rough = false;
@@ -76,16 +73,15 @@ inline constexpr bool may_be_rough<Touch, std::void_t<decltype(std::declval<Touc
 
 /// Where the hand of a touch is [m].
 template <typename Touch>
-using HandOf = VectorOf<double, dimension_of_touch<Touch>>;
+using HandOf = VectorOf<double, dimension_of<Touch>>;
 template <typename Touch>
-using CoupledForceOf = CoupledForce<typename Touch::Scalar, dimension_of_touch<Touch>>;
+using CoupledForceOf = CoupledForce<typename Touch::Scalar, dimension_of<Touch>>;
 
 /// Whether a touch turns the hand, by a lever ρ [m].
 template <typename Touch, typename = void>
-struct TurnsHand : std::false_type {};
+inline constexpr bool turns_hand = false;
 template <typename Touch>
-struct TurnsHand<Touch, std::void_t<decltype(&Touch::lever)>> : std::true_type {};
-
+inline constexpr bool turns_hand<Touch, std::void_t<decltype(&Touch::lever)>> = true;
 /// Whether others press the beam of a touch between its ticks, and it says with what force they leave it.
 template <typename Touch, typename = void>
 inline constexpr bool is_shared = false;
@@ -106,30 +102,23 @@ struct AnyTouch {
   Contact<double> contact_at(const Vector2<double>&) const noexcept;
 };
 
-template <typename C, typename = void>
-struct IsCoupling : std::false_type {};
+// Signatures alone, to be called with null pointers.
 template <typename C>
-struct IsCoupling<
-    C, std::void_t<decltype(std::declval<C&>().tick(std::declval<AnyTouch&>(),
-                                                    std::declval<const Vector2<double>&>(), 0.0)),
-                   decltype(std::declval<const C&>().in_scene(1.0)), decltype(std::declval<C&>().reset()),
-                   decltype(C::for_device(std::declval<const DeviceInfo&>(), 0))>>
-    : std::bool_constant<
-          noexcept(std::declval<C&>().tick(std::declval<AnyTouch&>(), std::declval<const Vector2<double>&>(),
-                                           0.0)) &&
-          std::is_same_v<decltype(std::declval<C&>().tick(std::declval<AnyTouch&>(),
-                                                          std::declval<const Vector2<double>&>(), 0.0)),
-                         CoupledForce<double>>&& noexcept(std::declval<const C&>()
-                                                              .in_scene(1.0))&& noexcept(std::declval<C&>()
-                                                                                             .reset()) &&
-          std::is_same_v<decltype(std::declval<const C&>().in_scene(1.0)), C> &&
-          std::is_same_v<decltype(C::for_device(std::declval<const DeviceInfo&>(), 0)), C>> {};
+auto as_coupling(C* c, const C* same, AnyTouch* touch, const Vector2<double>* hand, const DeviceInfo* info)
+    -> std::bool_constant<noexcept(c->tick(*touch, *hand,
+                                           0.0)) && noexcept(same->in_scene(1.0)) && noexcept(c->reset()) &&
+                          std::is_same_v<decltype(c->tick(*touch, *hand, 0.0)), CoupledForce<double>> &&
+                          std::is_same_v<decltype(same->in_scene(1.0)), C> &&
+                          std::is_same_v<decltype(C::for_device(*info, 0)), C>>;
+template <typename>
+std::false_type as_coupling(...);
 
 }  // namespace detail
 
 /// True where C fulfils the contract above, every noexcept included.
 template <typename C>
-inline constexpr bool is_coupling = detail::IsCoupling<C>::value;
+inline constexpr bool is_coupling =
+    decltype(detail::as_coupling<C>(nullptr, nullptr, nullptr, nullptr, nullptr))::value;
 
 /// The hand presses the beam itself.  A beam that is stiffer than the device can render is unstable: steel buzzes near a support.
 class Direct {
@@ -147,7 +136,7 @@ class Direct {
   /// @param touch  of the same beam each tick   @param hand [m]
   template <typename Touch>
   [[nodiscard]] auto tick(Touch& touch, const detail::HandOf<Touch>& hand, double) noexcept {
-    constexpr int D = detail::dimension_of_touch<Touch>;
+    constexpr int D = dimension_of<Touch>;
     detail::CoupledForceOf<Touch> result;
     detail::look_at_others(touch, last_);
     result.avatar = hand;
@@ -175,15 +164,12 @@ class VirtualCoupling {
   /// @param figures  K [N/m] and B [N·s/m]
   /// @throws std::invalid_argument unless K is positive, B not negative and both finite
   explicit VirtualCoupling(const CouplingFigures& figures)
-      : straight_(figures), stiffness_(figures.stiffness), damping_(figures.damping) {
-    detail::positive("coupling stiffness", figures.stiffness, "N/m");
-    detail::not_negative("coupling damping", figures.damping, "N·s/m");
-  }
+      : straight_(detail::checked(figures, "coupling", "N/m", "N·s/m")),
+        stiffness_(figures.stiffness),
+        damping_(figures.damping) {}
   /// @param turning  K_r [N·m/rad] and B_r [N·m·s/rad] about the hand   @throws as above
   VirtualCoupling(const CouplingFigures& figures, const CouplingFigures& turning) : VirtualCoupling(figures) {
-    detail::positive("turning coupling stiffness", turning.stiffness, "N·m/rad");
-    detail::not_negative("turning coupling damping", turning.damping, "N·m·s/rad");
-    turning_ = turning;
+    turning_ = detail::checked(turning, "turning coupling", "N·m/rad", "N·m·s/rad");
   }
   /// The largest figures that the device can render, with the margin of safe_coupling().   @throws as that
   static VirtualCoupling for_device(const DeviceInfo& device, int delay_ticks = 0) {
@@ -201,7 +187,7 @@ class VirtualCoupling {
   VirtualCoupling in_scene(double scale) const noexcept {
     VirtualCoupling scaled = *this;
     scaled.straight_ = {straight_.stiffness / scale, straight_.damping / scale};
-    scaled.turning_ = {turning_.stiffness * scale, turning_.damping * scale};
+    scaled.turning_ = turning_ * scale;
     scaled.reset();
     return scaled;
   }
@@ -215,7 +201,7 @@ class VirtualCoupling {
   template <typename Touch>
   [[nodiscard]] auto tick(Touch& touch, const detail::HandOf<Touch>& hand, double dt) noexcept {
     using Scalar = typename Touch::Scalar;
-    constexpr int D = detail::dimension_of_touch<Touch>;
+    constexpr int D = dimension_of<Touch>;
     const Eigen::Vector3d from = detail::in_scene(hand);
     const auto normal = [&] { return detail::of_beam<double, D>(last_.tangent().normal()); };
     detail::CoupledForceOf<Touch> result;
@@ -225,7 +211,7 @@ class VirtualCoupling {
     result.avatar = hand + normal() * solve(from, dt).gap;
     result.touch = touch.tick(result.avatar.template cast<Scalar>());
     last_.learn(result.touch, detail::in_scene(result.avatar));
-    if constexpr (detail::TurnsHand<Touch>::value)
+    if constexpr (detail::turns_hand<Touch>)
       if (result.touch.pressing) lean(touch.lever(result.touch, result.avatar));
     if (!result.touch.pressing && last_.tangent().known())
       last_.look_again(touch.contact_at(hand.template cast<Scalar>()), from);
@@ -292,5 +278,31 @@ class VirtualCoupling {
   LastResponse last_;
   double gap_ = 0;  // g [m], how far the hand is below the point
 };
+
+/// Where a hand is in the scene, and how it is turned.
+struct HandPose {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< [m]
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< of the stylus' axes, a rotation
+};
+
+/// The result of a tick, with the torque on the hand.
+template <typename Scalar>
+struct CoupledWrench : CoupledForce<Scalar, 3> {
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m] about the hand; always finite
+};
+
+namespace detail {
+
+template <typename C, typename Touch>
+auto as_turning_coupling(C* c, Touch* touch, const HandPose* hand)
+    -> std::bool_constant<noexcept(c->tick(*touch, *hand, 0.0))>;
+template <typename, typename>
+std::false_type as_turning_coupling(...);
+/// Whether a coupling takes the orientation of the hand.
+template <typename C, typename Touch>
+inline constexpr bool couples_pose =
+    decltype(as_turning_coupling<C, Touch>(nullptr, nullptr, nullptr))::value;
+
+}  // namespace detail
 
 }  // namespace hapbeam

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include <hapbeam/check.hpp>
 #include <hapbeam/haptics/device/device_info.hpp>
@@ -26,6 +27,8 @@ namespace hapbeam {
 struct CouplingFigures {
   double stiffness;  ///< K [N/m] positive
   double damping;    ///< B [N·s/m] not negative
+
+  CouplingFigures operator*(double factor) const noexcept { return {stiffness * factor, damping * factor}; }
 };
 
 /// K at which a spring alone takes all of the arm's damping: b / (T (1/2 + n)) [N/m], by (1).
@@ -39,6 +42,14 @@ inline double passive_stiffness(double damping, double period, int delay_ticks) 
 inline constexpr double least_damping = 0.5;
 
 namespace detail {
+
+/// @param what  they are of, for the message   @param k, b  units   @throws std::invalid_argument
+inline CouplingFigures checked(const CouplingFigures& figures, const char* what, const char* k,
+                               const char* b) {
+  positive((std::string(what) + " stiffness").c_str(), figures.stiffness, k);
+  not_negative((std::string(what) + " damping").c_str(), figures.damping, b);
+  return figures;
+}
 
 /// An arm, or a gimbal with radians for metres.
 struct ArmFigures {

@@ -19,9 +19,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -32,8 +31,6 @@ namespace hapbeam {
 
 class EnergyMonitor {
  public:
-  static constexpr int max_delay = 16;
-
   /// @param delay_ticks  whole periods between a force and the motors, 0 to 16
   /// @throws std::invalid_argument naming field, value, unit and what is allowed
   explicit EnergyMonitor(const DeviceInfo& device, int delay_ticks = 0)
@@ -47,7 +44,7 @@ class EnergyMonitor {
         gimbal_step_(device.gimbal.resolution),
         peak_torque_(device.gimbal.peak_torque),
         delay_(delay_ticks) {
-    if (!(delay_ticks >= 0 && delay_ticks <= max_delay))
+    if (!(delay_ticks >= 0 && delay_ticks <= detail::DelayLine::longest))
       detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
   }
 
@@ -64,8 +61,8 @@ class EnergyMonitor {
   /// Ends the account of a contact without counting it, as after a reset.
   void reset() noexcept {
     net_ = 0;
-    known_ = turn_known_ = false;
-    sent_ = zeros(), sent_torque_ = zeros();
+    position_.reset(), orientation_.reset();
+    sent_.clear(), sent_torque_.clear();
   }
 
   /// A period has ended.   @param position [m] now   @param sent [N] by the loop in the tick before   @param dt [s] since, positive
@@ -96,21 +93,17 @@ class EnergyMonitor {
   }
 
  private:
-  using Sent = std::array<Eigen::Vector3d, max_delay + 1>;
-
-  /// Newest first: what the motors held is `delay` ticks older, and no more than they can.
-  Eigen::Vector3d hold(Sent& all, const Eigen::Vector3d& sent, double peak) const noexcept {
-    std::move_backward(all.begin(), all.end() - 1, all.end());
-    all[0] = sent;
-    if (detail::all_finite(sent)) (void)limit_force(all[0], peak);
-    return all[static_cast<std::size_t>(delay_)];
+  /// What the motors held is late by the delay, and no more than they can.
+  Eigen::Vector3d hold(detail::DelayLine& line, Eigen::Vector3d sent, double peak) const noexcept {
+    if (detail::all_finite(sent)) (void)limit_force(sent, peak);
+    return line.pass(sent, delay_);
   }
   /// [J]  Work of a held force since the reading before, less what the arm took.
   double of_way(const Eigen::Vector3d& position, const Eigen::Vector3d& held, double dt) noexcept {
     const bool finite = detail::all_finite(position);
-    Eigen::Vector3d moved = known_ && finite ? position - position_ : zero();
+    Eigen::Vector3d moved = position_ && finite ? position - *position_ : zero();
     if (!(moved.norm() <= longest_step)) moved.setZero();
-    if (finite) position_ = position, known_ = true;
+    if (finite) position_ = position;
     const Eigen::Array3d way(least(moved[0], step_), least(moved[1], step_), least(moved[2], step_));
     const double work = held.dot(moved);
     const double taken = damping_ * way.square().sum() / dt + friction_ * way.sum();
@@ -119,18 +112,15 @@ class EnergyMonitor {
   /// [J]  The same of a torque, by the rotation vector.
   double of_turn(const Eigen::Matrix3d& orientation, const Eigen::Vector3d& held, double dt) noexcept {
     // Of the rotation R Sᵀ from the last orientation S to R.
+    const Eigen::Matrix3d& last = orientation_ ? *orientation_ : orientation;
     const auto by = [&](int i, int j) {
       double sum = 0;
-      for (int k = 0; k < 3; ++k) sum += orientation(i, k) * orientation_(j, k);
+      for (int k = 0; k < 3; ++k) sum += orientation(i, k) * last(j, k);
       return sum;
     };
-    const double trace = by(0, 0) + by(1, 1) + by(2, 2);
-    Eigen::Vector3d turned(by(2, 1) - by(1, 2), by(0, 2) - by(2, 0), by(1, 0) - by(0, 1));
-    const double sine = turned.norm() / 2;
-    const bool finite = std::isfinite(sine) && std::isfinite(trace);
-    if (turn_known_ && finite && sine > 0) turned *= std::atan2(sine, (trace - 1) / 2) / (2 * sine);
-    else turned.setZero();
-    if (finite) orientation_ = orientation, turn_known_ = true;
+    const bool finite = orientation.allFinite();
+    const Eigen::Vector3d turned = orientation_ && finite ? detail::rotation_vector(by) : zero();
+    if (finite) orientation_ = orientation;
     const double way = least(turned.norm(), gimbal_step_);
     return held.dot(turned) - gimbal_damping_ * way * way / dt - gimbal_friction_ * way;
   }
@@ -155,16 +145,9 @@ class EnergyMonitor {
   double gimbal_damping_, gimbal_friction_, gimbal_step_, peak_torque_;
   int delay_;
   double ended_ = 0, net_ = 0;
-  bool known_ = false, turn_known_ = false;
-  Eigen::Vector3d position_ = zero();
-  Eigen::Matrix3d orientation_ = Eigen::Matrix3d::Identity();
-  Sent sent_ = zeros(), sent_torque_ = zeros();
-
-  static Sent zeros() noexcept {
-    Sent all;
-    all.fill(zero());
-    return all;
-  }
+  std::optional<Eigen::Vector3d> position_;     // as it was read last
+  std::optional<Eigen::Matrix3d> orientation_;  // the same
+  detail::DelayLine sent_, sent_torque_;
 };
 
 }  // namespace hapbeam

@@ -27,7 +27,7 @@
 
 #include <hapbeam/check.hpp>
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/device/loop_clock.hpp>
+#include <hapbeam/haptics/device/device_info.hpp>
 
 namespace hapbeam {
 

@@ -24,10 +24,8 @@
 #include <stdexcept>
 #include <string>
 
-#include <hapbeam/rom/file/check_answers.hpp>
-#include <hapbeam/rom/file/checksum.hpp>
+#include <hapbeam/rom/file/json.hpp>
 #include <hapbeam/rom/file/json_reader.hpp>
-#include <hapbeam/rom/file/json_writer.hpp>
 #include <hapbeam/rom/file/model_fields.hpp>
 #include <hapbeam/rom/file/replaced_file.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
@@ -183,7 +181,7 @@ template <class Model>
   detail::JsonWriter fields(source);
   detail::visit_model(fields, data, Model::Nodes::name());
   const std::string payload = fields.text(std::numeric_limits<Scalar>::max_digits10) + "\n";
-  return detail::model_file_text(detail::kind_of(data), detail::scalar_name<Scalar>(), payload, source);
+  return detail::model_file_text(data.kind, detail::scalar_name<Scalar>(), payload, source);
 }
 
 /// The model in such a text.   @param source  what messages call it   @throws ModelFileError
@@ -192,13 +190,13 @@ template <class Model>
   typename Model::Data data{};
   ModelFileInfo info{};
   const detail::Json payload = detail::parse_model_file(text, source, info);
-  detail::check_type("kind", info.kind, detail::kind_of(data), source);
+  detail::check_type("kind", info.kind, data.kind, source);
   detail::check_type("scalar", info.scalar, detail::scalar_name<typename Model::Scalar>(), source);
   detail::JsonReader fields(payload.get(), source);
   detail::visit_model(fields, data, Model::Nodes::name());
   try {
     Model model(std::move(data));
-    detail::check_answers(model, model.data().positions, detail::second_axis(model.data()));
+    detail::check_answers(model, model.data().positions, model.data().others());
     return model;
   } catch (const std::invalid_argument& error) {
     detail::fail(source, "%s", error.what());

@@ -16,39 +16,60 @@
 // Beyond the largest trained tension, k' falls to that of a string, 1/A, as N^(-1/2), the effect of its boundary
 // layers: A = s(L - s)/L between two ends that hold w.
 // If no tension arises (an end slides, or the element is linear), there is no unknown and k depends on s alone.
-// Copies share the trained data and have a state of their own: a copy costs the nodes of a shape.
 // Offline: construction allocates and throws.  Servo: noexcept, allocation-free, at most max_iterations iterations.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <utility>
-#include <vector>
 
 #include <hapbeam/force_model.hpp>
-#include <hapbeam/rom/trained/combine.hpp>
-#include <hapbeam/rom/trained/lagrange.hpp>
-#include <hapbeam/rom/trained/model_data.hpp>
+#include <hapbeam/rom/trained/trained_model.hpp>
 
 namespace hapbeam {
 
+namespace detail {
+
+/// By position: by tension f = ln(scale k), df/dz, d²f/dz² and d²f/dxdz; what makes the nodes near the contact, with df/dx for its own.
+template <typename Scalar, class Nodes>
+struct GalerkinTable : TrainedTable<GalerkinModelData<Scalar>, Nodes, 4> {
+  using Base = TrainedTable<GalerkinModelData<Scalar>, Nodes, 4>;
+  using Base::data;
+  TensionCoordinate<Scalar> tension{data.beam};
+  Lagrange<Nodes, Scalar> z{data.tensions, 0, tension(data.tension)};
+
+  [[gnu::cold]] explicit GalerkinTable(GalerkinModelData<Scalar> given) : Base(std::move(given)) {
+    const int m = data.tensions, size = this->row_size();
+    Scalar* row = this->table.data();
+    for (int i = 0; i < data.positions; ++i, row += size) {
+      for (int j = 0; j < m; ++j) row[4 * j] = data.log_stiffness[static_cast<std::size_t>(i * m + j)];
+      z.differentiate(row, 4, row + 1, 4);
+      z.differentiate(row + 1, 4, row + 2, 4);
+    }
+    row = this->table.data();
+    for (int j = 0; j < m; ++j) {
+      this->x.differentiate(row + 4 * j, size, this->nearby(row, j) + Base::Shape::own, size);
+      this->x.differentiate(row + 4 * j + 1, size, row + 4 * j + 3, size);
+    }
+  }
+};
+
+}  // namespace detail
+
 /// @tparam ScalarType double | float      @tparam NodePolicy  ChebyshevNodes | EquispacedNodes, as it was trained
 template <typename ScalarType = double, class NodePolicy = ChebyshevNodes>
-class GalerkinModel {
+class GalerkinModel : public detail::TrainedModel<detail::GalerkinTable<ScalarType, NodePolicy>> {
+  using Base = detail::TrainedModel<detail::GalerkinTable<ScalarType, NodePolicy>>;
+
  public:
   using Scalar = ScalarType;
   using Nodes = NodePolicy;
   using Data = GalerkinModelData<Scalar>;
-
   static constexpr int max_iterations = 40;
 
   /// @throws std::invalid_argument where the data do not make a model
-  [[gnu::cold]] explicit GalerkinModel(Data data)
-      : trained_(std::make_shared<const Trained>(std::move(data))),
-        shape_(trained_->data.beam, trained_->data.shape, trained_->data.positions, trained_->data.tensions) {
-  }
+  [[gnu::cold]] explicit GalerkinModel(Data data) : Base(std::move(data)) {}
 
   /// The force alone; shape() stays.  @return as press()
   [[nodiscard]] Response<Scalar> force(const Press<Scalar>& request) noexcept {
@@ -62,29 +83,17 @@ class GalerkinModel {
   /// @return force [N] and ok | out_of_range | invalid_request | non_finite
   Response<Scalar> press(const Press<Scalar>& request) noexcept;
 
-  /// Computed at the first call after a press; one thread at a time.
-  Centreline<Scalar> shape() const noexcept;
-  /// The pieces of shape() that hold arc positions s0 to s1; beside the contact without the others.
-  CentrelinePart<Scalar> part(Scalar s0, Scalar s1) const noexcept {
-    return shape_.part(trained_->data.shape, s0, s1);
-  }
-  /// The trained presses.
-  Range<Scalar> range() const noexcept { return detail::trained_range(trained_->data); }
-  Scalar thickness() const noexcept { return trained_->data.beam.thickness; }
   void reset() noexcept {
-    shape_.reset(trained_->data.shape);
+    Base::reset();
     last_ = 0;
   }
 
-  const Data& data() const noexcept { return trained_->data; }
-  /// Errors of presses that it was not trained with.
-  const ErrorReport& errors() const noexcept { return trained_->data.errors; }
   /// Newton iterations of the last press.
   int iterations() const noexcept { return iterations_; }
 
  private:
-  static constexpr int max_size = Lagrange<Nodes, Scalar>::max_size;
-  using Shape = ShapeTable<Scalar>;
+  using Base::max_size;
+  using Base::trained_;
 
   struct Point {
     Press<Scalar> press;
@@ -93,20 +102,6 @@ class GalerkinModel {
     Scalar f, by_z, by_zz, by_xz;
     Scalar beyond;  // √(N/Nm), 1 where the tension was trained
   };
-
-  /// The trained data and what follows from them: the same for all copies.
-  struct Trained {
-    Data data;
-    PositionCoordinate<Scalar> position;
-    TensionCoordinate<Scalar> tension;
-    Lagrange<Nodes, Scalar> x, z;
-    // Position by position: by tension f, df/dz, d²f/dz² and d²f/dxdz; what makes the nodes near the contact, with df/dx for its own.
-    std::vector<Scalar> table;
-
-    [[gnu::cold]] explicit Trained(Data given);
-  };
-
-  static int row_size(int tensions) noexcept { return (4 + Shape::near_size) * tensions; }
 
   Response<Scalar> respond(const Press<Scalar>& request, Point& at) noexcept;
 
@@ -148,59 +143,19 @@ class GalerkinModel {
     return fixes_w(trained_->data.beam.right) ? (L - 2 * s) / L : Scalar(1);
   }
 
-  std::shared_ptr<const Trained> trained_;
-  mutable Shape shape_;  // of the last press, as far as it was computed
-  Scalar last_ = 0;      // z of the last press
+  Scalar last_ = 0;  // z of the last press
   int iterations_ = 0;
 };
 
 // Long functions are defined outside of the class: only then does "extern template class GalerkinModel<>;" compile them in one
 // file alone.
 template <typename Scalar, class Nodes>
-Centreline<Scalar> GalerkinModel<Scalar, Nodes>::shape() const noexcept {
-  return shape_.all(trained_->data.shape);
-}
-
-template <typename Scalar, class Nodes>
-GalerkinModel<Scalar, Nodes>::Trained::Trained(Data given)
-    : data((check(given), std::move(given))),
-      position(data.beam),
-      tension(data.beam),
-      x(data.positions, position(data.s_min), position(data.s_max)),
-      z(data.tensions, 0, tension(data.tension)),
-      table(static_cast<std::size_t>(data.positions * row_size(data.tensions) + detail::padded(1))) {
-  const int m = data.tensions, size = row_size(m);
-  const auto nearby = [m](Scalar* row, int j) { return row + 4 * m + Shape::near_size * j; };
-  Scalar* row = table.data();
-  for (int i = 0; i < data.positions; ++i, row += size) {
-    for (int j = 0; j < m; ++j) {
-      row[4 * j] = data.log_stiffness[static_cast<std::size_t>(i * m + j)];
-      Shape::tabulate(data.shape, i * m + j, nearby(row, j));
-    }
-    z.differentiate(row, 4, row + 1, 4);
-    z.differentiate(row + 1, 4, row + 2, 4);
-  }
-  row = table.data();
-  for (int j = 0; j < m; ++j) {
-    x.differentiate(row + 4 * j, size, nearby(row, j) + Shape::own, size);
-    x.differentiate(row + 4 * j + 1, size, row + 4 * j + 3, size);
-  }
-}
-
-template <typename Scalar, class Nodes>
 Response<Scalar> GalerkinModel<Scalar, Nodes>::press(const Press<Scalar>& request) noexcept {
   Point at;
   const Response<Scalar> response = respond(request, at);
   if (!is_answer(response.status)) return response;
-  const Scalar s = at.press.s, d = at.press.d;
-  const int m = trained_->data.tensions;
-  Scalar by_tension[Shape::near_size * max_size], nearby[Shape::near_size] = {};
-  detail::combine(trained_->table.data() + 4 * m, row_size(m), Shape::near_size * m, at.lx,
-                  trained_->data.positions, by_tension);
-  detail::combine(by_tension, Shape::near_size, Shape::near_size, at.lz, m, nearby);
-  const Scalar theta = rotation(at, nearby[Shape::own]);
-  if (trained_->data.positions > 1 && !std::isfinite(theta)) return {0, Status::non_finite};
-  shape_.press(s, d, d, trained_->data.positions > 1 ? &theta : nullptr, at.lx, at.lz, nearby);
+  const auto theta = [&](Scalar by_x) { return rotation(at, by_x); };
+  if (!this->draw(at.press, at.press.d, at.lx, at.lz, theta)) return {0, Status::non_finite};
   return response;
 }
 
@@ -210,14 +165,13 @@ Response<Scalar> GalerkinModel<Scalar, Nodes>::respond(const Press<Scalar>& requ
   using std::isfinite;
   iterations_ = 0;
   at.beyond = 1;
-  if (!isfinite(request.s) || !isfinite(request.d) || request.s < 0 || request.s > trained_->data.beam.length)
-    return {0, Status::invalid_request};
-  const Press<Scalar> nearest = range().nearest(request);
+  if (!this->valid(request)) return {0, Status::invalid_request};
+  const Press<Scalar> nearest = this->range().nearest(request);
   at.press = {nearest.s, detail::bounded(request.d, trained_->data.beam.length)};
   const int m = trained_->data.tensions;
-  trained_->x.weights(trained_->data.positions > 1 ? trained_->position(at.press.s) : Scalar(0), at.lx);
-  detail::combine(trained_->table.data(), row_size(m), detail::padded(4 * m), at.lx, trained_->data.positions,
-                  at.column);
+  this->weigh(at.press.s, at.lx);
+  detail::combine(trained_->table.data(), trained_->row_size(), detail::padded(4 * m), at.lx,
+                  trained_->data.positions, at.column);
   const Scalar scale = trained_->position.scale(at.press.s);
   const Scalar stiffness = m == 1 ? (along(at, 0), exp(at.f) / scale) : balance(at, scale);
   const Scalar force = stiffness * at.press.d;

@@ -13,11 +13,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/rom/trained/combine.hpp>
 #include <hapbeam/rom/trained/coordinates.hpp>
+#include <hapbeam/rom/trained/lagrange.hpp>
 
 namespace hapbeam {
 
@@ -130,13 +131,12 @@ class ShapeTable {
 
   /// The shape of a press by d at s.   O(1)
   /// @param lx, ly  interpolation weights along both axes of the grid
-  /// @param unit [m]  what w is stored in units of   @param theta  rotation at the contact [rad], or null: by the modes
+  /// @param unit [m]  what w is stored in units of   @param theta  rotation at the contact [rad], or none: by the modes
   /// @param nearby  interpolated
-  void press(Scalar s, Scalar d, Scalar unit, const Scalar* theta, const Scalar* lx, const Scalar* ly,
-             const Scalar* nearby) noexcept {
+  void press(Scalar s, Scalar d, Scalar unit, const std::optional<Scalar>& theta, const Scalar* lx,
+             const Scalar* ly, const Scalar* nearby) noexcept {
     s_ = s, d_ = d, unit_ = unit;
-    theta_known_ = theta != nullptr;
-    if (theta) theta_ = *theta;
+    theta_ = theta;
     std::copy_n(ly, others_, std::copy_n(lx, positions_, weights_.data()));
     const int middle = frame_.contact_node(), end = frame_.segments();
     first_ = (std::max)(middle - 1, 0), last_ = (std::min)(middle + 1, end);
@@ -186,7 +186,7 @@ class ShapeTable {
     nodes_.back().s = length_;
     // The contact itself is known better than its modes; where it is too near to an end for its node, the end is straight.
     Node& node = nodes_[index(middle)];
-    if (theta_known_) node.theta = theta_;
+    if (theta_) node.theta = *theta_;
     node.w = d_ - node.theta * (contact - s_);
     if (contact < s_) straighten(middle + 1, last, node);
     if (contact > s_) straighten(0, middle - 1, node);
@@ -218,8 +218,8 @@ class ShapeTable {
   int first_ = 0,
       last_ = 0;  // of the nodes that are those of the last press; none where the last is before the first
   // The last press.
-  Scalar s_ = 0, d_ = 0, unit_ = 1, theta_ = 0;
-  bool theta_known_ = false;
+  Scalar s_ = 0, d_ = 0, unit_ = 1;
+  std::optional<Scalar> theta_;  // none: by the modes
 };
 
 }  // namespace hapbeam

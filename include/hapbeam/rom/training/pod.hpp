@@ -11,8 +11,6 @@
 #pragma once
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
@@ -57,7 +55,7 @@ class Truncation {
  public:
   /// @param modes 1 or more; all of them where there are fewer
   static Truncation count(int modes) {
-    if (modes < 1) throw std::invalid_argument("modes = " + std::to_string(modes) + ": must be 1 or more");
+    if (modes < 1) detail::refuse("modes = %d: must be 1 or more", modes);
     return {modes, 0};
   }
   /// The fewest that hold this part of Σσ².   @param part  in (0, 1]
@@ -96,8 +94,7 @@ class Pod {
  public:
   /// @param X  m × n, a snapshot a column, finite   @throws std::invalid_argument
   Pod(const Eigen::MatrixXd& X, const Truncation& truncation) {
-    if (X.size() == 0 || !X.allFinite())
-      throw std::invalid_argument("snapshots: must be finite, one or more of them");
+    if (X.size() == 0 || !X.allFinite()) detail::refuse("snapshots: must be finite, one or more of them");
     const auto found = Reducer::decompose(X);
     sigma_ = found.sigma;
     basis_ = found.U.leftCols(truncation.modes(sigma_));

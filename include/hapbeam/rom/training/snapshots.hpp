@@ -18,9 +18,8 @@
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rom/trained/coordinates.hpp>
 #include <hapbeam/rom/trained/lagrange.hpp>
-#include <hapbeam/rom/training/same_beam.hpp>
+#include <hapbeam/rom/training/full_model.hpp>
 #include <hapbeam/rom/training/training_plan.hpp>
-#include <hapbeam/rom/training/training_run.hpp>
 
 namespace hapbeam {
 
@@ -38,12 +37,12 @@ struct Snapshots {
   TrainingPlan plan;
   std::string nodes;  ///< name() of the policy that placed them
   int contact_node;
-  double y_low, y_high;            ///< of DepthCoordinate; 0 where tensions were trained
-  double tension;                  ///< [N] largest trained; 0 where depths were, or none arises
-  int columns;                     ///< depths or tensions at each position
-  std::vector<Snapshot> grid;      ///< position by position
-  std::vector<double> rest;        ///< w of the untouched beam by position [m]
-  std::vector<double> rest_shape;  ///< (u, w, θ) of the untouched beam at even nodes
+  double y_low = 0, y_high = 0;         ///< of DepthCoordinate; 0 where tensions were trained
+  double tension = 0;                   ///< [N] largest trained; 0 where depths were, or none arises
+  int columns = 0;                      ///< depths or tensions at each position
+  std::vector<Snapshot> grid = {};      ///< position by position
+  std::vector<double> rest = {};        ///< w of the untouched beam by position [m]
+  std::vector<double> rest_shape = {};  ///< (u, w, θ) of the untouched beam at even nodes
 };
 
 namespace detail {
@@ -65,21 +64,12 @@ class SnapshotTaker {
   SnapshotTaker(const Beam& beam, const Model& full, const TrainingPlan& plan, const TrainingOptions& options)
       : full_(full),
         options_(options),
-        out_{BeamData<double>::of(beam),
-             plan.check(beam),
-             Nodes::name(),
-             plan.contact_node(beam),
-             0,
-             0,
-             0,
-             plan.depths,
-             {},
-             {},
-             {}},
+        out_{BeamData<double>::of(beam), plan.check(beam), Nodes::name(), plan.contact_node(beam)},
         frame_(out_.beam, plan.segments, out_.contact_node),
         x_(plan.positions, position(plan.s_min), position(plan.s_max)) {
     static_assert(is_force_model<Model>, "a full model is a ForceModel: see hapbeam/force_model.hpp");
     check_same_beam(beam, full, plan);
+    out_.columns = plan.depths;
     full_.reset();
     const auto shape = full_.shape();
     bool loaded = false;

@@ -13,8 +13,6 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <hapbeam/rom/training/full_model.hpp>
@@ -85,8 +83,8 @@ namespace detail {
 template <class Nodes>
 void check_nodes(const Snapshots& snapshots) {
   if (snapshots.nodes != Nodes::name())
-    throw std::invalid_argument("nodes = " + snapshots.nodes + ": must be " + Nodes::name() +
-                                ", as the model is to have them; take_snapshots<Nodes>() says which");
+    refuse("nodes = %s: must be %s, as the model is to have them; take_snapshots<Nodes>() says which",
+           snapshots.nodes.c_str(), Nodes::name());
 }
 
 /// Between its nodes the interpolant must push back, and harder the deeper: with too few depths it does not.
@@ -107,10 +105,10 @@ void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coord
     }
     const double stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
     if (!(value > 0 && stiffness > 0 && force > before))
-      reject(
-          "depths", n, "",
-          ("more, or the plan less deep: at s = " + number(s) + " m the force between them is not a beam's")
-              .c_str());
+      refuse(
+          "depths = %d: must be more, or the plan less deep: at s = %g m the force between them is not a "
+          "beam's",
+          n, s);
     before = force;
   }
 }
@@ -138,8 +136,9 @@ PodModelData<double> train_pod(const Snapshots& snapshots,
                             snapshots.y_high,
                             {},
                             snapshots.rest,
-                            detail::reduce_shapes<Reducer>(snapshots, truncation),
+                            {},
                             {}};
+  data.shape = detail::reduce_shapes<Reducer>(snapshots, truncation);
   std::vector<double> K(static_cast<std::size_t>(plan.depths));
   for (auto snapshot = snapshots.grid.begin(); snapshot != snapshots.grid.end();) {
     const double s = snapshot->s;
@@ -158,16 +157,9 @@ GalerkinModelData<double> train_galerkin(const Snapshots& snapshots,
   detail::check_nodes<Nodes>(snapshots);
   const TrainingPlan& plan = snapshots.plan;
   const PositionCoordinate<double> position(snapshots.beam);
-  GalerkinModelData<double> data{snapshots.beam,
-                                 plan.s_min,
-                                 plan.s_max,
-                                 plan.depth,
-                                 plan.positions,
-                                 snapshots.columns,
-                                 snapshots.tension,
-                                 {},
-                                 detail::reduce_shapes<Reducer>(snapshots, truncation),
-                                 {}};
+  GalerkinModelData<double> data{snapshots.beam,    plan.s_min,        plan.s_max, plan.depth, plan.positions,
+                                 snapshots.columns, snapshots.tension, {},         {},         {}};
+  data.shape = detail::reduce_shapes<Reducer>(snapshots, truncation);
   for (const Snapshot& snapshot : snapshots.grid)
     data.log_stiffness.push_back(std::log(position.scale(snapshot.s) * snapshot.stiffness));
   return data;

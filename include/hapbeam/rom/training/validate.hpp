@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include <hapbeam/rom/trained/error_report.hpp>
+#include <hapbeam/rom/trained/model_data.hpp>
 #include <hapbeam/rom/training/worst_press.hpp>
 
 namespace hapbeam {

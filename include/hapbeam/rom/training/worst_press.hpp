@@ -16,7 +16,7 @@
 
 #include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/force_model.hpp>
-#include <hapbeam/rom/training/training_run.hpp>
+#include <hapbeam/rom/training/training_plan.hpp>
 
 namespace hapbeam {
 
@@ -186,15 +186,16 @@ void add_shallow_presses(Comparison& comparison, std::vector<PressError>& presse
 }
 
 template <class Full, typename = void>
-struct CanBeRefined : std::false_type {};
+inline constexpr bool can_be_refined = false;
 template <class Full>
-struct CanBeRefined<Full, std::void_t<decltype(std::declval<const Full&>().refined())>> : std::true_type {};
+inline constexpr bool can_be_refined<Full, std::void_t<decltype(std::declval<const Full&>().refined())>> =
+    true;
 
 /// Largest relative error of a full model's force on a range, against one with twice its elements. With an order of two
 /// or more, the error of that one is at most a third of the difference. Zero for a model without refined().
 template <class Full, typename R>
 double own_error(const Full& full, const Range<R>& range, const std::vector<PressError>& sample) {
-  if constexpr (CanBeRefined<Full>::value) {
+  if constexpr (can_be_refined<Full>) {
     PressComparison<Full, Full> comparison(full, full.refined(), range);
     std::vector<PressError> presses;
     // The corners of the range come first, and its edges in the first of each ten.

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// What a beam or a rod is made of: its sections and its material, which may change along it, and its natural shape.
+//
+// Plain values in SI, checked where they enter: std::invalid_argument names field, value, unit and what is allowed.  Offline only.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include <hapbeam/check.hpp>
+
+namespace hapbeam {
+
+/// Cross-section of a rod, with its principal axes along d1 and d2.
+struct RodSection {
+  double area;       ///< A [m²]
+  double inertia1;   ///< I about d1 [m⁴]
+  double inertia2;   ///< I about d2 [m⁴]
+  double torsion;    ///< Saint-Venant's J [m⁴]
+  double thickness;  ///< [m] diameter of the round surface that an avatar touches: the smallest extent
+  /// What is strained at the surface; 0: as far as the thickness.
+  double width = 0;      ///< [m] extent along d1
+  double height = 0;     ///< [m] extent along d2
+  bool corners = false;  ///< whether both extents meet: a rectangle
+
+  /// @param width [m] along d1   @param height [m] along d2
+  /// J of a × b, a >= b, is ab³/3 (1 - 192 b/(π⁵ a) Σ tanh(kπa/2b)/k⁵) over odd k: Timoshenko and Goodier, Theory of
+  /// Elasticity, 109.
+  static RodSection rectangle(double width, double height) {
+    const double a = (std::max)(detail::positive("section width", width, "m"), height),
+                 b = (std::min)(width, detail::positive("section height", height, "m"));
+    double sum = 0;
+    for (int k = 1; k < 200; k += 2) sum += std::tanh(k * pi * a / (2 * b)) / std::pow(k, 5);
+    return {width * height,
+            width * height * height * height / 12,
+            height * width * width * width / 12,
+            a * b * b * b / 3 * (1 - 192 * b / (std::pow(pi, 5) * a) * sum),
+            b,
+            width,
+            height,
+            true};
+  }
+  static RodSection circle(double diameter) {
+    return ellipse(detail::positive("section diameter", diameter, "m"), diameter);
+  }
+  static RodSection tube(double outer_diameter, double inner_diameter) {
+    RodSection tube = circle(detail::positive("section outer_diameter", outer_diameter, "m"));
+    detail::positive("section inner_diameter", inner_diameter, "m");
+    if (!(inner_diameter < outer_diameter))
+      detail::reject("section inner_diameter", inner_diameter, "m", "less than outer_diameter");
+    const RodSection hole = circle(inner_diameter);
+    tube.area -= hole.area, tube.inertia1 -= hole.inertia1, tube.inertia2 -= hole.inertia2;
+    return tube.torsion -= hole.torsion, tube;
+  }
+  /// @param width [m] diameter along d1   @param height [m] along d2.   J = πa³b³/(a² + b²), Timoshenko and Goodier, 107
+  static RodSection ellipse(double width, double height) {
+    const double a = detail::positive("section width", width, "m") / 2,
+                 b = detail::positive("section height", height, "m") / 2;
+    return {pi * a * b,
+            pi * a * b * b * b / 4,
+            pi * a * a * a * b / 4,
+            pi * a * a * a * b * b * b / (a * a + b * b),
+            (std::min)(width, height),
+            width,
+            height};
+  }
+
+ private:
+  static constexpr double pi = 3.141592653589793238462643;
+};
+
+/// Linear elastic material of a rod.
+struct RodMaterial {
+  double young;  ///< Young's modulus E [Pa]
+  double shear;  ///< shear modulus G [Pa]
+
+  /// @param poisson  ν, more than -1 and at most 0.5; G = E/(2 (1 + ν))
+  static RodMaterial isotropic(double young, double poisson) {
+    if (!(poisson > -1 && poisson <= 0.5))
+      detail::reject("poisson", poisson, "", "more than -1 and at most 0.5");
+    return {young, young / (2 * (1 + poisson))};
+  }
+};
+
+/// Stiffness of a section.
+struct RodStiffness {
+  double axial;     ///< EA [N]
+  double bending1;  ///< EI about d1 [N·m²]
+  double bending2;  ///< EI about d2 [N·m²]
+  double torsion;   ///< GJ [N·m²]
+};
+
+/// Cross-section: area, second moment about the bending axis, and extent in the bending direction.
+struct Section {
+  double area;     ///< A [m²]
+  double inertia;  ///< I [m⁴]
+  double
+      thickness;  ///< [m] across the beam, in the plane of bending; what the avatar, the round tool, touches
+
+  /// @param width [m] out of the plane of bending   @param height [m] in it
+  static Section rectangle(double width, double height) {
+    detail::positive("section width", width, "m");
+    detail::positive("section height", height, "m");
+    return {width * height, width * height * height * height / 12, height};
+  }
+  /// @param diameter [m]
+  static Section circle(double diameter) { return of(RodSection::circle(diameter)); }
+  /// @param outer_diameter [m]   @param inner_diameter [m] of the hole, not the thickness of the wall
+  static Section tube(double outer_diameter, double inner_diameter) {
+    return of(RodSection::tube(outer_diameter, inner_diameter));
+  }
+
+ private:
+  static Section of(const RodSection& section) { return {section.area, section.inertia1, section.thickness}; }
+};
+
+/// Linear elastic material of a beam.
+struct Material {
+  double young;        ///< Young's modulus E [Pa]
+  double density = 0;  ///< [kg/m³]; 0: not known, and the beam has no mass
+};
+
+namespace detail {
+
+/// A part with a section of its own, which may change along it: a taper, a step.
+template <class SectionType>
+struct PartOf {
+  double end;                                  ///< [m] arc position at which it ends
+  std::function<SectionType(double)> section;  ///< by arc position s [m]; smooth within the part
+
+  PartOf(double part_end, std::function<SectionType(double)> by_s)
+      : end(part_end), section(std::move(by_s)) {}
+  PartOf(double part_end, const SectionType& same)
+      : end(part_end), section([same](double) { return same; }) {}
+};
+
+/// What a Beam and a Rod have alike.
+/// @tparam Body  the one or the other, with its word for itself   @tparam Arc  a part of the natural shape, with check()
+template <class Body, class SectionType, class Arc>
+class Slender {
+ public:
+  using Part = PartOf<SectionType>;
+
+  /// Gives it a natural shape of arcs, from the left end on; straight and without twist where they end.
+  /// @throws std::invalid_argument unless the ends increase, within the length
+  Body& naturally(std::vector<Arc> arcs) {
+    check_order("arc", arcs);
+    for (const Arc& arc : arcs) arc.check();
+    return arcs_ = std::move(arcs), body();
+  }
+  /// Gives parts of it sections of their own, from the left end on: a taper or steps.  The avatar touches a round surface of the
+  /// thickness that it was built with, and the strain there is that of this thickness.
+  /// @throws std::invalid_argument unless the ends increase, up to the length, and it was built of a material
+  Body& sections(std::vector<Part> parts) {
+    if (!(young_ > 0))
+      refuse("young = %g Pa: must be known for sections: build the %s of a section and a material", young_,
+             Body::word);
+    const double last = check_order("part", parts);
+    if (!(last >= length_ * (1 - 1e-12)))
+      refuse("part end = %g m: must be the %s's length for the last part", last, Body::word);
+    parts_ = std::move(parts);
+    area_ = [parts = parts_](double s) {
+      std::size_t k = 0;
+      while (k + 1 < parts.size() && parts[k].end <= s) ++k;
+      return parts[k].section(s).area;
+    };
+    return body();
+  }
+  /// The same with one section that changes along all of it.
+  Body& section(std::function<SectionType(double)> by_s) {
+    return body().sections({Part(length_, std::move(by_s))});
+  }
+
+  double length() const noexcept { return length_; }                  ///< L [m]
+  double thickness() const noexcept { return thickness_; }            ///< [m]
+  const std::vector<Part>& parts() const noexcept { return parts_; }  ///< empty where prismatic
+  const std::vector<Arc>& arcs() const noexcept { return arcs_; }     ///< empty where naturally straight
+
+ protected:
+  Slender(double length, double thickness)
+      : length_(positive("length", length, "m")), thickness_(positive("thickness", thickness, "m")) {}
+  /// Knows its material and its section.
+  void build_of(double young, double area) {
+    young_ = young;
+    area_ = [area](double) { return area; };
+  }
+
+  double length_, thickness_, young_ = 0;
+  std::function<double(double)> area_;  // empty where only the stiffness is known
+  std::vector<Arc> arcs_;
+  std::vector<Part> parts_;
+
+ private:
+  Body& body() noexcept { return static_cast<Body&>(*this); }
+  /// @return where the last one ends
+  template <class Parts>
+  double check_order(const char* what, const Parts& parts) const {
+    double from = 0;
+    for (const auto& part : parts) {
+      if (!(part.end > from && part.end <= length_ * (1 + 1e-12)))
+        refuse("%s end = %g m: must be beyond the %s before it and on the %s", what, part.end, what,
+               Body::word);
+      from = part.end;
+    }
+    return from;
+  }
+};
+
+}  // namespace detail
+}  // namespace hapbeam
