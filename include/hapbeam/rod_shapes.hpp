@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+// Moved to shapes.hpp; kept for one release.
+#pragma once
+
+#include <hapbeam/shapes.hpp>
