@@ -80,7 +80,7 @@ class AllDisplacements {
     };
     report_ = {Status::invalid_request, 0, 0, 0, 0, report_.step};
     if (!is_answer(rest_.status)) return report_.status = rest_.status, take();
-    if (!system_.place_end(k, pose)) return take();
+    if (!system_.chain().place_end(k, pose)) return take();
     single_valued_ = false;
     pushes_.forget_shape(), place_.forget();
     const auto aim = [this] { system_.set_goal(); };
@@ -161,7 +161,7 @@ class AllDisplacements {
 
   void to_rest() noexcept {
     system_.set_state(rest_state_);
-    if constexpr (dimension == 3) system_.go_home();
+    if constexpr (dimension == 3) system_.chain().go_home();
     home_ = system_.middle();
     falling_ = descending_ = false;
     unanswered_ = 0;

@@ -32,10 +32,11 @@ class BeamElements {
   using Node = CentrelineNode<Scalar>;
   using Nodes = detail::PerNode<Node, Elements, MaxElements>;
   using Properties = detail::PerNode<ElementProperties<Scalar>, Elements, MaxElements>;
-  using Tensions = detail::PerNode<Scalar, Elements, MaxElements>;
+  using Inners = detail::PerNode<Scalar, Elements, MaxElements>;
   using Pieces = detail::BeamPieces<Element, Scalar>;
   /// Whether the tensions of the elements are unknowns, which move with the nodes.
   static constexpr bool has_tensions = has_own_tension<Element>;
+  static constexpr bool has_inners = true;  // a touched element has one whatever it is made of
   static_assert(
       is_element<Element, Scalar>,
       "an Element needs static noexcept energy(p, d), residual(p, d, r), tangent(p, d, r, K) and name(): "
@@ -61,21 +62,17 @@ class BeamElements {
   const Nodes& nodes() const noexcept { return nodes_; }
   const Properties& properties() const noexcept { return properties_; }
   /// N of each element [N].
-  Tensions& tensions() noexcept { return tensions_; }
-  const Tensions& tensions() const noexcept { return tensions_; }
+  Inners& inners() noexcept { return tensions_; }
+  const Inners& inners() const noexcept { return tensions_; }
   /// Of which the elements are made, and parts of them.
   const Pieces& pieces() const noexcept { return pieces_; }
   const NaturalShape<Scalar>& natural_shape() const noexcept { return pieces_.natural_shape(); }
   /// Any nodes of this beam, seen with its kinematics.
-  static Centreline<Scalar> view(const Nodes& nodes) noexcept {
+  template <class AnyNodes>
+  static Centreline<Scalar> view(const AnyNodes& nodes) noexcept {
     return {nodes.data(), nodes.size(), any_rotation<Element>};
   }
 
-  /// Sets the whole state.
-  void set(const Nodes& nodes, const Tensions& tensions) noexcept {
-    for (int i = 0; i < nodes_.size(); ++i) nodes_[i] = nodes[i];
-    for (int e = 0; e < size(); ++e) tensions_[e] = tensions[e];
-  }
   /// Those that belong to the displacements.
   void find_tensions() noexcept {
     if constexpr (has_tensions)
@@ -268,7 +265,7 @@ class BeamElements {
 
   Nodes nodes_;
   Properties properties_;
-  Tensions tensions_;
+  Inners tensions_;
   Scalar turning_ = 1;
   detail::PerNode<OwnTension<typename Group::Number>, detail::groups_of<Scalar>(Elements),
                   detail::groups_of<Scalar>(MaxElements)>

@@ -141,7 +141,7 @@ class DynamicModel {
                        (!hand || (is_finite(hand->hand) && hand->stiffness > 0 && hand->damping >= 0));
     if (!valid) return {0, Status::invalid_request};
     if (!(dt > 0)) return pushed;
-    system_.move_with(&inertia_);
+    system_.chain().move_with(&inertia_);
     hand_ = hand;
     if (hand && !known_) {
       // One that comes from nowhere has its spring bent as it lies, and a damper at rest.
@@ -155,7 +155,7 @@ class DynamicModel {
       const Scalar begin = Scalar(k) / Scalar(substeps_), end = Scalar(k + 1) / Scalar(substeps_);
       if (!go_on(part, begin, end, 0)) pushed.status = Status::iteration_limit;
     }
-    system_.move_with(nullptr);
+    system_.chain().move_with(nullptr);
     // The next one begins as after a reset, where the beam has stopped.
     if (pushed.status != Status::ok) stop(), starts_ = true, known_ = touches_ = false;
     if (hand) from_ = hand->hand.centre;
@@ -271,7 +271,7 @@ class DynamicModel {
   static constexpr int most_passes = 4;
 
   System system_;
-  typename System::Inertia inertia_;
+  typename System::Chain::Inertia inertia_;
   TrBdf2<Scalar, Elements, MaxElements> steps_;
   typename System::State rest_, before_;
   int substeps_, solves_ = 0;

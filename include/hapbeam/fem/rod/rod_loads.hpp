@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The dead loads of a rod on its mesh.
+// The dead loads and elastic foundations of a rod on its mesh.
 //
 // A dead load does work on places and tangents, which the cubic has as linear functions of the nodes: the loads of an element
 // are a constant vector, exact wherever they stand in it.  A distributed load is made the consistent load of the mesh.
+// A foundation is a quadratic form of them, integrated exactly where the natural shape is straight, and once for each mesh:
+//
+//   V = ½ ∫ (r - r°)ᵀ (k⊥ I + (k∥ - k⊥) t° t°ᵀ) (r - r°) ds        ° of the natural shape, t° its tangent
+//
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
@@ -12,6 +16,7 @@
 
 #include <hapbeam/fem/laid_mesh.hpp>
 #include <hapbeam/fem/loads.hpp>
+#include <hapbeam/fem/rod/natural_rod.hpp>
 #include <hapbeam/fem/rod/rod_forces.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 
@@ -131,6 +136,97 @@ class RodLoads {
   detail::PerNode<Force, Elements, MaxElements> forces_;
   std::vector<PointLoad> loads_;  // first those of a distributed load, node by node
   std::vector<Vector3> cells_;    // its mean between those [N/m]
+};
+
+/// Its elastic foundations.
+template <typename Scalar>
+class RodBed {
+  using Vector12 = VectorOf<Scalar, 12>;  // r1, r1', r2, r2'
+
+ public:
+  RodBed(const Rod& rod, int elements) : foundations_(rod.foundations()) {
+    if (!foundations_.empty()) springs_.resize(static_cast<std::size_t>(elements));
+  }
+  bool empty() const noexcept { return springs_.empty(); }
+
+  /// Takes an element's share on its mesh.
+  void take(int e, Scalar from, Scalar to, const NaturalRod<Scalar>& natural) noexcept {
+    Spring& spring = springs_[static_cast<std::size_t>(e)];
+    spring = {};
+    const Scalar l = to - from;
+    spring.home = unknowns(natural.at(from), natural.at(to));
+    visit(from, to, natural,
+          [&](Scalar s, const Eigen::Matrix<Scalar, 3, 3>& k, const VectorOf<Scalar, 3>& home) {
+            const Scalar t = (s - from) / l, u = 1 - t;
+            const Scalar N[4] = {u * u * (1 + 2 * t), l * t * u * u, t * t * (3 - 2 * t), -l * t * t * u};
+            // How far the cubic of the natural nodes is from the natural shape, and what that takes.
+            VectorOf<Scalar, 3> miss = -home;
+            for (int i = 0; i < 4; ++i) miss += N[i] * spring.home.template segment<3>(3 * i);
+            const VectorOf<Scalar, 3> force = k * miss;
+            for (int i = 0; i < 4; ++i) {
+              for (int j = 0; j < 4; ++j) spring.K.template block<3, 3>(3 * i, 3 * j) += N[i] * N[j] * k;
+              spring.force.template segment<3>(3 * i) += N[i] * force;
+            }
+            spring.energy += miss.dot(force) / 2;
+          });
+  }
+
+  /// Calls visit(s, k, r°) for points from a to b that stand for its springs there, k their stiffness [N/m].
+  template <class Visit>
+  void visit(Scalar from, Scalar to, const NaturalRod<Scalar>& natural, Visit&& visit) const noexcept {
+    for (const RodFoundation& foundation : foundations_) {
+      const Scalar a = (std::max)(from, static_cast<Scalar>(foundation.from)),
+                   b = (std::min)(to, static_cast<Scalar>(foundation.to));
+      if (!(b > a)) continue;
+      const Scalar across = static_cast<Scalar>(foundation.across),
+                   more = static_cast<Scalar>(foundation.along) - across;
+      for (std::size_t g = 0; g < detail::gauss_points.size(); ++g) {
+        const Scalar s = a + static_cast<Scalar>(detail::gauss_points[g]) * (b - a),
+                     weight = static_cast<Scalar>(detail::gauss_weights[g]) * (b - a);
+        const RodNode<Scalar> home = natural.at(s);
+        visit(s,
+              Eigen::Matrix<Scalar, 3, 3>(weight * (across * Eigen::Matrix<Scalar, 3, 3>::Identity() +
+                                                    more * home.tangent * home.tangent.transpose())),
+              home.r);
+      }
+    }
+  }
+  /// [J]
+  Scalar energy(int e, const RodNode<Scalar>& a, const RodNode<Scalar>& b) const noexcept {
+    const Spring& spring = springs_[static_cast<std::size_t>(e)];
+    const Vector12 x = unknowns(a, b) - spring.home, Kx = spring.K * x;
+    return spring.energy + x.dot(Kx / 2 + spring.force);
+  }
+  /// Adds its residual and tangent.   @tparam Unknowns  of a node   @return [J]
+  template <int Unknowns, class Residual, class Tangent>
+  Scalar add(int e, const RodNode<Scalar>& a, const RodNode<Scalar>& b, Residual& r,
+             Tangent& K) const noexcept {
+    const Spring& spring = springs_[static_cast<std::size_t>(e)];
+    const Vector12 x = unknowns(a, b) - spring.home, Kx = spring.K * x;
+    for (int i = 0; i < 12; i += 6) {
+      const int row = i == 0 ? 0 : Unknowns;
+      r.template segment<6>(row) += (Kx + spring.force).template segment<6>(i);
+      for (int j = 0; j < 12; j += 6)
+        K.template block<6, 6>(row, j == 0 ? 0 : Unknowns) += spring.K.template block<6, 6>(i, j);
+    }
+    return spring.energy + x.dot(Kx / 2 + spring.force);
+  }
+
+ private:
+  struct Spring {
+    Eigen::Matrix<Scalar, 12, 12> K = Eigen::Matrix<Scalar, 12, 12>::Zero();
+    // Of the natural shape's nodes, their unknowns, and residual and energy there.
+    Vector12 home = Vector12::Zero(), force = Vector12::Zero();
+    Scalar energy = 0;
+  };
+  static Vector12 unknowns(const RodNode<Scalar>& a, const RodNode<Scalar>& b) noexcept {
+    Vector12 x;
+    x << a.r, a.tangent, b.r, b.tangent;
+    return x;
+  }
+
+  std::vector<RodFoundation> foundations_;
+  std::vector<Spring> springs_;
 };
 
 }  // namespace hapbeam
