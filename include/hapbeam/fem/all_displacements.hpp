@@ -30,7 +30,6 @@ class AllDisplacements {
  public:
   using Scalar = ScalarType;
   using Body = typename detail::SystemOf<Element>::Body;
-  using Extent = typename detail::SystemOf<Element>::template Range<Scalar>;
   static constexpr int dimension = dimension_of<Element>;
   using Round = typename detail::RoundOf<Scalar, dimension>::Type;
 
@@ -56,7 +55,7 @@ class AllDisplacements {
   /// Lays the beam on a circle, a rod on a capsule.   @param range  says where a node can be   @param valid  whether there is a request
   /// @return as press()
   /// @param friction  of its touch, null: without friction
-  Pushed<Scalar, dimension> push(const Round& request, const Extent& range, bool valid,
+  Pushed<Scalar, dimension> push(const Round& request, const PressRange<Scalar>& range, bool valid,
                                  FrictionState<Scalar, dimension>* friction) noexcept {
     if (!begins(valid)) return {0, report_.status};
     place_.forget();
@@ -64,7 +63,7 @@ class AllDisplacements {
   }
 
   /// Lays it on several.  @param all  in and out   @return the status that is common to all of them
-  Status push(Obstacle<Scalar, dimension>* all, int count, const Extent& range) noexcept {
+  Status push(Obstacle<Scalar, dimension>* all, int count, const PressRange<Scalar>& range) noexcept {
     if (!begins(true)) return report_.status;
     place_.forget();
     return drawn(pushes_.push(*this, all, count, range));

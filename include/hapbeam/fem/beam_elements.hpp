@@ -16,10 +16,9 @@
 #include <hapbeam/body/beam_pieces.hpp>
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/element/pack.hpp>
-#include <hapbeam/fem/beam_forces.hpp>
-#include <hapbeam/fem/laid_mesh.hpp>
-#include <hapbeam/fem/loads.hpp>
+#include <hapbeam/fem/beam_loads.hpp>
 #include <hapbeam/fem/rod/rod_lanes.hpp>
+#include <hapbeam/fem/section_cut.hpp>
 #include <hapbeam/fem/solver/ldlt.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 
@@ -164,23 +163,16 @@ class BeamElements {
     }
     subtract_loads(e, lambda, d, r, nullptr);
   }
-  /// What the section at s carries, in element e, which holds s.   @param thickness [m]
-  InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar lambda, Scalar thickness) const noexcept {
-    Vector6<Scalar> r;
-    residual(e, lambda, r);
-    return internal_forces(
-        e, nodes_[e].s, s, lambda, thickness, r, [&](Scalar at) { return view(nodes_).at(e, at); }, nullptr,
-        0);
-  }
-  /// The same of one that is touched.   @param begin  of the piece of it [m]   @param r  its forces on its nodes, less loads   @param place  s -> Displacement within it
-  template <class Place>
-  InternalForces<Scalar> internal_forces(int e, Scalar begin, Scalar s, Scalar lambda, Scalar thickness,
+  /// What the section at s carries, in element e, which holds s.   @param thickness [m]   @param r  its forces on its nodes, less loads
+  /// @param place  (s) -> Displacement within it   @param others  as of cut_element()
+  template <class Place, class Others>
+  InternalForces<Scalar> internal_forces(const detail::CutAt<Scalar>& at, Scalar lambda, Scalar thickness,
                                          const Vector6<Scalar>& r, Place&& place,
-                                         const PointForce<Scalar>* contacts, int count) const noexcept {
-    const auto cut = detail::cut_beam<Element>(
-        view(nodes_), e, begin, s, r, loaded(lambda) ? &loads_ : nullptr, lambda, place, contacts, count);
-    const auto stiffness = pieces_.stiffness(s);
-    return cut.in_section(stiffness.axial, stiffness.bending, thickness);
+                                         Others&& others) const noexcept {
+    const auto on_curve = [&](Scalar s) { return detail::cut_place<Element>(s, place(s)); };
+    const detail::SectionCut<Scalar, 2> left{{-r[0], -r[1]}, -r[2], on_curve(at.from).r};
+    return detail::in_section<Element>(detail::cut_element(left, r[5], at, lambda, loads_, on_curve, others),
+                                       place(at.s).theta, pieces_.stiffness(at.s), thickness);
   }
   /// [J]
   Scalar strain_energy(int e) const noexcept {
@@ -259,8 +251,8 @@ class BeamElements {
   Scalar subtract_loads(int e, Scalar lambda, const Vector6<Scalar>& d, Vector6<Scalar>& r,
                         Matrix6<Scalar>* K) const noexcept {
     if (!loaded(lambda)) return 0;
-    return loads_.template subtract<Element>(nodes_[e].s, nodes_[e + 1].s, e + 1 == size(), lambda,
-                                             properties_[e], d, r, K);
+    return hapbeam::subtract_loads<Element>(loads_, nodes_[e].s, nodes_[e + 1].s, e + 1 == size(), lambda,
+                                            properties_[e], d, r, K);
   }
 
   Nodes nodes_;

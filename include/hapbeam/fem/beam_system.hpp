@@ -17,7 +17,6 @@
 #include <hapbeam/fem/contact/round_contact.hpp>
 #include <hapbeam/fem/dynamics/inertia.hpp>
 #include <hapbeam/fem/laid_beam.hpp>
-#include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/system.hpp>
 
 namespace hapbeam {
@@ -71,7 +70,8 @@ class BeamChain {
   static void go_on(Nodes& now, Nodes& before, Scalar ratio) noexcept {
     for (int i = 0; i < now.size(); ++i) {
       Node &x = now[i], &b = before[i];
-      detail::extrapolate(x.u, b.u, ratio), detail::extrapolate(x.w, b.w, ratio), detail::extrapolate(x.theta, b.theta, ratio);
+      detail::extrapolate(x.u, b.u, ratio), detail::extrapolate(x.w, b.w, ratio),
+          detail::extrapolate(x.theta, b.theta, ratio);
     }
   }
   static void carry(const Node& x, Node& from, const Node& to) noexcept {
@@ -95,8 +95,8 @@ class BeamChain {
   Node node_within(int e, Scalar s) const noexcept {
     const Node &a = parts_.nodes()[e], &b = parts_.nodes()[e + 1];
     const bool straight = a.theta == 0 && b.theta == 0 && a.u == b.u && a.w == b.w;
-    const Displacement<Scalar> there = straight ? Displacement<Scalar>{a.u, a.w, 0}
-                                                : parts_.view(parts_.nodes()).at(e, s);
+    const Displacement<Scalar> there =
+        straight ? Displacement<Scalar>{a.u, a.w, 0} : parts_.view(parts_.nodes()).at(e, s);
     return {s, there.u, there.w, there.theta};
   }
   /// That of a contact.   @param off  from what touches it
@@ -247,33 +247,33 @@ class BeamChain {
       if (!touched(e)) sum += parts_.strain_energy(e);
     return sum;
   }
-  /// What the section at s carries, in element e, as it lies, with what touches it.
-  /// @param begin  of the piece that is drawn there [m]   @param thickness [m]
+  /// What the section carries, in element e, as it lies, with what touches it.   @param thickness [m]
   template <class Rows>
-  InternalForces<Scalar> internal_forces(const Rows& rows, int e, Scalar begin, Scalar s, Scalar load,
-                                         Scalar thickness, const Centreline<Scalar>& drawn) const noexcept {
-    if (!rows.in(e)) return parts_.internal_forces(e, s, load, thickness);
-    constexpr auto at = [](int k) { return static_cast<std::size_t>(k); };
+  InternalForces<Scalar> internal_forces(const Rows& rows, int e, const detail::CutAt<Scalar>& at,
+                                         Scalar load, Scalar thickness,
+                                         const Centreline<Scalar>& drawn) const noexcept {
+    Vector6<Scalar> r;
+    if (!rows.in(e)) {
+      parts_.residual(e, load, r);
+      return parts_.internal_forces(
+          at, load, thickness, r, [&](Scalar s) { return parts_.view(parts_.nodes()).at(e, s); },
+          [](auto&, Scalar) {});
+    }
     typename Rows::Touched touched(parts_, e);
     std::array<typename Rows::Contact, Rows::most> contacts;
-    std::array<PointForce<Scalar>, Rows::most> forces;
-    int count = 0;
+    std::size_t count = 0;
     for (int k = 0; k < rows.size(); ++k)
-      if (rows.element(k) == e) touched.add(contacts[at(k)] = rows[k], k);
-    Vector6<Scalar> r;
+      if (rows.element(k) == e) touched.add(contacts[count++] = rows[k], k);
     Matrix6<Scalar> K;
     (void)touched.condense(r, K, [](int) {});
-    for (int k = 0; k < rows.size(); ++k) {
-      if (rows.element(k) != e) continue;
-      const auto& contact = contacts[at(k)];
-      const Vector2<Scalar> force = contact.force * contact.normal + contact.friction;
-      forces[at(count++)] = {contact.s, force.x(), force.y(), 0, 0, 0};
-    }
-    std::sort(forces.begin(), forces.begin() + count,
-              [](const PointForce<Scalar>& a, const PointForce<Scalar>& b) { return a.s < b.s; });
     (void)parts_.subtract_loads(e, load, r);
-    return parts_.internal_forces(
-        e, begin, s, load, thickness, r, [&drawn](Scalar x) { return drawn.at(x); }, forces.data(), count);
+    const auto place = [&drawn](Scalar s) { return drawn.at(s); };
+    return parts_.internal_forces(at, load, thickness, r, place, [&](auto& cut, Scalar to) {
+      for (std::size_t k = 0; k < count; ++k)
+        if (const auto& contact = contacts[k]; to == at.to || at.passed(contact.s))
+          cut.pass(contact.force * contact.normal + contact.friction,
+                   detail::cut_place<Element>(contact.s, place(contact.s)).r);
+    });
   }
 
  private:
@@ -303,8 +303,6 @@ struct SystemOf {
   using Body = Beam;
   template <typename Scalar, int Elements, int MaxElements>
   using System = BeamSystem<Element, Scalar, Elements, MaxElements>;
-  template <typename Scalar>
-  using Range = PressRange<Element, Scalar>;
 };
 
 }  // namespace detail

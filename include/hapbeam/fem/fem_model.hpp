@@ -45,7 +45,6 @@ template <class Element = VonKarman<>, typename ScalarType = double, int Element
           int MaxElements = Elements, class Solver = NewtonRaphson>
 class FemModel {
   using Of = detail::SystemOf<Element>;
-  using Extent = typename Of::template Range<ScalarType>;
 
  public:
   using Scalar = ScalarType;
@@ -61,7 +60,7 @@ class FemModel {
   /// @param elements two to most_elements(beam)   @throws std::invalid_argument naming field, value and what is allowed
   FemModel(const Body& beam, int elements, const Solver& solver = {})
       : ways_(make_way(beam, at_most(most_elements(beam), elements), solver)),
-        range_(beam),
+        range_(beam, any_rotation<Element>),
         thickness_(static_cast<Scalar>(beam.thickness())) {
     check_rest();
   }
@@ -71,7 +70,7 @@ class FemModel {
   /// length, and has half as many.
   static int most_elements(const Body& beam) noexcept {
     const double most = std::pow(32 / static_cast<double>(std::numeric_limits<Scalar>::epsilon()), 0.25);
-    return static_cast<int>(Extent::holds_both(beam) ? most : most / 2);
+    return static_cast<int>(PressRange<Scalar>(beam).holds_both() ? most : most / 2);
   }
 
   /// Prescribes the centreline's transverse displacement d [m] at arc position s [m]: its w, from the x axis.
@@ -223,7 +222,7 @@ class FemModel {
   }
 
   Ways ways_;
-  Extent range_;
+  PressRange<Scalar> range_;
   Scalar thickness_;
 };
 

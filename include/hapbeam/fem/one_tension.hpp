@@ -11,7 +11,7 @@
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/laid_mesh.hpp>
 #include <hapbeam/fem/taut_system.hpp>
 #include <hapbeam/force_model.hpp>
 

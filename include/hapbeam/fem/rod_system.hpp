@@ -16,7 +16,6 @@
 #include <hapbeam/fem/rod/rod_elements.hpp>
 #include <hapbeam/fem/rod/rod_ends.hpp>
 #include <hapbeam/fem/rod/rod_motion.hpp>
-#include <hapbeam/fem/rod/rod_range.hpp>
 
 namespace hapbeam {
 
@@ -157,8 +156,8 @@ class RodChain {
   template <class Rows>
   [[gnu::always_inline]] detail::ChainEnergies<Scalar> assemble(Scalar load, Rows& rows,
                                                                 Assembler& assembler) noexcept {
-    const auto [strain, work, inner] = parts_.visit_tangents(
-        load, [&](int first, auto& K, auto& r) { assembler.add_pairs(first, K, r); });
+    const auto [strain, work, inner] =
+        parts_.visit_tangents(load, [&](int first, auto& K, auto& r) { assembler.add_pairs(first, K, r); });
     Scalar energy = strain;
     energy += ends_.visit_springs(
         parts_.nodes(), [&](int i, const Block& K, const Increment& r) { assembler.add_at(i, K, r); });
@@ -217,11 +216,12 @@ class RodChain {
     return parts_.strain_energy() +
            ends_.visit_springs(parts_.nodes(), [](int, const Block&, const Increment&) {});
   }
-  /// What the section at s carries, in element e, as it lies, with what touches it.
+  /// What the section carries, in element e, as it lies, with what touches it.
   template <class Rows>
-  InternalForces<Scalar, 3> internal_forces(const Rows& rows, int e, Scalar, Scalar s, Scalar load, Scalar,
+  InternalForces<Scalar, 3> internal_forces(const Rows& rows, int e, const detail::CutAt<Scalar>& at,
+                                            Scalar load, Scalar,
                                             const Centreline<Scalar, 3>&) const noexcept {
-    return parts_.internal_forces(e, s, load, [&](auto&& touch) {
+    return parts_.internal_forces(e, at, load, [&](auto&& touch) {
       for (int k = 0; k < rows.size(); ++k)
         if (const auto& contact = rows[k]; rows.element(k) == e)
           touch(contact.s, Vector3(contact.force * contact.normal + contact.friction), contact.place);
@@ -285,8 +285,6 @@ struct SystemOf<Element, std::enable_if_t<dimension_of<Element> == 3>> {
   using Pose = RodPose;
   template <typename Scalar, int Elements, int MaxElements>
   using System = RodSystem<Element, Scalar, Elements, MaxElements>;
-  template <typename Scalar>
-  using Range = RodRange<Scalar>;
 };
 
 }  // namespace detail

@@ -59,9 +59,8 @@ void each_touched(const Rows& rows, F&& f) noexcept {
 
 /// @tparam ChainType  BeamChain | RodChain
 template <class ChainType>
-class ChainSystem
-    : public detail::SystemContacts<ChainSystem<ChainType>, typename ChainType::Scalar,
-                                    typename ChainType::Friction, detail::RowsOf<ChainType>> {
+class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typename ChainType::Scalar,
+                                                  typename ChainType::Friction, detail::RowsOf<ChainType>> {
   using Contacts = typename ChainSystem::SystemContacts;
   using Parts = typename ChainType::Parts;
 
@@ -230,8 +229,7 @@ class ChainSystem
   /// Largest rotation of a node in the last increment [rad].
   Scalar turn() const noexcept {
     Scalar largest = 0;
-    for (int i = 0; i <= elements(); ++i)
-      largest = (std::max)(largest, Chain::turn(node(i), increment(i)));
+    for (int i = 0; i <= elements(); ++i) largest = (std::max)(largest, Chain::turn(node(i), increment(i)));
     return largest;
   }
 
@@ -259,7 +257,10 @@ class ChainSystem
     // Where a contact was drawn instead of a node.
     if (e > 0 && s < node(e).s) --e;
     else if (e + 1 < elements() && s > node(e + 1).s) ++e;
-    return chain_.internal_forces(rows_, e, drawn_[piece].s, s, load_, thickness, drawn());
+    const Scalar from = node(e).s, to = node(e + 1).s, at = (std::min)((std::max)(s, from), to);
+    return chain_.internal_forces(rows_, e,
+                                  {from, to, at, e + 1 == elements(), at == from || at == drawn_[piece].s},
+                                  load_, thickness, drawn());
   }
 
   // What is seen: the mesh, and in it the places of contacts.
@@ -319,7 +320,8 @@ class ChainSystem
                    share = shift * unit_ * unit_ * length / (2 * length_);
       Increment diagonal = Increment::Constant(share);
       diagonal.template head<dimension>() /= length_ * length_;
-      assembler_.add_at(i, Eigen::Matrix<Scalar, unknowns, unknowns>(diagonal.asDiagonal()), Increment::Zero());
+      assembler_.add_at(i, Eigen::Matrix<Scalar, unknowns, unknowns>(diagonal.asDiagonal()),
+                        Increment::Zero());
     }
   }
 

@@ -31,7 +31,7 @@ class RodPilot {
  public:
   explicit RodPilot(const RodScene& scene) : floor_(scene.check().force_floor) {
     const double length = scene.rod.length();
-    const Range<double> range = RodRange<double>(scene.rod).range();
+    const Range<double> range = PressRange<double>(scene.rod).range();
     const double left = range.s_min > 0 ? scene.s_min : length,
                  right = range.s_max < length ? length - scene.s_max : length;
     if (holds_twist(scene.rod.left()) || holds_twist(scene.rod.right()))

@@ -11,7 +11,7 @@
 
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/fem/rod/rod_range.hpp>
+#include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/rod.hpp>
 #include <hapbeam/scene/scene.hpp>
 #include <hapbeam/turning_plane.hpp>
@@ -31,7 +31,7 @@ struct RodScene {
   /// Anywhere from 5 to 95 % of the length, or up to an end that yields.
   static RodScene anywhere(const Rod& rod, double depth) {
     const double L = rod.length();
-    const Range<double> range = RodRange<double>(rod).range();
+    const Range<double> range = PressRange<double>(rod).range();
     return {rod, range.s_min > 0 ? 0.05 * L : 0, range.s_max < L ? 0.95 * L : L, depth};
   }
   /// At one place.
@@ -42,7 +42,7 @@ struct RodScene {
   /// How deep it is pushed at s along cos d1 + sin d2 [m].  A flat rod that is pushed askew gives way across the push: its depth is
   /// less by that, as a straight one's of even stiffness is.
   double depth_at(double s, double cosine, double sine) const noexcept {
-    const Range<double> range = RodRange<double>(rod).range();
+    const Range<double> range = PressRange<double>(rod).range();
     double deep = depth;
     if (range.s_min > 0) deep = (std::min)(deep, s / 5);
     if (range.s_max < rod.length()) deep = (std::min)(deep, (rod.length() - s) / 5);
@@ -64,7 +64,7 @@ struct RodScene {
 
   /// @throws std::invalid_argument
   const RodScene& check() const {
-    const Range<double> range = RodRange<double>(rod).range();
+    const Range<double> range = PressRange<double>(rod).range();
     detail::finite("s_min", s_min, "m");
     detail::finite("s_max", s_max, "m");
     if (!(s_min >= 0.999999 * range.s_min && s_min <= s_max))

@@ -13,11 +13,10 @@
 #include <hapbeam/body/rod_profile.hpp>
 #include <hapbeam/element/rod/carried_frame.hpp>
 #include <hapbeam/element/rod/rod_tangent.hpp>
-#include <hapbeam/fem/laid_mesh.hpp>
 #include <hapbeam/fem/rod/natural_rod.hpp>
-#include <hapbeam/fem/rod/rod_forces.hpp>
 #include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/fem/rod/rod_loads.hpp>
+#include <hapbeam/fem/section_cut.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
@@ -166,14 +165,13 @@ class RodElements {
     return {s, at.r, at.tangent,
             detail::across(director_within(e, (s - a.s) / (b.s - a.s)), detail::unit(at.tangent))};
   }
-  /// What the section at s carries, in element e, which holds s.
+  /// What the section carries, in element e.
   /// @param contacts  calls its argument with place, force and point of each of that element [m], [N]
   template <class EachContact>
-  InternalForces<Scalar, 3> internal_forces(int e, Scalar at, Scalar lambda,
+  InternalForces<Scalar, 3> internal_forces(int e, const detail::CutAt<Scalar>& at, Scalar lambda,
                                             EachContact&& contacts) const noexcept {
     using Vector3 = VectorOf<Scalar, 3>;
     const Node &a = nodes_[e], &b = nodes_[e + 1];
-    const Scalar s = (std::min)((std::max)(at, a.s), b.s), t = (s - a.s) / (b.s - a.s);
     const Centreline<Scalar, 3> line = view(nodes_);
     Residual r;
     residual(e, lambda, r);
@@ -195,25 +193,26 @@ class RodElements {
     const auto moment = [&r](int row, const Vector3& tangent) -> Vector3 {
       return RodElements::moment(r.template segment<unknowns>(row), tangent);
     };
-    detail::RodCut<Scalar> cut{-r.template segment<3>(0), -moment(0, a.tangent), a.r}, end = cut;
-    const RodPoint<Scalar> place = line.at(e, s);
-    cut.go(place.r);
-    end.go(b.r);
-    loads_.pass(line, e, lambda, s, cut, end);
-    contacts([&](Scalar x, const Vector3& force, const Vector3& there) {
-      end.pass(force, there);
-      if (x < s) cut.pass(force, there);
-    });
-    const auto lie = [&](detail::RodCut<Scalar>& of, Scalar to) {
-      bed_.visit(a.s, to, natural_, [&](Scalar x, const Eigen::Matrix<Scalar, 3, 3>& k, const Vector3& home) {
-        const Vector3 there = line.at(e, x).r;
-        of.pass(-k * (there - home), there);
-      });
-    };
-    if (!bed_.empty()) lie(end, b.s), lie(cut, s);
-    cut.moment += t * (moment(unknowns, b.tangent) - end.moment);
-    loads_.spread(lambda, s, a.s, place.tangent, cut);
-    return cut.in_section(director_within(e, t), detail::unit(place.tangent), profile_.at(s), surface_);
+    const auto cut = detail::cut_element<Scalar, 3>(
+        {-r.template segment<3>(0), -moment(0, a.tangent), a.r}, moment(unknowns, b.tangent), at, lambda,
+        loads_.all(),
+        [&](Scalar s) {
+          const RodPoint<Scalar> there = line.at(e, s);
+          return detail::CutPlace<Scalar, 3>{there.r, there.tangent};
+        },
+        [&](auto& of, Scalar to) {
+          contacts([&](Scalar x, const Vector3& force, const Vector3& there) {
+            if (to == b.s || at.passed(x)) of.pass(force, there);
+          });
+          if (!bed_.empty())
+            bed_.visit(a.s, to, natural_, [&](Scalar x, const auto& k, const Vector3& home) {
+              const Vector3 there = line.at(e, x).r;
+              of.pass(-k * (there - home), there);
+            });
+        });
+    const Scalar t = (at.s - a.s) / (b.s - a.s);
+    return surface_.in_section(cut, director_within(e, t), detail::unit(line.at(e, at.s).tangent),
+                               profile_.at(at.s));
   }
   /// [J]
   Scalar strain_energy() const noexcept {
