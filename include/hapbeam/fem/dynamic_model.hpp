@@ -3,7 +3,7 @@
 //
 //   M q" + α M q' + V'(q) = forces
 //
-// step() goes on by a time, alone or with a hand.  Each of its parts is a static solve with one term more, the inertia (fem/dynamics/): the elements, supports
+// step() goes on by a time, alone or with a hand.  Each of its parts is a static solve with one term more, the inertia (dynamics.hpp): the elements, supports
 // and contacts are those of FemModel, and the beam stays where that does.  A hand touches through its coupling, a spring and a damper, within the step: a
 // massless avatar between them has no place of its own, so that no blow is infinite.  Where a part has no solution it is taken back and halved.
 // Allocates and throws at construction.  Real-time: every other member is noexcept and allocation-free, at most 15 tries of each part, of two stages.
@@ -14,7 +14,6 @@
 #include <utility>
 
 #include <hapbeam/element/corotational.hpp>
-#include <hapbeam/fem/dynamics/tr_bdf2.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 namespace hapbeam {

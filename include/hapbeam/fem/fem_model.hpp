@@ -12,7 +12,7 @@
 // and the status says snapped.
 // There are two ways to the answer, and the beam decides when it is built.  A straight beam without dead loads whose ends stand
 // no closer than it is long has one unknown, the tension; of elements that are exact under theirs the model solves for that alone,
-// without the error of a mesh (one_tension.hpp).  All else is solved for the displacements of all nodes (all_displacements.hpp).
+// without the error of a mesh (taut_system.hpp).  All else is solved for the displacements of all nodes (all_displacements.hpp).
 // Composed of policies: Element × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
@@ -31,8 +31,8 @@
 
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/all_displacements.hpp>
-#include <hapbeam/fem/one_tension.hpp>
 #include <hapbeam/fem/press_range.hpp>
+#include <hapbeam/fem/taut_system.hpp>
 #include <hapbeam/internal_forces.hpp>
 
 namespace hapbeam {
