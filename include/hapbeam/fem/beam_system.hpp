@@ -38,11 +38,7 @@ class BeamChain {
 
   /// @param number  of elements
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or the number does not fit the type
-  BeamChain(const Beam& beam, int number)
-      : parts_(beam, number),
-        before_(number),
-        ends_{detail::EndSupport<Scalar>(beam.left(), beam.left_place()),
-              detail::EndSupport<Scalar>(beam.right(), beam.right_place())} {
+  BeamChain(const Beam& beam, int number) : parts_(beam, number), before_(number), ends_(beam, number) {
     const NaturalShape<Scalar>& natural = parts_.natural_shape();
     const auto stand = [&](Scalar side) {
       detail::lay(natural, ends_[0], ends_[1], parts_.nodes());
@@ -106,23 +102,7 @@ class BeamChain {
     return {contact.s, moved.x(), moved.y(), contact.theta};
   }
 
-  // Its ends.
-
-  void begin_path() noexcept {
-    for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(parts_.nodes()[end(k)]);
-  }
-  void set_target(Scalar t) noexcept {
-    for (auto& end : ends_) end.set_target(t);
-  }
-  static constexpr bool follows() noexcept { return true; }
-  template <class Rows>
-  void hold(Rows& rows, Assembler& assembler) const noexcept {
-    for (std::size_t k = 0; k < 2; ++k)
-      ends_[k].visit(parts_.nodes()[end(k)], [&](int component, Scalar now, Scalar target) {
-        rows.prescribe(end(k), component, target - now);
-        assembler.prescribe(end(k), component, target - now);
-      });
-  }
+  detail::BeamEnds<Scalar>& ends() noexcept { return ends_; }
 
   // Its equations.
 
@@ -181,19 +161,14 @@ class BeamChain {
   Scalar advance(const Assembler& assembler, Rows& rows, ElementAt&& element_at) noexcept {
     if constexpr (any_rotation<Element>) {
       if (!rows.any() && !inertia_) {
-        // Prescribed increments answer 0; a chain that ended where they were would share them out a second time.
+        // A chain that ended where its ends were would share out a second time what is prescribed.
         const auto with_ends = [&](int i) {
-          Vector3<Scalar> x = assembler.increment(i);
-          for (std::size_t k = 0; k < 2; ++k)
-            if (i == end(k))
-              ends_[k].visit(parts_.nodes()[i],
-                             [&x](int component, Scalar now, Scalar target) { x[component] = target - now; });
-          return x;
+          return ends_.increment(assembler.increment(i), i, parts_.nodes()[i]);
         };
         const Scalar longer = parts_.follow(with_ends, [](int) { return false; });
         detail::lay_chain<Element, Scalar>(parts_.nodes(), parts_.properties(), parts_.inners(), with_ends);
         detail::close_chain(parts_.nodes(), ends_[0], ends_[1]);
-        place_ends();
+        ends_.correct(parts_.nodes());
         return longer;
       }
     }
@@ -215,7 +190,7 @@ class BeamChain {
       before_[i] = nodes[i];
       nodes[i].u += x[0], nodes[i].w += x[1], nodes[i].theta += x[2];
     }
-    place_ends();
+    ends_.correct(nodes);
     return parts_.follow(
         [&](int i) {
           const Node &now = nodes[i], &then = before_[i];
@@ -277,17 +252,10 @@ class BeamChain {
   }
 
  private:
-  int end(std::size_t k) const noexcept { return k == 0 ? 0 : parts_.size(); }
-  /// Puts the ends exactly where they belong.
-  void place_ends() noexcept {
-    for (std::size_t k = 0; k < 2; ++k)
-      ends_[k].visit(parts_.nodes()[end(k)], [](int, Scalar& now, Scalar target) { now = target; });
-  }
-
   Parts parts_;
   Nodes before_;                      // the last increment
   const Inertia* inertia_ = nullptr;  // of what it is in motion with
-  std::array<detail::EndSupport<Scalar>, 2> ends_;
+  detail::BeamEnds<Scalar> ends_;
   Scalar stiffness_ = 0;  // of all elements, along and across [N/m]
 };
 

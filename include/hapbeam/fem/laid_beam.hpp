@@ -50,6 +50,61 @@ struct EndSupport {
   Scalar start[3] = {0, 0, 0}, target[3] = {0, 0, 0};
 };
 
+/// Both ends, in the equations.
+template <typename Scalar>
+class BeamEnds {
+ public:
+  BeamEnds(const Beam& beam, int last)
+      : last_(last), ends_{{beam.left(), beam.left_place()}, {beam.right(), beam.right_place()}} {}
+
+  EndSupport<Scalar>& operator[](std::size_t k) noexcept { return ends_[k]; }
+  const EndSupport<Scalar>& operator[](std::size_t k) const noexcept { return ends_[k]; }
+
+  /// A path begins where the ends are.
+  template <class Nodes>
+  void begin_path(const Nodes& nodes) noexcept {
+    for (int k = 0; k < 2; ++k) ends_[k].begin(nodes[node(k)]);
+  }
+  void set_target(Scalar t) noexcept {
+    for (auto& end : ends_) end.set_target(t);
+  }
+  /// Whether increments lead to where they belong.
+  template <class Nodes>
+  static constexpr bool follow(const Nodes&) noexcept {
+    return true;
+  }
+  /// After all else is in the assembler's system.
+  template <class Nodes, class Rows, class Assembler>
+  void hold(const Nodes& nodes, Rows& rows, Assembler& assembler) const noexcept {
+    for (int k = 0; k < 2; ++k)
+      ends_[k].visit(nodes[node(k)], [&](int component, Scalar now, Scalar target) {
+        rows.prescribe(node(k), component, target - now);
+        assembler.prescribe(node(k), component, target - now);
+      });
+  }
+  /// From the assembler's answer: what is prescribed answers 0.
+  template <class Node>
+  Vector3<Scalar> increment(Vector3<Scalar> answer, int i, const Node& at) const noexcept {
+    for (int k = 0; k < 2; ++k)
+      if (i == node(k))
+        ends_[k].visit(at,
+                       [&](int component, Scalar now, Scalar target) { answer[component] = target - now; });
+    return answer;
+  }
+  /// Puts them exactly where they belong.
+  template <class Nodes>
+  void correct(Nodes& nodes) const noexcept {
+    for (int k = 0; k < 2; ++k)
+      ends_[k].visit(nodes[node(k)], [](int, Scalar& now, Scalar target) { now = target; });
+  }
+
+ private:
+  int node(int k) const noexcept { return k == 0 ? 0 : last_; }
+
+  int last_;
+  EndSupport<Scalar> ends_[2];
+};
+
 /// Lays the natural shape from the left end's place, turned toward the right end's place unless the left end is clamped.
 /// @param nodes  in and out: where along the beam they are stays
 template <typename Scalar, class Nodes>

@@ -103,11 +103,10 @@ class RodChain {
     return at;
   }
 
-  // Its ends.
-
+  detail::RodEnds<Scalar, unknowns>& ends() noexcept { return ends_; }
   /// They belong where they do at rest.
   void go_home() noexcept {
-    for (auto& end : ends_) end.go_home();
+    for (std::size_t k = 0; k < 2; ++k) ends_[k].go_home();
   }
   /// Places an end anew: where the next path leads.  @param k  0: left, 1: right
   /// @return false where it is neither clamped nor on springs, or the pose is none: nothing has changed
@@ -126,20 +125,6 @@ class RodChain {
     const Increment at = r.template segment<unknowns>(k == 0 ? 0 : unknowns);
     return {at.template segment<3>(0), parts_.moment(at, node(ends_.node(k)).tangent)};
   }
-  void begin_path() noexcept { ends_.begin_path(parts_.nodes()); }
-  void set_target(Scalar t) noexcept {
-    for (auto& end : ends_) end.set_target(t);
-  }
-  bool follows() const noexcept { return ends_.follow(parts_.nodes()); }
-  template <class Rows>
-  void hold(Rows& rows, Assembler& assembler) noexcept {
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Node& at = node(ends_.node(k));
-      ends_.hold(k, at, assembler);
-      rows.visit_node(ends_.node(k), [&](auto&& b, Scalar& residual) { ends_.hold_row(k, at, b, residual); });
-    }
-  }
-
   // Its equations.
 
   /// A rod that is round may roll where it is bowed, but for round-off; 1/10⁷ of what bends one.

@@ -166,7 +166,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
 
   void set_target(Scalar t) noexcept {
     Contacts::aim(t);
-    chain_.set_target(t);
+    chain_.ends().set_target(t);
     set_turning(1);
     last_size_ = std::numeric_limits<Scalar>::infinity();
   }
@@ -291,7 +291,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   void each_inner(F&& f) const noexcept {
     for (int e = 0; Parts::has_inners && e < elements(); ++e) f(e);
   }
-  void begin_path() noexcept { chain_.begin_path(); }
+  void begin_path() noexcept { chain_.ends().begin_path(nodes()); }
   void look_in(int e) noexcept {
     [[maybe_unused]] const Scalar tension = rows_.look(parts(), e);
     if constexpr (dimension == 2) chain_.parts().set_tension(e, tension);
@@ -338,14 +338,14 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
 // Outside of the class: only so does "extern template class ChainSystem<…>;" keep a compiler from them.
 template <class Chain>
 Status ChainSystem<Chain>::factor(Scalar shift) noexcept {
-  if (!chain_.follows()) return Status::iteration_limit;
+  if (!chain_.ends().follow(nodes())) return Status::iteration_limit;
   const detail::ChainEnergies<Scalar> energies = chain_.assemble(load_, rows_, assembler_);
   if (shift != 0) add_shift(shift);
   inner_energy_ = energies.inner, longer_ = 0;
   weight_ = size_ = std::sqrt(2 * energies.measured);
   potential_ = energies.strain - energies.work;
   if (rows_.any()) potential_ += rows_.potential() + rows_.friction_potential();
-  chain_.hold(rows_, assembler_);
+  chain_.ends().hold(nodes(), rows_, assembler_);
   const Status status = rows_.any() ? rows_.solve(assembler_) : assembler_.solve();
   // A round rod that is bowed between two ends on one axis may roll about it: that takes no force, and leads nowhere.
   if (status == Status::singular && shift == 0 && no_mechanism_) return factor(neutral());
