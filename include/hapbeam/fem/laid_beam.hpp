@@ -14,12 +14,14 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/body/natural_shape.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/solver/ldlt.hpp>
 
 namespace hapbeam::detail {
 

@@ -20,6 +20,7 @@
 #include <hapbeam/fem/contact/system_contacts.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
+#include <hapbeam/internal_forces.hpp>
 
 namespace hapbeam {
 
