@@ -7,9 +7,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <type_traits>
 
 #include <hapbeam/beam.hpp>
@@ -145,23 +143,22 @@ class BeamElements {
   }
   /// Whether λ times the loads are any.
   bool loaded(Scalar lambda) const noexcept { return lambda != 0 && !loads_.empty(); }
-  /// Takes those of λW off residual and tangent.   @return work of λ times the loads on element e [J]
-  Scalar subtract_loads(int e, Scalar lambda, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
-    return subtract_loads(e, lambda, displacements(e), r, &K);
-  }
-  Scalar subtract_loads(int e, Scalar lambda, Vector6<Scalar>& r) const noexcept {
-    return subtract_loads(e, lambda, displacements(e), r, nullptr);
+  /// Takes those of λW off residual and, where there is one, tangent.   @return work of λ times the loads on element e [J]
+  Scalar subtract_loads(int e, Scalar lambda, Vector6<Scalar>& r,
+                        Matrix6<Scalar>* K = nullptr) const noexcept {
+    if (!loaded(lambda)) return 0;
+    return hapbeam::subtract_loads<Element>(loads_, nodes_[e].s, nodes_[e + 1].s, e + 1 == size(), lambda,
+                                            properties_[e], displacements(e), r, K);
   }
   /// The residual alone.
   void residual(int e, Scalar lambda, Vector6<Scalar>& r) const noexcept {
-    const Vector6<Scalar> d = displacements(e);
     if constexpr (has_tensions) {
       const CoreResponse<Scalar> c = core(e);
       detail::expand(properties_[e], c.s, c.r, c.t1, c.t2, r);
     } else {
-      Element::residual(properties_[e], d, r);
+      Element::residual(properties_[e], displacements(e), r);
     }
-    subtract_loads(e, lambda, d, r, nullptr);
+    subtract_loads(e, lambda, r);
   }
   /// What the section at s carries, in element e, which holds s.   @param thickness [m]   @param r  its forces on its nodes, less loads
   /// @param place  (s) -> Displacement within it   @param others  as of cut_element()
@@ -183,8 +180,7 @@ class BeamElements {
   Scalar work(Scalar lambda) const noexcept {
     Scalar work = 0;
     Vector6<Scalar> r = Vector6<Scalar>::Zero();
-    for (int e = 0; loaded(lambda) && e < size(); ++e)
-      work += subtract_loads(e, lambda, displacements(e), r, nullptr);
+    for (int e = 0; loaded(lambda) && e < size(); ++e) work += subtract_loads(e, lambda, r);
     return work;
   }
 
@@ -247,12 +243,6 @@ class BeamElements {
     const Vector6<Wide> d(moved(0, &Node::u), moved(0, &Node::w), moved(0, &Node::theta), moved(1, &Node::u),
                           moved(1, &Node::w), moved(1, &Node::theta));
     return use(p, d);
-  }
-  Scalar subtract_loads(int e, Scalar lambda, const Vector6<Scalar>& d, Vector6<Scalar>& r,
-                        Matrix6<Scalar>* K) const noexcept {
-    if (!loaded(lambda)) return 0;
-    return hapbeam::subtract_loads<Element>(loads_, nodes_[e].s, nodes_[e + 1].s, e + 1 == size(), lambda,
-                                            properties_[e], d, r, K);
   }
 
   Nodes nodes_;

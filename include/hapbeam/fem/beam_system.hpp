@@ -5,11 +5,9 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/fem/beam_elements.hpp>
@@ -135,7 +133,7 @@ class BeamChain {
     for (int e = 0; e < parts_.size(); ++e) {
       parts_.respond(e, group);
       const auto load_and_move = [&](Vector6<Scalar>& r, Matrix6<Scalar>& K) {
-        work += parts_.subtract_loads(e, load, r, K);
+        work += parts_.subtract_loads(e, load, r, &K);
         if (inertia_) energy += inertia_->add(e, parts_.nodes()[e], parts_.nodes()[e + 1], r, K);
       };
       if (rows.in(e)) {

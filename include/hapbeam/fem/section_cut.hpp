@@ -14,7 +14,6 @@
 // Real-time: noexcept, no allocation, O(loads on the element).
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
