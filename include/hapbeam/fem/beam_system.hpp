@@ -230,7 +230,7 @@ class BeamChain {
       parts_.residual(e, load, r);
       return parts_.internal_forces(
           at, load, thickness, r, [&](Scalar s) { return parts_.view(parts_.nodes()).at(e, s); },
-          [](auto&, Scalar) {});
+          [](auto&, bool) {});
     }
     typename Rows::Touched touched(parts_, e);
     std::array<typename Rows::Contact, Rows::most> contacts;
@@ -241,9 +241,9 @@ class BeamChain {
     (void)touched.condense(r, K, [](int) {});
     (void)parts_.subtract_loads(e, load, r);
     const auto place = [&drawn](Scalar s) { return drawn.at(s); };
-    return parts_.internal_forces(at, load, thickness, r, place, [&](auto& cut, Scalar to) {
+    return parts_.internal_forces(at, load, thickness, r, place, [&](auto& cut, bool whole) {
       for (std::size_t k = 0; k < count; ++k)
-        if (const auto& contact = contacts[k]; to == at.to || at.passed(contact.s))
+        if (const auto& contact = contacts[k]; whole || at.passed(contact.s))
           cut.pass(contact.force * contact.normal + contact.friction,
                    detail::cut_place<Element>(contact.s, place(contact.s)).r);
     });

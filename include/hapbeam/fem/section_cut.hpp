@@ -89,7 +89,7 @@ struct CutAt {
 };
 
 /// The cut at s.   @param cut  at the left node   @param right  moment at the right node   @param place  (s) -> CutPlace in the element
-/// @param others  (cut, s) takes a cut that goes to s past what else acts on the element
+/// @param others  (cut, whole) takes a cut past what else acts on the element: on all of it, or as far as s
 template <typename Scalar, int D, class Place, class Others>
 SectionCut<Scalar, D> cut_element(SectionCut<Scalar, D> cut,
                                   const typename SectionCut<Scalar, D>::Moment& right,
@@ -105,8 +105,8 @@ SectionCut<Scalar, D> cut_element(SectionCut<Scalar, D> cut,
       end.pass(load, lambda, there);
       if (at.passed(load.s)) cut.pass(load, lambda, there);
     });
-  others(end, at.to);
-  others(cut, at.s);
+  others(end, true);
+  others(cut, false);
   cut.moment += (at.s - at.from) / (at.to - at.from) * (right - end.moment);
   loads.visit_cell([&](Scalar x) { return at.passed(x); },
                    [&](const VectorOf<Scalar, D>& q, Scalar start, Scalar length) {

@@ -200,12 +200,13 @@ class RodElements {
           const RodPoint<Scalar> there = line.at(e, s);
           return detail::CutPlace<Scalar, 3>{there.r, there.tangent};
         },
-        [&](auto& of, Scalar to) {
+        [&](auto& of, bool whole) {
+          // The cut is on the cubic, which a contact stands off: at its place it is past it on neither side.
           contacts([&](Scalar x, const Vector3& force, const Vector3& there) {
-            if (to == b.s || at.passed(x)) of.pass(force, there);
+            if (whole || x < at.s) of.pass(force, there);
           });
           if (!bed_.empty())
-            bed_.visit(a.s, to, natural_, [&](Scalar x, const auto& k, const Vector3& home) {
+            bed_.visit(a.s, whole ? b.s : at.s, natural_, [&](Scalar x, const auto& k, const Vector3& home) {
               const Vector3 there = line.at(e, x).r;
               of.pass(-k * (there - home), there);
             });
