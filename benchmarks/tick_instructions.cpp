@@ -74,14 +74,11 @@ void ticks(const char* name, int elements, bool slides) {
 void parts(int elements, bool slides) {
   const char* const hand = slides ? "slides" : "presses";
   TautSystem<double, Eigen::Dynamic, Eigen::Dynamic> system(thesis_beam(), elements);
-  const ContactMesh<double> uniform(elements, length);
   double s = start, d = -pressed;
-  ContactMesh<double> mesh = uniform;
   SolveReport<double> report{};
   const auto go = [&] {
     (slides ? s : d) += slides ? 1e-3 : -1e-5;
-    mesh = uniform.at(s);
-    system.set_goal(mesh, s, d);
+    system.set_goal(s, d);
   };
   const auto solve = [&] { report = NewtonRaphson{}.solve(system); };
   for (int k = 0; k < 3; ++k) go(), solve(), system.lay();

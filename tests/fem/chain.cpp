@@ -6,8 +6,8 @@
 #include "support/random.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
-#include <hapbeam/fem/chain.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/laid_beam.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

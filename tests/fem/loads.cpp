@@ -21,10 +21,11 @@ TEST_CASE("consistent forces do the work of the load on every cubic", "[load]") 
       beam.axial([&](double x) { return 7 * power(x, degree); });
       for (int k = 0; k <= 3; ++k) {
         double across = 0, along = 0;
-        for (const PointForce<double>& f : point_forces<double>(beam, elements)) {
-          across += f.transverse * power(f.s, k);
-          if (k > 0) across += f.transverse_arm * k / L * power(f.s, k - 1);  // works on w'
-          if (k < 2) along += f.axial * power(f.s, k);
+        const DeadLoads<double> loads(beam, elements);
+        for (const PointForce<double>& f : loads.forces()) {
+          across += f.force.y() * power(f.s, k);
+          if (k > 0) across += f.arm.y() * k / L * power(f.s, k - 1);  // works on w'
+          if (k < 2) along += f.force.x() * power(f.s, k);
         }
         const double integral = L / (degree + k + 1);
         CHECK(std::abs(across - 3 * integral) <= 1e-14 * 3 * L);
@@ -36,14 +37,15 @@ TEST_CASE("consistent forces do the work of the load on every cubic", "[load]") 
 TEST_CASE("point loads stay as they are, in order of s", "[load]") {
   Beam beam = thesis_beam(Support::pinned, Support::roller);
   beam.add({0.7, 1, 2, 3}).add({0.0137, 4, 5, 6});
-  const auto forces = point_forces<float>(beam, 4);
+  const DeadLoads<float> loads(beam, 4);
+  const auto& forces = loads.forces();
   REQUIRE(forces.size() == 2);
   CHECK(forces[0].s == 0.0137f);
-  CHECK(forces[0].transverse == 5);
+  CHECK(forces[0].force.y() == 5);
   CHECK(forces[0].moment == 6);
   CHECK(forces[1].s == 0.7f);
-  CHECK(forces[1].axial == 1);
-  CHECK((forces[1].axial_arm == 0 && forces[1].transverse_arm == 0));
+  CHECK(forces[1].force.x() == 1);
+  CHECK(forces[1].arm.isZero(0));
 }
 
 TEST_CASE("a load that is not finite somewhere on the beam is rejected by name", "[load]") {
@@ -51,9 +53,8 @@ TEST_CASE("a load that is not finite somewhere on the beam is rejected by name",
   const auto hole = [nan](double x) { return x > 2 ? nan : 1.0; };
   Beam beam = thesis_beam(Support::pinned, Support::roller);
   beam.transverse(hole);
-  CHECK_THROWS_WITH(point_forces<double>(beam, 8), ContainsSubstring("transverse load") &&
-                                                       ContainsSubstring("N/m") &&
-                                                       ContainsSubstring("finite"));
+  CHECK_THROWS_WITH(DeadLoads<double>(beam, 8), ContainsSubstring("transverse load") &&
+                                                    ContainsSubstring("N/m") && ContainsSubstring("finite"));
   beam.transverse(0).axial(hole);
-  CHECK_THROWS_WITH(point_forces<double>(beam, 8), ContainsSubstring("axial load"));
+  CHECK_THROWS_WITH(DeadLoads<double>(beam, 8), ContainsSubstring("axial load"));
 }

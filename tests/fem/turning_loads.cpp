@@ -3,7 +3,7 @@
 #include "element/elements.hpp"
 #include "support/catch.hpp"
 #include "support/error.hpp"
-#include <hapbeam/fem/loads.hpp>
+#include <hapbeam/fem/beam_loads.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -11,7 +11,7 @@ using namespace hapbeam::testing;
 namespace {
 
 PointForce<double> random_force(Random& random) {
-  return {0, random(1), random(1), random(1), random(1), random(1)};
+  return {0, {random(1), random(1)}, {random(1), random(1)}, random(1)};
 }
 
 /// A state of random_state() turned by up to four turns.
@@ -87,13 +87,13 @@ TEST_CASE("nodal forces do the work of the load on the element's own cubic", "[l
       const double chord = angle - turn;  // up is positive
       const double u = along * std::cos(chord) - across * std::sin(chord) + d[0],
                    w = along * std::sin(chord) + across * std::cos(chord) + d[1];
-      return load.axial * u + load.transverse * w + load.moment * theta + load.axial_arm * std::cos(theta) -
-             load.transverse_arm * std::sin(theta);
+      return load.force.x() * u + load.force.y() * w + load.moment * theta + load.arm.x() * std::cos(theta) -
+             load.arm.y() * std::sin(theta);
     };
     const Vector6<double> d = turned(turn, random_state(random, l), l), r = residual(load, t, p, d);
     Vector6<double> ignored = Vector6<double>::Zero();
     const double answered = subtract_load<double>(load, t, 1, p, d, ignored, nullptr),
-                 at_rest = load.axial * t * l + load.axial_arm;
+                 at_rest = load.force.x() * t * l + load.arm.x();
     worst = std::max(worst, std::abs(answered - (work(d) - at_rest)));
     for (int i = 0; i < 6; ++i) worst = std::max(worst, std::abs(r[i] + derivative(work, d, i, 1e-3)));
   }
@@ -113,9 +113,9 @@ TEST_CASE("moderate rotation's nodal forces and stiffness are derivatives of the
       const ShapeFunctions<double> shape(t, l);
       const Eigen::Vector4d bent(d[1], d[2], d[4], d[5]);
       const double theta = shape.theta.dot(bent);
-      return lambda * (load.axial * (shape.u1 * d[0] + shape.u2 * d[3] + bow(t, l, bent)) +
-                       load.transverse * shape.w.dot(bent) + (load.moment - load.transverse_arm) * theta -
-                       load.axial_arm * theta * theta / 2);
+      return lambda * (load.force.x() * (shape.u1 * d[0] + shape.u2 * d[3] + bow(t, l, bent)) +
+                       load.force.y() * shape.w.dot(bent) + (load.moment - load.arm.y()) * theta -
+                       load.arm.x() * theta * theta / 2);
     };
     const auto residual = [&](const Vector6<double>& d) {
       Vector6<double> r = Vector6<double>::Zero();
@@ -158,8 +158,8 @@ TEST_CASE("dead forces keep their resultant, however the element has turned", "[
     const ElementProperties<double> p(random(0.5, 2), 1, 1);
     const PointForce<double> load = random_force(random);
     const Vector6<double> r = residual(load, random(0, 1), p, turned_state(random, p.length));
-    CHECK(std::abs(r[0] + r[3] + load.axial) <= 1e-14 * (1 + r.norm()));
-    CHECK(std::abs(r[1] + r[4] + load.transverse) <= 1e-14 * (1 + r.norm()));
+    CHECK(std::abs(r[0] + r[3] + load.force.x()) <= 1e-14 * (1 + r.norm()));
+    CHECK(std::abs(r[1] + r[4] + load.force.y()) <= 1e-14 * (1 + r.norm()));
   }
 }
 
@@ -180,9 +180,10 @@ TEST_CASE("the error of the work of an uneven load on a bent beam is of fourth o
   double error[3];
   for (int j = 0; j < 3; ++j) {
     double work = 0;
-    for (const PointForce<double>& f : point_forces<double>(beam, 4 << j))
-      work += f.axial * u(f.s) + f.transverse * w(f.s) + f.axial_arm * (std::cos(k * f.s) - 1) -
-              f.transverse_arm * std::sin(k * f.s);
+    const DeadLoads<double> loads(beam, 4 << j);
+    for (const PointForce<double>& f : loads.forces())
+      work += f.force.x() * u(f.s) + f.force.y() * w(f.s) + f.arm.x() * (std::cos(k * f.s) - 1) -
+              f.arm.y() * std::sin(k * f.s);
     error[j] = relative_error(work, exact);
   }
   INFO("errors " << error[0] << ' ' << error[1] << ' ' << error[2]);

@@ -130,10 +130,10 @@ void check_tangent(const Rod& rod, int elements) {
         for (int e = std::max(i - 1, 0); e <= std::min(i, elements - 1); ++e) {
           Eigen::Matrix<double, 14, 1> both = Eigen::Matrix<double, 14, 1>::Zero();
           both.template segment<7>(e == i ? 0 : 7) = x;
-          auto inner = system.inner(e);
+          auto inner = system.parts().inner(e);
           const double twist = inner.twist;
           inner.advance(both);
-          there.twists[e] += inner.twist - twist;
+          there.inner[e] += inner.twist - twist;
         }
       }
       return gradient(there);

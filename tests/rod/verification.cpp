@@ -158,7 +158,7 @@ struct Ring {
           detail::turn(state.nodes[i].director, state.nodes[i].tangent, turned * i / elements);
     }
     system.set_state(state);
-    system.place_end(1, {{0, 0, 0}, {1, 0, 0}, {0, std::cos(turned), std::sin(turned)}});
+    system.chain().place_end(1, {{0, 0, 0}, {1, 0, 0}, {0, std::cos(turned), std::sin(turned)}});
   }
 };
 

@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/centreline.hpp>
+#include <hapbeam/fem/laid_mesh.hpp>
 
 namespace hapbeam::testing {
 

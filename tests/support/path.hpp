@@ -25,7 +25,7 @@ struct Path {
 template <class Element = Corotational<>>
 class System : public BeamSystem<Element, double, Eigen::Dynamic, Eigen::Dynamic> {
  public:
-  using System::BeamSystem::BeamSystem;
+  using System::ChainSystem::ChainSystem;
 
   /// Lets go of the contact, places the ends and sets the factor λ on all dead loads.
   void set_load(double factor) noexcept {

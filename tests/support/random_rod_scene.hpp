@@ -44,7 +44,7 @@ inline RodScene random_rod_scene(Random& random) {
       break;
     default: break;
   }
-  const double high = RodRange<double>(rod).range().s_max < L ? 0.85 : 1;
+  const double high = PressRange<double>(rod).range().s_max < L ? 0.85 : 1;
   const double from = random(0.2, high) * L, to = random(0, 1) < 0.4 ? from : random(0.2, high) * L;
   RodScene scene{rod, std::min(from, to), std::max(from, to), L * log_even(random, 3e-3, 0.1)};
   scene.force_error = log_even(random, 0.01, 0.1);

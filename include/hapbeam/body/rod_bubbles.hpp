@@ -42,7 +42,7 @@ class RodBubbles : protected Stacked<S, Most> {
   /// @param rod  RodElements   @param e  of its elements
   template <class Parts>
   RodBubbles(const Parts& rod, int e) noexcept
-      : a_(&rod.nodes()[e]), b_(&rod.nodes()[e + 1]), p_(&rod.properties(e)), twist_(rod.twists()[e]) {
+      : a_(&rod.nodes()[e]), b_(&rod.nodes()[e + 1]), p_(&rod.properties(e)), twist_(rod.inners()[e]) {
     for (int g = 0; g < p_->number; ++g) {
       const auto& point = p_->points[g];
       const S weight = S(gauss_rule(p_->number).weight[g]);

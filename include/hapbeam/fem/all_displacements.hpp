@@ -30,7 +30,6 @@ class AllDisplacements {
  public:
   using Scalar = ScalarType;
   using Body = typename detail::SystemOf<Element>::Body;
-  using Extent = typename detail::SystemOf<Element>::template Range<Scalar>;
   static constexpr int dimension = dimension_of<Element>;
   using Round = typename detail::RoundOf<Scalar, dimension>::Type;
 
@@ -56,7 +55,7 @@ class AllDisplacements {
   /// Lays the beam on a circle, a rod on a capsule.   @param range  says where a node can be   @param valid  whether there is a request
   /// @return as press()
   /// @param friction  of its touch, null: without friction
-  Pushed<Scalar, dimension> push(const Round& request, const Extent& range, bool valid,
+  Pushed<Scalar, dimension> push(const Round& request, const PressRange<Scalar>& range, bool valid,
                                  FrictionState<Scalar, dimension>* friction) noexcept {
     if (!begins(valid)) return {0, report_.status};
     place_.forget();
@@ -64,7 +63,7 @@ class AllDisplacements {
   }
 
   /// Lays it on several.  @param all  in and out   @return the status that is common to all of them
-  Status push(Obstacle<Scalar, dimension>* all, int count, const Extent& range) noexcept {
+  Status push(Obstacle<Scalar, dimension>* all, int count, const PressRange<Scalar>& range) noexcept {
     if (!begins(true)) return report_.status;
     place_.forget();
     return drawn(pushes_.push(*this, all, count, range));
@@ -80,7 +79,7 @@ class AllDisplacements {
     };
     report_ = {Status::invalid_request, 0, 0, 0, 0, report_.step};
     if (!is_answer(rest_.status)) return report_.status = rest_.status, take();
-    if (!system_.place_end(k, pose)) return take();
+    if (!system_.chain().place_end(k, pose)) return take();
     single_valued_ = false;
     pushes_.forget_shape(), place_.forget();
     const auto aim = [this] { system_.set_goal(); };
@@ -161,7 +160,7 @@ class AllDisplacements {
 
   void to_rest() noexcept {
     system_.set_state(rest_state_);
-    if constexpr (dimension == 3) system_.go_home();
+    if constexpr (dimension == 3) system_.chain().go_home();
     home_ = system_.middle();
     falling_ = descending_ = false;
     unanswered_ = 0;

@@ -7,19 +7,16 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <type_traits>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/body/beam_pieces.hpp>
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/element/pack.hpp>
-#include <hapbeam/fem/beam_forces.hpp>
-#include <hapbeam/fem/laid_mesh.hpp>
-#include <hapbeam/fem/loads.hpp>
+#include <hapbeam/fem/beam_loads.hpp>
 #include <hapbeam/fem/rod/rod_lanes.hpp>
+#include <hapbeam/fem/section_cut.hpp>
 #include <hapbeam/fem/solver/ldlt.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 
@@ -32,10 +29,11 @@ class BeamElements {
   using Node = CentrelineNode<Scalar>;
   using Nodes = detail::PerNode<Node, Elements, MaxElements>;
   using Properties = detail::PerNode<ElementProperties<Scalar>, Elements, MaxElements>;
-  using Tensions = detail::PerNode<Scalar, Elements, MaxElements>;
+  using Inners = detail::PerNode<Scalar, Elements, MaxElements>;
   using Pieces = detail::BeamPieces<Element, Scalar>;
   /// Whether the tensions of the elements are unknowns, which move with the nodes.
   static constexpr bool has_tensions = has_own_tension<Element>;
+  static constexpr bool has_inners = true;  // a touched element has one whatever it is made of
   static_assert(
       is_element<Element, Scalar>,
       "an Element needs static noexcept energy(p, d), residual(p, d, r), tangent(p, d, r, K) and name(): "
@@ -61,21 +59,17 @@ class BeamElements {
   const Nodes& nodes() const noexcept { return nodes_; }
   const Properties& properties() const noexcept { return properties_; }
   /// N of each element [N].
-  Tensions& tensions() noexcept { return tensions_; }
-  const Tensions& tensions() const noexcept { return tensions_; }
+  Inners& inners() noexcept { return tensions_; }
+  const Inners& inners() const noexcept { return tensions_; }
   /// Of which the elements are made, and parts of them.
   const Pieces& pieces() const noexcept { return pieces_; }
   const NaturalShape<Scalar>& natural_shape() const noexcept { return pieces_.natural_shape(); }
   /// Any nodes of this beam, seen with its kinematics.
-  static Centreline<Scalar> view(const Nodes& nodes) noexcept {
+  template <class AnyNodes>
+  static Centreline<Scalar> view(const AnyNodes& nodes) noexcept {
     return {nodes.data(), nodes.size(), any_rotation<Element>};
   }
 
-  /// Sets the whole state.
-  void set(const Nodes& nodes, const Tensions& tensions) noexcept {
-    for (int i = 0; i < nodes_.size(); ++i) nodes_[i] = nodes[i];
-    for (int e = 0; e < size(); ++e) tensions_[e] = tensions[e];
-  }
   /// Those that belong to the displacements.
   void find_tensions() noexcept {
     if constexpr (has_tensions)
@@ -149,41 +143,33 @@ class BeamElements {
   }
   /// Whether λ times the loads are any.
   bool loaded(Scalar lambda) const noexcept { return lambda != 0 && !loads_.empty(); }
-  /// Takes those of λW off residual and tangent.   @return work of λ times the loads on element e [J]
-  Scalar subtract_loads(int e, Scalar lambda, Vector6<Scalar>& r, Matrix6<Scalar>& K) const noexcept {
-    return subtract_loads(e, lambda, displacements(e), r, &K);
-  }
-  Scalar subtract_loads(int e, Scalar lambda, Vector6<Scalar>& r) const noexcept {
-    return subtract_loads(e, lambda, displacements(e), r, nullptr);
+  /// Takes those of λW off residual and, where there is one, tangent.   @return work of λ times the loads on element e [J]
+  Scalar subtract_loads(int e, Scalar lambda, Vector6<Scalar>& r,
+                        Matrix6<Scalar>* K = nullptr) const noexcept {
+    if (!loaded(lambda)) return 0;
+    return hapbeam::subtract_loads<Element>(loads_, nodes_[e].s, nodes_[e + 1].s, e + 1 == size(), lambda,
+                                            properties_[e], displacements(e), r, K);
   }
   /// The residual alone.
   void residual(int e, Scalar lambda, Vector6<Scalar>& r) const noexcept {
-    const Vector6<Scalar> d = displacements(e);
     if constexpr (has_tensions) {
       const CoreResponse<Scalar> c = core(e);
       detail::expand(properties_[e], c.s, c.r, c.t1, c.t2, r);
     } else {
-      Element::residual(properties_[e], d, r);
+      Element::residual(properties_[e], displacements(e), r);
     }
-    subtract_loads(e, lambda, d, r, nullptr);
+    subtract_loads(e, lambda, r);
   }
-  /// What the section at s carries, in element e, which holds s.   @param thickness [m]
-  InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar lambda, Scalar thickness) const noexcept {
-    Vector6<Scalar> r;
-    residual(e, lambda, r);
-    return internal_forces(
-        e, nodes_[e].s, s, lambda, thickness, r, [&](Scalar at) { return view(nodes_).at(e, at); }, nullptr,
-        0);
-  }
-  /// The same of one that is touched.   @param begin  of the piece of it [m]   @param r  its forces on its nodes, less loads   @param place  s -> Displacement within it
-  template <class Place>
-  InternalForces<Scalar> internal_forces(int e, Scalar begin, Scalar s, Scalar lambda, Scalar thickness,
+  /// What the section at s carries, in element e, which holds s.   @param thickness [m]   @param r  its forces on its nodes, less loads
+  /// @param place  (s) -> Displacement within it   @param others  as of cut_element()
+  template <class Place, class Others>
+  InternalForces<Scalar> internal_forces(const detail::CutAt<Scalar>& at, Scalar lambda, Scalar thickness,
                                          const Vector6<Scalar>& r, Place&& place,
-                                         const PointForce<Scalar>* contacts, int count) const noexcept {
-    const auto cut = detail::cut_beam<Element>(
-        view(nodes_), e, begin, s, r, loaded(lambda) ? &loads_ : nullptr, lambda, place, contacts, count);
-    const auto stiffness = pieces_.stiffness(s);
-    return cut.in_section(stiffness.axial, stiffness.bending, thickness);
+                                         Others&& others) const noexcept {
+    const auto on_curve = [&](Scalar s) { return detail::cut_place<Element>(s, place(s)); };
+    const detail::SectionCut<Scalar, 2> left{{-r[0], -r[1]}, -r[2], on_curve(at.from).r};
+    return detail::in_section<Element>(detail::cut_element(left, r[5], at, lambda, loads_, on_curve, others),
+                                       place(at.s).theta, pieces_.stiffness(at.s), thickness);
   }
   /// [J]
   Scalar strain_energy(int e) const noexcept {
@@ -194,8 +180,7 @@ class BeamElements {
   Scalar work(Scalar lambda) const noexcept {
     Scalar work = 0;
     Vector6<Scalar> r = Vector6<Scalar>::Zero();
-    for (int e = 0; loaded(lambda) && e < size(); ++e)
-      work += subtract_loads(e, lambda, displacements(e), r, nullptr);
+    for (int e = 0; loaded(lambda) && e < size(); ++e) work += subtract_loads(e, lambda, r);
     return work;
   }
 
@@ -259,16 +244,10 @@ class BeamElements {
                           moved(1, &Node::w), moved(1, &Node::theta));
     return use(p, d);
   }
-  Scalar subtract_loads(int e, Scalar lambda, const Vector6<Scalar>& d, Vector6<Scalar>& r,
-                        Matrix6<Scalar>* K) const noexcept {
-    if (!loaded(lambda)) return 0;
-    return loads_.template subtract<Element>(nodes_[e].s, nodes_[e + 1].s, e + 1 == size(), lambda,
-                                             properties_[e], d, r, K);
-  }
 
   Nodes nodes_;
   Properties properties_;
-  Tensions tensions_;
+  Inners tensions_;
   Scalar turning_ = 1;
   detail::PerNode<OwnTension<typename Group::Number>, detail::groups_of<Scalar>(Elements),
                   detail::groups_of<Scalar>(MaxElements)>

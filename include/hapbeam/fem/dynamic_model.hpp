@@ -3,7 +3,7 @@
 //
 //   M q" + α M q' + V'(q) = forces
 //
-// step() goes on by a time, alone or with a hand.  Each of its parts is a static solve with one term more, the inertia (fem/dynamics/): the elements, supports
+// step() goes on by a time, alone or with a hand.  Each of its parts is a static solve with one term more, the inertia (dynamics.hpp): the elements, supports
 // and contacts are those of FemModel, and the beam stays where that does.  A hand touches through its coupling, a spring and a damper, within the step: a
 // massless avatar between them has no place of its own, so that no blow is infinite.  Where a part has no solution it is taken back and halved.
 // Allocates and throws at construction.  Real-time: every other member is noexcept and allocation-free, at most 15 tries of each part, of two stages.
@@ -14,7 +14,6 @@
 #include <utility>
 
 #include <hapbeam/element/corotational.hpp>
-#include <hapbeam/fem/dynamics/tr_bdf2.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 namespace hapbeam {
@@ -141,7 +140,7 @@ class DynamicModel {
                        (!hand || (is_finite(hand->hand) && hand->stiffness > 0 && hand->damping >= 0));
     if (!valid) return {0, Status::invalid_request};
     if (!(dt > 0)) return pushed;
-    system_.move_with(&inertia_);
+    system_.chain().move_with(&inertia_);
     hand_ = hand;
     if (hand && !known_) {
       // One that comes from nowhere has its spring bent as it lies, and a damper at rest.
@@ -155,7 +154,7 @@ class DynamicModel {
       const Scalar begin = Scalar(k) / Scalar(substeps_), end = Scalar(k + 1) / Scalar(substeps_);
       if (!go_on(part, begin, end, 0)) pushed.status = Status::iteration_limit;
     }
-    system_.move_with(nullptr);
+    system_.chain().move_with(nullptr);
     // The next one begins as after a reset, where the beam has stopped.
     if (pushed.status != Status::ok) stop(), starts_ = true, known_ = touches_ = false;
     if (hand) from_ = hand->hand.centre;
@@ -271,7 +270,7 @@ class DynamicModel {
   static constexpr int most_passes = 4;
 
   System system_;
-  typename System::Inertia inertia_;
+  typename System::Chain::Inertia inertia_;
   TrBdf2<Scalar, Elements, MaxElements> steps_;
   typename System::State rest_, before_;
   int substeps_, solves_ = 0;

@@ -12,7 +12,7 @@
 // and the status says snapped.
 // There are two ways to the answer, and the beam decides when it is built.  A straight beam without dead loads whose ends stand
 // no closer than it is long has one unknown, the tension; of elements that are exact under theirs the model solves for that alone,
-// without the error of a mesh (one_tension.hpp).  All else is solved for the displacements of all nodes (all_displacements.hpp).
+// without the error of a mesh (taut_system.hpp).  All else is solved for the displacements of all nodes (all_displacements.hpp).
 // Composed of policies: Element × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
 // but for the list of dead loads), or dynamic.
 // Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
@@ -31,8 +31,8 @@
 
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/all_displacements.hpp>
-#include <hapbeam/fem/one_tension.hpp>
 #include <hapbeam/fem/press_range.hpp>
+#include <hapbeam/fem/taut_system.hpp>
 #include <hapbeam/internal_forces.hpp>
 
 namespace hapbeam {
@@ -45,7 +45,6 @@ template <class Element = VonKarman<>, typename ScalarType = double, int Element
           int MaxElements = Elements, class Solver = NewtonRaphson>
 class FemModel {
   using Of = detail::SystemOf<Element>;
-  using Extent = typename Of::template Range<ScalarType>;
 
  public:
   using Scalar = ScalarType;
@@ -61,7 +60,7 @@ class FemModel {
   /// @param elements two to most_elements(beam)   @throws std::invalid_argument naming field, value and what is allowed
   FemModel(const Body& beam, int elements, const Solver& solver = {})
       : ways_(make_way(beam, at_most(most_elements(beam), elements), solver)),
-        range_(beam),
+        range_(beam, any_rotation<Element>),
         thickness_(static_cast<Scalar>(beam.thickness())) {
     check_rest();
   }
@@ -71,7 +70,7 @@ class FemModel {
   /// length, and has half as many.
   static int most_elements(const Body& beam) noexcept {
     const double most = std::pow(32 / static_cast<double>(std::numeric_limits<Scalar>::epsilon()), 0.25);
-    return static_cast<int>(Extent::holds_both(beam) ? most : most / 2);
+    return static_cast<int>(PressRange<Scalar>(beam).holds_both() ? most : most / 2);
   }
 
   /// Prescribes the centreline's transverse displacement d [m] at arc position s [m]: its w, from the x axis.
@@ -223,7 +222,7 @@ class FemModel {
   }
 
   Ways ways_;
-  Extent range_;
+  PressRange<Scalar> range_;
   Scalar thickness_;
 };
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Nodes of the mesh of a beam or rod, which stays: one wherever something begins or ends, and the others shared out evenly.
+// Nodes of the mesh of a beam or rod, which stays: one wherever something begins or ends, and the others shared out evenly; and
+// those at which a beam in closed form is drawn, one at the contact among them.
 //
 // That is where an arc of the natural shape ends, or a part with a section of its own, and where a point load acts.  An element in the plane bends against
 // the linear function nearest to its natural curvature, and no load acts between the contacts of one that is touched; one in space has one natural curvature.  Where there are too few elements, what is close to another one is left out.
 // Each further element goes to the part whose elements are the longest.  A beam of which nothing changes has the uniform mesh.
-// Offline.
+// Laying a mesh is offline.  ContactMesh is real-time: noexcept, no allocation, O(1).
 #pragma once
 
 #include <algorithm>
@@ -13,9 +14,47 @@
 #include <vector>
 
 #include <hapbeam/body/shortest_element.hpp>
-#include <hapbeam/fem/contact_mesh.hpp>
 
 namespace hapbeam {
+
+/// Where a beam in closed form is drawn.
+template <typename Scalar>
+class ContactMesh {
+ public:
+  /// Evenly.  @param elements two or more   @param length [m]
+  ContactMesh(int elements, Scalar length) noexcept
+      : elements_(elements),
+        node_(elements / 2),
+        length_(length),
+        s_(length * Scalar(elements / 2) / Scalar(elements)) {}
+
+  /// With a node at s, the nearest one; the others share the parts on both sides evenly.  Node 0 or n is taken only where s is exactly that end.
+  ContactMesh at(Scalar s) const noexcept {
+    ContactMesh mesh(elements_, length_);
+    mesh.s_ = std::clamp(s, Scalar(0), length_);
+    mesh.node_ = s <= 0         ? 0
+                 : s >= length_ ? elements_
+                                : std::clamp(static_cast<int>(std::lround(s / length_ * Scalar(elements_))),
+                                             1, elements_ - 1);
+    return mesh;
+  }
+
+  int elements() const noexcept { return elements_; }
+  int node() const noexcept { return node_; }  ///< the node at s()
+  Scalar s() const noexcept { return s_; }     ///< [m]
+
+  /// Arc position of node i [m].
+  Scalar position(int i) const noexcept {
+    if (i == node_) return s_;
+    if (i < node_) return s_ * Scalar(i) / Scalar(node_);
+    if (i == elements_) return length_;
+    return s_ + (length_ - s_) * Scalar(i - node_) / Scalar(elements_ - node_);
+  }
+
+ private:
+  int elements_, node_;
+  Scalar length_, s_;
+};
 
 namespace detail {
 

@@ -1,51 +1,39 @@
 // SPDX-License-Identifier: MIT
-// Dead loads as forces at fixed points.
+// Dead loads as forces at fixed points of a beam or rod.
 //
-// A distributed load becomes the consistent nodal forces of the uniform mesh (thesis eq. 3.31), once; point loads stay
-// where they are.  Each is then given to whichever element holds it.  On the uniform mesh that is the consistent load
-// itself; where the mesh has moved it is statically exact, and the error of the deflection is O(l⁴).
+// A distributed load becomes the consistent nodal forces of the mesh (thesis eq. 3.31), once; point loads stay
+// where they are.  Each is then given to whichever element holds it.
 //
 // What a distributed load gives a node beside a force is its first moment about the node.  The forces stay dead while
-// their arms, which lie along the beam, turn with it:
+// their arms, which lie along the beam, turn with it: in the plane
 //
 //   ∫f u + q w ds = Σ f u + q w + p (cos θ - 1) - q_arm sin θ         for one element and even loads p = ± f l²/12
 //
 // (Euler and Maclaurin's formula: an error of O(l⁵) an element.)  Taken for a moment, which works on θ whatever θ is, it
 // leaves second order at large rotation; moderate rotation has -p θ²/2 for the first and -q_arm θ for the second.
-//
-// A force inside an element, where its mesh has moved, acts on a point of a bent piece.  The piece stretches evenly, but its
-// slope does not shorten it evenly, and that moves the point along the chord by
-//
-//   β = ½ (t ∫w'² ds - ∫w'² ds to the point)
-//
-// Without it an axial load is of second order, and of third at any rotation.  β is the force's share of what the normal
-// force, N' = -f, does on the slope beyond its mean.
-// Building the list is offline, and may allocate and throw; subtracting a load is noexcept and allocation-free.
+// Building the list is offline, and may allocate and throw; all else is noexcept and allocation-free.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <vector>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/element/hermite.hpp>
 #include <hapbeam/fem/laid_mesh.hpp>
 
 namespace hapbeam {
 
-/// A dead force at a point of the beam, and the moment of what it stands for.
-template <typename Scalar>
+/// A dead force at a point of a beam or rod, and the moments of what it stands for.
+template <typename Scalar, int D = 2>
 struct PointForce {
-  Scalar s;               ///< [m]
-  Scalar axial;           ///< [N]
-  Scalar transverse;      ///< [N]
-  Scalar moment;          ///< [N·m] does work on θ
-  Scalar axial_arm;       ///< [N·m] first moment of the axial load about s: does work on cos θ - 1
-  Scalar transverse_arm;  ///< [N·m] the same of the transverse load: does work on -sin θ
+  Scalar s;                   ///< [m]
+  VectorOf<Scalar, D> force;  ///< [N] along u and w, or in space
+  VectorOf<Scalar, D>
+      arm;  ///< [N·m] its first moment about s: does work on the tangent, in the plane on (cos θ - 1, -sin θ)
+  Scalar moment = 0;  ///< [N·m] in the plane: does work on θ
 };
 
 namespace detail {
@@ -74,9 +62,6 @@ class LargestLoad {
   double distributed(const char* field, double value) const {
     return check(field, value, force_ / length_, "N/m");
   }
-  double sample(const DistributedLoad& load, const char* field, double s) const {
-    return load ? distributed(field, load(s)) : 0;
-  }
 
  private:
   static double check(const char* field, double value, double most, const char* unit) {
@@ -91,211 +76,58 @@ class LargestLoad {
 
 }  // namespace detail
 
-/// All dead loads of a beam as point forces, in order of s.
-/// @throws std::invalid_argument where a load is not finite, or larger than LargestLoad says.
-template <typename Scalar>
-std::vector<PointForce<Scalar>> point_forces(const Beam& beam, int elements) {
-  std::vector<PointForce<Scalar>> forces;
-  const detail::LargestLoad<Scalar> largest(beam.bending_stiffness(), beam.length());
-  if (beam.transverse() || beam.axial()) {
-    const std::vector<Scalar> mesh = lay_mesh<Scalar>(beam, beam.point_loads(), elements);
-    std::array<double, 4> left{};  // axial, transverse, and their arms
-    const auto push = [&](Scalar node) {
-      forces.push_back({node, Scalar(left[0]), Scalar(left[1]), 0, Scalar(left[2]), Scalar(left[3])});
-    };
-    for (std::size_t e = 0; e + 1 < mesh.size(); ++e) {
-      const double from = static_cast<double>(mesh[e]), h = static_cast<double>(mesh[e + 1]) - from;
-      std::array<double, 4> right{};
-      for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
-        const double t = detail::gauss_points[k], weight = h * detail::gauss_weights[k];
-        const double s = from + t * h;
-        const double axial = weight * largest.sample(beam.axial(), "axial load", s);
-        const double transverse = weight * largest.sample(beam.transverse(), "transverse load", s);
-        const Vector6<double> f = ShapeFunctions<double>(t, h).nodal_forces(axial, transverse, 0);
-        const double bow = axial * h * t * (1 - t) / 2;  // -u'' h² t(1 - t)/2 is what the linear u leaves out
-        left[0] += f[0], left[1] += f[1], left[2] += bow, left[3] -= f[2];
-        right[0] += f[3], right[1] += f[4], right[2] -= bow, right[3] -= f[5];
-      }
-      push(mesh[e]);
-      left = right;
-    }
-    push(mesh.back());
-  }
-  for (const PointLoad& load : beam.point_loads())
-    forces.push_back({Scalar(load.s), Scalar(largest.force("point load axial", load.axial)),
-                      Scalar(largest.force("point load transverse", load.transverse)),
-                      Scalar(largest.moment("point load moment", load.moment)), 0, 0});
-  std::stable_sort(forces.begin(), forces.end(),
-                   [](const PointForce<Scalar>& a, const PointForce<Scalar>& b) { return a.s < b.s; });
-  return forces;
-}
-
-namespace detail {
-
-/// l β of a point at t of an element: ½ (k11 a² + 2 k12 ab + k22 b²), with a and b l times the rotations against the chord.
-template <typename Scalar>
-struct Bow {
-  Scalar k11, k12, k22;
-
-  explicit Bow(Scalar t) noexcept {
-    const Scalar s = t * t;
-    k11 = t * (S(2. / 15) - 1 + t * (4 + t * (S(-22. / 3) + t * (6 - S(1.8) * t))));
-    k12 = s * (1 + t * (S(-11. / 3) + t * (S(4.5) - S(1.8) * t))) - t * S(1. / 30);
-    k22 = t * (S(2. / 15) - s * (S(4. / 3) + t * (S(1.8) * t - 3)));
-  }
-
- private:
-  using S = Scalar;
-};
-
-}  // namespace detail
-
-/// Subtracts λ ∂W/∂d from an element's residual and λ ∂²W/∂d² from its tangent, W the work of a load at t = (s - s1)/l in
-/// it.  Moderate rotation:
-///
-///   W = f (u + β) + q w + (moment - q_arm) θ - f_arm θ²/2,   l β = bow - rise v
-///
-/// with v the cubic's height above the chord.  Without the slope's part, in a linear element, f works on u alone.
-/// @tparam Slope  whether the slope feeds the element's membrane force   @return λ W [J]
-template <bool Slope, typename Scalar>
-Scalar subtract_moderate_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
-                              const ElementProperties<Scalar>& p, const Vector6<Scalar>& d,
-                              Vector6<Scalar>& r, Matrix6<Scalar>* K) noexcept {
-  using S = Scalar;
-  const ShapeFunctions<S> shape(t, p.length);
-  Vector6<S> force =
-      lambda * shape.nodal_forces(load.axial, load.transverse, load.moment - load.transverse_arm);
-  Scalar work = force.dot(d);
-  if constexpr (Slope) {
-    const S f = lambda * load.axial * p.inverse_length, arm = lambda * load.axial_arm;
-    if (f == 0 && arm == 0) {
-      r -= force;
-      return work;
-    }
-    const detail::Bow<S> bow(t);
-    const Deformation<S> e(p, d);
-    // -l v = g1 a + g2 b, and θ = c1 a + c2 b - rise over l
-    const S u = 1 - t, g1 = t * u * u, g2 = -t * t * u, i = p.inverse_length;
-    const S c1 = u * (1 - 3 * t), c2 = t * (3 * t - 2), cr = c1 + c2 - 1;
-    const S b1 = f * (bow.k11 * e.a + bow.k12 * e.b + e.rise * g1),
-            b2 = f * (bow.k12 * e.a + bow.k22 * e.b + e.rise * g2), br = f * (g1 * e.a + g2 * e.b);
-    const S theta = (c1 * e.a + c2 * e.b - e.rise) * i, m = -arm * theta * i;
-    Vector6<S> by_slope;
-    detail::expand(p, S(0), b1 + b2 + br + m * cr, b1 + m * c1, b2 + m * c2, by_slope);
-    force += by_slope;
-    work += (b1 * e.a + b2 * e.b + br * e.rise - arm * theta * theta) / 2;
-    if (K) {
-      const S k = -arm * i * i, k11 = f * bow.k11 + k * c1 * c1, k12 = f * bow.k12 + k * c1 * c2,
-              k22 = f * bow.k22 + k * c2 * c2, r1 = f * (bow.k11 + bow.k12 + g1) + k * c1 * cr,
-              r2 = f * (bow.k12 + bow.k22 + g2) + k * c2 * cr,
-              rr = f * (bow.k11 + 2 * bow.k12 + bow.k22 + 2 * (g1 + g2)) + k * cr * cr;
-      Matrix6<S> H;
-      detail::expand(p, {S(0), S(0), S(0), S(0), rr, r1, r2, k11, k12, k22}, H);
-      *K -= H;
-    }
-  }
-  r -= force;
-  return work;
-}
-
-/// The same at any rotation, and λ ∂²W/∂d² from the tangent K, where it is wanted:
-///
-///   W = f·(t Δ + v z + β e) + φ(θ),   φ = moment θ + axial_arm (cos θ - 1) - transverse_arm sin θ
-///
-/// with Δ, α, e, z the element's chord, its angle, direction and normal, v = -l (g1 θ1' + g2 θ2') the cubic's height above it,
-/// θi' = θi + α, and θ = c1 θ1' + c2 θ2' - α the cubic's angle.
-template <typename Scalar>
-Scalar subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
-                     const ElementProperties<Scalar>& p, const Vector6<Scalar>& d, Vector6<Scalar>& r,
-                     Matrix6<Scalar>* K) noexcept {
-  using std::atan2;
-  using std::cos;
-  using std::nearbyint;
-  using std::sin;
-  using std::sqrt;
-  using S = Scalar;
-  const S f = lambda * load.axial, q = lambda * load.transverse, moment = lambda * load.moment,
-          f_arm = lambda * load.axial_arm, q_arm = lambda * load.transverse_arm;
-  const auto couple = [&](S theta) { return moment - f_arm * sin(theta) - q_arm * cos(theta); };  // φ'
-  const auto turns = [&](S theta) {
-    return moment * theta + f_arm * (cos(theta) - 1) - q_arm * sin(theta);
-  };                                                                                        // φ
-  const auto stiffness = [&](S theta) { return q_arm * sin(theta) - f_arm * cos(theta); };  // φ''
-  if (t == 0 || t == 1) {
-    const int node = t == 0 ? 0 : 3;
-    r[node] -= f;
-    r[node + 1] -= q;
-    r[node + 2] -= couple(d[node + 2]);
-    if (K) (*K)(node + 2, node + 2) -= stiffness(d[node + 2]);
-    return f * d[node] + q * d[node + 1] + turns(d[node + 2]);
-  }
-  const S l = p.length, x = l + d[3] - d[0], y = d[4] - d[1], i = 1 / sqrt(x * x + y * y), c = x * i,
-          s = y * i;
-  constexpr S turn = S(6.283185307179586476925);
-  S alpha = atan2(y, x);
-  alpha -= turn * nearbyint((alpha + (d[2] + d[5]) / 2) * (1 / turn));
-  const S u = 1 - t, g1 = t * u * u, g2 = -t * t * u, c1 = u * (1 - 3 * t), c2 = t * (3 * t - 2),
-          ca = -6 * t * u;
-  const S v = -l * (g1 * (d[2] + alpha) + g2 * (d[5] + alpha)), theta = c1 * d[2] + c2 * d[5] + ca * alpha;
-  const S along = f * c + q * s, across = q * c - f * s, m = couple(theta), k = stiffness(theta), g = g1 + g2;
-  const detail::Bow<S> bow(t);
-  const S bow1 = bow.k11 * (d[2] + alpha) + bow.k12 * (d[5] + alpha),
-          bow2 = bow.k12 * (d[2] + alpha) + bow.k22 * (d[5] + alpha);
-  const S beta = l * (bow1 * (d[2] + alpha) + bow2 * (d[5] + alpha)) / 2;
-  // By α, at fixed Δ, and by lθ1, lθ2, as the element's core has them.
-  const S a = ca * m - l * g * across - v * along + across * beta + along * l * (bow1 + bow2),
-          b1 = c1 * m * p.inverse_length - g1 * across + along * bow1,
-          b2 = c2 * m * p.inverse_length - g2 * across + along * bow2;
-  Vector6<S> force;
-  detail::expand(p, t * f - a * i * s, t * q + a * i * c, b1, b2, force);
-  r -= force;
-  r[0] -= f;
-  r[1] -= q;
-  const S work = f * (d[0] + t * (x - l) - v * s) + q * (d[1] + t * y + v * c) + along * beta + turns(theta);
-  if (!K) return work;
-  const S k1 = bow.k11 + bow.k12, k2 = bow.k12 + bow.k22, ii = p.inverse_length, kk = k * ii * ii;
-  const S aa = (ca * ca * k + 2 * l * g * along - v * across - along * beta + 2 * across * l * (bow1 + bow2) +
-                along * l * (k1 + k2)) *
-               i * i,
-          turned = a * i * i, a1 = (ca * c1 * k * ii + g1 * along + across * bow1 + along * k1) * i,
-          a2 = (ca * c2 * k * ii + g2 * along + across * bow2 + along * k2) * i;
-  Matrix6<S> H;
-  detail::expand(p,
-                 {aa * s * s + 2 * turned * c * s, -aa * c * s - turned * (c * c - s * s), -a1 * s, -a2 * s,
-                  aa * c * c - 2 * turned * c * s, a1 * c, a2 * c, c1 * c1 * kk + along * bow.k11 * ii,
-                  c1 * c2 * kk + along * bow.k12 * ii, c2 * c2 * kk + along * bow.k22 * ii},
-                 H);
-  *K -= H;
-  return work;
-}
-
-/// The dead loads of a beam, element by element.
-template <typename Scalar>
+/// The dead loads of a beam or rod, in order of s.
+template <typename Scalar, int D = 2>
 class DeadLoads {
+  using Force = PointForce<Scalar, D>;
+  using Vector = VectorOf<double, D>;
+
  public:
-  DeadLoads(const Beam& beam, int elements) : forces_(point_forces<Scalar>(beam, elements)) {
-    if (!beam.transverse() && !beam.axial()) return;
-    const std::vector<Scalar> mesh = lay_mesh<Scalar>(beam, beam.point_loads(), elements);
+  /// @throws std::invalid_argument where a load is not finite, or larger than LargestLoad says
+  DeadLoads(const Beam& beam, int elements) {
     const detail::LargestLoad<Scalar> largest(beam.bending_stiffness(), beam.length());
-    for (std::size_t e = 0; e + 1 < mesh.size(); ++e) {
-      const double middle = (static_cast<double>(mesh[e]) + static_cast<double>(mesh[e + 1])) / 2;
-      cells_.push_back({mesh[e],
-                        mesh[e + 1] - mesh[e],
-                        {static_cast<Scalar>(largest.sample(beam.axial(), "axial load", middle)),
-                         static_cast<Scalar>(largest.sample(beam.transverse(), "transverse load", middle))}});
+    const auto sample = [&](const DistributedLoad& load, const char* field, double s) {
+      return load ? largest.distributed(field, load(s)) : 0;
+    };
+    if (beam.transverse() || beam.axial())
+      spread(lay_mesh<Scalar>(beam, beam.point_loads(), elements), [&](double s) {
+        return Vector(sample(beam.axial(), "axial load", s), sample(beam.transverse(), "transverse load", s));
+      });
+    for (const PointLoad& load : beam.point_loads())
+      add(load.s,
+          Vector(largest.force("point load axial", load.axial),
+                 largest.force("point load transverse", load.transverse)),
+          largest.moment("point load moment", load.moment));
+    sort();
+  }
+  /// @param body  Rod   @param bending  its smallest [N·m²]
+  template <class Body>
+  [[gnu::cold]] DeadLoads(const Body& body, int elements, double bending) {
+    const detail::LargestLoad<Scalar> largest(bending, body.length());
+    if (const auto load = body.load())
+      spread(lay_mesh<Scalar>(body, body.forces(), elements), [&](double s) {
+        const Vector f = load(s);
+        for (int c = 0; c < D; ++c) (void)largest.distributed("load", f[c]);
+        return f;
+      });
+    for (const auto& force : body.forces()) {
+      for (int c = 0; c < D; ++c) (void)largest.force("force", force.force[c]);
+      add(force.s, force.force, 0);
     }
+    sort();
   }
 
   bool empty() const noexcept { return forces_.empty(); }
+  const std::vector<Force>& forces() const noexcept { return forces_; }
 
   /// Calls visit(load) for those from begin to end, the end itself where it is the last, in order of s.   O(log loads)
   template <class Visit>
   void visit(Scalar begin, Scalar end, bool last, Visit&& visit) const noexcept {
     auto load = std::partition_point(forces_.begin(), forces_.end(),
-                                     [begin](const PointForce<Scalar>& force) { return force.s < begin; });
+                                     [begin](const Force& force) { return force.s < begin; });
     for (; load != forces_.end() && (load->s < end || last); ++load) visit(*load);
   }
-  /// Calls visit(q, start, length) with the distributed loads, along u and w [N/m], and the cell of the mesh that they made nodal
+  /// Calls visit(q, start, length) with the mean of the distributed loads [N/m], and the cell of the mesh that they made nodal
   /// forces of: the last one that begins before a place.   @param before  whether a cell that begins at s does   O(log elements)
   template <class Before, class Visit>
   void visit_cell(Before&& before, Visit&& visit) const noexcept {
@@ -306,29 +138,51 @@ class DeadLoads {
     visit(cell->load, cell->start, cell->length);
   }
 
-  /// Subtracts λ times the loads from begin to end, the end itself where it is the last, as the functions above do.
-  /// @return λ W [J]     O(log loads)
-  template <class Element>
-  Scalar subtract(Scalar begin, Scalar end, bool last, Scalar lambda, const ElementProperties<Scalar>& p,
-                  const Vector6<Scalar>& d, Vector6<Scalar>& r, Matrix6<Scalar>* K) const noexcept {
-    Scalar work = 0;
-    visit(begin, end, last, [&](const PointForce<Scalar>& load) {
-      const Scalar t = load.s == end ? Scalar(1) : (load.s - begin) / p.length;
-      if constexpr (any_rotation<Element>) work += subtract_load(load, t, lambda, p, d, r, K);
-      else
-        work +=
-            subtract_moderate_load<detail::MembraneFeelsSlope<Element>::value>(load, t, lambda, p, d, r, K);
-    });
-    return work;
-  }
-
  private:
   struct Cell {
     Scalar start, length;  // [m]
-    Vector2<Scalar> load;
+    VectorOf<Scalar, D> load;
   };
-  std::vector<PointForce<Scalar>> forces_;  // in order of s
-  std::vector<Cell> cells_;                 // of the mesh, where there are distributed loads
+  void add(double s, const Vector& force, double moment) {
+    forces_.push_back({static_cast<Scalar>(s), force.template cast<Scalar>(), VectorOf<Scalar, D>::Zero(),
+                       static_cast<Scalar>(moment)});
+  }
+  /// @param load  (s) -> [N/m]
+  template <class Load>
+  void spread(const std::vector<Scalar>& mesh, Load&& load) {
+    Vector force = Vector::Zero(), arm = Vector::Zero();  // of the left node
+    const auto push = [&](Scalar node) {
+      forces_.push_back({node, force.template cast<Scalar>(), arm.template cast<Scalar>()});
+    };
+    for (std::size_t e = 0; e + 1 < mesh.size(); ++e) {
+      const double from = static_cast<double>(mesh[e]), h = static_cast<double>(mesh[e + 1]) - from;
+      Vector next = Vector::Zero(), next_arm = Vector::Zero(), mean = Vector::Zero();
+      for (std::size_t k = 0; k < detail::gauss_points.size(); ++k) {
+        const double t = detail::gauss_points[k], u = 1 - t;
+        const Vector f = detail::gauss_weights[k] * load(from + t * h);
+        mean += f;
+        for (int c = 0; c < D; ++c) {
+          // A planar element has a linear u; -u'' h² t(1 - t)/2 is what that leaves out.
+          const bool linear = D == 2 && c == 0;
+          force[c] += h * f[c] * (linear ? u : u * u * (1 + 2 * t));
+          next[c] += h * f[c] * (linear ? t : t * t * (3 - 2 * t));
+          arm[c] += h * h * f[c] * (linear ? t * u / 2 : t * u * u);
+          next_arm[c] -= h * h * f[c] * (linear ? t * u / 2 : t * t * u);
+        }
+      }
+      push(mesh[e]);
+      force = next, arm = next_arm;
+      cells_.push_back({mesh[e], mesh[e + 1] - mesh[e], mean.template cast<Scalar>()});
+    }
+    push(mesh.back());
+  }
+  void sort() {
+    std::stable_sort(forces_.begin(), forces_.end(),
+                     [](const Force& a, const Force& b) { return a.s < b.s; });
+  }
+
+  std::vector<Force> forces_;  // in order of s
+  std::vector<Cell> cells_;    // of the mesh, where there are distributed loads
 };
 
 }  // namespace hapbeam

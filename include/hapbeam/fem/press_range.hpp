@@ -1,81 +1,88 @@
 // SPDX-License-Identifier: MIT
-// Where a press of a finite-element beam is answered, and at which place its mesh takes the contact.
+// Where a press of a finite-element beam, or a push of a rod, is answered, and at which place the mesh of a beam takes the contact.
 //
-// A support that holds w is rigid: the shortest element keeps its distance from it.
+// A support that holds its place across is rigid: the shortest element keeps its distance from it.
 // Moderate rotation: |d| up to a tenth of the length and half of the distance to such a support, where it has ended,
 // though the solver has not.  Finite rotation: where the ends hold the beam along its axis, as far beyond what its length
 // allows; where it can slide, 0.3 of the length and of the distance, the deepest that one call reaches from rest.
+// A push of a rod has no limit of depth.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/body/shortest_element.hpp>
-#include <hapbeam/element/element.hpp>
-#include <hapbeam/fem/contact_mesh.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/rod_support.hpp>
 
 namespace hapbeam {
 
-template <class Element, typename Scalar>
+namespace detail {
+
+/// Whether nothing rigid holds the place of an end.
+constexpr bool yields(Support support) noexcept { return !fixes_w(support); }
+inline bool yields(const RodSupport& support) noexcept {
+  return !std::isinf(support.place1) && !std::isinf(support.place2) && !std::isinf(support.along);
+}
+
+}  // namespace detail
+
+template <typename Scalar>
 class PressRange {
  public:
-  explicit PressRange(const Beam& beam) noexcept
-      : length_(static_cast<Scalar>(beam.length())),
+  /// @param body  Beam | Rod   @param turns  whether its elements are of finite rotation
+  template <class Body>
+  explicit PressRange(const Body& body, [[maybe_unused]] bool turns = true) noexcept
+      : length_(static_cast<Scalar>(body.length())),
         shortest_(detail::shortest_element<Scalar>(length_)),
-        depth_(length_ / 10),
-        left_yields_(!fixes_w(beam.left())),
-        right_yields_(!fixes_w(beam.right())),
-        left_guided_(left_yields_ && fixes_u(beam.left())),
-        right_guided_(right_yields_ && fixes_u(beam.right())) {
-    if constexpr (any_rotation<Element>) {
-      if (fixes_u(beam.left()) && fixes_u(beam.right())) {
+        yields_{detail::yields(body.left()), detail::yields(body.right())} {
+    if constexpr (std::is_same_v<Body, Beam>) {
+      const bool held[] = {fixes_u(body.left()), fixes_u(body.right())};
+      for (int k = 0; k < 2; ++k) guided_[k] = yields_[k] && held[k];
+      depth_ = length_ / 10, slope_ = Scalar(0.5);
+      if (turns && held[0] && held[1]) {
         // How high a beam of this length can stand between its ends, over half the length.
-        const auto span = (beam.length() + beam.right_place().u - beam.left_place().u) / beam.length();
+        const auto span = (body.length() + body.right_place().u - body.left_place().u) / body.length();
         const Scalar sag = static_cast<Scalar>(std::sqrt((std::max)(0.0, 1 - span * span)));
-        depth_ += sag * length_ / 2;
-        slope_ += sag;
-      } else {
-        depth_ = Scalar(0.3) * length_;
-        slope_ = Scalar(0.3);
+        depth_ += sag * length_ / 2, slope_ += sag;
+      } else if (turns) {
+        depth_ = Scalar(0.3) * length_, slope_ = Scalar(0.3);
       }
     }
   }
 
   /// Whether neither end moves across.
-  static bool holds_both(const Beam& beam) noexcept { return fixes_w(beam.left()) && fixes_w(beam.right()); }
-
+  bool holds_both() const noexcept { return !yields_[0] && !yields_[1]; }
   Scalar length() const noexcept { return length_; }
   /// Whether s is a place on the beam.
   bool on_beam(Scalar s) const noexcept { return std::isfinite(s) && s >= 0 && s <= length_; }
 
   Range<Scalar> range() const noexcept {
-    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-    const Scalar length = length_;
-    return {left_yields_ ? Scalar(0) : shortest_,
-            right_yields_ ? length : length - shortest_,
+    return {yields_[0] ? Scalar(0) : shortest_,
+            yields_[1] ? length_ : length_ - shortest_,
             depth_,
             slope_,
-            left_yields_ ? -infinity : Scalar(0),
-            right_yields_ ? infinity : length};
+            yields_[0] ? -infinity : Scalar(0),
+            yields_[1] ? infinity : length_};
   }
 
   /// Where the node of a contact at s goes: s, or the end beside which an element would be too short for round-off.
   Scalar node(Scalar s) const noexcept {
-    const Scalar length = length_;
-    return s < shortest_ && left_yields_ ? Scalar(0) : length - s < shortest_ && right_yields_ ? length : s;
+    return s < shortest_ && yields_[0] ? Scalar(0) : length_ - s < shortest_ && yields_[1] ? length_ : s;
   }
   /// Whether a node there is an end that slides along a wall.
   bool on_wall(Scalar node) const noexcept {
-    return (node == 0 && left_guided_) || (node == length_ && right_guided_);
+    return (node == 0 && guided_[0]) || (node == length_ && guided_[1]);
   }
 
  private:
-  Scalar length_, shortest_, depth_, slope_ = Scalar(0.5);
-  bool left_yields_, right_yields_, left_guided_, right_guided_;
+  static constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  Scalar length_, shortest_, depth_ = infinity, slope_ = infinity;
+  bool yields_[2], guided_[2] = {false, false};
 };
 
 }  // namespace hapbeam

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The nonlinear equations of one rod in space: its elements, its ends, and what touches it.
+// A rod in space as a chain of elements: how they are assembled, how its nodes move, and what its ends hold.
 //
-//   ∂V/∂x = t f + contacts        unknown x: r, r' and, with twist, φ of every node, force and place of every contact
-//
-// The expressions are those of BeamSystem, so that Newton's method, descents, load paths and pushes are the same.  The unknowns of an
-// end are those in its own axes, d1, d2 and tangent, where what a clamp holds are components.  The mesh stays; a contact is at any place of it.
+// RodSystem is its equations (system.hpp): r, r' and, with twist, φ of every node are unknowns.  Those of an
+// end are those in its own axes, d1, d2 and tangent, where what a clamp holds are components.
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
 #pragma once
 
@@ -14,18 +12,10 @@
 
 #include <hapbeam/body/touched_rod.hpp>
 #include <hapbeam/fem/beam_system.hpp>
-#include <hapbeam/fem/contact/contact_friction.hpp>
-#include <hapbeam/fem/contact/contact_rows.hpp>
-#include <hapbeam/fem/contact/drawn_mesh.hpp>
 #include <hapbeam/fem/contact/rod_round_contact.hpp>
-#include <hapbeam/fem/contact/system_contacts.hpp>
+#include <hapbeam/fem/rod/rod_elements.hpp>
 #include <hapbeam/fem/rod/rod_ends.hpp>
-#include <hapbeam/fem/rod/rod_increments.hpp>
 #include <hapbeam/fem/rod/rod_motion.hpp>
-#include <hapbeam/fem/rod/rod_range.hpp>
-#include <hapbeam/fem/rod/rod_shape.hpp>
-#include <hapbeam/fem/solver/block_tridiagonal.hpp>
-#include <hapbeam/fem/solver/newton_raphson.hpp>
 
 namespace hapbeam {
 
@@ -38,66 +28,85 @@ struct TouchedOf<Element, Scalar, Most, std::enable_if_t<dimension_of<Element> =
 
 }  // namespace detail
 
-template <class Element, typename ScalarType, int Elements, int MaxElements>
-class RodSystem
-    : public detail::RodShape<Element, ScalarType, Elements, MaxElements>,
-      public detail::SystemContacts<
-          RodSystem<Element, ScalarType, Elements, MaxElements>, ScalarType,
-          detail::ContactFriction<ScalarType, 3, detail::RodRoundContact>,
-          detail::ContactRows<
-              Element, ScalarType, detail::AssemblerOf<Element, ScalarType, Elements, MaxElements>,
-              detail::ContactFriction<ScalarType, 3, detail::RodRoundContact>, contacts_of<Element>>> {
-  using Contacts = typename RodSystem::SystemContacts;
-  using Shape = detail::RodShape<Element, ScalarType, Elements, MaxElements>;
-
+template <class ElementType, typename ScalarType, int Elements, int MaxElements>
+class RodChain {
  public:
+  using Element = ElementType;
   using Scalar = ScalarType;
   using Body = Rod;
-  using typename Contacts::Contact;
-  using typename Contacts::Rows;
-  using typename Shape::Node;
-  using typename Shape::State;
-  using typename Shape::Vector3;
+  using Parts = RodElements<Element, Scalar, Elements, MaxElements>;
+  using Node = typename Parts::Node;
+  using Nodes = typename Parts::Nodes;
+  using Vector3 = VectorOf<Scalar, 3>;
   using RoundContact = detail::RodRoundContact<Scalar>;
   using Friction = detail::ContactFriction<Scalar, 3, detail::RodRoundContact>;
-  using Shape::elements;
-  using Shape::node;
-  using Shape::unknowns;
+  using Assembler = detail::AssemblerOf<Element, Scalar, Elements, MaxElements>;
+  using Drawn = detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>>;
+  static constexpr int unknowns = Element::unknowns;
   using Increment = VectorOf<Scalar, unknowns>;
 
   /// @param number  of elements   @throws std::invalid_argument as RodElements
-  RodSystem(const Rod& rod, int number)
-      : Shape(rod, number),
-        Contacts(number),
+  RodChain(const Rod& rod, int number)
+      : parts_(rod, number),
         increments_(number),
-        assembler_(number),
-        ends_(rod, rod_.nodes()),
-        unit_(static_cast<Scalar>(
-            std::sqrt((std::min)(rod.stiffness().bending1, rod.stiffness().bending2) / rod.length()))) {
-    no_mechanism_ = factor(0) == Status::ok;  // in its natural shape
+        ends_(rod, parts_.nodes()),
+        length_(static_cast<Scalar>(rod.length())),
+        axial_(static_cast<Scalar>(rod.stiffness().axial)) {}
+  /// The right end goes to where it belongs, which the natural shape does not say.
+  void place_right(const Rod& rod) noexcept {
     if (rod.right_pose()) ends_[1].place_home(*rod.right_pose());
   }
-
-  /// To be called where the rod has moved.
-  void look(int k) noexcept { (void)rows_.look(rod_, rows_.element(k)); }
-
-  /// Sets the whole state, without a contact.
-  void set_state(const State& state) noexcept { go_back(state, 0); }
-  /// Back to an equilibrium that was left.  @param force  of its first contact [N]
-  void go_back(const State& state, Scalar force) noexcept {
-    Shape::set(state);
-    Contacts::let_go(force);
+  /// EI about the axis that bends most easily [N·m²]
+  static double bending(const Rod& rod) noexcept {
+    return (std::min)(rod.stiffness().bending1, rod.stiffness().bending2);
   }
-  /// The state of the same system in another scalar.
+
+  Parts& parts() noexcept { return parts_; }
+  const Parts& parts() const noexcept { return parts_; }
+
+  // Nodes of ChainSystem's states.
+
+  static void go_on(Nodes& now, Nodes& before, Scalar ratio) noexcept {
+    detail::go_on<unknowns == 7>(now, before, ratio);
+  }
+  static void carry(const Node& x, Node& from, const Node& to) noexcept {
+    from.r = x.r - (to.r - from.r);
+    from.tangent = x.tangent - (to.tangent - from.tangent);
+    from.director = x.director - (to.director - from.director);
+  }
+  /// Those of another scalar.
   template <class Other>
-  void take_state(const Other& other) noexcept {
-    Shape::take(other);
-    Contacts::let_go(0);
+  static void take_node(const Other& from, Node& to) noexcept {
+    to = {to.s, from.r.template cast<Scalar>(), from.tangent.template cast<Scalar>(),
+          from.director.template cast<Scalar>()};
+  }
+  static const Vector3& displacement(const RodPoint<Scalar>& at) noexcept { return at.r; }
+  static Vector3 middle(const RodPoint<Scalar>& at) noexcept { return at.r; }
+  static bool folds(const Node& a, const Node& b) noexcept {
+    return detail::unit(a.tangent).dot(detail::unit(b.tangent)) < Scalar(-0.4);
+  }
+  /// By which an increment turns a node [rad].
+  static Scalar turn(const Node& node, const Increment& x) noexcept {
+    const Vector3 u = detail::unit(node.tangent), t = x.template segment<3>(3);
+    Scalar square = (t - u.dot(t) * u).squaredNorm();
+    if constexpr (unknowns == 7) square += x[6] * x[6];
+    return std::sqrt(square);
+  }
+  /// Where the mesh has none, in element e, which holds s.
+  Node node_within(int e, Scalar s) const noexcept { return parts_.node_within(e, s); }
+  /// That of a contact, in element e.   @param off  from what touches it
+  template <class Contact>
+  Node mark(int e, const Contact& contact, const Vector3& off) const noexcept {
+    Node at = parts_.node_within(e, contact.s);
+    at.r = contact.place - off;
+    detail::set_tangent<Scalar>(at, contact.tangent);
+    return at;
   }
 
-  /// Its ends belong where they do at rest.
+  detail::RodEnds<Scalar, unknowns>& ends() noexcept { return ends_; }
+  /// They belong where they do at rest.
   void go_home() noexcept {
-    for (auto& end : ends_) end.go_home();
+    for (std::size_t k = 0; k < 2; ++k) ends_[k].go_home();
   }
   /// Places an end anew: where the next path leads.  @param k  0: left, 1: right
   /// @return false where it is neither clamped nor on springs, or the pose is none: nothing has changed
@@ -106,269 +115,151 @@ class RodSystem
     if (valid) ends_[k].place(pose);
     return valid;
   }
-
-  // Required by NewtonRaphson.
-
-  void set_target(Scalar t) noexcept {
-    Contacts::aim(t);
-    for (auto& end : ends_) end.set_target(t);
-  }
-  void save() noexcept {
-    Shape::keep_here();
-    Contacts::save_contacts();
-  }
-  void restore() noexcept {
-    Shape::take_back();
-    Contacts::restore_contacts();
-  }
-  Scalar size() const noexcept { return weight_; }
-  /// Strain energy before the last increment, at least that of a bend by 10⁻⁴ rad, of which no snap is told [J].
-  Scalar strain() const noexcept { return (size_ * size_ + Scalar(1e-8) * unit_ * unit_) / 2; }
-  Scalar unit() const noexcept { return unit_; }
-
-  /// On the way down the forces of before are no longer there.
-  void forget_force() noexcept { rows_.fall(); }
-
-  Iteration<Scalar> iterate() noexcept {
-    const Status status = factor(0);
-    if (status != Status::ok) return {status, 0};
-    Contacts::feel(potential_, assembler_.energy() + inner_energy_);
-    weight_ = Contacts::weight(size_);
-    advance();
-    return {status, increment()};
-  }
-
-  // Required by Descent, in addition: the two halves of an iteration.
-
-  /// Assembles and solves for an increment, and leaves the state as it is.
-  /// @param shift  what is added to the tangent: so many times EI/L³ on each place and EI/L on each rotation, shared out
-  /// over the nodes   @return ok | singular | non_finite | iteration_limit, where an end has farther to turn than an increment leads
-  Status factor(Scalar shift) noexcept;
-  /// Adds the increment to the state: what turns keeps its length.  Without a contact, which would be missed, the chords turn
-  /// as the tangents do, from the left end on (as chain.hpp says of the plane).
-  void advance() noexcept;
-  /// As a shift: a stiffness that is none.  A rod that is round may roll where it is bowed, but for round-off; 1/10⁷ of what bends one.
-  static constexpr Scalar neutral() noexcept { return Scalar(1e-6); }
-  /// Size of the last increment in the norm of the tangent [√J].
-  Scalar increment() const noexcept {
-    return std::sqrt(std::abs(rows_.any() ? rows_.energy() : assembler_.energy()) + std::abs(inner_energy_) +
-                     longer_);
-  }
-  /// V - λ f · x before the last increment was added [J].
-  Scalar potential() const noexcept { return potential_; }
-  int negative_pivots() const noexcept {
-    return rows_.any() ? rows_.negative_pivots() : assembler_.negative_pivots();
-  }
-  /// Bends the rod a little where nothing makes it leave an equilibrium, without a contact to where its loads push.  @param size  [m]
-  void nudge(Scalar size) noexcept {
-    const bool pressed = rows_.any();
-    const Node& middle = node(elements() / 2);
-    const Vector3 d1 = middle.director, d2 = detail::cross3(detail::unit(middle.tangent), d1);
-    // Where nothing pushes, along the director and half as much across it.
-    Vector3 way = d1 + d2 / 2;
-    if (!pressed && rod_.loaded(load_)) {
-      const Vector3 pushed = pushed_by(size, d1) * d1 + pushed_by(size, d2) * d2;
-      // A flat rod may stand aside across that alone.
-      if (const Scalar most = pushed.norm(); most > 0) way = pushed / most + way / 100;
-    }
-    Shape::bow(size * way, pressed ? rows_[0].s / length_ : Scalar(-1));
-    ends_.correct(rod_.nodes());
-  }
-
-  // Required by LoadPath, in addition.
-
-  /// Largest rotation of a node in the last increment [rad].
-  Scalar turn() const noexcept {
-    Scalar largest = 0;
-    for (int i = 0; i <= elements(); ++i) {
-      const Increment x = increment(i);
-      const Vector3 u = detail::unit(node(i).tangent), t = x.template segment<3>(3);
-      Scalar square = (t - u.dot(t) * u).squaredNorm();
-      if constexpr (unknowns == 7) square += x[6] * x[6];
-      largest = (std::max)(largest, std::sqrt(square));
-    }
-    return largest;
-  }
-
-  /// Of node i after factor(): r [m], r' and φ [rad].
-  Increment increment(int i) const noexcept {
-    const Increment x = assembler_.increment(i);
-    return ends_.has(i) ? ends_.increment(x, i, node(i)) : x;
-  }
-
   /// What holds an end of a rod that nothing touches: force [N] and moment about the end [N·m], in space.
   struct Hold {
     Vector3 force, moment;
   };
-  Hold reaction(std::size_t k) const noexcept {
+  Hold reaction(std::size_t k, Scalar load) const noexcept {
     Residual r;
-    rod_.residual(k == 0 ? 0 : elements() - 1, load_, r);
+    parts_.residual(k == 0 ? 0 : parts_.size() - 1, load, r);
     const Increment at = r.template segment<unknowns>(k == 0 ? 0 : unknowns);
-    const Vector3 t = node(ends_.node(k)).tangent;
-    Vector3 moment = detail::cross3<Scalar>(t, at.template segment<3>(3));
-    if constexpr (unknowns == 7) moment += at[6] * detail::unit(t);
-    return {at.template segment<3>(0), moment};
+    return {at.template segment<3>(0), parts_.moment(at, node(ends_.node(k)).tangent)};
+  }
+  // Its equations.
+
+  /// A rod that is round may roll where it is bowed, but for round-off; 1/10⁷ of what bends one.
+  static constexpr Scalar neutral() noexcept { return Scalar(1e-6); }
+  /// That of places, which stretches the shortest element [√J].
+  Scalar round_off(Scalar) const noexcept {
+    const int n = parts_.size();
+    const Scalar shortest = (std::min)(node(1).s, length_ - node(n - 1).s),
+                 farthest = std::sqrt(node(0).r.squaredNorm()) + length_;
+    return std::numeric_limits<Scalar>::epsilon() * farthest *
+           std::sqrt(axial_ * static_cast<Scalar>(n) / shortest);
+  }
+  /// Residual and tangent of all elements.
+  template <class Rows>
+  [[gnu::always_inline]] detail::ChainEnergies<Scalar> assemble(Scalar load, Rows& rows,
+                                                                Assembler& assembler) noexcept {
+    const auto [strain, work, inner] =
+        parts_.visit_tangents(load, [&](int first, auto& K, auto& r) { assembler.add_pairs(first, K, r); });
+    Scalar energy = strain;
+    energy += ends_.visit_springs(
+        parts_.nodes(), [&](int i, const Block& K, const Increment& r) { assembler.add_at(i, K, r); });
+    if (rows.any()) energy += add_contacts(rows, assembler);
+    return {energy, work, inner, (std::max)(energy, Scalar(0))};  // without stress round-off has either sign
+  }
+  Increment increment(const Assembler& assembler, int i) const noexcept {
+    const Increment x = assembler.increment(i);
+    return ends_.has(i) ? ends_.increment(x, i, node(i)) : x;
+  }
+  /// Adds the increment of the last equations: what turns keeps its length.  Without a contact, which would be missed, the chords
+  /// turn as the tangents do, from the left end on (as laid_beam.hpp says of the plane).
+  /// @return by how much it is longer than the nodes alone say [J]
+  template <class Rows, class ElementAt>
+  Scalar advance(const Assembler& assembler, Rows& rows, ElementAt&& element_at) noexcept {
+    increments_.take(assembler);
+    for (std::size_t k = 0; k < 2; ++k)
+      if (const int i = ends_.node(k); ends_.has(i)) increments_.set(i, increment(assembler, i));
+    const bool free = !rows.any();
+    Scalar longer = 0;
+    if (!free)
+      longer = rows.advance(
+          [this](int e) {
+            Residual both;
+            both << increments_[e], increments_[e + 1];
+            return both;
+          },
+          [](int, Scalar) {}, element_at);
+    if (free) detail::turn_chords(parts_.nodes(), increments_);
+    parts_.advance_inners(increments_);
+    detail::move_nodes<unknowns == 7>(parts_.nodes(), increments_, !free);
+    if (free) ends_.close_chain(parts_.nodes(), length_);
+    ends_.correct(parts_.nodes());
+    return longer;
+  }
+  /// Bends it a little, without a contact to where its loads push.   @param contact  its place, negative: none
+  void nudge(Scalar size, Scalar contact, Scalar load) noexcept {
+    const Node& middle = node(parts_.size() / 2);
+    const Vector3 d1 = middle.director, d2 = detail::cross3(detail::unit(middle.tangent), d1);
+    // Where nothing pushes, along the director and half as much across it.
+    Vector3 way = d1 + d2 / 2;
+    if (contact < 0 && parts_.loaded(load)) {
+      const Vector3 pushed = pushed_by(size, d1, load) * d1 + pushed_by(size, d2, load) * d2;
+      // A flat rod may stand aside across that alone.
+      if (const Scalar most = pushed.norm(); most > 0) way = pushed / most + way / 100;
+    }
+    bow(size * way, contact < 0 ? contact : contact / length_);
+    ends_.correct(parts_.nodes());
   }
 
-  /// What the section at s carries, in a piece of drawn(), which holds s.
-  InternalForces<Scalar, 3> internal_forces(int piece, Scalar s, Scalar) const noexcept {
-    int e = drawn_.element_of(piece);
-    // Where a contact was drawn instead of a node.
-    if (e > 0 && s < node(e).s) --e;
-    else if (e + 1 < elements() && s > node(e + 1).s) ++e;
-    return rod_.internal_forces(e, s, load_, [&](auto&& touch) {
-      for (int k = 0; k < rows_.size(); ++k)
-        if (const Contact& contact = rows_[k]; rows_.element(k) == e)
+  // What it carries.
+
+  /// That of its springs included, and not what contacts bend of the elements alone [J].
+  template <class Touched>
+  Scalar strain_energy(Touched&&) const noexcept {
+    return parts_.strain_energy() +
+           ends_.visit_springs(parts_.nodes(), [](int, const Block&, const Increment&) {});
+  }
+  /// What the section carries, in element e, as it lies, with what touches it.
+  template <class Rows>
+  InternalForces<Scalar, 3> internal_forces(const Rows& rows, int e, const detail::CutAt<Scalar>& at,
+                                            Scalar load, Scalar,
+                                            const Centreline<Scalar, 3>&) const noexcept {
+    return parts_.internal_forces(e, at, load, [&](auto&& touch) {
+      for (int k = 0; k < rows.size(); ++k)
+        if (const auto& contact = rows[k]; rows.element(k) == e)
           touch(contact.s, Vector3(contact.force * contact.normal + contact.friction), contact.place);
     });
   }
 
-  /// Strain energy, that of the springs that hold it included [J].
-  Scalar strain_energy() const noexcept {
-    Scalar energy = rod_.strain_energy();
-    each_touched([&](int e) { energy += rows_.strain_energy(rod_, e); });
-    return energy + ends_.visit_springs(rod_.nodes(), [](int, const Block&, const Increment&) {});
-  }
-  /// V - λ f · x as it lies now [J].
-  Scalar total_potential() const noexcept { return strain_energy() - rod_.work(load_); }
-
-  // What is seen: the mesh, and in it the places of contacts.
-
-  /// To be called where the rod has moved.
-  void draw() noexcept {
-    each_touched([this](int e) { (void)rows_.look(rod_, e); });
-    drawn_.draw(
-        elements(), [this](int i) -> const Node& { return node(i); },
-        [this](Scalar s) { return element_at(s); }, rows_.size(), [this](int k) { return rows_[k].s; },
-        [this](int k) { return mark(k); }, [this](int e, Scalar s) { return rod_.node_within(e, s); });
-  }
-  Centreline<Scalar, 3> drawn() const noexcept { return {drawn_.data(), drawn_.size()}; }
-  /// n · r of it at s [m].
-  using Shape::displacement;
-  Scalar displacement(Scalar s, const Vector3& normal) const noexcept { return normal.dot(drawn().at(s).r); }
-
  private:
-  friend Contacts;
-  using Contacts::load_;
-  using Contacts::rows_;
-  using Shape::length_;
-  using Shape::rod_;
-  using Residual = typename Shape::Parts::Residual;
+  using Residual = typename Parts::Residual;
   using Block = Eigen::Matrix<Scalar, unknowns, unknowns>;
-  int element_at(Scalar s) const noexcept { return this->centreline().segment_at(s); }
-  /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one.
-  int element_at(Scalar s, int before) const noexcept {
-    const Scalar from = node(before).s, to = node(before + 1).s, over = (to - from) / 100;
-    return from - over <= s && s <= to + over ? before : element_at(s);
-  }
-  /// Calls f(e) for each element that is touched.
-  template <class F>
-  void each_touched(F&& f) const noexcept {
-    for (int k = 0; k < rows_.size(); ++k) {
-      bool first = true;
-      for (int j = 0; j < k; ++j) first = first && rows_.element(j) != rows_.element(k);
-      if (first) f(rows_.element(k));
-    }
-  }
-  /// What contacts are to their elements.  Not inlined by intent: factor() is long, and what all elements need comes first.   @return their energy [J]
-  [[gnu::noinline]] Scalar add_contacts() noexcept {
+  const Node& node(int i) const noexcept { return parts_.nodes()[i]; }
+  /// What contacts are to their elements.  Not inlined by intent: the equations are long, and what all elements need comes first.   @return their energy [J]
+  template <class Rows>
+  [[gnu::noinline]] Scalar add_contacts(Rows& rows, Assembler& assembler) noexcept {
     Scalar energy = 0;
-    rows_.seek(rod_);
-    each_touched([&](int e) {
+    rows.seek(parts_);
+    detail::each_touched(rows, [&](int e) {
       Residual r;
       typename Rows::Tangent K;
-      energy += rows_.touch(rod_, e, r, K);
-      assembler_.add_more(e, K, r);
+      energy += rows.touch(parts_, e, r, K);
+      assembler.add_more(e, K, r);
     });
     return energy;
   }
-  /// A node of drawn() where a contact is.
-  Node mark(int k) noexcept {
-    const Contact& contact = rows_[k];
-    Node at = rod_.node_within(rows_.element(k), contact.s);
-    // On what touches it, where an equilibrium was found: the last increment has left that by its square.
-    const Scalar off = contact.gap + contact.force * contact.compliance,
-                 left = std::abs(off) < length_ / 1000 ? off : Scalar(0);
-    at.r = contact.place - left * contact.normal;
-    detail::set_tangent<Scalar>(at, contact.tangent);
-    return at;
+  /// Bends it a little.
+  /// @param e  how far and where to [m]   @param c  where the bow changes its side, of the length; negative: nowhere
+  void bow(const Vector3& e, Scalar c) noexcept {
+    for (Node& node : parts_.nodes()) {
+      const Scalar t = node.s / length_, q = 1 - t, f = 16 * t * t * q * q,
+                   g = c < 0 ? (3 + t) / Scalar(3.5) : 4 * (t - c),
+                   slope = 32 * t * q * (1 - 2 * t) * g + f * (c < 0 ? 1 / Scalar(3.5) : Scalar(4));
+      node.r += f * g * e;
+      detail::set_tangent<Scalar>(node, node.tangent + slope / length_ * e);
+    }
   }
   /// The part of the work of its loads in a bow that changes its sign with that: none, where it is round-off [J].
-  Scalar pushed_by(Scalar size, const Vector3& d) noexcept {
-    Shape::bow(size * d, -1);
-    const Scalar there = rod_.work(load_);
-    Shape::bow(-2 * size * d, -1);
-    const Scalar back = rod_.work(load_);
-    Shape::bow(size * d, -1);
+  Scalar pushed_by(Scalar size, const Vector3& d, Scalar load) noexcept {
+    bow(size * d, -1);
+    const Scalar there = parts_.work(load);
+    bow(-2 * size * d, -1);
+    const Scalar back = parts_.work(load);
+    bow(size * d, -1);
     const Scalar round_off = std::sqrt(std::numeric_limits<Scalar>::epsilon());
     return std::abs(there - back) > round_off * (std::abs(there) + std::abs(back)) ? there - back : Scalar(0);
   }
-  void begin_path() noexcept { ends_.begin_path(rod_.nodes()); }
 
-  /// An element's share of the shift is half of either node's.
-  void add_shift(Scalar shift) noexcept {
-    for (int i = 0; i <= elements(); ++i) {
-      const Scalar length = node((std::min)(i + 1, elements())).s - node((std::max)(i - 1, 0)).s,
-                   share = shift * unit_ * unit_ * length / (2 * length_);
-      Increment diagonal = Increment::Constant(share);
-      diagonal.template segment<3>(0) /= length_ * length_;
-      assembler_.add_at(i, Block(diagonal.asDiagonal()), Increment::Zero());
-    }
-  }
-
+  Parts parts_;
   detail::RodIncrements<Scalar, Elements, MaxElements, unknowns> increments_;  // in advance()
-  detail::AssemblerOf<Element, Scalar, Elements, MaxElements> assembler_;
   detail::RodEnds<Scalar, unknowns> ends_;
-  bool no_mechanism_ = false;  // its ends and springs hold it
-  Scalar size_ = 0, weight_ = 0, potential_ = 0, inner_energy_ = 0, longer_ = 0, unit_;
-  detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>> drawn_{elements()};
+  Scalar length_, axial_;
 };
 
-// Outside of the class: only so does "extern template class RodSystem<…>;" keep a compiler from them.
 template <class Element, typename Scalar, int Elements, int MaxElements>
-Status RodSystem<Element, Scalar, Elements, MaxElements>::factor(Scalar shift) noexcept {
-  if (!ends_.follow(rod_.nodes())) return Status::iteration_limit;
-  const auto [strain, work, inner] =
-      rod_.visit_tangents(load_, [&](int first, auto& K, auto& r) { assembler_.add_pairs(first, K, r); });
-  inner_energy_ = inner, longer_ = 0;
-  Scalar energy = strain;
-  if (shift != 0) add_shift(shift);
-  energy += ends_.visit_springs(
-      rod_.nodes(), [this](int i, const Block& K, const Increment& r) { assembler_.add_at(i, K, r); });
-  if (rows_.any()) energy += add_contacts();
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Node& at = node(ends_.node(k));
-    ends_.hold(k, at, assembler_);
-    rows_.visit_node(ends_.node(k), [&](auto&& b, Scalar& residual) { ends_.hold_row(k, at, b, residual); });
-  }
-  weight_ = size_ =
-      std::sqrt(2 * (std::max)(energy, Scalar(0)));  // of a rod without stress round-off has either sign
-  potential_ = energy - work;
-  if (rows_.any()) potential_ += rows_.potential() + rows_.friction_potential();
-  const Status status = rows_.any() ? rows_.solve(assembler_) : assembler_.solve();
-  // A round rod that is bowed between two ends on one axis may roll about it: that takes no force, and leads nowhere.
-  if (status == Status::singular && shift == 0 && no_mechanism_) return factor(neutral());
-  return status;
-}
-
-template <class Element, typename Scalar, int Elements, int MaxElements>
-void RodSystem<Element, Scalar, Elements, MaxElements>::advance() noexcept {
-  increments_.take(assembler_);
-  for (std::size_t k = 0; k < 2; ++k)
-    if (const int i = ends_.node(k); ends_.has(i)) increments_.set(i, increment(i));
-  const bool free = !rows_.any();
-  if (!free)
-    longer_ += rows_.advance(
-        [this](int e) {
-          Residual both;
-          both << increments_[e], increments_[e + 1];
-          return both;
-        },
-        [](int, Scalar) {}, [this](Scalar s, int e) { return element_at(s, e); });
-  Shape::move(increments_, free);
-  if (free) ends_.close_chain(rod_.nodes(), length_);
-  ends_.correct(rod_.nodes());
-}
+using RodSystem = ChainSystem<RodChain<Element, Scalar, Elements, MaxElements>>;
 
 namespace detail {
 
@@ -379,8 +270,6 @@ struct SystemOf<Element, std::enable_if_t<dimension_of<Element> == 3>> {
   using Pose = RodPose;
   template <typename Scalar, int Elements, int MaxElements>
   using System = RodSystem<Element, Scalar, Elements, MaxElements>;
-  template <typename Scalar>
-  using Range = RodRange<Scalar>;
 };
 
 }  // namespace detail

@@ -22,10 +22,11 @@
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/fem/contact_mesh.hpp>
+#include <hapbeam/fem/laid_mesh.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/fem/taut_piece.hpp>
+#include <hapbeam/force_model.hpp>
 #include <hapbeam/internal_forces.hpp>
 
 namespace hapbeam {
@@ -59,8 +60,7 @@ class TautSystem {
                static_cast<Scalar>(beam.right_place().u / beam.length())},
         drawn_(static_cast<Scalar>((beam.right_place().u - beam.left_place().u) / beam.length()) /
                flexibility_),
-        mesh_(segments, length_),
-        laid_mesh_(mesh_) {
+        mesh_(segments, length_) {
     rest();
   }
 
@@ -69,8 +69,7 @@ class TautSystem {
 
   /// Untouched, drawn on the uniform mesh.
   void rest() noexcept {
-    const ContactMesh<Scalar> mesh(centreline().segments(), length_);
-    set_goal(mesh, mesh.s(), 0);
+    set_goal(ContactMesh<Scalar>(centreline().segments(), length_).s(), 0);
     tension_ = between_ends_ ? drawn_ : Scalar(0);
     known_ = before_ = {contact_s_, tension_, 0, 0};
     d_ = 0;
@@ -78,16 +77,16 @@ class TautSystem {
     lay();
   }
 
-  /// Where the path ends.  @param mesh  at which the shape is drawn   @param s  [m] of the contact   @param d [m]
-  void set_goal(const ContactMesh<Scalar>& mesh, Scalar s, Scalar d) noexcept {
-    mesh_ = mesh;
+  /// Where the path ends.  @param s  [m] of the contact, at which the shape has a node   @param d [m]
+  void set_goal(Scalar s, Scalar d) noexcept {
+    mesh_ = mesh_.at(s);
     contact_s_ = s;
     left_.set(s / length_);
     right_.set((length_ - s) / length_);
     goal_d_ = d / length_;
   }
   /// Back to the place of lay(), where no step went on from there.
-  void take_back() noexcept { set_goal(laid_mesh_, laid_s_, d_ * length_); }
+  void take_back() noexcept { set_goal(laid_s_, d_ * length_); }
 
   // What NewtonRaphson asks of a system, in units of EI/L.
 
@@ -182,7 +181,6 @@ class TautSystem {
     for (int i = 0; i < last; ++i)
       nodes_[i].s = i < node ? on_left * Scalar(i) : s + on_right * Scalar(i - node);
     nodes_[last].s = length_;
-    laid_mesh_ = mesh_;
     laid_s_ = contact_s_;
   }
 
@@ -275,12 +273,60 @@ class TautSystem {
   bool between_ends_;
   Scalar place_[2];  // u of the ends [L]
   Scalar drawn_;     // ν at rest
-  ContactMesh<Scalar> mesh_, laid_mesh_;
+  ContactMesh<Scalar> mesh_;
   Scalar contact_s_ = 0, laid_s_ = 0;
   Condensed condensed_{0, 0, 0, 0, 0, 0};          // of the last iteration
   Longer known_{0, 0, 0, 0}, before_{0, 0, 0, 0};  // of the last iteration, and at the place before
   Scalar tension_ = 0, saved_tension_ = 0, d_ = 0, saved_d_ = 0, goal_d_ = 0;
   Scalar size_ = 0, stiffness_ = 0;
+};
+
+/// A press of such a beam, from the last press on: the taut way of FemModel.  Letting go leads back to rest.
+/// The members are those of AllDisplacements; a press takes at most solver.max_solves iterations.
+template <typename ScalarType, int Elements, int MaxElements, class Solver>
+class OneTension {
+ public:
+  using Scalar = ScalarType;
+
+  /// @param beam  one that is_taut()
+  OneTension(const Beam& beam, int elements, const Solver& solver)
+      : system_(beam, elements), solver_(solver) {}
+
+  Response<Scalar> press(const Push<Scalar>& request, bool valid) noexcept {
+    const Scalar first_step = report_.step;
+    report_ = {Status::invalid_request, 0, 0, 0, 0, first_step};
+    if (!valid) return {0, Status::invalid_request};
+    system_.set_goal(request.s, request.d);
+    report_ = solver_.solve(system_, first_step);
+    if (report_.steps > 0) system_.lay();
+    else system_.take_back();
+    const Scalar force = system_.reaction();
+    if (!std::isfinite(force)) report_.status = Status::non_finite;
+    return {force, report_.status};
+  }
+
+  Status release() noexcept {
+    reset();
+    return Status::ok;
+  }
+  void reset() noexcept {
+    system_.rest();
+    report_.step = 1;
+  }
+
+  int elements() const noexcept { return shape().segments(); }
+  Centreline<Scalar> shape() const noexcept { return system_.centreline(); }
+  Scalar strain_energy() const noexcept { return system_.strain_energy(); }
+  InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
+    return system_.internal_forces(e, s, thickness);
+  }
+  const SolveReport<Scalar>& rest() const noexcept { return rest_; }
+  const SolveReport<Scalar>& report() const noexcept { return report_; }
+
+ private:
+  TautSystem<Scalar, Elements, MaxElements> system_;
+  Solver solver_;
+  SolveReport<Scalar> rest_{Status::ok, 0, 1, 1, 0, 1}, report_ = rest_;
 };
 
 }  // namespace hapbeam

@@ -30,7 +30,7 @@
 
 #include <hapbeam/element/rod.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
-#include <hapbeam/fem/rod/rod_range.hpp>
+#include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/scene/choose.hpp>
 #include <hapbeam/turning_plane.hpp>
@@ -51,7 +51,7 @@ struct RodScene {
   /// Anywhere from 5 to 95 % of the length, or up to an end that yields.
   static RodScene anywhere(const Rod& rod, double depth) {
     const double L = rod.length();
-    const Range<double> range = RodRange<double>(rod).range();
+    const Range<double> range = PressRange<double>(rod).range();
     return {rod, range.s_min > 0 ? 0.05 * L : 0, range.s_max < L ? 0.95 * L : L, depth};
   }
   /// At one place.
@@ -62,7 +62,7 @@ struct RodScene {
   /// How deep it is pushed at s along cos d1 + sin d2 [m].  A flat rod that is pushed askew gives way across the push: its depth is
   /// less by that, as a straight one's of even stiffness is.
   double depth_at(double s, double cosine, double sine) const noexcept {
-    const Range<double> range = RodRange<double>(rod).range();
+    const Range<double> range = PressRange<double>(rod).range();
     double deep = depth;
     if (range.s_min > 0) deep = (std::min)(deep, s / 5);
     if (range.s_max < rod.length()) deep = (std::min)(deep, (rod.length() - s) / 5);
@@ -84,7 +84,7 @@ struct RodScene {
 
   /// @throws std::invalid_argument
   const RodScene& check() const {
-    const Range<double> range = RodRange<double>(rod).range();
+    const Range<double> range = PressRange<double>(rod).range();
     detail::check_scene(*this, 0.999999 * range.s_min, range.s_max + 1e-6 * range.s_min, "rod");
     return *this;
   }
@@ -158,7 +158,7 @@ class RodPilot : public detail::PilotOf<detail::PushLine> {
   template <class Element>
   void search(const RodScene& scene) {
     const double length = scene.rod.length();
-    const Range<double> range = RodRange<double>(scene.rod).range();
+    const Range<double> range = PressRange<double>(scene.rod).range();
     const double left = range.s_min > 0 ? scene.s_min : length,
                  right = range.s_max < length ? length - scene.s_max : length;
     FemModel<Element> resting(scene.rod, 64);

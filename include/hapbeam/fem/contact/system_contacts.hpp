@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The contacts of a system, its goals: a path that leads to them, with the share of the loads that acts on the way, and their forces.
 //
-// Base class of BeamSystem and RodSystem, which have:  begin_path(), look(k), element_at(s, e), and the shape that they set.
+// Base class of ChainSystem, which has:  begin_path(), look(k), element_at(s, e), and the shape that they set.
 // Real-time: noexcept, no allocation but at construction, O(contacts).
 #pragma once
 

@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: MIT
-// The elements of one rod on a mesh that stays: strain energy, dead loads, foundations, and their derivatives; and what a
-// section carries.
+// The elements of one rod on a mesh that stays: where its nodes are and what each element is made of, strain energy, dead loads,
+// foundations, and their derivatives; and what a section carries.
 //
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
+#include <stdexcept>
+#include <string>
 
-#include <hapbeam/element/pack.hpp>
+#include <hapbeam/body/rod_profile.hpp>
+#include <hapbeam/element/rod/carried_frame.hpp>
 #include <hapbeam/element/rod/rod_tangent.hpp>
-#include <hapbeam/fem/rod/rod_forces.hpp>
+#include <hapbeam/fem/rod/natural_rod.hpp>
 #include <hapbeam/fem/rod/rod_lanes.hpp>
-#include <hapbeam/fem/rod/rod_on_mesh.hpp>
+#include <hapbeam/fem/rod/rod_loads.hpp>
+#include <hapbeam/fem/section_cut.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
 
 template <class Element, typename ScalarType, int Elements, int MaxElements>
-class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxElements> {
-  using OnMesh = detail::RodOnMesh<Element, ScalarType, Elements, MaxElements>;
-
+class RodElements {
  public:
   using Scalar = ScalarType;
-  using OnMesh::has_inner;
-  using OnMesh::size;
-  using OnMesh::unknowns;
-  using OnMesh::view;
-  using typename OnMesh::Node;
-  using typename OnMesh::Nodes;
+  using Node = RodNode<Scalar>;
+  using Nodes = detail::PerNode<Node, Elements, MaxElements>;
+  using Inners = detail::PerNode<Scalar, Elements, MaxElements>;
+  static constexpr int unknowns = Element::unknowns;
+  static constexpr bool has_inners = unknowns == 7, has_tensions = false;
   using Inner = typename Element::template Inner<Scalar>;
   using Residual = Eigen::Matrix<Scalar, 2 * unknowns, 1>;
   using Tangent = Eigen::Matrix<Scalar, 2 * unknowns, 2 * unknowns>;
@@ -37,7 +37,46 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
   /// In its natural shape.  @throws std::invalid_argument where a load or a section makes no sense somewhere on the rod, or
   /// elements does not fit the type, or the element does not model such a rod
   RodElements(const Rod& rod, int elements)
-      : OnMesh(rod, elements), inners_(detail::groups_of<Scalar>(elements)), surface_(rod) {}
+      : nodes_(elements),
+        twists_(elements),
+        properties_(elements),
+        abreast_(elements),
+        natural_(rod),
+        profile_(rod),
+        loads_(rod, elements),
+        bed_(rod, elements),
+        inners_(detail::groups_of<Scalar>(elements)),
+        surface_(rod) {
+    if constexpr (!has_twist)
+      if (!rod.arcs().empty() || !profile_.round())
+        throw std::invalid_argument(
+            "rod: RoundRod takes rods that are straight by nature, with one bending stiffness for all "
+            "directions; take "
+            "TwistedRod");
+    if constexpr (has_twist)
+      if (!holds_twist(rod.left()) && !holds_twist(rod.right()))
+        throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
+                                    ": TwistedRod turns about its axis, hold its twist at one end");
+    round_ = natural_.straight() && profile_.round() && profile_.smooth();
+    lay_mesh<Scalar>(rod, rod.forces(), elements, [this](int i, Scalar s) { nodes_[i] = natural_.at(s); });
+    for (int e = 0; e < elements; ++e) make(e);
+    if (!loads_.empty()) loads_.take(view(nodes_));
+  }
+
+  int size() const noexcept { return nodes_.size() - 1; }
+  Nodes& nodes() noexcept { return nodes_; }
+  const Nodes& nodes() const noexcept { return nodes_; }
+  /// ψ of the elements [rad].
+  Inners& inners() noexcept { return twists_; }
+  const Inners& inners() const noexcept { return twists_; }
+  /// Whether elements have a twist of their own.
+  bool has_inner() const noexcept { return has_twist && !round_; }
+  /// What an element is made of.
+  const RodProperties<Scalar>& properties(int e) const noexcept { return properties_[e]; }
+  template <class AnyNodes>
+  static Centreline<Scalar, 3> view(const AnyNodes& nodes) noexcept {
+    return {nodes.data(), nodes.size()};
+  }
 
   /// What is an element's own, and how it follows the nodes since visit_tangents().
   Inner inner(int e) const noexcept {
@@ -112,6 +151,13 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     if (!bed_.empty()) (void)bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, unused);
     if (!loads_.empty()) loads_.template subtract<unknowns>(e, lambda, r);
   }
+  /// About a node, of what works on its unknowns.
+  static VectorOf<Scalar, 3> moment(const VectorOf<Scalar, unknowns>& r,
+                                    const VectorOf<Scalar, 3>& tangent) noexcept {
+    VectorOf<Scalar, 3> m = detail::cross3<Scalar>(tangent, r.template segment<3>(3));
+    if constexpr (has_twist) m += r[6] * detail::unit(tangent);
+    return m;
+  }
   /// A node where the mesh has none, in element e, which holds s.
   Node node_within(int e, Scalar s) const noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
@@ -119,14 +165,13 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     return {s, at.r, at.tangent,
             detail::across(director_within(e, (s - a.s) / (b.s - a.s)), detail::unit(at.tangent))};
   }
-  /// What the section at s carries, in element e, which holds s.
+  /// What the section carries, in element e.
   /// @param contacts  calls its argument with place, force and point of each of that element [m], [N]
   template <class EachContact>
-  InternalForces<Scalar, 3> internal_forces(int e, Scalar at, Scalar lambda,
+  InternalForces<Scalar, 3> internal_forces(int e, const detail::CutAt<Scalar>& at, Scalar lambda,
                                             EachContact&& contacts) const noexcept {
     using Vector3 = VectorOf<Scalar, 3>;
     const Node &a = nodes_[e], &b = nodes_[e + 1];
-    const Scalar s = (std::min)((std::max)(at, a.s), b.s), t = (s - a.s) / (b.s - a.s);
     const Centreline<Scalar, 3> line = view(nodes_);
     Residual r;
     residual(e, lambda, r);
@@ -145,30 +190,30 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
       r.template segment<3>(unknowns + 3) -= w.a2 * turns - l * f * f * g * force;
       if constexpr (has_twist) r[6] -= g * u.dot(moment), r[13] -= f * u.dot(moment);
     });
-    const auto moment = [&r](int row, const Vector3& tangent) {
-      Vector3 m = detail::cross3<Scalar>(tangent, r.template segment<3>(row + 3));
-      if constexpr (has_twist) m += r[row + 6] * detail::unit(tangent);
-      return m;
+    const auto moment = [&r](int row, const Vector3& tangent) -> Vector3 {
+      return RodElements::moment(r.template segment<unknowns>(row), tangent);
     };
-    detail::RodCut<Scalar> cut{-r.template segment<3>(0), -moment(0, a.tangent), a.r}, end = cut;
-    const RodPoint<Scalar> place = line.at(e, s);
-    cut.go(place.r);
-    end.go(b.r);
-    loads_.pass(line, e, lambda, s, cut, end);
-    contacts([&](Scalar x, const Vector3& force, const Vector3& there) {
-      end.pass(force, there);
-      if (x < s) cut.pass(force, there);
-    });
-    const auto lie = [&](detail::RodCut<Scalar>& of, Scalar to) {
-      bed_.visit(a.s, to, natural_, [&](Scalar x, const Eigen::Matrix<Scalar, 3, 3>& k, const Vector3& home) {
-        const Vector3 there = line.at(e, x).r;
-        of.pass(-k * (there - home), there);
-      });
-    };
-    if (!bed_.empty()) lie(end, b.s), lie(cut, s);
-    cut.moment += t * (moment(unknowns, b.tangent) - end.moment);
-    loads_.spread(lambda, s, a.s, place.tangent, cut);
-    return cut.in_section(director_within(e, t), detail::unit(place.tangent), profile_.at(s), surface_);
+    const auto cut = detail::cut_element<Scalar, 3>(
+        {-r.template segment<3>(0), -moment(0, a.tangent), a.r}, moment(unknowns, b.tangent), at, lambda,
+        loads_.all(),
+        [&](Scalar s) {
+          const RodPoint<Scalar> there = line.at(e, s);
+          return detail::CutPlace<Scalar, 3>{there.r, there.tangent};
+        },
+        [&](auto& of, bool whole) {
+          // The cut is on the cubic, which a contact stands off: at its place it is past it on neither side.
+          contacts([&](Scalar x, const Vector3& force, const Vector3& there) {
+            if (whole || x < at.s) of.pass(force, there);
+          });
+          if (!bed_.empty())
+            bed_.visit(a.s, whole ? b.s : at.s, natural_, [&](Scalar x, const auto& k, const Vector3& home) {
+              const Vector3 there = line.at(e, x).r;
+              of.pass(-k * (there - home), there);
+            });
+        });
+    const Scalar t = (at.s - a.s) / (b.s - a.s);
+    return surface_.in_section(cut, director_within(e, t), detail::unit(line.at(e, at.s).tangent),
+                               profile_.at(at.s));
   }
   /// [J]
   Scalar strain_energy() const noexcept {
@@ -193,21 +238,29 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
   }
 
  private:
-  using OnMesh::abreast_;
-  using OnMesh::bed_;
-  using OnMesh::has_twist;
-  using OnMesh::loads_;
-  using OnMesh::natural_;
-  using OnMesh::nodes_;
-  using OnMesh::profile_;
-  using OnMesh::properties_;
-  using OnMesh::twists_;
+  static constexpr bool has_twist = unknowns == 7;
   using Wide = detail::Pack<Scalar>;
   static constexpr int lanes = Wide::size;
 
   using WideResidual = Eigen::Matrix<Wide, 2 * unknowns, 1>;
   using WideInner = typename Element::template Inner<Wide>;
   using Stiffness = detail::RodTangentOf<Element, Wide>;
+
+  void make(int e) noexcept {
+    const Scalar from = nodes_[e].s, to = nodes_[e + 1].s;
+    RodProperties<Scalar>& p = properties_[e];
+    p.number = has_inner() ? 2 : 3, p.round = round_;
+    p.length = to - from;
+    p.inverse_length = 1 / p.length;
+    profile_.apply(from, to, p);
+    if constexpr (has_twist)
+      if (!round_) {
+        twists_[e] = Element::twist_to(p, nodes_[e], nodes_[e + 1], natural_.at((from + to) / 2).director);
+        if (!natural_.straight()) Element::take_natural(nodes_[e], nodes_[e + 1], twists_[e], p);
+      }
+    abreast_.take(e, p);
+    if (!bed_.empty()) bed_.take(e, from, to, natural_);
+  }
 
   /// @param t  ξ
   VectorOf<Scalar, 3> director_within(int e, Scalar t) const noexcept {
@@ -281,9 +334,19 @@ class RodElements : public detail::RodOnMesh<Element, ScalarType, Elements, MaxE
     });
     visit(first, all, r);
   }
+
+  Nodes nodes_;
+  Inners twists_;
+  detail::PerNode<RodProperties<Scalar>, Elements, MaxElements> properties_;
+  detail::RodAbreast<Scalar, Elements, MaxElements> abreast_;
+  NaturalRod<Scalar> natural_;
+  RodProfile<Scalar> profile_;
+  RodLoads<Scalar, Elements, MaxElements> loads_;
+  RodBed<Scalar> bed_;
   detail::PerNode<WideInner, detail::groups_of<Scalar>(Elements), detail::groups_of<Scalar>(MaxElements)>
       inners_;
   detail::RodSurface<Scalar> surface_;
+  bool round_ = false;  // section, and straight by nature
 };
 
 }  // namespace hapbeam

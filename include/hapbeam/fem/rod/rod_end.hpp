@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-#include <hapbeam/rod.hpp>
+#include <hapbeam/fem/rod/natural_rod.hpp>
 
 namespace hapbeam::detail {
 
@@ -60,9 +60,8 @@ class RodEnd {
     if (t < 1) {
       start_.tangent = unit(start_.tangent);
       target_.r = start_.r + t * (goal_.r - start_.r);
-      const Vector3 turn = t * rotation();
-      target_.tangent = rotate(turn, start_.tangent);
-      target_.director = rotate(turn, start_.director);
+      const Node turned = NaturalRod<Scalar>::along(start_, t * rotation(), 1);
+      target_.tangent = turned.tangent, target_.director = turned.director;
     }
     axes_ = axes_of(target_);
   }
@@ -240,16 +239,6 @@ class RodEnd {
     axes.col(0) = node.director, axes.col(1) = cross3(node.tangent, node.director),
     axes.col(2) = node.tangent;
     return axes;
-  }
-  /// Rodrigues.
-  static Vector3 rotate(const Vector3& by, const Vector3& v) noexcept {
-    using std::cos;
-    using std::sin;
-    using std::sqrt;
-    const Scalar angle = sqrt(by.squaredNorm());
-    if (angle == 0) return v;
-    const Vector3 axis = by / angle, w = cross3(axis, v);
-    return v + sin(angle) * w + (1 - cos(angle)) * cross3(axis, w);
   }
 
   bool held_[3], direction_, twist_, springs_;

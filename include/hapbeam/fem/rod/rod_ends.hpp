@@ -29,8 +29,6 @@ class RodEnds {
 
   RodEnd<Scalar>& operator[](std::size_t k) noexcept { return ends_[k]; }
   const RodEnd<Scalar>& operator[](std::size_t k) const noexcept { return ends_[k]; }
-  RodEnd<Scalar>* begin() noexcept { return ends_; }
-  RodEnd<Scalar>* end() noexcept { return ends_ + 2; }
   int node(std::size_t k) const noexcept { return k == 0 ? 0 : last_; }
   /// Whether a node is an end that holds something.
   bool has(int node) const noexcept {
@@ -41,6 +39,9 @@ class RodEnds {
   template <class Nodes>
   void begin_path(const Nodes& nodes) noexcept {
     for (std::size_t k = 0; k < 2; ++k) ends_[k].begin(nodes[node(k)]);
+  }
+  void set_target(Scalar t) noexcept {
+    for (auto& end : ends_) end.set_target(t);
   }
   /// Whether increments lead to where they belong.
   template <class Nodes>
@@ -75,36 +76,19 @@ class RodEnds {
   }
 
   /// After all else is in the assembler's system.
-  template <class Assembler, class Node>
-  void hold(std::size_t k, const Node& at, Assembler& assembler) noexcept {
-    if (is_clamped(k)) {
-      prescribed_[k] = ends_[k].template way<Increment>(at);
-      assembler.clamp(node(k), ends_[k].direction(), prescribed_[k]);
-    } else if (!ends_[k].is_free()) {
-      hold_part(k, at, assembler);
+  template <class Nodes, class Rows, class Assembler>
+  void hold(const Nodes& nodes, Rows& rows, Assembler& assembler) noexcept {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto& at = nodes[node(k)];
+      if (ends_[k].is_free()) continue;
+      if (is_clamped(k)) {
+        prescribed_[k] = ends_[k].template way<Increment>(at);
+        assembler.clamp(node(k), ends_[k].direction(), prescribed_[k]);
+      } else {
+        hold_part(k, at, assembler);
+      }
+      rows.visit_node(node(k), [&](auto&& b, Scalar& residual) { hold_row(k, at, b, residual); });
     }
-  }
-  /// The same of a row of the system, of what that has of an end's node.   @param b  in and out   @param residual  in and out
-  template <class Part, class Node>
-  void hold_row(std::size_t k, const Node& at, Part&& b, Scalar& residual) const noexcept {
-    if (ends_[k].is_free()) return;
-    if (is_clamped(k)) {
-      const Scalar along = ends_[k].direction().dot(b.template segment<3>(3));
-      residual += b.dot(prescribed_[k]);
-      b.setZero();
-      b[5] = along;
-      return;
-    }
-    if constexpr (has_twist)
-      if (ends_[k].is_joint()) b.template segment<3>(3) -= b[6] * ends_[k].arm(at);
-    if (const Matrix* const R = ends_[k].place_axes())
-      b.template segment<3>(0) = (R->transpose() * b.template segment<3>(0)).eval();
-    if (const Matrix* const T = ends_[k].tangent_axes())
-      b.template segment<3>(3) = (T->transpose() * b.template segment<3>(3)).eval();
-    ends_[k].template visit<has_twist>(at, [&](int component, Scalar increment) {
-      residual += b[component] * increment;
-      b[component] = 0;
-    });
   }
   /// Of a node for which has() is true, from the assembler's answer: r, r' and φ in space.
   template <class Node>
@@ -129,6 +113,27 @@ class RodEnds {
   }
 
  private:
+  /// The same of a row of the system, of what that has of an end's node.   @param b  in and out   @param residual  in and out
+  template <class Part, class Node>
+  void hold_row(std::size_t k, const Node& at, Part&& b, Scalar& residual) const noexcept {
+    if (is_clamped(k)) {
+      const Scalar along = ends_[k].direction().dot(b.template segment<3>(3));
+      residual += b.dot(prescribed_[k]);
+      b.setZero();
+      b[5] = along;
+      return;
+    }
+    if constexpr (has_twist)
+      if (ends_[k].is_joint()) b.template segment<3>(3) -= b[6] * ends_[k].arm(at);
+    if (const Matrix* const R = ends_[k].place_axes())
+      b.template segment<3>(0) = (R->transpose() * b.template segment<3>(0)).eval();
+    if (const Matrix* const T = ends_[k].tangent_axes())
+      b.template segment<3>(3) = (T->transpose() * b.template segment<3>(3)).eval();
+    ends_[k].template visit<has_twist>(at, [&](int component, Scalar increment) {
+      residual += b[component] * increment;
+      b[component] = 0;
+    });
+  }
   /// The same of an end that is not clamped.  Not inlined by intent: few rods have one, and factor() is long.
   template <class Assembler, class Node>
   [[gnu::noinline]] void hold_part(std::size_t k, const Node& at, Assembler& assembler) noexcept {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Nodes of a rod side by side in the lanes of a register: what is computed of each alone is computed of a few at a time.
+// Nodes and elements of a rod side by side in the lanes of a register: what is computed of each alone is computed of a few at a time.
 //
-// Real-time: noexcept, no allocation, O(1).
+// Real-time: noexcept, no allocation after construction, O(1).
 #pragma once
 
 #include <algorithm>
 
 #include <hapbeam/element/pack_rows.hpp>
+#include <hapbeam/element/rod/rod_properties.hpp>
+#include <hapbeam/fem/solver/pair_order.hpp>
+#include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/rod_centreline.hpp>
 #include <hapbeam/unroll.hpp>
 
@@ -125,5 +128,130 @@ template <typename Scalar, int Size, class Nodes>
   const Pack<Scalar, Size> all[10] = {node.s, r[0], r[1], r[2], t[0], t[1], t[2], d[0], d[1], d[2]};
   NodeRows<Scalar, Size>::scatter(abreast, all, nodes);
 }
+
+/// Properties of elements in the order of PairOrder.  An empty place has another element, once more.
+template <typename Scalar, int Elements, int MaxElements>
+class RodAbreast {
+  using Wide = Pack<Scalar>;
+  static constexpr int lanes = Wide::size;
+
+ public:
+  explicit RodAbreast(int elements) : order_{elements}, wide_(elements) {}
+
+  const PairOrder& order() const noexcept { return order_; }
+  /// Of the elements from a place on that is a multiple of the lanes.
+  const RodProperties<Wide>& properties(int first) const noexcept { return wide_[first / lanes]; }
+  Abreast<Scalar> elements(int first) const noexcept {
+    Abreast<Scalar> which;
+    order_.elements_from(first, which.of);
+    return which;
+  }
+  /// Lays an element's properties beside those of its neighbours.
+  void take(int e, const RodProperties<Scalar>& from) noexcept {
+    fill(e, [&](auto&& set, RodProperties<Wide>& to) {
+      to.number = from.number, to.round = from.round;
+      set(to.length, from.length), set(to.inverse_length, from.inverse_length);
+      set(to.axial, from.axial), set(to.torsion, from.torsion);
+      for (int i = 0; i < 3; ++i) {
+        auto& point = to.points[i];
+        set(point.bending1, from.points[i].bending1), set(point.bending2, from.points[i].bending2);
+        set(point.torsion, from.points[i].torsion);
+        for (int j = 0; j < 3; ++j) set(point.natural[j], from.points[i].natural[j]);
+        set(to.natural_strain[i], from.natural_strain[i]);
+      }
+    });
+  }
+
+ private:
+  /// Calls put(set, properties) for an element's lane, and for all others in which it stands.
+  template <class Put>
+  void fill(int e, Put&& put) noexcept {
+    const auto at = [&](int place) {
+      put([place](Wide& wide, Scalar value) { wide.set(place % lanes, value); }, wide_[place / lanes]);
+    };
+    const int place = order_.place(e), last = 2 * order_.pairs() - 1;
+    at(place);
+    if (e == 0 && order_.odd()) at(0);
+    if (place == last)
+      for (int k = last + 1; k % lanes != 0; ++k) at(k);
+  }
+
+  PairOrder order_;
+  PerNode<RodProperties<Wide>, Elements, MaxElements> wide_;
+};
+
+/// The increments of all nodes, in the order in which their chain is solved from both ends.   @tparam Unknowns  of a node
+template <typename Scalar, int Elements, int MaxElements, int Unknowns>
+class RodIncrements {
+ public:
+  using Vector = VectorOf<Scalar, Unknowns>;
+  using Wide = Pack<Scalar>;
+  static constexpr int lanes = Wide::size;
+
+  explicit RodIncrements(int elements) : order_{elements}, groups_(groups_of<Scalar>(elements)) {}
+
+  /// From an assembler that has solved for them.
+  template <class Assembler>
+  void take(const Assembler& assembler) noexcept {
+    for (int first = 0; first <= order_.last_node(); first += lanes)
+      assembler.increments(first, groups_[first / lanes].x);
+    const int last = order_.last_node();
+    auto& x = groups_[last / lanes].x;
+    for (int k = 0; k < Unknowns; ++k)
+      for (int place = last; place <= end(); ++place) x[k][place % lanes] = x[k][(last - 1) % lanes];
+  }
+  /// Of a node with unknowns of its own.
+  void set(int node, const Vector& x) noexcept {
+    const auto put = [&](int place) {
+      for (int k = 0; k < Unknowns; ++k) groups_[place / lanes].x[k][place % lanes] = x[k];
+    };
+    const int place = order_.node_place(node), last = order_.last_node();
+    put(place);
+    if (place + 1 == last)
+      for (int again = last; again <= end(); ++again) put(again);
+  }
+  Vector operator[](int node) const noexcept {
+    const int place = order_.node_place(node);
+    Vector x;
+    for (int k = 0; k < Unknowns; ++k) x[k] = groups_[place / lanes].x[k][place % lanes];
+    return x;
+  }
+
+  /// Calls f(nodes, increments) for a few nodes at a time: which they are, and k -> of their unknown k.
+  template <class F>
+  [[gnu::always_inline]] void visit(F&& f) const noexcept {
+    for_each_abreast<Scalar>(order_.last_node(), [&](const auto& places) {
+      const int first = places.of[0];
+      auto nodes = places;
+      order_.nodes_from(first, nodes.of);
+      f(nodes, [&](int k) {
+        return std::decay_t<decltype(places)>::Wide::load(groups_[first / lanes].x[k] + first % lanes);
+      });
+    });
+  }
+  /// Of both nodes of the elements from a place on.   @param x  out
+  template <class Both>
+  [[gnu::always_inline]] void of_elements(int first, Both& x) const noexcept {
+    const auto &here = groups_[first / lanes].x, &next = groups_[first / lanes + 1].x;
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Unknowns; ++k) {
+      const Wide outer = Wide::load(here[k]), inner = before(outer, next[k]);
+      x[k] = in_turn(outer, inner), x[Unknowns + k] = in_turn(inner, outer);
+    }
+  }
+
+ private:
+  /// The middle node stands twice, and behind that once more as far as it is computed: to here.
+  int end() const noexcept {
+    const int last = order_.last_node();
+    return last % lanes == 1 ? last : last / lanes * lanes + lanes - 1;
+  }
+
+  struct alignas(sizeof(Wide)) Group {
+    Scalar x[Unknowns][lanes] = {};
+  };
+  PairOrder order_;
+  PerNode<Group, groups_of<Scalar>(Elements), groups_of<Scalar>(MaxElements)> groups_;
+};
 
 }  // namespace hapbeam::detail

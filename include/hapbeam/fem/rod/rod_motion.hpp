@@ -62,10 +62,9 @@ template <typename S>
   node.tangent = ((1 + share) * square * i) * v, node.director = e;
 }
 /// Adds increments to all nodes, a few at a time; to their tangents and directors alone where chords turn their places.
-/// @tparam twists  whether there is φ   @param moved  out, may be the nodes
+/// @tparam twists  whether there is φ
 template <bool twists, class Nodes, class Increments>
-[[gnu::flatten]] void move_nodes(const Nodes& nodes, const Increments& increments, bool places,
-                                 Nodes& moved) noexcept {
+[[gnu::flatten]] void move_nodes(Nodes& nodes, const Increments& increments, bool places) noexcept {
   increments.visit([&](const auto& which, const auto& x) {
     using Wide = typename std::decay_t<decltype(which)>::Wide;
     using Vector = VectorOf<Wide, 3>;
@@ -78,7 +77,7 @@ template <bool twists, class Nodes, class Increments>
       move_tangent<Wide>(node, change, nullptr);
     }
     if (places) node.r += Vector(x(0), x(1), x(2));
-    scatter_nodes(which, node, moved);
+    scatter_nodes(which, node, nodes);
   });
 }
 /// Moves places alone: each chord turns as the difference of the increments at its ends says, from the first node on.
@@ -124,10 +123,10 @@ template <typename S>
   return {from.dot(beside), from.dot(to), whole};
 }
 
-/// Where nodes will be that go on as they went.   @param now, then, ahead  all nodes; of those ahead, s is known
+/// Nodes go on as they went, so many times as far.   @param then  becomes what they are now
 /// @tparam twists  whether their directors turn about the tangents
 template <bool twists, class Nodes, typename Scalar>
-[[gnu::flatten]] void go_on(const Nodes& now, const Nodes& then, Scalar ratio, Nodes& ahead) noexcept {
+[[gnu::flatten]] void go_on(Nodes& now, Nodes& then, Scalar ratio) noexcept {
   for_each_abreast<Scalar>(now.size() - 1, [&](const auto& here) {
     using Wide = typename std::decay_t<decltype(here)>::Wide;
     using Vector = VectorOf<Wide, 3>;
@@ -149,8 +148,9 @@ template <bool twists, class Nodes, typename Scalar>
     } else {
       move_tangent<Wide>(next, change, nullptr);
     }
-    scatter_nodes(here, next, ahead);
+    scatter_nodes(here, next, then);
   });
+  now.swap(then);
 }
 
 }  // namespace hapbeam::detail

@@ -3,6 +3,7 @@
 // heap, allocated once at construction, where it is not.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>
@@ -37,14 +38,9 @@ class PerNode {
   const T* data() const noexcept { return storage_.data(); }
   T& operator[](int i) noexcept { return storage_.data()[i]; }
   const T& operator[](int i) const noexcept { return storage_.data()[i]; }
-  /// Becomes what another of the same size is, which may become anything.
-  void take(PerNode& from) noexcept {
-    if constexpr (is_inline) storage_ = from.storage_;
-    else storage_.swap(from.storage_);
-  }
-  /// Whether another of the same size can be exchanged with it, however large they are.
-  static constexpr bool exchanges = !is_inline;
-  void exchange(PerNode& with) noexcept { storage_.swap(with.storage_); }
+  /// Becomes what another of the same size is.
+  void set(const PerNode& from) noexcept { std::copy(from.begin(), from.end(), begin()); }
+  void swap(PerNode& with) noexcept { storage_.swap(with.storage_); }
   T* begin() noexcept { return data(); }
   T* end() noexcept { return data() + size_; }
   const T* begin() const noexcept { return data(); }

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT
+// The nonlinear equations of one chain of elements, a beam in the plane or a rod in space: the chain, its ends, and what touches it.
+//
+//   ∂V/∂x = t f + contacts        unknown x: those of every node and element, force and place of every contact
+//
+// One Newton step assembles residual and tangent element by element, enters what the ends hold as known increments and contacts as rows
+// (contact_rows.hpp), solves and adds.  The mesh stays; a contact is at any place of it.
+// All that is alike in the plane and in space is here; what is not is the chain's: how elements are assembled and nodes move
+// (beam_system.hpp, rod_system.hpp).
+// Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include <hapbeam/fem/contact/contact_rows.hpp>
+#include <hapbeam/fem/contact/drawn_mesh.hpp>
+#include <hapbeam/fem/contact/system_contacts.hpp>
+#include <hapbeam/fem/solver/block_tridiagonal.hpp>
+#include <hapbeam/fem/solver/newton_raphson.hpp>
+#include <hapbeam/internal_forces.hpp>
+
+namespace hapbeam {
+
+namespace detail {
+
+template <class Chain>
+using RowsOf = ContactRows<typename Chain::Element, typename Chain::Scalar, typename Chain::Assembler,
+                           typename Chain::Friction, contacts_of<typename Chain::Element>>;
+
+/// Of a chain before an increment [J].
+template <typename Scalar>
+struct ChainEnergies {
+  Scalar strain;    ///< that of contacts, springs and inertia included
+  Scalar work;      ///< of λ times the loads
+  Scalar inner;     ///< of the increment that inner unknowns make on their own
+  Scalar measured;  ///< what increments are measured by
+};
+
+/// Goes on as it went, so many times as far.   @param before  becomes what it is now
+template <typename Scalar>
+void extrapolate(Scalar& now, Scalar& before, Scalar ratio) noexcept {
+  const Scalar was = now;
+  now += ratio * (now - before);
+  before = was;
+}
+/// Calls f(e) for each element that is touched.
+template <class Rows, class F>
+void each_touched(const Rows& rows, F&& f) noexcept {
+  for (int k = 0; k < rows.size(); ++k) {
+    bool first = true;
+    for (int j = 0; j < k; ++j) first = first && rows.element(j) != rows.element(k);
+    if (first) f(rows.element(k));
+  }
+}
+
+}  // namespace detail
+
+/// @tparam ChainType  BeamChain | RodChain
+template <class ChainType>
+class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typename ChainType::Scalar,
+                                                  typename ChainType::Friction, detail::RowsOf<ChainType>> {
+  using Contacts = typename ChainSystem::SystemContacts;
+  using Parts = typename ChainType::Parts;
+
+ public:
+  using Chain = ChainType;
+  using Scalar = typename Chain::Scalar;
+  using Body = typename Chain::Body;
+  using Node = typename Chain::Node;
+  using RoundContact = typename Chain::RoundContact;
+  using Friction = typename Chain::Friction;
+  using typename Contacts::Contact;
+  using typename Contacts::Rows;
+  static constexpr int dimension = Rows::dimension, unknowns = Rows::unknowns;
+  using Vector = VectorOf<Scalar, dimension>;
+  using Increment = VectorOf<Scalar, unknowns>;
+  using Line = Centreline<Scalar, dimension>;
+
+  /// What changes as the chain moves.
+  struct State {
+    explicit State(int elements) : nodes(elements), inner(elements) {}
+    typename Parts::Nodes nodes;
+    typename Parts::Inners inner;  ///< unknown of each element: its tension [N], or its twist [rad]
+  };
+
+  /// @param number  of elements   @throws std::invalid_argument as the elements, and where the number does not fit the type
+  ChainSystem(const Body& body, int number)
+      : Contacts(number),
+        chain_(body, number),
+        assembler_(number),
+        saved_(number),
+        length_(static_cast<Scalar>(body.length())),
+        unit_(static_cast<Scalar>(std::sqrt(Chain::bending(body) / body.length()))) {
+    if constexpr (dimension == 3) {
+      no_mechanism_ = factor(0) == Status::ok;  // in its natural shape
+      chain_.place_right(body);
+    }
+  }
+
+  Chain& chain() noexcept { return chain_; }
+  const Parts& parts() const noexcept { return chain_.parts(); }
+  int elements() const noexcept { return parts().size(); }
+  Scalar length() const noexcept { return length_; }
+  const Node& node(int i) const noexcept { return parts().nodes()[i]; }
+  Line centreline() const noexcept { return parts().view(parts().nodes()); }
+  /// Another state of it, seen with its kinematics.
+  Line view(const State& state) const noexcept { return parts().view(state.nodes); }
+
+  /// The state as it is.  @param state  out
+  void keep(State& state) const noexcept {
+    state.nodes.set(parts().nodes());
+    each_inner([&](int e) { state.inner[e] = parts().inners()[e]; });
+  }
+  /// Sets the whole state, without a contact.
+  void set_state(const State& state) noexcept { go_back(state, 0); }
+  /// Back to an equilibrium that was left.  @param force  of its first contact [N]
+  void go_back(const State& state, Scalar force) noexcept {
+    set(state);
+    Contacts::let_go(force);
+  }
+  /// The state of the same system in another scalar, on the same mesh.
+  template <class Other>
+  void take_state(const Other& other) noexcept {
+    for (int i = 0; i <= elements(); ++i) Chain::take_node(other.node(i), nodes()[i]);
+    each_inner([&](int e) { inners()[e] = static_cast<Scalar>(other.parts().inners()[e]); });
+    Contacts::let_go(0);
+  }
+  /// Goes on as it went from a state before, so many times as far.   @param before  becomes what the state is now
+  void go_on(State& before, Scalar ratio) noexcept {
+    Chain::go_on(nodes(), before.nodes, ratio);
+    each_inner([&](int e) { detail::extrapolate(inners()[e], before.inner[e], ratio); });
+  }
+  /// What goes on as from one state to another.  @param from  becomes the state now, less the way from there to `to`
+  void carry(State& from, const State& to) const noexcept {
+    for (int i = 0; i <= elements(); ++i) Chain::carry(node(i), from.nodes[i], to.nodes[i]);
+    each_inner([&](int e) { from.inner[e] += parts().inners()[e] - to.inner[e]; });
+  }
+  /// Gives each element the tension that belongs to the displacements of its nodes: where those alone were set.
+  void find_tensions() noexcept {
+    if constexpr (dimension == 2) chain_.parts().find_tensions();
+  }
+
+  /// n · (u, w) or n · r at s, of a state, of the mesh, and as it is drawn [m].
+  Scalar displacement(const State& state, Scalar s, const Vector& normal) const noexcept {
+    return normal.dot(Chain::displacement(view(state).at(s)));
+  }
+  Scalar displacement(Scalar s, const Vector& normal) const noexcept {
+    return normal.dot(Chain::displacement(drawn().at(s)));
+  }
+  /// Where its middle is: a beam's across alone [m].
+  auto middle() const noexcept { return Chain::middle(centreline().at(length_ / 2)); }
+  /// Whether an element has turned so far in itself that it no longer stands for a beam.
+  bool folded() const noexcept {
+    for (int e = 0; e < elements(); ++e)
+      if (Chain::folds(node(e), node(e + 1))) return true;
+    return false;
+  }
+  /// To be called where the beam has moved.
+  void look(int k) noexcept { look_in(rows_.element(k)); }
+
+  // Required by NewtonRaphson.
+
+  static constexpr bool in_pairs = Parts::has_tensions;
+
+  void set_target(Scalar t) noexcept {
+    Contacts::aim(t);
+    chain_.ends().set_target(t);
+    set_turning(1);
+    last_size_ = std::numeric_limits<Scalar>::infinity();
+  }
+  void save() noexcept {
+    keep(saved_);
+    Contacts::save_contacts();
+  }
+  void restore() noexcept {
+    set(saved_);
+    Contacts::restore_contacts();
+  }
+  Scalar size() const noexcept { return weight_; }
+  /// Strain energy before the last increment, at least that of a bend by 10⁻⁴ rad, of which no snap is told [J].
+  Scalar strain() const noexcept { return (size_ * size_ + Scalar(1e-8) * unit_ * unit_) / 2; }
+  Scalar unit() const noexcept { return unit_; }
+  Scalar round_off() const noexcept { return chain_.round_off(size_); }
+
+  Iteration<Scalar> iterate() noexcept {
+    const Status status = factor(0);
+    if (status != Status::ok) return {status, 0};
+    Contacts::feel(potential_, assembler_.energy() + inner_energy_);
+    weight_ = Contacts::weight(size_);
+    advance();
+    const Scalar size = increment();
+    // Where the last increment has blown the state up, this one is small beside it.
+    set_turning(size < near_ * (std::min)(size_, last_size_) ? Scalar(0) : Scalar(1));
+    last_size_ = size_;
+    return {status, size};
+  }
+
+  // Required by Descent, in addition: the two halves of an iteration.
+
+  /// Assembles and solves for an increment, and leaves the state as it is.
+  /// @param shift  what is added to the tangent: so many times EI/L³ on each displacement and EI/L on each rotation,
+  ///               shared out over the nodes
+  /// @return ok | singular | non_finite | iteration_limit, where an end has farther to turn than an increment leads
+  Status factor(Scalar shift) noexcept;
+  /// On the way down the forces of before are no longer there.
+  void forget_force() noexcept { rows_.fall(); }
+  /// Adds the increment to the state.
+  void advance() noexcept;
+  /// As a shift: a stiffness that is none.
+  static constexpr Scalar neutral() noexcept { return Chain::neutral(); }
+  /// Size of the last increment in the norm of the tangent [√J].
+  Scalar increment() const noexcept {
+    return std::sqrt(std::abs((rows_.any() ? rows_.energy() : assembler_.energy()) + longer_) +
+                     std::abs(inner_energy_));
+  }
+  /// V - λ f · x before the last increment was added [J].
+  Scalar potential() const noexcept { return potential_; }
+  /// How many directions there are along which the tangent of the last increment is not stiff but gives way.
+  int negative_pivots() const noexcept {
+    return rows_.any() ? rows_.negative_pivots() : assembler_.negative_pivots();
+  }
+  /// Bends it a little where nothing makes it leave an equilibrium, without a contact to where its loads push.  @param size  [m]
+  void nudge(Scalar size) noexcept { chain_.nudge(size, rows_.any() ? rows_[0].s : Scalar(-1), load_); }
+
+  // Required by LoadPath, in addition.
+
+  /// Largest rotation of a node in the last increment [rad].
+  Scalar turn() const noexcept {
+    Scalar largest = 0;
+    for (int i = 0; i <= elements(); ++i) largest = (std::max)(largest, Chain::turn(node(i), increment(i)));
+    return largest;
+  }
+
+  /// Of node i after factor(), displacements [m] and rotations [rad].
+  Increment increment(int i) const noexcept { return chain_.increment(assembler_, i); }
+  /// Adds to the state.  @param change  i -> increment of node i
+  template <class Change>
+  void move(Change&& change) noexcept {
+    longer_ = chain_.move(change, rows_);
+  }
+
+  /// What holds an end of a rod that nothing touches.   @param k  0: left, 1: right
+  auto reaction(std::size_t k) const noexcept { return chain_.reaction(k, load_); }
+  /// Strain energy, that of the springs that hold it included [J].
+  Scalar strain_energy() const noexcept {
+    Scalar energy = chain_.strain_energy([this](int e) { return rows_.in(e); });
+    detail::each_touched(rows_, [&](int e) { energy += rows_.strain_energy(parts(), e); });
+    return energy;
+  }
+  /// V - λ f · x as it lies now [J].
+  Scalar total_potential() const noexcept { return strain_energy() - parts().work(load_); }
+  /// What the section at s carries, in a piece of drawn(), which holds s.   @param thickness [m]
+  InternalForces<Scalar, dimension> internal_forces(int piece, Scalar s, Scalar thickness) const noexcept {
+    int e = drawn_.element_of(piece);
+    // Where a contact was drawn instead of a node.
+    if (e > 0 && s < node(e).s) --e;
+    else if (e + 1 < elements() && s > node(e + 1).s) ++e;
+    const Scalar from = node(e).s, to = node(e + 1).s, at = (std::min)((std::max)(s, from), to);
+    return chain_.internal_forces(rows_, e,
+                                  {from, to, at, e + 1 == elements(), at == from || at == drawn_[piece].s},
+                                  load_, thickness, drawn());
+  }
+
+  // What is seen: the mesh, and in it the places of contacts.
+
+  /// To be called where the beam has moved.
+  void draw() noexcept {
+    detail::each_touched(rows_, [this](int e) { look_in(e); });
+    drawn_.draw(
+        elements(), [this](int i) -> const Node& { return node(i); },
+        [this](Scalar s) { return element_at(s); }, rows_.size(), [this](int k) { return rows_[k].s; },
+        [this](int k) { return mark(k); }, [this](int e, Scalar s) { return chain_.node_within(e, s); });
+  }
+  Line drawn() const noexcept { return parts().view(drawn_); }
+
+ protected:
+  using Contacts::load_;
+
+ private:
+  friend Contacts;
+  using Contacts::rows_;
+  typename Parts::Nodes& nodes() noexcept { return chain_.parts().nodes(); }
+  typename Parts::Inners& inners() noexcept { return chain_.parts().inners(); }
+  void set(const State& state) noexcept {
+    nodes().set(state.nodes);
+    each_inner([&](int e) { inners()[e] = state.inner[e]; });
+  }
+  template <class F>
+  void each_inner(F&& f) const noexcept {
+    for (int e = 0; Parts::has_inners && e < elements(); ++e) f(e);
+  }
+  void begin_path() noexcept { chain_.ends().begin_path(nodes()); }
+  void look_in(int e) noexcept {
+    [[maybe_unused]] const Scalar tension = rows_.look(parts(), e);
+    if constexpr (dimension == 2) chain_.parts().set_tension(e, tension);
+  }
+  void set_turning([[maybe_unused]] Scalar share) noexcept {
+    if constexpr (dimension == 2) chain_.parts().set_turning(share);
+  }
+  int element_at(Scalar s) const noexcept { return centreline().segment_at(s); }
+  /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one.  Where a body bends the beam by a radian within
+  /// an element, those on both sides of a node put the contact up to a hundredth of it apart.
+  int element_at(Scalar s, int before) const noexcept {
+    const Scalar from = node(before).s, to = node(before + 1).s, over = (to - from) / 100;
+    return from - over <= s && s <= to + over ? before : element_at(s);
+  }
+  /// A node of drawn() where a contact is: on what touches it, where an equilibrium was found; the last increment has left that by its square.
+  Node mark(int k) const noexcept {
+    const Contact& contact = rows_[k];
+    const Scalar off = contact.gap + contact.force * contact.compliance,
+                 left = std::abs(off) < length_ / 1000 ? off : Scalar(0);
+    return chain_.mark(rows_.element(k), contact, Vector(left * contact.normal));
+  }
+  /// Of each node the share of half the elements beside it.
+  void add_shift(Scalar shift) noexcept {
+    for (int i = 0; i <= elements(); ++i) {
+      const Scalar length = node((std::min)(i + 1, elements())).s - node((std::max)(i - 1, 0)).s,
+                   share = shift * unit_ * unit_ * length / (2 * length_);
+      Increment diagonal = Increment::Constant(share);
+      diagonal.template head<dimension>() /= length_ * length_;
+      assembler_.add_at(i, Eigen::Matrix<Scalar, unknowns, unknowns>(diagonal.asDiagonal()),
+                        Increment::Zero());
+    }
+  }
+
+  Chain chain_;
+  typename Chain::Assembler assembler_;
+  State saved_;
+  Scalar length_, unit_;
+  static constexpr Scalar near_ = Scalar(0.05);  // to an equilibrium: an increment in units of the state
+  Scalar size_ = 0, last_size_ = 0, weight_ = 0, potential_ = 0, inner_energy_ = 0, longer_ = 0;
+  bool no_mechanism_ = false;  // its ends and springs hold it
+  typename Chain::Drawn drawn_{elements()};
+};
+
+// Outside of the class: only so does "extern template class ChainSystem<…>;" keep a compiler from them.
+template <class Chain>
+Status ChainSystem<Chain>::factor(Scalar shift) noexcept {
+  if (!chain_.ends().follow(nodes())) return Status::iteration_limit;
+  const detail::ChainEnergies<Scalar> energies = chain_.assemble(load_, rows_, assembler_);
+  if (shift != 0) add_shift(shift);
+  inner_energy_ = energies.inner, longer_ = 0;
+  weight_ = size_ = std::sqrt(2 * energies.measured);
+  potential_ = energies.strain - energies.work;
+  if (rows_.any()) potential_ += rows_.potential() + rows_.friction_potential();
+  chain_.ends().hold(nodes(), rows_, assembler_);
+  const Status status = rows_.any() ? rows_.solve(assembler_) : assembler_.solve();
+  // A round rod that is bowed between two ends on one axis may roll about it: that takes no force, and leads nowhere.
+  if (status == Status::singular && shift == 0 && no_mechanism_) return factor(neutral());
+  return status;
+}
+
+template <class Chain>
+void ChainSystem<Chain>::advance() noexcept {
+  longer_ = chain_.advance(assembler_, rows_, [this](Scalar s, int e) { return element_at(s, e); });
+}
+
+}  // namespace hapbeam
