@@ -86,7 +86,7 @@ class BeamSystem
   /// To be called where the beam has moved.
   void look(int k) noexcept {
     const int e = rows_.element(k);
-    beam_.set_tension(e, rows_.look(beam_, e));
+    rows_.look(beam_, e, [&](Scalar N) { beam_.set_tension(e, N); });
   }
   /// Sets the whole state, without a contact.
   void set_state(const State& state) noexcept { go_back(state, 0); }

@@ -79,7 +79,9 @@ class RodSystem
   }
 
   /// To be called where the rod has moved.
-  void look(int k) noexcept { (void)rows_.look(rod_, rows_.element(k)); }
+  void look(int k) noexcept {
+    rows_.look(rod_, rows_.element(k), [](Scalar) {});
+  }
 
   /// Sets the whole state, without a contact.
   void set_state(const State& state) noexcept { go_back(state, 0); }
@@ -236,7 +238,7 @@ class RodSystem
 
   /// To be called where the rod has moved.
   void draw() noexcept {
-    each_touched([this](int e) { (void)rows_.look(rod_, e); });
+    for (int k = 0; k < rows_.size(); ++k) look(k);
     drawn_.draw(
         elements(), [this](int i) -> const Node& { return node(i); },
         [this](Scalar s) { return element_at(s); }, rows_.size(), [this](int k) { return rows_[k].s; },

@@ -37,7 +37,8 @@ struct alignas(2 * Abreast * sizeof(Scalar)) ChainRows {
   /// Adds elements that were computed side by side, in the order of PairOrder, to these rows and the next.
   /// @tparam Full  whether all of them are elements   @param count  of pairs that are   @param odd  the first is none
   template <bool Full, class Tangent, class Residual>
-  static void add(ChainRows* rows, int count, bool odd, const Tangent& K, const Residual& r) noexcept {
+  [[gnu::always_inline]] static void add(ChainRows* rows, int count, bool odd, const Tangent& K,
+                                         const Residual& r) noexcept {
     using Wide = std::decay_t<decltype(r[0])>;
     static_assert(Wide::size == 2 * Abreast, "a group of elements is one of rows");
     const auto kept = [odd](Wide wide) {

@@ -39,6 +39,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -63,6 +64,33 @@ struct SolveReport {
   Scalar reached;  ///< path position t that the state stands for, 1 where status is ok
   Scalar error;  ///< |Δ| of the increment that would come next, estimated, over √(2V): relative force error
   Scalar step;   ///< of the path, to be tried first when the path is continued from here
+};
+
+/// What the first two increments of a solve made of the next ones, for solves that follow each other as the ticks of a hand do: |Δ(k+1)| = C|Δ(k)|².
+/// An increment within a factor of two of the one that was measured, in units of √(2V), is taken to have four times its C.  That rises by a quarter with each
+/// solve that is accepted by it, so that it is measured anew before it is a guess.
+template <typename Scalar>
+class Curvature {
+ public:
+  void forget() noexcept { known_ = {}; }
+  /// C √(2V) of increment k, of so many √(2V); infinite where nothing is known.
+  Scalar of(int k, Scalar size) noexcept {
+    if (k > 2 || !(known_[k - 1].size < 2 * size && size < 2 * known_[k - 1].size))
+      return std::numeric_limits<Scalar>::infinity();
+    return 4 * known_[k - 1].c;
+  }
+  void measure(int k, Scalar size, Scalar next) noexcept {
+    if (k <= 2) known_[k - 1] = {size, next / (size * size)};
+  }
+  void accept(int k) noexcept {
+    if (k <= 2) known_[k - 1].c *= Scalar(1.25);
+  }
+
+ private:
+  struct Known {
+    Scalar size = 0, c = 0;
+  };
+  std::array<Known, 2> known_;
 };
 
 namespace detail {
@@ -91,8 +119,10 @@ struct NewtonRaphson {
   double smallest_step = 1e-4;        ///< of the path
 
   /// Goes the way to t = 1.  @param first_step  of the path: 1, or what the report of an unfinished solve says
+  /// @param known  of the solves before, null: they say nothing of this one
   template <class System>
-  auto solve(System& system, typename System::Scalar first_step = 1) const noexcept
+  auto solve(System& system, typename System::Scalar first_step = 1,
+             Curvature<typename System::Scalar>* known = nullptr) const noexcept
       -> SolveReport<typename System::Scalar> {
     using S = typename System::Scalar;
     SolveReport<S> report{Status::ok, 0, 0, 0, 0, first_step};
@@ -101,7 +131,7 @@ struct NewtonRaphson {
     while (report.reached < 1) {
       const S t = (std::min)(report.reached + step, S(1));
       system.set_target(t);
-      report.status = iterate(system, report);
+      report.status = iterate(system, report, known);
       if (report.status == Status::ok) {
         report.reached = t;
         ++report.steps;
@@ -127,7 +157,7 @@ struct NewtonRaphson {
     return k > 2 ? 10 : 100;
   }
   template <class System, typename S>
-  Status iterate(System& system, SolveReport<S>& report) const noexcept {
+  Status iterate(System& system, SolveReport<S>& report, Curvature<S>* known) const noexcept {
     const S n = static_cast<S>(system.elements());
     const S floor = S(absolute_tolerance) * system.unit();
     const S noise = n * std::sqrt(std::numeric_limits<S>::epsilon()) / 20;
@@ -142,8 +172,14 @@ struct NewtonRaphson {
       const S state = system.size(), tolerance = S(relative_tolerance) * state;
       // The first increment holds the jump of the contact, which the tangent's norm overstates: C is measured without it.
       const S measured = k > 2 ? 4 * iteration.size / (before * before) : S(0);
-      const S curvature = (std::max)(
-          {measured, measured_before, state > 0 ? least_curvature<System>(k, from_afar) / state : S(0)});
+      S least = least_curvature<System>(k, from_afar);
+      if (known) {
+        if (k > 1) known->measure(k - 1, before / state, iteration.size / state);
+        // The increment of w that follows one of u is another in the next element.
+        if (k > 1 || !detail::InPairs<System>::value)
+          least = (std::min)(least, known->of(k, iteration.size / state));
+      }
+      const S curvature = (std::max)({measured, measured_before, state > 0 ? least / state : S(0)});
       // No larger than this one, which is what round-off would else make of it.
       const S next =
           state > 0 ? (std::min)(curvature * iteration.size, S(1)) * iteration.size : iteration.size;
@@ -151,8 +187,10 @@ struct NewtonRaphson {
       if (!std::isfinite(state)) return Status::non_finite;
       const bool lands = k == 1 || before <= std::sqrt(noise) * state;
       if (next <= (std::max)(tolerance, floor) || (lands && iteration.size <= noise * state) ||
-          iteration.size <= detail::round_off(system, 0))
+          iteration.size <= detail::round_off(system, 0)) {
+        if (known) known->accept(k);
         return Status::ok;
+      }
       if (k == 8 && iteration.size > S(0.9) * state) return Status::iteration_limit;
       shrinks = iteration.size <= before / 2;
       from_afar = from_afar || iteration.size > S(0.05) * state;
