@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <hapbeam/centreline.hpp>
 #include <hapbeam/fem/contact_mesh.hpp>
 
 namespace hapbeam::testing {

@@ -18,6 +18,7 @@
 
 #include <hapbeam/body/piece_chain.hpp>
 #include <hapbeam/element/pack.hpp>
+#include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {
 
@@ -59,7 +60,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
   static constexpr int state = 4, both = 2 * state, gradient = both + Most, wide = gradient + 1;
   static constexpr int own = 4, ends = Most > 1 ? 4 : 3, made = own + ends, all = made + ends;
   // Whole blocks of what stands side by side, of which the last may have more than is read.
-  using Block = Pack<S, 4>;
+  using Block = Pack<S, (std::min)(pack_size<S>, 4)>;
   static constexpr std::size_t block = Block::size, last = all + Most, width = (last / block + 1) * block;
   using Row = std::array<S, width>;
   using Front = std::array<std::array<S, wide>, both>;
@@ -325,17 +326,13 @@ class TouchedElement : private PieceChain<Element, S, Most> {
       constexpr std::size_t u = decltype(number)::value;
       const Row row_u = record.rows[u] = A[u];
       const S over = 1 / row_u[u];
-      const auto take_off = [&](auto start) {
-        constexpr std::size_t first = decltype(start)::value;
-        for (std::size_t i = (std::max)(first, u + 1); i < (std::min)(first + block, std::size_t(all)); ++i) {
-          const Block factor(row_u[i] * over);
-          for (std::size_t j = first; j < width; j += block)
-            (Block::load(&A[i][j]) - factor * Block::load(&row_u[j])).store(&A[i][j]);
-        }
-      };
-      take_off(std::integral_constant<std::size_t, 0>());
-      take_off(std::integral_constant<std::size_t, block>());
-      take_off(std::integral_constant<std::size_t, 2 * block>());
+      HAPBEAM_UNROLL
+      for (std::size_t i = u + 1; i < all; ++i) {
+        const Block factor(row_u[i] * over);
+        HAPBEAM_UNROLL
+        for (std::size_t j = i / block * block; j < width; j += block)
+          (Block::load(&A[i][j]) - factor * Block::load(&row_u[j])).store(&A[i][j]);
+      }
       for (std::size_t c = 0; c < Most; ++c) {
         const S factor = row_u[all + c] * over;
         residual_[c] -= factor * row_u[last];
@@ -438,7 +435,9 @@ class TouchedElement : private PieceChain<Element, S, Most> {
   static S dot(const A& a, const B& b) noexcept {
     Block sum = Block::load(&a[0]) * Block::load(&b[0]);
     for (std::size_t j = block; j < Size; j += block) sum += Block::load(&a[j]) * Block::load(&b[j]);
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    S whole = sum[0];
+    for (int i = 1; i < Block::size; ++i) whole += sum[i];
+    return whole;
   }
   /// Derivatives of u, w, θ, s of a tip by ε, p, q, its s, and u, w, θ, s of its root.
   using Tip = std::array<std::array<S, 8>, state>;
