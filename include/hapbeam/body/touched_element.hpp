@@ -176,7 +176,10 @@ class TouchedElement : private PieceChain<Element, S, Most> {
         leans, pp + 2 * pq + qq + bow, lengthens, pp + pq, pq + qq, swings, D.pN + D.qN,  //
         cl, lengthens, lL, pL, qL, gl, Nl;
     const Eigen::Matrix<S, 3, 7> there = by * parts;
-    const Eigen::Matrix<S, 3, 3> K = there.template leftCols<3>() * by.transpose();
+    Eigen::Matrix<S, 3, 3> K;
+    for (int m = 0; m < 3; ++m)
+      for (int n = 0; n <= m; ++n)
+        K(m, n) = K(n, m) = there(m, 0) * by(n, 0) + there(m, 1) * by(n, 1) + there(m, 2) * by(n, 2);
     const auto by_a = there.col(3), by_b = there.col(4), pulls = there.col(5), lacks = there.col(6);
     // A takes it off, and B adds it.
     const std::array<std::size_t, 3> of_a{0, 1, 3}, of_b{4, 5, 7};

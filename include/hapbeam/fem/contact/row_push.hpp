@@ -19,7 +19,6 @@
 
 #include <hapbeam/fem/contact/contact_work.hpp>
 #include <hapbeam/fem/contact/continuation.hpp>
-#include <hapbeam/fem/contact/friction_balance.hpp>
 #include <hapbeam/fem/contact/row_contacts.hpp>
 #include <hapbeam/fem/contact/row_foresight.hpp>
 #include <hapbeam/fem/contact/several_friction.hpp>
