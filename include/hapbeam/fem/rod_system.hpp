@@ -142,6 +142,8 @@ class RodSystem
 
   // Required by Descent, in addition: the two halves of an iteration.
 
+  void find_tensions() noexcept {}
+
   /// Assembles and solves for an increment, and leaves the state as it is.
   /// @param shift  what is added to the tangent: so many times EI/L³ on each place and EI/L on each rotation, shared out
   /// over the nodes   @return ok | singular | non_finite | iteration_limit, where an end has farther to turn than an increment leads
