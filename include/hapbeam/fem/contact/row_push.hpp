@@ -305,7 +305,7 @@ class RowPush : private RowContacts<Element, System> {
     if (first) {
       foresight_.go_on(system);
       began_ = true;
-      if (!goes_on || rough) curvature_.forget();
+      if (!goes_on || rough) curvature_ = {};
       if (goes_on) {
         Status status;
         // What friction settles between two solves is no step of a hand.

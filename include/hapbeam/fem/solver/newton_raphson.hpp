@@ -39,7 +39,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -72,25 +71,20 @@ struct SolveReport {
 template <typename Scalar>
 class Curvature {
  public:
-  void forget() noexcept { known_ = {}; }
   /// C √(2V) of increment k, of so many √(2V); infinite where nothing is known.
-  Scalar of(int k, Scalar size) noexcept {
-    if (k > 2 || !(known_[k - 1].size < 2 * size && size < 2 * known_[k - 1].size))
-      return std::numeric_limits<Scalar>::infinity();
-    return 4 * known_[k - 1].c;
+  Scalar of(int k, Scalar size) const noexcept {
+    const bool known = k <= 2 && size_[k - 1] < 2 * size && size < 2 * size_[k - 1];
+    return known ? 4 * c_[k - 1] : std::numeric_limits<Scalar>::infinity();
   }
   void measure(int k, Scalar size, Scalar next) noexcept {
-    if (k <= 2) known_[k - 1] = {size, next / (size * size)};
+    if (k <= 2) size_[k - 1] = size, c_[k - 1] = next / (size * size);
   }
   void accept(int k) noexcept {
-    if (k <= 2) known_[k - 1].c *= Scalar(1.25);
+    if (k <= 2) c_[k - 1] *= Scalar(1.25);
   }
 
  private:
-  struct Known {
-    Scalar size = 0, c = 0;
-  };
-  std::array<Known, 2> known_;
+  Scalar size_[2] = {0, 0}, c_[2] = {0, 0};
 };
 
 namespace detail {
