@@ -3,7 +3,7 @@
 
 #include "support/catch.hpp"
 #include <hapbeam/fem/contact/contact_work.hpp>
-#include <hapbeam/fem/contact/friction_balance.hpp>
+#include <hapbeam/fem/contact/several_friction.hpp>
 
 using namespace hapbeam;
 

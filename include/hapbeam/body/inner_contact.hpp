@@ -74,39 +74,46 @@ struct InnerState {
 
 enum class InnerKind { round, along };
 
-template <typename S, int D = 2>
-struct InnerContact : InnerState<S> {
+/// What contacts in the plane and in space have.
+template <typename S, int D>
+struct InnerRow : InnerState<S, D> {
   using Kind = InnerKind;
+  using Vector = VectorOf<S, D>;
 
   Kind kind = Kind::round;
-  Vector2<S> centre{0, 0};  ///< [m]
-  Vector2<S> normal{0, 1};  ///< n, unit; of a circle from the centre to the curve, found
+  Vector normal =
+      Vector::Unit(D - 1);  ///< n, unit; of what is round from its centre or axis to the curve, found
   S reach = 0;              ///< [m], or d
-  S side = 1;               ///< of the beam on which the circle is
-  S curvature = 0;          ///< of the circle for which a place is held [1/m]
-  S compliance = 0;         ///< of what holds the circle [m/N]:  D = reach - λ compliance
+  S curvature = 0;          ///< of what is round, for which a place is held [1/m]
+  S compliance = 0;         ///< of what holds that [m/N]:  D = reach - λ compliance
   S least = 0, most = 0;    ///< s stays between them [m]
 
-  bool waits = false;         ///< s stays in the next solve
-  bool rests = false;         ///< s stays, between two elements
-  bool rough = false;         ///< there is friction
-  Vector2<S> friction{0, 0};  ///< on the beam [N]
-  S friction_stiffness = 0;   ///< along the surface [N/m]
+  bool waits = false;                ///< s stays in the next solve
+  bool rests = false;                ///< s stays, between two elements
+  bool rough = false;                ///< there is friction
+  Vector friction = Vector::Zero();  ///< on the beam [N]
 
   // Found where an element looks at it.
-  S gap = 0;                 ///< D - reach, or n · (u, w) - d [m]
-  Vector2<S> place{0, 0};    ///< of the curve [m]
-  Vector2<S> tangent{1, 0};  ///< of it
+  S gap = 0;                         ///< D - reach, or n · (u, w) - d, in space n · r - d [m]
+  Vector place = Vector::Zero();     ///< of the curve [m]
+  Vector tangent = Vector::Unit(0);  ///< of it
+};
+
+template <typename S, int D = 2>
+struct InnerContact : InnerRow<S, D> {
+  Vector2<S> centre{0, 0};   ///< [m]
+  S side = 1;                ///< of the beam on which the circle is
+  S friction_stiffness = 0;  ///< along the surface [N/m]
 
   /// What is led along a path [m].
   Vector2<S>& centre_or_tip() noexcept { return centre; }
   /// From there to where the circle would touch the curve as it lies.
   Vector2<S> way_to_curve() const noexcept {
-    const Vector2<S> across = side * Vector2<S>(tangent.y(), -tangent.x());
-    return place - reach / across.norm() * across - centre;
+    const Vector2<S> across = side * Vector2<S>(this->tangent.y(), -this->tangent.x());
+    return this->place - this->reach / across.norm() * across - centre;
   }
   /// How far the place has moved from where it is at rest [m].
-  Vector2<S> displacement() const noexcept { return place - Vector2<S>(this->s, 0); }
+  Vector2<S> displacement() const noexcept { return this->place - Vector2<S>(this->s, 0); }
 };
 
 }  // namespace hapbeam::detail

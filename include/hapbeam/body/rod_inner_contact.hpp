@@ -42,42 +42,27 @@ struct InnerState<S, 3> {
 };
 
 template <typename S>
-struct InnerContact<S, 3> : InnerState<S, 3> {
-  using Kind = InnerKind;
-  using Vector = VectorOf<S, 3>;
+struct InnerContact<S, 3> : InnerRow<S, 3> {
+  using typename InnerRow<S, 3>::Vector;
   using Matrix = Eigen::Matrix<S, 3, 3>;
 
-  Kind kind = Kind::round;
   Shaft<S> axis;                 ///< of the capsule
   Vector side = Vector::Zero();  ///< about from the curve to the axis, unit: from where the capsule has come
-  Vector normal = Vector::UnitZ();  ///< n, unit; of a capsule from the axis to the curve, found
-  S reach = 0;                      ///< [m], or d
-  S curvature = 0;                  ///< of the capsule for which a place is held [1/m]
-  S compliance = 0;                 ///< of what holds the capsule [m/N]:  D = reach - λ compliance
-  S least = 0, most = 0;            ///< s stays between them [m]
-
-  bool waits = false;  ///< s stays in the next solve
-  bool seeks = true;   ///< where the curve is tangent, before that; not beside another place of its body
-  bool rests = false;  ///< s stays, between two elements
-  bool rough = false;  ///< there is friction
-  bool stays = false;  ///< s stays until an equilibrium is found,
-  S off = 0;           ///< and is so far from where the curve is tangent then [m]
-  Vector friction = Vector::Zero();          ///< on the rod [N]
+  bool seeks = true;             ///< where the curve is tangent, first; not beside another place of its body
+  bool stays = false;            ///< s stays until an equilibrium is found,
+  S off = 0;                     ///< and is so far from where the curve is tangent then [m]
   Matrix friction_tangent = Matrix::Zero();  ///< across the normal [N/m]
-
-  // Found where an element looks at it.
-  S gap = 0;                         ///< D - reach, or n · r - d [m]
-  Vector place = Vector::Zero();     ///< of the curve [m]
-  Vector tangent = Vector::UnitX();  ///< of it
-  S wraps =
-      0;  ///< how far its curvature makes up for that of the capsule along it, 1: the distance has no minimum
+  /// How far its curvature makes up for that of the capsule along it, 1: the distance has no minimum; found where an element looks at it.
+  S wraps = 0;
 
   /// What is led along a path [m].
   Vector& centre_or_tip() noexcept { return axis.tip; }
   /// From there to where the capsule would touch the curve as it lies.
-  Vector way_to_curve() const noexcept { return place - reach * normal - axis.at(axis.nearest(place)); }
+  Vector way_to_curve() const noexcept {
+    return this->place - this->reach * this->normal - axis.at(axis.nearest(this->place));
+  }
   /// Where the place is [m].
-  Vector displacement() const noexcept { return place; }
+  Vector displacement() const noexcept { return this->place; }
 };
 
 }  // namespace hapbeam::detail

@@ -17,6 +17,8 @@
 #include <type_traits>
 
 #include <hapbeam/body/piece_chain.hpp>
+#include <hapbeam/element/pack.hpp>
+#include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {
 
@@ -57,6 +59,10 @@ class TouchedElement : private PieceChain<Element, S, Most> {
   // own come first; a node of the mesh has no s.
   static constexpr int state = 4, both = 2 * state, gradient = both + Most, wide = gradient + 1;
   static constexpr int own = 4, ends = Most > 1 ? 4 : 3, made = own + ends, all = made + ends;
+  // Whole blocks of what stands side by side, of which the last may have more than is read.
+  using Block = Pack<S, (std::min)(pack_size<S>, 4)>;
+  static constexpr std::size_t block = Block::size, last = all + Most, width = (last / block + 1) * block;
+  using Row = std::array<S, width>;
   using Front = std::array<std::array<S, wide>, both>;
 
  public:
@@ -109,7 +115,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     std::array<std::array<S, state>, Most + 2> nodes{};
     for (int i = 0; i < 3; ++i) nodes[0][of(i)] = by[i], nodes[of(count_ + 1)][of(i)] = by[3 + i];
     const auto go = [&](int k, int root, int other) {
-      std::array<S, all> x{};
+      Row x{};
       for (int i = 0; i < ends; ++i)
         x[of(own + i)] = nodes[of(root)][of(i)], x[of(made + i)] = nodes[of(other)][of(i)];
       nodes[of(k + 1)] = recover(k, x, forces, longer);
@@ -151,31 +157,30 @@ class TouchedElement : private PieceChain<Element, S, Most> {
             qL = ql + D.qN * cl, lL = ll + Nl * cl;
     const S pull = N_ + missing, gp = D.p + D.pN * missing, gq = D.q + D.qN * missing,
             gl = D.D + l * D.l - N_ * (1 + stretch) - p * D.p - q * D.q + Nl * missing;
-    // By place of B against A, and length: of the chord, and of its angle.
-    using Vector3 = VectorOf<S, 3>;
-    Vector3 along, turn, shrink;
+    // By place of B against A, and length: the columns are those of the chord, of its angle, and of the length alone.
     const S turns = larger(N_, S(N_ + turning_ * missing)), swings = gp + gq;
-    S bow, across;
+    Eigen::Matrix<S, 3, 3> by;
+    S bow, leans = cp + cq, lengthens = pL + qL;
     if constexpr (Turns) {
-      const S j = 1 / chord.length;
-      along = Vector3(chord.along.x(), chord.along.y(), 0), turn = Vector3(-along.y() * j, along.x() * j, 0);
-      shrink = along, bow = turns * chord.length, across = swings * j;
+      const S j = 1 / chord.length, x = chord.along.x(), y = chord.along.y();
+      by << x, -y * j, 0, y, x * j, 0, 0, 0, 1;
+      bow = turns * chord.length, leans -= swings * j;
     } else {
       const S alpha = chord.angle;
-      along = Vector3(1, alpha, -alpha * alpha / 2), turn = Vector3(0, i, -chord.angle * i);
-      shrink = Vector3(0, 0, 1), bow = turns * l, across = swings * i;
+      by << 1, 0, 0, alpha, i, 0, -alpha * alpha / 2, -alpha * i, 1;
+      bow = turns * l, lengthens -= swings * i;
     }
-    const Vector3 e(0, 0, 1), by_a = cp * along + (pp + pq) * turn + pL * e,
-                              by_b = cq * along + (pq + qq) * turn + qL * e;
-    const Vector3 to_turn = (cp + cq) * along - across * shrink + (pL + qL) * e;
+    // Of chord, angle and length: the tangent, rotations of A and B, the gradient, and N.
+    Eigen::Matrix<S, 3, 7> parts;
+    parts << cc, leans, cl, cp, cq, pull, 1,                                              //
+        leans, pp + 2 * pq + qq + bow, lengthens, pp + pq, pq + qq, swings, D.pN + D.qN,  //
+        cl, lengthens, lL, pL, qL, gl, Nl;
+    const Eigen::Matrix<S, 3, 7> there = by * parts;
     Eigen::Matrix<S, 3, 3> K;
     for (int m = 0; m < 3; ++m)
       for (int n = 0; n <= m; ++n)
-        K(m, n) = K(n, m) = cc * along[m] * along[n] + to_turn[m] * turn[n] + turn[m] * to_turn[n] +
-                            (pp + 2 * pq + qq + bow) * turn[m] * turn[n] +
-                            cl * (along[m] * e[n] + e[m] * along[n]) + lL * e[m] * e[n];
-    const Vector3 pulls = pull * along + swings * turn + gl * e,
-                  lacks = along + (D.pN + D.qN) * turn + Nl * e;
+        K(m, n) = K(n, m) = there(m, 0) * by(n, 0) + there(m, 1) * by(n, 1) + there(m, 2) * by(n, 2);
+    const auto by_a = there.col(3), by_b = there.col(4), pulls = there.col(5), lacks = there.col(6);
     // A takes it off, and B adds it.
     const std::array<std::size_t, 3> of_a{0, 1, 3}, of_b{4, 5, 7};
     for (int m = 0; m < 3; ++m) {
@@ -260,30 +265,38 @@ class TouchedElement : private PieceChain<Element, S, Most> {
       by_turn = Vector(-alpha, 1);
       both_by = Vector(0, 0), turn_twice = Vector(-1, 0);
     }
-    // What is by u, w, θ, s of the tip, by what the tip is made of.
-    Tip& tip = record.tip;
-    tip = {l * by_stretch * side, l * by_turn * side, h + l * p * by_turn, l, side * (q - p)};
-    std::array<std::array<S, all + Most + 1>, all> A;  // the upper triangle
-    constexpr std::size_t last = all + Most;
+    // u, w, θ, s of the tip by what the tip is made of.
+    const Vector on = l * by_stretch * side, turn = l * by_turn * side, slides = h + l * p * by_turn;
+    const S turns = side * (q - p);
+    Tip& T = record.tip;
+    T = {{{on.x(), l * turn.x(), 0, slides.x(), 1, 0, -turn.x()},
+          {on.y(), l * turn.y(), 0, slides.y(), 0, 1, -turn.y()},
+          {0, -l, l, turns, 0, 0, 1},
+          {0, 0, 0, 1}}};
+    if constexpr (Most > 1) T[0][7] = -slides.x(), T[1][7] = -slides.y(), T[2][7] = -turns;
+    // TᵀFT of the front, and TᵀF of the rest: the upper triangle is right.
+    std::array<Row, all> A;
     const std::size_t from_tip = of(from), from_other = of(state - from);
-    const auto column = [&](std::size_t j) {
-      return tip.spread(front_[from_tip][j], front_[from_tip + 1][j], front_[from_tip + 2][j],
-                        front_[from_tip + 3][j]);
-    };
-    const std::array<std::array<S, made>, 4> half{column(from_tip), column(from_tip + 1),
-                                                  column(from_tip + 2), column(from_tip + 3)};
-    for (std::size_t i = 0; i < made; ++i) {
-      const auto row = tip.spread(half[0][i], half[1][i], half[2][i], half[3][i]);
-      for (std::size_t j = i; j < made; ++j) A[i][j] = row[j];
+    std::array<Row, state> half{};
+    for (std::size_t i = 0; i < state; ++i) {
+      const auto& f = front_[from_tip + i];
+      for (std::size_t j = 0; j < T[0].size(); ++j)
+        half[i][j] = f[from_tip] * T[0][j] + f[from_tip + 1] * T[1][j] + f[from_tip + 2] * T[2][j] +
+                     f[from_tip + 3] * T[3][j];
+      for (std::size_t c = 0; c < ends; ++c) half[i][made + c] = f[from_other + c];
+      for (std::size_t c = 0; c <= Most; ++c) half[i][all + c] = f[both + c];
     }
-    const auto take = [&](std::size_t j, const std::array<S, made>& values) {
-      for (std::size_t i = 0; i < made; ++i) A[i][j] = values[i];
-    };
-    for (std::size_t c = 0; c < ends; ++c) take(made + c, column(from_other + c));
-    for (std::size_t c = 0; c <= Most; ++c) take(all + c, column(both + c));
+    for (std::size_t i = 0; i < made; ++i)
+      for (std::size_t j = 0; j < width; j += block) {
+        Block sum(0);
+        for (std::size_t t = 0; t < state; ++t) sum += Block(T[t][i]) * Block::load(&half[t][j]);
+        sum.store(&A[i][j]);
+      }
     for (std::size_t i = 0; i < ends; ++i) {
-      for (std::size_t j = i; j < ends; ++j) A[made + i][made + j] = front_[from_other + i][from_other + j];
-      for (std::size_t c = 0; c <= Most; ++c) A[made + i][all + c] = front_[from_other + i][both + c];
+      const auto& f = front_[from_other + i];
+      A[made + i].fill(0);
+      for (std::size_t j = 0; j < ends; ++j) A[made + i][made + j] = f[from_other + j];
+      for (std::size_t c = 0; c <= Most; ++c) A[made + i][all + c] = f[both + c];
     }
     // Its own energy, without N, and what its way bends the forces on the tip.
     const S lack = l * D.N, stiff = l * D.NN, inverse = 1 / stiff, missing = -lack * inverse;
@@ -314,11 +327,14 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     const S along = std::abs(front_[from_tip + 3][from_tip + 3]);  // of which little is left
     const auto eliminate = [&](auto number) {
       constexpr std::size_t u = decltype(number)::value;
-      const auto& row_u = A[u];
+      const Row row_u = record.rows[u] = A[u];
       const S over = 1 / row_u[u];
+      HAPBEAM_UNROLL
       for (std::size_t i = u + 1; i < all; ++i) {
-        const S factor = row_u[i] * over;
-        for (std::size_t j = i; j <= last; ++j) A[i][j] -= factor * row_u[j];
+        const Block factor(row_u[i] * over);
+        HAPBEAM_UNROLL
+        for (std::size_t j = i / block * block; j < width; j += block)
+          (Block::load(&A[i][j]) - factor * Block::load(&row_u[j])).store(&A[i][j]);
       }
       for (std::size_t c = 0; c < Most; ++c) {
         const S factor = row_u[all + c] * over;
@@ -328,7 +344,6 @@ class TouchedElement : private PieceChain<Element, S, Most> {
       const S by = row_u[last] * row_u[last] * over;
       change_ -= by / 2;
       if (u < 3) longer_ += std::abs(by);
-      record.rows[u] = row_u;
     };
     eliminate(std::integral_constant<std::size_t, 0>());
     eliminate(std::integral_constant<std::size_t, 1>());
@@ -368,8 +383,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
   }
 
   /// What was condensed with a piece, and its tip.   @param x  increments of its root and of the other end of the front, from own on   @return that of its tip
-  std::array<S, state> recover(int k, std::array<S, all>& x, const std::array<S, Most>& forces,
-                               S& longer) noexcept {
+  std::array<S, state> recover(int k, Row& x, const std::array<S, Most>& forces, S& longer) noexcept {
     const Record& record = records_[of(k)];
     Contact& contact = in_order(k);
     // A place is where λ n · t = 0.  A force that becomes a multiple of itself would take it as many times too far as n · t is not yet none.
@@ -377,13 +391,12 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     const S by = forces[of(number)], most = std::abs(contact.force),
             beyond = by - std::clamp(by, -most, most);
     const auto lacks = [&](int u) {
-      const auto& row = record.rows[of(u)];
-      S sum = row[all + Most];
-      for (int i = u + 1; i < all; ++i) sum += row[of(i)] * x[of(i)];
-      for (int c = 0; c < Most; ++c) sum += row[of(all + c)] * forces[of(c)];
-      if (u == 3) sum -= row[of(all + number)] * beyond;
-      return sum;
+      const Row& row = record.rows[of(u)];
+      return dot<width>(row, x) - (u == 3 ? row[of(all + number)] * beyond : S(0));
     };
+    for (int c = 0; c < Most; ++c) x[of(all + c)] = forces[of(c)];
+    x[last] = 1;
+    const S waiting = record.waits ? lacks(3) : S(0);
     for (int u = record.moves ? 3 : 2; u >= 0; --u) x[of(u)] = -lacks(u) / record.rows[of(u)][of(u)];
     S change = record.lack + record.tension[3] * record.side * (Most > 1 ? x[3] - x[own + 3] : x[3]);
     for (std::size_t i = 0; i < 3; ++i) change += record.tension[i] * x[i];
@@ -391,7 +404,8 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     longer += record.lack * (2 * step + record.lack / record.stiff);
     Piece& piece = contact.piece;
     piece.stretch += x[0], piece.at_root += x[1], piece.at_tip += x[2], piece.tension += step;
-    const std::array<S, state> tip = record.tip.move(x);
+    std::array<S, state> tip;
+    for (std::size_t i = 0; i < state; ++i) tip[i] = dot<8>(record.tip[i], x);
     contact.moved += Vector(tip[0] - tip[3], tip[1]), contact.theta += tip[2];
     // Beside a node it stays where it is held off that.
     const auto beside = [&](S s) {
@@ -401,7 +415,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     S goes = std::clamp(x[3], -l, l), stiff = std::abs(record.rows[3][3]);
     if (contact.waits || contact.rests) {
       // The force along the beam that it lacks, as if that bent as sharply as the circle.
-      if (record.waits) longer += lacks(3) * lacks(3) * contact.reach / std::abs(contact.force);
+      if (record.waits) longer += waiting * waiting * contact.reach / std::abs(contact.force);
       contact.waits = false;
       return tip;
     }
@@ -419,37 +433,22 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     return tip;
   }
 
+  /// Of so many numbers.
+  template <std::size_t Size, class A, class B>
+  static S dot(const A& a, const B& b) noexcept {
+    Block sum = Block::load(&a[0]) * Block::load(&b[0]);
+    for (std::size_t j = block; j < Size; j += block) sum += Block::load(&a[j]) * Block::load(&b[j]);
+    S whole = sum[0];
+    for (int i = 1; i < Block::size; ++i) whole += sum[i];
+    return whole;
+  }
   /// Derivatives of u, w, θ, s of a tip by ε, p, q, its s, and u, w, θ, s of its root.
-  struct Tip {
-    Vector stretch, turn;  // l times those of its way by ε and α
-    Vector slides;         // of the way by l
-    S l, turns;            // of θ by s
-
-    /// Of a function of the tip.
-    std::array<S, made> spread(S u, S w, S theta, S s) const noexcept {
-      const S by_turn = turn.x() * u + turn.y() * w, slide = slides.x() * u + slides.y() * w + turns * theta;
-      std::array<S, made> by{stretch.x() * u + stretch.y() * w,
-                             l * (by_turn - theta),
-                             l * theta,
-                             slide + s,
-                             u,
-                             w,
-                             theta - by_turn};
-      if constexpr (Most > 1) by[7] = -slide;
-      return by;
-    }
-    std::array<S, state> move(const std::array<S, all>& x) const noexcept {
-      const S alpha = l * x[1] - x[6], s = Most > 1 ? x[3] - x[own + 3] : x[3];
-      return {x[4] + stretch.x() * x[0] + turn.x() * alpha + slides.x() * s,
-              x[5] + stretch.y() * x[0] + turn.y() * alpha + slides.y() * s, l * x[2] - alpha + turns * s,
-              x[3]};
-    }
-  };
+  using Tip = std::array<std::array<S, 8>, state>;
   /// What advance() needs of a piece that was condensed.
   struct Record {
     bool moves = false, waits = false;
     S side = 1;
-    std::array<std::array<S, all + Most + 1>, 4> rows;
+    std::array<Row, 4> rows;
     Tip tip;
     std::array<S, 4> tension;
     S lack, stiff;

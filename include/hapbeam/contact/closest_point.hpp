@@ -8,6 +8,9 @@
 // No allocation, noexcept, bounded work.
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/contact/bernstein.hpp>
 #include <hapbeam/shaft.hpp>
@@ -91,24 +94,33 @@ ClosestPoint<Scalar, D> closest_point(const CubicSegment<Scalar, D>& b,
 template <typename Scalar>
 ClosestPoint<Scalar, 3> closest_point(const CubicSegment<Scalar, 3>& b, const Shaft<Scalar>& shaft) noexcept {
   using Vector = VectorOf<Scalar, 3>;
-  ClosestPoint<Scalar, 3> best = closest_point(b, shaft.tip);
   const Scalar squared = shaft.way.squaredNorm();
-  if (!(squared > 0)) return best;
-  const ClosestPoint<Scalar, 3> other = closest_point(b, Vector(shaft.tip + shaft.way));
-  if (other.distance_squared < best.distance_squared) best = other;
-  const auto see = [&](Scalar t, const Vector& point) {
-    const Vector offset = shaft.at(shaft.nearest(point)) - point;
-    const Scalar d = offset.squaredNorm();
-    if (d < best.distance_squared) best = {t, offset, d};
-  };
+  if (!(squared > 0)) return closest_point(b, shaft.tip);
   Vector p[4];
   for (int k = 0; k < 4; ++k) {
     p[k] = b.col(k) - shaft.tip;
     p[k] -= shaft.way.dot(p[k]) / squared * shaft.way;
   }
-  see(0, b.col(0));
-  see(1, b.col(3));
-  detail::for_each_foot(p[0], p[1], p[2], p[3], [&](Scalar t, const Vector&) { see(t, point_at(b, t)); });
+  ClosestPoint<Scalar, 3> best{0, Vector::Zero(), std::numeric_limits<Scalar>::infinity()};
+  Scalar on_axis = best.distance_squared;  // the nearest point's of all of the axis
+  const auto see = [&](Scalar t, const Vector& point, Scalar from_axis) {
+    on_axis = (std::min)(on_axis, from_axis);
+    const Vector offset = shaft.at(shaft.nearest(point)) - point;
+    const Scalar d = offset.squaredNorm();
+    if (d < best.distance_squared) best = {t, offset, d};
+  };
+  see(0, b.col(0), p[0].squaredNorm());
+  see(1, b.col(3), p[3].squaredNorm());
+  detail::for_each_foot(p[0], p[1], p[2], p[3], [&](Scalar t, const Vector& from_axis) {
+    see(t, point_at(b, t), from_axis.squaredNorm());
+  });
+  // What is nearest to all of its axis and beside the shaft is nearest to the shaft.
+  constexpr Scalar round_off = 1 + 64 * std::numeric_limits<Scalar>::epsilon();
+  if (best.distance_squared <= on_axis * round_off) return best;
+  for (const Vector& end : {shaft.tip, Vector(shaft.tip + shaft.way)}) {
+    const ClosestPoint<Scalar, 3> other = closest_point(b, end);
+    if (other.distance_squared < best.distance_squared) best = other;
+  }
   return best;
 }
 

@@ -83,17 +83,12 @@ class PushContact {
       if (friction_.sticking > 0) return model.push(request(), friction_);
     return model.push(request());
   }
-  static Vector place(const Centreline<Scalar, D>& line, Scalar s) noexcept {
-    const auto at = line.at(s);
-    if constexpr (D == 2) return {s + at.u, at.w};
-    else return at.r;
-  }
   /// Whether the beam beside s lies within the circle, because it bends more sharply there and touches at two points.
   static bool pinched(const Centreline<Scalar, D>& line, Scalar s, const Avatar<Scalar, D>& avatar,
                       Scalar reach) noexcept {
     for (const Scalar way : {-reach / 2, reach / 2}) {
       const Scalar beside = std::clamp(s + way, Scalar(0), line.length());
-      if (way_to(avatar, place(line, beside)).norm() < Scalar(0.99) * reach) return true;
+      if (way_to(avatar, line.position(beside)).norm() < Scalar(0.99) * reach) return true;
     }
     return false;
   }

@@ -183,12 +183,13 @@ class AllDisplacements {
     return valid && is_answer(rest_.status);
   }
 
-  /// settle() in a few iterations, for a beam that is on its branch and nearly there.  @param few  linear solves
+  /// settle() in a few iterations, for a beam that is on its branch and nearly there.  @param few  linear solves   @param known  as of NewtonRaphson
   /// @return ok, or the system may be anywhere
   template <class Aim>
-  Response<Scalar> settle_at_once(int looser, Aim&& aim, int few = 6) noexcept {
+  Response<Scalar> settle_at_once(int looser, Aim&& aim, int few,
+                                  Curvature<Scalar>* known = nullptr) noexcept {
     aim();
-    report_ = solve_within((std::min)(left_, few), 1, looser);
+    report_ = solve_within((std::min)(left_, few), 1, looser, known);
     const bool stable = !gives_way();
     left_ -= report_.solves;
     if (report_.status != Status::ok || !stable) report_ = {Status::iteration_limit, 0, 0, 0, 0, 1};
@@ -305,11 +306,12 @@ class AllDisplacements {
   }
 
   /// Newton's method with no more than so many linear solves.  @param looser  than the solver's tolerance
-  SolveReport<Scalar> solve_within(int most, Scalar first_step = 1, int looser = 1) noexcept {
+  SolveReport<Scalar> solve_within(int most, Scalar first_step = 1, int looser = 1,
+                                   Curvature<Scalar>* known = nullptr) noexcept {
     Solver solver = solver_;
     solver.max_solves = (std::min)(solver.max_solves, most);
     solver.relative_tolerance *= looser;
-    return solver.solve(system_, first_step);
+    return solver.solve(system_, first_step, known);
   }
 
   System system_;

@@ -294,8 +294,9 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   }
   void begin_path() noexcept { chain_.ends().begin_path(nodes()); }
   void look_in(int e) noexcept {
-    [[maybe_unused]] const Scalar tension = rows_.look(parts(), e);
-    if constexpr (dimension == 2) chain_.parts().set_tension(e, tension);
+    rows_.look(parts(), e, [&]([[maybe_unused]] Scalar tension) {
+      if constexpr (dimension == 2) chain_.parts().set_tension(e, tension);
+    });
   }
   void set_turning([[maybe_unused]] Scalar share) noexcept {
     if constexpr (dimension == 2) chain_.parts().set_turning(share);

@@ -52,9 +52,9 @@ class ContactRows {
   int element(int k) const noexcept { return rows_[of(k)].element; }
   /// Whether an element is touched.
   bool in(int e) const noexcept {
-    for (int k = 0; k < size_; ++k)
-      if (rows_[of(k)].element == e) return true;
-    return false;
+    bool any = false;
+    each_in(e, [&](int) { any = true; });
+    return any;
   }
 
   void clear() noexcept { size_ = 0; }
@@ -68,6 +68,7 @@ class ContactRows {
     row.contact.rough = friction != nullptr;
     if constexpr (dimension == 3) row.contact.stays = friction && stays;
     row.contact.enter(element), row.contact.forget_order();
+    row.seen = false;
     row.goal = goal.reach, row.centre = row.contact.centre_or_tip(), row.by = 0, row.from = -1;
     starts_known_ = false;
   }
@@ -79,6 +80,7 @@ class ContactRows {
       Row& row = rows_[of(k)];
       Contact& contact = row.contact;
       if (starts) row.start = now(k);
+      row.seen = false;
       if (contact.kind == Contact::Kind::along) {
         contact.reach = t < 1 ? row.start + t * (row.goal - row.start) : row.goal;
         continue;
@@ -97,14 +99,14 @@ class ContactRows {
       Row& row = rows_[of(k)];
       const Scalar reach = row.contact.reach;
       const Vector centre = row.contact.centre_or_tip();
-      row.contact = row.saved, row.element = row.saved_in, row.by = 0;
+      row.contact = row.saved, row.element = row.saved_in, row.by = 0, row.seen = false;
       row.contact.reach = reach, row.contact.centre_or_tip() = centre;
     }
   }
   /// The beam falls, and the forces of before are no longer there.
   void fall() noexcept {
     for (int k = 0; k < size_; ++k) {
-      rows_[of(k)].contact.force = 0;
+      rows_[of(k)].contact.force = 0, rows_[of(k)].seen = false;
       if (Friction* const friction = rows_[of(k)].friction) friction->fall();
     }
   }
@@ -119,13 +121,17 @@ class ContactRows {
     return sum;
   }
 
-  /// Places, normals and tangents of contacts as their element lies now.  @param beam  BeamElements  @return tension of its longest piece [N]
-  template <class Parts>
-  Scalar look(const Parts& beam, int e) noexcept {
+  /// Places, normals and tangents of contacts as their element lies now.  @param beam  BeamElements
+  /// @param set  (N) takes the tension of its longest piece [N]
+  template <class Parts, class Set>
+  void look(const Parts& beam, int e, Set&& set) noexcept {
+    bool seen = true;
+    each_in(e, [&](int k) { seen = seen && rows_[of(k)].seen; });
+    if (seen) return;
     Touched touched(beam, e);
-    each_in(e, [&](int k) { touched.add(rows_[of(k)].contact, k); });
+    each_in(e, [&](int k) { touched.add(rows_[of(k)].contact, k), rows_[of(k)].seen = true; });
     touched.look();
-    return touched.tension();
+    set(touched.tension());
   }
   /// Brings contacts to where they touch the curve as it lies.
   template <class Parts>
@@ -152,7 +158,7 @@ class ContactRows {
       another = another || off * (contact.friction.norm() * contact.reach + 1000 * normal * off) >
                                exact * normal * length * contact.reach;
       contact.s -= contact.off;
-      contact.off = 0;
+      contact.off = 0, row.seen = false;
       stay_on_beam(row, element_at);
     }
     return another;
@@ -174,7 +180,7 @@ class ContactRows {
     each_in(e, [&](int k) {
       Row& row = rows_[of(k)];
       if (first < 0) first = k, touched = &row.touched.emplace(beam, e);
-      row.first = first, row.number = number++;
+      row.first = first, row.number = number++, row.seen = false;
       touched->add(row.contact, k);
     });
     const Scalar energy = touched->condense(r, K, [this](int k) {
@@ -302,7 +308,7 @@ class ContactRows {
     }
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[of(k)];
-      row.by = 0;
+      row.by = 0, row.seen = false;
       if (row.contact.kind == Contact::Kind::round) stay_on_beam(row, element_at);
     }
     return longer;
@@ -314,6 +320,7 @@ class ContactRows {
     explicit Row(int elements) : column(elements) {}
     Contact contact, saved;
     int element = 0, saved_in = 0;
+    bool seen = false;   ///< as it lies now
     int from = -1;       ///< element that it has left,
     Scalar crossed = 0;  ///< and where it came from there [m]
     Friction* friction = nullptr;
@@ -351,7 +358,7 @@ class ContactRows {
   static constexpr std::size_t of(int k) noexcept { return static_cast<std::size_t>(k); }
   template <class F>
   void each_in(int e, F&& f) const noexcept {
-    for (int k = 0; k < size_; ++k)
+    for (int k = 0; k < Most && k < size_; ++k)  // a compiler sees how few
       if (rows_[of(k)].element == e) f(k);
   }
 

@@ -69,17 +69,6 @@ Push<Scalar, D> between(const Push<Scalar, D>& from, const Push<Scalar, D>& to, 
   return {u * from.s + t * to.s, u * from.d + t * to.d, (u * from.normal + t * to.normal).normalized()};
 }
 
-/// Of a centreline [m].
-template <typename Scalar>
-Vector2<Scalar> place_at(const Centreline<Scalar>& line, Scalar s) noexcept {
-  const Displacement<Scalar> moved = line.at(s);
-  return {s + moved.u, moved.w};
-}
-template <typename Scalar>
-VectorOf<Scalar, 3> place_at(const Centreline<Scalar, 3>& line, Scalar s) noexcept {
-  return line.at(s).r;
-}
-
 /// How far any of some places has gone from one shape to another [m].
 template <class Centreline>
 auto farthest(const Centreline& from, const Centreline& to) noexcept {
@@ -88,7 +77,7 @@ auto farthest(const Centreline& from, const Centreline& to) noexcept {
   Scalar most = 0;
   for (int i = 0; i <= places; ++i) {
     const Scalar s = to.length() * static_cast<Scalar>(i) / places;
-    most = (std::max)(most, (place_at(to, s) - place_at(from, s)).squaredNorm());
+    most = (std::max)(most, (to.position(s) - from.position(s)).squaredNorm());
   }
   return std::sqrt(most);
 }

@@ -81,12 +81,12 @@ class ObstacleGap {
     const auto start = round_.node_at(line_, s);
     const auto beside = view_at(start);
     if (round_.clearance(start) - reach > right_ - left_ + length / 100 &&
-        (beside.past_end || round_.distance(beside) > 0))
+        (beside.past_end || beside.distance > 0))
       return;
     for (int step = 0; step < most_looks; ++step) {
       const auto view = view_at(round_.node_at(line_, s));
-      depth = reach - round_.distance(view);
-      const Scalar next = std::clamp(s + round_.ahead(view), left_, right_);
+      depth = reach - view.distance;
+      const Scalar next = std::clamp(s + view.ahead, left_, right_);
       if (std::abs(next - s) <= Scalar(1e-6) * length) break;
       s = next;
     }

@@ -20,13 +20,7 @@ struct RodRoundContact {
   const Capsule<Scalar>& capsule;
   const Capsule<Scalar>& request() const noexcept { return capsule; }
 
-  /// How the capsule lies beside a node, as if the curve were straight there.
-  struct View {
-    Vector normal;    ///< unit, toward the axis
-    Scalar distance;  ///< of the axis from the curve, negative: from its other side [m]
-    Scalar ahead;     ///< arc length from the node to where they would touch [m]
-    bool past_end;    ///< the end point is touched
-  };
+  using View = RoundView<Scalar, 3>;
   /// @param end  -1 or +1 where the curve begins or ends at the node, 0 within
   View look(const Node& node, int end) const noexcept {
     using std::sqrt;
@@ -47,8 +41,6 @@ struct RodRoundContact {
     const Vector normal = distance > 0 ? Vector(w / distance) : facing(t);
     return {normal, std::copysign(distance, normal.dot(capsule.normal)), along / length, past_end};
   }
-  Scalar distance(const View& view) const noexcept { return view.distance; }
-  Scalar ahead(const View& view) const noexcept { return view.ahead; }
   static Vector place_of(const Node& node) noexcept { return node.r; }
   /// The point of the axis that is nearest.
   Vector centre(const Vector& point) const noexcept { return capsule.axis.at(capsule.axis.nearest(point)); }

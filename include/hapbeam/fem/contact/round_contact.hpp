@@ -19,13 +19,7 @@ struct RoundContact {
   const Circle<Scalar>& circle;
   const Circle<Scalar>& request() const noexcept { return circle; }
 
-  /// How the circle lies beside a node, as if the curve were straight there.
-  struct View {
-    Vector normal;    ///< unit, toward the centre
-    Scalar distance;  ///< of the centre from the curve, negative: from its other side [m]
-    Scalar ahead;     ///< arc length from the node to where they would touch [m]
-    bool past_end;    ///< the end point is touched
-  };
+  using View = RoundView<Scalar, 2>;
   /// @param end  -1 or +1 where the curve begins or ends at the node, 0 within
   View look(const Node& node, int end) const noexcept {
     // Places have fewer digits than displacements: the difference of two places comes first.
@@ -38,8 +32,6 @@ struct RoundContact {
     }
     return {n, above, along, false};
   }
-  Scalar distance(const View& view) const noexcept { return view.distance; }
-  Scalar ahead(const View& view) const noexcept { return view.ahead; }
   static Vector place_of(const Node& node) noexcept { return {node.s + node.u, node.w}; }
   Vector centre(const Vector&) const noexcept { return circle.centre; }
   /// Across a tangent, to the side on which the circle is; unit where that is.
@@ -62,24 +54,24 @@ struct RoundContact {
     const Scalar x = (circle.centre.x() - node.s) - node.u, y = circle.centre.y() - node.w;
     return std::sqrt(x * x + y * y);
   }
-  /// Where they touch, for friction.   @param n  toward the centre
-  FrictionPlace<Scalar, 2> place(Scalar s, const Vector& n) const noexcept {
-    return {s, 0, n, Vector(circle.side * n.y(), -circle.side * n.x()), 0, Vector::Zero()};
-  }
+  /// Where they touch, for friction.
   FrictionPlace<Scalar, 2> place(const View& view, const Node& node) const noexcept {
-    FrictionPlace<Scalar, 2> place = this->place(node.s, view.normal);
-    place.ahead = view.ahead;
-    return place;
+    return place(node.s, view.ahead, view.normal);
   }
   /// Of a contact of the system.
   template <class Contact>
   FrictionPlace<Scalar, 2> friction_place(const Contact& contact) const noexcept {
-    return place(contact.s, Vector(-contact.normal));
+    return place(contact.s, 0, -contact.normal);
   }
   /// A node where the mesh has none.
   static Node node_at(const Centreline<Scalar>& line, Scalar s) noexcept {
     const Displacement<Scalar> moved = line.at(s);
     return Node{s, moved.u, moved.w, moved.theta};
+  }
+
+ private:
+  FrictionPlace<Scalar, 2> place(Scalar s, Scalar ahead, const Vector& n) const noexcept {
+    return {s, ahead, n, Vector(circle.side * n.y(), -circle.side * n.x()), 0, Vector::Zero()};
   }
 };
 

@@ -19,10 +19,10 @@
 
 #include <hapbeam/fem/contact/contact_work.hpp>
 #include <hapbeam/fem/contact/continuation.hpp>
-#include <hapbeam/fem/contact/friction_balance.hpp>
 #include <hapbeam/fem/contact/row_contacts.hpp>
 #include <hapbeam/fem/contact/row_foresight.hpp>
 #include <hapbeam/fem/contact/several_friction.hpp>
+#include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
@@ -305,9 +305,11 @@ class RowPush : private RowContacts<Element, System> {
     if (first) {
       foresight_.go_on(system);
       began_ = true;
+      if (!goes_on || rough) curvature_ = {};
       if (goes_on) {
         Status status;
-        do status = way.settle_at_once(slack, aim, few()).status;
+        // What friction settles between two solves is no step of a hand.
+        do status = way.settle_at_once(slack, aim, few(), rough ? nullptr : &curvature_).status;
         while (!agrees(status) && !all);
         if (status == Status::ok) return status;
         foresight_.go_back(system, last);
@@ -349,6 +351,7 @@ class RowPush : private RowContacts<Element, System> {
   }
 
   Foresight foresight_;
+  Curvature<Scalar> curvature_;
   bool began_ = false;  // foresight_ has the state before this push
   int last_count_ = 0;
   std::array<bool, most> touched_{};

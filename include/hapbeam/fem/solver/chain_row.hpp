@@ -40,12 +40,12 @@ struct alignas(2 * Abreast * sizeof(Scalar)) ChainRows {
   static void add(ChainRows* rows, int count, bool odd, const Tangent& K, const Residual& r) noexcept {
     using Wide = std::decay_t<decltype(r[0])>;
     static_assert(Wide::size == 2 * Abreast, "a group of elements is one of rows");
-    const auto kept = [odd](Wide wide) {
+    const auto kept = [odd](Wide wide) HAPBEAM_INLINED {
       if (!Full && odd) wide.set(0, 0);
       return wide;
     };
     // Of what belongs to a node: the share of the element on the way to the middle, and that of the one before.
-    const auto share_out = [&](int e, const Wide& own, const Wide& next) {
+    const auto share_out = [&](int e, const Wide& own, const Wide& next) HAPBEAM_INLINED {
       const Wide outer = kept(in_turn(own, next)), inner = kept(in_turn(next, own));
       Number(&at)[Abreast] = rows->entry[e];
       (outer + after(at[0].a, inner)).store(at[0].a);
@@ -63,7 +63,9 @@ struct alignas(2 * Abreast * sizeof(Scalar)) ChainRows {
       for (int i = j; i < Block; ++i) share_out(triangle<Block>(i, j), K(i, j), K(Block + i, Block + j));
       share_out(x + j, -r[j], -r[Block + j]);
     }
-    const auto couples = [&](int i, int j) { return kept(in_turn(K(i, Block + j), K(j, Block + i))); };
+    // Out of line each would read all that K makes an entry of.
+    const auto couples = [&](int i, int j)
+                             HAPBEAM_INLINED { return kept(in_turn(K(i, Block + j), K(j, Block + i))); };
     HAPBEAM_UNROLL
     for (int g = 0; g < strips; ++g) {
       HAPBEAM_UNROLL

@@ -13,7 +13,7 @@
 //   s.negative_pivots()       of the last factor()
 //   s.potential()             V - λ f · x at the last factor() [J]
 //   s.neutral()               as μ: a stiffness that is none, but for round-off
-//   s.find_tensions()         of what is an unknown beside the shape: potentials are those of shapes; may be left out
+//   s.find_tensions()         of what is an unknown beside the shape: potentials are those of shapes
 //   s.turn()                  largest rotation of a node in the last increment [rad]
 //
 // Real-time: noexcept and no allocation where the system's are; at most max_solves linear solves.
@@ -27,17 +27,6 @@
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam {
-
-namespace detail {
-
-template <class System>
-auto find_tensions(System& system, int) noexcept -> decltype(system.find_tensions()) {
-  system.find_tensions();
-}
-template <class System>
-void find_tensions(System&, long) noexcept {}
-
-}  // namespace detail
 
 struct Descent {
   int max_solves = 48;         ///< what bounds a tick
@@ -61,7 +50,7 @@ struct Descent {
     bool stepped = false;
     for (const int last = solves + max_solves; solves < last;) {
       ++solves;
-      detail::find_tensions(system, 0);
+      system.find_tensions();
       Status status = system.factor(shift);
       // What costs nothing has a pivot of either sign: a second look decides.
       if (System::neutral() > 0 && shift == 0 && status == Status::ok && system.negative_pivots() > 0) {

@@ -65,6 +65,28 @@ struct SolveReport {
   Scalar step;   ///< of the path, to be tried first when the path is continued from here
 };
 
+/// What the first two increments of a solve made of the next ones, for solves that follow each other as the ticks of a hand do: |Δ(k+1)| = C|Δ(k)|².
+/// An increment within a factor of two of the one that was measured, in units of √(2V), is taken to have four times its C.  That rises by a quarter with each
+/// solve that is accepted by it, so that it is measured anew before it is a guess.
+template <typename Scalar>
+class Curvature {
+ public:
+  /// C √(2V) of increment k, of so many √(2V); infinite where nothing is known.
+  Scalar of(int k, Scalar size) const noexcept {
+    const bool known = k <= 2 && size_[k - 1] < 2 * size && size < 2 * size_[k - 1];
+    return known ? 4 * c_[k - 1] : std::numeric_limits<Scalar>::infinity();
+  }
+  void measure(int k, Scalar size, Scalar next) noexcept {
+    if (k <= 2) size_[k - 1] = size, c_[k - 1] = next / (size * size);
+  }
+  void accept(int k) noexcept {
+    if (k <= 2) c_[k - 1] *= Scalar(1.25);
+  }
+
+ private:
+  Scalar size_[2] = {0, 0}, c_[2] = {0, 0};
+};
+
 namespace detail {
 
 template <class System>
@@ -91,8 +113,10 @@ struct NewtonRaphson {
   double smallest_step = 1e-4;        ///< of the path
 
   /// Goes the way to t = 1.  @param first_step  of the path: 1, or what the report of an unfinished solve says
+  /// @param known  of the solves before, null: they say nothing of this one
   template <class System>
-  auto solve(System& system, typename System::Scalar first_step = 1) const noexcept
+  auto solve(System& system, typename System::Scalar first_step = 1,
+             Curvature<typename System::Scalar>* known = nullptr) const noexcept
       -> SolveReport<typename System::Scalar> {
     using S = typename System::Scalar;
     SolveReport<S> report{Status::ok, 0, 0, 0, 0, first_step};
@@ -101,7 +125,7 @@ struct NewtonRaphson {
     while (report.reached < 1) {
       const S t = (std::min)(report.reached + step, S(1));
       system.set_target(t);
-      report.status = iterate(system, report);
+      report.status = iterate(system, report, known);
       if (report.status == Status::ok) {
         report.reached = t;
         ++report.steps;
@@ -127,7 +151,7 @@ struct NewtonRaphson {
     return k > 2 ? 10 : 100;
   }
   template <class System, typename S>
-  Status iterate(System& system, SolveReport<S>& report) const noexcept {
+  Status iterate(System& system, SolveReport<S>& report, Curvature<S>* known) const noexcept {
     const S n = static_cast<S>(system.elements());
     const S floor = S(absolute_tolerance) * system.unit();
     const S noise = n * std::sqrt(std::numeric_limits<S>::epsilon()) / 20;
@@ -142,8 +166,14 @@ struct NewtonRaphson {
       const S state = system.size(), tolerance = S(relative_tolerance) * state;
       // The first increment holds the jump of the contact, which the tangent's norm overstates: C is measured without it.
       const S measured = k > 2 ? 4 * iteration.size / (before * before) : S(0);
-      const S curvature = (std::max)(
-          {measured, measured_before, state > 0 ? least_curvature<System>(k, from_afar) / state : S(0)});
+      S least = least_curvature<System>(k, from_afar);
+      if (known) {
+        if (k > 1) known->measure(k - 1, before / state, iteration.size / state);
+        // The increment of w that follows one of u is another in the next element.
+        if (k > 1 || !detail::InPairs<System>::value)
+          least = (std::min)(least, known->of(k, iteration.size / state));
+      }
+      const S curvature = (std::max)({measured, measured_before, state > 0 ? least / state : S(0)});
       // No larger than this one, which is what round-off would else make of it.
       const S next =
           state > 0 ? (std::min)(curvature * iteration.size, S(1)) * iteration.size : iteration.size;
@@ -151,8 +181,10 @@ struct NewtonRaphson {
       if (!std::isfinite(state)) return Status::non_finite;
       const bool lands = k == 1 || before <= std::sqrt(noise) * state;
       if (next <= (std::max)(tolerance, floor) || (lands && iteration.size <= noise * state) ||
-          iteration.size <= detail::round_off(system, 0))
+          iteration.size <= detail::round_off(system, 0)) {
+        if (known) known->accept(k);
         return Status::ok;
+      }
       if (k == 8 && iteration.size > S(0.9) * state) return Status::iteration_limit;
       shrinks = iteration.size <= before / 2;
       from_afar = from_afar || iteration.size > S(0.05) * state;
