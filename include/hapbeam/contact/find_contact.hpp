@@ -32,14 +32,16 @@ struct Contact {
 };
 
 /// State from tick to tick.  Starts empty.
-/// @tparam D  2 | 3, which find_rod_contact.hpp has
+/// @tparam D  2 | 3
 template <typename Scalar, int D = 2>
 struct ContactMemory {
-  Vector2<Scalar> position = Vector2<Scalar>::Zero();  ///< [m] where the avatar was
-  bool known = false;                                  ///< position is valid
-  bool touching = false;                               ///< the avatar touched the beam
-  bool through = false;                                ///< touching, its centre beyond the centreline
-  int side = 1;                                        ///< touching, from this side
+  PlaceOf<Scalar, D> place{};  ///< [m] where the avatar was
+  bool known = false;          ///< place is valid
+  bool touching = false;       ///< the avatar touched the beam
+  bool through = false;        ///< touching, in a plane: its centre beyond the centreline
+  int side = 1;                ///< touching, in a plane: from this side
+  Scalar s = 0;                ///< [m] touching, in space: there
+  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< touching, in space: along this one
 };
 
 namespace detail {
@@ -90,7 +92,7 @@ Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const Centreline
     if (!goes_round_end) contact.side = memory.side;
   } else if (memory.known) {
     // Only a step longer than the present distance can have crossed anything.
-    if ((q - memory.position).squaredNorm() >= nearest.at.distance_squared) {
+    if ((q - memory.place).squaredNorm() >= nearest.at.distance_squared) {
       const Crossings crossed = crossings();
       if (crossed.count % 2 != 0) contact.side = crossed.net > 0 ? 1 : -1;
       // Round-off says on which side of the centreline the avatar is, and not that it has crossed.
@@ -113,7 +115,7 @@ Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const Centreline
     contact.normal = {-side * frame.direction.y(), side * frame.direction.x()};
   }
   contact.point = contact.foot + contact.normal * (thickness / 2);
-  memory = {q, true, contact.touching, contact.touching && through, contact.side};
+  memory = {q, true, contact.touching, contact.touching && through, contact.side, 0, {0, 0}};
   return contact;
 }
 
@@ -135,24 +137,26 @@ template <typename Scalar>
   const NearestPoint<Scalar> nearest = volumes.nearest(centreline, avatar.position);
   if (nearest.segment < 0) return {};
   return detail::contact_at(nearest, {centreline, 0, centreline.segments()}, avatar, thickness, memory,
-                            [&] { return volumes.crossings(centreline, memory.position, avatar.position); });
+                            [&] { return volumes.crossings(centreline, memory.place, avatar.position); });
 }
 
 /// True if find_contact() would find no contact, because the avatar is farther from the box around the beam than its
 /// own size and its last step. It then replaces find_contact(), at the cost of a box. If false, nothing is decided and
 /// nothing changes.
 /// Real-time: noexcept, no allocation, O(1).
-template <typename Scalar>
-[[nodiscard]] bool out_of_reach(const Avatar<Scalar>& avatar, const BoundingVolumes<Scalar>& volumes,
-                                Scalar thickness, ContactMemory<Scalar>& memory) noexcept {
+template <typename Scalar, int D>
+[[nodiscard]] bool out_of_reach(const Avatar<Scalar, D>& avatar, const BoundingVolumes<Scalar, D>& volumes,
+                                Scalar thickness, ContactMemory<Scalar, D>& memory) noexcept {
   if (memory.touching) return false;
-  const Scalar distance_squared = volumes.distance_squared(avatar.position);
+  const Scalar distance_squared = volumes.distance_squared(avatar.place());
   const Scalar reach = avatar.radius + thickness / 2;
-  const Scalar step_squared = memory.known ? (avatar.position - memory.position).squaredNorm() : Scalar(0);
+  const Scalar step_squared = memory.known ? detail::step_squared(memory.place, avatar.place()) : Scalar(0);
+  // In a plane a step counts where it crosses the beam, in space where it comes near.
+  const Scalar swept = D == 2 ? Scalar(0) : reach + std::sqrt(step_squared);
   if (!(distance_squared > reach * reach && distance_squared > step_squared &&
-        std::isfinite(distance_squared)))
+        distance_squared > swept * swept && std::isfinite(distance_squared)))
     return false;
-  memory.position = avatar.position;
+  memory.place = avatar.place();
   memory.known = true;
   return true;
 }

@@ -77,7 +77,7 @@ class PushContact {
     const auto request = [&] {
       if constexpr (D == 2)
         return Circle<Scalar>{s, avatar.position, reach, static_cast<Scalar>(contact.side)};
-      else return Capsule<Scalar>{s, avatar.axis(), reach, contact.normal};
+      else return Capsule<Scalar>{s, avatar.place(), reach, contact.normal};
     };
     if constexpr (takes_friction<Model>)
       if (friction_.sticking > 0) return model.push(request(), friction_);
@@ -93,7 +93,7 @@ class PushContact {
                       Scalar reach) noexcept {
     for (const Scalar way : {-reach / 2, reach / 2}) {
       const Scalar beside = std::clamp(s + way, Scalar(0), line.length());
-      if (way_to(avatar, place(line, beside)).norm() < Scalar(0.99) * reach) return true;
+      if (avatar.way_from(place(line, beside)).norm() < Scalar(0.99) * reach) return true;
     }
     return false;
   }

@@ -137,7 +137,7 @@ struct SeveralPlace {
     const bool twice = obstacle.touching && several;
     const Scalar s = twice ? obstacle.pushed.s : contact.s;
     if constexpr (planar) obstacle.round = {s, avatar.position, reach, static_cast<Scalar>(contact.side)};
-    else obstacle.round = {s, avatar.axis(), reach, twice ? obstacle.pushed.normal : contact.normal};
+    else obstacle.round = {s, avatar.place(), reach, twice ? obstacle.pushed.normal : contact.normal};
     // A pressed beam follows a hand that draws back; one that has jumped away is met again, if it is, as the beam springs back.
     if (contact.depth < -model.shape().length() / 50) obstacle.touching = false, forget_friction();
     if (!again) obstacle.touching = obstacle.touching || contact.touching;
@@ -145,11 +145,7 @@ struct SeveralPlace {
   }
   /// The contact of a touch that goes on, where it was.
   bool find_near(Model& model) noexcept {
-    if (!obstacle.touching) return false;
-    if constexpr (planar)
-      return find_contact_beside(model.shape(), obstacle.pushed.s, avatar, model.thickness(), memory,
-                                 contact);
-    else return find_contact_near(model, avatar, memory, contact);
+    return obstacle.touching && find_contact_near(model, obstacle.pushed.s, avatar, memory, contact);
   }
   /// As Touch: a pressed beam moves with what presses it, which cannot have gone round its end.
   void remember() noexcept {

@@ -117,7 +117,7 @@ class SupportContact<Scalar, 3> {
       const Scalar support = right ? range.right_support : range.left_support,
                    distance = std::abs(contact.s - support);
       if (!(distance < end.length)) continue;
-      const ClosestPoint<Scalar, 3> at = closest_point(end.piece, avatar.axis());
+      const ClosestPoint<Scalar, 3> at = closest_point(end.piece, avatar.place());
       const Scalar gap = std::sqrt(at.distance_squared),
                    nearest = right ? support - range.s_max : range.s_min;
       depth_ = reach - gap;

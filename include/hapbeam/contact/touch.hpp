@@ -175,9 +175,8 @@ class Touch {
 
   /// The contact of a touch that goes on, where it was.
   bool find_near(const Avatar& avatar, Contact& contact) noexcept {
-    if constexpr (planar)
-      return pressing_ && in_range_ && detail::find_contact_near(model_, s_, avatar, memory_, contact);
-    else return pressing_ && detail::find_contact_near(model_, avatar, memory_, contact);
+    return pressing_ && (!planar || in_range_) &&
+           detail::find_contact_near(model_, s_, avatar, memory_, contact);
   }
 
   detail::Held<Scalar> hold(Contact& contact, const Avatar& avatar, Scalar reach,
