@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What stands beside a beam and is moved by nobody: a peg, a wall, a stop, a support.
+// What may touch a beam: round avatars, which hands move, and props, which nobody moves: a peg, a wall, a stop, a support.
 //
-// Two pegs are a gap.  A plain value; offline.
+// Two pegs are a gap.  Plain values; offline.
 #pragma once
 
 #include <cmath>
@@ -12,6 +12,24 @@
 #include <hapbeam/friction.hpp>
 
 namespace hapbeam {
+
+/// A round avatar that a hand moves.
+struct RoundAvatar {
+  /// @param radius_  [m]   @param touches_  at so many places at most: 2 for one that is wide beside the bends of the beam
+  constexpr RoundAvatar(double radius_, int touches_ = 1, const Friction& friction_ = {}) noexcept
+      : radius(radius_), touches(touches_), friction(friction_) {}
+  /// @param length  of the beam [m]   @throws std::invalid_argument naming what makes no sense
+  void check(double length) const {
+    if (!(radius >= 0 && radius <= 1000 * length))
+      detail::reject("avatar radius", radius, "m", "0 to a thousand lengths of the beam");
+    if (touches < 1) detail::reject("avatar touches", touches, "places", "1 or more");
+    friction.check();
+  }
+
+  double radius;  ///< [m] >= 0
+  int touches;
+  Friction friction;
+};
 
 /// @tparam D  of the space in which the beam bends: 2 | 3
 template <int D = 2>
