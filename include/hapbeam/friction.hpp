@@ -90,20 +90,14 @@ struct FrictionState {
 
 namespace detail {
 
-template <typename M, typename = void>
-struct TakesFriction : std::false_type {};
 template <typename M>
-struct TakesFriction<M, std::void_t<decltype(std::declval<M&>().push(
-                            std::declval<const typename PushOf<M>::Type&>(),
-                            std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))>>
-    : std::bool_constant<noexcept(
-          std::declval<M&>().push(std::declval<const typename PushOf<M>::Type&>(),
-                                  std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))> {};
+using PushRough = std::enable_if_t<noexcept(std::declval<M&>().push(
+    std::declval<const PushOf<M>&>(), std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))>;
 
 }  // namespace detail
 
 /// True where M can be pushed with friction, noexcept included.
 template <typename M>
-inline constexpr bool takes_friction = detail::TakesFriction<M>::value;
+inline constexpr bool takes_friction = detail::offers<detail::PushRough, M>;
 
 }  // namespace hapbeam

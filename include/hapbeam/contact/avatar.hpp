@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/check.hpp>
 #include <hapbeam/shaft.hpp>
 
 namespace hapbeam {
@@ -57,6 +58,17 @@ template <typename Scalar>
 Scalar step_squared(const Shaft<Scalar>& from, const Shaft<Scalar>& to) noexcept {
   const VectorOf<Scalar, 3> tip = to.tip - from.tip, end = tip + to.way - from.way;
   return (std::max)(tip.squaredNorm(), end.squaredNorm());
+}
+
+/// Of a radius, in lengths of the beam.  Seen from the beam a larger disc is a plane, and in `float` the depth of a bend is lost in the
+/// round-off of its radius.
+inline constexpr double most_radius = 1000;
+
+/// @param length  of the beam [m]   @throws std::invalid_argument unless the radius is 0 to most_radius lengths
+[[gnu::cold]] inline void check_radius(const char* field, double radius, double length) {
+  if (!(radius >= 0 && radius <= most_radius * length))
+    reject(field, radius, "m",
+           ("0 to " + number(most_radius * length) + " m, a thousand lengths of the beam").c_str());
 }
 
 }  // namespace detail

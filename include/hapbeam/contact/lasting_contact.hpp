@@ -37,7 +37,7 @@ struct LastingContact {
   static constexpr bool planar = dimension == 2;
   using Avatar = hapbeam::Avatar<Scalar, dimension>;
   using Contact = hapbeam::Contact<Scalar, dimension>;
-  using Round = typename RoundOf<Scalar, dimension>::Type;
+  using Round = PushOf<Model>;
 
   /// Farther than this from where they touch, in units of reach, the contact has not been found.
   static constexpr Scalar too_far = Scalar(1e-2);
@@ -56,6 +56,17 @@ struct LastingContact {
     friction.sliding = static_cast<Scalar>(coefficients.sliding);
     // It is not looked at while it has none.
     if (coefficients.none()) friction.let_go();
+  }
+
+  void soften(Scalar stiffness, Scalar damping) noexcept {
+    friction.stiffness = stiffness, friction.damping = damping;
+  }
+  /// What is felt of it.   @param felt  out, of a TouchResult or a TouchPlace
+  template <class Felt>
+  void rub(Scalar normal_force, Felt& felt) const noexcept {
+    felt.friction = friction.on_hand(normal_force);
+    felt.force += felt.friction;
+    felt.sliding = friction.slides;
   }
 
   /// Where the avatar lies to the beam.  A pressed beam moves with the hand, which cannot have gone round its end.  Only a beam that has

@@ -20,8 +20,7 @@ struct RoundAvatar {
       : radius(radius_), touches(touches_), friction(friction_) {}
   /// @param length  of the beam [m]   @throws std::invalid_argument naming what makes no sense
   void check(double length) const {
-    if (!(radius >= 0 && radius <= 1000 * length))
-      detail::reject("avatar radius", radius, "m", "0 to a thousand lengths of the beam");
+    detail::check_radius("avatar radius", radius, length);
     if (touches < 1) detail::reject("avatar touches", touches, "places", "1 or more");
     friction.check();
   }
@@ -86,8 +85,7 @@ class Prop {
   void check(double length) const {
     for (const double x : {centre_.squaredNorm(), shaft_.squaredNorm(), direction_.squaredNorm(), d_})
       detail::finite("prop", x, "");
-    if (!(radius_ >= 0 && radius_ <= 1000 * length))
-      detail::reject("prop radius", radius_, "m", "0 to a thousand lengths of the beam");
+    detail::check_radius("prop radius", radius_, length);
     friction_.check();
     if (kind_ == ObstacleKind::round) return;
     if (!friction_.none()) detail::reject("friction", friction_.sticking, "", "0 for a stop or a support");

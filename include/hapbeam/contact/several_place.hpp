@@ -69,6 +69,7 @@ struct SeveralPlace {
   using Lasting = LastingContact<Model>;
   using Scalar = typename Model::Scalar;
   static constexpr int dimension = dimension_of<Model>;
+  using Vector = VectorOf<Scalar, dimension>;
   /// Of the length.  A touch bends the beam beside the end, which may slide: farther than that others have drawn it.
   static constexpr Scalar far_away = Scalar(1e-3);
 
@@ -80,6 +81,7 @@ struct SeveralPlace {
   Lasting at;
   hapbeam::Contact<Scalar, dimension> contact;  // in this tick, and on the shape before, where it is
   Status status = Status::ok;                   // of what keeps it from being an obstacle in this tick
+  TouchPlace<Scalar, dimension> answer;         // of the last tick that had one
 
   void stand(const Prop<dimension>& stands, double length) {
     who = prop;
@@ -87,6 +89,16 @@ struct SeveralPlace {
     obstacle.kind = stands.kind();
     obstacle.place = stands.template place<Scalar>();
     at.take(stands.friction());
+  }
+  /// A hand moves it.
+  void move(const Vector& position, const Vector& shaft) noexcept {
+    who = hand;
+    avatar.position = position;
+    if constexpr (dimension == 3) avatar.shaft = shaft;
+  }
+  Vector shaft() const noexcept {
+    if constexpr (dimension == 3) return avatar.shaft;
+    else return Vector::Zero();
   }
   /// Whether an end holds it.
   bool at_end() const noexcept { return at.mode > Mode::pushed; }
@@ -100,6 +112,8 @@ struct SeveralPlace {
     at.mode = Mode::apart;
     obstacle.touching = false;
     obstacle.round = {}, obstacle.pushed = {0, Status::ok};
+    answer = {};
+    answer.body = obstacle.body;
   }
 
   /// Where it lies to the beam.   @param volumes  () -> those of the present shape   @return whether the two touch
@@ -120,37 +134,30 @@ struct SeveralPlace {
     const Scalar reach = (std::min)(avatar.radius + model.thickness() / 2, model.shape().length() / 10);
     return at.friction.settled && obstacle.pushed.miss <= Lasting::too_far * reach;
   }
-  /// @param pushed  whether there was a push in this tick
-  void report(bool pushed, TouchPlace<Scalar, dimension>& to) const noexcept {
-    to.body = obstacle.body;
-    to.touching = obstacle.touching;
-    to.status = !obstacle.valid ? status : pushed ? obstacle.pushed.status : Status::ok;
+  /// Answers.   @param pushed  whether there was a push in this tick
+  void report(bool pushed) noexcept {
+    answer = {};
+    answer.body = obstacle.body;
+    answer.touching = obstacle.touching;
+    answer.status = !obstacle.valid ? status : pushed ? obstacle.pushed.status : Status::ok;
     if (!obstacle.touching) return;
-    to.s = obstacle.pushed.s;
-    to.depth = contact.depth;
-    to.point = obstacle.pushed.point;
-    to.normal = obstacle.pushed.normal;
-    to.force = -obstacle.pushed.force * obstacle.pushed.normal;
-    if (at.rough()) {
-      to.friction = at.friction.on_hand(-obstacle.pushed.force);
-      to.force += to.friction;
-      to.sliding = at.friction.slides;
-      to.dissipated = at.friction.dissipated;
+    const bool held = at_end();
+    if (held && answer.status == Status::ok) answer.status = Status::out_of_range;
+    answer.s = held ? contact.s : obstacle.pushed.s;
+    answer.depth = contact.depth;
+    answer.point = held ? contact.foot : obstacle.pushed.point;
+    answer.normal = held ? contact.normal : obstacle.pushed.normal;
+    answer.force = -obstacle.pushed.force * (held ? at.place.factor() : Scalar(1)) * answer.normal;
+    if (at.rough() && !fixed()) {
+      answer.dissipated = at.friction.dissipated;
+      if (!held) at.rub(-obstacle.pushed.force, answer);
     }
-    if (!at_end()) return;
-    if (to.status == Status::ok) to.status = Status::out_of_range;
-    to.s = contact.s;
-    to.point = contact.foot;
-    to.normal = contact.normal;
-    to.force = -obstacle.pushed.force * at.place.factor() * contact.normal;
   }
 
  private:
   void forget_friction() noexcept {
-    FrictionState<Scalar, dimension> fresh;
-    fresh.sticking = at.friction.sticking, fresh.sliding = at.friction.sliding;
-    fresh.stiffness = at.friction.stiffness, fresh.damping = at.friction.damping;
-    at.friction = fresh;
+    const auto& of = at.friction;
+    at.friction = {of.sticking, of.sliding, of.stiffness, of.damping};
   }
 
   template <class Volumes>

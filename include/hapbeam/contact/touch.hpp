@@ -12,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <stdexcept>
 #include <type_traits>
 
 #include <hapbeam/contact/lasting_contact.hpp>
@@ -61,15 +59,8 @@ class Touch {
   /// friction one that the model offers
   Touch(Model& model, Scalar avatar_radius, const Friction& friction = {})
       : model_(model), avatar_radius_(avatar_radius), volumes_(model.shape().segments()) {
-    const double radius = static_cast<double>(avatar_radius);
-    const double largest = most_radius * static_cast<double>(model.shape().length());
-    if (!(radius >= 0 && radius <= largest)) {
-      char text[128];
-      std::snprintf(text, sizeof text,
-                    "avatar_radius = %g m: must be 0 to %g m, a thousand lengths of the beam", radius,
-                    largest);
-      throw std::invalid_argument(text);
-    }
+    detail::check_radius("avatar_radius", static_cast<double>(avatar_radius),
+                         static_cast<double>(model.shape().length()));
     friction.check();
     if (!takes_friction<Model> && !friction.none())
       detail::reject("friction", friction.sticking, "",
@@ -107,10 +98,7 @@ class Touch {
   [[nodiscard]] bool rough() const noexcept { return takes_friction<Model> && at_.rough(); }
   /// Where there is friction, the avatar's skin yields along the surface: a hand that cannot render what is stiffer.  From then on.
   /// @param stiffness  [N/m] positive   @param damping  [N/m] of a damper, N·s/m over the time of a tick
-  void soften(Scalar stiffness, Scalar damping) noexcept {
-    at_.friction.stiffness = stiffness;
-    at_.friction.damping = damping;
-  }
+  void soften(Scalar stiffness, Scalar damping) noexcept { at_.soften(stiffness, damping); }
   /// Ends the touch: the beam is untouched, and the next contact is a new one.
   [[nodiscard]] bool resting() const noexcept { return at_.mode == Mode::apart && !falling_; }
 
@@ -126,9 +114,8 @@ class Touch {
     return contact_at(Avatar{position, avatar_radius_, shaft});
   }
 
-  /// Of the avatar's radius, in lengths of the beam.  Seen from the beam a larger disc is a plane, and in `float` the depth
-  /// of a bend is lost in the round-off of its radius.
-  static constexpr double most_radius = 1000;
+  /// Of the avatar's radius, in lengths of the beam.
+  static constexpr double most_radius = detail::most_radius;
   /// Ticks since the last answer in which the model may have no force either.  After them the touch is over.
   static constexpr int patience = 20;
 
@@ -255,11 +242,7 @@ auto Touch<Model>::tick(const Avatar& avatar) noexcept -> Result {
   press_on(result);
   if (std::isfinite(held.force)) result.force = contact.normal * held.force;
   else result.status = Status::non_finite;
-  if (rough() && at_.mode == Mode::pushed && std::isfinite(held.force)) {
-    result.friction = at_.friction.on_hand(held.force);
-    result.force += result.friction;
-    result.sliding = at_.friction.slides;
-  }
+  if (rough() && at_.mode == Mode::pushed && std::isfinite(held.force)) at_.rub(held.force, result);
   return result;
 }
 

@@ -72,7 +72,6 @@ class TouchSeveral {
     model_.reset();
     volumes_.outdate();
     for (Place& place : *this) place.forget();
-    forget_answer();
     moving_ = false;
     unanswered_ = 0;
     begin_touch();
@@ -97,14 +96,17 @@ class TouchSeveral {
 
   /// One avatar moves, and the others stay where they are.   @param shaft  of a capsule in space
   [[nodiscard]] Result tick(int avatar, const Vector& position,
-                            const Vector& shaft = Vector::Zero()) noexcept;
+                            const Vector& shaft = Vector::Zero()) noexcept {
+    if (!is_place(position, shaft)) return invalid();
+    each_of(avatar, [&](Place& place) { place.move(position, shaft); });
+    return solve();
+  }
   /// An avatar leaves the scene, until it is moved again.
   void lift(int avatar) noexcept {
     each_of(avatar, [](Place& place) {
       place.forget();
       place.who = Place::lifted;
     });
-    forget_answer(avatar);
   }
   /// Nobody moves.
   [[nodiscard]] Result tick_still() noexcept { return solve(); }
@@ -114,9 +116,7 @@ class TouchSeveral {
   }
   /// Whether an avatar touched in the last tick.
   [[nodiscard]] bool touching(int avatar) noexcept {
-    bool any = false;
-    each_of(avatar, [&](const Place& place) { any = any || place.obstacle.touching; });
-    return any;
+    return any_of(avatar, [](const Place& place) { return place.obstacle.touching; });
   }
   /// @param radius [m]   @throws std::invalid_argument
   void set_radius(int avatar, double radius) {
@@ -130,22 +130,18 @@ class TouchSeveral {
   }
   /// Whether an avatar has friction.
   [[nodiscard]] bool rough(int avatar) noexcept {
-    bool any = false;
-    each_of(avatar, [&](const Place& place) { any = place.at.rough(); });
-    return any;
+    return any_of(avatar, [](const Place& place) { return place.at.rough(); });
   }
   /// As Touch::soften().
   void soften(int avatar, Scalar stiffness, Scalar damping) noexcept {
-    each_of(avatar, [&](Place& place) {
-      place.at.friction.stiffness = stiffness, place.at.friction.damping = damping;
-    });
+    each_of(avatar, [&](Place& place) { place.at.soften(stiffness, damping); });
   }
   /// The contact of the beam as it lies now with an avatar, gone straight to a place from that of its last tick.
   [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
       int avatar, const Vector& position, const Vector& shaft = Vector::Zero()) noexcept {
     hapbeam::Contact<Scalar, dimension> contact;
     each_of(avatar, [&](Place place) {
-      place.avatar = moved(place.avatar, position, shaft);
+      place.move(position, shaft);
       contact = find_contact(place.avatar, model_.shape(), volumes_.fitted(model_.shape()),
                              model_.thickness(), place.at.memory);
     });
@@ -157,14 +153,12 @@ class TouchSeveral {
   [[nodiscard]] bool resting() const noexcept { return !moving_; }
 
   /// As Touch::most_radius.
-  static constexpr double most_radius = 1000;
+  static constexpr double most_radius = detail::most_radius;
   /// As Touch::patience.
   static constexpr int patience = 20;
 
  private:
-  static constexpr bool planar = dimension == 2;
   using Place = detail::SeveralPlace<Model>;
-  using Avatar = hapbeam::Avatar<Scalar, dimension>;
 
   Result solve() noexcept;
   Result invalid() const noexcept {
@@ -192,19 +186,13 @@ class TouchSeveral {
     for (Place& place : *this)
       if (place.obstacle.body == avatar && place.who != Place::prop) use(place);
   }
-  static Avatar moved(Avatar avatar, const Vector& position, const Vector& shaft) noexcept {
-    avatar.position = position;
-    if constexpr (!planar) avatar.shaft = shaft;
-    return avatar;
+  template <class Is>
+  bool any_of(int avatar, Is&& is) {
+    bool any = false;
+    each_of(avatar, [&](const Place& place) { any = any || is(place); });
+    return any;
   }
 
-  /// @param body  -1: of all
-  void forget_answer(int body = -1) noexcept {
-    for (int i = 0; i < size_; ++i) {
-      const int of = places_[at(i)].obstacle.body;
-      if (body < 0 || of == body) answer_[at(i)] = {}, answer_[at(i)].body = of;
-    }
-  }
   /// To be called where the beam is at rest.
   void begin_touch() noexcept {
     for (Place& place : *this) place.at.place.begin(model_);
@@ -231,9 +219,8 @@ class TouchSeveral {
   BoundingVolumes<Scalar, dimension> volumes_;
   std::array<Place, most> places_{};
   int size_ = 0, avatars_ = 0;
-  bool moving_ = false;                                     // touched, or let go and not yet at rest
-  std::array<TouchPlace<Scalar, dimension>, most> answer_;  // of the last tick that had one
-  int unanswered_ = 0;                                      // ticks since the last answer
+  bool moving_ = false;  // touched, or let go and not yet at rest
+  int unanswered_ = 0;   // ticks since the last answer
 };
 
 template <class Model>
@@ -243,22 +230,9 @@ auto TouchSeveral<Model>::tick(const Vector* positions, const Vector* shafts, in
     valid = is_place(positions[k], shafts ? shafts[k] : Vector(Vector::Zero()));
   if (!valid) return invalid();
   for (Place& place : *this) {
-    if (place.who == Place::prop) continue;
-    place.who = Place::hand;
-    place.avatar.position = positions[place.obstacle.body];
-    if constexpr (!planar)
-      if (shafts) place.avatar.shaft = shafts[place.obstacle.body];
+    const int k = place.obstacle.body;
+    if (place.who != Place::prop) place.move(positions[k], shafts ? shafts[k] : place.shaft());
   }
-  return solve();
-}
-
-template <class Model>
-auto TouchSeveral<Model>::tick(int avatar, const Vector& position, const Vector& shaft) noexcept -> Result {
-  if (!is_place(position, shaft)) return invalid();
-  each_of(avatar, [&](Place& place) {
-    place.who = Place::hand;
-    place.avatar = moved(place.avatar, position, shaft);
-  });
   return solve();
 }
 
@@ -277,12 +251,12 @@ auto TouchSeveral<Model>::solve() noexcept -> Result {
   }
   const bool answer = is_answer(result.status);
   for (int i = 0; i < size_; ++i) {
-    TouchPlace<Scalar, dimension>& place = result.places[at(i)];
-    if (answer) places_[at(i)].report(pushed, place);
-    else place = answer_[at(i)], place.status = result.status;
+    if (answer) places_[at(i)].report(pushed);
+    TouchPlace<Scalar, dimension>& place = result.places[at(i)] = places_[at(i)].answer;
+    if (!answer) place.status = result.status;
     if (worse(place.status, result.status)) result.status = place.status;
   }
-  if (answer) answer_ = result.places, unanswered_ = 0;
+  if (answer) unanswered_ = 0;
   else if (++unanswered_ > patience) reset();
   return result;
 }
