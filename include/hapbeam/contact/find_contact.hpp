@@ -46,24 +46,22 @@ struct ContactMemory {
 
 namespace detail {
 
-/// The foot: direction of the centreline there, and whether q lies beyond an end of it.
-template <typename Scalar>
-struct FootFrame {
-  Vector2<Scalar> direction;  // unit
-  bool at_node;               // the way to q need not be square to the direction
-  bool past_end;
-};
-
-template <typename Scalar>
-FootFrame<Scalar> foot_frame(const CentrelinePart<Scalar>& part,
-                             const NearestPoint<Scalar>& nearest) noexcept {
+/// The contact's place on the beam.   @param nearest  its index within the line   @param first  index of the line's first piece in the whole
+/// @param begins, ends  whether the line holds the beam's ends   @return unit tangent of the centreline there
+template <typename Scalar, int D>
+VectorOf<Scalar, D> place_contact(Contact<Scalar, D>& contact, const NearestPoint<Scalar, D>& nearest,
+                                  const Centreline<Scalar, D>& line, int first, bool begins,
+                                  bool ends) noexcept {
   const int i = nearest.segment;
   const Scalar t = nearest.at.t;
-  FootFrame<Scalar> frame{tangent(part.line.segment(i), t).normalized(), t == 0 || t == 1, false};
-  const Scalar ahead = frame.direction.dot(nearest.at.offset);
-  if (part.begins() && i == 0 && t == 0) frame.past_end = ahead < 0;
-  if (part.ends() && i == part.line.segments() - 1 && t == 1) frame.past_end = ahead > 0;
-  return frame;
+  const auto &a = line[i], &b = line[i + 1];
+  const VectorOf<Scalar, D> along = tangent(line.segment(i), t).normalized();
+  const Scalar ahead = along.dot(nearest.at.offset);
+  contact.segment = first + i;
+  contact.s = t < 1 ? (std::min)(a.s + t * (b.s - a.s), b.s) : b.s;
+  contact.past_end =
+      (begins && i == 0 && t == 0 && ahead < 0) || (ends && i == line.segments() - 1 && t == 1 && ahead > 0);
+  return along;
 }
 
 /// The contact at the nearest point.
@@ -74,21 +72,18 @@ Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const Centreline
                            Crossed&& crossings) noexcept {
   const Vector2<Scalar>& q = avatar.position;
   Contact<Scalar> contact;
-  const FootFrame<Scalar> frame = foot_frame(part, nearest);
   const Vector2<Scalar>& offset = nearest.at.offset;
-  contact.segment = part.first + nearest.segment;
+  const Vector2<Scalar> along =
+      place_contact(contact, nearest, part.line, part.first, part.begins(), part.ends());
   contact.foot = q - offset;
-  contact.past_end = frame.past_end;
-  const auto &a = part.line[nearest.segment], &b = part.line[nearest.segment + 1];
-  contact.s = nearest.at.t < 1 ? (std::min)(a.s + nearest.at.t * (b.s - a.s), b.s) : b.s;
 
   // A step that ends on the centreline itself has crossed it, so the sign of zero does not matter below.
-  const int present_side = cross(frame.direction, offset) < 0 ? -1 : 1;
+  const int present_side = cross(along, offset) < 0 ? -1 : 1;
 
   constexpr Scalar eps = std::numeric_limits<Scalar>::epsilon(), round_off = 64 * eps * eps;
   contact.side = present_side;
   if (memory.touching) {
-    const bool goes_round_end = frame.past_end && !memory.through;
+    const bool goes_round_end = contact.past_end && !memory.through;
     if (!goes_round_end) contact.side = memory.side;
   } else if (memory.known) {
     // Only a step longer than the present distance can have crossed anything.
@@ -102,17 +97,18 @@ Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const Centreline
 
   const Scalar distance = std::sqrt(nearest.at.distance_squared), reach = avatar.radius + thickness / 2;
   const bool through = contact.side != present_side;
-  const Scalar gap = through && !frame.past_end ? -distance : distance;
+  const Scalar gap = through && !contact.past_end ? -distance : distance;
   contact.depth = reach - gap;
   contact.touching = contact.depth > 0;
   if (!contact.touching) contact.side = present_side;
 
   // At a node the way to the centre is the normal, unless it is too short to have a direction.
-  if (frame.at_node && distance > std::sqrt(std::numeric_limits<Scalar>::epsilon()) * reach) {
+  if ((nearest.at.t == 0 || nearest.at.t == 1) &&
+      distance > std::sqrt(std::numeric_limits<Scalar>::epsilon()) * reach) {
     contact.normal = offset / gap;
   } else {
     const Scalar side = static_cast<Scalar>(contact.side);
-    contact.normal = {-side * frame.direction.y(), side * frame.direction.x()};
+    contact.normal = {-side * along.y(), side * along.x()};
   }
   contact.point = contact.foot + contact.normal * (thickness / 2);
   memory = {q, true, contact.touching, contact.touching && through, contact.side, 0, {0, 0}};

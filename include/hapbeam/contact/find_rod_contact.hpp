@@ -27,15 +27,10 @@ Contact<Scalar, 3> rod_contact_at(const NearestPoint<Scalar, 3>& nearest, const 
                                   Scalar reach, Scalar thickness) noexcept {
   using Vector = VectorOf<Scalar, 3>;
   Contact<Scalar, 3> contact;
-  const int i = nearest.segment;
-  const Scalar t = nearest.at.t;
-  const CubicSegment<Scalar, 3> piece = line.segment(i);
-  const Vector &offset = nearest.at.offset, along = unit(tangent(piece, t));
-  const Scalar distance = std::sqrt(nearest.at.distance_squared), ahead = along.dot(offset);
-  contact.segment = i;
-  contact.foot = point_at(piece, t);
-  contact.past_end = (i == 0 && t == 0 && ahead < 0) || (i == line.segments() - 1 && t == 1 && ahead > 0);
-  contact.s = t < 1 ? (std::min)(line[i].s + t * (line[i + 1].s - line[i].s), line[i + 1].s) : line[i + 1].s;
+  const Vector& offset = nearest.at.offset;
+  const Vector along = place_contact(contact, nearest, line, 0, true, true);
+  const Scalar distance = std::sqrt(nearest.at.distance_squared);
+  contact.foot = point_at(line.segment(nearest.segment), nearest.at.t);
   contact.depth = reach - distance;
   contact.touching = contact.depth > 0;
   // On the axis itself every way across the rod is the nearest one.
@@ -43,7 +38,7 @@ Contact<Scalar, 3> rod_contact_at(const NearestPoint<Scalar, 3>& nearest, const 
     contact.normal = offset / distance;
   else if (const Vector side = before - along * along.dot(before); side.squaredNorm() > Scalar(0.01))
     contact.normal = unit(side);
-  else contact.normal = across(line[i].director, along);
+  else contact.normal = across(line[nearest.segment].director, along);
   // And it has to be across the axis.
   if (axis.way.squaredNorm() > 0 && !(distance > 0))
     if (const Vector side = cross3<Scalar>(along, axis.way); side.squaredNorm() > 0)
