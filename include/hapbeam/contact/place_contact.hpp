@@ -62,7 +62,8 @@ class PlaceContact {
     if (contact.past_end && std::isfinite(contact.s > 0 ? range.right_support : range.left_support))
       return Mode::support;
     // Beside a rigid end, which no push moves, the beam is pressed across, and that ends with its range.
-    if (!takes_push<Model> || (before == Mode::across && contact.depth > reach)) return Mode::across;
+    constexpr bool pushed = takes_push<Model> || takes_obstacles<Model>;
+    if (!pushed || (before == Mode::across && contact.depth > reach)) return Mode::across;
     const Centreline<Scalar> line = model.shape();
     Scalar around = reach;
     if constexpr (takes_obstacles<Model>) {

@@ -62,7 +62,8 @@ class ServoPicture {
 template <typename Model>
 struct Drawn {
   using Picture = ServoPicture<typename Model::Scalar, detail::dimension_of_touch<Touch<Model>>>;
-  static constexpr bool for_who_looks = detail::offers<detail::Part, Model>;  ///< it costs more than the force
+  static constexpr bool for_who_looks =
+      detail::offers<detail::Part, Model>;  ///< it costs more than the force
   static auto of(const Model& model, const Touch<Model>&) noexcept { return model.shape(); }
 };
 
