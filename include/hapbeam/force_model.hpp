@@ -172,11 +172,7 @@ namespace detail {
 /// What contact asks of a model that can be pushed: the point of contact is found by the model.
 template <typename Scalar, int D>
 struct RoundOf {
-  using Type = Circle<Scalar>;
-};
-template <typename Scalar>
-struct RoundOf<Scalar, 3> {
-  using Type = Capsule<Scalar>;
+  using Type = std::conditional_t<D == 2, Circle<Scalar>, Capsule<Scalar>>;
 };
 
 }  // namespace detail
@@ -287,33 +283,23 @@ struct IsForceModel<M, std::void_t<typename M::Scalar>> {
 
 /// The circle or capsule by which M can be pushed: the model finds the point of contact.
 template <typename M>
-using PushOf = RoundOf<typename M::Scalar, dimension_of<M>>;
+using PushOf = typename RoundOf<typename M::Scalar, dimension_of<M>>::Type;
 
-template <typename M, typename = void>
-struct TakesPush : std::false_type {};
-template <typename M>
-struct TakesPush<
-    M, std::void_t<decltype(std::declval<M&>().release()),
-                   decltype(std::declval<M&>().push(std::declval<const typename PushOf<M>::Type&>()))>>
-    : std::bool_constant<noexcept(std::declval<M&>().release())&& noexcept(
-          std::declval<M&>().push(std::declval<const typename PushOf<M>::Type&>()))> {};
+/// Whether Call<M> names a type: std::enable_if_t of noexcept calls that M offers.
+template <template <typename> class Call, typename M, typename = void>
+inline constexpr bool offers = false;
+template <template <typename> class Call, typename M>
+inline constexpr bool offers<Call, M, std::void_t<Call<M>>> = true;
 
-template <typename M, typename = void>
-struct TakesObstacles : std::false_type {};
 template <typename M>
-struct TakesObstacles<M, std::void_t<decltype(std::declval<M&>().release()),
-                                     decltype(std::declval<M&>().push(
-                                         std::declval<Obstacle<typename M::Scalar, dimension_of<M>>*>(), 0))>>
-    : std::bool_constant<noexcept(std::declval<M&>().release())&& noexcept(
-          std::declval<M&>().push(std::declval<Obstacle<typename M::Scalar, dimension_of<M>>*>(), 0))> {};
-
-template <typename M, typename = void>
-struct OffersPart : std::false_type {};
+using PushRound = std::enable_if_t<noexcept(std::declval<M&>().release())&& noexcept(
+    std::declval<M&>().push(std::declval<const PushOf<M>&>()))>;
 template <typename M>
-struct OffersPart<
-    M, std::void_t<decltype(std::declval<const M&>().part(typename M::Scalar(), typename M::Scalar()))>>
-    : std::bool_constant<noexcept(
-          std::declval<const M&>().part(typename M::Scalar(), typename M::Scalar()))> {};
+using PushObstacles = std::enable_if_t<noexcept(std::declval<M&>().release())&& noexcept(
+    std::declval<M&>().push(std::declval<Obstacle<typename M::Scalar, dimension_of<M>>*>(), 0))>;
+template <typename M>
+using Part =
+    std::enable_if_t<noexcept(std::declval<const M&>().part(typename M::Scalar(), typename M::Scalar()))>;
 
 }  // namespace detail
 
@@ -321,17 +307,17 @@ struct OffersPart<
 template <typename M>
 CentrelinePart<typename M::Scalar> part_of(const M& model, typename M::Scalar s0,
                                            typename M::Scalar s1) noexcept {
-  if constexpr (detail::OffersPart<M>::value) return model.part(s0, s1);
+  if constexpr (detail::offers<detail::Part, M>) return model.part(s0, s1);
   else return part_of(model.shape(), s0, s1);
 }
 
 /// True where M can be pushed along any direction, noexcept included.
 template <typename M>
-inline constexpr bool takes_push = detail::TakesPush<M>::value;
+inline constexpr bool takes_push = detail::offers<detail::PushRound, M>;
 
 /// True where M can be pushed by several bodies at once, noexcept included; M::contacts says by how many.
 template <typename M>
-inline constexpr bool takes_obstacles = detail::TakesObstacles<M>::value;
+inline constexpr bool takes_obstacles = detail::offers<detail::PushObstacles, M>;
 
 /// True where M fulfils the contract above, every noexcept included.
 template <typename M>

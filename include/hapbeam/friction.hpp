@@ -90,17 +90,14 @@ struct FrictionState {
 
 namespace detail {
 
-// Signatures alone, to be called with null pointers.
 template <typename M>
-auto with_friction(M* m, const typename PushOf<M>::Type* round,
-                   FrictionState<typename M::Scalar, dimension_of<M>>* state)
-    -> std::bool_constant<noexcept(m->push(*round, *state))>;
-template <typename>
-std::false_type with_friction(...);
+using PushRough = std::enable_if_t<noexcept(std::declval<M&>().push(
+    std::declval<const PushOf<M>&>(), std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))>;
+
 }  // namespace detail
 
 /// True where M can be pushed with friction, noexcept included.
 template <typename M>
-inline constexpr bool takes_friction = decltype(detail::with_friction<M>(nullptr, nullptr, nullptr))::value;
+inline constexpr bool takes_friction = detail::offers<detail::PushRough, M>;
 
 }  // namespace hapbeam

@@ -5,7 +5,6 @@
 
 #include "../support/catch.hpp"
 #include <hapbeam/contact/closest_point.hpp>
-#include <hapbeam/contact/crossing.hpp>
 
 using hapbeam::CubicSegment;
 using Vector = hapbeam::Vector2<double>;

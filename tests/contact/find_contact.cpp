@@ -343,7 +343,7 @@ TEST_CASE("a position that is not a number answers nothing and changes nothing")
     CHECK(contact.segment == -1);
     CHECK((contact.depth == 0 && contact.point.isZero() && contact.normal.isZero()));
     CHECK_FALSE(out_of_reach<double>({bad, radius}, scene.volumes, thickness, scene.memory));
-    CHECK(scene.memory.position == Vector(0.4, 0.007));
+    CHECK(scene.memory.place == Vector(0.4, 0.007));
     CHECK(scene.move_to(0.4, -0.1).depth ==
           Approx(0.1 + reach));  // the step is seen from the last good position
     ContactMemory<double> nothing;

@@ -4,7 +4,7 @@
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
-#include <hapbeam/many/box_tree.hpp>
+#include <hapbeam/many/beam_array.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -13,7 +13,7 @@ namespace {
 
 using Bounds = detail::Box<double>;
 using Step = detail::Step<double>;
-using Tree = detail::BoxTree<double>;
+using Tree = detail::SortedBoxes<double>;
 
 Bounds at(double x, double y, double width, double height) {
   Bounds box;

@@ -6,7 +6,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include <hapbeam/contact/bounding_volumes.hpp>
-#include <hapbeam/contact/find_rod_contact.hpp>
+#include <hapbeam/contact/find_contact_near.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -90,20 +90,20 @@ TEST_CASE("near where it was the contact of a rod is that of the whole rod, to t
       Avatar<double, 3> avatar{model.shape().at(s).r + Point(x, y, z), radius};
       if (trial % 2 == 0) avatar.shaft = Point(y, z, x) / far * size / 4;
       ContactMemory<double, 3> near;
-      near.axis = avatar.axis();
-      near.axis.tip.x() += moved;
+      near.place = avatar.place();
+      near.place.tip.x() += moved;
       near.known = near.touching = true;
       near.s = trial % 4 == 3 ? stale : s;
       near.normal = detail::unit(Point(x, z, y));
       ContactMemory<double, 3> all = near;
       Contact<double, 3> here;
-      if (!detail::find_contact_near(model, avatar, near, here)) {
+      if (!detail::find_contact_near(model, near.s, avatar, near, here)) {
         ++passed;
         continue;
       }
       ++found;
       const Contact<double, 3> whole = find_contact(avatar, model.shape(), volumes, model.thickness(), all);
-      const auto away = [&](const auto& contact) { return detail::way_to(avatar, contact.foot).norm(); };
+      const auto away = [&](const auto& contact) { return avatar.way_from(contact.foot).norm(); };
       const double reach = radius + model.thickness() / 2, last = trial % 4 == 3 ? stale : s;
       if (here.s != whole.s && std::abs(whole.s - last) > 2 * reach &&
           away(here) - away(whole) <= reach / 2) {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-// An axis-aligned box in a plane or in space.
+// Axis-aligned boxes in a plane or in space, and a hierarchy of them.
 //
-// A plain value.  No allocation, noexcept, O(1).
+// No allocation but in the constructor of the hierarchy; all else is noexcept.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/shaft.hpp>
@@ -84,6 +88,72 @@ struct Box {
     return !(std::isfinite(off) &&
              std::abs(off) > std::abs(dx) * (high[1] - low[1]) + std::abs(dy) * (high[0] - low[0]));
   }
+};
+
+/// An implicit complete binary tree of boxes in one array: node 1 is the root, 2i and 2i + 1 are the children of i.  Each leaf
+/// holds successive things, so neighbours share a parent.
+template <typename Scalar, int D = 2>
+class BoxTree {
+ public:
+  using Bounds = Box<Scalar, D>;
+
+  /// @param most_leaves  a power of two   Allocates.
+  explicit BoxTree(int most_leaves) : nodes_(2 * index(most_leaves)), most_leaves_(most_leaves) {}
+
+  /// Of so many things, one or more.  The boxes are filled next: those of the leaves, and join() makes those of the others.
+  void resize(int size) noexcept {
+    size_ = size;
+    for (leaves_ = 1, levels_ = 0; 2 * leaves_ <= (std::min)(size, most_leaves_); leaves_ *= 2) ++levels_;
+  }
+  int leaves() const noexcept { return leaves_; }
+  /// The first thing of a leaf; of the one after the last, how many there are.
+  int first(int leaf) const noexcept {
+    return static_cast<int>((static_cast<std::int64_t>(leaf) * size_) >> levels_);
+  }
+  Bounds& leaf(int k) noexcept { return nodes_[index(leaves_ + k)]; }
+  void join() noexcept {
+    for (int i = leaves_ - 1; i > 0; --i) {
+      nodes_[index(i)] = nodes_[index(2 * i)];
+      nodes_[index(i)].include(nodes_[index(2 * i + 1)]);
+    }
+  }
+  const Bounds& root() const noexcept { return nodes_[1]; }
+
+  /// Calls look(i) for the things in the leaves of which key(box) <= most(), those of smaller keys first, while look(i) returns true.
+  /// @param key  box -> Scalar, not larger for a box around it   @param most  () -> Scalar, which may fall
+  /// Real-time: noexcept, no allocation, O(log n + what it finds).
+  template <class Key, class Most, class Look>
+  void visit(Key&& key, Most&& most, Look&& look) const noexcept {
+    struct Entry {
+      int node;
+      Scalar key;
+    };
+    Entry stack[32];  // one entry a level, and an int has 31 levels
+    int size = 0;
+    if (size_ > 0) stack[size++] = {1, key(nodes_[1])};
+    while (size > 0) {
+      Entry at = stack[--size];
+      while (at.key <= most() && at.node < leaves_) {
+        const int left = 2 * at.node;
+        Entry farther{left + 1, key(nodes_[index(left + 1)])};
+        at = {left, key(nodes_[index(left)])};
+        if (farther.key < at.key) std::swap(at, farther);
+        if (farther.key <= most()) stack[size++] = farther;
+      }
+      if (!(at.key <= most())) continue;
+      for (int i = first(at.node - leaves_), end = first(at.node - leaves_ + 1); i < end; ++i)
+        if (!look(i)) return;
+    }
+  }
+
+  std::size_t bytes() const noexcept { return nodes_.capacity() * sizeof(Bounds); }
+
+ private:
+  static std::size_t index(int node) noexcept { return static_cast<std::size_t>(node); }
+
+  std::vector<Bounds> nodes_;
+  int most_leaves_, size_ = 0;
+  int leaves_ = 1, levels_ = 0;  // of the present tree: 2^levels_
 };
 
 }  // namespace hapbeam::detail

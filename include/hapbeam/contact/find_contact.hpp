@@ -32,36 +32,36 @@ struct Contact {
 };
 
 /// State from tick to tick.  Starts empty.
-/// @tparam D  2 | 3, which find_rod_contact.hpp has
+/// @tparam D  2 | 3
 template <typename Scalar, int D = 2>
 struct ContactMemory {
-  Vector2<Scalar> position = Vector2<Scalar>::Zero();  ///< [m] where the avatar was
-  bool known = false;                                  ///< position is valid
-  bool touching = false;                               ///< the avatar touched the beam
-  bool through = false;                                ///< touching, its centre beyond the centreline
-  int side = 1;                                        ///< touching, from this side
+  PlaceOf<Scalar, D> place{};  ///< [m] where the avatar was
+  bool known = false;          ///< place is valid
+  bool touching = false;       ///< the avatar touched the beam
+  bool through = false;        ///< touching, in a plane: its centre beyond the centreline
+  int side = 1;                ///< touching, in a plane: from this side
+  Scalar s = 0;                ///< [m] touching, in space: there
+  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< touching, in space: along this one
 };
 
 namespace detail {
 
-/// The foot: direction of the centreline there, and whether q lies beyond an end of it.
-template <typename Scalar>
-struct FootFrame {
-  Vector2<Scalar> direction;  // unit
-  bool at_node;               // the way to q need not be square to the direction
-  bool past_end;
-};
-
-template <typename Scalar>
-FootFrame<Scalar> foot_frame(const CentrelinePart<Scalar>& part,
-                             const NearestPoint<Scalar>& nearest) noexcept {
+/// The contact's place on the beam.   @param nearest  its index within the line   @param first  index of the line's first piece in the whole
+/// @param begins, ends  whether the line holds the beam's ends   @return unit tangent of the centreline there
+template <typename Scalar, int D>
+VectorOf<Scalar, D> place_contact(Contact<Scalar, D>& contact, const NearestPoint<Scalar, D>& nearest,
+                                  const Centreline<Scalar, D>& line, int first, bool begins,
+                                  bool ends) noexcept {
   const int i = nearest.segment;
   const Scalar t = nearest.at.t;
-  FootFrame<Scalar> frame{tangent(part.line.segment(i), t).normalized(), t == 0 || t == 1, false};
-  const Scalar ahead = frame.direction.dot(nearest.at.offset);
-  if (part.begins() && i == 0 && t == 0) frame.past_end = ahead < 0;
-  if (part.ends() && i == part.line.segments() - 1 && t == 1) frame.past_end = ahead > 0;
-  return frame;
+  const auto &a = line[i], &b = line[i + 1];
+  const VectorOf<Scalar, D> along = tangent(line.segment(i), t).normalized();
+  const Scalar ahead = along.dot(nearest.at.offset);
+  contact.segment = first + i;
+  contact.s = t < 1 ? (std::min)(a.s + t * (b.s - a.s), b.s) : b.s;
+  contact.past_end =
+      (begins && i == 0 && t == 0 && ahead < 0) || (ends && i == line.segments() - 1 && t == 1 && ahead > 0);
+  return along;
 }
 
 /// The contact at the nearest point.
@@ -72,25 +72,22 @@ Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const Centreline
                            Crossed&& crossings) noexcept {
   const Vector2<Scalar>& q = avatar.position;
   Contact<Scalar> contact;
-  const FootFrame<Scalar> frame = foot_frame(part, nearest);
   const Vector2<Scalar>& offset = nearest.at.offset;
-  contact.segment = part.first + nearest.segment;
+  const Vector2<Scalar> along =
+      place_contact(contact, nearest, part.line, part.first, part.begins(), part.ends());
   contact.foot = q - offset;
-  contact.past_end = frame.past_end;
-  const auto &a = part.line[nearest.segment], &b = part.line[nearest.segment + 1];
-  contact.s = nearest.at.t < 1 ? (std::min)(a.s + nearest.at.t * (b.s - a.s), b.s) : b.s;
 
   // A step that ends on the centreline itself has crossed it, so the sign of zero does not matter below.
-  const int present_side = cross(frame.direction, offset) < 0 ? -1 : 1;
+  const int present_side = cross(along, offset) < 0 ? -1 : 1;
 
   constexpr Scalar eps = std::numeric_limits<Scalar>::epsilon(), round_off = 64 * eps * eps;
   contact.side = present_side;
   if (memory.touching) {
-    const bool goes_round_end = frame.past_end && !memory.through;
+    const bool goes_round_end = contact.past_end && !memory.through;
     if (!goes_round_end) contact.side = memory.side;
   } else if (memory.known) {
     // Only a step longer than the present distance can have crossed anything.
-    if ((q - memory.position).squaredNorm() >= nearest.at.distance_squared) {
+    if ((q - memory.place).squaredNorm() >= nearest.at.distance_squared) {
       const Crossings crossed = crossings();
       if (crossed.count % 2 != 0) contact.side = crossed.net > 0 ? 1 : -1;
       // Round-off says on which side of the centreline the avatar is, and not that it has crossed.
@@ -100,20 +97,21 @@ Contact<Scalar> contact_at(const NearestPoint<Scalar>& nearest, const Centreline
 
   const Scalar distance = std::sqrt(nearest.at.distance_squared), reach = avatar.radius + thickness / 2;
   const bool through = contact.side != present_side;
-  const Scalar gap = through && !frame.past_end ? -distance : distance;
+  const Scalar gap = through && !contact.past_end ? -distance : distance;
   contact.depth = reach - gap;
   contact.touching = contact.depth > 0;
   if (!contact.touching) contact.side = present_side;
 
   // At a node the way to the centre is the normal, unless it is too short to have a direction.
-  if (frame.at_node && distance > std::sqrt(std::numeric_limits<Scalar>::epsilon()) * reach) {
+  if ((nearest.at.t == 0 || nearest.at.t == 1) &&
+      distance > std::sqrt(std::numeric_limits<Scalar>::epsilon()) * reach) {
     contact.normal = offset / gap;
   } else {
     const Scalar side = static_cast<Scalar>(contact.side);
-    contact.normal = {-side * frame.direction.y(), side * frame.direction.x()};
+    contact.normal = {-side * along.y(), side * along.x()};
   }
   contact.point = contact.foot + contact.normal * (thickness / 2);
-  memory = {q, true, contact.touching, contact.touching && through, contact.side};
+  memory = {q, true, contact.touching, contact.touching && through, contact.side, 0, {0, 0}};
   return contact;
 }
 
@@ -135,24 +133,26 @@ template <typename Scalar>
   const NearestPoint<Scalar> nearest = volumes.nearest(centreline, avatar.position);
   if (nearest.segment < 0) return {};
   return detail::contact_at(nearest, {centreline, 0, centreline.segments()}, avatar, thickness, memory,
-                            [&] { return volumes.crossings(centreline, memory.position, avatar.position); });
+                            [&] { return volumes.crossings(centreline, memory.place, avatar.position); });
 }
 
 /// True if find_contact() would find no contact, because the avatar is farther from the box around the beam than its
 /// own size and its last step. It then replaces find_contact(), at the cost of a box. If false, nothing is decided and
 /// nothing changes.
 /// Real-time: noexcept, no allocation, O(1).
-template <typename Scalar>
-[[nodiscard]] bool out_of_reach(const Avatar<Scalar>& avatar, const BoundingVolumes<Scalar>& volumes,
-                                Scalar thickness, ContactMemory<Scalar>& memory) noexcept {
+template <typename Scalar, int D>
+[[nodiscard]] bool out_of_reach(const Avatar<Scalar, D>& avatar, const BoundingVolumes<Scalar, D>& volumes,
+                                Scalar thickness, ContactMemory<Scalar, D>& memory) noexcept {
   if (memory.touching) return false;
-  const Scalar distance_squared = volumes.distance_squared(avatar.position);
+  const Scalar distance_squared = volumes.distance_squared(avatar.place());
   const Scalar reach = avatar.radius + thickness / 2;
-  const Scalar step_squared = memory.known ? (avatar.position - memory.position).squaredNorm() : Scalar(0);
+  const Scalar step_squared = memory.known ? detail::step_squared(memory.place, avatar.place()) : Scalar(0);
+  // In a plane a step counts where it crosses the beam, in space where it comes near.
+  const Scalar swept = D == 2 ? Scalar(0) : reach + std::sqrt(step_squared);
   if (!(distance_squared > reach * reach && distance_squared > step_squared &&
-        std::isfinite(distance_squared)))
+        distance_squared > swept * swept && std::isfinite(distance_squared)))
     return false;
-  memory.position = avatar.position;
+  memory.place = avatar.place();
   memory.known = true;
   return true;
 }

@@ -17,6 +17,7 @@
 
 #include <hapbeam/contact/closest_point.hpp>
 #include <hapbeam/contact/find_contact.hpp>
+#include <hapbeam/contact/find_rod_contact.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
@@ -24,16 +25,12 @@ namespace hapbeam::detail {
 /// The nearest point of a part that runs along x, to q.
 template <typename Scalar>
 NearestPoint<Scalar> nearest_along_x(const Centreline<Scalar>& line, const Vector2<Scalar>& q) noexcept {
-  // As in BoundingVolumes: what round-off could explain is looked at.
-  constexpr Scalar slack = 1 + 16 * std::numeric_limits<Scalar>::epsilon();
   NearestPoint<Scalar> best;
   const auto x = [&](int i) { return line[i].s + line[i].u; };
   const auto look = [&](int i) {
     const Scalar away = (std::max)((std::max)(x(i) - q.x(), q.x() - x(i + 1)), Scalar(0));
-    if (away * away > best.at.distance_squared * slack) return;
-    const ClosestPoint<Scalar> candidate = closest_point(line.segment(i), q);
-    const Scalar a = candidate.distance_squared, b = best.at.distance_squared;
-    if (a < b || (a == b && i < best.segment)) best = {i, candidate};
+    if (away * away > best.at.distance_squared * more_than_round_off<Scalar>) return;
+    best.take(i, closest_point(line.segment(i), q));
   };
   int beneath = 0;
   while (beneath + 1 < line.segments() && x(beneath + 1) <= q.x()) ++beneath;
@@ -51,11 +48,7 @@ NearestPoint<Scalar, D> nearest_beside(const Centreline<Scalar, D>& line, int be
   NearestPoint<Scalar, D> best{beside, closest_point(line.segment(beside), q)};
   Scalar d = std::sqrt(best.at.distance_squared);
   const auto look = [&](int i) {
-    const ClosestPoint<Scalar, D> candidate = closest_point(line.segment(i), q);
-    const Scalar a = candidate.distance_squared, b = best.at.distance_squared;
-    if (!(a < b || (a == b && i < best.segment))) return;
-    best = {i, candidate};
-    d = std::sqrt(a);
+    if (best.take(i, closest_point(line.segment(i), q))) d = std::sqrt(best.at.distance_squared);
   };
   line.visit_near(beside - 1, -1, q, d, look);
   line.visit_near(beside + 1, 1, q, d, look);
@@ -92,51 +85,53 @@ NearestPoint<Scalar, D> nearest_of_touch(const Centreline<Scalar, D>& line, Scal
   return deeper > reach / 2 ? nearest : own;
 }
 
-/// As find_contact(), of a centreline of finite rotation that the avatar touches.
-/// @param s  [m] where the last contact was   @return false for a position that is none
-template <typename Scalar>
-[[nodiscard]] bool find_contact_beside(const Centreline<Scalar>& line, Scalar s, const Avatar<Scalar>& avatar,
-                                       Scalar thickness, ContactMemory<Scalar>& memory,
-                                       Contact<Scalar>& contact) noexcept {
-  const NearestPoint<Scalar> nearest =
-      nearest_of_touch(line, s, avatar.position, avatar.radius + thickness / 2);
-  if (!std::isfinite(nearest.at.distance_squared)) return false;
-  contact =
-      contact_at(nearest, {line, 0, line.segments()}, avatar, thickness, memory, [] { return Crossings{}; });
-  return true;
-}
-
-/// As find_contact() on the whole of the model's shape, for an avatar that touches it.
-/// @param s  [m] where the last contact was   @param memory  touching   @param contact  out, where the answer is true
-/// @return false where the contact may be elsewhere
-template <class Model>
-[[nodiscard]] bool find_contact_near(const Model& model, typename Model::Scalar s,
-                                     const Avatar<typename Model::Scalar>& avatar,
-                                     ContactMemory<typename Model::Scalar>& memory,
-                                     Contact<typename Model::Scalar>& contact) noexcept {
-  using Scalar = typename Model::Scalar;
-  constexpr Scalar slack = 1 + 16 * std::numeric_limits<Scalar>::epsilon();
+/// As find_contact_near(), of a beam that runs along x.   @param part  of the model's shape, at s
+template <class Model, typename Scalar>
+[[nodiscard]] bool find_contact_along_x(const Model& model, CentrelinePart<Scalar> part, Scalar s,
+                                        const Avatar<Scalar>& avatar, ContactMemory<Scalar>& memory,
+                                        Contact<Scalar>& contact) noexcept {
   const Vector2<Scalar>& q = avatar.position;
   const auto x = [](const CentrelineNode<Scalar>& node) { return node.s + node.u; };
   Scalar low = s, high = s;
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    const CentrelinePart<Scalar> part = part_of(model, low, high);
+  for (bool wider = false;; wider = true) {
     const Centreline<Scalar>& line = part.line;
-    if (line.any_rotation())
-      return find_contact_beside(model.shape(), s, avatar, model.thickness(), memory, contact);
     const NearestPoint<Scalar> nearest = nearest_along_x(line, q);
     if (nearest.segment < 0) return false;
-    const Scalar d = std::sqrt(nearest.at.distance_squared) * slack;
+    const Scalar d = std::sqrt(nearest.at.distance_squared) * more_than_round_off<Scalar>;
     const CentrelineNode<Scalar>&first = line[0], &last = line[line.segments()];
     const bool left = part.begins() || x(first) < q.x() - d, right = part.ends() || x(last) > q.x() + d;
     if (left && right) {
       contact = contact_at(nearest, part, avatar, model.thickness(), memory, [] { return Crossings{}; });
       return true;
     }
+    if (wider) return false;
     if (!left) low = (std::min)(low, q.x() - d - first.u);
     if (!right) high = (std::max)(high, q.x() + d - last.u);
+    part = part_of(model, low, high);
   }
-  return false;
+}
+
+/// As find_contact() on the whole of the model's shape, for an avatar that touches it.
+/// @param s  [m] where the last contact was   @param memory  touching   @param contact  out, where the answer is true
+/// @return false where the contact may be elsewhere
+template <class Model, typename Scalar = typename Model::Scalar, int D = dimension_of<Model>>
+[[nodiscard]] bool find_contact_near(const Model& model, Scalar s, const Avatar<Scalar, D>& avatar,
+                                     ContactMemory<Scalar, D>& memory, Contact<Scalar, D>& contact) noexcept {
+  if constexpr (D == 2 && !takes_push<Model>)  // what can be pushed may turn
+    if (const CentrelinePart<Scalar> part = part_of(model, s, s); !part.line.any_rotation())
+      return find_contact_along_x(model, part, s, avatar, memory, contact);
+  const Centreline<Scalar, D> line = model.shape();
+  const Scalar reach = avatar.radius + model.thickness() / 2;
+  const NearestPoint<Scalar, D> nearest = nearest_of_touch(line, s, avatar.place(), reach);
+  if (!std::isfinite(nearest.at.distance_squared)) return false;
+  if constexpr (D == 2) {
+    contact = contact_at(nearest, {line, 0, line.segments()}, avatar, model.thickness(), memory,
+                         [] { return Crossings{}; });
+  } else {
+    if (step_past(memory, avatar.place(), reach, nearest) > 0) return false;
+    contact = contact_at(nearest, line, avatar, model.thickness(), memory);
+  }
+  return true;
 }
 
 }  // namespace hapbeam::detail

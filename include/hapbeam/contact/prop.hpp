@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What stands beside a beam and is moved by nobody: a peg, a wall, a stop, a support.
+// What may touch a beam: round avatars, which hands move, and props, which nobody moves: a peg, a wall, a stop, a support.
 //
-// Two pegs are a gap.  A plain value; offline.
+// Two pegs are a gap.  Plain values; offline.
 #pragma once
 
 #include <cmath>
@@ -12,6 +12,23 @@
 #include <hapbeam/friction.hpp>
 
 namespace hapbeam {
+
+/// A round avatar that a hand moves.
+struct RoundAvatar {
+  /// @param radius_  [m]   @param touches_  at so many places at most: 2 for one that is wide beside the bends of the beam
+  constexpr RoundAvatar(double radius_, int touches_ = 1, const Friction& friction_ = {}) noexcept
+      : radius(radius_), touches(touches_), friction(friction_) {}
+  /// @param length  of the beam [m]   @throws std::invalid_argument naming what makes no sense
+  void check(double length) const {
+    detail::check_radius("avatar radius", radius, length);
+    if (touches < 1) detail::reject("avatar touches", touches, "places", "1 or more");
+    friction.check();
+  }
+
+  double radius;  ///< [m] >= 0
+  int touches;
+  Friction friction;
+};
 
 /// @tparam D  of the space in which the beam bends: 2 | 3
 template <int D = 2>
@@ -68,8 +85,7 @@ class Prop {
   void check(double length) const {
     for (const double x : {centre_.squaredNorm(), shaft_.squaredNorm(), direction_.squaredNorm(), d_})
       detail::finite("prop", x, "");
-    if (!(radius_ >= 0 && radius_ <= 1000 * length))
-      detail::reject("prop radius", radius_, "m", "0 to a thousand lengths of the beam");
+    detail::check_radius("prop radius", radius_, length);
     friction_.check();
     if (kind_ == ObstacleKind::round) return;
     if (!friction_.none()) detail::reject("friction", friction_.sticking, "", "0 for a stop or a support");

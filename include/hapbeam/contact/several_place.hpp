@@ -1,167 +1,207 @@
 // SPDX-License-Identifier: MIT
-// One place at which an avatar or a prop of several may touch a beam: where it lies to the beam from tick to tick, what it remembers, and what is
-// felt there.
+// One place at which an avatar or a prop of several may touch a beam, and what TouchSeveral says of it.
 //
 // TouchSeveral (touch_several.hpp) has as many as the model has contacts.  An avatar that may touch at k places has k of them.
 // Real-time: noexcept, no allocation.
 #pragma once
 
 #include <algorithm>
+#include <array>
 
-#include <hapbeam/contact/avatar.hpp>
-#include <hapbeam/contact/end_contact.hpp>
-#include <hapbeam/contact/find_contact.hpp>
-#include <hapbeam/contact/find_contact_near.hpp>
-#include <hapbeam/contact/find_rod_contact.hpp>
-#include <hapbeam/contact/push_contact.hpp>
-#include <hapbeam/contact/several_result.hpp>
+#include <hapbeam/contact/lasting_contact.hpp>
+#include <hapbeam/contact/prop.hpp>
 #include <hapbeam/force_model.hpp>
-#include <hapbeam/friction.hpp>
 
-namespace hapbeam::detail {
+namespace hapbeam {
+
+/// What becomes of one possible contact in a tick.
+template <typename Scalar, int D = 2>
+struct TouchPlace {
+  int body = 0;           ///< avatars in their order, then props in theirs
+  bool touching = false;  ///< all else is zero where they do not touch
+  Status status = Status::ok;
+  Scalar s = 0;      ///< [m] arc position
+  Scalar depth = 0;  ///< [m] of the body in the beam as it lay before this tick; negative: the gap
+  VectorOf<Scalar, D> point = VectorOf<Scalar, D>::Zero();     ///< [m] of the centreline
+  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();    ///< unit, out of the beam to the body
+  VectorOf<Scalar, D> force = VectorOf<Scalar, D>::Zero();     ///< [N] on the body; always finite
+  VectorOf<Scalar, D> friction = VectorOf<Scalar, D>::Zero();  ///< [N] what of the force is tangential
+  bool sliding = false;   ///< with friction: the contact slides, else it sticks
+  Scalar dissipated = 0;  ///< [J] by friction, since this contact began; anew where the touch is
+};
+
+/// What one tick says.
+/// @tparam Contacts  most of them
+template <typename Scalar, int D, int Contacts>
+struct TouchSeveralResult {
+  using Place = TouchPlace<Scalar, D>;
+
+  /// Of the equilibrium.  Negative: all places are those of the last answer; invalid_request, for a position that is not
+  /// finite: they are zero.
+  Status status = Status::ok;
+  int size = 0;  ///< possible contacts
+  std::array<Place, Contacts> places;
+
+  const Place* begin() const noexcept { return places.data(); }
+  const Place* end() const noexcept { return places.data() + size; }
+  /// On an avatar or a prop [N].
+  VectorOf<Scalar, D> force(int body) const noexcept { return sum(body, &Place::force); }
+  /// What of it is tangential [N].
+  VectorOf<Scalar, D> friction(int body) const noexcept { return sum(body, &Place::friction); }
+  bool touching(int body) const noexcept {
+    return std::any_of(begin(), end(),
+                       [body](const Place& place) { return place.body == body && place.touching; });
+  }
+
+ private:
+  VectorOf<Scalar, D> sum(int body, VectorOf<Scalar, D> Place::*of) const noexcept {
+    VectorOf<Scalar, D> all = VectorOf<Scalar, D>::Zero();
+    for (const Place& place : *this)
+      if (place.body == body) all += place.*of;
+    return all;
+  }
+};
+
+namespace detail {
 
 template <class Model>
 struct SeveralPlace {
+  using Lasting = LastingContact<Model>;
   using Scalar = typename Model::Scalar;
   static constexpr int dimension = dimension_of<Model>;
-  static constexpr bool planar = dimension == 2;
-  using Avatar = hapbeam::Avatar<Scalar, dimension>;
+  using Vector = VectorOf<Scalar, dimension>;
+  /// Of the length.  A touch bends the beam beside the end, which may slide: farther than that others have drawn it.
+  static constexpr Scalar far_away = Scalar(1e-3);
 
   hapbeam::Obstacle<Scalar, dimension> obstacle;  // as the model is asked, and has answered
-  Avatar avatar{};
-  bool prop = false;
-  bool away = false;  // lifted
-  Scalar depth = 0;
-  ContactMemory<Scalar, dimension> memory;
+  hapbeam::Avatar<Scalar, dimension> avatar{};
+  enum { hand, lifted, prop } who = hand;
+  bool again = false;    // the place before is of the same body
+  bool several = false;  // that one or the place after it is
+  Lasting at;
   hapbeam::Contact<Scalar, dimension> contact;  // in this tick, and on the shape before, where it is
-  bool at_end = false;                          // held by an end
-  EndContact<Scalar, dimension> end;
-  FrictionState<Scalar, dimension> friction;
-  Status status = Status::ok;  // of what keeps it from being an obstacle in this tick
+  Status status = Status::ok;                   // of what keeps it from being an obstacle in this tick
+  TouchPlace<Scalar, dimension> answer;         // of the last tick that had one
 
-  void take(const Friction& coefficients) noexcept {
-    friction.sticking = static_cast<Scalar>(coefficients.sticking);
-    friction.sliding = static_cast<Scalar>(coefficients.sliding);
-    // It is not looked at while it has none.
-    if (coefficients.none()) friction.let_go();
+  void stand(const Prop<dimension>& stands, double length) {
+    who = prop;
+    avatar = stands.template avatar<Scalar>(length);
+    obstacle.kind = stands.kind();
+    obstacle.place = stands.template place<Scalar>();
+    at.take(stands.friction());
   }
-  bool rough() const noexcept { return friction.sticking > 0; }
+  /// A hand moves it.
+  void move(const Vector& position, const Vector& shaft) noexcept {
+    who = hand;
+    avatar.position = position;
+    if constexpr (dimension == 3) avatar.shaft = shaft;
+  }
+  Vector shaft() const noexcept {
+    if constexpr (dimension == 3) return avatar.shaft;
+    else return Vector::Zero();
+  }
+  /// Whether an end holds it.
+  bool at_end() const noexcept { return at.mode > Mode::pushed; }
   /// Whether it is a place of the beam that is held.
-  bool fixed() const noexcept { return obstacle.kind != ObstacleKind::round && !at_end; }
+  bool fixed() const noexcept { return obstacle.kind != ObstacleKind::round && !at_end(); }
 
   void forget() noexcept {
-    memory = {};
+    at.memory = {};
     forget_friction();
-    if (at_end) obstacle.kind = ObstacleKind::round, at_end = false;
+    if (at_end()) obstacle.kind = ObstacleKind::round;
+    at.mode = Mode::apart;
     obstacle.touching = false;
     obstacle.round = {}, obstacle.pushed = {0, Status::ok};
+    answer = {};
+    answer.body = obstacle.body;
   }
 
-  /// Where it lies to the beam.   @param volumes  () -> those of the present shape   @param again  the place before is of the same avatar
-  /// @param several  that one or the place after it is   @return whether the two touch
+  /// Where it lies to the beam.   @param volumes  () -> those of the present shape   @return whether the two touch
   template <class Volumes>
-  bool look(Model& model, Volumes&& volumes, bool again, bool several) noexcept {
-    const bool touched = obstacle.touching, touches = find(model, volumes, again, several);
+  bool look(Model& model, Volumes&& volumes) noexcept {
+    const bool touched = obstacle.touching, touches = find(model, volumes);
     // A contact that begins remembers nothing.
-    if (!touched || !touches) friction.begin();
+    if (!touched || !touches) at.friction.begin();
     // It may begin within the push, where another one brings the beam to it.
-    if (!touched) friction.dissipated = 0;
+    if (!touched) at.friction.dissipated = 0;
     return touches;
   }
 
   /// Whether the contact is where the two touch, as in Touch, and its friction has settled.
   bool found(const Model& model) const noexcept {
-    if (!obstacle.touching || fixed() || at_end) return true;
+    if (!obstacle.touching || fixed() || at_end()) return true;
     // A wall is as flat as any.
     const Scalar reach = (std::min)(avatar.radius + model.thickness() / 2, model.shape().length() / 10);
-    return friction.settled && obstacle.pushed.miss <= PushContact<Scalar, dimension>::too_far * reach;
+    return at.friction.settled && obstacle.pushed.miss <= Lasting::too_far * reach;
   }
-  /// @param pushed  whether there was a push in this tick
-  void report(bool pushed, TouchPlace<Scalar, dimension>& to) const noexcept {
-    to.body = obstacle.body;
-    to.touching = obstacle.touching;
-    to.status = !obstacle.valid ? status : pushed ? obstacle.pushed.status : Status::ok;
+  /// Answers.   @param pushed  whether there was a push in this tick
+  void report(bool pushed) noexcept {
+    answer = {};
+    answer.body = obstacle.body;
+    answer.touching = obstacle.touching;
+    answer.status = !obstacle.valid ? status : pushed ? obstacle.pushed.status : Status::ok;
     if (!obstacle.touching) return;
-    to.s = obstacle.pushed.s;
-    to.depth = depth;
-    to.point = obstacle.pushed.point;
-    to.normal = obstacle.pushed.normal;
-    to.force = -obstacle.pushed.force * obstacle.pushed.normal;
-    if (rough()) rub(to);
-    if (!at_end) return;
-    if (to.status == Status::ok) to.status = Status::out_of_range;
-    to.s = contact.s;
-    to.point = contact.foot;
-    to.normal = contact.normal;
-    to.force = -obstacle.pushed.force * end.factor() * contact.normal;
+    const bool past_end = at_end();
+    if (past_end && answer.status == Status::ok) answer.status = Status::out_of_range;
+    answer.s = past_end ? contact.s : obstacle.pushed.s;
+    answer.depth = contact.depth;
+    answer.point = past_end ? contact.foot : obstacle.pushed.point;
+    answer.normal = past_end ? contact.normal : obstacle.pushed.normal;
+    answer.force = -obstacle.pushed.force * (past_end ? at.place.factor() : Scalar(1)) * answer.normal;
+    if (at.rough() && !fixed()) {
+      answer.dissipated = at.friction.dissipated;
+      if (!held) at.rub(-obstacle.pushed.force, answer);
+    }
   }
 
  private:
   void forget_friction() noexcept {
-    FrictionState<Scalar, dimension> fresh;
-    fresh.sticking = friction.sticking, fresh.sliding = friction.sliding;
-    fresh.stiffness = friction.stiffness, fresh.damping = friction.damping;
-    friction = fresh;
-  }
-  void rub(TouchPlace<Scalar, dimension>& to) const noexcept {
-    to.friction = friction.on_hand(-obstacle.pushed.force);
-    to.force += to.friction;
-    to.sliding = friction.slides;
-    to.dissipated = friction.dissipated;
+    const auto& of = at.friction;
+    at.friction = {of.sticking, of.sliding, of.stiffness, of.damping};
   }
 
   template <class Volumes>
-  bool find(Model& model, Volumes&& volumes, bool again, bool several) noexcept {
+  bool find(Model& model, Volumes&& volumes) noexcept {
     status = Status::ok;
-    obstacle.valid = !away;
-    if (away) return false;
+    obstacle.valid = who != lifted;
+    if (!obstacle.valid) return false;
     if (fixed()) return true;
-    remember();
-    const Scalar thickness = model.thickness(), reach = avatar.radius + thickness / 2;
-    if (!find_near(model)) contact = find_contact(avatar, model.shape(), volumes(), thickness, memory);
-    depth = contact.depth;
-    const bool lost = contact.depth > reach + model.shape().length();
-    obstacle.valid = contact.segment >= 0 && !lost;
-    at_end = !again && obstacle.valid && end.holds(model, contact, avatar, reach, obstacle.touching);
-    obstacle.kind = at_end ? ObstacleKind::stop : ObstacleKind::round;
-    if (at_end) {
-      obstacle.valid = end.aim(model, contact, avatar, reach, obstacle.touching, obstacle.place);
-      depth = contact.depth;
-    }
+    const Scalar reach = avatar.radius + model.thickness() / 2, length = model.shape().length();
+    const bool touched = obstacle.touching;
+    if (touched) at.know(obstacle.pushed.s, at_end() ? contact.normal : obstacle.pushed.normal);
+    contact = at.find(model, avatar, touched, touched, volumes);
+    obstacle.valid = contact.segment >= 0 && !(contact.depth > reach + length);
+    if (obstacle.valid && !again) at.choose(model, contact, avatar, reach, touched ? at.mode : Mode::apart);
+    else at.mode = Mode::pushed;
+    obstacle.kind = at_end() ? ObstacleKind::stop : ObstacleKind::round;
+    if (at_end()) obstacle.valid = stop(model, reach);
     if (!obstacle.valid) {
       status = contact.touching ? Status::out_of_range : Status::ok;
       obstacle.touching = false;
       return false;
     }
     // One avatar that touches twice is nearest to the beam at one place alone.
-    const bool twice = obstacle.touching && several;
-    const Scalar s = twice ? obstacle.pushed.s : contact.s;
-    if constexpr (planar) obstacle.round = {s, avatar.position, reach, static_cast<Scalar>(contact.side)};
-    else obstacle.round = {s, avatar.axis(), reach, twice ? obstacle.pushed.normal : contact.normal};
+    auto there = contact;
+    if (touched && several) there.s = obstacle.pushed.s, there.normal = obstacle.pushed.normal;
+    obstacle.round = Lasting::round(avatar, there.s, reach, there);
     // A pressed beam follows a hand that draws back; one that has jumped away is met again, if it is, as the beam springs back.
-    if (contact.depth < -model.shape().length() / 50) obstacle.touching = false, forget_friction();
+    if (contact.depth < -length / 50) obstacle.touching = false, forget_friction();
     if (!again) obstacle.touching = obstacle.touching || contact.touching;
     return obstacle.touching;
   }
-  /// The contact of a touch that goes on, where it was.
-  bool find_near(Model& model) noexcept {
-    if (!obstacle.touching) return false;
-    if constexpr (planar)
-      return find_contact_beside(model.shape(), obstacle.pushed.s, avatar, model.thickness(), memory,
-                                 contact);
-    else return find_contact_near(model, avatar, memory, contact);
-  }
-  /// As Touch: a pressed beam moves with what presses it, which cannot have gone round its end.
-  void remember() noexcept {
-    memory.touching = obstacle.touching;
-    if constexpr (planar) {
-      memory.through = obstacle.touching && !(at_end && end.past());
-      if (obstacle.touching) memory.side = obstacle.round.side < 0 ? -1 : 1;
-    } else if (obstacle.touching) {
-      memory.s = obstacle.pushed.s;
-      memory.normal = at_end ? contact.normal : obstacle.pushed.normal;
+  /// Beside or past an end it is a stop, in a plane no farther than the range of the beam.   @return whether there is one
+  bool stop(const Model& model, Scalar reach) noexcept {
+    if (at.mode == Mode::support && at.place.slid(contact, model, far_away)) return false;
+    Push<Scalar, dimension>& place = obstacle.place;
+    if (!at.place.aim(model, contact, avatar, reach, at.mode, at.side, obstacle.touching, place))
+      return false;
+    if constexpr (dimension == 2) {
+      const Press<Scalar> in_range = model.range().nearest({place.s, place.d});
+      place.s = in_range.s, place.d = in_range.d;
     }
+    return true;
   }
 };
 
-}  // namespace hapbeam::detail
+}  // namespace detail
+}  // namespace hapbeam

@@ -3,23 +3,18 @@
 // in space.
 //
 // It depends on the ForceModel contract alone. Each tick finds the contact on the shape of the last press. It then
-// prescribes the displacement that removes the penetration: along the normal if the model can be pushed along any
-// direction (push_contact.hpp), else across the beam (press_contact.hpp). Past an end that holds w there is no press
-// (support_contact.hpp). The force acts along the normal and never pulls.
+// prescribes the displacement that removes the penetration. A model that can be pushed along any direction is laid on the avatar, a
+// circle or in space a capsule: its centreline goes to the distance `reach` from the avatar's centre or axis, and the model returns the
+// point of contact. Any other is pressed across the beam, and so is every beam past an end that holds w, and a planar one beside it
+// (place_contact.hpp). The force acts along the normal and never pulls.
 // Allocates and throws in its constructor only.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <stdexcept>
 #include <type_traits>
 
-#include <hapbeam/contact/find_contact.hpp>
-#include <hapbeam/contact/find_contact_near.hpp>
-#include <hapbeam/contact/find_rod_contact.hpp>
-#include <hapbeam/contact/press_contact.hpp>
-#include <hapbeam/contact/push_contact.hpp>
-#include <hapbeam/contact/support_contact.hpp>
+#include <hapbeam/contact/lasting_contact.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/friction.hpp>
 
@@ -64,31 +59,24 @@ class Touch {
   /// friction one that the model offers
   Touch(Model& model, Scalar avatar_radius, const Friction& friction = {})
       : model_(model), avatar_radius_(avatar_radius), volumes_(model.shape().segments()) {
-    const double radius = static_cast<double>(avatar_radius);
-    const double largest = most_radius * static_cast<double>(model.shape().length());
-    if (!(radius >= 0 && radius <= largest)) {
-      char text[128];
-      std::snprintf(text, sizeof text,
-                    "avatar_radius = %g m: must be 0 to %g m, a thousand lengths of the beam", radius,
-                    largest);
-      throw std::invalid_argument(text);
-    }
+    detail::check_radius("avatar_radius", static_cast<double>(avatar_radius),
+                         static_cast<double>(model.shape().length()));
     friction.check();
     if (!takes_friction<Model> && !friction.none())
       detail::reject("friction", friction.sticking, "",
                      "0 for a model that is pressed across the beam: see docs/contact.md");
-    pusher_.friction_state().sticking = static_cast<Scalar>(friction.sticking);
-    pusher_.friction_state().sliding = static_cast<Scalar>(friction.sliding);
+    at_.take(friction);
     reset();
   }
 
   /// Releases the beam and discards the place of the hand.
   /// Real-time: as Model::reset, and O(n).
   void reset() noexcept {
-    memory_ = {};
+    at_.memory = {};
+    at_.mode = Mode::apart;
+    falling_ = false;
     model_.reset();
-    refit();
-    pressing_ = falling_ = on_support_ = inside_ = false;
+    volumes_.refit(model_.shape());
   }
 
   /// One tick.
@@ -105,19 +93,14 @@ class Touch {
     return tick(Avatar{position, avatar_radius_, shaft});
   }
 
-  [[nodiscard]] bool pressing() const noexcept { return pressing_; }
+  [[nodiscard]] bool pressing() const noexcept { return at_.mode > Mode::inside; }
   /// Whether there is friction.
-  [[nodiscard]] bool rough() const noexcept {
-    return takes_friction<Model> && pusher_.friction_state().sticking > 0;
-  }
+  [[nodiscard]] bool rough() const noexcept { return takes_friction<Model> && at_.rough(); }
   /// Where there is friction, the avatar's skin yields along the surface: a hand that cannot render what is stiffer.  From then on.
   /// @param stiffness  [N/m] positive   @param damping  [N/m] of a damper, N·s/m over the time of a tick
-  void soften(Scalar stiffness, Scalar damping) noexcept {
-    pusher_.friction_state().stiffness = stiffness;
-    pusher_.friction_state().damping = damping;
-  }
+  void soften(Scalar stiffness, Scalar damping) noexcept { at_.soften(stiffness, damping); }
   /// Ends the touch: the beam is untouched, and the next contact is a new one.
-  [[nodiscard]] bool resting() const noexcept { return !pressing_ && !falling_ && !inside_; }
+  [[nodiscard]] bool resting() const noexcept { return at_.mode == Mode::apart && !falling_; }
 
   /// The contact of the beam as it lies now with the avatar, gone straight to a place from that of the last tick.
   /// @param position [m]   Real-time: noexcept, no allocation, bounded; no press.
@@ -131,9 +114,8 @@ class Touch {
     return contact_at(Avatar{position, avatar_radius_, shaft});
   }
 
-  /// Of the avatar's radius, in lengths of the beam.  Seen from the beam a larger disc is a plane, and in `float` the depth
-  /// of a bend is lost in the round-off of its radius.
-  static constexpr double most_radius = 1000;
+  /// Of the avatar's radius, in lengths of the beam.
+  static constexpr double most_radius = detail::most_radius;
   /// Ticks since the last answer in which the model may have no force either.  After them the touch is over.
   static constexpr int patience = 20;
 
@@ -141,80 +123,24 @@ class Touch {
   static constexpr bool planar = dimension == 2;
   using Avatar = hapbeam::Avatar<Scalar, dimension>;
   using Contact = hapbeam::Contact<Scalar, dimension>;
-  using Memory = ContactMemory<Scalar, dimension>;
-  using Volumes = BoundingVolumes<Scalar, dimension>;
+  using Mode = detail::Mode;
+  using Hold = detail::Hold;
 
   Result tick(const Avatar& avatar) noexcept;
 
   Contact contact_at(const Avatar& avatar) noexcept {
-    if (inside_) return {};
-    auto memory = memory_;
+    if (at_.mode == Mode::inside) return {};
+    auto memory = at_.memory;
     return find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory);
   }
   /// What friction has taken is the touch's, wherever the contact has gone since.
-  void press_on(Result& result) noexcept {
-    pressing_ = result.pressing = true;
-    if (rough()) result.dissipated = pusher_.friction_state().dissipated;
-  }
-  void feel_friction(Result& result, Scalar normal_force) const noexcept {
-    if (across_ || on_support_ || !std::isfinite(normal_force)) return;
-    result.friction = pusher_.friction_state().on_hand(normal_force);
-    result.force += result.friction;
-    result.sliding = pusher_.friction_state().slides;
+  void press_on(Result& result) const noexcept {
+    result.pressing = true;
+    if (rough()) result.dissipated = at_.friction.dissipated;
   }
 
   /// Fitted to the present shape.  A lasting touch seldom requires them.
-  const Volumes& volumes() noexcept {
-    if (moved_) refit();
-    return volumes_;
-  }
-  void refit() noexcept {
-    volumes_.refit(model_.shape());
-    moved_ = false;
-  }
-
-  /// The contact of a touch that goes on, where it was.
-  bool find_near(const Avatar& avatar, Contact& contact) noexcept {
-    if constexpr (planar)
-      return pressing_ && in_range_ && detail::find_contact_near(model_, s_, avatar, memory_, contact);
-    else return pressing_ && detail::find_contact_near(model_, avatar, memory_, contact);
-  }
-
-  detail::Held<Scalar> hold(Contact& contact, const Avatar& avatar, Scalar reach,
-                            Press<Scalar>& asked) noexcept {
-    const bool was_on_support = on_support_, was_across = across_;
-    if constexpr (planar) on_support_ = support_.past(contact, model_);
-    else on_support_ = support_.past(contact, model_, avatar, reach);
-    if (on_support_) {
-      side_ = contact.side;
-      return support_.hold(model_, contact, asked);
-    }
-    // Beside a rigid end, which no push moves, the beam is pressed across, and that ends with its range.
-    if constexpr (planar)
-      across_ = !takes_push<Model> || support_.over(model_, avatar, reach) ||
-                (pressing_ && was_across && contact.depth > reach);
-    else across_ = false;
-    if (!pressing_ || was_on_support) side_ = contact.side;
-    if (!pressing_ || was_on_support || across_ != was_across) begin(contact);
-    if constexpr (takes_push<Model>)
-      if (!across_) return pusher_.hold(model_, contact, avatar, reach, asked);
-    if constexpr (planar) return presser_.hold(model_, contact, avatar.position, reach, pressing_, asked);
-    else return {detail::Hold::lost, 0, Status::invalid_request};
-  }
-  void begin(const Contact& contact) noexcept {
-    if constexpr (planar) presser_.begin(contact);
-    pusher_.begin(contact);
-  }
-  /// A pressed beam moves with the hand, which cannot have gone round its end.  Only a beam that has stopped at the
-  /// end of its range can be passed, and that must not turn the press into one from the other side.  A rigid end is gone round.
-  void remember() noexcept {
-    memory_.touching = true;
-    if constexpr (planar) memory_.through = !on_support_, memory_.side = side_;
-  }
-  void forget_touch() noexcept {
-    memory_.touching = false;
-    if constexpr (planar) memory_.through = false;
-  }
+  const BoundingVolumes<Scalar, dimension>& volumes() noexcept { return volumes_.fitted(model_.shape()); }
 
   /// The beam springs back, or falls to where it rests.
   Status spring_back() noexcept {
@@ -231,46 +157,43 @@ class Touch {
     const Status status = spring_back();
     // Nobody holds it: that no force is felt is the whole answer, wherever the beam is on its way.
     if (takes_push<Model>) result.status = falling_ ? Status::ok : status;
-    refit();
-    pressing_ = on_support_ = false;
-    forget_touch();
+    volumes_.refit(model_.shape());
+    at_.memory.touching = at_.memory.through = false;
+    if (pressing()) at_.mode = Mode::apart;
   }
   /// What the contact remembers belongs to the touch.  A beam that has sprung back is a new beam: whoever stands behind it
   /// is on its other side, and whoever is inside it has to leave before touching it.
-  void let_go(const Avatar& avatar, detail::Hold why, Result& result) noexcept {
-    // A support that is no longer touched says nothing of the beam beside it, which lies elsewhere once it has sprung back.
-    const bool off_beam = why == detail::Hold::released && !on_support_;
+  void let_go(const Avatar& avatar, Hold why, Result& result) noexcept {
+    const Mode before = at_.mode;
     release(result);
-    Memory nothing;
+    ContactMemory<Scalar, dimension> nothing;
     const Contact contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), nothing);
-    const Scalar reach = avatar_radius_ + model_.thickness() / 2;
-    inside_ = contact.touching && (why == detail::Hold::slipped ||
-                                   (contact.side != side_ && support_.beside(contact, model_, 2 * reach)));
-    if (!contact.touching || inside_ || off_beam) return;
+    if (!contact.touching) return;
+    const Range<Scalar> range = model_.range();
+    const bool beside = (std::min)(contact.s - range.left_support, range.right_support - contact.s) <
+                        2 * avatar.radius + model_.thickness();
+    if (why == Hold::slipped || (contact.side != at_.side && beside)) {
+      at_.mode = Mode::inside;
+      return;
+    }
+    // A support that is no longer touched says nothing of the beam beside it, which lies elsewhere once it has sprung back.
+    if (why == Hold::released && before != Mode::support) return;
     // Lost, and at rest beneath the avatar: it has not slipped off, and the touch goes on from there.
-    begin(contact);
+    at_.friction.begin();
     falling_ = false;
+    at_.mode = before == Mode::pushed || !planar ? Mode::pushed : Mode::across;
     press_on(result);
     result.status = Status::iteration_limit;
   }
 
   Model& model_;
   Scalar avatar_radius_;
-  Volumes volumes_;
-  Memory memory_;
-  detail::PressContact<Scalar> presser_;
-  detail::PushContact<Scalar, dimension> pusher_;
-  detail::SupportContact<Scalar, dimension> support_;
-  Scalar s_ = 0;           // of the last contact [m]
-  bool in_range_ = false;  // there: beyond its range a shape of moderate rotation may turn back
-  bool moved_ = false;     // since the volumes were fitted
-  bool pressing_ = false;
-  bool falling_ = false;     // let go, and not yet at rest
-  bool inside_ = false;      // let go, and not yet clear of the beam
-  bool on_support_ = false;  // pressing, past an end that holds w
-  bool across_ = true;       // pressing, by presser_
-  int side_ = 1;             // of the press, as Contact::side
-  int unanswered_ = 0;       // ticks without a force since the last answer
+  BoundingVolumes<Scalar, dimension> volumes_;
+  detail::LastingContact<Model> at_;
+  bool falling_ = false;  // let go, and not yet at rest
+  bool in_range_ =
+      false;            // the last contact was: beyond its range a shape of moderate rotation may turn back
+  int unanswered_ = 0;  // ticks without a force since the last answer
 };
 
 // Outside of the class: only so does "extern template class Touch<…>;" keep a compiler from it.
@@ -278,49 +201,48 @@ template <typename Model>
 auto Touch<Model>::tick(const Avatar& avatar) noexcept -> Result {
   Result result;
   Contact& contact = result.contact;
-  if (!pressing_ && !falling_ && out_of_reach(avatar, volumes_, model_.thickness(), memory_)) return result;
-  if (pressing_) remember();
-  if (inside_) memory_ = {};
-  if (!find_near(avatar, contact))
-    contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory_);
+  if (!pressing() && !falling_ && out_of_reach(avatar, volumes_, model_.thickness(), at_.memory))
+    return result;
+  if (at_.mode == Mode::inside) at_.memory = {};
+  contact = at_.find(model_, avatar, pressing(), pressing() && (!planar || in_range_),
+                     [this]() -> decltype(auto) { return volumes(); });
   if (contact.segment < 0) {
     result.status = Status::invalid_request;
-    if (pressing_) press_on(result);
+    if (pressing()) press_on(result);
     return result;
   }
   // A pressed beam follows a hand that draws back, until it would have to pull.
-  inside_ = inside_ && contact.touching;
-  if (!pressing_ && (inside_ || !contact.touching)) {
+  if (at_.mode == Mode::inside && !contact.touching) at_.mode = Mode::apart;
+  if (at_.mode == Mode::inside || (!pressing() && !contact.touching)) {
     if (falling_) release(result);
-    if (inside_) result.status = Status::out_of_range;
+    if (at_.mode == Mode::inside) result.status = Status::out_of_range;
     return result;
   }
 
-  const Scalar reach = avatar_radius_ + model_.thickness() / 2;
-  if (!pressing_) {
-    unanswered_ = 0, across_ = true, support_.begin(model_);
-    pusher_.friction_state().dissipated = 0;
+  if (!pressing()) {
+    unanswered_ = 0;
+    at_.place.begin(model_);
+    at_.friction.dissipated = 0;
   }
-  const detail::Held<Scalar> held = hold(contact, avatar, reach, result.press);
+  const detail::Held<Scalar> held = at_.hold(model_, contact, avatar, result.press);
   result.status = held.status;
-  if (takes_push<Model> && planar && across_ && held.status == Status::ok)
+  if (takes_push<Model> && at_.mode == Mode::across && held.status == Status::ok)
     result.status = Status::out_of_range;
   if (is_answer(held.status)) unanswered_ = 0;
   else if (!(held.force > 0)) ++unanswered_;
-  if (held.hold != detail::Hold::pressing || unanswered_ > patience) {
+  if (held.hold != Hold::pressing || unanswered_ > patience) {
     let_go(avatar, held.hold, result);
     return result;
   }
   falling_ = false;
-  if (on_support_ && support_.slid(contact, model_)) spring_back();
-  moved_ = true;
-  s_ = contact.s;
-  if constexpr (!planar) memory_.s = contact.s, memory_.normal = contact.normal;
+  if (at_.mode == Mode::support && at_.place.slid(contact, model_, at_.still)) spring_back();
+  volumes_.outdate();
+  at_.know(contact.s, contact.normal);
   in_range_ = held.status == Status::ok;
   press_on(result);
   if (std::isfinite(held.force)) result.force = contact.normal * held.force;
   else result.status = Status::non_finite;
-  if (rough()) feel_friction(result, held.force);
+  if (rough() && at_.mode == Mode::pushed && std::isfinite(held.force)) at_.rub(held.force, result);
   return result;
 }
 

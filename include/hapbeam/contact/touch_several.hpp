@@ -8,7 +8,7 @@
 // A *prop* is an avatar that nobody moves.  Each tick finds where the avatars and props lie to the shape of the last tick and asks the model for
 // the equilibrium under all of them (Obstacle, force_model.hpp).  Each pushes or does not touch; none pulls but a support.  Each round one may
 // have friction (friction.hpp).
-// Beside and past an end that holds w an avatar is held as by Touch (end_contact.hpp).
+// Beside and past an end that holds w an avatar is held as by Touch (place_contact.hpp).
 // Allocates and throws in its constructor only.
 #pragma once
 
@@ -16,20 +16,24 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <string>
 #include <type_traits>
 
+#include <hapbeam/check.hpp>
 #include <hapbeam/contact/bounding_volumes.hpp>
 #include <hapbeam/contact/prop.hpp>
-#include <hapbeam/contact/several_result.hpp>
-#include <hapbeam/contact/touching_bodies.hpp>
+#include <hapbeam/contact/several_place.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam {
 
 /// Several avatars and props on one beam.  Between ticks the model may be read by others but pressed by nobody else.
 template <class Model>
-class TouchSeveral : private detail::TouchingBodies<Model> {
-  using Bodies = detail::TouchingBodies<Model>;
+class TouchSeveral {
+  static_assert(
+      is_force_model<Model> && takes_obstacles<Model>,
+      "TouchSeveral<Model>: Model must offer push(Obstacle<Scalar>*, int) and release(), each noexcept: "
+      "FemModel<Several<Element, Contacts>>");
 
  public:
   using Scalar = typename Model::Scalar;
@@ -43,9 +47,22 @@ class TouchSeveral : private detail::TouchingBodies<Model> {
   /// Allocates.   @throws std::invalid_argument naming what makes no sense
   TouchSeveral(Model& model, std::initializer_list<RoundAvatar> avatars,
                std::initializer_list<Prop> props = {})
-      : Bodies(static_cast<double>(model.shape().length()), avatars, props),
-        model_(model),
-        volumes_(model.shape().segments()) {
+      : model_(model), volumes_(model.shape().segments()) {
+    for (const RoundAvatar& avatar : avatars) {
+      avatar.check(length());
+      for (int k = 0; k < avatar.touches; ++k) {
+        Place& place = add(avatars_);
+        place.avatar.radius = static_cast<Scalar>(avatar.radius);
+        place.at.take(avatar.friction);
+        place.again = k > 0, place.several = avatar.touches > 1;
+      }
+      ++avatars_;
+    }
+    int body = avatars_;
+    for (const Prop& prop : props) {
+      prop.check(length());
+      add(body++).stand(prop, length());
+    }
     reset();
   }
 
@@ -53,11 +70,11 @@ class TouchSeveral : private detail::TouchingBodies<Model> {
   /// Real-time: as Model::reset, and O(n).
   void reset() noexcept {
     model_.reset();
-    moved_ = true;
-    for (int i = 0; i < size_; ++i) places_[at(i)].forget(), forget_answer(i);
+    volumes_.outdate();
+    for (Place& place : *this) place.forget();
     moving_ = false;
     unanswered_ = 0;
-    begin();
+    begin_touch();
   }
 
   /// One tick.  @param positions  [m] the centre of each avatar, in space the centre of each sphere
@@ -79,14 +96,17 @@ class TouchSeveral : private detail::TouchingBodies<Model> {
 
   /// One avatar moves, and the others stay where they are.   @param shaft  of a capsule in space
   [[nodiscard]] Result tick(int avatar, const Vector& position,
-                            const Vector& shaft = Vector::Zero()) noexcept;
+                            const Vector& shaft = Vector::Zero()) noexcept {
+    if (!is_place(position, shaft)) return invalid();
+    each_of(avatar, [&](Place& place) { place.move(position, shaft); });
+    return solve();
+  }
   /// An avatar leaves the scene, until it is moved again.
   void lift(int avatar) noexcept {
-    for (int i = 0; i < size_; ++i)
-      if (places_[at(i)].obstacle.body == avatar) {
-        places_[at(i)].forget(), forget_answer(i);
-        places_[at(i)].away = true;
-      }
+    each_of(avatar, [](Place& place) {
+      place.forget();
+      place.who = Place::lifted;
+    });
   }
   /// Nobody moves.
   [[nodiscard]] Result tick_still() noexcept { return solve(); }
@@ -94,19 +114,36 @@ class TouchSeveral : private detail::TouchingBodies<Model> {
   [[nodiscard]] static bool is_place(const Vector& position, const Vector& shaft) noexcept {
     return std::isfinite(position.squaredNorm()) && std::isfinite(shaft.squaredNorm());
   }
-  using Bodies::rough;
-  using Bodies::set_friction;
-  using Bodies::set_radius;
-  using Bodies::soften;
-  using Bodies::touching;
+  /// Whether an avatar touched in the last tick.
+  [[nodiscard]] bool touching(int avatar) noexcept {
+    return any_of(avatar, [](const Place& place) { return place.obstacle.touching; });
+  }
+  /// @param radius [m]   @throws std::invalid_argument
+  void set_radius(int avatar, double radius) {
+    RoundAvatar(radius).check(length());
+    each_of(avatar, [&](Place& place) { place.avatar.radius = static_cast<Scalar>(radius); });
+  }
+  /// @throws std::invalid_argument naming what makes no sense
+  void set_friction(int avatar, const Friction& friction) {
+    friction.check();
+    each_of(avatar, [&](Place& place) { place.at.take(friction); });
+  }
+  /// Whether an avatar has friction.
+  [[nodiscard]] bool rough(int avatar) noexcept {
+    return any_of(avatar, [](const Place& place) { return place.at.rough(); });
+  }
+  /// As Touch::soften().
+  void soften(int avatar, Scalar stiffness, Scalar damping) noexcept {
+    each_of(avatar, [&](Place& place) { place.at.soften(stiffness, damping); });
+  }
   /// The contact of the beam as it lies now with an avatar, gone straight to a place from that of its last tick.
   [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
       int avatar, const Vector& position, const Vector& shaft = Vector::Zero()) noexcept {
     hapbeam::Contact<Scalar, dimension> contact;
     each_of(avatar, [&](Place place) {
-      place.avatar.position = position;
-      if constexpr (!planar) place.avatar.shaft = shaft;
-      contact = find_contact(place.avatar, model_.shape(), volumes(), model_.thickness(), place.memory);
+      place.move(position, shaft);
+      contact = find_contact(place.avatar, model_.shape(), volumes_.fitted(model_.shape()),
+                             model_.thickness(), place.at.memory);
     });
     return contact;
   }
@@ -115,21 +152,13 @@ class TouchSeveral : private detail::TouchingBodies<Model> {
   /// Nobody touches the beam, and it is at rest.
   [[nodiscard]] bool resting() const noexcept { return !moving_; }
 
-  using Bodies::most_radius;
+  /// As Touch::most_radius.
+  static constexpr double most_radius = detail::most_radius;
   /// As Touch::patience.
   static constexpr int patience = 20;
 
  private:
-  using Bodies::again;
-  using Bodies::at;
-  using Bodies::avatars_;
-  using Bodies::each_of;
-  using Bodies::fixed_;
-  using Bodies::places_;
-  using Bodies::size_;
-  using typename Bodies::Place;
-  static constexpr bool planar = dimension == 2;
-  using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
+  using Place = detail::SeveralPlace<Model>;
 
   Result solve() noexcept;
   Result invalid() const noexcept {
@@ -140,52 +169,58 @@ class TouchSeveral : private detail::TouchingBodies<Model> {
     return result;
   }
 
-  void forget_answer(int i) noexcept {
-    answer_[at(i)] = {};
-    answer_[at(i)].body = places_[at(i)].obstacle.body;
+  Place* begin() noexcept { return places_.data(); }
+  Place* end() noexcept { return places_.data() + size_; }
+  static std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+  double length() const noexcept { return static_cast<double>(model_.shape().length()); }
+  Place& add(int body) {
+    if (size_ == most)
+      detail::reject("avatars and props", size_ + 1.0, "places",
+                     ("at most " + std::to_string(most) + ", the Contacts of the model's Several").c_str());
+    Place& place = places_[at(size_++)];
+    place.obstacle.body = body;
+    return place;
   }
+  template <class Use>
+  void each_of(int avatar, Use&& use) {
+    for (Place& place : *this)
+      if (place.obstacle.body == avatar && place.who != Place::prop) use(place);
+  }
+  template <class Is>
+  bool any_of(int avatar, Is&& is) {
+    bool any = false;
+    each_of(avatar, [&](const Place& place) { any = any || is(place); });
+    return any;
+  }
+
   /// To be called where the beam is at rest.
-  void begin() noexcept {
-    for (int i = 0; i < size_; ++i) places_[at(i)].end.begin(model_);
-  }
-  /// Where it lies to the beam.   @return whether the two touch
-  bool look(int i) noexcept {
-    const bool before = again(i), several = before || (i + 1 < size_ && again(i + 1));
-    return places_[at(i)].look(
-        model_, [this]() -> decltype(auto) { return volumes(); }, before, several);
-  }
-  /// Fitted to the present shape.  A lasting touch does without.
-  const BoundingVolumes<Scalar, dimension>& volumes() noexcept {
-    if (moved_) volumes_.refit(model_.shape());
-    moved_ = false;
-    return volumes_;
+  void begin_touch() noexcept {
+    for (Place& place : *this) place.at.place.begin(model_);
   }
 
   Status push() noexcept {
-    std::array<Obstacle, most> all;
+    std::array<Obstacle<Scalar, dimension>, most> all;
     for (int i = 0; i < size_; ++i) {
       all[at(i)] = places_[at(i)].obstacle;
-      if (places_[at(i)].rough()) all[at(i)].friction = &places_[at(i)].friction;
+      if (places_[at(i)].at.rough()) all[at(i)].friction = &places_[at(i)].at.friction;
     }
     const Status status = model_.push(all.data(), size_);
+    bool found = true;
     for (int i = 0; i < size_; ++i) {
       all[at(i)].friction = nullptr;
       places_[at(i)].obstacle = all[at(i)];
+      found = found && places_[at(i)].found(model_);
     }
-    moved_ = true;
-    return status;
-  }
-  bool found() const noexcept {
-    return std::all_of(places_.begin(), places_.begin() + size_,
-                       [this](const Place& place) { return place.found(model_); });
+    volumes_.outdate();
+    return is_answer(status) && !found ? Status::iteration_limit : status;
   }
 
   Model& model_;
   BoundingVolumes<Scalar, dimension> volumes_;
-  bool moved_ = true;                                       // since the volumes were fitted
-  bool moving_ = false;                                     // touched, or let go and not yet at rest
-  std::array<TouchPlace<Scalar, dimension>, most> answer_;  // of the last tick that had one
-  int unanswered_ = 0;                                      // ticks since the last answer
+  std::array<Place, most> places_{};
+  int size_ = 0, avatars_ = 0;
+  bool moving_ = false;  // touched, or let go and not yet at rest
+  int unanswered_ = 0;   // ticks since the last answer
 };
 
 template <class Model>
@@ -194,25 +229,10 @@ auto TouchSeveral<Model>::tick(const Vector* positions, const Vector* shafts, in
   for (int k = 0; valid && k < count; ++k)
     valid = is_place(positions[k], shafts ? shafts[k] : Vector(Vector::Zero()));
   if (!valid) return invalid();
-  for (int i = 0; i < size_; ++i) {
-    Place& place = places_[at(i)];
-    if (place.prop) continue;
-    place.away = false;
-    place.avatar.position = positions[place.obstacle.body];
-    if constexpr (!planar)
-      if (shafts) place.avatar.shaft = shafts[place.obstacle.body];
+  for (Place& place : *this) {
+    const int k = place.obstacle.body;
+    if (place.who != Place::prop) place.move(positions[k], shafts ? shafts[k] : place.shaft());
   }
-  return solve();
-}
-
-template <class Model>
-auto TouchSeveral<Model>::tick(int avatar, const Vector& position, const Vector& shaft) noexcept -> Result {
-  if (!is_place(position, shaft)) return invalid();
-  each_of(avatar, [&](Place& place) {
-    place.away = false;
-    place.avatar.position = position;
-    if constexpr (!planar) place.avatar.shaft = shaft;
-  });
   return solve();
 }
 
@@ -220,23 +240,23 @@ template <class Model>
 auto TouchSeveral<Model>::solve() noexcept -> Result {
   Result result;
   result.size = size_;
-  bool touched = fixed_;
-  for (int i = 0; i < size_; ++i) touched = look(i) || touched;
+  bool touched = false;
+  const auto volumes = [this]() -> decltype(auto) { return volumes_.fitted(model_.shape()); };
+  for (Place& place : *this) touched = place.look(model_, volumes) || touched;
   const bool pushed = touched || moving_;
   if (pushed) {
     result.status = push();
-    if (is_answer(result.status) && !found()) result.status = Status::iteration_limit;
     moving_ = touched || result.status == Status::iteration_limit;
-    if (!moving_) begin();
+    if (!moving_) begin_touch();
   }
   const bool answer = is_answer(result.status);
   for (int i = 0; i < size_; ++i) {
-    TouchPlace<Scalar, dimension>& place = result.places[at(i)];
-    if (answer) places_[at(i)].report(pushed, place);
-    else place = answer_[at(i)], place.status = result.status;
+    if (answer) places_[at(i)].report(pushed);
+    TouchPlace<Scalar, dimension>& place = result.places[at(i)] = places_[at(i)].answer;
+    if (!answer) place.status = result.status;
     if (worse(place.status, result.status)) result.status = place.status;
   }
-  if (answer) answer_ = result.places, unanswered_ = 0;
+  if (answer) unanswered_ = 0;
   else if (++unanswered_ > patience) reset();
   return result;
 }

@@ -19,6 +19,7 @@
 #include <atomic>
 #include <cstddef>
 #include <initializer_list>
+#include <optional>
 
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/contact/touch_several.hpp>
@@ -86,46 +87,58 @@ class TwoHands {
     waiting,  ///< was reset, and the beam may still lie as it was pressed
     here
   };
+  struct Side {
+    Presence presence = Presence::away;
+    std::optional<Vector> meanwhile;  // on the hand, where there was an answer since its last tick [N]
+    bool missed = false;              // the avatar has left the beam, in which the hand still is
+    int silent = 0;                   // ticks of the other hand since the last one of this
+    std::atomic<bool> reset{false};   // asked for, and not yet carried out
+
+    void be(Presence now) noexcept {
+      presence = now;
+      meanwhile.reset();
+      missed = false;
+      silent = 0;
+    }
+  };
 
   Result tick(int hand, const Vector& position, const Vector& shaft) noexcept {
     carry_out_resets();
     // A position that is none is no tick: the hand stays where it was, as one whose loop has stopped.
     if (!touch_.is_place(position, shaft)) return touch_.tick(hand, position, shaft);
-    if (presence_[at(hand)] == Presence::away) presence_[at(hand)] = Presence::here;
-    const Result result = here(hand) ? touch_.tick(hand, position, shaft) : touch_.tick_still();
     const int other = 1 - hand;
-    silent_[at(hand)] = 0, changed_[at(hand)] = missed_[at(hand)] = false;
-    if (is_answer(result.status))
-      meanwhile_[at(other)] = result.force(other) - result.friction(other), changed_[at(other)] = true;
-    if (here(other) && ++silent_[at(other)] == patience) take_off(other, Presence::away);
+    Side &own = side(hand), &others = side(other);
+    own.be(own.presence == Presence::away ? Presence::here : own.presence);
+    const Result result = here(hand) ? touch_.tick(hand, position, shaft) : touch_.tick_still();
+    if (is_answer(result.status)) others.meanwhile = result.force(other) - result.friction(other);
+    if (here(other) && ++others.silent == patience) take_off(other, Presence::away);
     // Without those who wait the beam lies as the other one holds it, if that one is there.
-    const bool waits = presence_[at(0)] == Presence::waiting || presence_[at(1)] == Presence::waiting;
+    const bool waits = own.presence == Presence::waiting || others.presence == Presence::waiting;
     if (waits && !leans(0) && !leans(1)) rebuild();
-    else if (presence_[at(other)] == Presence::waiting) presence_[at(other)] = Presence::away;
+    else if (others.presence == Presence::waiting) others.presence = Presence::away;
     return result;
   }
   hapbeam::Contact<Scalar, dimension_of<Model>> contact_at(int hand, const Vector& position,
                                                            const Vector& shaft) noexcept {
     if (!here(hand)) return {};
     const auto contact = touch_.contact_at(hand, position, shaft);
-    missed_[at(hand)] = contact.touching;
+    side(hand).missed = contact.touching;
     return contact;
   }
-  bool here(int hand) const noexcept { return presence_[at(hand)] == Presence::here; }
+  bool here(int hand) const noexcept { return side(hand).presence == Presence::here; }
   void take_off(int hand, Presence presence) noexcept {
     touch_.lift(hand);
-    presence_[at(hand)] = presence;
-    silent_[at(hand)] = 0, changed_[at(hand)] = missed_[at(hand)] = false;
+    side(hand).be(presence);
   }
   /// It touches, or does so but for its avatar.
-  bool leans(int hand) noexcept { return touch_.touching(hand) || missed_[at(hand)]; }
+  bool leans(int hand) noexcept { return touch_.touching(hand) || side(hand).missed; }
 
   /// From any thread: wait-free.
-  void reset(int hand) noexcept { resets_[at(hand)].store(true, std::memory_order_release); }
+  void reset(int hand) noexcept { side(hand).reset.store(true, std::memory_order_release); }
   void carry_out_resets() noexcept {
     bool any = false;
     for (const int hand : {0, 1}) {
-      std::atomic<bool>& asked = resets_[at(hand)];
+      std::atomic<bool>& asked = side(hand).reset;
       if (!asked.load(std::memory_order_relaxed) || !asked.exchange(false, std::memory_order_acquire))
         continue;
       take_off(hand, Presence::waiting);
@@ -136,21 +149,18 @@ class TwoHands {
   /// The scene as it was built.
   void rebuild() noexcept {
     touch_.reset();
-    for (Presence& presence : presence_)
-      if (presence == Presence::waiting) presence = Presence::away;
-    changed_ = {false, false};
+    for (Side& side : sides_) {
+      if (side.presence == Presence::waiting) side.presence = Presence::away;
+      side.meanwhile.reset();
+    }
   }
-  static std::size_t at(int hand) noexcept { return static_cast<std::size_t>(hand); }
+  Side& side(int hand) noexcept { return sides_[static_cast<std::size_t>(hand)]; }
+  const Side& side(int hand) const noexcept { return sides_[static_cast<std::size_t>(hand)]; }
 
   Model& model_;
   TouchSeveral<Model> touch_;
   std::array<Hand<Model>, 2> hands_;
-  std::array<std::atomic<bool>, 2> resets_{};  // asked for, and not yet carried out
-  std::array<Presence, 2> presence_{Presence::away, Presence::away};
-  std::array<Vector, 2> meanwhile_{Vector::Zero(), Vector::Zero()};  // on a hand, since its last tick [N]
-  std::array<bool, 2> changed_{false, false};                        // there was an answer since
-  std::array<bool, 2> missed_{false, false};  // the avatar has left the beam, in which the hand still is
-  std::array<int, 2> silent_{0, 0};           // ticks of the other hand since the last one of this
+  std::array<Side, 2> sides_;
 };
 
 template <class Model>
@@ -188,7 +198,8 @@ class Touch<Hand<Model>> {
   /// The normal force on a hand that presses, at the place of its last tick, as ticks of the other one have left the beam [N].  Null where
   /// there were none.
   const Vector* meanwhile() const noexcept {
-    return pressing_ && hands_.changed_[at()] ? &hands_.meanwhile_[at()] : nullptr;
+    const auto& force = hands_.side(index_).meanwhile;
+    return pressing_ && force ? &*force : nullptr;
   }
 
   /// One tick.  @param position [m] of the avatar   @param shaft [m] in space, of a capsule: from there to the other end of its axis
@@ -226,8 +237,6 @@ class Touch<Hand<Model>> {
     result.dissipated = place.dissipated;
     result.press = {place.s, dimension == 2 ? place.point[1] : place.normal.dot(place.point)};
   }
-
-  std::size_t at() const noexcept { return static_cast<std::size_t>(index_); }
 
   TwoHands<Model>& hands_;
   int index_;

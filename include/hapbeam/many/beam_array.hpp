@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -22,7 +23,6 @@
 #include <hapbeam/contact/bounding_volumes.hpp>
 #include <hapbeam/contact/box.hpp>
 #include <hapbeam/force_model.hpp>
-#include <hapbeam/many/box_tree.hpp>
 
 namespace hapbeam {
 
@@ -49,6 +49,80 @@ struct BeamFrame {
     return {along.x() * v.x() - along.y() * v.y(), along.y() * v.x() + along.x() * v.y()};
   }
   Vector2<Scalar> place(const Vector2<Scalar>& local) const noexcept { return origin + turned(local); }
+};
+
+/// Step of an avatar from one place to another, in a tick.
+template <typename Scalar>
+struct Step {
+  Vector2<Scalar> from, to;  // [m]
+  Scalar radius;             // [m] of the avatar
+
+  /// Whether it can touch what lies in the box: it is there at the end, or has crossed it on the way.
+  bool meets(const Box<Scalar>& box) const noexcept {
+    return box.distance_squared(to) <= radius * radius || box.meets(from, to);
+  }
+};
+
+/// A hierarchy over fixed boxes, which are halved along the longer side of the box around their centres.  A leaf holds four to
+/// eight, so a tree takes 8 to 16 numbers a leaf and no pointers.
+template <typename Scalar>
+class SortedBoxes {
+ public:
+  using Bounds = Box<Scalar>;
+
+  /// Allocates.  @param boxes  one or more   @param order  out: their indices as the tree has sorted them
+  [[gnu::cold]] SortedBoxes(const std::vector<Bounds>& boxes, std::vector<std::int32_t>& order)
+      : tree_(leaves_for(boxes.size())) {
+    tree_.resize(static_cast<int>(boxes.size()));
+    order.resize(boxes.size());
+    std::iota(order.begin(), order.end(), 0);
+    halve(boxes, order, 0, tree_.leaves());
+    for (int leaf = 0; leaf < tree_.leaves(); ++leaf)
+      for (int i = tree_.first(leaf); i < tree_.first(leaf + 1); ++i)
+        tree_.leaf(leaf).include(boxes[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])]);
+    tree_.join();
+  }
+
+  const Bounds& root() const noexcept { return tree_.root(); }
+  std::size_t bytes() const noexcept { return tree_.bytes(); }
+
+  /// Calls look(i) for the boxes of each leaf that a step meets, near leaves first, while look(i) returns true. i
+  /// counts in the tree's order.   Real-time: noexcept, no allocation.
+  template <class Look>
+  void visit(const Step<Scalar>& step, Look&& look) const noexcept {
+    constexpr Scalar most = (std::numeric_limits<Scalar>::max)();
+    tree_.visit(
+        [&step](const Bounds& box) {
+          return step.meets(box) ? box.distance_squared(step.to) : std::numeric_limits<Scalar>::infinity();
+        },
+        [] { return most; }, look);
+  }
+
+ private:
+  static int leaves_for(std::size_t size) noexcept {
+    int leaves = 1;
+    while (static_cast<std::size_t>(8 * leaves) < size) leaves *= 2;
+    return leaves;
+  }
+  /// @param low, high  leaves
+  void halve(const std::vector<Bounds>& boxes, std::vector<std::int32_t>& order, int low, int high) const {
+    if (high - low == 1) return;
+    const auto centre = [&boxes](std::int32_t i, int k) {  // twice as far out as it is
+      return boxes[static_cast<std::size_t>(i)].low[k] + boxes[static_cast<std::size_t>(i)].high[k];
+    };
+    const auto at = [&](int leaf) { return order.begin() + tree_.first(leaf); };
+    Bounds centres;
+    for (auto i = at(low); i != at(high); ++i) centres.include(Vector2<Scalar>(centre(*i, 0), centre(*i, 1)));
+    const int middle = (low + high) / 2,
+              along = centres.high[0] - centres.low[0] >= centres.high[1] - centres.low[1] ? 0 : 1;
+    std::nth_element(at(low), at(middle), at(high), [&](std::int32_t a, std::int32_t b) {
+      return std::make_pair(centre(a, along), a) < std::make_pair(centre(b, along), b);
+    });
+    halve(boxes, order, low, middle);
+    halve(boxes, order, middle, high);
+  }
+
+  BoxTree<Scalar> tree_;
 };
 
 }  // namespace detail
@@ -166,7 +240,7 @@ class BeamArray {
   int most_touched_;
   std::vector<Kind> kinds_;
   std::vector<std::int32_t> order_;  // while it is built
-  detail::BoxTree<Scalar> tree_;
+  detail::SortedBoxes<Scalar> tree_;
   std::vector<Beam> beams_;          // as the tree has sorted them
   std::vector<std::int32_t> where_;  // there, by index
 };

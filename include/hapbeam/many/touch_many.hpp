@@ -168,7 +168,7 @@ class Touch<BeamArray<Model>> {
       if (!detail::Step<Scalar>{before, here, avatar_radius_}.meets(kind.box)) return true;
       if (looks-- == 0) return complete = false;
       ContactMemory<Scalar> memory;
-      memory.position = before;
+      memory.place = before;
       memory.known = known_;
       const Contact<Scalar> contact = look(kind, here, memory);
       if (!contact.touching) return true;

@@ -63,7 +63,8 @@ Touch<Model> make_touch(Model& model, Scalar radius, const Friction& friction) {
 template <typename Model>
 struct Drawn {
   using Picture = ServoPicture<typename Model::Scalar, dimension_of<Touch<Model>>>;
-  static constexpr bool for_who_looks = detail::OffersPart<Model>::value;  ///< it costs more than the force
+  static constexpr bool for_who_looks =
+      detail::offers<detail::Part, Model>;  ///< it costs more than the force
   static auto of(const Model& model, const Touch<Model>&) noexcept { return model.shape(); }
 };
 

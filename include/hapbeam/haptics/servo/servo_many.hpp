@@ -77,7 +77,7 @@ class ArrayPicture {
 template <typename Model>
 struct Drawn<BeamArray<Model>> {
   using Picture = ArrayPicture<typename Model::Scalar>;
-  static constexpr bool for_who_looks = detail::OffersPart<Model>::value;
+  static constexpr bool for_who_looks = detail::offers<detail::Part, Model>;
   static const auto& of(const BeamArray<Model>&, const Touch<BeamArray<Model>>& touch) noexcept {
     return touch;
   }
