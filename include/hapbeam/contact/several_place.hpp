@@ -150,7 +150,7 @@ struct SeveralPlace {
     answer.force = -obstacle.pushed.force * (past_end ? at.place.factor() : Scalar(1)) * answer.normal;
     if (at.rough() && !fixed()) {
       answer.dissipated = at.friction.dissipated;
-      if (!held) at.rub(-obstacle.pushed.force, answer);
+      if (!past_end) at.rub(-obstacle.pushed.force, answer);
     }
   }
 
