@@ -35,7 +35,7 @@ struct Contact {
 /// @tparam D  2 | 3
 template <typename Scalar, int D = 2>
 struct ContactMemory {
-  PlaceOf<Scalar, D> place{};  ///< [m] where the avatar was
+  PlaceOf<Scalar, D> place = Avatar<Scalar, D>{}.place();  ///< [m] where the avatar was
   bool known = false;          ///< place is valid
   bool touching = false;       ///< the avatar touched the beam
   bool through = false;        ///< touching, in a plane: its centre beyond the centreline
