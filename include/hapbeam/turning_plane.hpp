@@ -23,6 +23,7 @@
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/internal_forces.hpp>
 #include <hapbeam/rod.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam {
 

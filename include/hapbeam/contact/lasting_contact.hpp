@@ -72,15 +72,15 @@ struct LastingContact {
   /// Where the avatar lies to the beam.  A pressed beam moves with the hand, which cannot have gone round its end.  Only a beam that has
   /// stopped at the end of its range can be passed, and that must not turn the press into one from the other side.  A rigid end is gone
   /// round.
-  /// @param pressing  since the tick before   @param near  it is sought there first   @param volumes  () -> those of the present shape
+  /// @param pressing  since the tick before   @param close_by  it is sought there first   @param volumes  () -> those of the present shape
   template <class Volumes>
-  Contact find(const Model& model, const Avatar& avatar, bool pressing, bool near,
+  Contact find(const Model& model, const Avatar& avatar, bool pressing, bool close_by,
                Volumes&& volumes) noexcept {
     memory.touching = pressing;
     memory.through = pressing && mode != Mode::support;
     if (pressing) memory.side = side;
     Contact contact;
-    if (near && find_contact_near(model, memory.s, avatar, memory, contact)) return contact;
+    if (close_by && find_contact_near(model, memory.s, avatar, memory, contact)) return contact;
     return find_contact(avatar, model.shape(), volumes(), model.thickness(), memory);
   }
   /// How the contact holds the beam from now on.   @param before  it has held it, apart where it begins

@@ -103,11 +103,11 @@ class Continuation {
   template <class HowFar>
   Branch judge(const Continued<Scalar>& now, HowFar&& how_far) const noexcept {
     if (!known_) return Branch::same;
-    const Branch near = now.straight < most_turn ? Branch::turned : Branch::same;
+    const Branch beside = now.straight < most_turn ? Branch::turned : Branch::same;
     const Scalar rest = now.potential - stored_ - now.given, off = std::abs(rest) - now.loose;
-    if (off <= little * now.strain) return near;
+    if (off <= little * now.strain) return beside;
     const auto [hand, gone] = how_far();
-    if (gone <= along * hand + now.length / 1000) return near;
+    if (gone <= along * hand + now.length / 1000) return beside;
     return rest > stored_ && rest > now.strain / 2 ? Branch::risen : Branch::other;
   }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <hapbeam/rod.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam {
 
