@@ -36,11 +36,11 @@ struct Contact {
 template <typename Scalar, int D = 2>
 struct ContactMemory {
   PlaceOf<Scalar, D> place = Avatar<Scalar, D>{}.place();  ///< [m] where the avatar was
-  bool known = false;          ///< place is valid
-  bool touching = false;       ///< the avatar touched the beam
-  bool through = false;        ///< touching, in a plane: its centre beyond the centreline
-  int side = 1;                ///< touching, in a plane: from this side
-  Scalar s = 0;                ///< [m] touching, in space: there
+  bool known = false;                                      ///< place is valid
+  bool touching = false;                                   ///< the avatar touched the beam
+  bool through = false;  ///< touching, in a plane: its centre beyond the centreline
+  int side = 1;          ///< touching, in a plane: from this side
+  Scalar s = 0;          ///< [m] touching, in space: there
   VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< touching, in space: along this one
 };
 
