@@ -123,8 +123,10 @@ void add_rods(py::module_& m) {
   py::class_<Rod> rod(m, "Rod", "A rod in space, its ends and its dead loads.  Methods return the rod.");
   rod.def(py::init<double, const RodSection&, const RodMaterial&, const RodSupport&, const RodSupport&>(),
           arg("length"), arg("section"), arg("material"), arg("left"), arg("right"), "length [m].")
-      .def_property_readonly("length", &Rod::length, "[m]")
-      .def_property_readonly("thickness", &Rod::thickness, "[m]");
+      .def_property_readonly(
+          "length", [](const Rod& rod) { return rod.length(); }, "[m]")
+      .def_property_readonly(
+          "thickness", [](const Rod& rod) { return rod.thickness(); }, "[m]");
   add_rod_loads(rod);
   add_rod_shape(rod);
   m.def(
