@@ -116,11 +116,11 @@ void add_beams(py::module_& m) {
            arg("axial_stiffness"), arg("bending_stiffness"), arg("thickness"), arg("left"), arg("right"),
            "length [m], EA [N], EI [N·m²], thickness [m].")
       .def_property_readonly(
-          "length", [](const Beam& beam) { return beam.length(); }, "[m]")
+          "length", [](const Beam& self) { return self.length(); }, "[m]")
       .def_property_readonly("axial_stiffness", &Beam::axial_stiffness, "EA [N]")
       .def_property_readonly("bending_stiffness", &Beam::bending_stiffness, "EI [N·m²]")
       .def_property_readonly(
-          "thickness", [](const Beam& beam) { return beam.thickness(); }, "[m]")
+          "thickness", [](const Beam& self) { return self.thickness(); }, "[m]")
       .def_property_readonly("left", &Beam::left, "Support of the left end.")
       .def_property_readonly("right", &Beam::right, "Support of the right end.");
   add_beam_loads(beam);

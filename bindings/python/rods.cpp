@@ -124,9 +124,9 @@ void add_rods(py::module_& m) {
   rod.def(py::init<double, const RodSection&, const RodMaterial&, const RodSupport&, const RodSupport&>(),
           arg("length"), arg("section"), arg("material"), arg("left"), arg("right"), "length [m].")
       .def_property_readonly(
-          "length", [](const Rod& rod) { return rod.length(); }, "[m]")
+          "length", [](const Rod& self) { return self.length(); }, "[m]")
       .def_property_readonly(
-          "thickness", [](const Rod& rod) { return rod.thickness(); }, "[m]");
+          "thickness", [](const Rod& self) { return self.thickness(); }, "[m]");
   add_rod_loads(rod);
   add_rod_shape(rod);
   m.def(
