@@ -12,9 +12,9 @@ using namespace hapbeam::testing;
 namespace {
 
 template <class Model>
-double worst_gain(Model&& model, std::uint64_t paths = 10) {
+double worst_gain(Model&& model) {
   double worst = 0;
-  for (std::uint64_t seed = 1; seed <= paths; ++seed) worst = std::max(worst, gain(feel_of(model), seed));
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) worst = std::max(worst, gain(feel_of(model), seed));
   return worst;
 }
 
@@ -26,7 +26,7 @@ double worst_gain(Model&& model, std::uint64_t paths = 10) {
 TEST_CASE("closed paths of the contact neither gain nor lose energy", "[energy]") {
   const Beam beam = thesis_beam(Support::pinned, Support::pinned);
   using Cubic = FemModel<VonKarman<AssumedStrain>>;
-  const double coarse = worst_gain(Cubic(beam, 32), 2), fine = worst_gain(Cubic(beam, 64), 2),
+  const double coarse = worst_gain(Cubic(beam, 32)), fine = worst_gain(Cubic(beam, 64)),
                closed = worst_gain(FemModel<>(beam, 8));
   const double pod = worst_gain(PodModel<>(trained_pod(beam, TrainingPlan::anywhere(beam, 0.05))));
   const double galerkin =
