@@ -51,7 +51,7 @@
 #include <utility>
 
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/shaft.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam {
 

@@ -9,7 +9,6 @@
 
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/rod_centreline.hpp>
-#include <hapbeam/shaft.hpp>
 
 namespace hapbeam::detail {
 

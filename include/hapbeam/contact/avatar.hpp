@@ -10,7 +10,7 @@
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/check.hpp>
-#include <hapbeam/shaft.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/shaft.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam::detail {
 

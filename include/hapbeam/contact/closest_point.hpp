@@ -17,7 +17,7 @@
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/contact/bernstein.hpp>
-#include <hapbeam/shaft.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam {
 

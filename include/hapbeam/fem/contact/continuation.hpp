@@ -6,8 +6,8 @@
 // holds to third order of the step on one branch of equilibria.  Newton's method may land on another one, stable and with all pivots positive.  The energy is
 // another there, and the beam has gone farther than the hand.
 // Such an answer is sought again in halves and quarters of the hand's way, each from the one before.  The trapezoids' error falls by eight with each half.
-// So is one whose normal has turned by more than a sixth of a right angle: a rod slips off a ball to either side with the same energy, and the side is that
-// of many short ticks only if the way across its top is.  What is off in a quarter still has snapped; where most of its energy has come from nowhere no snap leads there, and the beam falls from where it was (Descent).
+// A rod slips off the top of a ball to either side with the same energy.  So an answer whose normal has turned by more than 15 degrees is sought in parts, too.
+// What is off in a quarter still has snapped.  Where most of its energy has come from nowhere no snap leads there, and the beam falls from where it was (Descent).
 // Real-time: noexcept, no allocation, O(1) but for the answers that are sought again: at most eight times, and the linear solves of AllDisplacements in all.
 #pragma once
 
@@ -22,7 +22,7 @@ namespace hapbeam::detail {
 /// What the energy says of an answer.
 enum class Branch {
   same,    ///< the last one's
-  turned,  ///< the last one's, or what mirrors it: a normal has turned far, and both sides of a body have the same energy
+  turned,  ///< the last one's, or its mirror image: a normal has turned far
   other,   ///< another one
   risen    ///< another one, and most of its energy has come from nowhere
 };

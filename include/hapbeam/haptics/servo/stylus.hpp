@@ -19,7 +19,7 @@
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/haptics/stability/contact_tangent.hpp>
 #include <hapbeam/haptics/stability/coupling.hpp>
-#include <hapbeam/shaft.hpp>
+#include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam {
 
