@@ -1,7 +1,7 @@
 // What hapbeam's assembler is measured against: the same FemModel, the same Newton, mesh, elements and convergence
 // rule, over Eigen's general sparse solvers (assembled_by.hpp).
 //
-// Both have the members of BlockTridiagonal that BeamSystem calls, so that the linear algebra is the only difference.
+// Both have the members of BlockTridiagonal that ChainSystem calls of a beam, so that the linear algebra is the only difference.
 // Written as well as one can from outside: SimplicialLdlt analyses its pattern once, refills the values in place
 // without searching, and allocates nothing of its own in a solve.  SparseLuFromTriplets is what one writes first.
 #pragma once
@@ -27,6 +27,7 @@ class SimplicialLdlt : public WholeColumns<SimplicialLdlt<Scalar, Ordering>, Sca
   friend Columns;
   using Matrix = Eigen::SparseMatrix<Scalar>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using Block = Eigen::Matrix<Scalar, 3, 3>;
 
  public:
   using Columns::add;
@@ -57,6 +58,11 @@ class SimplicialLdlt : public WholeColumns<SimplicialLdlt<Scalar, Ordering>, Sca
     }
     rhs_.template segment<3>(3 * e) -= r.template head<3>();
     rhs_.template segment<3>(3 * e + 3) = -r.template tail<3>();
+  }
+  void add_at(int node, const Block& K, const Vector3<Scalar>& r) noexcept {
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i <= j; ++i) own(node, j)[i] += K(i, j);
+    rhs_.template segment<3>(3 * node) -= r;
   }
 
   void prescribe(int node, int component, Scalar increment) noexcept {
@@ -119,6 +125,7 @@ class SparseLuFromTriplets : public WholeColumns<SparseLuFromTriplets<Scalar>, S
   friend Columns;
   using Matrix = Eigen::SparseMatrix<Scalar>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using Block = Eigen::Matrix<Scalar, 3, 3>;
 
  public:
   using Columns::add;
@@ -139,6 +146,11 @@ class SparseLuFromTriplets : public WholeColumns<SparseLuFromTriplets<Scalar>, S
     for (int j = 0; j < 6; ++j)
       for (int i = 0; i < 6; ++i) triplets_.emplace_back(3 * e + i, 3 * e + j, K(i, j));
     rhs_.template segment<6>(3 * e) -= r;
+  }
+  void add_at(int node, const Block& K, const Vector3<Scalar>& r) {
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) triplets_.emplace_back(3 * node + i, 3 * node + j, K(i, j));
+    rhs_.template segment<3>(3 * node) -= r;
   }
 
   void prescribe(int node, int component, Scalar increment) {
