@@ -18,6 +18,7 @@ class DenseLdlt : public WholeColumns<DenseLdlt<Scalar>, Scalar> {
   friend Columns;
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
 
  public:
   using Columns::add;
@@ -31,6 +32,10 @@ class DenseLdlt : public WholeColumns<DenseLdlt<Scalar>, Scalar> {
     }
     K_.template block<6, 6>(3 * e, 3 * e) += K;
     x_.template segment<6>(3 * e) -= r;
+  }
+  void add_at(int node, const Matrix3& K, const Vector3<Scalar>& r) noexcept {
+    K_.template block<3, 3>(3 * node, 3 * node) += K;
+    x_.template segment<3>(3 * node) -= r;
   }
 
   void prescribe(int node, int component, Scalar increment) noexcept {
