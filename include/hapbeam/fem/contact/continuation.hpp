@@ -35,7 +35,7 @@ struct Continued {
   Scalar given;         ///< W - D [J]
   Scalar size, change;  ///< of the work's parts before and now: the sum and the difference, without signs [J]
   Scalar strain;        ///< strain energy [J]
-  Scalar length;        ///< of the beam [m]
+  Scalar length, way;   ///< of the beam, and how far the hand has gone [m]
   bool rough = false;   ///< friction has its part, of which less is known
   bool turned = false;  ///< in space: by 10 degrees, the normal of a body
 };
@@ -77,12 +77,6 @@ auto farthest(const Centreline& from, const Centreline& to) noexcept {
   return std::sqrt(most);
 }
 
-/// [m]
-template <typename Scalar>
-struct Gone {
-  Scalar hand, beam;
-};
-
 template <typename Scalar>
 class Continuation {
  public:
@@ -94,17 +88,18 @@ class Continuation {
   /// An answer to continue.  @param potential  V [J]
   void know(Scalar potential) noexcept { stored_ = potential, known_ = true; }
 
-  /// @param how_far  () -> how far the hand has gone, and any place of the beam [m]
+  /// @param how_far  () -> how far any place of the beam has gone [m]
   template <class HowFar>
   Branch judge(const Continued<Scalar>& now, HowFar&& how_far) const noexcept {
     if (!known_) return Branch::same;
     const Scalar rest = now.potential - stored_ - now.given,
                  off = std::abs(rest) - (now.rough ? little_rough : little) * now.strain;
-    const bool unsure = now.turned || (!now.rough && off > most_bent * now.size);
+    // A longer way is no hand's in a tick, and its force may be any line.
+    const bool bent = !now.rough && now.way < now.length / 100 && off > most_bent * now.size,
+               unsure = now.turned || bent;
     const Branch beside = unsure ? Branch::unsure : Branch::same;
     if (off <= now.change / 2 + now.size / 40) return beside;
-    const auto [hand, gone] = how_far();
-    if (gone <= along * hand + now.length / 1000) return beside;
+    if (how_far() <= along * now.way + now.length / 1000) return beside;
     return rest > stored_ && rest > now.strain / 2 ? Branch::risen : Branch::other;
   }
 

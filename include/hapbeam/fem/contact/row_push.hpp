@@ -133,10 +133,8 @@ class RowPush : private RowContacts<Element, System> {
       if (!began_ || work_.strange() || begins_to_pull) return Branch::same;
       return continuation_.judge(
           {potential_, work_.done() - taken_, work_.size(), work_.change(), system.strain(), system.length(),
-           rough, dimension == 3 && work_.turned()},
-          [&] {
-            return Gone<Scalar>{work_.way(), farthest(system.view(foresight_.before()), system.centreline())};
-          });
+           work_.way(), rough, dimension == 3 && work_.turned()},
+          [&] { return farthest(system.view(foresight_.before()), system.centreline()); });
     };
     const auto keep = [&](const Answer& found) {
       if (is_answer(found.status) && work_.any()) continuation_.know(potential_);
