@@ -13,15 +13,8 @@
 
 namespace phantom {
 
-double default_exaggeration(const Options& o) {
-  if (o.scene == "ruler" || o.scene == "arch" || o.beams > 1) return 1;
-  if (o.scene == "strip") return 10;
-  if (o.scene == "string") return 5;
-  return o.beam.rise == 0 && o.beam.length > 1 ? 20 : 1;
-}
-
 SceneDrawing::SceneDrawing(const Body& body, const hapbeam::DeviceInfo& device)
-    : exaggeration_(default_exaggeration(body.options())),
+    : exaggeration_(body.options().exaggeration),
       options_(body.options()),
       placement_(body.placement()),
       workspace_(device.workspace.head<2>() * options_.scale / 2),
@@ -54,6 +47,13 @@ void SceneDrawing::fit(const ImVec2& low, const ImVec2& high) {
            std::min(width / (1.2 * span), height / (1.12 * (top - bottom))),
            {(left + right) / 2, (top + bottom) / 2},
            exaggeration_};
+}
+
+double SceneDrawing::rest_height(double x) const {
+  const auto right = std::find_if(samples_.begin() + 1, samples_.end() - 1,
+                                  [x](const Sample& sample) { return sample.rest_x >= x; });
+  const Sample &a = *(right - 1), &b = *right;
+  return a.rest_w + std::clamp((x - a.rest_x) / (b.rest_x - a.rest_x), 0.0, 1.0) * (b.rest_w - a.rest_w);
 }
 
 void SceneDrawing::sample(const DrawnBeam& beam) {
@@ -197,7 +197,7 @@ void SceneDrawing::draw_legend(ImDrawList& list, float unit) const {
 }
 
 Across SceneDrawing::across(const hapbeam::ServoRecord& r) const {
-  const double rest = options_.beam.rest(r.avatar.x()), reach = options_.radius + options_.beam.height / 2;
+  const double rest = rest_height(r.avatar.x()), reach = options_.radius + options_.beam.height / 2;
   const bool below = r.pressing ? r.force.y() < 0 : r.avatar.y() < rest;
   return {below ? rest - reach : rest + reach, view_.exaggeration};
 }

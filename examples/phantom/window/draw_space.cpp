@@ -123,7 +123,10 @@ void SpaceDrawing::draw_ends(Solids& solids) const {
 
 void SpaceDrawing::draw_hanging(ImDrawList& list, float unit) const {
   for (const hapbeam::RodForce& force : line_.rod().forces()) {
-    const Vector tip = line_.samples().back().ring.middle,
+    if (!(force.force.norm() > 0)) continue;
+    const auto i = static_cast<std::size_t>(
+        std::round(force.s / line_.rod().length() * static_cast<double>(line_.samples().size() - 1)));
+    const Vector tip = line_.samples()[i].ring.middle,
                  end = tip + 0.1 * line_.rod().length() * force.force.normalized();
     const ImVec2 at = camera_(end);
     list.AddLine(camera_(tip), at, colour::ink, unit / 12);

@@ -4,20 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "../rest.hpp"
 #include "../scene.hpp"
 #include "plot.hpp"
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 
 namespace phantom {
-
-namespace {
-
-/// The same beam in the same place.
-bool same_scene(const Options& a, const Options& b) {
-  return a.scene == b.scene && a.beam.name == b.beam.name && a.model == b.model;
-}
-
-}  // namespace
 
 Running::Running(const Options& options, std::shared_ptr<const Trained> trained)
     : hand_(make_path(options), true),
@@ -45,7 +37,8 @@ Eigen::Vector3d Running::beside(const Options& next) {
   if (next.beam.in_space())
     return placement.device_position(r.avatar +
                                      (session_.body().depth(r) + 0.1 * reach) * r.force.normalized());
-  const double clear = next.beam.rest(std::clamp(r.hand.x(), 0.0, next.beam.length)) + side * 1.1 * reach;
+  const double clear = height_at(std::get<hapbeam::Centreline<double>>(session_.body().rest()), r.hand.x()) +
+                       side * 1.1 * reach;
   const double y = side > 0 ? std::max(clear, r.hand.y()) : std::min(clear, r.hand.y());
   return placement.device_position({r.hand.x(), y, 0});
 }
