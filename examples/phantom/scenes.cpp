@@ -19,6 +19,7 @@ struct NamedScene {
   double exaggeration = 1;
   int beams = 1;
   double radius = 0.005;  ///< [m] of the avatar
+  double pitch = 0.012;   ///< [m] from one beam to the next
 };
 
 constexpr double middle = std::numeric_limits<double>::quiet_NaN();
@@ -28,7 +29,7 @@ constexpr double middle = std::numeric_limits<double>::quiet_NaN();
 constexpr NamedScene scenes[] = {
     {"thesis", ElementChoice::stability_functions, Script::slide, middle, 0.014, 1,
      "a wall that gives a little: the bar is stiffer than the device, and what moves is the coupling", 20},
-    {"ruler", ElementChoice::corotational, Script::press, 0.15, 0.1, 3,
+    {"ruler", ElementChoice::corotational, Script::press, 0.15, 0.08, 3,
      "it resists, turns, and lets the hand slide down along it: the force falls while the hand goes on, "
      "until it "
      "slips off"},
@@ -41,9 +42,9 @@ constexpr NamedScene scenes[] = {
      5},
     {"arch", ElementChoice::corotational, Script::press, middle, 0.04, 0.5,
      "a click: it resists, tilts, gives way under the finger and is gone, to stand on the other side"},
-    {"comb", ElementChoice::corotational, Script::press, 0.096, 0.1, 1.6,
+    {"comb", ElementChoice::corotational, Script::press, 0.096, 0.05, 1.6,
      "tooth after tooth: each bends, two or three push back together, and one after the other slips off", 1,
-     9},
+     9, 0.005, 0.008},
     {"needle", ElementChoice::round_rod, Script::around, 0.11, 0.022, 0.5,
      "the same spring from every side: pressed deeper than the ball's radius, it slips around the ball", 1, 1,
      0.01},
@@ -71,7 +72,7 @@ void set_scene(Options& o, const std::string& label) {
   o.scale = scene.scale;
   o.beams = scene.beams;
   o.radius = scene.radius;
-  o.pitch = Options{}.pitch;
+  o.pitch = scene.pitch;
 }
 
 std::string scene_names() { return cli::names(scenes); }

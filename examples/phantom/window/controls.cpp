@@ -19,7 +19,7 @@ constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice
                                       ElementChoice::corotational, ElementChoice::tapered,
                                       ElementChoice::round_rod,    ElementChoice::twisted_rod};
 constexpr const char* element_labels[] = {
-    "linear",       "von Karman, full", "von Karman, reduced", "von Karman, stability functions",
+    "linear",       "von Karman, full", "von Karman, reduced", "von Karman",
     "corotational", "tapered",          "round rod, no twist", "twisted rod"};
 
 void caption(const char* text) {

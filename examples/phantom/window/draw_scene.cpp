@@ -18,7 +18,7 @@ SceneDrawing::SceneDrawing(const Body& body, const hapbeam::DeviceInfo& device)
       options_(body.options()),
       placement_(body.placement()),
       workspace_(device.workspace.head<2>() * options_.scale / 2),
-      largest_strain_(1e-6) {
+      largest_strain_(least_strain) {
   constexpr int pieces = 240;
   const Shape shape = body.rest();
   const auto& rest = std::get<hapbeam::Centreline<double>>(shape);
@@ -37,9 +37,10 @@ void SceneDrawing::fit(const ImVec2& low, const ImVec2& high) {
     left = std::min(left, sample.rest_x), right = std::max(right, sample.rest_x);
     top = std::max(top, sample.rest_w), bottom = std::min(bottom, sample.rest_w);
   }
-  const double span = right - left, above = 0.03 * o.scale * exaggeration_;
-  const double below = o.beams > 1 ? o.pitch * (o.beams - 1) + 0.4 * span
-                                   : std::min(1.1 * o.depth * o.scale * exaggeration_, 1.1 * span);
+  const double span = right - left, above = 0.023 * o.scale * exaggeration_;
+  // As far as the hand goes, or all of an array.
+  const double below =
+      std::max(o.pitch * (o.beams - 1), std::min(1.05 * o.depth * o.scale * exaggeration_, 1.1 * span));
   top += above + o.radius, bottom -= std::max(below, bottom < top ? 0.8 * (top - bottom) : 0);
   const double width = static_cast<double>(high.x - low.x), height = static_cast<double>(high.y - low.y);
   view_ = {low,

@@ -78,7 +78,7 @@ class Window {
     draw_scene({gap, gap}, {size.x - column - gap, size.y - below - gap}, unit);
     draw_panels(*ImGui::GetWindowDrawList(),
                 {running_->history(), running_->curves(), running_->curve_place(), running_->curve_step(),
-                 running_->curve_depth(), running_->options().hands},
+                 running_->curve_depth(), running_->options().beams > 1 ? Pressed::array : Pressed::beam},
                 {gap, size.y - below}, {size.x - gap, size.y - gap});
     ImGui::SetCursorPos({size.x - column, gap});
     ImGui::BeginChild("controls", {column - gap, size.y - below - 2 * gap});

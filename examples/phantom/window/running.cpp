@@ -84,7 +84,10 @@ void Running::lift() {
 
 void Running::remember(const Tick& tick) {
   const hapbeam::ServoRecord& r = tick.record;
-  history_.add(tick, session_.body().depth(r), options().beam.in_space() ? r.force.norm() : r.force.y());
+  // Through an array the hand goes on, from one beam to the next.
+  const double down = std::max(0.0, session_.body().placement().origin().y() - r.avatar.y());
+  history_.add(tick, options().beams > 1 ? down : session_.body().depth(r),
+               options().beam.in_space() ? r.force.norm() : r.force.y());
 }
 
 /// Half of what the hand presses a beam that stays as stiff as it is at first; a stiff one gives way by less than the hand
@@ -119,7 +122,8 @@ void Running::refresh_curves() {
   if (turned) curve_along_ = -r.force / force;
   curve_depth_ = depth;
   curve_place_ = place;
-  curves_ = force_curves(session_.body().slender(), options().elements, place, curve_along_, depth);
+  if (options().beams > 1) curves_.clear();
+  else curves_ = force_curves(session_.body().slender(), options().elements, place, curve_along_, depth);
 }
 
 }  // namespace phantom
