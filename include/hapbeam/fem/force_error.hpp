@@ -44,7 +44,7 @@ class ForceError {
  private:
   static constexpr double factor = 6, least = 1e-6;  // the second: of the force, what solvers leave
   static int finer(int elements) noexcept {
-    return elements < std::numeric_limits<int>::max() / 4 ? 4 * elements : elements;
+    return elements < (std::numeric_limits<int>::max)() / 4 ? 4 * elements : elements;
   }
 
   Model finer_;
