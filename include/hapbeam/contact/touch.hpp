@@ -169,9 +169,8 @@ class Touch {
     release(result);
     ContactMemory<Scalar, dimension> nothing;
     const Contact contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), nothing);
-    // Off the avatar though that did not draw back, or on a long way down: the beam has jumped.
-    if (pressed && (why != Hold::released || falling_) && result.status == Status::ok)
-      result.status = Status::snapped;
+    // Off the avatar though that did not draw back: the beam has jumped.
+    if (pressed && why != Hold::released && result.status == Status::ok) result.status = Status::snapped;
     if (!contact.touching) return;
     const Range<Scalar> range = model_.range();
     const bool beside = (std::min)(contact.s - range.left_support, range.right_support - contact.s) <
