@@ -246,6 +246,40 @@ TEST_CASE("a hand whose position is none is a hand that is not ticked", "[two_ha
   CHECK(forces(true) == quiet);
 }
 
+// The other loop has 100 ticks before the guard of this one would see a pause.
+TEST_CASE("a hand that was lifted while its loop stood still comes in slowly", "[two_hands]") {
+  for (const double period : {1e-3, 5e-4, 2.5e-4})
+    for (const double pause : {0.03, 0.06, 0.095, 0.11})
+      for (const double place : {-0.01, 0.001, 0.003}) {
+        FemModel<Several<Corotational<>, 2>> model(steel_ruler(), 16);
+        TwoHands hands(model);
+        DeviceInfo device = VirtualPhantom<>(HandPath({0, 0})).info();
+        device.continuous_force = device.peak_force;
+        Servo left(hands[0], device);
+        device.period = period;
+        Servo right(hands[1], device);
+        double time = 0, others = 0, held = 0;
+        const auto tick = [&](double y, double step) {
+          for (; others < time - 1e-9; others += period) {
+            DeviceState other;
+            other.time = others, other.position = {0.1, 0.2, 0};
+            (void)right.tick(other);
+          }
+          DeviceState one;
+          one.time = time, one.position = {0.2, y, 0};
+          time += step;
+          return left.tick(one).norm();
+        };
+        for (int k = 0; k < 1000; ++k)
+          held = tick(0.0055 - 0.0155 * std::min(1.0, k / 500.0), k < 999 ? 1e-3 : pause);
+        REQUIRE(held > 1);
+        CAPTURE(period, pause, place, held);
+        const bool stood_still = pause >= 100 * period || pause > 0.1;
+        for (int k = 1; k <= 3 && stood_still; ++k) CHECK(tick(place, 1e-3) <= k / 200.0 * held * 1.2);
+        if (!stood_still) CHECK(tick(-0.01, 1e-3) == Approx(held).epsilon(1e-3));
+      }
+}
+
 TEST_CASE("what one hand does to the beam does not confuse the other hand's coupling", "[two_hands]") {
   // The left hand stands still; the right one presses and draws back within 0.1 s each.
   FemModel<Several<Corotational<>, 2>> model(steel_ruler(), 16);

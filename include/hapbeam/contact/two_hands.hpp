@@ -9,7 +9,7 @@
 // A hand is given to a Servo in place of the model. A tick of either hand finds the equilibrium under both, the other one where its own last tick
 // has left it. The hands may tick at different rates. One thread ticks both: they share the beam, and nothing is locked.
 // OpenHaptics calls the servos of all devices from one thread. In lock step the forces are deterministic.
-// A hand whose loop has stopped is lifted off the beam after `patience` ticks of the other one.
+// A hand whose loop has stopped is lifted off the beam after `patience` ticks of the other one.  Where it comes back its servo begins anew.
 // A reset takes a hand off the beam.  Where nobody touches the beam without it, the scene is as it was built: beam, props and friction.
 // Where the other hand does, that one keeps it, and the one that was reset comes back after the next tick of the other one.
 // Real-time: ticks are noexcept, allocation-free and bounded, as those of TouchSeveral.  Constructors allocate and throw.
@@ -192,6 +192,8 @@ class Touch<Hand<Model>> {
     pressing_ = false;
   }
   bool pressing() const noexcept { return pressing_ && hands_.here(index_); }
+  /// Whether ticks of the other hand have taken it off the beam that it pressed.
+  bool lifted() const noexcept { return pressing_ && !hands_.here(index_); }
   /// As Touch.
   bool rough() const noexcept { return hands_.touch_.rough(index_); }
   void soften(Scalar stiffness, Scalar damping) noexcept { hands_.touch_.soften(index_, stiffness, damping); }

@@ -276,7 +276,7 @@ auto Servo<Model, Coupling>::run(const State& state) noexcept {
   // Ticks in which nobody knows where the hand is are no time of the loop: many of them are a pause.
   const LoopClock::Passed passed = clock_.passed(known ? state.time : not_a_number);
   observe(state, passed.step);
-  if (state.reset || passed.pause) release();
+  if (state.reset || passed.pause || (known && detail::was_lifted(touch_))) release();
   auto coupled = decltype(couple(state, passed.step)){};
   if (known) coupled = couple(state, passed.step);
   else coupled.touch.status = Status::invalid_request;

@@ -95,6 +95,13 @@ void look_at_others(const Touch& touch, LastResponse& last) noexcept {
     if (const auto* const force = touch.meanwhile()) last.renew(in_scene(*force));
 }
 
+/// Whether others have taken the hand off, as its loop stood still: it engages anew.
+template <typename Touch>
+bool was_lifted(const Touch& touch) noexcept {
+  if constexpr (is_shared<Touch>) return touch.lifted();
+  else return false;
+}
+
 /// A beam to call a coupling with.
 struct AnyTouch {
   using Scalar = double;
