@@ -446,3 +446,33 @@ TEST_CASE(
                     "docs/contact.md");
   CHECK_NOTHROW(Touch<FemModel<>>(across, 0.005, 0));
 }
+
+// What slides with the friction of too large a normal force pulls.  That is no equilibrium of Coulomb's law.
+TEST_CASE("a rough hand that pushes the shank of an L along itself keeps it, however long its ticks",
+          "[friction]") {
+  constexpr double h = 0.2 * 2.36e-3, EA = 2e11 * 0.02 * h, bend = 0.02;
+  Beam beam(0.2, EA, EA * h * h / 12, h, Support::clamped, Support::free);
+  beam.naturally({{0.0835, 0}, {0.0835 + bend, 1.54 / bend}, {0.2, 0}});
+  const Vector from(0.0976, -0.02166), way(-0.0031, -0.0042);
+  const auto press = [&](int ticks, std::vector<Vector>& forces, int every) {
+    Ruler model(beam, 16);
+    Touch<Ruler> touch(model, 1.12e-3, Friction(0.72));
+    for (int k = 0; k <= ticks; ++k) {
+      const Felt r = touch.tick(from + way * (double(k) / ticks));
+      CAPTURE(ticks, k);
+      CHECK(r.status == Status::ok);
+      CHECK(r.pressing);
+      if (k % every == 0) forces.push_back(r.force);
+    }
+  };
+  std::vector<Vector> fine;
+  press(400, fine, 50);
+  for (const int ticks : {8, 16, 24}) {
+    std::vector<Vector> coarse;
+    press(ticks, coarse, ticks / 8);
+    for (std::size_t k = 1; k < fine.size(); ++k) {
+      CAPTURE(ticks, k);
+      CHECK((coarse[k] - fine[k]).norm() <= 1e-3 * fine[k].norm());
+    }
+  }
+}

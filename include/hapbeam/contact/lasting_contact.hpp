@@ -113,14 +113,15 @@ struct LastingContact {
     if (mode == Mode::support && place.slid(contact, model, still))
       return {Hold::slipped, 0, Status::out_of_range};
     Push<Scalar, dimension> at{0, 0, VectorOf<Scalar, dimension>::Zero()};
+    // One that nothing across the beam holds beside a rigid end had slid there.
+    const Hold off = before == Mode::pushed && mode == Mode::across ? Hold::lost : Hold::released;
     if (!place.aim(model, contact, avatar, reach, mode, side, before > Mode::inside, at))
-      return {Hold::released, 0, Status::ok};
+      return {off, 0, Status::ok};
     const Response<Scalar> response = press(model, at, asked);
     const Scalar force = -response.force * place.factor();
     if (mode == Mode::support) return {Hold::pressing, std::abs(force), response.status};
     const bool answer = is_answer(response.status);
-    if (force < 0 || (answer && force == 0))
-      return {answer ? Hold::released : Hold::lost, 0, response.status};
+    if (force < 0 || (answer && force == 0)) return {answer ? off : Hold::lost, 0, response.status};
     return {Hold::pressing, force, response.status};
   }
 

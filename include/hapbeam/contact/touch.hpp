@@ -166,11 +166,14 @@ class Touch {
   /// @param pressed  in the tick before
   void let_go(const Avatar& avatar, Hold why, bool pressed, Result& result) noexcept {
     const Mode before = at_.mode;
+    const Status answer = result.status;
     release(result);
     ContactMemory<Scalar, dimension> nothing;
     const Contact contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), nothing);
-    // Off the avatar though that did not draw back: the beam has jumped.
-    if (pressed && why != Hold::released && result.status == Status::ok) result.status = Status::snapped;
+    // On its way, or off the avatar though that did not draw back: the beam has jumped.
+    if (pressed && falling_) result.status = Status::iteration_limit;
+    else if (pressed && result.status == Status::ok && (why != Hold::released || answer == Status::snapped))
+      result.status = Status::snapped;
     if (!contact.touching) return;
     const Range<Scalar> range = model_.range();
     const bool beside = (std::min)(contact.s - range.left_support, range.right_support - contact.s) <

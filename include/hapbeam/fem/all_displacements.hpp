@@ -116,7 +116,7 @@ class AllDisplacements {
 
   /// Falls to the shape at rest on whose slope the beam is; one that is folded, which only a request beyond all reach leaves,
   /// and which may be stable, goes back to where it began.   @return ok | snapped | iteration_limit
-  Status release() noexcept { return drawn(let_go()); }
+  Status release() noexcept { return drawn(report_.status = pushes_.release(*this)); }
   Status let_go() noexcept {
     forget();
     if (single_valued_) {

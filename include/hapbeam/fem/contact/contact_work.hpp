@@ -27,7 +27,7 @@ class ContactWork {
   void forget() noexcept { known_ = false; }
   /// To be called where a push was answered, before what follows.
   void begin() noexcept {
-    work_ = size_ = change_ = way_ = turned_ = 0;
+    work_ = size_ = change_ = ahead_ = way_ = turned_ = 0;
     strange_ = false;
     same_ = known_;
     known_ = true;
@@ -95,6 +95,8 @@ class ContactWork {
   const Round& round(int i) const noexcept { return bodies_[of(i)].round; }
   /// W [J]
   Scalar done() const noexcept { return work_; }
+  /// What the last forces would have given [J].
+  Scalar ahead() const noexcept { return ahead_; }
   /// Its parts without their signs [J].
   Scalar size() const noexcept { return size_; }
   /// By how much they change [J].
@@ -125,6 +127,7 @@ class ContactWork {
   static std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
   void add(Scalar before, Scalar now) noexcept {
     work_ += (before + now) / 2;
+    ahead_ += before;
     size_ += std::abs(before) + std::abs(now);
     change_ += std::abs(now - before);
   }
@@ -136,9 +139,9 @@ class ContactWork {
 
   std::array<Body, Most> bodies_{};
   std::array<Held, Most> held_{};
-  std::array<bool, Most> touching_{}, touched_{}, placed_{};        // placed: where it was is known
-  Scalar work_ = 0, size_ = 0, change_ = 0, way_ = 0, turned_ = 0;  // [J], [m²], of normals: [1]
-  static constexpr Scalar most_turned = Scalar(0.03);               // square of 10 degrees
+  std::array<bool, Most> touching_{}, touched_{}, placed_{};  // placed: where it was is known
+  Scalar work_ = 0, size_ = 0, change_ = 0, ahead_ = 0, way_ = 0, turned_ = 0;  // [J], [m²], of normals: [1]
+  static constexpr Scalar most_turned = Scalar(0.03);                           // square of 10 degrees
   bool known_ = false, same_ = false, strange_ = false;
 };
 

@@ -40,6 +40,23 @@ struct Continued {
   bool turned = false;  ///< in space: by 10 degrees, the normal of a body
 };
 
+/// What is known of a beam as hands let go of it.
+template <typename Scalar>
+struct LetGo {
+  Scalar potential = 0;  ///< V when they last touched it [J]
+  Scalar given = 0;      ///< what their forces of then give over their way [J]
+  Scalar rubbed = 0;     ///< what friction may have taken on that [J]
+  Scalar strain = 0;     ///< strain energy [J]
+  bool known = false;
+
+  /// Whether it has fallen to where it is now.  A hand that draws back gives or takes a part of what its last force would, which falls to zero.
+  bool fell(Scalar now) const noexcept {
+    const Scalar rest = now - potential,
+                 off = (std::max)(rest - (std::max)(given, Scalar(0)), (std::min)(given, Scalar(0)) - rest);
+    return known && off > rubbed + strain / 100;
+  }
+};
+
 /// On the way from one place of a body to the next.  @param t  0 to 1
 template <typename Scalar>
 Circle<Scalar> between(const Circle<Scalar>& from, const Circle<Scalar>& to, Scalar t) noexcept {
@@ -85,6 +102,8 @@ class Continuation {
 
   void forget() noexcept { known_ = snapped_ = false; }
   bool known() const noexcept { return known_; }
+  /// V of the answer to continue [J].
+  Scalar potential() const noexcept { return stored_; }
   /// An answer to continue.  @param potential  V [J]
   void know(Scalar potential) noexcept { stored_ = potential, known_ = true; }
 

@@ -137,8 +137,16 @@ class FrictionLaw {
     const Scalar size = norm(elastic), most = sliding_ * (std::max)(normal_force, Scalar(0));
     // What pulls while it sticks may press where it slides.
     const bool pulls = !(normal_force > 0);
-    if (fallen_ || ++tries_ > most_tries || (pulls && (slides_ || !(size > 0)))) return true;
+    if (fallen_ || ++tries_ > most_tries) return true;
+    if (pulls && (slides_ ? !(bound_.used() > 0) : !(size > 0))) return true;
     torn_ = false;
+    // What pulls has no friction.  With that of the last tick, or with none, it may press.
+    if (pulls && slides_) {
+      torn_ = true;
+      bound_.leap(bound_.before() < bound_.used() ? bound_.before() : Scalar(0), true);
+      aim(far_shear_, norm(far_shear_));
+      return false;
+    }
     if (!slides_) {
       if (!pulls && size <= (1 + exact) * sticking_ * normal_force) return true;
       slides_ = slid_ = true;
@@ -190,11 +198,12 @@ class FrictionLaw {
       slides_ = false, stuck_ = true;
       return true;
     }
-    const bool another = !slides_ && !slid_;
+    // What sticks where no other way leads may be found from where it slides without friction.
+    const bool freely = D == 2 && !fallen_ && stuck_ && bound_.used() > 0, another = !slides_ && !slid_;
     slides_ = slid_ = true;
-    bound_.set(fallen_ ? Scalar(0) : bound_.before());
+    bound_.set(fallen_ || freely ? Scalar(0) : bound_.before());
     aim(far_shear_, norm(far_shear_));
-    return another;
+    return another || freely;
   }
   /// Whether what was found is far: the way from there is long, and leads from the state before the push.
   bool torn() const noexcept { return torn_; }

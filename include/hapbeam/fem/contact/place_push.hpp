@@ -63,7 +63,10 @@ class PlacePush {
       continuation_.know(system.foreseen_potential());
       last_ = next;
     };
-    const auto back = [&] { system.go_back(before_, force); };
+    const auto back = [&] {
+      system.go_back(before_, force);
+      system.draw();
+    };
     const auto fall = [&] {
       back();
       way.descending_ = true;

@@ -74,7 +74,17 @@ class RowPush : private RowContacts<Element, System> {
     forget_shape();
   }
   /// The same where what the hands did goes on.
-  void forget_shape() noexcept { work_.forget(), balance_.forget(), continuation_.forget(); }
+  void forget_shape() noexcept {
+    work_.forget(), balance_.forget(), continuation_.forget();
+    let_go_.known = false;
+  }
+  /// Lets go of a beam that one circle has begun to draw.   @return as AllDisplacements::let_go()
+  template <class Way>
+  Status release(Way& way) noexcept {
+    const LetGo<Scalar> before = let_go_;
+    const Status status = way.let_go();
+    return status == Status::ok && before.fell(way.system_.total_potential()) ? Status::snapped : status;
+  }
 
   /// One circle, which pulls, too.   @param friction  null: none
   template <class Way, class Extent>
@@ -105,6 +115,7 @@ class RowPush : private RowContacts<Element, System> {
   template <class Way, class Extent>
   Status push(Way& way, Obstacle* all, int count, const Extent& range, bool holds = false) noexcept {
     System& system = way.system_;
+    let_go_.known = false;
     // A straight beam that is pressed across has one shape for each press.
     if (holds && way.single_valued_) {
       continuation_.forget();
@@ -125,18 +136,23 @@ class RowPush : private RowContacts<Element, System> {
         if (!whole) all[i].round = from_.knows(i) ? between(from_.round(i), to_[of(i)], t) : to_[of(i)];
       }
       before.work = work_, before.balance = balance_, before.force = system.linear_reaction();
+      before.potential = continuation_.potential(), before.known = continuation_.known();
       return Answer{answer(way, all, count, range, holds)};
     };
+    const auto begins_to_pull = [&] {
+      return holds && !(all[0].pushed.force < 0) && !(before.pushed[0].force > 0);
+    };
     const auto judge = [&](const Answer&) {
-      // What begins to pull is let go by who touches it, and ends there.
-      const bool begins_to_pull = holds && !(all[0].pushed.force < 0) && !(before.pushed[0].force > 0);
-      if (!began_ || work_.strange() || begins_to_pull) return Branch::same;
+      if (!began_ || work_.strange()) return Branch::same;
+      // What begins to pull is let go by who touches it, and ends there.  A hand that has not drawn back feels why on a shorter way.
+      if (begins_to_pull()) return work_.ahead() > 0 ? Branch::unsure : Branch::same;
       return continuation_.judge(
           {potential_, work_.done() - taken_, work_.size(), work_.change(), system.strain(), system.length(),
            work_.way(), rough, dimension == 3 && work_.turned()},
           [&] { return farthest(system.view(foresight_.before()), system.centreline()); });
     };
     const auto keep = [&](const Answer& found) {
+      if (is_answer(found.status) && begins_to_pull()) let_go_ = lets_go(system);
       if (is_answer(found.status) && work_.any()) continuation_.know(potential_);
       else continuation_.forget();
     };
@@ -144,6 +160,7 @@ class RowPush : private RowContacts<Element, System> {
       if (whole) from_ = before.work;
       whole = false;
       foresight_.go_back(system, before.force);
+      system.draw();
       for (int i = 0; i < count; ++i) {
         all[i].pushed = before.pushed[of(i)], all[i].touching = before.touching[of(i)];
         static_cast<State&>(slot(i)) = before.state[of(i)];
@@ -169,7 +186,8 @@ class RowPush : private RowContacts<Element, System> {
     std::array<State, most> state{};
     Work work;
     FrictionBalance<Scalar> balance;
-    Scalar force = 0;
+    Scalar force = 0, potential = 0;
+    bool known = false;
   };
 
   template <class Way, class Extent>
@@ -209,6 +227,18 @@ class RowPush : private RowContacts<Element, System> {
     return status;
   }
 
+  /// Those that touched before answer() do not touch any more.
+  LetGo<Scalar> lets_go(const System& system) const noexcept {
+    Work work = before_.work;
+    work.begin();
+    for (int i = 0; i < count_; ++i)
+      if (all_[i].kind == ObstacleKind::round) work.apart(i, all_[i].round);
+    Scalar rubbed = 0;
+    for (int i = 0; i < count_; ++i)
+      if (all_[i].friction)
+        rubbed += before_.friction[of(i)].force.norm() * (work.way() + before_.friction[of(i)].skin.norm());
+    return {before_.potential, work.ahead(), rubbed, system.strain(), before_.known};
+  }
   /// @return whether the hands go on as they went
   bool look_ahead(const System& system) noexcept {
     typename Foresight::Hands hands = Foresight::Hands::Zero();
@@ -247,7 +277,10 @@ class RowPush : private RowContacts<Element, System> {
     int contacts = 0;
     for (int i = 0; i < count_; ++i) slot(i).goal = all_[i].touching ? contacts++ : -1;
     if (contacts == 0) {
-      if (!way.single_valued_) return way.let_go();
+      if (!way.single_valued_) {
+        let_go_ = lets_go(system);
+        return release(way);
+      }
       way.to_rest();
       return Status::ok;
     }
@@ -361,6 +394,7 @@ class RowPush : private RowContacts<Element, System> {
   std::array<Round, most> to_{};
   Continuation<Scalar> continuation_;
   FrictionBalance<Scalar> balance_;
+  LetGo<Scalar> let_go_;
   Scalar potential_ = 0, taken_ = 0;  // of the last answer, and by friction [J]
 };
 
@@ -368,6 +402,10 @@ class RowPush : private RowContacts<Element, System> {
 struct NoPush {
   template <class System>
   explicit NoPush(const System&) noexcept {}
+  template <class Way>
+  Status release(Way& way) noexcept {
+    return way.let_go();
+  }
   void forget() noexcept {}
   void forget_shape() noexcept {}
 };
