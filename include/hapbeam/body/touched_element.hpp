@@ -280,18 +280,23 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     std::array<Row, state> half{};
     for (std::size_t i = 0; i < state; ++i) {
       const auto& f = front_[from_tip + i];
-      for (std::size_t j = 0; j < T[0].size(); ++j)
-        half[i][j] = f[from_tip] * T[0][j] + f[from_tip + 1] * T[1][j] + f[from_tip + 2] * T[2][j] +
-                     f[from_tip + 3] * T[3][j];
+      for (std::size_t j = 0; j < T[0].size(); j += block) {
+        Block sum(0);
+        for (std::size_t t = 0; t < state; ++t) sum += Block(f[from_tip + t]) * Block::load(&T[t][j]);
+        sum.store(&half[i][j]);
+      }
       for (std::size_t c = 0; c < ends; ++c) half[i][made + c] = f[from_other + c];
       for (std::size_t c = 0; c <= Most; ++c) half[i][all + c] = f[both + c];
     }
-    for (std::size_t i = 0; i < made; ++i)
-      for (std::size_t j = 0; j < width; j += block) {
-        Block sum(0);
-        for (std::size_t t = 0; t < state; ++t) sum += Block(T[t][i]) * Block::load(&half[t][j]);
-        sum.store(&A[i][j]);
-      }
+    for (std::size_t j = 0; j < width; j += block) {
+      const auto [u, w, theta, s] = std::array{Block::load(&half[0][j]), Block::load(&half[1][j]),
+                                               Block::load(&half[2][j]), Block::load(&half[3][j])};
+      const Block along = slides.x() * u + slides.y() * w + turns * theta,
+                  root = theta - turn.x() * u - turn.y() * w;
+      (on.x() * u + on.y() * w).store(&A[0][j]), (-l * root).store(&A[1][j]), (l * theta).store(&A[2][j]);
+      (along + s).store(&A[3][j]), u.store(&A[4][j]), w.store(&A[5][j]), root.store(&A[6][j]);
+      if constexpr (Most > 1) (-along).store(&A[7][j]);
+    }
     for (std::size_t i = 0; i < ends; ++i) {
       const auto& f = front_[from_other + i];
       A[made + i].fill(0);

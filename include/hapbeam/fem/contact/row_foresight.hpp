@@ -39,7 +39,6 @@ class RowForesight {
 
  public:
   using Contact = InnerState<Scalar, D>;
-  using All = std::array<Contact, Most>;
   static constexpr int each = D == 2 ? 2 : 6;  ///< numbers of a hand
   using Hands = VectorOf<Scalar, each * Most>;
 
@@ -53,7 +52,7 @@ class RowForesight {
     like_ = 0;
     ratio_ = 0;
     forth_ = false;
-    for (int k = 1; k <= (Most > 1 ? 2 : 1) && like_ == 0 && !forth_; ++k) {
+    for (int k = 1; k <= like_most && like_ == 0 && !forth_; ++k) {
       const Hands& then = step_[of(k - 1)];
       ratio_ = step.dot(then) / then.squaredNorm();
       const bool straight_on = std::abs(ratio_) < fastest &&
@@ -92,8 +91,11 @@ class RowForesight {
   /// To where the system was before the push.
   void begin_again(System& system) const noexcept { system.go_back(before(), 0); }
   /// To be called after each push.   @param found  whether it was answered on the branch on which the beam was, by the same contacts
-  void know(const All& all, bool found) noexcept {
-    all_ = {all, all_[0], all_[1]};
+  /// @param contact  (i) -> what is left of contact i
+  template <class EachContact>
+  void know(bool found, int count, EachContact&& contact) noexcept {
+    for (std::size_t k = all_.size() - 1; k > 0; --k) all_[k] = all_[k - 1];
+    for (int i = 0; i < count; ++i) all_[0][of(i)] = contact(i);
     known_ = found ? (std::min)(known_ + 1, 3) : 0;
   }
   void forget() noexcept { known_ = 0; }
@@ -105,6 +107,7 @@ class RowForesight {
   }
 
  private:
+  static constexpr int like_most = Most > 1 ? 2 : 1;  // pushes before, of those that may go on
   static constexpr Scalar fastest = 2,
                           aside = Scalar(0.1);  // of a step, in units of the one before and of itself
   static constexpr std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
@@ -113,7 +116,7 @@ class RowForesight {
   int newest_ = 0;
   Hands hands_ = Hands::Zero();  // in the last push [m]
   std::array<Hands, 2> step_{Hands::Zero(), Hands::Zero()};
-  std::array<All, 3> all_{};  // after the last three pushes
+  std::array<std::array<Contact, Most>, like_most + 1> all_{};  // after the last pushes
   Scalar ratio_ = 0;
   bool forth_ = false;
   int like_ = 0;   // the push that goes on: the last one or the one before; 0: none
