@@ -78,7 +78,8 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
       // What a node tells both of its pieces is computed once.
       const Node* a = &nodes_[step < 0 ? beside : beside + 1];
       VectorOf<Scalar, 3> off = a->r - shaft.tip;
-      Scalar distance_a = off.squaredNorm(), along_a = shaft.way.dot(off), stretch_a = a->tangent.squaredNorm();
+      Scalar distance_a = off.squaredNorm(), along_a = shaft.way.dot(off),
+             stretch_a = a->tangent.squaredNorm();
       for (int i = beside + step; i >= 0 && i < segments(); i += step) {
         const Node* const b = a + step;
         off = b->r - shaft.tip;

@@ -100,13 +100,13 @@ class RodBubbles : protected Stacked<S, Most> {
 
   /// From the place of the only contact to where the curve is tangent, no farther than an element [m].
   S way_to_foot() noexcept {
-    look(0);
+    look(0), seen_ = 1;
     const Contact& contact = *contacts_[0];
     const Spot& spot = spots_[0];
     // Near enough for where it begins, the bubble is that of the force along n.
     const S rise = ClampedPiece<S>(p_->length, contact.s - a_->s).by_first * contact.force / 2;
-    const S off = contact.normal.dot(spot.t) + rise * stiffer(),
-            bends = contact.normal.dot(spot.k), round = spot.t.dot(Vector(spot.curved * spot.t));
+    const S off = contact.normal.dot(spot.t) + rise * stiffer(), bends = contact.normal.dot(spot.k),
+            round = spot.t.dot(Vector(spot.curved * spot.t));
     // Along a curve that is flatter than the capsule the distance has a minimum.
     const S least = parallel * spot.t.squaredNorm() / contact.reach;
     if (!(bends + round > least)) return 0;
@@ -231,6 +231,7 @@ class RodBubbles : protected Stacked<S, Most> {
   S twist_;
   std::array<Contact*, std::size_t(Most)> contacts_{};
   std::array<int, std::size_t(Most)> ids_{};
+  int seen_ = 0;  // so many of them have been looked at
   std::array<Spot, std::size_t(Most)> spots_;
   Square C_;
   Stack force_, yield_, slope_;                                                   // F, CF, how steep that is

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <hapbeam/body/rod_bubbles.hpp>
 
@@ -45,6 +46,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   using Base::p_;
   using Base::parallel;
   using Base::product;
+  using Base::seen_;
   using Base::size;
   using Base::spots_;
   using Base::start;
@@ -69,14 +71,15 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   using Base::strain_energy;
 
   /// Where a contact touches the curve as it lies: λ h(s) = 0 has a root λ = 0, and where λ is small Newton's method would take it.
-  /// @param rod  RodElements   @param e  in and out: element
+  /// @param rod  RodElements   @param e  in and out: element   @param id  as of add()   @param here  out: the element with that contact where it is
   template <class Parts>
-  static void seek(const Parts& rod, int& e, Contact& contact) noexcept {
+  static void seek(const Parts& rod, int& e, Contact& contact, int id,
+                   std::optional<TouchedRod>& here) noexcept {
     for (int step = 0; step < most_steps; ++step) {
-      TouchedRod here(rod, e);
-      here.add(contact, 0);
-      const S by = here.way_to_foot();
+      here.emplace(rod, e).add(contact, id);
+      const S by = here->way_to_foot();
       if (!(std::abs(by) > close_by * contact.reach)) break;
+      here.reset();
       const S s = std::clamp(contact.s + by, contact.least, contact.most);
       if (s != contact.s + by) contact.moves = false;
       contact.s = s;
@@ -88,11 +91,14 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   }
   S tension() const noexcept { return 0; }
 
-  /// What they add to residual and tangent.   @param rub  (id of a contact) sets its friction, where it touches
+  /// What they add to residual and tangent, of which K gets the lower triangles of both nodes and what couples the first with the second.   @param rub  (id of a contact) sets its friction, where it touches
   /// @return the energy of what they bend [J]
   template <class Rub>
   S condense(Column& r, Tangent& K, Rub&& rub) noexcept {
-    for (int k = 0; k < count(); ++k) look(k), rub(ids_[at(k)]);
+    for (int k = 0; k < count(); ++k) {
+      if (k >= seen_) look(k);
+      rub(ids_[at(k)]);
+    }
     fill();
     const int n = size();
     // H of each, (I + C H)⁻¹, and what comes of them.
@@ -227,8 +233,9 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         const Matrix stiff = block(H_, k, j);
         const Spot& other = spots_[at(j)];
         for (int q = 0; q < 4; ++q)
-          for (int o = 0; o < 4; ++o)
-            K.template block<3, 3>(start(q), start(o)) += (spot.h[q] * other.h[o]) * stiff;
+          for (int o = q < 2 ? 0 : 2; o < 4; ++o)
+            if (o <= q || (q < 2 && o >= 2))
+              K.template block<3, 3>(start(q), start(o)) += (spot.h[q] * other.h[o]) * stiff;
       }
     }
     // Of the places: Way, and J with C ζ.

@@ -41,8 +41,7 @@ class DrawnMesh {
       const int e = element_at(s);
       const auto from = mesh(e).s, to = mesh(e + 1).s, apart = (to - from) / 1000;
       bool is_apart = s - from > apart && to - s > apart;
-      for (int j = 0; j < count; ++j)
-        is_apart = is_apart && std::abs(marks[at(j)].second.s - s) > apart;
+      for (int j = 0; j < count; ++j) is_apart = is_apart && std::abs(marks[at(j)].second.s - s) > apart;
       const int close_by = s - from < to - s ? e : e + 1;
       if (is_apart) marks[at(count++)] = {e, mark(k)};
       else if (0 < close_by && close_by < elements && std::abs(s - mesh(close_by).s) < (to - from) / 50)
