@@ -218,7 +218,11 @@ class RowContacts {
     }
     if (again || holds_) return again;
     if (slip_off(system, range)) return true;
-    system.draw();
+    // What is seen of it is asked for by all but the bodies that touch.
+    const auto touches = [](const Obstacle& obstacle) {
+      return obstacle.touching && obstacle.kind == ObstacleKind::round;
+    };
+    if (!std::all_of(all_, all_ + count_, touches)) system.draw();
     int deepest = -1;
     const Scalar length = system.length(), round_off = 16 * std::numeric_limits<Scalar>::epsilon();
     for (int i = 0; i < count_; ++i) {
