@@ -292,9 +292,9 @@ class TouchedElement : private PieceChain<Element, S, Most> {
       const auto [u, w, theta, s] = std::array{Block::load(&half[0][j]), Block::load(&half[1][j]),
                                                Block::load(&half[2][j]), Block::load(&half[3][j])};
       const Block along = slides.x() * u + slides.y() * w + turns * theta,
-                  root = theta - turn.x() * u - turn.y() * w;
-      (on.x() * u + on.y() * w).store(&A[0][j]), (-l * root).store(&A[1][j]), (l * theta).store(&A[2][j]);
-      (along + s).store(&A[3][j]), u.store(&A[4][j]), w.store(&A[5][j]), root.store(&A[6][j]);
+                  by_root = theta - turn.x() * u - turn.y() * w;
+      (on.x() * u + on.y() * w).store(&A[0][j]), (-l * by_root).store(&A[1][j]), (l * theta).store(&A[2][j]);
+      (along + s).store(&A[3][j]), u.store(&A[4][j]), w.store(&A[5][j]), by_root.store(&A[6][j]);
       if constexpr (Most > 1) (-along).store(&A[7][j]);
     }
     for (std::size_t i = 0; i < ends; ++i) {
