@@ -59,11 +59,10 @@ template <typename Scalar, int D, class Query>
 NearestPoint<Scalar, D> nearest_downhill(const Centreline<Scalar, D>& line, int piece,
                                          const Query& q) noexcept {
   NearestPoint<Scalar, D> best;
-  (void)best.look(piece, line.segment(piece), q);
+  best.look(piece, line.segment(piece), q);
   const int way = best.at.t <= 0 ? -1 : best.at.t >= 1 ? 1 : 0;
   for (int next = piece + way; way != 0 && next >= 0 && next < line.segments(); next += way) {
-    const Scalar before = best.at.distance_squared;
-    if (!best.look(next, line.segment(next), q) || best.at.distance_squared == before) break;
+    if (!best.look(next, line.segment(next), q)) break;
     if (way < 0 ? best.at.t > 0 : best.at.t < 1) break;
   }
   return best;
