@@ -11,6 +11,7 @@
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/tapered.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/fem/rod_system.hpp>
@@ -116,6 +117,7 @@ std::unique_ptr<Body> make_body(const Options& options, std::shared_ptr<const Tr
     case ElementChoice::full: return couple_full<VonKarman<FullIntegration>>(std::move(parts));
     case ElementChoice::reduced: return couple_full<VonKarman<ReducedIntegration>>(std::move(parts));
     case ElementChoice::corotational: return couple_full<Corotational<>>(std::move(parts));
+    case ElementChoice::tapered: return couple_full<Corotational<Tapered<>>>(std::move(parts));
     case ElementChoice::stability_functions:
     case ElementChoice::round_rod:
     case ElementChoice::twisted_rod: break;
