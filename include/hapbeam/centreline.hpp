@@ -138,7 +138,11 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
   /// True where no point of piece i is within d of q, as its nodes alone show.  Of finite rotation: its inner control points
   /// are 0.42 chords from its nodes at most (arc()), hence no point is farther than 3/4 · 0.42 chords from the chord.
   bool excludes(int i, const Vector2<Scalar>& q, Scalar d) const noexcept {
-    return is_far(nodes_[i].position() - q, nodes_[i + 1].position() - q, d);
+    const Vector2<Scalar> from = nodes_[i].position() - q, to = nodes_[i + 1].position() - q;
+    const Scalar reach = Scalar(0.82 * 0.82) * (to - from).squaredNorm(), square = d * d,
+                 more = (from + to).squaredNorm() / 4 - square - reach;
+    // Farther than d and the reach together, without a root.
+    return more > 0 && more * more > 4 * square * reach;
   }
 
   /// Calls visit(i, segment(i)) for a piece, then for each other one that is not excluded, from there to both ends of the beam.
@@ -147,20 +151,10 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
   void visit_near(int beside, const Vector2<Scalar>& q, const Scalar& d, Visit&& visit) const noexcept {
     const Vector2<Scalar> left = direction(beside), right = direction(beside + 1);
     visit(beside, segment(beside, left, right));
-    for (const int step : {-1, 1}) {
-      int known = step < 0 ? beside : beside + 1;  // of which the direction is
-      Vector2<Scalar> its = step < 0 ? left : right, from = nodes_[known].position() - q;
-      for (int i = known + step; i >= 0 && i <= segments(); i += step) {
-        const Vector2<Scalar> to = nodes_[i].position() - q;
-        if (!is_far(from, to, d)) {
-          const Vector2<Scalar> here = known == i - step ? its : direction(i - step);
-          known = i, its = direction(i);
-          if (step < 0) visit(i, segment(i, its, here));
-          else visit(i - 1, segment(i - 1, here, its));
-        }
-        from = to;
-      }
-    }
+    for (int i = beside - 1; i >= 0; --i)
+      if (!excludes(i, q, d)) visit(i, segment(i, direction(i), i + 1 == beside ? left : direction(i + 1)));
+    for (int i = beside + 1; i < segments(); ++i)
+      if (!excludes(i, q, d)) visit(i, segment(i, i - 1 == beside ? right : direction(i), direction(i + 1)));
   }
 
   /// Curvature at node i of a centreline of finite rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.
@@ -236,13 +230,6 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
   }
 
  private:
-  /// As excludes(), of a piece between two places that are seen from q.
-  static bool is_far(const Vector2<Scalar>& from, const Vector2<Scalar>& to, Scalar d) noexcept {
-    const Scalar reach = Scalar(0.82 * 0.82) * (to - from).squaredNorm(), square = d * d,
-                 more = (from + to).squaredNorm() / 4 - square - reach;
-    // Farther than d and the reach together, without a root.
-    return more > 0 && more * more > 4 * square * reach;
-  }
   /// Mean of |dr/ds| between two neighbouring nodes, from their directions.
   Scalar stretch(int i, int k, const Vector2<Scalar>& from, const Vector2<Scalar>& to) const noexcept {
     const Node &a = nodes_[i], &b = nodes_[k];

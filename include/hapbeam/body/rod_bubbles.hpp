@@ -27,17 +27,8 @@ class RodBubbles : protected Stacked<S, Most> {
   static constexpr int unknowns = Element::unknowns;
   using Contact = InnerContact<S, 3>;
   using Column = VectorOf<S, 2 * unknowns>;
-  using Base::at;
-  using Base::count;
-  using Base::count_;
-  using Base::put;
-  using Base::size;
-  using Base::times;
-  using Base::vector;
-  using typename Base::Matrix;
-  using typename Base::Square;
-  using typename Base::Stack;
-  using typename Base::Vector;
+  using Base::at, Base::count, Base::count_, Base::put, Base::size, Base::times, Base::vector,
+      typename Base::Matrix, typename Base::Square, typename Base::Stack, typename Base::Vector;
 
  public:
   /// @param rod  RodElements   @param e  of its elements

@@ -28,33 +28,11 @@ class TouchedElement : private PieceChain<Element, S, Most> {
   static_assert(has_own_tension<Element>,
                 "pieces are exact under a tension of their own: other elements are a SplitElement");
   using Base = PieceChain<Element, S, Most>;
-  using Base::bridge_density;
-  using Base::chain_;
-  using Base::contacts_;
-  using Base::count_;
-  using Base::density;
-  using Base::find_pieces;
-  using Base::id;
-  using Base::in_order;
-  using Base::lay_nodes;
-  using Base::length;
-  using Base::longest_;
-  using Base::N_;
-  using Base::nodes_;
-  using Base::number_;
-  using Base::of;
-  using Base::properties_;
-  using Base::root_of;
-  using Base::see;
-  using Base::shortest;
-  using Base::turning_;
-  using Base::Turns;
-  using typename Base::Chord;
-  using typename Base::Contact;
-  using typename Base::Density;
-  using typename Base::Node;
-  using typename Base::Piece;
-  using typename Base::Vector;
+  using Base::bridge_density, Base::chain_, Base::contacts_, Base::count_, Base::density, Base::find_pieces,
+      Base::id, Base::in_order, Base::lay_nodes, Base::length, Base::longest_, Base::N_, Base::nodes_,
+      Base::number_, Base::of, Base::properties_, Base::root_of, Base::see, Base::shortest, Base::turning_,
+      Base::Turns, typename Base::Chord, typename Base::Contact, typename Base::Density, typename Base::Node,
+      typename Base::Piece, typename Base::Vector;
   // Of a front: u, w, θ, s of both nodes between which pieces have been condensed, forces, and the gradient.  Of a piece that is condensed into it its
   // own come first; a node of the mesh has no s.
   static constexpr int state = 4, both = 2 * state, gradient = both + Most, wide = gradient + 1;
@@ -66,11 +44,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
   using Front = std::array<std::array<S, wide>, both>;
 
  public:
-  using Base::add;
-  using Base::Base;
-  using Base::look;
-  using Base::strain_energy;
-  using Base::tension;
+  using Base::add, Base::Base, Base::look, Base::strain_energy, Base::tension;
 
   /// Residual and tangent, its contacts included.   @param rub  (id of a contact) sets its friction, where it touches   @return V [J]
   template <class Rub>

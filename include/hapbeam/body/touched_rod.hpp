@@ -31,44 +31,15 @@ namespace hapbeam::detail {
 template <class Element, typename S, int Most>
 class TouchedRod : private RodBubbles<Element, S, Most> {
   using Base = RodBubbles<Element, S, Most>;
-  using Base::at;
-  using Base::block;
-  using Base::blocks;
-  using Base::C_;
-  using Base::contacts_;
-  using Base::count;
-  using Base::even;
-  using Base::fill;
-  using Base::force_;
-  using Base::ids_;
-  using Base::inverse;
-  using Base::J_;
-  using Base::p_;
-  using Base::parallel;
-  using Base::product;
-  using Base::seen_;
-  using Base::size;
-  using Base::spots_;
-  using Base::start;
-  using Base::times;
-  using Base::turned_twice_;
-  using Base::unknowns;
-  using Base::vector;
-  using Base::yield_;
-  using typename Base::Column;
-  using typename Base::Contact;
-  using typename Base::Matrix;
-  using typename Base::Spot;
-  using typename Base::Square;
-  using typename Base::Stack;
-  using typename Base::Vector;
+  using Base::at, Base::block, Base::blocks, Base::C_, Base::contacts_, Base::count, Base::even, Base::fill,
+      Base::force_, Base::ids_, Base::inverse, Base::J_, Base::p_, Base::parallel, Base::product, Base::seen_,
+      Base::size, Base::spots_, Base::start, Base::times, Base::turned_twice_, Base::unknowns, Base::vector,
+      Base::yield_, typename Base::Column, typename Base::Contact, typename Base::Matrix, typename Base::Spot,
+      typename Base::Square, typename Base::Stack, typename Base::Vector;
   using Tangent = Eigen::Matrix<S, 2 * unknowns, 2 * unknowns>;
 
  public:
-  using Base::add;
-  using Base::Base;
-  using Base::look;
-  using Base::strain_energy;
+  using Base::add, Base::Base, Base::look, Base::strain_energy;
 
   /// Where a contact touches the curve as it lies: λ h(s) = 0 has a root λ = 0, and where λ is small Newton's method would take it.
   /// @param rod  RodElements   @param e  in and out: element   @param id  as of add()   @param here  out: the element with that contact where it is
@@ -91,7 +62,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   }
   S tension() const noexcept { return 0; }
 
-  /// What they add to residual and tangent, of which K gets the lower triangles of both nodes and what couples the first with the second.   @param rub  (id of a contact) sets its friction, where it touches
+  /// What they add to residual and tangent.   @param rub  (id of a contact) sets its friction, where it touches
   /// @return the energy of what they bend [J]
   template <class Rub>
   S condense(Column& r, Tangent& K, Rub&& rub) noexcept {
@@ -233,9 +204,8 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         const Matrix stiff = block(H_, k, j);
         const Spot& other = spots_[at(j)];
         for (int q = 0; q < 4; ++q)
-          for (int o = q < 2 ? 0 : 2; o < 4; ++o)
-            if (o <= q || (q < 2 && o >= 2))
-              K.template block<3, 3>(start(q), start(o)) += (spot.h[q] * other.h[o]) * stiff;
+          for (int o = 0; o < 4; ++o)
+            K.template block<3, 3>(start(q), start(o)) += (spot.h[q] * other.h[o]) * stiff;
       }
     }
     // Of the places: Way, and J with C ζ.

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/centreline.hpp>
@@ -42,7 +43,8 @@ class RowForesight {
   static constexpr int each = D == 2 ? 2 : 6;  ///< numbers of a hand
   using Hands = VectorOf<Scalar, each * Most>;
 
-  explicit RowForesight(const System& system) : before_{State(system.elements()), State(system.elements())} {}
+  explicit RowForesight(const System& system)
+      : RowForesight(system.elements(), std::make_index_sequence<like_most>()) {}
 
   /// To be called before each push.  @param hands  of all, 0 where there is none [m]   @param same  whether what touched then touches now
   /// @return whether the hands go on as they went
@@ -74,11 +76,11 @@ class RowForesight {
 
   /// To be called once in each push, before it moves the system: which goes on if hands do.
   void go_on(System& system) noexcept {
-    newest_ = 1 - newest_;
-    State &older = before_[of(1 - newest_)], &newer = before_[of(newest_)];
+    newest_ = (newest_ + 1) % like_most;
+    State &older = before_[of((newest_ + 1) % like_most)], &newer = before_[of(newest_)];
     if (like_ == 0) return system.keep(newer);
-    if (like_ == 1) newer = older;
-    else system.carry(newer, older);
+    if (like_ == 2) system.carry(newer, older);
+    else if (like_most > 1) newer = older;
     system.go_on(newer, ratio_);
   }
   /// Back to where the system was before go_on().  @param force  of its first contact then [N]
@@ -107,12 +109,14 @@ class RowForesight {
   }
 
  private:
+  template <std::size_t... K>
+  RowForesight(int elements, std::index_sequence<K...>) : before_{((void)K, State(elements))...} {}
   static constexpr int like_most = Most > 1 ? 2 : 1;  // pushes before, of those that may go on
   static constexpr Scalar fastest = 2,
                           aside = Scalar(0.1);  // of a step, in units of the one before and of itself
   static constexpr std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
 
-  std::array<State, 2> before_;  // the last push, and the one before
+  std::array<State, like_most> before_;  // the last push, and the one before
   int newest_ = 0;
   Hands hands_ = Hands::Zero();  // in the last push [m]
   std::array<Hands, 2> step_{Hands::Zero(), Hands::Zero()};
