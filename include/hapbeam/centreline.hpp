@@ -138,18 +138,23 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
   /// True where no point of piece i is within d of q, as its nodes alone show.  Of finite rotation: its inner control points
   /// are 0.42 chords from its nodes at most (arc()), hence no point is farther than 3/4 · 0.42 chords from the chord.
   bool excludes(int i, const Vector2<Scalar>& q, Scalar d) const noexcept {
-    const Node &a = nodes_[i], &b = nodes_[i + 1];
-    const Vector2<Scalar> from = a.position(), to = b.position();
-    const Scalar least = d + Scalar(0.82) * std::sqrt((to - from).squaredNorm());
-    return (q - (from + to) / 2).squaredNorm() > least * least;
+    const Vector2<Scalar> from = nodes_[i].position() - q, to = nodes_[i + 1].position() - q;
+    const Scalar reach = Scalar(0.82 * 0.82) * (to - from).squaredNorm(), square = d * d,
+                 more = (from + to).squaredNorm() / 4 - square - reach;
+    // Farther than d and the reach together, without a root.
+    return more > 0 && more * more > 4 * square * reach;
   }
 
-  /// Calls visit(i) for each piece from piece i to an end of the beam that is not excluded.
-  /// @param step  1 | -1   @param d  [m] may shrink with a call
+  /// Calls visit(i, segment(i)) for a piece, then for each other one that is not excluded, from there to both ends of the beam.
+  /// @param d  [m] may change with a call
   template <class Visit>
-  void visit_near(int i, int step, const Vector2<Scalar>& q, const Scalar& d, Visit&& visit) const noexcept {
-    for (; i >= 0 && i < segments(); i += step)
-      if (!excludes(i, q, d)) visit(i);
+  void visit_near(int beside, const Vector2<Scalar>& q, const Scalar& d, Visit&& visit) const noexcept {
+    const Vector2<Scalar> left = direction(beside), right = direction(beside + 1);
+    visit(beside, segment(beside, left, right));
+    for (int i = beside - 1; i >= 0; --i)
+      if (!excludes(i, q, d)) visit(i, segment(i, direction(i), i + 1 == beside ? left : direction(i + 1)));
+    for (int i = beside + 1; i < segments(); ++i)
+      if (!excludes(i, q, d)) visit(i, segment(i, i - 1 == beside ? right : direction(i), direction(i + 1)));
   }
 
   /// Curvature at node i of a centreline of finite rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.

@@ -68,35 +68,30 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
     control.col(3) = b.r;
     return control;
   }
-  /// True where no point of piece i is within d of a shaft, as its nodes alone show.  Its inner control points are a third of its
-  /// length times |dr/ds| from its nodes, hence no point is farther than 3/4 of that from the chord.
-  bool excludes(int i, const Shaft<Scalar>& shaft, Scalar d) const noexcept {
-    const Node &a = nodes_[i], &b = nodes_[i + 1];
-    const VectorOf<Scalar, 3> middle = (a.r + b.r) / 2;
-    return is_far((shaft.at(shaft.nearest(middle)) - middle).squaredNorm(), (b.r - a.r).squaredNorm(),
-                  b.s - a.s, (std::max)(a.tangent.squaredNorm(), b.tangent.squaredNorm()), d);
-  }
-  /// Calls visit(i) for each piece from piece i to an end of the rod that is not excluded.
-  /// @param step  1 | -1   @param d  [m] may shrink with a call
+  /// Calls visit(i, segment(i)) for a piece, then for each other one that may come within d of a shaft, as its nodes alone show, from there to both
+  /// ends of the rod.   @param d  [m] may change with a call
   template <class Visit>
-  void visit_near(int i, int step, const Shaft<Scalar>& shaft, const Scalar& d,
-                  Visit&& visit) const noexcept {
-    if (!shaft.is_point()) {
-      for (; i >= 0 && i < segments(); i += step)
-        if (!excludes(i, shaft, d)) visit(i);
-      return;
-    }
-    // What a node tells both of its pieces is computed once.  With m between a and b, |m|² = (|a|² + |b|²)/2 - |b - a|²/4.
-    const Node* a = &nodes_[step > 0 ? i : i + 1];
-    Scalar distance_a = (a->r - shaft.tip).squaredNorm(), stretch_a = a->tangent.squaredNorm();
-    for (; i >= 0 && i < segments(); i += step) {
-      const Node* const b = a + step;
-      const Scalar distance_b = (b->r - shaft.tip).squaredNorm(), stretch_b = b->tangent.squaredNorm(),
-                   chord = (b->r - a->r).squaredNorm();
-      if (!is_far((distance_a + distance_b) / 2 - chord / 4, chord, b->s - a->s,
-                  (std::max)(stretch_a, stretch_b), d))
-        visit(i);
-      a = b, distance_a = distance_b, stretch_a = stretch_b;
+  void visit_near(int beside, const Shaft<Scalar>& shaft, const Scalar& d, Visit&& visit) const noexcept {
+    visit(beside, segment(beside));
+    const Scalar squared = shaft.way.squaredNorm(), over = squared > 0 ? 1 / squared : Scalar(0);
+    for (const int step : {-1, 1}) {
+      // What a node tells both of its pieces is computed once.
+      const Node* a = &nodes_[step < 0 ? beside : beside + 1];
+      VectorOf<Scalar, 3> off = a->r - shaft.tip;
+      Scalar distance_a = off.squaredNorm(), along_a = shaft.way.dot(off),
+             stretch_a = a->tangent.squaredNorm();
+      for (int i = beside + step; i >= 0 && i < segments(); i += step) {
+        const Node* const b = a + step;
+        off = b->r - shaft.tip;
+        const Scalar distance_b = off.squaredNorm(), along_b = shaft.way.dot(off),
+                     stretch_b = b->tangent.squaredNorm(), chord = (b->r - a->r).squaredNorm();
+        // With m between a and b, |m|² = (|a|² + |b|²)/2 - |b - a|²/4.
+        const Scalar along = (along_a + along_b) / 2,
+                     t = (std::min)((std::max)(along * over, Scalar(0)), Scalar(1)),
+                     middle = (distance_a + distance_b) / 2 - chord / 4 - t * (2 * along - t * squared);
+        if (!is_far(middle, chord, b->s - a->s, (std::max)(stretch_a, stretch_b), d)) visit(i, segment(i));
+        a = b, distance_a = distance_b, along_a = along_b, stretch_a = stretch_b;
+      }
     }
   }
   /// Calls visit(i, segment(i)) for each piece, in order.
@@ -141,7 +136,8 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
   }
 
  private:
-  /// Whether no point of a piece is within d.  Squared: the distance of the middle of its chord, the chord, |dr/ds| at one of its ends.
+  /// Whether no point of a piece is within d.  Its inner control points are a third of its length times |dr/ds| from its nodes, hence no point is farther
+  /// than 3/4 of that from the chord.   Squared: the distance of the middle of its chord, the chord, |dr/ds| at one of its ends.
   static bool is_far(Scalar middle, Scalar chord, Scalar l, Scalar stretch, Scalar d) noexcept {
     // Half a chord and a quarter of its length, with x + y <= √(2x² + 2y²), squared.  2 % for round-off, which may lengthen what is
     // computed of the piece.

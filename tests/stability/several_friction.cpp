@@ -173,7 +173,7 @@ TEST_CASE("friction at several contacts keeps its cones whatever the hands do", 
     Three model(beam, 16);
     int rubbing = 0, unanswered = 0, ticks = 0;
     // Where a jump leads past the beam it is felt no more: they begin again above it.
-    for (int begun = 0; begun < 15; ++begun) {
+    for (int begun = 0; begun < 30; ++begun) {
       model.reset();
       TouchSeveral touch(model, {finger(friction[0]), finger(friction[1])},
                          {Prop<>::peg({0.5 * L, -0.02 * L}, 0.01 * L).rough(friction[2])});

@@ -27,30 +27,14 @@ class RodBubbles : protected Stacked<S, Most> {
   static constexpr int unknowns = Element::unknowns;
   using Contact = InnerContact<S, 3>;
   using Column = VectorOf<S, 2 * unknowns>;
-  using Base::at;
-  using Base::count_;
-  using Base::put;
-  using Base::size;
-  using Base::times;
-  using Base::vector;
-  using typename Base::Matrix;
-  using typename Base::Square;
-  using typename Base::Stack;
-  using typename Base::Vector;
+  using Base::at, Base::count, Base::count_, Base::put, Base::size, Base::times, Base::vector,
+      typename Base::Matrix, typename Base::Square, typename Base::Stack, typename Base::Vector;
 
  public:
   /// @param rod  RodElements   @param e  of its elements
   template <class Parts>
   RodBubbles(const Parts& rod, int e) noexcept
-      : a_(&rod.nodes()[e]), b_(&rod.nodes()[e + 1]), p_(&rod.properties(e)), twist_(rod.inners()[e]) {
-    for (int g = 0; g < p_->number; ++g) {
-      const auto& point = p_->points[g];
-      const S weight = S(gauss_rule(p_->number).weight[g]);
-      // Against a turn about one axis of the section it moves along the other.
-      soft_[0] += weight / point.bending2, soft_[1] += weight / point.bending1;
-      even_ = even_ && point.bending1 == point.bending2;
-    }
-  }
+      : a_(&rod.nodes()[e]), b_(&rod.nodes()[e + 1]), p_(&rod.properties(e)), twist_(rod.inners()[e]) {}
 
   /// @param contact  its place is in this element; stays until the last call   @param id  of no other one
   void add(Contact& contact, int id) noexcept {
@@ -59,9 +43,9 @@ class RodBubbles : protected Stacked<S, Most> {
   }
   /// Where the contacts are as it lies, after all have been added.
   void look() noexcept {
-    for (int k = 0; k < count_; ++k) look(k);
+    for (int k = 0; k < count(); ++k) look(k);
     fill();
-    for (int k = 0; k < count_; ++k) {
+    for (int k = 0; k < count(); ++k) {
       Contact& contact = *contacts_[at(k)];
       const Spot& spot = spots_[at(k)];
       const S x = contact.s - a_->s, flat = spot.t.dot(Vector(spot.curved * spot.t));
@@ -98,18 +82,22 @@ class RodBubbles : protected Stacked<S, Most> {
   };
   /// Where r1, r1', r2 and r2' stand among the unknowns.
   static constexpr int start(int q) noexcept { return q < 2 ? 3 * q : unknowns + 3 * (q - 2); }
+  /// Whether it yields alike along both axes of its section.
+  bool even() const noexcept { return unknowns < 7 || p_->soft[0] == p_->soft[1]; }
+  /// Along the axis along which it yields less [1/(N·m²)].
+  S stiffer() const noexcept { return (std::min)(p_->soft[0], p_->soft[1]); }
   /// Of what the second derivative of the distance is across.
   static constexpr S parallel = S(1e-3);
 
   /// From the place of the only contact to where the curve is tangent, no farther than an element [m].
   S way_to_foot() noexcept {
-    look(0);
+    look(0), seen_ = 1;
     const Contact& contact = *contacts_[0];
     const Spot& spot = spots_[0];
     // Near enough for where it begins, the bubble is that of the force along n.
     const S rise = ClampedPiece<S>(p_->length, contact.s - a_->s).by_first * contact.force / 2;
-    const S off = contact.normal.dot(spot.t) + rise * (std::min)(soft_[0], soft_[1]),
-            bends = contact.normal.dot(spot.k), round = spot.t.dot(Vector(spot.curved * spot.t));
+    const S off = contact.normal.dot(spot.t) + rise * stiffer(), bends = contact.normal.dot(spot.k),
+            round = spot.t.dot(Vector(spot.curved * spot.t));
     // Along a curve that is flatter than the capsule the distance has a minimum.
     const S least = parallel * spot.t.squaredNorm() / contact.reach;
     if (!(bends + round > least)) return 0;
@@ -160,7 +148,7 @@ class RodBubbles : protected Stacked<S, Most> {
 
   /// Compliances, forces, and what they make of the curve, of all contacts as they lie.
   void fill() noexcept {
-    for (int k = 0; k < count_; ++k) {
+    for (int k = 0; k < count(); ++k) {
       Spot& spot = spots_[at(k)];
       const Contact& contact = *contacts_[at(k)];
       const Vector force = contact.force * contact.normal + contact.friction;
@@ -169,17 +157,17 @@ class RodBubbles : protected Stacked<S, Most> {
       spot.axes = Matrix::Identity();
       if (contact.rough || contact.kind == Contact::Kind::along) spot.axes -= spot.u * spot.u.transpose();
       if constexpr (unknowns == 7)
-        if (!even_) {
+        if (!even()) {
           const Vector d1 = Element::director(*p_, *a_, *b_, twist_, spot.x);
-          spot.softer = soft_[0] > soft_[1] ? d1 : cross3(spot.u, d1);
+          spot.softer = p_->soft[0] > p_->soft[1] ? d1 : cross3(spot.u, d1);
         }
     }
     slope_ = {};
-    for (int k = 0; k < count_; ++k) {
+    for (int k = 0; k < count(); ++k) {
       J_[at(k)] = {};
       for (auto& twice : turned_twice_[at(k)]) twice = 0;
     }
-    for (int i = 0; i < count_; ++i) {
+    for (int i = 0; i < count(); ++i) {
       const S x = contacts_[at(i)]->s - a_->s;
       const ClampedPiece<S> own(p_->length, x);
       const Matrix shape = between(i, i);
@@ -203,13 +191,13 @@ class RodBubbles : protected Stacked<S, Most> {
       }
     }
     yield_ = times(C_, force_);
-    for (int k = 0; k < count_; ++k) contacts_[at(k)]->tangent = spots_[at(k)].t + vector(slope_, k);
+    for (int k = 0; k < count(); ++k) contacts_[at(k)]->tangent = spots_[at(k)].t + vector(slope_, k);
   }
   /// How two places yield to each other, in units of a piece's.
   Matrix between(int i, int j) const noexcept {
     const Spot &a = spots_[at(i)], &b = spots_[at(j)];
-    Matrix sum = (std::min)(soft_[0], soft_[1]) * (i == j ? a.axes : Matrix(a.axes * b.axes));
-    if (!even_) sum += std::abs(soft_[0] - soft_[1]) * a.softer * b.softer.transpose();
+    Matrix sum = stiffer() * (i == j ? a.axes : Matrix(a.axes * b.axes));
+    if (!even()) sum += std::abs(p_->soft[0] - p_->soft[1]) * a.softer * b.softer.transpose();
     return sum;
   }
   /// As place k moves: what C between it and another has of CF, and of ½ F · CF.
@@ -232,10 +220,9 @@ class RodBubbles : protected Stacked<S, Most> {
   const RodNode<S>*a_, *b_;
   const RodProperties<S>* p_;
   S twist_;
-  S soft_[2] = {0, 0};  // 1/EI along d1 and d2 [1/(N·m²)]
-  bool even_ = true;    // both the same
   std::array<Contact*, std::size_t(Most)> contacts_{};
   std::array<int, std::size_t(Most)> ids_{};
+  int seen_ = 0;  // so many of them have been looked at
   std::array<Spot, std::size_t(Most)> spots_;
   Square C_;
   Stack force_, yield_, slope_;                                                   // F, CF, how steep that is

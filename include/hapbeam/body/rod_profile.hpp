@@ -52,6 +52,7 @@ class RodProfile {
     const double a = static_cast<double>(from), l = static_cast<double>(to) - a;
     const std::size_t first = part_at(a), last = part_at(a + l * (1 - 1e-12));
     double begin = a, stretching = 0, twisting = 0;  // compliances
+    p.soft[0] = p.soft[1] = 0;
     for (int g = 0; g < p.number; ++g) {
       const double end = begin + rule.weight[g] * l;
       const Values k = first == last ? parts_[first].at(a + rule.x[g] * l) : mean(first, last, begin, end);
@@ -59,6 +60,9 @@ class RodProfile {
       p.points[g].bending1 = static_cast<Scalar>(k[1]);
       p.points[g].bending2 = static_cast<Scalar>(k[2]);
       p.points[g].torsion = static_cast<Scalar>(k[3]);
+      // Against a turn about one axis of the section it moves along the other.
+      p.soft[0] += static_cast<Scalar>(rule.weight[g]) / p.points[g].bending2;
+      p.soft[1] += static_cast<Scalar>(rule.weight[g]) / p.points[g].bending1;
       begin = end;
     }
     p.axial = static_cast<Scalar>(1 / stretching);

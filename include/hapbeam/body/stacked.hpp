@@ -22,7 +22,9 @@ class Stacked {
   using Square = std::array<Stack, std::size_t(3 * Most)>;
 
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-  int size() const noexcept { return Most == 1 ? 3 : 3 * count_; }
+  /// Of contacts.  Where there may be one alone a compiler knows it.
+  int count() const noexcept { return Most == 1 ? 1 : count_; }
+  int size() const noexcept { return 3 * count(); }
 
   static Vector vector(const Stack& of, int k) noexcept {
     return {of[at(3 * k)], of[at(3 * k + 1)], of[at(3 * k + 2)]};
@@ -39,8 +41,8 @@ class Stacked {
   }
   template <class F>
   void blocks(Square& to, F&& f) const noexcept {
-    for (int i = 0; i < count_; ++i)
-      for (int j = 0; j < count_; ++j) put(to, i, j, i == j ? f(i) : Matrix(Matrix::Zero()));
+    for (int i = 0; i < count(); ++i)
+      for (int j = 0; j < count(); ++j) put(to, i, j, i == j ? f(i) : Matrix(Matrix::Zero()));
   }
   Square product(const Square& a, const Square& b) const noexcept {
     // Row by row: where the sum of one number is innermost, g++ 12 at -O3 loads rows as aligned that are not.
@@ -75,7 +77,7 @@ class Stacked {
     return a;
   }
 
-  int count_ = 0;  // of contacts
+  int count_ = 0;
 };
 
 }  // namespace hapbeam::detail

@@ -28,33 +28,11 @@ class TouchedElement : private PieceChain<Element, S, Most> {
   static_assert(has_own_tension<Element>,
                 "pieces are exact under a tension of their own: other elements are a SplitElement");
   using Base = PieceChain<Element, S, Most>;
-  using Base::bridge_density;
-  using Base::chain_;
-  using Base::contacts_;
-  using Base::count_;
-  using Base::density;
-  using Base::find_pieces;
-  using Base::id;
-  using Base::in_order;
-  using Base::lay_nodes;
-  using Base::length;
-  using Base::longest_;
-  using Base::N_;
-  using Base::nodes_;
-  using Base::number_;
-  using Base::of;
-  using Base::properties_;
-  using Base::root_of;
-  using Base::see;
-  using Base::shortest;
-  using Base::turning_;
-  using Base::Turns;
-  using typename Base::Chord;
-  using typename Base::Contact;
-  using typename Base::Density;
-  using typename Base::Node;
-  using typename Base::Piece;
-  using typename Base::Vector;
+  using Base::bridge_density, Base::chain_, Base::contacts_, Base::count_, Base::density, Base::find_pieces,
+      Base::id, Base::in_order, Base::lay_nodes, Base::length, Base::longest_, Base::N_, Base::nodes_,
+      Base::number_, Base::of, Base::properties_, Base::root_of, Base::see, Base::shortest, Base::turning_,
+      Base::Turns, typename Base::Chord, typename Base::Contact, typename Base::Density, typename Base::Node,
+      typename Base::Piece, typename Base::Vector;
   // Of a front: u, w, θ, s of both nodes between which pieces have been condensed, forces, and the gradient.  Of a piece that is condensed into it its
   // own come first; a node of the mesh has no s.
   static constexpr int state = 4, both = 2 * state, gradient = both + Most, wide = gradient + 1;
@@ -66,11 +44,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
   using Front = std::array<std::array<S, wide>, both>;
 
  public:
-  using Base::add;
-  using Base::Base;
-  using Base::look;
-  using Base::strain_energy;
-  using Base::tension;
+  using Base::add, Base::Base, Base::look, Base::strain_energy, Base::tension;
 
   /// Residual and tangent, its contacts included.   @param rub  (id of a contact) sets its friction, where it touches   @return V [J]
   template <class Rub>
@@ -265,33 +239,36 @@ class TouchedElement : private PieceChain<Element, S, Most> {
       by_turn = Vector(-alpha, 1);
       both_by = Vector(0, 0), turn_twice = Vector(-1, 0);
     }
-    // u, w, θ, s of the tip by what the tip is made of.
+    // The tip is made of its deformations, its s, and u, w, θ, s of its root: what a row of its u, w, θ, s is by those.
     const Vector on = l * by_stretch * side, turn = l * by_turn * side, slides = h + l * p * by_turn;
     const S turns = side * (q - p);
-    Tip& T = record.tip;
-    T = {{{on.x(), l * turn.x(), 0, slides.x(), 1, 0, -turn.x()},
-          {on.y(), l * turn.y(), 0, slides.y(), 0, 1, -turn.y()},
-          {0, -l, l, turns, 0, 0, 1},
-          {0, 0, 0, 1}}};
-    if constexpr (Most > 1) T[0][7] = -slides.x(), T[1][7] = -slides.y(), T[2][7] = -turns;
+    record.length = l, record.on = on, record.turn = turn, record.slides = slides, record.turns = turns;
+    const auto by_parts = [&](const auto& u, const auto& w, const auto& theta,
+                              const auto& s) HAPBEAM_INLINED {
+      using Number = std::decay_t<decltype(u)>;
+      const Number along = slides.x() * u + slides.y() * w + turns * theta,
+                   by_root = theta - turn.x() * u - turn.y() * w;
+      return std::array<Number, 8>{
+          on.x() * u + on.y() * w, -l * by_root, l * theta, along + s, u, w, by_root, -along};
+    };
     // TᵀFT of the front, and TᵀF of the rest: the upper triangle is right.
     std::array<Row, all> A;
     const std::size_t from_tip = of(from), from_other = of(state - from);
     std::array<Row, state> half{};
     for (std::size_t i = 0; i < state; ++i) {
       const auto& f = front_[from_tip + i];
-      for (std::size_t j = 0; j < T[0].size(); ++j)
-        half[i][j] = f[from_tip] * T[0][j] + f[from_tip + 1] * T[1][j] + f[from_tip + 2] * T[2][j] +
-                     f[from_tip + 3] * T[3][j];
+      const auto row = by_parts(f[from_tip], f[from_tip + 1], f[from_tip + 2], f[from_tip + 3]);
+      HAPBEAM_UNROLL
+      for (std::size_t j = 0; j < made; ++j) half[i][j] = row[j];
       for (std::size_t c = 0; c < ends; ++c) half[i][made + c] = f[from_other + c];
       for (std::size_t c = 0; c <= Most; ++c) half[i][all + c] = f[both + c];
     }
-    for (std::size_t i = 0; i < made; ++i)
-      for (std::size_t j = 0; j < width; j += block) {
-        Block sum(0);
-        for (std::size_t t = 0; t < state; ++t) sum += Block(T[t][i]) * Block::load(&half[t][j]);
-        sum.store(&A[i][j]);
-      }
+    for (std::size_t j = 0; j < width; j += block) {
+      const auto rows = by_parts(Block::load(&half[0][j]), Block::load(&half[1][j]), Block::load(&half[2][j]),
+                                 Block::load(&half[3][j]));
+      HAPBEAM_UNROLL
+      for (std::size_t i = 0; i < made; ++i) rows[i].store(&A[i][j]);
+    }
     for (std::size_t i = 0; i < ends; ++i) {
       const auto& f = front_[from_other + i];
       A[made + i].fill(0);
@@ -392,7 +369,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
             beyond = by - std::clamp(by, -most, most);
     const auto lacks = [&](int u) {
       const Row& row = record.rows[of(u)];
-      return dot<width>(row, x) - (u == 3 ? row[of(all + number)] * beyond : S(0));
+      return dot(row, x) - (u == 3 ? row[of(all + number)] * beyond : S(0));
     };
     for (int c = 0; c < Most; ++c) x[of(all + c)] = forces[of(c)];
     x[last] = 1;
@@ -404,8 +381,11 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     longer += record.lack * (2 * step + record.lack / record.stiff);
     Piece& piece = contact.piece;
     piece.stretch += x[0], piece.at_root += x[1], piece.at_tip += x[2], piece.tension += step;
-    std::array<S, state> tip;
-    for (std::size_t i = 0; i < state; ++i) tip[i] = dot<8>(record.tip[i], x);
+    const S turned = x[own + 2] - record.length * x[1], along = Most > 1 ? x[3] - x[own + 3] : x[3];
+    const Vector moved =
+        Vector(x[own], x[own + 1]) + x[0] * record.on - turned * record.turn + along * record.slides;
+    const std::array<S, state> tip{moved.x(), moved.y(), turned + record.length * x[2] + along * record.turns,
+                                   x[3]};
     contact.moved += Vector(tip[0] - tip[3], tip[1]), contact.theta += tip[2];
     // Beside a node it stays where it is held off that.
     const auto beside = [&](S s) {
@@ -433,23 +413,20 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     return tip;
   }
 
-  /// Of so many numbers.
-  template <std::size_t Size, class A, class B>
-  static S dot(const A& a, const B& b) noexcept {
-    Block sum = Block::load(&a[0]) * Block::load(&b[0]);
-    for (std::size_t j = block; j < Size; j += block) sum += Block::load(&a[j]) * Block::load(&b[j]);
+  static S dot(const Row& a, const Row& b) noexcept {
+    Block sum(0);
+    for (std::size_t j = 0; j < width; j += block) sum += Block::load(&a[j]) * Block::load(&b[j]);
     S whole = sum[0];
     for (int i = 1; i < Block::size; ++i) whole += sum[i];
     return whole;
   }
-  /// Derivatives of u, w, θ, s of a tip by ε, p, q, its s, and u, w, θ, s of its root.
-  using Tip = std::array<std::array<S, 8>, state>;
   /// What advance() needs of a piece that was condensed.
   struct Record {
     bool moves = false, waits = false;
     S side = 1;
     std::array<Row, 4> rows;
-    Tip tip;
+    Vector on, turn, slides;  // derivatives of the tip: by ε, by the rotation of its root, by s
+    S length, turns;          // [m]; of its rotation by s
     std::array<S, 4> tension;
     S lack, stiff;
   };

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <hapbeam/body/rod_bubbles.hpp>
 
@@ -30,53 +31,26 @@ namespace hapbeam::detail {
 template <class Element, typename S, int Most>
 class TouchedRod : private RodBubbles<Element, S, Most> {
   using Base = RodBubbles<Element, S, Most>;
-  using Base::at;
-  using Base::block;
-  using Base::blocks;
-  using Base::C_;
-  using Base::contacts_;
-  using Base::count_;
-  using Base::even_;
-  using Base::fill;
-  using Base::force_;
-  using Base::ids_;
-  using Base::inverse;
-  using Base::J_;
-  using Base::p_;
-  using Base::parallel;
-  using Base::product;
-  using Base::size;
-  using Base::spots_;
-  using Base::start;
-  using Base::times;
-  using Base::turned_twice_;
-  using Base::unknowns;
-  using Base::vector;
-  using Base::yield_;
-  using typename Base::Column;
-  using typename Base::Contact;
-  using typename Base::Matrix;
-  using typename Base::Spot;
-  using typename Base::Square;
-  using typename Base::Stack;
-  using typename Base::Vector;
+  using Base::at, Base::block, Base::blocks, Base::C_, Base::contacts_, Base::count, Base::even, Base::fill,
+      Base::force_, Base::ids_, Base::inverse, Base::J_, Base::p_, Base::parallel, Base::product, Base::seen_,
+      Base::size, Base::spots_, Base::start, Base::times, Base::turned_twice_, Base::unknowns, Base::vector,
+      Base::yield_, typename Base::Column, typename Base::Contact, typename Base::Matrix, typename Base::Spot,
+      typename Base::Square, typename Base::Stack, typename Base::Vector;
   using Tangent = Eigen::Matrix<S, 2 * unknowns, 2 * unknowns>;
 
  public:
-  using Base::add;
-  using Base::Base;
-  using Base::look;
-  using Base::strain_energy;
+  using Base::add, Base::Base, Base::look, Base::strain_energy;
 
   /// Where a contact touches the curve as it lies: λ h(s) = 0 has a root λ = 0, and where λ is small Newton's method would take it.
-  /// @param rod  RodElements   @param e  in and out: element
+  /// @param rod  RodElements   @param e  in and out: element   @param id  as of add()   @param here  out: the element with that contact where it is
   template <class Parts>
-  static void seek(const Parts& rod, int& e, Contact& contact) noexcept {
+  static void seek(const Parts& rod, int& e, Contact& contact, int id,
+                   std::optional<TouchedRod>& here) noexcept {
     for (int step = 0; step < most_steps; ++step) {
-      TouchedRod here(rod, e);
-      here.add(contact, 0);
-      const S by = here.way_to_foot();
+      here.emplace(rod, e).add(contact, id);
+      const S by = here->way_to_foot();
       if (!(std::abs(by) > close_by * contact.reach)) break;
+      here.reset();
       const S s = std::clamp(contact.s + by, contact.least, contact.most);
       if (s != contact.s + by) contact.moves = false;
       contact.s = s;
@@ -92,7 +66,10 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   /// @return the energy of what they bend [J]
   template <class Rub>
   S condense(Column& r, Tangent& K, Rub&& rub) noexcept {
-    for (int k = 0; k < count_; ++k) look(k), rub(ids_[at(k)]);
+    for (int k = 0; k < count(); ++k) {
+      if (k >= seen_) look(k);
+      rub(ids_[at(k)]);
+    }
     fill();
     const int n = size();
     // H of each, (I + C H)⁻¹, and what comes of them.
@@ -108,7 +85,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     AC_ = product(A_, C_);
     S energy = 0;
     for (int i = 0; i < n; ++i) off_[at(i)] = -yield_[at(i)];
-    for (int k = 0; k < count_; ++k)
+    for (int k = 0; k < count(); ++k)
       for (int i = 0; i < 3; ++i) off_[at(3 * k + i)] += contacts_[at(k)]->bubble[i];
     const Stack He = times(H_, off_);
     for (int i = 0; i < n; ++i)
@@ -136,14 +113,14 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   /// @param longer  in and out: what the residuals of places were worth [J]   @return tension()
   S advance(const Column& by, const std::array<S, std::size_t(Most)>& forces, S& longer) noexcept {
     std::array<S, std::size_t(Most)> goes{};
-    for (int i = count_ - 1; i >= 0; --i) {
+    for (int i = count() - 1; i >= 0; --i) {
       Contact& contact = *contacts_[at(i)];
       Way& way = ways_[at(i)];
       contact.off = 0;
       if (way.sought || contact.waits) {
         S sum = way.residual + way.by_nodes.dot(by);
-        for (int j = i + 1; j < count_; ++j) sum += way.by_place[at(j)] * goes[at(j)];
-        for (int j = 0; j < count_; ++j) sum += way.by_force[at(j)] * forces[at(j)];
+        for (int j = i + 1; j < count(); ++j) sum += way.by_place[at(j)] * goes[at(j)];
+        for (int j = 0; j < count(); ++j) sum += way.by_force[at(j)] * forces[at(j)];
         // A force that becomes a multiple of itself would take the place as many times too far as n · t is not yet none.
         const S change = forces[at(i)], before = std::abs(contact.force);
         sum -= way.by_force[at(i)] * (change - std::clamp(change, -before, before));
@@ -161,15 +138,15 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     }
     const int n = size();
     Stack w{}, z;
-    for (int k = 0; k < count_; ++k) {
+    for (int k = 0; k < count(); ++k) {
       const Vector moved = spots_[at(k)].move(by);
       for (int i = 0; i < 3; ++i) w[at(3 * k + i)] = moved[i];
     }
     for (int i = 0; i < n; ++i) z[at(i)] = w[at(i)] - off_[at(i)];
-    for (int k = 0; k < count_; ++k)
+    for (int k = 0; k < count(); ++k)
       for (int i = 0; i < n; ++i) z[at(i)] += J_[at(k)][at(i)] * goes[at(k)];
     z = times(A_, z);
-    for (int k = 0; k < count_; ++k) {
+    for (int k = 0; k < count(); ++k) {
       const Contact& contact = *contacts_[at(k)];
       for (int i = 0; i < n; ++i) {
         const auto& row = AC_[at(i)];
@@ -178,7 +155,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
               row[at(3 * k + c)] * (contact.normal[c] * forces[at(k)] + spots_[at(k)].zeta[c] * goes[at(k)]);
       }
     }
-    for (int k = 0; k < count_; ++k) {
+    for (int k = 0; k < count(); ++k) {
       Contact& contact = *contacts_[at(k)];
       for (int i = 0; i < 3; ++i) contact.bubble[i] += z[at(3 * k + i)] - w[at(3 * k + i)];
       // Of friction that begins to slide the tangent says more than its bound allows.
@@ -207,7 +184,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   /// Adds what all contacts are to the nodes, and finds their columns and what their places are.
   void spread(const Stack& He, Column& r, Tangent& K) noexcept {
     const int n = size();
-    for (int k = 0; k < count_; ++k) {
+    for (int k = 0; k < count(); ++k) {
       Spot& spot = spots_[at(k)];
       const Vector moment = cross3(vector(yield_, k), vector(force_, k));
       const Vector sum = vector(force_, k) + vector(He, k);
@@ -215,7 +192,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       for (int q = 0; q < 4; ++q) r.template segment<3>(start(q)) -= spot.h[q] * sum;
       if (!spot.turns.isZero(0)) turn(spot, moment, r);
       if constexpr (unknowns == 7)
-        if (!even_) {
+        if (!even()) {
           // By how much it grows as the section twists.
           const Vector F = vector(force_, k);
           const Vector turned = cross3<S>(spot.u, vector(yield_, k)) - block(C_, k, k) * cross3<S>(spot.u, F);
@@ -223,7 +200,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
           K(6, 6) -= y * y * rise, K(13, 13) -= x * x * rise;
           K(6, 13) -= x * y * rise, K(13, 6) -= x * y * rise;
         }
-      for (int j = 0; j < count_; ++j) {
+      for (int j = 0; j < count(); ++j) {
         const Matrix stiff = block(H_, k, j);
         const Spot& other = spots_[at(j)];
         for (int q = 0; q < 4; ++q)
@@ -234,7 +211,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     // Of the places: Way, and J with C ζ.
     std::array<Stack, std::size_t(Most)> bends = J_;  // C'F
     std::array<Stack, std::size_t(Most)> normals;     // M n, M = I - H C
-    for (int k = 0; k < count_; ++k) {
+    for (int k = 0; k < count(); ++k) {
       Spot& spot = spots_[at(k)];
       const Contact& contact = *contacts_[at(k)];
       spot.zeta = contact.force * (spot.curved * spot.t);
@@ -252,12 +229,12 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       for (int c = 0; c < 3; ++c)
         for (int i = 0; i < n; ++i) off -= contact.normal[c] * A_[at(3 * k + c)][at(i)] * off_[at(i)];
       residual_[at(k)] = -off;
-      for (int j = 0; j < count_; ++j) {
+      for (int j = 0; j < count(); ++j) {
         const Vector there = block(AC_, k, j) * contacts_[at(j)]->normal;
         yields_[at(k)][at(j)] = -contact.normal.dot(there);
       }
     }
-    for (int i = 0; i < count_; ++i) {
+    for (int i = 0; i < count(); ++i) {
       const Spot& spot = spots_[at(i)];
       const Contact& contact = *contacts_[at(i)];
       Way& way = ways_[at(i)];
@@ -271,7 +248,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       way.by_nodes.setZero();
       pull(steep, way.by_nodes);
       for (int q = 0; q < 4; ++q) way.by_nodes.template segment<3>(start(q)) -= spot.h1[q] * pushes;
-      for (int j = 0; j < count_; ++j) {
+      for (int j = 0; j < count(); ++j) {
         const Spot& other = spots_[at(j)];
         S sum = -turned_twice_[at(i)][at(j)];
         if (i == j) sum -= pushes.dot(spot.k) + spot.t.dot(spot.zeta);
@@ -302,7 +279,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   /// Condenses the places that are sought.
   void condense_places(Column& r, Tangent& K) noexcept {
     change_ = 0, turned_ = 0;
-    for (int i = 0; i < count_; ++i) {
+    for (int i = 0; i < count(); ++i) {
       Contact& contact = *contacts_[at(i)];
       Way& way = ways_[at(i)];
       way.stiff = way.by_place[at(i)];
@@ -318,18 +295,18 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       change_ -= way.residual * way.residual * over / 2;
       r -= (way.residual * over) * way.by_nodes;
       K -= (over * way.by_nodes) * way.by_nodes.transpose();
-      for (int k = 0; k < count_; ++k) {
+      for (int k = 0; k < count(); ++k) {
         columns_[at(k)] -= (way.by_force[at(k)] * over) * way.by_nodes;
         residual_[at(k)] -= way.by_force[at(k)] * over * way.residual;
-        for (int j = 0; j < count_; ++j)
+        for (int j = 0; j < count(); ++j)
           yields_[at(k)][at(j)] -= way.by_force[at(k)] * over * way.by_force[at(j)];
       }
-      for (int j = i + 1; j < count_; ++j) {
+      for (int j = i + 1; j < count(); ++j) {
         Way& next = ways_[at(j)];
         const S part = way.by_place[at(j)] * over;
         next.residual -= part * way.residual;
         next.by_nodes -= part * way.by_nodes;
-        for (int k = 0; k < count_; ++k) {
+        for (int k = 0; k < count(); ++k) {
           next.by_place[at(k)] -= part * way.by_place[at(k)];
           next.by_force[at(k)] -= part * way.by_force[at(k)];
         }
@@ -338,7 +315,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   }
   /// Adds -Nᵀf of all contacts.
   void pull(const Stack& f, Column& to) const noexcept {
-    for (int k = 0; k < count_; ++k)
+    for (int k = 0; k < count(); ++k)
       for (int q = 0; q < 4; ++q) to.template segment<3>(start(q)) -= spots_[at(k)].h[q] * vector(f, k);
   }
 

@@ -25,17 +25,16 @@ struct SignChange {
   bool rising;       ///< from negative to positive
 };
 
-/// Number of sign changes in the coefficients; position of the last one in `at`.
+/// Number of sign changes in the coefficients, 2 standing for more; position of the only one in `at`.
 template <typename Scalar, std::size_t N>
-int sign_changes(const std::array<Scalar, N>& c, int& at) noexcept {
-  int changes = 0;
-  for (std::size_t k = 0; k + 1 < N; ++k) {
-    if ((c[k] < 0) != (c[k + 1] < 0)) {
-      ++changes;
-      at = static_cast<int>(k);
-    }
-  }
-  return changes;
+[[gnu::always_inline]] inline int sign_changes(const std::array<Scalar, N>& c, int& at) noexcept {
+  unsigned signs = 0;
+  for (std::size_t k = 0; k < N; ++k) signs |= static_cast<unsigned>(c[k] < 0) << k;
+  const unsigned changes = (signs ^ (signs >> 1)) & ((1U << (N - 1)) - 1);
+  if (changes == 0) return 0;
+  if ((changes & (changes - 1)) != 0) return 2;
+  for (at = 0; (changes >> at) != 1;) ++at;
+  return 1;
 }
 
 /// The coefficients on the left half of the interval; those on the right half replace c (de Casteljau).

@@ -19,12 +19,15 @@ template <typename Scalar, int D = 2>
 struct NearestPoint {
   int segment = -1;  ///< -1: none, the query or the curve is not finite
   ClosestPoint<Scalar, D> at{0, VectorOf<Scalar, D>::Zero(), std::numeric_limits<Scalar>::infinity()};
+  CubicSegment<Scalar, D> piece;  ///< [m] in which it is
 
-  /// Takes a nearer one; among equals that with the smaller index.   @return whether it was nearer
-  bool take(int other, const ClosestPoint<Scalar, D>& candidate) noexcept {
+  /// Takes the point of a piece that is nearest to q where it is nearer; among equals that with the smaller index.   @return whether it was nearer
+  template <class Query>
+  bool look(int other, const CubicSegment<Scalar, D>& its, const Query& q) noexcept {
+    const ClosestPoint<Scalar, D> candidate = closest_point(its, q);
     const Scalar a = candidate.distance_squared, b = at.distance_squared;
     const bool nearer = a < b || (a == b && other < segment);
-    if (nearer) segment = other, at = candidate;
+    if (nearer) segment = other, at = candidate, piece = its;
     return nearer;
   }
 };
@@ -81,7 +84,7 @@ class BoundingVolumes {
     NearestPoint<Scalar, D> best;
     tree_.visit([&](const Box& box) { return box.distance_squared(q); },
                 [&] { return best.at.distance_squared * detail::more_than_round_off<Scalar>; },
-                [&](int i) { return best.take(i, closest_point(centreline.segment(i), q)), true; });
+                [&](int i) { return best.look(i, centreline.segment(i), q), true; });
     return best;
   }
 

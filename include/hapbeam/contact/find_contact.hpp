@@ -55,7 +55,7 @@ VectorOf<Scalar, D> place_contact(Contact<Scalar, D>& contact, const NearestPoin
   const int i = nearest.segment;
   const Scalar t = nearest.at.t;
   const auto &a = line[i], &b = line[i + 1];
-  const VectorOf<Scalar, D> along = tangent(line.segment(i), t).normalized();
+  const VectorOf<Scalar, D> along = tangent(nearest.piece, t).normalized();
   const Scalar ahead = along.dot(nearest.at.offset);
   contact.segment = first + i;
   contact.s = t < 1 ? (std::min)(a.s + t * (b.s - a.s), b.s) : b.s;

@@ -30,7 +30,7 @@ NearestPoint<Scalar> nearest_along_x(const Centreline<Scalar>& line, const Vecto
   const auto look = [&](int i) {
     const Scalar away = (std::max)((std::max)(x(i) - q.x(), q.x() - x(i + 1)), Scalar(0));
     if (away * away > best.at.distance_squared * more_than_round_off<Scalar>) return;
-    best.take(i, closest_point(line.segment(i), q));
+    best.look(i, line.segment(i), q);
   };
   int beneath = 0;
   while (beneath + 1 < line.segments() && x(beneath + 1) <= q.x()) ++beneath;
@@ -45,13 +45,12 @@ NearestPoint<Scalar> nearest_along_x(const Centreline<Scalar>& line, const Vecto
 template <typename Scalar, int D, class Query>
 NearestPoint<Scalar, D> nearest_beside(const Centreline<Scalar, D>& line, int beside,
                                        const Query& q) noexcept {
-  NearestPoint<Scalar, D> best{beside, closest_point(line.segment(beside), q)};
-  Scalar d = std::sqrt(best.at.distance_squared);
-  const auto look = [&](int i) {
-    if (best.take(i, closest_point(line.segment(i), q))) d = std::sqrt(best.at.distance_squared);
-  };
-  line.visit_near(beside - 1, -1, q, d, look);
-  line.visit_near(beside + 1, 1, q, d, look);
+  NearestPoint<Scalar, D> best;
+  best.segment = beside;
+  Scalar d = 0;
+  line.visit_near(beside, q, d, [&](int i, const CubicSegment<Scalar, D>& piece) {
+    if (best.look(i, piece, q)) d = std::sqrt(best.at.distance_squared);
+  });
   return best;
 }
 
@@ -59,13 +58,12 @@ NearestPoint<Scalar, D> nearest_beside(const Centreline<Scalar, D>& line, int be
 template <typename Scalar, int D, class Query>
 NearestPoint<Scalar, D> nearest_downhill(const Centreline<Scalar, D>& line, int piece,
                                          const Query& q) noexcept {
-  NearestPoint<Scalar, D> best{piece, closest_point(line.segment(piece), q)};
+  NearestPoint<Scalar, D> best;
+  best.look(piece, line.segment(piece), q);
   const int way = best.at.t <= 0 ? -1 : best.at.t >= 1 ? 1 : 0;
   for (int next = piece + way; way != 0 && next >= 0 && next < line.segments(); next += way) {
-    const ClosestPoint<Scalar, D> candidate = closest_point(line.segment(next), q);
-    if (!(candidate.distance_squared < best.at.distance_squared)) break;
-    best = {next, candidate};
-    if (way < 0 ? candidate.t > 0 : candidate.t < 1) break;
+    if (!best.look(next, line.segment(next), q)) break;
+    if (way < 0 ? best.at.t > 0 : best.at.t < 1) break;
   }
   return best;
 }

@@ -30,7 +30,7 @@ Contact<Scalar, 3> rod_contact_at(const NearestPoint<Scalar, 3>& nearest, const 
   const Vector& offset = nearest.at.offset;
   const Vector along = place_contact(contact, nearest, line, 0, true, true);
   const Scalar distance = std::sqrt(nearest.at.distance_squared);
-  contact.foot = point_at(line.segment(nearest.segment), nearest.at.t);
+  contact.foot = point_at(nearest.piece, nearest.at.t);
   contact.depth = reach - distance;
   contact.touching = contact.depth > 0;
   // On the axis itself every way across the rod is the nearest one.

@@ -57,7 +57,7 @@ class AllDisplacements {
   Response<Scalar> press(const Push<Scalar, dimension>& request, bool valid) noexcept {
     if (!begins(valid)) return {0, report_.status};
     pushes_.forget();
-    return drawn(place_.push(*this, request));
+    return place_.push(*this, request);
   }
 
   /// Lays the beam on a circle, a rod on a capsule.   @param range  says where a node can be   @param valid  whether there is a request

@@ -138,8 +138,9 @@ class ContactRows {
   void seek(const Parts& beam) noexcept {
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[of(k)];
+      row.touched.reset();
       if (row.contact.kind != Contact::Kind::round || !row.contact.moves || !row.contact.seeks) continue;
-      Touched::seek(beam, row.element, row.contact);
+      Touched::seek(beam, row.element, row.contact, k, row.touched);
       row.contact.seeks = !row.contact.stays;
     }
   }
@@ -179,9 +180,11 @@ class ContactRows {
     Touched* touched = nullptr;
     each_in(e, [&](int k) {
       Row& row = rows_[of(k)];
-      if (first < 0) first = k, touched = &row.touched.emplace(beam, e);
+      // What was sought has been added.
+      const bool sought = dimension == 3 && first < 0 && row.touched;
+      if (first < 0) first = k, touched = sought ? &*row.touched : &row.touched.emplace(beam, e);
       row.first = first, row.number = number++, row.seen = false;
-      touched->add(row.contact, k);
+      if (!sought) touched->add(row.contact, k);
     });
     const Scalar energy = touched->condense(r, K, [this](int k) {
       Row& row = rows_[of(k)];

@@ -30,44 +30,41 @@ class DrawnMesh {
   template <class Mesh, class ElementAt, class Place, class Mark, class Within>
   void draw(int elements, Mesh&& mesh, ElementAt&& element_at, int contacts, Place&& place, Mark&& mark,
             Within&& within) noexcept {
-    // Where contacts are that are apart from each other and from nodes.
-    std::array<Node, std::size_t(Most)> marks;
+    // Where contacts are that are apart from each other and from nodes, and in which element.
+    std::array<std::pair<int, Node>, std::size_t(Most)> marks;
     int count = 0;
-    const auto is_apart = [&](auto s) {
-      const int e = element_at(s);
-      const auto apart = (mesh(e + 1).s - mesh(e).s) / 1000;
-      bool is = s - mesh(e).s > apart && mesh(e + 1).s - s > apart;
-      for (int k = 0; k < count; ++k) is = is && std::abs(marks[at(k)].s - s) > apart;
-      return is;
-    };
     // One that is beside a node of the mesh is drawn instead of it.
     std::array<std::pair<int, Node>, std::size_t(Most)> instead;
     int replaced = 0;
     for (int k = 0; k < contacts; ++k) {
       const auto s = place(k);
-      const int e = element_at(s), close_by = s - mesh(e).s < mesh(e + 1).s - s ? e : e + 1;
-      if (is_apart(s)) marks[at(count++)] = mark(k);
-      else if (0 < close_by && close_by < elements &&
-               std::abs(s - mesh(close_by).s) < (mesh(e + 1).s - mesh(e).s) / 50)
+      const int e = element_at(s);
+      const auto from = mesh(e).s, to = mesh(e + 1).s, apart = (to - from) / 1000;
+      bool is_apart = s - from > apart && to - s > apart;
+      for (int j = 0; j < count; ++j) is_apart = is_apart && std::abs(marks[at(j)].second.s - s) > apart;
+      const int close_by = s - from < to - s ? e : e + 1;
+      if (is_apart) marks[at(count++)] = {e, mark(k)};
+      else if (0 < close_by && close_by < elements && std::abs(s - mesh(close_by).s) < (to - from) / 50)
         instead[at(replaced++)] = {close_by, mark(k)};
     }
     for (int e = 0; count < Most; ++e) {
-      const auto from = mesh(e).s, to = mesh(e + 1).s;
       bool empty = true;
-      for (int k = 0; k < count; ++k) empty = empty && !(from < marks[at(k)].s && marks[at(k)].s < to);
-      if (empty) marks[at(count++)] = within(e, (from + to) / 2);
+      for (int k = 0; k < count; ++k) empty = empty && marks[at(k)].first != e;
+      if (empty) marks[at(count++)] = {e, within(e, (mesh(e).s + mesh(e + 1).s) / 2)};
     }
-    std::sort(marks.begin(), marks.end(), [](const Node& a, const Node& b) { return a.s < b.s; });
-    int to = 0, next = 0;
-    for (int i = 0; i <= elements; ++i) {
-      for (; next < Most && marks[at(next)].s < mesh(i).s; ++next) {
-        marks_[at(next)] = to;
-        nodes_[to++] = marks[at(next)];
-      }
-      nodes_[to] = mesh(i);
-      for (int k = 0; k < replaced; ++k)
-        if (instead[at(k)].first == i) nodes_[to] = instead[at(k)].second;
-      ++to;
+    std::sort(marks.begin(), marks.end(),
+              [](const auto& a, const auto& b) { return a.second.s < b.second.s; });
+    int next = 0;
+    for (int k = 0; k < Most; ++k) {
+      for (; next <= marks[at(k)].first; ++next) nodes_[next + k] = mesh(next);
+      marks_[at(k)] = next + k;
+      nodes_[next + k] = marks[at(k)].second;
+    }
+    for (; next <= elements; ++next) nodes_[next + Most] = mesh(next);
+    for (int k = 0; k < replaced; ++k) {
+      int to = instead[at(k)].first;
+      for (const auto& [e, node] : marks) to += e < instead[at(k)].first;
+      nodes_[to] = instead[at(k)].second;
     }
   }
   /// The element of the mesh of which a piece is.

@@ -62,18 +62,15 @@ class RowContacts {
       // What had no answer at an end that has been pushed past it slips off.
       const bool off = round && !holds && all[i].pushed.past_end && !is_answer(all[i].pushed.status);
       all[i].touching = all[i].valid && !off && (all[i].touching || all[i].kind == ObstacleKind::support);
-      const State before = all[i].touching ? slot(i) : State{};
-      const bool sharp = round && all[i].touching && force_of(all[i]) != 0 && slot(i).sharp,
-                 was_held = sharp && slot(i).held;
-      const Vector place = slot(i).place;
-      slot(i) = {};
-      static_cast<State&>(slot(i)) = before;
-      slot(i).place = place;
-      slot(i).sharp = sharp, slot(i).moves = true, slot(i).crowded = off;
-      if (!round) slot(i).s = std::clamp(all[i].place.s, Scalar(0), range.length()), slot(i).moves = false;
+      Slot& now = slot(i);
+      if (!all[i].touching) static_cast<State&>(now) = {};
+      now.force = force_of(all[i]);
+      now.sharp = round && now.force != 0 && now.sharp;
+      const bool was_held = now.sharp && now.held;
+      now.moves = true, now.crowded = off, now.held = now.let_go = false, now.goal = -1;
+      if (!round) now.s = std::clamp(all[i].place.s, Scalar(0), range.length()), now.moves = false;
       else if (was_held) hold(system, i);
       else this->place(system, i, all[i].round.s);
-      slot(i).force = force_of(all[i]);
     }
   }
   /// λ of an obstacle by what it was pushed with.
@@ -221,7 +218,11 @@ class RowContacts {
     }
     if (again || holds_) return again;
     if (slip_off(system, range)) return true;
-    system.draw();
+    // What is seen of it is asked for by all but the bodies that touch.
+    const auto touches = [](const Obstacle& obstacle) {
+      return obstacle.touching && obstacle.kind == ObstacleKind::round;
+    };
+    if (!std::all_of(all_, all_ + count_, touches)) system.draw();
     int deepest = -1;
     const Scalar length = system.length(), round_off = 16 * std::numeric_limits<Scalar>::epsilon();
     for (int i = 0; i < count_; ++i) {

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/centreline.hpp>
@@ -39,11 +40,11 @@ class RowForesight {
 
  public:
   using Contact = InnerState<Scalar, D>;
-  using All = std::array<Contact, Most>;
   static constexpr int each = D == 2 ? 2 : 6;  ///< numbers of a hand
   using Hands = VectorOf<Scalar, each * Most>;
 
-  explicit RowForesight(const System& system) : before_{State(system.elements()), State(system.elements())} {}
+  explicit RowForesight(const System& system)
+      : RowForesight(system.elements(), std::make_index_sequence<like_most>()) {}
 
   /// To be called before each push.  @param hands  of all, 0 where there is none [m]   @param same  whether what touched then touches now
   /// @return whether the hands go on as they went
@@ -53,7 +54,7 @@ class RowForesight {
     like_ = 0;
     ratio_ = 0;
     forth_ = false;
-    for (int k = 1; k <= (Most > 1 ? 2 : 1) && like_ == 0 && !forth_; ++k) {
+    for (int k = 1; k <= like_most && like_ == 0 && !forth_; ++k) {
       const Hands& then = step_[of(k - 1)];
       ratio_ = step.dot(then) / then.squaredNorm();
       const bool straight_on = std::abs(ratio_) < fastest &&
@@ -75,11 +76,11 @@ class RowForesight {
 
   /// To be called once in each push, before it moves the system: which goes on if hands do.
   void go_on(System& system) noexcept {
-    newest_ = 1 - newest_;
-    State &older = before_[of(1 - newest_)], &newer = before_[of(newest_)];
+    newest_ = (newest_ + 1) % like_most;
+    State &older = before_[of((newest_ + 1) % like_most)], &newer = before_[of(newest_)];
     if (like_ == 0) return system.keep(newer);
-    if (like_ == 1) newer = older;
-    else system.carry(newer, older);
+    if (like_ == 2) system.carry(newer, older);
+    else if (like_most > 1) newer = older;
     system.go_on(newer, ratio_);
   }
   /// Back to where the system was before go_on().  @param force  of its first contact then [N]
@@ -92,8 +93,11 @@ class RowForesight {
   /// To where the system was before the push.
   void begin_again(System& system) const noexcept { system.go_back(before(), 0); }
   /// To be called after each push.   @param found  whether it was answered on the branch on which the beam was, by the same contacts
-  void know(const All& all, bool found) noexcept {
-    all_ = {all, all_[0], all_[1]};
+  /// @param contact  (i) -> what is left of contact i
+  template <class EachContact>
+  void know(bool found, int count, EachContact&& contact) noexcept {
+    for (std::size_t k = all_.size() - 1; k > 0; --k) all_[k] = all_[k - 1];
+    for (int i = 0; i < count; ++i) all_[0][of(i)] = contact(i);
     known_ = found ? (std::min)(known_ + 1, 3) : 0;
   }
   void forget() noexcept { known_ = 0; }
@@ -105,15 +109,18 @@ class RowForesight {
   }
 
  private:
+  template <std::size_t... K>
+  RowForesight(int elements, std::index_sequence<K...>) : before_{((void)K, State(elements))...} {}
+  static constexpr int like_most = Most > 1 ? 2 : 1;  // pushes before, of those that may go on
   static constexpr Scalar fastest = 2,
                           aside = Scalar(0.1);  // of a step, in units of the one before and of itself
   static constexpr std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
 
-  std::array<State, 2> before_;  // the last push, and the one before
+  std::array<State, like_most> before_;  // the last push, and the one before
   int newest_ = 0;
   Hands hands_ = Hands::Zero();  // in the last push [m]
   std::array<Hands, 2> step_{Hands::Zero(), Hands::Zero()};
-  std::array<All, 3> all_{};  // after the last three pushes
+  std::array<std::array<Contact, Most>, like_most + 1> all_{};  // after the last pushes
   Scalar ratio_ = 0;
   bool forth_ = false;
   int like_ = 0;   // the push that goes on: the last one or the one before; 0: none

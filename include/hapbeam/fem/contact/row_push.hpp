@@ -260,15 +260,13 @@ class RowPush : private RowContacts<Element, System> {
     return goes_on;
   }
   void remember(bool found) noexcept {
-    typename Foresight::All all{};
     for (int i = 0; i < count_; ++i) {
       found = found && (count_ != last_count_ || all_[i].touching == touched_[of(i)]);
       touched_[of(i)] = all_[i].touching, kind_[of(i)] = all_[i].kind;
-      all[of(i)] = slot(i);
-      all[of(i)].force = this->force_of(all_[i]);
+      slot(i).force = this->force_of(all_[i]);
     }
     last_count_ = count_;
-    foresight_.know(all, found);
+    foresight_.know(found, count_, [this](int i) -> const State& { return slot(i); });
   }
 
   template <class Way>

@@ -195,10 +195,10 @@ class RodIncrements {
   void take(const Assembler& assembler) noexcept {
     for (int first = 0; first <= order_.last_node(); first += lanes)
       assembler.increments(first, groups_[first / lanes].x);
-    const int last = order_.last_node();
+    const int last = order_.last_node(), again = last % lanes, end = this->end() % lanes;
     auto& x = groups_[last / lanes].x;
     for (int k = 0; k < Unknowns; ++k)
-      for (int place = last; place <= end(); ++place) x[k][place % lanes] = x[k][(last - 1) % lanes];
+      for (int lane = again; lane <= end; ++lane) x[k][lane] = x[k][again - 1];
   }
   /// Of a node with unknowns of its own.
   void set(int node, const Vector& x) noexcept {

@@ -137,9 +137,12 @@ class BlockTridiagonal {
     const auto a = own_of(e), b = own_of(e + 1);
     const bool inward = right.lane == 0;
     const Row coupled = row(inward ? left.row : right.row);
+    HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
+      HAPBEAM_UNROLL
       for (int i = j; i < Block; ++i) a(i, j) += K(i, j), b(i, j) += K(Block + i, Block + j);
       a[j] -= r[j], b[j] -= r[Block + j];
+      HAPBEAM_UNROLL
       for (int i = 0; i < Block; ++i)
         (inward ? coupled.coupling(i, j).a[0] : coupled.coupling(j, i).a[1]) += K(i, Block + j);
     }

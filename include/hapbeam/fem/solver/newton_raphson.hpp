@@ -113,7 +113,7 @@ struct NewtonRaphson {
   double smallest_step = 1e-4;        ///< of the path
 
   /// Goes the way to t = 1.  @param first_step  of the path: 1, or what the report of an unfinished solve says
-  /// @param known  of the solves before, null: they say nothing of this one
+  /// @param known  of the solves before, null: they say nothing of this one;  else the way is one step, which is not taken back where it fails
   template <class System>
   auto solve(System& system, typename System::Scalar first_step = 1,
              Curvature<typename System::Scalar>* known = nullptr) const noexcept
@@ -121,7 +121,7 @@ struct NewtonRaphson {
     using S = typename System::Scalar;
     SolveReport<S> report{Status::ok, 0, 0, 0, 0, first_step};
     S& step = report.step;
-    system.save();
+    if (!known) system.save();
     while (report.reached < 1) {
       const S t = (std::min)(report.reached + step, S(1));
       system.set_target(t);
@@ -132,6 +132,7 @@ struct NewtonRaphson {
         if (t < 1) system.save();
         step *= 4;
       } else {
+        if (known) break;
         system.restore();
         const bool out_of_budget = report.solves >= max_solves;
         // A step that the budget cut short does not show that it was too large, unless it had the whole budget.
