@@ -19,6 +19,7 @@ note(n, text, x, y, colour) = sprintf("set label %d '%s' at graph %g, %g textcol
 kinds = 'fem_64 fem_8 galerkin pod'
 tints = orange . ' ' . vermilion . ' ' . black . ' ' . green
 marks = '6 7 13 7'
+lifts = '0 -0.5 0.5 0'
 array titles[4] = ['64 elements', '8 elements', 'GalerkinModel', 'PodModel']
 
 set logscale xy
@@ -88,7 +89,7 @@ do for [format in 'svg png'] {
   eval lower
   set xlabel 'number of modes'
   set yrange [3e-7:2]
-  eval note(2, 'shape', 0.6, 0.75, green)
+  eval note(2, 'shape', 0.68, 0.85, green)
   eval note(3, 'force', 0.6, 0.22, grey)
   plot cost('modes', 'pod') using 3:7 with linespoints lc rgb green lw 2.5 pt 7, \
     cost('modes', 'pod') using 3:6 with linespoints lc rgb grey lw 2 pt 6
@@ -129,14 +130,14 @@ do for [format in 'svg png'] {
   eval whole
   set xtics ('1' 1, '4' 4, '16' 16, '64' 64, '256' 256, '1024' 1024)
   set xrange [0.85:1250]
-  set yrange [0.4:20]
+  set yrange [0.1:2]
   set xlabel 'number of beams, ticked in turn'
   set ylabel 'a tick of one of them'
   eval times
   set rmargin at screen 0.74
   beams(kind) = cost('beams', kind)
   plot for [i = 1:4] beams(word(kinds, i)) using 3:4 with linespoints lc rgb word(tints, i) lw 2.5 pt int(word(marks, i)), \
-    for [i = 1:4] beams(word(kinds, i)) . ' | tail -n 1' using 3:4:(titles[i]) with labels left offset 0.8, 0 \
+    for [i = 1:4] beams(word(kinds, i)) . ' | tail -n 1' using 3:4:(titles[i]) with labels left offset 0.8, real(word(lifts, i)) \
       textcolor rgb word(tints, i) font ',17'
   set rmargin at screen 0.96
   unset label

@@ -24,8 +24,8 @@ set ylabel 'a tick'
 do for [format in 'svg png'] {
   eval begin('many_beams', format)
   set label 1 'Many beams: what is not touched costs next to nothing' at screen 0.5, 0.95 center font ',20'
-  eval note(2, 'FemModel, 8 elements', 0.04, 0.36, vermilion)
-  eval note(3, 'PodModel', 0.04, 0.29, green)
+  eval note(2, 'FemModel, 8 elements', 0.04, 0.46, vermilion)
+  eval note(3, 'PodModel', 0.04, 0.39, green)
   plot for [i = 1:3] rows('fem', touched[i]) using 2:4 with linespoints lc rgb vermilion lw 2.5 pt 7, \
     for [i = 1:3] rows('pod', touched[i]) using 2:4 with linespoints lc rgb green lw 2.5 pt 6, \
     for [i = 1:3] rows('fem', touched[i]) . ' | tail -n 1' using 2:4:(words[i]) with labels left offset 1, 0 \

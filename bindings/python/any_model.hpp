@@ -170,6 +170,9 @@ class AnyFem : public AnyModel {
   virtual void internal_forces(double s, double* out) const noexcept = 0;
   virtual PeakStrain<double> peak_strain() const noexcept = 0;
   virtual double strain_energy() const noexcept = 0;
+  /// Bound on what the mesh leaves in the force of the last answer [N].  @throws as the mesh with four times the elements, which the
+  /// first call makes
+  virtual double force_error() = 0;
   virtual Solved rest() const noexcept = 0;
   virtual Solved report() const noexcept = 0;
 

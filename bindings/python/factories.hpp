@@ -36,7 +36,10 @@ using TrainedPointer = std::unique_ptr<AnyTrained>;
 /// @throws NotOffered for an element in space, and what FemModel throws
 FemPointer model_in_plane(Element element, const Beam& beam, int elements);
 FemPointer several_in_plane(const Beam& beam, int elements);
+/// As hapbeam::elements_for.   @throws NotOffered for an element in space
+int elements_in_plane(Element element, const Beam& beam, double depth, double error);
 /// @param element  RoundRod, else TwistedRod is taken
+int elements_in_space(Element element, const Rod& rod, double depth, double error);
 FemPointer model_in_space(Element element, const Rod& rod, int elements);
 FemPointer several_in_space(Element element, const Rod& rod, int elements);
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "model_of.hpp"
 #include "several_of.hpp"
+#include <hapbeam/fem/force_error.hpp>
 
 namespace hapbeam::python {
 
@@ -21,7 +23,8 @@ class FemOf final : public ModelOf<Model, AnyFem> {
   using Base::several;
 
  public:
-  using Base::Base;
+  using Body = typename Model::Body;
+  FemOf(const char* kind, const Body& body, int elements) : Base(kind, body, elements), body_(body) {}
 
   int contacts() const noexcept override { return Model::contacts; }
   int elements() const noexcept override { return model_.elements(); }
@@ -42,6 +45,10 @@ class FemOf final : public ModelOf<Model, AnyFem> {
   }
   PeakStrain<double> peak_strain() const noexcept override { return hapbeam::peak_strain(model_); }
   double strain_energy() const noexcept override { return model_.strain_energy(); }
+  double force_error() override {
+    if (!force_error_) force_error_.emplace(body_, elements());
+    return (*force_error_)(model_);
+  }
   Solved rest() const noexcept override { return solved(model_.rest()); }
   Solved report() const noexcept override { return solved(model_.report()); }
 
@@ -82,6 +89,9 @@ class FemOf final : public ModelOf<Model, AnyFem> {
   static Solved solved(const Report& report) noexcept {
     return {report.status, report.solves, report.steps, report.error};
   }
+
+  Body body_;
+  std::optional<ForceError<typename Model::ElementType>> force_error_;
 };
 
 }  // namespace hapbeam::python

@@ -29,6 +29,12 @@ FemPointer rod_model(const Rod& rod, int elements, Element element, int contacts
   return contacts == 1 ? model_in_space(element, rod, elements) : several_in_space(element, rod, elements);
 }
 
+int elements_of_rod(const Rod& rod, double depth, double error, Element element) {
+  if (element != Element::RoundRod && element != Element::TwistedRod)
+    throw NotOffered("a Rod takes Element.RoundRod or TwistedRod");
+  return elements_in_space(element, rod, depth, error);
+}
+
 /// Presses one after the other, without Python's lock.
 py::tuple presses(AnyModel& model, const Numbers& s, const Numbers& d) {
   if (s.ndim() > 1 || d.ndim() > 1 || (s.ndim() == 1 && d.ndim() == 1 && s.shape(0) != d.shape(0)))
@@ -182,10 +188,32 @@ void add_fem(py::module_& m) {
           "strain_energy",
           [](AnyFem& model) { return locked(model.mutex, [&] { return model.strain_energy(); }); },
           "Of the present shape [J].")
+      .def(
+          "force_error",
+          [](AnyFem& model) { return locked(model.mutex, [&] { return model.force_error(); }); },
+          "Bound [N] on what the mesh leaves in the force of the last answer.  The first call makes a mesh "
+          "of "
+          "four times the elements.")
       .def("rest", &AnyFem::rest, "How the search for the shape under the dead loads ended.")
       .def(
           "report", [](AnyFem& model) { return locked(model.mutex, [&] { return model.report(); }); },
           "How the last press or push ended.");
+}
+
+void add_elements_for(py::module_& m) {
+  const char* const doc =
+      "The fewest elements, doubled from four on, whose force_error() is within an error of the force "
+      "(relative), "
+      "pressed to a depth [m] at seven places.  ValueError where 256 are not enough.";
+  m.def(
+      "elements_for",
+      [](const Beam& beam, double depth, double error, Element element) {
+        return elements_in_plane(element, beam, depth, error);
+      },
+      arg("beam"), arg("depth"), arg("error"), arg("element") = Element::VonKarman,
+      py::call_guard<py::gil_scoped_release>(), doc);
+  m.def("elements_for", &elements_of_rod, arg("rod"), arg("depth"), arg("error"),
+        arg("element") = Element::TwistedRod, py::call_guard<py::gil_scoped_release>(), doc);
 }
 
 void add_trained(py::module_& m) {
@@ -225,6 +253,7 @@ void add_models(py::module_& m) {
   add_answers(m);
   add_model(m);
   add_fem(m);
+  add_elements_for(m);
   add_trained(m);
 }
 

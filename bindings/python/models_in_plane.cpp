@@ -31,6 +31,18 @@ FemPointer model_in_plane(Element element, const Beam& beam, int elements) {
   }
 }
 
+int elements_in_plane(Element element, const Beam& beam, double depth, double error) {
+  switch (element) {
+    case Element::Linear: return elements_for<Linear>(beam, depth, error);
+    case Element::VonKarman: return elements_for<VonKarman<>>(beam, depth, error);
+    case Element::AssumedStrain: return elements_for<VonKarman<AssumedStrain>>(beam, depth, error);
+    case Element::Corotational:
+      if (beam.parts().empty()) return elements_for<Corotational<>>(beam, depth, error);
+      return elements_for<Corotational<Tapered<>>>(beam, depth, error);
+    default: throw NotOffered("Element.RoundRod and TwistedRod: of a Rod, not of a Beam");
+  }
+}
+
 FemPointer several_in_plane(const Beam& beam, int elements) {
   return made<Several<Corotational<>, most_in_plane>>(beam, elements, name(Element::Corotational));
 }

@@ -22,6 +22,11 @@ FemPointer model_in_space(Element element, const Rod& rod, int elements) {
   return made<TwistedRod, Also::grips>(rod, elements, name(element));
 }
 
+int elements_in_space(Element element, const Rod& rod, double depth, double error) {
+  return element == Element::RoundRod ? elements_for<RoundRod>(rod, depth, error)
+                                      : elements_for<TwistedRod>(rod, depth, error);
+}
+
 FemPointer several_in_space(Element element, const Rod& rod, int elements) {
   if (element == Element::RoundRod)
     return made<Several<RoundRod, most_in_space>>(rod, elements, name(element));

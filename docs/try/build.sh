@@ -14,7 +14,9 @@ beams() {
   em++ -std=c++17 -O3 -DNDEBUG -I "$top/include" -isystem /usr/include/eigen3 "$page/exports.cpp" \
     -o "$folder/beams.wasm" --no-entry -sALLOW_MEMORY_GROWTH=1
 }
-pack() { printf 'const hapbeamWasm = "%s";\n' "$(base64 -w 0 "$folder/beams.wasm")" >"$page/built.js"; }
+# Where a host builds it, the page links the project there.
+project=${GITHUB_REPOSITORY:+$GITHUB_SERVER_URL/$GITHUB_REPOSITORY}
+pack() { printf 'const hapbeamWasm = "%s", hapbeamProject = "%s";\n' "$(base64 -w 0 "$folder/beams.wasm")" "$project" >"$page/built.js"; }
 
 mkdir -p "$folder"
 need emscripten libeigen3-dev &&

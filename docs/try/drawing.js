@@ -1,7 +1,15 @@
 // The drawing of a scene, and curves.
 'use strict';
 
-const colour = {ink: '#282c34', faint: '#78808c', grid: '#d6dae0', blue: '#0072b2', vermilion: '#d55e00', orange: '#e69f00'};
+// Those of the style sheet, which has a light and a dark set.
+const colour = {};
+function readColours() {
+  const style = getComputedStyle(document.documentElement);
+  for (const name of ['ink', 'faint', 'grid', 'paper', 'blue', 'vermilion', 'orange', 'pale'])
+    colour[name] = style.getPropertyValue('--' + name).trim();
+}
+readColours();
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', readColours);
 const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99],
   [170, 220, 50], [253, 231, 37]];
 
@@ -68,7 +76,7 @@ function drawSupport(c, [x, y], kind, right) {
     hatch(x - 15, y + 17, 5, 0, 0, 6);
     c.beginPath();
     c.arc(x, y, 3.5, 0, 7);
-    c.fillStyle = '#fff';
+    c.fillStyle = colour.paper;
     c.fill();
     c.stroke();
   } else if (kind === 'clamped') {
@@ -153,7 +161,7 @@ function drawCurves(canvas, curves, {x0, x1, top, xUnit, yUnit, xLabels}) {
   const left = 48, right = width - 10, low = height - 22, high = 10;
   const X = (x) => left + (x - x0) / (x1 - x0) * (right - left), Y = (y) => low - y / top * (low - high);
   c.font = '12px system-ui, "DejaVu Sans", sans-serif';
-  c.fillStyle = '#5f6773';
+  c.fillStyle = colour.faint;
   c.strokeStyle = colour.grid;
   c.lineWidth = 1;
   for (let k = 0; k <= 2; ++k) {

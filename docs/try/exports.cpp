@@ -14,7 +14,11 @@ double line[3 * 160];
 
 extern "C" {
 
-EMSCRIPTEN_KEEPALIVE void page_open(int scene) { opened = std::make_unique<page::Page>(scene); }
+EMSCRIPTEN_KEEPALIVE void page_open(int scene) { opened = std::make_unique<page::Page>(page::scene(scene)); }
+EMSCRIPTEN_KEEPALIVE void page_open_own(double length, double thickness, double young, int ends) {
+  opened =
+      std::make_unique<page::Page>(page::own_scene(length, thickness, young, static_cast<page::Ends>(ends)));
+}
 EMSCRIPTEN_KEEPALIVE int page_has(int model) { return opened->has(model); }
 EMSCRIPTEN_KEEPALIVE void page_choose(int model) { opened->choose(model); }
 EMSCRIPTEN_KEEPALIVE double page_error(int model) { return opened->error(model); }

@@ -6,7 +6,7 @@
 
 int main() {
   for (int scene = 0; scene < page::scenes; ++scene) {
-    page::Page page(scene);
+    page::Page page(page::scene(scene));
     for (int model = 0; model < page::models; ++model) {
       if (!page.has(model)) continue;
       const double error = page.error(model);

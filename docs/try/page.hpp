@@ -93,7 +93,7 @@ inline Point settled(Touched& beam, const Point& avatar, double height) {
 
 class Page {
  public:
-  explicit Page(int index) : scene_(page::scene(index)) {
+  explicit Page(Scene scene) : scene_(std::move(scene)) {
     const Beam& beam = scene_.beam;
     models_[von_karman_8] = touched(FemModel<>(beam, 8), scene_);
     models_[von_karman_16] = touched(FemModel<>(beam, 16), scene_);

@@ -4,6 +4,7 @@
 const $ = (id) => document.getElementById(id);
 const canvas = $('stage');
 const period = 1e-3, shownSeconds = 5;  // [s]
+const noticed = 0.07;  // relative error of a force that a hand notices
 const state = {scene: 3, model: null, facts: null, rest: null, line: null, tick: null, view: null, worst: 1e-6};
 let side = 1, guided = true, idle = null, history = [], touch = [], before = [], time = 0;
 
@@ -32,14 +33,37 @@ scenes.forEach((scene, index) => {
 
 function open(index) {
   const scene = scenes[index];
+  $('own').hidden = !scene.own;
   Object.assign(state, {scene: index, facts: null, tick: null, line: null});
   [...$('scenes').children].forEach((button, k) => button.setAttribute('aria-checked', k === index));
   $('title').textContent = scene.title;
   $('feel').textContent = scene.feel;
   $('models').replaceChildren();
   $('hint').textContent = 'computing …';
-  worker.postMessage({open: index});
+  if (scene.own) openOwn();
+  else worker.postMessage({open: index});
 }
+
+// A beam of one's own: as slender as a beam is, and not more than its models solve.
+function openOwn() {
+  const {length, thickness, young, ends} = Object.fromEntries(new FormData($('own'))), L = Number(length), t = Number(thickness);
+  const low = L / 1000, high = L / 20, mm = (x) => +x.toPrecision(3);
+  let wrong = '';
+  if (!(L >= 50 && L <= 3000)) wrong = `length ${length} mm: must be 50 to 3000 mm`;
+  else if (!(t >= low && t <= high)) wrong = `thickness ${thickness} mm: must be ${mm(low)} to ${mm(high)} mm, a thousandth to a twentieth of the length`;
+  $('slender').textContent = wrong;
+  if (wrong) return void ($('hint').textContent = 'not a beam yet');
+  const figures = [L / 1000, t / 1000, Number(young), Number(ends)];
+  Object.assign(scenes[state.scene], drawnOwn(figures));
+  worker.postMessage({own: figures});
+}
+$('own').onchange = () => open(state.scene);
+$('own').onsubmit = (event) => event.preventDefault();
+
+// Pages: beside this one in the repository; where a host builds the page, on that host.
+for (const link of document.querySelectorAll('a[data-page]'))
+  link.href = hapbeamProject ? `${hapbeamProject}/blob/HEAD/${link.dataset.page}` : `../../${link.dataset.page}`;
+if (hapbeamProject) Object.assign($('reference'), {hidden: false, href: 'reference/'});
 
 function opened(facts) {
   Object.assign(state, {facts, rest: facts.line, worst: 1e-6});
@@ -53,7 +77,7 @@ function opened(facts) {
     const row = $('models').insertRow(), [title, kind] = models[model];
     row.dataset.model = model;
     row.innerHTML = `<td><label><input type="radio" name="model" value="${model}"><span>${title}<small>${kind}</small></span></label></td>` +
-      `<td>${percent(error)}</td><td>${us.toFixed(us < 10 ? 1 : 0)} µs</td>`;
+      `<td${error > noticed ? ' class="bad"' : ''}>${percent(error)}</td><td>${us.toFixed(us < 10 ? 1 : 0)} µs</td>`;
     row.querySelector('input').onchange = () => choose(model);
   }
   choose(scenes[state.scene].model);
@@ -79,7 +103,7 @@ function choose(model) {
 }
 
 function hint() {
-  $('hint').textContent = guided ? 'press it: with the pointer or a finger' : '';
+  $('hint').textContent = guided ? 'press it: with the pointer, a finger or the arrow keys' : '';
 }
 
 // The pointer is the hand.
@@ -119,7 +143,41 @@ function end() {
     worker.postMessage({script: true});
     hint();
   }, 1500);
-  if (state.view) worker.postMessage({go: [state.facts.length / 2, state.view.scenePlace(0, 0, 1)[1]]});
+  if (!state.view || !state.tick) return;
+  // Home above the middle; a ball that is below the beam or beside it would be held there.
+  const home = [state.facts.length / 2, state.view.scenePlace(0, 0, 1)[1]], [, , x, w] = state.tick;
+  const astray = x < 0 || x > state.facts.length || side < 0 || w < 0;
+  worker.postMessage(astray && !state.tick[7] ? {place: home} : {go: home});
+  side = 1;
+}
+
+// The arrow keys lead the hand, half a picture in a second; space lets go.
+const held = new Set(), ways = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+let led = null, drawn = 0;
+canvas.onkeydown = (event) => {
+  if (event.key === ' ' || event.key === 'Escape') held.clear(), led = null, end(), event.preventDefault();
+  if (!ways[event.key] || !state.tick) return;
+  event.preventDefault();
+  if (!held.size) {
+    clearTimeout(idle);
+    led = guided ? [state.facts.length / 2, state.view.scenePlace(0, 0, 1)[1]] : [state.tick[0], state.tick[1]];
+    if (guided) worker.postMessage({place: led});
+    guided = false, hint();
+  }
+  held.add(event.key);
+};
+canvas.onkeyup = (event) => held.delete(event.key);
+canvas.onblur = () => { if (led) held.clear(), led = null, end(); };
+function lead(now) {
+  const seconds = Math.min(0.05, (now - drawn) / 1000);
+  drawn = now;
+  if (!led || !held.size) return;
+  const [x0, x1, w0, w1] = scenes[state.scene].view, {magnified} = state.view;
+  for (const key of held) {
+    led[0] = Math.min(x1, Math.max(x0, led[0] + 0.25 * (x1 - x0) * seconds * ways[key][0]));
+    led[1] = Math.min(w1, Math.max(w0, led[1] + 0.5 * (w1 - w0) * seconds * ways[key][1] / magnified));
+  }
+  worker.postMessage({go: [...led]});
 }
 canvas.onpointerdown = (event) => {
   if (event.pointerType === 'mouse') return;
@@ -153,12 +211,13 @@ function ticked({ticks, line, us}) {
 
 // The larger part of what was shown lately, so that axes do not jump.
 let forceTop = 1, depthTop = 1;
-function draw() {
+function draw(now) {
   requestAnimationFrame(draw);
   const {facts, line, tick} = state;
   if (!facts || !line || !tick) return;
   const scene = scenes[state.scene];
   state.view = new View(scene, canvas, facts.reach);
+  lead(now);
   const {view} = state, {c} = contextOf(canvas);
   const [hx, hw, ax, aw, fx, fw, , pressing, status] = tick, force = Math.hypot(fx, fw);
 
@@ -197,7 +256,7 @@ function draw() {
   drawCurves($('time'), [{points: lately.map(([t, f]) => [t - time, f]), colour: colour.vermilion, width: 2, dot: true}],
     {x0: -shownSeconds, x1: 0, top: forceTop, xUnit: 's', yUnit: 'N', xLabels: [-5, -4, -3, -2, -1, 0]});
   depthTop = roundUp(Math.max(1, ...touch.map(([d]) => d), ...before.map(([d]) => d)));
-  drawCurves($('depth'), [{points: before, colour: '#a9c7da', width: 2}, {points: touch, colour: colour.blue, width: 2.2, dot: true}],
+  drawCurves($('depth'), [{points: before, colour: colour.pale, width: 2}, {points: touch, colour: colour.blue, width: 2.2, dot: true}],
     {x0: 0, x1: depthTop, top: roundUp(1.05 * Math.max(1e-3, ...touch.map(([, f]) => f), ...before.map(([, f]) => f))),
       xUnit: 'mm', yUnit: 'N', xLabels: [0, depthTop / 2, depthTop]});
 }

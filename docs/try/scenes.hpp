@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/haptics/device/hand_path.hpp>
 #include <hapbeam/shapes.hpp>
 
@@ -31,9 +32,44 @@ struct Scene {
   }
 };
 
-inline constexpr int scenes = 5;
+/// Of a beam of one's own.
+enum Ends { both_pinned, both_clamped, one_clamped };
 
-/// @param index  of: steel bar, ruler, string, arch, strip.  Figures: docs/scenes.md
+/// A beam of one's own, 20 mm wide, the spring as stiff as that beam: half of the way is lag at first.
+/// @param length, thickness [m]   @param young [Pa]
+inline Scene own_scene(double length, double thickness, double young, Ends ends) {
+  using hapbeam::HandPath;
+  using hapbeam::Support;
+  const bool cantilever = ends == one_clamped;
+  const Support left = ends == both_pinned ? Support::pinned : Support::clamped,
+                right = cantilever ? Support::free : left;
+  Beam beam(length, hapbeam::Section::rectangle(0.02, thickness), {young}, left, right);
+  const double radius = 0.02 * length, s = (cantilever ? 0.6 : 0.5) * length, small = 1e-4 * length;
+  hapbeam::FemModel<> model(beam, 8);
+  const double stiffness = std::abs(model.press({s, -small}).force) / small;
+  const double depth = (cantilever ? 0.15 : 0.009) * length, above = 2 * radius;
+  HandPath hand({s, above + radius});
+  hand.press(2 * depth + above, 1.5).rest(0.4);
+  if (cantilever) hand.release(2 * depth + above, 1).rest(0.4);
+  else
+    hand.slide(0.25 * length, 1.2)
+        .slide(-0.5 * length, 1.8)
+        .slide(0.25 * length, 1)
+        .release(2 * depth + above, 0.6)
+        .rest(0.4);
+  return {std::move(beam),
+          0,
+          radius,
+          stiffness,
+          cantilever ? 0.35 * length : 0.2 * length,
+          cantilever ? 0.65 * length : 0.8 * length,
+          depth,
+          std::move(hand)};
+}
+
+inline constexpr int scenes = 6;
+
+/// @param index  of: steel bar, ruler, string, arch, strip, a beam of one's own as it is at first.  Figures: docs/scenes.md
 inline Scene scene(int index) {
   using hapbeam::HandPath;
   using hapbeam::Section;
@@ -71,6 +107,7 @@ inline Scene scene(int index) {
           .move_to({0.096, 0.03}, 0.8);
       return {std::move(bow), 0.012, 0.005, 400, 0.08, 0.09, 0.009, std::move(hand)};
     }
+    case 5: return own_scene(0.5, 0.004, 70e9, both_pinned);
     default: {
       Beam strip(0.4, Section::rectangle(0.02, 0.0005), steel, Support::pinned, Support::pinned);
       HandPath hand({0.2, 0.012});

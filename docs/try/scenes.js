@@ -30,7 +30,20 @@ const scenes = [
     feel: 'Nothing, then more and more, then a wall. It bends like paper and stretches like steel: the force grows with ' +
       'the cube of the depth.',
   },
+  {
+    name: 'Your own', own: true, model: 1, title: 'A beam of your own, 20 mm wide',
+    feel: 'Choose its length, thickness, material and ends. The spring is as stiff as the beam where it is pressed first.',
+  },
 ];
+
+// Of a beam of one's own, by its list of ends.
+const ownEnds = [['pinned', 'pinned'], ['clamped', 'clamped'], ['clamped', 'free']];
+
+// What is drawn of it.   figures: [length, thickness, young, ends]
+function drawnOwn([length, , , kind]) {
+  const cantilever = ownEnds[kind][1] === 'free', part = cantilever ? [-0.13, 1.2, -0.6, 0.23] : [-0.07, 1.07, -0.32, 0.24];
+  return {ends: ownEnds[kind], magnified: cantilever ? 1 : 8, view: part.map((x) => x * length)};
+}
 
 const models = [
   ['FemModel', '8 elements, moderate rotation'],

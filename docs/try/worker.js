@@ -1,7 +1,7 @@
 // The beams' own thread: 1000 ticks in a second of simulated time, whatever the display does.
 'use strict';
 
-// Told {wasm}, then {open: scene}, {choose: model}, {place: [x, w]}, {go: [x, w]}, {script}, {pause: bool}, {demonstration: model}.
+// Told {wasm}, then {open: scene}, {own: [length, thickness, young, ends]}, {choose: model}, {place: [x, w]}, {go: [x, w]}, {script}, {pause: bool}, {demonstration: model}.
 function beamWorker() {
   const recordSize = 9, modelCount = 6;
   let beams, target = null, paused = false, last = 0, spent = 0, ticked = 0;
@@ -26,8 +26,7 @@ function beamWorker() {
     return least;
   }
 
-  function open(scene) {
-    beams.page_open(scene);
+  function opened() {
     const all = hasModels(), errors = all.map((model) => beams.page_error(model)), least = times(all);
     const rows = all.map((model, k) => ({model, error: errors[k], us: least[k]}));
     beams.page_choose(all[0]);
@@ -55,6 +54,13 @@ function beamWorker() {
     postMessage({ticks, line: points, us}, [ticks.buffer, points.buffer]);
   }
 
+  function begin() {
+    target = null;
+    postMessage({opened: opened()});
+    if (!last) setInterval(run, 8);
+    last = performance.now();
+  }
+
   const told = {
     async wasm(bytes) {
       const none = () => 0;
@@ -66,12 +72,8 @@ function beamWorker() {
       if (beams._initialize) beams._initialize();
       postMessage({ready: true});
     },
-    open(scene) {
-      target = null;
-      postMessage({opened: open(scene)});
-      if (!last) setInterval(run, 8);
-      last = performance.now();
-    },
+    open(scene) { beams.page_open(scene), begin(); },
+    own(figures) { beams.page_open_own(...figures), begin(); },
     choose: (model) => beams.page_choose(model),
     place: (at) => { target = at; beams.page_place(at[0], at[1]); },
     go: (at) => { target = at; },

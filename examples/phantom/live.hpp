@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "couple.hpp"
+#include "rest.hpp"
 #include "scene.hpp"
 #include <hapbeam/haptics/servo/servo_many.hpp>
 
@@ -16,10 +17,10 @@ namespace phantom {
 inline double reach_of(const Options& options) { return options.radius + options.beam.touched() / 2; }
 
 /// Where the centreline is at rest [m].
-inline Eigen::Vector3d at_rest(const Options& options, const hapbeam::Centreline<double>&, double place) {
-  return {place, options.beam.rest(place), 0};
+inline Eigen::Vector3d at_rest(const hapbeam::Centreline<double>& rest, double place) {
+  return {place, height_at(rest, place), 0};
 }
-inline Eigen::Vector3d at_rest(const Options&, const hapbeam::Centreline<double, 3>& rest, double place) {
+inline Eigen::Vector3d at_rest(const hapbeam::Centreline<double, 3>& rest, double place) {
   return rest.position(place);
 }
 
@@ -28,7 +29,7 @@ template <int D>
 hapbeam::ServoOptions servo_options(const Options& options, const hapbeam::Centreline<double, D>& rest,
                                     double place) {
   hapbeam::ServoOptions servo;
-  servo.placement = placement(at_rest(options, rest, place), reach_of(options), options.scale);
+  servo.placement = placement(at_rest(rest, place), reach_of(options), options.scale);
   servo.avatar_radius = options.radius;
   servo.friction = hapbeam::Friction(options.friction, options.friction);
   return servo;
@@ -97,7 +98,7 @@ class Live final : public Body {
   double depth(const hapbeam::ServoRecord& r) const noexcept override {
     const Options& o = parts_.options;
     if (!r.pressing) return 0;
-    if constexpr (dimension == 2) return o.beam.rest(r.press.s) - r.press.d;
+    if constexpr (dimension == 2) return height_at(rest_.shape(), r.press.s) - r.press.d;
     // Along the normal; the device's axes are the scene's.
     else if (const double force = r.force.norm(); force > 0)
       return r.force.dot(rest_.shape().position(r.press.s) - r.avatar) / force + reach_of(o);

@@ -9,6 +9,7 @@
 #include "hands.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
+#include <hapbeam/element/tapered.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 namespace phantom {
@@ -30,6 +31,7 @@ std::unique_ptr<Body> couple_in_plane(Parts parts) {
     case ElementChoice::full: return couple_full<VonKarman<FullIntegration>>(std::move(parts));
     case ElementChoice::reduced: return couple_full<VonKarman<ReducedIntegration>>(std::move(parts));
     case ElementChoice::corotational: return couple_hands<Corotational<>>(std::move(parts));
+    case ElementChoice::tapered: return couple_full<Corotational<Tapered<>>>(std::move(parts));
     case ElementChoice::stability_functions:
     case ElementChoice::round_rod:
     case ElementChoice::twisted_rod: break;

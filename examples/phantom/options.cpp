@@ -15,8 +15,8 @@ using cli::count, cli::figure, cli::file, cli::flag, cli::one_of;
 
 constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice::full,
                                       ElementChoice::reduced,      ElementChoice::stability_functions,
-                                      ElementChoice::corotational, ElementChoice::round_rod,
-                                      ElementChoice::twisted_rod};
+                                      ElementChoice::corotational, ElementChoice::tapered,
+                                      ElementChoice::round_rod,    ElementChoice::twisted_rod};
 constexpr Script scripts[] = {Script::slide, Script::press, Script::tap, Script::around};
 constexpr CouplingChoice couplings[] = {CouplingChoice::direct, CouplingChoice::virtual_coupling};
 constexpr DeviceChoice devices[] = {DeviceChoice::simulated, DeviceChoice::phantom};
@@ -24,7 +24,7 @@ constexpr DeviceChoice devices[] = {DeviceChoice::simulated, DeviceChoice::phant
 cli::Entries entries(Options& o) {
   cli::Entries list{{"--scene", "NAME",
                      "a beam, the model that it needs and a hand that shows what there is to feel: " +
-                         scene_names() + ";  " + opening_scene +
+                         scene_names() + ", or a FILE.json that the window has written;  " + opening_scene +
                          " by default, and none beside --beam or --model.  Any other option changes it",
                      [&o](const std::string& v) { set_scene(o, v); }, true}};
   const cli::Entries beam = cli::beam_entries(o.beam);
@@ -34,7 +34,8 @@ cli::Entries entries(Options& o) {
       {"--element", "KIND",
        "linear, or von Karman with a membrane: full, reduced, stability-functions (default), or right at any "
        "rotation: "
-       "corotational.  Of a rod in space: round-rod, which no one twists (its default where it is straight), "
+       "corotational, and tapered for sections that change.  Of a rod in space: round-rod, which no one "
+       "twists (its default where it is straight), "
        "or twisted-rod",
        [&o](const std::string& v) { o.element = one_of(elements, "--element", v); }},
       file("--model",
@@ -120,7 +121,8 @@ cli::Entries entries(Options& o) {
 /// Before anything is asked for.
 Options without_scene() {
   Options options;
-  options.place = options.stiffness = options.damping = std::numeric_limits<double>::quiet_NaN();
+  options.place = options.exaggeration = options.stiffness = options.damping =
+      std::numeric_limits<double>::quiet_NaN();
   return options;
 }
 Options opening() {
@@ -132,9 +134,15 @@ Options opening() {
 /// A rod that is named without a scene gets an element that can bend as it does, and the hand goes around a rod alone.
 void suit_beam(Options& o, const std::vector<std::string>& given) {
   if (o.beam.in_space() && !cli::contains(given, "--element") && !bends_in_space(o.element))
-    o.element = o.beam.rod == cli::RodShape::hook ? ElementChoice::twisted_rod : ElementChoice::round_rod;
+    o.element = o.beam.arcs.empty() ? ElementChoice::round_rod : ElementChoice::twisted_rod;
   if (!o.beam.in_space() && o.script == Script::around)
     cli::refuse("--script", name(o.script), "one of slide, press, tap for what bends in a plane");
+}
+
+/// It is another beam than the scene's, which is felt and drawn otherwise.
+void leave_scene(Options& o) {
+  o.scene.clear(), o.scene_file.clear(), o.feels.clear();
+  o.exaggeration = std::numeric_limits<double>::quiet_NaN();
 }
 
 /// What a file decides cannot be chosen as well.
@@ -169,6 +177,7 @@ const char* name(ElementChoice element) {
     case ElementChoice::reduced: return "reduced";
     case ElementChoice::stability_functions: return "stability-functions";
     case ElementChoice::corotational: return "corotational";
+    case ElementChoice::tapered: return "tapered";
     case ElementChoice::round_rod: return "round-rod";
     case ElementChoice::twisted_rod: return "twisted-rod";
   }
@@ -198,6 +207,8 @@ const char* name(DeviceChoice device) { return device == DeviceChoice::phantom ?
 void settle(Options& o, double from, double to) {
   o.from = from, o.to = to;
   if (std::isnan(o.place)) o.place = (from + to) / 2;
+  // A straight beam of more than a metre moves by little of what is seen.
+  if (std::isnan(o.exaggeration)) o.exaggeration = o.beam.rise == 0 && o.beam.length > 1 ? 20 : 1;
   if (o.place > o.beam.length)
     cli::refuse("--place", cli::digits(o.place), "0 to " + cli::digits(o.beam.length) + " m");
 }
@@ -210,6 +221,9 @@ Options parse(const std::vector<std::string>& arguments) {
     throw cli::UsageError("--guarded: must stand beside --model, whose range it guards");
   check_model(options, given);
   suit_beam(options, given);
+  cli::BeamOptions unused;
+  for (const cli::Entry& entry : cli::beam_entries(unused))
+    if (cli::contains(given, entry.option)) leave_scene(options);
   options.timed = cli::contains(given, "--duration");
   if (options.timed && !options.screenshot.empty()) take_pictures_in_time(options, given);
   if (!options.replay.empty()) {

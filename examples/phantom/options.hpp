@@ -9,7 +9,16 @@
 
 namespace phantom {
 
-enum class ElementChoice { linear, full, reduced, stability_functions, corotational, round_rod, twisted_rod };
+enum class ElementChoice {
+  linear,
+  full,
+  reduced,
+  stability_functions,
+  corotational,
+  tapered,
+  round_rod,
+  twisted_rod
+};
 enum class Script { slide, press, tap, around };
 enum class CouplingChoice { direct, virtual_coupling };
 enum class ModelChoice { finite_elements, pod, galerkin };
@@ -17,7 +26,9 @@ enum class DeviceChoice { simulated, phantom };
 
 /// Everything in SI.
 struct Options {
-  std::string scene;  ///< or empty
+  std::string scene;       ///< its name; empty: a beam of one's own, without one
+  std::string scene_file;  ///< it is from, or empty
+  std::string feels;       ///< what one feels there, or empty
   cli::BeamOptions beam;
   ElementChoice element = ElementChoice::stability_functions;
   int elements = 16;
@@ -39,6 +50,7 @@ struct Options {
   double radius = 0.005;  ///< [m] of the avatar
   double friction = 0;    ///< coefficient, between avatar and beam
   double scale = 1;       ///< metres of the scene for one of the device
+  double exaggeration;    ///< of displacements, as they are drawn
   CouplingChoice coupling = CouplingChoice::virtual_coupling;
   double stiffness;        ///< [N/m] of the coupling; not a number: what the device can render
   double damping;          ///< [N·s/m] the same
@@ -58,6 +70,14 @@ struct Options {
 /// Of a rod in space.
 constexpr bool bends_in_space(ElementChoice element) {
   return element == ElementChoice::round_rod || element == ElementChoice::twisted_rod;
+}
+
+/// The scene is one of the program's own.
+inline bool is_named_scene(const Options& o) { return !o.scene.empty() && o.scene_file.empty(); }
+/// The same beam in the same place, whatever its model.
+inline bool same_scene(const Options& a, const Options& b) {
+  return a.scene == b.scene && a.scene_file == b.scene_file && a.beam.name == b.beam.name &&
+         a.model == b.model;
 }
 
 /// Names as they are typed.

@@ -1,20 +1,20 @@
 #include "report.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "json.hpp"
 #include "scene.hpp"
-#include "scenes.hpp"
+#ifdef HAPBEAM_EXAMPLES_MODEL_FILE
+#include <hapbeam/rom/file/json.hpp>
+#endif
 
 namespace phantom {
 
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 unsigned long long number(std::uint64_t count) { return count; }
 
@@ -74,7 +74,7 @@ void print_scene(const Options& o, const Trained* trained, const hapbeam::Device
   } else {
     std::printf("beam     %s\n", cli::describe(o.beam).c_str());
     if (o.beams > 1) std::printf("beams    %d, each %g mm below the one before\n", o.beams, o.pitch * 1e3);
-    if (!o.scene.empty()) std::printf("feels    %s\n", feels(o.scene));
+    if (!o.feels.empty()) std::printf("feels    %s\n", o.feels.c_str());
     std::printf("model    finite elements, %s, %d elements\n", name(o.element), o.elements);
   }
   std::printf("hand     %s, at %g m, aims %g mm below the surface, %g s; avatar of radius %g mm\n",
@@ -177,90 +177,135 @@ void print_summary(const Run& run) {
         "         press in range.  A support is rigid: next to it forces grow without bound.\n");
 }
 
+#ifdef HAPBEAM_EXAMPLES_MODEL_FILE
+
+namespace {
+
+/// Of the members of a report, whose units are in their names.
+class Report {
+ public:
+  void add(const char* name, const std::string& value) { writer_.word(name, value); }
+  void add(const char* name, const char* value) { writer_.word(name, value); }
+  void add(const char* name, bool value) { writer_.flag(name, value); }
+  void add(const char* name, int value) { writer_.count(name, value); }
+  void add(const char* name, std::uint64_t value) { writer_.count(name, static_cast<long long>(value)); }
+  /// What is not known is not there.
+  void add(const char* name, double value) {
+    if (std::isfinite(value)) writer_.real(name, "", value);
+  }
+  std::string text() const { return writer_.text(9, hapbeam::detail::JsonWriter::Layout::indented) + "\n"; }
+
+ private:
+  const std::string source_ = "report";
+  hapbeam::detail::JsonWriter writer_{source_};
+};
+
+void add_trained(Report& report, const Trained& t) {
+  const hapbeam::ErrorSummary& errors = t.errors.all;
+  report.add("trained_from_m", t.s_min);
+  report.add("trained_to_m", t.s_max);
+  report.add("trained_depth_m", t.depth);
+  report.add("modes", t.modes);
+  report.add("stated_presses", errors.presses);
+  if (errors.presses == 0) return;
+  report.add("stated_force_error_median", errors.force_median);
+  report.add("stated_force_error_p95", errors.force_p95);
+  report.add("stated_force_error_max", t.errors.force_bound);
+  report.add("stated_shape_error_max", errors.shape_max);
+}
+
+}  // namespace
+
 std::string json(const Run& run) {
   const Options& o = run.options;
   const hapbeam::ServoRecord& r = run.record;
   const hapbeam::TimeSummary compute = run.times.compute().summary();
   // Simulated time keeps its period.
   const double period_p99 = o.lock_step ? run.device.period : run.times.period().quantile(0.99);
-  JsonObject report;
-  report.add("device", run.device.name)
-      .add("peak_force_N", run.device.peak_force)
-      .add("period_s", run.device.period)
-      .add("real_time", !o.lock_step)
-      .add("priority", run.priority == hapbeam::RealTime::done)
-      .add("scene", o.scene)
-      .add("beam", o.beam.name)
-      .add("length_m", o.beam.length)
-      .add("width_m", o.beam.width)
-      .add("height_m", o.beam.height)
-      .add("rise_m", o.beam.rise)
-      .add("tension_N", o.beam.tension)
-      .add("young_Pa", o.beam.young)
-      .add("ends", cli::ends(o.beam.left, o.beam.right))
-      .add("model", run.trained ? run.trained->kind : "fem");
-  if (const Trained* t = run.trained) {
-    const hapbeam::ErrorSummary& errors = t->errors.all;
-    const bool stated = errors.presses > 0;
-    report.add("trained_from_m", t->s_min)
-        .add("trained_to_m", t->s_max)
-        .add("trained_depth_m", t->depth)
-        .add("modes", t->modes)
-        .add("stated_presses", errors.presses)
-        .add("stated_force_error_median", stated ? errors.force_median : unknown)
-        .add("stated_force_error_p95", stated ? errors.force_p95 : unknown)
-        .add("stated_force_error_max", stated ? t->errors.force_bound : unknown)
-        .add("stated_shape_error_max", stated ? errors.shape_max : unknown)
-        .add("guarded", o.guarded);
+  Report report;
+  report.add("device", run.device.name);
+  report.add("peak_force_N", run.device.peak_force);
+  report.add("period_s", run.device.period);
+  report.add("real_time", !o.lock_step);
+  report.add("priority", run.priority == hapbeam::RealTime::done);
+  report.add("scene", o.scene);
+  report.add("beam", o.beam.name);
+  report.add("length_m", o.beam.length);
+  report.add("width_m", o.beam.width);
+  report.add("height_m", o.beam.height);
+  report.add("rise_m", o.beam.rise);
+  report.add("tension_N", o.beam.tension);
+  report.add("young_Pa", o.beam.young);
+  report.add("ends", cli::ends(o.beam.left, o.beam.right));
+  report.add("model", run.trained ? run.trained->kind : "fem");
+  if (run.trained) {
+    add_trained(report, *run.trained);
+    report.add("guarded", o.guarded);
   }
-  if (!run.trained || o.guarded) report.add("element", name(o.element)).add("elements", o.elements);
+  if (!run.trained || o.guarded) {
+    report.add("element", name(o.element));
+    report.add("elements", o.elements);
+  }
   if (o.guarded) report.add("full_model_ticks", run.full_answers);
-  if (run.pictures.count > 0)
-    report.add("pictures", run.pictures.count)
-        .add("picture_ms_p50", run.pictures.p50 * 1e3)
-        .add("picture_ms_p99", run.pictures.p99 * 1e3)
-        .add("picture_ms_max", run.pictures.max * 1e3);
+  if (run.pictures.count > 0) {
+    report.add("pictures", run.pictures.count);
+    report.add("picture_ms_p50", run.pictures.p50 * 1e3);
+    report.add("picture_ms_p99", run.pictures.p99 * 1e3);
+    report.add("picture_ms_max", run.pictures.max * 1e3);
+  }
   report.add("hands", o.hands);
-  if (run.second)
-    report.add("second_place_m", second_place(o))
-        .add("second_contact_ticks", run.second->contact_ticks)
-        .add("second_touches", run.second->touches)
-        .add("second_max_force_N", run.second->max_force)
-        .add("second_force_saturated_ticks", run.second->saturated_ticks)
-        .add("second_energy_generated_J", run.second->energy_generated)
-        .add("second_max_status", name(run.second->worst));
-  return report.add("script", name(o.script))
-      .add("place_m", o.place)
-      .add("depth_m", o.depth)
-      .add("radius_m", o.radius)
-      .add("friction", o.friction)
-      .add("scale", o.scale)
-      .add("duration_s", o.duration)
-      .add("interrupted", run.interrupted)
-      .add("ticks", run.counts.ticks)
-      .add("missed_ticks", run.counts.missed_ticks)
-      .add("contact_ticks", r.contact_ticks)
-      .add("touches", r.touches)
-      .add("coupling", name(o.coupling))
-      .add("stiffness_N_per_m", o.stiffness)
-      .add("damping_Ns_per_m", o.damping)
-      .add("tick_us_p50", compute.p50 * 1e6)
-      .add("tick_us_p99", compute.p99 * 1e6)
-      .add("tick_us_max", compute.max * 1e6)
-      .add("period_us_p99", period_p99 * 1e6)
-      .add("deadline_misses", o.lock_step ? run.counts.missed_ticks : run.times.missed())
-      .add("max_press_mm", run.deepest * 1e3)
-      .add("max_strain", run.peak.strain)
-      .add("max_force_N", r.max_force)
-      .add("force_cut_ticks", run.counts.force_cut_ticks)
-      .add("force_saturated_ticks", r.saturated_ticks)
-      .add("friction_J", run.dissipated)
-      .add("energy_generated_J", r.energy_generated)
-      .add("max_status", name(r.worst))
-      .text();
+  if (run.second) {
+    report.add("second_place_m", second_place(o));
+    report.add("second_contact_ticks", run.second->contact_ticks);
+    report.add("second_touches", run.second->touches);
+    report.add("second_max_force_N", run.second->max_force);
+    report.add("second_force_saturated_ticks", run.second->saturated_ticks);
+    report.add("second_energy_generated_J", run.second->energy_generated);
+    report.add("second_max_status", name(run.second->worst));
+  }
+  report.add("script", name(o.script));
+  report.add("place_m", o.place);
+  report.add("depth_m", o.depth);
+  report.add("radius_m", o.radius);
+  report.add("friction", o.friction);
+  report.add("scale", o.scale);
+  report.add("duration_s", o.duration);
+  report.add("interrupted", run.interrupted);
+  report.add("ticks", run.counts.ticks);
+  report.add("missed_ticks", run.counts.missed_ticks);
+  report.add("contact_ticks", r.contact_ticks);
+  report.add("touches", r.touches);
+  report.add("coupling", name(o.coupling));
+  report.add("stiffness_N_per_m", o.stiffness);
+  report.add("damping_Ns_per_m", o.damping);
+  report.add("tick_us_p50", compute.p50 * 1e6);
+  report.add("tick_us_p99", compute.p99 * 1e6);
+  report.add("tick_us_max", compute.max * 1e6);
+  report.add("period_us_p99", period_p99 * 1e6);
+  report.add("deadline_misses", o.lock_step ? run.counts.missed_ticks : run.times.missed());
+  report.add("max_press_mm", run.deepest * 1e3);
+  report.add("max_strain", run.peak.strain);
+  report.add("max_force_N", r.max_force);
+  report.add("force_cut_ticks", run.counts.force_cut_ticks);
+  report.add("force_saturated_ticks", r.saturated_ticks);
+  report.add("friction_J", run.dissipated);
+  report.add("energy_generated_J", r.energy_generated);
+  report.add("max_status", name(r.worst));
+  return report.text();
 }
 
+#else
+
+std::string json(const Run&) { return {}; }
+
+#endif
+
 ReportFile::ReportFile(const std::string& path) : path_(path) {
+#ifndef HAPBEAM_EXAMPLES_MODEL_FILE
+  if (!path.empty())
+    throw cli::UsageError(
+        "--report: cannot be used, this program was built without jansson, which writes it");
+#endif
   if (!path.empty()) file_.open(path);
   if (!file_) throw std::runtime_error(path + ": the report cannot be written");
 }

@@ -10,10 +10,9 @@ namespace phantom {
 /// Where neither a scene nor a beam is asked for.
 constexpr const char* opening_scene = "strip";
 
-/// Sets what a scene chooses.   @throws cli::UsageError
+/// Sets what a scene chooses.   @param label  its name, or that of its file, which ends in .json
+/// @throws cli::UsageError, or as read_scene
 void set_scene(Options& options, const std::string& label);
-/// What one feels there; empty where no scene was chosen.
-const char* feels(const std::string& label);
 /// Their names.
 std::string scene_names();
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "sections.hpp"
 #include <hapbeam/shapes.hpp>
 
 namespace cli {
@@ -13,14 +14,17 @@ namespace {
 
 using hapbeam::Support;
 
+/// What a named rod in space is by nature.
+enum class Shape { beam, straight, tapered, hook };
+
 struct NamedBeam {
   const char* label;
   double length, width, height, young;
   Support left, right;
   bool round = false;
   double rise = 0, tension = 0;
-  RodShape rod = RodShape::none;
-  double hanging = 0;
+  Shape shape = Shape::beam;
+  double hanging = 0;  ///< [N] weight at the right end
 };
 
 // thesis: the textbook beam of its chapter 3, 100 in long, 1 in square, E = 30e6 psi.
@@ -35,22 +39,53 @@ constexpr NamedBeam beams[] = {
     {"string", 0.65, 0.0008, 0.0008, 200e9, Support::pinned, Support::pinned, true, 0, 80},
     {"arch", 0.2, 0.01, 0.0005, 200e9, Support::pinned, Support::pinned, false, 0.012},
     {"comb", 0.1, 0.003, 0.003, 3e9, Support::clamped, Support::free, true},
-    {"needle", 0.15, 0.0025, 0.0025, 200e9, Support::clamped, Support::free, true, 0, 0, RodShape::straight},
-    {"hook", 0.2, 0.0025, 0.0025, 200e9, Support::clamped, Support::free, true, 0, 0, RodShape::hook},
-    {"fishing-rod", 1.2, 0.008, 0.008, 40e9, Support::clamped, Support::free, true, 0, 0, RodShape::tapered,
-     1},
+    {"needle", 0.15, 0.0025, 0.0025, 200e9, Support::clamped, Support::free, true, 0, 0, Shape::straight},
+    {"hook", 0.2, 0.0025, 0.0025, 200e9, Support::clamped, Support::free, true, 0, 0, Shape::hook},
+    {"fishing-rod", 1.2, 0.008, 0.008, 40e9, Support::clamped, Support::free, true, 0, 0, Shape::tapered, 1},
 };
 constexpr Support supports[] = {Support::free, Support::clamped, Support::pinned, Support::roller,
                                 Support::guided};
 
 const char* name(const NamedBeam& beam) { return beam.label; }
 
+/// A straight stem, and two thirds of a circle in the plane of d1 that opens to the stem.
+std::vector<hapbeam::RodArc> hook(double length) {
+  constexpr double turn = 4 * 3.141592653589793 / 3;
+  const double stem = 0.4 * length;
+  return {{stem, 0, 0, 0}, {length, 0, turn / (length - stem), 0}};
+}
+
 void set(BeamOptions& o, const NamedBeam& beam) {
   o.name = beam.label;
+  o.bends = beam.shape == Shape::beam ? Bends::in_plane : Bends::in_space;
   o.length = beam.length, o.width = beam.width, o.height = beam.height, o.young = beam.young;
   o.left = beam.left, o.right = beam.right;
   o.round = beam.round, o.rise = beam.rise, o.tension = beam.tension;
-  o.rod = beam.rod, o.hanging = beam.hanging;
+  o.parts.clear(), o.arcs.clear(), o.forces.clear();
+  if (beam.shape == Shape::tapered)
+    o.parts = {{beam.length, beam.width, beam.height, beam.width / 4, beam.height / 4}};
+  if (beam.shape == Shape::hook) o.arcs = hook(beam.length);
+  if (beam.hanging > 0) o.forces = {{beam.length, 0, -beam.hanging, 0}};
+  o.density = 0;
+}
+
+/// The same one, so long: what is along it goes with it.
+void set_length(BeamOptions& o, double length) {
+  const double factor = length / o.length;
+  o.length = length;
+  for (SectionPart& part : o.parts) part.end *= factor;
+  for (PointForce& force : o.forces) force.s *= factor;
+  for (hapbeam::RodArc& arc : o.arcs) {
+    arc.end *= factor;
+    arc.curvature1 /= factor, arc.curvature2 /= factor, arc.twist /= factor;
+  }
+}
+
+/// One of the extents of its sections, which keep their proportions.
+void set_extent(BeamOptions& o, double BeamOptions::*extent, double SectionPart::*begin,
+                double SectionPart::*end, double value) {
+  for (SectionPart& part : o.parts) part.*begin *= value / (o.*extent), part.*end *= value / (o.*extent);
+  o.*extent = value;
 }
 
 void set_ends(BeamOptions& o, const std::string& value) {
@@ -82,23 +117,32 @@ hapbeam::Beam BeamOptions::make() const {
   if (in_space()) refuse("--beam", name, "one that bends in a plane: this is a rod in space");
   const hapbeam::Material material{young};
   try {
-    const auto section =
-        round ? hapbeam::Section::circle(height) : hapbeam::Section::rectangle(width, height);
-    if (rise == 0) return hapbeam::tensioned({length, section, material, left, right}, tension);
+    const Cut cut = cut_at(*this, length / 2);
+    const auto section = section_of<hapbeam::Section>(*this, cut);
+    if (rise == 0) {
+      hapbeam::Beam made(length, section, material, left, right);
+      if (!parts.empty()) made.sections(parts_of<hapbeam::BeamPart, hapbeam::Section>(*this));
+      if (density > 0) made.weight(density, {0, gravity});
+      for (const PointForce& force : forces) {
+        if (force.z != 0) refuse("force z", digits(force.z) + " N", "0 for what bends in a plane");
+        made.add(hapbeam::PointLoad{force.s, force.x, force.y, 0});
+      }
+      return hapbeam::tensioned(made, tension);
+    }
+    if (!parts.empty()) refuse("--rise", digits(rise), "0 for a beam with sections of its own");
+    if (!forces.empty() || density > 0) refuse("--rise", digits(rise), "0 for a beam with loads");
     if (left != right) refuse("--ends", ends(left, right), "the same on both sides of an arch");
     if (!(rise < length / 2))
       refuse("--rise", digits(rise), "less than half the length, " + digits(length) + " m");
     return hapbeam::tensioned(hapbeam::arch(length, rise, section, material, left), tension);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--ends: ") + error.what());
+    throw UsageError(error.what());
   }
 }
 
-double BeamOptions::rest(double x) const {
-  if (rise == 0) return 0;
-  const double radius = (length * length / 4 + rise * rise) / (2 * rise);
-  const double from_middle = std::clamp(x, 0.0, length) - length / 2;
-  return std::sqrt(radius * radius - from_middle * from_middle) - (radius - rise);
+double BeamOptions::touched() const {
+  const Cut cut = cut_at(*this, length / 2);
+  return in_space() && !round ? std::min(cut.width, cut.height) : cut.height;
 }
 
 std::string ends(Support left, Support right) {
@@ -113,9 +157,14 @@ std::string describe(const BeamOptions& b) {
   if (b.round)
     line.replace(line.find("section"), line.find(", E") - line.find("section"),
                  "round, " + digits(b.height * 1e3) + " mm");
-  if (b.rod == RodShape::tapered) line += ", tapered to " + digits(b.height / 4 * 1e3) + " mm";
-  if (b.rod == RodShape::hook) line += ", naturally bent to a hook";
-  if (b.hanging != 0) line += ", with " + digits(b.hanging) + " N hanging from its tip";
+  if (b.parts.size() == 1) line += ", tapered to " + digits(b.parts[0].end_height * 1e3) + " mm";
+  if (b.parts.size() > 1) line += ", of " + std::to_string(b.parts.size()) + " sections";
+  if (!b.arcs.empty()) line += ", naturally bent";
+  if (b.forces.size() == 1 && b.forces[0].x == 0 && b.forces[0].z == 0)
+    line += ", with " + digits(std::abs(b.forces[0].y)) + " N " +
+            (b.forces[0].y < 0 ? "hanging" : "pulling up") + " at " + digits(b.forces[0].s) + " m";
+  else if (!b.forces.empty()) line += ", with " + std::to_string(b.forces.size()) + " forces";
+  if (b.density != 0) line += ", with its weight";
   if (b.rise != 0) line += ", an arch that rises " + digits(b.rise * 1e3) + " mm";
   if (b.tension != 0) line += ", under " + digits(b.tension) + " N";
   return line;
@@ -133,11 +182,18 @@ Entries beam_entries(BeamOptions& b) {
        "2.5 mm, naturally bent;  fishing-rod: glass fibre, 1.2 m x 8 mm, tapered, 1 N on its line;  " +
            b.name + " by default",
        [&b](const std::string& v) { set_beam(b, v); }, true},
-      customised(b, figure("--length", "M", "length of the beam [m]", b.length, 1e-3, 100, "m")),
-      customised(
-          b, figure("--width", "M", "width of its section, out of the plane [m]", b.width, 1e-6, 10, "m")),
-      customised(b, figure("--height", "M", "height of its section, in the plane of bending [m]", b.height,
-                           1e-6, 10, "m")),
+      customised(b, {"--length", "M", "length of the beam [m]",
+                     [&b](const std::string& v) { set_length(b, number("--length", v, 1e-3, 100, "m")); }}),
+      customised(b, {"--width", "M", "width of its section, out of the plane [m]",
+                     [&b](const std::string& v) {
+                       set_extent(b, &BeamOptions::width, &SectionPart::width, &SectionPart::end_width,
+                                  number("--width", v, 1e-6, 10, "m"));
+                     }}),
+      customised(b, {"--height", "M", "height of its section, in the plane of bending [m]",
+                     [&b](const std::string& v) {
+                       set_extent(b, &BeamOptions::height, &SectionPart::height, &SectionPart::end_height,
+                                  number("--height", v, 1e-6, 10, "m"));
+                     }}),
       customised(b, figure("--young", "PA", "Young's modulus [Pa]", b.young, 1, 1e13, "Pa")),
       customised(b, {"--ends", "LEFT-RIGHT",
                      "how the ends are held: free, clamped, pinned, roller or guided, for example "

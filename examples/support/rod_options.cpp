@@ -1,9 +1,7 @@
-// The rods in space: round ones, of the figures that a beam has.
-#include <cmath>
+// The rods in space, of the figures that a beam has.
 #include <stdexcept>
-#include <vector>
 
-#include "beam_options.hpp"
+#include "sections.hpp"
 
 namespace cli {
 
@@ -22,13 +20,6 @@ RodSupport in_space(Support support, const BeamOptions& beam) {
   refuse("--ends", ends(beam.left, beam.right), "free, clamped or pinned for a rod in space");
 }
 
-/// A straight stem, and two thirds of a circle in the plane of d1 that opens to the stem.
-std::vector<hapbeam::RodArc> hook(double length) {
-  constexpr double turn = 4 * 3.141592653589793 / 3;
-  const double stem = 0.4 * length;
-  return {{stem, 0, 0, 0}, {length, 0, turn / (length - stem), 0}};
-}
-
 }  // namespace
 
 hapbeam::Rod BeamOptions::make_rod() const {
@@ -37,15 +28,16 @@ hapbeam::Rod BeamOptions::make_rod() const {
   if (tension != 0) refuse("--tension", digits(tension), "0 for a rod in space");
   const auto material = hapbeam::RodMaterial::isotropic(young, 0.3);
   try {
-    hapbeam::Rod made(length, RodSection::circle(touched()), material, cli::in_space(left, *this),
+    const Cut cut = cut_at(*this, length / 2);
+    hapbeam::Rod made(length, section_of<RodSection>(*this, cut), material, cli::in_space(left, *this),
                       cli::in_space(right, *this));
-    if (rod == RodShape::hook) made.naturally(hook(length));
-    if (rod == RodShape::tapered)
-      made.section([L = length, d = height](double s) { return RodSection::circle(d * (1 - 0.75 * s / L)); });
-    if (hanging > 0) made.add(hapbeam::RodForce{length, {0, -hanging, 0}});
+    if (!arcs.empty()) made.naturally(arcs);
+    if (!parts.empty()) made.sections(parts_of<hapbeam::RodPart, RodSection>(*this));
+    if (density > 0) made.weight(density, {0, gravity, 0});
+    for (const PointForce& force : forces) made.add(hapbeam::RodForce{force.s, {force.x, force.y, force.z}});
     return made;
   } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--ends: ") + error.what());
+    throw UsageError(error.what());
   }
 }
 

@@ -17,6 +17,7 @@
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/force_error.hpp>
 #include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/haptics/device/virtual_phantom.hpp>

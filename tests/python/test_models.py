@@ -175,3 +175,25 @@ def test_a_request_that_makes_no_sense_has_a_status_and_no_exception():
     answer = model.press(0.2, 10)
     assert answer.status == hb.Status.out_of_range and np.isfinite(answer.force)
     assert hb.is_answer(answer.status) and not hb.is_answer(hb.Status.invalid_request)
+
+
+def test_a_model_bounds_what_its_mesh_leaves_in_the_force():
+    strip = hb.Beam(0.3, hb.Section.rectangle(0.02, 0.0005), hb.Material(140e9),
+                    hb.Support.clamped, hb.Support.free)
+    coarse, fine = (hb.FemModel(strip, n, hb.Element.Corotational) for n in (4, 256))
+    forces = [model.press(0.2, 0.05).force for model in (coarse, fine)]
+    error = abs(forces[0] - forces[1])
+    assert error <= coarse.force_error() <= 30 * error
+    exact = hb.FemModel(bar(), 8)
+    exact.press(1.27, 0.05)
+    assert exact.force_error() == 0
+
+
+def test_elements_for_an_error():
+    strip = hb.Beam(0.3, hb.Section.rectangle(0.02, 0.0005), hb.Material(140e9),
+                    hb.Support.clamped, hb.Support.free)
+    assert hb.elements_for(bar(), 0.05, 1e-6) == 4
+    assert (hb.elements_for(strip, 0.06, 0.05, hb.Element.Corotational)
+            < hb.elements_for(strip, 0.06, 1e-3, hb.Element.Corotational))
+    with pytest.raises(ValueError, match="error = 0"):
+        hb.elements_for(bar(), 0.05, 0)

@@ -10,6 +10,7 @@
 #include "support/thesis_beam.hpp"
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/force_error.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -208,4 +209,19 @@ TEST_CASE(
     CHECK(most <= most_solves_of_a_tick);
     CHECK(refused == 0);
   }
+}
+
+TEST_CASE("ForceError: no heap, in the plane", "") {
+  const Beam beam = thesis_beam(Support::clamped, Support::free);
+  FemModel<Corotational<>> model(beam, 8);
+  ForceError<Corotational<>> force_error(beam, 8);
+  static_assert(noexcept(force_error(model)));
+  double bound = 0;
+  CHECK(heap_use([&] {
+          for (int k = 0; k < 20; ++k) {
+            model.press({1.5, 0.01 * k});
+            bound += force_error(model);
+          }
+        }) == HeapUse{});
+  CHECK(bound > 0);
 }

@@ -15,7 +15,6 @@ constexpr ImU32 blue = IM_COL32(0, 114, 178, 255);
 constexpr ImU32 sky = IM_COL32(86, 180, 233, 255);
 constexpr ImU32 vermilion = IM_COL32(213, 94, 0, 255);
 constexpr ImU32 green = IM_COL32(0, 158, 115, 255);
-constexpr ImU32 purple = IM_COL32(204, 121, 167, 255);
 constexpr ImU32 orange = IM_COL32(230, 159, 0, 255);
 
 /// @param x  0 to 1

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <imgui.h>
 #include <limits>
+#include <string>
 
 #include "../scenes.hpp"
 #include "strokes.hpp"
@@ -15,11 +16,11 @@ constexpr const char* scene_labels[] = {"thesis", "ruler",  "strip", "string",  
                                         "comb",   "needle", "hook",  "fishing-rod"};
 constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice::full,
                                       ElementChoice::reduced,      ElementChoice::stability_functions,
-                                      ElementChoice::corotational, ElementChoice::round_rod,
-                                      ElementChoice::twisted_rod};
+                                      ElementChoice::corotational, ElementChoice::tapered,
+                                      ElementChoice::round_rod,    ElementChoice::twisted_rod};
 constexpr const char* element_labels[] = {
-    "linear",       "von Karman, full",    "von Karman, reduced", "von Karman, stability functions",
-    "corotational", "round rod, no twist", "twisted rod"};
+    "linear",       "von Karman, full", "von Karman, reduced", "von Karman",
+    "corotational", "tapered",          "round rod, no twist", "twisted rod"};
 
 void caption(const char* text) {
   ImGui::PushTextWrapPos(0);
@@ -34,10 +35,15 @@ void trained_range(const Trained& trained) {
               trained.errors.force_bound);
 }
 
-void choose_scene(Running& running, const Options* file, Wish& wish) {
+/// A beam that is no scene's has the name of its file, or none.
+const char* name_of(const Options& options) {
+  if (!options.scene.empty()) return options.scene.c_str();
+  return options.model.empty() ? "your own" : options.model.c_str();
+}
+
+void choose_scene(Running& running, const Options* own, Wish& wish) {
   const Options& felt = running.options();
-  const char* own = felt.model.empty() ? "your own" : felt.model.c_str();
-  if (!begin_choice("scene", "##scene", felt.scene.empty() ? own : felt.scene.c_str())) return;
+  if (!begin_choice("scene", "##scene", name_of(felt))) return;
   Options& o = wish.options;
   for (const char* label : scene_labels)
     if (ImGui::Selectable(label, felt.scene == label)) {
@@ -46,7 +52,8 @@ void choose_scene(Running& running, const Options* file, Wish& wish) {
       settle(o, 0, o.beam.length);
       wish.change = true;
     }
-  if (file && ImGui::Selectable(file->model.c_str(), !felt.model.empty())) o = *file, wish.change = true;
+  if (own && ImGui::Selectable(name_of(*own), name_of(felt) == std::string(name_of(*own))))
+    o = *own, wish.change = true;
   ImGui::EndCombo();
 }
 
@@ -63,7 +70,7 @@ void choose_elements(const Options& felt, Wish& wish) {
   }
 }
 
-void choose_model(Running& running, const Options* file, Wish& wish) {
+void choose_model(Running& running, const Options* own, Wish& wish) {
   const Options& felt = running.options();
   const bool elements_answer = felt.model_choice == ModelChoice::finite_elements;
   const auto label_of = [&](ModelChoice choice) {
@@ -73,7 +80,7 @@ void choose_model(Running& running, const Options* file, Wish& wish) {
   const char* now =
       elements_answer ? element_labels[static_cast<int>(felt.element)] : label_of(felt.model_choice);
   if (begin_choice("model", "##model", now)) {
-    for (int i = 0; i < 7; ++i)
+    for (int i = 0; i < 8; ++i)
       if (bends_in_space(elements[i]) == felt.beam.in_space() &&
           ImGui::Selectable(element_labels[i], elements_answer && felt.element == elements[i])) {
         wish.options.element = elements[i], wish.options.model_choice = ModelChoice::finite_elements;
@@ -83,9 +90,9 @@ void choose_model(Running& running, const Options* file, Wish& wish) {
     if (!felt.beam.in_space())
       for (const ModelChoice choice : {ModelChoice::pod, ModelChoice::galerkin}) {
         // A file holds one model, and not the beam's section, which training another would take.
-        if (!felt.model.empty() && file->model_choice != choice) continue;
+        if (!felt.model.empty() && own->model_choice != choice) continue;
         if (ImGui::Selectable(label_of(choice), felt.model_choice == choice)) {
-          if (!felt.model.empty()) wish.options.guarded = file->guarded;
+          if (!felt.model.empty()) wish.options.guarded = own->guarded;
           wish.options.model_choice = choice, wish.change = true;
         }
       }
@@ -182,24 +189,27 @@ const char* in_words(const hapbeam::ServoRecord& r) {
   return "";
 }
 
-Wish draw_controls(Running& running, const Options* file, const std::string& note) {
-  Wish wish{false, running.asked(), false};
+Wish draw_controls(Running& running, const Options* own, const std::string& note) {
+  Wish wish{false, running.asked()};
   show_state(running);
   ImGui::Separator();
-  choose_scene(running, file, wish);
-  choose_model(running, file, wish);
+  choose_scene(running, own, wish);
+  choose_model(running, own, wish);
   choose_coupling(running, wish);
   choose_device(running, wish);
   running.drawing().choose();
   ImGui::Spacing();
-  if (ImGui::Button("play the script", {-1, 0})) wish.play = true;
+  const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  if (ImGui::Button("play the script", {half, 0})) wish.play = true;
+  ImGui::SameLine();
+  if (ImGui::Button("save the scene", {half, 0})) wish.save = true;
   caption(!running.session().device().simulated() ? "The hand is yours, on the device."
           : running.pulled()                      ? running.drawing().help()
                              : "A script leads the hand, until you press the mouse in the drawing and pull.");
   if (running.options().model.empty()) ImGui::Separator();
   ImGui::PushTextWrapPos(0);
-  if (const Options& felt = running.options(); *feels(felt.scene))
-    ImGui::Text("To feel: %s.", feels(felt.scene));
+  if (const Options& felt = running.options(); !felt.feels.empty())
+    ImGui::Text("To feel: %s.", felt.feels.c_str());
   else if (felt.model.empty()) ImGui::TextUnformatted(cli::describe(felt.beam).c_str());
   if (const double friction = running.options().friction; friction > 0)
     ImGui::Text("With friction it sticks until it is pulled aside by %.3g of what presses it.", friction);

@@ -14,11 +14,12 @@ struct Wish {
   bool change = false;  ///< to a body of these options
   Options options;
   bool play = false;  ///< the script
+  bool save = false;  ///< the scene
 };
 
-/// @param file  the options of the trained model that the program was started with, or null
+/// @param own  the options that the program was started with, where they are of no named scene, or null
 /// @param note  a line to show, or empty
-Wish draw_controls(Running& running, const Options* file, const std::string& note);
+Wish draw_controls(Running& running, const Options* own, const std::string& note);
 
 /// One sentence for one who feels it.
 const char* in_words(const hapbeam::ServoRecord& record);

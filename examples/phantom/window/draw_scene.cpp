@@ -13,19 +13,12 @@
 
 namespace phantom {
 
-double default_exaggeration(const Options& o) {
-  if (o.scene == "ruler" || o.scene == "arch" || o.beams > 1) return 1;
-  if (o.scene == "strip") return 10;
-  if (o.scene == "string") return 5;
-  return o.beam.rise == 0 && o.beam.length > 1 ? 20 : 1;
-}
-
 SceneDrawing::SceneDrawing(const Body& body, const hapbeam::DeviceInfo& device)
-    : exaggeration_(default_exaggeration(body.options())),
+    : exaggeration_(body.options().exaggeration),
       options_(body.options()),
       placement_(body.placement()),
       workspace_(device.workspace.head<2>() * options_.scale / 2),
-      largest_strain_(1e-6) {
+      largest_strain_(least_strain) {
   constexpr int pieces = 240;
   const Shape shape = body.rest();
   const auto& rest = std::get<hapbeam::Centreline<double>>(shape);
@@ -44,9 +37,10 @@ void SceneDrawing::fit(const ImVec2& low, const ImVec2& high) {
     left = std::min(left, sample.rest_x), right = std::max(right, sample.rest_x);
     top = std::max(top, sample.rest_w), bottom = std::min(bottom, sample.rest_w);
   }
-  const double span = right - left, above = 0.03 * o.scale * exaggeration_;
-  const double below = o.beams > 1 ? o.pitch * (o.beams - 1) + 0.4 * span
-                                   : std::min(1.1 * o.depth * o.scale * exaggeration_, 1.1 * span);
+  const double span = right - left, above = 0.023 * o.scale * exaggeration_;
+  // As far as the hand goes, or all of an array.
+  const double below =
+      std::max(o.pitch * (o.beams - 1), std::min(1.05 * o.depth * o.scale * exaggeration_, 1.1 * span));
   top += above + o.radius, bottom -= std::max(below, bottom < top ? 0.8 * (top - bottom) : 0);
   const double width = static_cast<double>(high.x - low.x), height = static_cast<double>(high.y - low.y);
   view_ = {low,
@@ -54,6 +48,13 @@ void SceneDrawing::fit(const ImVec2& low, const ImVec2& high) {
            std::min(width / (1.2 * span), height / (1.12 * (top - bottom))),
            {(left + right) / 2, (top + bottom) / 2},
            exaggeration_};
+}
+
+double SceneDrawing::rest_height(double x) const {
+  const auto right = std::find_if(samples_.begin() + 1, samples_.end() - 1,
+                                  [x](const Sample& sample) { return sample.rest_x >= x; });
+  const Sample &a = *(right - 1), &b = *right;
+  return a.rest_w + std::clamp((x - a.rest_x) / (b.rest_x - a.rest_x), 0.0, 1.0) * (b.rest_w - a.rest_w);
 }
 
 void SceneDrawing::sample(const DrawnBeam& beam) {
@@ -197,7 +198,7 @@ void SceneDrawing::draw_legend(ImDrawList& list, float unit) const {
 }
 
 Across SceneDrawing::across(const hapbeam::ServoRecord& r) const {
-  const double rest = options_.beam.rest(r.avatar.x()), reach = options_.radius + options_.beam.height / 2;
+  const double rest = rest_height(r.avatar.x()), reach = options_.radius + options_.beam.height / 2;
   const bool below = r.pressing ? r.force.y() < 0 : r.avatar.y() < rest;
   return {below ? rest - reach : rest + reach, view_.exaggeration};
 }

@@ -29,6 +29,7 @@ class SceneDrawing final : public Drawing {
   };
 
   void fit(const ImVec2& low, const ImVec2& high);
+  double rest_height(double x) const;  ///< [m] of the centreline; beside it, where the nearer end is
   void sample(const DrawnBeam& beam);
   void draw_axis(ImDrawList& list, double above, float unit) const;
   void draw_workspace(ImDrawList& list, float unit) const;
@@ -54,8 +55,5 @@ class SceneDrawing final : public Drawing {
   std::vector<Sample> samples_;
   std::vector<double> rest_theta_;
 };
-
-/// The exaggeration that shows a scene best.
-double default_exaggeration(const Options& options);
 
 }  // namespace phantom

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <variant>
 
 #include "../scene.hpp"
 #include "colours.hpp"
 #include "draw_scene.hpp"
-#include "strokes.hpp"
 
 namespace phantom {
 
@@ -44,7 +44,10 @@ SpaceDrawing::SpaceDrawing(const Body& body, const hapbeam::DeviceInfo& device)
     low_ = low_.cwiseMin(std::get<RodLine::Shape>(rest).at(second_place(options_)).r - Vector(0, around, 0));
   low_.y() -= line_.rod().forces().empty() ? 0 : 0.15 * line_.rod().length();
   size_ = (high_ - low_).norm();
+  // So far below that a shadow is not taken for a part of the rod.
   floor_ = low_.y() - 0.02 * size_;
+  for (const RodLine::Sample& sample : line_.samples())
+    floor_ = std::min(floor_, sample.ring.middle.y() - 0.22 * size_);
   square_ = rounded_up(size_ / 14);
 }
 
@@ -123,7 +126,10 @@ void SpaceDrawing::draw_ends(Solids& solids) const {
 
 void SpaceDrawing::draw_hanging(ImDrawList& list, float unit) const {
   for (const hapbeam::RodForce& force : line_.rod().forces()) {
-    const Vector tip = line_.samples().back().ring.middle,
+    if (!(force.force.norm() > 0)) continue;
+    const auto i = static_cast<std::size_t>(
+        std::round(force.s / line_.rod().length() * static_cast<double>(line_.samples().size() - 1)));
+    const Vector tip = line_.samples()[i].ring.middle,
                  end = tip + 0.1 * line_.rod().length() * force.force.normalized();
     const ImVec2 at = camera_(end);
     list.AddLine(camera_(tip), at, colour::ink, unit / 12);
@@ -148,7 +154,6 @@ void SpaceDrawing::draw_arm(ImDrawList& list, const hapbeam::ServoRecord& r, flo
   list.AddCircleFilled(hand, 0.2f * unit, colour::blue);
   const double force = r.force.norm();
   const auto beside = static_cast<float>(options_.radius * camera_.pixels(r.avatar));
-  const ImVec2 free{avatar.x + 0.8f * beside + 0.4f * unit, avatar.y + 0.7f * beside};
   if (force > 0.02) {
     const Vector along = r.force / force, from = r.avatar + options_.radius * along;
     const double length = static_cast<double>(arrow_length(force, unit)) / camera_.pixels(r.avatar);
@@ -156,15 +161,40 @@ void SpaceDrawing::draw_arm(ImDrawList& list, const hapbeam::ServoRecord& r, flo
     arrow(list, camera_(from), to, colour::vermilion, unit);
     // Beside the avatar where the arrow looks at who looks.
     const bool hidden = std::hypot(to.x - avatar.x, to.y - avatar.y) < beside + unit;
-    label(list, hidden ? free : ImVec2{to.x + 0.6f * unit, to.y - 0.3f * unit}, colour::vermilion,
-          text("%.2f N", force));
+    const std::string words = text("%.2f N", force);
+    label(list, clear_of_rod(hidden ? avatar : to, hidden ? beside : 0, words, unit), colour::vermilion,
+          words);
   } else if (!r.pressing) {
     const RodLine::Nearest rod = line_.nearest(r.avatar);
     const double gap = rod.distance - options_.radius - line_.rod().thickness() / 2;
     const Vector way = (rod.place - r.avatar).normalized();
     dashed(list, camera_(r.avatar + options_.radius * way), camera_(rod.place), colour::blue, 0.2f * unit);
-    label(list, free, colour::blue, metres(std::round(std::max(0.0, gap) * 1e4) / 1e4) + " to the rod");
+    const std::string words = metres(std::round(std::max(0.0, gap) * 1e4) / 1e4) + " to the rod";
+    label(list, clear_of_rod(avatar, beside, words, unit), colour::blue, words);
   }
+}
+
+ImVec2 SpaceDrawing::clear_of_rod(const ImVec2& at, float beside, const std::string& words,
+                                  float unit) const {
+  const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+  const auto from_rod = [&](const ImVec2& low) {
+    float least = 1e9f;
+    for (const RodLine::Sample& sample : line_.samples()) {
+      const ImVec2 p = camera_(sample.ring.middle);
+      least = std::min(least, std::hypot(p.x - std::clamp(p.x, low.x, low.x + size.x),
+                                         p.y - std::clamp(p.y, low.y, low.y + size.y)));
+    }
+    return least;
+  };
+  const float gap = beside + 0.6f * unit, right = at.x + gap, left = at.x - gap - size.x,
+              middle = at.y - size.y / 2, off = 0.7f * beside + 0.5f * unit;
+  const ImVec2 places[] = {{right, middle},       {left, middle},       {right, middle + off},
+                           {right, middle - off}, {left, middle + off}, {left, middle - off}};
+  // The first that is clear, so that words stay where they are while the rod moves.
+  for (const ImVec2& place : places)
+    if (from_rod(place) > 1.2f * unit) return place;
+  return *std::max_element(std::begin(places), std::end(places),
+                           [&](const ImVec2& a, const ImVec2& b) { return from_rod(a) < from_rod(b); });
 }
 
 void SpaceDrawing::draw_legend(ImDrawList& list, const ImVec2& low, const ImVec2& high, float unit) const {

@@ -4,10 +4,13 @@
 // down to its shadow, and the distance of avatar and rod in figures.  All lengths are true to scale.
 #pragma once
 
+#include <string>
+
 #include "../options.hpp"
 #include "drawing.hpp"
 #include "rod_line.hpp"
 #include "solids.hpp"
+#include "strokes.hpp"
 
 namespace phantom {
 
@@ -36,6 +39,8 @@ class SpaceDrawing final : public Drawing {
   void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Vector& target,
                  float unit) const;
   void draw_arm(ImDrawList& list, const hapbeam::ServoRecord& record, float unit) const;  ///< and its force
+  /// Where words at a place are farthest from the rod.   @param beside  [pixel] that they keep from the place
+  ImVec2 clear_of_rod(const ImVec2& at, float beside, const std::string& words, float unit) const;
   void draw_legend(ImDrawList& list, const ImVec2& low, const ImVec2& high, float unit) const;
   Vector on_floor(const Vector& p) const { return {p.x(), floor_, p.z()}; }
 
@@ -46,7 +51,7 @@ class SpaceDrawing final : public Drawing {
   Vector low_, high_;            // [m] of what is looked at
   double floor_ = 0, size_ = 1;  // [m]
   double square_;                // [m] on the floor
-  double largest_strain_ = 1e-6;
+  double largest_strain_ = least_strain;
   bool orbits_ = false;
   Camera camera_;
 };

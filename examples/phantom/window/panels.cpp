@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -43,10 +44,14 @@ constexpr ImU32 felt_colours[] = {colour::vermilion, IM_COL32(240, 190, 155, 255
 
 /// The last touch, in which the hand may have gone on along the beam, and the device may have cut the force.
 struct Trace {
-  Trace(const PanelData& data) : history(data.history), place(data.place), near(data.near) {
+  Trace(const PanelData& data)
+      : history(data.history),
+        place(data.place),
+        beside(data.pressed == Pressed::array ? std::numeric_limits<double>::infinity() : data.beside) {
     end = history.size();
     while (end > 0 && !history[end - 1].pressing) --end;
-    for (begin = end; begin > 0 && history[begin - 1].pressing;) --begin;
+    begin = data.pressed == Pressed::array ? 0 : end;
+    while (begin > 0 && history[begin - 1].pressing) --begin;
     for (std::size_t i = begin; i < end; ++i) {
       const auto force = static_cast<double>(history[i].force_against),
                  depth = static_cast<double>(history[i].depth);
@@ -56,7 +61,7 @@ struct Trace {
   }
   Felt felt(std::size_t i) const {
     if (history[i].cut) return Felt::cut;
-    return std::abs(static_cast<double>(history[i].place) - place) <= near ? Felt::here : Felt::elsewhere;
+    return std::abs(static_cast<double>(history[i].place) - place) <= beside ? Felt::here : Felt::elsewhere;
   }
   void draw(Plot& plot) const {
     for (std::size_t i = begin; i < end;) {
@@ -77,7 +82,7 @@ struct Trace {
   }
 
   const History& history;
-  double place, near;                     // [m] along the beam
+  double place, beside;                   // [m] along the beam
   std::size_t begin, end;                 // moments
   double most = 0, least = 0, above = 0;  // [N] felt; [m] pressed from below
   bool seen[3] = {false, false, false};
@@ -85,7 +90,8 @@ struct Trace {
 
 void force_against_depth(ImDrawList& list, const ImVec2& low, const ImVec2& high, const PanelData& data) {
   char title[80];
-  std::snprintf(title, sizeof title, "force against depth, at %.4g mm", data.place * 1e3);
+  if (data.pressed == Pressed::array) std::snprintf(title, sizeof title, "force against the way of the hand");
+  else std::snprintf(title, sizeof title, "force against depth, at %.4g mm", data.place * 1e3);
   const Trace trace(data);
   // A curve that grows much faster than the others leaves the diagram.
   std::vector<double> peaks;
@@ -132,23 +138,21 @@ void tick_times(ImDrawList& list, const ImVec2& low, const ImVec2& high, const H
 }  // namespace
 
 void draw_panels(ImDrawList& list, const PanelData& data, const ImVec2& low, const ImVec2& high) {
-  constexpr float shares[] = {0.18f, 0.18f, 0.27f, 0.19f, 0.18f};
+  constexpr float shares[] = {0.22f, 0.22f, 0.34f, 0.22f};
   const float gap = 0.4f * ImGui::GetFontSize();
   float left = low.x;
-  ImVec2 from[5], to[5];
-  for (int i = 0; i < 5; ++i) {
+  ImVec2 from[4], to[4];
+  for (int i = 0; i < 4; ++i) {
     from[i] = {left, low.y};
     left += shares[i] * (high.x - low.x);
-    to[i] = {i == 4 ? high.x : left - gap, high.y};
+    to[i] = {i == 3 ? high.x : left - gap, high.y};
   }
   over_time(list, "force on the hand", from[0], to[0], data.history, &History::Moment::force, 1, "N", 1,
             colour::vermilion);
-  over_time(list, "depth of the press", from[1], to[1], data.history, &History::Moment::depth, 1e-4, "mm",
-            1e3, colour::blue);
+  over_time(list, data.pressed == Pressed::array ? "way of the hand, down" : "depth of the press", from[1],
+            to[1], data.history, &History::Moment::depth, 1e-4, "mm", 1e3, colour::blue);
   force_against_depth(list, from[2], to[2], data);
   tick_times(list, from[3], to[3], data.history);
-  over_time(list, data.hands == 2 ? "energy received" : "energy generated", from[4], to[4], data.history,
-            &History::Moment::energy, 1e-3, "mJ", 1e3, colour::purple);
 }
 
 }  // namespace phantom

@@ -1,4 +1,4 @@
-// The diagrams below the scene: force and depth over time, force against depth beside other models, tick times, energy.
+// The diagrams below the scene: force and depth over time, force against depth beside other models, tick times.
 #pragma once
 
 #include <imgui.h>
@@ -9,13 +9,16 @@
 
 namespace phantom {
 
+/// A beam, whose depth is that of the press; or an array, through which the hand goes: its way down is told.
+enum class Pressed { beam, array };
+
 struct PanelData {
   const History& history;
   const std::vector<Curve>& curves;  ///< at the place that is pressed
   double place;                      ///< [m] of the curves
-  double near;                       ///< [m] beside that place, where they still hold
+  double beside;                     ///< [m] of that place, where they still hold
   double depth;                      ///< [m] of the curves
-  int hands;
+  Pressed pressed;
 };
 
 void draw_panels(ImDrawList& list, const PanelData& data, const ImVec2& low, const ImVec2& high);

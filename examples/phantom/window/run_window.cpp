@@ -16,6 +16,7 @@
 #include "../ending.hpp"
 #include "../recording.hpp"
 #include "../report.hpp"
+#include "../scene_file.hpp"
 #include "../scenes.hpp"
 #include "colours.hpp"
 #include "controls.hpp"
@@ -77,16 +78,17 @@ class Window {
     draw_scene({gap, gap}, {size.x - column - gap, size.y - below - gap}, unit);
     draw_panels(*ImGui::GetWindowDrawList(),
                 {running_->history(), running_->curves(), running_->curve_place(), running_->curve_step(),
-                 running_->curve_depth(), running_->options().hands},
+                 running_->curve_depth(), running_->options().beams > 1 ? Pressed::array : Pressed::beam},
                 {gap, size.y - below}, {size.x - gap, size.y - gap});
     ImGui::SetCursorPos({size.x - column, gap});
     ImGui::BeginChild("controls", {column - gap, size.y - below - 2 * gap});
-    const Wish wish = draw_controls(*running_, first_.model.empty() ? nullptr : &first_, note());
+    const Wish wish = draw_controls(*running_, is_named_scene(first_) ? nullptr : &first_, note());
     ImGui::EndChild();
     ImGui::End();
     ImGui::PopStyleVar();
     if (wish.change) change(wish.options);
     if (wish.play) running_->play();
+    if (wish.save) save();
     return true;
   }
 
@@ -195,8 +197,14 @@ class Window {
   /// The model that is wanted is the one there is, of the same beam.
   bool known(const Options& options) const {
     const Options& now = running_->asked();
-    return now.model_choice == options.model_choice && now.scene == options.scene &&
-           now.beam.name == options.beam.name;
+    return now.model_choice == options.model_choice && same_scene(now, options);
+  }
+  void save() {
+    try {
+      note_ = "Saved as " + save_scene(running_->asked()) + ", for --scene.";
+    } catch (const std::exception& error) {
+      note_ = error.what();
+    }
   }
   void take_trained() {
     if (!training_ || !training_->ended()) return;

@@ -4,20 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "../rest.hpp"
 #include "../scene.hpp"
 #include "plot.hpp"
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 
 namespace phantom {
-
-namespace {
-
-/// The same beam in the same place.
-bool same_scene(const Options& a, const Options& b) {
-  return a.scene == b.scene && a.beam.name == b.beam.name && a.model == b.model;
-}
-
-}  // namespace
 
 Running::Running(const Options& options, std::shared_ptr<const Trained> trained)
     : hand_(make_path(options), true),
@@ -45,7 +37,8 @@ Eigen::Vector3d Running::beside(const Options& next) {
   if (next.beam.in_space())
     return placement.device_position(r.avatar +
                                      (session_.body().depth(r) + 0.1 * reach) * r.force.normalized());
-  const double clear = next.beam.rest(std::clamp(r.hand.x(), 0.0, next.beam.length)) + side * 1.1 * reach;
+  const double clear = height_at(std::get<hapbeam::Centreline<double>>(session_.body().rest()), r.hand.x()) +
+                       side * 1.1 * reach;
   const double y = side > 0 ? std::max(clear, r.hand.y()) : std::min(clear, r.hand.y());
   return placement.device_position({r.hand.x(), y, 0});
 }
@@ -91,7 +84,10 @@ void Running::lift() {
 
 void Running::remember(const Tick& tick) {
   const hapbeam::ServoRecord& r = tick.record;
-  history_.add(tick, session_.body().depth(r), options().beam.in_space() ? r.force.norm() : r.force.y());
+  // Through an array the hand goes on, from one beam to the next.
+  const double down = std::max(0.0, session_.body().placement().origin().y() - r.avatar.y());
+  history_.add(tick, options().beams > 1 ? down : session_.body().depth(r),
+               options().beam.in_space() ? r.force.norm() : r.force.y());
 }
 
 /// Half of what the hand presses a beam that stays as stiff as it is at first; a stiff one gives way by less than the hand
@@ -126,7 +122,8 @@ void Running::refresh_curves() {
   if (turned) curve_along_ = -r.force / force;
   curve_depth_ = depth;
   curve_place_ = place;
-  curves_ = force_curves(session_.body().slender(), options().elements, place, curve_along_, depth);
+  if (options().beams > 1) curves_.clear();
+  else curves_ = force_curves(session_.body().slender(), options().elements, place, curve_along_, depth);
 }
 
 }  // namespace phantom

@@ -9,9 +9,13 @@
 namespace phantom {
 
 void label(ImDrawList& list, ImVec2 at, ImU32 colour, const std::string& line) {
-  const ImVec2 size = ImGui::CalcTextSize(line.c_str());
-  list.AddRectFilled({at.x - 3, at.y - 1}, {at.x + size.x + 3, at.y + size.y + 1},
-                     colour::with_alpha(colour::paper, 245), 3);
+  // A rim of paper, which cuts less of what is behind than a box does.
+  const float rim = ImGui::GetFontSize() / 9;
+  for (int k = 0; k < 8; ++k) {
+    const float angle = 0.7853982f * static_cast<float>(k);
+    list.AddText({at.x + rim * std::cos(angle), at.y + rim * std::sin(angle)},
+                 colour::with_alpha(colour::paper, 200), line.c_str());
+  }
   list.AddText(at, colour, line.c_str());
 }
 
@@ -65,6 +69,7 @@ void cross(ImDrawList& list, const ImVec2& at, float unit) {
 }
 
 void strain_bar(ImDrawList& list, float right, float bottom, double largest, float unit) {
+  if (!(largest > least_strain)) return;
   const float line = 1.25f * unit, width = 13.5f * unit, top = bottom - 0.7f * unit;
   constexpr int steps = 64;
   for (int i = 0; i < steps; ++i) {

@@ -6,7 +6,7 @@
 
 namespace phantom {
 
-/// Text on a patch of paper, so that nothing that it crosses makes it illegible.
+/// Text with a rim of paper, so that nothing that it crosses makes it illegible, and all is seen behind it.
 void label(ImDrawList& list, ImVec2 at, ImU32 colour, const std::string& line);
 /// @param dash  [pixel] as long as the gaps
 void dashed(ImDrawList& list, const ImVec2& a, const ImVec2& b, ImU32 colour, float dash);
@@ -19,7 +19,9 @@ void arrow(ImDrawList& list, const ImVec2& from, const ImVec2& to, ImU32 colour,
 void cross(ImDrawList& list, const ImVec2& at, float unit);
 /// To the left of the second hand and below it, where the beam is not.   @param radius  [pixel] of its avatar
 void name_second(ImDrawList& list, const ImVec2& avatar, float radius, float unit);
-/// A bar of colours with its ends.   @param right, bottom  [pixel] where it stands   @param largest  strain of its last colour
+/// Of a drawing in which nothing is bent yet, which has no scale.
+constexpr double least_strain = 1e-6;
+/// A bar of colours with its ends, once there is a strain.   @param right, bottom  [pixel] where it stands   @param largest  strain of its last colour
 void strain_bar(ImDrawList& list, float right, float bottom, double largest, float unit);
 
 /// A row of the column on the right: its title, and the list that ImGui::EndCombo() ends where this is true.

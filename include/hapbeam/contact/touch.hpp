@@ -163,11 +163,14 @@ class Touch {
   }
   /// What the contact remembers belongs to the touch.  A beam that has sprung back is a new beam: whoever stands behind it
   /// is on its other side, and whoever is inside it has to leave before touching it.
-  void let_go(const Avatar& avatar, Hold why, Result& result) noexcept {
+  /// @param pressed  in the tick before
+  void let_go(const Avatar& avatar, Hold why, bool pressed, Result& result) noexcept {
     const Mode before = at_.mode;
     release(result);
     ContactMemory<Scalar, dimension> nothing;
     const Contact contact = find_contact(avatar, model_.shape(), volumes(), model_.thickness(), nothing);
+    // Off the avatar though that did not draw back: the beam has jumped.
+    if (pressed && why != Hold::released && result.status == Status::ok) result.status = Status::snapped;
     if (!contact.touching) return;
     const Range<Scalar> range = model_.range();
     const bool beside = (std::min)(contact.s - range.left_support, range.right_support - contact.s) <
@@ -219,7 +222,8 @@ auto Touch<Model>::tick(const Avatar& avatar) noexcept -> Result {
     return result;
   }
 
-  if (!pressing()) {
+  const bool pressed = pressing();
+  if (!pressed) {
     unanswered_ = 0;
     at_.place.begin(model_);
     at_.friction.dissipated = 0;
@@ -231,7 +235,7 @@ auto Touch<Model>::tick(const Avatar& avatar) noexcept -> Result {
   if (is_answer(held.status)) unanswered_ = 0;
   else if (!(held.force > 0)) ++unanswered_;
   if (held.hold != Hold::pressing || unanswered_ > patience) {
-    let_go(avatar, held.hold, result);
+    let_go(avatar, held.hold, pressed, result);
     return result;
   }
   falling_ = false;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -24,6 +25,13 @@
 #include <hapbeam/fem/solver/descent.hpp>
 
 namespace hapbeam {
+
+/// How a model on one mesh answers otherwise than one on another.
+template <typename Scalar>
+struct MeshDifference {
+  Scalar difference;  ///< [N] largest at a contact; infinite where the one has no such equilibrium
+  Scalar force;       ///< [N] largest of the other
+};
 
 template <class Element, typename ScalarType, int Elements, int MaxElements, class Solver>
 class AllDisplacements {
@@ -135,6 +143,25 @@ class AllDisplacements {
     to_rest();
     report_.step = 1;
     drawn(0);
+  }
+
+  /// Takes the shape of another one of the same body, and answers where that is touched.
+  MeshDifference<Scalar> differ_from(const AllDisplacements& other) noexcept {
+    using Vector = typename System::Vector;
+    forget();
+    falling_ = descending_ = false;
+    system_.take_shape(other.system_);
+    system_.set_goal_of(other.system_);
+    report_ = solve_within(solver_.max_solves);
+    MeshDifference<Scalar> found{0, 0};
+    for (int k = 0; k < other.system_.rows().size(); ++k) {
+      const Vector its = other.system_.contact_force(k), miss = system_.contact_force(k) - its;
+      found.difference = (std::max)(found.difference, std::sqrt(miss.squaredNorm()));
+      found.force = (std::max)(found.force, std::sqrt(its.squaredNorm()));
+    }
+    const bool stands = report_.status == Status::ok && !gives_way() && std::isfinite(found.difference);
+    if (!stands) found.difference = std::numeric_limits<Scalar>::infinity();
+    return drawn(found);
   }
 
   int elements() const noexcept { return system_.elements(); }

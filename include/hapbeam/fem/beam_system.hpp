@@ -76,6 +76,11 @@ class BeamChain {
   static void take_node(const Other& from, Node& to) noexcept {
     to = {to.s, static_cast<Scalar>(from.u), static_cast<Scalar>(from.w), static_cast<Scalar>(from.theta)};
   }
+  /// The shape of the same beam on another mesh.
+  void take_shape(const BeamChain& other) noexcept {
+    for (Node& node : parts_.nodes()) node = other.node_at(node.s);
+    parts_.find_tensions();
+  }
   static Vector2<Scalar> displacement(const Displacement<Scalar>& at) noexcept { return {at.u, at.w}; }
   static VectorOf<Scalar, 1> middle(const Displacement<Scalar>& at) noexcept {
     return VectorOf<Scalar, 1>::Constant(at.w);
@@ -93,6 +98,7 @@ class BeamChain {
         straight ? Displacement<Scalar>{a.u, a.w, 0} : parts_.view(parts_.nodes()).at(e, s);
     return {s, there.u, there.w, there.theta};
   }
+  Node node_at(Scalar s) const noexcept { return node_within(parts_.view(parts_.nodes()).segment_at(s), s); }
   /// That of a contact.   @param off  from what touches it
   template <class Contact>
   static Node mark(int, const Contact& contact, const Vector2<Scalar>& off) noexcept {

@@ -168,6 +168,9 @@ class FemModel {
   /// The same in an element that is known to hold s.   @param element  from 0
   InternalForces<Scalar, dimension> internal_forces(int element, Scalar s) const noexcept;
 
+  /// Takes the shape of another model of the same beam, and answers where that is touched: force_error.hpp.
+  MeshDifference<Scalar> differ_from(const FemModel& other) noexcept;
+
  private:
   using General = AllDisplacements<Element, Scalar, Elements, MaxElements, Solver>;
   using Taut = OneTension<Scalar, Elements, MaxElements, Solver>;
@@ -290,6 +293,14 @@ Status FemModel<Element, Scalar, Elements, MaxElements, Solver>::release() noexc
 template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
 void FemModel<Element, Scalar, Elements, MaxElements, Solver>::reset() noexcept {
   take(ways_, [](auto& way) { way.reset(); });
+}
+
+template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
+MeshDifference<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Solver>::differ_from(
+    const FemModel& other) noexcept {
+  auto* const mine = std::get_if<General>(&ways_);
+  const auto* const its = std::get_if<General>(&other.ways_);
+  return mine && its ? mine->differ_from(*its) : MeshDifference<Scalar>{0, 0};
 }
 
 template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>

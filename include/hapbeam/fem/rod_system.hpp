@@ -80,6 +80,12 @@ class RodChain {
     to = {to.s, from.r.template cast<Scalar>(), from.tangent.template cast<Scalar>(),
           from.director.template cast<Scalar>()};
   }
+  /// The shape of the same rod on another mesh, its ends where they are held there.
+  void take_shape(const RodChain& other) noexcept {
+    for (Node& node : parts_.nodes()) node = other.node_at(node.s);
+    parts_.find_twists([&](Scalar s) { return other.node_at(s).director; });
+    for (std::size_t k = 0; k < 2; ++k) ends_[k] = other.ends_[k];
+  }
   static const Vector3& displacement(const RodPoint<Scalar>& at) noexcept { return at.r; }
   static Vector3 middle(const RodPoint<Scalar>& at) noexcept { return at.r; }
   static bool folds(const Node& a, const Node& b) noexcept {
@@ -94,6 +100,7 @@ class RodChain {
   }
   /// Where the mesh has none, in element e, which holds s.
   Node node_within(int e, Scalar s) const noexcept { return parts_.node_within(e, s); }
+  Node node_at(Scalar s) const noexcept { return node_within(parts_.view(parts_.nodes()).segment_at(s), s); }
   /// That of a contact, in element e.   @param off  from what touches it
   template <class Contact>
   Node mark(int e, const Contact& contact, const Vector3& off) const noexcept {

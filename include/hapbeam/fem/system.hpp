@@ -128,6 +128,30 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     each_inner([&](int e) { inners()[e] = static_cast<Scalar>(other.parts().inners()[e]); });
     Contacts::let_go(0);
   }
+  /// The shape of the same body on another mesh, without a contact.
+  void take_shape(const ChainSystem& other) noexcept {
+    chain_.take_shape(other.chain_);
+    Contacts::let_go(0);
+  }
+  /// The goal is the contacts of another mesh, each at its place, held by its force.
+  void set_goal_of(const ChainSystem& other) noexcept {
+    Contacts::set_goal();
+    for (int k = 0; k < other.rows_.size(); ++k) {
+      const Vector force = other.contact_force(k);
+      const Scalar size = std::sqrt(force.squaredNorm());
+      Contact contact;
+      contact.kind = Contact::Kind::along, contact.moves = false;
+      contact.s = other.rows_[k].s, contact.force = size;
+      contact.normal = size > 0 ? Vector(force / size) : other.rows_[k].normal;
+      contact.reach = contact.normal.dot(other.rows_[k].displacement());
+      Contacts::add_goal(contact, nullptr);
+    }
+  }
+  /// On the body [N].
+  Vector contact_force(int k) const noexcept {
+    const Contact& contact = rows_[k];
+    return this->linear_reaction(k) * contact.normal + contact.friction;
+  }
   /// Goes on as it went from a state before, so many times as far.   @param before  becomes what the state is now
   void go_on(State& before, Scalar ratio) noexcept {
     Chain::go_on(nodes(), before.nodes, ratio);

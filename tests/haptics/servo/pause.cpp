@@ -55,6 +55,7 @@ TEST_CASE("a clock tells what has passed, what may be divided by, and what was a
   passed(-1e308, 0, T, true);
   CHECK(clock.passed(1.7e308).pause);
   CHECK_THROWS_WITH(LoopClock(0), ContainsSubstring("period = 0 s"));
+  CHECK_THROWS_WITH(LoopClock(1e-3, -1), ContainsSubstring("longest_pause = -1 s"));
   // Ticks that are a tenth of a second apart, or more, are no pauses of such a loop.
   LoopClock slow(0.2);
   (void)slow.passed(1);

@@ -338,7 +338,7 @@ TEST_CASE("What is no file is told, and a save that fails leaves what was there"
 }
 
 TEST_CASE("A file beyond the limit is refused before it is understood", "[model_file]") {
-  CHECK_THAT(message(std::string(detail::largest_model_file + 1, ' ')),
+  CHECK_THAT(message(std::string(detail::largest_json_file + 1, ' ')),
              ContainsSubstring("size = 33554433 bytes: must be at most 33554432"));
   CHECK_THAT(message_of([] { load_model<PodModel<>>("/dev/zero"); }),
              ContainsSubstring("must be at most 33554432"));

@@ -27,8 +27,7 @@ class ContactWork {
   void forget() noexcept { known_ = false; }
   /// To be called where a push was answered, before what follows.
   void begin() noexcept {
-    work_ = size_ = change_ = way_ = 0;
-    straight_ = 1;
+    work_ = size_ = change_ = way_ = turned_ = 0;
     strange_ = false;
     same_ = known_;
     known_ = true;
@@ -51,7 +50,7 @@ class ContactWork {
     add(body.force.dot(moved(body.round, round, body.point)) - body.push * grown,
         force.dot(way) - pushed.force * grown);
     way_ = (std::max)(way_, way.squaredNorm() + grown * grown);
-    if (body.push != 0) straight_ = (std::min)(straight_, pushed.normal.dot(body.normal));
+    if (body.push != 0) turned_ = (std::max)(turned_, (pushed.normal - body.normal).squaredNorm());
     body.take(round, force, pushed);
   }
   /// With each body that does not touch, or not any more.
@@ -100,8 +99,8 @@ class ContactWork {
   Scalar size() const noexcept { return size_; }
   /// By how much they change [J].
   Scalar change() const noexcept { return change_; }
-  /// Cosine of how far the normal of any of them has turned.
-  Scalar straight() const noexcept { return straight_; }
+  /// Whether the normal of any of them has turned by more than 10 degrees.
+  bool turned() const noexcept { return turned_ > most_turned; }
   /// How far any of them has gone [m].
   Scalar way() const noexcept { return std::sqrt(way_); }
 
@@ -137,9 +136,9 @@ class ContactWork {
 
   std::array<Body, Most> bodies_{};
   std::array<Held, Most> held_{};
-  std::array<bool, Most> touching_{}, touched_{}, placed_{};  // placed: where it was is known
-  Scalar work_ = 0, size_ = 0, change_ = 0, way_ = 0;         // [J], [m²]
-  Scalar straight_ = 1;
+  std::array<bool, Most> touching_{}, touched_{}, placed_{};        // placed: where it was is known
+  Scalar work_ = 0, size_ = 0, change_ = 0, way_ = 0, turned_ = 0;  // [J], [m²], of normals: [1]
+  static constexpr Scalar most_turned = Scalar(0.03);               // square of 10 degrees
   bool known_ = false, same_ = false, strange_ = false;
 };
 

@@ -6,7 +6,8 @@
 // holds to third order of the step on one branch of equilibria.  Newton's method may land on another one, stable and with all pivots positive.  The energy is
 // another there, and the beam has gone farther than the hand.
 // Such an answer is sought again in halves and quarters of the hand's way, each from the one before.  The trapezoids' error falls by eight with each half.
-// A rod slips off the top of a ball to either side with the same energy.  So an answer whose normal has turned by more than 15 degrees is sought in parts, too.
+// A rod slips off the top of a ball to either side with the same energy.  So an answer whose normal has turned far is sought in parts, too.  So is one whose
+// force is far from a straight line over the way: a shank that is pushed along itself may have buckled to either side.  What is still so in a quarter stays.
 // What is off in a quarter still has snapped.  Where most of its energy has come from nowhere no snap leads there, and the beam falls from where it was (Descent).
 // Real-time: noexcept, no allocation, O(1) but for the answers that are sought again: at most eight times, and the linear solves of AllDisplacements in all.
 #pragma once
@@ -22,7 +23,7 @@ namespace hapbeam::detail {
 /// What the energy says of an answer.
 enum class Branch {
   same,    ///< the last one's
-  turned,  ///< the last one's, or its mirror image: a normal has turned far
+  unsure,  ///< the last one's, or another one with much the same energy
   other,   ///< another one
   risen    ///< another one, and most of its energy has come from nowhere
 };
@@ -32,18 +33,12 @@ template <typename Scalar>
 struct Continued {
   Scalar potential;     ///< V [J]
   Scalar given;         ///< W - D [J]
-  Scalar loose;         ///< what trapezoids may leave [J]
+  Scalar size, change;  ///< of the work's parts before and now: the sum and the difference, without signs [J]
   Scalar strain;        ///< strain energy [J]
-  Scalar length;        ///< of the beam [m]
-  Scalar straight = 1;  ///< cosine of how far the normal of any body has turned
+  Scalar length, way;   ///< of the beam, and how far the hand has gone [m]
+  bool rough = false;   ///< friction has its part, of which less is known
+  bool turned = false;  ///< in space: by 10 degrees, the normal of a body
 };
-
-/// What trapezoids may leave of forces that rise or fall all along, and a twentieth of the work besides [J].
-/// @param size, change  of the forces times the way, before and now: the sum, the difference [J]
-template <typename Scalar>
-Scalar loose(Scalar size, Scalar change) noexcept {
-  return change / 2 + size / 40;
-}
 
 /// On the way from one place of a body to the next.  @param t  0 to 1
 template <typename Scalar>
@@ -82,12 +77,6 @@ auto farthest(const Centreline& from, const Centreline& to) noexcept {
   return std::sqrt(most);
 }
 
-/// [m]
-template <typename Scalar>
-struct Gone {
-  Scalar hand, beam;
-};
-
 template <typename Scalar>
 class Continuation {
  public:
@@ -99,15 +88,18 @@ class Continuation {
   /// An answer to continue.  @param potential  V [J]
   void know(Scalar potential) noexcept { stored_ = potential, known_ = true; }
 
-  /// @param how_far  () -> how far the hand has gone, and any place of the beam [m]
+  /// @param how_far  () -> how far any place of the beam has gone [m]
   template <class HowFar>
   Branch judge(const Continued<Scalar>& now, HowFar&& how_far) const noexcept {
     if (!known_) return Branch::same;
-    const Branch beside = now.straight < most_turn ? Branch::turned : Branch::same;
-    const Scalar rest = now.potential - stored_ - now.given, off = std::abs(rest) - now.loose;
-    if (off <= little * now.strain) return beside;
-    const auto [hand, gone] = how_far();
-    if (gone <= along * hand + now.length / 1000) return beside;
+    const Scalar rest = now.potential - stored_ - now.given,
+                 off = std::abs(rest) - (now.rough ? little_rough : little) * now.strain;
+    // A longer way is no hand's in a tick, and its force may be any line.
+    const bool bent = !now.rough && now.way < now.length / 100 && off > most_bent * now.size,
+               unsure = now.turned || bent;
+    const Branch beside = unsure ? Branch::unsure : Branch::same;
+    if (off <= now.change / 2 + now.size / 40) return beside;
+    if (how_far() <= along * now.way + now.length / 1000) return beside;
     return rest > stored_ && rest > now.strain / 2 ? Branch::risen : Branch::other;
   }
 
@@ -148,9 +140,11 @@ class Continuation {
   }
 
  private:
-  static constexpr Scalar little = Scalar(1e-3);      // of the strain energy: what solvers leave
-  static constexpr Scalar most_turn = Scalar(0.966);  // cosine of 15 degrees
-  static constexpr Scalar along = 2;                  // times as far as the hand a beam goes with it
+  // Of the strain energy: what solvers leave, without and with friction.
+  static constexpr Scalar little = Scalar(1e-4), little_rough = Scalar(1e-3);
+  static constexpr Scalar most_bent =
+      Scalar(0.1);                    // of the work's parts: a cube that doubles its way is off by 0.08
+  static constexpr Scalar along = 2;  // times as far as the hand a beam goes with it
 
   Scalar stored_ = 0;
   bool known_ = false, snapped_ = false;

@@ -53,13 +53,10 @@ class PlacePush {
     const auto judge = [&](const Response<Scalar>& found) {
       const Scalar behind = stays ? ahead : system.displacement(last_.s, last_.normal) - last_.d;
       const Scalar before = force * ahead, now = found.force * behind;
-      return continuation_.judge(
-          {system.foreseen_potential(), (before + now) / 2,
-           loose(std::abs(before) + std::abs(now), std::abs(now - before)), system.strain(), system.length()},
-          [&] {
-            return Gone<Scalar>{std::abs(ahead) + std::abs(next.s - last_.s),
-                                farthest(system.view(before_), system.centreline())};
-          });
+      return continuation_.judge({system.foreseen_potential(), (before + now) / 2,
+                                  std::abs(before) + std::abs(now), std::abs(now - before), system.strain(),
+                                  system.length(), std::abs(ahead) + std::abs(next.s - last_.s)},
+                                 [&] { return farthest(system.view(before_), system.centreline()); });
     };
     const auto keep = [&](const Response<Scalar>& found) {
       if (!is_answer(found.status)) return continuation_.forget();

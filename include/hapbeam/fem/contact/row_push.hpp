@@ -114,7 +114,8 @@ class RowPush : private RowContacts<Element, System> {
       Status status;
     };
     Before& before = before_;
-    for (int i = 0; i < count; ++i) to_[of(i)] = all[i].round;
+    bool rough = false;
+    for (int i = 0; i < count; ++i) to_[of(i)] = all[i].round, rough = rough || all[i].friction;
     bool whole = true;  // the first answer, for all of the way
     const auto go = [&](Scalar t) {
       for (int i = 0; i < count; ++i) {
@@ -131,11 +132,9 @@ class RowPush : private RowContacts<Element, System> {
       const bool begins_to_pull = holds && !(all[0].pushed.force < 0) && !(before.pushed[0].force > 0);
       if (!began_ || work_.strange() || begins_to_pull) return Branch::same;
       return continuation_.judge(
-          {potential_, work_.done() - taken_, loose(work_.size(), work_.change()), system.strain(),
-           system.length(), work_.straight()},
-          [&] {
-            return Gone<Scalar>{work_.way(), farthest(system.view(foresight_.before()), system.centreline())};
-          });
+          {potential_, work_.done() - taken_, work_.size(), work_.change(), system.strain(), system.length(),
+           work_.way(), rough, dimension == 3 && work_.turned()},
+          [&] { return farthest(system.view(foresight_.before()), system.centreline()); });
     };
     const auto keep = [&](const Answer& found) {
       if (is_answer(found.status) && work_.any()) continuation_.know(potential_);

@@ -104,6 +104,14 @@ class RodElements {
           if (const int e = abreast_.order().element(first + lane); e >= 0) twists_[e] = inner.twist[lane];
       }
   }
+  /// Gives each element the twist with which its middle has a director.   @param director  (s) -> d1 there
+  template <class Director>
+  void find_twists([[maybe_unused]] Director&& director) noexcept {
+    if constexpr (has_twist)
+      for (int e = 0; has_inner() && e < size(); ++e)
+        twists_[e] = Element::twist_to(properties_[e], nodes_[e], nodes_[e + 1],
+                                       director((nodes_[e].s + nodes_[e + 1].s) / 2));
+  }
   struct Energies {
     Scalar strain = 0;  ///< [J]
     Scalar work = 0;    ///< of λ times the loads [J]

@@ -100,7 +100,9 @@ class LoopClock {
   /// @param period  [s] of the loop, 1e-6 to 1e3   @param longest_pause [s] not negative   @throws std::invalid_argument
   explicit LoopClock(double period, double longest_pause = default_longest_pause)
       : period_(detail::loop_period("device period", period)),
-        longest_((std::max)(longest_pause, 2 * period)) {}
+        longest_((std::max)(longest_pause, 2 * period)) {
+    detail::not_negative("longest_pause", longest_pause, "s");
+  }
 
   /// @param time [s] now, by a monotonic clock
   Passed passed(double time) noexcept {

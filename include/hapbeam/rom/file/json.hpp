@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Members of a JSON object, written by name and unit; and what reading and writing a model file share: the error, the ownership of a
+// Members of a JSON object, written by name and unit; and what reading and writing a file share: the error, the ownership of a
 // JSON value, how a value looks in a message, the checksum.
 //
 // It compiles fast, for programs that only load a model. Messages are composed by printf and names compared as C
@@ -102,8 +102,9 @@ class JsonWriter {
 
   void units() { set(root_, "units", units_ = json_object()); }
 
-  template <typename Scalar>
-  void real(const char* name, const char* unit, const Scalar& value) {
+  /// What follows are the limits of the value, which a reader checks.
+  template <typename Scalar, typename... Limits>
+  void real(const char* name, const char* unit, const Scalar& value, Limits...) {
     add_unit(name, unit);
     add(name, finite(name, unit, static_cast<double>(value)));
   }
@@ -116,7 +117,10 @@ class JsonWriter {
       if (json_array_append_new(array, finite(name, unit, static_cast<double>(value))))
         fail(source_, "%s: out of memory", name);
   }
-  void count(const char* name, const int& value) { add(name, json_integer(value)); }
+  template <typename... Limits>
+  void count(const char* name, json_int_t value, Limits...) {
+    add(name, json_integer(value));
+  }
   void flag(const char* name, const bool& value) { add(name, json_boolean(value)); }
   void word(const char* name, const std::string& value) {
     json_t* const text = json_stringn(value.data(), value.size());
@@ -149,13 +153,24 @@ class JsonWriter {
   }
   void finish() {}
 
-  /// On one line.   @param digits  of a real: 17 for double, 9 for float, which bring back every bit
-  std::string text(int digits) const {
-    char* const text = json_dumps(root_, JSON_COMPACT | JSON_REAL_PRECISION(static_cast<unsigned>(digits)));
+  enum class Layout { line, indented };
+
+  /// @param digits  of a real: 17 for double, 9 for float, which bring back every bit
+  std::string text(int digits, Layout layout = Layout::line) const {
+    const std::size_t flags = layout == Layout::line ? JSON_COMPACT : JSON_INDENT(2);
+    char* const text = json_dumps(root_, flags | JSON_REAL_PRECISION(static_cast<unsigned>(digits)));
     if (!text) fail(source_, "cannot be written as JSON: out of memory");
     std::string copy = text;
     std::free(text);
     return copy;
+  }
+  /// For people: indented, with the fewest digits, 15 to 17, that bring back every bit.
+  std::string readable() const {
+    for (int digits = 15;; ++digits) {
+      const std::string text = this->text(digits, Layout::indented) + "\n";
+      const Json again(json_loadb(text.data(), text.size(), 0, nullptr));
+      if (digits == 17 || json_equal(root_, again.get())) return text;
+    }
   }
 
  private:
@@ -181,7 +196,7 @@ class JsonWriter {
     set(object, rest.c_str(), value);
   }
   void add_unit(const char* name, const char* unit) {
-    set(units_, (path_ + name).c_str(), json_string(unit));
+    if (units_) set(units_, (path_ + name).c_str(), json_string(unit));
   }
   json_t* finite(const char* name, const char* unit, double value) const {
     if (!std::isfinite(value))

@@ -43,9 +43,15 @@ class JsonReader {
 
   template <typename Scalar>
   [[gnu::cold, gnu::noinline]] void real(const char* name, const char* unit, Scalar& value) {
+    real(name, unit, value, -largest(value), largest(value));
+  }
+  /// @param low, high  limits of the value
+  template <typename Scalar>
+  [[gnu::cold, gnu::noinline]] void real(const char* name, const char* unit, Scalar& value, double low,
+                                         double high) {
     check_unit(name, unit);
     const Json found = take(name);
-    value = static_cast<Scalar>(number(name, alone, unit, found.get(), largest(value)));
+    value = static_cast<Scalar>(number(name, alone, unit, found.get(), low, high));
   }
   template <typename Scalar>
   [[gnu::cold, gnu::noinline]] void table(const char* name, const char* unit, std::vector<Scalar>& values) {
@@ -53,15 +59,17 @@ class JsonReader {
     const Json found = take(name, JSON_ARRAY, "an array");
     std::vector<Scalar>(json_array_size(found.get())).swap(values);
     for (std::size_t k = 0; k < values.size(); ++k)
-      values[k] =
-          static_cast<Scalar>(number(name, k, unit, json_array_get(found.get(), k), largest(Scalar())));
+      values[k] = static_cast<Scalar>(
+          number(name, k, unit, json_array_get(found.get(), k), -largest(Scalar()), largest(Scalar())));
   }
-  /// A whole number that is not negative.
-  [[gnu::cold, gnu::noinline]] void count(const char* name, int& value) {
-    const char* const allowed = "a whole number from 0 to 2147483647";
+  /// A whole number.   @param low, high  limits of the value
+  [[gnu::cold, gnu::noinline]] void count(const char* name, int& value, int low = 0,
+                                          int high = (std::numeric_limits<int>::max)()) {
+    char allowed[64];
+    std::snprintf(allowed, sizeof allowed, "a whole number from %d to %d", low, high);
     const Json found = take(name, JSON_INTEGER, allowed);
     const json_int_t number = json_integer_value(found.get());
-    if (number < 0 || number > (std::numeric_limits<int>::max)()) reject(name, found.get(), "", allowed);
+    if (number < low || number > high) reject(name, found.get(), "", allowed);
     value = static_cast<int>(number);
   }
   [[gnu::cold, gnu::noinline]] void flag(const char* name, bool& value) {
@@ -178,15 +186,15 @@ class JsonReader {
   /// Of a number that is no entry of a table.
   static constexpr std::size_t alone = static_cast<std::size_t>(-1);
 
-  /// @param k  which entry of the table of that name, or alone   @param most  largest absolute value
+  /// @param k  which entry of the table of that name, or alone
   [[gnu::cold, gnu::noinline]] double number(const char* name, std::size_t k, const char* unit,
-                                             const json_t* found, double most) const {
+                                             const json_t* found, double low, double high) const {
     const double value = json_number_value(found);
-    if (json_is_number(found) && std::abs(value) <= most) return value;
+    if (json_is_number(found) && value >= low && value <= high) return value;
     char entry[24] = "", path[80], allowed[64];
     if (k != alone) std::snprintf(entry, sizeof entry, "[%lu]", static_cast<unsigned long>(k));
     std::snprintf(path, sizeof path, "%s%s", name, entry);
-    std::snprintf(allowed, sizeof allowed, "a number from -%.8g to %.8g", most, most);
+    std::snprintf(allowed, sizeof allowed, "a number from %.8g to %.8g", low, high);
     reject(path, found, unit, allowed);
   }
 
