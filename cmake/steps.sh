@@ -71,20 +71,26 @@ install_packages() {
 }
 
 # build PRESET TARGET...: installs what the build needs, and the packages of also_needed, at once; configures and builds.
-# What tests, benchmarks and the example's window need comes along: one build folder serves all.
+# What tests, benchmarks and the example's window need comes along: one build folder serves them.  Examples have their own, and a window where
+# there is a display.
 also_needed=()
 build() {
-  local preset=$1 compiler=(g++)
+  local preset=$1 needed=(g++) no_window=OFF
   shift
-  [[ $preset != *clang* ]] || compiler=(clang)
+  [[ $preset != *clang* ]] || needed=(clang)
   # With its sanitizers, and what finds names for their reports.
-  [[ $preset != asan-ubsan && $preset != tsan ]] || compiler=(clang libclang-rt-dev llvm)
+  [[ $preset != asan-ubsan && $preset != tsan ]] || needed=(clang libclang-rt-dev llvm)
   # With what the package for Python is built and tested by.
-  [[ $preset != strict-gcc ]] || compiler=(g++ pybind11-dev python3-dev python3-numpy python3-pytest)
-  [[ $preset != mingw ]] || compiler=(g++ g++-mingw-w64-x86-64-posix wine64)
-  [[ $preset != aarch64 ]] || compiler=(g++ g++-aarch64-linux-gnu qemu-user)
-  need "${compiler[@]}" cmake ninja-build libeigen3-dev libjansson-dev catch2 libbenchmark-dev \
-    libglfw3-dev libimgui-dev libgl-dev fonts-dejavu-core "${also_needed[@]}" &&
-    step "configure ($preset)" cmake -S "$top" --preset "$preset" &&
+  [[ $preset != strict-gcc ]] || needed=(g++ pybind11-dev python3-dev python3-numpy python3-pytest)
+  [[ $preset != mingw ]] || needed=(g++ g++-mingw-w64-x86-64-posix wine64)
+  [[ $preset != aarch64 ]] || needed=(g++ g++-aarch64-linux-gnu qemu-user)
+  if [[ $preset == examples ]]; then
+    [[ $1 == phantom && -n ${DISPLAY-}${WAYLAND_DISPLAY-} ]] || no_window=ON
+  else
+    needed+=(catch2 libbenchmark-dev)
+  fi
+  [[ $no_window == ON ]] || needed+=(libglfw3-dev libimgui-dev libgl-dev fonts-dejavu-core)
+  need "${needed[@]}" cmake ninja-build libeigen3-dev libjansson-dev "${also_needed[@]}" &&
+    step "configure ($preset)" cmake -S "$top" --preset "$preset" -DCMAKE_DISABLE_FIND_PACKAGE_glfw3="$no_window" &&
     step "build $*" cmake --build "$top/build/$preset" --parallel "$(nproc)" --target "$@"
 }

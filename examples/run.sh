@@ -14,9 +14,9 @@ case ${1-} in
   phantom | train | [1-9]_*) program=$1; shift ;;
 esac
 
-build release "$program" || exit 1
+build examples "$program" || exit 1
 for option in "$@"; do
   [[ $option != --plot ]] || command -v gnuplot >/dev/null || need gnuplot-nox
 done
 rm -f "$log"
-exec "$top/build/release/examples/$program" "$@"
+exec "$top/build/examples/examples/$program" "$@"

@@ -1,15 +1,73 @@
 // SPDX-License-Identifier: MIT
 // A stylus that touches a rod in space, for C: the rod, where it lies, and the ticks.
-#include "stylus.hpp"
-
+// Both kinds of rods in one unit: half of what they compile is the same.
+#include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 #include "border.hpp"
+#include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
+#include <hapbeam/hosts/placed_touch.hpp>
 
 using namespace hapbeam;
 using border::guarded;
 
+struct hapbeam_stylus {
+  virtual ~hapbeam_stylus() = default;
+  virtual hapbeam_wrench tick(const hapbeam::HandPose& hand) noexcept = 0;
+  virtual void reset() noexcept = 0;
+  virtual int shape(double* x_y_z, int count) noexcept = 0;
+};
+
 namespace {
+
+/// What a stylus is made of, as C described it.
+struct StylusRequest {
+  const Rod& rod;
+  int elements;
+  double radius;  // [m]
+  StylusOptions options;
+  const Placement& placement;
+};
+
+template <class Element>
+class StylusOn final : public hapbeam_stylus {
+ public:
+  explicit StylusOn(const StylusRequest& r)
+      : model_(r.rod, r.elements), touch_(model_, r.radius, r.placement, r.options) {}
+
+  hapbeam_wrench tick(const HandPose& hand) noexcept override {
+    const Wrench on_hand = touch_.tick(hand);
+    const auto& felt = touch_.felt();
+    return {{on_hand.force[0], on_hand.force[1], on_hand.force[2]},
+            {on_hand.torque[0], on_hand.torque[1], on_hand.torque[2]},
+            felt.press.s,
+            felt.pressing,
+            static_cast<int>(felt.status)};
+  }
+  void reset() noexcept override { touch_.reset(); }
+  int shape(double* x_y_z, int count) noexcept override {
+    const auto line = model_.shape();
+    for (int i = 0; i < count; ++i) {
+      const double s = (std::min)(line.length() * i / (count - 1), line.length());
+      const Eigen::Vector3d at = touch_.placement().device_position(detail::in_scene(line.position(s)));
+      std::copy(at.data(), at.data() + 3, x_y_z + 3 * i);
+    }
+    return count;
+  }
+
+ private:
+  FemModel<Element> model_;
+  PlacedTouch<FemModel<Element>> touch_;
+};
+
+template <class Element>
+std::unique_ptr<hapbeam_stylus> stylus_on(const StylusRequest& request) {
+  return std::make_unique<StylusOn<Element>>(request);
+}
 
 constexpr double pi = 3.141592653589793;
 
@@ -65,10 +123,10 @@ hapbeam_stylus* hapbeam_stylus_create(const hapbeam_rod* rod, int kinematics, in
     if (!(elements >= 2 && elements <= 4096)) detail::reject("elements", elements, "", "2 to 4096");
     const Rod touched = rod_of(rod);
     const Placement placed = placement_of(placement);
-    const border::StylusRequest request{touched, elements, radius, {length, ahead}, placed};
+    const StylusRequest request{touched, elements, radius, {length, ahead}, placed};
     switch (kinematics) {
-      case HAPBEAM_ROUND_ROD: return border::on_round_rod(request);
-      case HAPBEAM_TWISTED_ROD: return border::on_twisted_rod(request);
+      case HAPBEAM_ROUND_ROD: return stylus_on<RoundRod>(request);
+      case HAPBEAM_TWISTED_ROD: return stylus_on<TwistedRod>(request);
       default: break;
     }
     detail::reject("kinematics", kinematics, "", "HAPBEAM_ROUND_ROD or TWISTED_ROD");

@@ -2,20 +2,16 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "body.hpp"
+#include "couple.hpp"
 #include "rest.hpp"
 #include "scene.hpp"
 #include <hapbeam/haptics/servo/servo_many.hpp>
 
 namespace phantom {
-
-using Count = std::atomic<std::uint64_t>;
 
 /// From the centreline to the avatar's centre [m].
 inline double reach_of(const Options& options) { return options.radius + options.beam.touched() / 2; }
@@ -38,21 +34,6 @@ hapbeam::ServoOptions servo_options(const Options& options, const hapbeam::Centr
   servo.friction = hapbeam::Friction(options.friction, options.friction);
   return servo;
 }
-
-template <typename Coupling>
-Coupling make_coupling(const Options& options) {
-  if constexpr (std::is_same_v<Coupling, hapbeam::Direct>) return {};
-  else return Coupling({options.stiffness, options.damping});
-}
-
-/// What all bodies are made of, but for the model.
-struct Parts {
-  Options options;
-  Slender slender;
-  std::shared_ptr<const Trained> trained;
-  hapbeam::DeviceInfo device;
-  std::unique_ptr<Count> full_answers = nullptr;
-};
 
 template <typename Model>
 auto rest_of(const Model& model) {
@@ -149,12 +130,10 @@ class Live final : public Body {
   double dissipated_ = 0;  // [J]
 };
 
-/// @tparam Loop  Loop<Model, Coupling>, see Live
-template <template <typename, typename> class Loop, typename Model>
+/// @tparam Loop  OneHand | BothHands
+template <template <typename> class Loop, typename Model>
 std::unique_ptr<Body> couple(Model model, Parts parts) {
-  if (parts.options.coupling == CouplingChoice::direct)
-    return std::make_unique<Live<Loop<Model, hapbeam::Direct>>>(std::move(model), std::move(parts));
-  return std::make_unique<Live<Loop<Model, hapbeam::VirtualCoupling>>>(std::move(model), std::move(parts));
+  return std::make_unique<Live<Loop<Model>>>(std::move(model), std::move(parts));
 }
 
 }  // namespace phantom

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <limits>
 
+#include <hapbeam/rod_centreline.hpp>
+
 namespace phantom {
 
 namespace {

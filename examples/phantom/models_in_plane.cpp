@@ -1,0 +1,65 @@
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "counted.hpp"
+#include "couple.hpp"
+#include "hands.hpp"
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/element/linear.hpp>
+#include <hapbeam/element/tapered.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+namespace phantom {
+
+namespace {
+
+template <typename Element>
+std::unique_ptr<Body> couple_full(Parts parts) {
+  auto model = make_model<hapbeam::FemModel<Element>>(parts);
+  return couple<OneHand>(std::move(model), std::move(parts));
+}
+
+}  // namespace
+
+std::unique_ptr<Body> couple_in_plane(Parts parts) {
+  using namespace hapbeam;
+  switch (parts.options.element) {
+    case ElementChoice::linear: return couple_full<Linear>(std::move(parts));
+    case ElementChoice::full: return couple_full<VonKarman<FullIntegration>>(std::move(parts));
+    case ElementChoice::reduced: return couple_full<VonKarman<ReducedIntegration>>(std::move(parts));
+    case ElementChoice::corotational: return couple_hands<Corotational<>>(std::move(parts));
+    case ElementChoice::tapered: return couple_full<Corotational<Tapered<>>>(std::move(parts));
+    case ElementChoice::stability_functions:
+    case ElementChoice::round_rod:
+    case ElementChoice::twisted_rod: break;
+  }
+  return couple_full<VonKarman<>>(std::move(parts));
+}
+
+std::unique_ptr<Body> couple_many(Parts parts) {
+  const Options& options = parts.options;
+  std::vector<hapbeam::BeamPlace> places;
+  for (int i = 0; i < options.beams; ++i) places.push_back({{0, -options.pitch * i}, 0, 0});
+  using Tooth = Touchable<hapbeam::Corotational<>>;
+  hapbeam::BeamArray<Tooth> array(make_model<Tooth>(parts), places);
+  return couple<OneHand>(std::move(array), std::move(parts));
+}
+
+std::unique_ptr<Body> couple_trained(Parts parts) {
+  using Full = hapbeam::FemModel<>;
+  const std::shared_ptr<const Trained> trained = parts.trained;
+  return std::visit(
+      [&](const auto& fast) {
+        using Fast = std::decay_t<decltype(fast)>;
+        if (!parts.options.guarded) return couple<OneHand>(fast, std::move(parts));
+        parts.full_answers = std::make_unique<Count>(0);
+        Counted<Fast, Full> guarded(fast, make_model<Full>(parts), *parts.full_answers);
+        return couple<OneHand>(std::move(guarded), std::move(parts));
+      },
+      trained->model);
+}
+
+}  // namespace phantom
