@@ -5,13 +5,13 @@ set -u
 source "$(dirname "${BASH_SOURCE[0]}")/../../cmake/steps.sh"
 
 need xvfb xauth libgl1-mesa-dri fonts-dejavu-core libglfw3-dev libimgui-dev libgl-dev imagemagick
-build release phantom compare_pictures || exit 1
+build release compare_pictures && DISPLAY=:0 build examples phantom || exit 1
 images=$top/docs/images
 
 # draw SCENE FILE OPTION...
 draw() {
   LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1 xvfb-run -a -s '-screen 0 1280x720x24' \
-    "$top/build/release/examples/phantom" --scene "$1" --screenshot "$2" "${@:3}"
+    "$top/build/examples/examples/phantom" --scene "$1" --screenshot "$2" "${@:3}"
 }
 # picture SCENE SECONDS [FILE OPTION...]: when there is most to see; tests/examples/window.cmake names the same times.
 picture() {
