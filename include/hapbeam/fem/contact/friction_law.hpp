@@ -70,7 +70,7 @@ class FrictionLaw {
     // In its first tick a contact slides without friction to where the touch begins.
     fallen_ = !known_;
     if (fallen_) bound_.set(0);
-    slid_ = slides_, stuck_ = !slides_, freed_ = false;
+    slid_ = slides_, stuck_ = !slides_;
     tries_ = 0;
   }
 
@@ -199,9 +199,9 @@ class FrictionLaw {
       return true;
     }
     // What sticks where no other way leads may be found from where it slides without friction.
-    const bool freely = D == 2 && !fallen_ && stuck_ && !freed_, another = !slides_ && !slid_;
+    const bool freely = D == 2 && !fallen_ && stuck_ && bound_.used() > 0 && ++tries_ < most_tries,
+               another = !slides_ && !slid_;
     slides_ = slid_ = true;
-    freed_ = freed_ || freely;
     bound_.set(fallen_ || freely ? Scalar(0) : bound_.before());
     aim(far_shear_, norm(far_shear_));
     return another || freely;
@@ -275,7 +275,7 @@ class FrictionLaw {
     return bound * d + aside(bound) * (sheared_ - d * d.dot(sheared_));
   }
   bool known_ = false, slides_ = false, fallen_ = false, torn_ = false;
-  bool slid_ = false, stuck_ = false, freed_ = false;  // ways that were tried
+  bool slid_ = false, stuck_ = false;  // ways that were tried
   Place before_, now_;
   Vector skin_ = Vector::Zero(), carried_ = Vector::Zero(), sheared_ = Vector::Zero();
   Vector force_ = Vector::Zero(), direction_ = Vector::Zero(), far_shear_ = Vector::Zero();
