@@ -160,3 +160,31 @@ TEST_CASE("two touches of one model in turn, and of two shapes, know nothing of 
     CHECK(touch.tick({0.2, -0.001}).force.y() < 0);  // from below
   }
 }
+
+// Eight elements: one of them has all of the corner.
+TEST_CASE("an L that is pressed softly and let go has not snapped, however tight its corner", "[release]") {
+  for (const double corner : {1.6, 2.0, 2.2})
+    for (const int elements : {8, 16}) {
+      constexpr double whole = 0.2, h = 2.7e-4, EA = 2e11 * 0.02 * h;
+      Beam beam(whole, EA, EA * h * h / 12, h, Support::clamped, Support::free);
+      beam.naturally({{0.12, 0}, {0.14, corner / 0.02}, {whole, 0}});
+      FemModel<Corotational<>> model(beam, elements);
+      Touch<FemModel<Corotational<>>> touch(model, 0.002);
+      const auto place = [&](double s) {
+        const auto moved = model.shape().at(s);
+        return Vector2<double>(s + moved.u, moved.w);
+      };
+      const Vector2<double> on = place(0.16), along = (place(0.161) - on).normalized(),
+                            to(along.y(), -along.x());
+      int pressed = 0;
+      for (int k = 0; k <= 60; ++k) {
+        const double way = 1e-5 * (k <= 30 ? k : 60 - k);
+        const auto felt = touch.tick(on + to * (way - 0.002 - h / 2 - 1e-5));
+        CAPTURE(corner, elements, k);
+        CHECK(felt.status == Status::ok);
+        pressed += felt.pressing;
+      }
+      CHECK(pressed > 40);
+      CHECK_FALSE(touch.pressing());
+    }
+}

@@ -244,3 +244,32 @@ TEST_CASE("a hand that leans along a beam with friction comes to rest", "[rod][f
     if (i % 4 == 0) CHECK(unrest(wire, 0.16, mu, who, {aside, 0, 0.2 * aside}) <= 1e-3);
   }
 }
+
+// Newton's method leaves more of the place and of the bound where a wire is bent: what it leaves is no reason to seek further.
+TEST_CASE("a wire that is bent by nature answers a rough ball that presses it softly", "[rod][friction]") {
+  constexpr double length = 0.15, thickness = 0.001, ball = 0.004;
+  int ticks = 0, unanswered = 0;
+  for (const double bend : {0.5, 1.0, 2.0})
+    for (const double coefficient : {0.1, 0.3, 0.6}) {
+      Random random(3);
+      for (int stroke = 0; stroke < 6; ++stroke) {
+        Rod rod(length, RodSection::circle(thickness), spring_steel, RodSupport::clamped, RodSupport::free);
+        rod.naturally({{length, bend / length, bend / length, 0}});
+        FemModel<TwistedRod> model(rod, 16);
+        Touch<FemModel<TwistedRod>> touch(model, ball, Friction(coefficient));
+        const auto on = model.shape().at(0.6 * length);
+        const Point along = on.tangent.normalized(), any(random(1.0), random(1.0), random(1.0)),
+                    to = (any - along * along.dot(any)).normalized();
+        const double step = 1.5e-4 * random(0.1, 1.1);
+        const int deep = static_cast<int>(0.002 / step);
+        for (int k = 0; k <= 2 * deep; ++k, ++ticks) {
+          const double way = step * (k <= deep ? k : 2 * deep - k);
+          const auto felt = touch.tick(on.r + to * (way - ball - thickness / 2));
+          unanswered += !is_answer(felt.status);
+        }
+      }
+    }
+  CAPTURE(ticks, unanswered);
+  CHECK(ticks > 1500);
+  CHECK(unanswered <= 0.02 * ticks);
+}

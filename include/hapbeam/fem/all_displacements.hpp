@@ -128,7 +128,7 @@ class AllDisplacements {
     report_ = {Status::ok, 0, 0, 0, 0, 1};
     Descent descent;
     descent.max_solves = solver_.max_solves;
-    if (!fall(false, descent, aim) || system_.folded()) {
+    if (!fall(false, descent, aim) || system_.folded(rest_state_)) {
       to_rest();
       return report_.status = Status::snapped;
     }

@@ -176,10 +176,10 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   }
   /// Where its middle is: a beam's across alone [m].
   auto middle() const noexcept { return Chain::middle(centreline().at(length_ / 2)); }
-  /// Whether an element has turned so far in itself that it no longer stands for a beam.
-  bool folded() const noexcept {
+  /// Whether an element that does not do so at rest has turned so far in itself that it no longer stands for a beam.
+  bool folded(const State& rest) const noexcept {
     for (int e = 0; e < elements(); ++e)
-      if (Chain::folds(node(e), node(e + 1))) return true;
+      if (Chain::folds(node(e), node(e + 1)) && !Chain::folds(rest.nodes[e], rest.nodes[e + 1])) return true;
     return false;
   }
   /// To be called where the beam has moved.

@@ -148,7 +148,7 @@ class ContactRows {
   /// @param element_at  as of advance()   @param length  of the beam [m]   @return whether that is another equilibrium
   template <class ElementAt>
   bool go_on_to_tangent(ElementAt&& element_at, Scalar length) noexcept {
-    constexpr Scalar exact = (std::max)(Scalar(1e-6), 1000 * std::numeric_limits<Scalar>::epsilon());
+    constexpr Scalar exact = (std::max)(Scalar(1e-4), 1000 * std::numeric_limits<Scalar>::epsilon());
     bool another = false;
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[of(k)];

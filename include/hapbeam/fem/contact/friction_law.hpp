@@ -34,7 +34,8 @@ class FrictionLaw {
   using State = FrictionState<Scalar, D>;
 
   /// Force and direction are as exact as that, in units of the bound.
-  static constexpr Scalar exact = (std::max)(Scalar(1e-6), 8 * std::numeric_limits<Scalar>::epsilon());
+  static constexpr Scalar exact =
+      (std::max)(Scalar(D == 2 ? 1e-6 : 2e-4), 8 * std::numeric_limits<Scalar>::epsilon());
   /// Where that was not reached within most_tries equilibria, an error that large is no answer any more.
   static constexpr Scalar loose = Scalar(0.1);
   /// Linear solves in which an equilibrium that is near is found.  In space the bound follows within them.

@@ -54,8 +54,8 @@ class RowPush : private RowContacts<Element, System> {
   static constexpr int slack = dimension == 2 ? 10 : 100;
   /// Solutions of a push: each obstacle touches or lets go.
   static constexpr int most_passes = 4 + 2 * most;
-  /// Linear solves in which an equilibrium that is near is found, and with friction of several.
-  static constexpr int close_by = 6, near_with_friction = 16;
+  /// Linear solves in which an equilibrium that is near is found, with friction of one in space, and with that of several.
+  static constexpr int close_by = 6, near_in_space = 10, near_with_friction = 16;
   /// Times that places with friction go on, in an equilibrium of Coulomb's law.
   static constexpr int most_moves = 2;
 
@@ -299,7 +299,10 @@ class RowPush : private RowContacts<Element, System> {
     bool some = false;
     for (int i = 0; i < count_; ++i) some = some || (slot(i).goal >= 0 && stays(i));
     const auto few = [&] {
-      return !rough || most == 1 ? close_by : some && !stay ? near_with_friction * 3 / 4 : near_with_friction;
+      return !rough || (most == 1 && dimension == 2) ? close_by
+             : most == 1                             ? near_in_space
+             : some && !stay                         ? near_with_friction * 3 / 4
+                                                     : near_with_friction;
     };
     bool all = !rough || way.descending_ || friction.falls();
     const auto begin_again = [&] {
