@@ -3,7 +3,7 @@
 
      hapbeam_beam ruler = hapbeam_rectangle(0.3, 0.025, 0.001, 210e9, HAPBEAM_CLAMPED, HAPBEAM_FREE);
      char why[HAPBEAM_MESSAGE];
-     hapbeam_touch* touch = hapbeam_touch_create(&ruler, HAPBEAM_COROTATIONAL, 8, 0.005, why);
+     hapbeam_touch* touch = hapbeam_touch_create(&ruler, HAPBEAM_COROTATIONAL, 8, 0.005, 0, why);
      if (!touch) puts(why);
      hapbeam_contact felt = hapbeam_touch_tick(touch, 0.25, 0.004);      each millisecond
      hapbeam_touch_destroy(touch);
@@ -66,26 +66,48 @@ HAPBEAM_API hapbeam_beam hapbeam_rectangle(double length, double width, double h
                                            int right);
 HAPBEAM_API hapbeam_beam hapbeam_circle(double length, double diameter, double young, int left, int right);
 
+/* Coulomb's coefficients of what touches. */
+typedef struct hapbeam_friction {
+  double sticking; /* 0 to 2: the contact begins to slide beyond it */
+  double sliding;  /* while it slides, 0 to that of sticking */
+} hapbeam_friction;
+
 /* ---- A round avatar that touches a beam ---- */
 
 typedef struct hapbeam_touch hapbeam_touch;
 
 typedef struct hapbeam_contact {
-  double force[2]; /* [N] on the hand, x and w */
-  double s;        /* [m] arc position of the press; 0 where nothing is touched */
-  double d;        /* [m] w of the centreline there */
-  int pressing;    /* 1 where the beam is touched */
+  double force[2];    /* [N] on the hand, x and w */
+  double friction[2]; /* [N] the tangential part of it */
+  double s;           /* [m] arc position of the press; 0 where nothing is touched */
+  double d;           /* [m] w of the centreline there */
+  double dissipated;  /* [J] by friction, since the touch began */
+  int pressing;       /* 1 where the beam is touched */
+  int sliding;        /* 1 where a contact with friction slides */
   int status;
 } hapbeam_contact;
 
-/* kinematics: one of the three; elements: 2 to 4096; avatar_radius [m]; message: HAPBEAM_MESSAGE characters, or null */
+/* kinematics: one of the three; elements: 2 to 4096; avatar_radius [m]; friction: of HAPBEAM_COROTATIONAL, or null;
+   message: HAPBEAM_MESSAGE characters, or null */
 HAPBEAM_API hapbeam_touch* hapbeam_touch_create(const hapbeam_beam* beam, int kinematics, int elements,
-                                                double avatar_radius, char* message);
+                                                double avatar_radius, const hapbeam_friction* friction,
+                                                char* message);
 /* A trained model from its file, if the library was built with model files. */
 HAPBEAM_API hapbeam_touch* hapbeam_touch_load(const char* path, double avatar_radius, char* message);
 HAPBEAM_API void hapbeam_touch_destroy(hapbeam_touch* touch);
 /* x, w [m]: the avatar's centre */
 HAPBEAM_API hapbeam_contact hapbeam_touch_tick(hapbeam_touch* touch, double x, double w);
+/* A tick at each of `count` places, x_w: 2 count numbers [m], into as many contacts.  Returns how many there were. */
+HAPBEAM_API int hapbeam_touch_ticks(hapbeam_touch* touch, const double* x_w, int count, hapbeam_contact* felt);
+
+typedef struct hapbeam_response {
+  double force; /* [N] on the beam along w; the hand feels -force */
+  int status;
+} hapbeam_response;
+
+/* Presses the beam without an avatar: `count` times one after another, s_d has arc position s and w of the centreline there,
+   2 count numbers [m].  The hand is elsewhere; the next tick begins a new touch.  Returns how many there were. */
+HAPBEAM_API int hapbeam_touch_presses(hapbeam_touch* touch, const double* s_d, int count, hapbeam_response* responses);
 /* The hand is elsewhere: nothing is touched. */
 HAPBEAM_API void hapbeam_touch_reset(hapbeam_touch* touch);
 /* The centreline at `count` places from end to end, x_w: 2 count numbers [m].  Returns how many were written. */
@@ -96,18 +118,50 @@ HAPBEAM_API double hapbeam_touch_peak_strain(const hapbeam_touch* touch, double*
 
 /* ---- The whole loop: coupling, energy monitor and force guard for a device ---- */
 
+typedef struct hapbeam_device {
+  double peak_force;          /* [N] short-term */
+  double continuous_force;    /* [N] without limit of time */
+  double max_stiffness;       /* [N/m] the largest that the maker states for a wall */
+  double position_resolution; /* [m] */
+  double friction;            /* [N] to drive the arm back by hand */
+  double damping;             /* [N s/m] viscous, of the arm itself; 0 where unknown */
+  double apparent_mass;       /* [kg] of the arm at its tip; 0 where unknown */
+  double period;              /* [s] of the loop, on average */
+} hapbeam_device;
+
+/* The figures in hapbeam's table (docs/haptics.md) under a name, for a loop at 1 kHz.  Returns 1, or 0 and a message with the names
+   that there are. */
+HAPBEAM_API int hapbeam_known_device(const char* name, hapbeam_device* device, char* message);
+
+/* What a tick of the loop was: the last that applies. */
+enum {
+  HAPBEAM_LOOP_FREE,         /* nothing is touched; the force is zero */
+  HAPBEAM_LOOP_TOUCHING,     /* the force is that of the beam, through the coupling */
+  HAPBEAM_LOOP_OUT_OF_RANGE, /* the same, of the nearest press that the model knows */
+  HAPBEAM_LOOP_ENGAGING,     /* the force is coming in, after a start, a failure or a pause */
+  HAPBEAM_LOOP_LIMITED,      /* the guard cut the force: what is felt is less than the beam */
+  HAPBEAM_LOOP_CONTINUED,    /* the model had no answer: the last force goes on along its tangent */
+  HAPBEAM_LOOP_NO_ANSWER,    /* the model failed: the force is zero and engages anew */
+  HAPBEAM_LOOP_DEVICE        /* the loop begins: the first tick after a start or a reset */
+};
+/* Short lower-case name of what a tick was. */
+HAPBEAM_API const char* hapbeam_loop_name(int loop);
+
 typedef struct hapbeam_servo hapbeam_servo;
 
-/* The device's figures are those of hapbeam's table (docs/haptics.md) under its name.  The device's origin lies at (x, w) in the
-   scene, its x along the beam and its y along w; `scale` metres of the scene are one of the device's.  period: [s] of the loop,
-   on average.  The servo has a beam of its own, like that of the touch, which stays yours. */
-HAPBEAM_API hapbeam_servo* hapbeam_servo_create(const hapbeam_touch* touch, const char* device, double period, double x,
+/* The device's origin lies at (x, w) in the scene, its x along the beam and its y along w; `scale` metres of the scene are one of the
+   device's.  The servo has a beam of its own, like that of the touch, which stays yours, and the touch's friction. */
+HAPBEAM_API hapbeam_servo* hapbeam_servo_create(const hapbeam_touch* touch, const hapbeam_device* device, double x,
                                                 double w, double scale, char* message);
 HAPBEAM_API void hapbeam_servo_destroy(hapbeam_servo* servo);
 /* position [m], velocity [m/s] of the device; dt [s] since the tick before; force [N] for the device.  Returns the model's
    status.  The force comes in over 0.2 s after the first tick, a reset, a failure, or a dt of more than 0.1 s. */
 HAPBEAM_API int hapbeam_servo_tick(hapbeam_servo* servo, const double position[3], const double velocity[3], double dt,
                                    double force[3]);
+/* What the last tick was; HAPBEAM_LOOP_FREE before the first. */
+HAPBEAM_API int hapbeam_servo_loop(const hapbeam_servo* servo);
+/* As hapbeam_touch_peak_strain(), of the last tick. */
+HAPBEAM_API double hapbeam_servo_peak_strain(const hapbeam_servo* servo, double* s);
 HAPBEAM_API void hapbeam_servo_reset(hapbeam_servo* servo);
 /* As hapbeam_touch_shape(), of a recent tick; from any one thread, while another ticks. */
 HAPBEAM_API int hapbeam_servo_shape(hapbeam_servo* servo, double* x_w, int count);

@@ -13,7 +13,7 @@
 #include <hapbeam/hosts/placed_touch.hpp>
 
 using namespace hapbeam;
-using border::guarded;
+using border::created;
 
 struct hapbeam_stylus {
   virtual ~hapbeam_stylus() = default;
@@ -119,7 +119,7 @@ hapbeam_placement hapbeam_placement_at(double x, double y, double z, double scal
 hapbeam_stylus* hapbeam_stylus_create(const hapbeam_rod* rod, int kinematics, int elements, double radius,
                                       double length, double ahead, const hapbeam_placement* placement,
                                       char* message) {
-  return guarded(message, [&] {
+  return created(message, [&] {
     if (!(elements >= 2 && elements <= 4096)) detail::reject("elements", elements, "", "2 to 4096");
     const Rod touched = rod_of(rod);
     const Placement placed = placement_of(placement);
