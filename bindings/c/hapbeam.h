@@ -168,19 +168,45 @@ HAPBEAM_API int hapbeam_servo_shape(hapbeam_servo* servo, double* x_w, int count
 
 /* ---- A stylus whose shaft touches a rod in space ---- */
 
-/* A straight rod that leaves its left end at the scene's origin along x, with its first axis of bending along y. */
+/* A part with a section of its own, in shape that of the rod: a step or a taper. */
+typedef struct hapbeam_part {
+  double end;      /* [m] arc position where it ends; it begins where the one before it does */
+  double from, to; /* sizes of its section at both ends for those of the rod's, positive; linear between them */
+} hapbeam_part;
+
+/* A part with a natural curvature and twist: an arc, a ring or a helix. */
+typedef struct hapbeam_arc {
+  double end;        /* [m] arc position where it ends */
+  double curvature1; /* [1/m] about the first axis: positive turns the tangent toward minus the second */
+  double curvature2; /* [1/m] about the second axis: positive turns it toward the first */
+  double twist;      /* [1/m] of both axes about the tangent */
+} hapbeam_arc;
+
+/* It leaves its left end at the scene's origin along x, with its first axis of bending along y and its second along z. */
 typedef struct hapbeam_rod {
   double length;                                 /* [m] */
   double axial_stiffness;                        /* EA [N] */
   double bending_stiffness1, bending_stiffness2; /* EI about y and about z [N m^2] */
   double torsional_stiffness;                    /* GJ [N m^2] */
   double thickness;                              /* [m] diameter of the surface that is touched */
-  double load[3];                                /* [N/m] dead */
+  double area;                                   /* [m^2] of the section, for the weight alone */
+  double density;                                /* [kg/m^3]; 0: it weighs nothing */
+  double gravity[3];                             /* [m/s^2] direction and size */
+  double load[3];                                /* [N/m] dead, beside the weight */
   int left, right;                               /* HAPBEAM_FREE, CLAMPED or PINNED */
+  int part_count, arc_count;
+  const hapbeam_part* parts; /* read at creation, to the end of the rod; null: of one section */
+  const hapbeam_arc* arcs;   /* of HAPBEAM_TWISTED_ROD, read at creation; null, and beyond the last: straight */
 } hapbeam_rod;
 
-/* A round one, without dead loads.  young, shear: moduli E and G [Pa] */
+/* Straight, of one section, without weight and load.  young, shear: moduli E and G [Pa] */
 HAPBEAM_API hapbeam_rod hapbeam_wire(double length, double diameter, double young, double shear, int left, int right);
+/* width: along y, height: along z [m] */
+HAPBEAM_API hapbeam_rod hapbeam_bar(double length, double width, double height, double young, double shear, int left,
+                                    int right);
+/* outer, inner: diameters [m] */
+HAPBEAM_API hapbeam_rod hapbeam_tube(double length, double outer, double inner, double young, double shear, int left,
+                                     int right);
 
 /* Where the host's world lies in the scene: scene = origin + scale * rotation * host. */
 typedef struct hapbeam_placement {
@@ -193,20 +219,23 @@ typedef struct hapbeam_placement {
 HAPBEAM_API hapbeam_placement hapbeam_placement_at(double x, double y, double z, double scale);
 
 typedef struct hapbeam_wrench {
-  double force[3];  /* [N] on the hand, the host's axes */
-  double torque[3]; /* about the hand: N times the host's unit of length */
-  double s;         /* [m] arc position of the contact; 0 where nothing is touched */
-  int pressing;     /* 1 where the rod is touched */
+  double force[3];    /* [N] on the hand, the host's axes */
+  double torque[3];   /* about the hand: N times the host's unit of length */
+  double friction[3]; /* [N] the tangential part of the force */
+  double s;           /* [m] arc position of the contact; 0 where nothing is touched */
+  double dissipated;  /* [J] by friction, since the touch began */
+  int pressing;       /* 1 where the rod is touched */
+  int sliding;        /* 1 where a contact with friction slides */
   int status;
 } hapbeam_wrench;
 
 typedef struct hapbeam_stylus hapbeam_stylus;
 
 /* kinematics: HAPBEAM_ROUND_ROD or HAPBEAM_TWISTED_ROD; elements: 2 to 4096.  The stylus is a capsule: radius, and length of its axis,
-   whose tip lies `ahead` of the hand's place [m of the scene].  placement: null where the host's world is the scene. */
+   whose tip lies `ahead` of the hand's place [m of the scene].  friction: or null; placement: null where the host's world is the scene. */
 HAPBEAM_API hapbeam_stylus* hapbeam_stylus_create(const hapbeam_rod* rod, int kinematics, int elements, double radius,
-                                                  double length, double ahead, const hapbeam_placement* placement,
-                                                  char* message);
+                                                  double length, double ahead, const hapbeam_friction* friction,
+                                                  const hapbeam_placement* placement, char* message);
 HAPBEAM_API void hapbeam_stylus_destroy(hapbeam_stylus* stylus);
 /* position of the hand in the host's world; orientation: rotation of the stylus' axes in the host's, by rows.  The stylus points along
    its z, from the tip to the hand. */

@@ -93,6 +93,29 @@ static void own(void) {
   hapbeam_touch_destroy(touch);
 }
 
+/* The friction of the touch is the servo's: a hand that is drawn along a ruler is held back. */
+static void rubbed(void) {
+  hapbeam_beam ruler = hapbeam_rectangle(0.3, 0.025, 0.001, 200e9, HAPBEAM_CLAMPED, HAPBEAM_PINNED);
+  const hapbeam_friction friction = {0.3, 0.3};
+  const hapbeam_device device = omega();
+  double along[2] = {0, 0};
+  int rough;
+  for (rough = 0; rough < 2; ++rough) {
+    hapbeam_touch* touch = hapbeam_touch_create(&ruler, HAPBEAM_COROTATIONAL, 8, 0.005, rough ? &friction : 0, 0);
+    hapbeam_servo* servo = hapbeam_servo_create(touch, &device, 0.12, 0.0055, 1, 0);
+    double position[3] = {0, 0, 0}, force[3] = {0, 0, 0};
+    int i;
+    for (i = 0; i < 800; ++i) {
+      position[0] = i < 400 ? 0 : 5e-5 * (i - 400), position[1] = -5e-6 * (i < 400 ? i : 400);
+      CHECK(hapbeam_servo_tick(servo, position, still, 1e-3, force) == HAPBEAM_OK);
+    }
+    along[rough] = force[0] / force[1];
+    hapbeam_servo_destroy(servo), hapbeam_touch_destroy(touch);
+  }
+  /* Normal and friction turn with the ruler, by some hundredths. */
+  CHECK(fabs(along[1] - along[0] + 0.3) < 0.02);
+}
+
 static void nonsense(void) {
   char why[HAPBEAM_MESSAGE];
   hapbeam_touch* touch = bar();
@@ -122,6 +145,7 @@ static void nonsense(void) {
 int main(void) {
   known();
   own();
+  rubbed();
   nonsense();
   return faults ? 1 : 0;
 }
