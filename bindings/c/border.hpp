@@ -8,6 +8,7 @@
 #include <string>
 
 #include "hapbeam.h"
+#include <hapbeam/friction.hpp>
 
 namespace hapbeam::border {
 
@@ -16,21 +17,31 @@ inline const char* text(const char* name, const char* value) {
   return value;
 }
 
-/// What make() returns, or null and the message of what it throws.
-template <class Make>
-auto guarded(char* message, Make make) noexcept -> decltype(make().release()) {
+/// What act() returns, or 0 or null and the message of what it throws.
+template <class Act>
+auto guarded(char* message, Act act) noexcept -> decltype(act()) {
   const auto say = [&](const char* why) {
     if (message) std::snprintf(message, HAPBEAM_MESSAGE, "%s", why);
   };
   try {
     say("");
-    return make().release();
+    return act();
   } catch (const std::exception& e) {
     say(e.what());
   } catch (...) {
     say("unknown error");
   }
-  return nullptr;
+  return {};
+}
+
+/// The object that make() returns, for C to destroy.
+template <class Make>
+auto created(char* message, Make make) noexcept {
+  return guarded(message, make).release();
+}
+
+inline Friction friction_of(const hapbeam_friction* f) {
+  return f ? Friction(f->sticking, f->sliding) : Friction();
 }
 
 }  // namespace hapbeam::border

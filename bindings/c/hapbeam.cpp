@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "border.hpp"
+#include "described.hpp"
+#include "touch_of.hpp"
 #include <hapbeam/hapbeam.hpp>
 #include <hapbeam/haptics/device/known_devices.hpp>
 #ifdef HAPBEAM_C_HAS_MODEL_FILES
@@ -15,95 +17,18 @@
 #endif
 
 using namespace hapbeam;
+using border::created;
+using border::described;
 using border::guarded;
+using border::no_strain;
 using border::text;
-
-struct hapbeam_servo {
-  virtual ~hapbeam_servo() = default;
-  virtual int tick(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity, double dt,
-                   Eigen::Vector3d& force) noexcept = 0;
-  virtual void reset() noexcept = 0;
-  virtual Centreline<double> shape() noexcept = 0;
-};
-
-struct hapbeam_touch {
-  virtual ~hapbeam_touch() = default;
-  virtual TouchResult<double> tick(const Vector2<double>& hand) noexcept = 0;
-  virtual void reset() noexcept = 0;
-  virtual Centreline<double> shape() const noexcept = 0;
-  virtual PeakStrain<double> peak_strain() const noexcept = 0;
-  virtual std::unique_ptr<hapbeam_servo> servo(const DeviceInfo& device, ServoOptions options) const = 0;
-};
+using border::touch_of;
 
 namespace {
-
-template <class Model>
-class ServoOf final : public hapbeam_servo {
- public:
-  ServoOf(const Model& model, const DeviceInfo& device, const ServoOptions& options)
-      : model_(model), servo_(model_, device, options) {}
-  int tick(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity, double dt,
-           Eigen::Vector3d& force) noexcept override {
-    force = servo_.tick(position, velocity, dt);
-    return static_cast<int>(servo_.record().model);
-  }
-  void reset() noexcept override { servo_.reset(); }
-  Centreline<double> shape() noexcept override { return servo_.picture().shape(); }
-
- private:
-  Model model_;
-  Servo<Model> servo_;
-};
-
-template <class Model>
-class TouchOf final : public hapbeam_touch {
- public:
-  TouchOf(Model model, double avatar_radius)
-      : untouched_(std::move(model)),
-        model_(untouched_),
-        radius_(avatar_radius),
-        touch_(model_, avatar_radius) {}
-  TouchResult<double> tick(const Vector2<double>& hand) noexcept override { return touch_.tick(hand); }
-  void reset() noexcept override { touch_.reset(); }
-  Centreline<double> shape() const noexcept override { return model_.shape(); }
-  PeakStrain<double> peak_strain() const noexcept override {
-    if constexpr (has_internal_forces<Model>) return hapbeam::peak_strain(model_);
-    else return {-1, 0};
-  }
-  std::unique_ptr<hapbeam_servo> servo(const DeviceInfo& device, ServoOptions options) const override {
-    options.avatar_radius = radius_;
-    return std::make_unique<ServoOf<Model>>(untouched_, device, options);
-  }
-
- private:
-  Model untouched_, model_;
-  double radius_;
-  Touch<Model> touch_;
-};
-
-template <class Model>
-std::unique_ptr<hapbeam_touch> touch_of(Model model, double avatar_radius) {
-  return std::make_unique<TouchOf<Model>>(std::move(model), avatar_radius);
-}
-
-Support support(const char* end, int value) {
-  if (!(value >= HAPBEAM_FREE && value <= HAPBEAM_GUIDED))
-    detail::reject(end, value, "", "HAPBEAM_FREE, CLAMPED, PINNED, ROLLER or GUIDED");
-  return static_cast<Support>(value);
-}
 
 const hapbeam_touch& some(const hapbeam_touch* touch) {
   if (!touch) throw std::invalid_argument("touch = null: must be one that was created");
   return *touch;
-}
-
-Beam beam_of(const hapbeam_beam* b) {
-  if (!b) throw std::invalid_argument("beam = null: must be a description of one");
-  Beam beam(b->length, b->axial_stiffness, b->bending_stiffness, b->thickness, support("left", b->left),
-            support("right", b->right));
-  if (b->transverse_load != 0) beam.transverse(b->transverse_load);
-  if (b->axial_load != 0) beam.axial(b->axial_load);
-  return beam;
 }
 
 int write_shape(const Centreline<double>& line, double* x_w, int count) noexcept {
@@ -116,8 +41,20 @@ int write_shape(const Centreline<double>& line, double* x_w, int count) noexcept
   return count;
 }
 
-hapbeam_beam described(double length, const Section& section, double young, int left, int right) noexcept {
-  return {length, young * section.area, young * section.inertia, section.thickness, 0, 0, left, right};
+hapbeam_contact contact_of(const TouchResult<double>& felt) noexcept {
+  return {{felt.force.x(), felt.force.y()},
+          {felt.friction.x(), felt.friction.y()},
+          felt.press.s,
+          felt.press.d,
+          felt.dissipated,
+          felt.pressing,
+          felt.sliding,
+          static_cast<int>(felt.status)};
+}
+
+double write_strain(const PeakStrain<double>& peak, double* s) noexcept {
+  if (s) *s = peak.s;
+  return peak.strain;
 }
 
 constexpr double pi = 3.141592653589793;
@@ -126,6 +63,11 @@ constexpr double pi = 3.141592653589793;
 
 const char* hapbeam_status_name(int status) {
   return status >= -4 && status <= 2 ? name(static_cast<Status>(status)) : "unknown";
+}
+
+const char* hapbeam_loop_name(int loop) {
+  return loop >= HAPBEAM_LOOP_FREE && loop <= HAPBEAM_LOOP_DEVICE ? name(static_cast<LoopStatus>(loop))
+                                                                  : "unknown";
 }
 
 int hapbeam_version() { return HAPBEAM_VERSION; }
@@ -143,14 +85,16 @@ hapbeam_beam hapbeam_circle(double length, double diameter, double young, int le
 }
 
 hapbeam_touch* hapbeam_touch_create(const hapbeam_beam* beam, int kinematics, int elements,
-                                    double avatar_radius, char* message) {
-  return guarded(message, [&] {
+                                    double avatar_radius, const hapbeam_friction* friction, char* message) {
+  return created(message, [&] {
+    using border::beam_of;
+    const Friction rough = border::friction_of(friction);
     if (!(elements >= 2 && elements <= 4096)) detail::reject("elements", elements, "", "2 to 4096");
     switch (kinematics) {
-      case HAPBEAM_LINEAR: return touch_of(FemModel<Linear>(beam_of(beam), elements), avatar_radius);
-      case HAPBEAM_VON_KARMAN: return touch_of(FemModel<>(beam_of(beam), elements), avatar_radius);
+      case HAPBEAM_LINEAR: return touch_of(FemModel<Linear>(beam_of(beam), elements), avatar_radius, rough);
+      case HAPBEAM_VON_KARMAN: return touch_of(FemModel<>(beam_of(beam), elements), avatar_radius, rough);
       case HAPBEAM_COROTATIONAL:
-        return touch_of(FemModel<Corotational<>>(beam_of(beam), elements), avatar_radius);
+        return touch_of(FemModel<Corotational<>>(beam_of(beam), elements), avatar_radius, rough);
       default: break;
     }
     detail::reject("kinematics", kinematics, "", "HAPBEAM_LINEAR, VON_KARMAN or COROTATIONAL");
@@ -158,7 +102,7 @@ hapbeam_touch* hapbeam_touch_create(const hapbeam_beam* beam, int kinematics, in
 }
 
 hapbeam_touch* hapbeam_touch_load(const char* path, double avatar_radius, char* message) {
-  return guarded(message, [&]() -> std::unique_ptr<hapbeam_touch> {
+  return created(message, [&]() -> std::unique_ptr<hapbeam_touch> {
     const std::string file = text("path", path);
 #ifdef HAPBEAM_C_HAS_MODEL_FILES
     const ModelFileInfo info = describe_model_file(file);
@@ -174,13 +118,25 @@ hapbeam_touch* hapbeam_touch_load(const char* path, double avatar_radius, char* 
 void hapbeam_touch_destroy(hapbeam_touch* touch) { delete touch; }
 
 hapbeam_contact hapbeam_touch_tick(hapbeam_touch* touch, double x, double w) {
-  if (!touch) return {{0, 0}, 0, 0, 0, HAPBEAM_INVALID_REQUEST};
-  const TouchResult<double> felt = touch->tick({x, w});
-  return {{felt.force.x(), felt.force.y()},
-          felt.press.s,
-          felt.press.d,
-          felt.pressing,
-          static_cast<int>(felt.status)};
+  if (touch) return contact_of(touch->tick({x, w}));
+  hapbeam_contact nothing{};
+  nothing.status = HAPBEAM_INVALID_REQUEST;
+  return nothing;
+}
+
+int hapbeam_touch_ticks(hapbeam_touch* touch, const double* x_w, int count, hapbeam_contact* felt) {
+  if (!touch || !x_w || !felt) return 0;
+  for (int i = 0; i < count; ++i) felt[i] = contact_of(touch->tick({x_w[2 * i], x_w[2 * i + 1]}));
+  return (std::max)(count, 0);
+}
+
+int hapbeam_touch_presses(hapbeam_touch* touch, const double* s_d, int count, hapbeam_response* responses) {
+  if (!touch || !s_d || !responses) return 0;
+  for (int i = 0; i < count; ++i) {
+    const Response<double> response = touch->press({s_d[2 * i], s_d[2 * i + 1]});
+    responses[i] = {response.force, static_cast<int>(response.status)};
+  }
+  return (std::max)(count, 0);
 }
 
 void hapbeam_touch_reset(hapbeam_touch* touch) {
@@ -192,19 +148,23 @@ int hapbeam_touch_shape(const hapbeam_touch* touch, double* x_w, int count) {
 }
 
 double hapbeam_touch_peak_strain(const hapbeam_touch* touch, double* s) {
-  const PeakStrain<double> peak = touch ? touch->peak_strain() : PeakStrain<double>{-1, 0};
-  if (s) *s = peak.s;
-  return peak.strain;
+  return write_strain(touch ? touch->peak_strain() : no_strain, s);
 }
 
-hapbeam_servo* hapbeam_servo_create(const hapbeam_touch* touch, const char* device, double period, double x,
-                                    double w, double scale, char* message) {
+int hapbeam_known_device(const char* name, hapbeam_device* device, char* message) {
   return guarded(message, [&] {
-    DeviceInfo info = known_device(text("device", device));
-    info.period = period;
+    const hapbeam_device known = described(known_device(text("name", name)));
+    if (device) *device = known;
+    return 1;
+  });
+}
+
+hapbeam_servo* hapbeam_servo_create(const hapbeam_touch* touch, const hapbeam_device* device, double x,
+                                    double w, double scale, char* message) {
+  return created(message, [&] {
     ServoOptions options;
     options.placement = Placement::in_plane({x, w}, scale);
-    return some(touch).servo(info, options);
+    return some(touch).servo(border::device_of(device), options);
   });
 }
 
@@ -219,6 +179,14 @@ int hapbeam_servo_tick(hapbeam_servo* servo, const double position[3], const dou
                          sent);
   if (force) std::copy(sent.data(), sent.data() + 3, force);
   return status;
+}
+
+int hapbeam_servo_loop(const hapbeam_servo* servo) {
+  return static_cast<int>(servo ? servo->loop() : LoopStatus::no_answer);
+}
+
+double hapbeam_servo_peak_strain(const hapbeam_servo* servo, double* s) {
+  return write_strain(servo ? servo->peak_strain() : no_strain, s);
 }
 
 void hapbeam_servo_reset(hapbeam_servo* servo) {

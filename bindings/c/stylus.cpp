@@ -2,10 +2,12 @@
 // A stylus that touches a rod in space, for C: the rod, where it lies, and the ticks.
 // Both kinds of rods in one unit: half of what they compile is the same.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
 #include "border.hpp"
+#include "rod_of.hpp"
 #include <hapbeam/element/rod.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
@@ -13,7 +15,7 @@
 #include <hapbeam/hosts/placed_touch.hpp>
 
 using namespace hapbeam;
-using border::guarded;
+using border::created;
 
 struct hapbeam_stylus {
   virtual ~hapbeam_stylus() = default;
@@ -31,21 +33,26 @@ struct StylusRequest {
   double radius;  // [m]
   StylusOptions options;
   const Placement& placement;
+  const Friction& friction;
 };
 
 template <class Element>
 class StylusOn final : public hapbeam_stylus {
  public:
   explicit StylusOn(const StylusRequest& r)
-      : model_(r.rod, r.elements), touch_(model_, r.radius, r.placement, r.options) {}
+      : model_(r.rod, r.elements), touch_(model_, r.radius, r.placement, r.options, r.friction) {}
 
   hapbeam_wrench tick(const HandPose& hand) noexcept override {
     const Wrench on_hand = touch_.tick(hand);
     const auto& felt = touch_.felt();
+    const Eigen::Vector3d friction = touch_.placement().device_force(felt.friction);
     return {{on_hand.force[0], on_hand.force[1], on_hand.force[2]},
             {on_hand.torque[0], on_hand.torque[1], on_hand.torque[2]},
+            {friction[0], friction[1], friction[2]},
             felt.press.s,
+            felt.dissipated,
             felt.pressing,
+            felt.sliding,
             static_cast<int>(felt.status)};
   }
   void reset() noexcept override { touch_.reset(); }
@@ -69,17 +76,19 @@ std::unique_ptr<hapbeam_stylus> stylus_on(const StylusRequest& request) {
   return std::make_unique<StylusOn<Element>>(request);
 }
 
-constexpr double pi = 3.141592653589793;
-
-RodSupport support(const char* end, int value) {
-  switch (value) {
-    case HAPBEAM_FREE: return RodSupport::free;
-    case HAPBEAM_CLAMPED: return RodSupport::clamped;
-    case HAPBEAM_PINNED: return RodSupport::hinged;
-    default: break;
-  }
-  detail::reject(end, value, "", "HAPBEAM_FREE, CLAMPED or PINNED for a rod");
+hapbeam_rod described(const RodSection& section, double length, double young, double shear, int left,
+                      int right) noexcept {
+  hapbeam_rod rod{};
+  rod.length = length;
+  rod.axial_stiffness = young * section.area;
+  rod.bending_stiffness1 = young * section.inertia1, rod.bending_stiffness2 = young * section.inertia2;
+  rod.torsional_stiffness = shear * section.torsion;
+  rod.thickness = section.thickness, rod.area = section.area;
+  rod.left = left, rod.right = right;
+  return rod;
 }
+
+constexpr double pi = 3.141592653589793;
 
 VectorOf<double, 3> vector(const double* v) { return {v[0], v[1], v[2]}; }
 
@@ -87,15 +96,6 @@ Eigen::Matrix3d matrix(const double* rows) noexcept {
   Eigen::Matrix3d m;
   for (int i = 0; i < 9; ++i) m(i / 3, i % 3) = rows[i];
   return m;
-}
-
-Rod rod_of(const hapbeam_rod* r) {
-  if (!r) throw std::invalid_argument("rod = null: must be a description of one");
-  Rod rod(r->length,
-          {r->axial_stiffness, r->bending_stiffness1, r->bending_stiffness2, r->torsional_stiffness},
-          r->thickness, support("left", r->left), support("right", r->right));
-  if (r->load[0] != 0 || r->load[1] != 0 || r->load[2] != 0) rod.load(vector(r->load));
-  return rod;
 }
 
 Placement placement_of(const hapbeam_placement* p) {
@@ -108,8 +108,22 @@ Placement placement_of(const hapbeam_placement* p) {
 // Not RodSection's own, which throws: what is wrong with a size is said when it is used.
 hapbeam_rod hapbeam_wire(double length, double diameter, double young, double shear, int left, int right) {
   const double area = pi * diameter * diameter / 4, inertia = area * diameter * diameter / 16;
-  return {length, young * area, young * inertia, young * inertia, 2 * shear * inertia, diameter, {0, 0, 0},
-          left,   right};
+  return described({area, inertia, inertia, 2 * inertia, diameter}, length, young, shear, left, right);
+}
+
+hapbeam_rod hapbeam_bar(double length, double width, double height, double young, double shear, int left,
+                        int right) {
+  const bool sizes = std::isfinite(width) && width > 0 && std::isfinite(height) && height > 0;
+  const RodSection section =
+      sizes ? RodSection::rectangle(width, height) : RodSection{0, 0, 0, 0, width > 0 ? height : width};
+  return described(section, length, young, shear, left, right);
+}
+
+hapbeam_rod hapbeam_tube(double length, double outer, double inner, double young, double shear, int left,
+                         int right) {
+  const double area = pi * outer * outer / 4, hole = inner >= 0 ? pi * inner * inner / 4 : std::nan("");
+  const double inertia = (area * outer * outer - hole * inner * inner) / 16;
+  return described({area - hole, inertia, inertia, 2 * inertia, outer}, length, young, shear, left, right);
 }
 
 hapbeam_placement hapbeam_placement_at(double x, double y, double z, double scale) {
@@ -117,13 +131,14 @@ hapbeam_placement hapbeam_placement_at(double x, double y, double z, double scal
 }
 
 hapbeam_stylus* hapbeam_stylus_create(const hapbeam_rod* rod, int kinematics, int elements, double radius,
-                                      double length, double ahead, const hapbeam_placement* placement,
-                                      char* message) {
-  return guarded(message, [&] {
+                                      double length, double ahead, const hapbeam_friction* friction,
+                                      const hapbeam_placement* placement, char* message) {
+  return created(message, [&] {
     if (!(elements >= 2 && elements <= 4096)) detail::reject("elements", elements, "", "2 to 4096");
-    const Rod touched = rod_of(rod);
+    const Rod touched = border::rod_of(rod);
     const Placement placed = placement_of(placement);
-    const StylusRequest request{touched, elements, radius, {length, ahead}, placed};
+    const Friction rough = border::friction_of(friction);
+    const StylusRequest request{touched, elements, radius, {length, ahead}, placed, rough};
     switch (kinematics) {
       case HAPBEAM_ROUND_ROD: return stylus_on<RoundRod>(request);
       case HAPBEAM_TWISTED_ROD: return stylus_on<TwistedRod>(request);
@@ -137,7 +152,9 @@ void hapbeam_stylus_destroy(hapbeam_stylus* stylus) { delete stylus; }
 
 hapbeam_wrench hapbeam_stylus_tick(hapbeam_stylus* stylus, const double position[3],
                                    const double orientation[9]) {
-  if (!stylus || !position || !orientation) return {{0, 0, 0}, {0, 0, 0}, 0, 0, HAPBEAM_INVALID_REQUEST};
+  hapbeam_wrench nothing{};
+  nothing.status = HAPBEAM_INVALID_REQUEST;
+  if (!stylus || !position || !orientation) return nothing;
   return stylus->tick({vector(position), matrix(orientation)});
 }
 

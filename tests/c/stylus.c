@@ -21,8 +21,8 @@ static void pose(int tick, double position[3], double orientation[9]) {
 static void felt(int kinematics) {
   char why[HAPBEAM_MESSAGE] = "?";
   hapbeam_rod wire = hapbeam_wire(0.2, 0.002, 200e9, 77e9, HAPBEAM_CLAMPED, HAPBEAM_FREE);
-  hapbeam_stylus* stylus = hapbeam_stylus_create(&wire, kinematics, 8, 0.003, 0.2, 0.12, &placement, why);
-  hapbeam_wrench w = {{0, 0, 0}, {0, 0, 0}, 0, 0, 0};
+  hapbeam_stylus* stylus = hapbeam_stylus_create(&wire, kinematics, 8, 0.003, 0.2, 0.12, 0, &placement, why);
+  hapbeam_wrench w = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0, 0};
   double position[3], orientation[9], line[3 * 21];
   int i;
   CHECK(stylus && why[0] == '\0');
@@ -47,16 +47,41 @@ static void felt(int kinematics) {
   hapbeam_stylus_destroy(stylus);
 }
 
+/* The shaft is drawn along the rod, the host's y: Coulomb's law, and the work that it takes. */
+static void rubbed(int kinematics) {
+  hapbeam_rod wire = hapbeam_wire(0.2, 0.002, 200e9, 77e9, HAPBEAM_CLAMPED, HAPBEAM_PINNED);
+  const hapbeam_friction friction = {0.4, 0.3};
+  hapbeam_stylus* stylus = hapbeam_stylus_create(&wire, kinematics, 8, 0.003, 0.2, 0.12, &friction, &placement, 0);
+  hapbeam_wrench w = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0, 0};
+  double position[3], orientation[9], before = 0;
+  int i;
+  for (i = 0; i < 200; ++i) {
+    double normal = 0, tangential = 0;
+    int k;
+    pose(0, position, orientation);
+    position[1] = i < 100 ? -0.03 : -0.03 + 1e-4 * (i - 100), position[2] = 0.0045 - 1e-5 * (i < 100 ? i : 100);
+    w = hapbeam_stylus_tick(stylus, position, orientation);
+    for (k = 0; k < 3; ++k) normal += pow(w.force[k] - w.friction[k], 2), tangential += pow(w.friction[k], 2);
+    CHECK(sqrt(tangential) <= 0.4 * sqrt(normal) * (1 + 1e-5) && w.dissipated >= before);
+    before = w.dissipated;
+    if (i == 199) CHECK(fabs(sqrt(tangential / normal) / 0.3 - 1) < 1e-5);
+  }
+  CHECK(w.pressing == 1 && w.status == HAPBEAM_OK && w.sliding == 1 && w.friction[1] < 0);
+  CHECK(w.dissipated > 0.5 * -w.friction[1] * 0.01);
+  hapbeam_stylus_destroy(stylus);
+}
+
 static void nonsense(void) {
   char why[HAPBEAM_MESSAGE];
   hapbeam_rod good = hapbeam_wire(0.2, 0.002, 200e9, 77e9, HAPBEAM_CLAMPED, HAPBEAM_FREE), bad;
   hapbeam_placement skew = hapbeam_placement_at(0, 0, 0, 1), flat = hapbeam_placement_at(0, 0, 0, 0);
   hapbeam_stylus* stylus;
+  const hapbeam_friction sticky = {3, 0};
   double numbers[9] = {0};
   skew.rotation[1] = 0.5;
 #define REFUSED(create, words) (CHECK(!(create)), CHECK(strstr(why, words) || !puts(why)))
 #define CREATE(rod, kinematics, elements, radius, length, ahead, place) \
-  hapbeam_stylus_create(rod, kinematics, elements, radius, length, ahead, place, why)
+  hapbeam_stylus_create(rod, kinematics, elements, radius, length, ahead, 0, place, why)
   REFUSED(CREATE(0, HAPBEAM_ROUND_ROD, 8, 0.003, 0, 0, 0), "rod = null");
   REFUSED(CREATE(&good, 7, 8, 0.003, 0, 0, 0), "kinematics = 7");
   REFUSED(CREATE(&good, HAPBEAM_ROUND_ROD, 1, 0.003, 0, 0, 0), "elements = 1");
@@ -73,7 +98,8 @@ static void nonsense(void) {
   REFUSED(CREATE(&bad, HAPBEAM_TWISTED_ROD, 8, 0.003, 0, 0, 0), "torsion stiffness = 0");
   bad = good, bad.load[1] = NAN;
   REFUSED(CREATE(&bad, HAPBEAM_ROUND_ROD, 8, 0.003, 0, 0, 0), "load = nan");
-  stylus = hapbeam_stylus_create(&good, HAPBEAM_ROUND_ROD, 8, 0.003, 0.1, 0, 0, 0);
+  CHECK(!hapbeam_stylus_create(&good, HAPBEAM_ROUND_ROD, 8, 0.003, 0, 0, &sticky, 0, why) && strstr(why, "sticking = 3"));
+  stylus = hapbeam_stylus_create(&good, HAPBEAM_ROUND_ROD, 8, 0.003, 0.1, 0, 0, 0, 0);
   CHECK(stylus && hapbeam_stylus_shape(stylus, numbers, 1) == 0 && hapbeam_stylus_shape(stylus, 0, 9) == 0);
   CHECK(hapbeam_stylus_tick(stylus, 0, numbers).status == HAPBEAM_INVALID_REQUEST);
   CHECK(hapbeam_stylus_tick(stylus, numbers, 0).status == HAPBEAM_INVALID_REQUEST);
@@ -86,6 +112,8 @@ static void nonsense(void) {
 int main(void) {
   felt(HAPBEAM_ROUND_ROD);
   felt(HAPBEAM_TWISTED_ROD);
+  rubbed(HAPBEAM_ROUND_ROD);
+  rubbed(HAPBEAM_TWISTED_ROD);
   nonsense();
   return faults ? 1 : 0;
 }

@@ -11,7 +11,9 @@ Double3, Double9 = ctypes.c_double * 3, ctypes.c_double * 9
 class Rod(ctypes.Structure):
     _fields_ = [(name, ctypes.c_double) for name in
                 ("length", "axial_stiffness", "bending_stiffness1", "bending_stiffness2", "torsional_stiffness", "thickness")]
-    _fields_ += [("load", Double3), ("left", ctypes.c_int), ("right", ctypes.c_int)]
+    _fields_ += [("area", ctypes.c_double), ("density", ctypes.c_double), ("gravity", Double3), ("load", Double3)]
+    _fields_ += [(name, ctypes.c_int) for name in ("left", "right", "part_count", "arc_count")]
+    _fields_ += [("parts", ctypes.c_void_p), ("arcs", ctypes.c_void_p)]
 
 
 class Placement(ctypes.Structure):
@@ -19,8 +21,9 @@ class Placement(ctypes.Structure):
 
 
 class Wrench(ctypes.Structure):
-    _fields_ = [("force", Double3), ("torque", Double3), ("s", ctypes.c_double),
-                ("pressing", ctypes.c_int), ("status", ctypes.c_int)]
+    _fields_ = [("force", Double3), ("torque", Double3), ("friction", Double3), ("s", ctypes.c_double),
+                ("dissipated", ctypes.c_double), ("pressing", ctypes.c_int), ("sliding", ctypes.c_int),
+                ("status", ctypes.c_int)]
 
 
 FREE, CLAMPED = 0, 1
@@ -30,7 +33,7 @@ library.hapbeam_wire.restype = Rod
 library.hapbeam_wire.argtypes = [ctypes.c_double] * 4 + [ctypes.c_int] * 2
 library.hapbeam_stylus_create.restype = ctypes.c_void_p
 library.hapbeam_stylus_create.argtypes = [ctypes.POINTER(Rod), ctypes.c_int, ctypes.c_int] + [ctypes.c_double] * 3 + [
-    ctypes.POINTER(Placement), ctypes.c_char_p]
+    ctypes.c_void_p, ctypes.POINTER(Placement), ctypes.c_char_p]
 library.hapbeam_stylus_tick.restype = Wrench
 library.hapbeam_stylus_tick.argtypes = [ctypes.c_void_p, Double3, Double9]
 library.hapbeam_stylus_destroy.argtypes = [ctypes.c_void_p]
@@ -42,7 +45,8 @@ across = Double9(0, -s, c, 0, c, s, -1, 0, 0)  # the stylus points across the wi
 wrenches = []
 for kinematics in ROUND_ROD, TWISTED_ROD:
     message = ctypes.create_string_buffer(512)
-    stylus = library.hapbeam_stylus_create(ctypes.byref(wire), kinematics, 8, 0.003, 0.2, 0.12, ctypes.byref(world), message)
+    stylus = library.hapbeam_stylus_create(ctypes.byref(wire), kinematics, 8, 0.003, 0.2, 0.12, None, ctypes.byref(world),
+                                           message)
     assert stylus, message.value.decode()
     for i in range(400):
         felt = library.hapbeam_stylus_tick(stylus, Double3(0.03, 1e-5 * i, 0.005 - 1e-5 * i), across)

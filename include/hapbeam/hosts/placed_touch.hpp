@@ -44,13 +44,13 @@ class PlacedTouch {
   /// @param model  kept by reference, and pressed by this object alone
   /// @param avatar_radius  [m] in the beam's metres, of the round tool
   /// @param placement  of the host's positions in the plane of the beam or the space of the rod, with axes and scale
-  /// @param stylus  what tick(HandPose) brings to a rod in space
+  /// @param stylus  what tick(HandPose) brings to a rod in space   @param friction  of a model that has it
   /// Allocates.   @throws std::invalid_argument as Touch, or for a stylus of a planar beam
   PlacedTouch(Model& model, double avatar_radius, const Placement& placement = {},
-              const StylusOptions& stylus = {})
+              const StylusOptions& stylus = {}, const Friction& friction = {})
       : model_(model),
         placement_(placement),
-        touch_(model, static_cast<Scalar>(avatar_radius)),
+        touch_(detail::make_touch(model, static_cast<Scalar>(avatar_radius), friction)),
         stylus_(stylus),
         seen_(model.shape()),
         pictures_(seen_) {}
@@ -91,7 +91,7 @@ class PlacedTouch {
   const TouchResult<Scalar, dimension>& felt() const noexcept { return felt_; }
 
   /// The newest shape and its record. The record has status, model, position, hand, avatar, force, torque, shaft, press,
-  /// pressing and the counts of ticks. One reader, from any thread: wait-free. Both stay until the next call.
+  /// pressing, what friction does, and the counts of ticks. One reader, from any thread: wait-free. Both stay until the next call.
   /// A shape that costs more than its force is that of the first tick after the last call.
   const Picture& picture() noexcept {
     looked_.store(true, std::memory_order_relaxed);
@@ -134,6 +134,9 @@ class PlacedTouch {
     r.force = felt.force, r.torque = felt.torque;
     r.press = {static_cast<double>(felt_.press.s), static_cast<double>(felt_.press.d)};
     r.pressing = felt_.pressing;
+    r.sliding = felt_.sliding;
+    r.friction = detail::in_scene(felt_.friction.template cast<double>().eval());
+    r.dissipated = static_cast<double>(felt_.dissipated);
     ++r.ticks;
     r.contact_ticks += r.pressing;
     r.failed_ticks += r.status == LoopStatus::no_answer;

@@ -28,13 +28,14 @@ Point product(const Point& a, const Point& b) {
 
 TEST_CASE("a placed stylus feels what Touch feels, bit by bit, and the torque of that force",
           "[hosts][torque]") {
+  const Friction friction = GENERATE(Friction(), Friction(0.4, 0.3));
   FemModel<RoundRod> model(needle(), 8), other(needle(), 8);
-  PlacedTouch<FemModel<RoundRod>> placed(model, radius, x_toward_user({0, 0}), stylus);
-  Touch<FemModel<RoundRod>> alone(other, radius);
+  PlacedTouch<FemModel<RoundRod>> placed(model, radius, x_toward_user({0, 0}), stylus, friction);
+  Touch<FemModel<RoundRod>> alone(other, radius, friction);
   // Across the rod: the axis of the stylus is the host's x or so.
   Eigen::Matrix3d across;
   across << 0, 0, 1, 0, 1, 0, -1, 0, 0;
-  int pressed = 0, differ = 0, not_finite = 0, turned = 0;
+  int pressed = 0, slid = 0, differ = 0, not_finite = 0, turned = 0;
   for (int k = 0; k < 6000; ++k) {
     // The scene's (x, y, z) are the host's (y, z, x).
     const double t = 1e-3 * k;
@@ -52,6 +53,10 @@ TEST_CASE("a placed stylus feels what Touch feels, bit by bit, and the torque of
                 torque = product(same.contact.foot - place, force);
     pressed += same.pressing && force.norm() > 0;
     turned += felt.torque.norm() > 1e-3;
+    const ServoRecord& record = placed.picture().record;
+    slid += record.sliding;
+    differ += record.sliding != same.sliding || record.friction != same.friction ||
+              record.dissipated != same.dissipated;
     differ += felt.force != Point(force[2], force[0], force[1]);
     if (force.norm() > 0)
       differ += (felt.torque - Point(torque[2], torque[0], torque[1])).norm() > 1e-15 * torque.norm() + 1e-18;
@@ -61,6 +66,7 @@ TEST_CASE("a placed stylus feels what Touch feels, bit by bit, and the torque of
   CHECK(pressed > 1000);
   CHECK(pressed < 5000);
   CHECK(turned > 1000);
+  CHECK((slid > 500) == !friction.none());
   CHECK(differ == 0);
   CHECK(not_finite == 0);
 }
