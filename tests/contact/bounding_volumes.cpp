@@ -14,7 +14,7 @@ NearestPoint<Scalar> nearest_of_all(const Centreline<Scalar>& line, const Vector
   NearestPoint<Scalar> best;
   for (int i = 0; i < line.segments(); ++i) {
     const auto candidate = closest_point(line.segment(i), q);
-    if (candidate.distance_squared < best.at.distance_squared) best = {i, candidate};
+    if (candidate.distance_squared < best.at.distance_squared) best = {i, candidate, line.segment(i)};
   }
   return best;
 }
