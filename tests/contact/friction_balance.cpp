@@ -133,3 +133,18 @@ TEST_CASE("what begins, ends, damps or is led besides breaks the balance of fric
   CHECK(breaks(from, to, forgotten));
   CHECK(breaks(from, to, damped));
 }
+
+TEST_CASE("a hand that lets go has gone as far as one that holds, and its last force over that way",
+          "[friction]") {
+  for (const bool lets_go : {false, true}) {
+    Balance balance;
+    touch(balance, {0.1, 2});
+    touch(balance, {0.101, 3});
+    if (lets_go) balance.work.begin(), balance.work.apart(0, {0, Vector(0.105, 0), 0.01, 1});
+    else touch(balance, {0.105, 1});
+    CAPTURE(lets_go);
+    CHECK(balance.work.way() == Approx(0.004));
+    CHECK(balance.work.ahead() == Approx(3 * 0.004));
+    CHECK(balance.work.done() == Approx((lets_go ? 1.5 : 2) * 0.004));
+  }
+}

@@ -56,9 +56,12 @@ class ContactWork {
   /// With each body that does not touch, or not any more.
   void apart(int i, const Round& round) noexcept {
     Body& body = bodies_[of(i)];
-    if (touched_[of(i)] && placed_[of(i)])
-      add(body.force.dot(moved(body.round, round, body.point)) - body.push * (round.reach - body.round.reach),
-          0);
+    if (touched_[of(i)] && placed_[of(i)]) {
+      const Scalar grown = round.reach - body.round.reach;
+      const Vector way = moved(body.round, round, body.point);
+      add(body.force.dot(way) - body.push * grown, 0);
+      way_ = (std::max)(way_, way.squaredNorm() + grown * grown);
+    }
     body.round = round, body.force.setZero(), body.push = 0;
     placed_[of(i)] = true;
   }

@@ -33,7 +33,7 @@ class FrictionLaw {
   using Place = FrictionPlace<Scalar, D>;
   using State = FrictionState<Scalar, D>;
 
-  /// Force and direction are as exact as that, in units of the bound.
+  /// Force and direction are as exact as that, in units of the bound.  In space the tolerance of an equilibrium leaves more of a short slip.
   static constexpr Scalar exact =
       (std::max)(Scalar(D == 2 ? 1e-6 : 2e-4), 8 * std::numeric_limits<Scalar>::epsilon());
   /// Where that was not reached within most_tries equilibria, an error that large is no answer any more.
@@ -185,6 +185,7 @@ class FrictionLaw {
   bool falls() const noexcept { return fallen_; }
   /// To be called where no equilibrium is near.  A hand that pushes a beam along itself has no end of force while it sticks, and a beam that
   /// hardly slides has none while it slides: each way is tried once.
+  /// Without friction it is tried most_tries times at most.
   /// @return whether there is another way to try; else it slides
   bool turn() noexcept {
     torn_ = true;
