@@ -11,20 +11,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 namespace hapbeam {
-
-/// A hand that holds an avatar by its coupling.
-template <typename Scalar>
-struct Coupled {
-  Circle<Scalar> hand;      ///< where the avatar would be without the beam
-  Scalar stiffness = 1000;  ///< K [N/m], positive
-  Scalar damping = 0;       ///< B [N·s/m], not negative
-};
 
 /// @tparam Element  of finite rotation, as Corotational<>
 template <class Element = Corotational<>, typename ScalarType = double, int Elements = Eigen::Dynamic,
@@ -53,6 +46,7 @@ class DynamicModel {
         rest_(elements),
         before_(elements),
         substeps_(substeps),
+        thickness_(static_cast<Scalar>(beam.thickness())),
         drag_(static_cast<Scalar>(detail::not_negative("drag", drag, "1/s"))) {
     if (substeps < 1) detail::reject("substeps", substeps, "", "1 or more");
     let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
@@ -83,6 +77,7 @@ class DynamicModel {
 
   int elements() const noexcept { return system_.elements(); }
   int substeps() const noexcept { return substeps_; }
+  Scalar thickness() const noexcept { return thickness_; }  ///< [m]
   Centreline<Scalar> shape() const noexcept { return system_.drawn(); }
   /// [m/s] at arc position s.
   Vector2<Scalar> velocity(Scalar s) const noexcept {
@@ -142,9 +137,10 @@ class DynamicModel {
     if (!(dt > 0)) return pushed;
     system_.chain().move_with(&inertia_);
     hand_ = hand;
+    if (hand && !touches_) contact_.s = hand->hand.s;
     if (hand && !known_) {
       // One that comes from nowhere has its spring bent as it lies, and a damper at rest.
-      from_ = hand->hand.centre, contact_ = {};
+      from_ = hand->hand.centre;
       penetration_ = (std::max)(hand->hand.reach - look(hand->hand).distance, Scalar(0));
     }
     known_ = hand != nullptr;
@@ -226,6 +222,10 @@ class DynamicModel {
       }
       // From where the avatar is about: on the beam, and not in it as far as the hand.
       const auto view = look(circle);
+      if (!std::isfinite(view.distance)) {
+        touches_ = false, let_go = true;
+        continue;
+      }
       const Scalar ahead = (std::max)(circle.reach - view.distance, Scalar(0));
       const Circle<Scalar> avatar{contact_.s, circle.centre + ahead * view.normal,
                                   circle.reach + ahead - lasting, circle.side};
@@ -260,11 +260,17 @@ class DynamicModel {
   /// How the circle lies beside the beam, which is nearest to it at contact_.s then.
   auto look(const Circle<Scalar>& circle) noexcept {
     const auto line = system_.centreline();
-    const auto view = [&] { return RoundContact{circle}.look(RoundContact::node_at(line, contact_.s), 0); };
-    if (!(contact_.s > 0)) contact_.s = circle.s;
-    for (int k = 0; k < 4; ++k)
-      contact_.s = std::clamp(contact_.s + view().ahead, Scalar(0), system_.length());
-    return view();
+    const Scalar length = system_.length();
+    contact_.s = std::clamp(contact_.s, Scalar(0), length);
+    const auto view = [&](int end) {
+      return RoundContact{circle}.look(RoundContact::node_at(line, contact_.s), end);
+    };
+    for (int k = 0; k < 4; ++k) contact_.s = std::clamp(contact_.s + view(0).ahead, Scalar(0), length);
+    const int end = contact_.s <= 0 ? -1 : contact_.s >= length ? 1 : 0;
+    auto seen = view(end);
+    // Past an end and behind it there is nothing to touch.
+    if (Scalar(end) * seen.ahead > 0) seen.distance = std::numeric_limits<Scalar>::infinity();
+    return seen;
   }
 
   static constexpr int most_passes = 4;
@@ -274,6 +280,7 @@ class DynamicModel {
   TrBdf2<Scalar, Elements, MaxElements> steps_;
   typename System::State rest_, before_;
   int substeps_, solves_ = 0;
+  Scalar thickness_;
   Scalar drag_;
   const Coupled<Scalar>* hand_ = nullptr;
   Vector2<Scalar> from_ = Vector2<Scalar>::Zero();  // where the hand was
