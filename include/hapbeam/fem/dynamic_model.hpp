@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <hapbeam/element/corotational.hpp>
@@ -222,10 +221,6 @@ class DynamicModel {
       }
       // From where the avatar is about: on the beam, and not in it as far as the hand.
       const auto view = look(circle);
-      if (!std::isfinite(view.distance)) {
-        touches_ = false, let_go = true;
-        continue;
-      }
       const Scalar ahead = (std::max)(circle.reach - view.distance, Scalar(0));
       const Circle<Scalar> avatar{contact_.s, circle.centre + ahead * view.normal,
                                   circle.reach + ahead - lasting, circle.side};
@@ -257,20 +252,13 @@ class DynamicModel {
     solves_ += report.solves;
     return report.status == Status::ok;
   }
-  /// How the circle lies beside the beam, which is nearest to it at contact_.s then.
+  /// How the circle lies beside the beam, which is nearest to it at contact_.s then; past an end, beside its tangent.
   auto look(const Circle<Scalar>& circle) noexcept {
     const auto line = system_.centreline();
-    const Scalar length = system_.length();
-    contact_.s = std::clamp(contact_.s, Scalar(0), length);
-    const auto view = [&](int end) {
-      return RoundContact{circle}.look(RoundContact::node_at(line, contact_.s), end);
-    };
-    for (int k = 0; k < 4; ++k) contact_.s = std::clamp(contact_.s + view(0).ahead, Scalar(0), length);
-    const int end = contact_.s <= 0 ? -1 : contact_.s >= length ? 1 : 0;
-    auto seen = view(end);
-    // Past an end and behind it there is nothing to touch.
-    if (Scalar(end) * seen.ahead > 0) seen.distance = std::numeric_limits<Scalar>::infinity();
-    return seen;
+    const auto view = [&] { return RoundContact{circle}.look(RoundContact::node_at(line, contact_.s), 0); };
+    for (int k = 0; k < 4; ++k)
+      contact_.s = std::clamp(contact_.s + view().ahead, Scalar(0), system_.length());
+    return view();
   }
 
   static constexpr int most_passes = 4;
