@@ -126,15 +126,15 @@ TEST_CASE(
         };
         std::array<double, 4> sent{};
         double given = 0, most = 0, before = 0, jump = 0;
+        int still = 0;  // ticks in which the hand has rested
         for (int k = 0; k < 600; ++k) {
           const double from = hand.x;
           given += hand.tick(k * 1e-3, sent[static_cast<std::size_t>(delay)], want);
           most = std::max(most, given);
           const auto felt = coupling.tick(touch, Vector2<double>(s, hand.x), 1e-3);
           REQUIRE(felt.touch.status == Status::ok);
-          // Where it rests.
-          if (how == Motion::presses && k > 500 && std::abs(hand.x - from) < 1e-7)
-            jump = std::max(jump, std::abs(felt.force.y() - before));
+          still = std::abs(hand.x - from) < 1e-7 ? still + 1 : 0;
+          if (still > 20) jump = std::max(jump, std::abs(felt.force.y() - before));
           before = felt.force.y();
           for (std::size_t i = 3; i > 0; --i) sent[i] = sent[i - 1];
           sent[0] = before;
