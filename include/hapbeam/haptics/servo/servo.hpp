@@ -293,7 +293,7 @@ auto Servo<Model, Coupling>::run(const State& state) noexcept {
   }();
   const double stored = coupled.energy / options_.placement.scale();
   energy_.lend(guard_.came_in() * stored);
-  if (!coupled.touch.pressing) energy_.keep(stored);
+  if (known && !coupled.touch.pressing) energy_.keep(stored);
   keep(state, coupled, guarded, safe);
   if (known) keep_place(state, coupled);
   if constexpr (oriented<State>) {
