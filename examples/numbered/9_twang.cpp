@@ -9,13 +9,13 @@
 int main(int count, char** arguments) {
   using namespace hapbeam;
   constexpr int rate = 48000, seconds = 2;
-  const Beam ruler(0.12, Section::rectangle(0.025, 0.001), Material{200e9, 7850}, Support::clamped,
-                   Support::free);
+  const Beam ruler(0.12, Section::rectangle(0.025, 0.001), Material{200e9, 7850, Damping::air(0.01, 56.6)},
+                   Support::clamped, Support::free);
   Beam bent = ruler;
   bent.add(PointLoad{0.12, 0, -15, 0});  // 15 N at its tip
 
-  // 8 elements, one part a step, and air, which leaves 1/e of the energy in 1/8 s
-  DynamicModel<> model(ruler, 8, 1, 8.0);
+  // 8 elements, one part a step; the air leaves 1/e of the energy in 0.14 s
+  DynamicModel<> model(ruler, 8, 1);
   model.let_go_from(FemModel<Corotational<>>(bent, 8).shape());
 
   std::vector<std::int16_t> sound;

@@ -61,6 +61,7 @@ class Beam : public detail::Slender<Beam, Section, Arc> {
              right) {
     build_of(material.young, section.area);
     density_ = detail::not_negative("density", material.density, "kg/m³");
+    damping_ = material.damping.check();
   }
 
   /// For a section known by its stiffness.
@@ -111,6 +112,9 @@ class Beam : public detail::Slender<Beam, Section, Arc> {
   /// [kg/m], 0: it has no mass
   double mass_per_length(double s) const { return density_ > 0 ? density_ * area_(s) : 0; }
 
+  /// What it loses where it moves.
+  const Damping& damping() const noexcept { return damping_; }
+
   /// Gives parts of the beam sections of their own: a taper or steps.  Elements of Tapered<Local> take them; a FemModel of other
   /// elements rejects the beam.
   /// @throws std::invalid_argument unless the ends increase, up to the length, and the beam was built of a material
@@ -153,6 +157,7 @@ class Beam : public detail::Slender<Beam, Section, Arc> {
   }
 
   double axial_stiffness_, bending_stiffness_, density_ = 0;
+  Damping damping_;
   Support left_, right_;
   std::vector<PointLoad> point_loads_;
   DistributedLoad transverse_, axial_;

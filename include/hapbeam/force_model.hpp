@@ -27,6 +27,11 @@
 //
 //   m.push(o, n)         Status                 of n Obstacle<Scalar, dimension>, in and out; promises as press()
 //
+// A model with mass has no press(). It goes on by a time, with a hand that holds an avatar by its coupling:
+//
+//   m.step(dt, h)        Pushed<Scalar>         of a Coupled<Scalar>; promises as press(); dt [s]
+//   m.energy()           with sum() [J]         noexcept; of motion, strain and loads
+//
 // A model whose shape costs more than its force may offer a part of the shape. A lasting contact reads no more than
 // that:
 //
@@ -124,6 +129,14 @@ struct Circle {
   Vector2<Scalar> centre = Vector2<Scalar>::Zero();  ///< [m]
   Scalar reach;  ///< [m] radius of the circle, from its centre to the centreline
   Scalar side;   ///< of the centreline on which the centre lies: +1 left of its direction, -1
+};
+
+/// A hand that holds an avatar by its coupling, a spring and a damper.
+template <typename Scalar>
+struct Coupled {
+  Circle<Scalar> hand;      ///< where the avatar would be without the beam
+  Scalar stiffness = 1000;  ///< K [N/m], positive
+  Scalar damping = 0;       ///< B [N·s/m], not negative
 };
 
 /// A frictionless capsule, or a sphere, that the centreline of a rod touches at one point, which is part of the answer.
@@ -301,6 +314,10 @@ template <typename M>
 using Part =
     std::enable_if_t<noexcept(std::declval<const M&>().part(typename M::Scalar(), typename M::Scalar()))>;
 
+template <typename M>
+using StepWithHand = std::enable_if_t<noexcept(
+    std::declval<M&>().step(typename M::Scalar(), std::declval<const Coupled<typename M::Scalar>&>()))>;
+
 }  // namespace detail
 
 /// The pieces of the model's shape that hold arc positions s0 to s1.
@@ -318,6 +335,10 @@ inline constexpr bool takes_push = detail::offers<detail::PushRound, M>;
 /// True where M can be pushed by several bodies at once, noexcept included; M::contacts says by how many.
 template <typename M>
 inline constexpr bool takes_obstacles = detail::offers<detail::PushObstacles, M>;
+
+/// True where M has mass, noexcept included.
+template <typename M>
+inline constexpr bool has_mass = detail::offers<detail::StepWithHand, M>;
 
 /// True where M fulfils the contract above, every noexcept included.
 template <typename M>

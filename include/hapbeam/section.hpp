@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -117,10 +118,50 @@ struct Section {
   static Section of(const RodSection& section) { return {section.area, section.inertia1, section.thickness}; }
 };
 
-/// Linear elastic material of a beam.
+/// A branch of a material that relaxes: strained at once it is stiffer by g E, which goes as exp(-t/τ).
+struct Relaxation {
+  double share = 0;  ///< g, not negative; 0: none
+  double time = 1;   ///< τ [s], positive
+};
+
+/// What a beam that moves loses, in its material and in the air: σ = E (ε + τ ε') + the branches', and a force of α m v.
+/// A model without mass has no time, and none of this.
+struct Damping {
+  double viscosity = 0;                     ///< τ [s], not negative
+  double drag = 0;                          ///< α [1/s], not negative
+  std::array<Relaxation, 4> branches = {};  ///< of a Prony series; E is what is left when all have relaxed
+
+  /// Of the material, with a damping ratio at a frequency [Hz], and ratios that rise with it.
+  static Damping ratio(double ratio, double frequency) {
+    return {detail::not_negative("damping ratio", ratio, "") / (pi * of(frequency)), 0, {}};
+  }
+  /// The same by its loss factor η = 2 ζ.
+  static Damping loss_factor(double factor, double frequency) { return ratio(factor / 2, frequency); }
+  /// Of the air, with ratios that fall as frequencies rise.
+  static Damping air(double ratio, double frequency) {
+    return {0, detail::not_negative("damping ratio", ratio, "") * 4 * pi * of(frequency), {}};
+  }
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  const Damping& check() const {
+    detail::not_negative("damping viscosity", viscosity, "s");
+    detail::not_negative("damping drag", drag, "1/s");
+    for (const Relaxation& branch : branches) {
+      detail::not_negative("relaxation share", branch.share, "");
+      detail::positive("relaxation time", branch.time, "s");
+    }
+    return *this;
+  }
+
+ private:
+  static constexpr double pi = 3.14159265358979323846;
+  static double of(double frequency) { return detail::positive("damping frequency", frequency, "Hz"); }
+};
+
+/// Material of a beam.
 struct Material {
-  double young;        ///< Young's modulus E [Pa]
-  double density = 0;  ///< [kg/m³]; 0: not known, and the beam has no mass
+  double young;          ///< Young's modulus E [Pa]
+  double density = 0;    ///< [kg/m³]; 0: not known, and the beam has no mass
+  Damping damping = {};  ///< of a model with mass
 };
 
 namespace detail {

@@ -1,10 +1,13 @@
 // A step of a beam with mass: no heap, and a bounded number of linear solves, whatever the hand does.
 #include <limits>
 #include <realtime/heap_watch.hpp>
+#include <realtime/lock_watch.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include <hapbeam/fem/dynamic_model.hpp>
+#include <hapbeam/haptics/device/virtual_phantom.hpp>
+#include <hapbeam/haptics/servo/servo_loop.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -33,4 +36,39 @@ TEST_CASE("a step of a beam with mass allocates nothing and is bounded", "[dynam
   model.reset();
   CHECK(heap_use([&] { (void)model.step(1e-3), model.reset(), (void)model.energy(); }) == HeapUse{});
   step(0.2, 0.0049, 1e-3);
+}
+
+TEST_CASE("a loop of a beam with mass, through faults and resets: no heap, no lock", "[dynamics]") {
+  using Mass = Servo<DynamicModel<>>;
+  static_assert(noexcept(std::declval<Mass&>().tick(std::declval<const DeviceState&>())));
+  Material material{200e9, 7850, Damping::ratio(0.01, 9)};
+  material.damping.branches[0] = {0.2, 0.1};
+  const Beam beam(0.3, Section::rectangle(0.025, 0.001), material, Support::clamped, Support::free);
+  DynamicModel<> model(beam, 8, 2);
+  VirtualPhantom<> phantom(HandPath({0, 0.01}).rest(0.3).press(0.02, 0.3).release(0.04, 0.02).rest(0.2));
+  ServoOptions options;
+  options.placement = Placement::in_plane({0.25, 0});
+  options.dissipate = true;
+  ServoLoop loop(phantom, model, options);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Random random(2);
+  int not_finite = 0;
+  const auto run = [&] {
+    for (int k = 0; k < 80; ++k) {
+      phantom.run(loop.servo(), 0.01);
+      (void)loop.picture();
+    }
+    for (int k = 0; k < 300; ++k) {
+      DeviceState state{Eigen::Vector3d(random(0.4), random(0.1), 0), Eigen::Vector3d::Zero(), 1e-3 * k};
+      if (k % 11 == 0) state.position.y() = nan;
+      if (k % 13 == 0) state.time = nan;
+      state.reset = k % 50 == 0;
+      not_finite += !loop.servo().tick(state).allFinite();
+    }
+  };
+  long locks = -1;
+  CHECK(heap_use([&] { locks = locks_taken(run); }) == HeapUse{});
+  CHECK(locks == 0);
+  CHECK(not_finite == 0);
+  CHECK(loop.picture().record.contact_ticks > 100);
 }

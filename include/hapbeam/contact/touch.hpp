@@ -7,6 +7,7 @@
 // circle or in space a capsule: its centreline goes to the distance `reach` from the avatar's centre or axis, and the model returns the
 // point of contact. Any other is pressed across the beam, and so is every beam past an end that holds w, and a planar one beside it
 // (place_contact.hpp). The force acts along the normal and never pulls.
+// A model with mass has another Touch (touch_in_motion.hpp).
 // Allocates and throws in its constructor only.
 #pragma once
 
@@ -38,7 +39,8 @@ struct TouchResult {
 };
 
 /// One avatar on one beam.  Between ticks others may read the model, but only this object presses it.
-template <typename Model>
+/// @tparam Enabled  for those of other models
+template <typename Model, typename Enabled = void>
 class Touch {
   static_assert(
       is_force_model<Model>,
@@ -203,8 +205,8 @@ class Touch {
 };
 
 // Outside of the class: only so does "extern template class Touch<…>;" keep a compiler from it.
-template <typename Model>
-auto Touch<Model>::tick(const Avatar& avatar) noexcept -> Result {
+template <typename Model, typename Enabled>
+auto Touch<Model, Enabled>::tick(const Avatar& avatar) noexcept -> Result {
   Result result;
   Contact& contact = result.contact;
   if (!pressing() && !falling_ && out_of_reach(avatar, volumes_, model_.thickness(), at_.memory))

@@ -91,6 +91,12 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
     return lengthened(p, Turn<S>(p, d, x), normal);
   }
 
+  /// In the frame of the chord.
+  template <typename S>
+  static Deformation<S> deformation(const ElementProperties<S>& p, const Vector6<S>& d) noexcept {
+    return Chord<S>(p, d).local(p, d);
+  }
+
  private:
   template <typename S>
   struct Chord {

@@ -16,6 +16,7 @@
 #include <hapbeam/fem/dynamics.hpp>
 #include <hapbeam/fem/laid_beam.hpp>
 #include <hapbeam/fem/system.hpp>
+#include <hapbeam/fem/viscosity.hpp>
 
 namespace hapbeam {
 
@@ -33,6 +34,7 @@ class BeamChain {
   using Assembler = detail::AssemblerOf<Element, Scalar, Elements, MaxElements>;
   using Drawn = detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>>;
   using Inertia = detail::Inertia<Scalar, Elements, MaxElements>;
+  using Viscosity = detail::Viscosity<Element, Scalar, Elements, MaxElements>;
 
   /// @param number  of elements
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or the number does not fit the type
@@ -57,7 +59,9 @@ class BeamChain {
   Parts& parts() noexcept { return parts_; }
   const Parts& parts() const noexcept { return parts_; }
   /// Of what it is in motion with; null: at rest.
-  void move_with(const Inertia* inertia) noexcept { inertia_ = inertia; }
+  void move_with(const Inertia* inertia, const Viscosity* viscosity) noexcept {
+    inertia_ = inertia, viscosity_ = viscosity;
+  }
 
   // Nodes of ChainSystem's states.
 
@@ -141,6 +145,7 @@ class BeamChain {
       const auto load_and_move = [&](Vector6<Scalar>& r, Matrix6<Scalar>& K) {
         work += parts_.subtract_loads(e, load, r, &K);
         if (inertia_) energy += inertia_->add(e, parts_.nodes()[e], parts_.nodes()[e + 1], r, K);
+        if (viscosity_) energy += viscosity_->add(e, parts_.displacements(e), r, K);
       };
       if (rows.in(e)) {
         Matrix6<Scalar> K;
@@ -259,6 +264,7 @@ class BeamChain {
   Parts parts_;
   Nodes before_;                      // the last increment
   const Inertia* inertia_ = nullptr;  // of what it is in motion with
+  const Viscosity* viscosity_ = nullptr;
   detail::BeamEnds<Scalar> ends_;
   Scalar stiffness_ = 0;  // of all elements, along and across [N/m]
 };

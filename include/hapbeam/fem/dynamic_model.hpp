@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A beam in the plane with mass: it swings, and what touches it meets its inertia.
 //
-//   M q" + α M q' + V'(q) = forces
+//   M q" + α M q' + V'(q) + what is viscous = forces
 //
 // step() goes on by a time, alone or with a hand.  Each of its parts is a static solve with one term more, the inertia (dynamics.hpp): the elements, supports
 // and contacts are those of FemModel, and the beam stays where that does.  A hand touches through its coupling, a spring and a damper, within the step: a
@@ -17,14 +17,6 @@
 #include <hapbeam/fem/fem_model.hpp>
 
 namespace hapbeam {
-
-/// A hand that holds an avatar by its coupling.
-template <typename Scalar>
-struct Coupled {
-  Circle<Scalar> hand;      ///< where the avatar would be without the beam
-  Scalar stiffness = 1000;  ///< K [N/m], positive
-  Scalar damping = 0;       ///< B [N·s/m], not negative
-};
 
 /// @tparam Element  of finite rotation, as Corotational<>
 template <class Element = Corotational<>, typename ScalarType = double, int Elements = Eigen::Dynamic,
@@ -44,16 +36,18 @@ class DynamicModel {
   static constexpr int most_halvings = 3;
 
   /// At rest under its dead loads.
-  /// @param substeps  parts of a step, each of two solves   @param drag  α of the air [1/s]: 2 ζ ω of a mode
+  /// @param substeps  parts of a step, each of two solves
   /// @throws std::invalid_argument where the beam has no density, or as FemModel
-  DynamicModel(const Beam& beam, int elements, int substeps = 4, double drag = 0)
+  DynamicModel(const Beam& beam, int elements, int substeps = 4)
       : system_(beam, elements),
         inertia_(beam, elements, [this](int i) { return system_.node(i).s; }),
         steps_(elements),
         rest_(elements),
         before_(elements),
         substeps_(substeps),
-        drag_(static_cast<Scalar>(detail::not_negative("drag", drag, "1/s"))) {
+        thickness_(static_cast<Scalar>(beam.thickness())),
+        drag_(static_cast<Scalar>(beam.damping().drag)),
+        viscosity_(beam, elements, [this](int e) { return system_.parts().properties()[e]; }) {
     if (substeps < 1) detail::reject("substeps", substeps, "", "1 or more");
     let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
     system_.keep(rest_);
@@ -83,6 +77,7 @@ class DynamicModel {
 
   int elements() const noexcept { return system_.elements(); }
   int substeps() const noexcept { return substeps_; }
+  Scalar thickness() const noexcept { return thickness_; }  ///< [m]
   Centreline<Scalar> shape() const noexcept { return system_.drawn(); }
   /// [m/s] at arc position s.
   Vector2<Scalar> velocity(Scalar s) const noexcept {
@@ -99,7 +94,7 @@ class DynamicModel {
   };
   Energy energy() const noexcept {
     const Scalar strain = system_.strain_energy();
-    return {kinetic(), strain, system_.total_potential() - strain};
+    return {kinetic(), strain + viscosity_.energy(), system_.total_potential() - strain};
   }
   /// Linear solves of the last step.
   int solves() const noexcept { return solves_; }
@@ -111,6 +106,7 @@ class DynamicModel {
   void begin(const typename System::State& state) noexcept {
     system_.set_state(state);
     stop();
+    viscosity_.relax(bent());
     penetration_ = 0, contact_ = {}, known_ = touches_ = false;
     starts_ = true;
     system_.draw();
@@ -121,6 +117,11 @@ class DynamicModel {
       steps_[i] = {};
       steps_[i].q = detail::placed(system_.node(i));
     }
+    viscosity_.stop();
+  }
+  /// Displacements of the nodes of an element.
+  auto bent() const noexcept {
+    return [this](int e) { return system_.parts().displacements(e); };
   }
   /// What pulls at it accelerates it: as it does within a hundredth of the first part.
   void accelerate(Scalar part) noexcept {
@@ -128,6 +129,7 @@ class DynamicModel {
     const auto* const hand = std::exchange(hand_, nullptr);
     if (go_on(part / 100, 0, 1, most_halvings)) {
       steps_.start_again();
+      viscosity_.take_back();
       system_.set_state(before_);
     }
     hand_ = hand;
@@ -140,12 +142,13 @@ class DynamicModel {
                        (!hand || (is_finite(hand->hand) && hand->stiffness > 0 && hand->damping >= 0));
     if (!valid) return {0, Status::invalid_request};
     if (!(dt > 0)) return pushed;
-    system_.chain().move_with(&inertia_);
+    system_.chain().move_with(&inertia_, viscosity_.none() ? nullptr : &viscosity_);
     hand_ = hand;
+    if (hand && !touches_) contact_.s = hand->hand.s;
     if (hand && !known_) {
       // One that comes from nowhere has its spring bent as it lies, and a damper at rest.
-      from_ = hand->hand.centre, contact_ = {};
-      penetration_ = (std::max)(hand->hand.reach - look(hand->hand).distance, Scalar(0));
+      from_ = hand->hand.centre;
+      penetration_ = (std::max)(hand->hand.reach - gap(hand->hand), Scalar(0));
     }
     known_ = hand != nullptr;
     const Scalar all = (std::min)(dt, longest), part = all / Scalar(substeps_);
@@ -154,7 +157,7 @@ class DynamicModel {
       const Scalar begin = Scalar(k) / Scalar(substeps_), end = Scalar(k + 1) / Scalar(substeps_);
       if (!go_on(part, begin, end, 0)) pushed.status = Status::iteration_limit;
     }
-    system_.chain().move_with(nullptr);
+    system_.chain().move_with(nullptr, nullptr);
     // The next one begins as after a reset, where the beam has stopped.
     if (pushed.status != Status::ok) stop(), starts_ = true, known_ = touches_ = false;
     if (hand) from_ = hand->hand.centre;
@@ -173,6 +176,7 @@ class DynamicModel {
     const Scalar penetration = penetration_;
     const bool touches = touches_;
     steps_.begin(dt, drag_);
+    viscosity_.begin(steps_.rate());
     inertia_.set_scale(kinetic());
     bool found = true;
     for (int stage = 0; stage < steps_.stages && found; ++stage)
@@ -180,6 +184,7 @@ class DynamicModel {
     if (found) return true;
     system_.set_state(before_);
     steps_.take_back();
+    viscosity_.take_back();
     contact_ = contact, penetration_ = penetration, touches_ = touches;
     const Scalar middle = (begin + end) / 2;
     return halvings < most_halvings && go_on(dt / 2, begin, middle, halvings + 1) &&
@@ -189,6 +194,7 @@ class DynamicModel {
   bool solve(int stage, Scalar way) noexcept {
     const int n = system_.elements();
     steps_.aim(stage, inertia_);
+    viscosity_.aim(stage);
     system_.move([&](int i) {
       const auto q = steps_.foreseen(stage, i);
       const auto& now = system_.node(i);
@@ -199,6 +205,7 @@ class DynamicModel {
     });
     if (!equilibrium(steps_.length(stage), way)) return false;
     for (int i = 0; i <= n; ++i) steps_.know(stage, i, detail::placed(system_.node(i)));
+    viscosity_.know(stage, bent());
     return true;
   }
   /// With or without the hand, whichever has an answer.   @param time  of the stage [s]
@@ -218,7 +225,7 @@ class DynamicModel {
         system_.set_goal();
         if (!newton()) return false;
         // What has let go in this stage is at its edge.
-        if (let_go || !(look(circle).distance < circle.reach - lasting)) {
+        if (let_go || !(gap(circle) < circle.reach - lasting)) {
           penetration_ = lasting;
           return true;
         }
@@ -257,14 +264,20 @@ class DynamicModel {
     solves_ += report.solves;
     return report.status == Status::ok;
   }
-  /// How the circle lies beside the beam, which is nearest to it at contact_.s then.
+  /// How the circle lies beside the beam, which is nearest to it at contact_.s then; past an end, beside its tangent.
   auto look(const Circle<Scalar>& circle) noexcept {
     const auto line = system_.centreline();
     const auto view = [&] { return RoundContact{circle}.look(RoundContact::node_at(line, contact_.s), 0); };
-    if (!(contact_.s > 0)) contact_.s = circle.s;
     for (int k = 0; k < 4; ++k)
       contact_.s = std::clamp(contact_.s + view().ahead, Scalar(0), system_.length());
     return view();
+  }
+  /// From the beam to the centre of the circle, negative behind it; past an end from its last point [m].
+  Scalar gap(const Circle<Scalar>& circle) noexcept {
+    const auto view = look(circle);
+    const bool beyond =
+        (contact_.s <= 0 && view.ahead < 0) || (contact_.s >= system_.length() && view.ahead > 0);
+    return beyond ? std::hypot(view.distance, view.ahead) : view.distance;
   }
 
   static constexpr int most_passes = 4;
@@ -274,7 +287,9 @@ class DynamicModel {
   TrBdf2<Scalar, Elements, MaxElements> steps_;
   typename System::State rest_, before_;
   int substeps_, solves_ = 0;
+  Scalar thickness_;
   Scalar drag_;
+  typename System::Chain::Viscosity viscosity_;
   const Coupled<Scalar>* hand_ = nullptr;
   Vector2<Scalar> from_ = Vector2<Scalar>::Zero();  // where the hand was
   Scalar penetration_ = 0;                          // of the hand in the beam, as it lasts in the damper [m]

@@ -190,6 +190,14 @@ class TrBdf2 {
     const S h = length(stage);
     return x.q + h * (x.v + (stage == 0 ? S(0) : h / 2) * x.a);
   }
+  /// r of both stages, by which they have their rates [1/s].
+  S rate() const noexcept { return 2 / (G * dt_); }
+  /// Of what changes by a rate: where a stage counts the change from, by r, to have the rate at its end.
+  /// @param x, rate  at the beginning of the step   @param y  at the end of the first stage
+  template <class X>
+  static X counted_from(int stage, const X& x, const X& rate, const X& y, S r) noexcept {
+    return stage == 0 ? X(x + rate / r) : X(new_ * y - old_ * x);
+  }
   /// To be called where the stage has been solved.
   void know(int stage, int i, const Placed& q) noexcept {
     const auto [place, velocity] = from(stage, i);
@@ -201,7 +209,6 @@ class TrBdf2 {
  private:
   static constexpr S G = S(0.585786437626904951);  // 2 - √2: both stages have one c
   static constexpr S new_ = 1 / (G * (2 - G)), old_ = (1 - G) * (1 - G) * new_;
-  S rate() const noexcept { return 2 / (G * dt_); }
   struct From {
     Placed place, velocity;  // q^, v~
   };

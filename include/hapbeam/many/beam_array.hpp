@@ -187,7 +187,7 @@ class BeamArray {
   }
 
  private:
-  template <typename>
+  template <typename, typename>
   friend class Touch;
 
   struct Beam {

@@ -20,6 +20,7 @@
 #include <utility>
 
 #include <hapbeam/contact/touch.hpp>
+#include <hapbeam/contact/touch_in_motion.hpp>
 #include <hapbeam/haptics/device/device_info.hpp>
 #include <hapbeam/haptics/servo/exchange.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
@@ -290,7 +291,9 @@ auto Servo<Model, Coupling>::run(const State& state) noexcept {
       return guard_.limit(Wrench{force, options_.placement.device_torque(coupled.torque)}, state.time, safe);
     else return guard_.limit(force, state.time, safe);
   }();
-  energy_.lend(guard_.came_in() * coupled.energy / options_.placement.scale());
+  const double stored = coupled.energy / options_.placement.scale();
+  energy_.lend(guard_.came_in() * stored);
+  if (known && !coupled.touch.pressing) energy_.keep(stored);
   keep(state, coupled, guarded, safe);
   if (known) keep_place(state, coupled);
   if constexpr (oriented<State>) {

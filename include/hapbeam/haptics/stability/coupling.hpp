@@ -30,6 +30,9 @@
 // With friction the surface of the avatar has a spring and a damper of the same figures along the beam, within the
 // model's own equilibrium. Sticking is then rendered through the coupling in every direction.
 //
+// A beam with mass is touched through K and B within the steps of its model (touch_in_motion.hpp): p has no place of its own between
+// them, and no tangent is needed.
+//
 // If the model exhausts its budget, the last valid force is continued along its tangent (contact_tangent.hpp). With any
 // other failure the force is zero. In both cases the status is touch.status.
 // Real-time: no allocation, noexcept, wait-free; as touch.tick() and O(1).
@@ -58,8 +61,9 @@ template <typename Scalar, int D = 2>
 struct CoupledForce {
   VectorOf<double, D> force = VectorOf<double, D>::Zero();   ///< [N] on the hand; always finite
   VectorOf<double, D> avatar = VectorOf<double, D>::Zero();  ///< [m] from where the beam was pressed
-  bool continued = false;        ///< along the tangent: the model had no answer, or the beam was missed
-  double energy = 0;             ///< [J] that beam and coupling would give back, in metres of the scene
+  bool continued = false;  ///< along the tangent: the model had no answer, or the beam was missed
+  /// [J] that beam and coupling would give back, in metres of the scene; of a beam with mass without contact, too
+  double energy = 0;
   TouchResult<Scalar, D> touch;  ///< the response of the beam
 };
 
@@ -87,6 +91,12 @@ template <typename Touch, typename = void>
 inline constexpr bool is_shared = false;
 template <typename Touch>
 inline constexpr bool is_shared<Touch, std::void_t<decltype(std::declval<Touch&>().meanwhile())>> = true;
+
+/// Whether a touch takes the figures of the coupling, and solves for hand and beam together.
+template <typename Touch, typename = void>
+inline constexpr bool couples_itself = false;
+template <typename Touch>
+inline constexpr bool couples_itself<Touch, std::void_t<decltype(&Touch::stored)>> = true;
 
 /// What others have changed since the last tick.
 template <typename Touch>
@@ -143,6 +153,7 @@ class Direct {
   /// @param touch  of the same beam each tick   @param hand [m]
   template <typename Touch>
   [[nodiscard]] auto tick(Touch& touch, const detail::HandOf<Touch>& hand, double) noexcept {
+    static_assert(!detail::couples_itself<Touch>, "a beam with mass is touched through a VirtualCoupling");
     constexpr int D = dimension_of<Touch>;
     detail::CoupledForceOf<Touch> result;
     detail::look_at_others(touch, last_);
@@ -207,6 +218,26 @@ class VirtualCoupling {
   /// Once a period.  @param touch  of the same beam each tick   @param hand [m]   @param dt [s] since the tick before, positive
   template <typename Touch>
   [[nodiscard]] auto tick(Touch& touch, const detail::HandOf<Touch>& hand, double dt) noexcept {
+    if constexpr (detail::couples_itself<Touch>) return within(touch, hand, dt);
+    else return beside(touch, hand, dt);
+  }
+
+ private:
+  /// Of a touch that solves for both.
+  template <typename Touch>
+  auto within(Touch& touch, const detail::HandOf<Touch>& hand, double dt) const noexcept {
+    using Scalar = typename Touch::Scalar;
+    detail::CoupledForceOf<Touch> result;
+    result.touch = touch.tick(hand.template cast<Scalar>(), static_cast<Scalar>(dt),
+                              static_cast<Scalar>(stiffness_), static_cast<Scalar>(damping_));
+    result.avatar = hand + touch.off().template cast<double>();
+    result.force = result.touch.force.template cast<double>();
+    result.energy =
+        static_cast<double>(touch.stored()) + stiffness_ * (result.avatar - hand).squaredNorm() / 2;
+    return result;
+  }
+  template <typename Touch>
+  auto beside(Touch& touch, const detail::HandOf<Touch>& hand, double dt) noexcept {
     using Scalar = typename Touch::Scalar;
     constexpr int D = dimension_of<Touch>;
     const Eigen::Vector3d from = detail::in_scene(hand);
@@ -238,7 +269,6 @@ class VirtualCoupling {
     return result;
   }
 
- private:
   /// The line of the force passes the hand.   @param lever ρ [m]
   void lean(double lever) noexcept {
     const auto in_series = [squared = lever * lever](double straight, double turning) {

@@ -11,6 +11,7 @@
 // passive loop has W <= 0, and W > 0 is energy that the loop has generated.
 // While the force engages (ForceGuard), a beam costs less to press than it returns. A share e of its energy U that
 // rises by de lends the hand U de. That amount is known and bounded by U, and is subtracted as well.
+// A beam that moves on gives back in one touch what it took in another: an account begins with what the beam has, as owed.
 // The controller adds -α v, α = W / (T v²), while W > 0. It dissipates the generated energy within a period, with at
 // most the damping of the arm, which is the limit for this sampling. Its force passes the guard like any other.
 // Real-time: no allocation, noexcept, wait-free, O(1).
@@ -60,7 +61,7 @@ class EnergyMonitor {
   }
   /// Ends the account of a contact without counting it, as after a reset.
   void reset() noexcept {
-    net_ = 0;
+    net_ = kept_ = 0;
     position_.reset(), orientation_.reset();
     sent_.clear(), sent_torque_.clear();
   }
@@ -84,6 +85,9 @@ class EnergyMonitor {
 
   /// A share of the beam's energy that has come in [J]; what has gone out again is lost.
   void lend(double energy) noexcept { add(-(std::max)(0.0, energy)); }
+
+  /// What the beam has while it is not touched [J].
+  void keep(double energy) noexcept { kept_ = std::isfinite(energy) ? (std::max)(0.0, energy) : 0; }
 
   /// What the controller adds [N].  @param velocity [m/s] as the device says
   Eigen::Vector3d dissipation(const Eigen::Vector3d& velocity) const noexcept {
@@ -138,13 +142,14 @@ class EnergyMonitor {
   void end_contact() noexcept {
     const double sum = ended_ + (std::max)(0.0, net_);
     if (std::isfinite(sum)) ended_ = sum;
-    net_ = 0;
+    net_ = -kept_;
   }
 
   double period_, damping_, friction_, step_, peak_;
   double gimbal_damping_, gimbal_friction_, gimbal_step_, peak_torque_;
   int delay_;
   double ended_ = 0, net_ = 0;
+  double kept_ = 0;                             // by the beam [J]
   std::optional<Eigen::Vector3d> position_;     // as it was read last
   std::optional<Eigen::Matrix3d> orientation_;  // the same
   detail::DelayLine sent_, sent_torque_;
