@@ -30,15 +30,9 @@ struct CrisfieldRod {
   using Vector14 = TwistedRod::Vector14<S>;
   template <typename S>
   using Matrix14 = TwistedRod::Matrix14<S>;
-  /// Nothing is the element's own.
+  /// Nothing is the element's own: it stays zero.
   template <typename S>
-  struct Inner {
-    S twist = 0, residual = 0, stiffness = 1;
-    Vector14<S> row = Vector14<S>::Zero();
-
-    S energy() const noexcept { return 0; }
-    void advance(const Vector14<S>&) noexcept {}
-  };
+  using Inner = detail::RodInner<S, 7>;
 
   template <typename S>
   static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,

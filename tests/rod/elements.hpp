@@ -51,6 +51,7 @@ struct RandomElement {
       point.bending1 = 1 + random(0.5), point.bending2 = 1 + random(0.5), point.torsion = 1 + random(0.5);
       for (Long& k : point.natural) k = random(1.0);
     }
+    p.soft[0] = p.soft[1] = 1 / (1 + random(0.5));
     for (Long& e : p.natural_strain) e = 0.1L * random(1.0);
     a.s = 0, b.s = p.length;
     a.r = random_vector(random);

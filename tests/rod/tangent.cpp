@@ -125,16 +125,15 @@ void check_tangent(const Rod& rod, int elements) {
       auto& node = there.nodes[i];
       node.r += x.template segment<3>(0);
       detail::set_tangent<double>(node, node.tangent + x.template segment<3>(3));
-      if constexpr (unknowns == 7) {
+      if constexpr (unknowns == 7)
         node.director = detail::turn(node.director, detail::unit(node.tangent), x[6]);
-        for (int e = std::max(i - 1, 0); e <= std::min(i, elements - 1); ++e) {
-          Eigen::Matrix<double, 14, 1> both = Eigen::Matrix<double, 14, 1>::Zero();
-          both.template segment<7>(e == i ? 0 : 7) = x;
-          auto inner = system.parts().inner(e);
-          const double twist = inner.twist;
-          inner.advance(both);
-          there.inner[e] += inner.twist - twist;
-        }
+      for (int e = std::max(i - 1, 0); e <= std::min(i, elements - 1); ++e) {
+        Eigen::Matrix<double, 2 * unknowns, 1> both = Eigen::Matrix<double, 2 * unknowns, 1>::Zero();
+        both.template segment<unknowns>(e == i ? 0 : unknowns) = x;
+        auto inner = system.parts().inner(e);
+        const double before = inner.value;
+        inner.advance(both);
+        there.inner[e] += inner.value - before;
       }
       return gradient(there);
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Contacts within an element of a rod, as it lies: the curve beside each, which its bubble bends off the element's cubic, and how all of them yield.
+// Contacts within an element of a rod, as it lies: the curve beside each, which its bubble bends off what the nodes hold, and how all of them yield.
 //
-//   place       p = r(s) + v,   v = Σ C(s, s') F'                C: what the cubic lacks of the curve (clamped_piece.hpp)
+//   place       p = r(s, N) + v,   v = Σ C(s, s', N) F'          r: as the nodes hold it, C: what that lacks of the curve (cut_piece.hpp)
 //   force       F = λ n + T                                      T: of friction
 //
 // Real-time: noexcept, no allocation, O(contacts²).
@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-#include <hapbeam/body/clamped_piece.hpp>
+#include <hapbeam/body/cut_piece.hpp>
 #include <hapbeam/body/rod_inner_contact.hpp>
 #include <hapbeam/body/stacked.hpp>
 #include <hapbeam/element/rod/carried_frame.hpp>
@@ -29,12 +29,18 @@ class RodBubbles : protected Stacked<S, Most> {
   using Column = VectorOf<S, 2 * unknowns>;
   using Base::at, Base::count, Base::count_, Base::put, Base::size, Base::times, Base::vector,
       typename Base::Matrix, typename Base::Square, typename Base::Stack, typename Base::Vector;
+  using Inner = typename Element::template Inner<S>;
+  using ByPlace = Jet<S, 2>;  // by s and N/EI
 
  public:
   /// @param rod  RodElements   @param e  of its elements
   template <class Parts>
   RodBubbles(const Parts& rod, int e) noexcept
-      : a_(&rod.nodes()[e]), b_(&rod.nodes()[e + 1]), p_(&rod.properties(e)), twist_(rod.inners()[e]) {}
+      : a_(&rod.nodes()[e]),
+        b_(&rod.nodes()[e + 1]),
+        p_(&rod.properties(e)),
+        inner_(rod.inner(e)),
+        taut_(rod.taut()) {}
 
   /// @param contact  its place is in this element; stays until the last call   @param id  of no other one
   void add(Contact& contact, int id) noexcept {
@@ -48,9 +54,8 @@ class RodBubbles : protected Stacked<S, Most> {
     for (int k = 0; k < count(); ++k) {
       Contact& contact = *contacts_[at(k)];
       const Spot& spot = spots_[at(k)];
-      const S x = contact.s - a_->s, flat = spot.t.dot(Vector(spot.curved * spot.t));
-      const Vector curvature =
-          spot.k + ClampedPiece<S>(p_->length, x, x).first_twice * (between(k, k) * vector(force_, k));
+      const S flat = spot.t.dot(Vector(spot.curved * spot.t));
+      const Vector curvature = spot.k + spot.bend * (between(k, k) * vector(force_, k));
       contact.wraps = flat > 0 ? -contact.normal.dot(curvature) / flat : S(0);
     }
   }
@@ -65,18 +70,21 @@ class RodBubbles : protected Stacked<S, Most> {
  protected:
   /// The curve beside a contact.
   struct Spot {
-    S h[4], h1[4];   // r and r' as of r1, r1', r2, r2'
-    Vector t, k, u;  // r', r'', direction of r'
-    S stretched, x;  // |r'|, ξ
-    Vector zeta;     // λ D'' r'
-    Matrix curved;   // D''
-    Matrix axes;     // along which C is the same: all, or those across r'
-    Vector softer;   // of the section
-    Vector turns;    // moment with which C turns with the section, crossed with u
+    ByPlace h[4];                          // r as of r1, r1', r2, r2'
+    ByPlace g;                             // C, times EI
+    S bend;                                // curvature under a force there, times EI
+    Vector t, k, u;                        // r', r'', direction of r'
+    Vector by_N, by_N_twice, turned_by_N;  // r as of N, and r'
+    S stretched, x;                        // |r'|, ξ
+    Vector zeta;                           // λ D'' r'
+    Matrix curved;                         // D''
+    Matrix axes;                           // along which C is the same: all, or those across r'
+    Vector softer;                         // of the section
+    Vector turns;                          // moment with which C turns with the section, crossed with u
 
     Vector move(const Column& by) const noexcept {
-      Vector sum = h[0] * by.template segment<3>(0);
-      for (int q = 1; q < 4; ++q) sum += h[q] * by.template segment<3>(start(q));
+      Vector sum = h[0].value * by.template segment<3>(0);
+      for (int q = 1; q < 4; ++q) sum += h[q].value * by.template segment<3>(start(q));
       return sum;
     }
   };
@@ -95,7 +103,7 @@ class RodBubbles : protected Stacked<S, Most> {
     const Contact& contact = *contacts_[0];
     const Spot& spot = spots_[0];
     // Near enough for where it begins, the bubble is that of the force along n.
-    const S rise = ClampedPiece<S>(p_->length, contact.s - a_->s).by_first * contact.force / 2;
+    const S rise = spot.g.by(0) * contact.force / 2;
     const S off = contact.normal.dot(spot.t) + rise * stiffer(), bends = contact.normal.dot(spot.k),
             round = spot.t.dot(Vector(spot.curved * spot.t));
     // Along a curve that is flatter than the capsule the distance has a minimum.
@@ -107,19 +115,31 @@ class RodBubbles : protected Stacked<S, Most> {
     using std::sqrt;
     Contact& contact = *contacts_[at(k)];
     Spot& spot = spots_[at(k)];
-    const S l = p_->length, x = (contact.s - a_->s) * p_->inverse_length, y = 1 - x;
-    const CubicWeights<S> w(x, p_->inverse_length);
-    spot.x = x;
-    spot.h[0] = y * y * (1 + 2 * x), spot.h[1] = l * x * y * y, spot.h[2] = 1 - spot.h[0],
-    spot.h[3] = -l * x * x * y;
-    spot.h1[0] = -w.a, spot.h1[1] = w.a1, spot.h1[2] = w.a, spot.h1[3] = w.a2;
+    const S s = contact.s - a_->s;
+    spot.x = s * p_->inverse_length;
+    if (taut_) {
+      const ByPlace n = tension<ByPlace>(1), longer = stretch(n);
+      const CutPiece<ByPlace> cut(ByPlace(p_->length), ByPlace::variable(s, 0), n * longer);
+      cut.weights(p_->inverse_length, spot.h);
+      spot.g = cut.g * longer * longer, spot.bend = cut.bend * longer.value * longer.value;
+    } else {
+      spot.bend = cut_slack_piece(p_->length, s, spot.h, spot.g);
+    }
     const Vector chord = b_->r - a_->r;
-    spot.t = w.a * chord + w.a1 * a_->tangent + w.a2 * b_->tangent;
-    spot.k = w.b * chord + w.b1 * a_->tangent + w.b2 * b_->tangent;
+    const auto all = [&](auto&& of) -> Vector {
+      return of(spot.h[2]) * chord + of(spot.h[1]) * a_->tangent + of(spot.h[3]) * b_->tangent;
+    };
+    spot.t = all([](const ByPlace& h) { return h.by(0); });
+    spot.k = all([](const ByPlace& h) { return h.by(0, 0); });
+    if (taut_) {
+      const S soft = stiffer();
+      spot.by_N = soft * all([](const ByPlace& h) { return h.by(1); });
+      spot.by_N_twice = soft * soft * all([](const ByPlace& h) { return h.by(1, 1); });
+      spot.turned_by_N = soft * all([](const ByPlace& h) { return h.by(1, 0); });
+    }
     spot.stretched = sqrt(spot.t.squaredNorm());
     spot.u = spot.t / spot.stretched;
-    contact.place =
-        a_->r + spot.h[2] * chord + spot.h[1] * a_->tangent + spot.h[3] * b_->tangent + contact.bubble;
+    contact.place = a_->r + all([](const ByPlace& h) { return h.value; }) + contact.bubble;
     spot.curved.setZero();
     if (contact.kind == Contact::Kind::along) {
       contact.gap = contact.normal.dot(contact.place) - contact.reach;
@@ -158,36 +178,50 @@ class RodBubbles : protected Stacked<S, Most> {
       if (contact.rough || contact.kind == Contact::Kind::along) spot.axes -= spot.u * spot.u.transpose();
       if constexpr (unknowns == 7)
         if (!even()) {
-          const Vector d1 = Element::director(*p_, *a_, *b_, twist_, spot.x);
+          const Vector d1 = Element::director(*p_, *a_, *b_, inner_.value, spot.x);
           spot.softer = p_->soft[0] > p_->soft[1] ? d1 : cross3(spot.u, d1);
         }
     }
     slope_ = {};
-    for (int k = 0; k < count(); ++k) {
+    const S soft = stiffer();
+    for (int k = 0; k < ways(); ++k) {
       J_[at(k)] = {};
       for (auto& twice : turned_twice_[at(k)]) twice = 0;
     }
     for (int i = 0; i < count(); ++i) {
-      const S x = contacts_[at(i)]->s - a_->s;
-      const ClampedPiece<S> own(p_->length, x);
+      const ByPlace& own = spots_[at(i)].g;
       const Matrix shape = between(i, i);
-      put(C_, i, i, own.g * shape);
-      bend(i, i, i, own.by_first * shape);
-      lean(i, i, own.by_first / 2 * shape);
-      turned_twice_[at(i)][at(i)] += half_product(i, i, own.first_twice * shape);
+      put(C_, i, i, own.value * shape);
+      bend(i, i, i, own.by(0) * shape);
+      lean(i, i, own.by(0) / 2 * shape);
+      turn_twice(i, i, half_product(i, i, own.by(0, 0) * shape));
+      if (taut_) {
+        bend(count(), i, i, soft * own.by(1) * shape);
+        turn_twice(i, count(), half_product(i, i, soft * own.by(1, 0) * shape));
+        turn_twice(count(), count(), half_product(i, i, soft * soft * own.by(1, 1) * shape));
+      }
       for (int j = 0; j < i; ++j) {
-        const S y = contacts_[at(j)]->s - a_->s;
+        using ByBoth = Jet<S, 3>;
+        const S x = contacts_[at(i)]->s - a_->s, y = contacts_[at(j)]->s - a_->s;
         const int first = x <= y ? i : j, second = first == i ? j : i;
-        const ClampedPiece<S> to(p_->length, (std::min)(x, y), (std::max)(x, y));
+        const ByBoth n = tension<ByBoth>(2), longer = stretch(n);
+        const ByBoth to = between_cuts(ByBoth(p_->length), ByBoth::variable((std::min)(x, y), 0),
+                                       ByBoth::variable((std::max)(x, y), 1), n * longer) *
+                          longer * longer;
         const Matrix both = between(first, second);
-        put(C_, first, second, to.g * both), put(C_, second, first, to.g * both.transpose());
-        bend(first, first, second, to.by_first * both);
-        bend(second, second, first, to.by_second * both.transpose());
-        lean(first, second, to.by_first * both), lean(second, first, to.by_second * both.transpose());
-        turned_twice_[at(first)][at(first)] += 2 * half_product(first, second, to.first_twice * both);
-        turned_twice_[at(second)][at(second)] += 2 * half_product(first, second, to.second_twice * both);
-        const S mixed = 2 * half_product(first, second, to.by_both * both);
-        turned_twice_[at(i)][at(j)] += mixed, turned_twice_[at(j)][at(i)] += mixed;
+        put(C_, first, second, to.value * both), put(C_, second, first, to.value * both.transpose());
+        bend(first, first, second, to.by(0) * both);
+        bend(second, second, first, to.by(1) * both.transpose());
+        lean(first, second, to.by(0) * both), lean(second, first, to.by(1) * both.transpose());
+        const S product = 2 * half_product(first, second, both);
+        turn_twice(first, first, product * to.by(0, 0)), turn_twice(second, second, product * to.by(1, 1));
+        turn_twice(first, second, product * to.by(1, 0));
+        if (taut_) {
+          bend(count(), first, second, soft * to.by(2) * both);
+          turn_twice(first, count(), product * soft * to.by(2, 0));
+          turn_twice(second, count(), product * soft * to.by(2, 1));
+          turn_twice(count(), count(), product * soft * soft * to.by(2, 2));
+        }
       }
     }
     yield_ = times(C_, force_);
@@ -200,7 +234,23 @@ class RodBubbles : protected Stacked<S, Most> {
     if (!even()) sum += std::abs(p_->soft[0] - p_->soft[1]) * a.softer * b.softer.transpose();
     return sum;
   }
-  /// As place k moves: what C between it and another has of CF, and of ½ F · CF.
+  /// N/EI as a variable; none where N is no unknown.
+  template <class J>
+  J tension(int variable) const noexcept {
+    return taut_ ? J::variable(inner_.value * stiffer(), variable) : J(0);
+  }
+  /// 1 + N/EA: so much longer it is than where s counts.
+  template <class J>
+  J stretch(const J& n) const noexcept {
+    return J(1) + 1 / (stiffer() * p_->axial) * n;
+  }
+  /// What is condensed: places, and N behind them.
+  int ways() const noexcept { return count() + (taut_ ? 1 : 0); }
+  void turn_twice(int i, int j, S by) noexcept {
+    turned_twice_[at(i)][at(j)] += by;
+    if (i != j) turned_twice_[at(j)][at(i)] += by;
+  }
+  /// As place k moves, or N grows: what C between two places has of CF, and of ½ F · CF.
   void bend(int k, int i, int j, const Matrix& by) noexcept {
     const Vector here = vector(force_, i), there = vector(force_, j), moved = by * there;
     for (int c = 0; c < 3; ++c) J_[at(k)][at(3 * i + c)] += moved[c];
@@ -217,17 +267,19 @@ class RodBubbles : protected Stacked<S, Most> {
     return vector(force_, i).dot(Vector(by * vector(force_, j))) / 2;
   }
 
+  static constexpr std::size_t most_ways = std::size_t(Most + 1);
   const RodNode<S>*a_, *b_;
   const RodProperties<S>* p_;
-  S twist_;
+  Inner inner_;  // ψ or N, as of the last equations
+  bool taut_;    // N is an unknown
   std::array<Contact*, std::size_t(Most)> contacts_{};
   std::array<int, std::size_t(Most)> ids_{};
   int seen_ = 0;  // so many of them have been looked at
   std::array<Spot, std::size_t(Most)> spots_;
   Square C_;
-  Stack force_, yield_, slope_;                                                   // F, CF, how steep that is
-  std::array<Stack, std::size_t(Most)> J_;                                        // C'F of each place
-  std::array<std::array<S, std::size_t(Most)>, std::size_t(Most)> turned_twice_;  // ½ F · C''F
+  Stack force_, yield_, slope_;                                   // F, CF, how steep that is
+  std::array<Stack, most_ways> J_;                                // of each way, C'F
+  std::array<std::array<S, most_ways>, most_ways> turned_twice_;  // ½ F · C''F
 };
 
 }  // namespace hapbeam::detail

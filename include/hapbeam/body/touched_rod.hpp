@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // What contacts within an element of a rod add to its residual and tangent, and a column for each of them.
 //
-//   place       p = r(s) + v,   v = Σ C(s, s') F'                C: what the cubic lacks of the curve (clamped_piece.hpp)
+//   place       p = r(s, N) + v,   v = Σ C(s, s', N) F'          r, C: cut_piece.hpp
 //   force       F = λ n + T                                      T: of friction
 //
 //   Π = V + Σ ½ F · v - Σ λ g                g = D(p) - R of a capsule, n · p - d of a held place
 //
-// Place s is where ∂Π/∂s = 0: where the true curve, which v bends, is tangent.  With H = -λ D'' + ∂T, of a contact as it lies, and e what v is off,
-// an increment of the nodes by w at s gives
+// Place s is where ∂Π/∂s = 0: where the true curve, which v bends, is tangent.  N is the tension of the element, where that is an unknown.  With
+// H = -λ D'' + ∂T, of a contact as it lies, e what v is off, and α any s or N, an increment of the nodes by w at s gives
 //
-//   δv + w = A (w - e + J δs + C n δλ),  δF = -H (δv + w) + ζ δs + n δλ,   A = (I + C H)⁻¹,  J = C'F + C ζ,  ζ = λ D'' r'
+//   δv + w = A (w - e + J δα + C n δλ),  δF = -H (δv + w) + ζ δα + n δλ,   A = (I + C H)⁻¹,  J = C'F + C ζ,  ζ = -H r'
 //
-// v and s are condensed; the forces λ stay, as columns of the rod's system.  What T does to the nodes as s moves is not
+// with ' by α, and without T in the ζ of a place, which slides along.  v, s and N are condensed; the forces λ stay, as columns of the rod's system.  What T does to the nodes as s moves is not
 // symmetric, and left out.  Where a contact hardly slides no equilibrium may be found without it: there s stays while that is sought.  How C turns with the section is in the residual (its moment is v × F), and in
 // the tangent by the force and the twist.
 // Real-time: noexcept, no allocation, O(contacts³).
@@ -32,9 +32,10 @@ template <class Element, typename S, int Most>
 class TouchedRod : private RodBubbles<Element, S, Most> {
   using Base = RodBubbles<Element, S, Most>;
   using Base::at, Base::block, Base::blocks, Base::C_, Base::contacts_, Base::count, Base::even, Base::fill,
-      Base::force_, Base::ids_, Base::inverse, Base::J_, Base::p_, Base::parallel, Base::product, Base::seen_,
-      Base::size, Base::spots_, Base::start, Base::times, Base::turned_twice_, Base::unknowns, Base::vector,
-      Base::yield_, typename Base::Column, typename Base::Contact, typename Base::Matrix, typename Base::Spot,
+      Base::force_, Base::ids_, Base::inner_, Base::inverse, Base::J_, Base::most_ways, Base::p_,
+      Base::parallel, Base::product, Base::seen_, Base::size, Base::spots_, Base::start, Base::taut_,
+      Base::times, Base::turned_twice_, Base::unknowns, Base::vector, Base::ways, Base::yield_,
+      typename Base::Column, typename Base::Contact, typename Base::Matrix, typename Base::Spot,
       typename Base::Square, typename Base::Stack, typename Base::Vector;
   using Tangent = Eigen::Matrix<S, 2 * unknowns, 2 * unknowns>;
 
@@ -60,7 +61,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     }
     contact.enter(e);
   }
-  S tension() const noexcept { return 0; }
+  S tension() const noexcept { return inner_.value; }
 
   /// What they add to residual and tangent.   @param rub  (id of a contact) sets its friction, where it touches
   /// @return the energy of what they bend [J]
@@ -91,8 +92,8 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     for (int i = 0; i < n; ++i)
       energy += force_[at(i)] * (yield_[at(i)] / 2 + off_[at(i)]) + off_[at(i)] * He[at(i)] / 2;
     r.setZero(), K.setZero();
-    spread(He, r, K);
-    condense_places(r, K);
+    spread(He, H, r, K);
+    condense_ways(r, K);
     return energy;
   }
   /// By how much Π changes as all that is condensed finds its own, but for what the nodes and forces make of that [J].
@@ -112,14 +113,21 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   /// All that was condensed, after an increment.  @param by  of the nodes   @param forces  of the contacts [N]
   /// @param longer  in and out: what the residuals of places were worth [J]   @return tension()
   S advance(const Column& by, const std::array<S, std::size_t(Most)>& forces, S& longer) noexcept {
-    std::array<S, std::size_t(Most)> goes{};
+    std::array<S, most_ways> goes{};
+    if (taut_) {
+      const Way& way = ways_[at(count())];
+      S sum = way.residual + way.by_nodes.dot(by);
+      for (int j = 0; j < count(); ++j) sum += way.by_force[at(j)] * forces[at(j)];
+      goes[at(count())] = -sum / way.stiff;
+      longer += way.residual * (2 * goes[at(count())] + way.residual / way.stiff);
+    }
     for (int i = count() - 1; i >= 0; --i) {
       Contact& contact = *contacts_[at(i)];
       Way& way = ways_[at(i)];
       contact.off = 0;
       if (way.sought || contact.waits) {
         S sum = way.residual + way.by_nodes.dot(by);
-        for (int j = i + 1; j < count(); ++j) sum += way.by_place[at(j)] * goes[at(j)];
+        for (int j = i + 1; j < ways(); ++j) sum += way.by_way[at(j)] * goes[at(j)];
         for (int j = 0; j < count(); ++j) sum += way.by_force[at(j)] * forces[at(j)];
         // A force that becomes a multiple of itself would take the place as many times too far as n · t is not yet none.
         const S change = forces[at(i)], before = std::abs(contact.force);
@@ -143,18 +151,15 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       for (int i = 0; i < 3; ++i) w[at(3 * k + i)] = moved[i];
     }
     for (int i = 0; i < n; ++i) z[at(i)] = w[at(i)] - off_[at(i)];
+    Stack turned{};
     for (int k = 0; k < count(); ++k)
-      for (int i = 0; i < n; ++i) z[at(i)] += J_[at(k)][at(i)] * goes[at(k)];
+      for (int c = 0; c < 3; ++c) turned[at(3 * k + c)] = contacts_[at(k)]->normal[c] * forces[at(k)];
+    for (int k = 0; k < ways(); ++k)
+      for (int i = 0; i < n; ++i)
+        z[at(i)] += J_[at(k)][at(i)] * goes[at(k)], turned[at(i)] += zeta_[at(k)][at(i)] * goes[at(k)];
     z = times(A_, z);
-    for (int k = 0; k < count(); ++k) {
-      const Contact& contact = *contacts_[at(k)];
-      for (int i = 0; i < n; ++i) {
-        const auto& row = AC_[at(i)];
-        for (int c = 0; c < 3; ++c)
-          z[at(i)] +=
-              row[at(3 * k + c)] * (contact.normal[c] * forces[at(k)] + spots_[at(k)].zeta[c] * goes[at(k)]);
-      }
-    }
+    const Stack yields = times(AC_, turned);
+    for (int i = 0; i < n; ++i) z[at(i)] += yields[at(i)];
     for (int k = 0; k < count(); ++k) {
       Contact& contact = *contacts_[at(k)];
       for (int i = 0; i < 3; ++i) contact.bubble[i] += z[at(3 * k + i)] - w[at(3 * k + i)];
@@ -166,30 +171,31 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       contact.force += forces[at(k)];
       contact.s += goes[at(k)];
     }
-    return 0;
+    return inner_.value + goes[at(count())] * (taut_ ? 1 : 0);
   }
 
  private:
-  /// What is condensed of a place.
+  /// What is condensed: of a place, and behind all of them N.
   struct Way {
     bool sought = false;
     S residual = 0, stiff = 0;
     Column by_nodes;
-    std::array<S, std::size_t(Most)> by_place, by_force;
+    std::array<S, most_ways> by_way;
+    std::array<S, std::size_t(Most)> by_force;
   };
 
   static constexpr int most_steps = 8;
   static constexpr S close_by = S(1e-3);  // of the reach: from there Newton's method goes with the rest
 
   /// Adds what all contacts are to the nodes, and finds their columns and what their places are.
-  void spread(const Stack& He, Column& r, Tangent& K) noexcept {
+  void spread(const Stack& He, const Square& H, Column& r, Tangent& K) noexcept {
     const int n = size();
     for (int k = 0; k < count(); ++k) {
       Spot& spot = spots_[at(k)];
       const Vector moment = cross3(vector(yield_, k), vector(force_, k));
       const Vector sum = vector(force_, k) + vector(He, k);
       spot.turns = cross3(moment, spot.u) / spot.stretched;
-      for (int q = 0; q < 4; ++q) r.template segment<3>(start(q)) -= spot.h[q] * sum;
+      for (int q = 0; q < 4; ++q) r.template segment<3>(start(q)) -= spot.h[q].value * sum;
       if (!spot.turns.isZero(0)) turn(spot, moment, r);
       if constexpr (unknowns == 7)
         if (!even()) {
@@ -205,16 +211,13 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         const Spot& other = spots_[at(j)];
         for (int q = 0; q < 4; ++q)
           for (int o = 0; o < 4; ++o)
-            K.template block<3, 3>(start(q), start(o)) += (spot.h[q] * other.h[o]) * stiff;
+            K.template block<3, 3>(start(q), start(o)) += (spot.h[q].value * other.h[o].value) * stiff;
       }
     }
-    // Of the places: Way, and J with C ζ.
-    std::array<Stack, std::size_t(Most)> bends = J_;  // C'F
-    std::array<Stack, std::size_t(Most)> normals;     // M n, M = I - H C
+    std::array<Stack, std::size_t(Most)> normals;  // M n, M = I - H C
     for (int k = 0; k < count(); ++k) {
       Spot& spot = spots_[at(k)];
       const Contact& contact = *contacts_[at(k)];
-      spot.zeta = contact.force * (spot.curved * spot.t);
       normals[at(k)] = lessened(k, contact.normal);
       Column& column = columns_[at(k)];
       column.setZero();
@@ -234,35 +237,69 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         yields_[at(k)][at(j)] = -contact.normal.dot(there);
       }
     }
-    for (int i = 0; i < count(); ++i) {
-      const Spot& spot = spots_[at(i)];
-      const Contact& contact = *contacts_[at(i)];
+    // Of the ways: r' and ζ.
+    std::array<Stack, most_ways> moves{};
+    zeta_ = {};
+    for (int k = 0; k < count(); ++k) {
+      const Spot& spot = spots_[at(k)];
+      place(moves[at(k)], k, spot.t);
+      place(zeta_[at(k)], k, contacts_[at(k)]->force * (spot.curved * spot.t));
+      if (!taut_) continue;
+      place(moves[at(count())], k, spot.by_N);
+      place(zeta_[at(count())], k, -(block(H, k, k) * spot.by_N));
+    }
+    for (int i = 0; i < ways(); ++i) {
       Way& way = ways_[at(i)];
-      const Vector pushes = contact.force * contact.normal;
-      Stack steep = lessened(i, spot.zeta);  // M ζ - H C'F
-      const Stack stiff = times(H_, bends[at(i)]);
+      const bool is_place = i < count();
+      const Stack &bends = J_[at(i)], &zeta = zeta_[at(i)];
+      Stack steep{};  // M ζ - H C'F
+      for (int k = 0; k < n; ++k)
+        for (int c = 0; c < n; ++c) steep[at(c)] += A_[at(k)][at(c)] * zeta[at(k)];
+      const Stack stiff = times(H_, bends);
       for (int c = 0; c < n; ++c) steep[at(c)] -= stiff[at(c)];
-      way.residual = -pushes.dot(spot.t) - spot.turns.dot(spot.k);
+      way.residual = is_place ? -spots_[at(i)].turns.dot(spots_[at(i)].k) : inner_.residual;
       for (int c = 0; c < n; ++c)
-        way.residual += steep[at(c)] * off_[at(c)] - force_[at(c)] * bends[at(i)][at(c)] / 2;
-      way.by_nodes.setZero();
+        way.residual += steep[at(c)] * off_[at(c)] - force_[at(c)] * bends[at(c)] / 2;
+      if (is_place) way.by_nodes.setZero();
+      else way.by_nodes = inner_.row;
       pull(steep, way.by_nodes);
-      for (int q = 0; q < 4; ++q) way.by_nodes.template segment<3>(start(q)) -= spot.h1[q] * pushes;
-      for (int j = 0; j < count(); ++j) {
-        const Spot& other = spots_[at(j)];
+      for (int k = 0; k < count(); ++k) {
+        if (is_place && k != i) continue;
+        const Spot& spot = spots_[at(k)];
+        // What slides has its friction at another place of the curve.
+        const Vector pushes =
+            is_place ? Vector(contacts_[at(k)]->force * contacts_[at(k)]->normal) : vector(force_, k);
+        way.residual -= pushes.dot(vector(moves[at(i)], k));
+        for (int q = 0; q < 4; ++q)
+          way.by_nodes.template segment<3>(start(q)) -=
+              (is_place ? spot.h[q].by(0) : Base::stiffer() * spot.h[q].by(1)) * pushes;
+      }
+      const Stack Azeta = times(AC_, zeta);
+      for (int j = 0; j < ways(); ++j) {
+        const Stack& other = zeta_[at(j)];
         S sum = -turned_twice_[at(i)][at(j)];
-        if (i == j) sum -= pushes.dot(spot.k) + spot.t.dot(spot.zeta);
-        sum -= spot.zeta.dot(Vector(block(AC_, i, j) * other.zeta));
-        for (int c = 0; c < 3; ++c)
+        for (int k = 0; k < count(); ++k) {
+          const Spot& spot = spots_[at(k)];
+          const Vector pushes = contacts_[at(k)]->force * contacts_[at(k)]->normal;
+          if (i == k && j == k) sum -= pushes.dot(spot.k);
+          else if ((i == k && j == count()) || (i == count() && j == k)) sum -= pushes.dot(spot.turned_by_N);
+          else if (i == count() && j == count()) sum -= vector(force_, k).dot(spot.by_N_twice);
+        }
+        const int first = (std::min)(i, j), second = (std::max)(i, j);
+        for (int c = 0; c < n; ++c) {
+          sum -= moves[at(second)][at(c)] * zeta_[at(first)][at(c)] + Azeta[at(c)] * other[at(c)];
           for (int m = 0; m < n; ++m)
-            sum -= spot.zeta[c] * A_[at(3 * i + c)][at(m)] * bends[at(j)][at(m)] +
-                   other.zeta[c] * A_[at(3 * j + c)][at(m)] * bends[at(i)][at(m)];
-        for (int c = 0; c < n; ++c) sum += bends[at(j)][at(c)] * stiff[at(c)];
-        way.by_place[at(j)] = sum;
+            sum -= zeta[at(c)] * A_[at(c)][at(m)] * J_[at(j)][at(m)] +
+                   other[at(c)] * A_[at(c)][at(m)] * bends[at(m)];
+          sum += J_[at(j)][at(c)] * stiff[at(c)];
+        }
+        way.by_way[at(j)] = sum;
+      }
+      if (!is_place) way.by_way[at(i)] += inner_.stiffness;
+      for (int j = 0; j < count(); ++j) {
         const Vector& normal = contacts_[at(j)]->normal;
-        S by = i == j ? -spot.t.dot(normal) : S(0);
-        by -= spot.zeta.dot(Vector(block(AC_, i, j) * normal));
-        for (int c = 0; c < n; ++c) by -= bends[at(i)][at(c)] * normals[at(j)][at(c)];
+        S by = -vector(moves[at(i)], j).dot(normal) - vector(Azeta, j).dot(normal);
+        for (int c = 0; c < n; ++c) by -= bends[at(c)] * normals[at(j)][at(c)];
         way.by_force[at(j)] = by;
       }
     }
@@ -270,27 +307,36 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   /// Takes off a moment that turns with the section.
   void turn(const Spot& spot, const Vector& moment, Column& of) const noexcept {
     const Vector turns = cross3(moment, spot.u) / spot.stretched;
-    for (int q = 0; q < 4; ++q) of.template segment<3>(start(q)) -= spot.h1[q] * turns;
+    for (int q = 0; q < 4; ++q) of.template segment<3>(start(q)) -= spot.h[q].by(0) * turns;
     if constexpr (unknowns == 7) {
       const S about = moment.dot(spot.u);
       of[6] -= (1 - spot.x) * about, of[13] -= spot.x * about;
     }
   }
-  /// Condenses the places that are sought.
-  void condense_places(Column& r, Tangent& K) noexcept {
+  /// Condenses the places that are sought, and N.
+  void condense_ways(Column& r, Tangent& K) noexcept {
     change_ = 0, turned_ = 0;
-    for (int i = 0; i < count(); ++i) {
-      Contact& contact = *contacts_[at(i)];
+    for (int i = 0; i < ways(); ++i) {
       Way& way = ways_[at(i)];
-      way.stiff = way.by_place[at(i)];
-      const S scale = std::abs(contact.force) * spots_[at(i)].t.squaredNorm() / contact.reach;
-      const bool told = contact.kind == Contact::Kind::round && contact.force != 0 &&
-                        std::abs(way.stiff) > parallel * scale;
-      // Along a curve that is flatter than the capsule the distance has a minimum.
-      if (told) contact.sharp = way.stiff * contact.force > 0;
-      way.sought = told && contact.moves && !contact.waits && !contact.rests;
-      if (!way.sought || contact.stays) continue;
-      if (contact.sharp) turned_ += contact.force > 0 ? 1 : -1;
+      way.stiff = way.by_way[at(i)];
+      if (i < count()) {
+        Contact& contact = *contacts_[at(i)];
+        const S scale = std::abs(contact.force) * spots_[at(i)].t.squaredNorm() / contact.reach;
+        const bool told = contact.kind == Contact::Kind::round && contact.force != 0 &&
+                          std::abs(way.stiff) > parallel * scale;
+        // Along a curve that is flatter than the capsule the distance has a minimum.
+        if (told) contact.sharp = way.stiff * contact.force > 0;
+        way.sought = told && contact.moves && !contact.waits && !contact.rests;
+        if (!way.sought || contact.stays) continue;
+        if (contact.sharp) turned_ += contact.force > 0 ? 1 : -1;
+      } else {
+        // Without contacts it has been condensed before.
+        const S over = 1 / inner_.stiffness;
+        r += (inner_.residual * over) * inner_.row;
+        K += (over * inner_.row) * inner_.row.transpose();
+        const auto lacks = [&](S residual, S stiffness) { return (std::max)(-residual / stiffness, S(0)); };
+        stiffen(lacks(way.residual, way.stiff) - lacks(inner_.residual, inner_.stiffness), K);
+      }
       const S over = 1 / way.stiff;
       change_ -= way.residual * way.residual * over / 2;
       r -= (way.residual * over) * way.by_nodes;
@@ -301,24 +347,40 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         for (int j = 0; j < count(); ++j)
           yields_[at(k)][at(j)] -= way.by_force[at(k)] * over * way.by_force[at(j)];
       }
-      for (int j = i + 1; j < count(); ++j) {
+      for (int j = i + 1; j < ways(); ++j) {
         Way& next = ways_[at(j)];
-        const S part = way.by_place[at(j)] * over;
+        const S part = way.by_way[at(j)] * over;
         next.residual -= part * way.residual;
         next.by_nodes -= part * way.by_nodes;
-        for (int k = 0; k < count(); ++k) {
-          next.by_place[at(k)] -= part * way.by_place[at(k)];
-          next.by_force[at(k)] -= part * way.by_force[at(k)];
-        }
+        for (int k = 0; k < ways(); ++k) next.by_way[at(k)] -= part * way.by_way[at(k)];
+        for (int k = 0; k < count(); ++k) next.by_force[at(k)] -= part * way.by_force[at(k)];
       }
     }
+  }
+  /// As what N lacks does (round_tension.hpp).   @param more  [N]
+  void stiffen(S more, Tangent& K) const noexcept {
+    const EndsAndMiddle<S> ends(*p_, *Base::a_, *Base::b_);
+    const S share = more * p_->length / 6, by_chord = S(1.5) * p_->inverse_length;
+    const S middle[4] = {-by_chord, S(-0.25), by_chord, S(-0.25)};
+    const auto turns = [&](int k) {
+      return Matrix((share * ends.inverse[k]) * (Matrix::Identity() - ends.v[k] * ends.v[k].transpose()));
+    };
+    K.template block<3, 3>(start(1), start(1)) += turns(0);
+    K.template block<3, 3>(start(3), start(3)) += turns(2);
+    const Matrix inside = 4 * turns(1);
+    for (int q = 0; q < 4; ++q)
+      for (int o = 0; o < 4; ++o)
+        K.template block<3, 3>(start(q), start(o)) += (middle[q] * middle[o]) * inside;
   }
   /// Adds -Nᵀf of all contacts.
   void pull(const Stack& f, Column& to) const noexcept {
     for (int k = 0; k < count(); ++k)
-      for (int q = 0; q < 4; ++q) to.template segment<3>(start(q)) -= spots_[at(k)].h[q] * vector(f, k);
+      for (int q = 0; q < 4; ++q) to.template segment<3>(start(q)) -= spots_[at(k)].h[q].value * vector(f, k);
   }
 
+  static void place(Stack& to, int k, const Vector& v) noexcept {
+    for (int c = 0; c < 3; ++c) to[at(3 * k + c)] = v[c];
+  }
   /// (I - H C) of a vector of contact k:  Aᵀ, for H and C are symmetric.
   Stack lessened(int k, const Vector& v) const noexcept {
     Stack sum{};
@@ -329,7 +391,8 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
 
   Square A_, H_, AC_;
   Stack off_;  // v - CF
-  std::array<Way, std::size_t(Most)> ways_;
+  std::array<Way, most_ways> ways_;
+  std::array<Stack, most_ways> zeta_;
   std::array<Column, std::size_t(Most)> columns_;
   std::array<S, std::size_t(Most)> residual_{};
   std::array<std::array<S, std::size_t(Most)>, std::size_t(Most)> yields_{};

@@ -19,6 +19,7 @@
 #include <hapbeam/element/rod/rod_properties.hpp>
 #include <hapbeam/element/rod/rod_tangent.hpp>
 #include <hapbeam/element/rod/round_strains.hpp>
+#include <hapbeam/element/rod/round_tension.hpp>
 #include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
@@ -34,16 +35,19 @@ struct RoundRod {
   template <typename S>
   using Matrix12 = Eigen::Matrix<S, 12, 12>;
 
-  /// No unknown is the element's own.
+  /// N, of one that is taut.
   template <typename S>
-  struct Inner {
-    S energy() const noexcept { return 0; }
-    void advance(const Vector12<S>&) noexcept {}
-  };
+  using Inner = detail::RodInner<S, unknowns>;
 
   template <typename S>
   static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
-                  const Inner<S>&) noexcept {
+                  const Inner<S>& inner) noexcept {
+    return energy(p, n1, n2, detail::EndsAndMiddle<S>(p, n1, n2), inner.value);
+  }
+  /// The same under a tension.
+  template <typename S>
+  static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
+                  const detail::EndsAndMiddle<S>& at, const S& N) noexcept {
     const V3<S> chord = n2.r - n1.r;
     S sum = 0, axial = 0;
     for (int g = 0; g < points; ++g) {
@@ -53,11 +57,11 @@ struct RoundRod {
       const S A = 1 / a.squaredNorm(), C = a.dot(b) * A;
       sum += S(rule.weight[g]) * p.points[g].bending1 * (b.squaredNorm() * A - C * C);
     }
-    const detail::EndsAndMiddle<S> at(p, n1, n2);
     const S e[3] = {at.n[0] - 1, at.n[1] - 1, at.n[2] - 1};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) axial += S(detail::quadratic_mass[i][j]) * e[i] * e[j];
-    return p.length * (sum + p.axial * axial) / 2;
+    const S energy = p.length * (sum + p.axial * axial) / 2;
+    return p.taut ? S(energy + detail::RoundTension<S>(p, at, N).energy()) : energy;
   }
 
   /// Residual and tangent.
@@ -73,15 +77,15 @@ struct RoundRod {
   /// The same, each derivative once.
   template <typename S>
   HAPBEAM_ALIGNED_STACK [[gnu::flatten]] static S tangent(const RodProperties<S>& p, const RodNode<S>& n1,
-                                                          const RodNode<S>& n2, Inner<S>&,
+                                                          const RodNode<S>& n2, Inner<S>& inner,
                                                           RodTangent<S, 3>& to) noexcept {
-    return respond(p, n1, n2, detail::EndsAndMiddle<S>(p, n1, n2), to);
+    return respond(p, n1, n2, detail::EndsAndMiddle<S>(p, n1, n2), inner, to);
   }
   /// The same, of all but φ where an element has it.
   template <typename S, int M>
   [[gnu::always_inline]] static S respond(const RodProperties<S>& p, const RodNode<S>& n1,
                                           const RodNode<S>& n2, const detail::EndsAndMiddle<S>& at,
-                                          RodTangent<S, M>& to) noexcept {
+                                          detail::RodInner<S, 3 + M>& inner, RodTangent<S, M>& to) noexcept {
     const V3<S>&t1 = n1.tangent, &t2 = n2.tangent, &m = at.middle;
     V3<S> e, low, high, to_low, to_high;
     HAPBEAM_UNROLL
@@ -98,7 +102,11 @@ struct RoundRod {
         detail::RoundBend<S>(p, 2, 4, high, to_high, S(before * both))};
     const detail::RoundStretch<S> stretch(p, at);
     collect(bends, stretch, p.inverse_length, to);
-    return stretch.energy + (bends[0].energy + bends[1].energy + bends[2].energy);
+    const S energy = stretch.energy + (bends[0].energy + bends[1].energy + bends[2].energy);
+    if (!p.taut) return energy;
+    const detail::RoundTension<S> tension(p, at, inner.value);
+    tension.add(p.inverse_length, inner, to);
+    return energy + tension.energy();
   }
 
  private:

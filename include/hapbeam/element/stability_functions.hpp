@@ -28,19 +28,6 @@
 
 namespace hapbeam {
 
-namespace detail {
-
-template <typename S>
-[[gnu::always_inline]] inline S larger(const S& a, const S& b) noexcept {
-  return a < b ? b : a;
-}
-template <typename S>
-[[gnu::always_inline]] inline bool all_less(const S& a, const S& b) noexcept {
-  return a < b;
-}
-
-}  // namespace detail
-
 struct StabilityFunctions {
   using ExactUnderTension = StabilityFunctions;
   using Abreast = StabilityFunctions;

@@ -30,6 +30,15 @@
 
 namespace hapbeam::detail {
 
+template <typename S>
+[[gnu::always_inline]] inline S larger(const S& a, const S& b) noexcept {
+  return a < b ? b : a;
+}
+template <typename S>
+[[gnu::always_inline]] inline bool all_less(const S& a, const S& b) noexcept {
+  return a < b;
+}
+
 /// A and B with their first two derivatives by q.  a, b: what tension adds, A - 2 and B - 6, without cancellation.
 template <typename S>
 struct TensionStiffness {

@@ -52,24 +52,18 @@ struct TwistedRod {
   template <typename S>
   using Matrix14 = Eigen::Matrix<S, 14, 14>;
 
-  /// The twist that is an element's own, and how it follows the nodes.
+  /// ψ, or N of one that is round and taut.
   template <typename S>
-  struct Inner {
-    S twist = 0;                            ///< ψ [rad]
-    S residual = 0;                         ///< ∂V/∂ψ [N·m]
-    S stiffness = 1;                        ///< ∂²V/∂ψ² [N·m]
-    Vector14<S> row = Vector14<S>::Zero();  ///< ∂²V/∂ψ∂(unknowns)
-
-    /// Energy of the increment that it makes on its own [J].
-    S energy() const noexcept { return residual * residual / stiffness; }
-    void advance(const Vector14<S>& x) noexcept { twist -= (residual + row.dot(x)) / stiffness; }
-  };
+  using Inner = detail::RodInner<S, unknowns>;
 
   /// V [J].
   template <typename S>
   static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
                   const Inner<S>& inner) noexcept {
-    if (p.round) return RoundRod::energy(p, n1, n2, {}) + Twist<S>(p, n1, n2, {p, n1, n2}).energy();
+    if (p.round) {
+      const detail::EndsAndMiddle<S> at(p, n1, n2);
+      return RoundRod::energy(p, n1, n2, at, inner.value) + Twist<S>(p, n1, n2, at).energy();
+    }
     const Frame<S> f(p, n1, n2);
     S sum = 0;
     const S m = f.mismatch;
@@ -78,7 +72,7 @@ struct TwistedRod {
       const S x = S(rule.x[g]);
       const Point<S> point(f, cubics[g]);
       S k[3];
-      point.strains(m * x + 4 * inner.twist * x * (1 - x), m + 4 * inner.twist * (1 - 2 * x),
+      point.strains(m * x + 4 * inner.value * x * (1 - x), m + 4 * inner.value * (1 - 2 * x),
                     p.inverse_length, k);
       const S e1 = k[0] - at.natural[0], e2 = k[1] - at.natural[1], e3 = k[2] - at.natural[2];
       sum += S(rule.weight[g]) * (at.bending1 * e1 * e1 + at.bending2 * e2 * e2 + at.torsion * e3 * e3);
@@ -143,10 +137,10 @@ struct TwistedRod {
   template <typename S>
   static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
                    RodTangent<S, 4>& all) noexcept {
-    if (p.round) return round_tangent(p, n1, n2, all);
+    if (p.round) return round_tangent(p, n1, n2, inner, all);
     const Frame<S> f(p, n1, n2);
     detail::TwistedCore<S> core;
-    const S energy = detail::respond(p, f, inner.twist, core);
+    const S energy = detail::respond(p, f, inner.value, core);
     detail::expand(f, core, p.inverse_length, inner, all);
     return energy;
   }
@@ -161,9 +155,10 @@ struct TwistedRod {
   template <typename S>
   HAPBEAM_ALIGNED_STACK [[gnu::flatten]] static S round_tangent(const RodProperties<S>& p,
                                                                 const RodNode<S>& n1, const RodNode<S>& n2,
+                                                                Inner<S>& inner,
                                                                 RodTangent<S, 4>& all) noexcept {
     const detail::EndsAndMiddle<S> at(p, n1, n2);
-    const S energy = RoundRod::respond(p, n1, n2, at, all);
+    const S energy = RoundRod::respond(p, n1, n2, at, inner, all);
     const Twist<S> twist(p, n1, n2, at);
     twist.add(p.inverse_length, all);
     return energy + twist.energy();

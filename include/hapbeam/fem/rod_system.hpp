@@ -84,6 +84,7 @@ class RodChain {
   void take_shape(const RodChain& other) noexcept {
     for (Node& node : parts_.nodes()) node = other.node_at(node.s);
     parts_.find_twists([&](Scalar s) { return other.node_at(s).director; });
+    parts_.find_tensions();
     for (std::size_t k = 0; k < 2; ++k) ends_[k] = other.ends_[k];
   }
   static const Vector3& displacement(const RodPoint<Scalar>& at) noexcept { return at.r; }
@@ -148,9 +149,12 @@ class RodChain {
   template <class Rows>
   [[gnu::always_inline]] detail::ChainEnergies<Scalar> assemble(Scalar load, Rows& rows,
                                                                 Assembler& assembler) noexcept {
-    const auto [strain, work, inner] =
+    const auto [strain, work, all] =
         parts_.visit_tangents(load, [&](int first, auto& K, auto& r) { assembler.add_pairs(first, K, r); });
-    Scalar energy = strain;
+    Scalar energy = strain, inner = all;
+    // Where it is touched, its tension has its equation there.
+    if (rows.any() && parts_.taut())
+      detail::each_touched(rows, [&](int e) { inner -= parts_.inner(e).energy(); });
     energy += ends_.visit_springs(
         parts_.nodes(), [&](int i, const Block& K, const Increment& r) { assembler.add_at(i, K, r); });
     if (rows.any()) energy += add_contacts(rows, assembler);
@@ -170,6 +174,8 @@ class RodChain {
       if (const int i = ends_.node(k); ends_.has(i)) increments_.set(i, increment(assembler, i));
     const bool free = !rows.any();
     Scalar longer = 0;
+    if (free) detail::turn_chords(parts_.nodes(), increments_);
+    parts_.advance_inners(increments_, [&](int e) { return parts_.taut() && rows.in(e); });
     if (!free)
       longer = rows.advance(
           [this](int e) {
@@ -177,9 +183,10 @@ class RodChain {
             both << increments_[e], increments_[e + 1];
             return both;
           },
-          [](int, Scalar) {}, element_at);
-    if (free) detail::turn_chords(parts_.nodes(), increments_);
-    parts_.advance_inners(increments_);
+          [this](int e, Scalar N) {
+            if (parts_.taut()) parts_.set_inner(e, N);
+          },
+          element_at);
     detail::move_nodes<unknowns == 7>(parts_.nodes(), increments_, !free);
     if (free) ends_.close_chain(parts_.nodes(), length_);
     ends_.correct(parts_.nodes());

@@ -163,9 +163,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     each_inner([&](int e) { from.inner[e] += parts().inners()[e] - to.inner[e]; });
   }
   /// Gives each element the tension that belongs to the displacements of its nodes: where those alone were set.
-  void find_tensions() noexcept {
-    if constexpr (dimension == 2) chain_.parts().find_tensions();
-  }
+  void find_tensions() noexcept { chain_.parts().find_tensions(); }
 
   /// n · (u, w) or n · r at s, of a state, of the mesh, and as it is drawn [m].
   Scalar displacement(const State& state, Scalar s, const Vector& normal) const noexcept {
@@ -212,7 +210,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
-    Contacts::feel(potential_, assembler_.energy() + inner_energy_);
+    Contacts::feel(potential_, assembler_.energy(), inner_energy_);
     weight_ = Contacts::weight(size_);
     advance();
     const Scalar size = increment();

@@ -21,9 +21,10 @@ struct RodProperties {
   Scalar inverse_length = 0;  ///< [1/m]
   Scalar axial = 0;           ///< EA [N]
   Scalar torsion = 0;         ///< GJ of all of it, of the mean compliance [N·m²]
-  Scalar soft[2] = {0, 0};    ///< mean of 1/EI against what moves it along d1, and along d2 [1/(N·m²)]
+  Scalar soft[2] = {1, 1};    ///< mean of 1/EI against what moves it along d1, and along d2 [1/(N·m²)]
   int number = 3;             ///< of Gauss points: 2 | 3
   bool round = false;         ///< bends alike about all axes, is straight by nature, and has three points
+  bool taut = false;          ///< the same, between ends that may draw it: its tension is an unknown
   struct Point {
     Scalar bending1 = 0;            ///< EI against curvature about d1 [N·m²]
     Scalar bending2 = 0;            ///< EI against curvature about d2 [N·m²]

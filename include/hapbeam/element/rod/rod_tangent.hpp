@@ -62,6 +62,21 @@ struct RodTangent {
 
 namespace detail {
 
+/// The unknown that is an element's own, and how it follows the nodes: its twist ψ [rad], or its tension N [N].
+template <typename S, int Unknowns>
+struct RodInner {
+  using Row = Eigen::Matrix<S, 2 * Unknowns, 1>;
+
+  S value = 0;
+  S residual = 0;         ///< ∂V/∂ of it
+  S stiffness = 1;        ///< ∂²V/∂² of it, of a tension negative
+  Row row = Row::Zero();  ///< ∂²V/∂∂(unknowns)
+
+  /// Energy of the increment that it makes on its own [J].
+  S energy() const noexcept { return residual * residual / stiffness; }
+  void advance(const Row& x) noexcept { value -= (residual + row.dot(x)) / stiffness; }
+};
+
 /// The same in full: of an element that has it so alone, and where something is added that is no function of Δ.
 template <typename S, int Unknowns>
 struct FullRodTangent {

@@ -90,11 +90,12 @@ class SystemContacts {
     load_ = saved_load_, reactions_ = saved_reactions_;
   }
   /// To be called after each linear solve.   @param potential  before the increment   @param energy  ΔᵀKΔ where nothing touches [J]
-  void feel(Scalar potential, Scalar energy) noexcept {
+  /// @param inner  of the increment that inner unknowns make on their own [J]
+  void feel(Scalar potential, Scalar energy, Scalar inner) noexcept {
     for (int k = 0; k < rows_.size(); ++k) reactions_[static_cast<std::size_t>(k)] = rows_.reaction(k);
     if (!rows_.any()) reactions_[0] = 0;
     rows_.feel_friction();
-    foreseen_potential_ = potential + (rows_.any() ? rows_.foreseen_change() : -energy / 2);
+    foreseen_potential_ = potential - inner / 2 + (rows_.any() ? rows_.foreseen_change() : -energy / 2);
   }
   /// √(2V), or what the weakest of several contacts is worth, the force of which has to be exact, too [√J].
   Scalar weight(Scalar size) const noexcept {

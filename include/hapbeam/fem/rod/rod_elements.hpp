@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <hapbeam/body/cut_piece.hpp>
 #include <hapbeam/body/rod_profile.hpp>
 #include <hapbeam/element/rod/carried_frame.hpp>
 #include <hapbeam/element/rod/rod_tangent.hpp>
@@ -29,7 +30,7 @@ class RodElements {
   using Nodes = detail::PerNode<Node, Elements, MaxElements>;
   using Inners = detail::PerNode<Scalar, Elements, MaxElements>;
   static constexpr int unknowns = Element::unknowns;
-  static constexpr bool has_inners = unknowns == 7, has_tensions = false;
+  static constexpr bool has_inners = true, has_tensions = false;
   using Inner = typename Element::template Inner<Scalar>;
   using Residual = Eigen::Matrix<Scalar, 2 * unknowns, 1>;
   using Tangent = Eigen::Matrix<Scalar, 2 * unknowns, 2 * unknowns>;
@@ -38,14 +39,14 @@ class RodElements {
   /// elements does not fit the type, or the element does not model such a rod
   RodElements(const Rod& rod, int elements)
       : nodes_(elements),
-        twists_(elements),
+        inner_(elements),
         properties_(elements),
         abreast_(elements),
         natural_(rod),
         profile_(rod),
         loads_(rod, elements),
         bed_(rod, elements),
-        inners_(detail::groups_of<Scalar>(elements)),
+        inners_abreast_(detail::groups_of<Scalar>(elements)),
         surface_(rod) {
     if constexpr (!has_twist)
       if (!rod.arcs().empty() || !profile_.round())
@@ -58,6 +59,8 @@ class RodElements {
         throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
                                     ": TwistedRod turns about its axis, hold its twist at one end");
     round_ = natural_.straight() && profile_.round() && profile_.smooth();
+    const bool held = rod.left().along > 0 && rod.right().along > 0;
+    own_ = has_twist && !round_ ? Own::twist : held ? Own::tension : Own::none;
     lay_mesh<Scalar>(rod, rod.forces(), elements, [this](int i, Scalar s) { nodes_[i] = natural_.at(s); });
     for (int e = 0; e < elements; ++e) make(e);
     if (!loads_.empty()) loads_.take(view(nodes_));
@@ -66,11 +69,11 @@ class RodElements {
   int size() const noexcept { return nodes_.size() - 1; }
   Nodes& nodes() noexcept { return nodes_; }
   const Nodes& nodes() const noexcept { return nodes_; }
-  /// ψ of the elements [rad].
-  Inners& inners() noexcept { return twists_; }
-  const Inners& inners() const noexcept { return twists_; }
-  /// Whether elements have a twist of their own.
-  bool has_inner() const noexcept { return has_twist && !round_; }
+  /// Of each element: its twist ψ [rad], or its tension N [N] where that is an unknown.
+  Inners& inners() noexcept { return inner_; }
+  const Inners& inners() const noexcept { return inner_; }
+  /// Whether elements have a tension of their own.
+  bool taut() const noexcept { return own_ == Own::tension; }
   /// What an element is made of.
   const RodProperties<Scalar>& properties(int e) const noexcept { return properties_[e]; }
   template <class AnyNodes>
@@ -80,37 +83,56 @@ class RodElements {
 
   /// What is an element's own, and how it follows the nodes since visit_tangents().
   Inner inner(int e) const noexcept {
+    const int place = abreast_.order().place(e), lane = place % lanes;
+    const auto& from = inners_abreast_[place / lanes];
     Inner inner;
-    if constexpr (has_twist) {
-      const int place = abreast_.order().place(e), lane = place % lanes;
-      const auto& from = inners_[place / lanes];
-      inner.twist = twists_[e];
-      inner.residual = from.residual[lane];
-      inner.stiffness = from.stiffness[lane];
-      for (int i = 0; i < 2 * unknowns; ++i) inner.row[i] = from.row[i][lane];
-    }
+    inner.value = inner_[e];
+    inner.residual = from.residual[lane];
+    inner.stiffness = from.stiffness[lane];
+    for (int i = 0; i < 2 * unknowns; ++i) inner.row[i] = from.row[i][lane];
     return inner;
   }
-  /// To be called before the nodes move.  @param increments  of all nodes: RodIncrements
-  template <class Increments>
-  void advance_inners([[maybe_unused]] const Increments& increments) noexcept {
-    if constexpr (has_twist)
-      for (int first = 0; has_inner() && first < places(); first += lanes) {
-        auto& inner = inners_[first / lanes];
-        Eigen::Matrix<Wide, 2 * unknowns, 1> both;
-        increments.of_elements(first, both);
-        inner.advance(both);
-        for (int lane = 0; lane < lanes && first + lane < places(); ++lane)
-          if (const int e = abreast_.order().element(first + lane); e >= 0) twists_[e] = inner.twist[lane];
-      }
+  /// To be called before the nodes move.  @param increments  of all nodes: RodIncrements   @param skip  (e) -> whether it follows otherwise
+  template <class Increments, class Skip>
+  void advance_inners(const Increments& increments, Skip&& skip) noexcept {
+    for (int first = 0; own_ != Own::none && first < places(); first += lanes) {
+      auto& inner = inners_abreast_[first / lanes];
+      Eigen::Matrix<Wide, 2 * unknowns, 1> both;
+      increments.of_elements(first, both);
+      inner.advance(both);
+      for_each_lane(first, [&](int e, int lane) {
+        if (!skip(e)) set_inner(e, inner.value[lane]);
+      });
+    }
+  }
+  /// A step far into compression, which has no bending stiffness left, leads nowhere.
+  void set_inner(int e, Scalar value) noexcept {
+    if (taut()) {
+      const RodProperties<Scalar>& p = properties_[e];
+      value = (std::max)(value, (std::min)(inner_[e], Scalar(0)) -
+                                    largest_push * p.inverse_length * p.inverse_length / p.soft[0]);
+    }
+    inner_[e] = value;
   }
   /// Gives each element the twist with which its middle has a director.   @param director  (s) -> d1 there
   template <class Director>
   void find_twists([[maybe_unused]] Director&& director) noexcept {
     if constexpr (has_twist)
-      for (int e = 0; has_inner() && e < size(); ++e)
-        twists_[e] = Element::twist_to(properties_[e], nodes_[e], nodes_[e + 1],
-                                       director((nodes_[e].s + nodes_[e + 1].s) / 2));
+      for (int e = 0; own_ == Own::twist && e < size(); ++e)
+        inner_[e] = Element::twist_to(properties_[e], nodes_[e], nodes_[e + 1],
+                                      director((nodes_[e].s + nodes_[e + 1].s) / 2));
+  }
+  /// Tensions that belong to the shape.
+  void find_tensions() noexcept {
+    for (int e = 0; taut() && e < size(); ++e) {
+      const detail::EndsAndMiddle<Scalar> at(properties_[e], nodes_[e], nodes_[e + 1]);
+      for (int k = 0; k < most_tensions; ++k) {
+        const detail::RoundTension<Scalar> tension(properties_[e], at, inner_[e]);
+        const Scalar by = -tension.residual() / tension.stiffness();
+        inner_[e] += by;
+        if (!(std::abs(by) > Scalar(1e-4) * std::abs(inner_[e]))) break;  // left: its square
+      }
+    }
   }
   struct Energies {
     Scalar strain = 0;  ///< [J]
@@ -125,7 +147,7 @@ class RodElements {
     Energies sum;
     Wide strain = 0, own = 0;  // of places that are all elements
     for (int first = 0; first < places(); first += lanes) {
-      auto& inner = inners_[first / lanes];
+      auto& inner = inners_abreast_[first / lanes];
       typename Stiffness::Type K;
       const Wide energy = compute(first, inner, K);
       if (first + lanes <= places() && abreast_.order().element(first) >= 0) {
@@ -151,10 +173,14 @@ class RodElements {
   /// The residual alone of one element.
   void residual(int e, Scalar lambda, Residual& r) const noexcept {
     const int place = abreast_.order().place(e), lane = place % lanes;
-    WideInner unused_inner;
+    WideInner inner;
     typename Stiffness::Type all;
-    (void)compute(place - lane, unused_inner, all);
+    (void)compute(place - lane, inner, all);
     for (int i = 0; i < 2 * unknowns; ++i) r[i] = all[i][lane];
+    // What a contact does to its tension is not in the equation of that.
+    if (taut())
+      for (int i = 0; i < 2 * unknowns; ++i)
+        r[i] += inner.row[i][lane] * inner.residual[lane] / inner.stiffness[lane];
     Tangent unused = Tangent::Zero();
     if (!bed_.empty()) (void)bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, unused);
     if (!loads_.empty()) loads_.template subtract<unknowns>(e, lambda, r);
@@ -180,47 +206,69 @@ class RodElements {
                                             EachContact&& contacts) const noexcept {
     using Vector3 = VectorOf<Scalar, 3>;
     const Node &a = nodes_[e], &b = nodes_[e + 1];
-    const Centreline<Scalar, 3> line = view(nodes_);
+    const RodProperties<Scalar>& p = properties_[e];
+    using ByPlace = detail::Jet<Scalar, 1>;
+    const Scalar N = taut() ? inner_[e] : Scalar(0), longer = 1 + N / p.axial, n = N * longer * p.soft[0];
+    const auto cut_at = [&](Scalar x) {
+      return detail::CutPiece<ByPlace>(ByPlace(p.length), ByPlace::variable(x - a.s, 0), ByPlace(n));
+    };
+    // As the nodes hold it, under its tension.
+    const auto place_at = [&](Scalar x) {
+      ByPlace h[4];
+      cut_at(x).weights(p.inverse_length, h);
+      detail::CutPlace<Scalar, 3> there{a.r, Vector3::Zero()};
+      const auto add = [&there](const ByPlace& weight, const Vector3& to) {
+        there.r += weight.value * to, there.tangent += weight.by(0) * to;
+      };
+      add(h[1], a.tangent), add(h[2], b.r - a.r), add(h[3], b.tangent);
+      return there;
+    };
     Residual r;
     residual(e, lambda, r);
     contacts([&](Scalar x, const Vector3& force, const Vector3& there) {
-      const RodPoint<Scalar> on_cubic = line.at(e, x);
-      const Scalar f = (x - a.s) * properties_[e].inverse_length, g = 1 - f, l = properties_[e].length;
-      const detail::CubicWeights<Scalar> w(f, properties_[e].inverse_length);
-      // What stands off the cubic has a moment, which turns the tangent there.
-      const Scalar stretched = std::sqrt(on_cubic.tangent.squaredNorm());
-      const Vector3 u = on_cubic.tangent / stretched,
-                    moment = detail::cross3<Scalar>(there - on_cubic.r, force),
+      const detail::CutPlace<Scalar, 3> held = place_at(x);
+      ByPlace h[4];
+      cut_at(x).weights(p.inverse_length, h);
+      // What stands off has a moment, which turns the tangent there.
+      const Scalar stretched = std::sqrt(held.tangent.squaredNorm()), f = (x - a.s) * p.inverse_length;
+      const Vector3 u = held.tangent / stretched, moment = detail::cross3<Scalar>(there - held.r, force),
                     turns = detail::cross3<Scalar>(moment, u) / stretched;
-      r.template segment<3>(0) -= g * g * (1 + 2 * f) * force - w.a * turns;
-      r.template segment<3>(3) -= l * f * g * g * force + w.a1 * turns;
-      r.template segment<3>(unknowns) -= f * f * (3 - 2 * f) * force + w.a * turns;
-      r.template segment<3>(unknowns + 3) -= w.a2 * turns - l * f * f * g * force;
-      if constexpr (has_twist) r[6] -= g * u.dot(moment), r[13] -= f * u.dot(moment);
+      for (int q = 0; q < 4; ++q)
+        r.template segment<3>(q < 2 ? 3 * q : unknowns + 3 * (q - 2)) -=
+            h[q].value * force + h[q].by(0) * turns;
+      if constexpr (has_twist) r[6] -= (1 - f) * u.dot(moment), r[13] -= f * u.dot(moment);
     });
+    // What contacts bend beside themselves a tension has for an arm.
+    const auto curve_at = [&](Scalar x) {
+      detail::CutPlace<Scalar, 3> there = place_at(x);
+      if (!taut()) return there;
+      const Vector3 u = detail::unit(there.tangent);
+      contacts([&](Scalar y, const Vector3& force, const Vector3&) {
+        const Vector3 across = longer * longer * p.soft[0] * (force - u.dot(force) * u);
+        const ByPlace l(p.length), here = ByPlace::variable(x - a.s, 0), other(y - a.s);
+        const ByPlace bends = x <= y ? detail::between_cuts(l, here, other, ByPlace(n))
+                                     : detail::between_cuts(l, other, here, ByPlace(n));
+        there.r += bends.value * across, there.tangent += bends.by(0) * across;
+      });
+      return there;
+    };
     const auto moment = [&r](int row, const Vector3& tangent) -> Vector3 {
       return RodElements::moment(r.template segment<unknowns>(row), tangent);
     };
     const auto cut = detail::cut_element<Scalar, 3>(
         {-r.template segment<3>(0), -moment(0, a.tangent), a.r}, moment(unknowns, b.tangent), at, lambda,
-        loads_.all(),
-        [&](Scalar s) {
-          const RodPoint<Scalar> there = line.at(e, s);
-          return detail::CutPlace<Scalar, 3>{there.r, there.tangent};
-        },
-        [&](auto& of, bool whole) {
-          // The cut is on the cubic, which a contact stands off: at its place it is past it on neither side.
+        loads_.all(), curve_at, [&](auto& of, bool whole) {
           contacts([&](Scalar x, const Vector3& force, const Vector3& there) {
             if (whole || x < at.s) of.pass(force, there);
           });
           if (!bed_.empty())
             bed_.visit(a.s, whole ? b.s : at.s, natural_, [&](Scalar x, const auto& k, const Vector3& home) {
-              const Vector3 there = line.at(e, x).r;
+              const Vector3 there = place_at(x).r;
               of.pass(-k * (there - home), there);
             });
         });
     const Scalar t = (at.s - a.s) / (b.s - a.s);
-    return surface_.in_section(cut, director_within(e, t), detail::unit(line.at(e, at.s).tangent),
+    return surface_.in_section(cut, director_within(e, t), detail::unit(curve_at(at.s).tangent),
                                profile_.at(at.s));
   }
   /// [J]
@@ -246,6 +294,8 @@ class RodElements {
   }
 
  private:
+  /// What is an unknown of each element: its twist, unless it is round and straight by nature; else its tension, unless an end lets it go.
+  enum class Own { none, twist, tension };
   static constexpr bool has_twist = unknowns == 7;
   using Wide = detail::Pack<Scalar>;
   static constexpr int lanes = Wide::size;
@@ -257,14 +307,14 @@ class RodElements {
   void make(int e) noexcept {
     const Scalar from = nodes_[e].s, to = nodes_[e + 1].s;
     RodProperties<Scalar>& p = properties_[e];
-    p.number = has_inner() ? 2 : 3, p.round = round_;
+    p.number = own_ == Own::twist ? 2 : 3, p.round = round_, p.taut = taut();
     p.length = to - from;
     p.inverse_length = 1 / p.length;
     profile_.apply(from, to, p);
     if constexpr (has_twist)
       if (!round_) {
-        twists_[e] = Element::twist_to(p, nodes_[e], nodes_[e + 1], natural_.at((from + to) / 2).director);
-        if (!natural_.straight()) Element::take_natural(nodes_[e], nodes_[e + 1], twists_[e], p);
+        inner_[e] = Element::twist_to(p, nodes_[e], nodes_[e + 1], natural_.at((from + to) / 2).director);
+        if (!natural_.straight()) Element::take_natural(nodes_[e], nodes_[e + 1], inner_[e], p);
       }
     abreast_.take(e, p);
     if (!bed_.empty()) bed_.take(e, from, to, natural_);
@@ -273,17 +323,16 @@ class RodElements {
   /// @param t  ξ
   VectorOf<Scalar, 3> director_within(int e, Scalar t) const noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
-    if constexpr (has_twist) return Element::director(properties_[e], a, b, twists_[e], t);
+    if constexpr (has_twist) return Element::director(properties_[e], a, b, inner_[e], t);
     else return detail::CarriedFrame<Scalar>(properties_[e], a, b).director(a.director, 0, t);
   }
   int places() const noexcept { return 2 * abreast_.order().pairs(); }
-  /// @param first  of the places of elements   @param inner, a, b  out: their twists and nodes
-  [[gnu::always_inline]] void gather(int first, [[maybe_unused]] WideInner& inner, RodNode<Wide>& a,
+  /// @param first  of the places of elements   @param inner, a, b  out: what is their own, and their nodes
+  [[gnu::always_inline]] void gather(int first, WideInner& inner, RodNode<Wide>& a,
                                      RodNode<Wide>& b) const noexcept {
     const auto& order = abreast_.order();
-    if constexpr (has_twist)
-      if (has_inner())
-        inner.twist = detail::gather(abreast_.elements(first), [&](int e) { return twists_[e]; });
+    if (own_ != Own::none)
+      inner.value = detail::gather(abreast_.elements(first), [&](int e) { return inner_[e]; });
     // The nodes of these places and of the pair behind them are those of both ends.
     detail::Abreast<Scalar> of;
     order.nodes_from(first, of.of);
@@ -343,8 +392,11 @@ class RodElements {
     visit(first, all, r);
   }
 
+  static constexpr int most_tensions = 16;
+  static constexpr Scalar largest_push = 8;  // in one increment [EI/l²]
+
   Nodes nodes_;
-  Inners twists_;
+  Inners inner_;
   detail::PerNode<RodProperties<Scalar>, Elements, MaxElements> properties_;
   detail::RodAbreast<Scalar, Elements, MaxElements> abreast_;
   NaturalRod<Scalar> natural_;
@@ -352,9 +404,10 @@ class RodElements {
   RodLoads<Scalar, Elements, MaxElements> loads_;
   RodBed<Scalar> bed_;
   detail::PerNode<WideInner, detail::groups_of<Scalar>(Elements), detail::groups_of<Scalar>(MaxElements)>
-      inners_;
+      inners_abreast_;
   detail::RodSurface<Scalar> surface_;
   bool round_ = false;  // section, and straight by nature
+  Own own_ = Own::none;
 };
 
 }  // namespace hapbeam

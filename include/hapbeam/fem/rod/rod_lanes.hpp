@@ -149,9 +149,10 @@ class RodAbreast {
   /// Lays an element's properties beside those of its neighbours.
   void take(int e, const RodProperties<Scalar>& from) noexcept {
     fill(e, [&](auto&& set, RodProperties<Wide>& to) {
-      to.number = from.number, to.round = from.round;
+      to.number = from.number, to.round = from.round, to.taut = from.taut;
       set(to.length, from.length), set(to.inverse_length, from.inverse_length);
       set(to.axial, from.axial), set(to.torsion, from.torsion);
+      set(to.soft[0], from.soft[0]);
       for (int i = 0; i < 3; ++i) {
         auto& point = to.points[i];
         set(point.bending1, from.points[i].bending1), set(point.bending2, from.points[i].bending2);

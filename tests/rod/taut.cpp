@@ -1,0 +1,137 @@
+// A round rod that is drawn taut, pressed anywhere on a few elements: a string, and a bar between clamps.
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "rod/touching.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/fem_model.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Between clamps that stand apart by so much that it is under a tension.
+struct Drawn {
+  double length, diameter, tension;
+
+  double axial() const { return spring_steel.young * pi / 4 * diameter * diameter; }
+  double bending() const { return axial() * diameter * diameter / 16; }
+  double longer() const { return 1 + tension / axial(); }
+  Rod rod() const {
+    Rod rod(length, RodSection::circle(diameter), spring_steel, RodSupport::clamped, RodSupport::clamped);
+    return rod.place_right({{length * longer(), 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  }
+  /// Depth under a small force at a, times that [m/N]: EI w'''' - N λ w'' = λ² δ(s - a), λ = 1 + N/EA, s along what is not yet drawn.
+  /// On each side w = c0 + c1 s + c2 e^(-k s) + c3 e^(k s), the last two from either end of it.
+  struct Bend {
+    double depth, curvature;  ///< under 1 N [m], [1/m], the latter of w
+  };
+  Bend under_force(double a) const {
+    const double k = std::sqrt(tension * longer() / bending());
+    Eigen::Matrix<double, 8, 8> A = Eigen::Matrix<double, 8, 8>::Zero();
+    Eigen::Matrix<double, 8, 1> right = Eigen::Matrix<double, 8, 1>::Zero();
+    // The derivative of that order at s, times so much, in units of 1/k.
+    const auto put = [&](int row, int side, double s, int order, double times) {
+      const double from = side == 0 ? 0 : a, to = side == 0 ? a : length;
+      const double fades = std::exp(-k * (s - from)), rises = std::exp(-k * (to - s));
+      A(row, 4 * side) += times * (order == 0 ? 1 : 0);
+      A(row, 4 * side + 1) += times * (order == 0 ? k * (s - from) : order == 1 ? 1 : 0);
+      A(row, 4 * side + 2) += times * (order % 2 == 0 ? fades : -fades);
+      A(row, 4 * side + 3) += times * rises;
+    };
+    put(0, 0, 0, 0, 1), put(1, 0, 0, 1, 1), put(2, 1, length, 0, 1), put(3, 1, length, 1, 1);
+    for (int order = 0; order < 4; ++order) put(4 + order, 1, a, order, 1), put(4 + order, 0, a, order, -1);
+    right[7] = longer() * longer() / (bending() * k * k * k);
+    const Eigen::Matrix<double, 8, 1> c = A.fullPivLu().solve(right);
+    const double rises = std::exp(-k * (length - a));
+    return {c[4] + c[6] + c[7] * rises, k * k * (c[6] + c[7] * rises)};
+  }
+};
+
+template <class Element>
+double worst_of_small(const Drawn& of, int elements, int places) {
+  FemModel<Element> model(of.rod(), elements);
+  REQUIRE(model.rest().status == Status::ok);
+  Random random(51);
+  double worst = 0;
+  for (int k = 0; k < places; ++k) {
+    const double s = of.length * random(0.02, 0.98), depth = 1e-7 * of.length;
+    const auto response = model.push({s, depth, {0, 1, 0}});
+    REQUIRE(response.status == Status::ok);
+    worst = std::max(worst, std::abs(response.force * of.under_force(s).depth / depth - 1));
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("a string is exact with two elements, wherever it is pressed a little", "[rod]") {
+  const Drawn guitar{0.648, 0.254e-3, 72}, suture{0.1, 0.3e-3, 20}, bar{0.5, 0.006, 2000};
+  for (const Drawn& of : {guitar, suture, bar})
+    for (const int elements : {2, 3, 8}) {
+      CAPTURE(of.tension, elements);
+      // What the depth stretches is of its square: EA (depth/L)²/2, against the tension.
+      CHECK(worst_of_small<RoundRod>(of, elements, 40) <= 1e-8);
+      CHECK(worst_of_small<TwistedRod>(of, elements, 10) <= 1e-8);
+    }
+  // Nearly without tension a press of that depth stretches it by as much as it is stretched.
+  CHECK(worst_of_small<RoundRod>(Drawn{0.5, 0.006, 0.01}, 8, 40) <= 1e-6);
+}
+
+TEST_CASE("what the section of a string carries under what presses it", "[rod]") {
+  const Drawn suture{0.1, 0.3e-3, 20};
+  FemModel<RoundRod> model(suture.rod(), 8);
+  Random random(52);
+  for (int k = 0; k < 20; ++k) {
+    const double s = suture.length * random(0.05, 0.95);
+    const auto response = model.push({s, 1e-5, {0, 1, 0}});
+    REQUIRE(response.status == Status::ok);
+    const auto cut = model.internal_forces(s);
+    const double kink =
+        -response.force * suture.bending() * suture.under_force(s).curvature / suture.longer();
+    CAPTURE(s, kink);
+    CHECK(std::hypot(cut.moment1, cut.moment2) == Approx(kink).epsilon(1e-3));
+    CHECK(cut.normal == Approx(suture.tension).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("a string and a bar that are pressed deep answer as the planar beam does", "[rod]") {
+  struct Case {
+    Drawn of;
+    double depth, with_16, with_32;
+  };
+  const Case cases[] = {{{0.648, 0.254e-3, 72}, 0.008, 4e-3, 2e-3},
+                        {{0.1, 0.3e-3, 20}, 0.00125, 5e-4, 1e-4},
+                        {{1, 0.01, 0}, 0.05, 2e-3, 2e-3}};
+  for (const Case& each : cases) {
+    const Drawn& of = each.of;
+    Beam beam(of.length, Section::circle(of.diameter), Material{spring_steel.young}, Support::clamped,
+              Support::clamped);
+    beam.place({}, {of.length * (of.longer() - 1), 0, 0});
+    FemModel<Corotational<>> planar(beam, 64);
+    FemModel<RoundRod> coarse(of.rod(), 16), fine(of.rod(), 32);
+    Random random(3);
+    for (int k = 0; k < 10; ++k) {
+      const double s = of.length * random(0.1, 0.9);
+      planar.reset(), coarse.reset(), fine.reset();
+      for (int part = 1; part <= 20; ++part) {
+        const double d = each.depth * part / 20;
+        const Push<double, 3> at{s, d, {0, 1, 0}};
+        const auto exact = planar.press({s, d});
+        const auto with_16 = coarse.push(at), with_32 = fine.push(at);
+        REQUIRE(with_16.status == Status::ok);
+        REQUIRE(with_32.status == Status::ok);
+        if (part < 20) continue;
+        CAPTURE(of.tension, s);
+        CHECK(with_16.force == Approx(exact.force).epsilon(each.with_16));
+        CHECK(with_32.force == Approx(exact.force).epsilon(each.with_32));
+      }
+    }
+  }
+}
