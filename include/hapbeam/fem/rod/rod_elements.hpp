@@ -14,6 +14,7 @@
 #include <hapbeam/body/rod_profile.hpp>
 #include <hapbeam/element/rod/carried_frame.hpp>
 #include <hapbeam/element/rod/rod_tangent.hpp>
+#include <hapbeam/element/rod/round_tension.hpp>
 #include <hapbeam/fem/rod/natural_rod.hpp>
 #include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/fem/rod/rod_loads.hpp>
