@@ -36,11 +36,7 @@ class RodBubbles : protected Stacked<S, Most> {
   /// @param rod  RodElements   @param e  of its elements
   template <class Parts>
   RodBubbles(const Parts& rod, int e) noexcept
-      : a_(&rod.nodes()[e]),
-        b_(&rod.nodes()[e + 1]),
-        p_(&rod.properties(e)),
-        inner_(rod.inner(e)),
-        taut_(rod.taut()) {}
+      : a_(&rod.nodes()[e]), b_(&rod.nodes()[e + 1]), p_(&rod.properties(e)), inner_(rod.inner(e)) {}
 
   /// @param contact  its place is in this element; stays until the last call   @param id  of no other one
   void add(Contact& contact, int id) noexcept {
@@ -76,7 +72,6 @@ class RodBubbles : protected Stacked<S, Most> {
     Vector t, k, u;                        // r', r'', direction of r'
     Vector by_N, by_N_twice, turned_by_N;  // r as of N, and r'
     S stretched, x;                        // |r'|, ξ
-    Vector zeta;                           // λ D'' r'
     Matrix curved;                         // D''
     Matrix axes;                           // along which C is the same: all, or those across r'
     Vector softer;                         // of the section
@@ -117,7 +112,7 @@ class RodBubbles : protected Stacked<S, Most> {
     Spot& spot = spots_[at(k)];
     const S s = contact.s - a_->s;
     spot.x = s * p_->inverse_length;
-    if (taut_) {
+    if (p_->taut) {
       const ByPlace n = tension<ByPlace>(1), longer = stretch(n);
       const CutPiece<ByPlace> cut(ByPlace(p_->length), ByPlace::variable(s, 0), n * longer);
       cut.weights(p_->inverse_length, spot.h);
@@ -131,7 +126,7 @@ class RodBubbles : protected Stacked<S, Most> {
     };
     spot.t = all([](const ByPlace& h) { return h.by(0); });
     spot.k = all([](const ByPlace& h) { return h.by(0, 0); });
-    if (taut_) {
+    if (p_->taut) {
       const S soft = stiffer();
       spot.by_N = soft * all([](const ByPlace& h) { return h.by(1); });
       spot.by_N_twice = soft * soft * all([](const ByPlace& h) { return h.by(1, 1); });
@@ -195,7 +190,7 @@ class RodBubbles : protected Stacked<S, Most> {
       bend(i, i, i, own.by(0) * shape);
       lean(i, i, own.by(0) / 2 * shape);
       turn_twice(i, i, half_product(i, i, own.by(0, 0) * shape));
-      if (taut_) {
+      if (p_->taut) {
         bend(count(), i, i, soft * own.by(1) * shape);
         turn_twice(i, count(), half_product(i, i, soft * own.by(1, 0) * shape));
         turn_twice(count(), count(), half_product(i, i, soft * soft * own.by(1, 1) * shape));
@@ -216,7 +211,7 @@ class RodBubbles : protected Stacked<S, Most> {
         const S product = 2 * half_product(first, second, both);
         turn_twice(first, first, product * to.by(0, 0)), turn_twice(second, second, product * to.by(1, 1));
         turn_twice(first, second, product * to.by(1, 0));
-        if (taut_) {
+        if (p_->taut) {
           bend(count(), first, second, soft * to.by(2) * both);
           turn_twice(first, count(), product * soft * to.by(2, 0));
           turn_twice(second, count(), product * soft * to.by(2, 1));
@@ -237,7 +232,7 @@ class RodBubbles : protected Stacked<S, Most> {
   /// N/EI as a variable; none where N is no unknown.
   template <class J>
   J tension(int variable) const noexcept {
-    return taut_ ? J::variable(inner_.value * stiffer(), variable) : J(0);
+    return p_->taut ? J::variable(inner_.value * stiffer(), variable) : J(0);
   }
   /// 1 + N/EA: so much longer it is than where s counts.
   template <class J>
@@ -245,7 +240,7 @@ class RodBubbles : protected Stacked<S, Most> {
     return J(1) + 1 / (stiffer() * p_->axial) * n;
   }
   /// What is condensed: places, and N behind them.
-  int ways() const noexcept { return count() + (taut_ ? 1 : 0); }
+  int ways() const noexcept { return count() + (p_->taut ? 1 : 0); }
   void turn_twice(int i, int j, S by) noexcept {
     turned_twice_[at(i)][at(j)] += by;
     if (i != j) turned_twice_[at(j)][at(i)] += by;
@@ -271,7 +266,6 @@ class RodBubbles : protected Stacked<S, Most> {
   const RodNode<S>*a_, *b_;
   const RodProperties<S>* p_;
   Inner inner_;  // ψ or N, as of the last equations
-  bool taut_;    // N is an unknown
   std::array<Contact*, std::size_t(Most)> contacts_{};
   std::array<int, std::size_t(Most)> ids_{};
   int seen_ = 0;  // so many of them have been looked at

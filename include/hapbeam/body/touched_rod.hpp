@@ -33,10 +33,10 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   using Base = RodBubbles<Element, S, Most>;
   using Base::at, Base::block, Base::blocks, Base::C_, Base::contacts_, Base::count, Base::even, Base::fill,
       Base::force_, Base::ids_, Base::inner_, Base::inverse, Base::J_, Base::most_ways, Base::p_,
-      Base::parallel, Base::product, Base::seen_, Base::size, Base::spots_, Base::start, Base::taut_,
-      Base::times, Base::turned_twice_, Base::unknowns, Base::vector, Base::ways, Base::yield_,
-      typename Base::Column, typename Base::Contact, typename Base::Matrix, typename Base::Spot,
-      typename Base::Square, typename Base::Stack, typename Base::Vector;
+      Base::parallel, Base::product, Base::seen_, Base::size, Base::spots_, Base::start, Base::times,
+      Base::turned_twice_, Base::unknowns, Base::vector, Base::ways, Base::yield_, typename Base::Column,
+      typename Base::Contact, typename Base::Matrix, typename Base::Spot, typename Base::Square,
+      typename Base::Stack, typename Base::Vector;
   using Tangent = Eigen::Matrix<S, 2 * unknowns, 2 * unknowns>;
 
  public:
@@ -114,7 +114,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   /// @param longer  in and out: what the residuals of places were worth [J]   @return tension()
   S advance(const Column& by, const std::array<S, std::size_t(Most)>& forces, S& longer) noexcept {
     std::array<S, most_ways> goes{};
-    if (taut_) {
+    if (p_->taut) {
       const Way& way = ways_[at(count())];
       S sum = way.residual + way.by_nodes.dot(by);
       for (int j = 0; j < count(); ++j) sum += way.by_force[at(j)] * forces[at(j)];
@@ -171,7 +171,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       contact.force += forces[at(k)];
       contact.s += goes[at(k)];
     }
-    return inner_.value + goes[at(count())] * (taut_ ? 1 : 0);
+    return inner_.value + goes[at(count())] * (p_->taut ? 1 : 0);
   }
 
  private:
@@ -244,7 +244,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       const Spot& spot = spots_[at(k)];
       place(moves[at(k)], k, spot.t);
       place(zeta_[at(k)], k, contacts_[at(k)]->force * (spot.curved * spot.t));
-      if (!taut_) continue;
+      if (!p_->taut) continue;
       place(moves[at(count())], k, spot.by_N);
       place(zeta_[at(count())], k, -(block(H, k, k) * spot.by_N));
     }
