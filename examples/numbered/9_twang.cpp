@@ -1,9 +1,8 @@
 // A steel ruler over the edge of a table is bent and let go: its tip as it swings, and its sound in twang.wav.
-#include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <vector>
 
+#include "../support/wav.hpp"
 #include <hapbeam/fem/dynamic_model.hpp>
 
 int main(int count, char** arguments) {
@@ -18,21 +17,12 @@ int main(int count, char** arguments) {
   DynamicModel<> model(ruler, 8, 1);
   model.let_go_from(FemModel<Corotational<>>(bent, 8).shape());
 
-  std::vector<std::int16_t> sound;
-  const double loudest = std::abs(2 * 3.14159 * 56.6 * model.shape().at(0.12).w);  // [m/s], first mode
+  std::vector<float> sound;
   for (int k = 0; k < seconds * rate; ++k) {
     if (model.step(1.0 / rate) != Status::ok) return 1;
     if (k % 240 == 0 && k < 4800)
       std::printf("%5.1f ms  tip %6.2f mm\n", 1e3 * k / rate, 1e3 * model.shape().at(0.12).w);
-    sound.push_back(static_cast<std::int16_t>(12000 * model.velocity(0.12).y() / loudest));
+    sound.push_back(static_cast<float>(model.velocity(0.12).y()));
   }
-
-  std::FILE* file = std::fopen(count > 1 ? arguments[1] : "twang.wav", "wb");
-  if (!file) return 1;
-  const auto bytes = static_cast<std::uint32_t>(2 * sound.size());
-  const std::uint32_t head[] = {0x46464952, 36 + bytes, 0x45564157, 0x20746d66, 16,   0x00010001,
-                                rate,       2 * rate,   0x00100002, 0x61746164, bytes};
-  const bool written = std::fwrite(head, sizeof head, 1, file) == 1 &&
-                       std::fwrite(sound.data(), bytes, 1, file) == 1;  // RIFF, mono, 16 bits
-  return std::fclose(file) == 0 && written ? 0 : 1;
+  return write_wav(count > 1 ? arguments[1] : "twang.wav", sound, rate) ? 0 : 1;
 }

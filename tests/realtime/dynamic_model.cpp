@@ -1,4 +1,5 @@
 // A step of a beam with mass: no heap, and a bounded number of linear solves, whatever the hand does.
+#include <array>
 #include <limits>
 #include <realtime/heap_watch.hpp>
 #include <realtime/lock_watch.hpp>
@@ -8,6 +9,7 @@
 #include <hapbeam/fem/dynamic_model.hpp>
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 #include <hapbeam/haptics/servo/servo_loop.hpp>
+#include <hapbeam/haptics/servo/sound.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -50,6 +52,9 @@ TEST_CASE("a loop of a beam with mass, through faults and resets: no heap, no lo
   options.placement = Placement::in_plane({0.25, 0});
   options.dissipate = true;
   ServoLoop loop(phantom, model, options);
+  Sound sound(model, {SoundSource::left_support, 0, 44100, 0.1});
+  std::array<float, 441> samples;
+  int heard = 0;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Random random(2);
   int not_finite = 0;
@@ -57,6 +62,7 @@ TEST_CASE("a loop of a beam with mass, through faults and resets: no heap, no lo
     for (int k = 0; k < 80; ++k) {
       phantom.run(loop.servo(), 0.01);
       (void)loop.picture();
+      heard += sound.read(samples.data(), 441);
     }
     for (int k = 0; k < 300; ++k) {
       DeviceState state{Eigen::Vector3d(random(0.4), random(0.1), 0), Eigen::Vector3d::Zero(), 1e-3 * k};
@@ -70,5 +76,6 @@ TEST_CASE("a loop of a beam with mass, through faults and resets: no heap, no lo
   CHECK(heap_use([&] { locks = locks_taken(run); }) == HeapUse{});
   CHECK(locks == 0);
   CHECK(not_finite == 0);
+  CHECK(heard > 30000);
   CHECK(loop.picture().record.contact_ticks > 100);
 }

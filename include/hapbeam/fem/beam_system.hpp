@@ -231,27 +231,34 @@ class BeamChain {
       if (!touched(e)) sum += parts_.strain_energy(e);
     return sum;
   }
-  /// What the section carries, in element e, as it lies, with what touches it.   @param thickness [m]
+  /// Forces on the nodes of element e, as it lies, less loads.   @param contacts  out: what touches it   @return how many
   template <class Rows>
-  InternalForces<Scalar> internal_forces(const Rows& rows, int e, const detail::CutAt<Scalar>& at,
-                                         Scalar load, Scalar thickness,
-                                         const Centreline<Scalar>& drawn) const noexcept {
-    Vector6<Scalar> r;
+  std::size_t nodal_forces(const Rows& rows, int e, Scalar load, Vector6<Scalar>& r,
+                           std::array<typename Rows::Contact, Rows::most>& contacts) const noexcept {
     if (!rows.in(e)) {
       parts_.residual(e, load, r);
-      return parts_.internal_forces(
-          at, load, thickness, r, [&](Scalar s) { return parts_.view(parts_.nodes()).at(e, s); },
-          [](auto&, bool) {});
+      return 0;
     }
     typename Rows::Touched touched(parts_, e);
-    std::array<typename Rows::Contact, Rows::most> contacts;
     std::size_t count = 0;
     for (int k = 0; k < rows.size(); ++k)
       if (rows.element(k) == e) touched.add(contacts[count++] = rows[k], k);
     Matrix6<Scalar> K;
     (void)touched.condense(r, K, [](int) {});
     (void)parts_.subtract_loads(e, load, r);
-    const auto place = [&drawn](Scalar s) { return drawn.at(s); };
+    return count;
+  }
+  /// What the section carries, in element e, as it lies, with what touches it.   @param thickness [m]
+  template <class Rows>
+  InternalForces<Scalar> internal_forces(const Rows& rows, int e, const detail::CutAt<Scalar>& at,
+                                         Scalar load, Scalar thickness,
+                                         const Centreline<Scalar>& drawn) const noexcept {
+    Vector6<Scalar> r;
+    std::array<typename Rows::Contact, Rows::most> contacts;
+    const std::size_t count = nodal_forces(rows, e, load, r, contacts);
+    const auto place = [&](Scalar s) {
+      return count > 0 ? drawn.at(s) : parts_.view(parts_.nodes()).at(e, s);
+    };
     return parts_.internal_forces(at, load, thickness, r, place, [&](auto& cut, bool whole) {
       for (std::size_t k = 0; k < count; ++k)
         if (const auto& contact = contacts[k]; whole || at.passed(contact.s))

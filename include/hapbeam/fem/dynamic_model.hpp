@@ -18,7 +18,8 @@
 
 namespace hapbeam {
 
-/// @tparam Element  of finite rotation, as Corotational<>
+/// @tparam Element  of finite rotation, as Corotational<>.  The mass is that of a cubic.  An element that bends otherwise under tension, as that one,
+///                  has the partials of a string too low, with 16 elements by 3, 12 and 26 cents: Corotational<VonKarman<AssumedStrain>> has not
 template <class Element = Corotational<>, typename ScalarType = double, int Elements = Eigen::Dynamic,
           int MaxElements = Elements>
 class DynamicModel {
@@ -96,6 +97,24 @@ class DynamicModel {
     const Scalar strain = system_.strain_energy();
     return {kinetic(), strain + viscosity_.energy(), system_.total_potential() - strain};
   }
+  /// Of what holds an end on the beam, inertia and viscosity taken into account: along x and w [N], and moment [N·m].   @param k  0: left, 1: right
+  Vector3<Scalar> reaction(int k) const noexcept {
+    const int e = k == 0 ? 0 : system_.elements() - 1;
+    Vector6<Scalar> r = system_.nodal_forces(e);
+    if (!starts_) {
+      Matrix6<Scalar> K;
+      K.setZero();
+      (void)inertia_.add(e, system_.node(e), system_.node(e + 1), r, K);
+      if (!viscosity_.none()) (void)viscosity_.add(e, system_.parts().displacements(e), r, K);
+    }
+    return r.template segment<3>(3 * k);
+  }
+
+  /// Called at the end of each part of a step.   @param part  its length [s]
+  using Listener = void (*)(void* who, const DynamicModel& model, Scalar part) noexcept;
+  /// One at a time; null: none.  The model stays where it is meanwhile.
+  void listen(void* who, Listener listener) noexcept { listens_ = who, listener_ = listener; }
+
   /// Linear solves of the last step.
   int solves() const noexcept { return solves_; }
 
@@ -156,6 +175,7 @@ class DynamicModel {
     for (int k = 0; k < substeps_ && pushed.status == Status::ok; ++k) {
       const Scalar begin = Scalar(k) / Scalar(substeps_), end = Scalar(k + 1) / Scalar(substeps_);
       if (!go_on(part, begin, end, 0)) pushed.status = Status::iteration_limit;
+      else if (listener_) listener_(listens_, *this, part);
     }
     system_.chain().move_with(nullptr, nullptr);
     // The next one begins as after a reset, where the beam has stopped.
@@ -291,6 +311,8 @@ class DynamicModel {
   Scalar drag_;
   typename System::Chain::Viscosity viscosity_;
   const Coupled<Scalar>* hand_ = nullptr;
+  void* listens_ = nullptr;
+  Listener listener_ = nullptr;
   Vector2<Scalar> from_ = Vector2<Scalar>::Zero();  // where the hand was
   Scalar penetration_ = 0;                          // of the hand in the beam, as it lasts in the damper [m]
   Contact contact_{};

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -266,6 +267,13 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
 
   /// What holds an end of a rod that nothing touches.   @param k  0: left, 1: right
   auto reaction(std::size_t k) const noexcept { return chain_.reaction(k, load_); }
+  /// Forces on the nodes of element e, as it lies, with what touches it, less loads.
+  auto nodal_forces(int e) const noexcept {
+    Eigen::Matrix<Scalar, 2 * unknowns, 1> r;
+    std::array<Contact, Rows::most> contacts;
+    (void)chain_.nodal_forces(rows_, e, load_, r, contacts);
+    return r;
+  }
   /// Strain energy, that of the springs that hold it included [J].
   Scalar strain_energy() const noexcept {
     Scalar energy = chain_.strain_energy([this](int e) { return rows_.in(e); });
