@@ -31,6 +31,14 @@ void check_two_hands(const Options& options) {
                          : "corotational for two hands on a beam");
 }
 
+void check_with_mass(const Options& options) {
+  const auto check = [](bool allowed, const char* what) {
+    if (!allowed) throw cli::UsageError(std::string("--element with-mass: ") + what);
+  };
+  check(options.beams == 1, "is a single beam");
+  check(options.coupling == CouplingChoice::virtual_coupling, "is touched through a virtual coupling");
+}
+
 void check_in_space(const Options& options) {
   if (options.beams > 1) cli::refuse("--beams", std::to_string(options.beams), "1 for a rod in space");
   if (options.model_choice != ModelChoice::finite_elements)
@@ -54,6 +62,10 @@ std::unique_ptr<Body> make_body(const Options& options, std::shared_ptr<const Tr
   Parts parts{filled_in(options, device), of_file ? trained->make_beam() : options.beam.make(), nullptr,
               device};
   const bool finite_elements = options.model_choice == ModelChoice::finite_elements;
+  if (finite_elements && options.element == ElementChoice::with_mass) {
+    check_with_mass(options);
+    return couple_with_mass(std::move(parts));
+  }
   if (options.beams > 1) {
     // Teeth that bend far slip off the hand; other elements are for small turns.
     if (!finite_elements || options.element != ElementChoice::corotational)

@@ -48,6 +48,10 @@ class Body {
   virtual double deepest() const noexcept = 0;  ///< [m] magnitude that was asked, as the report has it
   /// Largest strain of the run, as every eighth tick shows it; 0 where the model does not tell.
   virtual hapbeam::PeakStrain<double> peak() const noexcept = 0;
+  /// From the servo's thread: how far the place that is heard is from where it rests [m]; 0 without mass.
+  virtual double moved() const noexcept = 0;
+  /// Adds what has been heard since the last call, from one other thread.   @return samples a second; 0 without mass
+  virtual int hear(std::vector<float>& samples) = 0;
   virtual double dissipated() const noexcept = 0;  ///< [J] dissipated by friction, in all touches
   virtual const hapbeam::TickTimes& times() const noexcept = 0;
   virtual std::uint64_t full_answers() const noexcept = 0;  ///< of the full model of a guarded one

@@ -29,7 +29,10 @@ class Coupling {
   template <typename Touch>
   [[nodiscard]] auto tick(Touch& touch, const hapbeam::VectorOf<double, hapbeam::dimension_of<Touch>>& hand,
                           double dt) noexcept {
-    return std::visit([&](auto& kind) { return kind.tick(touch, hand, dt); }, kind_);
+    // A beam with mass has no other coupling.
+    if constexpr (hapbeam::detail::couples_itself<Touch>)
+      return std::get_if<hapbeam::VirtualCoupling>(&kind_)->tick(touch, hand, dt);
+    else return std::visit([&](auto& kind) { return kind.tick(touch, hand, dt); }, kind_);
   }
 
  private:

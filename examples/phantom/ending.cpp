@@ -52,11 +52,12 @@ void Ending::exits() noexcept {
   if (ending && ending->thread_ == std::this_thread::get_id()) ending->run(true);
 }
 
-int finish(Session& session, Recording* recording, std::uint64_t lost, ReportFile& report, bool interrupted,
-           const hapbeam::TimeSummary& pictures) {
+int finish(Session& session, Recording* recording, const SoundFile* sound, std::uint64_t lost,
+           ReportFile& report, bool interrupted, const hapbeam::TimeSummary& pictures) {
   bool written = !recording || recording->close(lost);
   const Run run = Run::of(session, interrupted, pictures);
   if (run.options.screenshot.empty()) print_summary(run);
+  if (sound) written &= sound->close();
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
     std::fputs("phantom: the output cannot be written\n", stderr);
     written = false;

@@ -1,4 +1,4 @@
-// How a run ends. Whatever ends it, the loop is stopped first; then recording, summary and report are written.
+// How a run ends. Whatever ends it, the loop is stopped first; then recording, sound, summary and report are written.
 //
 //   window closed, duration over          the caller ends
 //   Ctrl-C, kill, terminal closed         a signal: interrupted()
@@ -13,6 +13,7 @@
 #include "recording.hpp"
 #include "report.hpp"
 #include "session.hpp"
+#include "sound_file.hpp"
 #include <hapbeam/haptics/servo/tick_times.hpp>
 
 namespace phantom {
@@ -40,10 +41,10 @@ class Ending {
   const std::thread::id thread_ = std::this_thread::get_id();
 };
 
-/// Of a session that has stopped: closes the recording, prints the summary, unless it was only to draw pictures, and writes the report.
+/// Of a session that has stopped: closes the recording and the sound, prints the summary, unless it was only to draw pictures, and writes the report.
 /// What cannot be written is said, and costs nothing else.
-/// @param recording  or null   @param lost  ticks of it   @return the exit status
-int finish(Session& session, Recording* recording, std::uint64_t lost, ReportFile& report, bool interrupted,
-           const hapbeam::TimeSummary& pictures = {});
+/// @param recording  or null   @param sound  or null   @param lost  ticks of the recording   @return the exit status
+int finish(Session& session, Recording* recording, const SoundFile* sound, std::uint64_t lost,
+           ReportFile& report, bool interrupted, const hapbeam::TimeSummary& pictures = {});
 
 }  // namespace phantom

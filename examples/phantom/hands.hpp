@@ -27,6 +27,7 @@ class OneHand {
   Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept { return servo_.tick(state); }
   void reset() noexcept { servo_.reset(); }
   const Model& model() const noexcept { return model_; }
+  Model& model() noexcept { return model_; }
   Servo& servo() noexcept { return servo_; }
   const Servo& servo() const noexcept { return servo_; }
   const hapbeam::ServoRecord* second() const noexcept { return nullptr; }
@@ -68,6 +69,7 @@ class BothHands {
     device_.reset();
   }
   const Model& model() const noexcept { return model_; }
+  Model& model() noexcept { return model_; }
   Servo& servo() noexcept { return first_; }
   const Servo& servo() const noexcept { return first_; }
   const hapbeam::ServoRecord* second() const noexcept { return &second_.record(); }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "couple.hpp"
+#include "heard.hpp"
 #include "rest.hpp"
 #include "scene.hpp"
 #include <hapbeam/haptics/servo/servo_many.hpp>
@@ -65,7 +66,8 @@ class Live final : public Body {
       : parts_(std::move(parts)),
         rest_(rest_of(model)),
         servo_options_(servo_options(parts_.options, rest_.shape(), parts_.options.place)),
-        loop_(std::move(model), parts_, servo_options_) {
+        loop_(std::move(model), parts_, servo_options_),
+        heard_(loop_.model(), parts_.options) {
     for (int i = 0; i < parts_.options.beams; ++i) beams_.push_back({rest(), -parts_.options.pitch * i});
   }
 
@@ -106,6 +108,8 @@ class Live final : public Body {
   }
   double deepest() const noexcept override { return dimension == 3 ? deepest_ : record().max_press; }
   hapbeam::PeakStrain<double> peak() const noexcept override { return peak_; }
+  double moved() const noexcept override { return heard_.moved(loop_.model()); }
+  int hear(std::vector<float>& samples) override { return heard_.read(samples); }
   double dissipated() const noexcept override { return dissipated_; }
   const hapbeam::TickTimes& times() const noexcept override { return loop_.servo().times(); }
   std::uint64_t full_answers() const noexcept override {
@@ -124,6 +128,7 @@ class Live final : public Body {
   hapbeam::ServoPicture<double, dimension> rest_;
   hapbeam::ServoOptions servo_options_;
   Loop loop_;
+  Heard<Model> heard_;
   std::vector<DrawnBeam> beams_;
   double deepest_ = 0;  // [m] of a rod
   hapbeam::PeakStrain<double> peak_{0, 0};

@@ -19,6 +19,7 @@
 #include "report.hpp"
 #include "scene.hpp"
 #include "session.hpp"
+#include "sound_file.hpp"
 #include "trained.hpp"
 #ifdef HAPBEAM_EXAMPLES_WINDOW
 #include "window/run_window.hpp"
@@ -66,16 +67,20 @@ int run(Options options, std::shared_ptr<const Trained> trained, ReportFile& rep
   Tape tape;
   std::optional<Recording> recording;
   if (!options.record.empty()) recording.emplace(options.record);
+  std::optional<SoundFile> sound;
+  if (!options.sound.empty()) sound.emplace(options.sound);
+  Session session(options, std::move(trained), hand, tape);
   const auto write = [&] {
+    if (sound) sound->take(session.body());
     tape.take([&](const Tick& tick) {
       if (recording) recording->write(tick);
     });
   };
-  Session session(options, std::move(trained), hand, tape);
   Ending ending([&](bool cut_short) {
     session.stop();
     write();
-    return finish(session, recording ? &*recording : nullptr, tape.lost(), report, cut_short);
+    return finish(session, recording ? &*recording : nullptr, sound ? &*sound : nullptr, tape.lost(), report,
+                  cut_short);
   });
 
   print_scene(session.body().options(), session.body().trained(), session.device().info());

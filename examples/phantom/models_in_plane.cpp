@@ -34,7 +34,8 @@ std::unique_ptr<Body> couple_in_plane(Parts parts) {
     case ElementChoice::tapered: return couple_full<Corotational<Tapered<>>>(std::move(parts));
     case ElementChoice::stability_functions:
     case ElementChoice::round_rod:
-    case ElementChoice::twisted_rod: break;
+    case ElementChoice::twisted_rod:
+    case ElementChoice::with_mass: break;
   }
   return couple_full<VonKarman<>>(std::move(parts));
 }

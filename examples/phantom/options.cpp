@@ -16,8 +16,9 @@ using cli::count, cli::figure, cli::file, cli::flag, cli::one_of;
 constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice::full,
                                       ElementChoice::reduced,      ElementChoice::stability_functions,
                                       ElementChoice::corotational, ElementChoice::tapered,
-                                      ElementChoice::round_rod,    ElementChoice::twisted_rod};
-constexpr Script scripts[] = {Script::slide, Script::press, Script::tap, Script::around};
+                                      ElementChoice::round_rod,    ElementChoice::twisted_rod,
+                                      ElementChoice::with_mass};
+constexpr Script scripts[] = {Script::slide, Script::press, Script::tap, Script::around, Script::pluck};
 constexpr CouplingChoice couplings[] = {CouplingChoice::direct, CouplingChoice::virtual_coupling};
 constexpr DeviceChoice devices[] = {DeviceChoice::simulated, DeviceChoice::phantom};
 
@@ -36,7 +37,8 @@ cli::Entries entries(Options& o) {
        "rotation: "
        "corotational, and tapered for sections that change.  Of a rod in space: round-rod, which no one "
        "twists (its default where it is straight), "
-       "or twisted-rod",
+       "or twisted-rod.  with-mass: as corotational, and it swings, twangs and is heard, touched by one hand "
+       "without friction",
        [&o](const std::string& v) { o.element = one_of(elements, "--element", v); }},
       file("--model",
            "a model that train has made takes the place of finite elements; the beam is the file's", o.model),
@@ -55,7 +57,9 @@ cli::Entries entries(Options& o) {
       {"--script", "NAME",
        "what the hand does, the scene's by default:  slide: press, slide to and fro, let go;  press;  tap;  "
        "around: press a "
-       "rod in space from above, from the front and from below",
+       "rod in space from above, from the front and from below;  pluck: press and let go at once, the "
+       "default where what has "
+       "mass is held at both ends",
        [&o](const std::string& v) { o.script = one_of(scripts, "--script", v); }},
       figure("--place", "M",
              "where it presses, from the beam's left end [m]; by default the middle of the beam, or of the "
@@ -96,6 +100,11 @@ cli::Entries entries(Options& o) {
            o.lock_step),
       flag("--headless", "no window, a table row a second; so it is without a display, too", o.headless),
       file("--record", "writes a CSV row for each tick: time, hand, force, depth, status", o.record),
+      file("--sound",
+           "writes what is heard of a beam with mass as WAV: the velocity of its free right end, or the "
+           "force on "
+           "its right support",
+           o.sound),
       file("--replay", "the hand repeats a recording, in lock step", o.replay),
       file("--screenshot", "writes a picture of the window as PNG and, unless a duration is given, closes it",
            o.screenshot),
@@ -136,7 +145,14 @@ void suit_beam(Options& o, const std::vector<std::string>& given) {
   if (o.beam.in_space() && !cli::contains(given, "--element") && !bends_in_space(o.element))
     o.element = o.beam.arcs.empty() ? ElementChoice::round_rod : ElementChoice::twisted_rod;
   if (!o.beam.in_space() && o.script == Script::around)
-    cli::refuse("--script", name(o.script), "one of slide, press, tap for what bends in a plane");
+    cli::refuse("--script", name(o.script), "one of slide, press, tap, pluck for what bends in a plane");
+}
+
+/// What is to be heard is let go at once; one with a free end lets go by itself.
+void suit_mass(Options& o, const std::vector<std::string>& given) {
+  if (o.element == ElementChoice::with_mass && o.beam.right != hapbeam::Support::free &&
+      !cli::contains(given, "--script"))
+    o.script = Script::pluck;
 }
 
 /// It is another beam than the scene's, which is felt and drawn otherwise.
@@ -180,6 +196,7 @@ const char* name(ElementChoice element) {
     case ElementChoice::tapered: return "tapered";
     case ElementChoice::round_rod: return "round-rod";
     case ElementChoice::twisted_rod: return "twisted-rod";
+    case ElementChoice::with_mass: return "with-mass";
   }
   return "unknown";
 }
@@ -190,6 +207,7 @@ const char* name(Script script) {
     case Script::press: return "press";
     case Script::tap: return "tap";
     case Script::around: return "around";
+    case Script::pluck: return "pluck";
   }
   return "unknown";
 }
@@ -221,6 +239,9 @@ Options parse(const std::vector<std::string>& arguments) {
     throw cli::UsageError("--guarded: must stand beside --model, whose range it guards");
   check_model(options, given);
   suit_beam(options, given);
+  suit_mass(options, given);
+  if (!options.sound.empty() && options.element != ElementChoice::with_mass)
+    throw cli::UsageError("--sound: must stand beside --element with-mass: no other is heard");
   cli::BeamOptions unused;
   for (const cli::Entry& entry : cli::beam_entries(unused))
     if (cli::contains(given, entry.option)) leave_scene(options);

@@ -17,9 +17,10 @@ enum class ElementChoice {
   corotational,
   tapered,
   round_rod,
-  twisted_rod
+  twisted_rod,
+  with_mass
 };
-enum class Script { slide, press, tap, around };
+enum class Script { slide, press, tap, around, pluck };
 enum class CouplingChoice { direct, virtual_coupling };
 enum class ModelChoice { finite_elements, pod, galerkin };
 enum class DeviceChoice { simulated, phantom };
@@ -59,6 +60,7 @@ struct Options {
   bool timed = false;      ///< a duration was given; a window stays open without
   std::string report;      ///< file, or empty
   std::string record;      ///< file for each tick, or empty
+  std::string sound;       ///< file of what is heard, or empty
   std::string replay;      ///< file whose hand is repeated, or empty
   std::string screenshot;  ///< file, or empty
   double zoom = 1;         ///< of the window and its text

@@ -64,8 +64,9 @@ class Relay {
     keep(share, guarded);
     const hapbeam::HandTarget target =
         hand_ ? hand_->last() : hapbeam::HandTarget{state.position, state.velocity};
-    tape_.add(
-        {now_.record, target, std::chrono::duration<double>(Clock::now() - begin).count(), now_.changes});
+    const Body& felt = *(felt_ ? next_ : body_);
+    tape_.add({now_.record, target, std::chrono::duration<double>(Clock::now() - begin).count(), now_.changes,
+               felt.moved()});
     if (share == 1) end_change();
     return guarded.force;
   }

@@ -72,6 +72,10 @@ inline Way make_path(const Options& options) {
     }
     case Script::press: path.press(down, 0.3 * T).rest(0.4 * T).release(down, 0.25 * T).rest(0.05 * T); break;
     case Script::around: break;
+    case Script::pluck:
+      for (int i = 0; i < 3; ++i)
+        path.press(down, 0.1 * T).rest(0.03 * T).release(down, 0.02).rest(0.2 * T - 0.02);
+      break;
     case Script::tap:
       for (int i = 0; i < 5; ++i) path.press(down, 0.08 * T).release(down, 0.08 * T).rest(0.04 * T);
       break;

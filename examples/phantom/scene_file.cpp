@@ -58,6 +58,7 @@ void visit_body(Fields& f, cli::BeamOptions& beam) {
   f.real("body.width", "m", beam.width, 1e-6, 10.0);
   f.real("body.height", "m", beam.height, 1e-6, 10.0);
   f.real("body.young", "Pa", beam.young, 1.0, 1e13);
+  f.real("body.density", "kg/m³", beam.material_density, 1.0, 1e5);
   f.choice("body.left", beam.left, hapbeam::Support::guided);
   f.choice("body.right", beam.right, hapbeam::Support::guided);
   f.real("body.rise", "m", beam.rise, 0.0, 50.0);
@@ -80,9 +81,9 @@ void visit_scene(Fields& f, Options& o) {
   visit_body(f, o.beam);
   f.count("beams.count", o.beams, 1, 1000);
   f.real("beams.pitch", "m", o.pitch, 1e-6, 1.0);
-  f.choice("model.element", o.element, ElementChoice::twisted_rod);
+  f.choice("model.element", o.element, ElementChoice::with_mass);
   f.count("model.elements", o.elements, 2, 4096);
-  f.choice("hand.script", o.script, Script::around);
+  f.choice("hand.script", o.script, Script::pluck);
   f.real("hand.place", "m", o.place, 0.0, o.beam.length);
   f.real("hand.depth", "m", o.depth, 0.0, 0.1);
   f.real("hand.duration", "s", o.duration, 1.0, 86400.0);

@@ -21,6 +21,7 @@ class Session {
     const hapbeam::ServoRecord& record;
     const hapbeam::ServoRecord* second;  ///< of the second hand, or null
     const std::vector<DrawnBeam>& beams;
+    bool swings;  ///< they have mass
   };
 
   /// @param trained  as for make_body   @param hand, tape  kept by reference
@@ -44,7 +45,9 @@ class Session {
   Body& body() noexcept;                                    ///< that is felt
   int changes() const noexcept { return newest_.changes; }  ///< until it was
   Picture picture() noexcept {
-    return {newest_.record, body().options().hands == 2 ? &newest_.second : nullptr, body().beams()};
+    const Options& options = body().options();
+    return {newest_.record, options.hands == 2 ? &newest_.second : nullptr, body().beams(),
+            options.element == ElementChoice::with_mass};
   }
 
   const Device& device() const noexcept { return *device_; }

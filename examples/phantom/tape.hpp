@@ -12,6 +12,7 @@ struct Tick {
   hapbeam::HandTarget hand;  ///< where the hand wanted to be
   double duration;           ///< [s] that the servo took
   int changes;               ///< of the body, before it
+  double moved;              ///< [m] how far from its rest what has mass is
 };
 
 struct Tape : hapbeam::Ring<Tick> {

@@ -24,7 +24,8 @@ struct NamedBeam {
   bool round = false;
   double rise = 0, tension = 0;
   Shape shape = Shape::beam;
-  double hanging = 0;  ///< [N] weight at the right end
+  double hanging = 0;     ///< [N] weight at the right end
+  double density = 7850;  ///< [kg/m³] of its material
 };
 
 // thesis: the textbook beam of its chapter 3, 100 in long, 1 in square, E = 30e6 psi.
@@ -38,10 +39,11 @@ constexpr NamedBeam beams[] = {
     {"strip", 0.4, 0.02, 0.0005, 200e9, Support::pinned, Support::pinned},
     {"string", 0.65, 0.0008, 0.0008, 200e9, Support::pinned, Support::pinned, true, 0, 80},
     {"arch", 0.2, 0.01, 0.0005, 200e9, Support::pinned, Support::pinned, false, 0.012},
-    {"comb", 0.1, 0.003, 0.003, 3e9, Support::clamped, Support::free, true},
+    {"comb", 0.1, 0.003, 0.003, 3e9, Support::clamped, Support::free, true, 0, 0, Shape::beam, 0, 1150},
     {"needle", 0.15, 0.0025, 0.0025, 200e9, Support::clamped, Support::free, true, 0, 0, Shape::straight},
     {"hook", 0.2, 0.0025, 0.0025, 200e9, Support::clamped, Support::free, true, 0, 0, Shape::hook},
-    {"fishing-rod", 1.2, 0.008, 0.008, 40e9, Support::clamped, Support::free, true, 0, 0, Shape::tapered, 1},
+    {"fishing-rod", 1.2, 0.008, 0.008, 40e9, Support::clamped, Support::free, true, 0, 0, Shape::tapered, 1,
+     1900},
 };
 constexpr Support supports[] = {Support::free, Support::clamped, Support::pinned, Support::roller,
                                 Support::guided};
@@ -59,6 +61,7 @@ void set(BeamOptions& o, const NamedBeam& beam) {
   o.name = beam.label;
   o.bends = beam.shape == Shape::beam ? Bends::in_plane : Bends::in_space;
   o.length = beam.length, o.width = beam.width, o.height = beam.height, o.young = beam.young;
+  o.material_density = beam.density;
   o.left = beam.left, o.right = beam.right;
   o.round = beam.round, o.rise = beam.rise, o.tension = beam.tension;
   o.parts.clear(), o.arcs.clear(), o.forces.clear();
@@ -115,7 +118,10 @@ BeamOptions::BeamOptions() { set(*this, beams[0]); }
 
 hapbeam::Beam BeamOptions::make() const {
   if (in_space()) refuse("--beam", name, "one that bends in a plane: this is a rod in space");
-  const hapbeam::Material material{young};
+  // Its vibration falls to a tenth in a second and a half.
+  hapbeam::Damping air;
+  air.drag = 3;
+  const hapbeam::Material material{young, material_density, air};
   try {
     const Cut cut = cut_at(*this, length / 2);
     const auto section = section_of<hapbeam::Section>(*this, cut);
@@ -195,6 +201,8 @@ Entries beam_entries(BeamOptions& b) {
                                   number("--height", v, 1e-6, 10, "m"));
                      }}),
       customised(b, figure("--young", "PA", "Young's modulus [Pa]", b.young, 1, 1e13, "Pa")),
+      customised(b, figure("--density", "KG/M3", "of its material, where it has mass [kg/m3]",
+                           b.material_density, 1, 1e5, "kg/m3")),
       customised(b, {"--ends", "LEFT-RIGHT",
                      "how the ends are held: free, clamped, pinned, roller or guided, for example "
                      "clamped-free",

@@ -34,6 +34,7 @@ struct BeamOptions {
   std::string name;  ///< or "custom" where a figure of it was changed
   Bends bends = Bends::in_plane;
   double length, width, height, young;
+  double material_density;  ///< [kg/m³], felt where it has mass
   hapbeam::Support left, right;
   bool round = false;                 ///< circular sections, of diameter height
   double rise = 0;                    ///< [m] of an arch, whose span is the length; 0: straight

@@ -97,20 +97,38 @@ double SceneDrawing::drawn_half(float unit) const {
   return std::max(options_.beam.height / 2, 0.17 * static_cast<double>(unit) / view_.pixels);
 }
 
+Point SceneDrawing::seen(const Sample& p) const {
+  return {p.rest_x + view_.exaggeration * (p.x - p.rest_x),
+          above_ + p.rest_w + view_.exaggeration * (p.w - p.rest_w)};
+}
+
+void SceneDrawing::draw_strobe(ImDrawList& list, float unit) {
+  int age = static_cast<int>(strobe_.size());
+  for (const std::vector<Point>& shape : strobe_) {
+    std::vector<ImVec2> points;
+    for (const Point& p : shape) points.push_back(view_(p));
+    list.AddPolyline(points.data(), static_cast<int>(points.size()),
+                     colour::with_alpha(colour::blue, 200 - 190 * age-- / strobed), ImDrawFlags_None,
+                     unit / 8);
+  }
+  strobe_.emplace_back();
+  for (const Sample& sample : samples_) strobe_.back().push_back(seen(sample));
+  if (strobe_.size() > strobed) strobe_.pop_front();
+}
+
 void SceneDrawing::draw_beam(ImDrawList& list, float unit) {
   const double half = drawn_half(unit);
   const float thin = unit / 12;
   std::vector<ImVec2> upper, lower;
   for (const Sample& p : samples_) {
-    const double x = p.rest_x + view_.exaggeration * (p.x - p.rest_x);
-    const double w = above_ + p.rest_w + view_.exaggeration * (p.w - p.rest_w);
+    const Point at = seen(p);
     const double turn = p.theta;
     // The normal of the exaggerated curve is that of a displacement so much larger.
     const double slope = std::atan(view_.exaggeration * std::tan(std::clamp(turn, -1.5, 1.5)));
     const double angle = view_.exaggeration == 1 ? turn : slope;
     const Point normal(std::sin(angle), std::cos(angle));
-    upper.push_back(view_(Point(x, w) + half * normal));
-    lower.push_back(view_(Point(x, w) - half * normal));
+    upper.push_back(view_(at + half * normal));
+    lower.push_back(view_(at - half * normal));
   }
   const std::size_t n = samples_.size();
   std::vector<double> strain(n - 1);
@@ -212,9 +230,11 @@ void SceneDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
   list.PushClipRect(low, high, true);
   list.AddRectFilled(low, high, colour::paper);
   draw_workspace(list, unit);
+  if (!picture.swings) strobe_.clear();
   for (const DrawnBeam& beam : picture.beams) draw_axis(list, beam.above, unit);
   for (const DrawnBeam& beam : picture.beams) {
     sample(beam);
+    if (picture.swings) draw_strobe(list, unit);
     draw_beam(list, unit);
   }
   if (picture.second) draw_second(list, *picture.second, unit);

@@ -1,6 +1,7 @@
 // A beam in its plane: its supports, what the hand does and what it feels, as a drawing with a scale.
 #pragma once
 
+#include <deque>
 #include <imgui.h>
 #include <string>
 #include <vector>
@@ -28,12 +29,16 @@ class SceneDrawing final : public Drawing {
     double s, x, w, theta, rest_x, rest_w;
   };
 
+  static constexpr int strobed = 16;  // pictures
+
   void fit(const ImVec2& low, const ImVec2& high);
   double rest_height(double x) const;  ///< [m] of the centreline; beside it, where the nearer end is
   void sample(const DrawnBeam& beam);
   void draw_axis(ImDrawList& list, double above, float unit) const;
   void draw_workspace(ImDrawList& list, float unit) const;
   double drawn_half(float unit) const;                      ///< [m] of the thickness, which can be seen
+  Point seen(const Sample& sample) const;                   ///< [m] where it is drawn
+  void draw_strobe(ImDrawList& list, float unit);           ///< where what swings was in the last pictures
   void draw_beam(ImDrawList& list, float unit);             ///< with its supports
   Across across(const hapbeam::ServoRecord& record) const;  ///< of the hand that it is of
   void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Eigen::Vector3d& target,
@@ -54,6 +59,7 @@ class SceneDrawing final : public Drawing {
   double above_ = 0;  // [m] of the axis of the beam that is sampled
   std::vector<Sample> samples_;
   std::vector<double> rest_theta_;
+  std::deque<std::vector<Point>> strobe_;  // oldest first
 };
 
 }  // namespace phantom

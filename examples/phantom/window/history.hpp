@@ -13,8 +13,8 @@ namespace phantom {
 class History {
  public:
   struct Moment {
-    float time, force_against, force, depth,
-        place;           ///< [s, N, N, m, m]; depth is from the beam at rest, in a plane down
+    float time, force_against, force, depth, place,
+        moved;           ///< [s, N, N, m, m, m]; depth is from the beam at rest, in a plane down
     bool pressing, cut;  ///< cut: the force is the device's limit
   };
 
@@ -26,6 +26,7 @@ class History {
                         static_cast<float>(r.force.norm()),
                         static_cast<float>(depth),
                         static_cast<float>(r.press.s),
+                        static_cast<float>(tick.moved),
                         r.pressing,
                         r.status == hapbeam::LoopStatus::limited};
     if (moments_.size() < room) moments_.push_back(moment);

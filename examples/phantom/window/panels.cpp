@@ -149,8 +149,10 @@ void draw_panels(ImDrawList& list, const PanelData& data, const ImVec2& low, con
   }
   over_time(list, "force on the hand", from[0], to[0], data.history, &History::Moment::force, 1, "N", 1,
             colour::vermilion);
-  over_time(list, data.pressed == Pressed::array ? "way of the hand, down" : "depth of the press", from[1],
-            to[1], data.history, &History::Moment::depth, 1e-4, "mm", 1e3, colour::blue);
+  constexpr const char* titles[] = {"depth of the press", "way of the hand, down", "deflection"};
+  over_time(list, titles[static_cast<int>(data.pressed)], from[1], to[1], data.history,
+            data.pressed == Pressed::with_mass ? &History::Moment::moved : &History::Moment::depth, 1e-4,
+            "mm", 1e3, colour::blue);
   force_against_depth(list, from[2], to[2], data);
   tick_times(list, from[3], to[3], data.history);
 }

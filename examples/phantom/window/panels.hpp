@@ -9,8 +9,8 @@
 
 namespace phantom {
 
-/// A beam, whose depth is that of the press; or an array, through which the hand goes: its way down is told.
-enum class Pressed { beam, array };
+/// A beam, whose depth is that of the press; an array, through which the hand goes: its way down is told; or a beam with mass: how it decays.
+enum class Pressed { beam, array, with_mass };
 
 struct PanelData {
   const History& history;

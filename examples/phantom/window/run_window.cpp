@@ -18,6 +18,7 @@
 #include "../report.hpp"
 #include "../scene_file.hpp"
 #include "../scenes.hpp"
+#include "../sound_file.hpp"
 #include "colours.hpp"
 #include "controls.hpp"
 #include "panels.hpp"
@@ -53,6 +54,7 @@ class Window {
   Window(Display& display, const Options& options, std::shared_ptr<const Trained> trained)
       : display_(display), first_(options), file_(std::move(trained)) {
     if (!options.record.empty()) recording_.emplace(options.record);
+    if (!options.sound.empty()) sound_.emplace(options.sound);
     running_ = std::make_unique<Running>(options, file_);
     if (!simulated()) running_->start();
   }
@@ -78,7 +80,7 @@ class Window {
     draw_scene({gap, gap}, {size.x - column - gap, size.y - below - gap}, unit);
     draw_panels(*ImGui::GetWindowDrawList(),
                 {running_->history(), running_->curves(), running_->curve_place(), running_->curve_step(),
-                 running_->curve_depth(), running_->options().beams > 1 ? Pressed::array : Pressed::beam},
+                 running_->curve_depth(), pressed(running_->options())},
                 {gap, size.y - below}, {size.x - gap, size.y - gap});
     ImGui::SetCursorPos({size.x - column, gap});
     ImGui::BeginChild("controls", {column - gap, size.y - below - 2 * gap});
@@ -117,8 +119,9 @@ class Window {
   int close(ReportFile& report, bool cut_short, const hapbeam::TickTimes& pictures) {
     running_->session().stop();
     update();
-    const int status = finish(running_->session(), recording_ ? &*recording_ : nullptr, running_->lost(),
-                              report, cut_short, pictures.period().summary());
+    const int status =
+        finish(running_->session(), recording_ ? &*recording_ : nullptr, sound_ ? &*sound_ : nullptr,
+               running_->lost(), report, cut_short, pictures.period().summary());
     return std::max(status, status_);
   }
 
@@ -127,9 +130,15 @@ class Window {
 
  private:
   void update() {
+    if (sound_) sound_->take(running_->session().body());
     running_->update([this](const Tick& tick) {
       if (recording_) recording_->write(tick);
     });
+  }
+
+  static Pressed pressed(const Options& options) {
+    if (options.element == ElementChoice::with_mass) return Pressed::with_mass;
+    return options.beams > 1 ? Pressed::array : Pressed::beam;
   }
 
   void draw_scene(const ImVec2& low, const ImVec2& high, float unit) {
@@ -247,6 +256,7 @@ class Window {
   const Options first_;
   const std::shared_ptr<const Trained> file_;
   std::optional<Recording> recording_;
+  std::optional<SoundFile> sound_;
   std::unique_ptr<Running> running_;
   std::optional<Training> training_;
   std::string note_;
@@ -271,9 +281,10 @@ int run_window(Display& display, const Options& options, std::shared_ptr<const T
     if (options.timed && passed.count() >= options.duration) break;
     if (options.tour > 0 && pictures >= options.tour) break;
     if (options.tour > 0) window.tour(pictures);
-    // Who asks for one screenshot does not see the pictures before it; what is laid out anew settles in three.
+    // Who asks for one screenshot does not see the pictures before it; what is laid out anew settles in three, and what swings shows where it was.
     const bool single = !options.screenshot.empty() && options.frames == 1;
-    if (single && passed.count() < options.at - 3.5 * picture_time(options)) {
+    const double before = options.element == ElementChoice::with_mass ? 17.5 : 3.5;
+    if (single && passed.count() < options.at - before * picture_time(options)) {
       window.go_on();
       continue;
     }

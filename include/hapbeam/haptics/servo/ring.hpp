@@ -38,8 +38,7 @@ class Ring {
   /// Reader: wait-free where visit is.
   template <typename Visitor>
   std::size_t take(Visitor&& visit, std::size_t most = static_cast<std::size_t>(-1)) {
-    const std::size_t begin = begin_.load(std::memory_order_relaxed);
-    const std::size_t count = (std::min)(end_.load(std::memory_order_acquire) - begin, most);
+    const std::size_t begin = begin_.load(std::memory_order_relaxed), count = (std::min)(waiting(), most);
     for (std::size_t i = begin; i != begin + count; ++i) {
       visit(values_[i % values_.size()]);
       begin_.store(i + 1, std::memory_order_release);
@@ -47,6 +46,10 @@ class Ring {
     return count;
   }
 
+  /// Values that can be taken.  From the reader's thread.
+  std::size_t waiting() const noexcept {
+    return end_.load(std::memory_order_acquire) - begin_.load(std::memory_order_relaxed);
+  }
   /// Values that were added to a full ring.
   std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 

@@ -60,6 +60,8 @@ class Sound {
     missed_ += static_cast<std::uint64_t>((std::max)(count, taken) - taken);
     return taken;
   }
+  /// Samples that can be read.  From the reader's thread.
+  std::size_t waiting() const noexcept { return samples_.waiting(); }
   /// Silent samples that were read.  From the reader's thread.
   std::uint64_t missed() const noexcept { return missed_; }
   /// Samples that nobody has read in time.
