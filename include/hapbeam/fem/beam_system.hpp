@@ -115,10 +115,15 @@ class BeamChain {
   // Its equations.
 
   static constexpr Scalar neutral() noexcept { return 0; }
-  /// Of a beam without stress, of which nothing is left but what the round-off of displacements stretches and bends its elements by [√J].
-  /// @param state  √(2V)
+  /// Of a beam without stress, of which nothing is left but what the round-off of displacements stretches and bends its elements by, and of one
+  /// in motion what that of places is to its inertia [√J].   @param state  √(2V)
   Scalar round_off(Scalar state) const noexcept {
     const int n = parts_.size();
+    if (inertia_) {
+      const Scalar off = std::numeric_limits<Scalar>::epsilon() * parts_.nodes()[n].s;
+      return std::sqrt(2 * inertia_->rate() *
+                       inertia_->energy([off](int) { return detail::Placed<Scalar>(off, off, 0, 0); }));
+    }
     const auto moved = [this](int i) {
       return std::abs(parts_.nodes()[i].u) + std::abs(parts_.nodes()[i].w);
     };
