@@ -9,20 +9,22 @@ namespace {
 std::unique_ptr<page::Page> opened;
 page::Tick ticks[64];
 double line[3 * 160];
+float samples[64 * 48];
 
 }  // namespace
 
 extern "C" {
 
 EMSCRIPTEN_KEEPALIVE void page_open(int scene) { opened = std::make_unique<page::Page>(page::scene(scene)); }
-EMSCRIPTEN_KEEPALIVE void page_open_own(double length, double thickness, double young, int ends) {
-  opened =
-      std::make_unique<page::Page>(page::own_scene(length, thickness, young, static_cast<page::Ends>(ends)));
+EMSCRIPTEN_KEEPALIVE void page_open_own(double length, double thickness, double young, double density,
+                                        int ends) {
+  opened = std::make_unique<page::Page>(
+      page::own_scene(length, thickness, {young, density}, static_cast<page::Ends>(ends)));
 }
 EMSCRIPTEN_KEEPALIVE int page_has(int model) { return opened->has(model); }
 EMSCRIPTEN_KEEPALIVE void page_choose(int model) { opened->choose(model); }
 EMSCRIPTEN_KEEPALIVE double page_error(int model) { return opened->error(model); }
-EMSCRIPTEN_KEEPALIVE double page_stroke(int model, int times) { return opened->stroke(model, times); }
+EMSCRIPTEN_KEEPALIVE double page_stroke(int model, int count) { return opened->stroke(model, count); }
 EMSCRIPTEN_KEEPALIVE void page_place(double x, double w) { opened->place({x, w}); }
 EMSCRIPTEN_KEEPALIVE void page_rewind() { opened->rewind(); }
 /// So many ticks, 64 at most.   @return  the first of them
@@ -34,6 +36,9 @@ EMSCRIPTEN_KEEPALIVE const page::Tick* page_demonstrate(int count) {
   for (int k = 0; k < count; ++k) ticks[k] = opened->demonstrate();
   return ticks;
 }
+/// What was heard in the last ticks.
+EMSCRIPTEN_KEEPALIVE int page_hear() { return opened->hear(samples, 64 * 48); }
+EMSCRIPTEN_KEEPALIVE const float* page_samples() { return samples; }
 EMSCRIPTEN_KEEPALIVE double page_length() {
   return opened->scene().beam.length() + opened->scene().beam.right_place().u;
 }

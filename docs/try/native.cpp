@@ -1,5 +1,6 @@
 // The page's demonstrations on this machine: what the browser has to feel too.  One line of JSON for each scene and model.
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "page.hpp"
@@ -11,10 +12,11 @@ int main() {
       if (!page.has(model)) continue;
       const double error = page.error(model);
       const auto begin = std::chrono::steady_clock::now();
-      page.stroke(model, 5);
+      const int ticks = model == page::with_mass ? 100 : 5000;
+      page.stroke(model, ticks);
       const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - begin;
       std::printf("{\"scene\": %d, \"model\": %d, \"error\": %.9g, \"us\": %.3g, \"forces\": [", scene, model,
-                  error, time.count() / 5000);
+                  std::isnan(error) ? -1 : error, time.count() / (ticks + 60));
       page.choose(model);
       page.rewind();
       for (int k = 0; k < page.demonstration(); ++k) {

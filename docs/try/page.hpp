@@ -5,14 +5,18 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "scenes.hpp"
+#include <hapbeam/contact/touch_in_motion.hpp>
 #include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/dynamic_model.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/haptics/servo/sound.hpp>
 #include <hapbeam/haptics/stability/coupling.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
@@ -25,7 +29,7 @@ using namespace hapbeam;
 inline constexpr double period = 1e-3;  // [s]
 
 /// In the order of the page's list.
-enum Model { von_karman_8, von_karman_16, corotational_8, corotational_16, pod, galerkin, models };
+enum Model { von_karman_8, von_karman_16, corotational_8, corotational_16, pod, galerkin, with_mass, models };
 
 /// What a tick was, in numbers for the page.
 struct Tick {
@@ -43,6 +47,8 @@ struct Touched {
   virtual CoupledForce<double> couple(const Point& hand) noexcept = 0;
   virtual void reset() noexcept = 0;
   virtual Centreline<double> shape() const noexcept = 0;
+  /// The oldest samples that have not been heard.   @return how many
+  virtual int hear(float*, int) noexcept { return 0; }
 };
 
 template <class Model>
@@ -63,6 +69,38 @@ class TouchedModel final : public Touched {
   Model model_;
   Touch<Model> touch_;
   VirtualCoupling coupling_;
+};
+
+/// One that swings, in parts of a tick of 42 µs, which are heard: the velocity at a place of it.
+class Swinging final : public Touched {
+ public:
+  using Model = DynamicModel<Corotational<VonKarman<AssumedStrain>>>;
+  explicit Swinging(const Scene& scene)
+      : model_(scene.beam, scene.stretched() ? 16 : 8, 24),
+        touch_(model_, scene.radius),
+        coupling_({scene.stiffness, 2e-3 * scene.stiffness}),
+        sound_(model_, {SoundSource::velocity,
+                        (scene.beam.right() == Support::free ? 1 : 0.83) * scene.beam.length()}),
+        stiffness_(scene.stiffness) {}
+  /// Through a spring ten times as stiff: with mass no place is prescribed.
+  TouchResult<double> touch(const Point& avatar) noexcept override {
+    return touch_.tick(avatar, period, 10 * stiffness_, 0.02 * stiffness_);
+  }
+  CoupledForce<double> couple(const Point& hand) noexcept override {
+    return coupling_.tick(touch_, hand, period);
+  }
+  void reset() noexcept override { touch_.reset(), coupling_.reset(); }
+  Centreline<double> shape() const noexcept override { return model_.shape(); }
+  int hear(float* samples, int most) noexcept override {
+    return sound_.read(samples, (std::min)(most, static_cast<int>(sound_.waiting())));
+  }
+
+ private:
+  Model model_;
+  Touch<Model> touch_;
+  VirtualCoupling coupling_;
+  Sound<Model> sound_;
+  double stiffness_;
 };
 
 template <class Model>
@@ -99,6 +137,7 @@ class Page {
     models_[von_karman_16] = touched(FemModel<>(beam, 16), scene_);
     models_[corotational_8] = touched(FemModel<Corotational<>>(beam, 8), scene_);
     models_[corotational_16] = touched(FemModel<Corotational<>>(beam, 16), scene_);
+    if (scene_.rise == 0) models_[with_mass] = std::make_unique<Swinging>(scene_);
     if (beam.straight() && beam.right() == Support::pinned) {
       const auto full = full_model<Corotational<>>(beam, 128);
       const TrainingPlan plan = TrainingPlan::anywhere(beam, 2.5 * scene_.depth);
@@ -140,8 +179,9 @@ class Page {
   }
   int demonstration() const { return static_cast<int>(scene_.demonstration.duration() / period); }
 
-  /// Largest relative error of the force, at 16 presses; the reference has 256 elements of finite rotation.
+  /// Largest relative error of the force, at 16 presses; the reference has 256 elements of finite rotation.  Not a number of one that swings.
   double error(int model) {
+    if (model == with_mass) return std::numeric_limits<double>::quiet_NaN();
     double worst = 0;
     const auto presses = stops();
     for (std::size_t k = 0; k < presses.size(); ++k) {
@@ -151,14 +191,23 @@ class Page {
     }
     return worst;
   }
-  /// So many times 1000 ticks of an avatar that goes in and out and to and fro, for their time.   @return  sum of the forces
-  double stroke(int model, int times) {
+  /// So many ticks of an avatar that goes in and out and to and fro, for their time.   @return  sum of the forces
+  double stroke(int model, int ticks) {
     Touched& beam = *models_[at(model)];
     come_down(beam, stroke_.front(), height());
     double sum = 0;
-    for (int k = 0; k < times; ++k)
-      for (const Point& avatar : stroke_) sum += beam.touch(avatar).force.norm();
+    for (int k = 0; k < ticks; ++k)
+      sum += beam.touch(stroke_[static_cast<std::size_t>(k) % stroke_.size()]).force.norm();
     return sum;
+  }
+  /// What has been heard of the model under the hand: 1 is what a press as deep as the scene's, let go, has about.   @return how many samples
+  int hear(float* samples, int most) {
+    const int count = models_[model_]->hear(samples, most);
+    const Beam& beam = scene_.beam;
+    const double mass = beam.mass_per_length(beam.length() / 2) * beam.length();
+    const auto loud = static_cast<float>(scene_.depth * std::sqrt(2 * scene_.stiffness / mass));
+    for (int k = 0; k < count; ++k) samples[k] /= loud;
+    return count;
   }
 
   /// The centreline as points.   @param points  x, w [m] and bending strain of each; room for 160   @return  how many

@@ -5,7 +5,8 @@ const $ = (id) => document.getElementById(id);
 const canvas = $('stage');
 const period = 1e-3, shownSeconds = 5;  // [s]
 const noticed = 0.07;  // relative error of a force that a hand notices
-const state = {scene: 3, model: null, facts: null, rest: null, line: null, tick: null, view: null, worst: 1e-6};
+const withMass = 6, strobed = 12;
+const state = {scene: 3, model: null, facts: null, rest: null, line: null, tick: null, view: null, worst: 1e-6, strobe: [], loud: []};
 let side = 1, guided = true, idle = null, history = [], touch = [], before = [], time = 0;
 
 if (typeof hapbeamWasm === 'undefined') {
@@ -18,6 +19,7 @@ worker.onmessage = ({data}) => {
   if (data.ready) open(state.scene);
   if (data.opened) opened(data.opened);
   if (data.ticks) ticked(data);
+  if (data.sound) hear(data.sound);
 };
 
 // Scenes and models.
@@ -46,14 +48,14 @@ function open(index) {
 
 // A beam of one's own: as slender as a beam is, and not more than its models solve.
 function openOwn() {
-  const {length, thickness, young, ends} = Object.fromEntries(new FormData($('own'))), L = Number(length), t = Number(thickness);
+  const {length, thickness, material, ends} = Object.fromEntries(new FormData($('own'))), L = Number(length), t = Number(thickness);
   const low = L / 1000, high = L / 20, mm = (x) => +x.toPrecision(3);
   let wrong = '';
   if (!(L >= 50 && L <= 3000)) wrong = `length ${length} mm: must be 50 to 3000 mm`;
   else if (!(t >= low && t <= high)) wrong = `thickness ${thickness} mm: must be ${mm(low)} to ${mm(high)} mm, a thousandth to a twentieth of the length`;
   $('slender').textContent = wrong;
   if (wrong) return void ($('hint').textContent = 'not a beam yet');
-  const figures = [L / 1000, t / 1000, Number(young), Number(ends)];
+  const figures = [L / 1000, t / 1000, ...material.split(' ').map(Number), Number(ends)];
   Object.assign(scenes[state.scene], drawnOwn(figures));
   worker.postMessage({own: figures});
 }
@@ -77,7 +79,7 @@ function opened(facts) {
     const row = $('models').insertRow(), [title, kind] = models[model];
     row.dataset.model = model;
     row.innerHTML = `<td><label><input type="radio" name="model" value="${model}"><span>${title}<small>${kind}</small></span></label></td>` +
-      `<td${error > noticed ? ' class="bad"' : ''}>${percent(error)}</td><td>${us.toFixed(us < 10 ? 1 : 0)} µs</td>`;
+      `<td${error > noticed ? ' class="bad"' : ''}>${model === withMass ? 'moves' : percent(error)}</td><td>${us.toFixed(us < 10 ? 1 : 0)} µs</td>`;
     row.querySelector('input').onchange = () => choose(model);
   }
   choose(scenes[state.scene].model);
@@ -99,7 +101,43 @@ function choose(model) {
     row.classList.toggle('chosen', chosen);
     row.querySelector('input').checked = chosen;
   }
+  Object.assign(state, {strobe: [], loud: []});
+  $('second').textContent = model === withMass ? 'Loudness over time' : 'Force against depth';
+  $('touches').hidden = model === withMass;
+  $('sound').hidden = ![...$('models').rows].some((row) => Number(row.dataset.model) === withMass);
+  if (player) player.port.postMessage(null);
+  showSound();
   worker.postMessage({choose: model});
+}
+
+// Sound: the worker's samples go to the sound card's own thread.
+
+let audio = null, player = null;
+async function listen() {
+  audio = new AudioContext({sampleRate: 48000});
+  const source = new Blob([`(${soundPlayer})()`], {type: 'text/javascript'});
+  await audio.audioWorklet.addModule(URL.createObjectURL(source));
+  player = new AudioWorkletNode(audio, 'hapbeam-player', {numberOfInputs: 0, outputChannelCount: [1]});
+  player.port.onmessage = ({data}) => { player.counts = data; };
+  player.connect(audio.destination);
+}
+const audible = () => player !== null && audio.state === 'running' && state.model === withMass;
+function showSound() {
+  $('sound').textContent = audible() ? 'silence' : 'hear it';
+  $('sound').setAttribute('aria-pressed', audible());
+}
+$('sound').onclick = async () => {
+  const off = audible();
+  if (!player) await listen();
+  await (off ? audio.suspend() : audio.resume());
+  if (!off && state.model !== withMass) choose(withMass);
+  showSound();
+};
+function hear(samples) {
+  if (state.model !== withMass) return;
+  state.loud.push([time, samples.reduce((most, x) => Math.max(most, Math.abs(x)), 0)]);
+  if (state.loud.length > 2000) state.loud = state.loud.slice(1000);
+  if (audible()) player.port.postMessage(samples, [samples.buffer]);
 }
 
 function hint() {
@@ -206,6 +244,10 @@ function ticked({ticks, line, us}) {
   const first = history.findIndex(([t]) => t > time - shownSeconds);
   if (first > 500) history = history.slice(first);
   state.line = line;
+  if (state.model === withMass) {
+    state.strobe.push(line);
+    if (state.strobe.length > strobed) state.strobe.shift();
+  }
   if (us !== null) $('now').textContent = `${us.toFixed(1)} µs`;
 }
 
@@ -228,6 +270,15 @@ function draw(now) {
   c.lineWidth = 1;
   c.stroke();
   c.setLineDash([]);
+
+  // Where it was a moment ago.
+  state.strobe.forEach((was, age) => {
+    path(c, Array.from({length: was.length / 3}, (_, k) => view.line(was[3 * k], was[3 * k + 1])));
+    c.strokeStyle = colour.blue;
+    c.globalAlpha = 0.4 * (age + 1) / strobed;
+    c.stroke();
+  });
+  c.globalAlpha = 1;
 
   for (let k = 2; k < line.length; k += 3) state.worst = Math.max(state.worst, line[k]);
   const at = drawBeam(c, view, line, state.worst);
@@ -255,6 +306,11 @@ function draw(now) {
   forceTop = roundUp(1.05 * Math.max(most, ...touch.map(([, f]) => f)));
   drawCurves($('time'), [{points: lately.map(([t, f]) => [t - time, f]), colour: colour.vermilion, width: 2, dot: true}],
     {x0: -shownSeconds, x1: 0, top: forceTop, xUnit: 's', yUnit: 'N', xLabels: [-5, -4, -3, -2, -1, 0]});
+  if (state.model === withMass) {
+    const loud = state.loud.filter(([t]) => t > time - shownSeconds);
+    return drawCurves($('depth'), [{points: loud.map(([t, x]) => [t - time, x]), colour: colour.blue, width: 2, dot: true}],
+      {x0: -shownSeconds, x1: 0, top: roundUp(Math.max(0.01, ...loud.map(([, x]) => x))), xUnit: 's', yUnit: '', xLabels: [-5, -4, -3, -2, -1, 0]});
+  }
   depthTop = roundUp(Math.max(1, ...touch.map(([d]) => d), ...before.map(([d]) => d)));
   drawCurves($('depth'), [{points: before, colour: colour.pale, width: 2}, {points: touch, colour: colour.blue, width: 2.2, dot: true}],
     {x0: 0, x1: depthTop, top: roundUp(1.05 * Math.max(1e-3, ...touch.map(([, f]) => f), ...before.map(([, f]) => f))),

@@ -21,6 +21,8 @@ struct Scene {
   double from, to, depth;  ///< [m] presses at which models are compared: between two places, up to a depth
   hapbeam::HandPath demonstration;  ///< of the hand
 
+  /// Whether its ends have been pulled apart: it is a string.
+  bool stretched() const { return beam.right_place().u > 0; }
   /// [m] from the avatar's centre to the centreline that it touches.
   double reach() const { return radius + beam.thickness() / 2; }
   /// Where the avatar meets the untouched beam from above.   @param x [m]   @return [m] of its centre
@@ -32,18 +34,22 @@ struct Scene {
   }
 };
 
+/// Of the air: what swings falls to a tenth in a second and a half [1/s].
+inline constexpr double drag = 3;
+
 /// Of a beam of one's own.
 enum Ends { both_pinned, both_clamped, one_clamped };
 
 /// A beam of one's own, 20 mm wide, the spring as stiff as that beam: half of the way is lag at first.
-/// @param length, thickness [m]   @param young [Pa]
-inline Scene own_scene(double length, double thickness, double young, Ends ends) {
+/// @param length, thickness [m]
+inline Scene own_scene(double length, double thickness, hapbeam::Material material, Ends ends) {
   using hapbeam::HandPath;
   using hapbeam::Support;
   const bool cantilever = ends == one_clamped;
   const Support left = ends == both_pinned ? Support::pinned : Support::clamped,
                 right = cantilever ? Support::free : left;
-  Beam beam(length, hapbeam::Section::rectangle(0.02, thickness), {young}, left, right);
+  material.damping.drag = drag;
+  Beam beam(length, hapbeam::Section::rectangle(0.02, thickness), material, left, right);
   const double radius = 0.02 * length, s = (cantilever ? 0.6 : 0.5) * length, small = 1e-4 * length;
   hapbeam::FemModel<> model(beam, 8);
   const double stiffness = std::abs(model.press({s, -small}).force) / small;
@@ -74,10 +80,12 @@ inline Scene scene(int index) {
   using hapbeam::HandPath;
   using hapbeam::Section;
   using hapbeam::Support;
-  const hapbeam::Material steel{200e9};
+  hapbeam::Material steel{200e9, 7850};
+  steel.damping.drag = drag;
   switch (index) {
     case 0: {
-      Beam bar(2.54, Section::rectangle(0.0254, 0.0254), {206.84e9}, Support::pinned, Support::pinned);
+      Beam bar(2.54, Section::rectangle(0.0254, 0.0254), {206.84e9, 7850, steel.damping}, Support::pinned,
+               Support::pinned);
       HandPath hand({0.8, 0.06});
       hand.press(0.11, 1.2).rest(0.3).slide(1, 2).slide(-0.5, 1).press(0.03, 0.6).release(0.14, 1).rest(0.6);
       return {std::move(bar), 0, 0.015, 3500, 0.5, 2, 0.02, std::move(hand)};
@@ -92,7 +100,12 @@ inline Scene scene(int index) {
     case 2: {
       Beam wire(0.65, Section::circle(0.0008), steel, Support::pinned, Support::pinned);
       HandPath hand({0.2, 0.012});
-      hand.press(0.026, 0.8).slide(0.32, 2).slide(-0.2, 1.2).press(0.006, 0.5).release(0.032, 0.15).rest(0.7);
+      hand.press(0.026, 0.8)
+          .slide(0.32, 2)
+          .slide(-0.2, 1.2)
+          .press(0.006, 0.5)
+          .release(0.032, 0.03)
+          .rest(0.82);
       hand.slide(-0.12, 0.8);
       return {tensioned(wire, 80), 0, 0.004, 600, 0.13, 0.52, 0.008, std::move(hand)};
     }
@@ -107,7 +120,7 @@ inline Scene scene(int index) {
           .move_to({0.096, 0.03}, 0.8);
       return {std::move(bow), 0.012, 0.005, 400, 0.08, 0.09, 0.009, std::move(hand)};
     }
-    case 5: return own_scene(0.5, 0.004, 70e9, both_pinned);
+    case 5: return own_scene(0.5, 0.004, {70e9, 2700}, both_pinned);
     default: {
       Beam strip(0.4, Section::rectangle(0.02, 0.0005), steel, Support::pinned, Support::pinned);
       HandPath hand({0.2, 0.012});

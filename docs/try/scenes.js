@@ -39,8 +39,8 @@ const scenes = [
 // Of a beam of one's own, by its list of ends.
 const ownEnds = [['pinned', 'pinned'], ['clamped', 'clamped'], ['clamped', 'free']];
 
-// What is drawn of it.   figures: [length, thickness, young, ends]
-function drawnOwn([length, , , kind]) {
+// What is drawn of it.   figures: [length, thickness, young, density, ends]
+function drawnOwn([length, , , , kind]) {
   const cantilever = ownEnds[kind][1] === 'free', part = cantilever ? [-0.13, 1.2, -0.6, 0.23] : [-0.07, 1.07, -0.32, 0.24];
   return {ends: ownEnds[kind], magnified: cantilever ? 1 : 8, view: part.map((x) => x * length)};
 }
@@ -52,6 +52,7 @@ const models = [
   ['FemModel, Corotational', '16 elements, finite rotation'],
   ['PodModel', 'reduced, 16 × 12 snapshots'],
   ['GalerkinModel', 'reduced, 16 × 12 snapshots'],
+  ['DynamicModel', 'with mass: it swings, and is heard'],
 ];
 
 const statusText = {

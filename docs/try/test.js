@@ -19,7 +19,7 @@ function check(what, holds, found = '') {
 }
 
 function browser() {
-  const chromium = spawn('chromium', ['--headless=new', '--no-sandbox', '--disable-gpu', '--remote-debugging-pipe', '--hide-scrollbars',
+  const chromium = spawn('chromium', ['--headless=new', '--autoplay-policy=no-user-gesture-required', '--no-sandbox', '--disable-gpu', '--remote-debugging-pipe', '--hide-scrollbars',
     `--user-data-dir=${fs.mkdtempSync('/tmp/hapbeam-page-')}`], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
   const waiting = new Map(), heard = [];
   let buffer = '', next = 1;
@@ -91,8 +91,10 @@ async function openPage(chromium, url, {width, height, touch}) {
 }
 
 // A model of finite elements is felt the same to the ninth digit, which native.cpp prints, a trained one in all but the last two: its SVD
-// rounds as the mathematical functions of each machine do.
+// rounds as the mathematical functions of each machine do.  One with mass sums up what is rounded in thousands of parts.
+const withMass = 6;
 function same(model, felt, force, peak) {
+  if (model === withMass) return Math.abs(felt - force) <= 1e-4 * peak;
   return model < 4 ? Math.abs(felt - force) <= 1e-8 * Math.abs(force) : Math.abs(felt - force) <= 1e-7 * peak;
 }
 
@@ -110,7 +112,7 @@ async function sameForces(page, native) {
     check(`scene ${scene}, model ${model}: forces as native`, felt.forces.length === forces.length && other < 0,
       `number ${other}: ${felt.forces[other]} and ${forces[other]}`);
     check(`scene ${scene}, model ${model}: it presses`, peak > 1, peak);
-    check(`scene ${scene}, model ${model}: error as native`, Math.abs(felt.error / error - 1) < 1e-3, `${felt.error} and ${error}`);
+    check(`scene ${scene}, model ${model}: error as native`, model === withMass || Math.abs(felt.error / error - 1) < 1e-3, `${felt.error} and ${error}`);
   }
 }
 
@@ -173,7 +175,7 @@ async function own(page) {
   await set('thickness', 8);
   const thick = await stiffness();
   check('twice as thick it is eight times as stiff', Math.abs(thick / thin / 8 - 1) < 1e-3, thick / thin);
-  await set('young', '3e9');
+  await set('material', '3e9 1150');
   const soft = await stiffness();
   check('its stiffness is proportional to the modulus', Math.abs(thick / soft / (70 / 3) - 1) < 1e-3, thick / soft);
   await set('ends', 2);
@@ -195,6 +197,77 @@ async function coloured(page) {
   check('a bad error is coloured, and no other', rows.some(([, bad]) => bad) && rows.every(([error, bad]) => bad === error > 0.07), rows);
 }
 
+// The highest place of the spectrum within 3 % of a frequency [Hz].
+function peak(samples, rate, about) {
+  const n = samples.length, windowed = samples.map((x, k) => x * (1 - Math.cos(2 * Math.PI * (k + 0.5) / n)));
+  let best = [0, 0];
+  for (let f = 0.97 * about; f < 1.03 * about; f += 0.05 * rate / n) {
+    let re = 0, im = 0;
+    const step = 2 * Math.PI * f / rate;
+    for (let k = 0; k < n; ++k) re += windowed[k] * Math.cos(step * k), im += windowed[k] * Math.sin(step * k);
+    if (re * re + im * im > best[0]) best = [re * re + im * im, f];
+  }
+  return best[1];
+}
+
+// The string that is plucked has the partials of its tension, mass and stiffness; a ruler on the table's edge those of a cantilever.
+async function plucked(page) {
+  const pluck = (what) => page.evaluate(`new Promise((done) => {
+    const worker = startBeams();
+    worker.onmessage = ({data}) => {
+      if (data.ready) worker.postMessage({pluck: ${JSON.stringify(what)}});
+      if (data.plucked) worker.terminate(), done(data.plucked);
+    };
+  })`);
+  const string = await pluck({scene: 2, x: 0.1, from: 0.02, to: 0.002});
+  const area = Math.PI * 0.0008 ** 2 / 4, stretch = 1 + 80 / (200e9 * area), length = 0.65 * stretch;
+  const first = Math.sqrt(80 / (7850 * area / stretch)) / (2 * length), stiff = Math.PI ** 2 * 200e9 * area * 0.0008 ** 2 / 16 / (80 * length ** 2);
+  check('a second is heard', string.length > 47900 && string.length <= 48000, string.length);
+  // From half a second on the tension is nearly that of rest.
+  for (let n = 1; n <= 5; ++n) {
+    const exact = n * first * Math.sqrt(1 + stiff * n * n), cents = 1200 * Math.log2(peak(string.slice(24000), 48000, exact) / exact);
+    check(`partial ${n} of the string`, Math.abs(cents) < 8, `${cents} cents`);
+  }
+  const ruler = await pluck({scene: 1, x: 0.27, from: 0.1, to: -0.03});
+  // (βL)² of a cantilever's second and third mode.
+  for (const beta of [4.694091, 7.854757]) {
+    const exact = beta ** 2 / (2 * Math.PI) * Math.sqrt(200e9 * 0.001 ** 2 / 12 / 7850) / 0.09, cents = 1200 * Math.log2(peak(ruler.slice(4800, 28800), 48000, exact) / exact);
+    check('a mode of the ruler', Math.abs(cents) < 20, `${cents} cents`);
+  }
+}
+
+// What the page plays, as it leaves for the sound card, while a mouse plucks the string.
+async function heard(page) {
+  await page.scene(2);
+  await page.evaluate(`$('sound').click()`);
+  await page.until('sound begins', `player && audio.state === 'running' && state.model === withMass && $('sound').textContent === 'silence'`);
+  await page.evaluate(`globalThis.analyser = audio.createAnalyser(), analyser.fftSize = 32768, player.connect(analyser)`);
+  await page.pointer('down', 0.25, 0.2);
+  await page.drag([0.25, 0.2], [0.25, 0.65], 20);
+  await page.pointer('move', 0.25, 0.02);
+  await pause(1200);
+  const samples = await page.evaluate(`(() => { const x = new Float32Array(analyser.fftSize); analyser.getFloatTimeDomainData(x); return [...x]; })()`);
+  const loudest = Math.max(...samples.map(Math.abs));
+  check('the string is heard', loudest > 1e-3 && loudest <= 1, loudest);
+  const cents = 1200 * Math.log2(peak(samples, 48000, 109.4) / 109.4);
+  check('it is played at its pitch', Math.abs(cents) < 40, `${cents} cents`);
+  console.log(`played: ${JSON.stringify(await page.evaluate('player.counts'))}, a tick ${await page.evaluate(`$('now').textContent`)}, in strokes ${await page.evaluate('state.facts.rows.find((row) => row.model === withMass).us')} µs`);
+  await page.picture('desktop_heard');
+  await page.evaluate(`choose(1)`);
+  await page.until('without mass there is silence', `(() => { const x = new Float32Array(2048); analyser.getFloatTimeDomainData(x); return x.every((v) => v === 0); })()`);
+  await page.evaluate(`choose(withMass), $('sound').click()`);
+  await page.until('sound ends', `audio.state === 'suspended' && $('sound').textContent === 'hear it'`);
+  await page.scene(1);
+  await page.evaluate(`choose(withMass)`);
+  await page.pointer('down', 0.6, 0.1);
+  await page.drag([0.6, 0.1], [0.6, 0.62], 30);
+  await page.pointer('move', 0.6, 0.01);
+  await pause(150);
+  await page.picture('desktop_twang');
+  await page.scene(3);
+  check('what has no mass has no button', await page.evaluate(`$('sound').hidden`));
+}
+
 async function listed(page, native) {
   for (let index = 0; index < 6; ++index) {
     await page.scene(index);
@@ -202,8 +275,8 @@ async function listed(page, native) {
     check(`scene ${index} has its models`, rows.length === own.length, rows.length);
     for (const {model, error, us} of rows) {
       const other = own.find((row) => row.model === model).error;
-      check(`scene ${index}, model ${model}: its error is listed`, Math.abs(error / other - 1) < 1e-3, `${error} and ${other}`);
-      check(`scene ${index}, model ${model}: its time is listed`, us > 0.01 && us < 1000, us);
+      check(`scene ${index}, model ${model}: its error is listed`, model === withMass || Math.abs(error / other - 1) < 1e-3, `${error} and ${other}`);
+      check(`scene ${index}, model ${model}: its time is listed`, us > 0.01 && us < (model === withMass ? 10000 : 1000), us);
       await page.evaluate(`document.querySelector('#models input[value="${model}"]').click()`);
       await pause(60);
       check(`scene ${index}, model ${model}: it can be chosen`, (await page.evaluate('state.model')) === model);
@@ -230,6 +303,8 @@ async function main() {
     await press(desk, 'desktop');
     await listed(desk, native);
     await keys(desk);
+    await heard(desk);
+    await plucked(desk);
     await below(desk);
     await own(desk);
     await coloured(desk);

@@ -1,27 +1,27 @@
 // The beams' own thread: 1000 ticks in a second of simulated time, whatever the display does.
 'use strict';
 
-// Told {wasm}, then {open: scene}, {own: [length, thickness, young, ends]}, {choose: model}, {place: [x, w]}, {go: [x, w]}, {script}, {pause: bool}, {demonstration: model}.
+// Told {wasm}, then {open: scene}, {own: [length, thickness, young, density, ends]}, {choose: model}, {place: [x, w]}, {go: [x, w]}, {script}, {pause: bool}, {demonstration: model}.
 function beamWorker() {
-  const recordSize = 9, modelCount = 6;
+  const recordSize = 9, modelCount = 7, withMass = 6;
   let beams, target = null, paused = false, last = 0, spent = 0, ticked = 0;
 
   const records = (address, count) => new Float64Array(beams.memory.buffer, address, recordSize * count).slice();
   const hasModels = () => Array.from({length: modelCount}, (_, m) => m).filter((m) => beams.page_has(m));
 
-  // [µs] of a tick of each model: the least of some rounds, each of as many strokes of 1000 ticks as the clock can tell.
+  // [µs] of a tick of each model: the least of some rounds, each of as many strokes as the clock can tell.  A stroke begins by 60 ticks more.
   function times(all) {
     const least = all.map(() => Infinity);
     for (let round = 0; round < 6; ++round)
       all.forEach((model, k) => {
-        const begin = performance.now();
+        const begin = performance.now(), count = model === withMass ? 100 : 1000;
         let strokes = 0, now = begin;
         while (now - begin < 3) {
-          beams.page_stroke(model, 1);
+          beams.page_stroke(model, count);
           ++strokes;
           now = performance.now();
         }
-        least[k] = Math.min(least[k], (now - begin) / strokes);
+        least[k] = Math.min(least[k], 1e3 * (now - begin) / (strokes * (count + 60)));
       });
     return least;
   }
@@ -39,6 +39,12 @@ function beamWorker() {
     return Float32Array.from(new Float64Array(beams.memory.buffer, beams.page_line(), 3 * count));
   }
 
+  // Samples of the last ticks, 48 of each; none of a model without mass.
+  function heard() {
+    const count = beams.page_hear();
+    return new Float32Array(beams.memory.buffer, beams.page_samples(), count).slice();
+  }
+
   function run() {
     const now = performance.now();
     if (paused) return void (last = now);
@@ -50,8 +56,8 @@ function beamWorker() {
     ticked += due;
     let us = null;
     if (ticked >= 500) us = 1000 * spent / ticked, spent = ticked = 0;
-    const ticks = records(address, due), points = line();
-    postMessage({ticks, line: points, us}, [ticks.buffer, points.buffer]);
+    const ticks = records(address, due), points = line(), sound = heard();
+    postMessage({ticks, line: points, us, sound}, [ticks.buffer, points.buffer, sound.buffer]);
   }
 
   function begin() {
@@ -79,6 +85,16 @@ function beamWorker() {
     go: (at) => { target = at; },
     script: () => { target = null; beams.page_rewind(); },
     pause: (yes) => { paused = yes; last = performance.now(); },
+    // What is heard once a press has been let go, the hand away at once: a second.
+    pluck({scene, x, from, to}) {
+      beams.page_open(scene);
+      beams.page_choose(withMass);
+      beams.page_place(x, from);
+      for (let k = 0; k < 400; ++k) beams.page_go(1, x, to), beams.page_hear();
+      const samples = [];
+      for (let k = 0; k < 1000; ++k) beams.page_go(1, x, from), samples.push(...heard());
+      postMessage({plucked: samples});
+    },
     // All of a demonstration at once, as native.cpp prints it.
     demonstration({scene, model}) {
       beams.page_open(scene);

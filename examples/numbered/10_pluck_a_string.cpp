@@ -14,7 +14,7 @@ int main(int count, char** arguments) {
   const Beam string =
       tensioned(Beam(length, Section::circle(diameter), steel, Support::pinned, Support::pinned), tension);
   Beam pulled = string;
-  pulled.add(PointLoad{0.12, 0, 2, 0});  // 2 N of a finger, 120 mm from the left end
+  pulled.add(PointLoad{0.12, 0, 0.5, 0});  // 0.5 N of a finger, 120 mm from the left end
 
   // Elements as exact as a string's partials require, 96 parts a millisecond; what the right support feels
   using Element = Corotational<VonKarman<AssumedStrain>>;

@@ -61,6 +61,14 @@ if(NOT HAPBEAM_SANITIZE)
     COMMAND compare_pictures same window_two_hands.png ${CMAKE_CURRENT_SOURCE_DIR}/pictures/two_hands.png ${times})
 endif()
 
+# A ruler that swings, and where it was in the pictures before.
+if(NOT HAPBEAM_SANITIZE)
+  hapbeam_test_example(phantom window_twang STATUS 0 OUTPUT "^$" BEFORE ${display} MAKES hapbeam_picture_twang
+    OPTIONS --scene ruler --element with-mass --screenshot window_twang.png --at 3.2)
+  hapbeam_test_file(picture_twang NEEDS hapbeam_picture_twang
+    COMMAND compare_pictures same window_twang.png ${CMAKE_CURRENT_SOURCE_DIR}/pictures/twang.png ${times})
+endif()
+
 # A thousand changes of scene, model and coupling, a hand that presses and windows of other sizes in between: the force
 # changes by no more than the guard's 10 N a millisecond, but where the arch snaps and lets go.  Under sanitizers sixty.
 set(changes 1000)

@@ -19,7 +19,7 @@
 namespace hapbeam {
 
 /// @tparam Element  of finite rotation, as Corotational<>.  The mass is that of a cubic.  An element that bends otherwise under tension, as that one,
-///                  has the partials of a string too low, with 16 elements by 3, 12 and 26 cents: Corotational<VonKarman<AssumedStrain>> has not
+///                  has the partials of a string too low, with 16 elements by 3, 12 and 31 cents: Corotational<VonKarman<AssumedStrain>> has not
 template <class Element = Corotational<>, typename ScalarType = double, int Elements = Eigen::Dynamic,
           int MaxElements = Elements>
 class DynamicModel {
