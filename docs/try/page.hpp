@@ -89,7 +89,12 @@ class Swinging final : public Touched {
   CoupledForce<double> couple(const Point& hand) noexcept override {
     return coupling_.tick(touch_, hand, period);
   }
-  void reset() noexcept override { touch_.reset(), coupling_.reset(); }
+  void reset() noexcept override {
+    touch_.reset(), coupling_.reset();
+    float before[512];
+    while (hear(before, 512) > 0) {
+    }
+  }
   Centreline<double> shape() const noexcept override { return model_.shape(); }
   int hear(float* samples, int most) noexcept override {
     return sound_.read(samples, (std::min)(most, static_cast<int>(sound_.waiting())));

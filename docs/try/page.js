@@ -134,7 +134,7 @@ $('sound').onclick = async () => {
   showSound();
 };
 function hear(samples) {
-  if (state.model !== withMass) return;
+  if (state.model !== withMass || samples.length === 0) return;
   state.loud.push([time, samples.reduce((most, x) => Math.max(most, Math.abs(x)), 0)]);
   if (state.loud.length > 2000) state.loud = state.loud.slice(1000);
   if (audible()) player.port.postMessage(samples, [samples.buffer]);
