@@ -190,13 +190,17 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   /// Adds what all contacts are to the nodes, and finds their columns and what their places are.
   void spread(const Stack& He, const Square& H, Column& r, Tangent& K) noexcept {
     const int n = size();
+    const bool turns = turns_with_section();
     for (int k = 0; k < count(); ++k) {
       Spot& spot = spots_[at(k)];
-      const Vector moment = cross3(vector(yield_, k), vector(force_, k));
       const Vector sum = vector(force_, k) + vector(He, k);
-      spot.turns = cross3(moment, spot.u) / spot.stretched;
       for (int q = 0; q < 4; ++q) r.template segment<3>(start(q)) -= spot.h[q].value * sum;
-      if (!spot.turns.isZero(0)) turn(spot, moment, r);
+      spot.turns.setZero();
+      if (turns) {
+        const Vector moment = cross3(vector(yield_, k), vector(force_, k));
+        spot.turns = cross3(moment, spot.u) / spot.stretched;
+        turn(spot, moment, r);
+      }
       if constexpr (unknowns == 7)
         if (!even()) {
           // By how much it grows as the section twists.
@@ -223,7 +227,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       column.setZero();
       pull(normals[at(k)], column);
       // The moment with which C turns grows with the force.
-      if (!spot.turns.isZero(0)) {
+      if (turns) {
         const Vector rises = cross3<S>(block(C_, k, k) * contact.normal, vector(force_, k)) +
                              cross3<S>(vector(yield_, k), contact.normal);
         turn(spot, rises, column);
@@ -270,6 +274,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         const Vector pushes =
             is_place ? Vector(contacts_[at(k)]->force * contacts_[at(k)]->normal) : vector(force_, k);
         way.residual -= pushes.dot(vector(moves[at(i)], k));
+        if (!is_place) way.residual -= spot.turns.dot(spot.turned_by_N);
         for (int q = 0; q < 4; ++q)
           way.by_nodes.template segment<3>(start(q)) -=
               (is_place ? spot.h[q].by(0) : Base::stiffer() * spot.h[q].by(1)) * pushes;
@@ -303,6 +308,13 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         way.by_force[at(j)] = by;
       }
     }
+  }
+  /// Whether C is not the same to all sides.
+  bool turns_with_section() const noexcept {
+    bool turns = !even();
+    for (int k = 0; k < count(); ++k)
+      turns = turns || contacts_[at(k)]->rough || contacts_[at(k)]->kind == Contact::Kind::along;
+    return turns;
   }
   /// Takes off a moment that turns with the section.
   void turn(const Spot& spot, const Vector& moment, Column& of) const noexcept {
