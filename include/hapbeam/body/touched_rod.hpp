@@ -24,6 +24,7 @@
 #include <optional>
 
 #include <hapbeam/body/rod_bubbles.hpp>
+#include <hapbeam/element/rod/round_tension.hpp>
 
 namespace hapbeam::detail {
 
@@ -372,14 +373,16 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   /// As what N lacks does (round_tension.hpp).   @param more  [N]
   void stiffen(S more, Tangent& K) const noexcept {
     const EndsAndMiddle<S> ends(*p_, *Base::a_, *Base::b_);
-    const S share = more * p_->length / 6, by_chord = S(1.5) * p_->inverse_length;
+    using Tension = RoundTension<S>;
+    const S draws = more * p_->length, by_chord = S(1.5) * p_->inverse_length;
     const S middle[4] = {-by_chord, S(-0.25), by_chord, S(-0.25)};
     const auto turns = [&](int k) {
-      return Matrix((share * ends.inverse[k]) * (Matrix::Identity() - ends.v[k] * ends.v[k].transpose()));
+      return Matrix((draws * S(k == 1 ? Tension::by_middle : Tension::by_end) * ends.inverse[k]) *
+                    (Matrix::Identity() - ends.v[k] * ends.v[k].transpose()));
     };
     K.template block<3, 3>(start(1), start(1)) += turns(0);
     K.template block<3, 3>(start(3), start(3)) += turns(2);
-    const Matrix inside = 4 * turns(1);
+    const Matrix inside = turns(1);
     for (int q = 0; q < 4; ++q)
       for (int o = 0; o < 4; ++o)
         K.template block<3, 3>(start(q), start(o)) += (middle[q] * middle[o]) * inside;

@@ -57,7 +57,7 @@ struct RoundRod {
       const S A = 1 / a.squaredNorm(), C = a.dot(b) * A;
       sum += S(rule.weight[g]) * p.points[g].bending1 * (b.squaredNorm() * A - C * C);
     }
-    const S e[3] = {at.n[0] - 1, at.n[1] - 1, at.n[2] - 1};
+    const S e[3] = {at.n[0] - 1, p.taut ? S(0) : S(at.n[1] - 1), at.n[2] - 1};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) axial += S(detail::quadratic_mass[i][j]) * e[i] * e[j];
     const S energy = p.length * (sum + p.axial * axial) / 2;

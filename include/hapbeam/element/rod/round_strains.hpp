@@ -59,7 +59,7 @@ struct RoundBend {
   }
 };
 
-/// ½ l εᵀ EA M ε: its derivatives by r' in the middle, m, and at both ends, u and v, where it is not their directions that turn.
+/// ½ l εᵀ EA M ε, of what is taut without the middle: its derivatives by r' in the middle, m, and at both ends, u and v, where it is not their directions that turn.
 template <typename S>
 struct RoundStretch {
   S energy = 0, N[3];
@@ -70,15 +70,16 @@ struct RoundStretch {
   [[gnu::always_inline]] RoundStretch(const RodProperties<S>& p, const EndsAndMiddle<S>& at) noexcept
       : u(at.v[0]), m(at.v[1]), v(at.v[2]) {
     const auto& M = quadratic_mass;
-    const S e[3] = {at.n[0] - 1, at.n[1] - 1, at.n[2] - 1}, EA = p.axial * p.length;
+    const S e[3] = {at.n[0] - 1, p.taut ? S(0) : S(at.n[1] - 1), at.n[2] - 1}, EA = p.axial * p.length,
+            with_middle = p.taut ? S(0) : EA;
     HAPBEAM_UNROLL
     for (int i = 0; i < 3; ++i) {
-      N[i] = EA * (S(M[i][0]) * e[0] + S(M[i][1]) * e[1] + S(M[i][2]) * e[2]);
+      N[i] = (i == 1 ? with_middle : EA) * (S(M[i][0]) * e[0] + S(M[i][1]) * e[1] + S(M[i][2]) * e[2]);
       energy += N[i] * e[i] / 2;
       turn[i] = N[i] * at.inverse[i];
-      own[i] = EA * S(M[i][i]) - turn[i];
+      own[i] = (i == 1 ? with_middle : EA) * S(M[i][i]) - turn[i];
     }
-    beside = EA * S(M[0][1]), across = EA * S(M[0][2]);
+    beside = with_middle * S(M[0][1]), across = EA * S(M[0][2]);
   }
 };
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What the tension of an element does to its bending, where the section is round: it makes an element exact that is drawn taut.
 //
-//   Π(d, N) = V(d) + EI/4l ((B - 6 - q/4) |û + v̂|²/m + (A - 2 - q/6) |û - v̂|²) - l (N - N°)²/2EA,     q = N (1 + N/EA) l²/EI
+//   Π(d, N) = V(d) + EI/4l ((B - 6 - q/4) |û + v̂|²/m + (A - 2 - q/6) |û - v̂|²) + l N (ε - ē/5) - 2 l N²/5EA,     q = N (1 + N/EA) l²/EI
 //
-// stationary in N, the element's own unknown.  N° = EA (ε1 + 4 εm + ε2)/6 is the tension of the cubic.  A(q), B(q): tension_stiffness.hpp; 2 and 6 are
-// the bending of the cubic, q/6 and q/4 what its stretch has of q already.  û, v̂: directions of r' at both nodes, across that in the middle, m̂,
+// stationary in N, the element's own unknown.  ε = (ε1 + 4 εm + ε2)/6 is the stretch of the cubic, ē that of its ends.  V has no stretch of the middle: all of it is
+//
+//   l (N ε - N²/2EA) + EA l ((ε2 - ε1)²/24 + (ē - N/EA)²/10)
+//
+// What is under one tension is stretched alike all along, where |r'| of a cubic between two kinks is not.  A(q), B(q): tension_stiffness.hpp;
+// 2 and 6 are the bending of the cubic, q/6 and q/4 what its stretch has of q already.  û, v̂: directions of r' at both nodes, across that in the middle, m̂,
 // of which the antisymmetric bend takes half as much to the other side:  |û + v̂|²/m = 4/9 (2 + 2 û·v̂ - (X + Y)²),  X = û·m̂,  Y = v̂·m̂.
 // A string of a thousand Euler loads has its boundary layers in one element.
 // Real-time: no allocation, noexcept, O(1).
@@ -23,6 +27,9 @@ class RoundTension {
   using V3 = VectorOf<S, 3>;
 
  public:
+  /// ∂²Π/∂N∂ε, over l.
+  static constexpr double by_end = 1. / 15, by_middle = 2. / 3;
+
   /// @param at  of these nodes   @param N  [N]
   [[gnu::always_inline]] RoundTension(const RodProperties<S>& p, const EndsAndMiddle<S>& at,
                                       const S& N) noexcept
@@ -33,18 +40,18 @@ class RoundTension {
     const V3 &u = at.v[0], &m = at.v[1], &v = at.v[2];
     W_ = u.dot(v), X_ = u.dot(m), Y_ = v.dot(m);
     const S sum = X_ + Y_, less = X_ - Y_, across = S(4. / 9) * (2 + 2 * W_ - sum * sum),
-            about = 2 - 2 * W_ - less * less, share = S(4. / 9) * quarter, in = S(1. / 6) * l;
+            about = 2 - 2 * W_ - less * less, share = S(4. / 9) * quarter;
     const S b = k.b - S(0.25) * q, a = k.a - S(1. / 6) * q, by_b = S(0.25) * l * (k.b1 - S(0.25)),
             by_a = S(0.25) * l * (k.a1 - S(1. / 6)), b1 = by * by_b, a1 = by * by_a,
             second = S(0.25) * l * by_q * by * by, b2 = second * k.b2 + 2 * yields * by_b,
             a2 = second * k.a2 + 2 * yields * by_a;
-    const S natural = p.axial * (S(1. / 6) * (at.n[0] + 4 * at.n[1] + at.n[2]) - 1), more = N - natural,
-            soft = l * yields;
+    const S soft = S(0.8) * l * yields;
     own_ = terms(S(share * b), S(quarter * a));
     by_N_ = terms(S(S(4. / 9) * b1), a1);
-    stretch_ = in * more, stiff_ = p.axial * S(1. / 36) * l, in_ = in;
-    energy_ = quarter * (b * across + a * about) - S(0.5) * soft * more * more;
-    residual_ = b1 * across + a1 * about - soft * more;
+    by_end_ = S(by_end) * l, by_middle_ = S(by_middle) * l, N_ = N;
+    const S drawn = by_end_ * (at.n[0] + at.n[2] - 2) + by_middle_ * (at.n[1] - 1);
+    energy_ = quarter * (b * across + a * about) + N * (drawn - S(0.5) * soft * N);
+    residual_ = b1 * across + a1 * about + drawn - soft * N;
     stiffness_ = b2 * across + a2 * about - soft;
   }
   /// What N adds to Π [J].
@@ -65,13 +72,13 @@ class RoundTension {
     inner.residual = residual_, inner.stiffness = stiffness_;
     // By r' at node 1, in the middle and at node 2: first derivatives, those by N, and the second ones as sums of outer products.
     const S hh = own_.same, hx = own_.other, h02 = i0 * i2 * own_.W, h01 = i0 * i1, h21 = i2 * i1,
-            x0 = h01 * own_.X, x2 = h21 * own_.Y, by_D = S(1.5) * i, m4 = 4 * stiff_;
-    // Of directions that turn: -(û·g) I, and what the stretch has turned.  Where N lags behind the shape, that of the shape keeps it stiff.
-    const S turned = larger(stretch_, S(stretch_ + in_ * on)),
-            s0 = i0 * (turned - i0 * (own_.W * W_ + own_.X * X_)),
-            s1 = i1 * (4 * turned - i1 * (own_.X * X_ + own_.Y * Y_)),
-            s2 = i2 * (turned - i2 * (own_.W * W_ + own_.Y * Y_)), half0 = S(-0.5) * (s0 + stiff_),
-            half1 = S(-0.5) * (s1 + 4 * m4), half2 = S(-0.5) * (s2 + stiff_);
+            x0 = h01 * own_.X, x2 = h21 * own_.Y, by_D = S(1.5) * i;
+    // Of directions that turn: -(û·g) I, and N.  Where N lags behind the shape, that of the shape keeps it stiff.
+    const S turns = larger(N_, S(N_ + on)), at_end = by_end_ * N_, at_middle = by_middle_ * N_,
+            s0 = i0 * (by_end_ * turns - i0 * (own_.W * W_ + own_.X * X_)),
+            s1 = i1 * (by_middle_ * turns - i1 * (own_.X * X_ + own_.Y * Y_)),
+            s2 = i2 * (by_end_ * turns - i2 * (own_.W * W_ + own_.Y * Y_)), half0 = S(-0.5) * s0,
+            half1 = S(-0.5) * s1, half2 = S(-0.5) * s2;
     V3 M0, M2, A, B, yD, y1, y2, z0, z1, z2, m00, m22, b0, b2, m02, u02, v02, C0, C2, u01, c01, v21, c21, m01,
         m21;
     HAPBEAM_UNROLL
@@ -81,14 +88,14 @@ class RoundTension {
       A[r] = u[r] - X_ * c[r], B[r] = v[r] - Y_ * c[r];
       const S g0 = i0 * (own_.W * V0 + own_.X * M0[r]), g2 = i2 * (own_.W * U2 + own_.Y * M2[r]),
               g1 = i1 * (own_.X * A[r] + own_.Y * B[r]);
-      const S n0 = i0 * (by_N_.W * V0 + by_N_.X * M0[r]) + in_ * u[r],
-              n2 = i2 * (by_N_.W * U2 + by_N_.Y * M2[r]) + in_ * v[r],
-              n1 = i1 * (by_N_.X * A[r] + by_N_.Y * B[r]) + 4 * in_ * c[r];
+      const S n0 = i0 * (by_N_.W * V0 + by_N_.X * M0[r]) + by_end_ * u[r],
+              n2 = i2 * (by_N_.W * U2 + by_N_.Y * M2[r]) + by_end_ * v[r],
+              n1 = i1 * (by_N_.X * A[r] + by_N_.Y * B[r]) + by_middle_ * c[r];
       yD[r] = by_D * n1, y1[r] = n0 - S(0.25) * n1, y2[r] = n2 - S(0.25) * n1;
-      const S p = g1 + 4 * stretch_ * c[r];
+      const S p = g1 + at_middle * c[r];
       to.D[r] += by_D * p + on * yD[r];
-      to.t1[r] += g0 + stretch_ * u[r] - S(0.25) * p + on * y1[r];
-      to.t2[r] += g2 + stretch_ * v[r] - S(0.25) * p + on * y2[r];
+      to.t1[r] += g0 + at_end * u[r] - S(0.25) * p + on * y1[r];
+      to.t2[r] += g2 + at_end * v[r] - S(0.25) * p + on * y2[r];
       inner.row[r] = -yD[r], inner.row[3 + r] = y1[r];
       inner.row[3 + M + r] = yD[r], inner.row[6 + M + r] = y2[r];
       z0[r] = half0 * u[r] - i0 * g0, z1[r] = half1 * c[r] - i1 * g1, z2[r] = half2 * v[r] - i2 * g2;
@@ -96,9 +103,9 @@ class RoundTension {
       const S of_u = hh * A[r] + hx * B[r], of_v = hh * B[r] + hx * A[r];
       b0[r] = i1 * i1 * of_u, b2[r] = i1 * i1 * of_v;
       C0[r] = h01 * of_u, C2[r] = h21 * of_v;
-      u02[r] = -h02 * U2 - stiff_ * v[r], v02[r] = -h02 * v[r], m02[r] = i0 * i2 * hx * M0[r];
-      u01[r] = -x0 * A[r] - m4 * c[r], c01[r] = -x0 * c[r];
-      v21[r] = -x2 * B[r] - m4 * c[r], c21[r] = -x2 * c[r];
+      u02[r] = -h02 * U2, v02[r] = -h02 * v[r], m02[r] = i0 * i2 * hx * M0[r];
+      u01[r] = -x0 * A[r], c01[r] = -x0 * c[r];
+      v21[r] = -x2 * B[r], c21[r] = -x2 * c[r];
     }
     S of0[3][3], of2[3][3], of1[3][3];
     HAPBEAM_UNROLL
@@ -153,9 +160,9 @@ class RoundTension {
   }
 
   const EndsAndMiddle<S>& at_;
-  S W_, X_, Y_;             // û·v̂, û·m̂, v̂·m̂
-  Terms own_, by_N_;        // of Π, and of ∂Π/∂N
-  S stretch_, stiff_, in_;  // l (N - N°)/6, EA l/36, l/6
+  S W_, X_, Y_;               // û·v̂, û·m̂, v̂·m̂
+  Terms own_, by_N_;          // of Π, and of ∂Π/∂N
+  S by_end_, by_middle_, N_;  // ∂²Π/∂N∂ε of an end, and of the middle [m]
   S energy_, residual_, stiffness_;
 };
 
