@@ -43,7 +43,7 @@ class AllDisplacements {
 
   /// Finds the shape at rest.
   /// @throws std::invalid_argument as BeamSystem, and where the scalar cannot tell so many elements apart
-  AllDisplacements(const Body& beam, int elements, const Solver& solver)
+  [[gnu::cold]] AllDisplacements(const Body& beam, int elements, const Solver& solver)
       : system_(beam, elements), rest_state_(elements), solver_(solver), single_valued_(beam.straight()) {
     find_rest(beam);
     system_.keep(rest_state_);
@@ -259,7 +259,7 @@ class AllDisplacements {
 
   /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
   /// the model computes in: round-off would hide which way a branch goes on.
-  void find_rest(const Body& beam) {
+  [[gnu::cold]] void find_rest(const Body& beam) {
     if constexpr (std::is_same_v<Scalar, double>) {
       follow_loads(system_);
     } else {
@@ -279,7 +279,7 @@ class AllDisplacements {
   }
 
   template <class AnySystem>
-  void follow_loads(AnySystem& system) noexcept {
+  [[gnu::cold]] void follow_loads(AnySystem& system) noexcept {
     system.set_goal();
     const auto path = LoadPath{}.solve(system);
     auto last = path.report;

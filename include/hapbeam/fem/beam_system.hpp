@@ -38,7 +38,8 @@ class BeamChain {
 
   /// @param number  of elements
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or the number does not fit the type
-  BeamChain(const Beam& beam, int number) : parts_(beam, number), before_(number), ends_(beam, number) {
+  [[gnu::cold]] BeamChain(const Beam& beam, int number)
+      : parts_(beam, number), before_(number), ends_(beam, number) {
     const NaturalShape<Scalar>& natural = parts_.natural_shape();
     const auto stand = [&](Scalar side) {
       detail::lay(natural, ends_[0], ends_[1], parts_.nodes());

@@ -48,7 +48,7 @@ struct LoadPath {
 
   /// Goes from the start of the system's path to its end.
   template <class System>
-  auto solve(System& system) const noexcept -> PathEnd<typename System::Scalar> {
+  [[gnu::cold]] auto solve(System& system) const noexcept -> PathEnd<typename System::Scalar> {
     using S = typename System::Scalar;
     PathEnd<S> end{{Status::iteration_limit, 0, 0, 0, 0, 1}, false};
     SolveReport<S>& report = end.report;
