@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/rod.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
@@ -157,6 +158,32 @@ TEST_CASE("the bound is of the worst of several contacts", "[force_error]") {
   const double bound = force_error(model), error = std::abs(pressed(finest) - pressed(model)) / 2;
   CHECK(bound >= error);
   CHECK(bound <= 60 * error);
+}
+
+TEST_CASE("the bound after a touch is that of a press with the same force", "[force_error]") {
+  // A body pushes where a press would: the same force is as uncertain, from either side.
+  for (const double side : {1., -1.}) {
+    FemModel<Corotational<>> planar(ruler(), 8);
+    ForceError<Corotational<>> of_planar(ruler(), 8);
+    FemModel<RoundRod> rod(wire(RodSupport::clamped), 8);
+    ForceError<RoundRod> of_rod(wire(RodSupport::clamped), 8);
+    Touch<FemModel<Corotational<>>> circle(planar, 0.01);
+    Touch<FemModel<RoundRod>> capsule(rod, 0.01);
+    TouchResult<double> in_plane;
+    TouchResult<double, 3> in_space;
+    for (int k = 0; k <= 40; ++k) {
+      const double from = side * (0.02 - 0.001 * k);
+      in_plane = circle.tick({0.46, from});
+      in_space = capsule.tick(VectorOf<double, 3>(0.46, from, -0.1), VectorOf<double, 3>(0, 0, 0.2));
+    }
+    REQUIRE(in_plane.status == Status::ok);
+    REQUIRE(in_space.status == Status::ok);
+    const double after_circle = of_planar(planar), after_capsule = of_rod(rod);
+    REQUIRE(is_answer(planar.press({in_plane.contact.s, planar.shape().at(in_plane.contact.s).w}).status));
+    CAPTURE(side, in_plane.force.norm(), in_space.force.norm());
+    CHECK(after_circle == Approx(of_planar(planar)).epsilon(0.5));
+    CHECK(after_capsule <= 0.01 * in_space.force.norm());
+  }
 }
 
 TEST_CASE("a rod whose end is held elsewhere is compared there", "[force_error]") {

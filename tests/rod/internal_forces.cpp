@@ -211,3 +211,26 @@ TEST_CASE("a surface is strained where it is farthest from the axis", "[rod][int
                std::hypot(middle.moment1, middle.moment2) / (200e9 * pi * std::pow(diameter, 3) / 32))
             .epsilon(1e-5));
 }
+
+TEST_CASE("cuts beside a contact at a node of a rod between clamps are those of the planar beam",
+          "[rod][internal]") {
+  constexpr int elements = 8;
+  const Rod rod(1, RodSection::circle(0.01), spring_steel, RodSupport::clamped, RodSupport::clamped);
+  const Beam beam(1, Section::circle(0.01), Material{spring_steel.young}, Support::clamped, Support::clamped);
+  for (const double beside : {-5e-3, -5e-6, 0., 5e-6, 5e-3}) {
+    FemModel<RoundRod> model(rod, elements);
+    FemModel<> planar(beam, elements);
+    const double s = 1. / elements + beside;
+    const double force = model.push({s, 0.002, {0, 1, 0}}).force;
+    REQUIRE(planar.press({s, 0.002}).status == Status::ok);
+    for (int k = 0; k <= 100; ++k) {
+      const double at = (k + 0.37) / 101;
+      const auto cut = model.internal_forces(at);
+      const auto expected = planar.internal_forces(at);
+      CAPTURE(beside, at);
+      CHECK(std::hypot(cut.moment1, cut.moment2) ==
+            Approx(std::abs(expected.moment)).margin(2e-3 * force * s));
+      CHECK(std::hypot(cut.shear1, cut.shear2) == Approx(std::abs(expected.shear)).margin(5e-3 * force));
+    }
+  }
+}

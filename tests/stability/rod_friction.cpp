@@ -273,3 +273,30 @@ TEST_CASE("a wire that is bent by nature answers a rough ball that presses it so
   CHECK(ticks > 1500);
   CHECK(unanswered <= 0.02 * ticks);
 }
+
+TEST_CASE("a capsule that rubs along a rod between clamps does not lose it", "[stability][rod]") {
+  Random random(7);
+  const double length = 0.3;
+  for (int stroke = 0; stroke < 40; ++stroke) {
+    const double diameter = length / std::pow(10, random(1.7, 3)),
+                 drawn = stroke % 2 == 0 ? 0. : std::pow(10, random(-5, -2)),
+                 radius = length * random(0.01, 0.02), reach = radius + diameter / 2,
+                 depth = length * random(0.012, 0.04), from = random(0.2, 0.8), to = random(0.2, 0.8);
+    Rod rod(length, RodSection::circle(diameter), RodMaterial::isotropic(2e9, 0.3), RodSupport::clamped,
+            RodSupport::clamped);
+    rod.place_right({{length * (1 + drawn), 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    Wire model(rod, random.integer(8, 20));
+    Touch<Wire> touch(model, radius, Friction(stroke % 4 < 2 ? 0.2 : 0.5));
+    CAPTURE(stroke, length / diameter, drawn, from, to);
+    for (int k = 0; k <= 400; ++k) {
+      const double down = std::min(k / 100., 1.), along = std::clamp((k - 100) / 200., 0., 1.),
+                   back = std::max((k - 300) / 100., 0.);
+      const double x = length * (from + (to - from) * (along - back)), y = reach + 3e-5 - down * depth;
+      const auto felt = touch.tick(Point(x, y, -0.5), Point(0, 0, 1));
+      CAPTURE(k);
+      REQUIRE(felt.status == Status::ok);
+      REQUIRE(felt.pressing == (y < reach));
+      REQUIRE(felt.force.y() >= 0);
+    }
+  }
+}

@@ -27,6 +27,7 @@ template <class J>
 struct CutPiece {
   J left, right;  ///< deflection as the left end, or the right one, turns by 1 against the chord [m]
   J g, slope;     ///< deflection and slope under a force, times EI [m³], [m²]
+  J rise;         ///< g/(l - x) [m²]
   J chord;        ///< x/l
   decltype(J::value) bend;  ///< curvature under a force at the cut, times EI [m]
 
@@ -41,7 +42,8 @@ struct CutPiece {
     const J ww = S(2) * (B1 * (XX * X) + B2 * (xx * x)) + n * square * l, wt = B2 * xx - B1 * XX,
             tt = half * ((A1 + B1) * X + (A2 + B2) * x), over = inverse(ww * tt - wt * wt),
             of_square = square * over;
-    g = of_square * both * tt;
+    rise = of_square * x * tt;
+    g = rise * X;
     slope = S(-1) * (of_square * wt);
     left = both * X * over * (tt * B1 * X + half * (wt * (B1 - A1)));
     right = S(-1) * (both * x * over * (tt * B2 * x - half * (wt * (B2 - A2))));
@@ -78,12 +80,12 @@ template <typename S, class J>
 /// How two places of it yield to each other, times EI [m³].   @param x, y  x <= y
 template <class J>
 J between_cuts(const J& l, const J& x, const J& y, const J& n) noexcept {
-  const CutPiece<J> first(l, x, n);
   const J rest = l - x;
-  const CutPiece<J> second(rest, y - x, n);
+  if (rest.value == 0) return J(0);
+  const CutPiece<J> first(l, x, n), second(rest, y - x, n);
   // The part behind x, whose left end has moved and turned, against its chord.
-  const J turns = first.slope + first.g * inverse(rest);
-  return first.g * (J(1) - second.chord) + turns * second.left + first.g * inverse(rest) * second.right;
+  const J turns = first.slope + first.rise;
+  return first.rise * (l - y) + turns * second.left + first.rise * second.right;
 }
 
 }  // namespace hapbeam::detail

@@ -151,7 +151,8 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   /// On the body [N].
   Vector contact_force(int k) const noexcept {
     const Contact& contact = rows_[k];
-    return this->linear_reaction(k) * contact.normal + contact.friction;
+    const Scalar reaction = this->linear_reaction(k);
+    return (contact.kind == Contact::Kind::round ? -reaction : reaction) * contact.normal + contact.friction;
   }
   /// Goes on as it went from a state before, so many times as far.   @param before  becomes what the state is now
   void go_on(State& before, Scalar ratio) noexcept {
@@ -332,10 +333,9 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     if constexpr (dimension == 2) chain_.parts().set_turning(share);
   }
   int element_at(Scalar s) const noexcept { return centreline().segment_at(s); }
-  /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one.  Where a body bends the beam by a radian within
-  /// an element, those on both sides of a node put the contact up to a hundredth of it apart.
+  /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one.  Farther beside the node both do not answer alike.
   int element_at(Scalar s, int before) const noexcept {
-    const Scalar from = node(before).s, to = node(before + 1).s, over = (to - from) / 100;
+    const Scalar from = node(before).s, to = node(before + 1).s, over = (to - from) / 10000;
     return from - over <= s && s <= to + over ? before : element_at(s);
   }
   /// A node of drawn() where a contact is: on what touches it, where an equilibrium was found; the last increment has left that by its square.

@@ -319,14 +319,15 @@ class RowPush : private RowContacts<Element, System> {
         this->take(system);
       } else {
         if (all) return true;
-        // What two hold between them turns late.
-        if (!stay && most > 1) {
+        // What two hold between them turns late, what one holds before its place stays.
+        const bool turns = (stay || most == 1) && friction.turn();
+        if (!turns && !stay) {
           stay = true;
           friction.begin_again(system);
           if (began_) foresight_.begin_again(system), begin_again();
           return false;
         }
-        all = !friction.turn();
+        all = !turns;
       }
       if (friction.torn() && began_) {
         foresight_.begin_again(system);

@@ -269,8 +269,8 @@ class RodElements {
             });
         });
     const Scalar t = (at.s - a.s) / (b.s - a.s);
-    return surface_.in_section(cut, director_within(e, t), detail::unit(curve_at(at.s).tangent),
-                               profile_.at(at.s));
+    const Vector3 u = detail::unit(curve_at(at.s).tangent);
+    return surface_.in_section(cut, detail::across(director_within(e, t), u), u, profile_.at(at.s));
   }
   /// [J]
   Scalar strain_energy() const noexcept {
