@@ -168,3 +168,47 @@ TEST_CASE("beside and past a held end of a rod several contacts feel what one fe
     CHECK(off <= 0.05 * most);
   }
 }
+
+// A string that one hand holds down is straight on both sides of it, where a cubic between a clamp and the next node is not.
+TEST_CASE("a second hand meets a string that a first one holds where it is", "[several]") {
+  const double length = 0.648, diameter = 0.254e-3, tension = 72, depth = 0.008, held = 0.31, radius = 0.005,
+               reach = radius + diameter / 2,
+               longer = 1 + tension / (spring_steel.young * pi / 4 * diameter * diameter);
+  Rod rod(length, RodSection::circle(diameter), spring_steel, RodSupport::clamped, RodSupport::clamped);
+  rod.place_right({{length * longer, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  Beam beam(length, Section::circle(diameter), Material{spring_steel.young}, Support::clamped,
+            Support::clamped);
+  beam.place({}, {length * (longer - 1), 0, 0});
+  for (const double second : {0.045, 0.1}) {
+    FemModel<Several<RoundRod, 2>> in_space(rod, 8);
+    FemModel<Several<Corotational<>, 2>> in_plane(beam, 8);
+    TouchSeveral<FemModel<Several<RoundRod, 2>>> capsules(in_space, {radius, radius});
+    TouchSeveral<FemModel<Several<Corotational<>, 2>>> circles(in_plane, {radius, radius});
+    const double x[2] = {held * length * longer, second * length * longer};
+    double before = 0;
+    const auto tick = [&](double y0, double y1) {
+      const Point tips[2] = {{x[0], y0, -0.5}, {x[1], y1, -0.5}}, shafts[2] = {{0, 0, 1}, {0, 0, 1}};
+      const Vector2<double> centres[2] = {{x[0], y0}, {x[1], y1}};
+      const auto felt = capsules.tick(tips, shafts, 2);
+      const auto flat = circles.tick(centres, 2);
+      CAPTURE(second, y0, y1);
+      REQUIRE(felt.status == Status::ok);
+      REQUIRE(flat.status == Status::ok);
+      for (int k = 0; k < 2; ++k) REQUIRE(felt.force(k).y() == Approx(flat.force(k).y()).margin(0.02));
+      // Of 2.5 µm.
+      REQUIRE(std::abs(felt.force(1).norm() - before) <= 0.02);
+      before = felt.force(1).norm();
+      return felt;
+    };
+    for (int k = 0; k <= 100; ++k) (void)tick(reach - depth * k / 100, 0.05);
+    // Its layers at the clamp and under the hand are 0.75 mm long.
+    const double straight = -depth * second / held;
+    for (int k = 0; k <= 800; ++k) {
+      const double above = 0.001 - 2.5e-6 * k;
+      const auto felt = tick(reach - depth, reach + straight + above);
+      if (above > 0.05e-3) REQUIRE(before == 0);
+      if (above < -0.05e-3) REQUIRE(before > 0);
+      REQUIRE(felt.force(0).y() > 0);
+    }
+  }
+}

@@ -191,6 +191,12 @@ class BeamElements {
   }
   Scalar tension(int e) const noexcept { return tensions_[e]; }
   void set_tension(int e, Scalar N) noexcept { tensions_[e] = N; }
+  /// N/EI, of elements that are exact under it; else none [1/m²].
+  Scalar stiffening(int e) const noexcept {
+    if constexpr (!has_tensions) return 0;
+    const ElementProperties<Scalar>& p = properties_[e];
+    return tensions_[e] / (p.bending_per_length3 * p.length * p.length * p.length);
+  }
   /// As of OwnTension.
   Scalar turning() const noexcept { return turning_; }
   void set_turning(Scalar share) noexcept { turning_ = share; }

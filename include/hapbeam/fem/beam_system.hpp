@@ -95,6 +95,12 @@ class BeamChain {
   static Scalar turn(const Node&, const Vector3<Scalar>& increment) noexcept {
     return std::abs(increment[2]);
   }
+  /// Moves and turns a node by so much.
+  static void bend(Node& node, const Vector2<Scalar>& by, const Vector2<Scalar>& slope) noexcept {
+    const Vector2<Scalar> along = detail::direction(Scalar(-node.theta));
+    node.u += by.x(), node.w += by.y();
+    node.theta -= along.x() * slope.y() - along.y() * slope.x();
+  }
   /// Where the mesh has none, in element e, which holds s.
   Node node_within(int e, Scalar s) const noexcept {
     const Node &a = parts_.nodes()[e], &b = parts_.nodes()[e + 1];

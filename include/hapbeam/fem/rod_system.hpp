@@ -99,6 +99,11 @@ class RodChain {
     if constexpr (unknowns == 7) square += x[6] * x[6];
     return std::sqrt(square);
   }
+  /// Moves and turns a node by so much.
+  static void bend(Node& node, const Vector3& by, const Vector3& slope) noexcept {
+    node.r += by;
+    detail::set_tangent<Scalar>(node, node.tangent + slope);
+  }
   /// Where the mesh has none, in element e, which holds s.
   Node node_within(int e, Scalar s) const noexcept { return parts_.node_within(e, s); }
   Node node_at(Scalar s) const noexcept { return node_within(parts_.view(parts_.nodes()).segment_at(s), s); }

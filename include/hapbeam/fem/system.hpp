@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <limits>
 
+#include <hapbeam/body/cut_piece.hpp>
 #include <hapbeam/fem/contact/contact_rows.hpp>
 #include <hapbeam/fem/contact/drawn_mesh.hpp>
 #include <hapbeam/fem/contact/system_contacts.hpp>
@@ -174,6 +175,11 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   Scalar displacement(Scalar s, const Vector& normal) const noexcept {
     return normal.dot(Chain::displacement(drawn().at(s)));
   }
+  /// How far the curve lies beside drawn() at s [m].
+  Vector beside_drawn(Scalar s) const noexcept {
+    const Line line = drawn();
+    return beside(line, line.segment_at(s), element_at(s), s).place;
+  }
   /// Where its middle is: a beam's across alone [m].
   auto middle() const noexcept { return Chain::middle(centreline().at(length_ / 2)); }
   /// Whether an element that does not do so at rest has turned so far in itself that it no longer stands for a beam.
@@ -303,7 +309,13 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     drawn_.draw(
         elements(), [this](int i) -> const Node& { return node(i); },
         [this](Scalar s) { return element_at(s); }, rows_.size(), [this](int k) { return rows_[k].s; },
-        [this](int k) { return mark(k); }, [this](int e, Scalar s) { return chain_.node_within(e, s); });
+        [this](int k) { return mark(k); },
+        [this](int e, Scalar s) {
+          Node node = chain_.node_within(e, s);
+          const Beside by = beside(centreline(), e, e, s);
+          Chain::bend(node, by.place, by.slope);
+          return node;
+        });
   }
   Line drawn() const noexcept { return parts().view(drawn_); }
 
@@ -333,6 +345,27 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     if constexpr (dimension == 2) chain_.parts().set_turning(share);
   }
   int element_at(Scalar s) const noexcept { return centreline().segment_at(s); }
+  /// How far the curve lies beside a piece of a line in an element, and how much steeper it is: its tension straightens it between what bends it.
+  struct Beside {
+    Vector place = Vector::Zero(), slope = Vector::Zero();
+  };
+  Beside beside(const Line& line, int piece, int e, Scalar s) const noexcept {
+    using Number = detail::Jet<Scalar, 1>;
+    Beside by;
+    const Scalar n = parts().stiffening(e);
+    if (!(n > 0)) return by;
+    const Scalar from = line[piece].s, l = line[piece + 1].s - from;
+    const auto control = line.segment(piece);
+    const Number at = Number::variable(s - from, 0);
+    const detail::CutPiece<Number> taut(l, at, n), cubic(l, at, Scalar(0));
+    const Vector chord = (control.col(3) - control.col(0)) / l;
+    const auto add = [&](const Number& more, const Vector& turned) {
+      by.place += more.value * turned, by.slope += more.by(0) * turned;
+    };
+    add(taut.left - cubic.left, Vector(3 / l * (control.col(1) - control.col(0)) - chord));
+    add(taut.right - cubic.right, Vector(3 / l * (control.col(3) - control.col(2)) - chord));
+    return by;
+  }
   /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one.  Farther beside the node both do not answer alike.
   int element_at(Scalar s, int before) const noexcept {
     const Scalar from = node(before).s, to = node(before + 1).s, over = (to - from) / 10000;

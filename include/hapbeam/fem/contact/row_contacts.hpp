@@ -229,7 +229,9 @@ class RowContacts {
       Slot& now = slot(i);
       if (all_[i].touching || now.crowded || !all_[i].valid) continue;
       if (all_[i].kind == ObstacleKind::round) seek(system, i);
-      else now.depth = system.displacement(now.s, all_[i].place.normal) - all_[i].place.d;
+      else
+        now.depth = all_[i].place.normal.dot(system.beside_drawn(now.s)) +
+                    system.displacement(now.s, all_[i].place.normal) - all_[i].place.d;
       const Scalar fine = Scalar(1e-9) * length + round_off * (length + all_[i].round.reach);
       const Scalar slack = now.let_go || twin(i) >= 0 ? (std::max)(Scalar(1e-5) * length, fine) : fine;
       if (now.depth > slack && (deepest < 0 || now.depth > slot(deepest).depth)) deepest = i;
@@ -408,6 +410,7 @@ class RowContacts {
     Slot& now = slot(i);
     now.depth = gap.depth;
     if (!std::isfinite(gap.depth)) return;
+    now.depth += round.facing(round.tangent(round.node_at(line, gap.s))).dot(system.beside_drawn(gap.s));
     place(system, i, gap.s);
     if (gap.s < least_ || gap.s > most_) now.depth = -std::numeric_limits<Scalar>::infinity();
   }

@@ -75,6 +75,11 @@ class RodElements {
   const Inners& inners() const noexcept { return inner_; }
   /// Whether elements have a tension of their own.
   bool taut() const noexcept { return own_ == Own::tension; }
+  /// N (1 + N/EA)/EI, where elements have a tension of their own [1/m²].
+  Scalar stiffening(int e) const noexcept {
+    const RodProperties<Scalar>& p = properties_[e];
+    return taut() ? inner_[e] * (1 + inner_[e] / p.axial) * p.soft[0] : Scalar(0);
+  }
   /// What an element is made of.
   const RodProperties<Scalar>& properties(int e) const noexcept { return properties_[e]; }
   template <class AnyNodes>
@@ -209,7 +214,7 @@ class RodElements {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
     const RodProperties<Scalar>& p = properties_[e];
     using ByPlace = detail::Jet<Scalar, 1>;
-    const Scalar N = taut() ? inner_[e] : Scalar(0), longer = 1 + N / p.axial, n = N * longer * p.soft[0];
+    const Scalar n = stiffening(e), longer = taut() ? 1 + inner_[e] / p.axial : Scalar(1);
     const auto cut_at = [&](Scalar x) {
       return detail::CutPiece<ByPlace>(ByPlace(p.length), ByPlace::variable(x - a.s, 0), ByPlace(n));
     };
