@@ -212,3 +212,15 @@ TEST_CASE("a second hand meets a string that a first one holds where it is", "[s
     }
   }
 }
+
+TEST_CASE("where no shafts are given spheres touch", "[several]") {
+  FemModel<Several<RoundRod, 2>> model(
+      Rod(0.3, RodSection::circle(0.002), spring_steel, RodSupport::clamped, RodSupport::free), 8);
+  TouchSeveral<FemModel<Several<RoundRod, 2>>> touch(model, {0.005});
+  Point beside(0.2, 0.0065, -0.1);
+  const Point along(0, 0, 0.2);
+  bool touches = false;
+  for (int k = 0; k < 20; ++k) beside.y() -= 1e-4, touches = touch.tick(&beside, &along, 1).touching(0);
+  CHECK(touches);
+  CHECK(!touch.tick(beside).touching(0));
+}

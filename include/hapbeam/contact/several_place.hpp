@@ -96,10 +96,6 @@ struct SeveralPlace {
     avatar.position = position;
     if constexpr (dimension == 3) avatar.shaft = shaft;
   }
-  Vector shaft() const noexcept {
-    if constexpr (dimension == 3) return avatar.shaft;
-    else return Vector::Zero();
-  }
   /// Whether an end holds it.
   bool at_end() const noexcept { return at.mode > Mode::pushed; }
   /// Whether it is a place of the beam that is held.

@@ -225,13 +225,13 @@ class TouchSeveral {
 
 template <class Model>
 auto TouchSeveral<Model>::tick(const Vector* positions, const Vector* shafts, int count) noexcept -> Result {
+  const auto shaft = [shafts](int k) { return shafts ? shafts[k] : Vector(Vector::Zero()); };
   bool valid = count == avatars_;
-  for (int k = 0; valid && k < count; ++k)
-    valid = is_place(positions[k], shafts ? shafts[k] : Vector(Vector::Zero()));
+  for (int k = 0; valid && k < count; ++k) valid = is_place(positions[k], shaft(k));
   if (!valid) return invalid();
   for (Place& place : *this) {
     const int k = place.obstacle.body;
-    if (place.who != Place::prop) place.move(positions[k], shafts ? shafts[k] : place.shaft());
+    if (place.who != Place::prop) place.move(positions[k], shaft(k));
   }
   return solve();
 }
