@@ -131,12 +131,16 @@ struct Circle {
   Scalar side;   ///< of the centreline on which the centre lies: +1 left of its direction, -1
 };
 
+template <typename Scalar, int D = 2>
+struct FrictionState;
+
 /// A hand that holds an avatar by its coupling, a spring and a damper.
 template <typename Scalar>
 struct Coupled {
-  Circle<Scalar> hand;      ///< where the avatar would be without the beam
-  Scalar stiffness = 1000;  ///< K [N/m], positive
-  Scalar damping = 0;       ///< B [N·s/m], not negative
+  Circle<Scalar> hand;                           ///< where the avatar would be without the beam
+  Scalar stiffness = 1000;                       ///< K [N/m], positive
+  Scalar damping = 0;                            ///< B [N·s/m], not negative
+  FrictionState<Scalar, 2>* friction = nullptr;  ///< of the avatar (friction.hpp), in and out; null: none
 };
 
 /// A frictionless capsule, or a sphere, that the centreline of a rod touches at one point, which is part of the answer.
@@ -189,9 +193,6 @@ struct RoundOf {
 };
 
 }  // namespace detail
-
-template <typename Scalar, int D = 2>
-struct FrictionState;
 
 /// What a body does to a beam that it touches.
 enum class ObstacleKind : std::int8_t {

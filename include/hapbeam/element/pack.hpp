@@ -252,7 +252,13 @@ class Pack {
   /// cos α and sin α
   [[gnu::always_inline]] friend void cos_and_sin(const Pack& a, Pack& cosine, Pack& sine) noexcept {
     if (all_less(a * a, T(0.6241))) small_turn(a, cosine, sine);
-    else one_by_one([](T x, T& c, T& s) { c = std::cos(x), s = std::sin(x); }, a, cosine, sine);
+    else
+      one_by_one(
+          [](T x, T& c, T& s) {
+            const auto to = direction(x);
+            c = to[0], s = to[1];
+          },
+          a, cosine, sine);
   }
 
  private:

@@ -60,7 +60,7 @@ class BeamChain {
   Parts& parts() noexcept { return parts_; }
   const Parts& parts() const noexcept { return parts_; }
   /// Of what it is in motion with; null: at rest.
-  void move_with(const Inertia* inertia, const Viscosity* viscosity) noexcept {
+  void move_with(Inertia* inertia, const Viscosity* viscosity) noexcept {
     inertia_ = inertia, viscosity_ = viscosity;
   }
 
@@ -151,24 +151,29 @@ class BeamChain {
       change(r, K);
       assembler.add(e, K, r);
     };
-    const bool plain = !parts_.loaded(load) && !inertia_;
+    if (inertia_) energy += inertia_->look(parts_.nodes());
+    const bool plain = !parts_.loaded(load) && !viscosity_;
     for (int e = 0; e < parts_.size(); ++e) {
       parts_.respond(e, group);
+      const auto move = [&](Vector6<Scalar>& r, Matrix6<Scalar>& K)
+                            HAPBEAM_INLINED { inertia_->add(e, r, K); };
       const auto load_and_move = [&](Vector6<Scalar>& r, Matrix6<Scalar>& K) {
         work += parts_.subtract_loads(e, load, r, &K);
-        if (inertia_) energy += inertia_->add(e, parts_.nodes()[e], parts_.nodes()[e + 1], r, K);
         if (viscosity_) energy += viscosity_->add(e, parts_.displacements(e), r, K);
+        if (inertia_) move(r, K);
       };
       if (rows.in(e)) {
         Matrix6<Scalar> K;
         Vector6<Scalar> r;
         energy += rows.touch(parts_, e, r, K);
-        if (!plain) load_and_move(r, K);
+        if (!plain || inertia_) load_and_move(r, K);
         assembler.add(e, K, r);
-      } else if (plain) {
-        add(e, [](auto&, auto&) {});
-      } else {
+      } else if (!plain) {
         add(e, load_and_move);
+      } else if (inertia_) {
+        add(e, move);
+      } else {
+        add(e, [](auto&, auto&) {});
       }
     }
     // Where tensions are far from those of the nodes the energy has either sign.
@@ -218,6 +223,12 @@ class BeamChain {
           return Vector3<Scalar>(now.u - then.u, now.w - then.w, now.theta - then.theta);
         },
         [&](int e) { return rows.in(e); });
+  }
+  /// Places its nodes alone.   @param at  i -> node
+  template <class At>
+  void place(At&& at) noexcept {
+    for (int i = 0; i < parts_.nodes().size(); ++i) parts_.nodes()[i] = at(i);
+    ends_.correct(parts_.nodes());
   }
   /// Bends it a little, without a contact to where its loads push.   @param contact  its place, negative: none
   void nudge(Scalar size, Scalar contact, Scalar load) noexcept {
@@ -281,8 +292,8 @@ class BeamChain {
 
  private:
   Parts parts_;
-  Nodes before_;                      // the last increment
-  const Inertia* inertia_ = nullptr;  // of what it is in motion with
+  Nodes before_;                // the last increment
+  Inertia* inertia_ = nullptr;  // of what it is in motion with
   const Viscosity* viscosity_ = nullptr;
   detail::BeamEnds<Scalar> ends_;
   Scalar stiffness_ = 0;  // of all elements, along and across [N/m]

@@ -11,9 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/contact/coupled_contacts.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 namespace hapbeam {
@@ -26,11 +26,11 @@ class DynamicModel {
   static_assert(any_rotation<Element> && dimension_of<Element> == 2,
                 "DynamicModel takes elements as Corotational<>");
   using System = BeamSystem<Element, ScalarType, Elements, MaxElements>;
-  using Contact = typename System::Contact;
-  using RoundContact = typename System::RoundContact;
 
  public:
   using Scalar = ScalarType;
+  /// Hands that may touch it at once.
+  static constexpr int contacts = contacts_of<Element>;
   /// No step is longer: what a late tick has missed is left out [s].
   static constexpr Scalar longest = Scalar(2e-3);
   /// Times that a part is halved.
@@ -45,6 +45,7 @@ class DynamicModel {
         steps_(elements),
         rest_(elements),
         before_(elements),
+        last_(elements),
         substeps_(substeps),
         thickness_(static_cast<Scalar>(beam.thickness())),
         drag_(static_cast<Scalar>(beam.damping().drag)),
@@ -72,9 +73,22 @@ class DynamicModel {
 
   /// Goes on by a time.   @param dt [s], not negative
   /// @return ok | iteration_limit: it has stopped where a part had no solution | invalid_request: nothing has changed
-  Status step(Scalar dt) noexcept { return go(dt, nullptr).status; }
+  Status step(Scalar dt) noexcept { return go(dt, nullptr, 0); }
   /// The same with a hand, which moves evenly from where it was.   @return force and place at the end of the step; not limited in size
-  Pushed<Scalar> step(Scalar dt, const Coupled<Scalar>& hand) noexcept { return go(dt, &hand); }
+  Pushed<Scalar> step(Scalar dt, const Coupled<Scalar>& hand) noexcept {
+    Pushed<Scalar> pushed;
+    pushed.status = step(dt, &hand, 1, &pushed);
+    return pushed;
+  }
+  /// The same with several hands, each with its number in every step.   @param count  of them, no more than contacts   @param pushed  out, of each
+  Status step(Scalar dt, const Coupled<Scalar>* hands, int count, Pushed<Scalar>* pushed) noexcept {
+    const Status status = go(dt, hands, count);
+    for (int i = 0; i < count && i < contacts; ++i) {
+      pushed[i] = contacts_.pushed(i);
+      pushed[i].status = status;
+    }
+    return status;
+  }
 
   int elements() const noexcept { return system_.elements(); }
   int substeps() const noexcept { return substeps_; }
@@ -124,18 +138,17 @@ class DynamicModel {
   }
   void begin(const typename System::State& state) noexcept {
     system_.set_state(state);
+    system_.keep(last_);
     stop();
     viscosity_.relax(bent());
-    penetration_ = 0, contact_ = {}, known_ = touches_ = false;
+    contacts_.reset();
+    for (auto& curvature : curvature_) curvature = {};
     starts_ = true;
     system_.draw();
   }
   /// All velocity is gone.
   void stop() noexcept {
-    for (int i = 0; i <= system_.elements(); ++i) {
-      steps_[i] = {};
-      steps_[i].q = detail::placed(system_.node(i));
-    }
+    steps_.stop([this](int i) { return detail::placed(system_.node(i)); });
     viscosity_.stop();
   }
   /// Displacements of the nodes of an element.
@@ -145,56 +158,40 @@ class DynamicModel {
   /// What pulls at it accelerates it: as it does within a hundredth of the first part.
   void accelerate(Scalar part) noexcept {
     starts_ = false;
-    const auto* const hand = std::exchange(hand_, nullptr);
-    if (go_on(part / 100, 0, 1, most_halvings)) {
-      steps_.start_again();
-      viscosity_.take_back();
-      system_.set_state(before_);
-    }
-    hand_ = hand;
+    contacts_.begin(system_, nullptr, 0);
+    if (!go_on(part / 100, 0, 1, most_halvings)) return;
+    steps_.start_again();
+    viscosity_.take_back();
+    system_.set_state(before_);
   }
 
-  Pushed<Scalar> go(Scalar dt, const Coupled<Scalar>* hand) noexcept {
-    Pushed<Scalar> pushed{0, Status::ok};
+  Status go(Scalar dt, const Coupled<Scalar>* hands, int count) noexcept {
     solves_ = 0;
-    const bool valid = dt >= 0 && std::isfinite(dt) &&
-                       (!hand || (is_finite(hand->hand) && hand->stiffness > 0 && hand->damping >= 0));
-    if (!valid) return {0, Status::invalid_request};
-    if (!(dt > 0)) return pushed;
+    bool valid = dt >= 0 && std::isfinite(dt) && count >= 0 && count <= contacts;
+    for (int i = 0; valid && i < count; ++i)
+      valid = is_finite(hands[i].hand) && hands[i].stiffness > 0 && hands[i].damping >= 0;
+    if (!valid) return Status::invalid_request;
+    if (!(dt > 0)) return Status::ok;
     system_.chain().move_with(&inertia_, viscosity_.none() ? nullptr : &viscosity_);
-    hand_ = hand;
-    if (hand && !touches_) contact_.s = hand->hand.s;
-    if (hand && !known_) {
-      // One that comes from nowhere has its spring bent as it lies, and a damper at rest.
-      from_ = hand->hand.centre;
-      penetration_ = (std::max)(hand->hand.reach - gap(hand->hand), Scalar(0));
-    }
-    known_ = hand != nullptr;
     const Scalar all = (std::min)(dt, longest), part = all / Scalar(substeps_);
     if (starts_) accelerate(part);
-    for (int k = 0; k < substeps_ && pushed.status == Status::ok; ++k) {
-      const Scalar begin = Scalar(k) / Scalar(substeps_), end = Scalar(k + 1) / Scalar(substeps_);
-      if (!go_on(part, begin, end, 0)) pushed.status = Status::iteration_limit;
-      else if (listener_) listener_(listens_, *this, part);
+    contacts_.begin(system_, hands, count);
+    bool found = true;
+    for (int k = 0; k < substeps_ && found; ++k) {
+      found = go_on(part, Scalar(k) / Scalar(substeps_), Scalar(k + 1) / Scalar(substeps_), 0);
+      if (found && listener_) listener_(listens_, *this, part);
     }
     system_.chain().move_with(nullptr, nullptr);
+    contacts_.end();
     // The next one begins as after a reset, where the beam has stopped.
-    if (pushed.status != Status::ok) stop(), starts_ = true, known_ = touches_ = false;
-    if (hand) from_ = hand->hand.centre;
+    if (!found) stop(), starts_ = true, contacts_.reset();
     system_.draw();
-    if (touches_) {
-      const Contact& found = system_.rows()[0];
-      pushed.force = -contact_.force;
-      pushed.s = found.s, pushed.point = found.place, pushed.normal = -found.normal;
-    }
-    return pushed;
+    return found ? Status::ok : Status::iteration_limit;
   }
-  /// A part of a step.  @param begin, end  of the hand's way in it
+  /// A part of a step.  @param begin, end  of the way of the hands in it
   bool go_on(Scalar dt, Scalar begin, Scalar end, int halvings) noexcept {
     system_.keep(before_);
-    const auto contact = contact_;
-    const Scalar penetration = penetration_;
-    const bool touches = touches_;
+    const auto contacts = contacts_.kept();
     steps_.begin(dt, drag_);
     viscosity_.begin(steps_.rate());
     inertia_.set_scale(kinetic());
@@ -205,118 +202,54 @@ class DynamicModel {
     system_.set_state(before_);
     steps_.take_back();
     viscosity_.take_back();
-    contact_ = contact, penetration_ = penetration, touches_ = touches;
+    contacts_.take_back(contacts);
     const Scalar middle = (begin + end) / 2;
     return halvings < most_halvings && go_on(dt / 2, begin, middle, halvings + 1) &&
            go_on(dt / 2, middle, end, halvings + 1);
   }
-  /// One stage.   @param way  of the hand
+  /// One stage.   @param way  of the hands
   bool solve(int stage, Scalar way) noexcept {
-    const int n = system_.elements();
     steps_.aim(stage, inertia_);
     viscosity_.aim(stage);
-    system_.move([&](int i) {
-      const auto q = steps_.foreseen(stage, i);
-      const auto& now = system_.node(i);
-      const auto at = detail::placed(now);
-      // As the tangent turns from where it is.
-      const Scalar turn = std::atan2(at[2] * q[3] - at[3] * q[2], at[2] * q[2] + at[3] * q[3]);
-      return Vector3<Scalar>(q[0] - at[0], q[1] - at[1], -turn);
+    contacts_.draw(system_);
+    // Tensions go on as they went, and nodes as their accelerations say.
+    const Scalar onward = steps_.onward(stage);
+    system_.go_on(last_, onward);
+    system_.chain().place([&](int i) {
+      const auto &from = steps_.start(stage, i).q, to = steps_.foreseen(stage, i);
+      // As the tangent turns from where it was.
+      const Scalar along = from[2] * to[2] + from[3] * to[3], aside = from[3] * to[2] - from[2] * to[3];
+      const auto& was = last_.nodes[i];
+      const Scalar turn = detail::angle(aside, along, std::sqrt(along * along + aside * aside));
+      return CentrelineNode<Scalar>{was.s, to[0] - was.s, to[1], was.theta + turn};
     });
-    if (!equilibrium(steps_.length(stage), way)) return false;
-    for (int i = 0; i <= n; ++i) steps_.know(stage, i, detail::placed(system_.node(i)));
+    const bool found = contacts_.solve(system_, steps_.length(stage), way, onward, [&] {
+      NewtonRaphson solver;
+      solver.pairs_differ = false;
+      const auto report = solver.solve(system_, Scalar(1), &curvature_[stage]);
+      solves_ += report.solves;
+      return report.status == Status::ok;
+    });
+    if (!found) return false;
+    const auto& found_at = inertia_.find(system_.parts().nodes());
+    for (int i = 0; i <= system_.elements(); ++i) steps_.know(stage, i, found_at[i]);
     viscosity_.know(stage, bent());
     return true;
   }
-  /// With or without the hand, whichever has an answer.   @param time  of the stage [s]
-  bool equilibrium(Scalar time, Scalar way) noexcept {
-    if (!hand_) {
-      touches_ = false;
-      return newton();
-    }
-    const Scalar by_time = hand_->damping / time, whole = hand_->stiffness + by_time,
-                 lasting = by_time * penetration_ / whole;
-    Circle<Scalar> circle = hand_->hand;
-    circle.centre = from_ + way * (hand_->hand.centre - from_);
-    bool let_go = false;
-    for (int pass = 0; pass < most_passes; ++pass) {
-      if (!touches_) {
-        contact_.force = 0;
-        system_.set_goal();
-        if (!newton()) return false;
-        // What has let go in this stage is at its edge.
-        if (let_go || !(gap(circle) < circle.reach - lasting)) {
-          penetration_ = lasting;
-          return true;
-        }
-        touches_ = true;
-      }
-      // From where the avatar is about: on the beam, and not in it as far as the hand.
-      const auto view = look(circle);
-      const Scalar ahead = (std::max)(circle.reach - view.distance, Scalar(0));
-      const Circle<Scalar> avatar{contact_.s, circle.centre + ahead * view.normal,
-                                  circle.reach + ahead - lasting, circle.side};
-      Contact contact = contact_;
-      RoundContact{avatar}.set(contact);
-      contact.reach = avatar.reach, contact.compliance = 1 / whole;
-      contact.least = 0, contact.most = system_.length();
-      contact.moves = true, contact.waits = contact.force == 0;
-      system_.set_goal();
-      system_.add_goal(contact, nullptr);
-      if (!newton()) return false;
-      const Scalar force = -system_.linear_reaction();
-      system_.look(0);
-      static_cast<typename Contact::InnerState&>(contact_) = system_.rows()[0];
-      contact_.force = force;
-      if (force > 0) {
-        penetration_ = lasting + force / whole;
-        return true;
-      }
-      touches_ = false, let_go = true;
-    }
-    return false;
-  }
-  bool newton() noexcept {
-    if (!hand_ || !touches_) system_.set_goal();
-    NewtonRaphson solver;
-    solver.smallest_step = 1;  // a part of a step is halved, not its path
-    const auto report = solver.solve(system_);
-    solves_ += report.solves;
-    return report.status == Status::ok;
-  }
-  /// How the circle lies beside the beam, which is nearest to it at contact_.s then; past an end, beside its tangent.
-  auto look(const Circle<Scalar>& circle) noexcept {
-    const auto line = system_.centreline();
-    const auto view = [&] { return RoundContact{circle}.look(RoundContact::node_at(line, contact_.s), 0); };
-    for (int k = 0; k < 4; ++k)
-      contact_.s = std::clamp(contact_.s + view().ahead, Scalar(0), system_.length());
-    return view();
-  }
-  /// From the beam to the centre of the circle, negative behind it; past an end from its last point [m].
-  Scalar gap(const Circle<Scalar>& circle) noexcept {
-    const auto view = look(circle);
-    const bool beyond =
-        (contact_.s <= 0 && view.ahead < 0) || (contact_.s >= system_.length() && view.ahead > 0);
-    return beyond ? std::hypot(view.distance, view.ahead) : view.distance;
-  }
-
-  static constexpr int most_passes = 4;
 
   System system_;
   typename System::Chain::Inertia inertia_;
   TrBdf2<Scalar, Elements, MaxElements> steps_;
-  typename System::State rest_, before_;
+  typename System::State rest_, before_, last_;  // at rest, before a part, and before the last stage
+  Curvature<Scalar> curvature_[2];               // of both stages
   int substeps_, solves_ = 0;
   Scalar thickness_;
   Scalar drag_;
   typename System::Chain::Viscosity viscosity_;
-  const Coupled<Scalar>* hand_ = nullptr;
+  detail::CoupledContacts<System, contacts> contacts_;
   void* listens_ = nullptr;
   Listener listener_ = nullptr;
-  Vector2<Scalar> from_ = Vector2<Scalar>::Zero();  // where the hand was
-  Scalar penetration_ = 0;                          // of the hand in the beam, as it lasts in the damper [m]
-  Contact contact_{};
-  bool known_ = false, touches_ = false, starts_ = true;
+  bool starts_ = true;
 };
 
 }  // namespace hapbeam

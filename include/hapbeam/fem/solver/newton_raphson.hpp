@@ -111,6 +111,7 @@ struct NewtonRaphson {
   int max_iterations = 16;            ///< per load step, and more while each halves the increment
   int max_solves = 48;                ///< in all, 3 or more: what bounds a tick
   double smallest_step = 1e-4;        ///< of the path
+  bool pairs_differ = true;  ///< the first increment of a pair says nothing of that of the next solve
 
   /// Goes the way to t = 1.  @param first_step  of the path: 1, or what the report of an unfinished solve says
   /// @param known  of the solves before, null: they say nothing of this one;  else the way is one step, which is not taken back where it fails
@@ -171,7 +172,7 @@ struct NewtonRaphson {
       if (known) {
         if (k > 1) known->measure(k - 1, before / state, iteration.size / state);
         // The increment of w that follows one of u is another in the next element.
-        if (k > 1 || !detail::InPairs<System>::value)
+        if (k > 1 || !detail::InPairs<System>::value || !pairs_differ)
           least = (std::min)(least, known->of(k, iteration.size / state));
       }
       const S curvature = (std::max)({measured, measured_before, state > 0 ? least / state : S(0)});

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// Hands that touch a beam in motion through their couplings, within a stage of its step: contacts that yield, found with the beam.
+//
+//   λ = K δ + B (δ - δ₀)/τ >= 0        δ: of a hand in the beam, behind a massless avatar;  τ: length of the stage
+//
+// is a contact with a compliance, D = R - λ/(K + B/τ) from about where the avatar is.  Which of them touch is found by an active set: the one that pulls
+// most lets go, the deepest of the others comes.  What has let go in a stage is at its edge until the next.  A lasting touch goes on as it went.
+// Friction along the beam is that of statics (friction_law.hpp), of an avatar whose skin is the coupling.
+// Real-time: noexcept, no allocation, at most most_passes solutions, with friction each of them more than once.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <hapbeam/body/inner_contact.hpp>
+#include <hapbeam/fem/contact/several_friction.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+/// @tparam Most  hands
+template <class System, int Most>
+class CoupledContacts {
+  using Scalar = typename System::Scalar;
+  using Vector = typename System::Vector;
+  using Contact = typename System::Contact;
+  using RoundContact = typename System::RoundContact;
+  using Obstacle = hapbeam::Obstacle<Scalar, System::dimension>;
+  using Friction = SeveralFriction<System, Obstacle, RoundContact, Most>;
+  using State = InnerState<Scalar, System::dimension>;
+  using Hand = Coupled<Scalar>;
+
+ public:
+  static constexpr int most_passes = 2 + 2 * Most;
+
+  /// No hand has ever been there.
+  void reset() noexcept { slots_ = {}, count_ = 0; }
+  /// To be called where a step begins.   @param hands  where they go to; kept until end()
+  void begin(const System& system, const Hand* hands, int count) noexcept {
+    hands_ = hands;
+    for (int i = 0; i < count; ++i) {
+      Slot& now = slot(i);
+      if (!now.touches) now.foot = hands[i].hand.s;
+      // One that comes from nowhere has its spring bent as it lies, and a damper at rest.
+      if (i >= count_ || !now.known) {
+        now = {};
+        now.foot = hands[i].hand.s, now.from = hands[i].hand.centre, now.known = true;
+        now.penetration = (std::max)(hands[i].hand.reach - gap(system, hands[i].hand, now), Scalar(0));
+      }
+      if (hands[i].friction) now.friction = *hands[i].friction;
+    }
+    count_ = count;
+  }
+  void end() noexcept {
+    for (int i = 0; i < count_; ++i) {
+      slot(i).from = hands_[i].hand.centre;
+      if (hands_[i].friction) *hands_[i].friction = slot(i).friction;
+    }
+  }
+  /// Whether nothing is there to be touched.
+  bool none() const noexcept { return count_ == 0; }
+  /// What hand i feels at the end of a step.
+  Pushed<Scalar> pushed(int i) const noexcept {
+    const Slot& now = slots_[of(i)];
+    Pushed<Scalar> pushed{0, Status::ok};
+    if (!now.touches) return pushed;
+    pushed.force = -now.at.force, pushed.s = now.at.s, pushed.point = now.place, pushed.normal = -now.normal;
+    return pushed;
+  }
+  /// As it is at the beginning of a part of a step, to be set where that is taken back.
+  auto kept() const noexcept { return slots_; }
+  template <class Kept>
+  void take_back(const Kept& kept) noexcept {
+    slots_ = kept;
+    for (Slot& slot : slots_) slot.stages = 0;
+  }
+  /// To be called before a stage moves the system.
+  void draw(System& system) const noexcept {
+    for (int i = 0; i < count_; ++i)
+      if (rough(i)) return system.draw();
+  }
+
+  /// One stage.   @param time τ [s]   @param way  that the hands have gone in the step, 0 to 1   @param onward  as of TrBdf2
+  /// @param newton  () -> whether the system's goal was reached
+  template <class Newton>
+  bool solve(System& system, Scalar time, Scalar way, Scalar onward, Newton&& newton) noexcept {
+    for (int i = 0; i < count_; ++i) {
+      Slot& now = slot(i);
+      const Scalar by_time = hands_[i].damping / time;
+      now.whole = hands_[i].stiffness + by_time, now.lasting = by_time * now.penetration / now.whole;
+      now.circle = hands_[i].hand;
+      now.circle.centre = now.from + way * (now.circle.centre - now.from);
+      now.let_go = false;
+      now.next = now.at;
+      if (now.touches) now.foot = now.at.s;
+      if (now.stages > 1) now.next.go_on(now.at, now.before, onward);
+      now.friction.stiffness = hands_[i].stiffness, now.friction.damping = by_time;
+      Obstacle& obstacle = all_[of(i)];
+      obstacle.touching = now.touches, obstacle.round = now.circle;
+      obstacle.pushed.force = -now.at.force;
+      obstacle.friction = rough(i) ? &now.friction : nullptr;
+    }
+    Friction friction(system, all_.data(), count_, count_ == 1);
+    bool found = false;
+    for (int pass = 0; pass < most_passes && !found; ++pass) {
+      system.set_goal();
+      int goals = 0;
+      for (int i = 0; i < count_; ++i) {
+        slot(i).goal = slot(i).touches ? goals++ : -1;
+        if (slot(i).touches) system.add_goal(contact(system, i), friction.of(i));
+      }
+      do
+        if (!newton()) return system.forget_friction(), false;
+      while (friction.any() && !friction.settled(system, [this](int i) { return slot(i).goal; }));
+      take(system);
+      found = !review(system, friction);
+    }
+    for (int i = 0; i < count_; ++i) {
+      Slot& now = slot(i);
+      if (now.touches && friction.of(i)) friction.of(i)->leave(now.friction, now.next.force);
+      else now.friction.let_go();
+      now.before = now.at, now.at = now.next;
+      now.stages = now.touches ? now.stages + 1 : 0;
+      now.penetration = now.lasting + (now.touches ? now.at.force / now.whole : Scalar(0));
+    }
+    system.forget_friction();
+    return found;
+  }
+
+ private:
+  struct Slot {
+    bool known = false, touches = false;
+    bool let_go = false;           // in this stage
+    int goal = -1, stages = 0;     // its contact in the system, and stages in which it has touched
+    Vector from = Vector::Zero();  // where the hand was at the end of the last step [m]
+    Scalar penetration = 0;        // of the hand in the beam, as it lasts in the damper [m]
+    Scalar foot = 0;               // place that is nearest to the hand, of the beam as it is drawn [m]
+    State at, before, next;        // after the last stage, the one before, and in this one
+    Vector place = Vector::Zero(), normal = Vector::Zero();
+    FrictionState<Scalar, System::dimension> friction;
+    Circle<Scalar> circle{};        // where it is in this stage
+    Scalar whole = 1, lasting = 0;  // K + B/τ [N/m], and what lasts of the penetration without a force [m]
+  };
+  static constexpr std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
+  Slot& slot(int i) noexcept { return slots_[of(i)]; }
+  bool rough(int i) const noexcept { return hands_[i].friction && hands_[i].friction->sticking > 0; }
+
+  /// From where the avatar is about: on the beam, and not in it as far as the hand.
+  Contact contact(const System& system, int i) noexcept {
+    Slot& now = slot(i);
+    const auto view = look(system, now.circle, now);
+    const Scalar ahead = (std::max)(now.circle.reach - view.distance, Scalar(0));
+    all_[of(i)].round = {now.foot, now.circle.centre + ahead * view.normal,
+                         now.circle.reach + ahead - now.lasting, now.circle.side};
+    Contact contact;
+    static_cast<State&>(contact) = now.next;
+    RoundContact{all_[of(i)].round}.set(contact);
+    contact.reach = all_[of(i)].round.reach, contact.compliance = 1 / now.whole;
+    contact.least = 0, contact.most = system.length();
+    contact.moves = true, contact.waits = now.next.force == 0;
+    return contact;
+  }
+  /// What the system has found of those that touch.
+  void take(System& system) noexcept {
+    for (int i = 0; i < count_; ++i) {
+      Slot& now = slot(i);
+      if (now.goal < 0) continue;
+      system.look(now.goal);
+      const Contact& found = system.rows()[now.goal];
+      now.next = found, now.next.force = -system.linear_reaction(now.goal);
+      now.place = found.place, now.normal = found.normal;
+    }
+  }
+  /// @return whether another one touches now, or one does not any more
+  bool review(const System& system, Friction& friction) noexcept {
+    const auto touch = [&](int i, bool touches) {
+      Slot& now = slot(i);
+      now.touches = all_[of(i)].touching = touches, now.let_go = !touches;
+      now.next = {}, now.next.s = now.foot, now.stages = 0;
+      all_[of(i)].pushed.force = 0;
+      if (touches) friction.meet(system, i);
+    };
+    int worst = -1, deepest = -1;
+    for (int i = 0; i < count_; ++i)
+      if (slot(i).touches && !(slot(i).next.force > 0) &&
+          (worst < 0 || slot(i).next.force < slot(worst).next.force))
+        worst = i;
+    if (worst >= 0) return touch(worst, false), true;
+    Scalar most = 0;
+    for (int i = 0; i < count_; ++i) {
+      Slot& now = slot(i);
+      if (now.touches || now.let_go) continue;
+      const Scalar depth = now.circle.reach - now.lasting - gap(system, now.circle, now);
+      if (depth > most) most = depth, deepest = i;
+    }
+    if (deepest >= 0) touch(deepest, true);
+    return deepest >= 0;
+  }
+  /// How the circle lies beside the beam, which is nearest to it at the foot then; past an end, beside its tangent.
+  static auto look(const System& system, const Circle<Scalar>& circle, Slot& now) noexcept {
+    const auto line = system.centreline();
+    const RoundContact round{circle};
+    auto view = round.look(RoundContact::node_at(line, now.foot), 0);
+    for (int k = 0; k < 4 && std::abs(view.ahead) > Scalar(1e-7) * circle.reach; ++k) {
+      now.foot = std::clamp(now.foot + view.ahead, Scalar(0), system.length());
+      view = round.look(RoundContact::node_at(line, now.foot), 0);
+    }
+    return view;
+  }
+  /// From the beam to the centre of the circle, negative behind it; past an end from its last point [m].
+  static Scalar gap(const System& system, const Circle<Scalar>& circle, Slot& now) noexcept {
+    const auto view = look(system, circle, now);
+    const bool beyond = (now.foot <= 0 && view.ahead < 0) || (now.foot >= system.length() && view.ahead > 0);
+    return beyond ? std::hypot(view.distance, view.ahead) : view.distance;
+  }
+
+  const Hand* hands_ = nullptr;
+  int count_ = 0;
+  std::array<Slot, std::size_t(Most)> slots_{};
+  std::array<Obstacle, std::size_t(Most)> all_{};
+};
+
+}  // namespace hapbeam::detail
