@@ -23,12 +23,15 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
   using Vector = VectorOf<Scalar, dimension>;
   using Result = TouchResult<Scalar, dimension>;
 
-  /// @param model  kept by reference   @param avatar_radius  [m]
-  /// Allocates.   @throws std::invalid_argument unless avatar_radius is 0 to a thousand lengths of the beam
-  Touch(Model& model, Scalar avatar_radius)
+  /// @param model  kept by reference   @param avatar_radius  [m]   @param friction  none unless it is given
+  /// Allocates.   @throws std::invalid_argument unless avatar_radius is 0 to a thousand lengths of the beam, and the friction makes sense
+  Touch(Model& model, Scalar avatar_radius, const Friction& friction = {})
       : model_(model), avatar_radius_(avatar_radius), volumes_(model.shape().segments()) {
     detail::check_radius("avatar_radius", static_cast<double>(avatar_radius),
                          static_cast<double>(model.shape().length()));
+    friction.check();
+    friction_.sticking = static_cast<Scalar>(friction.sticking);
+    friction_.sliding = static_cast<Scalar>(friction.sliding);
     reset();
   }
 
@@ -36,6 +39,7 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
   void reset() noexcept {
     model_.reset();
     memory_ = {};
+    friction_.begin();
     off_.setZero();
     pressing_ = false;
     rest_ = model_.energy().sum();
@@ -60,8 +64,9 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
       return result;
     }
     side_ = result.contact.side;
-    const Pushed<Scalar> pushed =
-        model_.step(dt, {{result.contact.s, hand, reach, static_cast<Scalar>(side_)}, stiffness, damping});
+    if (!pressing_) friction_.dissipated = 0;
+    const Circle<Scalar> round{result.contact.s, hand, reach, static_cast<Scalar>(side_)};
+    const Pushed<Scalar> pushed = model_.step(dt, {round, stiffness, damping, rough() ? &friction_ : nullptr});
     result.status = pushed.status;
     // Of one that is stopped while it is pressed the side is known still.
     if (is_answer(pushed.status)) pressing_ = pushed.force < 0;
@@ -69,12 +74,19 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
     off_.setZero();
     if (!(pushed.force < 0)) return result;
     result.force = -pushed.force * pushed.normal;
+    if (rough()) {
+      result.friction = friction_.on_hand(-pushed.force);
+      result.force += result.friction;
+      result.sliding = friction_.slides, result.dissipated = friction_.dissipated;
+    }
     result.press = {pushed.s, pushed.point.y()};
     off_ = pushed.point + reach * pushed.normal - hand;
     return result;
   }
 
   [[nodiscard]] bool pressing() const noexcept { return pressing_; }
+  /// Whether there is friction.
+  [[nodiscard]] bool rough() const noexcept { return friction_.sticking > 0; }
   /// From the hand to the avatar [m].
   const Vector& off() const noexcept { return off_; }
   /// What the beam has more than at rest [J].
@@ -85,6 +97,7 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
   Scalar avatar_radius_;
   BoundingVolumes<Scalar, dimension> volumes_;
   ContactMemory<Scalar, dimension> memory_;
+  FrictionState<Scalar, dimension> friction_;
   Vector off_ = Vector::Zero();
   Scalar rest_ = 0;  // energy at rest [J]
   int side_ = 1;     // from which it is touched

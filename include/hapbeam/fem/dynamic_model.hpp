@@ -49,7 +49,9 @@ class DynamicModel {
         substeps_(substeps),
         thickness_(static_cast<Scalar>(beam.thickness())),
         drag_(static_cast<Scalar>(beam.damping().drag)),
-        viscosity_(beam, elements, [this](int e) { return system_.parts().properties()[e]; }) {
+        viscosity_(beam, elements, [this](int e) { return system_.parts().properties()[e]; }),
+        contacts_(PressRange<Scalar>(beam).range(), fixes_u(beam.left()) && fixes_w(beam.left()),
+                  fixes_u(beam.right()) && fixes_w(beam.right())) {
     if (substeps < 1) detail::reject("substeps", substeps, "", "1 or more");
     let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
     system_.keep(rest_);
@@ -191,7 +193,7 @@ class DynamicModel {
   /// A part of a step.  @param begin, end  of the way of the hands in it
   bool go_on(Scalar dt, Scalar begin, Scalar end, int halvings) noexcept {
     system_.keep(before_);
-    const auto contacts = contacts_.kept();
+    const auto touched = contacts_.kept();
     steps_.begin(dt, drag_);
     viscosity_.begin(steps_.rate());
     inertia_.set_scale(kinetic());
@@ -202,7 +204,7 @@ class DynamicModel {
     system_.set_state(before_);
     steps_.take_back();
     viscosity_.take_back();
-    contacts_.take_back(contacts);
+    contacts_.take_back(touched);
     const Scalar middle = (begin + end) / 2;
     return halvings < most_halvings && go_on(dt / 2, begin, middle, halvings + 1) &&
            go_on(dt / 2, middle, end, halvings + 1);

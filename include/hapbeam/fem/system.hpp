@@ -407,7 +407,7 @@ Status ChainSystem<Chain>::factor(Scalar shift) noexcept {
   const detail::ChainEnergies<Scalar> energies = chain_.assemble(load_, rows_, assembler_);
   if (shift != 0) add_shift(shift);
   inner_energy_ = energies.inner, longer_ = 0;
-  weight_ = size_ = std::sqrt(2 * energies.measured);
+  weight_ = size_ = std::sqrt(2 * (energies.measured + rows_.held()));
   potential_ = energies.strain - energies.work;
   if (rows_.any()) potential_ += rows_.potential() + rows_.friction_potential();
   chain_.ends().hold(nodes(), rows_, assembler_);

@@ -294,6 +294,13 @@ class ContactRows {
     }
     return sum;
   }
+  /// What holds contacts stores [J].
+  Scalar held() const noexcept {
+    Scalar sum = 0;
+    for (int k = 0; k < size_; ++k)
+      sum += rows_[of(k)].contact.force * rows_[of(k)].contact.force * rows_[of(k)].contact.compliance;
+    return sum / 2;
+  }
   /// By how much all of that and V change with the last increment, to third order of it [J].
   Scalar foreseen_change() const noexcept { return foreseen_; }
   /// To be called where the nodes have moved.  @param by  (e) -> increments of both nodes   @param set  (e, N)

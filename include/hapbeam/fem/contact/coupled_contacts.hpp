@@ -5,6 +5,7 @@
 //
 // is a contact with a compliance, D = R - λ/(K + B/τ) from about where the avatar is.  Which of them touch is found by an active set: the one that pulls
 // most lets go, the deepest of the others comes.  What has let go in a stage is at its edge until the next.  A lasting touch goes on as it went.
+// What touches beside an end that cannot move is no row: the beam feels none of it.
 // Friction along the beam is that of statics (friction_law.hpp), of an avatar whose skin is the coupling.
 // Real-time: noexcept, no allocation, at most most_passes solutions, with friction each of them more than once.
 #pragma once
@@ -35,6 +36,10 @@ class CoupledContacts {
  public:
   static constexpr int most_passes = 2 + 2 * Most;
 
+  /// @param range  where the beam may be pressed   @param left, right  whether that end can move neither along nor across
+  CoupledContacts(const Range<Scalar>& range, bool left, bool right) noexcept
+      : least_((std::max)(range.s_min, Scalar(0))), most_(range.s_max), rigid_{left, right} {}
+
   /// No hand has ever been there.
   void reset() noexcept { slots_ = {}, count_ = 0; }
   /// To be called where a step begins.   @param hands  where they go to; kept until end()
@@ -47,7 +52,8 @@ class CoupledContacts {
       if (i >= count_ || !now.known) {
         now = {};
         now.foot = hands[i].hand.s, now.from = hands[i].hand.centre, now.known = true;
-        now.penetration = (std::max)(hands[i].hand.reach - gap(system, hands[i].hand, now), Scalar(0));
+        now.penetration =
+            (std::max)(hands[i].hand.reach - look(system, hands[i].hand, now.foot).gap, Scalar(0));
       }
       if (hands[i].friction) now.friction = *hands[i].friction;
     }
@@ -97,8 +103,9 @@ class CoupledContacts {
       if (now.touches) now.foot = now.at.s;
       if (now.stages > 1) now.next.go_on(now.at, now.before, onward);
       now.friction.stiffness = hands_[i].stiffness, now.friction.damping = by_time;
+      now.rigid = now.touches && beside_rigid(look(system, now));
       Obstacle& obstacle = all_[of(i)];
-      obstacle.touching = now.touches, obstacle.round = now.circle;
+      obstacle.touching = now.touches && !now.rigid, obstacle.round = now.circle;
       obstacle.pushed.force = -now.at.force;
       obstacle.friction = rough(i) ? &now.friction : nullptr;
     }
@@ -108,8 +115,8 @@ class CoupledContacts {
       system.set_goal();
       int goals = 0;
       for (int i = 0; i < count_; ++i) {
-        slot(i).goal = slot(i).touches ? goals++ : -1;
-        if (slot(i).touches) system.add_goal(contact(system, i), friction.of(i));
+        slot(i).goal = all_[of(i)].touching ? goals++ : -1;
+        if (slot(i).goal >= 0) system.add_goal(contact(system, i), friction.of(i));
       }
       do
         if (!newton()) return system.forget_friction(), false;
@@ -119,7 +126,7 @@ class CoupledContacts {
     }
     for (int i = 0; i < count_; ++i) {
       Slot& now = slot(i);
-      if (now.touches && friction.of(i)) friction.of(i)->leave(now.friction, now.next.force);
+      if (now.goal >= 0 && friction.of(i)) friction.of(i)->leave(now.friction, now.next.force);
       else now.friction.let_go();
       now.before = now.at, now.at = now.next;
       now.stages = now.touches ? now.stages + 1 : 0;
@@ -133,6 +140,7 @@ class CoupledContacts {
   struct Slot {
     bool known = false, touches = false;
     bool let_go = false;           // in this stage
+    bool rigid = false;            // it touches beside an end that cannot move
     int goal = -1, stages = 0;     // its contact in the system, and stages in which it has touched
     Vector from = Vector::Zero();  // where the hand was at the end of the last step [m]
     Scalar penetration = 0;        // of the hand in the beam, as it lasts in the damper [m]
@@ -150,7 +158,7 @@ class CoupledContacts {
   /// From where the avatar is about: on the beam, and not in it as far as the hand.
   Contact contact(const System& system, int i) noexcept {
     Slot& now = slot(i);
-    const auto view = look(system, now.circle, now);
+    const auto view = look(system, now).tangent;
     const Scalar ahead = (std::max)(now.circle.reach - view.distance, Scalar(0));
     all_[of(i)].round = {now.foot, now.circle.centre + ahead * view.normal,
                          now.circle.reach + ahead - now.lasting, now.circle.side};
@@ -158,7 +166,7 @@ class CoupledContacts {
     static_cast<State&>(contact) = now.next;
     RoundContact{all_[of(i)].round}.set(contact);
     contact.reach = all_[of(i)].round.reach, contact.compliance = 1 / now.whole;
-    contact.least = 0, contact.most = system.length();
+    contact.least = least_, contact.most = most_;
     contact.moves = true, contact.waits = now.next.force == 0;
     return contact;
   }
@@ -166,21 +174,28 @@ class CoupledContacts {
   void take(System& system) noexcept {
     for (int i = 0; i < count_; ++i) {
       Slot& now = slot(i);
-      if (now.goal < 0) continue;
-      system.look(now.goal);
-      const Contact& found = system.rows()[now.goal];
-      now.next = found, now.next.force = -system.linear_reaction(now.goal);
-      now.place = found.place, now.normal = found.normal;
+      if (now.goal >= 0) {
+        system.look(now.goal);
+        const Contact& found = system.rows()[now.goal];
+        now.next = found, now.next.force = -system.linear_reaction(now.goal);
+        now.place = found.place, now.normal = found.normal;
+      } else if (now.touches) {
+        const View view = look(system, now);
+        now.next = {}, now.next.s = now.foot, now.next.force = now.whole * depth(now, view);
+        now.normal = -view.normal, now.place = now.circle.centre - view.gap * view.normal;
+      }
     }
   }
   /// @return whether another one touches now, or one does not any more
   bool review(const System& system, Friction& friction) noexcept {
     const auto touch = [&](int i, bool touches) {
       Slot& now = slot(i);
-      now.touches = all_[of(i)].touching = touches, now.let_go = !touches;
+      now.touches = touches, now.let_go = !touches;
+      now.rigid = touches && beside_rigid(look(system, now));
+      all_[of(i)].touching = touches && !now.rigid;
       now.next = {}, now.next.s = now.foot, now.stages = 0;
       all_[of(i)].pushed.force = 0;
-      if (touches) friction.meet(system, i);
+      if (all_[of(i)].touching) friction.meet(system, i);
     };
     int worst = -1, deepest = -1;
     for (int i = 0; i < count_; ++i)
@@ -192,30 +207,46 @@ class CoupledContacts {
     for (int i = 0; i < count_; ++i) {
       Slot& now = slot(i);
       if (now.touches || now.let_go) continue;
-      const Scalar depth = now.circle.reach - now.lasting - gap(system, now.circle, now);
-      if (depth > most) most = depth, deepest = i;
+      const Scalar deep = depth(now, look(system, now));
+      if (deep > most) most = deep, deepest = i;
     }
     if (deepest >= 0) touch(deepest, true);
     return deepest >= 0;
   }
-  /// How the circle lies beside the beam, which is nearest to it at the foot then; past an end, beside its tangent.
-  static auto look(const System& system, const Circle<Scalar>& circle, Slot& now) noexcept {
+  /// How a circle lies beside the beam.
+  struct View {
+    typename RoundContact::View tangent;  ///< beside the tangent at the foot
+    Scalar gap;     ///< from the beam to the centre, negative behind it; past an end from its last point [m]
+    Vector normal;  ///< unit, along that
+    Scalar foot;    ///< [m]
+  };
+  static View look(const System& system, Slot& now) noexcept { return look(system, now.circle, now.foot); }
+  /// @param foot  in and out: the place that is nearest
+  static View look(const System& system, const Circle<Scalar>& circle, Scalar& foot) noexcept {
     const auto line = system.centreline();
     const RoundContact round{circle};
-    auto view = round.look(RoundContact::node_at(line, now.foot), 0);
+    auto node = round.node_at(line, foot);
+    auto view = round.look(node, 0);
     for (int k = 0; k < 4 && std::abs(view.ahead) > Scalar(1e-7) * circle.reach; ++k) {
-      now.foot = std::clamp(now.foot + view.ahead, Scalar(0), system.length());
-      view = round.look(RoundContact::node_at(line, now.foot), 0);
+      foot = std::clamp(foot + view.ahead, Scalar(0), system.length());
+      node = round.node_at(line, foot);
+      view = round.look(node, 0);
     }
-    return view;
+    const bool beyond = (foot <= 0 && view.ahead < 0) || (foot >= system.length() && view.ahead > 0);
+    if (!beyond) return {view, view.distance, view.normal, foot};
+    const Vector off = circle.centre - RoundContact::place_of(node);
+    const Scalar far_off = off.norm();
+    return {view, far_off, off / far_off, foot};
   }
-  /// From the beam to the centre of the circle, negative behind it; past an end from its last point [m].
-  static Scalar gap(const System& system, const Circle<Scalar>& circle, Slot& now) noexcept {
-    const auto view = look(system, circle, now);
-    const bool beyond = (now.foot <= 0 && view.ahead < 0) || (now.foot >= system.length() && view.ahead > 0);
-    return beyond ? std::hypot(view.distance, view.ahead) : view.distance;
+  static Scalar depth(const Slot& now, const View& view) noexcept {
+    return now.circle.reach - now.lasting - view.gap;
+  }
+  bool beside_rigid(const View& view) const noexcept {
+    return (view.foot < least_ && rigid_[0]) || (view.foot > most_ && rigid_[1]);
   }
 
+  Scalar least_, most_;  // places of rows [m]
+  bool rigid_[2];
   const Hand* hands_ = nullptr;
   int count_ = 0;
   std::array<Slot, std::size_t(Most)> slots_{};

@@ -232,8 +232,9 @@ class VirtualCoupling {
                               static_cast<Scalar>(stiffness_), static_cast<Scalar>(damping_));
     result.avatar = hand + touch.off().template cast<double>();
     result.force = result.touch.force.template cast<double>();
-    result.energy =
-        static_cast<double>(touch.stored()) + stiffness_ * (result.avatar - hand).squaredNorm() / 2;
+    result.energy = static_cast<double>(touch.stored()) +
+                    stiffness_ * (result.avatar - hand).squaredNorm() / 2 +
+                    result.touch.friction.template cast<double>().squaredNorm() / (2 * stiffness_);
     return result;
   }
   template <typename Touch>
