@@ -59,8 +59,7 @@ class Beam : public detail::Slender<Beam, Section, Arc> {
              detail::positive("young", material.young, "Pa") * detail::positive("area", section.area, "m²"),
              material.young * detail::positive("inertia", section.inertia, "m⁴"), section.thickness, left,
              right) {
-    build_of(material.young, section.area);
-    density_ = detail::not_negative("density", material.density, "kg/m³");
+    build_of(material.young, material.density, section.area);
     damping_ = material.damping.check();
   }
 
@@ -109,9 +108,6 @@ class Beam : public detail::Slender<Beam, Section, Arc> {
     return specific_weight_ = density * gravity, weigh(), *this;
   }
 
-  /// [kg/m], 0: it has no mass
-  double mass_per_length(double s) const { return density_ > 0 ? density_ * area_(s) : 0; }
-
   /// What it loses where it moves.
   const Damping& damping() const noexcept { return damping_; }
 
@@ -156,7 +152,7 @@ class Beam : public detail::Slender<Beam, Section, Arc> {
     if (specific_weight_.y() != 0) transverse_ = load(specific_weight_.y());
   }
 
-  double axial_stiffness_, bending_stiffness_, density_ = 0;
+  double axial_stiffness_, bending_stiffness_;
   Damping damping_;
   Support left_, right_;
   std::vector<PointLoad> point_loads_;

@@ -29,7 +29,7 @@
 //
 // A model with mass has no press(). It goes on by a time, with a hand that holds an avatar by its coupling:
 //
-//   m.step(dt, h)        Pushed<Scalar>         of a Coupled<Scalar>; promises as press(); dt [s]
+//   m.step(dt, h)        Pushed<Scalar>         of a Coupled<Scalar>; promises as press(); dt [s]; in space as push()
 //   m.energy()           with sum() [J]         noexcept; of motion, strain and loads
 //
 // A model whose shape costs more than its force may offer a part of the shape. A lasting contact reads no more than
@@ -131,18 +131,6 @@ struct Circle {
   Scalar side;   ///< of the centreline on which the centre lies: +1 left of its direction, -1
 };
 
-template <typename Scalar, int D = 2>
-struct FrictionState;
-
-/// A hand that holds an avatar by its coupling, a spring and a damper.
-template <typename Scalar>
-struct Coupled {
-  Circle<Scalar> hand;                           ///< where the avatar would be without the beam
-  Scalar stiffness = 1000;                       ///< K [N/m], positive
-  Scalar damping = 0;                            ///< B [N·s/m], not negative
-  FrictionState<Scalar, 2>* friction = nullptr;  ///< of the avatar (friction.hpp), in and out; null: none
-};
-
 /// A frictionless capsule, or a sphere, that the centreline of a rod touches at one point, which is part of the answer.
 template <typename Scalar>
 struct Capsule {
@@ -193,6 +181,18 @@ struct RoundOf {
 };
 
 }  // namespace detail
+
+template <typename Scalar, int D = 2>
+struct FrictionState;
+
+/// A hand that holds an avatar by its coupling, a spring and a damper.
+template <typename Scalar, int D = 2>
+struct Coupled {
+  typename detail::RoundOf<Scalar, D>::Type hand;  ///< where the avatar would be without the beam
+  Scalar stiffness = 1000;                         ///< K [N/m], positive
+  Scalar damping = 0;                              ///< B [N·s/m], not negative
+  FrictionState<Scalar, D>* friction = nullptr;    ///< of the avatar (friction.hpp), in and out; null: none
+};
 
 /// What a body does to a beam that it touches.
 enum class ObstacleKind : std::int8_t {
@@ -316,8 +316,8 @@ using Part =
     std::enable_if_t<noexcept(std::declval<const M&>().part(typename M::Scalar(), typename M::Scalar()))>;
 
 template <typename M>
-using StepWithHand = std::enable_if_t<noexcept(
-    std::declval<M&>().step(typename M::Scalar(), std::declval<const Coupled<typename M::Scalar>&>()))>;
+using StepWithHand = std::enable_if_t<noexcept(std::declval<M&>().step(
+    typename M::Scalar(), std::declval<const Coupled<typename M::Scalar, dimension_of<M>>&>()))>;
 
 }  // namespace detail
 

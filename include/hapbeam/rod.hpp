@@ -78,7 +78,8 @@ class Rod : public detail::Slender<Rod, RodSection, RodArc> {
     material_ = material;
     outline_ = {section.width > 0 ? section.width : thickness_,
                 section.height > 0 ? section.height : thickness_, section.corners};
-    build_of(material.young, section.area);
+    build_of(material.young, material.density, section.area);
+    drag_ = detail::not_negative("drag", material.drag, "1/s");
   }
 
   /// For a section known by its stiffness.   @param length [m]   @param thickness [m]
@@ -145,6 +146,8 @@ class Rod : public detail::Slender<Rod, RodSection, RodArc> {
   const RodPose& left_pose() const noexcept { return left_pose_; }
   /// Null where the natural shape places it.
   const RodPose* right_pose() const noexcept { return right_pose_ ? &*right_pose_ : nullptr; }
+  /// α of the air [1/s]
+  double drag() const noexcept { return drag_; }
   /// Empty where there is none.
   RodLoad load() const {
     if (specific_weight_.isZero(0)) return load_;
@@ -180,6 +183,7 @@ class Rod : public detail::Slender<Rod, RodSection, RodArc> {
   }
 
   RodStiffness stiffness_;
+  double drag_ = 0;
   RodMaterial material_{0, 0};  // not known where the stiffness is given
   RodOutline outline_;
   RodSupport left_, right_;

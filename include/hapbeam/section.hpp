@@ -75,14 +75,16 @@ struct RodSection {
 
 /// Linear elastic material of a rod.
 struct RodMaterial {
-  double young;  ///< Young's modulus E [Pa]
-  double shear;  ///< shear modulus G [Pa]
+  double young;        ///< Young's modulus E [Pa]
+  double shear;        ///< shear modulus G [Pa]
+  double density = 0;  ///< [kg/m³]; 0: not known, and the rod has no mass
+  double drag = 0;     ///< α of the air [1/s]: a force of α m v on a model with mass
 
   /// @param poisson  ν, more than -1 and at most 0.5; G = E/(2 (1 + ν))
-  static RodMaterial isotropic(double young, double poisson) {
+  static RodMaterial isotropic(double young, double poisson, double density = 0) {
     if (!(poisson > -1 && poisson <= 0.5))
       detail::reject("poisson", poisson, "", "more than -1 and at most 0.5");
-    return {young, young / (2 * (1 + poisson))};
+    return {young, young / (2 * (1 + poisson)), density};
   }
 };
 
@@ -192,6 +194,8 @@ class Slender {
     for (const Arc& arc : arcs) arc.check();
     return arcs_ = std::move(arcs), body();
   }
+  /// [kg/m] at arc position s; 0 where the density is not known.
+  double mass_per_length(double s) const { return density_ > 0 ? density_ * area_(s) : 0; }
   /// Gives parts of it sections of their own, from the left end on: a taper or steps.  The avatar touches a round surface of the
   /// thickness that it was built with, and the strain there is that of this thickness.
   /// @throws std::invalid_argument unless the ends increase, up to the length, and it was built of a material
@@ -224,12 +228,13 @@ class Slender {
   Slender(double length, double thickness)
       : length_(positive("length", length, "m")), thickness_(positive("thickness", thickness, "m")) {}
   /// Knows its material and its section.
-  void build_of(double young, double area) {
+  void build_of(double young, double density, double area) {
     young_ = young;
+    density_ = not_negative("density", density, "kg/m³");
     area_ = [area](double) { return area; };
   }
 
-  double length_, thickness_, young_ = 0;
+  double length_, thickness_, young_ = 0, density_ = 0;
   std::function<double(double)> area_;  // empty where only the stiffness is known
   std::vector<Arc> arcs_;
   std::vector<Part> parts_;

@@ -19,7 +19,6 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
  public:
   using Scalar = typename Model::Scalar;
   static constexpr int dimension = dimension_of<Model>;
-  static_assert(dimension == 2, "a beam with mass is planar");
   using Vector = VectorOf<Scalar, dimension>;
   using Result = TouchResult<Scalar, dimension>;
 
@@ -56,8 +55,9 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
     // One that holds the beam cannot have gone round its end.
     memory_.touching = memory_.through = pressing_;
     memory_.side = side_;
-    result.contact = find_contact(Avatar<Scalar>{hand, avatar_radius_}, model_.shape(),
-                                  volumes_.fitted(model_.shape()), model_.thickness(), memory_);
+    const Avatar<Scalar, dimension> avatar{hand, avatar_radius_};
+    result.contact =
+        find_contact(avatar, model_.shape(), volumes_.fitted(model_.shape()), model_.thickness(), memory_);
     if (result.contact.segment < 0) {
       result.status = Status::invalid_request;
       result.pressing = pressing_;
@@ -65,8 +65,11 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
     }
     side_ = result.contact.side;
     if (!pressing_) friction_.dissipated = 0;
-    const Circle<Scalar> round{result.contact.s, hand, reach, static_cast<Scalar>(side_)};
-    const Pushed<Scalar> pushed = model_.step(dt, {round, stiffness, damping, rough() ? &friction_ : nullptr});
+    Coupled<Scalar, dimension> coupled{
+        {result.contact.s, avatar.place(), reach}, stiffness, damping, rough() ? &friction_ : nullptr};
+    if constexpr (dimension == 2) coupled.hand.side = static_cast<Scalar>(side_);
+    else coupled.hand.normal = pressing_ ? normal_ : result.contact.normal;
+    const auto pushed = model_.step(dt, coupled);
     result.status = pushed.status;
     // Of one that is stopped while it is pressed the side is known still.
     if (is_answer(pushed.status)) pressing_ = pushed.force < 0;
@@ -79,7 +82,8 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
       result.force += result.friction;
       result.sliding = friction_.slides, result.dissipated = friction_.dissipated;
     }
-    result.press = {pushed.s, pushed.point.y()};
+    result.press = {pushed.s, dimension == 2 ? pushed.point.y() : pushed.normal.dot(pushed.point)};
+    normal_ = pushed.normal;
     off_ = pushed.point + reach * pushed.normal - hand;
     return result;
   }
@@ -98,9 +102,9 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
   BoundingVolumes<Scalar, dimension> volumes_;
   ContactMemory<Scalar, dimension> memory_;
   FrictionState<Scalar, dimension> friction_;
-  Vector off_ = Vector::Zero();
-  Scalar rest_ = 0;  // energy at rest [J]
-  int side_ = 1;     // from which it is touched
+  Vector off_ = Vector::Zero(), normal_ = Vector::Zero();  // the last: out of the beam, while it is pressed
+  Scalar rest_ = 0;                                        // energy at rest [J]
+  int side_ = 1;                                           // from which it is touched
   bool pressing_ = false;
 };
 

@@ -230,6 +230,19 @@ class BeamChain {
     for (int i = 0; i < parts_.nodes().size(); ++i) parts_.nodes()[i] = at(i);
     ends_.correct(parts_.nodes());
   }
+  /// A node of another shape of the same beam.
+  static Node laid(const Node& node, const Centreline<Scalar>& shape) noexcept {
+    const Displacement<Scalar> at = shape.at(node.s);
+    return {node.s, at.u, at.w, at.theta};
+  }
+  /// A node that goes from place and tangent to others: it turns as the tangent does.
+  static Node moved(const Node& node, const detail::Placed<Scalar>& from,
+                    const detail::Placed<Scalar>& to) noexcept {
+    const Scalar along = from[2] * to[2] + from[3] * to[3], aside = from[3] * to[2] - from[2] * to[3];
+    return {node.s, to[0] - node.s, to[1],
+            node.theta + detail::angle(aside, along, std::sqrt(along * along + aside * aside))};
+  }
+  static Scalar drag(const Beam& beam) noexcept { return static_cast<Scalar>(beam.damping().drag); }
   /// Bends it a little, without a contact to where its loads push.   @param contact  its place, negative: none
   void nudge(Scalar size, Scalar contact, Scalar load) noexcept {
     const auto move = [&](Scalar by) { detail::nudge(parts_.nodes(), contact, by); };

@@ -23,12 +23,18 @@ namespace hapbeam {
 template <class Element = Corotational<>, typename ScalarType = double, int Elements = Eigen::Dynamic,
           int MaxElements = Elements>
 class DynamicModel {
-  static_assert(any_rotation<Element> && dimension_of<Element> == 2,
-                "DynamicModel takes elements as Corotational<>");
-  using System = BeamSystem<Element, ScalarType, Elements, MaxElements>;
+  static_assert(any_rotation<Element> && detail::unknowns_of<Element>() % 3 == 0,
+                "DynamicModel takes elements as Corotational<> and RoundRod");
+  using System = typename detail::SystemOf<Element>::template System<ScalarType, Elements, MaxElements>;
+  using Chain = typename System::Chain;
 
  public:
   using Scalar = ScalarType;
+  using Body = typename Chain::Body;
+  static constexpr int dimension = dimension_of<Element>;
+  using Vector = VectorOf<Scalar, dimension>;
+  using Hand = Coupled<Scalar, dimension>;
+  using Felt = Pushed<Scalar, dimension>;
   /// Hands that may touch it at once.
   static constexpr int contacts = contacts_of<Element>;
   /// No step is longer: what a late tick has missed is left out [s].
@@ -39,7 +45,7 @@ class DynamicModel {
   /// At rest under its dead loads.
   /// @param substeps  parts of a step, each of two solves
   /// @throws std::invalid_argument where the beam has no density, or as FemModel
-  DynamicModel(const Beam& beam, int elements, int substeps = 4)
+  DynamicModel(const Body& beam, int elements, int substeps = 4)
       : system_(beam, elements),
         inertia_(beam, elements, [this](int i) { return system_.node(i).s; }),
         steps_(elements),
@@ -48,10 +54,10 @@ class DynamicModel {
         last_(elements),
         substeps_(substeps),
         thickness_(static_cast<Scalar>(beam.thickness())),
-        drag_(static_cast<Scalar>(beam.damping().drag)),
-        viscosity_(beam, elements, [this](int e) { return system_.parts().properties()[e]; }),
-        contacts_(PressRange<Scalar>(beam).range(), fixes_u(beam.left()) && fixes_w(beam.left()),
-                  fixes_u(beam.right()) && fixes_w(beam.right())) {
+        drag_(Chain::drag(beam)),
+        viscosity_(beam, elements, system_.parts()),
+        contacts_(PressRange<Scalar>(beam).range(), detail::anchored(beam.left()),
+                  detail::anchored(beam.right())) {
     if (substeps < 1) detail::reject("substeps", substeps, "", "1 or more");
     let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
     system_.keep(rest_);
@@ -60,30 +66,32 @@ class DynamicModel {
   /// Back to rest.
   void reset() noexcept { begin(rest_); }
   /// Lets it go from another shape, without velocity.   @param shape  of the same beam, as of a FemModel
-  void let_go_from(const Centreline<Scalar>& shape) noexcept {
+  void let_go_from(const Centreline<Scalar, dimension>& shape) noexcept {
     system_.keep(before_);
-    for (int i = 0; i <= system_.elements(); ++i) {
-      auto& node = before_.nodes[i];
-      const Displacement<Scalar> at = shape.at(node.s);
-      node.u = at.u, node.w = at.w, node.theta = at.theta;
-    }
+    for (auto& node : before_.nodes) node = Chain::laid(node, shape);
     system_.set_state(before_);
     system_.find_tensions();
     system_.keep(before_);
     begin(before_);
+  }
+  /// The same, and thrown.   @param velocity  (s) -> that of the centreline there, and how that changes along it, below each other [m/s, 1/s]
+  template <class Velocity>
+  void let_go_from(const Centreline<Scalar, dimension>& shape, Velocity&& velocity) noexcept {
+    let_go_from(shape);
+    steps_.throw_at([&](int i) { return velocity(system_.node(i).s); });
   }
 
   /// Goes on by a time.   @param dt [s], not negative
   /// @return ok | iteration_limit: it has stopped where a part had no solution | invalid_request: nothing has changed
   Status step(Scalar dt) noexcept { return go(dt, nullptr, 0); }
   /// The same with a hand, which moves evenly from where it was.   @return force and place at the end of the step; not limited in size
-  Pushed<Scalar> step(Scalar dt, const Coupled<Scalar>& hand) noexcept {
-    Pushed<Scalar> pushed;
+  Felt step(Scalar dt, const Hand& hand) noexcept {
+    Felt pushed;
     pushed.status = step(dt, &hand, 1, &pushed);
     return pushed;
   }
   /// The same with several hands, each with its number in every step.   @param count  of them, no more than contacts   @param pushed  out, of each
-  Status step(Scalar dt, const Coupled<Scalar>* hands, int count, Pushed<Scalar>* pushed) noexcept {
+  Status step(Scalar dt, const Hand* hands, int count, Felt* pushed) noexcept {
     const Status status = go(dt, hands, count);
     for (int i = 0; i < count && i < contacts; ++i) {
       pushed[i] = contacts_.pushed(i);
@@ -95,15 +103,15 @@ class DynamicModel {
   int elements() const noexcept { return system_.elements(); }
   int substeps() const noexcept { return substeps_; }
   Scalar thickness() const noexcept { return thickness_; }  ///< [m]
-  Centreline<Scalar> shape() const noexcept { return system_.drawn(); }
+  Centreline<Scalar, dimension> shape() const noexcept { return system_.drawn(); }
   /// [m/s] at arc position s.
-  Vector2<Scalar> velocity(Scalar s) const noexcept {
-    const Centreline<Scalar> line = system_.centreline();
+  Vector velocity(Scalar s) const noexcept {
+    const auto line = system_.centreline();
     const int e = line.segment_at(s);
     const Scalar l = line[e + 1].s - line[e].s, t = (s - line[e].s) / l, u = 1 - t;
     const auto &a = steps_[e].v, &b = steps_[e + 1].v;
-    return u * u * (1 + 2 * t) * a.template head<2>() + l * t * u * u * a.template tail<2>() +
-           t * t * (3 - 2 * t) * b.template head<2>() - l * t * t * u * b.template tail<2>();
+    return u * u * (1 + 2 * t) * a.template head<dimension>() + l * t * u * u * a.template tail<dimension>() +
+           t * t * (3 - 2 * t) * b.template head<dimension>() - l * t * t * u * b.template tail<dimension>();
   }
   struct Energy {
     Scalar kinetic, strain, loads;  ///< [J], the last of the dead loads
@@ -142,7 +150,7 @@ class DynamicModel {
     system_.set_state(state);
     system_.keep(last_);
     stop();
-    viscosity_.relax(bent());
+    viscosity_.relax(system_.parts());
     contacts_.reset();
     for (auto& curvature : curvature_) curvature = {};
     starts_ = true;
@@ -150,12 +158,9 @@ class DynamicModel {
   }
   /// All velocity is gone.
   void stop() noexcept {
-    steps_.stop([this](int i) { return detail::placed(system_.node(i)); });
+    const auto& at = inertia_.find(system_.parts().nodes());
+    steps_.stop([&at](int i) { return at[i]; });
     viscosity_.stop();
-  }
-  /// Displacements of the nodes of an element.
-  auto bent() const noexcept {
-    return [this](int e) { return system_.parts().displacements(e); };
   }
   /// What pulls at it accelerates it: as it does within a hundredth of the first part.
   void accelerate(Scalar part) noexcept {
@@ -167,7 +172,7 @@ class DynamicModel {
     system_.set_state(before_);
   }
 
-  Status go(Scalar dt, const Coupled<Scalar>* hands, int count) noexcept {
+  Status go(Scalar dt, const Hand* hands, int count) noexcept {
     solves_ = 0;
     bool valid = dt >= 0 && std::isfinite(dt) && count >= 0 && count <= contacts;
     for (int i = 0; valid && i < count; ++i)
@@ -218,16 +223,12 @@ class DynamicModel {
     const Scalar onward = steps_.onward(stage);
     system_.go_on(last_, onward);
     system_.chain().place([&](int i) {
-      const auto &from = steps_.start(stage, i).q, to = steps_.foreseen(stage, i);
-      // As the tangent turns from where it was.
-      const Scalar along = from[2] * to[2] + from[3] * to[3], aside = from[3] * to[2] - from[2] * to[3];
-      const auto& was = last_.nodes[i];
-      const Scalar turn = detail::angle(aside, along, std::sqrt(along * along + aside * aside));
-      return CentrelineNode<Scalar>{was.s, to[0] - was.s, to[1], was.theta + turn};
+      return Chain::moved(last_.nodes[i], steps_.start(stage, i).q, steps_.foreseen(stage, i));
     });
-    const bool found = contacts_.solve(system_, steps_.length(stage), way, onward, [&] {
+    const bool found = contacts_.solve(system_, steps_.length(stage), way, onward, [&](bool touched) {
       NewtonRaphson solver;
       solver.pairs_differ = false;
+      if (!touched) solver.relative_tolerance = free_tolerance;
       const auto report = solver.solve(system_, Scalar(1), &curvature_[stage]);
       solves_ += report.solves;
       return report.status == Status::ok;
@@ -235,19 +236,21 @@ class DynamicModel {
     if (!found) return false;
     const auto& found_at = inertia_.find(system_.parts().nodes());
     for (int i = 0; i <= system_.elements(); ++i) steps_.know(stage, i, found_at[i]);
-    viscosity_.know(stage, bent());
+    viscosity_.know(stage, system_.parts());
     return true;
   }
 
+  static constexpr double free_tolerance = 1e-9;  // errors of steps add up where no hand is
+
   System system_;
-  typename System::Chain::Inertia inertia_;
-  TrBdf2<Scalar, Elements, MaxElements> steps_;
+  typename Chain::Inertia inertia_;
+  TrBdf2<Scalar, Elements, MaxElements, dimension> steps_;
   typename System::State rest_, before_, last_;  // at rest, before a part, and before the last stage
   Curvature<Scalar> curvature_[2];               // of both stages
   int substeps_, solves_ = 0;
   Scalar thickness_;
   Scalar drag_;
-  typename System::Chain::Viscosity viscosity_;
+  typename Chain::Viscosity viscosity_;
   detail::CoupledContacts<System, contacts> contacts_;
   void* listens_ = nullptr;
   Listener listener_ = nullptr;

@@ -4,9 +4,6 @@
 //
 //   Π = V + ½ c |q - q~|²          |·|² = qᵀ M q,   q: place and unit tangent (x, y, cos θ, -sin θ) of each node
 //
-// In these unknowns the consistent mass of the cubic is constant.  That of sections that turn, ρI, is left out: the first frequency between hinges is
-// (πh/L)²/24 of itself too high, h: height.
-//
 // A step is the trapezoidal rule to a part G of it, then the second backward difference:
 //
 //   minimise V(x) + ½ c |q(x) - q~|²       twice, with one c:  M c (q - q~) is the inertia, and the air's drag M α v
@@ -16,16 +13,15 @@
 //   v = v~ + r (q - q^),   a = c (q - q^),   r² = c
 //
 // Allocates and throws at construction; all else is noexcept and allocation-free, O(n).
-// Source: derived here; consistent mass, Archer 1963; the step, Bank and others, IEEE Trans. CAD 4, 1985; Hosea and Shampine, Appl.
+// Source: derived here; the step, Bank and others, IEEE Trans. CAD 4, 1985; Hosea and Shampine, Appl.
 // Numer. Math. 20, 1996.
 #pragma once
-
-#include <array>
 
 #include <hapbeam/angle.hpp>
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/mass_blocks.hpp>
 #include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/unroll.hpp>
@@ -43,61 +39,16 @@ Placed<S> placed(const CentrelineNode<S>& node) noexcept {
 }
 
 template <typename S, int Elements, int MaxElements>
-class Inertia {
-  using Values = PerNode<Placed<S>, Elements, MaxElements>;
+class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
+  using Base = MassBlocks<S, 2, Elements, MaxElements>;
+  using Base::blocks_, Base::ghost_, typename Base::Block, typename Base::Blocks;
 
  public:
-  /// @param at  (i) -> arc position of node i [m]   @throws std::invalid_argument where the beam has no density
+  using typename Base::Values;
+
   template <class At>
   Inertia(const Beam& beam, int elements, At&& at)
-      : masses_(elements), blocks_(elements), ghost_(elements), at_(elements), seen_(elements) {
-    for (int e = 0; e < elements; ++e) {
-      const double from = static_cast<double>(at(e)), l = static_cast<double>(at(e + 1)) - from;
-      Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
-      // Exact where the mass is even or tapers linearly.
-      constexpr std::array<double, 4> x{0.0694318442029737124, 0.330009478207571868, 0.669990521792428132,
-                                        0.930568155797026288},
-          w{0.173927422568726929, 0.326072577431273071, 0.326072577431273071, 0.173927422568726929};
-      for (std::size_t g = 0; g < x.size(); ++g) {
-        const double t = x[g], u = 1 - t;
-        const Eigen::Vector4d h(u * u * (1 + 2 * t), l * t * u * u, t * t * (3 - 2 * t), -l * t * t * u);
-        const double mass = beam.mass_per_length(from + t * l);
-        if (!(mass > 0))
-          reject("density", mass, "kg/m³", "known for a beam that moves: Material{young, density}");
-        sum += w[g] * l * mass * h * h.transpose();
-      }
-      masses_[e] = sum.template cast<S>();
-    }
-    set_rate(1);
-  }
-
-  /// @param c [1/s²]
-  void set_rate(S c) noexcept {
-    if (c == rate_) return;
-    rate_ = c;
-    const int last = blocks_.size() - 1;
-    const auto of_both = [](S place, S tangent) { return Placed<S>(place, place, tangent, tangent); };
-    for (int i = 0; i <= last; ++i) {
-      Eigen::Matrix<S, 2, 2> own = Eigen::Matrix<S, 2, 2>::Zero(), next = own, before = own;
-      if (i > 0) {
-        own += c * masses_[i - 1].template bottomRightCorner<2, 2>();
-        before = c * masses_[i - 1].template bottomLeftCorner<2, 2>();
-      }
-      if (i < last) {
-        own += c * masses_[i].template topLeftCorner<2, 2>();
-        next = c * masses_[i].template topRightCorner<2, 2>();
-      }
-      const auto block = [&](const auto& M) {
-        return Block{of_both(M(0, 0), M(1, 1)), of_both(M(0, 1), M(1, 0))};
-      };
-      blocks_[i] = {block(own), block(next), block(before)};
-    }
-  }
-  Values& ghost() noexcept { return ghost_; }
-  const Values& ghost() const noexcept { return ghost_; }
-  /// What increments are measured by, beside the strain energy [J].
-  S scale() const noexcept { return scale_; }
-  void set_scale(S energy) noexcept { scale_ = energy; }
+      : Base(beam, elements, at), at_(elements), seen_(elements) {}
 
   /// Place and unit tangent of each node, as they lie now.
   template <class Nodes>
@@ -119,14 +70,14 @@ class Inertia {
   S look(const Nodes& nodes) noexcept {
     find(nodes);
     Placed<S> sum = Placed<S>::Zero();
-    each_product([this](int i) HAPBEAM_INLINED { return Placed<S>(at_[i] - ghost_[i]); },
-                 [&](int i, const Placed<S>& off, const Placed<S>& force) HAPBEAM_INLINED {
-                   const Placed<S>& at = at_[i];
-                   const S along = at[2] * force[2] + at[3] * force[3],
-                           aside = at[3] * force[2] - at[2] * force[3];
-                   seen_[i] = {{force[0], force[1]}, aside, blocks_[i].own.own[2] - along};
-                   sum += force.cwiseProduct(off);
-                 });
+    this->each_product([this](int i) HAPBEAM_INLINED { return Placed<S>(at_[i] - ghost_[i]); },
+                       [&](int i, const Placed<S>& off, const Placed<S>& force) HAPBEAM_INLINED {
+                         const Placed<S>& at = at_[i];
+                         const S along = at[2] * force[2] + at[3] * force[3],
+                                 aside = at[3] * force[2] - at[2] * force[3];
+                         seen_[i] = {{force[0], force[1]}, aside, blocks_[i].own.own[2] - along};
+                         sum += force.cwiseProduct(off);
+                       });
     return sum.sum() / 2;
   }
   /// Adds to an element's residual and tangent what is its first node's, the last one's its second's, too, and what couples both: as read by
@@ -150,62 +101,27 @@ class Inertia {
     K(2, 3) += next.other[2] * a[0], K(2, 4) += next.other[2] * a[1];
     K(2, 5) += next.own[2] * a.dot(b);
   }
-  /// ½ |v|² [J].   @param v  (i) -> Placed of node i
-  template <class V>
-  S energy(V&& v) const noexcept {
-    Placed<S> sum = Placed<S>::Zero();
-    each_product(
-        v, [&](int, const Placed<S>& x, const Placed<S>& by) HAPBEAM_INLINED { sum += by.cwiseProduct(x); });
-    return sum.sum() / (2 * rate_);
-  }
 
  private:
-  /// Of c M, alike along x and y: what place and tangent of a node feel of themselves, and of each other.
-  struct Block {
-    Placed<S> own = Placed<S>::Zero(), other = Placed<S>::Zero();
-    [[gnu::always_inline]] Placed<S> operator*(const Placed<S>& off) const noexcept {
-      return own.cwiseProduct(off) + other.cwiseProduct(Placed<S>(off[2], off[3], off[0], off[1]));
-    }
-  };
-  /// Of a node, with the next one and the one before.
-  struct Blocks {
-    Block own, next, before;
-  };
-  /// Calls use(i, x, c M x) for each node.   @param of  (i) -> x of node i
-  template <class Of, class Use>
-  [[gnu::always_inline]] void each_product(Of&& of, Use&& use) const noexcept {
-    const int last = blocks_.size() - 1;
-    Placed<S> before = Placed<S>::Zero(), here = of(0);
-    for (int i = 0; i <= last; ++i) {
-      const Placed<S> next = i < last ? Placed<S>(of(i + 1)) : here;  // the last one has no block of it
-      const Blocks& to = blocks_[i];
-      use(i, here, Placed<S>(to.own * here + to.next * next + to.before * before));
-      before = here, here = next;
-    }
-  }
-
   /// A node as it lies.
   struct Seen {
     Vector2<S> force;  ///< c M (q - q~) on its place [N],
     S moment;          ///< and on θ [N·m]
     S stiffness;       ///< by θ [N·m]
   };
-  PerNode<Eigen::Matrix<S, 4, 4>, Elements, MaxElements>
-      masses_;  // of places and tangents, a component [kg], [kg·m], [kg·m²]
-  PerNode<Blocks, Elements, MaxElements> blocks_;
-  Values ghost_, at_;  // q~, q
+  Values at_;  // q
   PerNode<Seen, Elements, MaxElements> seen_;
-  S rate_ = 0, scale_ = 0;
 };
 
 }  // namespace hapbeam::detail
 
 namespace hapbeam {
 
-template <typename S, int Elements, int MaxElements>
+/// @tparam D  2 | 3
+template <typename S, int Elements, int MaxElements, int D = 2>
 class TrBdf2 {
  public:
-  using Placed = detail::Placed<S>;
+  using Placed = Eigen::Matrix<S, 2 * D, 1>;
   /// How one node moves.
   struct State {
     Placed q = Placed::Zero(), v = Placed::Zero(), a = Placed::Zero();
@@ -233,6 +149,11 @@ class TrBdf2 {
   void stop(Where&& q) noexcept {
     for (int i = 0; i < now_.size(); ++i) now_[i] = {}, now_[i].q = q(i);
     follows_ = false;
+  }
+  /// @param v  (i) -> velocity of node i
+  template <class Velocity>
+  void throw_at(Velocity&& v) noexcept {
+    for (int i = 0; i < now_.size(); ++i) now_[i].v = v(i);
   }
   /// Where it was before the last step, with the acceleration behind it.
   void start_again() noexcept {

@@ -15,6 +15,7 @@
 #include <hapbeam/fem/contact/rod_round_contact.hpp>
 #include <hapbeam/fem/rod/rod_elements.hpp>
 #include <hapbeam/fem/rod/rod_ends.hpp>
+#include <hapbeam/fem/rod/rod_inertia.hpp>
 #include <hapbeam/fem/rod/rod_motion.hpp>
 
 namespace hapbeam {
@@ -42,6 +43,8 @@ class RodChain {
   using Friction = detail::ContactFriction<Scalar, 3, detail::RodRoundContact>;
   using Assembler = detail::AssemblerOf<Element, Scalar, Elements, MaxElements>;
   using Drawn = detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>>;
+  using Inertia = detail::RodInertia<Scalar, Elements, MaxElements>;
+  using Viscosity = detail::Elastic;
   static constexpr int unknowns = Element::unknowns;
   using Increment = VectorOf<Scalar, unknowns>;
 
@@ -63,6 +66,8 @@ class RodChain {
 
   Parts& parts() noexcept { return parts_; }
   const Parts& parts() const noexcept { return parts_; }
+  /// Of what it is in motion with; null: at rest.
+  void move_with(Inertia* inertia, const Viscosity*) noexcept { inertia_ = inertia; }
 
   // Nodes of ChainSystem's states.
 
@@ -163,7 +168,10 @@ class RodChain {
     energy += ends_.visit_springs(
         parts_.nodes(), [&](int i, const Block& K, const Increment& r) { assembler.add_at(i, K, r); });
     if (rows.any()) energy += add_contacts(rows, assembler);
-    return {energy, work, inner, (std::max)(energy, Scalar(0))};  // without stress round-off has either sign
+    if constexpr (unknowns == 6)
+      if (inertia_) energy += inertia_->add(parts_.nodes(), assembler);
+    // Without stress round-off has either sign.
+    return {energy, work, inner, (std::max)(energy, Scalar(0)) + (inertia_ ? inertia_->scale() : Scalar(0))};
   }
   Increment increment(const Assembler& assembler, int i) const noexcept {
     const Increment x = assembler.increment(i);
@@ -177,7 +185,7 @@ class RodChain {
     increments_.take(assembler);
     for (std::size_t k = 0; k < 2; ++k)
       if (const int i = ends_.node(k); ends_.has(i)) increments_.set(i, increment(assembler, i));
-    const bool free = !rows.any();
+    const bool free = !rows.any() && !inertia_;
     Scalar longer = 0;
     if (free) detail::turn_chords(parts_.nodes(), increments_);
     parts_.advance_inners(increments_, [&](int e) { return parts_.taut() && rows.in(e); });
@@ -197,6 +205,26 @@ class RodChain {
     ends_.correct(parts_.nodes());
     return longer;
   }
+  /// Places its nodes alone.   @param at  i -> node
+  template <class At>
+  void place(At&& at) noexcept {
+    for (int i = 0; i < parts_.nodes().size(); ++i) parts_.nodes()[i] = at(i);
+    ends_.correct(parts_.nodes());
+  }
+  /// A node of another shape of the same rod.
+  static Node laid(const Node& node, const Centreline<Scalar, 3>& shape) noexcept {
+    const RodPoint<Scalar> at = shape.at(node.s);
+    return moved(node, {}, (typename Inertia::Placed() << at.r, at.tangent).finished());
+  }
+  /// A node that goes to place and tangent.
+  static Node moved(const Node& node, const typename Inertia::Placed&,
+                    const typename Inertia::Placed& to) noexcept {
+    Node there = node;
+    there.r = to.template head<3>();
+    detail::set_tangent<Scalar>(there, to.template tail<3>());
+    return there;
+  }
+  static Scalar drag(const Rod& rod) noexcept { return static_cast<Scalar>(rod.drag()); }
   /// Bends it a little, without a contact to where its loads push.   @param contact  its place, negative: none
   void nudge(Scalar size, Scalar contact, Scalar load) noexcept {
     const Node& middle = node(parts_.size() / 2);
@@ -275,6 +303,7 @@ class RodChain {
   detail::RodIncrements<Scalar, Elements, MaxElements, unknowns> increments_;  // in advance()
   detail::RodEnds<Scalar, unknowns> ends_;
   Scalar length_, axial_;
+  Inertia* inertia_ = nullptr;  // of what it is in motion with
 };
 
 template <class Element, typename Scalar, int Elements, int MaxElements>

@@ -31,9 +31,9 @@ class Viscosity {
   static constexpr int most = std::tuple_size<decltype(Damping::branches)>::value;
 
  public:
-  /// @param properties  (e) -> of element e, elastic
-  template <class Properties>
-  Viscosity(const Beam& beam, int elements, Properties&& properties)
+  /// @param parts  BeamElements, elastic, here and below
+  template <class Parts>
+  Viscosity(const Beam& beam, int elements, const Parts& parts)
       : viscosity_(static_cast<S>(beam.damping().viscosity)),
         elastic_(elements),
         viscous_(elements),
@@ -43,15 +43,15 @@ class Viscosity {
     for (const Relaxation& branch : beam.damping().branches)
       if (branch.share > 0)
         branches_[count_++] = {static_cast<S>(branch.share), static_cast<S>(branch.time), 0};
-    for (int e = 0; e < elements; ++e) elastic_[e] = properties(e);
+    for (int e = 0; e < elements; ++e) elastic_[e] = parts.properties()[e];
   }
 
   bool none() const noexcept { return viscosity_ == 0 && count_ == 0; }
 
-  /// It has been as it is for long.   @param bent  (e) -> displacements of its nodes
-  template <class Bent>
-  void relax(Bent&& bent) noexcept {
-    for (int e = 0; e < size(); ++e) now_[e] = {}, now_[e].strain = strain(e, bent(e));
+  /// It has been as it is for long.
+  template <class Parts>
+  void relax(const Parts& parts) noexcept {
+    for (int e = 0; e < size(); ++e) now_[e] = {}, now_[e].strain = strain(e, parts.displacements(e));
   }
   /// It has stopped as it is.
   void stop() noexcept {
@@ -98,10 +98,10 @@ class Viscosity {
     return energy;
   }
   /// To be called where the stage has been solved.
-  template <class Bent>
-  void know(int stage, Bent&& bent) noexcept {
+  template <class Parts>
+  void know(int stage, const Parts& parts) noexcept {
     for (int e = 0; e < size(); ++e) {
-      const Strain now = strain(e, bent(e)), change = now - strain_from(stage, e);
+      const Strain now = strain(e, parts.displacements(e)), change = now - strain_from(stage, e);
       State state;
       state.strain = now, state.rate = r_ * change;
       for (int i = 0; i < count_; ++i)

@@ -16,22 +16,32 @@
 #include <cstddef>
 
 #include <hapbeam/body/inner_contact.hpp>
+#include <hapbeam/fem/contact/continuation.hpp>
 #include <hapbeam/fem/contact/several_friction.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/support.hpp>
 
 namespace hapbeam::detail {
+
+/// Whether an end can move neither along nor across.
+constexpr bool anchored(Support support) noexcept { return fixes_u(support) && fixes_w(support); }
+inline bool anchored(const RodSupport& support) noexcept {
+  return std::isinf(support.place1) && std::isinf(support.place2) && std::isinf(support.along);
+}
 
 /// @tparam Most  hands
 template <class System, int Most>
 class CoupledContacts {
   using Scalar = typename System::Scalar;
+  static constexpr int dimension = System::dimension;
   using Vector = typename System::Vector;
   using Contact = typename System::Contact;
   using RoundContact = typename System::RoundContact;
-  using Obstacle = hapbeam::Obstacle<Scalar, System::dimension>;
+  using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
   using Friction = SeveralFriction<System, Obstacle, RoundContact, Most>;
-  using State = InnerState<Scalar, System::dimension>;
-  using Hand = Coupled<Scalar>;
+  using State = InnerState<Scalar, dimension>;
+  using Hand = Coupled<Scalar, dimension>;
+  using Round = decltype(Hand::hand);
 
  public:
   static constexpr int most_passes = 2 + 2 * Most;
@@ -51,7 +61,7 @@ class CoupledContacts {
       // One that comes from nowhere has its spring bent as it lies, and a damper at rest.
       if (i >= count_ || !now.known) {
         now = {};
-        now.foot = hands[i].hand.s, now.from = hands[i].hand.centre, now.known = true;
+        now.foot = hands[i].hand.s, now.from = hands[i].hand, now.known = true;
         now.penetration =
             (std::max)(hands[i].hand.reach - look(system, hands[i].hand, now.foot).gap, Scalar(0));
       }
@@ -61,16 +71,16 @@ class CoupledContacts {
   }
   void end() noexcept {
     for (int i = 0; i < count_; ++i) {
-      slot(i).from = hands_[i].hand.centre;
+      slot(i).from = hands_[i].hand;
       if (hands_[i].friction) *hands_[i].friction = slot(i).friction;
     }
   }
   /// Whether nothing is there to be touched.
   bool none() const noexcept { return count_ == 0; }
   /// What hand i feels at the end of a step.
-  Pushed<Scalar> pushed(int i) const noexcept {
+  Pushed<Scalar, dimension> pushed(int i) const noexcept {
     const Slot& now = slots_[of(i)];
-    Pushed<Scalar> pushed{0, Status::ok};
+    Pushed<Scalar, dimension> pushed{0, Status::ok};
     if (!now.touches) return pushed;
     pushed.force = -now.at.force, pushed.s = now.at.s, pushed.point = now.place, pushed.normal = -now.normal;
     return pushed;
@@ -89,15 +99,14 @@ class CoupledContacts {
   }
 
   /// One stage.   @param time τ [s]   @param way  that the hands have gone in the step, 0 to 1   @param onward  as of TrBdf2
-  /// @param newton  () -> whether the system's goal was reached
+  /// @param newton  (whether any touches) -> whether the system's goal was reached
   template <class Newton>
   bool solve(System& system, Scalar time, Scalar way, Scalar onward, Newton&& newton) noexcept {
     for (int i = 0; i < count_; ++i) {
       Slot& now = slot(i);
       const Scalar by_time = hands_[i].damping / time;
       now.whole = hands_[i].stiffness + by_time, now.lasting = by_time * now.penetration / now.whole;
-      now.circle = hands_[i].hand;
-      now.circle.centre = now.from + way * (now.circle.centre - now.from);
+      now.round = between(now.from, hands_[i].hand, way);
       now.let_go = false;
       now.next = now.at;
       if (now.touches) now.foot = now.at.s;
@@ -105,7 +114,7 @@ class CoupledContacts {
       now.friction.stiffness = hands_[i].stiffness, now.friction.damping = by_time;
       now.rigid = now.touches && beside_rigid(look(system, now));
       Obstacle& obstacle = all_[of(i)];
-      obstacle.touching = now.touches && !now.rigid, obstacle.round = now.circle;
+      obstacle.touching = now.touches && !now.rigid, obstacle.round = now.round;
       obstacle.pushed.force = -now.at.force;
       obstacle.friction = rough(i) ? &now.friction : nullptr;
     }
@@ -119,7 +128,7 @@ class CoupledContacts {
         if (slot(i).goal >= 0) system.add_goal(contact(system, i), friction.of(i));
       }
       do
-        if (!newton()) return system.forget_friction(), false;
+        if (!newton(goals > 0)) return system.forget_friction(), false;
       while (friction.any() && !friction.settled(system, [this](int i) { return slot(i).goal; }));
       take(system);
       found = !review(system, friction);
@@ -139,18 +148,20 @@ class CoupledContacts {
  private:
   struct Slot {
     bool known = false, touches = false;
-    bool let_go = false;           // in this stage
-    bool rigid = false;            // it touches beside an end that cannot move
-    int goal = -1, stages = 0;     // its contact in the system, and stages in which it has touched
-    Vector from = Vector::Zero();  // where the hand was at the end of the last step [m]
-    Scalar penetration = 0;        // of the hand in the beam, as it lasts in the damper [m]
-    Scalar foot = 0;               // place that is nearest to the hand, of the beam as it is drawn [m]
-    State at, before, next;        // after the last stage, the one before, and in this one
+    bool let_go = false;        // in this stage
+    bool rigid = false;         // it touches beside an end that cannot move
+    int goal = -1, stages = 0;  // its contact in the system, and stages in which it has touched
+    Round from{};               // the hand at the end of the last step
+    Scalar penetration = 0;     // of the hand in the beam, as it lasts in the damper [m]
+    Scalar foot = 0;            // place that is nearest to the hand, of the beam as it is drawn [m]
+    State at, before, next;     // after the last stage, the one before, and in this one
     Vector place = Vector::Zero(), normal = Vector::Zero();
-    FrictionState<Scalar, System::dimension> friction;
-    Circle<Scalar> circle{};        // where it is in this stage
+    FrictionState<Scalar, dimension> friction;
+    Round round{};                  // the hand in this stage
     Scalar whole = 1, lasting = 0;  // K + B/τ [N/m], and what lasts of the penetration without a force [m]
   };
+  static Vector2<Scalar>& place_of(Circle<Scalar>& circle) noexcept { return circle.centre; }
+  static VectorOf<Scalar, 3>& place_of(Capsule<Scalar>& capsule) noexcept { return capsule.axis.tip; }
   static constexpr std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
   Slot& slot(int i) noexcept { return slots_[of(i)]; }
   bool rough(int i) const noexcept { return hands_[i].friction && hands_[i].friction->sticking > 0; }
@@ -158,14 +169,15 @@ class CoupledContacts {
   /// From where the avatar is about: on the beam, and not in it as far as the hand.
   Contact contact(const System& system, int i) noexcept {
     Slot& now = slot(i);
-    const auto view = look(system, now).tangent;
-    const Scalar ahead = (std::max)(now.circle.reach - view.distance, Scalar(0));
-    all_[of(i)].round = {now.foot, now.circle.centre + ahead * view.normal,
-                         now.circle.reach + ahead - now.lasting, now.circle.side};
+    const View view = look(system, now);
+    const Scalar aside = now.round.reach * now.round.reach - view.aside,
+                 ahead = (std::max)(std::sqrt((std::max)(aside, Scalar(0))) - view.height, Scalar(0));
+    Round& avatar = all_[of(i)].round = now.round;
+    avatar.s = now.foot, avatar.reach += ahead - now.lasting, place_of(avatar) += ahead * view.facing;
     Contact contact;
     static_cast<State&>(contact) = now.next;
-    RoundContact{all_[of(i)].round}.set(contact);
-    contact.reach = all_[of(i)].round.reach, contact.compliance = 1 / now.whole;
+    RoundContact{avatar}.set(contact);
+    contact.reach = avatar.reach, contact.compliance = 1 / now.whole;
     contact.least = least_, contact.most = most_;
     contact.moves = true, contact.waits = now.next.force == 0;
     return contact;
@@ -182,7 +194,7 @@ class CoupledContacts {
       } else if (now.touches) {
         const View view = look(system, now);
         now.next = {}, now.next.s = now.foot, now.next.force = now.whole * depth(now, view);
-        now.normal = -view.normal, now.place = now.circle.centre - view.gap * view.normal;
+        now.normal = -view.normal, now.place = view.place;
       }
     }
   }
@@ -213,33 +225,43 @@ class CoupledContacts {
     if (deepest >= 0) touch(deepest, true);
     return deepest >= 0;
   }
-  /// How a circle lies beside the beam.
+  /// How what is round lies beside the beam.
   struct View {
-    typename RoundContact::View tangent;  ///< beside the tangent at the foot
+    Vector facing;         ///< unit, across the tangent at the foot, to where it comes from
+    Scalar height, aside;  ///< of the centre along that [m], and how far it is aside of that, squared [m²]
     Scalar gap;     ///< from the beam to the centre, negative behind it; past an end from its last point [m]
     Vector normal;  ///< unit, along that
+    Vector place;   ///< of the beam [m]
     Scalar foot;    ///< [m]
   };
-  static View look(const System& system, Slot& now) noexcept { return look(system, now.circle, now.foot); }
+  static View look(const System& system, Slot& now) noexcept { return look(system, now.round, now.foot); }
   /// @param foot  in and out: the place that is nearest
-  static View look(const System& system, const Circle<Scalar>& circle, Scalar& foot) noexcept {
+  static View look(const System& system, const Round& of, Scalar& foot) noexcept {
     const auto line = system.centreline();
-    const RoundContact round{circle};
+    const RoundContact round{of};
     auto node = round.node_at(line, foot);
     auto view = round.look(node, 0);
-    for (int k = 0; k < 4 && std::abs(view.ahead) > Scalar(1e-7) * circle.reach; ++k) {
+    for (int k = 0; k < 4 && std::abs(view.ahead) > Scalar(1e-7) * of.reach; ++k) {
       foot = std::clamp(foot + view.ahead, Scalar(0), system.length());
       node = round.node_at(line, foot);
       view = round.look(node, 0);
     }
+    const Vector place = RoundContact::place_of(node), off = round.centre(place) - place;
     const bool beyond = (foot <= 0 && view.ahead < 0) || (foot >= system.length() && view.ahead > 0);
-    if (!beyond) return {view, view.distance, view.normal, foot};
-    const Vector off = circle.centre - RoundContact::place_of(node);
-    const Scalar far_off = off.norm();
-    return {view, far_off, off / far_off, foot};
+    Vector facing = view.normal;
+    Scalar height = view.distance, aside = 0;
+    if constexpr (dimension == 3) {
+      // Behind the axis of a rod it has the side from which it came.
+      facing = round.facing(node.tangent), height = facing.dot(off);
+      if (!beyond) aside = (std::max)(off.squaredNorm() - height * height, Scalar(0));
+    }
+    const Scalar size = std::sqrt(off.squaredNorm());
+    if (beyond || (dimension == 3 && height > 0))
+      return {facing, height, aside, size, off / size, place, foot};
+    return {facing, height, aside, height, facing, place, foot};
   }
   static Scalar depth(const Slot& now, const View& view) noexcept {
-    return now.circle.reach - now.lasting - view.gap;
+    return now.round.reach - now.lasting - view.gap;
   }
   bool beside_rigid(const View& view) const noexcept {
     return (view.foot < least_ && rigid_[0]) || (view.foot > most_ && rigid_[1]);

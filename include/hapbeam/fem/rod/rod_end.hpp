@@ -72,7 +72,8 @@ class RodEnd {
   /// Whether the node is turned so little against the target that increments lead there: by less than a quarter of a turn where
   /// its direction is held, and by less than half a turn where springs or its twist are counted from there.
   bool follows(const Node& node) const noexcept {
-    if (!direction_ && !springs_ && !twist_) return true;
+    const bool turned_back = across_[0] > 0 || across_[1] > 0 || torsion_ > 0;
+    if (!direction_ && !turned_back && !twist_) return true;
     if (direction_) return target_.tangent.dot(node.tangent) > 0;
     return target_.tangent.dot(unit(node.tangent)) > Scalar(-0.9999);
   }

@@ -147,6 +147,27 @@ class BlockTridiagonal {
         (inward ? coupled.coupling(i, j).a[0] : coupled.coupling(j, i).a[1]) += K(i, Block + j);
     }
   }
+  /// Adds to a node, after all elements are in, what is alike along each axis of two vectors that its first six unknowns are.
+  /// @param a, b, c  of the first, of both, of the second   @param r  [i] -> residual
+  template <class Residual>
+  void add_even(int node, Scalar a, Scalar b, Scalar c, const Residual& r) noexcept {
+    const auto own = own_of(node);
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 3; ++k) own(k, k) += a, own(3 + k, k) += b, own(3 + k, 3 + k) += c;
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 6; ++k) own[k] -= r[k];
+  }
+  /// The same of what couples the nodes of element e.   @param a, b, c, d  of the first node's first vector with both of the second, of its second with them
+  void couple_even(int e, Scalar a, Scalar b, Scalar c, Scalar d) noexcept {
+    const Place left = place(e), right = place(e + 1);
+    const bool inward = right.lane == 0;
+    const Row coupled = row(inward ? left.row : right.row);
+    const auto put = [&](int i, int j, Scalar by) {
+      (inward ? coupled.coupling(i, j).a[0] : coupled.coupling(j, i).a[1]) += by;
+    };
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 3; ++k) put(k, k, a), put(k, 3 + k, b), put(3 + k, k, c), put(3 + k, 3 + k, d);
+  }
   /// Residual of one unknown of a node so far.
   Scalar residual(int node, int component) noexcept { return -own_of(node)[component]; }
 
