@@ -118,6 +118,38 @@ TEST_CASE("a beam relaxes where its place is held, and creeps where its force is
   }
 }
 
+// Of a beam without mass, loaded at once:  w = w∞ (1 - g/(1 + g) e^(-t/(τ (1 + g)))),  F = k w (1 + g e^(-t/τ)).
+TEST_CASE("a beam without mass creeps under a load and relaxes under a hand, from the first step on",
+          "[dynamics]") {
+  const double g = 0.5, tau = 0.2, s = 0.225, k = 3 * 200e9 * 0.025 * 1e-9 / 12 / (s * s * s);
+  Material material{200e9};
+  material.damping.branches[2] = {g, tau};
+  struct Case {
+    double dt, error;
+  };
+  for (const Case& c : {Case{1e-3, 1e-6}, {1e-2, 5e-5}}) {
+    Beam loaded = ruler(material);
+    loaded.add(PointLoad{s, 0, -1e-4, 0});
+    DynamicModel<> model(loaded, 8, 1), held(ruler(material), 8, 1);
+    model.let_go_from(FemModel<Corotational<>>(ruler(material), 8).shape());
+    const double last = 1e-4 / k, off = 1e-5;
+    for (int i = 1; i * c.dt <= 1; ++i) {
+      const double t = i * c.dt;
+      REQUIRE(model.step(c.dt) == Status::ok);
+      const double creeps = last * (1 - g / (1 + g) * std::exp(-t / (tau * (1 + g))));
+      CAPTURE(c.dt, t, -model.shape().at(s).w / creeps - 1);
+      CHECK(std::abs(-model.shape().at(s).w - creeps) <= c.error * last);
+      const auto felt = held.step(c.dt, {{s, {s, 1e-4 - off}, 1e-4, 1}, 1e9, 0});
+      REQUIRE(felt.status == Status::ok);
+      const double relaxes = k * off * (1 + g * std::exp(-t / tau));
+      CAPTURE(-felt.force / relaxes - 1);
+      CHECK(std::abs(-felt.force - relaxes) <= c.error * k * off);
+    }
+    CHECK(model.energy().kinetic == 0);
+  }
+  CHECK_THROWS_WITH(DynamicModel<>(ruler(Material{200e9}), 8), Catch::Contains("density"));
+}
+
 TEST_CASE("a viscous beam that is let go never has more energy, that of its branches included",
           "[dynamics]") {
   for (const double dt : {1e-3, 1e-4}) {

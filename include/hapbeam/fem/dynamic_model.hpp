@@ -6,6 +6,7 @@
 // step() goes on by a time, alone or with a hand.  Each of its parts is a static solve with one term more, the inertia (dynamics.hpp): the elements, supports
 // and contacts are those of FemModel, and the beam stays where that does.  A hand touches through its coupling, a spring and a damper, within the step: a
 // massless avatar between them has no place of its own, so that no blow is infinite.  Where a part has no solution it is taken back and halved.
+// A beam without density, of a material that is viscous, creeps: each part is static, and steps may be as long as they like.
 // Allocates and throws at construction.  Real-time: every other member is noexcept and allocation-free, at most 15 tries of each part, of two stages.
 #pragma once
 
@@ -44,7 +45,7 @@ class DynamicModel {
 
   /// At rest under its dead loads.
   /// @param substeps  parts of a step, each of two solves
-  /// @throws std::invalid_argument where the beam has no density, or as FemModel
+  /// @throws std::invalid_argument where the beam has no density and is not viscous, or as FemModel
   DynamicModel(const Body& beam, int elements, int substeps = 4)
       : system_(beam, elements),
         inertia_(beam, elements, [this](int i) { return system_.node(i).s; }),
@@ -53,12 +54,15 @@ class DynamicModel {
         before_(elements),
         last_(elements),
         substeps_(substeps),
+        massless_(!(beam.mass_per_length(beam.length() / 2) > 0)),
         thickness_(static_cast<Scalar>(beam.thickness())),
         drag_(Chain::drag(beam)),
         viscosity_(beam, elements, system_.parts()),
         contacts_(PressRange<Scalar>(beam).range(), detail::anchored(beam.left()),
                   detail::anchored(beam.right())) {
     if (substeps < 1) detail::reject("substeps", substeps, "", "1 or more");
+    if (massless_ && viscosity_.none())
+      detail::reject("density", 0, "kg/m³", "known for a beam that moves: Material{young, density}");
     let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
     system_.keep(rest_);
   }
@@ -172,6 +176,23 @@ class DynamicModel {
     system_.set_state(before_);
   }
 
+  /// Without mass it takes its load at once, and creeps on as it does within a hundredth of the first part.
+  bool yield(Scalar part) noexcept {
+    starts_ = false;
+    const auto go_short = [&](Scalar time) {
+      const bool found = go_on(time, 0, 0, 0);
+      const auto& at = inertia_.find(system_.parts().nodes());
+      steps_.stop([&at](int i) { return at[i]; });
+      return found;
+    };
+    if (!go_short(part / 1000000)) return false;
+    viscosity_.stop();
+    if (!go_short(part / 100)) return false;
+    viscosity_.start_again();
+    system_.set_state(before_);
+    return true;
+  }
+
   Status go(Scalar dt, const Hand* hands, int count) noexcept {
     solves_ = 0;
     bool valid = dt >= 0 && std::isfinite(dt) && count >= 0 && count <= contacts;
@@ -179,11 +200,11 @@ class DynamicModel {
       valid = is_finite(hands[i].hand) && hands[i].stiffness > 0 && hands[i].damping >= 0;
     if (!valid) return Status::invalid_request;
     if (!(dt > 0)) return Status::ok;
-    system_.chain().move_with(&inertia_, viscosity_.none() ? nullptr : &viscosity_);
-    const Scalar all = (std::min)(dt, longest), part = all / Scalar(substeps_);
-    if (starts_) accelerate(part);
+    system_.chain().move_with(massless_ ? nullptr : &inertia_, viscosity_.none() ? nullptr : &viscosity_);
+    const Scalar all = massless_ ? dt : (std::min)(dt, longest), part = all / Scalar(substeps_);
+    if (starts_ && !massless_) accelerate(part);
     contacts_.begin(system_, hands, count);
-    bool found = true;
+    bool found = !starts_ || yield(part);
     for (int k = 0; k < substeps_ && found; ++k) {
       found = go_on(part, Scalar(k) / Scalar(substeps_), Scalar(k + 1) / Scalar(substeps_), 0);
       if (found && listener_) listener_(listens_, *this, part);
@@ -220,14 +241,15 @@ class DynamicModel {
     viscosity_.aim(stage);
     contacts_.draw(system_);
     // Tensions go on as they went, and nodes as their accelerations say.
-    const Scalar onward = steps_.onward(stage);
+    const Scalar onward = massless_ ? Scalar(0) : steps_.onward(stage);
     system_.go_on(last_, onward);
-    system_.chain().place([&](int i) {
-      return Chain::moved(last_.nodes[i], steps_.start(stage, i).q, steps_.foreseen(stage, i));
-    });
+    if (!massless_)
+      system_.chain().place([&](int i) {
+        return Chain::moved(last_.nodes[i], steps_.start(stage, i).q, steps_.foreseen(stage, i));
+      });
     const bool found = contacts_.solve(system_, steps_.length(stage), way, onward, [&](bool touched) {
       NewtonRaphson solver;
-      solver.pairs_differ = false;
+      solver.pairs_differ = massless_;
       if (!touched) solver.relative_tolerance = free_tolerance;
       const auto report = solver.solve(system_, Scalar(1), &curvature_[stage]);
       solves_ += report.solves;
@@ -248,13 +270,13 @@ class DynamicModel {
   typename System::State rest_, before_, last_;  // at rest, before a part, and before the last stage
   Curvature<Scalar> curvature_[2];               // of both stages
   int substeps_, solves_ = 0;
+  bool massless_, starts_ = true;
   Scalar thickness_;
   Scalar drag_;
   typename Chain::Viscosity viscosity_;
   detail::CoupledContacts<System, contacts> contacts_;
   void* listens_ = nullptr;
   Listener listener_ = nullptr;
-  bool starts_ = true;
 };
 
 }  // namespace hapbeam

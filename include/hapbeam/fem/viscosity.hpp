@@ -70,6 +70,11 @@ class Viscosity {
   void take_back() noexcept {
     for (int e = 0; e < size(); ++e) now_[e] = before_[e];
   }
+  /// As before the last part, with the rates behind it.
+  void start_again() noexcept {
+    for (int e = 0; e < size(); ++e)
+      now_[e].strain = before_[e].strain, now_[e].branches = before_[e].branches;
+  }
   /// Sets κ and ε° of a stage.
   void aim(int stage) noexcept {
     for (int e = 0; e < size(); ++e) {

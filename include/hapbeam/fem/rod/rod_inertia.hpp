@@ -64,6 +64,7 @@ struct Elastic {
   void begin(S) noexcept {}
   void stop() noexcept {}
   void take_back() noexcept {}
+  void start_again() noexcept {}
   void aim(int) noexcept {}
   int energy() const noexcept { return 0; }
 };
