@@ -6,7 +6,9 @@
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include <hapbeam/element/rod.hpp>
 #include <hapbeam/fem/dynamic_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 #include <hapbeam/haptics/servo/servo_loop.hpp>
 #include <hapbeam/haptics/servo/sound.hpp>
@@ -38,6 +40,53 @@ TEST_CASE("a step of a beam with mass allocates nothing and is bounded", "[dynam
   model.reset();
   CHECK(heap_use([&] { (void)model.step(1e-3), model.reset(), (void)model.energy(); }) == HeapUse{});
   step(0.2, 0.0049, 1e-3);
+}
+
+TEST_CASE("hands that rub, rods and beams that creep allocate nothing", "[dynamics]") {
+  DynamicModel<Several<Corotational<>, 2>> two(
+      Beam(0.3, Section::rectangle(0.025, 0.001), Material{200e9, 7850}, Support::clamped, Support::free), 8,
+      2);
+  DynamicModel<RoundRod> rod(Rod(0.3, RodSection::circle(0.002), RodMaterial::isotropic(200e9, 0.3, 7850),
+                                 RodSupport::clamped, RodSupport::free),
+                             8, 2);
+  Material creeping{200e9};
+  creeping.damping.branches[0] = {0.5, 0.2};
+  DynamicModel<> creeps(
+      Beam(0.3, Section::rectangle(0.025, 0.001), creeping, Support::clamped, Support::free), 8, 1);
+  FrictionState<double, 2> friction[2];
+  for (auto& state : friction) state.sticking = 0.5, state.sliding = 0.4;
+  Random random(6);
+  int touched = 0, failed = 0;
+  for (int k = 0; k < 200; ++k) {
+    // At last they are anywhere.
+    const double wild = k < 150 ? 0 : 0.2, y = 0.006 - 5e-5 * k;
+    const auto at = [&](double x) { return Vector2<double>(x + random(wild), y + random(wild)); };
+    const Coupled<double> hands[2] = {{{0.1, at(0.1 + 1e-4 * k), 0.005, 1}, 2000, 1, &friction[0]},
+                                      {{0.2, at(0.2), 0.005, 1}, 2000, 1, &friction[1]}};
+    const Coupled<double, 3> in_space{
+        {0.2,
+         {VectorOf<double, 3>(0.2, random(wild), y + random(wild)), VectorOf<double, 3>::Zero()},
+         0.005,
+         VectorOf<double, 3>(0, 0, 1)},
+        2000,
+        1};
+    Pushed<double> felt[2];
+    Pushed<double, 3> of_rod;
+    CHECK(heap_use([&] {
+            failed += two.step(1e-3, hands, 2, felt) != Status::ok;
+            of_rod = rod.step(1e-3, in_space);
+            failed += creeps.step(1e-3, hands[1]).status != Status::ok;
+          }) == HeapUse{});
+    failed += of_rod.status != Status::ok;
+    for (const auto& one : felt) {
+      CHECK(std::isfinite(one.force));
+      touched += one.force < 0;
+    }
+    CHECK(std::isfinite(of_rod.force));
+    touched += of_rod.force < 0;
+    if (k == 149) CHECK(failed == 0);
+  }
+  CHECK(touched > 200);
 }
 
 TEST_CASE("a loop of a beam with mass, through faults and resets: no heap, no lock", "[dynamics]") {

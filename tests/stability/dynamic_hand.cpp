@@ -230,6 +230,60 @@ void sweep(int loops, int every) {
 
 }  // namespace
 
+TEST_CASE("a hand that slides over a beam in motion feels Coulomb's law, and one that turns back sticks",
+          "[dynamics]") {
+  Material damped{200e9, 7850, Damping::air(0.5, 30)};
+  const Beam beam(0.3, Section::rectangle(0.025, 0.001), damped, Support::pinned, Support::pinned);
+  DynamicModel<> model(beam, 8, 2);
+  FrictionState<double, 2> friction;
+  friction.sticking = 0.5, friction.sliding = 0.4;
+  const double stiffness = 2000;
+  double x = 0.1;
+  Pushed<double> felt;
+  const auto go = [&](double by, int ticks) {
+    for (int k = 0; k < ticks; ++k) {
+      x += by;
+      felt = model.step(1e-3, {{x, {x, 0.004}, 0.005, 1}, stiffness, 0, &friction});
+      REQUIRE(felt.status == Status::ok);
+      REQUIRE(felt.force <= 0);
+    }
+  };
+  go(2e-5, 2000);
+  CHECK(friction.slides);
+  CHECK(friction.force.norm() == Approx(-0.4 * felt.force).epsilon(1e-4));
+  CHECK(friction.force.x() > 0.39 * -felt.force);  // the beam is dragged along
+  const double before = friction.force.x();
+  go(-1e-6, 20);
+  CHECK(!friction.slides);
+  // A beam between hinges hardly moves along itself.
+  CHECK(friction.force.x() == Approx(before - stiffness * 20e-6).epsilon(0.02));
+}
+
+// Where the beam cannot move its coupling is all that yields.
+TEST_CASE("a hand that slides over a clamped end, and past it, has an answer in each step", "[dynamics]") {
+  const Beam beam(0.3, Section::rectangle(0.025, 0.001), Material{200e9, 7850}, Support::clamped,
+                  Support::clamped);
+  for (const int parts : {1, 4}) {
+    DynamicModel<> model(beam, 8, parts);
+    Pushed<double> felt;
+    for (int k = 0; k < 400; ++k) {
+      const double x = 0.03 - 1e-4 * std::min(k, 300), depth = 0.002;
+      felt = model.step(1e-3, {{x, {x, 0.005 - depth}, 0.005, 1}, 3000, 0});
+      CAPTURE(parts, k);
+      REQUIRE(felt.status == Status::ok);
+      REQUIRE(felt.force < 0);
+    }
+    CHECK(felt.s == 0);
+    CHECK(felt.force == Approx(-3000 * 0.002).epsilon(1e-9));
+    for (int k = 0; k < 100; ++k) {
+      const double x = -1e-4 * k;
+      felt = model.step(1e-3, {{x, {x, 0.003}, 0.005, 1}, 3000, 0});
+      REQUIRE(felt.status == Status::ok);
+    }
+    CHECK(felt.force == 0);  // off the end
+  }
+}
+
 TEST_CASE(
     "late loops gain nothing from a beam with mass by the coupling of their delay: hands that stay, slide "
     "and rub, "

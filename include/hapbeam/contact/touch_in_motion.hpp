@@ -47,15 +47,18 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
   /// One tick.
   /// @param hand [m] centre of the avatar without the beam   @param dt [s] since the tick before; the model may go on by less
   /// @param stiffness K [N/m]   @param damping B [N·s/m], of the coupling
+  /// @param shaft [m] in space, from the tip of a capsule's axis, which is at the hand, to its other end
   /// Real-time: noexcept, no allocation, bounded as the step.
-  [[nodiscard]] Result tick(const Vector& hand, Scalar dt, Scalar stiffness, Scalar damping) noexcept {
+  [[nodiscard]] Result tick(const Vector& hand, Scalar dt, Scalar stiffness, Scalar damping,
+                            [[maybe_unused]] const Vector& shaft = Vector::Zero()) noexcept {
     Result result;
     const Scalar reach = avatar_radius_ + model_.thickness() / 2;
     volumes_.outdate();
     // One that holds the beam cannot have gone round its end.
     memory_.touching = memory_.through = pressing_;
     memory_.side = side_;
-    const Avatar<Scalar, dimension> avatar{hand, avatar_radius_};
+    Avatar<Scalar, dimension> avatar{hand, avatar_radius_};
+    if constexpr (dimension == 3) avatar.shaft = shaft;
     result.contact =
         find_contact(avatar, model_.shape(), volumes_.fitted(model_.shape()), model_.thickness(), memory_);
     if (result.contact.segment < 0) {
@@ -65,10 +68,14 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
     }
     side_ = result.contact.side;
     if (!pressing_) friction_.dissipated = 0;
-    Coupled<Scalar, dimension> coupled{
-        {result.contact.s, avatar.place(), reach}, stiffness, damping, rough() ? &friction_ : nullptr};
-    if constexpr (dimension == 2) coupled.hand.side = static_cast<Scalar>(side_);
-    else coupled.hand.normal = pressing_ ? normal_ : result.contact.normal;
+    Coupled<Scalar, dimension> coupled{};
+    if constexpr (dimension == 2) {
+      coupled.hand = {result.contact.s, hand, reach, static_cast<Scalar>(side_)};
+    } else {
+      coupled.hand = {result.contact.s, avatar.place(), reach, pressing_ ? normal_ : result.contact.normal};
+    }
+    coupled.stiffness = stiffness, coupled.damping = damping;
+    if (rough()) coupled.friction = &friction_;
     const auto pushed = model_.step(dt, coupled);
     result.status = pushed.status;
     // Of one that is stopped while it is pressed the side is known still.

@@ -17,6 +17,7 @@
 
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/fem/contact/continuation.hpp>
+#include <hapbeam/fem/contact/round_beside.hpp>
 #include <hapbeam/fem/contact/several_friction.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/support.hpp>
@@ -42,6 +43,7 @@ class CoupledContacts {
   using State = InnerState<Scalar, dimension>;
   using Hand = Coupled<Scalar, dimension>;
   using Round = decltype(Hand::hand);
+  using View = RoundBeside<Scalar, dimension>;
 
  public:
   static constexpr int most_passes = 2 + 2 * Most;
@@ -62,8 +64,8 @@ class CoupledContacts {
       if (i >= count_ || !now.known) {
         now = {};
         now.foot = hands[i].hand.s, now.from = hands[i].hand, now.known = true;
-        now.penetration =
-            (std::max)(hands[i].hand.reach - look(system, hands[i].hand, now.foot).gap, Scalar(0));
+        now.penetration = (std::max)(
+            hands[i].hand.reach - look_beside<RoundContact>(system, hands[i].hand, now.foot).gap, Scalar(0));
       }
       if (hands[i].friction) now.friction = *hands[i].friction;
     }
@@ -75,8 +77,6 @@ class CoupledContacts {
       if (hands_[i].friction) *hands_[i].friction = slot(i).friction;
     }
   }
-  /// Whether nothing is there to be touched.
-  bool none() const noexcept { return count_ == 0; }
   /// What hand i feels at the end of a step.
   Pushed<Scalar, dimension> pushed(int i) const noexcept {
     const Slot& now = slots_[of(i)];
@@ -225,40 +225,8 @@ class CoupledContacts {
     if (deepest >= 0) touch(deepest, true);
     return deepest >= 0;
   }
-  /// How what is round lies beside the beam.
-  struct View {
-    Vector facing;         ///< unit, across the tangent at the foot, to where it comes from
-    Scalar height, aside;  ///< of the centre along that [m], and how far it is aside of that, squared [m²]
-    Scalar gap;     ///< from the beam to the centre, negative behind it; past an end from its last point [m]
-    Vector normal;  ///< unit, along that
-    Vector place;   ///< of the beam [m]
-    Scalar foot;    ///< [m]
-  };
-  static View look(const System& system, Slot& now) noexcept { return look(system, now.round, now.foot); }
-  /// @param foot  in and out: the place that is nearest
-  static View look(const System& system, const Round& of, Scalar& foot) noexcept {
-    const auto line = system.centreline();
-    const RoundContact round{of};
-    auto node = round.node_at(line, foot);
-    auto view = round.look(node, 0);
-    for (int k = 0; k < 4 && std::abs(view.ahead) > Scalar(1e-7) * of.reach; ++k) {
-      foot = std::clamp(foot + view.ahead, Scalar(0), system.length());
-      node = round.node_at(line, foot);
-      view = round.look(node, 0);
-    }
-    const Vector place = RoundContact::place_of(node), off = round.centre(place) - place;
-    const bool beyond = (foot <= 0 && view.ahead < 0) || (foot >= system.length() && view.ahead > 0);
-    Vector facing = view.normal;
-    Scalar height = view.distance, aside = 0;
-    if constexpr (dimension == 3) {
-      // Behind the axis of a rod it has the side from which it came.
-      facing = round.facing(node.tangent), height = facing.dot(off);
-      if (!beyond) aside = (std::max)(off.squaredNorm() - height * height, Scalar(0));
-    }
-    const Scalar size = std::sqrt(off.squaredNorm());
-    if (beyond || (dimension == 3 && height > 0))
-      return {facing, height, aside, size, off / size, place, foot};
-    return {facing, height, aside, height, facing, place, foot};
+  static View look(const System& system, Slot& now) noexcept {
+    return look_beside<RoundContact>(system, now.round, now.foot);
   }
   static Scalar depth(const Slot& now, const View& view) noexcept {
     return now.round.reach - now.lasting - view.gap;

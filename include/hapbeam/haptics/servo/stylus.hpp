@@ -58,6 +58,18 @@ struct CapsuleTouch {
   }
 };
 
+/// The same of a touch that solves for hand and beam together.
+template <class Touch>
+struct CoupledCapsule : CapsuleTouch<Touch> {
+  using typename CapsuleTouch<Touch>::Scalar, typename CapsuleTouch<Touch>::Vector;
+
+  auto tick(const Vector& hand, Scalar dt, Scalar stiffness, Scalar damping) noexcept {
+    return this->touch.tick(Vector(hand + this->tip), dt, stiffness, damping, this->shaft);
+  }
+  const Vector& off() const noexcept { return this->touch.off(); }
+  Scalar stored() const noexcept { return this->touch.stored(); }
+};
+
 template <typename C, typename = void>
 inline constexpr bool moves = false;
 template <typename C>
@@ -87,8 +99,8 @@ class Stylus {
   CoupledWrench<Scalar> tick(Coupling& coupling, Touch& touch, const HandPose& hand, double dt) noexcept {
     const Eigen::Vector3d tied = hand.turn * tied_;
     const Shaft<double> axis{tip(hand), shaft(hand)};
-    CapsuleTouch<Touch> capsule{touch, (axis.tip - tied).template cast<Scalar>(),
-                                axis.way.template cast<Scalar>(), tied};
+    std::conditional_t<couples_itself<Touch>, CoupledCapsule<Touch>, CapsuleTouch<Touch>> capsule{
+        touch, (axis.tip - tied).template cast<Scalar>(), axis.way.template cast<Scalar>(), tied};
     CoupledWrench<Scalar> felt{coupling.tick(capsule, hand.place + tied, dt)};
     // Without an answer of this tick the force goes on along the line on which it was.
     const auto& contact = felt.touch.contact;
