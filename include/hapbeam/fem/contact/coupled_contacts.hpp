@@ -112,7 +112,7 @@ class CoupledContacts {
       if (now.touches) now.foot = now.at.s;
       if (now.stages > 1) now.next.go_on(now.at, now.before, onward);
       now.friction.stiffness = hands_[i].stiffness, now.friction.damping = by_time;
-      now.rigid = now.touches && beside_rigid(look(system, now));
+      now.rigid = now.touches && comes_to_rigid(now) && beside_rigid(look(system, now));
       Obstacle& obstacle = all_[of(i)];
       obstacle.touching = now.touches && !now.rigid, obstacle.round = now.round;
       obstacle.pushed.force = -now.at.force;
@@ -230,6 +230,11 @@ class CoupledContacts {
   }
   static Scalar depth(const Slot& now, const View& view) noexcept {
     return now.round.reach - now.lasting - view.gap;
+  }
+  /// Whether it may come there within a stage.
+  bool comes_to_rigid(const Slot& now) const noexcept {
+    return (now.at.s < least_ + now.round.reach && rigid_[0]) ||
+           (now.at.s > most_ - now.round.reach && rigid_[1]);
   }
   bool beside_rigid(const View& view) const noexcept {
     return (view.foot < least_ && rigid_[0]) || (view.foot > most_ && rigid_[1]);
