@@ -158,8 +158,8 @@ TEST_CASE("a rod in space that is thrown keeps its momentum, and never has more 
       REQUIRE(model.energy().sum() <= energy * (1 + 1e-9));
     }
     CAPTURE(dt, (mean() - begins).norm(), model.energy().sum() / energy - 1);
-    // What stretches an element by the last place of where it is pushes it by 1e-9 N.
-    CHECK((mean() - begins).norm() <= 3e-9 * begins.norm());
+    // What stretches an element by the last place of where it is pushes 7 g by 1e-9 N, to either side, 2000 times.
+    CHECK((mean() - begins).norm() <= 1e-8 * begins.norm());
     CHECK(model.energy().sum() >= energy * (dt > 5e-4 ? 0.9 : 0.99));
   }
 }

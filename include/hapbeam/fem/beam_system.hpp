@@ -126,11 +126,7 @@ class BeamChain {
   /// in motion what that of places is to its inertia [√J].   @param state  √(2V)
   Scalar round_off(Scalar state) const noexcept {
     const int n = parts_.size();
-    if (inertia_) {
-      const Scalar off = std::numeric_limits<Scalar>::epsilon() * parts_.nodes()[n].s;
-      return std::sqrt(2 * inertia_->rate() *
-                       inertia_->energy([off](int) { return detail::Placed<Scalar>(off, off, 0, 0); }));
-    }
+    if (inertia_) return inertia_->round_off(std::numeric_limits<Scalar>::epsilon() * parts_.nodes()[n].s);
     const auto moved = [this](int i) {
       return std::abs(parts_.nodes()[i].u) + std::abs(parts_.nodes()[i].w);
     };

@@ -127,15 +127,16 @@ class DynamicModel {
   }
   /// Of what holds an end on the beam, inertia and viscosity taken into account: along x and w [N], and moment [N·m].   @param k  0: left, 1: right
   Vector3<Scalar> reaction(int k) const noexcept {
+    static_assert(dimension == 2, "the reaction of an end is that of a beam in the plane");
     const int e = k == 0 ? 0 : system_.elements() - 1;
     Vector6<Scalar> r = system_.nodal_forces(e);
-    if (!starts_) {
-      Matrix6<Scalar> K;
-      K.setZero();
-      (void)inertia_.add(e, system_.node(e), system_.node(e + 1), r, K);
-      if (!viscosity_.none()) (void)viscosity_.add(e, system_.parts().displacements(e), r, K);
+    if (!starts_ && !viscosity_.none()) {
+      Matrix6<Scalar> unused = Matrix6<Scalar>::Zero();
+      (void)viscosity_.add(e, system_.parts().displacements(e), r, unused);
     }
-    return r.template segment<3>(3 * k);
+    Vector3<Scalar> sum = r.template segment<3>(3 * k);
+    if (!starts_ && !massless_) sum += inertia_.force(system_.parts().nodes(), k == 0 ? 0 : e + 1);
+    return sum;
   }
 
   /// Called at the end of each part of a step.   @param part  its length [s]

@@ -80,6 +80,18 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
                        });
     return sum.sum() / 2;
   }
+  /// c M (q - q~) of node i, as they lie: along x and w [N], and moment [N·m].
+  template <class Nodes>
+  Vector3<S> force(const Nodes& nodes, int i) const noexcept {
+    const int last = nodes.size() - 1;
+    const auto off = [&](int k) { return Placed<S>(placed(nodes[k]) - ghost_[k]); };
+    const Blocks& of = blocks_[i];
+    Placed<S> sum = of.own * off(i);
+    if (i < last) sum += of.next * off(i + 1);
+    if (i > 0) sum += of.before * off(i - 1);
+    const Placed<S> at = placed(nodes[i]);
+    return {sum[0], sum[1], at[3] * sum[2] - at[2] * sum[3]};
+  }
   /// Adds to an element's residual and tangent what is its first node's, the last one's its second's, too, and what couples both: as read by
   /// BlockTridiagonal::add().
   [[gnu::always_inline]] void add(int e, Vector6<S>& r, Matrix6<S>& K) const noexcept {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
@@ -85,6 +86,13 @@ class MassBlocks {
     each_product(v,
                  [&](int, const Placed& x, const Placed& by) HAPBEAM_INLINED { sum += by.cwiseProduct(x); });
     return sum.sum() / (2 * rate_);
+  }
+
+  /// √(c |q|²) of places that are all off by so much [√J].   @param off [m]
+  S round_off(S off) const noexcept {
+    Placed x;
+    x << VectorOf<S, D>::Constant(off), VectorOf<S, D>::Zero();
+    return std::sqrt(2 * rate_ * energy([&x](int) { return x; }));
   }
 
  protected:

@@ -147,13 +147,14 @@ class RodChain {
 
   /// A rod that is round may roll where it is bowed, but for round-off; 1/10⁷ of what bends one.
   static constexpr Scalar neutral() noexcept { return Scalar(1e-6); }
-  /// That of places, which stretches the shortest element [√J].
+  /// That of places, which stretches the shortest element, and of what is in motion is inertia [√J].
   Scalar round_off(Scalar) const noexcept {
     const int n = parts_.size();
     const Scalar shortest = (std::min)(node(1).s, length_ - node(n - 1).s),
                  farthest = std::sqrt(node(0).r.squaredNorm()) + length_;
-    return std::numeric_limits<Scalar>::epsilon() * farthest *
-           std::sqrt(axial_ * static_cast<Scalar>(n) / shortest);
+    const Scalar off = std::numeric_limits<Scalar>::epsilon() * farthest,
+                 stretches = off * std::sqrt(axial_ * static_cast<Scalar>(n) / shortest);
+    return inertia_ ? (std::max)(stretches, inertia_->round_off(off)) : stretches;
   }
   /// Residual and tangent of all elements.
   template <class Rows>
