@@ -11,8 +11,8 @@
 #include <array>
 #include <cmath>
 
-#include <hapbeam/body/cut_piece.hpp>
 #include <hapbeam/body/rod_inner_contact.hpp>
+#include <hapbeam/body/rod_spot.hpp>
 #include <hapbeam/body/stacked.hpp>
 #include <hapbeam/element/rod/carried_frame.hpp>
 
@@ -30,7 +30,7 @@ class RodBubbles : protected Stacked<S, Most> {
   using Base::at, Base::count, Base::count_, Base::put, Base::size, Base::times, Base::vector,
       typename Base::Matrix, typename Base::Square, typename Base::Stack, typename Base::Vector;
   using Inner = typename Element::template Inner<S>;
-  using ByPlace = Jet<S, 2>;  // by s and N/EI
+  using ByPlace = typename RodSpot<S>::ByPlace;
 
  public:
   /// @param rod  RodElements   @param e  of its elements
@@ -65,21 +65,15 @@ class RodBubbles : protected Stacked<S, Most> {
 
  protected:
   /// The curve beside a contact.
-  struct Spot {
-    ByPlace h[4];                          // r as of r1, r1', r2, r2'
-    ByPlace g;                             // C, times EI
-    S bend;                                // curvature under a force there, times EI
-    Vector t, k, u;                        // r', r'', direction of r'
-    Vector by_N, by_N_twice, turned_by_N;  // r as of N, and r'
-    S stretched, x;                        // |r'|, ξ
-    Matrix curved;                         // D''
-    Matrix axes;                           // along which C is the same: all, or those across r'
-    Vector softer;                         // of the section
-    Vector turns;                          // moment with which C turns with the section, crossed with u
+  struct Spot : RodSpot<S> {
+    Matrix curved;  // D''
+    Matrix axes;    // along which C is the same: all, or those across r'
+    Vector softer;  // of the section
+    Vector turns;   // moment with which C turns with the section, crossed with u
 
     Vector move(const Column& by) const noexcept {
-      Vector sum = h[0].value * by.template segment<3>(0);
-      for (int q = 1; q < 4; ++q) sum += h[q].value * by.template segment<3>(start(q));
+      Vector sum = this->h[0].value * by.template segment<3>(0);
+      for (int q = 1; q < 4; ++q) sum += this->h[q].value * by.template segment<3>(start(q));
       return sum;
     }
   };
@@ -88,7 +82,7 @@ class RodBubbles : protected Stacked<S, Most> {
   /// Whether it yields alike along both axes of its section.
   bool even() const noexcept { return unknowns < 7 || p_->soft[0] == p_->soft[1]; }
   /// Along the axis along which it yields less [1/(N·m²)].
-  S stiffer() const noexcept { return (std::min)(p_->soft[0], p_->soft[1]); }
+  S stiffer() const noexcept { return RodSpot<S>::stiffer(*p_); }
   /// Of what the second derivative of the distance is across.
   static constexpr S parallel = S(1e-3);
 
@@ -110,31 +104,8 @@ class RodBubbles : protected Stacked<S, Most> {
     using std::sqrt;
     Contact& contact = *contacts_[at(k)];
     Spot& spot = spots_[at(k)];
-    const S s = contact.s - a_->s;
-    spot.x = s * p_->inverse_length;
-    if (p_->taut) {
-      const ByPlace n = tension<ByPlace>(1), longer = stretch(n);
-      const CutPiece<ByPlace> cut(ByPlace(p_->length), ByPlace::variable(s, 0), n * longer);
-      cut.weights(p_->inverse_length, spot.h);
-      spot.g = cut.g * longer * longer, spot.bend = cut.bend * longer.value * longer.value;
-    } else {
-      spot.bend = cut_slack_piece(p_->length, s, spot.h, spot.g);
-    }
-    const Vector chord = b_->r - a_->r;
-    const auto all = [&](auto&& of) -> Vector {
-      return of(spot.h[2]) * chord + of(spot.h[1]) * a_->tangent + of(spot.h[3]) * b_->tangent;
-    };
-    spot.t = all([](const ByPlace& h) { return h.by(0); });
-    spot.k = all([](const ByPlace& h) { return h.by(0, 0); });
-    if (p_->taut) {
-      const S soft = stiffer();
-      spot.by_N = soft * all([](const ByPlace& h) { return h.by(1); });
-      spot.by_N_twice = soft * soft * all([](const ByPlace& h) { return h.by(1, 1); });
-      spot.turned_by_N = soft * all([](const ByPlace& h) { return h.by(1, 0); });
-    }
-    spot.stretched = sqrt(spot.t.squaredNorm());
-    spot.u = spot.t / spot.stretched;
-    contact.place = a_->r + all([](const ByPlace& h) { return h.value; }) + contact.bubble;
+    spot.look(*p_, *a_, *b_, inner_.value, contact.s - a_->s);
+    contact.place = spot.r + contact.bubble;
     spot.curved.setZero();
     if (contact.kind == Contact::Kind::along) {
       contact.gap = contact.normal.dot(contact.place) - contact.reach;
@@ -234,10 +205,9 @@ class RodBubbles : protected Stacked<S, Most> {
   J tension(int variable) const noexcept {
     return p_->taut ? J::variable(inner_.value * stiffer(), variable) : J(0);
   }
-  /// 1 + N/EA: so much longer it is than where s counts.
   template <class J>
   J stretch(const J& n) const noexcept {
-    return J(1) + 1 / (stiffer() * p_->axial) * n;
+    return RodSpot<S>::stretch(*p_, n);
   }
   /// What is condensed: places, and N behind them.
   int ways() const noexcept { return count() + (p_->taut ? 1 : 0); }

@@ -24,7 +24,6 @@
 #include <optional>
 
 #include <hapbeam/body/rod_bubbles.hpp>
-#include <hapbeam/element/rod/round_tension.hpp>
 
 namespace hapbeam::detail {
 
@@ -348,7 +347,8 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         r += (inner_.residual * over) * inner_.row;
         K += (over * inner_.row) * inner_.row.transpose();
         const auto lacks = [&](S residual, S stiffness) { return (std::max)(-residual / stiffness, S(0)); };
-        stiffen(lacks(way.residual, way.stiff) - lacks(inner_.residual, inner_.stiffness), K);
+        stiffen<unknowns>(*p_, *Base::a_, *Base::b_,
+                          lacks(way.residual, way.stiff) - lacks(inner_.residual, inner_.stiffness), K);
       }
       const S over = 1 / way.stiff;
       change_ -= way.residual * way.residual * over / 2;
@@ -369,23 +369,6 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         for (int k = 0; k < count(); ++k) next.by_force[at(k)] -= part * way.by_force[at(k)];
       }
     }
-  }
-  /// As what N lacks does (round_tension.hpp).   @param more  [N]
-  void stiffen(S more, Tangent& K) const noexcept {
-    const EndsAndMiddle<S> ends(*p_, *Base::a_, *Base::b_);
-    using Tension = RoundTension<S>;
-    const S draws = more * p_->length, by_chord = S(1.5) * p_->inverse_length;
-    const S middle[4] = {-by_chord, S(-0.25), by_chord, S(-0.25)};
-    const auto turns = [&](int k) {
-      return Matrix((draws * S(k == 1 ? Tension::by_middle : Tension::by_end) * ends.inverse[k]) *
-                    (Matrix::Identity() - ends.v[k] * ends.v[k].transpose()));
-    };
-    K.template block<3, 3>(start(1), start(1)) += turns(0);
-    K.template block<3, 3>(start(3), start(3)) += turns(2);
-    const Matrix inside = turns(1);
-    for (int q = 0; q < 4; ++q)
-      for (int o = 0; o < 4; ++o)
-        K.template block<3, 3>(start(q), start(o)) += (middle[q] * middle[o]) * inside;
   }
   /// Adds -Nᵀf of all contacts.
   void pull(const Stack& f, Column& to) const noexcept {

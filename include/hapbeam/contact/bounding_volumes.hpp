@@ -48,7 +48,7 @@ class BoundingVolumes {
 
   /// @param segments  how many pieces the centreline has.  More are taken too: a leaf then holds several.
   /// Allocates.
-  explicit BoundingVolumes(int segments) : tree_(leaves_for(segments)) {}
+  explicit BoundingVolumes(int segments) : tree_(detail::BoxTree<Scalar, D>::leaves_for(segments)) {}
 
   /// Takes the boxes from the present shape.  To be called whenever the centreline has changed.
   /// Real-time: noexcept, no allocation, O(n).
@@ -104,12 +104,6 @@ class BoundingVolumes {
 
  private:
   using Box = detail::Box<Scalar, D>;
-
-  static int leaves_for(int segments) noexcept {
-    int leaves = 1;
-    while (2 * leaves <= segments) leaves *= 2;
-    return leaves;
-  }
 
   detail::BoxTree<Scalar, D> tree_;
   bool stale_ = true;

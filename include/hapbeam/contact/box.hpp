@@ -97,6 +97,12 @@ class BoxTree {
  public:
   using Bounds = Box<Scalar, D>;
 
+  /// As many leaves as do not hold more than one or two of so many things.
+  static int leaves_for(int size) noexcept {
+    int leaves = 1;
+    while (2 * leaves <= size) leaves *= 2;
+    return leaves;
+  }
   /// @param most_leaves  a power of two   Allocates.
   explicit BoxTree(int most_leaves) : nodes_(2 * index(most_leaves)), most_leaves_(most_leaves) {}
 

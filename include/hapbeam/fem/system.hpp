@@ -103,6 +103,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   }
 
   Chain& chain() noexcept { return chain_; }
+  const Chain& chain() const noexcept { return chain_; }
   const Parts& parts() const noexcept { return chain_.parts(); }
   int elements() const noexcept { return parts().size(); }
   Scalar length() const noexcept { return length_; }
@@ -235,6 +236,17 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   ///               shared out over the nodes
   /// @return ok | singular | non_finite | iteration_limit, where an end has farther to turn than an increment leads
   Status factor(Scalar shift) noexcept;
+  /// What a shift adds to a tangent: to each node the share of half the elements beside it.
+  template <class Assembler>
+  void add_shift(Scalar shift, Assembler& to) const noexcept {
+    for (int i = 0; i <= elements(); ++i) {
+      const Scalar length = node((std::min)(i + 1, elements())).s - node((std::max)(i - 1, 0)).s,
+                   share = shift * unit_ * unit_ * length / (2 * length_);
+      Increment diagonal = Increment::Constant(share);
+      diagonal.template head<dimension>() /= length_ * length_;
+      to.add_at(i, Eigen::Matrix<Scalar, unknowns, unknowns>(diagonal.asDiagonal()), Increment::Zero());
+    }
+  }
   /// On the way down the forces of before are no longer there.
   void forget_force() noexcept { rows_.fall(); }
   /// Adds the increment to the state.
@@ -378,18 +390,6 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
                  left = std::abs(off) < length_ / 1000 ? off : Scalar(0);
     return chain_.mark(rows_.element(k), contact, Vector(left * contact.normal));
   }
-  /// Of each node the share of half the elements beside it.
-  void add_shift(Scalar shift) noexcept {
-    for (int i = 0; i <= elements(); ++i) {
-      const Scalar length = node((std::min)(i + 1, elements())).s - node((std::max)(i - 1, 0)).s,
-                   share = shift * unit_ * unit_ * length / (2 * length_);
-      Increment diagonal = Increment::Constant(share);
-      diagonal.template head<dimension>() /= length_ * length_;
-      assembler_.add_at(i, Eigen::Matrix<Scalar, unknowns, unknowns>(diagonal.asDiagonal()),
-                        Increment::Zero());
-    }
-  }
-
   Chain chain_;
   typename Chain::Assembler assembler_;
   State saved_;
@@ -405,7 +405,7 @@ template <class Chain>
 Status ChainSystem<Chain>::factor(Scalar shift) noexcept {
   if (!chain_.ends().follow(nodes())) return Status::iteration_limit;
   const detail::ChainEnergies<Scalar> energies = chain_.assemble(load_, rows_, assembler_);
-  if (shift != 0) add_shift(shift);
+  if (shift != 0) add_shift(shift, assembler_);
   inner_energy_ = energies.inner, longer_ = 0;
   weight_ = size_ = std::sqrt(2 * (energies.measured + rows_.held()));
   potential_ = energies.strain - energies.work;

@@ -49,6 +49,11 @@ class RodEnd {
     at_goal_ = false;
   }
 
+  /// Its goal is where it belongs at rest.
+  void place_home() noexcept {
+    place({home_.r.template cast<double>(), home_.tangent.template cast<double>(),
+           home_.director.template cast<double>()});
+  }
   /// The rod is at rest.
   void go_home() noexcept { target_ = home_, at_goal_ = false; }
   /// A path to the goal begins where the end is, or where its springs were.

@@ -168,6 +168,18 @@ class BlockTridiagonal {
     HAPBEAM_UNROLL
     for (int k = 0; k < 3; ++k) put(k, k, a), put(k, 3 + k, b), put(3 + k, k, c), put(3 + k, 3 + k, d);
   }
+  /// What the tangent so far has of a node, and of that and the other one of an element.  @param own, coupled  out: (i, j) -> entry, j of the other
+  template <class Matrix>
+  void row_of(int node, int other, Matrix& own, Matrix& coupled) noexcept {
+    const auto block = own_of(node);
+    for (int j = 0; j < Block; ++j)
+      for (int i = 0; i < Block; ++i) own(i, j) = block(i, j);
+    for_each_neighbour(node, [&](const auto&, const auto& c, bool left) {
+      if (left != (other < node)) return;
+      for (int j = 0; j < Block; ++j)
+        for (int i = 0; i < Block; ++i) coupled(i, j) = c(i, j);
+    });
+  }
   /// Residual of one unknown of a node so far.
   Scalar residual(int node, int component) noexcept { return -own_of(node)[component]; }
 

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The curve of an element of a rod at one place, as its nodes and its tension hold it, and what it lacks there of the true one under a force.
+//
+// Real-time: noexcept, no allocation, O(1).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <hapbeam/body/cut_piece.hpp>
+#include <hapbeam/element/rod/rod_properties.hpp>
+#include <hapbeam/element/rod/round_tension.hpp>
+
+namespace hapbeam::detail {
+
+template <typename S>
+struct RodSpot {
+  using Vector = VectorOf<S, 3>;
+  using ByPlace = Jet<S, 2>;  // by s and N/EI
+
+  ByPlace h[4];                          // r as of r1, r1', r2, r2'
+  ByPlace g;                             // what it lacks: compliance, times EI
+  S bend;                                // curvature under a force there, times EI
+  Vector r, t, k, u;                     // r, r', r'', direction of r'
+  Vector by_N, by_N_twice, turned_by_N;  // r as of N, and r', where that is an unknown
+  S stretched, x;                        // |r'|, ξ
+
+  /// Along the axis along which an element yields less [1/(N·m²)].
+  static S stiffer(const RodProperties<S>& p) noexcept { return (std::min)(p.soft[0], p.soft[1]); }
+  /// 1 + N/EA: so much longer it is than where s counts.   @param n  N/EI
+  template <class J>
+  static J stretch(const RodProperties<S>& p, const J& n) noexcept {
+    return J(1) + 1 / (stiffer(p) * p.axial) * n;
+  }
+
+  /// @param a, b  nodes   @param N  tension, where that is an unknown [N]   @param s  from a [m]
+  void look(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b, S N, S s) noexcept {
+    using std::sqrt;
+    const S soft = stiffer(p);
+    x = s * p.inverse_length;
+    if (p.taut) {
+      const ByPlace n = ByPlace::variable(N * soft, 1), longer = stretch(p, n);
+      const CutPiece<ByPlace> cut(ByPlace(p.length), ByPlace::variable(s, 0), n * longer);
+      cut.weights(p.inverse_length, h);
+      g = cut.g * longer * longer, bend = cut.bend * longer.value * longer.value;
+    } else {
+      bend = cut_slack_piece(p.length, s, h, g);
+    }
+    const Vector chord = b.r - a.r;
+    const auto all = [&](auto&& of) -> Vector {
+      return of(h[2]) * chord + of(h[1]) * a.tangent + of(h[3]) * b.tangent;
+    };
+    r = a.r + all([](const ByPlace& w) { return w.value; });
+    t = all([](const ByPlace& w) { return w.by(0); });
+    k = all([](const ByPlace& w) { return w.by(0, 0); });
+    if (p.taut) {
+      by_N = soft * all([](const ByPlace& w) { return w.by(1); });
+      by_N_twice = soft * soft * all([](const ByPlace& w) { return w.by(1, 1); });
+      turned_by_N = soft * all([](const ByPlace& w) { return w.by(1, 0); });
+    }
+    stretched = sqrt(t.squaredNorm());
+    u = t / stretched;
+  }
+};
+
+/// Adds to the tangent of an element what a tension that it lacks does (round_tension.hpp).
+/// @tparam Unknowns  of a node   @param more  [N]
+template <int Unknowns, typename S, class Tangent>
+void stiffen(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b, S more,
+             Tangent& K) noexcept {
+  using Matrix = Eigen::Matrix<S, 3, 3>;
+  constexpr auto start = [](int q) { return q < 2 ? 3 * q : Unknowns + 3 * (q - 2); };
+  const EndsAndMiddle<S> ends(p, a, b);
+  const S draws = more * p.length, by_chord = S(1.5) * p.inverse_length;
+  const S middle[4] = {-by_chord, S(-0.25), by_chord, S(-0.25)};
+  const auto turns = [&](int k) {
+    return Matrix(
+        (draws * S(k == 1 ? RoundTension<S>::by_middle : RoundTension<S>::by_end) * ends.inverse[k]) *
+        (Matrix::Identity() - ends.v[k] * ends.v[k].transpose()));
+  };
+  K.template block<3, 3>(start(1), start(1)) += turns(0);
+  K.template block<3, 3>(start(3), start(3)) += turns(2);
+  const Matrix inside = turns(1);
+  for (int q = 0; q < 4; ++q)
+    for (int o = 0; o < 4; ++o)
+      K.template block<3, 3>(start(q), start(o)) += (middle[q] * middle[o]) * inside;
+}
+
+}  // namespace hapbeam::detail

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// A small dense symmetric system that need not be positive: PAPᵀ = LDLᵀ with pivots of one and of two, and the inertia that they tell.
+//
+// The matrix is scaled by its rows first, so that unknowns of different units may stand in one system.  An unknown whose pivot is round-off stays
+// where it is.
+// Real-time: noexcept, no allocation, O(n³).
+// Source: Bunch and Parlett, Direct methods for solving symmetric indefinite systems, SIAM J. Numer. Anal. 8 (1971).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace hapbeam::detail {
+
+/// @tparam Most  unknowns
+template <typename Scalar, int Most>
+class SymmetricIndefinite {
+ public:
+  /// Becomes a system of so many unknowns, all of whose entries are 0.
+  void resize(int n) noexcept {
+    n_ = n;
+    for (int i = 0; i < n; ++i) {
+      x_[at(i)] = 0;
+      std::fill_n(a_[at(i)].begin(), n, Scalar(0));
+    }
+  }
+  /// Of the lower triangle: i >= j.
+  Scalar& operator()(int i, int j) noexcept { return a_[at(i)][at(j)]; }
+  /// Right-hand side, and the solution after solve().
+  Scalar& operator[](int i) noexcept { return x_[at(i)]; }
+  Scalar operator[](int i) const noexcept { return x_[at(i)]; }
+  /// Makes row and column of an unknown those of one that stays.   @param pivot  its sign counts
+  void hold(int i, Scalar pivot) noexcept {
+    for (int j = 0; j < n_; ++j) entry(i, j) = 0;
+    a_[at(i)][at(i)] = pivot, x_[at(i)] = 0;
+  }
+
+  /// @return how many eigenvalues are negative
+  int solve() noexcept {
+    constexpr Scalar nothing = 256 * std::numeric_limits<Scalar>::epsilon();
+    scale();
+    int negative = 0, k = 0;
+    while (k < n_) {
+      const auto [p, q, size] = largest(k);
+      if (!(size > nothing)) break;
+      exchange(k, q);
+      if (p != q) exchange(k + 1, p == k ? q : p);
+      size_[at(k)] = p == q ? 1 : 2;
+      negative += p != q || a_[at(k)][at(k)] < 0;
+      k += eliminate(k, size_[at(k)]);
+    }
+    for (int i = k; i < n_; ++i) x_[at(i)] = 0;
+    substitute(k);
+    return negative;
+  }
+
+ private:
+  static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+  Scalar& entry(int i, int j) noexcept { return a_[at((std::max)(i, j))][at((std::min)(i, j))]; }
+
+  void scale() noexcept {
+    for (int i = 0; i < n_; ++i) {
+      Scalar most = 0;
+      for (int j = 0; j < n_; ++j) most = (std::max)(most, std::abs(entry(i, j)));
+      scale_[at(i)] = most > 0 ? 1 / std::sqrt(most) : Scalar(1);
+      order_[at(i)] = i;
+    }
+    for (int i = 0; i < n_; ++i) {
+      x_[at(i)] *= scale_[at(i)];
+      for (int j = 0; j <= i; ++j) a_[at(i)][at(j)] *= scale_[at(i)] * scale_[at(j)];
+    }
+  }
+  /// A pivot of one at p = q, or of two at p > q, and the larger of both sizes.
+  struct Pivot {
+    int p, q;
+    Scalar size;
+  };
+  Pivot largest(int k) const noexcept {
+    constexpr Scalar alpha = Scalar(0.6403882032022076);  // (1 + √17)/8
+    Pivot one{k, k, 0}, two{k, k, 0};
+    for (int i = k; i < n_; ++i)
+      for (int j = k; j <= i; ++j) {
+        Pivot& most = i == j ? one : two;
+        if (const Scalar size = std::abs(a_[at(i)][at(j)]); size > most.size) most = {i, j, size};
+      }
+    return one.size >= alpha * two.size ? one : two;
+  }
+  void exchange(int i, int j) noexcept {
+    if (i == j) return;
+    std::swap(order_[at(i)], order_[at(j)]);
+    std::swap(x_[at(i)], x_[at(j)]);
+    std::swap(a_[at(i)][at(i)], a_[at(j)][at(j)]);
+    for (int m = 0; m < n_; ++m)
+      if (m != i && m != j) std::swap(entry(i, m), entry(j, m));
+  }
+  /// Leaves a pivot's columns divided by it, and the right-hand side, too.   @return its size
+  int eliminate(int k, int size) noexcept {
+    const bool two = size == 2;
+    const Scalar a = a_[at(k)][at(k)], b = two ? a_[at(k + 1)][at(k)] : Scalar(0),
+                 c = two ? a_[at(k + 1)][at(k + 1)] : Scalar(1), over = 1 / (a * c - b * b);
+    const auto divided = [=](Scalar u, Scalar v) {
+      return std::array<Scalar, 2>{(c * u - b * v) * over, (a * v - b * u) * over};
+    };
+    std::array<std::array<Scalar, 2>, Most> l;
+    for (int i = k + size; i < n_; ++i) {
+      l[at(i)] = divided(a_[at(i)][at(k)], two ? a_[at(i)][at(k + 1)] : Scalar(0));
+      for (int m = 0; m < size; ++m) {
+        for (int j = k + size; j <= i; ++j) a_[at(i)][at(j)] -= l[at(i)][at(m)] * a_[at(j)][at(k + m)];
+        x_[at(i)] -= l[at(i)][at(m)] * x_[at(k + m)];
+      }
+    }
+    for (int i = k + size; i < n_; ++i)
+      for (int m = 0; m < size; ++m) a_[at(i)][at(k + m)] = l[at(i)][at(m)];
+    const auto x = divided(x_[at(k)], two ? x_[at(k + 1)] : Scalar(0));
+    for (int m = 0; m < size; ++m) x_[at(k + m)] = x[at(m)];
+    return size;
+  }
+  /// @param rank  pivots
+  void substitute(int rank) noexcept {
+    std::array<int, Most> starts;
+    int count = 0;
+    for (int k = 0; k < rank; k += size_[at(k)]) starts[at(count++)] = k;
+    while (count > 0) {
+      const int k = starts[at(--count)], next = k + size_[at(k)];
+      for (int m = k; m < next; ++m)
+        for (int i = next; i < n_; ++i) x_[at(m)] -= a_[at(i)][at(m)] * x_[at(i)];
+    }
+    std::array<Scalar, Most> y;
+    for (int i = 0; i < n_; ++i) y[at(order_[at(i)])] = x_[at(i)];
+    for (int i = 0; i < n_; ++i) x_[at(i)] = y[at(i)] * scale_[at(i)];
+  }
+
+  int n_ = 0;
+  std::array<std::array<Scalar, Most>, Most> a_{};
+  std::array<Scalar, Most> x_{}, scale_{};
+  std::array<int, Most> order_{}, size_{};
+};
+
+}  // namespace hapbeam::detail

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Where two rods are nearest, and how far they have moved against each other.
+//
+// Rods that nowhere come within reach on their way from one shape to another, or no two points of which move against each other by more than half of
+// the reach there, have not passed each other: a distance that was a reach is still half of one, and its direction tells the side.
+// Real-time: noexcept, no allocation; O(n log n) where they are apart.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <hapbeam/contact/box.hpp>
+#include <hapbeam/rod_centreline.hpp>
+#include <hapbeam/world/pair.hpp>
+
+namespace hapbeam::detail {
+
+/// A place of least distance.
+struct Approach {
+  std::array<double, 2> s;   // [m]
+  VectorOf<double, 3> from;  // from the second rod to the first [m]
+};
+
+/// From about there downhill.   @param step  no farther at once [m]
+inline Approach nearest_places(const Centreline<double, 3>& a, const Centreline<double, 3>& b, double s,
+                               double t, const std::array<double, 2>& step) noexcept {
+  constexpr int most = 20;
+  constexpr double parallel = 1e-6, exact = 1e-6;
+  const double end_a = a[a.segments()].s, end_b = b[b.segments()].s;
+  VectorOf<double, 3> w;
+  for (int k = 0;; ++k) {
+    const RodPoint<double> p = a.at(s), q = b.at(t);
+    w = p.r - q.r;
+    if (k == most) break;
+    // Of |w|², but for the curvature, which is small beside a reach.
+    const double aa = p.tangent.squaredNorm(), bb = q.tangent.squaredNorm(), ab = p.tangent.dot(q.tangent),
+                 ga = -w.dot(p.tangent), gb = w.dot(q.tangent),
+                 over = 1 / ((1 + parallel) * aa * bb - ab * ab);
+    const auto within = [](double x, double by, double most_by, double end) {
+      return std::clamp(x + std::clamp(by, -most_by, most_by), 0.0, end);
+    };
+    double next_s = within(s, (bb * ga + ab * gb) * over, step[0], end_a);
+    const double next_t = within(t, (gb + ab * (next_s - s)) / bb, step[1], end_b);
+    next_s = within(s, (ga + ab * (next_t - t)) / aa, step[0], end_a);
+    const double moved = std::abs(next_s - s) + std::abs(next_t - t);
+    s = next_s, t = next_t;
+    if (!(moved > exact * (step[0] + step[1]))) {
+      w = a.at(s).r - b.at(t).r;
+      break;
+    }
+  }
+  return {{s, t}, w};
+}
+
+/// How far points of two pieces have moved against each other at most, squared [m²].   @param was, now  control points
+inline double relative_travel(const CubicSegment<double, 3>& a_was, const CubicSegment<double, 3>& a_now,
+                              const CubicSegment<double, 3>& b_was,
+                              const CubicSegment<double, 3>& b_now) noexcept {
+  const CubicSegment<double, 3> a = a_now - a_was, b = b_now - b_was;
+  double most = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) most = (std::max)(most, (a.col(i) - b.col(j)).squaredNorm());
+  return most;
+}
+
+/// Calls visit(element of a, element of b), which tells whether to go on, for each two that may have come within reach since save().
+/// @param a, b  RodBody, after sweep()   @return whether no visit ended it
+template <class Body, class Visit>
+bool visit_approaches(const Body& a, const Body& b, double reach, Visit&& visit) noexcept {
+  using Bounds = Box<double, 3>;
+  bool on = true;
+  if (!a.swept().root().grown(reach).overlaps(b.swept().root())) return true;
+  const auto line = a.line();
+  for (int e = 0; e < a.elements() && on; ++e) {
+    Bounds box;
+    box.include(line.segment(e));
+    if (a.moves) box.include(a.saved_segment(e));
+    box = box.grown(reach);
+    if (!box.overlaps(b.swept().root())) continue;
+    b.swept().visit([&](const Bounds& other) { return other.overlaps(box) ? 0.0 : 1.0; }, [] { return 0.0; },
+                    [&](int f) { return on = visit(e, f); });
+  }
+  return on;
+}
+
+/// What comes of a look at all that may meet.
+struct Look {
+  bool close = true;   ///< whether none has moved too far since save()
+  double deepest = 0;  ///< distance less the reach of what does not touch yet, in reaches
+  double least = 1;    ///< distance of all, in reaches
+  RodPair pair;        ///< that of the deepest
+};
+
+/// Beside a pair that touches, what its elements lack of the curves; at the pair itself, all.   @return in reaches
+template <class System>
+double lacking(const System& system, int i, int j, const Approach& found, double reach) noexcept {
+  double most = 0;
+  for (int k = 0; k < system.pairs(); ++k) {
+    const RodPair& pair = system.pair(k);
+    if (pair.rod[0] != i || pair.rod[1] != j) continue;
+    bool same = true, beside = true;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto& body = system.body(pair.rod[side]);
+      const double off = std::abs(pair.s[side] - found.s[side]);
+      same = same && off <= 2 * reach;
+      beside = beside && off <= body.length() / body.elements();
+    }
+    const VectorOf<double, 3> w =
+        system.body(i).line().at(pair.s[0]).r - system.body(j).line().at(pair.s[1]).r;
+    if (same) most = 1;
+    else if (beside) most = (std::max)(most, 1 - std::sqrt(w.squaredNorm()) / reach);
+  }
+  return most;
+}
+/// At what may meet of rods i and j.
+template <class System>
+void look_at(const System& system, int i, int j, Look& look) noexcept {
+  const auto &a = system.body(i), &b = system.body(j);
+  const double reach = a.radius() + b.radius();
+  const auto first = a.line(), second = b.line();
+  look.close = visit_approaches(a, b, reach, [&](int e, int f) {
+    if (!(relative_travel(a.saved_segment(e), first.segment(e), b.saved_segment(f), second.segment(f)) <=
+          reach * reach / 4))
+      return false;
+    const Approach found =
+        nearest_places(first, second, (first[e].s + first[e + 1].s) / 2, (second[f].s + second[f + 1].s) / 2,
+                       {first[e + 1].s - first[e].s, second[f + 1].s - second[f].s});
+    const double distance = std::sqrt(found.from.squaredNorm());
+    look.least = (std::min)(look.least, distance / reach);
+    const double gap = distance / reach - 1 + lacking(system, i, j, found, reach);
+    if (gap < look.deepest) {
+      look.deepest = gap;
+      look.pair.rod = {i, j}, look.pair.s = found.s, look.pair.reach = reach;
+      look.pair.normal = found.from / distance;
+    }
+    return true;
+  });
+}
+/// At all of them.   @param system  PairSystem
+template <class System>
+Look look_around(System& system) noexcept {
+  Look look;
+  const int rods = static_cast<int>(system.bodies().size());
+  for (auto& body : system.bodies()) body.sweep();
+  for (int i = 0; i < rods && look.close; ++i)
+    for (int j = i + 1; j < rods && look.close; ++j)
+      if (system.body(i).moves || system.body(j).moves) look_at(system, i, j, look);
+  return look;
+}
+
+}  // namespace hapbeam::detail

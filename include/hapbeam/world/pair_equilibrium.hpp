@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// Equilibria of rods and pairs: who touches whom, Newton's method for those, and falls where no equilibrium goes on.
+//
+// Pairs are an active set: after each solution the one that pulls most lets go, or the deepest of those that do not touch yet does.  A fall goes down as in a
+// viscous fluid, (K + μM) Δ = -r, with the pairs that touch on the way; μ grows where a step leads too far or is not stable, and goes to zero.
+// Real-time: noexcept, no allocation; at most max_solves linear solves between two begin(), and two more in each solution that gives way.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <hapbeam/world/approach.hpp>
+#include <hapbeam/world/pair_system.hpp>
+
+namespace hapbeam::detail {
+
+/// How a step ended.
+enum class Outcome {
+  settled,
+  too_far,  ///< rods that may meet have moved too far for one step, or there was no time for more
+  lost,     ///< no stable equilibrium goes on
+  full,     ///< no room for another contact, or elements are too long for the force of one
+};
+
+template <class Element>
+class PairEquilibrium {
+ public:
+  using System = PairSystem<Element>;
+  using Body = typename System::Body;
+  /// Of the distance of rods to their reach, that keeps them on their sides.
+  static constexpr double closest = 0.5;
+
+  /// @throws std::invalid_argument as PairSystem
+  PairEquilibrium(const std::vector<WorldRod>& rods, const NewtonRaphson& solver)
+      : system_(rods), solver_(solver) {}
+  System& system() noexcept { return system_; }
+  const System& system() const noexcept { return system_; }
+
+  /// Begins a tick.
+  void begin() noexcept { solves_ = 0, changed_ = false, failure_ = Status::iteration_limit; }
+  int solves() const noexcept { return solves_; }
+  int left() const noexcept { return solver_.max_solves - solves_; }
+  /// Whether another pair touches than before begin().
+  bool changed() const noexcept { return changed_; }
+  /// Why the last step was lost.
+  Status failure() const noexcept { return failure_; }
+
+  /// Finds the equilibrium for where the ends are led, and who touches whom there.
+  Outcome settle() noexcept {
+    Curvature<double> unknown;
+    int leaves = 0;
+    for (int pass = 0; pass < 4 + 2 * most_pairs; ++pass) {
+      if (left() <= 0) return Outcome::too_far;
+      NewtonRaphson solver = solver_;
+      solver.max_solves = left();
+      solver.max_iterations = (std::min)(solver.max_iterations, pass == 0 ? 8 : 16);
+      const SolveReport<double> report = solver.solve(system_, 1, pass == 0 ? &curvature_ : &unknown);
+      solves_ += report.solves;
+      if (report.status != Status::ok) return failure_ = report.status, Outcome::lost;
+      const Look look = look_around(system_);
+      if (!look.close) return Outcome::too_far;
+      if (release()) continue;
+      if (look.deepest < -nothing) {
+        if (!meet(look)) return Outcome::full;
+        continue;
+      }
+      if (look.least < closest) return Outcome::full;
+      // One that comes back to its end has left it for a place that gives way.
+      if (leave_end()) {
+        if (leaves++ < 2) continue;
+        return failure_ = Status::iteration_limit, Outcome::lost;
+      }
+      return gives_way() ? (failure_ = Status::iteration_limit, Outcome::lost) : Outcome::settled;
+    }
+    return failure_ = Status::iteration_limit, Outcome::lost;
+  }
+  /// Down to the next stable equilibrium, as in a viscous fluid:  (K + μM) Δ = -r,  with the pairs that touch on the way.
+  Outcome fall() noexcept {
+    constexpr double first_shift = 100, largest_shift = 1e12, farthest = 1, enough = 1e-3;
+    if (on_ridge_)
+      for (Body& body : system_.bodies())
+        if (body.moves && (body.sides.any() || body.negative_pivots() > 0))
+          body.chain().nudge(body.length() / 1000, -1, 1);
+    on_ridge_ = false;
+    system_.set_target(1);
+    double bad = 0;  // a shift with which a step went too far
+    for (double shift = first_shift; left() > 0;) {
+      ++solves_;
+      const bool steep = system_.factor(shift) != Status::ok || system_.negative_pivots() > 0;
+      if (!steep && system_.turn() <= farthest) {
+        const bool near_by = shift == 0 && system_.increment() <= enough * system_.unit();
+        system_.advance();
+        const Look look = look_around(system_);
+        if (look.close && look.least >= closest) {
+          while (release() || leave_end()) continue;
+          if (look.deepest < -nothing && !meet(look)) return Outcome::full;
+          system_.save();
+          if (near_by && settle() == Outcome::settled) return Outcome::settled;
+          if (near_by) system_.restore(), shift = first_shift;
+          else shift = shift > 1 || bad > 1 ? (std::max)(shift / 10, 1.5 * bad) : 0;
+          bad /= 2;
+          continue;
+        }
+        system_.restore();
+      }
+      bad = (std::max)(shift, 1.0), shift = 3 * bad;
+      if (shift > largest_shift) return failure_ = Status::iteration_limit, Outcome::lost;
+    }
+    return Outcome::too_far;
+  }
+
+ private:
+  static constexpr double nothing = 1e-6;  // of a reach
+
+  bool gives_way() noexcept {
+    on_ridge_ = false;
+    if (system_.negative_pivots() <= 0) return false;
+    ++solves_;
+    on_ridge_ = system_.factor(Body::System::neutral()) == Status::ok && system_.negative_pivots() > 0;
+    return on_ridge_;
+  }
+  /// A place leaves an end of its rod.   @return whether there is one
+  bool leave_end() noexcept {
+    for (int k = 0; k < system_.pairs(); ++k)
+      for (std::size_t side = 0; side < 2; ++side)
+        if (system_.moves(system_.pair(k)) && system_.pair(k).leaves_end(side))
+          return system_.pair(k).held[side] = false, true;
+    return false;
+  }
+  /// The pair that pulls most lets go.   @return whether there is one
+  bool release() noexcept {
+    int worst = -1;
+    for (int k = 0; k < system_.pairs(); ++k) {
+      const RodPair& pair = system_.pair(k);
+      if (system_.moves(pair) && !(pair.force > 0) && (worst < 0 || pair.force < system_.pair(worst).force))
+        worst = k;
+    }
+    if (worst < 0) return false;
+    system_.remove(worst);
+    changed_ = true;
+    return true;
+  }
+
+  /// One more touches.   @return whether there was room
+  bool meet(const Look& look) noexcept {
+    changed_ = true;
+    RodPair pair = look.pair;
+    for (std::size_t side = 0; side < 2; ++side)
+      pair.held[side] = pair.s[side] <= 0 || pair.s[side] >= system_.body(pair.rod[side]).length();
+    if (!system_.add(pair)) return false;
+    system_.spread();
+    return true;
+  }
+
+  System system_;
+  NewtonRaphson solver_;
+  Curvature<double> curvature_;
+  int solves_ = 0;
+  bool changed_ = false, on_ridge_ = false;
+  Status failure_ = Status::iteration_limit;
+};
+
+}  // namespace hapbeam::detail

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// One side of a pair: what a contact within an element of a rod adds to that, to the pair's own equations, and as columns between both.
+//
+// The element lacks C of the curve at the place (rod_spot.hpp).  How much it lacks there by a force at another place in it is not counted.
+// Real-time: noexcept, no allocation but at construction, O(1).
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <hapbeam/body/rod_spot.hpp>
+#include <hapbeam/fem/solver/symmetric_indefinite.hpp>
+#include <hapbeam/world/pair.hpp>
+
+namespace hapbeam::detail {
+
+inline constexpr int most_pairs = 16, pair_unknowns = 5;
+/// f along the axes of a pair, s₁ and s₂; pair after pair.
+using PairEquations = SymmetricIndefinite<double, pair_unknowns * most_pairs>;
+
+/// N of an element, as an unknown that is condensed: ∂²L/∂N∂x, ∂L/∂N and ∂²L/∂N².
+template <class Residual>
+struct TensionRow {
+  Residual row;
+  double residual = 0, stiff = 0;
+};
+
+/// @tparam Chain  RodChain
+template <class Chain>
+class PairSide {
+  static constexpr int unknowns = Chain::unknowns;
+  using Vector = VectorOf<double, 3>;
+  using Matrix = Eigen::Matrix<double, 3, 3>;
+  using Tangent = Eigen::Matrix<double, 2 * unknowns, 2 * unknowns>;
+
+ public:
+  using Residual = VectorOf<double, 2 * unknowns>;
+  using Column = typename Chain::Assembler::Column;
+
+  explicit PairSide(int elements)
+      : column{Column(elements), Column(elements), Column(elements), Column(elements)} {}
+
+  RodPair* pair = nullptr;
+  std::size_t side = 0;            // of it: the first rod, or the second
+  int row = 0, element = 0;        // where the pair's unknowns begin, and that of the rod
+  std::array<Residual, 4> b, raw;  // ∂²L/∂x∂u, and the same whatever an end of the rod holds
+  std::array<double, 4> along;     // bᵀK⁻¹(-r)
+  std::array<double, 4> by_N;      // ∂²L/∂N∂u
+  std::array<Column, 4> column;    // L⁻¹b
+
+  /// f along n, across it, and the place.
+  int columns() const noexcept { return pair->fresh ? 1 : pair->held[side] ? 3 : 4; }
+  int unknown(int c) const noexcept { return c < 3 ? row + c : row + 3 + static_cast<int>(side); }
+
+  /// @param p, n1, n2, N  of the element: its nodes, and its tension or its twist   @param tension  of its sides, where that is an unknown
+  /// @return ½ F · C F [J]
+  template <class Node>
+  double add(const RodProperties<double>& p, const Node& n1, const Node& n2, double N, PairEquations& dense,
+             Residual& r, Tangent& K, TensionRow<Residual>& tension) noexcept {
+    spot_.look(p, n1, n2, N, pair->s[side] - n1.s);
+    const RodSpot<double>& spot = spot_;
+    const double sign = side == 0 ? 1 : -1, C = spot.g.value;
+    const Vector F = sign * pair->force * pair->normal;
+    const Matrix yields = shape(p, n1, n2, N);
+    const Vector yield = yields * F, v = C * yield, rise = spot.g.by(0) * yield;
+    const bool even = unknowns < 7 || p.soft[0] == p.soft[1];
+    pull(F, 0, r);
+    double place = -F.dot(spot.t) - F.dot(rise) / 2;
+    if (!even) {
+      const Vector moment = cross3(v, F);
+      turn(moment, r);
+      place -= cross3(moment, spot.u).dot(spot.k) / spot.stretched;
+      if constexpr (unknowns == 7) {
+        // By how much it grows as the section twists.
+        const Vector turned = cross3<double>(spot.u, v) - C * (yields * cross3<double>(spot.u, F));
+        const double grows = spot.u.dot(cross3<double>(turned, F)), x = spot.x, y = 1 - x;
+        K(6, 6) -= y * y * grows, K(13, 13) -= x * x * grows;
+        K(6, 13) -= x * y * grows, K(13, 6) -= x * y * grows;
+      }
+    }
+    const int here = unknown(3);
+    for (int c = 0; c < 3; ++c) {
+      const Vector axis = sign * pair->axes[at(c)];
+      const Vector moved = yields * axis;
+      dense[row + c] += axis.dot(spot.r + v);
+      for (int d = 0; d <= c; ++d) dense(row + c, row + d) -= sign * C * moved.dot(pair->axes[at(d)]);
+      dense(here, row + c) -= axis.dot(spot.t + rise);
+      b[at(c)].setZero();
+      pull(axis, 0, b[at(c)]);
+      if (!even) turn(C * cross3<double>(moved, F) + cross3<double>(v, axis), b[at(c)]);
+    }
+    b[3].setZero();
+    pull(F, 1, b[3]);
+    pair->pull[side] = place;
+    dense[here] -= place;
+    dense(here, here) -= F.dot(spot.k) + spot.g.by(0, 0) * F.dot(yield) / 2;
+    if (p.taut) {
+      const double soft = RodSpot<double>::stiffer(p);
+      const Vector moved = soft * spot.g.by(1) * yield;
+      tension.residual -= F.dot(spot.by_N) + F.dot(moved) / 2;
+      tension.stiff -= F.dot(spot.by_N_twice) + soft * soft * spot.g.by(1, 1) * F.dot(yield) / 2;
+      for (int q = 0; q < 4; ++q) tension.row.template segment<3>(start(q)) -= soft * spot.h[q].by(1) * F;
+      for (int c = 0; c < 3; ++c) by_N[at(c)] = -sign * pair->axes[at(c)].dot(spot.by_N + moved);
+      by_N[3] = -F.dot(spot.turned_by_N) - soft * spot.g.by(0, 1) * F.dot(yield) / 2;
+    }
+    return F.dot(v) / 2;
+  }
+
+ private:
+  static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+  /// Where r1, r1', r2 and r2' stand among the unknowns.
+  static constexpr int start(int q) noexcept { return q < 2 ? 3 * q : unknowns + 3 * (q - 2); }
+  /// Takes off a force there, or one along how the place moves.
+  void pull(const Vector& force, int derivative, Residual& of) const noexcept {
+    for (int q = 0; q < 4; ++q)
+      of.template segment<3>(start(q)) -= (derivative == 0 ? spot_.h[q].value : spot_.h[q].by(0)) * force;
+  }
+  /// Takes off a moment that turns with the section.
+  void turn(const Vector& moment, Residual& of) const noexcept {
+    const Vector turns = cross3(moment, spot_.u) / spot_.stretched;
+    for (int q = 0; q < 4; ++q) of.template segment<3>(start(q)) -= spot_.h[q].by(0) * turns;
+    if constexpr (unknowns == 7) {
+      const double about = moment.dot(spot_.u);
+      of[6] -= (1 - spot_.x) * about, of[13] -= spot_.x * about;
+    }
+  }
+  /// What a unit of g yields by, along the axes of the section.
+  template <class Node>
+  Matrix shape(const RodProperties<double>& p, const Node& n1, const Node& n2,
+               [[maybe_unused]] double twist) const noexcept {
+    Matrix shape = RodSpot<double>::stiffer(p) * Matrix::Identity();
+    if constexpr (unknowns == 7)
+      if (p.soft[0] != p.soft[1]) {
+        const Vector d1 = Chain::Element::director(p, n1, n2, twist, spot_.x);
+        const Vector softer = p.soft[0] > p.soft[1] ? d1 : cross3(spot_.u, d1);
+        shape += std::abs(p.soft[0] - p.soft[1]) * softer * softer.transpose();
+      }
+    return shape;
+  }
+
+  RodSpot<double> spot_;
+};
+
+}  // namespace hapbeam::detail

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Rods that touch each other, without friction, and hands that lead their ends.
+//
+//   World<RoundRod> world({{tool, 16}, {wire, 16}});
+//   world.hold(0, RodSide::left, pose);                  // as often as there are hands
+//   const Status status = world.tick();
+//   const HeldEnd<double> hand = world.held(0, RodSide::left);      // the hand feels -hand.force, -hand.moment
+//
+// A tick takes the ends to where they are held, finds who touches whom, and solves for all rods that move and for all that these touch.  The tick goes on in
+// shorter steps where rods that may meet move against each other by more than half of their reach, so that none passes another.  Where no
+// equilibrium goes on, the rods fall to the next stable one.
+// Allocates and throws at construction.  Real-time: all else is noexcept and allocation-free; at most max_solves linear solves a tick.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <hapbeam/force_model.hpp>
+#include <hapbeam/world/pair_equilibrium.hpp>
+
+namespace hapbeam {
+
+/// @tparam Element  RoundRod | TwistedRod
+template <class Element>
+class World {
+ public:
+  static constexpr int most_contacts = detail::most_pairs;
+
+  /// @throws std::invalid_argument where there is no rod, a rod makes no sense or has no shape at rest, or two of them lie in each other there
+  explicit World(const std::vector<WorldRod>& rods, const NewtonRaphson& solver = {})
+      : equilibrium_(rods, solver) {
+    if (rods.empty()) throw std::invalid_argument("rods = 0: must be 1 or more");
+    look_at_rest();
+  }
+
+  int rods() const noexcept { return static_cast<int>(system().bodies().size()); }
+  /// As it lies.
+  Centreline<double, 3> shape(int rod) const noexcept { return system().body(rod).line(); }
+
+  /// Where an end of a rod is to be from the next tick on.   @param rod  0 to rods() - 1
+  /// @return ok | invalid_request, where the end is neither clamped nor on springs, or the pose is none: nothing has changed
+  [[nodiscard]] Status hold(int rod, RodSide side, const RodPose& pose) noexcept {
+    return system().body(rod).place_end(static_cast<std::size_t>(side), pose) ? Status::ok
+                                                                              : Status::invalid_request;
+  }
+  /// Once a period.
+  /// @return ok | snapped | out_of_range, where there are more contacts than most_contacts, or
+  ///         one bends an element by half of its reach | iteration_limit, where the ends or a fall are on their
+  ///         way: the next tick goes on | singular | non_finite.  No rod has passed another.  After 32 ticks that have led
+  ///         nowhere all rods begin anew at rest.
+  Status tick() noexcept {
+    const bool moving = begin();
+    double t = 0, step = 1;
+    Outcome outcome = Outcome::settled;
+    while (t < 1 && moving) {
+      const double to = (std::min)(t + step, 1.0);
+      system().aim(to);
+      outcome = course_ == Course::falls ? equilibrium_.fall() : equilibrium_.settle();
+      if (outcome == Outcome::settled) {
+        t = to, step *= 4;
+        if (course_ == Course::falls) course_ = Course::has_fallen;
+        accept();
+        continue;
+      }
+      // A fall stays where it has come.
+      if (course_ == Course::falls) {
+        if (outcome != Outcome::too_far) course_ = Course::has_fallen;
+        break;
+      }
+      restore();
+      if (outcome == Outcome::full || equilibrium_.left() <= 0) break;
+      step = (to - t) / 8;
+      if (outcome == Outcome::lost && step < shortest) course_ = Course::falls, step = to - t;
+    }
+    if (equilibrium_.changed()) known_ = 0;
+    if (outcome == Outcome::settled) {
+      rest();
+      status_ = course_ == Course::has_fallen ? Status::snapped : Status::ok;
+      course_ = Course::follows, unmoved_ = 0;
+      return status_;
+    }
+    known_ = 0;
+    // The next path begins where this one has come.
+    if (course_ != Course::falls) {
+      system().aim(t);
+      system().set_target(1);
+    }
+    unmoved_ = t > 0 || outcome == Outcome::full ? 0 : unmoved_ + 1;
+    if (unmoved_ == patience) restart();
+    return status_ = outcome == Outcome::full ? Status::out_of_range : equilibrium_.failure();
+  }
+  /// What holds an end.
+  HeldEnd<double> held(int rod, RodSide side) const noexcept {
+    const auto& [force, moment] = held_[2 * static_cast<std::size_t>(rod) + static_cast<std::size_t>(side)];
+    return {force, moment, status_};
+  }
+  int contacts() const noexcept { return system().pairs(); }
+  RodContact contact(int k) const noexcept {
+    const detail::RodPair& pair = system().pair(k);
+    return {pair.rod,
+            pair.s,
+            pair.force * pair.normal,
+            {shape(pair.rod[0]).at(pair.s[0]).r, shape(pair.rod[1]).at(pair.s[1]).r}};
+  }
+  /// Of all rods, the springs that hold them, and what contacts bend beside nodes [J].
+  double strain_energy() const noexcept {
+    double energy = 0;
+    for (const Body& body : system().bodies()) energy += body.system().strain_energy();
+    for (int k = 0; k < contacts(); ++k) {
+      const detail::RodPair& pair = system().pair(k);
+      const RodContact contact = this->contact(k);
+      energy += pair.force / 2 * (pair.reach - pair.normal.dot(contact.at[0] - contact.at[1]));
+    }
+    return energy;
+  }
+  /// Linear solves of the last tick.
+  int solves() const noexcept { return equilibrium_.solves(); }
+  /// Everything is as after construction.
+  void reset() noexcept {
+    restart();
+    for (Body& body : system().bodies()) body.reset();
+    status_ = Status::ok;
+    for (auto& hold : held_) hold = {Vector::Zero(), Vector::Zero()};
+  }
+
+ private:
+  enum class Course {
+    follows,     ///< the hands, on a branch of equilibria
+    falls,       ///< to the next stable equilibrium
+    has_fallen,  ///< which no status has told yet
+  };
+  using Outcome = detail::Outcome;
+  using Equilibrium = detail::PairEquilibrium<Element>;
+  using Body = typename Equilibrium::Body;
+  using Vector = VectorOf<double, 3>;
+  using Pairs = std::array<detail::RodPair, std::size_t(most_contacts)>;
+
+  static constexpr double shortest = 1.0 / 32;  // step of a path
+  static constexpr int patience = 32;
+
+  typename Equilibrium::System& system() noexcept { return equilibrium_.system(); }
+  const typename Equilibrium::System& system() const noexcept { return equilibrium_.system(); }
+
+  // A tick.
+
+  /// @return whether anything moves
+  bool begin() noexcept {
+    equilibrium_.begin();
+    system().spread();
+    double along = 0, square = 0, before = 0;
+    bool moving = false;
+    for (Body& body : system().bodies()) {
+      body.begin_path();
+      const auto step = body.take_step();
+      along += step[0], square += step[1], before += step[2];
+      moving = moving || body.moves;
+    }
+    foresee(along, square, before);
+    return moving;
+  }
+  /// Where hands go on as they went, so does all that moves.   @param along  product of both steps   @param square, before  of each
+  void foresee(double along, double square, double before) noexcept {
+    constexpr double fastest = 2, aside = 0.1;
+    const double ratio = before > 0 ? along / before : 0;
+    // The way aside is |step - ratio · before|².
+    const bool on = known_ > 1 && course_ == Course::follows && ratio > 0 && ratio < fastest &&
+                    square - ratio * along <= aside * aside * square;
+    for (Body& body : system().bodies())
+      if (body.moves) body.go_on(on ? ratio : 0);
+    for (int k = 0; k < system().pairs(); ++k) {
+      detail::RodPair& pair = system().pair(k);
+      const detail::RodPair now = pair;
+      if (on && system().moves(pair)) pair.go_on(before_[at(k)], ratio);
+      before_[at(k)] = now;
+    }
+    ++known_;
+  }
+  void accept() noexcept {
+    system().save();
+    for (int i = 0; i < rods(); ++i) {
+      Body& body = system().body(i);
+      if (!body.moves) continue;
+      for (std::size_t k = 0; k < 2; ++k) held_[2 * at(i) + k] = body.held(k);
+    }
+  }
+  /// Nothing moves until a hand does.
+  void rest() noexcept {
+    for (Body& body : system().bodies()) body.moves = false;
+  }
+  /// From rest to where hands wait.
+  void restart() noexcept {
+    system().clear();
+    for (Body& body : system().bodies()) body.restart();
+    course_ = Course::follows, known_ = unmoved_ = 0;
+    system().save();
+  }
+  void restore() noexcept {
+    system().restore();
+    known_ = 0;
+  }
+
+  static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+
+  /// @throws std::invalid_argument where rods lie in each other
+  void look_at_rest() {
+    held_.resize(2 * at(rods()));
+    reset();
+    const detail::Look look = detail::look_around(system());
+    if (!(look.least >= Equilibrium::closest))
+      throw std::invalid_argument("rods " + std::to_string(look.pair.rod[0]) + " and " +
+                                  std::to_string(look.pair.rod[1]) + " = " + std::to_string(look.least) +
+                                  " of their reach apart at rest: must be half of it or more");
+  }
+
+  Equilibrium equilibrium_;
+  Pairs before_;                             // what touched in the tick before
+  std::vector<std::array<Vector, 2>> held_;  // force and moment at the ends, two a rod
+  int known_ = 0;                            // ticks in a row that went on with the same pairs
+  int unmoved_ = 0;                          // ticks in a row that have led nowhere
+  Course course_ = Course::follows;
+  Status status_ = Status::ok;
+};
+
+}  // namespace hapbeam

@@ -1,0 +1,83 @@
+// World::tick(): no heap, finite, a bounded number of linear solves, whatever hands do.
+#include <cmath>
+#include <realtime/heap_watch.hpp>
+#include <vector>
+
+#include "rod/rods.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include <hapbeam/world/world.hpp>
+
+using namespace hapbeam;
+using namespace hapbeam::testing;
+
+namespace {
+
+Rod rod_at(const RodPose& pose, const RodSupport& right) {
+  Rod rod(0.2, RodSection::circle(0.002), spring_steel, RodSupport::clamped, right);
+  return rod.place_left(pose);
+}
+
+/// A hand that presses, slides, leaps, turns about, and asks for what is none.
+std::vector<RodPose> poses(const RodPose& start) {
+  Random random(7);
+  std::vector<RodPose> path;
+  for (int k = 0; k < 400; ++k) {
+    RodPose pose = start;
+    pose.at += Point(1e-5 * k, 5e-5 * k, -1e-4 * k);
+    path.push_back(turned(pose, Point(1, 0, 0), -5e-4 * k));
+  }
+  for (int k = 0; k < 100; ++k) {
+    RodPose pose = turned(start, detail::unit(Point(random(1.0), random(1.0), random(1.0))), random(3.0));
+    pose.at += Point(random(0.1), random(0.1), random(0.1));
+    path.push_back(pose);
+  }
+  for (const double bad : {std::nan(""), double(INFINITY), 1e300}) {
+    RodPose pose = start;
+    pose.at.z() = bad;
+    path.push_back(pose);
+    path.push_back({start.at, Point(0, bad, 0), start.director});
+  }
+  return path;
+}
+
+template <class Element>
+void check_tick() {
+  const RodPose start{{0.1, -0.1, 0.0025}, {0, 1, 0}, {0, 0, 1}};
+  World<Element> world({{rod_at(start, RodSupport::free), 8},
+                        {rod_at({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, RodSupport::clamped), 8},
+                        {rod_at({{0, 0.05, 0}, {1, 0, 0}, {0, 0, 1}}, RodSupport::free), 8}});
+  const auto path = poses(start);
+  int answered = 0, touching = 0, not_finite = 0, most = 0;
+  const HeapUse use = heap_use([&]() noexcept {
+    for (const RodPose& pose : path) {
+      (void)world.hold(0, RodSide::left, pose);
+      answered += is_answer(world.tick());
+      touching += world.contacts() > 0;
+      most = std::max(most, world.solves());
+      const HeldEnd<double> held = world.held(0, RodSide::left);
+      not_finite += !held.force.allFinite() || !held.moment.allFinite();
+      for (int rod = 0; rod < world.rods(); ++rod)
+        for (const auto& node : world.shape(rod)) not_finite += !is_finite(node);
+    }
+    world.reset();
+  });
+  INFO(answered << " of " << path.size() << " answered, " << touching << " with contacts, at most " << most
+                << " solves");
+  CHECK(use == HeapUse{});
+  CHECK(not_finite == 0);
+  CHECK(most <= 48 + 2);
+  CHECK(answered > 380);
+  CHECK(touching > 300);
+  // Recovered.
+  CHECK(world.hold(0, RodSide::left, start) == Status::ok);
+  CHECK(world.tick() == Status::ok);
+  CHECK(world.contacts() == 0);
+}
+
+}  // namespace
+
+TEST_CASE("rods that touch take nothing from the heap in a tick", "[realtime][world]") {
+  check_tick<RoundRod>();
+  check_tick<TwistedRod>();
+}
