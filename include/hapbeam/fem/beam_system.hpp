@@ -101,6 +101,11 @@ class BeamChain {
     node.u += by.x(), node.w += by.y();
     node.theta -= along.x() * slope.y() - along.y() * slope.x();
   }
+  /// In a piece of a line, which holds s.
+  static Node node_of(const Centreline<Scalar>& line, int piece, Scalar s) noexcept {
+    const Displacement<Scalar> there = line.at(piece, s);
+    return {s, there.u, there.w, there.theta};
+  }
   /// Where the mesh has none, in element e, which holds s.
   Node node_within(int e, Scalar s) const noexcept {
     const Node &a = parts_.nodes()[e], &b = parts_.nodes()[e + 1];
@@ -280,16 +285,16 @@ class BeamChain {
     (void)parts_.subtract_loads(e, load, r);
     return count;
   }
-  /// What the section carries, in element e, as it lies, with what touches it.   @param thickness [m]
-  template <class Rows>
+  /// What the section carries, in element e, as it lies, with what touches it.   @param thickness [m]   @param curve  s -> node on it
+  template <class Rows, class Curve>
   InternalForces<Scalar> internal_forces(const Rows& rows, int e, const detail::CutAt<Scalar>& at,
-                                         Scalar load, Scalar thickness,
-                                         const Centreline<Scalar>& drawn) const noexcept {
+                                         Scalar load, Scalar thickness, Curve&& curve) const noexcept {
     Vector6<Scalar> r;
     std::array<typename Rows::Contact, Rows::most> contacts;
     const std::size_t count = nodal_forces(rows, e, load, r, contacts);
-    const auto place = [&](Scalar s) {
-      return count > 0 ? drawn.at(s) : parts_.view(parts_.nodes()).at(e, s);
+    const auto place = [&curve](Scalar s) {
+      const Node there = curve(s);
+      return Displacement<Scalar>{there.u, there.w, there.theta};
     };
     return parts_.internal_forces(at, load, thickness, r, place, [&](auto& cut, bool whole) {
       for (std::size_t k = 0; k < count; ++k)

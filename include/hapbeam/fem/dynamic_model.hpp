@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <hapbeam/element/corotational.hpp>
@@ -129,7 +130,9 @@ class DynamicModel {
   Vector3<Scalar> reaction(int k) const noexcept {
     static_assert(dimension == 2, "the reaction of an end is that of a beam in the plane");
     const int e = k == 0 ? 0 : system_.elements() - 1;
-    Vector6<Scalar> r = system_.nodal_forces(e);
+    Vector6<Scalar> r;
+    std::array<typename System::Contact, System::Rows::most> touching;
+    (void)system_.chain().nodal_forces(system_.rows(), e, 1, r, touching);
     if (!starts_ && !viscosity_.none()) {
       Matrix6<Scalar> unused = Matrix6<Scalar>::Zero();
       (void)viscosity_.add(e, system_.parts().displacements(e), r, unused);

@@ -100,9 +100,13 @@ class MassBlocks {
   struct Block {
     Placed own = Placed::Zero(), other = Placed::Zero();
     [[gnu::always_inline]] Placed operator*(const Placed& off) const noexcept {
-      Placed turned;
-      turned << off.template tail<D>(), off.template head<D>();
-      return own.cwiseProduct(off) + other.cwiseProduct(turned);
+      Placed by;
+      HAPBEAM_UNROLL
+      for (int k = 0; k < D; ++k) {
+        by[k] = own[k] * off[k] + other[k] * off[D + k];
+        by[D + k] = own[D + k] * off[D + k] + other[D + k] * off[k];
+      }
+      return by;
     }
   };
   /// Of a node, with the next one and the one before.

@@ -109,6 +109,11 @@ class RodChain {
     node.r += by;
     detail::set_tangent<Scalar>(node, node.tangent + slope);
   }
+  /// In a piece of a line, which holds s; without its director.
+  static Node node_of(const Centreline<Scalar, 3>& line, int piece, Scalar s) noexcept {
+    const RodPoint<Scalar> there = line.at(piece, s);
+    return {s, there.r, there.tangent, line[piece].director};
+  }
   /// Where the mesh has none, in element e, which holds s.
   Node node_within(int e, Scalar s) const noexcept { return parts_.node_within(e, s); }
   Node node_at(Scalar s) const noexcept { return node_within(parts_.view(parts_.nodes()).segment_at(s), s); }
@@ -249,12 +254,11 @@ class RodChain {
     return parts_.strain_energy() +
            ends_.visit_springs(parts_.nodes(), [](int, const Block&, const Increment&) {});
   }
-  /// What the section carries, in element e, as it lies, with what touches it.
-  template <class Rows>
+  /// What the section carries, in element e, as it lies, with what touches it.   @param curve  s -> node on it
+  template <class Rows, class Curve>
   InternalForces<Scalar, 3> internal_forces(const Rows& rows, int e, const detail::CutAt<Scalar>& at,
-                                            Scalar load, Scalar,
-                                            const Centreline<Scalar, 3>&) const noexcept {
-    return parts_.internal_forces(e, at, load, [&](auto&& touch) {
+                                            Scalar load, Scalar, Curve&& curve) const noexcept {
+    return parts_.internal_forces(e, at, load, curve, [&](auto&& touch) {
       for (int k = 0; k < rows.size(); ++k)
         if (const auto& contact = rows[k]; rows.element(k) == e)
           touch(contact.s, Vector3(contact.force * contact.normal + contact.friction), contact.place);

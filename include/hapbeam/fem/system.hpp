@@ -11,7 +11,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -286,13 +285,6 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
 
   /// What holds an end of a rod that nothing touches.   @param k  0: left, 1: right
   auto reaction(std::size_t k) const noexcept { return chain_.reaction(k, load_); }
-  /// Forces on the nodes of element e, as it lies, with what touches it, less loads.
-  auto nodal_forces(int e) const noexcept {
-    Eigen::Matrix<Scalar, 2 * unknowns, 1> r;
-    std::array<Contact, Rows::most> contacts;
-    (void)chain_.nodal_forces(rows_, e, load_, r, contacts);
-    return r;
-  }
   /// Strain energy, that of the springs that hold it included [J].
   Scalar strain_energy() const noexcept {
     Scalar energy = chain_.strain_energy([this](int e) { return rows_.in(e); });
@@ -310,7 +302,13 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     const Scalar from = node(e).s, to = node(e + 1).s, at = (std::min)((std::max)(s, from), to);
     return chain_.internal_forces(rows_, e,
                                   {from, to, at, e + 1 == elements(), at == from || at == drawn_[piece].s},
-                                  load_, thickness, drawn());
+                                  load_, thickness, [this, line = drawn(), e](Scalar x) {
+                                    const int in = line.segment_at(x);
+                                    Node there = Chain::node_of(line, in, x);
+                                    const Beside by = beside(line, in, e, x);
+                                    Chain::bend(there, by.place, by.slope);
+                                    return there;
+                                  });
   }
 
   // What is seen: the mesh, and in it the places of contacts.

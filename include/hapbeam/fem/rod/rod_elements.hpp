@@ -206,15 +206,15 @@ class RodElements {
             detail::across(director_within(e, (s - a.s) / (b.s - a.s)), detail::unit(at.tangent))};
   }
   /// What the section carries, in element e.
-  /// @param contacts  calls its argument with place, force and point of each of that element [m], [N]
-  template <class EachContact>
+  /// @param curve  s -> node on it   @param contacts  calls its argument with place, force and point of each of that element [m], [N]
+  template <class Curve, class EachContact>
   InternalForces<Scalar, 3> internal_forces(int e, const detail::CutAt<Scalar>& at, Scalar lambda,
-                                            EachContact&& contacts) const noexcept {
+                                            Curve&& curve, EachContact&& contacts) const noexcept {
     using Vector3 = VectorOf<Scalar, 3>;
     const Node &a = nodes_[e], &b = nodes_[e + 1];
     const RodProperties<Scalar>& p = properties_[e];
     using ByPlace = detail::Jet<Scalar, 1>;
-    const Scalar n = stiffening(e), longer = taut() ? 1 + inner_[e] / p.axial : Scalar(1);
+    const Scalar n = stiffening(e);
     const auto cut_at = [&](Scalar x) {
       return detail::CutPiece<ByPlace>(ByPlace(p.length), ByPlace::variable(x - a.s, 0), ByPlace(n));
     };
@@ -244,19 +244,9 @@ class RodElements {
             h[q].value * force + h[q].by(0) * turns;
       if constexpr (has_twist) r[6] -= (1 - f) * u.dot(moment), r[13] -= f * u.dot(moment);
     });
-    // What contacts bend beside themselves a tension has for an arm.
-    const auto curve_at = [&](Scalar x) {
-      detail::CutPlace<Scalar, 3> there = place_at(x);
-      if (!taut()) return there;
-      const Vector3 u = detail::unit(there.tangent);
-      contacts([&](Scalar y, const Vector3& force, const Vector3&) {
-        const Vector3 across = longer * longer * p.soft[0] * (force - u.dot(force) * u);
-        const ByPlace l(p.length), here = ByPlace::variable(x - a.s, 0), other(y - a.s);
-        const ByPlace bends = x <= y ? detail::between_cuts(l, here, other, ByPlace(n))
-                                     : detail::between_cuts(l, other, here, ByPlace(n));
-        there.r += bends.value * across, there.tangent += bends.by(0) * across;
-      });
-      return there;
+    const auto curve_at = [&curve](Scalar x) {
+      const Node there = curve(x);
+      return detail::CutPlace<Scalar, 3>{there.r, there.tangent};
     };
     const auto moment = [&r](int row, const Vector3& tangent) -> Vector3 {
       return RodElements::moment(r.template segment<unknowns>(row), tangent);
