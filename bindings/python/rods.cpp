@@ -36,8 +36,9 @@ void add_rod_sections(py::module_& m) {
              return RodMaterial{young, shear};
            }),
            arg("young"), arg("shear"), "Young's modulus and shear modulus [Pa].")
-      .def_static("isotropic", &RodMaterial::isotropic, arg("young"), arg("poisson"),
-                  "Young's modulus [Pa] and Poisson's ratio.")
+      .def_static(
+          "isotropic", [](double young, double poisson) { return RodMaterial::isotropic(young, poisson); },
+          arg("young"), arg("poisson"), "Young's modulus [Pa] and Poisson's ratio.")
       .def_readonly("young", &RodMaterial::young, "[Pa]")
       .def_readonly("shear", &RodMaterial::shear, "[Pa]");
 }
