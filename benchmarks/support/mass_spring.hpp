@@ -19,11 +19,13 @@
 
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/element/corotational.hpp>
-#include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/fem/rod_system.hpp>
+#include <hapbeam/rod.hpp>
 
 namespace hapbeam::benchmarks {
+
+/// Nodes of a rod at rest [m], elements + 1 of them.  In touch_scenes_in_space.cpp, which compiles the model in any case.
+std::vector<VectorOf<double, 3>> nodes_at_rest(const Rod& rod, int elements);
 
 /// @tparam D  of the space in which it bends: 2 | 3
 template <int D>
@@ -107,8 +109,7 @@ class MassSpring {
   void describe(const Rod& rod, int links) {
     EA_ = rod.stiffness().axial;
     bending_ = rod.stiffness().bending1 / link_;
-    const FemModel<TwistedRod> resting(rod, links);
-    for (const auto& node : resting.shape()) rest_.push_back(node.r);
+    rest_ = nodes_at_rest(rod, links);
     wall_.fill(rod.left_pose().along);
     std::size_t k = 0;
     for (const RodSupport& support : {rod.left(), rod.right()}) {

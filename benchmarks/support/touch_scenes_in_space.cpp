@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "mass_spring.hpp"
 #include "random_stops.hpp"
 #include "touch_scenes.hpp"
 #include <hapbeam/element/twisted_rod.hpp>
@@ -53,6 +54,13 @@ TouchSceneIn<3> pressed_across(const char* name, const Rod& rod, double depth, d
 }
 
 }  // namespace
+
+std::vector<Vector> nodes_at_rest(const Rod& rod, int elements) {
+  const FemModel<TwistedRod> resting(rod, elements);
+  std::vector<Vector> nodes;
+  for (const auto& node : resting.shape()) nodes.push_back(node.r);
+  return nodes;
+}
 
 std::vector<TouchSceneIn<3>> touch_scenes_in_space(int stops) {
   Rod wire(0.2, RodSection::circle(0.001), spring_steel, RodSupport::clamped, RodSupport::free);

@@ -127,7 +127,7 @@ class DynamicModel {
     return {kinetic(), strain + viscosity_.energy(), system_.total_potential() - strain};
   }
   /// Of what holds an end on the beam, inertia and viscosity taken into account: along x and w [N], and moment [N·m].   @param k  0: left, 1: right
-  Vector3<Scalar> reaction(int k) const noexcept {
+  VectorOf<Scalar, 3> reaction(int k) const noexcept {
     static_assert(dimension == 2, "the reaction of an end is that of a beam in the plane");
     const int e = k == 0 ? 0 : system_.elements() - 1;
     Vector6<Scalar> r;
@@ -137,7 +137,7 @@ class DynamicModel {
       Matrix6<Scalar> unused = Matrix6<Scalar>::Zero();
       (void)viscosity_.add(e, system_.parts().displacements(e), r, unused);
     }
-    Vector3<Scalar> sum = r.template segment<3>(3 * k);
+    VectorOf<Scalar, 3> sum = r.template segment<3>(3 * k);
     if (!starts_ && !massless_) sum += inertia_.force(system_.parts().nodes(), k == 0 ? 0 : e + 1);
     return sum;
   }

@@ -82,7 +82,7 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   }
   /// c M (q - q~) of node i, as they lie: along x and w [N], and moment [N·m].
   template <class Nodes>
-  Vector3<S> force(const Nodes& nodes, int i) const noexcept {
+  VectorOf<S, 3> force(const Nodes& nodes, int i) const noexcept {
     const int last = nodes.size() - 1;
     const auto off = [&](int k) { return Placed<S>(placed(nodes[k]) - ghost_[k]); };
     const Blocks& of = blocks_[i];
