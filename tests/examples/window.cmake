@@ -138,7 +138,7 @@ if(HAPBEAM_XDOTOOL)
     hapbeam_test_example(${program} ${name} STATUS 0 OUTPUT "^\n(interrupted after )?[0-9]+ ticks" ${ARGN}
       BEFORE ${seen} bash ${CMAKE_CURRENT_SOURCE_DIR}/choose.sh ${screen} ${list} ${entry} OPTIONS --scene thesis)
   endfunction()
-  hapbeam_test_choice(phantom window_trains 1170,170 1170,304 FIELDS model=pod stated_force_error_max)
+  hapbeam_test_choice(phantom window_trains 1170,170 1170,323 FIELDS model=pod stated_force_error_max)
   hapbeam_test_choice(phantom_emulated window_device 1170,242 1170,282 FIELDS "device=emulated Phantom")
   set_tests_properties(examples/phantom_window_trains examples/phantom_emulated_window_device PROPERTIES TIMEOUT 300 COST 5)
 else()
