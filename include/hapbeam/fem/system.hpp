@@ -366,14 +366,15 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     if (!(n > 0)) return by;
     const Scalar from = line[piece].s, l = line[piece + 1].s - from;
     const auto control = line.segment(piece);
-    const Number at = Number::variable(s - from, 0);
-    const detail::CutPiece<Number> taut(l, at, n), cubic(l, at, Scalar(0));
+    const detail::CutPiece<Number> taut(l, Number::variable(s - from, 0), n);
+    Number cubic[4], lacks;
+    (void)detail::cut_slack_piece(l, Scalar(s - from), cubic, lacks);
     const Vector chord = (control.col(3) - control.col(0)) / l;
     const auto add = [&](const Number& more, const Vector& turned) {
       by.place += more.value * turned, by.slope += more.by(0) * turned;
     };
-    add(taut.left - cubic.left, Vector(3 / l * (control.col(1) - control.col(0)) - chord));
-    add(taut.right - cubic.right, Vector(3 / l * (control.col(3) - control.col(2)) - chord));
+    add(taut.left - cubic[1], Vector(3 / l * (control.col(1) - control.col(0)) - chord));
+    add(taut.right - cubic[3], Vector(3 / l * (control.col(3) - control.col(2)) - chord));
     return by;
   }
   /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one.  Farther beside the node both do not answer alike.
