@@ -164,8 +164,6 @@ template <typename Scalar, int D = 2>
 struct Pushed {
   Scalar force;   ///< [N] on the beam along the normal; negative where the circle pushes.  Always finite.
   Status status;  ///< as Response::status
-  Scalar miss =
-      0;  ///< [m] how far from where they touch s may be; 0 where that is within the model's tolerance
   bool past_end = false;  ///< they touch at an end of the beam, which the centre has passed
   Scalar s = 0;           ///< [m] arc position of the point
   VectorOf<Scalar, D> point = VectorOf<Scalar, D>::Zero();   ///< [m] of the centreline

@@ -19,12 +19,14 @@ constexpr double pi = 3.14159265358979323846;
 /// Between clamps that stand apart by so much that it is under a tension.
 struct Drawn {
   double length, diameter, tension;
+  double young = spring_steel.young;
 
-  double axial() const { return spring_steel.young * pi / 4 * diameter * diameter; }
+  double axial() const { return young * pi / 4 * diameter * diameter; }
   double bending() const { return axial() * diameter * diameter / 16; }
   double longer() const { return 1 + tension / axial(); }
   Rod rod() const {
-    Rod rod(length, RodSection::circle(diameter), spring_steel, RodSupport::clamped, RodSupport::clamped);
+    Rod rod(length, RodSection::circle(diameter), RodMaterial::isotropic(young, 0.3), RodSupport::clamped,
+            RodSupport::clamped);
     return rod.place_right({{length * longer(), 0, 0}, {1, 0, 0}, {0, 1, 0}});
   }
   /// Depth under a small force at a, times that [m/N]: EI w'''' - N λ w'' = λ² δ(s - a), λ = 1 + N/EA, s along what is not yet drawn.
@@ -134,4 +136,34 @@ TEST_CASE("a string and a bar that are pressed deep answer as the planar beam do
       }
     }
   }
+}
+
+// The radius to which a force F bends a string is 2 √(EI N)/F: here that of the capsule from 0.5 N on.
+TEST_CASE("a capsule slides along a string that is bent more sharply than it, over nodes", "[rod]") {
+  constexpr double reach = 0.005;
+  const Drawn suture{0.2, 0.3e-3, 1, 2e9};
+  for (const double friction : {0.0, 0.3})
+    for (const double depth : {0.006, 0.009}) {
+      FemModel<RoundRod> model(suture.rod(), 8);
+      Touch<FemModel<RoundRod>> touch(model, reach - suture.diameter / 2, Friction(friction));
+      const Point shaft(0, 0, 0.06);
+      double largest = 0, sharpest = 0;
+      Felt before = touch.tick(Point(0.06, reach, -0.03), shaft);
+      move(touch, Point(0.06, reach, -0.03), Point(0.06, -depth, -0.03), shaft, 600,
+           [&](const Point&, const Felt& felt) { before = felt; });
+      move(touch, Point(0.06, -depth, -0.03), Point(0.14, -depth, -0.03), shaft, 3200,
+           [&](const Point& at, const Felt& felt) {
+             CAPTURE(friction, depth, at.x(), name(felt.status));
+             REQUIRE(is_answer(felt.status));
+             REQUIRE(felt.pressing);
+             largest = std::max(largest, (felt.force - before.force).norm() / before.force.norm());
+             const double tension = model.internal_forces(0.02).normal;
+             sharpest =
+                 std::max(sharpest, reach * felt.force.norm() / (2 * std::sqrt(suture.bending() * tension)));
+             before = felt;
+           });
+      CAPTURE(friction, depth, sharpest);
+      CHECK(sharpest > (depth > 0.008 ? 1.4 : 1));
+      CHECK(largest <= 0.04);
+    }
 }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <hapbeam/body/rod_inner_contact.hpp>
 #include <hapbeam/body/rod_spot.hpp>
@@ -86,7 +87,7 @@ class RodBubbles : protected Stacked<S, Most> {
   /// Of what the second derivative of the distance is across.
   static constexpr S parallel = S(1e-3);
 
-  /// From the place of the only contact to where the curve is tangent, no farther than an element [m].
+  /// From the place of the only contact to where the curve is tangent, no farther than an element [m].  NaN where there is none beside it.
   S way_to_foot() noexcept {
     look(0), seen_ = 1;
     const Contact& contact = *contacts_[0];
@@ -95,10 +96,11 @@ class RodBubbles : protected Stacked<S, Most> {
     const S rise = spot.g.by(0) * contact.force / 2;
     const S off = contact.normal.dot(spot.t) + rise * stiffer(), bends = contact.normal.dot(spot.k),
             round = spot.t.dot(Vector(spot.curved * spot.t));
-    // Along a curve that is flatter than the capsule the distance has a minimum.
-    const S least = parallel * spot.t.squaredNorm() / contact.reach;
-    if (!(bends + round > least)) return 0;
-    return std::clamp(-off / (bends + round), -p_->length, p_->length);
+    // Along a curve that is flatter than the capsule the distance has a minimum, which is beside it unless it is nearly as sharp.
+    const S least = parallel * spot.t.squaredNorm() / contact.reach, by = -off / (bends + round);
+    if (!(bends + round > least) || (bends + round < round / 2 && std::abs(by) > contact.reach / 10))
+      return std::numeric_limits<S>::quiet_NaN();
+    return std::clamp(by, -p_->length, p_->length);
   }
   void look(int k) noexcept {
     using std::sqrt;

@@ -43,13 +43,21 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   using Base::add, Base::Base, Base::look, Base::strain_energy;
 
   /// Where a contact touches the curve as it lies: λ h(s) = 0 has a root λ = 0, and where λ is small Newton's method would take it.
+  /// Where the curve is about as sharp as the capsule the contact stays where it is: place and nodes find theirs together.
   /// @param rod  RodElements   @param e  in and out: element   @param id  as of add()   @param here  out: the element with that contact where it is
   template <class Parts>
   static void seek(const Parts& rod, int& e, Contact& contact, int id,
                    std::optional<TouchedRod>& here) noexcept {
+    const int before = e;
+    const S from = contact.s;
     for (int step = 0; step < most_steps; ++step) {
       here.emplace(rod, e).add(contact, id);
       const S by = here->way_to_foot();
+      if (std::isnan(by) && step > 0) {
+        e = before, contact.s = from;
+        here.reset();
+        break;
+      }
       if (!(std::abs(by) > close_by * contact.reach)) break;
       here.reset();
       const S s = std::clamp(contact.s + by, contact.least, contact.most);

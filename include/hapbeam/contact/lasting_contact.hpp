@@ -39,8 +39,6 @@ struct LastingContact {
   using Contact = hapbeam::Contact<Scalar, dimension>;
   using Round = PushOf<Model>;
 
-  /// Farther than this from where they touch, in units of reach, the contact has not been found.
-  static constexpr Scalar too_far = Scalar(1e-2);
   /// Of the length: an end that holds w has not slid.
   static constexpr Scalar still = Scalar(1e-6);
 
@@ -150,20 +148,18 @@ struct LastingContact {
       return model.push(request);
     }();
     asked = {pushed.s, planar ? pushed.point[1] : pushed.normal.dot(pushed.point)};
-    const bool answer = is_answer(pushed.status), found = pushed.miss <= too_far * reach,
-               lost = answer && !found;
-    // What pulls beside the contact, or on the way to it, may press there.
+    const bool answer = is_answer(pushed.status);
+    // What pulls on the way to the contact may press there.
     if (pushed.force > 0 || (answer && pushed.force == 0))
-      return {answer && found ? Hold::released : Hold::lost, 0, pushed.status};
+      return {answer ? Hold::released : Hold::lost, 0, pushed.status};
     // Pushed along itself an end has no place on the circle any more: it slips off.
-    if ((lost || pushed.status == Status::iteration_limit) && pushed.past_end)
-      return {Hold::lost, 0, pushed.status};
+    if (pushed.status == Status::iteration_limit && pushed.past_end) return {Hold::lost, 0, pushed.status};
     contact.s = pushed.s;
     contact.foot = pushed.point;
     contact.normal = pushed.normal;
     contact.point = pushed.point + pushed.normal * (model.thickness() / 2);
     contact.past_end = pushed.past_end;
-    Status status = lost ? Status::iteration_limit : pushed.status;
+    Status status = pushed.status;
     if (status == Status::ok && rough() && !friction.settled) status = Status::iteration_limit;
     if (status == Status::ok && !pushed.past_end && pinched(model.shape(), pushed.s, avatar, reach))
       status = Status::out_of_range;

@@ -123,13 +123,8 @@ struct SeveralPlace {
     return touches;
   }
 
-  /// Whether the contact is where the two touch, as in Touch, and its friction has settled.
-  bool found(const Model& model) const noexcept {
-    if (!obstacle.touching || fixed() || at_end()) return true;
-    // A wall is as flat as any.
-    const Scalar reach = (std::min)(avatar.radius + model.thickness() / 2, model.shape().length() / 10);
-    return at.friction.settled && obstacle.pushed.miss <= Lasting::too_far * reach;
-  }
+  /// Whether its friction has settled.
+  bool settled() const noexcept { return !obstacle.touching || fixed() || at_end() || at.friction.settled; }
   /// Answers.   @param pushed  whether there was a push in this tick
   void report(bool pushed) noexcept {
     answer = {};

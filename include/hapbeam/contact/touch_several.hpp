@@ -205,14 +205,14 @@ class TouchSeveral {
       if (places_[at(i)].at.rough()) all[at(i)].friction = &places_[at(i)].at.friction;
     }
     const Status status = model_.push(all.data(), size_);
-    bool found = true;
+    bool settled = true;
     for (int i = 0; i < size_; ++i) {
       all[at(i)].friction = nullptr;
       places_[at(i)].obstacle = all[at(i)];
-      found = found && places_[at(i)].found(model_);
+      settled = settled && places_[at(i)].settled();
     }
     volumes_.outdate();
-    return is_answer(status) && !found ? Status::iteration_limit : status;
+    return is_answer(status) && !settled ? Status::iteration_limit : status;
   }
 
   Model& model_;

@@ -62,14 +62,15 @@ class ObstacleGap {
   }
   void look_beside(Scalar touched, Scalar apart) noexcept {
     const Scalar reach = round_.request().reach, length = line_.length();
-    for (const Scalar way : {-reach / 2, -reach / 4, reach / 4, reach / 2}) {
-      const Scalar at = touched + way;
-      if (!(std::abs(way) > apart) || at < 0 || at > length) continue;
-      const Scalar clearance = round_.clearance(round_.node_at(line_, at));
-      if (clearance < reach)
-        take(at, way < 0 ? (std::max)(touched + 2 * way, Scalar(0)) : touched + apart,
-             way < 0 ? touched - apart : (std::min)(touched + 2 * way, length), clearance);
-    }
+    for (const int side : {-1, 1})
+      for (Scalar away = reach / 2; away > (std::max)(apart, reach / 20); away /= 2) {
+        const Scalar at = touched + static_cast<Scalar>(side) * away;
+        if (at < 0 || at > length) continue;
+        const Scalar clearance = round_.clearance(round_.node_at(line_, at));
+        if (!(clearance < reach)) continue;
+        if (side < 0) take(at, (std::max)(touched - 2 * away, Scalar(0)), touched - apart, clearance);
+        else take(at, touched + apart, (std::min)(touched + 2 * away, length), clearance);
+      }
   }
   void look() noexcept {
     if (!known_) return;

@@ -276,7 +276,11 @@ class RowContacts {
                     : slot(i).crowded || (status == Status::ok && (slot(i).held || touches_again(system, i)))
                         ? Status::out_of_range
                         : status;
-    if (!all_[i].touching || (pushed.force > 0 && !holds_ && all_[i].kind != ObstacleKind::support))
+    // Of round-off: the place of what does not press may be anywhere.
+    const Scalar nothing =
+        std::numeric_limits<Scalar>::epsilon() * system.unit() * system.unit() / system.length();
+    if (!all_[i].touching || std::abs(pushed.force) < nothing ||
+        (pushed.force > 0 && !holds_ && all_[i].kind != ObstacleKind::support))
       pushed.force = 0;
     if (all_[i].kind == ObstacleKind::round) return;
     const auto node = RoundContact::node_at(system.drawn(), slot(i).s);
