@@ -8,6 +8,7 @@
 #include "support/random.hpp"
 #include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/element/corotational.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 using namespace hapbeam;
@@ -188,4 +189,37 @@ TEST_CASE("a capsule slides along a string that is bent more sharply than it, ov
         return felt.force(0);
       });
     }
+}
+
+TEST_CASE("a flat strip that is drawn too taut for its elements says so", "[rod]") {
+  const double length = 0.2, width = 0.01, height = 0.0005;
+  Random random(11);
+  int answered = 0, told = 0;
+  for (int k = 0; k < 24; ++k) {
+    const double drawn = k % 2 == 0 ? 0 : std::pow(10, random(-5, -3)),
+                 depth = length * std::pow(10, random(-3, -1.2)), s = length * random(0.15, 0.85);
+    const int elements = random.integer(6, 24);
+    Beam beam(length, Section::rectangle(width, height), Material{spring_steel.young}, Support::clamped,
+              Support::clamped);
+    beam.place({}, {length * drawn, 0, 0});
+    Rod rod(length, RodSection::rectangle(width, height), spring_steel, RodSupport::clamped,
+            RodSupport::clamped);
+    rod.place_right({{length * (1 + drawn), 0, 0}, {1, 0, 0}, rod.left_pose().director});
+    FemModel<Corotational<>> planar(beam, 64);
+    FemModel<TwistedRod> model(rod, elements);
+    const Point across = detail::cross3<double>(Point(1, 0, 0), rod.left_pose().director);
+    Response<double> exact{}, strip{};
+    for (int part = 1; part <= 20; ++part) {
+      exact = planar.press({s, depth * part / 20});
+      strip = model.push(Push<double, 3>{s, depth * part / 20, across});
+    }
+    REQUIRE(is_answer(strip.status));
+    const double off = std::abs(strip.force / exact.force - 1);
+    CAPTURE(elements, drawn, depth, s, off);
+    const bool good = strip.status == Status::ok;
+    CHECK((good ? off <= 0.01 : off > 1e-3));
+    ++(good ? answered : told);
+  }
+  CHECK(answered > 6);
+  CHECK(told > 6);
 }

@@ -77,6 +77,9 @@ class AllDisplacements {
     return drawn(pushes_.push(*this, all, count, range));
   }
 
+  /// Whether the element at s is too long for the tension that it is under.
+  bool overdrawn(Scalar s) const noexcept { return system_.overdrawn(s); }
+
   /// Moves a clamped end of a rod, without a contact.
   template <class Side, class Pose>
   HeldEnd<Scalar> hold(Side side, const Pose& pose) noexcept {

@@ -180,6 +180,11 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     const Line line = drawn();
     return beside(line, line.segment_at(s), element_at(s), s).place;
   }
+  /// Whether the element at s is too long for the tension that it is under.
+  bool overdrawn([[maybe_unused]] Scalar s) const noexcept {
+    if constexpr (dimension == 3) return parts().overdrawn(element_at(s));
+    else return false;
+  }
   /// Where its middle is: a beam's across alone [m].
   auto middle() const noexcept { return Chain::middle(centreline().at(length_ / 2)); }
   /// Whether an element that does not do so at rest has turned so far in itself that it no longer stands for a beam.

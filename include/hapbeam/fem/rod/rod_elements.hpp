@@ -80,6 +80,17 @@ class RodElements {
     const RodProperties<Scalar>& p = properties_[e];
     return taut() ? inner_[e] * (1 + inner_[e] / p.axial) * p.soft[0] : Scalar(0);
   }
+  /// Whether an element is drawn so taut that its curve is no cubic any more, N l²/EI above 4, and has no tension of its own: a press
+  /// within it may be off by more than 1 %.
+  bool overdrawn(int e) const noexcept {
+    constexpr Scalar most = 4;
+    if (taut()) return false;
+    const RodProperties<Scalar>& p = properties_[e];
+    const detail::EndsAndMiddle<Scalar> at(p, nodes_[e], nodes_[e + 1]);
+    const auto strain = [&](int k) { return at.n[k] - 1 - p.natural_strain[k]; };
+    const Scalar tension = p.axial * (strain(0) + 4 * strain(1) + strain(2)) / 6;
+    return tension * p.length * p.length * (std::max)(p.soft[0], p.soft[1]) > most;
+  }
   /// What an element is made of.
   const RodProperties<Scalar>& properties(int e) const noexcept { return properties_[e]; }
   template <class AnyNodes>
