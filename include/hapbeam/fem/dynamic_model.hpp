@@ -126,20 +126,20 @@ class DynamicModel {
     const Scalar strain = system_.strain_energy();
     return {kinetic(), strain + viscosity_.energy(), system_.total_potential() - strain};
   }
-  /// Of what holds an end on the beam, inertia and viscosity taken into account: along x and w [N], and moment [N·m].   @param k  0: left, 1: right
-  VectorOf<Scalar, 3> reaction(int k) const noexcept {
-    static_assert(dimension == 2, "the reaction of an end is that of a beam in the plane");
-    const int e = k == 0 ? 0 : system_.elements() - 1;
-    Vector6<Scalar> r;
-    std::array<typename System::Contact, System::Rows::most> touching;
-    (void)system_.chain().nodal_forces(system_.rows(), e, 1, r, touching);
-    if (!starts_ && !viscosity_.none()) {
-      Matrix6<Scalar> unused = Matrix6<Scalar>::Zero();
-      (void)viscosity_.add(e, system_.parts().displacements(e), r, unused);
-    }
-    VectorOf<Scalar, 3> sum = r.template segment<3>(3 * k);
-    if (!starts_ && !massless_) sum += inertia_.force(system_.parts().nodes(), k == 0 ? 0 : e + 1);
-    return sum;
+  /// Leads an end of a rod to a pose in the next step, along the parabola of this pose and the two before.  The end is clamped, or on springs,
+  /// of which the pose then is.  A step that has no answer leaves it where it has come to.   @param damper  beside those springs
+  /// @return ok | invalid_request: it is held otherwise, or an argument makes no sense; nothing has changed
+  template <class Side, class Pose, class Damper = HoldDamper>
+  Status hold(Side side, const Pose& pose, const Damper& damper = {}) noexcept {
+    const bool valid = ends_.lead(system_.chain(), static_cast<std::size_t>(side), pose, damper);
+    return valid ? Status::ok : Status::invalid_request;
+  }
+  /// Of what holds an end on the body, inertia and viscosity taken into account: in the plane along x and w [N], and moment [N·m]; in space a
+  /// HeldEnd, with moment about the end.   @param side  0 | RodSide::left, 1 | RodSide::right
+  template <class Side>
+  auto reaction(Side side) const noexcept {
+    return system_.reaction(static_cast<std::size_t>(side), starts_ || massless_ ? nullptr : &inertia_,
+                            starts_ || viscosity_.none() ? nullptr : &viscosity_);
   }
 
   /// Called at the end of each part of a step.   @param part  its length [s]
@@ -160,6 +160,9 @@ class DynamicModel {
     stop();
     viscosity_.relax(system_.parts());
     contacts_.reset();
+    ends_.stay(system_.chain());
+    system_.set_goal();
+    system_.set_target(1);  // all of the dead loads
     for (auto& curvature : curvature_) curvature = {};
     starts_ = true;
     system_.draw();
@@ -208,6 +211,7 @@ class DynamicModel {
     const Scalar all = massless_ ? dt : (std::min)(dt, longest), part = all / Scalar(substeps_);
     if (starts_ && !massless_) accelerate(part);
     contacts_.begin(system_, hands, count);
+    ends_.begin(all);
     bool found = !starts_ || yield(part);
     for (int k = 0; k < substeps_ && found; ++k) {
       found = go_on(part, Scalar(k) / Scalar(substeps_), Scalar(k + 1) / Scalar(substeps_), 0);
@@ -216,7 +220,7 @@ class DynamicModel {
     system_.chain().move_with(nullptr, nullptr);
     contacts_.end();
     // The next one begins as after a reset, where the beam has stopped.
-    if (!found) stop(), starts_ = true, contacts_.reset();
+    if (!found) stop(), starts_ = true, contacts_.reset(), ends_.stop(system_.chain());
     system_.draw();
     return found ? Status::ok : Status::iteration_limit;
   }
@@ -228,9 +232,13 @@ class DynamicModel {
     viscosity_.begin(steps_.rate());
     inertia_.set_scale(kinetic());
     bool found = true;
-    for (int stage = 0; stage < steps_.stages && found; ++stage)
-      found = solve(stage, begin + steps_.end(stage) * (end - begin));
-    if (found) return true;
+    Scalar from = begin;
+    for (int stage = 0; stage < steps_.stages && found; ++stage) {
+      const Scalar to = begin + steps_.end(stage) * (end - begin);
+      ends_.aim(system_.chain(), from, to, steps_.length(stage));
+      found = solve(stage, to), from = to;
+    }
+    if (found) return ends_.settle(system_.chain(), end), true;
     system_.set_state(before_);
     steps_.take_back();
     viscosity_.take_back();
@@ -279,6 +287,7 @@ class DynamicModel {
   Scalar drag_;
   typename Chain::Viscosity viscosity_;
   detail::CoupledContacts<System, contacts> contacts_;
+  typename Chain::LedEnds ends_;
   void* listens_ = nullptr;
   Listener listener_ = nullptr;
 };

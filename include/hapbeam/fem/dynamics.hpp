@@ -41,7 +41,7 @@ Placed<S> placed(const CentrelineNode<S>& node) noexcept {
 template <typename S, int Elements, int MaxElements>
 class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   using Base = MassBlocks<S, 2, Elements, MaxElements>;
-  using Base::blocks_, Base::ghost_, typename Base::Block, typename Base::Blocks;
+  using Base::blocks_, Base::ghost_, typename Base::Block;
 
  public:
   using typename Base::Values;
@@ -83,12 +83,7 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   /// c M (q - q~) of node i, as they lie: along x and w [N], and moment [N·m].
   template <class Nodes>
   VectorOf<S, 3> force(const Nodes& nodes, int i) const noexcept {
-    const int last = nodes.size() - 1;
-    const auto off = [&](int k) { return Placed<S>(placed(nodes[k]) - ghost_[k]); };
-    const Blocks& of = blocks_[i];
-    Placed<S> sum = of.own * off(i);
-    if (i < last) sum += of.next * off(i + 1);
-    if (i > 0) sum += of.before * off(i - 1);
+    const Placed<S> sum = this->product(i, [&](int k) { return Placed<S>(placed(nodes[k]) - ghost_[k]); });
     const Placed<S> at = placed(nodes[i]);
     return {sum[0], sum[1], at[3] * sum[2] - at[2] * sum[3]};
   }
@@ -123,6 +118,20 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   };
   Values at_;  // q
   PerNode<Seen, Elements, MaxElements> seen_;
+};
+
+/// Ends of a beam in the plane: nothing leads them.
+struct NoLedEnds {
+  template <class Chain>
+  void stay(Chain&) noexcept {}
+  template <typename S>
+  void begin(S) noexcept {}
+  template <class Chain, typename S>
+  void aim(Chain&, S, S, S) noexcept {}
+  template <class Chain, typename S>
+  void settle(Chain&, S) noexcept {}
+  template <class Chain>
+  void stop(Chain&) noexcept {}
 };
 
 }  // namespace hapbeam::detail

@@ -88,6 +88,16 @@ class MassBlocks {
     return sum.sum() / (2 * rate_);
   }
 
+  /// c M x of node i.   @param of  (i) -> x of node i
+  template <class Of>
+  Placed product(int i, Of&& of) const noexcept {
+    const Blocks& to = blocks_[i];
+    Placed sum = to.own * of(i);
+    if (i + 1 < blocks_.size()) sum += to.next * of(i + 1);
+    if (i > 0) sum += to.before * of(i - 1);
+    return sum;
+  }
+
   /// √(c |q|²) of places that are all off by so much [√J].   @param off [m]
   S round_off(S off) const noexcept {
     Placed x;

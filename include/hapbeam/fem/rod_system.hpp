@@ -13,6 +13,7 @@
 #include <hapbeam/body/touched_rod.hpp>
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact/rod_round_contact.hpp>
+#include <hapbeam/fem/rod/led_ends.hpp>
 #include <hapbeam/fem/rod/rod_elements.hpp>
 #include <hapbeam/fem/rod/rod_ends.hpp>
 #include <hapbeam/fem/rod/rod_inertia.hpp>
@@ -45,6 +46,7 @@ class RodChain {
   using Drawn = detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>>;
   using Inertia = detail::RodInertia<Scalar, Elements, MaxElements>;
   using Viscosity = detail::Elastic;
+  using LedEnds = detail::LedEnds<Scalar, Element::unknowns == 7>;
   static constexpr int unknowns = Element::unknowns;
   using Increment = VectorOf<Scalar, unknowns>;
 
@@ -138,16 +140,19 @@ class RodChain {
     if (valid) ends_[k].place(pose);
     return valid;
   }
-  /// What holds an end of a rod that nothing touches: force [N] and moment about the end [N·m], in space.
-  struct Hold {
-    Vector3 force, moment;
-  };
-  Hold reaction(std::size_t k, Scalar load) const noexcept {
+  /// What holds an end.   @param load  λ   @param inertia  null: at rest
+  template <class Rows>
+  HeldEnd<Scalar> reaction(std::size_t k, Scalar load, const Rows& rows, const Inertia* inertia = nullptr,
+                           const Viscosity* = nullptr) const noexcept {
     Residual r;
-    parts_.residual(k == 0 ? 0 : parts_.size() - 1, load, r);
-    const Increment at = r.template segment<unknowns>(k == 0 ? 0 : unknowns);
-    return {at.template segment<3>(0), parts_.moment(at, node(ends_.node(k)).tangent)};
+    const int e = k == 0 ? 0 : parts_.size() - 1;
+    parts_.residual(e, load, r);
+    if (rows.in(e)) r += touched(rows, e);
+    Increment at = r.template segment<unknowns>(k == 0 ? 0 : unknowns);
+    if (inertia) at.template head<6>() += inertia->force(parts_.nodes(), ends_.node(k));
+    return {at.template segment<3>(0), parts_.moment(at, node(ends_.node(k)).tangent), Status::ok};
   }
+
   // Its equations.
 
   /// A rod that is round may roll where it is bowed, but for round-off; 1/10⁷ of what bends one.
@@ -281,6 +286,21 @@ class RodChain {
       assembler.add_more(e, K, r);
     });
     return energy;
+  }
+  /// What contacts add to the residual of an element that they touch, as it lies.
+  template <class Rows>
+  Residual touched(const Rows& rows, int e) const noexcept {
+    typename Rows::Touched touched(parts_, e);
+    std::array<typename Rows::Contact, Rows::most> contacts;
+    for (int k = 0; k < rows.size(); ++k)
+      if (rows.element(k) == e) touched.add(contacts[static_cast<std::size_t>(k)] = rows[k], k);
+    Residual r;
+    typename Rows::Tangent K;
+    (void)touched.condense(r, K, [](int) {});
+    // Its tension, which they have changed, was condensed without them.
+    const auto inner = parts_.inner(e);
+    if (parts_.taut()) r -= (inner.residual / inner.stiffness) * inner.row;
+    return r;
   }
   /// Bends it a little.
   /// @param e  how far and where to [m]   @param c  where the bow changes its side, of the length; negative: nowhere

@@ -29,6 +29,15 @@ class RodInertia : public MassBlocks<S, 3, Elements, MaxElements> {
     for (int i = 0; i < nodes.size(); ++i) at_[i] << nodes[i].r, nodes[i].tangent;
     return at_;
   }
+  /// c M (q - q~) of node i, as they lie: on r [N] and on r' [N·m].
+  template <class Nodes>
+  Placed force(const Nodes& nodes, int i) const noexcept {
+    return this->product(i, [&](int k) {
+      Placed at;
+      at << nodes[k].r, nodes[k].tangent;
+      return Placed(at - ghost_[k]);
+    });
+  }
   /// Adds itself to the equations, after all elements are in.   @return ½ c |q - q~|² [J]
   template <class Nodes, class Assembler>
   S add(const Nodes& nodes, Assembler& assembler) noexcept {

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Ends of a rod in motion that hands lead, held by clamps or springs, and dampers beside these.
+//
+//   F = K g + B (g - g0)/τ          g = x - h of the end x against the hand h
+//
+// in each stage of length τ, as of hands that touch (contact/coupled_contacts.hpp).  The damper is springs B/τ that have no force where the end is
+// to the hand as where the stage begins, turned alike: with a hand at rest a stage takes energy however far it turns.
+// Real-time: noexcept, no allocation, O(1).
+#pragma once
+
+#include <cstddef>
+
+#include <hapbeam/fem/rod/end_path.hpp>
+#include <hapbeam/force_model.hpp>
+
+namespace hapbeam::detail {
+
+/// @tparam Twists  whether a node's director is held
+template <typename S, bool Twists>
+class LedEnds {
+  using Vector3 = VectorOf<S, 3>;
+  using Node = RodNode<S>;
+
+ public:
+  /// They are where they belong at rest.
+  template <class Chain>
+  void stay(Chain& chain) noexcept {
+    for (std::size_t k = 0; k < 2; ++k) {
+      auto& end = chain.ends()[k];
+      end.place_home();
+      end.place(end.goal(), 1, 1);
+      led_[k].place = led_[k].turning = 0;
+      led_[k].path.stay(end.goal());
+    }
+  }
+  /// Where an end goes in the next step, and what of its springs is a damper.
+  /// @return false where it is neither clamped nor on springs, or an argument makes no sense: nothing has changed
+  template <class Chain>
+  bool lead(Chain& chain, std::size_t k, RodPose pose, const HoldDamper& damper) noexcept {
+    const auto share = [](double part) { return part >= 0 && part < 1; };
+    if (!(chain.ends()[k].takes_pose() && pose.make_valid() && share(damper.place) && share(damper.turning) &&
+          damper.period > 0))
+      return false;
+    Led& led = led_[k];
+    led.path.lead(
+        {0, pose.at.template cast<S>(), pose.along.template cast<S>(), pose.director.template cast<S>()});
+    led.place = static_cast<S>(damper.place), led.turning = static_cast<S>(damper.turning);
+    led.period = static_cast<S>(damper.period);
+    return true;
+  }
+  /// A step of so long [s].
+  void begin(S dt) noexcept {
+    for (Led& led : led_) led.path.begin(dt), led.reached = 0;
+  }
+  /// For a stage.   @param from, to  of the step   @param time τ [s]
+  template <class Chain>
+  void aim(Chain& chain, S from, S to, S time) const noexcept {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Led& led = led_[k];
+      if (led.rests()) continue;
+      const Node& node = chain.parts().nodes()[chain.ends().node(k)];
+      const Node hand = led.path.at(from);
+      Node at = node;
+      at.tangent = unit(node.tangent);
+      Vector3 turned = rotation_between(hand, at);
+      if (!Twists) turned -= hand.tangent.dot(turned) * hand.tangent;
+      const Node there = led.path.at(to);
+      auto& end = chain.ends()[k];
+      end.place(there, 1 - led.place, 1 - led.turning);
+      const S more = led.period / time;
+      end.damp(gone<S>(there, node.r - hand.r, turned), led.place * more, led.turning * more);
+    }
+  }
+  /// Where it has come to, held by its springs alone.   @param at  of the step
+  template <class Chain>
+  void settle(Chain& chain, S at) noexcept {
+    for (std::size_t k = 0; k < 2; ++k) {
+      Led& led = led_[k];
+      led.reached = at;
+      if (!led.rests()) chain.ends()[k].place(led.path.at(at), 1 - led.place, 1 - led.turning);
+    }
+  }
+  /// The step has no answer: they stay where they have come to.
+  template <class Chain>
+  void stop(Chain& chain) noexcept {
+    for (Led& led : led_) led.path.stay(led.path.at(led.reached));
+    settle(chain, 1);
+  }
+
+ private:
+  struct Led {
+    EndPath<S> path;
+    S place = 0, turning = 0, period = 1;  // of the damper
+    S reached = 0;                         // of the step
+    bool rests() const noexcept { return place == 0 && turning == 0 && path.rests(); }
+  };
+  Led led_[2];
+};
+
+}  // namespace hapbeam::detail
