@@ -232,10 +232,13 @@ class BeamChain {
     for (int i = 0; i < parts_.nodes().size(); ++i) parts_.nodes()[i] = at(i);
     ends_.correct(parts_.nodes());
   }
-  /// A node of another shape of the same beam.
-  static Node laid(const Node& node, const Centreline<Scalar>& shape) noexcept {
-    const Displacement<Scalar> at = shape.at(node.s);
-    return {node.s, at.u, at.w, at.theta};
+  /// Takes another shape of the same beam.
+  void lay(const Centreline<Scalar>& shape) noexcept {
+    for (Node& node : parts_.nodes()) {
+      const Displacement<Scalar> at = shape.at(node.s);
+      node = {node.s, at.u, at.w, at.theta};
+    }
+    parts_.find_tensions();
   }
   /// A node that goes from place and tangent to others: it turns as the tangent does.
   static Node moved(const Node& node, const detail::Placed<Scalar>& from,

@@ -25,10 +25,11 @@ namespace hapbeam {
 template <class Element = Corotational<>, typename ScalarType = double, int Elements = Eigen::Dynamic,
           int MaxElements = Elements>
 class DynamicModel {
-  static_assert(any_rotation<Element> && detail::unknowns_of<Element>() % 3 == 0,
-                "DynamicModel takes elements as Corotational<> and RoundRod");
+  static_assert(any_rotation<Element>,
+                "DynamicModel takes elements of finite rotation, as Corotational<> and RoundRod");
   using System = typename detail::SystemOf<Element>::template System<ScalarType, Elements, MaxElements>;
   using Chain = typename System::Chain;
+  using Placed = typename Chain::Inertia::Placed;
 
  public:
   using Scalar = ScalarType;
@@ -72,10 +73,7 @@ class DynamicModel {
   void reset() noexcept { begin(rest_); }
   /// Lets it go from another shape, without velocity.   @param shape  of the same beam, as of a FemModel
   void let_go_from(const Centreline<Scalar, dimension>& shape) noexcept {
-    system_.keep(before_);
-    for (auto& node : before_.nodes) node = Chain::laid(node, shape);
-    system_.set_state(before_);
-    system_.find_tensions();
+    system_.chain().lay(shape);
     system_.keep(before_);
     begin(before_);
   }
@@ -115,8 +113,10 @@ class DynamicModel {
     const int e = line.segment_at(s);
     const Scalar l = line[e + 1].s - line[e].s, t = (s - line[e].s) / l, u = 1 - t;
     const auto &a = steps_[e].v, &b = steps_[e + 1].v;
-    return u * u * (1 + 2 * t) * a.template head<dimension>() + l * t * u * u * a.template tail<dimension>() +
-           t * t * (3 - 2 * t) * b.template head<dimension>() - l * t * t * u * b.template tail<dimension>();
+    return u * u * (1 + 2 * t) * a.template head<dimension>() +
+           l * t * u * u * a.template segment<dimension>(dimension) +
+           t * t * (3 - 2 * t) * b.template head<dimension>() -
+           l * t * t * u * b.template segment<dimension>(dimension);
   }
   struct Energy {
     Scalar kinetic, strain, loads;  ///< [J], the last of the dead loads
@@ -157,6 +157,7 @@ class DynamicModel {
   void begin(const typename System::State& state) noexcept {
     system_.set_state(state);
     system_.keep(last_);
+    inertia_.begin_stage(last_.nodes, [](int) { return Placed(Placed::Zero()); });
     stop();
     viscosity_.relax(system_.parts());
     contacts_.reset();
@@ -255,6 +256,7 @@ class DynamicModel {
     // Tensions go on as they went, and nodes as their accelerations say.
     const Scalar onward = massless_ ? Scalar(0) : steps_.onward(stage);
     system_.go_on(last_, onward);
+    inertia_.begin_stage(last_.nodes, [&](int i) { return steps_.start(stage, i).q; });
     if (!massless_)
       system_.chain().place([&](int i) {
         return Chain::moved(last_.nodes[i], steps_.start(stage, i).q, steps_.foreseen(stage, i));
@@ -278,7 +280,7 @@ class DynamicModel {
 
   System system_;
   typename Chain::Inertia inertia_;
-  TrBdf2<Scalar, Elements, MaxElements, dimension> steps_;
+  TrBdf2<Scalar, Elements, MaxElements, Placed::RowsAtCompileTime> steps_;
   typename System::State rest_, before_, last_;  // at rest, before a part, and before the last stage
   Curvature<Scalar> curvature_[2];               // of both stages
   int substeps_, solves_ = 0;

@@ -138,11 +138,11 @@ struct NoLedEnds {
 
 namespace hapbeam {
 
-/// @tparam D  2 | 3
-template <typename S, int Elements, int MaxElements, int D = 2>
+/// @tparam Size  of what a node has: MassBlocks
+template <typename S, int Elements, int MaxElements, int Size = 4>
 class TrBdf2 {
  public:
-  using Placed = Eigen::Matrix<S, 2 * D, 1>;
+  using Placed = Eigen::Matrix<S, Size, 1>;
   /// How one node moves.
   struct State {
     Placed q = Placed::Zero(), v = Placed::Zero(), a = Placed::Zero();
@@ -171,10 +171,13 @@ class TrBdf2 {
     for (int i = 0; i < now_.size(); ++i) now_[i] = {}, now_[i].q = q(i);
     follows_ = false;
   }
-  /// @param v  (i) -> velocity of node i
+  /// @param v  (i) -> velocity of node i, of place and tangent
   template <class Velocity>
   void throw_at(Velocity&& v) noexcept {
-    for (int i = 0; i < now_.size(); ++i) now_[i].v = v(i);
+    for (int i = 0; i < now_.size(); ++i) {
+      const auto thrown = v(i);
+      now_[i].v.template head<std::decay_t<decltype(thrown)>::RowsAtCompileTime>() = thrown;
+    }
   }
   /// Where it was before the last step, with the acceleration behind it.
   void start_again() noexcept {

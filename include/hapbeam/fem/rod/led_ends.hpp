@@ -62,13 +62,13 @@ class LedEnds {
       const Node hand = led.path.at(from);
       Node at = node;
       at.tangent = unit(node.tangent);
-      Vector3 turned = rotation_between(hand, at);
-      if (!Twists) turned -= hand.tangent.dot(turned) * hand.tangent;
+      if (!Twists) at.director = across<S>(carry(hand.director, hand.tangent, at.tangent), at.tangent);
       const Node there = led.path.at(to);
       auto& end = chain.ends()[k];
       end.place(there, 1 - led.place, 1 - led.turning);
       const S more = led.period / time;
-      end.damp(gone<S>(there, node.r - hand.r, turned), led.place * more, led.turning * more);
+      end.damp(gone<S>(there, node.r - hand.r, rotation_between(hand, at)), led.place * more,
+               led.turning * more);
     }
   }
   /// Where it has come to, held by its springs alone.   @param at  of the step
