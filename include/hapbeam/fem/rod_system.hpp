@@ -230,6 +230,7 @@ class RodChain {
       else detail::set_tangent<Scalar>(node, at.tangent);
     }
     parts_.find_twists([&](Scalar s) { return director_of(shape, s); });
+    parts_.relax_twists();
     parts_.find_tensions();
   }
   /// A node that goes from place, tangent and twist to others.
