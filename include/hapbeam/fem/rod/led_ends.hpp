@@ -29,8 +29,7 @@ class LedEnds {
       auto& end = chain.ends()[k];
       end.place_home();
       end.place(end.goal(), 1, 1);
-      led_[k].place = led_[k].turning = 0;
-      led_[k].path.stay(end.goal());
+      led_[k].damper = {}, led_[k].path.stay(end.goal());
     }
   }
   /// Where an end goes in the next step, and what of its springs is a damper.
@@ -44,13 +43,13 @@ class LedEnds {
     Led& led = led_[k];
     led.path.lead(
         {0, pose.at.template cast<S>(), pose.along.template cast<S>(), pose.director.template cast<S>()});
-    led.place = static_cast<S>(damper.place), led.turning = static_cast<S>(damper.turning);
-    led.period = static_cast<S>(damper.period);
+    led.damper = damper;
     return true;
   }
   /// A step of so long [s].
   void begin(S dt) noexcept {
-    for (Led& led : led_) led.path.begin(dt), led.reached = 0;
+    for (Led& led : led_) led.path.begin(dt);
+    reached_ = 0;
   }
   /// For a stage.   @param from, to  of the step   @param time τ [s]
   template <class Chain>
@@ -65,35 +64,38 @@ class LedEnds {
       if (!Twists) at.director = across<S>(carry(hand.director, hand.tangent, at.tangent), at.tangent);
       const Node there = led.path.at(to);
       auto& end = chain.ends()[k];
-      end.place(there, 1 - led.place, 1 - led.turning);
-      const S more = led.period / time;
-      end.damp(gone<S>(there, node.r - hand.r, rotation_between(hand, at)), led.place * more,
-               led.turning * more);
+      place(end, there, led.damper);
+      const S more = static_cast<S>(led.damper.period) / time;
+      end.damp(gone<S>(there, node.r - hand.r, rotation_between(hand, at)),
+               static_cast<S>(led.damper.place) * more, static_cast<S>(led.damper.turning) * more);
     }
   }
   /// Where it has come to, held by its springs alone.   @param at  of the step
   template <class Chain>
   void settle(Chain& chain, S at) noexcept {
-    for (std::size_t k = 0; k < 2; ++k) {
-      Led& led = led_[k];
-      led.reached = at;
-      if (!led.rests()) chain.ends()[k].place(led.path.at(at), 1 - led.place, 1 - led.turning);
-    }
+    reached_ = at;
+    for (std::size_t k = 0; k < 2; ++k)
+      if (!led_[k].rests()) place(chain.ends()[k], led_[k].path.at(at), led_[k].damper);
   }
   /// The step has no answer: they stay where they have come to.
   template <class Chain>
   void stop(Chain& chain) noexcept {
-    for (Led& led : led_) led.path.stay(led.path.at(led.reached));
-    settle(chain, 1);
+    settle(chain, reached_);
+    for (Led& led : led_) led.path.stay(led.path.at(reached_));
   }
 
  private:
   struct Led {
     EndPath<S> path;
-    S place = 0, turning = 0, period = 1;  // of the damper
-    S reached = 0;                         // of the step
-    bool rests() const noexcept { return place == 0 && turning == 0 && path.rests(); }
+    HoldDamper damper{};
+    bool rests() const noexcept { return damper.place == 0 && damper.turning == 0 && path.rests(); }
   };
+  /// Held by its springs alone.
+  template <class End>
+  static void place(End& end, const Node& at, const HoldDamper& damper) noexcept {
+    end.place(at, static_cast<S>(1 - damper.place), static_cast<S>(1 - damper.turning));
+  }
+  S reached_ = 0;  // of the step
   Led led_[2];
 };
 

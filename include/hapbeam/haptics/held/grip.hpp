@@ -94,17 +94,21 @@ class Touch<Grip<Model>> {
   void slip(const HandPose& hand, const Eigen::Matrix3d& by) noexcept {
     from_hand_.turn = hand.turn.transpose() * by * hand.turn * from_hand_.turn;
   }
-  HeldEnd<Scalar> hold(const HandPose& aim) noexcept {
-    return keep(aim, grip_.model().hold(grip_.side(), pose_of(aim)));
-  }
-  /// The same of a rod with mass, which goes on by dt [s].   @param damper  of the coupling
-  HeldEnd<Scalar> hold(const HandPose& aim, const HoldDamper& damper, double dt) noexcept {
+  /// @param damper, dt  of a rod with mass, which goes on by dt [s]
+  HeldEnd<Scalar> hold(const HandPose& aim, [[maybe_unused]] const HoldDamper& damper,
+                       [[maybe_unused]] double dt) noexcept {
     Model& model = grip_.model();
-    const Status valid = model.hold(grip_.side(), pose_of(aim), damper),
-                 status = is_answer(valid) ? model.step(static_cast<Scalar>(dt)) : valid;
-    HeldEnd<Scalar> held = model.reaction(grip_.side());
-    held.status = status;
-    return keep(aim, held);
+    const RodPose pose{aim.place, aim.turn.col(2), aim.turn.col(0)};
+    HeldEnd<Scalar> held;
+    if constexpr (has_mass<Model>) {
+      Status status = model.hold(grip_.side(), pose, damper);
+      if (is_answer(status)) status = go_on(dt);
+      held = model.reaction(grip_.side()), held.status = status;
+    } else {
+      held = model.hold(grip_.side(), pose);
+    }
+    if (is_answer(held.status)) aim_ = aim;
+    return held;
   }
   /// Where it is; the columns are d1, d2 and the tangent.
   HandPose end() const noexcept {
@@ -126,14 +130,6 @@ class Touch<Grip<Model>> {
   Status go_on(double dt) noexcept { return grip_.model().step(static_cast<Scalar>(dt)); }
 
  private:
-  static RodPose pose_of(const HandPose& aim) noexcept {
-    return {aim.place, aim.turn.col(2), aim.turn.col(0)};
-  }
-  HeldEnd<Scalar> keep(const HandPose& aim, const HeldEnd<Scalar>& held) noexcept {
-    if (is_answer(held.status)) aim_ = aim;
-    return held;
-  }
-
   Grip<Model>& grip_;
   HandPose aim_, from_hand_;
   double rest_ = 0;  // energy at rest [J]
@@ -182,7 +178,7 @@ class GripCoupling {
   /// Once a period.   @param hand  in the scene   @param dt [s] since the tick before, which matters to a rod with mass alone
   template <typename Model>
   [[nodiscard]] CoupledWrench<typename Model::Scalar> tick(Touch<Grip<Model>>& touch, const HandPose& hand,
-                                                           [[maybe_unused]] double dt) noexcept {
+                                                           double dt) noexcept {
     using Scalar = typename Model::Scalar;
     CoupledWrench<Scalar> result;
     result.avatar = touch.end().place;
@@ -193,10 +189,9 @@ class GripCoupling {
       return result;
     }
     const HandPose at = touch.follow(hand);
-    const HeldEnd<Scalar> held = [&] {
-      if constexpr (has_mass<Model>) return touch.hold(at, {share(place_), share(turning_), period_}, dt);
-      else return touch.hold({at.place + share(place_) * gap_, turn_by(share(turning_) * turn_) * at.turn});
-    }();
+    const HandPose aim{at.place + share(place_) * gap_, turn_by(share(turning_) * turn_) * at.turn};
+    const HeldEnd<Scalar> held =
+        touch.hold(has_mass<Model> ? at : aim, {share(place_), share(turning_), period_}, dt);
     result.touch.status = held.status;
     result.touch.press = {touch.s(), 0};
     if (is_answer(held.status)) {
