@@ -35,7 +35,7 @@ class BeamChain {
   using Drawn = detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>>;
   using Inertia = detail::Inertia<Scalar, Elements, MaxElements>;
   using Viscosity = detail::Viscosity<Element, Scalar, Elements, MaxElements>;
-  using LedEnds = detail::NoLedEnds;
+  using LedEnds = detail::NoLedEnds<BeamChain>;
 
   /// @param number  of elements
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or the number does not fit the type

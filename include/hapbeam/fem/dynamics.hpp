@@ -121,16 +121,13 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
 };
 
 /// Ends of a beam in the plane: nothing leads them.
+template <class Chain>
 struct NoLedEnds {
-  template <class Chain>
+  using S = typename Chain::Scalar;
   void stay(Chain&) noexcept {}
-  template <typename S>
   void begin(S) noexcept {}
-  template <class Chain, typename S>
   void aim(Chain&, S, S, S) noexcept {}
-  template <class Chain, typename S>
   void settle(Chain&, S) noexcept {}
-  template <class Chain>
   void stop(Chain&) noexcept {}
 };
 

@@ -46,7 +46,7 @@ class RodChain {
   using Drawn = detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>>;
   using Inertia = detail::RodInertia<Scalar, Elements, MaxElements, Element::unknowns>;
   using Viscosity = detail::Elastic;
-  using LedEnds = detail::LedEnds<Scalar, Element::unknowns == 7>;
+  using LedEnds = detail::LedEnds<RodChain>;
   static constexpr int unknowns = Element::unknowns;
   using Increment = VectorOf<Scalar, unknowns>;
 

@@ -15,15 +15,14 @@
 
 namespace hapbeam::detail {
 
-/// @tparam Twists  whether a node's director is held
-template <typename S, bool Twists>
+/// @tparam Chain  RodChain
+template <class Chain>
 class LedEnds {
-  using Vector3 = VectorOf<S, 3>;
+  using S = typename Chain::Scalar;
   using Node = RodNode<S>;
 
  public:
   /// They are where they belong at rest.
-  template <class Chain>
   void stay(Chain& chain) noexcept {
     for (std::size_t k = 0; k < 2; ++k) {
       auto& end = chain.ends()[k];
@@ -34,7 +33,6 @@ class LedEnds {
   }
   /// Where an end goes in the next step, and what of its springs is a damper.
   /// @return false where it is neither clamped nor on springs, or an argument makes no sense: nothing has changed
-  template <class Chain>
   bool lead(Chain& chain, std::size_t k, RodPose pose, const HoldDamper& damper) noexcept {
     const auto share = [](double part) { return part >= 0 && part < 1; };
     if (!(chain.ends()[k].takes_pose() && pose.make_valid() && share(damper.place) && share(damper.turning) &&
@@ -52,7 +50,6 @@ class LedEnds {
     reached_ = 0;
   }
   /// For a stage.   @param from, to  of the step   @param time τ [s]
-  template <class Chain>
   void aim(Chain& chain, S from, S to, S time) const noexcept {
     for (std::size_t k = 0; k < 2; ++k) {
       const Led& led = led_[k];
@@ -61,7 +58,8 @@ class LedEnds {
       const Node hand = led.path.at(from);
       Node at = node;
       at.tangent = unit(node.tangent);
-      if (!Twists) at.director = across<S>(carry(hand.director, hand.tangent, at.tangent), at.tangent);
+      if (Chain::unknowns == 6)
+        at.director = across<S>(carry(hand.director, hand.tangent, at.tangent), at.tangent);
       const Node there = led.path.at(to);
       auto& end = chain.ends()[k];
       place(end, there, led.damper);
@@ -71,14 +69,12 @@ class LedEnds {
     }
   }
   /// Where it has come to, held by its springs alone.   @param at  of the step
-  template <class Chain>
   void settle(Chain& chain, S at) noexcept {
     reached_ = at;
     for (std::size_t k = 0; k < 2; ++k)
       if (!led_[k].rests()) place(chain.ends()[k], led_[k].path.at(at), led_[k].damper);
   }
   /// The step has no answer: they stay where they have come to.
-  template <class Chain>
   void stop(Chain& chain) noexcept {
     settle(chain, reached_);
     for (Led& led : led_) led.path.stay(led.path.at(reached_));
