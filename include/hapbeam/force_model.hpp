@@ -232,6 +232,12 @@ struct HeldEnd {
   Status status;
 };
 
+/// Of a damper beside the springs of an end: which part of their stiffness stands for it, B/T, where they are those of ticks of length T.
+struct HoldDamper {
+  double place = 0, turning = 0;  ///< 0 to 1, 1 excluded; 0: none
+  double period = 1;              ///< T [s]
+};
+
 /// Where a model answers with Status::ok: s_min <= s <= s_max and |d| <= depth_at(s).
 template <typename Scalar>
 struct Range {

@@ -144,6 +144,14 @@ class Rod : public detail::Slender<Rod, RodSection, RodArc> {
   RodStiffness stiffness(const RodSection& section) const { return stiffness(section, material_); }
   const std::vector<RodFoundation>& foundations() const noexcept { return foundations_; }
   const RodPose& left_pose() const noexcept { return left_pose_; }
+  /// ρ I_p [kg·m] of a section that turns about the tangent; 0 where the density is not known.
+  double spin_per_length(double s) const {
+    const auto part = std::find_if(parts_.begin(), parts_.end(), [s](const RodPart& p) { return s < p.end; });
+    const RodStiffness k = parts_.empty()         ? stiffness_
+                           : part == parts_.end() ? stiffness(parts_.back().section(s))
+                                                  : stiffness(part->section(s));
+    return mass_per_length(s) * (k.bending1 + k.bending2) / k.axial;
+  }
   /// Null where the natural shape places it.
   const RodPose* right_pose() const noexcept { return right_pose_ ? &*right_pose_ : nullptr; }
   /// α of the air [1/s]

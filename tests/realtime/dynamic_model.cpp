@@ -1,5 +1,6 @@
 // A step of a beam with mass: no heap, and a bounded number of linear solves, whatever the hand does.
 #include <array>
+#include <cmath>
 #include <limits>
 #include <realtime/heap_watch.hpp>
 #include <realtime/lock_watch.hpp>
@@ -7,6 +8,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include <hapbeam/element/rod.hpp>
+#include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/dynamic_model.hpp>
 #include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
@@ -87,6 +89,33 @@ TEST_CASE("hands that rub, rods and beams that creep allocate nothing", "[dynami
     if (k == 149) CHECK(failed == 0);
   }
   CHECK(touched > 200);
+}
+
+TEST_CASE("an end that a hand leads, anywhere in the end, allocates nothing and leaves numbers",
+          "[dynamics]") {
+  const RodSupport springs = RodSupport::elastic(800, 800, 800, 0.5, 0.5, 0.5);
+  DynamicModel<TwistedRod> model(Rod(0.3, RodSection::rectangle(0.004, 0.002),
+                                     RodMaterial::isotropic(3e9, 0.3, 1200), springs, RodSupport::free),
+                                 8, 2);
+  Random random(7);
+  int failed = 0;
+  for (int k = 0; k < 400; ++k) {
+    const double wild = k < 200 ? 0 : 1, turn = 0.5 * std::sin(0.02 * k) + random(wild);
+    const RodPose pose{{random(wild), 0.03 * std::sin(0.05 * k) + random(wild), 0},
+                       {std::cos(turn), std::sin(turn), 0},
+                       {0, random(wild), 1}};
+    HeldEnd<double> held;
+    CHECK(heap_use([&] {
+            (void)model.hold(RodSide::left, pose, {0.5, 0.3, 1e-3});
+            held.status = model.step(1e-3);
+            failed += held.status != Status::ok;
+            held = model.reaction(RodSide::left);
+          }) == HeapUse{});
+    CHECK(held.force.allFinite());
+    CHECK(held.moment.allFinite());
+    for (int i = 0; i < model.shape().size(); ++i) REQUIRE(is_finite(model.shape()[i]));
+    if (k == 199) CHECK(failed == 0);
+  }
 }
 
 TEST_CASE("a loop of a beam with mass, through faults and resets: no heap, no lock", "[dynamics]") {

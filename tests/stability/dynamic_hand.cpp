@@ -284,6 +284,21 @@ TEST_CASE("a hand that slides over a clamped end, and past it, has an answer in 
   }
 }
 
+// Its coupling yields by more than the avatar's radius.
+TEST_CASE("a hand that is deep in a stiff bar beside a hinge has an answer in each step", "[dynamics]") {
+  for (const double at : {0.09, 0.095}) {
+    const Beam bar(0.1, Section::rectangle(0.02, 0.002), Material{210e9, 7850}, Support::pinned,
+                   Support::pinned);
+    DynamicModel<> model(bar, 8, 1);
+    for (int k = 0; k < 200; ++k) {
+      const double y = 0.006 - 0.018 * std::min(1.0, k / 30.0);
+      const auto felt = model.step(1e-3, {{at, {at, y}, 0.0054, 1}, 3500, 0.5});
+      CAPTURE(at, k, y);
+      REQUIRE(felt.status == Status::ok);
+      if (k > 100) REQUIRE(-felt.force == Approx(3500 * (0.0054 - y - 1e-3)).epsilon(0.1));
+    }
+  }
+}
 TEST_CASE(
     "late loops gain nothing from a beam with mass by the coupling of their delay: hands that stay, slide "
     "and rub, "

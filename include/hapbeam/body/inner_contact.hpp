@@ -85,7 +85,8 @@ struct InnerRow : InnerState<S, D> {
       Vector::Unit(D - 1);  ///< n, unit; of what is round from its centre or axis to the curve, found
   S reach = 0;              ///< [m], or d
   S curvature = 0;          ///< of what is round, for which a place is held [1/m]
-  S compliance = 0;         ///< of what holds that [m/N]:  D = reach - λ compliance
+  S compliance = 0;         ///< of what holds that [m/N]:  D = reach + ahead - λ compliance
+  S ahead = 0;              ///< of where that has no force [m]
   S least = 0, most = 0;    ///< s stays between them [m]
 
   bool waits = false;                ///< s stays in the next solve

@@ -85,8 +85,9 @@ class AllDisplacements {
   HeldEnd<Scalar> hold(Side side, const Pose& pose) noexcept {
     const auto k = static_cast<std::size_t>(side);
     const auto take = [&] {
-      const auto [force, moment] = system_.reaction(k);
-      return HeldEnd<Scalar>{force, moment, report_.status};
+      HeldEnd<Scalar> held = system_.reaction(k);
+      held.status = report_.status;
+      return held;
     };
     report_ = {Status::invalid_request, 0, 0, 0, 0, report_.step};
     if (!is_answer(rest_.status)) return report_.status = rest_.status, take();

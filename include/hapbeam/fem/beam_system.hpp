@@ -35,6 +35,7 @@ class BeamChain {
   using Drawn = detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>>;
   using Inertia = detail::Inertia<Scalar, Elements, MaxElements>;
   using Viscosity = detail::Viscosity<Element, Scalar, Elements, MaxElements>;
+  using LedEnds = detail::NoLedEnds<BeamChain>;
 
   /// @param number  of elements
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or the number does not fit the type
@@ -231,10 +232,13 @@ class BeamChain {
     for (int i = 0; i < parts_.nodes().size(); ++i) parts_.nodes()[i] = at(i);
     ends_.correct(parts_.nodes());
   }
-  /// A node of another shape of the same beam.
-  static Node laid(const Node& node, const Centreline<Scalar>& shape) noexcept {
-    const Displacement<Scalar> at = shape.at(node.s);
-    return {node.s, at.u, at.w, at.theta};
+  /// Takes another shape of the same beam.
+  void lay(const Centreline<Scalar>& shape) noexcept {
+    for (Node& node : parts_.nodes()) {
+      const Displacement<Scalar> at = shape.at(node.s);
+      node = {node.s, at.u, at.w, at.theta};
+    }
+    parts_.find_tensions();
   }
   /// A node that goes from place and tangent to others: it turns as the tangent does.
   static Node moved(const Node& node, const detail::Placed<Scalar>& from,
@@ -284,6 +288,20 @@ class BeamChain {
     (void)touched.condense(r, K, [](int) {});
     (void)parts_.subtract_loads(e, load, r);
     return count;
+  }
+  /// What holds an end: along x and w [N], and moment [N·m].   @param load  λ   @param inertia, viscosity  null: none
+  template <class Rows>
+  VectorOf<Scalar, 3> reaction(std::size_t k, Scalar load, const Rows& rows, const Inertia* inertia,
+                               const Viscosity* viscosity) const noexcept {
+    const int e = k == 0 ? 0 : parts_.size() - 1;
+    Vector6<Scalar> r;
+    std::array<typename Rows::Contact, Rows::most> touching;
+    (void)nodal_forces(rows, e, load, r, touching);
+    Matrix6<Scalar> unused = Matrix6<Scalar>::Zero();
+    if (viscosity) (void)viscosity->add(e, parts_.displacements(e), r, unused);
+    VectorOf<Scalar, 3> sum = r.template segment<3>(k == 0 ? 0 : 3);
+    if (inertia) sum += inertia->force(parts_.nodes(), k == 0 ? 0 : e + 1);
+    return sum;
   }
   /// What the section carries, in element e, as it lies, with what touches it.   @param thickness [m]   @param curve  s -> node on it
   template <class Rows, class Curve>

@@ -25,10 +25,11 @@ namespace hapbeam {
 template <class Element = Corotational<>, typename ScalarType = double, int Elements = Eigen::Dynamic,
           int MaxElements = Elements>
 class DynamicModel {
-  static_assert(any_rotation<Element> && detail::unknowns_of<Element>() % 3 == 0,
-                "DynamicModel takes elements as Corotational<> and RoundRod");
+  static_assert(any_rotation<Element>,
+                "DynamicModel takes elements of finite rotation, as Corotational<> and RoundRod");
   using System = typename detail::SystemOf<Element>::template System<ScalarType, Elements, MaxElements>;
   using Chain = typename System::Chain;
+  using Placed = typename Chain::Inertia::Placed;
 
  public:
   using Scalar = ScalarType;
@@ -72,10 +73,7 @@ class DynamicModel {
   void reset() noexcept { begin(rest_); }
   /// Lets it go from another shape, without velocity.   @param shape  of the same beam, as of a FemModel
   void let_go_from(const Centreline<Scalar, dimension>& shape) noexcept {
-    system_.keep(before_);
-    for (auto& node : before_.nodes) node = Chain::laid(node, shape);
-    system_.set_state(before_);
-    system_.find_tensions();
+    system_.chain().lay(shape);
     system_.keep(before_);
     begin(before_);
   }
@@ -115,8 +113,10 @@ class DynamicModel {
     const int e = line.segment_at(s);
     const Scalar l = line[e + 1].s - line[e].s, t = (s - line[e].s) / l, u = 1 - t;
     const auto &a = steps_[e].v, &b = steps_[e + 1].v;
-    return u * u * (1 + 2 * t) * a.template head<dimension>() + l * t * u * u * a.template tail<dimension>() +
-           t * t * (3 - 2 * t) * b.template head<dimension>() - l * t * t * u * b.template tail<dimension>();
+    return u * u * (1 + 2 * t) * a.template head<dimension>() +
+           l * t * u * u * a.template segment<dimension>(dimension) +
+           t * t * (3 - 2 * t) * b.template head<dimension>() -
+           l * t * t * u * b.template segment<dimension>(dimension);
   }
   struct Energy {
     Scalar kinetic, strain, loads;  ///< [J], the last of the dead loads
@@ -126,20 +126,20 @@ class DynamicModel {
     const Scalar strain = system_.strain_energy();
     return {kinetic(), strain + viscosity_.energy(), system_.total_potential() - strain};
   }
-  /// Of what holds an end on the beam, inertia and viscosity taken into account: along x and w [N], and moment [N·m].   @param k  0: left, 1: right
-  VectorOf<Scalar, 3> reaction(int k) const noexcept {
-    static_assert(dimension == 2, "the reaction of an end is that of a beam in the plane");
-    const int e = k == 0 ? 0 : system_.elements() - 1;
-    Vector6<Scalar> r;
-    std::array<typename System::Contact, System::Rows::most> touching;
-    (void)system_.chain().nodal_forces(system_.rows(), e, 1, r, touching);
-    if (!starts_ && !viscosity_.none()) {
-      Matrix6<Scalar> unused = Matrix6<Scalar>::Zero();
-      (void)viscosity_.add(e, system_.parts().displacements(e), r, unused);
-    }
-    VectorOf<Scalar, 3> sum = r.template segment<3>(3 * k);
-    if (!starts_ && !massless_) sum += inertia_.force(system_.parts().nodes(), k == 0 ? 0 : e + 1);
-    return sum;
+  /// Leads an end of a rod to a pose in the next step, along the parabola of this pose and the two before.  The end is clamped, or on springs,
+  /// of which the pose then is.  A step that has no answer leaves it where it has come to.   @param damper  beside those springs
+  /// @return ok | invalid_request: it is held otherwise, or an argument makes no sense; nothing has changed
+  template <class Side, class Pose, class Damper = HoldDamper>
+  Status hold(Side side, const Pose& pose, const Damper& damper = {}) noexcept {
+    const bool valid = ends_.lead(system_.chain(), static_cast<std::size_t>(side), pose, damper);
+    return valid ? Status::ok : Status::invalid_request;
+  }
+  /// Of what holds an end on the body, inertia and viscosity taken into account: in the plane along x and w [N], and moment [N·m]; in space a
+  /// HeldEnd, with moment about the end.   @param side  0 | RodSide::left, 1 | RodSide::right
+  template <class Side>
+  auto reaction(Side side) const noexcept {
+    return system_.reaction(static_cast<std::size_t>(side), starts_ || massless_ ? nullptr : &inertia_,
+                            starts_ || viscosity_.none() ? nullptr : &viscosity_);
   }
 
   /// Called at the end of each part of a step.   @param part  its length [s]
@@ -157,9 +157,13 @@ class DynamicModel {
   void begin(const typename System::State& state) noexcept {
     system_.set_state(state);
     system_.keep(last_);
+    inertia_.begin_stage(last_.nodes, [](int) { return Placed(Placed::Zero()); });
     stop();
     viscosity_.relax(system_.parts());
     contacts_.reset();
+    ends_.stay(system_.chain());
+    system_.set_goal();
+    system_.set_target(1);  // all of the dead loads
     for (auto& curvature : curvature_) curvature = {};
     starts_ = true;
     system_.draw();
@@ -208,6 +212,7 @@ class DynamicModel {
     const Scalar all = massless_ ? dt : (std::min)(dt, longest), part = all / Scalar(substeps_);
     if (starts_ && !massless_) accelerate(part);
     contacts_.begin(system_, hands, count);
+    ends_.begin(all);
     bool found = !starts_ || yield(part);
     for (int k = 0; k < substeps_ && found; ++k) {
       found = go_on(part, Scalar(k) / Scalar(substeps_), Scalar(k + 1) / Scalar(substeps_), 0);
@@ -216,7 +221,7 @@ class DynamicModel {
     system_.chain().move_with(nullptr, nullptr);
     contacts_.end();
     // The next one begins as after a reset, where the beam has stopped.
-    if (!found) stop(), starts_ = true, contacts_.reset();
+    if (!found) stop(), starts_ = true, contacts_.reset(), ends_.stop(system_.chain());
     system_.draw();
     return found ? Status::ok : Status::iteration_limit;
   }
@@ -228,9 +233,13 @@ class DynamicModel {
     viscosity_.begin(steps_.rate());
     inertia_.set_scale(kinetic());
     bool found = true;
-    for (int stage = 0; stage < steps_.stages && found; ++stage)
-      found = solve(stage, begin + steps_.end(stage) * (end - begin));
-    if (found) return true;
+    Scalar from = begin;
+    for (int stage = 0; stage < steps_.stages && found; ++stage) {
+      const Scalar to = begin + steps_.end(stage) * (end - begin);
+      ends_.aim(system_.chain(), from, to, steps_.length(stage));
+      found = solve(stage, to), from = to;
+    }
+    if (found) return ends_.settle(system_.chain(), end), true;
     system_.set_state(before_);
     steps_.take_back();
     viscosity_.take_back();
@@ -247,6 +256,7 @@ class DynamicModel {
     // Tensions go on as they went, and nodes as their accelerations say.
     const Scalar onward = massless_ ? Scalar(0) : steps_.onward(stage);
     system_.go_on(last_, onward);
+    inertia_.begin_stage(last_.nodes, [&](int i) { return steps_.start(stage, i).q; });
     if (!massless_)
       system_.chain().place([&](int i) {
         return Chain::moved(last_.nodes[i], steps_.start(stage, i).q, steps_.foreseen(stage, i));
@@ -270,7 +280,7 @@ class DynamicModel {
 
   System system_;
   typename Chain::Inertia inertia_;
-  TrBdf2<Scalar, Elements, MaxElements, dimension> steps_;
+  TrBdf2<Scalar, Elements, MaxElements, Placed::RowsAtCompileTime> steps_;
   typename System::State rest_, before_, last_;  // at rest, before a part, and before the last stage
   Curvature<Scalar> curvature_[2];               // of both stages
   int substeps_, solves_ = 0;
@@ -279,6 +289,7 @@ class DynamicModel {
   Scalar drag_;
   typename Chain::Viscosity viscosity_;
   detail::CoupledContacts<System, contacts> contacts_;
+  typename Chain::LedEnds ends_;
   void* listens_ = nullptr;
   Listener listener_ = nullptr;
 };

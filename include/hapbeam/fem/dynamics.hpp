@@ -41,7 +41,7 @@ Placed<S> placed(const CentrelineNode<S>& node) noexcept {
 template <typename S, int Elements, int MaxElements>
 class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   using Base = MassBlocks<S, 2, Elements, MaxElements>;
-  using Base::blocks_, Base::ghost_, typename Base::Block, typename Base::Blocks;
+  using Base::blocks_, Base::ghost_, typename Base::Block;
 
  public:
   using typename Base::Values;
@@ -83,12 +83,7 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   /// c M (q - q~) of node i, as they lie: along x and w [N], and moment [N·m].
   template <class Nodes>
   VectorOf<S, 3> force(const Nodes& nodes, int i) const noexcept {
-    const int last = nodes.size() - 1;
-    const auto off = [&](int k) { return Placed<S>(placed(nodes[k]) - ghost_[k]); };
-    const Blocks& of = blocks_[i];
-    Placed<S> sum = of.own * off(i);
-    if (i < last) sum += of.next * off(i + 1);
-    if (i > 0) sum += of.before * off(i - 1);
+    const Placed<S> sum = this->product(i, [&](int k) { return Placed<S>(placed(nodes[k]) - ghost_[k]); });
     const Placed<S> at = placed(nodes[i]);
     return {sum[0], sum[1], at[3] * sum[2] - at[2] * sum[3]};
   }
@@ -125,15 +120,26 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   PerNode<Seen, Elements, MaxElements> seen_;
 };
 
+/// Ends of a beam in the plane: nothing leads them.
+template <class Chain>
+struct NoLedEnds {
+  using S = typename Chain::Scalar;
+  void stay(Chain&) noexcept {}
+  void begin(S) noexcept {}
+  void aim(Chain&, S, S, S) noexcept {}
+  void settle(Chain&, S) noexcept {}
+  void stop(Chain&) noexcept {}
+};
+
 }  // namespace hapbeam::detail
 
 namespace hapbeam {
 
-/// @tparam D  2 | 3
-template <typename S, int Elements, int MaxElements, int D = 2>
+/// @tparam Size  of what a node has: MassBlocks
+template <typename S, int Elements, int MaxElements, int Size = 4>
 class TrBdf2 {
  public:
-  using Placed = Eigen::Matrix<S, 2 * D, 1>;
+  using Placed = Eigen::Matrix<S, Size, 1>;
   /// How one node moves.
   struct State {
     Placed q = Placed::Zero(), v = Placed::Zero(), a = Placed::Zero();
@@ -162,10 +168,13 @@ class TrBdf2 {
     for (int i = 0; i < now_.size(); ++i) now_[i] = {}, now_[i].q = q(i);
     follows_ = false;
   }
-  /// @param v  (i) -> velocity of node i
+  /// @param v  (i) -> velocity of node i, of place and tangent
   template <class Velocity>
   void throw_at(Velocity&& v) noexcept {
-    for (int i = 0; i < now_.size(); ++i) now_[i].v = v(i);
+    for (int i = 0; i < now_.size(); ++i) {
+      const auto thrown = v(i);
+      now_[i].v.template head<std::decay_t<decltype(thrown)>::RowsAtCompileTime>() = thrown;
+    }
   }
   /// Where it was before the last step, with the acceleration behind it.
   void start_again() noexcept {

@@ -3,7 +3,7 @@
 //
 //   |q|² = qᵀ M q,   M of the cubic: constant, alike along each axis, and of neighbours alone
 //
-// That of sections that turn, ρI, is left out: the first frequency between hinges is (πh/L)²/24 of itself too high, h: height.
+// That of sections that turn across the tangent, ρI, is left out: the first frequency between hinges is (πh/L)²/24 of itself too high, h: height.
 // Allocates at construction; all else is noexcept and allocation-free, O(n).
 // Source: Archer 1963.
 #pragma once
@@ -17,18 +17,18 @@
 
 namespace hapbeam::detail {
 
-/// @tparam D  2 | 3
-template <typename S, int D, int Elements, int MaxElements>
+/// @tparam D  2 | 3   @tparam Spins  1: nodes have an angle of twist, too; else 0
+template <typename S, int D, int Elements, int MaxElements, int Spins = 0>
 class MassBlocks {
  public:
-  /// Place [m] and tangent of a node.
-  using Placed = Eigen::Matrix<S, 2 * D, 1>;
+  /// Place [m] and tangent of a node, and its angle of twist.
+  using Placed = Eigen::Matrix<S, 2 * D + Spins, 1>;
   using Values = PerNode<Placed, Elements, MaxElements>;
 
   /// @param at  (i) -> arc position of node i [m]
   template <class Body, class At>
   MassBlocks(const Body& beam, int elements, At&& at)
-      : masses_(elements), blocks_(elements), ghost_(elements) {
+      : masses_(elements), spins_(elements), blocks_(elements), ghost_(elements) {
     for (int e = 0; e < elements; ++e) {
       const double from = static_cast<double>(at(e)), l = static_cast<double>(at(e + 1)) - from;
       Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
@@ -41,6 +41,7 @@ class MassBlocks {
         const Eigen::Vector4d h(u * u * (1 + 2 * t), l * t * u * u, t * t * (3 - 2 * t), -l * t * t * u);
         const double mass = beam.mass_per_length(from + t * l);
         sum += w[g] * l * mass * h * h.transpose();
+        if constexpr (Spins > 0) spins_[e] += static_cast<S>(w[g] * l * beam.spin_per_length(from + t * l));
       }
       masses_[e] = sum.template cast<S>();
     }
@@ -53,8 +54,8 @@ class MassBlocks {
     rate_ = c;
     const int last = blocks_.size() - 1;
     const auto of_both = [](S place, S tangent) {
-      Placed both;
-      both << VectorOf<S, D>::Constant(place), VectorOf<S, D>::Constant(tangent);
+      Placed both = Placed::Zero();
+      both.template head<D>().setConstant(place), both.template segment<D>(D).setConstant(tangent);
       return both;
     };
     for (int i = 0; i <= last; ++i) {
@@ -71,8 +72,17 @@ class MassBlocks {
         return Block{of_both(M(0, 0), M(1, 1)), of_both(M(0, 1), M(1, 0))};
       };
       blocks_[i] = {block(own), block(next), block(before)};
+      if constexpr (Spins > 0) {
+        // Between what is consistent with an angle that is linear, and all of it at the nodes: of fourth order.
+        const S left = i > 0 ? c * spins_[i - 1] : S(0), right = i < last ? c * spins_[i] : S(0);
+        blocks_[i].own.own[2 * D] = 5 * (left + right) / 12;
+        blocks_[i].next.own[2 * D] = right / 12, blocks_[i].before.own[2 * D] = left / 12;
+      }
     }
   }
+  /// To be called where a stage begins: places and tangents say all of themselves.
+  template <class Nodes, class Start>
+  void begin_stage(const Nodes&, Start&&) noexcept {}
   Values& ghost() noexcept { return ghost_; }
   const Values& ghost() const noexcept { return ghost_; }
   /// What increments are measured by, beside the strain energy [J].
@@ -88,10 +98,20 @@ class MassBlocks {
     return sum.sum() / (2 * rate_);
   }
 
+  /// c M x of node i.   @param of  (i) -> x of node i
+  template <class Of>
+  Placed product(int i, Of&& of) const noexcept {
+    const Blocks& to = blocks_[i];
+    Placed sum = to.own * of(i);
+    if (i + 1 < blocks_.size()) sum += to.next * of(i + 1);
+    if (i > 0) sum += to.before * of(i - 1);
+    return sum;
+  }
+
   /// √(c |q|²) of places that are all off by so much [√J].   @param off [m]
   S round_off(S off) const noexcept {
-    Placed x;
-    x << VectorOf<S, D>::Constant(off), VectorOf<S, D>::Zero();
+    Placed x = Placed::Zero();
+    x.template head<D>().setConstant(off);
     return std::sqrt(2 * rate_ * energy([&x](int) { return x; }));
   }
 
@@ -106,6 +126,7 @@ class MassBlocks {
         by[k] = own[k] * off[k] + other[k] * off[D + k];
         by[D + k] = own[D + k] * off[D + k] + other[D + k] * off[k];
       }
+      if constexpr (Spins > 0) by[2 * D] = own[2 * D] * off[2 * D];
       return by;
     }
   };
@@ -128,6 +149,7 @@ class MassBlocks {
 
   PerNode<Eigen::Matrix<S, 4, 4>, Elements, MaxElements>
       masses_;  // of places and tangents of both nodes, along an axis [kg], [kg·m], [kg·m²]
+  PerNode<S, Elements, MaxElements> spins_;  // of an element that turns about its tangent [kg·m²]
   PerNode<Blocks, Elements, MaxElements> blocks_;
   Values ghost_;  // q~
   S rate_ = 0, scale_ = 0;

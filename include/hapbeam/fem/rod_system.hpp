@@ -13,6 +13,7 @@
 #include <hapbeam/body/touched_rod.hpp>
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact/rod_round_contact.hpp>
+#include <hapbeam/fem/rod/led_ends.hpp>
 #include <hapbeam/fem/rod/rod_elements.hpp>
 #include <hapbeam/fem/rod/rod_ends.hpp>
 #include <hapbeam/fem/rod/rod_inertia.hpp>
@@ -43,8 +44,9 @@ class RodChain {
   using Friction = detail::ContactFriction<Scalar, 3, detail::RodRoundContact>;
   using Assembler = detail::AssemblerOf<Element, Scalar, Elements, MaxElements>;
   using Drawn = detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>>;
-  using Inertia = detail::RodInertia<Scalar, Elements, MaxElements>;
+  using Inertia = detail::RodInertia<Scalar, Elements, MaxElements, Element::unknowns>;
   using Viscosity = detail::Elastic;
+  using LedEnds = detail::LedEnds<RodChain>;
   static constexpr int unknowns = Element::unknowns;
   using Increment = VectorOf<Scalar, unknowns>;
 
@@ -138,16 +140,19 @@ class RodChain {
     if (valid) ends_[k].place(pose);
     return valid;
   }
-  /// What holds an end of a rod that nothing touches: force [N] and moment about the end [N·m], in space.
-  struct Hold {
-    Vector3 force, moment;
-  };
-  Hold reaction(std::size_t k, Scalar load) const noexcept {
+  /// What holds an end.   @param load  λ   @param inertia  null: at rest
+  template <class Rows>
+  HeldEnd<Scalar> reaction(std::size_t k, Scalar load, const Rows& rows, const Inertia* inertia = nullptr,
+                           const Viscosity* = nullptr) const noexcept {
     Residual r;
-    parts_.residual(k == 0 ? 0 : parts_.size() - 1, load, r);
-    const Increment at = r.template segment<unknowns>(k == 0 ? 0 : unknowns);
-    return {at.template segment<3>(0), parts_.moment(at, node(ends_.node(k)).tangent)};
+    const int e = k == 0 ? 0 : parts_.size() - 1;
+    parts_.residual(e, load, r);
+    if (rows.in(e)) r += touched(rows, e);
+    Increment at = r.template segment<unknowns>(k == 0 ? 0 : unknowns);
+    if (inertia) at += inertia->force(parts_.nodes(), ends_.node(k));
+    return {at.template segment<3>(0), parts_.moment(at, node(ends_.node(k)).tangent), Status::ok};
   }
+
   // Its equations.
 
   /// A rod that is round may roll where it is bowed, but for round-off; 1/10⁷ of what bends one.
@@ -174,8 +179,7 @@ class RodChain {
     energy += ends_.visit_springs(
         parts_.nodes(), [&](int i, const Block& K, const Increment& r) { assembler.add_at(i, K, r); });
     if (rows.any()) energy += add_contacts(rows, assembler);
-    if constexpr (unknowns == 6)
-      if (inertia_) energy += inertia_->add(parts_.nodes(), assembler);
+    if (inertia_) energy += inertia_->add(parts_.nodes(), assembler);
     // Without stress round-off has either sign.
     return {energy, work, inner, (std::max)(energy, Scalar(0)) + (inertia_ ? inertia_->scale() : Scalar(0))};
   }
@@ -217,17 +221,27 @@ class RodChain {
     for (int i = 0; i < parts_.nodes().size(); ++i) parts_.nodes()[i] = at(i);
     ends_.correct(parts_.nodes());
   }
-  /// A node of another shape of the same rod.
-  static Node laid(const Node& node, const Centreline<Scalar, 3>& shape) noexcept {
-    const RodPoint<Scalar> at = shape.at(node.s);
-    return moved(node, {}, (typename Inertia::Placed() << at.r, at.tangent).finished());
+  /// Takes another shape of the same rod.
+  void lay(const Centreline<Scalar, 3>& shape) noexcept {
+    for (Node& node : parts_.nodes()) {
+      const RodPoint<Scalar> at = shape.at(node.s);
+      node.r = at.r;
+      if (unknowns == 7) node.tangent = at.tangent, node.director = director_of(shape, node.s);
+      else detail::set_tangent<Scalar>(node, at.tangent);
+    }
+    parts_.find_twists([&](Scalar s) { return director_of(shape, s); });
+    parts_.relax_twists();
+    parts_.find_tensions();
   }
-  /// A node that goes to place and tangent.
-  static Node moved(const Node& node, const typename Inertia::Placed&,
+  /// A node that goes from place, tangent and twist to others.
+  static Node moved(const Node& node, const typename Inertia::Placed& from,
                     const typename Inertia::Placed& to) noexcept {
     Node there = node;
     there.r = to.template head<3>();
-    detail::set_tangent<Scalar>(there, to.template tail<3>());
+    detail::set_tangent<Scalar>(there, to.template segment<3>(3));
+    if constexpr (unknowns == 7)
+      there.director =
+          detail::turn<Scalar>(there.director, detail::unit(there.tangent), Scalar(to[6] - from[6]));
     return there;
   }
   static Scalar drag(const Rod& rod) noexcept { return static_cast<Scalar>(rod.drag()); }
@@ -281,6 +295,31 @@ class RodChain {
       assembler.add_more(e, K, r);
     });
     return energy;
+  }
+  /// What contacts add to the residual of an element that they touch, as it lies.
+  template <class Rows>
+  Residual touched(const Rows& rows, int e) const noexcept {
+    typename Rows::Touched touched(parts_, e);
+    std::array<typename Rows::Contact, Rows::most> contacts;
+    for (int k = 0; k < rows.size(); ++k)
+      if (rows.element(k) == e) touched.add(contacts[static_cast<std::size_t>(k)] = rows[k], k);
+    Residual r;
+    typename Rows::Tangent K;
+    (void)touched.condense(r, K, [](int) {});
+    // Its tension, which they have changed, was condensed without them.
+    const auto inner = parts_.inner(e);
+    if (parts_.taut()) r -= (inner.residual / inner.stiffness) * inner.row;
+    return r;
+  }
+  /// The director of a shape at s: between two nodes it turns evenly against one that is carried.
+  static Vector3 director_of(const Centreline<Scalar, 3>& shape, Scalar s) noexcept {
+    const int i = shape.segment_at(s);
+    const Node &a = shape[i], &b = shape[i + 1];
+    const Vector3 u = detail::unit(a.tangent), v = detail::unit(b.tangent),
+                  t = detail::unit(shape.at(i, s).tangent),
+                  carried = detail::across<Scalar>(detail::carry(a.director, u, v), v);
+    const Scalar angle = detail::angle_about(v, carried, b.director) * (s - a.s) / (b.s - a.s);
+    return detail::turn<Scalar>(detail::across<Scalar>(detail::carry(a.director, u, t), t), t, angle);
   }
   /// Bends it a little.
   /// @param e  how far and where to [m]   @param c  where the bow changes its side, of the length; negative: nowhere

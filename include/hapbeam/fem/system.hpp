@@ -288,8 +288,11 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     longer_ = chain_.move(change, rows_);
   }
 
-  /// What holds an end of a rod that nothing touches.   @param k  0: left, 1: right
-  auto reaction(std::size_t k) const noexcept { return chain_.reaction(k, load_); }
+  /// What holds an end.   @param k  0: left, 1: right   @param motion  what a chain takes of one in motion
+  template <class... Motion>
+  auto reaction(std::size_t k, const Motion*... motion) const noexcept {
+    return chain_.reaction(k, load_, rows_, motion...);
+  }
   /// Strain energy, that of the springs that hold it included [J].
   Scalar strain_energy() const noexcept {
     Scalar energy = chain_.strain_energy([this](int e) { return rows_.in(e); });
@@ -390,7 +393,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   /// A node of drawn() where a contact is: on what touches it, where an equilibrium was found; the last increment has left that by its square.
   Node mark(int k) const noexcept {
     const Contact& contact = rows_[k];
-    const Scalar off = contact.gap + contact.force * contact.compliance,
+    const Scalar off = contact.gap - contact.ahead + contact.force * contact.compliance,
                  left = std::abs(off) < length_ / 1000 ? off : Scalar(0);
     return chain_.mark(rows_.element(k), contact, Vector(left * contact.normal));
   }

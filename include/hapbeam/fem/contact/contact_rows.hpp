@@ -195,7 +195,7 @@ class ContactRows {
     each_in(e, [&](int k) {
       Row& row = rows_[of(k)];
       row.b = touched->column(row.number);
-      row.residual = touched->residual(row.number) - row.contact.force * row.contact.compliance;
+      row.residual = touched->residual(row.number) + row.contact.ahead - row.contact.force * row.contact.compliance;
     });
     return energy;
   }
@@ -290,7 +290,7 @@ class ContactRows {
     Scalar sum = 0;
     for (int k = 0; k < size_; ++k) {
       const Contact& contact = rows_[of(k)].contact;
-      sum -= contact.force * (contact.gap + contact.force * contact.compliance / 2);
+      sum -= contact.force * (contact.gap - contact.ahead + contact.force * contact.compliance / 2);
     }
     return sum;
   }

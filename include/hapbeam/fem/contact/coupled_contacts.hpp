@@ -173,11 +173,11 @@ class CoupledContacts {
     const Scalar aside = now.round.reach * now.round.reach - view.aside,
                  ahead = (std::max)(std::sqrt((std::max)(aside, Scalar(0))) - view.height, Scalar(0));
     Round& avatar = all_[of(i)].round = now.round;
-    avatar.s = now.foot, avatar.reach += ahead - now.lasting, place_of(avatar) += ahead * view.facing;
+    avatar.s = now.foot, place_of(avatar) += ahead * view.facing;
     Contact contact;
     static_cast<State&>(contact) = now.next;
     RoundContact{avatar}.set(contact);
-    contact.reach = avatar.reach, contact.compliance = 1 / now.whole;
+    contact.reach = avatar.reach, contact.compliance = 1 / now.whole, contact.ahead = ahead - now.lasting;
     contact.least = least_, contact.most = most_;
     contact.moves = true, contact.waits = now.next.force == 0;
     return contact;

@@ -139,6 +139,17 @@ class RodElements {
         inner_[e] = Element::twist_to(properties_[e], nodes_[e], nodes_[e + 1],
                                       director((nodes_[e].s + nodes_[e + 1].s) / 2));
   }
+  /// Twists that belong to the shape, from about there.
+  void relax_twists() noexcept {
+    for (int k = 0; own_ == Own::twist && k < most_relaxations; ++k)
+      for (int first = 0; first < places(); first += lanes) {
+        WideInner inner;
+        typename Stiffness::Type unused;
+        (void)compute(first, inner, unused);
+        for_each_lane(first,
+                      [&](int e, int lane) { inner_[e] -= inner.residual[lane] / inner.stiffness[lane]; });
+      }
+  }
   /// Tensions that belong to the shape.
   void find_tensions() noexcept {
     for (int e = 0; taut() && e < size(); ++e) {
@@ -399,7 +410,7 @@ class RodElements {
     visit(first, all, r);
   }
 
-  static constexpr int most_tensions = 16;
+  static constexpr int most_tensions = 16, most_relaxations = 4;
   static constexpr Scalar largest_push = 8;  // in one increment [EI/l²]
 
   Nodes nodes_;

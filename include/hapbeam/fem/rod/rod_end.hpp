@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-#include <hapbeam/fem/rod/natural_rod.hpp>
+#include <hapbeam/fem/rod/end_path.hpp>
 
 namespace hapbeam::detail {
 
@@ -48,6 +48,13 @@ class RodEnd {
     goal_.director = pose.director.template cast<Scalar>();
     at_goal_ = false;
   }
+  /// Puts it at a goal at once.   @param places, turns  how stiff its springs are, in units of those of its support
+  void place(const Node& goal, Scalar places, Scalar turns) noexcept {
+    goal_ = goal, stiffer_[0] = places, stiffer_[1] = turns, damper_.places = damper_.turns = 0;
+    at_goal_ = false;
+    set_target(1);
+  }
+  const Node& goal() const noexcept { return goal_; }
 
   /// Its goal is where it belongs at rest.
   void place_home() noexcept {
@@ -64,9 +71,7 @@ class RodEnd {
     at_goal_ = t == 1;
     if (t < 1) {
       start_.tangent = unit(start_.tangent);
-      target_.r = start_.r + t * (goal_.r - start_.r);
-      const Node turned = NaturalRod<Scalar>::along(start_, t * rotation(), 1);
-      target_.tangent = turned.tangent, target_.director = turned.director;
+      target_ = gone<Scalar>(start_, t * (goal_.r - start_.r), t * rotation_between(start_, goal_));
     }
     axes_ = axes_of(target_);
   }
@@ -131,20 +136,9 @@ class RodEnd {
   }
   /// A joint that holds the twist alone: what the director turns by when the tangent moves, -∂φ/∂r' at held twist, in space.
   bool is_joint() const noexcept { return twist_ && !direction_; }
-  Vector3 arm(const Node& node) const noexcept {
-    using std::sqrt;
-    const Scalar i = 1 / sqrt(node.tangent.squaredNorm());
-    const Vector3 u = i * node.tangent;
-    return cross3(target_.tangent, u) * (i / (1 + target_.tangent.dot(u)));
-  }
+  Vector3 arm(const Node& node) const noexcept { return holonomy(target_.tangent, node.tangent); }
   /// ∂²φ/∂r'², by the same.
-  Eigen::Matrix<Scalar, 3, 3> bow(const Node& node) const noexcept {
-    using std::sqrt;
-    const Scalar i = 1 / sqrt(node.tangent.squaredNorm());
-    const Vector3 u = i * node.tangent, k = arm(node),
-                  q = i * ((target_.tangent + u) / (1 + target_.tangent.dot(u)) + u);
-    return (k * q.transpose() + q * k.transpose()) / 2;
-  }
+  Matrix bow(const Node& node) const noexcept { return holonomy_change(target_.tangent, node.tangent); }
   /// Puts the node exactly where it belongs.
   void correct(Node& node) const noexcept {
     if (holds_place()) node.r = target_.r;
@@ -160,26 +154,46 @@ class RodEnd {
   }
 
   bool has_springs() const noexcept { return springs_; }
+  /// Springs more, until the next place(): those of a damper.   @param at  where they have no force   @param places, turns  as of place()
+  void damp(const Node& at, Scalar places, Scalar turns) noexcept {
+    damper_ = {at, axes_of(at), places, turns};
+  }
   /// Energy of the springs [J]; adds its derivatives.
   /// @param r  of the node's unknowns, out   @param K  the same; r' and φ after r
   template <class Residual, class Block>
   Scalar add_springs(const Node& node, Residual&& r, Block&& K) const noexcept {
+    const Scalar energy = add({target_, axes_, stiffer_[0], stiffer_[1]}, node, r, K);
+    const bool damped = damper_.places > 0 || damper_.turns > 0;
+    return damped ? energy + add(damper_, node, r, K) : energy;
+  }
+
+ private:
+  /// All springs of the support, so many times as stiff, without force where the node is `at`.
+  struct Springs {
+    Node at;
+    Matrix axes;
+    Scalar places, turns;  ///< against places, and against turns
+  };
+  template <class Residual, class Block>
+  Scalar add(const Springs& of, const Node& node, Residual& r, Block& K) const noexcept {
     using std::sqrt;
     constexpr bool has_twist = std::decay_t<Residual>::RowsAtCompileTime == 7;
-    const Vector3 x = axes_.transpose() * (node.r - target_.r), force = place_.cwiseProduct(x);
-    r.template segment<3>(0) += axes_ * force;
-    K.template block<3, 3>(0, 0) += axes_ * place_.asDiagonal() * axes_.transpose();
+    const Vector3 x = of.axes.transpose() * (node.r - of.at.r), springs = of.places * place_,
+                  force = springs.cwiseProduct(x);
+    r.template segment<3>(0) += of.axes * force;
+    K.template block<3, 3>(0, 0) += of.axes * springs.asDiagonal() * of.axes.transpose();
     Scalar energy = force.dot(x) / 2;
     const Scalar i = 1 / sqrt(node.tangent.squaredNorm());
-    const Vector3 u = i * node.tangent, d3 = axes_.col(2);
+    const Vector3 u = i * node.tangent, d3 = of.axes.col(2);
     if (across_[0] > 0 || across_[1] > 0) {
       // V = s q by u; then u = r'/|r'|.
       const Scalar q = 1 / (1 + d3.dot(u));
       Vector3 m = Vector3::Zero();
       Matrix H = Matrix::Zero();
       for (int k = 0; k < 2; ++k) {
-        m += across_[k] * axes_.col(k).dot(u) * axes_.col(k);
-        H += 2 * q * across_[k] * axes_.col(k) * axes_.col(k).transpose();
+        const Scalar stiffness = of.turns * across_[k];
+        m += stiffness * of.axes.col(k).dot(u) * of.axes.col(k);
+        H += 2 * q * stiffness * of.axes.col(k) * of.axes.col(k).transpose();
       }
       const Scalar s = m.dot(u);
       const Vector3 by_u = 2 * q * m - s * q * q * d3;
@@ -193,21 +207,20 @@ class RodEnd {
     }
     if constexpr (has_twist)
       if (torsion_ > 0) {
-        const Scalar twist = -angle_about(u, node.director, across(carry(target_.director, d3, u), u)),
-                     moment = torsion_ * twist;
-        const Vector3 k = arm(node);
+        const Scalar twist = -angle_about(u, node.director, across(carry(of.at.director, d3, u), u)),
+                     stiffness = of.turns * torsion_, moment = stiffness * twist;
+        const Vector3 k = holonomy(of.at.tangent, node.tangent);
         energy += moment * twist / 2;
         r.template segment<3>(3) += moment * k;
         r[6] += moment;
-        K.template block<3, 3>(3, 3) += torsion_ * k * k.transpose() - moment * bow(node);
-        K.template block<3, 1>(3, 6) += torsion_ * k;
-        K.template block<1, 3>(6, 3) += torsion_ * k.transpose();
-        K(6, 6) += torsion_;
+        K.template block<3, 3>(3, 3) +=
+            stiffness * k * k.transpose() - moment * holonomy_change(of.at.tangent, node.tangent);
+        K.template block<3, 1>(3, 6) += stiffness * k;
+        K.template block<1, 3>(6, 3) += stiffness * k.transpose();
+        K(6, 6) += stiffness;
       }
     return energy;
   }
-
- private:
   /// By which the director is to turn [rad].
   Scalar twist(const Node& node) const noexcept {
     // What is across both tangents is carried from one to the other.
@@ -218,40 +231,14 @@ class RodEnd {
   bool holds_any_place() const noexcept { return held_[0] || held_[1] || held_[2]; }
   /// Nothing is held but by springs.
   bool on_springs() const noexcept { return springs_ && !holds_any_place() && !direction_ && !twist_; }
-  /// From start to goal, by no more than half a turn.
-  Vector3 rotation() const noexcept {
-    using std::atan2;
-    using std::copysign;
-    using std::sqrt;
-    const Matrix R = axes_of(goal_) * axes_of(start_).transpose();
-    // 4 (cos α/2, sin α/2 n) times one of its own components, the largest: four ways to write it, of which one has all digits.
-    const Vector3 twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
-    Scalar most = 1 + R.trace(), w = most;
-    Vector3 v = twice;
-    for (int k = 0; k < 3; ++k) {
-      const Scalar own = 1 - R.trace() + 2 * R(k, k);
-      if (!(own > most)) continue;
-      most = own;
-      w = twice[k];
-      v = R.col(k) + R.row(k).transpose();
-      v[k] = own;
-    }
-    const Scalar sine = sqrt(v.squaredNorm());
-    return sine > 0 ? Vector3(v * (2 * copysign(Scalar(1), w) * atan2(sine, std::abs(w)) / sine))
-                    : Vector3::Zero();
-  }
-  static Matrix axes_of(const Node& node) noexcept {
-    Matrix axes;
-    axes.col(0) = node.director, axes.col(1) = cross3(node.tangent, node.director),
-    axes.col(2) = node.tangent;
-    return axes;
-  }
 
   bool held_[3], direction_, twist_, springs_;
   Vector3 place_;               // springs along the axes [N/m]
+  Scalar stiffer_[2] = {1, 1};  // all springs against places, and against turns
   Scalar across_[2], torsion_;  // against the tangent's turn along d1 and d2, and against twist [N·m/rad]
   Node goal_, home_, start_, target_;
   Matrix axes_;
+  Springs damper_{goal_, Matrix::Zero(), 0, 0};
   bool at_goal_ = false;  // the target is
 };
 

@@ -159,14 +159,17 @@ class BlockTridiagonal {
   }
   /// The same of what couples the nodes of element e.   @param a, b, c, d  of the first node's first vector with both of the second, of its second with them
   void couple_even(int e, Scalar a, Scalar b, Scalar c, Scalar d) noexcept {
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 3; ++k)
+      couple_at(e, k, k, a), couple_at(e, k, 3 + k, b), couple_at(e, 3 + k, k, c),
+          couple_at(e, 3 + k, 3 + k, d);
+  }
+  /// One entry more of what couples the nodes of element e.   @param i, j  of the first node, and of the second
+  void couple_at(int e, int i, int j, Scalar by) noexcept {
     const Place left = place(e), right = place(e + 1);
     const bool inward = right.lane == 0;
     const Row coupled = row(inward ? left.row : right.row);
-    const auto put = [&](int i, int j, Scalar by) {
-      (inward ? coupled.coupling(i, j).a[0] : coupled.coupling(j, i).a[1]) += by;
-    };
-    HAPBEAM_UNROLL
-    for (int k = 0; k < 3; ++k) put(k, k, a), put(k, 3 + k, b), put(3 + k, k, c), put(3 + k, 3 + k, d);
+    (inward ? coupled.coupling(i, j).a[0] : coupled.coupling(j, i).a[1]) += by;
   }
   /// What the tangent so far has of a node, and of that and the other one of an element.  @param own, coupled  out: (i, j) -> entry, j of the other
   template <class Matrix>

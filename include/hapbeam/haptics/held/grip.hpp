@@ -18,7 +18,8 @@
 //
 // K' are the springs' stiffnesses, h' is where they are placed.  Orientations go the same way by the rotation vector.  In a tick of another
 // length than T the damper is K' β dt.  Where the end is turned against the hand by more than `slip` the grip slips.
-// Real-time: no allocation, noexcept, wait-free; one hold() of the model a tick.
+// A rod with mass has K and B within its steps, and goes on where it is let go.
+// Real-time: no allocation, noexcept, wait-free; one hold() of the model a tick, or step().
 #pragma once
 
 #include <atomic>
@@ -74,6 +75,7 @@ class Touch<Grip<Model>> {
     grip_.model().reset();
     aim_ = end();
     taken_ = false;
+    rest_ = 0, rest_ = energy();
   }
   /// Whether the hand holds it.
   bool pressing() const noexcept { return taken_; }
@@ -92,9 +94,19 @@ class Touch<Grip<Model>> {
   void slip(const HandPose& hand, const Eigen::Matrix3d& by) noexcept {
     from_hand_.turn = hand.turn.transpose() * by * hand.turn * from_hand_.turn;
   }
-  HeldEnd<Scalar> hold(const HandPose& aim) noexcept {
-    const HeldEnd<Scalar> held =
-        grip_.model().hold(grip_.side(), {aim.place, aim.turn.col(2), aim.turn.col(0)});
+  /// @param damper, dt  of a rod with mass, which goes on by dt [s]
+  HeldEnd<Scalar> hold(const HandPose& aim, [[maybe_unused]] const HoldDamper& damper,
+                       [[maybe_unused]] double dt) noexcept {
+    Model& model = grip_.model();
+    const RodPose pose{aim.place, aim.turn.col(2), aim.turn.col(0)};
+    HeldEnd<Scalar> held;
+    if constexpr (has_mass<Model>) {
+      Status status = model.hold(grip_.side(), pose, damper);
+      if (is_answer(status)) status = go_on(dt);
+      held = model.reaction(grip_.side()), held.status = status;
+    } else {
+      held = model.hold(grip_.side(), pose);
+    }
     if (is_answer(held.status)) aim_ = aim;
     return held;
   }
@@ -109,11 +121,18 @@ class Touch<Grip<Model>> {
     return pose;
   }
   Scalar s() const noexcept { return grip_.end().s; }
-  double energy() const noexcept { return static_cast<double>(grip_.model().strain_energy()); }
+  /// What the rod has; with mass, more than at rest [J].
+  double energy() const noexcept {
+    if constexpr (has_mass<Model>) return static_cast<double>(grip_.model().energy().sum()) - rest_;
+    else return static_cast<double>(grip_.model().strain_energy());
+  }
+  /// A rod with mass goes on without the hand.   @param dt [s]
+  Status go_on(double dt) noexcept { return grip_.model().step(static_cast<Scalar>(dt)); }
 
  private:
   Grip<Model>& grip_;
   HandPose aim_, from_hand_;
+  double rest_ = 0;  // energy at rest [J]
   bool taken_ = false;
 };
 
@@ -156,21 +175,23 @@ class GripCoupling {
     continued_ = 0, last_ = {};
   }
 
-  /// Once a period, whose length does not matter.   @param hand  in the scene
+  /// Once a period.   @param hand  in the scene   @param dt [s] since the tick before, which matters to a rod with mass alone
   template <typename Model>
   [[nodiscard]] CoupledWrench<typename Model::Scalar> tick(Touch<Grip<Model>>& touch, const HandPose& hand,
-                                                           double) noexcept {
+                                                           double dt) noexcept {
     using Scalar = typename Model::Scalar;
     CoupledWrench<Scalar> result;
     result.avatar = touch.end().place;
     if (!touch.held()) {
       touch.let_go();
       reset();
+      if constexpr (has_mass<Model>) result.touch.status = touch.go_on(dt), result.energy = touch.energy();
       return result;
     }
     const HandPose at = touch.follow(hand);
+    const HandPose aim{at.place + share(place_) * gap_, turn_by(share(turning_) * turn_) * at.turn};
     const HeldEnd<Scalar> held =
-        touch.hold({at.place + share(place_) * gap_, turn_by(share(turning_) * turn_) * at.turn});
+        touch.hold(has_mass<Model> ? at : aim, {share(place_), share(turning_), period_}, dt);
     result.touch.status = held.status;
     result.touch.press = {touch.s(), 0};
     if (is_answer(held.status)) {
@@ -183,7 +204,7 @@ class GripCoupling {
         touch.slip(hand, turn_by(turn_ * (1 - slip / angle)));
         turn_ *= slip / angle;
       }
-    } else if (held.status == Status::iteration_limit && continued_ < max_continued) {
+    } else if (!has_mass<Model> && held.status == Status::iteration_limit && continued_ < max_continued) {
       ++continued_;
     } else {
       reset();

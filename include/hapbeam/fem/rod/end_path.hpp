@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// How an end of a rod that a hand leads goes from pose to pose, and turns.
+//
+//   x(t) = x0 + t Δ + t (t - 1) ρ/(1 + ρ) (Δ - ρ Δ₋)         ρ: length of the step in units of the one before
+//
+// is the parabola through this pose and the two before, so that a hand that moves evenly faster is one for the step, too.  Rotations go
+// the same way by their rotation vectors.
+// Real-time: noexcept, no allocation, O(1).
+#pragma once
+
+#include <cmath>
+
+#include <hapbeam/fem/rod/natural_rod.hpp>
+
+namespace hapbeam::detail {
+
+/// d1, d2 and tangent of a node, which is unit.
+template <typename S>
+Eigen::Matrix<S, 3, 3> axes_of(const RodNode<S>& node) noexcept {
+  Eigen::Matrix<S, 3, 3> axes;
+  axes << node.director, cross3(node.tangent, node.director), node.tangent;
+  return axes;
+}
+/// From one node to another, by no more than half a turn [rad].
+template <typename S>
+VectorOf<S, 3> rotation_between(const RodNode<S>& from, const RodNode<S>& to) noexcept {
+  using std::atan2;
+  using std::copysign;
+  using std::sqrt;
+  using Vector3 = VectorOf<S, 3>;
+  const Eigen::Matrix<S, 3, 3> R = axes_of(to) * axes_of(from).transpose();
+  // 4 (cos α/2, sin α/2 n) times one of its own components, the largest: four ways to write it, of which one has all digits.
+  const Vector3 twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+  S most = 1 + R.trace(), w = most;
+  Vector3 v = twice;
+  for (int k = 0; k < 3; ++k) {
+    const S own = 1 - R.trace() + 2 * R(k, k);
+    if (!(own > most)) continue;
+    most = own;
+    w = twice[k];
+    v = R.col(k) + R.row(k).transpose();
+    v[k] = own;
+  }
+  const S sine = sqrt(v.squaredNorm());
+  return sine > 0 ? Vector3(v * (2 * copysign(S(1), w) * atan2(sine, std::abs(w)) / sine)) : Vector3::Zero();
+}
+/// By what a director that is carried from the unit vector `from` to the direction of a tangent turns as that moves.
+template <typename S>
+VectorOf<S, 3> holonomy(const VectorOf<S, 3>& from, const VectorOf<S, 3>& tangent) noexcept {
+  using std::sqrt;
+  const S i = 1 / sqrt(tangent.squaredNorm());
+  const VectorOf<S, 3> u = i * tangent;
+  return cross3(from, u) * (i / (1 + from.dot(u)));
+}
+/// Its symmetric derivative.
+template <typename S>
+Eigen::Matrix<S, 3, 3> holonomy_change(const VectorOf<S, 3>& from, const VectorOf<S, 3>& tangent) noexcept {
+  using std::sqrt;
+  const S i = 1 / sqrt(tangent.squaredNorm());
+  const VectorOf<S, 3> u = i * tangent, k = holonomy(from, tangent),
+                       q = i * ((from + u) / (1 + from.dot(u)) + u);
+  return (k * q.transpose() + q * k.transpose()) / 2;
+}
+/// A node that goes by so much, and turns by a rotation vector.
+template <typename S>
+RodNode<S> gone(const RodNode<S>& node, const VectorOf<S, 3>& by, const VectorOf<S, 3>& turn) noexcept {
+  RodNode<S> to = NaturalRod<S>::along(node, turn, 1);
+  to.s = node.s, to.r = node.r + by;
+  return to;
+}
+
+template <typename S>
+class EndPath {
+  using Vector3 = VectorOf<S, 3>;
+
+ public:
+  using Node = RodNode<S>;
+
+  /// It has been there for long.
+  void stay(const Node& at) noexcept { from_ = to_ = next_ = at, way_ = turn_ = {}, span_ = 0; }
+  /// Where the next step leads, and those after it.
+  void lead(const Node& to) noexcept { next_ = to; }
+  /// Whether this step does not move it.
+  bool rests() const noexcept { return way_.rests() && turn_.rests(); }
+  /// A step of so long [s]: from where the last one has led.
+  void begin(S dt) noexcept {
+    const S ratio = span_ > 0 ? dt / span_ : S(1), bend = ratio / (1 + ratio);
+    span_ = dt, from_ = to_, to_ = next_;
+    const Vector3 by = to_.r - from_.r, turn = rotation_between(from_, to_);
+    way_.bend = bend * (by - ratio * way_.by), turn_.bend = bend * (turn - ratio * turn_.by);
+    way_.by = by, turn_.by = turn;
+  }
+  /// @param t  of the step, 0 to 1
+  Node at(S t) const noexcept { return t == 1 ? to_ : gone(from_, way_.at(t), turn_.at(t)); }
+
+ private:
+  struct Way {
+    Vector3 by = Vector3::Zero(), bend = Vector3::Zero();
+    Vector3 at(S t) const noexcept { return t * (by + (t - 1) * bend); }
+    bool rests() const noexcept { return by.isZero(0) && bend.isZero(0); }
+  };
+  Node from_, to_, next_;
+  Way way_, turn_;
+  S span_ = 0;  // of the last step [s], 0: none
+};
+
+}  // namespace hapbeam::detail
