@@ -190,6 +190,25 @@ async function own(page) {
   check('other scenes have no form', await page.evaluate(`$('own').hidden`));
 }
 
+// Elements bound what their mesh leaves in the force; a model that was trained here states nothing.
+async function stated(page) {
+  const shown = () => page.evaluate(`$('bound').textContent`), held = `Number($('force').value) > 0.2`;
+  await page.scene(4);
+  await page.evaluate('choose(2)');
+  await page.pointer('down', 0.5, 0.04);
+  await page.drag([0.5, 0.04], [0.52, 0.8], 30);
+  await page.until('the bound of the mesh stands beside the force', `${held} && /^± (\\d|10)/.test($('bound').textContent)`);
+  await page.evaluate('choose(4)');
+  await page.until('a trained model is pressed', held);
+  await pause(600);
+  check('a trained model states no bound', (await shown()) === '', await shown());
+  await page.evaluate('choose(2)');
+  await page.until('and elements again', `$('bound').textContent !== ''`);
+  await page.drag([0.52, 0.8], [0.5, 0.02], 30);
+  await pause(600);
+  check('nor does what is not touched', (await shown()) === '', await shown());
+}
+
 // An error that a hand notices has a colour of its own.
 async function coloured(page) {
   await page.scene(1);
@@ -308,6 +327,7 @@ async function main() {
     await below(desk);
     await own(desk);
     await coloured(desk);
+    await stated(desk);
     await desk.send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-color-scheme', value: 'dark'}]});
     await desk.scene(3);
     await pause(2600);
