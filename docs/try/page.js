@@ -249,7 +249,7 @@ function ticked({ticks, line, us, bound}) {
     state.strobe.push(line);
     if (state.strobe.length > strobed) state.strobe.shift();
   }
-  if (bound !== null) $('bound').textContent = Number.isFinite(bound) ? `± ${percent(Math.max(bound, 1e-6))}` : '';
+  if (bound !== null) $('bound').textContent = bound >= 1 ? '± 100 % or more' : bound >= 0 ? `± ${bound > 0 ? percent(bound) : '0 %'}` : '';
   if (us !== null) $('now').textContent = `${us.toFixed(1)} µs`;
 }
 

@@ -192,21 +192,19 @@ async function own(page) {
 
 // Elements bound what their mesh leaves in the force; a model that was trained here states nothing.
 async function stated(page) {
-  const shown = () => page.evaluate(`$('bound').textContent`), held = `Number($('force').value) > 0.2`;
+  const shown = () => page.evaluate(`$('bound').textContent`);
   await page.scene(4);
-  await page.evaluate('choose(2)');
-  await page.pointer('down', 0.5, 0.04);
-  await page.drag([0.5, 0.04], [0.52, 0.8], 30);
-  await page.until('the bound of the mesh stands beside the force', `${held} && /^± (\\d|10)/.test($('bound').textContent)`);
-  await page.evaluate('choose(4)');
-  await page.until('a trained model is pressed', held);
-  await pause(600);
-  check('a trained model states no bound', (await shown()) === '', await shown());
-  await page.evaluate('choose(2)');
-  await page.until('and elements again', `$('bound').textContent !== ''`);
-  await page.drag([0.52, 0.8], [0.5, 0.02], 30);
-  await pause(600);
-  check('nor does what is not touched', (await shown()) === '', await shown());
+  for (const [model, states] of [[2, true], [4, false]]) {
+    await page.evaluate(`choose(${model})`);
+    await page.pointer('down', 0.5, 0.04);
+    await page.drag([0.5, 0.04], [0.52, 0.8], 30);
+    await page.until(`model ${model} is pressed`, `Number($('force').value) > 0.2`);
+    await pause(600);
+    check(`model ${model}: the bound of its mesh stands beside the force`, /^± \d/.test(await shown()) === states, await shown());
+    await page.drag([0.52, 0.8], [0.5, 0.02], 30);
+    await pause(600);
+    check(`model ${model}: what is not touched has no bound`, (await shown()) === '', await shown());
+  }
 }
 
 // An error that a hand notices has a colour of its own.

@@ -130,12 +130,12 @@ void choose_device(Running& running, Wish& wish) {
   ImGui::EndCombo();
 }
 
-/// Beside the force: how far it may be off; infinite where a finer mesh has no such shape.
+/// Beside the force: how far it may be off.
 void force_error(double relative) {
   if (std::isnan(relative)) return;
   ImGui::SameLine();
-  if (std::isinf(relative)) ImGui::TextUnformatted("± ?");
-  else ImGui::Text(relative < 1e-3 ? "± %.0e" : "± %.2g %%", relative < 1e-3 ? relative : 100 * relative);
+  if (relative < 1) ImGui::Text("± %.2g %%", 100 * relative);
+  else ImGui::TextUnformatted("± 100 % or more");  // infinite where a finer mesh has no such shape
 }
 
 void show_state(Running& running) {
