@@ -26,7 +26,7 @@ if(HAPBEAM_SANITIZE STREQUAL "thread")
   # What is pressed there for an instant.  What is precompiled differs in __OPTIMIZE__ alone.
   set_source_files_properties(${models} PROPERTIES COMPILE_OPTIONS "-O0;-Xclang;-fno-validate-pch")
 endif()
-hapbeam_once_unit(models once.hpp plane ${rare})
+hapbeam_once_unit(models once.hpp plane mass ${rare})
 hapbeam_once_unit(models once_training.hpp training)
 hapbeam_once_unit(models once.hpp svd)
 hapbeam_once_unit(models once_training.hpp scene)
@@ -35,6 +35,18 @@ add_library(hapbeam_once STATIC EXCLUDE_FROM_ALL ${models})
 target_include_directories(hapbeam_once PUBLIC ${CMAKE_CURRENT_LIST_DIR})
 target_link_libraries(hapbeam_once PUBLIC hapbeam::hapbeam Threads::Threads PRIVATE hapbeam_checks)
 target_precompile_headers(hapbeam_once PRIVATE ${CMAKE_CURRENT_LIST_DIR}/once.hpp)
+
+# What reads that in programs that are tested and not used.  g++ takes the level of what is precompiled, so there it is precompiled at theirs.
+set(hapbeam_tested hapbeam_once)
+if(HAPBEAM_TESTED_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(hapbeam_tested hapbeam_once_tested)
+  set(nothing ${PROJECT_BINARY_DIR}/once/nothing.cpp)
+  file(GENERATE OUTPUT ${nothing} CONTENT "")
+  add_library(hapbeam_once_tested OBJECT ${nothing})
+  target_link_libraries(hapbeam_once_tested PRIVATE hapbeam_once hapbeam_checks)
+  target_compile_options(hapbeam_once_tested PRIVATE ${HAPBEAM_TESTED_LEVEL})
+  target_precompile_headers(hapbeam_once_tested PRIVATE ${CMAKE_CURRENT_LIST_DIR}/once.hpp)
+endif()
 
 # clang instantiates what tests/support/used.hpp uses with the tests' precompiled header, and compiles it once for all that read it.  The thread
 # sanitizer's tests are too few.

@@ -7,11 +7,13 @@
 #include <Eigen/SVD>
 
 #include <hapbeam/contact/touch.hpp>
+#include <hapbeam/contact/touch_in_motion.hpp>
 #include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/rod.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
+#include <hapbeam/fem/dynamic_model.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
@@ -20,6 +22,7 @@
 #include <hapbeam/rom/trained/pod_model.hpp>
 
 #define HAPBEAM_ONCE extern
+#include "once/mass.inc"
 #include "once/plane.inc"
 #include "once/rare.inc"
 #include "once/rods.inc"

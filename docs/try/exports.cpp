@@ -24,6 +24,7 @@ EMSCRIPTEN_KEEPALIVE void page_open_own(double length, double thickness, double 
 EMSCRIPTEN_KEEPALIVE int page_has(int model) { return opened->has(model); }
 EMSCRIPTEN_KEEPALIVE void page_choose(int model) { opened->choose(model); }
 EMSCRIPTEN_KEEPALIVE double page_error(int model) { return opened->error(model); }
+EMSCRIPTEN_KEEPALIVE double page_bound() { return opened->bound(); }
 EMSCRIPTEN_KEEPALIVE double page_stroke(int model, int count) { return opened->stroke(model, count); }
 EMSCRIPTEN_KEEPALIVE void page_place(double x, double w) { opened->place({x, w}); }
 EMSCRIPTEN_KEEPALIVE void page_rewind() { opened->rewind(); }

@@ -16,6 +16,7 @@
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/dynamic_model.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/force_error.hpp>
 #include <hapbeam/haptics/servo/sound.hpp>
 #include <hapbeam/haptics/stability/coupling.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
@@ -47,12 +48,14 @@ struct Touched {
   virtual CoupledForce<double> couple(const Point& hand) noexcept = 0;
   virtual void reset() noexcept = 0;
   virtual Centreline<double> shape() const noexcept = 0;
+  /// Largest error of the last force [N], as the model states it; not a number where it states none.
+  virtual double bound() noexcept { return std::numeric_limits<double>::quiet_NaN(); }
   /// The oldest samples that have not been heard.   @return how many
   virtual int hear(float*, int) noexcept { return 0; }
 };
 
 template <class Model>
-class TouchedModel final : public Touched {
+class TouchedModel : public Touched {
  public:
   TouchedModel(Model model, const Scene& scene)
       : model_(std::move(model)),
@@ -65,10 +68,25 @@ class TouchedModel final : public Touched {
   void reset() noexcept override { touch_.reset(), coupling_.reset(); }
   Centreline<double> shape() const noexcept override { return model_.shape(); }
 
- private:
+ protected:
   Model model_;
+
+ private:
   Touch<Model> touch_;
   VirtualCoupling coupling_;
+};
+
+/// One that bounds what its mesh leaves in the force.
+template <class Element>
+class Meshed final : public TouchedModel<FemModel<Element>> {
+ public:
+  Meshed(const Scene& scene, int elements)
+      : TouchedModel<FemModel<Element>>(FemModel<Element>(scene.beam, elements), scene),
+        force_error_(scene.beam, elements) {}
+  double bound() noexcept override { return force_error_(this->model_); }
+
+ private:
+  ForceError<Element> force_error_;
 };
 
 /// One that swings, in parts of a tick of 42 µs, which are heard: the velocity at a place of it.
@@ -138,10 +156,10 @@ class Page {
  public:
   explicit Page(Scene scene) : scene_(std::move(scene)) {
     const Beam& beam = scene_.beam;
-    models_[von_karman_8] = touched(FemModel<>(beam, 8), scene_);
-    models_[von_karman_16] = touched(FemModel<>(beam, 16), scene_);
-    models_[corotational_8] = touched(FemModel<Corotational<>>(beam, 8), scene_);
-    models_[corotational_16] = touched(FemModel<Corotational<>>(beam, 16), scene_);
+    models_[von_karman_8] = std::make_unique<Meshed<VonKarman<>>>(scene_, 8);
+    models_[von_karman_16] = std::make_unique<Meshed<VonKarman<>>>(scene_, 16);
+    models_[corotational_8] = std::make_unique<Meshed<Corotational<>>>(scene_, 8);
+    models_[corotational_16] = std::make_unique<Meshed<Corotational<>>>(scene_, 16);
     if (scene_.rise == 0) models_[with_mass] = std::make_unique<Swinging>(scene_);
     if (beam.straight() && beam.right() == Support::pinned) {
       const auto full = full_model<Corotational<>>(beam, 128);
@@ -195,6 +213,12 @@ class Page {
       if (!(error <= worst)) worst = error;
     }
     return worst;
+  }
+  /// What the model under the hand states of the last tick, relative; not a number where it states nothing.
+  double bound() {
+    const double force = std::hypot(record_.force_x, record_.force_w);
+    return record_.pressing > 0 && force > 0 ? models_[model_]->bound() / force
+                                             : std::numeric_limits<double>::quiet_NaN();
   }
   /// So many ticks of an avatar that goes in and out and to and fro, for their time.   @return  sum of the forces
   double stroke(int model, int ticks) {

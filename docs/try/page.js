@@ -107,6 +107,7 @@ function choose(model) {
   $('sound').hidden = ![...$('models').rows].some((row) => Number(row.dataset.model) === withMass);
   if (player) player.port.postMessage(null);
   showSound();
+  $('bound').textContent = '';
   worker.postMessage({choose: model});
 }
 
@@ -230,7 +231,7 @@ document.onvisibilitychange = () => worker.postMessage({pause: document.hidden})
 
 // Ticks.
 
-function ticked({ticks, line, us}) {
+function ticked({ticks, line, us, bound}) {
   if (!state.facts) return;
   for (let k = 0; k < ticks.length; k += 9) {
     const [, , , , fx, fw, depth, pressing] = ticks.subarray(k, k + 9), force = Math.hypot(fx, fw);
@@ -248,6 +249,7 @@ function ticked({ticks, line, us}) {
     state.strobe.push(line);
     if (state.strobe.length > strobed) state.strobe.shift();
   }
+  if (bound !== null) $('bound').textContent = bound >= 1 ? '± 100 % or more' : bound >= 0 ? `± ${bound > 0 ? percent(bound) : '0 %'}` : '';
   if (us !== null) $('now').textContent = `${us.toFixed(1)} µs`;
 }
 

@@ -52,7 +52,7 @@ const models = [
   ['FemModel, Corotational', '16 elements, finite rotation'],
   ['PodModel', 'reduced, 16 × 12 snapshots'],
   ['GalerkinModel', 'reduced, 16 × 12 snapshots'],
-  ['DynamicModel', 'with mass: it swings, and is heard'],
+  ['DynamicModel', 'with mass, swings and is heard'],
 ];
 
 const statusText = {

@@ -190,6 +190,23 @@ async function own(page) {
   check('other scenes have no form', await page.evaluate(`$('own').hidden`));
 }
 
+// Elements bound what their mesh leaves in the force; a model that was trained here states nothing.
+async function stated(page) {
+  const shown = () => page.evaluate(`$('bound').textContent`);
+  await page.scene(4);
+  for (const [model, states] of [[2, true], [4, false]]) {
+    await page.evaluate(`choose(${model})`);
+    await page.pointer('down', 0.5, 0.04);
+    await page.drag([0.5, 0.04], [0.52, 0.8], 30);
+    await page.until(`model ${model} is pressed`, `Number($('force').value) > 0.2`);
+    await pause(600);
+    check(`model ${model}: the bound of its mesh stands beside the force`, /^± \d/.test(await shown()) === states, await shown());
+    await page.drag([0.52, 0.8], [0.5, 0.02], 30);
+    await pause(600);
+    check(`model ${model}: what is not touched has no bound`, (await shown()) === '', await shown());
+  }
+}
+
 // An error that a hand notices has a colour of its own.
 async function coloured(page) {
   await page.scene(1);
@@ -308,6 +325,7 @@ async function main() {
     await below(desk);
     await own(desk);
     await coloured(desk);
+    await stated(desk);
     await desk.send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-color-scheme', value: 'dark'}]});
     await desk.scene(3);
     await pause(2600);

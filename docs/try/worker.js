@@ -4,7 +4,7 @@
 // Told {wasm}, then {open: scene}, {own: [length, thickness, young, density, ends]}, {choose: model}, {place: [x, w]}, {go: [x, w]}, {script}, {pause: bool}, {demonstration: model}.
 function beamWorker() {
   const recordSize = 9, modelCount = 7, withMass = 6;
-  let beams, target = null, paused = false, last = 0, spent = 0, ticked = 0;
+  let beams, target = null, paused = false, last = 0, spent = 0, ticked = 0, unbound = 0;
 
   const records = (address, count) => new Float64Array(beams.memory.buffer, address, recordSize * count).slice();
   const hasModels = () => Array.from({length: modelCount}, (_, m) => m).filter((m) => beams.page_has(m));
@@ -56,8 +56,11 @@ function beamWorker() {
     ticked += due;
     let us = null;
     if (ticked >= 500) us = 1000 * spent / ticked, spent = ticked = 0;
+    // The stated bound takes a finer mesh: four times a second.
+    let bound = null;
+    if ((unbound += due) >= 250) bound = beams.page_bound(), unbound = 0;
     const ticks = records(address, due), points = line(), sound = heard();
-    postMessage({ticks, line: points, us, sound}, [ticks.buffer, points.buffer, sound.buffer]);
+    postMessage({ticks, line: points, us, bound, sound}, [ticks.buffer, points.buffer, sound.buffer]);
   }
 
   function begin() {

@@ -48,6 +48,8 @@ class Body {
   virtual double deepest() const noexcept = 0;  ///< [m] magnitude that was asked, as the report has it
   /// Largest strain of the run, as every eighth tick shows it; 0 where the model does not tell.
   virtual hapbeam::PeakStrain<double> peak() const noexcept = 0;
+  /// Largest error of the last force, relative, as the model states it, from any thread; not a number where it states none.
+  virtual double force_error() const noexcept = 0;
   /// From the servo's thread: how far the place that is heard is from where it rests [m]; 0 without mass.
   virtual double moved() const noexcept = 0;
   /// Adds what has been heard since the last call, from one other thread.   @return samples a second; 0 without mass

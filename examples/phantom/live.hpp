@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "couple.hpp"
+#include "force_bound.hpp"
 #include "heard.hpp"
 #include "rest.hpp"
 #include "scene.hpp"
@@ -67,7 +68,8 @@ class Live final : public Body {
         rest_(rest_of(model)),
         servo_options_(servo_options(parts_.options, rest_.shape(), parts_.options.place)),
         loop_(std::move(model), parts_, servo_options_),
-        heard_(loop_.model(), parts_.options) {
+        heard_(loop_.model(), parts_.options),
+        bound_(parts_) {
     for (int i = 0; i < parts_.options.beams; ++i) beams_.push_back({rest(), -parts_.options.pitch * i});
   }
 
@@ -80,6 +82,7 @@ class Live final : public Body {
     if constexpr (hapbeam::has_internal_forces<Model>)
       if (record().pressing && record().ticks % 8 == 0)
         if (const auto peak = hapbeam::peak_strain(loop_.model()); peak.strain > peak_.strain) peak_ = peak;
+    bound_.tick(loop_.model(), record());
     return force;
   }
   const hapbeam::ServoRecord& record() const noexcept override { return loop_.servo().record(); }
@@ -108,6 +111,7 @@ class Live final : public Body {
   }
   double deepest() const noexcept override { return dimension == 3 ? deepest_ : record().max_press; }
   hapbeam::PeakStrain<double> peak() const noexcept override { return peak_; }
+  double force_error() const noexcept override { return bound_.relative(); }
   double moved() const noexcept override { return heard_.moved(loop_.model()); }
   int hear(std::vector<float>& samples) override { return heard_.read(samples); }
   double dissipated() const noexcept override { return dissipated_; }
@@ -129,6 +133,7 @@ class Live final : public Body {
   hapbeam::ServoOptions servo_options_;
   Loop loop_;
   Heard<Model> heard_;
+  ForceBound<Model> bound_;
   std::vector<DrawnBeam> beams_;
   double deepest_ = 0;  // [m] of a rod
   hapbeam::PeakStrain<double> peak_{0, 0};

@@ -195,7 +195,7 @@ TEST_CASE("a late loop gains nothing from a rod with mass, with friction or with
   const DeviceInfo device{"arm", Eigen::Vector3d::Ones(), 100, 100, 1e4, 0, 0, 1e-3, 5, 0.2};
   int touched = 0;
   for (const bool rough : {false, true})
-    for (int loop = 36; loop < 60; ++loop) {
+    for (int loop = 36; loop < 48; ++loop) {  // each delay with each end, and each number of parts
       Random random(static_cast<std::uint64_t>(100 + loop));
       const int delay = loop % 4;
       const double length = random(0.1, 0.5), d = random(0.0005, 0.006), mass = std::pow(10, random(-3, 0)),
@@ -241,5 +241,5 @@ TEST_CASE("a late loop gains nothing from a rod with mass, with friction or with
       CAPTURE(rough, loop);
       CHECK(most <= 1e-9);
     }
-  CHECK(touched > 5000);
+  CHECK(touched > 2500);
 }

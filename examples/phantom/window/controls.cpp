@@ -1,5 +1,6 @@
 #include "controls.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <imgui.h>
 #include <limits>
@@ -129,6 +130,14 @@ void choose_device(Running& running, Wish& wish) {
   ImGui::EndCombo();
 }
 
+/// Beside the force: how far it may be off.
+void force_error(double relative) {
+  if (std::isnan(relative)) return;
+  ImGui::SameLine();
+  if (relative < 1) ImGui::Text("± %.2g %%", 100 * relative);
+  else ImGui::TextUnformatted("± 100 % or more");  // infinite where a finer mesh has no such shape
+}
+
 void show_state(Running& running) {
   const Session::Picture picture = running.session().picture();
   const hapbeam::ServoRecord& r = picture.record;
@@ -136,6 +145,7 @@ void show_state(Running& running) {
   ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
   ImGui::Text("%.2f N", r.force.norm());
   ImGui::PopFont();
+  force_error(running.session().body().force_error());
   if (picture.second) {
     ImGui::SameLine();
     ImGui::TextUnformatted("on the first hand");

@@ -32,25 +32,7 @@ struct CutPiece {
   decltype(J::value) bend;  ///< curvature under a force at the cut, times EI [m]
 
   /// @param l, x, n  length, place of the cut [m], N/EI [1/m²]
-  [[gnu::flatten]] CutPiece(const J& l, const J& x, const J& n) noexcept {
-    using S = std::decay_t<decltype(x.value)>;
-    const S half = S(0.5);
-    const J X = l - x, xx = x * x, XX = X * X, q1 = n * xx, q2 = n * XX, both = x * X, square = both * both;
-    const TensionStiffness<S> k1 = tension_stiffness(q1.value), k2 = tension_stiffness(q2.value);
-    const J A1 = q1.composed(k1.A(), k1.a1, k1.a2), B1 = q1.composed(k1.B(), k1.b1, k1.b2),
-            A2 = q2.composed(k2.A(), k2.a1, k2.a2), B2 = q2.composed(k2.B(), k2.b1, k2.b2);
-    const J ww = S(2) * (B1 * (XX * X) + B2 * (xx * x)) + n * square * l, wt = B2 * xx - B1 * XX,
-            tt = half * ((A1 + B1) * X + (A2 + B2) * x), over = inverse(ww * tt - wt * wt),
-            of_square = square * over;
-    rise = of_square * x * tt;
-    g = rise * X;
-    slope = S(-1) * (of_square * wt);
-    left = both * X * over * (tt * B1 * X + half * (wt * (B1 - A1)));
-    right = S(-1) * (both * x * over * (tt * B2 * x - half * (wt * (B2 - A2))));
-    chord = x * inverse(l);
-    bend = -both.value * X.value * over.value *
-           (B1.value * X.value * tt.value + half * (A1 + B1).value * wt.value);
-  }
+  CutPiece(const J& l, const J& x, const J& n) noexcept;
   /// Of a curve whose nodes hold places and tangents: how much it has of r1, r1', r2 and r2'.   @param inverse  1/l   @param h  out
   template <typename S>
   void weights(S inverse, J (&h)[4]) const noexcept {
@@ -59,6 +41,28 @@ struct CutPiece {
     h[0] = J(1) - h[2];
   }
 };
+
+// Outside of the class: only so does "extern template struct CutPiece<…>;" keep a compiler from it.
+template <class J>
+[[gnu::flatten]] CutPiece<J>::CutPiece(const J& l, const J& x, const J& n) noexcept {
+  using S = std::decay_t<decltype(x.value)>;
+  const S half = S(0.5);
+  const J X = l - x, xx = x * x, XX = X * X, q1 = n * xx, q2 = n * XX, both = x * X, square = both * both;
+  const TensionStiffness<S> k1 = tension_stiffness(q1.value), k2 = tension_stiffness(q2.value);
+  const J A1 = q1.composed(k1.A(), k1.a1, k1.a2), B1 = q1.composed(k1.B(), k1.b1, k1.b2),
+          A2 = q2.composed(k2.A(), k2.a1, k2.a2), B2 = q2.composed(k2.B(), k2.b1, k2.b2);
+  const J ww = S(2) * (B1 * (XX * X) + B2 * (xx * x)) + n * square * l, wt = B2 * xx - B1 * XX,
+          tt = half * ((A1 + B1) * X + (A2 + B2) * x), over = inverse(ww * tt - wt * wt),
+          of_square = square * over;
+  rise = of_square * x * tt;
+  g = rise * X;
+  slope = S(-1) * (of_square * wt);
+  left = both * X * over * (tt * B1 * X + half * (wt * (B1 - A1)));
+  right = S(-1) * (both * x * over * (tt * B2 * x - half * (wt * (B2 - A2))));
+  chord = x * inverse(l);
+  bend = -both.value * X.value * over.value *
+         (B1.value * X.value * tt.value + half * (A1 + B1).value * wt.value);
+}
 
 /// The same without tension, by polynomials: derivatives by x, which is variable 0, are all that there are.
 /// @param h  out: as of weights()   @param g  out   @return bend
