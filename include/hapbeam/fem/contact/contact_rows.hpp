@@ -195,7 +195,8 @@ class ContactRows {
     each_in(e, [&](int k) {
       Row& row = rows_[of(k)];
       row.b = touched->column(row.number);
-      row.residual = touched->residual(row.number) + row.contact.ahead - row.contact.force * row.contact.compliance;
+      row.residual =
+          touched->residual(row.number) + row.contact.ahead - row.contact.force * row.contact.compliance;
     });
     return energy;
   }

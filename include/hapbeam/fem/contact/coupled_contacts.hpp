@@ -177,7 +177,10 @@ class CoupledContacts {
     Contact contact;
     static_cast<State&>(contact) = now.next;
     RoundContact{avatar}.set(contact);
-    contact.reach = avatar.reach, contact.compliance = 1 / now.whole, contact.ahead = ahead - now.lasting;
+    contact.reach = avatar.reach;
+    // One that has lasted for two parts is as round as it is; from afar a wide one, which soon is a plane, is met more often.
+    const Scalar deep = ahead - now.lasting;
+    (now.stages > 3 ? contact.ahead : contact.reach) += deep, contact.compliance = 1 / now.whole;
     contact.least = least_, contact.most = most_;
     contact.moves = true, contact.waits = now.next.force == 0;
     return contact;
