@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where two rods are nearest, and how far they have moved against each other.
+// Where rods are nearest to each other, to themselves and to rigid bodies, and how far they have moved against those.
 //
 // Rods that nowhere come within reach on their way from one shape to another, or no two points of which move against each other by more than half of
 // the reach there, have not passed each other: a distance that was a reach is still half of one, and its direction tells the side.
@@ -14,6 +14,7 @@
 #include <hapbeam/contact/box.hpp>
 #include <hapbeam/rod_centreline.hpp>
 #include <hapbeam/world/pair.hpp>
+#include <hapbeam/world/rigid_approach.hpp>
 
 namespace hapbeam::detail {
 
@@ -91,26 +92,31 @@ struct Look {
   double deepest = 0;  ///< distance less the reach of what does not touch yet, in reaches
   double least = 1;    ///< distance of all, in reaches
   RodPair pair;        ///< that of the deepest
+
+  /// @param found  that is so far away [m]   @param lacks  of lacking()
+  void see(const RodPair& found, double distance, double lacks) noexcept {
+    least = (std::min)(least, distance / found.reach);
+    const double gap = distance / found.reach - 1 + lacks;
+    if (gap < deepest) deepest = gap, pair = found;
+  }
 };
 
 /// Beside a pair that touches, what its elements lack of the curves; at the pair itself, all.   @return in reaches
 template <class System>
-double lacking(const System& system, int i, int j, const Approach& found, double reach) noexcept {
+double lacking(const System& system, const RodPair& found) noexcept {
+  const double same_place = 2 * (system.rigid(found.rod[1]) ? 2 * system.body(found.rod[0]).radius() : found.reach);
   double most = 0;
   for (int k = 0; k < system.pairs(); ++k) {
     const RodPair& pair = system.pair(k);
-    if (pair.rod[0] != i || pair.rod[1] != j) continue;
+    if (pair.rod != found.rod) continue;
     bool same = true, beside = true;
     for (std::size_t side = 0; side < 2; ++side) {
-      const auto& body = system.body(pair.rod[side]);
       const double off = std::abs(pair.s[side] - found.s[side]);
-      same = same && off <= 2 * reach;
-      beside = beside && off <= body.length() / body.elements();
+      same = same && off <= same_place;
+      beside = beside && off <= system.stride(pair.rod[side]);
     }
-    const VectorOf<double, 3> w =
-        system.body(i).line().at(pair.s[0]).r - system.body(j).line().at(pair.s[1]).r;
     if (same) most = 1;
-    else if (beside) most = (std::max)(most, 1 - std::sqrt(w.squaredNorm()) / reach);
+    else if (beside) most = (std::max)(most, 1 - pair.distance(system.between(pair)) / pair.reach);
   }
   return most;
 }
@@ -127,16 +133,35 @@ void look_at(const System& system, int i, int j, Look& look) noexcept {
     const Approach found =
         nearest_places(first, second, (first[e].s + first[e + 1].s) / 2, (second[f].s + second[f + 1].s) / 2,
                        {first[e + 1].s - first[e].s, second[f + 1].s - second[f].s});
+    RodPair pair;
+    pair.rod = {i, j}, pair.s = found.s, pair.reach = reach;
     const double distance = std::sqrt(found.from.squaredNorm());
-    look.least = (std::min)(look.least, distance / reach);
-    const double gap = distance / reach - 1 + lacking(system, i, j, found, reach);
-    if (gap < look.deepest) {
-      look.deepest = gap;
-      look.pair.rod = {i, j}, look.pair.s = found.s, look.pair.reach = reach;
-      look.pair.normal = found.from / distance;
-    }
+    pair.normal = found.from / distance;
+    look.see(pair, distance, lacking(system, pair));
     return true;
   });
+}
+/// At what may meet of a rod and a rigid body.   @param number  of the body in pairs
+template <class System>
+void look_at_rigid(const System& system, int rod, int number, Look& look) noexcept {
+  const auto& body = system.body(rod);
+  const PlacedBody& core = *system.rigid(number);
+  const double reach = reach_of(core, body.radius());
+  const auto line = body.line();
+  body.swept().visit(
+      [&](const Box<double, 3>& box) { return may_touch(core, box, reach) ? 0.0 : 1.0; }, [] { return 0.0; },
+      [&](int e) {
+        const CubicSegment<double, 3> was = body.saved_segment(e), now = line.segment(e);
+        if (!may_touch(core, was, now, reach)) return true;
+        if (may_have_passed(core, was, now, reach)) return look.close = false;
+        const double t = nearest_on(now, core);
+        const FromBody found(core, point_at(now, t));
+        RodPair pair;
+        pair.rod = {rod, number}, pair.s = {line[e].s + t * (line[e + 1].s - line[e].s), found.s};
+        pair.reach = reach, pair.ring = found.ring, pair.normal = found.normal;
+        look.see(pair, found.distance, lacking(system, pair));
+        return true;
+      });
 }
 /// At all of them.   @param system  PairSystem
 template <class System>
@@ -144,9 +169,14 @@ Look look_around(System& system) noexcept {
   Look look;
   const int rods = static_cast<int>(system.bodies().size());
   for (auto& body : system.bodies()) body.sweep();
-  for (int i = 0; i < rods && look.close; ++i)
+  const int all = rods + static_cast<int>(system.rigid().size());
+  for (int i = 0; i < rods && look.close; ++i) {
+    const bool moves = system.body(i).moves;
     for (int j = i + 1; j < rods && look.close; ++j)
-      if (system.body(i).moves || system.body(j).moves) look_at(system, i, j, look);
+      if (moves || system.body(j).moves) look_at(system, i, j, look);
+    for (int j = rods; j < all && look.close; ++j)
+      if (moves || system.rigid(j)->moves) look_at_rigid(system, i, j, look);
+  }
   return look;
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A contact of two rods: one force and two places, unknowns of the equations of both.
+// A contact of a rod with another, with itself or with a rigid body: one force and two places, unknowns of the equations of both.
 //
-//   L = Σ V - f · w + R |f| - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n from rod 2 to rod 1
+//   L = Σ V - f · w + h(f) - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n to rod 1
+//   h(f) = R |f| + b |f across the axis of a tube|,  b = ±its radius, from outside and from inside
 //
-// Stationary by f where w + C f = R n: the true curves, which C bends off what nodes hold, are R apart.  By a place where the true curve is
-// across n.  Where the sections bend alike about all axes this is  Σ V - λ (|w| - R) - ½ λ² c.
+// Stationary by f where w + C f = ∂h/∂f, which is R n but in a tube: the true curves, which C bends off what nodes hold, are R apart.  By a place where the
+// true curve is across n.  Where the sections bend alike about all axes this is  Σ V - λ (|w| - R) - ½ λ² c.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
@@ -17,12 +18,12 @@
 
 namespace hapbeam {
 
-/// Where two rods touch.
+/// Where a rod touches another, itself or a body.
 struct RodContact {
-  std::array<int, 2> rod;                 ///< 0-based numbers in the World
-  std::array<double, 2> s;                ///< [m] arc positions
-  VectorOf<double, 3> force;              ///< [N] on rod[0] by rod[1], along the line that joins both places
-  std::array<VectorOf<double, 3>, 2> at;  ///< [m] points of both centrelines
+  std::array<int, 2> rod;                 ///< 0-based numbers in the World: rods, and rods() + that of a body
+  std::array<double, 2> s;                ///< [m] arc positions; along the axis of a body
+  VectorOf<double, 3> force;              ///< [N] on rod[0], along the line that joins both places
+  std::array<VectorOf<double, 3>, 2> at;  ///< [m] points of the centrelines; of the surface of a body
 };
 
 namespace detail {
@@ -33,12 +34,33 @@ struct RodPair {
   std::array<int, 2> rod{};
   std::array<double, 2> s{};
   double reach = 0;                 // R, of both radii [m]
+  double ring = 0;                  // b [m]
+  Vector axis = Vector::Zero();     // of a tube
   double force = 0;                 // λ [N]
   Vector normal = Vector::UnitZ();  // n
   /// New: its direction and its places stay until it presses.
   bool fresh = true;
   std::array<bool, 2> held{};    // at an end of its rod, where the place stays
   std::array<double, 2> pull{};  // ∂L/∂s of the last equations [N]
+
+  /// From the core of a tube, which is around its axis, or else from r₂, along n [m].
+  double distance(const Vector& w) const noexcept {
+    return normal.dot(w) - (ring != 0 ? ring * around().length : 0);
+  }
+  /// ∂²L/∂f∂f along the axes.
+  double bends(std::size_t c, std::size_t d) const noexcept {
+    const double even = c == d ? reach : 0;
+    if (ring == 0) return even / force;
+    const Around now = around();
+    const Vector turns = cross3(axis, now.way);
+    return (even + ring / now.length * axes[c].dot(turns) * axes[d].dot(turns)) / force;
+  }
+  /// ∂h/∂f along an axis [m].
+  double offset(std::size_t c) const noexcept {
+    return (c == 0 ? reach : 0) + (ring != 0 ? ring * axes[c].dot(around().way) : 0);
+  }
+  /// Eigenvalues of its own that are negative in a stable equilibrium: of λ and of two places of least distance, and from inside of a turn of n.
+  int negative() const noexcept { return ring < 0 ? 4 : 3; }
 
   /// Two directions across the normal.
   void look() noexcept {
@@ -85,6 +107,19 @@ struct RodPair {
   }
 
   std::array<Vector, 3> axes;  // of look(): n first
+
+ private:
+  /// What n has across the axis of a tube.
+  struct Around {
+    double length;
+    Vector way;
+  };
+  Around around() const noexcept {
+    constexpr double least = 1e-9;
+    const Vector part = normal - axis.dot(normal) * axis;
+    const double length = (std::max)(std::sqrt(part.squaredNorm()), least);
+    return {length, part / length};
+  }
 };
 
 }  // namespace detail

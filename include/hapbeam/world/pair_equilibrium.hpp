@@ -33,8 +33,9 @@ class PairEquilibrium {
   static constexpr double closest = 0.5;
 
   /// @throws std::invalid_argument as PairSystem
-  PairEquilibrium(const std::vector<WorldRod>& rods, const NewtonRaphson& solver)
-      : system_(rods), solver_(solver) {}
+  PairEquilibrium(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid,
+                  const NewtonRaphson& solver)
+      : system_(rods, rigid), solver_(solver) {}
   System& system() noexcept { return system_; }
   const System& system() const noexcept { return system_; }
 
@@ -148,7 +149,7 @@ class PairEquilibrium {
     changed_ = true;
     RodPair pair = look.pair;
     for (std::size_t side = 0; side < 2; ++side)
-      pair.held[side] = pair.s[side] <= 0 || pair.s[side] >= system_.body(pair.rod[side]).length();
+      pair.held[side] = pair.s[side] <= 0 || pair.s[side] >= system_.length(pair.rod[side]);
     if (!system_.add(pair)) return false;
     system_.spread();
     return true;
