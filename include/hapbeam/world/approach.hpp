@@ -101,22 +101,36 @@ struct Look {
   }
 };
 
-/// Beside a pair that touches, what its elements lack of the curves; at the pair itself, all.   @return in reaches
+/// What an element lacks of its true curve at a place, of what it lacks at another under a force there, at most: of a clamped piece √(g(x, x)/g(s, s)).
+/// @return 0 in two elements
+template <class Body>
+double lacks_beside(const Body& body, double s, double other) noexcept {
+  constexpr double smallest = 1e-4;
+  const auto line = body.line();
+  const int e = line.segment_at(s);
+  const double l = line[e + 1].s - line[e].s, x = (s - line[e].s) / l, y = (other - line[e].s) / l;
+  if (!(y >= 0 && y <= 1)) return 0;
+  const double ratio = x * (1 - x) / (std::max)(y * (1 - y), smallest);
+  return ratio * std::sqrt((std::max)(ratio, 0.0));
+}
+/// What the elements of pairs that touch lack of the true curves at a place; at a pair itself, all.   @return in reaches
 template <class System>
 double lacking(const System& system, const RodPair& found) noexcept {
-  const double same_place = 2 * (system.rigid(found.rod[1]) ? 2 * system.body(found.rod[0]).radius() : found.reach);
+  const double same_place =
+      2 * (system.rigid(found.rod[1]) ? 2 * system.body(found.rod[0]).radius() : found.reach);
   double most = 0;
   for (int k = 0; k < system.pairs(); ++k) {
     const RodPair& pair = system.pair(k);
     if (pair.rod != found.rod) continue;
-    bool same = true, beside = true;
+    bool same = true;
+    double beside = 0;
     for (std::size_t side = 0; side < 2; ++side) {
-      const double off = std::abs(pair.s[side] - found.s[side]);
-      same = same && off <= same_place;
-      beside = beside && off <= system.stride(pair.rod[side]);
+      same = same && std::abs(pair.s[side] - found.s[side]) <= same_place;
+      if (!system.rigid(pair.rod[side]))
+        beside = (std::max)(beside, lacks_beside(system.body(pair.rod[side]), found.s[side], pair.s[side]));
     }
-    if (same) most = 1;
-    else if (beside) most = (std::max)(most, 1 - pair.distance(system.between(pair)) / pair.reach);
+    if (same) return 1;
+    most = (std::max)(most, beside * (1 - pair.distance(system.between(pair)) / pair.reach));
   }
   return most;
 }

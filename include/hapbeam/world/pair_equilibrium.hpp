@@ -63,16 +63,16 @@ class PairEquilibrium {
       const Look look = look_around(system_);
       if (!look.close) return Outcome::too_far;
       if (release()) continue;
-      if (look.deepest < -nothing) {
-        if (!meet(look)) return Outcome::full;
-        continue;
-      }
-      if (look.least < closest) return Outcome::full;
       // One that comes back to its end has left it for a place that gives way.
       if (leave_end()) {
         if (leaves++ < 2) continue;
         return failure_ = Status::iteration_limit, Outcome::lost;
       }
+      if (look.deepest < -nothing) {
+        if (!meet(look)) return Outcome::full;
+        continue;
+      }
+      if (look.least < closest) return Outcome::full;
       return gives_way() ? (failure_ = Status::iteration_limit, Outcome::lost) : Outcome::settled;
     }
     return failure_ = Status::iteration_limit, Outcome::lost;
