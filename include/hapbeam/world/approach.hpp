@@ -113,23 +113,33 @@ double lacks_beside(const Body& body, double s, double other) noexcept {
   const double ratio = x * (1 - x) / (std::max)(y * (1 - y), smallest);
   return ratio * std::sqrt((std::max)(ratio, 0.0));
 }
+/// Whether both places of two pairs of the same rods are no farther apart than that.   @param reaches  of rods   @param elements  or so many elements
+template <class System>
+bool beside_each_other(const System& system, const RodPair& a, const RodPair& b, double reaches, double elements) noexcept {
+  if (a.rod != b.rod) return false;
+  const bool rigid = system.rigid(a.rod[1]);
+  const double most = reaches * (rigid ? 2 * system.body(a.rod[0]).radius() : a.reach);
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (side == 1 && rigid) break;
+    const double off = std::abs(a.s[side] - b.s[side]);
+    if (!(off <= (std::max)(most, elements * system.stride(a.rod[side])))) return false;
+  }
+  return true;
+}
 /// What the elements of pairs that touch lack of the true curves at a place; at a pair itself, all.   @return in reaches
 template <class System>
 double lacking(const System& system, const RodPair& found) noexcept {
-  const double same_place =
-      2 * (system.rigid(found.rod[1]) ? 2 * system.body(found.rod[0]).radius() : found.reach);
+  constexpr double line = 0.01;  // of contacts in a row one in half an element is enough
   double most = 0;
   for (int k = 0; k < system.pairs(); ++k) {
     const RodPair& pair = system.pair(k);
     if (pair.rod != found.rod) continue;
-    bool same = true;
+    if (beside_each_other(system, pair, found, 2, 0)) return 1;
+    if (beside_each_other(system, pair, found, 2, 0.5)) most = (std::max)(most, line);
     double beside = 0;
-    for (std::size_t side = 0; side < 2; ++side) {
-      same = same && std::abs(pair.s[side] - found.s[side]) <= same_place;
+    for (std::size_t side = 0; side < 2; ++side)
       if (!system.rigid(pair.rod[side]))
         beside = (std::max)(beside, lacks_beside(system.body(pair.rod[side]), found.s[side], pair.s[side]));
-    }
-    if (same) return 1;
     most = (std::max)(most, beside * (1 - pair.distance(system.between(pair)) / pair.reach));
   }
   return most;

@@ -126,11 +126,12 @@ class PairEquilibrium {
   bool leave_end() noexcept {
     for (int k = 0; k < system_.pairs(); ++k)
       for (std::size_t side = 0; side < 2; ++side)
-        if (system_.moves(system_.pair(k)) && system_.pair(k).leaves_end(side))
+        if (system_.moves(system_.pair(k)) &&
+            (is_pinned(k) ? side == 0 && !is_beside(k) : system_.pair(k).leaves_end(side)))
           return system_.pair(k).held[side] = false, true;
     return false;
   }
-  /// The pair that pulls most lets go.   @return whether there is one
+  /// The pair that pulls most lets go, or one of two that have come together.   @return whether there is one
   bool release() noexcept {
     int worst = -1;
     for (int k = 0; k < system_.pairs(); ++k) {
@@ -138,10 +139,25 @@ class PairEquilibrium {
       if (system_.moves(pair) && !(pair.force > 0) && (worst < 0 || pair.force < system_.pair(worst).force))
         worst = k;
     }
+    for (int k = 1; k < system_.pairs() && worst < 0; ++k)
+      for (int j = 0; j < k && worst < 0; ++j)
+        if (system_.moves(system_.pair(k)) && beside_each_other(system_, system_.pair(k), system_.pair(j), 1, 0))
+          worst = k;
     if (worst < 0) return false;
     system_.remove(worst);
     changed_ = true;
     return true;
+  }
+
+  /// Of contacts in a row those that come later stay at their places: where rods lie in line all places are alike.
+  bool is_pinned(int k) const noexcept {
+    const RodPair& pair = system_.pair(k);
+    return pair.held[0] && pair.s[0] > 0 && pair.s[0] < system_.length(pair.rod[0]);
+  }
+  bool is_beside(int k) const noexcept {
+    for (int j = 0; j < system_.pairs(); ++j)
+      if (j != k && beside_each_other(system_, system_.pair(k), system_.pair(j), 0, 1)) return true;
+    return false;
   }
 
   /// One more touches.   @return whether there was room
@@ -151,6 +167,8 @@ class PairEquilibrium {
     for (std::size_t side = 0; side < 2; ++side)
       pair.held[side] = pair.s[side] <= 0 || pair.s[side] >= system_.length(pair.rod[side]);
     if (!system_.add(pair)) return false;
+    RodPair& added = system_.pair(system_.pairs() - 1);
+    added.held[0] = added.held[0] || is_beside(system_.pairs() - 1);
     system_.spread();
     return true;
   }

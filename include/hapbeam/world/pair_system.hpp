@@ -54,10 +54,8 @@ class PairSystem {
     return at(i) < rods ? nullptr : &rigid_[at(i) - rods];
   }
   double length(int i) const noexcept { return rigid(i) ? rigid(i)->length() : body(i).length(); }
-  /// No place goes farther at once [m].
-  double stride(int i) const noexcept {
-    return rigid(i) ? rigid(i)->length() : body(i).length() / body(i).elements();
-  }
+  /// No place on a rod goes farther at once [m].
+  double stride(int i) const noexcept { return body(i).length() / body(i).elements(); }
   /// From the second side of a pair to the first [m].
   VectorOf<double, 3> between(const RodPair& pair) const noexcept {
     const PlacedBody* core = rigid(pair.rod[1]);
@@ -176,7 +174,7 @@ class PairSystem {
       const PairEquations& u = *equations_;
       pair.push(u[row], u[row + 1], u[row + 2]);
       for (std::size_t side = 0; side < 2; ++side) {
-        const double most = stride(pair.rod[side]);
+        const double most = stride(rigid(pair.rod[side]) ? pair.rod[0] : pair.rod[side]);
         pair.slide(side, std::clamp(u[row + 3 + static_cast<int>(side)], -most, most),
                    length(pair.rod[side]));
       }
