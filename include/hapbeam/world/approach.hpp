@@ -144,19 +144,38 @@ double lacking(const System& system, const RodPair& found) noexcept {
   }
   return most;
 }
-/// At what may meet of rods i and j.
+/// Whether a rod goes one way from the first piece to the last: two points of it are then no nearer than this cosine of their distance along it.
+template <class Line>
+bool goes_one_way(const Line& line, int first, int last) noexcept {
+  constexpr double cosine = 0.7;
+  const auto& way = line[(first + last + 1) / 2].tangent;
+  const double square = cosine * cosine * way.squaredNorm();
+  for (int i = first; i <= last + 1; ++i) {
+    const double along = way.dot(line[i].tangent);
+    if (!(along > 0 && along * along > square * line[i].tangent.squaredNorm())) return false;
+  }
+  return true;
+}
+
+/// At what may meet of rods i and j, or of one rod: a rod that bends by no less than its own radius comes back to itself after half a turn.
 template <class System>
 void look_at(const System& system, int i, int j, Look& look) noexcept {
   const auto &a = system.body(i), &b = system.body(j);
-  const double reach = a.radius() + b.radius();
+  const double reach = a.radius() + b.radius(), half_turn = i == j ? std::acos(-1.0) / 2 * reach : 0;
+  const auto one_way = [&](int e, int f) {
+    return goes_one_way(a.line(), e, f) && goes_one_way(a.saved_line(), e, f);
+  };
+  if (i == j && one_way(0, a.elements() - 1)) return;
   const auto first = a.line(), second = b.line();
   look.close = visit_approaches(a, b, reach, [&](int e, int f) {
+    if (i == j && (f <= e || first[f + 1].s - first[e].s < half_turn || one_way(e, f))) return true;
     if (!(relative_travel(a.saved_segment(e), first.segment(e), b.saved_segment(f), second.segment(f)) <=
           reach * reach / 4))
       return false;
     const Approach found =
         nearest_places(first, second, (first[e].s + first[e + 1].s) / 2, (second[f].s + second[f + 1].s) / 2,
                        {first[e + 1].s - first[e].s, second[f + 1].s - second[f].s});
+    if (i == j && found.s[1] - found.s[0] < half_turn) return true;
     RodPair pair;
     pair.rod = {i, j}, pair.s = found.s, pair.reach = reach;
     const double distance = std::sqrt(found.from.squaredNorm());
@@ -196,7 +215,7 @@ Look look_around(System& system) noexcept {
   const int all = rods + static_cast<int>(system.rigid().size());
   for (int i = 0; i < rods && look.close; ++i) {
     const bool moves = system.body(i).moves;
-    for (int j = i + 1; j < rods && look.close; ++j)
+    for (int j = i; j < rods && look.close; ++j)
       if (moves || system.body(j).moves) look_at(system, i, j, look);
     for (int j = rods; j < all && look.close; ++j)
       if (moves || system.rigid(j)->moves) look_at_rigid(system, i, j, look);
