@@ -71,19 +71,20 @@ struct RodPair {
     axes[1] = across<double>(Vector::Unit(least), normal);
     axes[2] = cross3(normal, axes[1]);
   }
-  /// Adds an increment of f along the axes.
+  /// Adds an increment of f along the axes.  One that would pull is as new and keeps its first place: where a rod lies along what it touches, all places are
+  /// alike for a force of nothing.
   void push(double along, double aside1, double aside2) noexcept {
     constexpr double most_turn = 0.3, least_left = 1e-3;
-    if (fresh) {
-      force += along;
-      fresh = !(force > 0);
+    const double next = force + along;
+    if (fresh || !(next > least_left * force)) {
+      held[0] = held[0] || !fresh;
+      force = next, fresh = !(next > 0);
       return;
     }
     Vector turn = (aside1 * axes[1] + aside2 * axes[2]) / force;
     if (const double angle = std::sqrt(turn.squaredNorm()); angle > most_turn) turn *= most_turn / angle;
     normal = unit(Vector(normal + turn));
-    const double next = force + along;
-    force = std::abs(next) < least_left * std::abs(force) ? std::copysign(least_left * force, next) : next;
+    force = next;
   }
   /// Adds an increment of a place, which may lead to an end.   @param length  of the rod [m]
   void slide(std::size_t side, double by, double length) noexcept {

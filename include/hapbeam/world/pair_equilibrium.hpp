@@ -40,7 +40,11 @@ class PairEquilibrium {
   const System& system() const noexcept { return system_; }
 
   /// Begins a tick.
-  void begin() noexcept { solves_ = 0, changed_ = false, failure_ = Status::iteration_limit; }
+  void begin() noexcept {
+    solves_ = 0, changed_ = false, failure_ = Status::iteration_limit;
+    for (int k = 0; k < system_.pairs(); ++k)
+      if (is_pinned(k) && !is_beside(k)) system_.pair(k).held[0] = false;
+  }
   int solves() const noexcept { return solves_; }
   int left() const noexcept { return solver_.max_solves - solves_; }
   /// Whether another pair touches than before begin().
@@ -126,8 +130,8 @@ class PairEquilibrium {
   bool leave_end() noexcept {
     for (int k = 0; k < system_.pairs(); ++k)
       for (std::size_t side = 0; side < 2; ++side)
-        if (system_.moves(system_.pair(k)) &&
-            (is_pinned(k) ? side == 0 && !is_beside(k) : system_.pair(k).leaves_end(side)))
+        if (system_.moves(system_.pair(k)) && !(side == 0 && is_pinned(k)) &&
+            system_.pair(k).leaves_end(side))
           return system_.pair(k).held[side] = false, true;
     return false;
   }
@@ -149,7 +153,7 @@ class PairEquilibrium {
     return true;
   }
 
-  /// Of contacts in a row those that come later stay at their places: where rods lie in line all places are alike.
+  /// Its first place stays for this tick, and as long as another contact is in the same row.
   bool is_pinned(int k) const noexcept {
     const RodPair& pair = system_.pair(k);
     return pair.held[0] && pair.s[0] > 0 && pair.s[0] < system_.length(pair.rod[0]);

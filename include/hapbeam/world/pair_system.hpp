@@ -173,7 +173,7 @@ class PairSystem {
       if (!moves(pair)) continue;
       const PairEquations& u = *equations_;
       pair.push(u[row], u[row + 1], u[row + 2]);
-      for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t side = 0; side < 2 && !pair.fresh; ++side) {
         const double most = stride(rigid(pair.rod[side]) ? pair.rod[0] : pair.rod[side]);
         pair.slide(side, std::clamp(u[row + 3 + static_cast<int>(side)], -most, most),
                    length(pair.rod[side]));
