@@ -42,6 +42,7 @@ struct RodPair {
   bool fresh = true;
   std::array<bool, 2> held{};    // at an end of its rod, where the place stays
   std::array<double, 2> pull{};  // ∂L/∂s of the last equations [N]
+  std::array<double, 2> met{};   // s where it began
 
   /// From the core of a tube, which is around its axis, or else from r₂, along n [m].
   double distance(const Vector& w) const noexcept {
@@ -77,7 +78,7 @@ struct RodPair {
     constexpr double most_turn = 0.3, least_left = 1e-3;
     const double next = force + along;
     if (fresh || !(next > least_left * force)) {
-      held[0] = held[0] || !fresh;
+      if (!fresh) held[0] = true, s = met;
       force = next, fresh = !(next > 0);
       return;
     }

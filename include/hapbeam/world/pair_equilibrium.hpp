@@ -40,11 +40,7 @@ class PairEquilibrium {
   const System& system() const noexcept { return system_; }
 
   /// Begins a tick.
-  void begin() noexcept {
-    solves_ = 0, changed_ = false, failure_ = Status::iteration_limit;
-    for (int k = 0; k < system_.pairs(); ++k)
-      if (is_pinned(k) && !is_beside(k)) system_.pair(k).held[0] = false;
-  }
+  void begin() noexcept { solves_ = 0, changed_ = false, failure_ = Status::iteration_limit; }
   int solves() const noexcept { return solves_; }
   int left() const noexcept { return solver_.max_solves - solves_; }
   /// Whether another pair touches than before begin().
@@ -56,6 +52,11 @@ class PairEquilibrium {
   Outcome settle() noexcept {
     Curvature<double> unknown;
     int leaves = 0;
+    for (int k = 0; k < system_.pairs(); ++k) {
+      RodPair& pair = system_.pair(k);
+      pair.met = pair.s;
+      if (is_pinned(k) && !is_beside(k)) pair.held[0] = false;
+    }
     for (int pass = 0; pass < 4 + 2 * most_pairs; ++pass) {
       if (left() <= 0) return Outcome::too_far;
       NewtonRaphson solver = solver_;
@@ -153,7 +154,7 @@ class PairEquilibrium {
     return true;
   }
 
-  /// Its first place stays for this tick, and as long as another contact is in the same row.
+  /// Its first place stays for this step, and as long as another contact is in the same row.
   bool is_pinned(int k) const noexcept {
     const RodPair& pair = system_.pair(k);
     return pair.held[0] && pair.s[0] > 0 && pair.s[0] < system_.length(pair.rod[0]);
@@ -168,6 +169,7 @@ class PairEquilibrium {
   bool meet(const Look& look) noexcept {
     changed_ = true;
     RodPair pair = look.pair;
+    pair.met = pair.s;
     for (std::size_t side = 0; side < 2; ++side)
       pair.held[side] = pair.s[side] <= 0 || pair.s[side] >= system_.length(pair.rod[side]);
     if (!system_.add(pair)) return false;

@@ -141,8 +141,10 @@ class PairSystem {
 
   // For a fall, in addition.
 
+  /// How places of pairs may go.
+  enum class Places { free, slow };
   /// @param shift  as of ChainSystem   @return ok | singular | non_finite | iteration_limit
-  Status factor(double shift) noexcept {
+  Status factor(double shift, Places places = Places::free) noexcept {
     lay_out();
     double measured = 0, inner = 0;
     negative_ = 0;
@@ -154,11 +156,14 @@ class PairSystem {
       if (worse(of.status, status)) status = of.status;
     });
     // A round rod that is bowed between two ends on one axis may roll about it.
-    if (status == Status::singular && shift == 0) return factor(Body::System::neutral());
+    if (status == Status::singular && shift == 0) return factor(Body::System::neutral(), places);
     if (status != Status::ok) return status;
     each([](Body& body) { body.eliminate(); });
+    if (places == Places::slow) slow_down();
     hold_still();
     negative_ += equations_->solve() - own_negative_;
+    // A place where least distance has no slope yet, and which would go to where that has none either.
+    if (negative_ < 0 && places == Places::free) return factor(shift, Places::slow);
     size_ = std::sqrt(2 * measured);
     double square = 0;
     each([&](Body& body) { square += body.substitute(); });
@@ -238,6 +243,20 @@ class PairSystem {
     for (int c = 0; c < 3; ++c) {
       dense[row + c] -= pair.axes[at(c)].dot(at_core);
       dense(row + 4, row + c) = pair.axes[at(c)].dot(core.axis());
+    }
+  }
+  /// No place goes farther uphill, to a least distance, than a part of an element.
+  void slow_down() noexcept {
+    constexpr double part = 0.25;
+    int row = 0;
+    for (int k = 0; k < number_; ++k) {
+      const RodPair& pair = this->pair(k);
+      if (!moves(pair)) continue;
+      for (std::size_t side = 0; side < 2 && !rigid(pair.rod[side]); ++side) {
+        const int here = row + 3 + static_cast<int>(side);
+        (*equations_)(here, here) -= std::abs(pair.pull[side]) / (part * stride(pair.rod[side]));
+      }
+      row += pair_unknowns;
     }
   }
   /// What is new keeps its direction, as does the force of a plane.  What is held on a body has no rod that says so.
