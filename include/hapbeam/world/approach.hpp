@@ -126,16 +126,17 @@ bool beside_each_other(const System& system, const RodPair& a, const RodPair& b,
   }
   return true;
 }
-/// What the elements of pairs that touch lack of the true curves at a place; at a pair itself, all.   @return in reaches
+/// What the elements of pairs that touch lack of the true curves at a place.   @return in reaches
 template <class System>
 double lacking(const System& system, const RodPair& found) noexcept {
-  constexpr double line = 0.01;  // of contacts in a row one in half an element is enough
+  // Of contacts in a row one in half an element is enough, and closer ones are one.
+  constexpr double line = 0.01, same = 0.25;
   double most = 0;
   for (int k = 0; k < system.pairs(); ++k) {
     const RodPair& pair = system.pair(k);
     if (pair.rod != found.rod) continue;
-    if (beside_each_other(system, pair, found, 2, 0)) return 1;
-    if (beside_each_other(system, pair, found, 2, 0.5)) most = (std::max)(most, line);
+    if (beside_each_other(system, pair, found, 2, 0.5))
+      most = (std::max)(most, beside_each_other(system, pair, found, 2, 0) ? same : line);
     double beside = 0;
     for (std::size_t side = 0; side < 2; ++side)
       if (!system.rigid(pair.rod[side]))

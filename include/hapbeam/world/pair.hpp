@@ -42,7 +42,8 @@ struct RodPair {
   bool fresh = true;
   std::array<bool, 2> held{};    // at an end of its rod, where the place stays
   std::array<double, 2> pull{};  // ∂L/∂s of the last equations [N]
-  std::array<double, 2> met{};   // s where it began
+  std::array<double, 2> met{};   // s where the step began
+  int pulls = 0;                 // how often it would have pulled in it
 
   /// From the core of a tube, which is around its axis, or else from r₂, along n [m].
   double distance(const Vector& w) const noexcept {
@@ -72,20 +73,20 @@ struct RodPair {
     axes[1] = across<double>(Vector::Unit(least), normal);
     axes[2] = cross3(normal, axes[1]);
   }
-  /// Adds an increment of f along the axes.  One that would pull is as new and keeps its first place: where a rod lies along what it touches, all places are
-  /// alike for a force of nothing.
+  /// Adds an increment of f along the axes.  One that would pull is as new, back where it began, and the next time its first place stays: where a rod lies
+  /// along what it touches, all places are alike for a force of nothing.
   void push(double along, double aside1, double aside2) noexcept {
     constexpr double most_turn = 0.3, least_left = 1e-3;
     const double next = force + along;
     if (fresh || !(next > least_left * force)) {
-      if (!fresh) held[0] = true, s = met;
+      if (!fresh) held[0] = held[0] || pulls++ > 3, s = met;
       force = next, fresh = !(next > 0);
       return;
     }
-    Vector turn = (aside1 * axes[1] + aside2 * axes[2]) / force;
-    if (const double angle = std::sqrt(turn.squaredNorm()); angle > most_turn) turn *= most_turn / angle;
-    normal = unit(Vector(normal + turn));
-    force = next;
+    Vector aside = aside1 * axes[1] + aside2 * axes[2];
+    if (const double angle = std::sqrt(aside.squaredNorm()) / next; angle > most_turn) aside *= most_turn / angle;
+    const Vector f = next * normal + aside;
+    force = std::sqrt(f.squaredNorm()), normal = f / force;
   }
   /// Adds an increment of a place, which may lead to an end.   @param length  of the rod [m]
   void slide(std::size_t side, double by, double length) noexcept {

@@ -54,7 +54,7 @@ class PairEquilibrium {
     int leaves = 0;
     for (int k = 0; k < system_.pairs(); ++k) {
       RodPair& pair = system_.pair(k);
-      pair.met = pair.s;
+      pair.met = pair.s, pair.pulls = 0;
       if (is_pinned(k) && !is_beside(k)) pair.held[0] = false;
     }
     for (int pass = 0; pass < 4 + 2 * most_pairs; ++pass) {
@@ -131,8 +131,8 @@ class PairEquilibrium {
   bool leave_end() noexcept {
     for (int k = 0; k < system_.pairs(); ++k)
       for (std::size_t side = 0; side < 2; ++side)
-        if (system_.moves(system_.pair(k)) && !(side == 0 && is_pinned(k)) &&
-            system_.pair(k).leaves_end(side))
+        if (system_.moves(system_.pair(k)) &&
+            (side == 0 && is_pinned(k) ? !is_beside(k) : system_.pair(k).leaves_end(side)))
           return system_.pair(k).held[side] = false, true;
     return false;
   }
