@@ -118,7 +118,7 @@ class PairEquilibrium {
   }
 
  private:
-  static constexpr double nothing = 1e-6;  // of a reach
+  static constexpr double nothing = 1e-6, apart = 1e-3;  // of a reach
 
   bool gives_way() noexcept {
     on_ridge_ = false;
@@ -136,13 +136,19 @@ class PairEquilibrium {
           return system_.pair(k).held[side] = false, true;
     return false;
   }
-  /// The pair that pulls most lets go, or one of two that have come together.   @return whether there is one
+  /// The pair that pulls most lets go, one that is apart, between clamps that no force moves, or one of two that have come together.
+  /// @return whether there is one
   bool release() noexcept {
     int worst = -1;
     for (int k = 0; k < system_.pairs(); ++k) {
       const RodPair& pair = system_.pair(k);
       if (system_.moves(pair) && !(pair.force > 0) && (worst < 0 || pair.force < system_.pair(worst).force))
         worst = k;
+    }
+    for (int k = 0; k < system_.pairs() && worst < 0; ++k) {
+      const RodPair& pair = system_.pair(k);
+      const double off = pair.distance(system_.between(pair)) - pair.reach;
+      if (system_.moves(pair) && off > apart * pair.reach) worst = k;
     }
     for (int k = 1; k < system_.pairs() && worst < 0; ++k)
       for (int j = 0; j < k && worst < 0; ++j)
