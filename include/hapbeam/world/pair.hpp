@@ -43,6 +43,7 @@ struct RodPair {
   std::array<bool, 2> held{};    // at an end of its rod, where the place stays
   std::array<double, 2> pull{};  // ∂L/∂s of the last equations [N]
   std::array<double, 2> met{};   // s where the step began
+  std::array<bool, 2> met_held{};
   int pulls = 0;                 // how often it would have pulled in it
 
   /// From the core of a tube, which is around its axis, or else from r₂, along n [m].
@@ -79,7 +80,7 @@ struct RodPair {
     constexpr double most_turn = 0.3, least_left = 1e-3;
     const double next = force + along;
     if (fresh || !(next > least_left * force)) {
-      if (!fresh) held[0] = held[0] || pulls++ > 3, s = met;
+      if (!fresh) s = met, held = met_held, held[0] = held[0] || pulls++ > 3;
       force = next, fresh = !(next > 0);
       return;
     }
@@ -88,6 +89,8 @@ struct RodPair {
     const Vector f = next * normal + aside;
     force = std::sqrt(f.squaredNorm()), normal = f / force;
   }
+  /// A step begins here.
+  void mark() noexcept { met = s, met_held = held, pulls = 0; }
   /// Adds an increment of a place, which may lead to an end.   @param length  of the rod [m]
   void slide(std::size_t side, double by, double length) noexcept {
     const double to = s[side] + by;

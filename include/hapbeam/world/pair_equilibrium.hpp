@@ -54,8 +54,8 @@ class PairEquilibrium {
     int leaves = 0;
     for (int k = 0; k < system_.pairs(); ++k) {
       RodPair& pair = system_.pair(k);
-      pair.met = pair.s, pair.pulls = 0;
       if (is_pinned(k) && !is_beside(k)) pair.held[0] = false;
+      pair.mark();
     }
     for (int pass = 0; pass < 4 + 2 * most_pairs; ++pass) {
       if (left() <= 0) return Outcome::too_far;
@@ -175,12 +175,12 @@ class PairEquilibrium {
   bool meet(const Look& look) noexcept {
     changed_ = true;
     RodPair pair = look.pair;
-    pair.met = pair.s;
     for (std::size_t side = 0; side < 2; ++side)
       pair.held[side] = pair.s[side] <= 0 || pair.s[side] >= system_.length(pair.rod[side]);
     if (!system_.add(pair)) return false;
     RodPair& added = system_.pair(system_.pairs() - 1);
     added.held[0] = added.held[0] || is_beside(system_.pairs() - 1);
+    added.mark();
     system_.spread();
     return true;
   }

@@ -108,17 +108,21 @@ inline bool may_have_passed(const PlacedBody& body, const CubicSegment<double, 3
 inline double nearest_on(const CubicSegment<double, 3>& piece, const PlacedBody& body) noexcept {
   if (body.kind() == RigidBody::Kind::round) return closest_point(piece, body.shaft()).t;
   const auto distance = [&](double t) { return FromBody(body, point_at(piece, t)).distance; };
-  constexpr int parts = 4, rounds = 4;
+  constexpr int parts = 4, rounds = 7;
   double best = 0, least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k <= parts; ++k)
-    if (const double d = distance(double(k) / parts); d < least) best = double(k) / parts, least = d;
-  // To the vertex of the parabola through three, ever closer to each other.
-  for (double step = 1.0 / parts, k = 0; k < rounds; ++k, step /= 8) {
-    const double low = distance((std::max)(best - step, 0.0)), high = distance((std::min)(best + step, 1.0)),
-                 bend = low + high - 2 * least;
-    const double by = bend > 0 ? (low - high) / (2 * bend) : low < high ? -1 : 1;
-    const double t = std::clamp(best + step * std::clamp(by, -1.0, 1.0), 0.0, 1.0);
-    if (const double d = distance(t); d < least) best = t, least = d;
+  const auto visit = [&](double t) {
+    const double d = distance(t);
+    if (d < least) best = t, least = d;
+    return d;
+  };
+  for (int k = 0; k <= parts; ++k) (void)visit(double(k) / parts);
+  // To the vertex of the parabola through three, ever closer to each other, or to the least of those.
+  double step = 1.0 / parts;
+  for (int k = 0; k < rounds; ++k, step /= 4) {
+    const double from = best, middle = least, low = visit((std::max)(from - step, 0.0)),
+                 high = visit((std::min)(from + step, 1.0)), bend = low + high - 2 * middle;
+    if (bend > 0)
+      (void)visit(std::clamp(from + step * std::clamp((low - high) / (2 * bend), -1.0, 1.0), 0.0, 1.0));
   }
   return best;
 }
