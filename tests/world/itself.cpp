@@ -37,7 +37,8 @@ TEST_CASE("a loop whose legs touch each other is as exact as the elements", "[wo
     const Rod rod(2 * half, RodStiffness{EA, EI, 100 * EI, 100 * EI}, 0.002, RodSupport::clamped,
                   RodSupport::clamped);
     Rod placed = rod;
-    placed.place_left({{-half, 0, 0}, {1, 0, 0}, {0, 0, 1}}).place_right({{half, 0, 0}, {1, 0, 0}, {0, 0, 1}});
+    placed.place_left({{-half, 0, 0}, {1, 0, 0}, {0, 0, 1}})
+        .place_right({{half, 0, 0}, {1, 0, 0}, {0, 0, 1}});
     World<TwistedRod> world({{placed, bound.elements}});
     const auto bend = [&](double x, double angle) {
       REQUIRE(lead(world, end_at(-x, angle), end_at(x, -angle)) == Status::ok);

@@ -115,7 +115,8 @@ double lacks_beside(const Body& body, double s, double other) noexcept {
 }
 /// Whether both places of two pairs of the same rods are no farther apart than that.   @param reaches  of rods   @param elements  or so many elements
 template <class System>
-bool beside_each_other(const System& system, const RodPair& a, const RodPair& b, double reaches, double elements) noexcept {
+bool beside_each_other(const System& system, const RodPair& a, const RodPair& b, double reaches,
+                       double elements) noexcept {
   if (a.rod != b.rod) return false;
   const bool rigid = system.rigid(a.rod[1]);
   const double most = reaches * (rigid ? 2 * system.body(a.rod[0]).radius() : a.reach);

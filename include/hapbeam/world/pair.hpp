@@ -44,7 +44,7 @@ struct RodPair {
   std::array<double, 2> pull{};  // ∂L/∂s of the last equations [N]
   std::array<double, 2> met{};   // s where the step began
   std::array<bool, 2> met_held{};
-  int pulls = 0;                 // how often it would have pulled in it
+  int pulls = 0;  // how often it would have pulled in it
 
   /// From the core of a tube, which is around its axis, or else from r₂, along n [m].
   double distance(const Vector& w) const noexcept {
@@ -85,7 +85,8 @@ struct RodPair {
       return;
     }
     Vector aside = aside1 * axes[1] + aside2 * axes[2];
-    if (const double angle = std::sqrt(aside.squaredNorm()) / next; angle > most_turn) aside *= most_turn / angle;
+    if (const double angle = std::sqrt(aside.squaredNorm()) / next; angle > most_turn)
+      aside *= most_turn / angle;
     const Vector f = next * normal + aside;
     force = std::sqrt(f.squaredNorm()), normal = f / force;
   }

@@ -152,7 +152,8 @@ class PairEquilibrium {
     }
     for (int k = 1; k < system_.pairs() && worst < 0; ++k)
       for (int j = 0; j < k && worst < 0; ++j)
-        if (system_.moves(system_.pair(k)) && beside_each_other(system_, system_.pair(k), system_.pair(j), 1, 0))
+        if (system_.moves(system_.pair(k)) &&
+            beside_each_other(system_, system_.pair(k), system_.pair(j), 1, 0))
           worst = k;
     if (worst < 0) return false;
     system_.remove(worst);

@@ -31,7 +31,8 @@ class PairSides {
   PairSides(int elements, PairEquations& equations) : equations_(&equations) {
     // Of a rod on itself both sides are here, and have three columns of the same unknowns.
     constexpr int most = 2 * most_pairs;
-    sides_.reserve(most), tensions_.reserve(most), products_.reserve(2 * most * (4 * most + 1) + 3 * most_pairs);
+    sides_.reserve(most), tensions_.reserve(most),
+        products_.reserve(2 * most * (4 * most + 1) + 3 * most_pairs);
     for (int k = 0; k < most; ++k) sides_.emplace_back(elements);
   }
 

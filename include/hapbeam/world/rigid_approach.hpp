@@ -38,11 +38,11 @@ struct FromBody {
     if (tube) ring = over < 0 ? -body.radius() : body.radius();
   }
 
-  double distance;        // from the core [m]; below a plane negative
-  double s;               // on the axis [m]
-  double aside = 0;       // from the axis [m]
-  double ring = 0;        // of a tube: its radius, less than 0 from inside [m]
-  Vector normal;          // from the core to the point
+  double distance;   // from the core [m]; below a plane negative
+  double s;          // on the axis [m]
+  double aside = 0;  // from the axis [m]
+  double ring = 0;   // of a tube: its radius, less than 0 from inside [m]
+  Vector normal;     // from the core to the point
 };
 
 /// From the core of a body to where it presses a rod [m].

@@ -151,7 +151,8 @@ class PlacedBody {
       middle = across<double>(Vector::Unit(least), a);
     }
     middle = unit(middle);
-    return t < 0.5 ? unit(Vector(a + 2 * t * (middle - a))) : unit(Vector(middle + (2 * t - 1) * (b - middle)));
+    return t < 0.5 ? unit(Vector(a + 2 * t * (middle - a)))
+                   : unit(Vector(middle + (2 * t - 1) * (b - middle)));
   }
 
   RigidBody body_;
