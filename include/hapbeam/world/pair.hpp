@@ -113,7 +113,7 @@ struct RodPair {
     for (std::size_t k = 0; k < 2; ++k) s[k] += ratio * (s[k] - before.s[k]);
   }
 
-  std::array<Vector, 3> axes;  // of look(): n first
+  std::array<Vector, 3> axes{Vector::Zero(), Vector::Zero(), Vector::Zero()};  // of look(): n first
 
  private:
   /// What n has across the axis of a tube.

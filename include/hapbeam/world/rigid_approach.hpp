@@ -60,9 +60,20 @@ inline bool may_touch(const PlacedBody& body, const Box<double, 3>& box, double 
     }
     return least < reach;
   }
-  const double moved = std::sqrt(body.travel_squared()),
-               off = reach + moved + (body.kind() == RigidBody::Kind::tube ? body.radius() : 0);
-  return box.distance_squared(body.shaft()) <= off * off;
+  const double moved = std::sqrt(body.travel_squared());
+  if (body.kind() != RigidBody::Kind::tube)
+    return box.distance_squared(body.shaft()) <= (reach + moved) * (reach + moved);
+  // Within the tube, or outside of it.
+  VectorOf<double, 3> centre;
+  double across = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double u = body.axis()[k];
+    centre[k] = (box.low[k] + box.high[k]) / 2;
+    across += (box.high[k] - box.low[k]) / 2 * std::sqrt((std::max)(1 - u * u, 0.0));
+  }
+  const double out = body.radius() + reach + 2 * moved;
+  return FromBody(body, centre).aside + across > body.radius() - reach - 2 * moved &&
+         box.distance_squared(body.shaft()) <= out * out;
 }
 /// Whether a piece may, as its control points show.  @param was, now  of it
 inline bool may_touch(const PlacedBody& body, const CubicSegment<double, 3>& was,
