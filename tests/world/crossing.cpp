@@ -206,7 +206,7 @@ TEST_CASE("a rod may lie on more others than there is room for", "[world]") {
 TEST_CASE("a world rejects rods that lie in each other", "[world]") {
   const RodPose along{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, across{{0.05, -0.05, 0.0009}, {0, 1, 0}, {0, 0, 1}};
   CHECK_THROWS_WITH(World<RoundRod>({{held_rod(0.1, 0.002, along), 8}, {held_rod(0.1, 0.002, across), 8}}),
-                    Catch::Matchers::ContainsSubstring("rods 0 and 1 = 0.45"));
+                    Catch::Matchers::ContainsSubstring("rod 0 and rod 1 = 0.45"));
   CHECK_THROWS_WITH(World<RoundRod>(std::vector<WorldRod>{}), Catch::Matchers::ContainsSubstring("rods = 0"));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where two rods are nearest, and how far they have moved against each other.
+// Where rods are nearest to each other, to themselves and to rigid bodies, and how far they have moved against those.
 //
 // Rods that nowhere come within reach on their way from one shape to another, or no two points of which move against each other by more than half of
 // the reach there, have not passed each other: a distance that was a reach is still half of one, and its direction tells the side.
@@ -14,6 +14,7 @@
 #include <hapbeam/contact/box.hpp>
 #include <hapbeam/rod_centreline.hpp>
 #include <hapbeam/world/pair.hpp>
+#include <hapbeam/world/rigid_approach.hpp>
 
 namespace hapbeam::detail {
 
@@ -91,52 +92,121 @@ struct Look {
   double deepest = 0;  ///< distance less the reach of what does not touch yet, in reaches
   double least = 1;    ///< distance of all, in reaches
   RodPair pair;        ///< that of the deepest
+
+  /// @param found  that is so far away [m]   @param lacks  of lacking()
+  void see(const RodPair& found, double distance, double lacks) noexcept {
+    least = (std::min)(least, distance / found.reach);
+    const double gap = distance / found.reach - 1 + lacks;
+    if (gap < deepest) deepest = gap, pair = found;
+  }
 };
 
-/// Beside a pair that touches, what its elements lack of the curves; at the pair itself, all.   @return in reaches
+/// What an element lacks of its true curve at a place, of what it lacks at another under a force there, at most: of a clamped piece √(g(x, x)/g(s, s)).
+/// @return 0 in two elements
+template <class Body>
+double lacks_beside(const Body& body, double s, double other) noexcept {
+  constexpr double smallest = 1e-4;
+  const auto line = body.line();
+  const int e = line.segment_at(s);
+  const double l = line[e + 1].s - line[e].s, x = (s - line[e].s) / l, y = (other - line[e].s) / l;
+  if (!(y >= 0 && y <= 1)) return 0;
+  const double ratio = x * (1 - x) / (std::max)(y * (1 - y), smallest);
+  return ratio * std::sqrt((std::max)(ratio, 0.0));
+}
+/// Whether both places of two pairs of the same rods are no farther apart than that.   @param reaches  of rods   @param elements  or so many elements
 template <class System>
-double lacking(const System& system, int i, int j, const Approach& found, double reach) noexcept {
+bool beside_each_other(const System& system, const RodPair& a, const RodPair& b, double reaches,
+                       double elements) noexcept {
+  if (a.rod != b.rod) return false;
+  const bool rigid = system.rigid(a.rod[1]);
+  const double most = reaches * (rigid ? 2 * system.body(a.rod[0]).radius() : a.reach);
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (side == 1 && rigid) break;
+    const double off = std::abs(a.s[side] - b.s[side]);
+    if (!(off <= (std::max)(most, elements * system.stride(a.rod[side])))) return false;
+  }
+  return true;
+}
+/// What the elements of pairs that touch lack of the true curves at a place.   @return in reaches
+template <class System>
+double lacking(const System& system, const RodPair& found) noexcept {
+  // Of contacts in a row one in half an element is enough, and closer ones are one.
+  constexpr double line = 0.01, same = 0.25;
   double most = 0;
   for (int k = 0; k < system.pairs(); ++k) {
     const RodPair& pair = system.pair(k);
-    if (pair.rod[0] != i || pair.rod[1] != j) continue;
-    bool same = true, beside = true;
-    for (std::size_t side = 0; side < 2; ++side) {
-      const auto& body = system.body(pair.rod[side]);
-      const double off = std::abs(pair.s[side] - found.s[side]);
-      same = same && off <= 2 * reach;
-      beside = beside && off <= body.length() / body.elements();
-    }
-    const VectorOf<double, 3> w =
-        system.body(i).line().at(pair.s[0]).r - system.body(j).line().at(pair.s[1]).r;
-    if (same) most = 1;
-    else if (beside) most = (std::max)(most, 1 - std::sqrt(w.squaredNorm()) / reach);
+    if (pair.rod != found.rod) continue;
+    if (beside_each_other(system, pair, found, 2, 0.5))
+      most = (std::max)(most, beside_each_other(system, pair, found, 2, 0) ? same : line);
+    double beside = 0;
+    for (std::size_t side = 0; side < 2; ++side)
+      if (!system.rigid(pair.rod[side]))
+        beside = (std::max)(beside, lacks_beside(system.body(pair.rod[side]), found.s[side], pair.s[side]));
+    most = (std::max)(most, beside * (1 - pair.distance(system.between(pair)) / pair.reach));
   }
   return most;
 }
-/// At what may meet of rods i and j.
+/// Whether a rod goes one way from the first piece to the last: two points of it are then no nearer than this cosine of their distance along it.
+template <class Line>
+bool goes_one_way(const Line& line, int first, int last) noexcept {
+  constexpr double cosine = 0.7;
+  const auto& way = line[(first + last + 1) / 2].tangent;
+  const double square = cosine * cosine * way.squaredNorm();
+  for (int i = first; i <= last + 1; ++i) {
+    const double along = way.dot(line[i].tangent);
+    if (!(along > 0 && along * along > square * line[i].tangent.squaredNorm())) return false;
+  }
+  return true;
+}
+
+/// At what may meet of rods i and j, or of one rod: a rod that bends by no less than its own radius comes back to itself after half a turn.
 template <class System>
 void look_at(const System& system, int i, int j, Look& look) noexcept {
   const auto &a = system.body(i), &b = system.body(j);
-  const double reach = a.radius() + b.radius();
+  const double reach = a.radius() + b.radius(), half_turn = i == j ? std::acos(-1.0) / 2 * reach : 0;
+  const auto one_way = [&](int e, int f) {
+    return goes_one_way(a.line(), e, f) && goes_one_way(a.saved_line(), e, f);
+  };
+  if (i == j && one_way(0, a.elements() - 1)) return;
   const auto first = a.line(), second = b.line();
   look.close = visit_approaches(a, b, reach, [&](int e, int f) {
+    if (i == j && (f <= e || first[f + 1].s - first[e].s < half_turn || one_way(e, f))) return true;
     if (!(relative_travel(a.saved_segment(e), first.segment(e), b.saved_segment(f), second.segment(f)) <=
           reach * reach / 4))
       return false;
     const Approach found =
         nearest_places(first, second, (first[e].s + first[e + 1].s) / 2, (second[f].s + second[f + 1].s) / 2,
                        {first[e + 1].s - first[e].s, second[f + 1].s - second[f].s});
+    if (i == j && found.s[1] - found.s[0] < half_turn) return true;
+    RodPair pair;
+    pair.rod = {i, j}, pair.s = found.s, pair.reach = reach;
     const double distance = std::sqrt(found.from.squaredNorm());
-    look.least = (std::min)(look.least, distance / reach);
-    const double gap = distance / reach - 1 + lacking(system, i, j, found, reach);
-    if (gap < look.deepest) {
-      look.deepest = gap;
-      look.pair.rod = {i, j}, look.pair.s = found.s, look.pair.reach = reach;
-      look.pair.normal = found.from / distance;
-    }
+    pair.normal = found.from / distance;
+    look.see(pair, distance, lacking(system, pair));
     return true;
   });
+}
+/// At what may meet of a rod and a rigid body.   @param number  of the body in pairs
+template <class System>
+void look_at_rigid(const System& system, int rod, int number, Look& look) noexcept {
+  const auto& body = system.body(rod);
+  const PlacedBody& core = *system.rigid(number);
+  const double reach = reach_of(core, body.radius());
+  const auto line = body.line();
+  body.swept().visit(
+      [&](const Box<double, 3>& box) { return may_touch(core, box, reach) ? 0.0 : 1.0; }, [] { return 0.0; },
+      [&](int e) {
+        const CubicSegment<double, 3> was = body.saved_segment(e), now = line.segment(e);
+        if (!may_touch(core, was, now, reach)) return true;
+        if (may_have_passed(core, was, now, reach)) return look.close = false;
+        const double t = nearest_on(now, core);
+        const FromBody found(core, point_at(now, t));
+        RodPair pair;
+        pair.rod = {rod, number}, pair.s = {line[e].s + t * (line[e + 1].s - line[e].s), found.s};
+        pair.reach = reach, pair.ring = found.ring, pair.normal = found.normal;
+        look.see(pair, found.distance, lacking(system, pair));
+        return true;
+      });
 }
 /// At all of them.   @param system  PairSystem
 template <class System>
@@ -144,9 +214,14 @@ Look look_around(System& system) noexcept {
   Look look;
   const int rods = static_cast<int>(system.bodies().size());
   for (auto& body : system.bodies()) body.sweep();
-  for (int i = 0; i < rods && look.close; ++i)
-    for (int j = i + 1; j < rods && look.close; ++j)
-      if (system.body(i).moves || system.body(j).moves) look_at(system, i, j, look);
+  const int all = rods + static_cast<int>(system.rigid().size());
+  for (int i = 0; i < rods && look.close; ++i) {
+    const bool moves = system.body(i).moves;
+    for (int j = i; j < rods && look.close; ++j)
+      if (moves || system.body(j).moves) look_at(system, i, j, look);
+    for (int j = rods; j < all && look.close; ++j)
+      if (moves || system.rigid(j)->moves) look_at_rigid(system, i, j, look);
+  }
   return look;
 }
 

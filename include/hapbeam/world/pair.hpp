@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A contact of two rods: one force and two places, unknowns of the equations of both.
+// A contact of a rod with another, with itself or with a rigid body: one force and two places, unknowns of the equations of both.
 //
-//   L = Σ V - f · w + R |f| - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n from rod 2 to rod 1
+//   L = Σ V - f · w + h(f) - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n to rod 1
+//   h(f) = R |f| + b |f across the axis of a tube|,  b = ±its radius, from outside and from inside
 //
-// Stationary by f where w + C f = R n: the true curves, which C bends off what nodes hold, are R apart.  By a place where the true curve is
-// across n.  Where the sections bend alike about all axes this is  Σ V - λ (|w| - R) - ½ λ² c.
+// Stationary by f where w + C f = ∂h/∂f, which is R n but in a tube: the true curves, which C bends off what nodes hold, are R apart.  By a place where the
+// true curve is across n.  Where the sections bend alike about all axes this is  Σ V - λ (|w| - R) - ½ λ² c.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
@@ -17,12 +18,12 @@
 
 namespace hapbeam {
 
-/// Where two rods touch.
+/// Where a rod touches another, itself or a body.
 struct RodContact {
-  std::array<int, 2> rod;                 ///< 0-based numbers in the World
-  std::array<double, 2> s;                ///< [m] arc positions
-  VectorOf<double, 3> force;              ///< [N] on rod[0] by rod[1], along the line that joins both places
-  std::array<VectorOf<double, 3>, 2> at;  ///< [m] points of both centrelines
+  std::array<int, 2> rod;                 ///< 0-based numbers in the World: rods, and rods() + that of a body
+  std::array<double, 2> s;                ///< [m] arc positions; along the axis of a body
+  VectorOf<double, 3> force;              ///< [N] on rod[0], along the line that joins both places
+  std::array<VectorOf<double, 3>, 2> at;  ///< [m] points of the centrelines; of the surface of a body
 };
 
 namespace detail {
@@ -33,12 +34,36 @@ struct RodPair {
   std::array<int, 2> rod{};
   std::array<double, 2> s{};
   double reach = 0;                 // R, of both radii [m]
+  double ring = 0;                  // b [m]
+  Vector axis = Vector::Zero();     // of a tube
   double force = 0;                 // λ [N]
   Vector normal = Vector::UnitZ();  // n
   /// New: its direction and its places stay until it presses.
   bool fresh = true;
   std::array<bool, 2> held{};    // at an end of its rod, where the place stays
   std::array<double, 2> pull{};  // ∂L/∂s of the last equations [N]
+  std::array<double, 2> met{};   // s where the step began
+  std::array<bool, 2> met_held{};
+  int pulls = 0;  // how often it would have pulled in it
+
+  /// From the core of a tube, which is around its axis, or else from r₂, along n [m].
+  double distance(const Vector& w) const noexcept {
+    return normal.dot(w) - (ring != 0 ? ring * around().length : 0);
+  }
+  /// ∂²L/∂f∂f along the axes.
+  double bends(std::size_t c, std::size_t d) const noexcept {
+    const double even = c == d ? reach : 0;
+    if (ring == 0) return even / force;
+    const Around now = around();
+    const Vector turns = cross3(axis, now.way);
+    return (even + ring / now.length * axes[c].dot(turns) * axes[d].dot(turns)) / force;
+  }
+  /// ∂h/∂f along an axis [m].
+  double offset(std::size_t c) const noexcept {
+    return (c == 0 ? reach : 0) + (ring != 0 ? ring * axes[c].dot(around().way) : 0);
+  }
+  /// Eigenvalues of its own that are negative in a stable equilibrium: of λ and of two places of least distance, and from inside of a turn of n.
+  int negative() const noexcept { return ring < 0 ? 4 : 3; }
 
   /// Two directions across the normal.
   void look() noexcept {
@@ -49,20 +74,24 @@ struct RodPair {
     axes[1] = across<double>(Vector::Unit(least), normal);
     axes[2] = cross3(normal, axes[1]);
   }
-  /// Adds an increment of f along the axes.
+  /// Adds an increment of f along the axes.  One that would pull is as new, back where it began, and the next time its first place stays: where a rod lies
+  /// along what it touches, all places are alike for a force of nothing.
   void push(double along, double aside1, double aside2) noexcept {
     constexpr double most_turn = 0.3, least_left = 1e-3;
-    if (fresh) {
-      force += along;
-      fresh = !(force > 0);
+    const double next = force + along;
+    if (fresh || !(next > least_left * force)) {
+      if (!fresh) s = met, held = met_held, held[0] = held[0] || pulls++ > 3;
+      force = next, fresh = !(next > 0);
       return;
     }
-    Vector turn = (aside1 * axes[1] + aside2 * axes[2]) / force;
-    if (const double angle = std::sqrt(turn.squaredNorm()); angle > most_turn) turn *= most_turn / angle;
-    normal = unit(Vector(normal + turn));
-    const double next = force + along;
-    force = std::abs(next) < least_left * std::abs(force) ? std::copysign(least_left * force, next) : next;
+    Vector aside = aside1 * axes[1] + aside2 * axes[2];
+    if (const double angle = std::sqrt(aside.squaredNorm()) / next; angle > most_turn)
+      aside *= most_turn / angle;
+    const Vector f = next * normal + aside;
+    force = std::sqrt(f.squaredNorm()), normal = f / force;
   }
+  /// A step begins here.
+  void mark() noexcept { met = s, met_held = held, pulls = 0; }
   /// Adds an increment of a place, which may lead to an end.   @param length  of the rod [m]
   void slide(std::size_t side, double by, double length) noexcept {
     const double to = s[side] + by;
@@ -84,7 +113,20 @@ struct RodPair {
     for (std::size_t k = 0; k < 2; ++k) s[k] += ratio * (s[k] - before.s[k]);
   }
 
-  std::array<Vector, 3> axes;  // of look(): n first
+  std::array<Vector, 3> axes{Vector::Zero(), Vector::Zero(), Vector::Zero()};  // of look(): n first
+
+ private:
+  /// What n has across the axis of a tube.
+  struct Around {
+    double length;
+    Vector way;
+  };
+  Around around() const noexcept {
+    constexpr double least = 1e-9;
+    const Vector part = normal - axis.dot(normal) * axis;
+    const double length = (std::max)(std::sqrt(part.squaredNorm()), least);
+    return {length, part / length};
+  }
 };
 
 }  // namespace detail

@@ -33,8 +33,9 @@ class PairEquilibrium {
   static constexpr double closest = 0.5;
 
   /// @throws std::invalid_argument as PairSystem
-  PairEquilibrium(const std::vector<WorldRod>& rods, const NewtonRaphson& solver)
-      : system_(rods), solver_(solver) {}
+  PairEquilibrium(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid,
+                  const NewtonRaphson& solver)
+      : system_(rods, rigid), solver_(solver) {}
   System& system() noexcept { return system_; }
   const System& system() const noexcept { return system_; }
 
@@ -51,6 +52,11 @@ class PairEquilibrium {
   Outcome settle() noexcept {
     Curvature<double> unknown;
     int leaves = 0;
+    for (int k = 0; k < system_.pairs(); ++k) {
+      RodPair& pair = system_.pair(k);
+      if (is_pinned(k) && !is_beside(k)) pair.held[0] = false;
+      pair.mark();
+    }
     for (int pass = 0; pass < 4 + 2 * most_pairs; ++pass) {
       if (left() <= 0) return Outcome::too_far;
       NewtonRaphson solver = solver_;
@@ -62,16 +68,16 @@ class PairEquilibrium {
       const Look look = look_around(system_);
       if (!look.close) return Outcome::too_far;
       if (release()) continue;
-      if (look.deepest < -nothing) {
-        if (!meet(look)) return Outcome::full;
-        continue;
-      }
-      if (look.least < closest) return Outcome::full;
       // One that comes back to its end has left it for a place that gives way.
       if (leave_end()) {
         if (leaves++ < 2) continue;
         return failure_ = Status::iteration_limit, Outcome::lost;
       }
+      if (look.deepest < -nothing) {
+        if (!meet(look)) return Outcome::full;
+        continue;
+      }
+      if (look.least < closest) return Outcome::full;
       return gives_way() ? (failure_ = Status::iteration_limit, Outcome::lost) : Outcome::settled;
     }
     return failure_ = Status::iteration_limit, Outcome::lost;
@@ -112,7 +118,7 @@ class PairEquilibrium {
   }
 
  private:
-  static constexpr double nothing = 1e-6;  // of a reach
+  static constexpr double nothing = 1e-6, apart = 1e-3;  // of a reach
 
   bool gives_way() noexcept {
     on_ridge_ = false;
@@ -125,11 +131,13 @@ class PairEquilibrium {
   bool leave_end() noexcept {
     for (int k = 0; k < system_.pairs(); ++k)
       for (std::size_t side = 0; side < 2; ++side)
-        if (system_.moves(system_.pair(k)) && system_.pair(k).leaves_end(side))
+        if (system_.moves(system_.pair(k)) &&
+            (side == 0 && is_pinned(k) ? !is_beside(k) : system_.pair(k).leaves_end(side)))
           return system_.pair(k).held[side] = false, true;
     return false;
   }
-  /// The pair that pulls most lets go.   @return whether there is one
+  /// The pair that pulls most lets go, one that is apart, between clamps that no force moves, or one of two that have come together.
+  /// @return whether there is one
   bool release() noexcept {
     int worst = -1;
     for (int k = 0; k < system_.pairs(); ++k) {
@@ -137,10 +145,31 @@ class PairEquilibrium {
       if (system_.moves(pair) && !(pair.force > 0) && (worst < 0 || pair.force < system_.pair(worst).force))
         worst = k;
     }
+    for (int k = 0; k < system_.pairs() && worst < 0; ++k) {
+      const RodPair& pair = system_.pair(k);
+      const double off = pair.distance(system_.between(pair)) - pair.reach;
+      if (system_.moves(pair) && off > apart * pair.reach) worst = k;
+    }
+    for (int k = 1; k < system_.pairs() && worst < 0; ++k)
+      for (int j = 0; j < k && worst < 0; ++j)
+        if (system_.moves(system_.pair(k)) &&
+            beside_each_other(system_, system_.pair(k), system_.pair(j), 1, 0))
+          worst = k;
     if (worst < 0) return false;
     system_.remove(worst);
     changed_ = true;
     return true;
+  }
+
+  /// Its first place stays for this step, and as long as another contact is in the same row.
+  bool is_pinned(int k) const noexcept {
+    const RodPair& pair = system_.pair(k);
+    return pair.held[0] && pair.s[0] > 0 && pair.s[0] < system_.length(pair.rod[0]);
+  }
+  bool is_beside(int k) const noexcept {
+    for (int j = 0; j < system_.pairs(); ++j)
+      if (j != k && beside_each_other(system_, system_.pair(k), system_.pair(j), 0, 1)) return true;
+    return false;
   }
 
   /// One more touches.   @return whether there was room
@@ -148,8 +177,11 @@ class PairEquilibrium {
     changed_ = true;
     RodPair pair = look.pair;
     for (std::size_t side = 0; side < 2; ++side)
-      pair.held[side] = pair.s[side] <= 0 || pair.s[side] >= system_.body(pair.rod[side]).length();
+      pair.held[side] = pair.s[side] <= 0 || pair.s[side] >= system_.length(pair.rod[side]);
     if (!system_.add(pair)) return false;
+    RodPair& added = system_.pair(system_.pairs() - 1);
+    added.held[0] = added.held[0] || is_beside(system_.pairs() - 1);
+    added.mark();
     system_.spread();
     return true;
   }

@@ -29,9 +29,11 @@ class PairSides {
   using Tangent = Eigen::Matrix<double, 2 * unknowns, 2 * unknowns>;
 
   PairSides(int elements, PairEquations& equations) : equations_(&equations) {
-    sides_.reserve(most_pairs), tensions_.reserve(most_pairs),
-        products_.reserve(4 * most_pairs * (4 * most_pairs + 1) / 2);
-    for (int k = 0; k < most_pairs; ++k) sides_.emplace_back(elements);
+    // Of a rod on itself both sides are here, and have three columns of the same unknowns.
+    constexpr int most = 2 * most_pairs;
+    sides_.reserve(most), tensions_.reserve(most),
+        products_.reserve(2 * most * (4 * most + 1) + 3 * most_pairs);
+    for (int k = 0; k < most; ++k) sides_.emplace_back(elements);
   }
 
   void clear() noexcept { size_ = 0; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The equations of rods and of the pairs that touch, as NewtonRaphson solves them.
+// The equations of rods and of the pairs that touch, as NewtonRaphson solves them.  The second side of a pair may be a rigid body: it has no columns.
 //
 // Each rod that moves is factored by itself; what is left is one dense symmetric system of all pairs (pair_sides.hpp).  Its inertia and that of the rods
-// tell whether an equilibrium is stable: each pair has three negative eigenvalues of its own, of λ and of two places of least distance.
+// tell whether an equilibrium is stable (RodPair::negative()).
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include <memory>
 #include <vector>
 
+#include <hapbeam/world/rigid_body.hpp>
 #include <hapbeam/world/rod_body.hpp>
 
 namespace hapbeam {
@@ -31,8 +32,9 @@ class PairSystem {
   using Scalar = double;
   using Body = RodBody<Element>;
 
-  /// @throws std::invalid_argument as RodBody
-  explicit PairSystem(const std::vector<WorldRod>& rods) : equations_(std::make_unique<PairEquations>()) {
+  /// @throws std::invalid_argument as RodBody and RigidBody
+  PairSystem(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid)
+      : equations_(std::make_unique<PairEquations>()), rigid_(rigid.begin(), rigid.end()) {
     bodies_.reserve(rods.size());
     for (const auto& [rod, elements] : rods) bodies_.emplace_back(rod, elements, *equations_);
   }
@@ -41,6 +43,25 @@ class PairSystem {
   const std::vector<Body>& bodies() const noexcept { return bodies_; }
   Body& body(int i) noexcept { return bodies_[static_cast<std::size_t>(i)]; }
   const Body& body(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)]; }
+
+  std::vector<PlacedBody>& rigid() noexcept { return rigid_; }
+  const std::vector<PlacedBody>& rigid() const noexcept { return rigid_; }
+
+  // What is on either side of a pair: a rod or, numbered after those, a rigid body.
+
+  const PlacedBody* rigid(int i) const noexcept {
+    const std::size_t rods = bodies_.size();
+    return at(i) < rods ? nullptr : &rigid_[at(i) - rods];
+  }
+  double length(int i) const noexcept { return rigid(i) ? rigid(i)->length() : body(i).length(); }
+  /// No place on a rod goes farther at once [m].
+  double stride(int i) const noexcept { return body(i).length() / body(i).elements(); }
+  /// From the second side of a pair to the first [m].
+  VectorOf<double, 3> between(const RodPair& pair) const noexcept {
+    const PlacedBody* core = rigid(pair.rod[1]);
+    return body(pair.rod[0]).line().at(pair.s[0]).r -
+           (core ? core->at(pair.s[1]) : body(pair.rod[1]).line().at(pair.s[1]).r);
+  }
 
   // The pairs that touch.
 
@@ -64,7 +85,13 @@ class PairSystem {
     for (bool more = true; more;) {
       more = false;
       for (int k = 0; k < number_; ++k) {
-        Body &a = body(pair(k).rod[0]), &b = body(pair(k).rod[1]);
+        Body& a = body(pair(k).rod[0]);
+        if (const PlacedBody* core = rigid(pair(k).rod[1])) {
+          more = more || (core->moves && !a.moves);
+          a.moves = a.moves || core->moves;
+          continue;
+        }
+        Body& b = body(pair(k).rod[1]);
         if (a.moves == b.moves) continue;
         a.moves = b.moves = more = true;
       }
@@ -78,13 +105,16 @@ class PairSystem {
   /// A step is not divided.
   void set_target(double) noexcept {
     each([&](Body& body) { body.set_target(goal_); });
+    for (PlacedBody& core : rigid_) core.set_target(goal_);
   }
   void save() noexcept {
     each([](Body& body) { body.save(); });
+    for (PlacedBody& core : rigid_) core.save();
     saved_ = pairs_, saved_number_ = number_;
   }
   void restore() noexcept {
     each([](Body& body) { body.restore(); });
+    for (PlacedBody& core : rigid_) core.restore();
     pairs_ = saved_, number_ = saved_number_;
   }
   double size() const noexcept { return size_; }
@@ -111,8 +141,10 @@ class PairSystem {
 
   // For a fall, in addition.
 
+  /// How places of pairs may go.
+  enum class Places { free, slow };
   /// @param shift  as of ChainSystem   @return ok | singular | non_finite | iteration_limit
-  Status factor(double shift) noexcept {
+  Status factor(double shift, Places places = Places::free) noexcept {
     lay_out();
     double measured = 0, inner = 0;
     negative_ = 0;
@@ -124,11 +156,14 @@ class PairSystem {
       if (worse(of.status, status)) status = of.status;
     });
     // A round rod that is bowed between two ends on one axis may roll about it.
-    if (status == Status::singular && shift == 0) return factor(Body::System::neutral());
+    if (status == Status::singular && shift == 0) return factor(Body::System::neutral(), places);
     if (status != Status::ok) return status;
     each([](Body& body) { body.eliminate(); });
-    hold_fresh();
-    negative_ += equations_->solve() - 3 * rows_;
+    if (places == Places::slow) slow_down();
+    hold_still();
+    negative_ += equations_->solve() - own_negative_;
+    // A place where least distance has no slope yet, and which would go to where that has none either.
+    if (negative_ < 0 && places == Places::free) return factor(shift, Places::slow);
     size_ = std::sqrt(2 * measured);
     double square = 0;
     each([&](Body& body) { square += body.substitute(); });
@@ -143,10 +178,10 @@ class PairSystem {
       if (!moves(pair)) continue;
       const PairEquations& u = *equations_;
       pair.push(u[row], u[row + 1], u[row + 2]);
-      for (std::size_t side = 0; side < 2; ++side) {
-        const Body& body = this->body(pair.rod[side]);
-        const double most = body.length() / body.elements();
-        pair.slide(side, std::clamp(u[row + 3 + static_cast<int>(side)], -most, most), body.length());
+      for (std::size_t side = 0; side < 2 && !pair.fresh; ++side) {
+        const double most = stride(rigid(pair.rod[side]) ? pair.rod[0] : pair.rod[side]);
+        pair.slide(side, std::clamp(u[row + 3 + static_cast<int>(side)], -most, most),
+                   length(pair.rod[side]));
       }
       row += pair_unknowns;
     }
@@ -174,40 +209,77 @@ class PairSystem {
   /// Gives each pair its rows, and each rod its sides.
   void lay_out() noexcept {
     each([](Body& body) { body.sides.clear(); });
-    rows_ = 0;
-    for (int k = 0; k < number_; ++k) rows_ += moves(pair(k));
+    int rows = 0;
+    for (int k = 0; k < number_; ++k) rows += moves(pair(k));
     PairEquations& dense = *equations_;
-    dense.resize(pair_unknowns * rows_);
+    dense.resize(pair_unknowns * rows);
+    own_negative_ = 0;
     int row = 0;
     for (int k = 0; k < number_; ++k) {
       RodPair& pair = this->pair(k);
       if (!moves(pair)) continue;
+      const PlacedBody* core = rigid(pair.rod[1]);
+      if (core) core->lead(pair);
       pair.look();
-      dense[row] -= pair.reach;
-      for (int c = 1; c < 3 && !pair.fresh; ++c) dense(row + c, row + c) = pair.reach / pair.force;
-      for (std::size_t side = 0; side < 2; ++side) {
+      own_negative_ += pair.negative();
+      for (int c = 0; c < 3; ++c) {
+        dense[row + c] -= pair.offset(at(c));
+        for (int d = 1; d <= c && !pair.fresh; ++d) dense(row + c, row + d) = pair.bends(at(c), at(d));
+      }
+      for (std::size_t side = 0; side < 2 && !(core && side == 1); ++side) {
         Body& body = this->body(pair.rod[side]);
         body.sides.add(pair, side, row, body.line().segment_at(pair.s[side]));
+      }
+      if (core) add(pair, *core, row);
+      row += pair_unknowns;
+    }
+  }
+  /// The side of a body, as PairSide::add().
+  void add(RodPair& pair, const PlacedBody& core, int row) noexcept {
+    PairEquations& dense = *equations_;
+    const auto at_core = core.at(pair.s[1]);
+    pair.pull[1] = core.length() > 0 ? pair.force * pair.normal.dot(core.axis()) : 0;
+    dense[row + 4] -= pair.pull[1];
+    for (int c = 0; c < 3; ++c) {
+      dense[row + c] -= pair.axes[at(c)].dot(at_core);
+      dense(row + 4, row + c) = pair.axes[at(c)].dot(core.axis());
+    }
+  }
+  /// No place goes farther uphill, to a least distance, than a part of an element.
+  void slow_down() noexcept {
+    constexpr double part = 0.25;
+    int row = 0;
+    for (int k = 0; k < number_; ++k) {
+      const RodPair& pair = this->pair(k);
+      if (!moves(pair)) continue;
+      for (std::size_t side = 0; side < 2 && !rigid(pair.rod[side]); ++side) {
+        const int here = row + 3 + static_cast<int>(side);
+        (*equations_)(here, here) -= std::abs(pair.pull[side]) / (part * stride(pair.rod[side]));
       }
       row += pair_unknowns;
     }
   }
-
-  /// What is new keeps its direction.
-  void hold_fresh() noexcept {
+  /// What is new keeps its direction, as does the force of a plane.  What is held on a body has no rod that says so.
+  void hold_still() noexcept {
     int row = 0;
     for (int k = 0; k < number_; ++k) {
-      if (!moves(pair(k))) continue;
-      for (int c = 1; c < 3 && pair(k).fresh; ++c) equations_->hold(row + c, 1);
+      const RodPair& pair = this->pair(k);
+      if (!moves(pair)) continue;
+      const PlacedBody* core = rigid(pair.rod[1]);
+      const bool plane = core && core->kind() == RigidBody::Kind::half_space;
+      for (int c = 1; c < 3 && (pair.fresh || plane); ++c)
+        equations_->hold(row + c, c == 1 && pair.ring < 0 ? -1 : 1);
+      if (core && (pair.fresh || pair.held[1])) equations_->hold(row + 4, -1);
       row += pair_unknowns;
     }
   }
 
   std::unique_ptr<PairEquations> equations_;
   std::vector<Body> bodies_;
+  std::vector<PlacedBody> rigid_;
   std::array<RodPair, most_pairs> pairs_, saved_;
   int number_ = 0, saved_number_ = 0;
-  int rows_ = 0;  // pairs that are solved for
+  int own_negative_ = 0;  // eigenvalues of the pairs that are solved for
   double goal_ = 1;
   double size_ = 0, increment_ = 0;
   int negative_ = 0;

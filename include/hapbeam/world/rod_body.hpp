@@ -164,7 +164,8 @@ class RodBody {
   // How it has moved since save().
 
   const BoxTree<double, 3>& swept() const noexcept { return swept_; }
-  CubicSegment<double, 3> saved_segment(int e) const noexcept { return system_.view(saved).segment(e); }
+  auto saved_line() const noexcept { return system_.view(saved); }
+  CubicSegment<double, 3> saved_segment(int e) const noexcept { return saved_line().segment(e); }
   void sweep() noexcept {
     if (swept_at_rest_ && !moves) return;
     swept_at_rest_ = !moves;

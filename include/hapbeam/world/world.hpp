@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rods that touch each other, without friction, and hands that lead their ends.
+// Rods that touch each other, themselves and rigid bodies, without friction, and hands that lead their ends.
 //
-//   World<RoundRod> world({{tool, 16}, {wire, 16}});
+//   World<RoundRod> world({{tool, 16}, {wire, 16}}, {RigidBody::sphere({0, 0, 0}, 0.01)});
 //   world.hold(0, RodSide::left, pose);                  // as often as there are hands
 //   const Status status = world.tick();
 //   const HeldEnd<double> hand = world.held(0, RodSide::left);      // the hand feels -hand.force, -hand.moment
@@ -31,9 +31,10 @@ class World {
  public:
   static constexpr int most_contacts = detail::most_pairs;
 
-  /// @throws std::invalid_argument where there is no rod, a rod makes no sense or has no shape at rest, or two of them lie in each other there
-  explicit World(const std::vector<WorldRod>& rods, const NewtonRaphson& solver = {})
-      : equilibrium_(rods, solver) {
+  /// @throws std::invalid_argument where there is no rod, a rod or a body makes no sense, a rod has no shape at rest, or lies in another or in a body there
+  explicit World(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& bodies = {},
+                 const NewtonRaphson& solver = {})
+      : equilibrium_(rods, bodies, solver) {
     if (rods.empty()) throw std::invalid_argument("rods = 0: must be 1 or more");
     look_at_rest();
   }
@@ -47,6 +48,11 @@ class World {
   [[nodiscard]] Status hold(int rod, RodSide side, const RodPose& pose) noexcept {
     return system().body(rod).place_end(static_cast<std::size_t>(side), pose) ? Status::ok
                                                                               : Status::invalid_request;
+  }
+  /// Where a body is to be from the next tick on.   @param body  0-based   @param pose  of the frame in which it was built
+  /// @return ok | invalid_request, where the pose is none: nothing has changed
+  [[nodiscard]] Status place(int body, const RodPose& pose) noexcept {
+    return system().rigid()[at(body)].place(pose) ? Status::ok : Status::invalid_request;
   }
   /// Once a period.
   /// @return ok | snapped | out_of_range, where there are more contacts than most_contacts, or
@@ -102,10 +108,13 @@ class World {
   int contacts() const noexcept { return system().pairs(); }
   RodContact contact(int k) const noexcept {
     const detail::RodPair& pair = system().pair(k);
+    const Vector at = shape(pair.rod[0]).at(pair.s[0]).r;
+    const bool rigid = system().rigid(pair.rod[1]) != nullptr;
     return {pair.rod,
             pair.s,
             pair.force * pair.normal,
-            {shape(pair.rod[0]).at(pair.s[0]).r, shape(pair.rod[1]).at(pair.s[1]).r}};
+            {at, rigid ? Vector(at - system().body(pair.rod[0]).radius() * pair.normal)
+                       : shape(pair.rod[1]).at(pair.s[1]).r}};
   }
   /// Of all rods, the springs that hold them, and what contacts bend beside nodes [J].
   double strain_energy() const noexcept {
@@ -113,8 +122,7 @@ class World {
     for (const Body& body : system().bodies()) energy += body.system().strain_energy();
     for (int k = 0; k < contacts(); ++k) {
       const detail::RodPair& pair = system().pair(k);
-      const RodContact contact = this->contact(k);
-      energy += pair.force / 2 * (pair.reach - pair.normal.dot(contact.at[0] - contact.at[1]));
+      energy += pair.force / 2 * (pair.reach - pair.distance(system().between(pair)));
     }
     return energy;
   }
@@ -124,6 +132,7 @@ class World {
   void reset() noexcept {
     restart();
     for (Body& body : system().bodies()) body.reset();
+    for (detail::PlacedBody& body : system().rigid()) body.reset();
     status_ = Status::ok;
     for (auto& hold : held_) hold = {Vector::Zero(), Vector::Zero()};
   }
@@ -154,12 +163,14 @@ class World {
     system().spread();
     double along = 0, square = 0, before = 0;
     bool moving = false;
-    for (Body& body : system().bodies()) {
+    const auto begin_path = [&](auto& body) {
       body.begin_path();
       const auto step = body.take_step();
       along += step[0], square += step[1], before += step[2];
       moving = moving || body.moves;
-    }
+    };
+    for (Body& body : system().bodies()) begin_path(body);
+    for (detail::PlacedBody& body : system().rigid()) begin_path(body);
     foresee(along, square, before);
     return moving;
   }
@@ -191,11 +202,13 @@ class World {
   /// Nothing moves until a hand does.
   void rest() noexcept {
     for (Body& body : system().bodies()) body.moves = false;
+    for (detail::PlacedBody& body : system().rigid()) body.moves = false;
   }
   /// From rest to where hands wait.
   void restart() noexcept {
     system().clear();
     for (Body& body : system().bodies()) body.restart();
+    for (detail::PlacedBody& body : system().rigid()) body.restart();
     course_ = Course::follows, known_ = unmoved_ = 0;
     system().save();
   }
@@ -206,15 +219,18 @@ class World {
 
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
-  /// @throws std::invalid_argument where rods lie in each other
+  /// @throws std::invalid_argument where rods lie in each other or in bodies
   void look_at_rest() {
     held_.resize(2 * at(rods()));
     reset();
     const detail::Look look = detail::look_around(system());
-    if (!(look.least >= Equilibrium::closest))
-      throw std::invalid_argument("rods " + std::to_string(look.pair.rod[0]) + " and " +
-                                  std::to_string(look.pair.rod[1]) + " = " + std::to_string(look.least) +
-                                  " of their reach apart at rest: must be half of it or more");
+    if (look.least >= Equilibrium::closest) return;
+    const auto named = [&](int i) {
+      return i < rods() ? "rod " + std::to_string(i) : "body " + std::to_string(i - rods());
+    };
+    throw std::invalid_argument(named(look.pair.rod[0]) + " and " + named(look.pair.rod[1]) + " = " +
+                                std::to_string(look.least) +
+                                " of their reach apart at rest: must be half of it or more");
   }
 
   Equilibrium equilibrium_;
