@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A contact of two rods: one force and two places, unknowns of the equations of both.
 //
-//   L = Σ V - f · w + R |f| - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n from rod 2 to rod 1
+//   L = Σ V - f · w + R |f| - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n from rod 2 to rod 1; with friction f = λ n + t
 //
 // Stationary by f where w + C f = R n: the true curves, which C bends off what nodes hold, are R apart.  By a place where the true curve is
 // across n.  Where the sections bend alike about all axes this is  Σ V - λ (|w| - R) - ½ λ² c.
@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <hapbeam/rod_centreline.hpp>
+#include <hapbeam/world/pair_friction.hpp>
 
 namespace hapbeam {
 
@@ -21,7 +21,9 @@ namespace hapbeam {
 struct RodContact {
   std::array<int, 2> rod;                 ///< 0-based numbers in the World
   std::array<double, 2> s;                ///< [m] arc positions
-  VectorOf<double, 3> force;              ///< [N] on rod[0] by rod[1], along the line that joins both places
+  VectorOf<double, 3> force;              ///< [N] on rod[0] by rod[1]
+  VectorOf<double, 3> friction;  ///< [N] its part across the line that joins both places, which is the rest
+  bool sliding;                  ///< whether they slide, where there is friction
   std::array<VectorOf<double, 3>, 2> at;  ///< [m] points of both centrelines
 };
 
@@ -39,6 +41,10 @@ struct RodPair {
   bool fresh = true;
   std::array<bool, 2> held{};    // at an end of its rod, where the place stays
   std::array<double, 2> pull{};  // ∂L/∂s of the last equations [N]
+  PairFriction friction;
+
+  /// Whether friction acts.
+  bool rough() const noexcept { return !fresh && friction.acts(); }
 
   /// Two directions across the normal.
   void look() noexcept {

@@ -50,7 +50,8 @@ class PairEquilibrium {
   /// Finds the equilibrium for where the ends are led, and who touches whom there.
   Outcome settle() noexcept {
     Curvature<double> unknown;
-    int leaves = 0;
+    int leaves = 0, tries = 0;
+    system_.begin_friction();
     for (int pass = 0; pass < 4 + 2 * most_pairs; ++pass) {
       if (left() <= 0) return Outcome::too_far;
       NewtonRaphson solver = solver_;
@@ -72,13 +73,19 @@ class PairEquilibrium {
         if (leaves++ < 2) continue;
         return failure_ = Status::iteration_limit, Outcome::lost;
       }
+      if (!system_.settled()) {
+        if (tries++ < most_tries) continue;
+        return failure_ = Status::iteration_limit, Outcome::lost;
+      }
       return gives_way() ? (failure_ = Status::iteration_limit, Outcome::lost) : Outcome::settled;
     }
     return failure_ = Status::iteration_limit, Outcome::lost;
   }
-  /// Down to the next stable equilibrium, as in a viscous fluid:  (K + μM) Δ = -r,  with the pairs that touch on the way.
+  /// Down to the next stable equilibrium, as in a viscous fluid:  (K + μM) Δ = -r,  with the pairs that touch on the way, which slide without friction.
   Outcome fall() noexcept {
     constexpr double first_shift = 100, largest_shift = 1e12, farthest = 1, enough = 1e-3;
+    system_.let_go();
+    system_.save();
     if (on_ridge_)
       for (Body& body : system_.bodies())
         if (body.moves && (body.sides.any() || body.negative_pivots() > 0))
@@ -113,6 +120,7 @@ class PairEquilibrium {
 
  private:
   static constexpr double nothing = 1e-6;  // of a reach
+  static constexpr int most_tries = 7;     // of friction to settle
 
   bool gives_way() noexcept {
     on_ridge_ = false;

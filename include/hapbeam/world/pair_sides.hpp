@@ -21,6 +21,8 @@ namespace hapbeam::detail {
 /// @tparam Chain  RodChain
 template <class Chain>
 class PairSides {
+  using Side = PairSide<Chain>;
+
  public:
   using Assembler = typename Chain::Assembler;
   static constexpr int unknowns = Chain::unknowns;
@@ -32,6 +34,12 @@ class PairSides {
     sides_.reserve(most_pairs), tensions_.reserve(most_pairs),
         products_.reserve(4 * most_pairs * (4 * most_pairs + 1) / 2);
     for (int k = 0; k < most_pairs; ++k) sides_.emplace_back(elements);
+  }
+
+  /// r' of the true curve of a rod at s, where a force acts on it.
+  template <class Parts>
+  static Vector tangent(const Parts& parts, int e, double s, const Vector& force) noexcept {
+    return Side::tangent(parts, e, s, force);
   }
 
   void clear() noexcept { size_ = 0; }
@@ -137,7 +145,6 @@ class PairSides {
 
  private:
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-  using Side = PairSide<Chain>;
   using Column = typename Side::Column;
 
   template <class F>

@@ -10,9 +10,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <vector>
 
+#include <hapbeam/world/pair_bounds.hpp>
 #include <hapbeam/world/rod_body.hpp>
 
 namespace hapbeam {
@@ -21,6 +23,8 @@ namespace hapbeam {
 struct WorldRod {
   Rod rod;
   int elements;  ///< 2 or more
+  /// Of two rods that touch the larger coefficients count.
+  Friction friction = {};
 };
 
 namespace detail {
@@ -31,10 +35,15 @@ class PairSystem {
   using Scalar = double;
   using Body = RodBody<Element>;
 
-  /// @throws std::invalid_argument as RodBody
-  explicit PairSystem(const std::vector<WorldRod>& rods) : equations_(std::make_unique<PairEquations>()) {
+  /// @throws std::invalid_argument as RodBody and Friction
+  explicit PairSystem(const std::vector<WorldRod>& rods)
+      : equations_(std::make_unique<PairEquations>()), bounds_(most_pairs) {
     bodies_.reserve(rods.size());
-    for (const auto& [rod, elements] : rods) bodies_.emplace_back(rod, elements, *equations_);
+    for (const auto& [rod, elements, friction] : rods) {
+      friction.check();
+      bodies_.emplace_back(rod, elements, *equations_);
+      frictions_.push_back(friction);
+    }
   }
 
   std::vector<Body>& bodies() noexcept { return bodies_; }
@@ -51,7 +60,8 @@ class PairSystem {
   /// @return whether there was room
   bool add(const RodPair& pair) noexcept {
     if (number_ == most_pairs) return false;
-    pairs_[at(number_++)] = pair;
+    pairs_[at(number_)] = pair;
+    give_friction(pairs_[at(number_++)]);
     return true;
   }
   void remove(int k) noexcept {
@@ -70,6 +80,34 @@ class PairSystem {
       }
     }
   }
+  // Friction.
+
+  /// A step begins.
+  void begin_friction() noexcept {
+    each_rough([](PairFriction& friction) { friction.begin(); });
+  }
+  /// All that moves slides without friction until it has come to an equilibrium.
+  void let_go() noexcept {
+    each_rough([](PairFriction& friction) { friction.let_go(); });
+  }
+  /// To be called where an equilibrium was found.   @return whether it is one of Coulomb's law, too
+  bool settled() noexcept {
+    bool all = true;
+    each_pair([&](RodPair& pair) {
+      if (pair.friction.none()) return;
+      look(pair);
+      all = pair.friction.settled(pair.force) && all;
+    });
+    return all;
+  }
+  /// To be called where that is kept.   @return what friction has dissipated [J]
+  double leave_friction() noexcept {
+    double dissipated = 0;
+    each_pair([&](RodPair& pair) {
+      if (!pair.friction.none()) dissipated += pair.friction.leave(pair.force);
+    });
+    return dissipated;
+  }
   /// How far along their path, 0 to 1, the next step takes all ends.
   void aim(double t) noexcept { goal_ = t; }
 
@@ -81,11 +119,13 @@ class PairSystem {
   }
   void save() noexcept {
     each([](Body& body) { body.save(); });
-    saved_ = pairs_, saved_number_ = number_;
+    saved_number_ = number_;
+    std::copy_n(pairs_.begin(), number_, saved_.begin());
   }
   void restore() noexcept {
     each([](Body& body) { body.restore(); });
-    pairs_ = saved_, number_ = saved_number_;
+    number_ = saved_number_;
+    std::copy_n(saved_.begin(), number_, pairs_.begin());
   }
   double size() const noexcept { return size_; }
   double unit() const noexcept {
@@ -129,6 +169,7 @@ class PairSystem {
     each([](Body& body) { body.eliminate(); });
     hold_fresh();
     negative_ += equations_->solve() - 3 * rows_;
+    if (rough_) follow_bounds();
     size_ = std::sqrt(2 * measured);
     double square = 0;
     each([&](Body& body) { square += body.substitute(); });
@@ -142,7 +183,10 @@ class PairSystem {
       RodPair& pair = this->pair(k);
       if (!moves(pair)) continue;
       const PairEquations& u = *equations_;
-      pair.push(u[row], u[row + 1], u[row + 2]);
+      std::array<double, 3> by{u[row], u[row + 1], u[row + 2]};
+      if (pair.rough())
+        by = pair.friction.increment({by[0], by[1], by[2], u[row + 3], u[row + 4]}, pair.force);
+      pair.push(by[0], by[1], by[2]);
       for (std::size_t side = 0; side < 2; ++side) {
         const Body& body = this->body(pair.rod[side]);
         const double most = body.length() / body.elements();
@@ -171,10 +215,21 @@ class PairSystem {
     for (const Body& body : bodies_)
       if (body.moves) f(body);
   }
+  template <class F>
+  void each_pair(F&& f) noexcept {
+    for (int k = 0; k < number_; ++k)
+      if (moves(pair(k))) f(pair(k));
+  }
+  template <class F>
+  void each_rough(F&& f) noexcept {
+    each_pair([&](RodPair& pair) {
+      if (!pair.friction.none()) f(pair.friction);
+    });
+  }
   /// Gives each pair its rows, and each rod its sides.
   void lay_out() noexcept {
     each([](Body& body) { body.sides.clear(); });
-    rows_ = 0;
+    rows_ = 0, rough_ = false;
     for (int k = 0; k < number_; ++k) rows_ += moves(pair(k));
     PairEquations& dense = *equations_;
     dense.resize(pair_unknowns * rows_);
@@ -184,7 +239,13 @@ class PairSystem {
       if (!moves(pair)) continue;
       pair.look();
       dense[row] -= pair.reach;
-      for (int c = 1; c < 3 && !pair.fresh; ++c) dense(row + c, row + c) = pair.reach / pair.force;
+      if (!pair.friction.none() && !pair.fresh) look(pair);
+      if (pair.rough()) {
+        pair.friction.add(pair.axes, pair.force, row, dense);
+        rough_ = true;
+      } else {
+        for (int c = 1; c < 3 && !pair.fresh; ++c) dense(row + c, row + c) = pair.reach / pair.force;
+      }
       for (std::size_t side = 0; side < 2; ++side) {
         Body& body = this->body(pair.rod[side]);
         body.sides.add(pair, side, row, body.line().segment_at(pair.s[side]));
@@ -193,6 +254,40 @@ class PairSystem {
     }
   }
 
+  void give_friction(RodPair& pair) noexcept {
+    const Friction friction =
+        friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
+    if (friction.none()) return;
+    const Body &a = body(pair.rod[0]), &b = body(pair.rod[1]);
+    const auto skin = [](const Body& of) { return of.system().unit() / of.length(); };
+    const double least = (std::min)(skin(a), skin(b));
+    pair.friction.take(friction, pair.reach,
+                       least * least / std::sqrt(std::numeric_limits<double>::epsilon()),
+                       (std::min)(a.length(), b.length()) / 1000);
+  }
+  void look(RodPair& pair) noexcept {
+    const VectorOf<double, 3> force = pair.force * pair.normal + pair.friction.force();
+    std::array<VectorOf<double, 3>, 2> along;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Body& body = this->body(pair.rod[side]);
+      along[side] = Body::Sides::tangent(body.parts(), body.line().segment_at(pair.s[side]), pair.s[side],
+                                         side == 0 ? force : -force);
+    }
+    pair.friction.look(pair.normal, pair.s, along, pair.force);
+  }
+  /// After the symmetric equations are solved.
+  void follow_bounds() noexcept {
+    int row = 0;
+    bounds_.clear();
+    each_pair([&](const RodPair& pair) {
+      if (pair.rough()) {
+        negative_ -= pair.friction.negative();
+        if (pair.friction.slides()) bounds_.add(pair.friction, row, pair.held, pair.force);
+      }
+      row += pair_unknowns;
+    });
+    bounds_.follow(*equations_, at(row));
+  }
   /// What is new keeps its direction.
   void hold_fresh() noexcept {
     int row = 0;
@@ -205,6 +300,9 @@ class PairSystem {
 
   std::unique_ptr<PairEquations> equations_;
   std::vector<Body> bodies_;
+  std::vector<Friction> frictions_;  // of each rod
+  PairBounds<PairEquations> bounds_;
+  bool rough_ = false;  // whether friction acts
   std::array<RodPair, most_pairs> pairs_, saved_;
   int number_ = 0, saved_number_ = 0;
   int rows_ = 0;  // pairs that are solved for
