@@ -51,6 +51,7 @@ class PairEquilibrium {
   Outcome settle() noexcept {
     Curvature<double> unknown;
     int leaves = 0, tries = 0;
+    bool sticks = false;
     system_.begin_friction();
     for (int pass = 0; pass < 4 + 2 * most_pairs; ++pass) {
       if (left() <= 0) return Outcome::too_far;
@@ -59,7 +60,15 @@ class PairEquilibrium {
       solver.max_iterations = (std::min)(solver.max_iterations, pass == 0 ? 8 : 16);
       const SolveReport<double> report = solver.solve(system_, 1, pass == 0 ? &curvature_ : &unknown);
       solves_ += report.solves;
-      if (report.status != Status::ok) return failure_ = report.status, Outcome::lost;
+      if (report.status != Status::ok) {
+        system_.restore();
+        // What turns back is found from where it sticks.
+        if (!sticks && system_.stick()) {
+          sticks = true;
+          continue;
+        }
+        return failure_ = report.status, Outcome::lost;
+      }
       const Look look = look_around(system_);
       if (!look.close) return Outcome::too_far;
       if (release()) continue;

@@ -29,6 +29,10 @@ inline Friction friction_of(const Friction& a, const Friction& b) noexcept {
 class PairFriction {
  public:
   using Vector = VectorOf<double, 3>;
+  enum class Start {
+    goes_on,  ///< as in the last equilibrium
+    sticks,   ///< whatever it did there
+  };
   using Plane = std::array<double, 2>;  // across n, along the axes of the pair
 
   /// @param stiffest  of the skin [N/m]   @param hurry  [m] a long way for a tick
@@ -39,7 +43,7 @@ class PairFriction {
   }
   bool none() const noexcept { return !(state_.sticking > 0); }
   /// A step begins.
-  void begin() noexcept { begins_ = true; }
+  void begin(Start start = Start::goes_on) noexcept { begins_ = true, start_ = start; }
   /// What follows is without friction until there is an equilibrium.
   void let_go() noexcept {
     state_.let_go();
@@ -53,7 +57,10 @@ class PairFriction {
     place.s = s[0], place.place = s[1];
     place.normal = -normal;
     place.along = along[0], place.axis = along[1];
-    if (begins_) law_.begin(state_, true, place, 1, reach_, stiffest_, hurry_, last_);
+    if (begins_) {
+      law_.begin(state_, true, place, 1, reach_, stiffest_, hurry_, last_);
+      if (start_ == Start::sticks && law_.slides()) (void)law_.turn();
+    }
     begins_ = false;
     tangents_ = along;
     law_.bind(force);
@@ -162,6 +169,7 @@ class PairFriction {
   std::array<Plane, 2> along_{};                            // t₁, -t₂
   std::array<Vector, 2> tangents_;                          // r'
   int negative_ = 0;
+  Start start_ = Start::goes_on;
   bool begins_ = true;
 };
 

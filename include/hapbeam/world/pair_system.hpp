@@ -86,6 +86,15 @@ class PairSystem {
   void begin_friction() noexcept {
     each_rough([](PairFriction& friction) { friction.begin(); });
   }
+  /// It begins anew with all that slid as it sticks.   @return whether there is any
+  bool stick() noexcept {
+    bool any = false;
+    each_rough([&](PairFriction& friction) {
+      any = any || friction.slid();
+      friction.begin(PairFriction::Start::sticks);
+    });
+    return any;
+  }
   /// All that moves slides without friction until it has come to an equilibrium.
   void let_go() noexcept {
     each_rough([](PairFriction& friction) { friction.let_go(); });

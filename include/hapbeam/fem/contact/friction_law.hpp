@@ -272,6 +272,7 @@ class FrictionLaw {
     length_ = (std::max)(length, Scalar(0));
   }
   void follow() noexcept {
+    length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
     const Vector turned = force_at(bound_.next());
     if (turned.squaredNorm() > 0) direction_ = turned;
     length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
