@@ -70,7 +70,8 @@ class PairEquilibrium {
         return failure_ = report.status, Outcome::lost;
       }
       const Look look = look_around(system_);
-      if (!look.close) return Outcome::too_far;
+      // What leaps as it begins to slide does so in steps of any length.
+      if (!look.close) return tries > 0 ? Outcome::lost : Outcome::too_far;
       if (release()) continue;
       if (look.deepest < -nothing) {
         if (!meet(look)) return Outcome::full;

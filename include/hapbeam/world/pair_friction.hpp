@@ -35,10 +35,10 @@ class PairFriction {
   };
   using Plane = std::array<double, 2>;  // across n, along the axes of the pair
 
-  /// @param stiffest  of the skin [N/m]   @param hurry  [m] a long way for a tick
-  void take(const Friction& friction, double reach, double stiffest, double hurry) noexcept {
+  /// @param stiffest  of the skin [N/m]   @param length  of the shorter rod [m]
+  void take(const Friction& friction, double reach, double stiffest, double length) noexcept {
     state_.sticking = friction.sticking, state_.sliding = friction.sliding;
-    reach_ = reach, stiffest_ = stiffest, hurry_ = hurry;
+    reach_ = reach, stiffest_ = stiffest, length_ = length;
     begin();
   }
   bool none() const noexcept { return !(state_.sticking > 0); }
@@ -58,8 +58,9 @@ class PairFriction {
     place.normal = -normal;
     place.along = along[0], place.axis = along[1];
     if (begins_) {
-      law_.begin(state_, true, place, 1, reach_, stiffest_, hurry_, last_);
+      law_.begin(state_, true, place, 1, reach_, stiffest_, length_ / 1000, last_);
       if (start_ == Start::sticks && law_.slides()) (void)law_.turn();
+      turned_ = 0;
     }
     begins_ = false;
     tangents_ = along;
@@ -110,7 +111,7 @@ class PairFriction {
     return {over, over * turned[0], over * turned[1]};
   }
   /// δλ and λ δn of an answer.   @param u  δf along the axes, δs
-  std::array<double, 3> increment(const std::array<double, 5>& u, double force) const noexcept {
+  std::array<double, 3> increment(const std::array<double, 5>& u, double force) noexcept {
     Plane rest{u[1], u[2]};
     for (std::size_t i = 0; i < 2; ++i) {
       const Plane stuck = times(stiff_, along_[i]);
@@ -119,11 +120,24 @@ class PairFriction {
     const double more =
         (u[0] + dot(acts_, times(turns_, rest))) / (1 + dot(acts_, times(turns_, follows_)));
     const Plane turn = times(turns_, {rest[0] - follows_[0] * more, rest[1] - follows_[1] * more});
+    moved_ = 0;
+    for (std::size_t i = 0; i < 2; ++i)
+      moved_ += std::abs(u[3 + i] * (acts_[0] * along_[i][1] - acts_[1] * along_[i][0]));
+    taken_ = {acts_[0] + u[1] - force * turn[0], acts_[1] + u[2] - force * turn[1]};
     return {more, force * turn[0], force * turn[1]};
   }
 
-  /// To be called where an equilibrium was found, after look().   @return whether it is one of Coulomb's law, too
-  bool settled(double force) noexcept { return law_.settled(force); }
+  /// To be called where an equilibrium was found, after look().   @param axes  of its last equations   @return whether it is one of Coulomb's law, too
+  bool settled(const std::array<Vector, 3>& axes, double force) noexcept {
+    constexpr double exact = 1e-7, moment = 1e-8;
+    constexpr int most = 3;
+    if (!law_.settled(force)) return false;
+    // Where slips are short T changes by more than increments tell, and not below round-off.  It has come along with its place, too.
+    const double off1 = law_.force().dot(axes[1]) - taken_[0], off2 = law_.force().dot(axes[2]) - taken_[1];
+    const bool far_off =
+        off1 * off1 + off2 * off2 > exact * exact * force * force || moved_ > moment * force * length_;
+    return !(acts() && far_off && turned_++ < most);
+  }
   /// To be called where that is kept.   @return what it has dissipated [J]
   double leave(double force) noexcept {
     const double before = state_.dissipated;
@@ -163,12 +177,13 @@ class PairFriction {
 
   FrictionState<double, 3> state_;
   Law law_;
-  double reach_ = 0, stiffest_ = 0, hurry_ = 0, last_ = 0;  // [m], [N/m], [m], λ of the last equilibrium [N]
+  double reach_ = 0, stiffest_ = 0, length_ = 0, last_ = 0;  // [m], [N/m], [m], λ of the last equilibrium [N]
+  double moved_ = 0;  // moment of T about where the last answer took it to act [N·m]
   Symmetric stiff_{}, turns_{};                             // S and G
-  Plane follows_{}, acts_{};                                // m, t
+  Plane follows_{}, acts_{}, taken_{};                      // m, t, and what the last answer took t for
   std::array<Plane, 2> along_{};                            // t₁, -t₂
   std::array<Vector, 2> tangents_;                          // r'
-  int negative_ = 0;
+  int negative_ = 0, turned_ = 0;
   Start start_ = Start::goes_on;
   bool begins_ = true;
 };

@@ -105,7 +105,7 @@ class PairSystem {
     each_pair([&](RodPair& pair) {
       if (pair.friction.none()) return;
       look(pair);
-      all = pair.friction.settled(pair.force) && all;
+      all = pair.friction.settled(pair.axes, pair.force) && all;
     });
     return all;
   }
@@ -272,7 +272,7 @@ class PairSystem {
     const double least = (std::min)(skin(a), skin(b));
     pair.friction.take(friction, pair.reach,
                        least * least / std::sqrt(std::numeric_limits<double>::epsilon()),
-                       (std::min)(a.length(), b.length()) / 1000);
+                       (std::min)(a.length(), b.length()));
   }
   void look(RodPair& pair) noexcept {
     const VectorOf<double, 3> force = pair.force * pair.normal + pair.friction.force();
