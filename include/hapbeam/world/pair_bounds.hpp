@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Bounds of friction that follow normal forces, as part of the dense equations of all pairs.
+// What is not symmetric of the dense equations of all pairs: bounds follow normal forces, and friction goes along with places.
 //
-//   (A + Σ v pᵀ) u = b       A: symmetric, with given bounds;  p u = δλ of a pair that slides,  v: what that does to its equations
+//   (A + Σ v pᵀ) u = b       A: symmetric, with given bounds;  p u = δλ of a pair that slides, or δs of a place;  v: what friction makes of it
 //
 // One after another by Sherman and Morrison's formula.  A bound for which that has no answer, where rods jam, stays as it was given.
 // Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(pairs · unknowns²).
@@ -25,13 +25,15 @@ class PairBounds {
   void clear() noexcept { bounds_.clear(); }
   /// A pair that slides.   @param row  of its equations   @param stays  which of its places stay   @param force  λ [N]
   void add(const PairFriction& friction, int row, const std::array<bool, 2>& stays, double force) noexcept {
-    Bound bound{row, friction.row(), {}, 0};
+    bounds_.push_back({row, friction.row(), {}, 0});
+    Unknowns& v = bounds_.back().answer;
     const auto column = friction.column(force);
-    bound.answer.fill(0);
+    v.fill(0);
     for (std::size_t k = 0; k < 4; ++k)
-      if (k < 2 || !stays[k - 2]) bound.answer[static_cast<std::size_t>(row) + 1 + k] = column[k];
-    bounds_.push_back(bound);
+      if (k < 2 || !stays[k - 2]) v[static_cast<std::size_t>(row) + 1 + k] = column[k];
   }
+  /// A place with which friction goes along.
+  void add(const Unknowns& v, int unknown) noexcept { bounds_.push_back({unknown - 2, {0, 0, 1}, v, 0}); }
   /// To be called after they are solved with given bounds.
   void follow(Equations& equations, std::size_t unknowns) noexcept {
     constexpr double jams = 0.01;

@@ -7,8 +7,8 @@
 //
 //   δn = G (δf - S (t₁ δs₁ - t₂ δs₂) - m δλ),   G = (λ - R S)⁻¹,   δλ = δf · n + t · δn
 //
-// All but m is symmetric.  m is of rank one a pair, and put in after the symmetric equations are solved (pair_bounds.hpp).  That T moves along with a
-// place is left to the iteration.
+// All but m is symmetric, and that T goes along with the places.  Both are of rank one a pair or a place, and put in after the symmetric equations
+// are solved (pair_bounds.hpp).
 // Real-time: noexcept, no allocation, O(1).   Source: derived here from the stationarity of V - f · (w - R n) + ∫T·de.
 #pragma once
 
@@ -120,22 +120,18 @@ class PairFriction {
     const double more =
         (u[0] + dot(acts_, times(turns_, rest))) / (1 + dot(acts_, times(turns_, follows_)));
     const Plane turn = times(turns_, {rest[0] - follows_[0] * more, rest[1] - follows_[1] * more});
-    moved_ = 0;
-    for (std::size_t i = 0; i < 2; ++i)
-      moved_ += std::abs(u[3 + i] * (acts_[0] * along_[i][1] - acts_[1] * along_[i][0]));
     taken_ = {acts_[0] + u[1] - force * turn[0], acts_[1] + u[2] - force * turn[1]};
     return {more, force * turn[0], force * turn[1]};
   }
 
   /// To be called where an equilibrium was found, after look().   @param axes  of its last equations   @return whether it is one of Coulomb's law, too
   bool settled(const std::array<Vector, 3>& axes, double force) noexcept {
-    constexpr double exact = 1e-7, moment = 1e-8;
+    constexpr double exact = 1e-8;
     constexpr int most = 3;
     if (!law_.settled(force)) return false;
-    // Where slips are short T changes by more than increments tell, and not below round-off.  It has come along with its place, too.
+    // Where slips are short T changes by more than increments tell, and not below round-off.
     const double off1 = law_.force().dot(axes[1]) - taken_[0], off2 = law_.force().dot(axes[2]) - taken_[1];
-    const bool far_off =
-        off1 * off1 + off2 * off2 > exact * exact * force * force || moved_ > moment * force * length_;
+    const bool far_off = off1 * off1 + off2 * off2 > exact * exact * force * force;
     return !(acts() && far_off && turned_++ < most);
   }
   /// To be called where that is kept.   @return what it has dissipated [J]
@@ -178,7 +174,6 @@ class PairFriction {
   FrictionState<double, 3> state_;
   Law law_;
   double reach_ = 0, stiffest_ = 0, length_ = 0, last_ = 0;  // [m], [N/m], [m], λ of the last equilibrium [N]
-  double moved_ = 0;  // moment of T about where the last answer took it to act [N·m]
   Symmetric stiff_{}, turns_{};                             // S and G
   Plane follows_{}, acts_{}, taken_{};                      // m, t, and what the last answer took t for
   std::array<Plane, 2> along_{};                            // t₁, -t₂

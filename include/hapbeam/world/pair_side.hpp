@@ -39,19 +39,23 @@ class PairSide {
   using Column = typename Chain::Assembler::Column;
 
   explicit PairSide(int elements)
-      : column{Column(elements), Column(elements), Column(elements), Column(elements)} {}
+      : column{Column(elements), Column(elements), Column(elements), Column(elements), Column(elements)} {}
 
   RodPair* pair = nullptr;
   std::size_t side = 0;            // of it: the first rod, or the second
   int row = 0, element = 0;        // where the pair's unknowns begin, and that of the rod
-  std::array<Residual, 4> b, raw;  // ∂²L/∂x∂u, and the same whatever an end of the rod holds
+  // The fifth is what friction does to the rod, and the rod not to the place, as that moves.
+  std::array<Residual, 5> b, raw;  // ∂²L/∂x∂u, and the same whatever an end of the rod holds
   std::array<double, 4> along;     // bᵀK⁻¹(-r)
-  std::array<double, 4> by_N;      // ∂²L/∂N∂u
-  std::array<Column, 4> column;    // L⁻¹b
+  std::array<double, 5> by_N;      // ∂²L/∂N∂u
+  std::array<Column, 5> column;    // L⁻¹b
+  PairEquations::Unknowns drags;   // entries of the fifth in all equations of pairs
 
   /// f along n, across it, and the place.
   int columns() const noexcept { return pair->fresh ? 1 : pair->held[side] ? 3 : 4; }
   int unknown(int c) const noexcept { return c < 3 ? row + c : row + 3 + static_cast<int>(side); }
+  /// Whether there is a fifth.
+  bool dragged() const noexcept { return pair->rough() && !pair->held[side]; }
 
   /// @param p, n1, n2, N  of the element: its nodes, and its tension or its twist   @param tension  of its sides, where that is an unknown
   /// @return ½ F · C F [J]
@@ -64,8 +68,13 @@ class PairSide {
     const bool rough = pair->rough();
     // Places are of its part along n.
     const Vector along_n = sign * pair->force * pair->normal;
-    Vector F = along_n;
-    if (rough) F += sign * pair->friction.force();
+    Vector F = along_n, T = Vector::Zero();
+    if (rough) {
+      T = sign * pair->friction.force(), F += T;
+      drags.fill(0);
+      b[4].setZero();
+      pull(T, 1, b[4]);
+    }
     const Matrix yields = shape(p, n1, n2, N, spot);
     const Vector yield = yields * F, v = C * yield, rise = spot.g.by(0) * yield;
     const bool even = unknowns < 7 || p.soft[0] == p.soft[1];
@@ -105,6 +114,7 @@ class PairSide {
       tension.stiff -= F.dot(spot.by_N_twice) + soft * soft * spot.g.by(1, 1) * F.dot(yield) / 2;
       for (int q = 0; q < 4; ++q) tension.row.template segment<3>(start(q)) -= soft * spot.h[q].by(1) * F;
       for (int c = 0; c < 3; ++c) by_N[at(c)] = -sign * pair->axes[at(c)].dot(spot.by_N + moved);
+      if (rough) by_N[4] = -T.dot(spot.turned_by_N) - soft * spot.g.by(0, 1) * T.dot(yield) / 2;
       by_N[3] = -along_n.dot(spot.turned_by_N) - soft * spot.g.by(0, 1) * along_n.dot(yield) / 2;
     }
     return F.dot(v) / 2;

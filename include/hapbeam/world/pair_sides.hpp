@@ -49,6 +49,12 @@ class PairSides {
     to.pair = &pair, to.side = side, to.row = row, to.element = element;
   }
 
+  /// Calls f(entries in all equations, unknown) of what friction drags along with a place.
+  template <class F>
+  void visit_dragged(F&& f) noexcept {
+    each_dragged([&](Side& side) { f(side.drags, side.unknown(3)); });
+  }
+
   // As ContactRows.
 
   bool any() const noexcept { return size_ > 0; }
@@ -89,6 +95,7 @@ class PairSides {
         change(side.b[at(c)].template segment<unknowns>(from), rest);
         (*equations_)[side.unknown(c)] -= rest;
       }
+      if (double rest = 0; side.dragged()) change(side.b[4].template segment<unknowns>(from), rest);
     }
   }
   /// To be called after factor(): takes the rod out of the equations of the pairs.
@@ -100,6 +107,12 @@ class PairSides {
       assembler.forward(side.element, side.b[at(c)], side.column[at(c)]);
       side.along[at(c)] = assembler.product(side.column[at(c)]);
       (*equations_)[side.unknown(c)] -= side.along[at(c)];
+    });
+    each_dragged([&](Side& dragged) {
+      assembler.forward(dragged.element, dragged.b[4], dragged.column[4]);
+      each_column([&](Side& side, int c) {
+        dragged.drags[at(side.unknown(c))] -= assembler.product(side.column[at(c)], dragged.column[4]);
+      });
     });
     each_two_columns([&](int i, int j, const Column& a, const Column& b) {
       products_.push_back(assembler.product(a, b));
@@ -114,6 +127,8 @@ class PairSides {
       change -= 2 * u * side.along[at(c)];
       assembler.add(side.column[at(c)], -u);
     });
+    each_dragged(
+        [&](Side& side) { assembler.add(side.column[4], -(*equations_)[side.unknown(3)]); });
     std::size_t k = 0;
     each_two_columns([&](int i, int j, const Column&, const Column&) {
       change += (i == j ? 1 : 2) * (*equations_)[i] * (*equations_)[j] * products_[k++];
@@ -127,6 +142,7 @@ class PairSides {
       double sum = row.residual + row.row.dot(by(e));
       each_in(e, [&](const Side& side) {
         for (int c = 0; c < side.columns(); ++c) sum += side.by_N[at(c)] * (*equations_)[side.unknown(c)];
+        if (side.dragged()) sum += side.by_N[4] * (*equations_)[side.unknown(3)];
       });
       set(e, tension - sum / row.stiff);
     }
@@ -139,6 +155,7 @@ class PairSides {
       const Side& side = sides_[at(k)];
       if (side.element != e) continue;
       for (int c = 0; c < side.columns(); ++c) sum += (*equations_)[side.unknown(c)] * side.raw[at(c)];
+      if (side.dragged()) sum += (*equations_)[side.unknown(3)] * side.raw[4];
     }
     return sum;
   }
@@ -156,6 +173,11 @@ class PairSides {
   void each_column(F&& f) noexcept {
     for (int k = 0; k < size_; ++k)
       for (int c = 0; c < sides_[at(k)].columns(); ++c) f(sides_[at(k)], c);
+  }
+  template <class F>
+  void each_dragged(F&& f) noexcept {
+    for (int k = 0; k < size_; ++k)
+      if (sides_[at(k)].dragged()) f(sides_[at(k)]);
   }
   /// Calls f(unknown, one no larger, their columns) for each two.
   template <class F>
@@ -185,11 +207,16 @@ class PairSides {
     each_in(e, [&](Side& side) {
       for (int c = 0; c < 4; ++c) {
         side.b[at(c)] -= side.by_N[at(c)] * over * tension.row;
+        if (c == 3 && side.dragged()) side.b[4] -= side.by_N[4] * over * tension.row;
         dense[side.unknown(c)] += side.by_N[at(c)] * over * tension.residual;
         each_in(e, [&](const Side& other) {
           for (int d = 0; d < 4; ++d)
             if (side.unknown(c) >= other.unknown(d))
               dense(side.unknown(c), other.unknown(d)) -= side.by_N[at(c)] * over * other.by_N[at(d)];
+        });
+        each_in(e, [&](Side& other) {
+          if (other.dragged() && c < side.columns())
+            other.drags[at(side.unknown(c))] -= side.by_N[at(c)] * over * other.by_N[4];
         });
       }
     });

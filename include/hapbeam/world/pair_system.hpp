@@ -37,7 +37,7 @@ class PairSystem {
 
   /// @throws std::invalid_argument as RodBody and Friction
   explicit PairSystem(const std::vector<WorldRod>& rods)
-      : equations_(std::make_unique<PairEquations>()), bounds_(most_pairs) {
+      : equations_(std::make_unique<PairEquations>()), bounds_(3 * most_pairs) {
     bodies_.reserve(rods.size());
     for (const auto& [rod, elements, friction] : rods) {
       friction.check();
@@ -294,6 +294,9 @@ class PairSystem {
         if (pair.friction.slides()) bounds_.add(pair.friction, row, pair.held, pair.force);
       }
       row += pair_unknowns;
+    });
+    each([&](Body& body) {
+      body.sides.visit_dragged([&](const PairEquations::Unknowns& v, int unknown) { bounds_.add(v, unknown); });
     });
     bounds_.follow(*equations_, at(row));
   }
