@@ -173,14 +173,22 @@ TEST_CASE("rods that lie against each other in odd ways have a status", "[world]
 TEST_CASE("where no way leads to where a hand waits, rods begin anew at rest", "[world]") {
   // A clamp that is led through another one.
   const RodPose above{{0, 0, 0.0021}, {1, 0, 0}, {0, 0, 1}}, along{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
-  World<RoundRod> world({{held_rod(0.1, 0.002, above), 8}, {held_rod(0.1, 0.002, along), 8}});
-  RodPose within = above;
+  const RodPose across{{0.08, -0.05, 0.0043}, {0, 1, 0}, {0, 0, 1}};
+  World<RoundRod> world({{held_rod(0.1, 0.002, above), 8},
+                         {held_rod(0.1, 0.002, along), 8},
+                         {held_rod(0.1, 0.002, across, RodSupport::clamped), 8}});
+  const Point tip = world.shape(0).at(0.1).r;
+  // From where its tip presses a third one.
+  RodPose within = turned(above, Point(0, 1, 0), -0.03);
+  REQUIRE(world.hold(0, RodSide::left, within) == Status::ok);
+  REQUIRE(world.tick() == Status::ok);
+  REQUIRE(world.contacts() > 0);
   within.at.z() = 0.001;
   REQUIRE(world.hold(0, RodSide::left, within) == Status::ok);
   int begun = 0;
   for (int tick = 0; tick < 100; ++tick) {
     CHECK(!is_answer(world.tick()));
-    begun += world.contacts() == 0 && (world.shape(0)[0].r - above.at).norm() == 0;
+    begun += world.contacts() == 0 && (world.shape(0).at(0.1).r - tip).norm() == 0;
   }
   CHECK(begun > 0);
   REQUIRE(world.hold(0, RodSide::left, above) == Status::ok);
