@@ -106,7 +106,8 @@ std::array<double, 2> rubbing_error(int elements) {
   for (int k = 1; k <= 400; ++k) move(0.01, 1e-4 * k);
   REQUIRE(world.contacts() == 1);
   const RodContact contact = world.contact(0);
-  Rubbed rubbed{wire.stiffness().axial, wire.stiffness().bending1, along, pose(0.01, 0).at, crossed_reach, mu};
+  Rubbed rubbed{
+      wire.stiffness().axial, wire.stiffness().bending1, along, pose(0.01, 0).at, crossed_reach, mu};
   rubbed.solve(normal_force(contact), contact.s[1]);
   const Point held = world.held(1, RodSide::left).force;
   return {(held + rubbed.pull).norm() / rubbed.pull.norm(), std::abs(contact.s[1] - rubbed.place) / length};

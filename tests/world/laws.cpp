@@ -122,10 +122,10 @@ double closed_work(int ticks, const RodSupport& end) {
 
 template <class Element>
 void check_closed_work(const RodSupport& end) {
-  const double coarse = closed_work<Element>(100, end), fine = closed_work<Element>(400, end);
-  INFO("100 ticks a side leave " << coarse << " of the work, 400 " << fine);
+  const double coarse = closed_work<Element>(50, end), fine = closed_work<Element>(200, end);
+  INFO("50 ticks a side leave " << coarse << " of the work, 200 " << fine);
   CHECK(coarse / fine == Approx(16).epsilon(0.05));
-  CHECK(fine < 1e-6);
+  CHECK(fine < 4e-6);
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ namespace hapbeam {
 
 /// Where two rods touch.
 struct RodContact {
-  std::array<int, 2> rod;                 ///< 0-based numbers in the World
-  std::array<double, 2> s;                ///< [m] arc positions
-  VectorOf<double, 3> force;              ///< [N] on rod[0] by rod[1]
+  std::array<int, 2> rod;        ///< 0-based numbers in the World
+  std::array<double, 2> s;       ///< [m] arc positions
+  VectorOf<double, 3> force;     ///< [N] on rod[0] by rod[1]
   VectorOf<double, 3> friction;  ///< [N] its part across the line that joins both places, which is the rest
   bool sliding;                  ///< whether they slide, where there is friction
   std::array<VectorOf<double, 3>, 2> at;  ///< [m] points of both centrelines

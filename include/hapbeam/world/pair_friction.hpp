@@ -117,8 +117,7 @@ class PairFriction {
       const Plane stuck = times(stiff_, along_[i]);
       rest[0] -= stuck[0] * u[3 + i], rest[1] -= stuck[1] * u[3 + i];
     }
-    const double more =
-        (u[0] + dot(acts_, times(turns_, rest))) / (1 + dot(acts_, times(turns_, follows_)));
+    const double more = (u[0] + dot(acts_, times(turns_, rest))) / (1 + dot(acts_, times(turns_, follows_)));
     const Plane turn = times(turns_, {rest[0] - follows_[0] * more, rest[1] - follows_[1] * more});
     taken_ = {acts_[0] + u[1] - force * turn[0], acts_[1] + u[2] - force * turn[1]};
     return {more, force * turn[0], force * turn[1]};
@@ -126,7 +125,7 @@ class PairFriction {
 
   /// To be called where an equilibrium was found, after look().   @param axes  of its last equations   @return whether it is one of Coulomb's law, too
   bool settled(const std::array<Vector, 3>& axes, double force) noexcept {
-    constexpr double exact = 1e-8;
+    constexpr double exact = 1e-7;
     constexpr int most = 3;
     if (!law_.settled(force)) return false;
     // Where slips are short T changes by more than increments tell, and not below round-off.
@@ -174,10 +173,10 @@ class PairFriction {
   FrictionState<double, 3> state_;
   Law law_;
   double reach_ = 0, stiffest_ = 0, length_ = 0, last_ = 0;  // [m], [N/m], [m], λ of the last equilibrium [N]
-  Symmetric stiff_{}, turns_{};                             // S and G
-  Plane follows_{}, acts_{}, taken_{};                      // m, t, and what the last answer took t for
-  std::array<Plane, 2> along_{};                            // t₁, -t₂
-  std::array<Vector, 2> tangents_;                          // r'
+  Symmetric stiff_{}, turns_{};                              // S and G
+  Plane follows_{}, acts_{}, taken_{};                       // m, t, and what the last answer took t for
+  std::array<Plane, 2> along_{};                             // t₁, -t₂
+  std::array<Vector, 2> tangents_;                           // r'
   int negative_ = 0, turned_ = 0;
   Start start_ = Start::goes_on;
   bool begins_ = true;

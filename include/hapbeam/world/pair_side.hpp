@@ -42,8 +42,8 @@ class PairSide {
       : column{Column(elements), Column(elements), Column(elements), Column(elements), Column(elements)} {}
 
   RodPair* pair = nullptr;
-  std::size_t side = 0;            // of it: the first rod, or the second
-  int row = 0, element = 0;        // where the pair's unknowns begin, and that of the rod
+  std::size_t side = 0;      // of it: the first rod, or the second
+  int row = 0, element = 0;  // where the pair's unknowns begin, and that of the rod
   // The fifth is what friction does to the rod, and the rod not to the place, as that moves.
   std::array<Residual, 5> b, raw;  // ∂²L/∂x∂u, and the same whatever an end of the rod holds
   std::array<double, 4> along;     // bᵀK⁻¹(-r)

@@ -127,8 +127,7 @@ class PairSides {
       change -= 2 * u * side.along[at(c)];
       assembler.add(side.column[at(c)], -u);
     });
-    each_dragged(
-        [&](Side& side) { assembler.add(side.column[4], -(*equations_)[side.unknown(3)]); });
+    each_dragged([&](Side& side) { assembler.add(side.column[4], -(*equations_)[side.unknown(3)]); });
     std::size_t k = 0;
     each_two_columns([&](int i, int j, const Column&, const Column&) {
       change += (i == j ? 1 : 2) * (*equations_)[i] * (*equations_)[j] * products_[k++];

@@ -264,8 +264,7 @@ class PairSystem {
   }
 
   void give_friction(RodPair& pair) noexcept {
-    const Friction friction =
-        friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
+    const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
     if (friction.none()) return;
     const Body &a = body(pair.rod[0]), &b = body(pair.rod[1]);
     const auto skin = [](const Body& of) { return of.system().unit() / of.length(); };
@@ -296,7 +295,8 @@ class PairSystem {
       row += pair_unknowns;
     });
     each([&](Body& body) {
-      body.sides.visit_dragged([&](const PairEquations::Unknowns& v, int unknown) { bounds_.add(v, unknown); });
+      body.sides.visit_dragged(
+          [&](const PairEquations::Unknowns& v, int unknown) { bounds_.add(v, unknown); });
     });
     bounds_.follow(*equations_, at(row));
   }

@@ -228,7 +228,7 @@ class World {
   std::vector<std::array<Vector, 2>> held_;  // force and moment at the ends, two a rod
   int known_ = 0;                            // ticks in a row that went on with the same pairs
   int unmoved_ = 0;                          // ticks in a row that have led nowhere
-  double dissipated_ = 0;  // [J]
+  double dissipated_ = 0;                    // [J]
   Course course_ = Course::follows;
   Status status_ = Status::ok;
 };
