@@ -157,7 +157,6 @@ TEST_CASE("what one rod rubs off another it feels itself", "[world][friction]") 
 TEST_CASE("rods stick until friction can hold no more", "[world][friction]") {
   Crossing at;
   World<RoundRod> world = pressed<RoundRod>({0.5, 0.3}, RodSection::circle(0.0015), at);
-  const Crossing start = at;
   // What has rubbed while they were pressed against each other turns back first.
   for (int k = 0; k < 20; ++k) {
     at.off.x() += 1e-5;
