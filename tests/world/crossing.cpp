@@ -42,7 +42,7 @@ struct Passed {
   int ticks = 0, answered = 0, snapped = 0, wrong = 0, not_finite = 0;
 };
 
-void press_across(Random& random, Passed& passed) {
+void press_across(Random& random, const Friction& friction, Passed& passed) {
   const double da = random(0.001, 0.003), db = random(0.0008, 0.003), reach = (da + db) / 2;
   const auto stiff = [&] {
     const double young = std::pow(10, random(8, 11.3));
@@ -55,7 +55,7 @@ void press_across(Random& random, Passed& passed) {
   top.place_left({base, way, {0, 0, 1}});
   const Rod wire(0.25, RodSection::circle(db), stiff(), RodSupport::clamped,
                  random(1.0) > 0 ? RodSupport::clamped : RodSupport::free);
-  World<RoundRod> world({{top, random.integer(6, 20)}, {wire, random.integer(6, 20)}});
+  World<RoundRod> world({{top, random.integer(6, 20), friction}, {wire, random.integer(6, 20)}});
   const double step = reach * std::pow(10, random(-1, 0.903)), depth = random(0.01, 0.12),
                tilt = random(0.3) / depth;
   const Point onward(random(0.5), random(0.5), -1);
@@ -82,12 +82,12 @@ void press_across(Random& random, Passed& passed) {
 TEST_CASE("rods that are pressed across each other stay on their sides", "[world]") {
   Random random(44);
   Passed passed;
-  for (int k = 0; k < 200; ++k) press_across(random, passed);
+  for (int k = 0; k < 60; ++k) press_across(random, k % 3 == 0 ? Friction(0.3) : Friction(), passed);
   INFO(passed.ticks << " ticks, " << passed.answered << " answered, " << passed.snapped << " snapped");
   CHECK(passed.wrong == 0);
   CHECK(passed.not_finite == 0);
   CHECK(passed.answered > passed.ticks * 8 / 10);
-  CHECK(passed.snapped > 20);
+  CHECK(passed.snapped > 5);
 }
 
 TEST_CASE("a rod that is drawn over another slips off with its tip", "[world]") {
@@ -173,14 +173,22 @@ TEST_CASE("rods that lie against each other in odd ways have a status", "[world]
 TEST_CASE("where no way leads to where a hand waits, rods begin anew at rest", "[world]") {
   // A clamp that is led through another one.
   const RodPose above{{0, 0, 0.0021}, {1, 0, 0}, {0, 0, 1}}, along{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
-  World<RoundRod> world({{held_rod(0.1, 0.002, above), 8}, {held_rod(0.1, 0.002, along), 8}});
-  RodPose within = above;
+  const RodPose across{{0.08, -0.05, 0.0043}, {0, 1, 0}, {0, 0, 1}};
+  World<RoundRod> world({{held_rod(0.1, 0.002, above), 8},
+                         {held_rod(0.1, 0.002, along), 8},
+                         {held_rod(0.1, 0.002, across, RodSupport::clamped), 8}});
+  const Point tip = world.shape(0).at(0.1).r;
+  // From where its tip presses a third one.
+  RodPose within = turned(above, Point(0, 1, 0), -0.03);
+  REQUIRE(world.hold(0, RodSide::left, within) == Status::ok);
+  REQUIRE(world.tick() == Status::ok);
+  REQUIRE(world.contacts() > 0);
   within.at.z() = 0.001;
   REQUIRE(world.hold(0, RodSide::left, within) == Status::ok);
   int begun = 0;
   for (int tick = 0; tick < 100; ++tick) {
     CHECK(!is_answer(world.tick()));
-    begun += world.contacts() == 0 && (world.shape(0)[0].r - above.at).norm() == 0;
+    begun += world.contacts() == 0 && (world.shape(0).at(0.1).r - tip).norm() == 0;
   }
   CHECK(begun > 0);
   REQUIRE(world.hold(0, RodSide::left, above) == Status::ok);

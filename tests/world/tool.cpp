@@ -63,6 +63,25 @@ TEST_CASE("a hand that leaps is followed in the ticks after", "[world][grip]") {
   CHECK((fast.held(0, RodSide::left).force - force).norm() < 1e-6 * force.norm());
 }
 
+TEST_CASE("a tick that ends on the way stands for a hand there", "[world][grip]") {
+  const double k = 500;
+  int ended = 0;
+  for (int depth = 1; depth <= 12; ++depth) {
+    Crossing at, down;
+    at.off = {0, 0, 1e-4};
+    down.off = {0.002, 0.001, -0.006 * depth};
+    World<TwistedRod> world = tool_and_wire(RodSupport::elastic(k, k, k, 1, 1, 1), at);
+    if (lead(world, down) != Status::iteration_limit) continue;
+    ++ended;
+    // All that is stored belongs to where that hand is.
+    const double stored = world.strain_energy();
+    down.off += world.shape(0)[0].r + world.held(0, RodSide::left).force / k - down.pose().at;
+    CHECK(lead(world, down) == Status::ok);
+    CHECK(world.strain_energy() == Approx(stored).epsilon(1e-7));
+  }
+  CHECK(ended > 5);
+}
+
 TEST_CASE("a hand feels through its coupling what a tool touches", "[world][grip]") {
   VirtualPhantomOptions options;
   options.gimbal.present = true;

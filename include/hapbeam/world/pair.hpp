@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A contact of a rod with another, with itself or with a rigid body: one force and two places, unknowns of the equations of both.
 //
-//   L = Σ V - f · w + h(f) - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n to rod 1
+//   L = Σ V - f · w + h(f) - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n to rod 1; with friction f = λ n + t
 //   h(f) = R |f| + b |f across the axis of a tube|,  b = ±its radius, from outside and from inside
 //
 // Stationary by f where w + C f = ∂h/∂f, which is R n but in a tube: the true curves, which C bends off what nodes hold, are R apart.  By a place where the
@@ -14,15 +14,17 @@
 #include <cmath>
 #include <cstddef>
 
-#include <hapbeam/rod_centreline.hpp>
+#include <hapbeam/world/pair_friction.hpp>
 
 namespace hapbeam {
 
 /// Where a rod touches another, itself or a body.
 struct RodContact {
-  std::array<int, 2> rod;                 ///< 0-based numbers in the World: rods, and rods() + that of a body
-  std::array<double, 2> s;                ///< [m] arc positions; along the axis of a body
-  VectorOf<double, 3> force;              ///< [N] on rod[0], along the line that joins both places
+  std::array<int, 2> rod;        ///< 0-based numbers in the World: rods, and rods() + that of a body
+  std::array<double, 2> s;       ///< [m] arc positions; along the axis of a body
+  VectorOf<double, 3> force;     ///< [N] on rod[0]
+  VectorOf<double, 3> friction;  ///< [N] its part across the line that joins both places, which is the rest
+  bool sliding;                  ///< whether they slide, where there is friction
   std::array<VectorOf<double, 3>, 2> at;  ///< [m] points of the centrelines; of the surface of a body
 };
 
@@ -45,6 +47,7 @@ struct RodPair {
   std::array<double, 2> met{};   // s where the step began
   std::array<bool, 2> met_held{};
   int pulls = 0;  // how often it would have pulled in it
+  PairFriction friction;
 
   /// From the core of a tube, which is around its axis, or else from r₂, along n [m].
   double distance(const Vector& w) const noexcept {
@@ -64,6 +67,8 @@ struct RodPair {
   }
   /// Eigenvalues of its own that are negative in a stable equilibrium: of λ and of two places of least distance, and from inside of a turn of n.
   int negative() const noexcept { return ring < 0 ? 4 : 3; }
+  /// Whether friction acts.
+  bool rough() const noexcept { return !fresh && friction.acts(); }
 
   /// Two directions across the normal.
   void look() noexcept {

@@ -51,7 +51,9 @@ class PairEquilibrium {
   /// Finds the equilibrium for where the ends are led, and who touches whom there.
   Outcome settle() noexcept {
     Curvature<double> unknown;
-    int leaves = 0;
+    int leaves = 0, tries = 0;
+    bool sticks = false;
+    system_.begin_friction();
     for (int k = 0; k < system_.pairs(); ++k) {
       RodPair& pair = system_.pair(k);
       if (is_pinned(k) && !is_beside(k)) pair.held[0] = false;
@@ -64,9 +66,18 @@ class PairEquilibrium {
       solver.max_iterations = (std::min)(solver.max_iterations, pass == 0 ? 8 : 16);
       const SolveReport<double> report = solver.solve(system_, 1, pass == 0 ? &curvature_ : &unknown);
       solves_ += report.solves;
-      if (report.status != Status::ok) return failure_ = report.status, Outcome::lost;
+      if (report.status != Status::ok) {
+        system_.restore();
+        // What turns back is found from where it sticks.
+        if (!sticks && system_.stick()) {
+          sticks = true;
+          continue;
+        }
+        return failure_ = report.status, Outcome::lost;
+      }
       const Look look = look_around(system_);
-      if (!look.close) return Outcome::too_far;
+      // What leaps as it begins to slide does so in steps of any length.
+      if (!look.close) return tries > 0 ? Outcome::lost : Outcome::too_far;
       if (release()) continue;
       // One that comes back to its end has left it for a place that gives way.
       if (leave_end()) {
@@ -78,13 +89,19 @@ class PairEquilibrium {
         continue;
       }
       if (look.least < closest) return Outcome::full;
+      if (!system_.settled()) {
+        if (tries++ < most_tries) continue;
+        return failure_ = Status::iteration_limit, Outcome::lost;
+      }
       return gives_way() ? (failure_ = Status::iteration_limit, Outcome::lost) : Outcome::settled;
     }
     return failure_ = Status::iteration_limit, Outcome::lost;
   }
-  /// Down to the next stable equilibrium, as in a viscous fluid:  (K + μM) Δ = -r,  with the pairs that touch on the way.
+  /// Down to the next stable equilibrium, as in a viscous fluid:  (K + μM) Δ = -r,  with the pairs that touch on the way, which slide without friction.
   Outcome fall() noexcept {
     constexpr double first_shift = 100, largest_shift = 1e12, farthest = 1, enough = 1e-3;
+    system_.let_go();
+    system_.save();
     if (on_ridge_)
       for (Body& body : system_.bodies())
         if (body.moves && (body.sides.any() || body.negative_pivots() > 0))
@@ -119,6 +136,7 @@ class PairEquilibrium {
 
  private:
   static constexpr double nothing = 1e-6, apart = 1e-3;  // of a reach
+  static constexpr int most_tries = 7;                   // of friction to settle
 
   bool gives_way() noexcept {
     on_ridge_ = false;

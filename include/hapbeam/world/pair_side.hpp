@@ -39,19 +39,23 @@ class PairSide {
   using Column = typename Chain::Assembler::Column;
 
   explicit PairSide(int elements)
-      : column{Column(elements), Column(elements), Column(elements), Column(elements)} {}
+      : column{Column(elements), Column(elements), Column(elements), Column(elements), Column(elements)} {}
 
   RodPair* pair = nullptr;
-  std::size_t side = 0;            // of it: the first rod, or the second
-  int row = 0, element = 0;        // where the pair's unknowns begin, and that of the rod
-  std::array<Residual, 4> b, raw;  // ∂²L/∂x∂u, and the same whatever an end of the rod holds
+  std::size_t side = 0;      // of it: the first rod, or the second
+  int row = 0, element = 0;  // where the pair's unknowns begin, and that of the rod
+  // The fifth is what friction does to the rod, and the rod not to the place, as that moves.
+  std::array<Residual, 5> b, raw;  // ∂²L/∂x∂u, and the same whatever an end of the rod holds
   std::array<double, 4> along;     // bᵀK⁻¹(-r)
-  std::array<double, 4> by_N;      // ∂²L/∂N∂u
-  std::array<Column, 4> column;    // L⁻¹b
+  std::array<double, 5> by_N;      // ∂²L/∂N∂u
+  std::array<Column, 5> column;    // L⁻¹b
+  PairEquations::Unknowns drags;   // entries of the fifth in all equations of pairs
 
   /// f along n, across it, and the place.
   int columns() const noexcept { return pair->fresh ? 1 : pair->held[side] ? 3 : 4; }
   int unknown(int c) const noexcept { return c < 3 ? row + c : row + 3 + static_cast<int>(side); }
+  /// Whether there is a fifth.
+  bool dragged() const noexcept { return pair->rough() && !pair->held[side]; }
 
   /// @param p, n1, n2, N  of the element: its nodes, and its tension or its twist   @param tension  of its sides, where that is an unknown
   /// @return ½ F · C F [J]
@@ -61,16 +65,24 @@ class PairSide {
     spot_.look(p, n1, n2, N, pair->s[side] - n1.s);
     const RodSpot<double>& spot = spot_;
     const double sign = side == 0 ? 1 : -1, C = spot.g.value;
-    const Vector F = sign * pair->force * pair->normal;
-    const Matrix yields = shape(p, n1, n2, N);
+    const bool rough = pair->rough();
+    // Places are of its part along n.
+    const Vector along_n = sign * pair->force * pair->normal;
+    Vector F = along_n, T = Vector::Zero();
+    if (rough) {
+      T = sign * pair->friction.force(), F += T;
+      drags.fill(0);
+      b[4].setZero();
+      pull(T, 1, b[4]);
+    }
+    const Matrix yields = shape(p, n1, n2, N, spot);
     const Vector yield = yields * F, v = C * yield, rise = spot.g.by(0) * yield;
     const bool even = unknowns < 7 || p.soft[0] == p.soft[1];
     pull(F, 0, r);
-    double place = -F.dot(spot.t) - F.dot(rise) / 2;
+    double place = -along_n.dot(spot.t) - along_n.dot(rise) / 2;
     if (!even) {
-      const Vector moment = cross3(v, F);
-      turn(moment, r);
-      place -= cross3(moment, spot.u).dot(spot.k) / spot.stretched;
+      turn(cross3(v, F), r);
+      place -= along_n.dot(turned_yield(yields, F, spot));
       if constexpr (unknowns == 7) {
         // By how much it grows as the section twists.
         const Vector turned = cross3<double>(spot.u, v) - C * (yields * cross3<double>(spot.u, F));
@@ -85,16 +97,16 @@ class PairSide {
       const Vector moved = yields * axis;
       dense[row + c] += axis.dot(spot.r + v);
       for (int d = 0; d <= c; ++d) dense(row + c, row + d) -= sign * C * moved.dot(pair->axes[at(d)]);
-      dense(here, row + c) -= axis.dot(spot.t + rise);
+      if (c == 0 || !rough) dense(here, row + c) -= axis.dot(spot.t + rise);
       b[at(c)].setZero();
       pull(axis, 0, b[at(c)]);
       if (!even) turn(C * cross3<double>(moved, F) + cross3<double>(v, axis), b[at(c)]);
     }
     b[3].setZero();
-    pull(F, 1, b[3]);
+    pull(along_n, 1, b[3]);
     pair->pull[side] = place;
     dense[here] -= place;
-    dense(here, here) -= F.dot(spot.k) + spot.g.by(0, 0) * F.dot(yield) / 2;
+    dense(here, here) -= along_n.dot(spot.k) + spot.g.by(0, 0) * along_n.dot(yield) / 2;
     if (p.taut) {
       const double soft = RodSpot<double>::stiffer(p);
       const Vector moved = soft * spot.g.by(1) * yield;
@@ -102,13 +114,33 @@ class PairSide {
       tension.stiff -= F.dot(spot.by_N_twice) + soft * soft * spot.g.by(1, 1) * F.dot(yield) / 2;
       for (int q = 0; q < 4; ++q) tension.row.template segment<3>(start(q)) -= soft * spot.h[q].by(1) * F;
       for (int c = 0; c < 3; ++c) by_N[at(c)] = -sign * pair->axes[at(c)].dot(spot.by_N + moved);
-      by_N[3] = -F.dot(spot.turned_by_N) - soft * spot.g.by(0, 1) * F.dot(yield) / 2;
+      if (rough) by_N[4] = -T.dot(spot.turned_by_N) - soft * spot.g.by(0, 1) * T.dot(yield) / 2;
+      by_N[3] = -along_n.dot(spot.turned_by_N) - soft * spot.g.by(0, 1) * along_n.dot(yield) / 2;
     }
     return F.dot(v) / 2;
   }
 
+  /// r' of the true curve of a rod under a force there.
+  template <class Parts>
+  static Vector tangent(const Parts& parts, int e, double s, const Vector& F) noexcept {
+    const RodProperties<double>& p = parts.properties(e);
+    const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
+    const double N = parts.inners()[e];
+    RodSpot<double> spot;
+    spot.look(p, n1, n2, N, s - n1.s);
+    const Matrix yields = shape(p, n1, n2, N, spot);
+    Vector t = spot.t + spot.g.by(0) / 2 * (yields * F);
+    if (unknowns == 7 && p.soft[0] != p.soft[1]) t += turned_yield(yields, F, spot);
+    return t;
+  }
+
  private:
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+  /// Half of how C F changes along the rod because the section turns with it.
+  static Vector turned_yield(const Matrix& yields, const Vector& F, const RodSpot<double>& spot) noexcept {
+    const Vector turns = cross3(spot.u, spot.k) / spot.stretched;
+    return spot.g.value / 2 * (cross3<double>(turns, yields * F) - yields * cross3(turns, F));
+  }
   /// Where r1, r1', r2 and r2' stand among the unknowns.
   static constexpr int start(int q) noexcept { return q < 2 ? 3 * q : unknowns + 3 * (q - 2); }
   /// Takes off a force there, or one along how the place moves.
@@ -127,13 +159,13 @@ class PairSide {
   }
   /// What a unit of g yields by, along the axes of the section.
   template <class Node>
-  Matrix shape(const RodProperties<double>& p, const Node& n1, const Node& n2,
-               [[maybe_unused]] double twist) const noexcept {
+  static Matrix shape(const RodProperties<double>& p, const Node& n1, const Node& n2,
+                      [[maybe_unused]] double twist, [[maybe_unused]] const RodSpot<double>& spot) noexcept {
     Matrix shape = RodSpot<double>::stiffer(p) * Matrix::Identity();
     if constexpr (unknowns == 7)
       if (p.soft[0] != p.soft[1]) {
-        const Vector d1 = Chain::Element::director(p, n1, n2, twist, spot_.x);
-        const Vector softer = p.soft[0] > p.soft[1] ? d1 : cross3(spot_.u, d1);
+        const Vector d1 = Chain::Element::director(p, n1, n2, twist, spot.x);
+        const Vector softer = p.soft[0] > p.soft[1] ? d1 : cross3(spot.u, d1);
         shape += std::abs(p.soft[0] - p.soft[1]) * softer * softer.transpose();
       }
     return shape;

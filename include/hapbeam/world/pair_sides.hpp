@@ -21,6 +21,8 @@ namespace hapbeam::detail {
 /// @tparam Chain  RodChain
 template <class Chain>
 class PairSides {
+  using Side = PairSide<Chain>;
+
  public:
   using Assembler = typename Chain::Assembler;
   static constexpr int unknowns = Chain::unknowns;
@@ -36,11 +38,23 @@ class PairSides {
     for (int k = 0; k < most; ++k) sides_.emplace_back(elements);
   }
 
+  /// r' of the true curve of a rod at s, where a force acts on it.
+  template <class Parts>
+  static Vector tangent(const Parts& parts, int e, double s, const Vector& force) noexcept {
+    return Side::tangent(parts, e, s, force);
+  }
+
   void clear() noexcept { size_ = 0; }
   /// @param side  0: the first rod of the pair, 1: the second   @param row  where the pair's unknowns begin
   void add(RodPair& pair, std::size_t side, int row, int element) noexcept {
     Side& to = sides_[at(size_++)];
     to.pair = &pair, to.side = side, to.row = row, to.element = element;
+  }
+
+  /// Calls f(entries in all equations, unknown) of what friction drags along with a place.
+  template <class F>
+  void visit_dragged(F&& f) noexcept {
+    each_dragged([&](Side& side) { f(side.drags, side.unknown(3)); });
   }
 
   // As ContactRows.
@@ -83,6 +97,7 @@ class PairSides {
         change(side.b[at(c)].template segment<unknowns>(from), rest);
         (*equations_)[side.unknown(c)] -= rest;
       }
+      if (double rest = 0; side.dragged()) change(side.b[4].template segment<unknowns>(from), rest);
     }
   }
   /// To be called after factor(): takes the rod out of the equations of the pairs.
@@ -94,6 +109,12 @@ class PairSides {
       assembler.forward(side.element, side.b[at(c)], side.column[at(c)]);
       side.along[at(c)] = assembler.product(side.column[at(c)]);
       (*equations_)[side.unknown(c)] -= side.along[at(c)];
+    });
+    each_dragged([&](Side& dragged) {
+      assembler.forward(dragged.element, dragged.b[4], dragged.column[4]);
+      each_column([&](Side& side, int c) {
+        dragged.drags[at(side.unknown(c))] -= assembler.product(side.column[at(c)], dragged.column[4]);
+      });
     });
     each_two_columns([&](int i, int j, const Column& a, const Column& b) {
       products_.push_back(assembler.product(a, b));
@@ -108,6 +129,7 @@ class PairSides {
       change -= 2 * u * side.along[at(c)];
       assembler.add(side.column[at(c)], -u);
     });
+    each_dragged([&](Side& side) { assembler.add(side.column[4], -(*equations_)[side.unknown(3)]); });
     std::size_t k = 0;
     each_two_columns([&](int i, int j, const Column&, const Column&) {
       change += (i == j ? 1 : 2) * (*equations_)[i] * (*equations_)[j] * products_[k++];
@@ -121,6 +143,7 @@ class PairSides {
       double sum = row.residual + row.row.dot(by(e));
       each_in(e, [&](const Side& side) {
         for (int c = 0; c < side.columns(); ++c) sum += side.by_N[at(c)] * (*equations_)[side.unknown(c)];
+        if (side.dragged()) sum += side.by_N[4] * (*equations_)[side.unknown(3)];
       });
       set(e, tension - sum / row.stiff);
     }
@@ -133,13 +156,13 @@ class PairSides {
       const Side& side = sides_[at(k)];
       if (side.element != e) continue;
       for (int c = 0; c < side.columns(); ++c) sum += (*equations_)[side.unknown(c)] * side.raw[at(c)];
+      if (side.dragged()) sum += (*equations_)[side.unknown(3)] * side.raw[4];
     }
     return sum;
   }
 
  private:
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-  using Side = PairSide<Chain>;
   using Column = typename Side::Column;
 
   template <class F>
@@ -151,6 +174,11 @@ class PairSides {
   void each_column(F&& f) noexcept {
     for (int k = 0; k < size_; ++k)
       for (int c = 0; c < sides_[at(k)].columns(); ++c) f(sides_[at(k)], c);
+  }
+  template <class F>
+  void each_dragged(F&& f) noexcept {
+    for (int k = 0; k < size_; ++k)
+      if (sides_[at(k)].dragged()) f(sides_[at(k)]);
   }
   /// Calls f(unknown, one no larger, their columns) for each two.
   template <class F>
@@ -180,11 +208,16 @@ class PairSides {
     each_in(e, [&](Side& side) {
       for (int c = 0; c < 4; ++c) {
         side.b[at(c)] -= side.by_N[at(c)] * over * tension.row;
+        if (c == 3 && side.dragged()) side.b[4] -= side.by_N[4] * over * tension.row;
         dense[side.unknown(c)] += side.by_N[at(c)] * over * tension.residual;
         each_in(e, [&](const Side& other) {
           for (int d = 0; d < 4; ++d)
             if (side.unknown(c) >= other.unknown(d))
               dense(side.unknown(c), other.unknown(d)) -= side.by_N[at(c)] * over * other.by_N[at(d)];
+        });
+        each_in(e, [&](Side& other) {
+          if (other.dragged() && c < side.columns())
+            other.drags[at(side.unknown(c))] -= side.by_N[at(c)] * over * other.by_N[4];
         });
       }
     });

@@ -10,9 +10,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <vector>
 
+#include <hapbeam/world/pair_bounds.hpp>
 #include <hapbeam/world/rigid_body.hpp>
 #include <hapbeam/world/rod_body.hpp>
 
@@ -22,6 +24,8 @@ namespace hapbeam {
 struct WorldRod {
   Rod rod;
   int elements;  ///< 2 or more
+  /// Of two rods that touch the larger coefficients count.
+  Friction friction = {};
 };
 
 namespace detail {
@@ -32,11 +36,17 @@ class PairSystem {
   using Scalar = double;
   using Body = RodBody<Element>;
 
-  /// @throws std::invalid_argument as RodBody and RigidBody
+  /// @throws std::invalid_argument as RodBody, RigidBody and Friction
   PairSystem(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid)
-      : equations_(std::make_unique<PairEquations>()), rigid_(rigid.begin(), rigid.end()) {
+      : equations_(std::make_unique<PairEquations>()),
+        rigid_(rigid.begin(), rigid.end()),
+        bounds_(3 * most_pairs) {
     bodies_.reserve(rods.size());
-    for (const auto& [rod, elements] : rods) bodies_.emplace_back(rod, elements, *equations_);
+    for (const auto& [rod, elements, friction] : rods) {
+      friction.check();
+      bodies_.emplace_back(rod, elements, *equations_);
+      frictions_.push_back(friction);
+    }
   }
 
   std::vector<Body>& bodies() noexcept { return bodies_; }
@@ -72,7 +82,8 @@ class PairSystem {
   /// @return whether there was room
   bool add(const RodPair& pair) noexcept {
     if (number_ == most_pairs) return false;
-    pairs_[at(number_++)] = pair;
+    pairs_[at(number_)] = pair;
+    give_friction(pairs_[at(number_++)]);
     return true;
   }
   void remove(int k) noexcept {
@@ -97,6 +108,43 @@ class PairSystem {
       }
     }
   }
+  // Friction.
+
+  /// A step begins.
+  void begin_friction() noexcept {
+    each_rough([](PairFriction& friction) { friction.begin(); });
+  }
+  /// It begins anew with all that slid as it sticks.   @return whether there is any
+  bool stick() noexcept {
+    bool any = false;
+    each_rough([&](PairFriction& friction) {
+      any = any || friction.slid();
+      friction.begin(PairFriction::Start::sticks);
+    });
+    return any;
+  }
+  /// All that moves slides without friction until it has come to an equilibrium.
+  void let_go() noexcept {
+    each_rough([](PairFriction& friction) { friction.let_go(); });
+  }
+  /// To be called where an equilibrium was found.   @return whether it is one of Coulomb's law, too
+  bool settled() noexcept {
+    bool all = true;
+    each_pair([&](RodPair& pair) {
+      if (pair.friction.none()) return;
+      look(pair);
+      all = pair.friction.settled(pair.axes, pair.force) && all;
+    });
+    return all;
+  }
+  /// To be called where that is kept.   @return what friction has dissipated [J]
+  double leave_friction() noexcept {
+    double dissipated = 0;
+    each_pair([&](RodPair& pair) {
+      if (!pair.friction.none()) dissipated += pair.friction.leave(pair.force);
+    });
+    return dissipated;
+  }
   /// How far along their path, 0 to 1, the next step takes all ends.
   void aim(double t) noexcept { goal_ = t; }
 
@@ -110,12 +158,14 @@ class PairSystem {
   void save() noexcept {
     each([](Body& body) { body.save(); });
     for (PlacedBody& core : rigid_) core.save();
-    saved_ = pairs_, saved_number_ = number_;
+    saved_number_ = number_;
+    std::copy_n(pairs_.begin(), number_, saved_.begin());
   }
   void restore() noexcept {
     each([](Body& body) { body.restore(); });
     for (PlacedBody& core : rigid_) core.restore();
-    pairs_ = saved_, number_ = saved_number_;
+    number_ = saved_number_;
+    std::copy_n(saved_.begin(), number_, pairs_.begin());
   }
   double size() const noexcept { return size_; }
   double unit() const noexcept {
@@ -164,6 +214,7 @@ class PairSystem {
     negative_ += equations_->solve() - own_negative_;
     // A place where least distance has no slope yet, and which would go to where that has none either.
     if (negative_ < 0 && places == Places::free) return factor(shift, Places::slow);
+    if (rough_) follow_bounds();
     size_ = std::sqrt(2 * measured);
     double square = 0;
     each([&](Body& body) { square += body.substitute(); });
@@ -177,7 +228,10 @@ class PairSystem {
       RodPair& pair = this->pair(k);
       if (!moves(pair)) continue;
       const PairEquations& u = *equations_;
-      pair.push(u[row], u[row + 1], u[row + 2]);
+      std::array<double, 3> by{u[row], u[row + 1], u[row + 2]};
+      if (pair.rough())
+        by = pair.friction.increment({by[0], by[1], by[2], u[row + 3], u[row + 4]}, pair.force);
+      pair.push(by[0], by[1], by[2]);
       for (std::size_t side = 0; side < 2 && !pair.fresh; ++side) {
         const double most = stride(rigid(pair.rod[side]) ? pair.rod[0] : pair.rod[side]);
         pair.slide(side, std::clamp(u[row + 3 + static_cast<int>(side)], -most, most),
@@ -206,6 +260,17 @@ class PairSystem {
     for (const Body& body : bodies_)
       if (body.moves) f(body);
   }
+  template <class F>
+  void each_pair(F&& f) noexcept {
+    for (int k = 0; k < number_; ++k)
+      if (moves(pair(k))) f(pair(k));
+  }
+  template <class F>
+  void each_rough(F&& f) noexcept {
+    each_pair([&](RodPair& pair) {
+      if (!pair.friction.none()) f(pair.friction);
+    });
+  }
   /// Gives each pair its rows, and each rod its sides.
   void lay_out() noexcept {
     each([](Body& body) { body.sides.clear(); });
@@ -213,7 +278,7 @@ class PairSystem {
     for (int k = 0; k < number_; ++k) rows += moves(pair(k));
     PairEquations& dense = *equations_;
     dense.resize(pair_unknowns * rows);
-    own_negative_ = 0;
+    own_negative_ = 0, rough_ = false;
     int row = 0;
     for (int k = 0; k < number_; ++k) {
       RodPair& pair = this->pair(k);
@@ -222,9 +287,17 @@ class PairSystem {
       if (core) core->lead(pair);
       pair.look();
       own_negative_ += pair.negative();
-      for (int c = 0; c < 3; ++c) {
-        dense[row + c] -= pair.offset(at(c));
-        for (int d = 1; d <= c && !pair.fresh; ++d) dense(row + c, row + d) = pair.bends(at(c), at(d));
+      if (!pair.friction.none() && !pair.fresh) look(pair);
+      if (pair.rough()) {
+        dense[row] -= pair.reach;
+        pair.friction.add(pair.axes, pair.force, row, dense);
+        own_negative_ += pair.friction.negative();
+        rough_ = true;
+      } else {
+        for (int c = 0; c < 3; ++c) {
+          dense[row + c] -= pair.offset(at(c));
+          for (int d = 1; d <= c && !pair.fresh; ++d) dense(row + c, row + d) = pair.bends(at(c), at(d));
+        }
       }
       for (std::size_t side = 0; side < 2 && !(core && side == 1); ++side) {
         Body& body = this->body(pair.rod[side]);
@@ -259,6 +332,42 @@ class PairSystem {
       row += pair_unknowns;
     }
   }
+
+  void give_friction(RodPair& pair) noexcept {
+    if (rigid(pair.rod[1])) return;
+    const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
+    if (friction.none()) return;
+    const Body &a = body(pair.rod[0]), &b = body(pair.rod[1]);
+    const auto skin = [](const Body& of) { return of.system().unit() / of.length(); };
+    const double least = (std::min)(skin(a), skin(b));
+    pair.friction.take(friction, pair.reach,
+                       least * least / std::sqrt(std::numeric_limits<double>::epsilon()),
+                       (std::min)(a.length(), b.length()));
+  }
+  void look(RodPair& pair) noexcept {
+    const VectorOf<double, 3> force = pair.force * pair.normal + pair.friction.force();
+    std::array<VectorOf<double, 3>, 2> along;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Body& body = this->body(pair.rod[side]);
+      along[side] = Body::Sides::tangent(body.parts(), body.line().segment_at(pair.s[side]), pair.s[side],
+                                         side == 0 ? force : -force);
+    }
+    pair.friction.look(pair.normal, pair.s, along, pair.force);
+  }
+  /// After the symmetric equations are solved.
+  void follow_bounds() noexcept {
+    int row = 0;
+    bounds_.clear();
+    each_pair([&](const RodPair& pair) {
+      if (pair.rough() && pair.friction.slides()) bounds_.add(pair.friction, row, pair.held, pair.force);
+      row += pair_unknowns;
+    });
+    each([&](Body& body) {
+      body.sides.visit_dragged(
+          [&](const PairEquations::Unknowns& v, int unknown) { bounds_.add(v, unknown); });
+    });
+    bounds_.follow(*equations_, at(row));
+  }
   /// What is new keeps its direction, as does the force of a plane.  What is held on a body has no rod that says so.
   void hold_still() noexcept {
     int row = 0;
@@ -277,6 +386,9 @@ class PairSystem {
   std::unique_ptr<PairEquations> equations_;
   std::vector<Body> bodies_;
   std::vector<PlacedBody> rigid_;
+  std::vector<Friction> frictions_;  // of each rod
+  PairBounds<PairEquations> bounds_;
+  bool rough_ = false;  // whether friction acts
   std::array<RodPair, most_pairs> pairs_, saved_;
   int number_ = 0, saved_number_ = 0;
   int own_negative_ = 0;  // eigenvalues of the pairs that are solved for

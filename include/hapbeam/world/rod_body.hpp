@@ -57,6 +57,7 @@ class RodBody {
   const System& system() const noexcept { return system_; }
   Chain& chain() noexcept { return system_.chain(); }
   double radius() const noexcept { return radius_; }
+  const typename Chain::Parts& parts() const noexcept { return system_.chain().parts(); }
   auto line() const noexcept { return system_.centreline(); }
   int elements() const noexcept { return system_.elements(); }
   double length() const noexcept { return system_.length(); }

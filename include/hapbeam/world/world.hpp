@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rods that touch each other, themselves and rigid bodies, without friction, and hands that lead their ends.
+// Rods that touch each other, themselves and rigid bodies, and hands that lead their ends.
 //
 //   World<RoundRod> world({{tool, 16}, {wire, 16}}, {RigidBody::sphere({0, 0, 0}, 0.01)});
 //   world.hold(0, RodSide::left, pose);                  // as often as there are hands
@@ -112,20 +112,26 @@ class World {
     const bool rigid = system().rigid(pair.rod[1]) != nullptr;
     return {pair.rod,
             pair.s,
-            pair.force * pair.normal,
+            pair.force * pair.normal + pair.friction.kept(),
+            pair.friction.kept(),
+            pair.friction.slid(),
             {at, rigid ? Vector(at - system().body(pair.rod[0]).radius() * pair.normal)
                        : shape(pair.rod[1]).at(pair.s[1]).r}};
   }
-  /// Of all rods, the springs that hold them, and what contacts bend beside nodes [J].
+  /// Of all rods, the springs that hold them, what contacts bend beside nodes, and their skins [J].
   double strain_energy() const noexcept {
     double energy = 0;
     for (const Body& body : system().bodies()) energy += body.system().strain_energy();
     for (int k = 0; k < contacts(); ++k) {
       const detail::RodPair& pair = system().pair(k);
-      energy += pair.force / 2 * (pair.reach - pair.distance(system().between(pair)));
+      const Vector w = system().between(pair);
+      energy += (pair.force * (pair.reach - pair.distance(w)) - pair.friction.kept().dot(w)) / 2 +
+                pair.friction.stored();
     }
     return energy;
   }
+  /// What friction has taken since the start or reset() [J].
+  double dissipated() const noexcept { return dissipated_; }
   /// Linear solves of the last tick.
   int solves() const noexcept { return equilibrium_.solves(); }
   /// Everything is as after construction.
@@ -133,7 +139,7 @@ class World {
     restart();
     for (Body& body : system().bodies()) body.reset();
     for (detail::PlacedBody& body : system().rigid()) body.reset();
-    status_ = Status::ok;
+    status_ = Status::ok, dissipated_ = 0;
     for (auto& hold : held_) hold = {Vector::Zero(), Vector::Zero()};
   }
 
@@ -192,6 +198,7 @@ class World {
     ++known_;
   }
   void accept() noexcept {
+    dissipated_ += system().leave_friction();
     system().save();
     for (int i = 0; i < rods(); ++i) {
       Body& body = system().body(i);
@@ -238,6 +245,7 @@ class World {
   std::vector<std::array<Vector, 2>> held_;  // force and moment at the ends, two a rod
   int known_ = 0;                            // ticks in a row that went on with the same pairs
   int unmoved_ = 0;                          // ticks in a row that have led nowhere
+  double dissipated_ = 0;                    // [J]
   Course course_ = Course::follows;
   Status status_ = Status::ok;
 };

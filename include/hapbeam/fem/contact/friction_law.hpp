@@ -125,6 +125,15 @@ class FrictionLaw {
     if (slides_ && !fallen_) bound_.follow(normal_force);
   }
 
+  /// The same where that solve took the bound along: B = μN again.
+  void bind(Scalar normal_force) noexcept {
+    if (slides_ && !fallen_) bound_.set(sliding_ * (std::max)(normal_force, Scalar(0)));
+  }
+  /// ∂T/∂N, where the bound is taken along.
+  Vector by_normal_force() const noexcept {
+    return slides_ && !fallen_ ? Vector(sliding_ * across(direction_)) : Vector(Vector::Zero());
+  }
+
   /// The beam falls.  What slides does that without friction, and the touch begins anew where it arrives; what sticks goes along.
   void fall() noexcept {
     fallen_ = slides_;
@@ -263,6 +272,7 @@ class FrictionLaw {
     length_ = (std::max)(length, Scalar(0));
   }
   void follow() noexcept {
+    length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
     const Vector turned = force_at(bound_.next());
     if (turned.squaredNorm() > 0) direction_ = turned;
     length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);

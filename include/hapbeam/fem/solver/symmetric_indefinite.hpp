@@ -20,6 +20,7 @@ namespace hapbeam::detail {
 template <typename Scalar, int Most>
 class SymmetricIndefinite {
  public:
+  using Unknowns = std::array<Scalar, static_cast<std::size_t>(Most)>;
   /// Becomes a system of so many unknowns, all of whose entries are 0.
   void resize(int n) noexcept {
     n_ = n;
@@ -31,6 +32,7 @@ class SymmetricIndefinite {
   /// Of the lower triangle: i >= j.
   Scalar& operator()(int i, int j) noexcept { return a_[at(i)][at(j)]; }
   /// Right-hand side, and the solution after solve().
+  Unknowns& unknowns() noexcept { return x_; }
   Scalar& operator[](int i) noexcept { return x_[at(i)]; }
   Scalar operator[](int i) const noexcept { return x_[at(i)]; }
   /// Makes row and column of an unknown those of one that stays.   @param pivot  its sign counts
@@ -54,8 +56,23 @@ class SymmetricIndefinite {
       k += eliminate(k, size_[at(k)]);
     }
     for (int i = k; i < n_; ++i) x_[at(i)] = 0;
-    substitute(k);
+    rank_ = k;
+    substitute(x_);
     return negative;
+  }
+  /// The same of another right-hand side, after solve().   @param x  becomes the solution
+  void solve(Unknowns& x) const noexcept {
+    Unknowns y;
+    for (int i = 0; i < n_; ++i) y[at(i)] = x[at(order_[at(i)])] * scale_[at(order_[at(i)])];
+    for (int k = 0, size = 0; k < rank_; k += size) {
+      size = size_[at(k)];
+      for (int i = k + size; i < n_; ++i)
+        for (int m = 0; m < size; ++m) y[at(i)] -= a_[at(i)][at(k + m)] * y[at(k + m)];
+      divide(k, size, y);
+    }
+    for (int i = rank_; i < n_; ++i) y[at(i)] = 0;
+    substitute(y);
+    x = y;
   }
 
  private:
@@ -100,14 +117,10 @@ class SymmetricIndefinite {
   /// Leaves a pivot's columns divided by it, and the right-hand side, too.   @return its size
   int eliminate(int k, int size) noexcept {
     const bool two = size == 2;
-    const Scalar a = a_[at(k)][at(k)], b = two ? a_[at(k + 1)][at(k)] : Scalar(0),
-                 c = two ? a_[at(k + 1)][at(k + 1)] : Scalar(1), over = 1 / (a * c - b * b);
-    const auto divided = [=](Scalar u, Scalar v) {
-      return std::array<Scalar, 2>{(c * u - b * v) * over, (a * v - b * u) * over};
-    };
+    const Inverse inverse = this->inverse(k, size);
     std::array<std::array<Scalar, 2>, Most> l;
     for (int i = k + size; i < n_; ++i) {
-      l[at(i)] = divided(a_[at(i)][at(k)], two ? a_[at(i)][at(k + 1)] : Scalar(0));
+      l[at(i)] = inverse(a_[at(i)][at(k)], two ? a_[at(i)][at(k + 1)] : Scalar(0));
       for (int m = 0; m < size; ++m) {
         for (int j = k + size; j <= i; ++j) a_[at(i)][at(j)] -= l[at(i)][at(m)] * a_[at(j)][at(k + m)];
         x_[at(i)] -= l[at(i)][at(m)] * x_[at(k + m)];
@@ -115,28 +128,44 @@ class SymmetricIndefinite {
     }
     for (int i = k + size; i < n_; ++i)
       for (int m = 0; m < size; ++m) a_[at(i)][at(k + m)] = l[at(i)][at(m)];
-    const auto x = divided(x_[at(k)], two ? x_[at(k + 1)] : Scalar(0));
-    for (int m = 0; m < size; ++m) x_[at(k + m)] = x[at(m)];
+    divide(k, size, x_);
     return size;
   }
-  /// @param rank  pivots
-  void substitute(int rank) noexcept {
+  /// Of a pivot.
+  struct Inverse {
+    Scalar a, b, c, over;
+    std::array<Scalar, 2> operator()(Scalar u, Scalar v) const noexcept {
+      return {(c * u - b * v) * over, (a * v - b * u) * over};
+    }
+  };
+  Inverse inverse(int k, int size) const noexcept {
+    const bool two = size == 2;
+    const Scalar a = a_[at(k)][at(k)], b = two ? a_[at(k + 1)][at(k)] : Scalar(0),
+                 c = two ? a_[at(k + 1)][at(k + 1)] : Scalar(1);
+    return {a, b, c, 1 / (a * c - b * b)};
+  }
+  void divide(int k, int size, Unknowns& x) const noexcept {
+    const auto divided = inverse(k, size)(x[at(k)], size == 2 ? x[at(k + 1)] : Scalar(0));
+    for (int m = 0; m < size; ++m) x[at(k + m)] = divided[at(m)];
+  }
+  /// To be called where the pivots are divided.
+  void substitute(Unknowns& x) const noexcept {
     std::array<int, Most> starts;
     int count = 0;
-    for (int k = 0; k < rank; k += size_[at(k)]) starts[at(count++)] = k;
+    for (int k = 0; k < rank_; k += size_[at(k)]) starts[at(count++)] = k;
     while (count > 0) {
       const int k = starts[at(--count)], next = k + size_[at(k)];
       for (int m = k; m < next; ++m)
-        for (int i = next; i < n_; ++i) x_[at(m)] -= a_[at(i)][at(m)] * x_[at(i)];
+        for (int i = next; i < n_; ++i) x[at(m)] -= a_[at(i)][at(m)] * x[at(i)];
     }
-    std::array<Scalar, Most> y;
-    for (int i = 0; i < n_; ++i) y[at(order_[at(i)])] = x_[at(i)];
-    for (int i = 0; i < n_; ++i) x_[at(i)] = y[at(i)] * scale_[at(i)];
+    Unknowns y;
+    for (int i = 0; i < n_; ++i) y[at(order_[at(i)])] = x[at(i)];
+    for (int i = 0; i < n_; ++i) x[at(i)] = y[at(i)] * scale_[at(i)];
   }
 
-  int n_ = 0;
+  int n_ = 0, rank_ = 0;  // pivots
   std::array<std::array<Scalar, Most>, Most> a_{};
-  std::array<Scalar, Most> x_{}, scale_{};
+  Unknowns x_{}, scale_{};
   std::array<int, Most> order_{}, size_{};
 };
 
