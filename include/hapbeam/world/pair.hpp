@@ -95,6 +95,15 @@ struct RodPair {
     const Vector f = next * normal + aside;
     force = std::sqrt(f.squaredNorm()), normal = f / force;
   }
+  /// The same with friction, which may pull on the way to an equilibrium.   @param by  δλ, and λ δn across n
+  void rub(const std::array<double, 3>& by) noexcept {
+    constexpr double most_turn = 0.3, least_left = 1e-3;
+    Vector turn = (by[1] * axes[1] + by[2] * axes[2]) / force;
+    if (const double angle = std::sqrt(turn.squaredNorm()); angle > most_turn) turn *= most_turn / angle;
+    normal = unit(Vector(normal + turn));
+    const double next = force + by[0];
+    force = std::abs(next) < least_left * std::abs(force) ? std::copysign(least_left * force, next) : next;
+  }
   /// A step begins here.
   void mark() noexcept { met = s, met_held = held, pulls = 0; }
   /// Adds an increment of a place, which may lead to an end.   @param length  of the rod [m]

@@ -213,7 +213,7 @@ class PairSystem {
     hold_still();
     negative_ += equations_->solve() - own_negative_;
     // A place where least distance has no slope yet, and which would go to where that has none either.
-    if (negative_ < 0 && places == Places::free) return factor(shift, Places::slow);
+    if (negative_ < 0 && !rough_ && places == Places::free) return factor(shift, Places::slow);
     if (rough_) follow_bounds();
     size_ = std::sqrt(2 * measured);
     double square = 0;
@@ -228,10 +228,10 @@ class PairSystem {
       RodPair& pair = this->pair(k);
       if (!moves(pair)) continue;
       const PairEquations& u = *equations_;
-      std::array<double, 3> by{u[row], u[row + 1], u[row + 2]};
       if (pair.rough())
-        by = pair.friction.increment({by[0], by[1], by[2], u[row + 3], u[row + 4]}, pair.force);
-      pair.push(by[0], by[1], by[2]);
+        pair.rub(
+            pair.friction.increment({u[row], u[row + 1], u[row + 2], u[row + 3], u[row + 4]}, pair.force));
+      else pair.push(u[row], u[row + 1], u[row + 2]);
       for (std::size_t side = 0; side < 2 && !pair.fresh; ++side) {
         const double most = stride(rigid(pair.rod[side]) ? pair.rod[0] : pair.rod[side]);
         pair.slide(side, std::clamp(u[row + 3 + static_cast<int>(side)], -most, most),
