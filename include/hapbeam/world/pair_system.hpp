@@ -213,7 +213,7 @@ class PairSystem {
     hold_still();
     negative_ += equations_->solve() - own_negative_;
     // A place where least distance has no slope yet, and which would go to where that has none either.
-    if (negative_ < 0 && !rough_ && places == Places::free) return factor(shift, Places::slow);
+    if (negative_ < 0 && places == Places::free) return factor(shift, Places::slow);
     if (rough_) follow_bounds();
     size_ = std::sqrt(2 * measured);
     double square = 0;
