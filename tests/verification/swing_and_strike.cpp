@@ -209,6 +209,28 @@ TEST_CASE("after a step without an answer the hand is felt again", "[dynamics]")
   CHECK(failed > 12);
 }
 
+// It is bent back over its root, and the hand is where it was straight.
+TEST_CASE("a hand that no place of a beam bent far is beside feels nothing", "[dynamics]") {
+  Beam turned = ruler();
+  turned.add(PointLoad{turned.length(), 0, 0, -4});
+  const FemModel<Corotational<>> start(turned, 8);
+  REQUIRE(start.shape().at(0.3).theta == Approx(-2.88).epsilon(1e-3));  // M L/EI
+  for (const double x : {0.18, 0.2, 0.22, 0.24, 0.26, 0.28})
+    for (const double side : {1.0, -1.0}) {
+      const Vector2<double> centre(x, side * 0.0015);
+      for (int k = 0; k <= 30; ++k) {
+        const auto at = start.shape().at(0.01 * k);
+        REQUIRE((Vector2<double>(0.01 * k + at.u, at.w) - centre).norm() > 0.06);
+      }
+      DynamicModel<> model(ruler(), 8);
+      model.let_go_from(start.shape());
+      const auto felt = model.step(1e-3, {{x, centre, 0.005, side}, 3500, 2});
+      CAPTURE(x, side);
+      CHECK(felt.status == Status::ok);
+      CHECK(felt.force == 0);
+    }
+}
+
 TEST_CASE("a reset stops it where it was built, to the last bit", "[dynamics]") {
   Random random(3);
   DynamicModel<> used(ruler(), 8), fresh(ruler(), 8);

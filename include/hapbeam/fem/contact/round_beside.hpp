@@ -42,7 +42,9 @@ auto look_beside(const System& system, const Round& of, typename System::Scalar&
     view = round.look(node, 0);
   }
   const Vector place = RoundContact::place_of(node), off = round.centre(place) - place;
-  const bool beyond = (foot <= 0 && view.ahead < 0) || (foot >= system.length() && view.ahead > 0);
+  // Where a beam that is bent far leads the search to and fro, no foot is found, and the place is not beside it.
+  const bool beyond = (foot <= 0 && view.ahead < 0) || (foot >= system.length() && view.ahead > 0) ||
+                      std::abs(view.ahead) > of.reach;
   Vector facing = view.normal;
   Scalar height = view.distance, aside = 0;
   if constexpr (dimension == 3) {
