@@ -64,8 +64,7 @@ class PairFriction {
     }
     begins_ = false;
     tangents_ = along;
-    law_.bind(force);
-    law_.look(place);
+    law_.look(place, force);
   }
   /// Whether it is more than a place that slides without friction.
   bool acts() const noexcept { return !none() && !begins_ && !law_.falls(); }

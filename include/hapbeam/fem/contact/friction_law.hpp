@@ -101,6 +101,14 @@ class FrictionLaw {
       force_ = force_at(bound_.next());
     }
   }
+  /// The same where the solve took the bound along: B = μN again, and the way is as long as it has become.
+  void look(const Place& now, Scalar normal_force) noexcept {
+    if (slides_ && !fallen_) bound_.set(sliding_ * (std::max)(normal_force, Scalar(0)));
+    now_ = now;
+    shear();
+    length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
+    look(now);
+  }
   /// T [N]
   const Vector& force() const noexcept { return force_; }
   /// ∂T/∂e [N/m], across the normal.
@@ -125,10 +133,6 @@ class FrictionLaw {
     if (slides_ && !fallen_) bound_.follow(normal_force);
   }
 
-  /// The same where that solve took the bound along: B = μN again.
-  void bind(Scalar normal_force) noexcept {
-    if (slides_ && !fallen_) bound_.set(sliding_ * (std::max)(normal_force, Scalar(0)));
-  }
   /// ∂T/∂N, where the bound is taken along.
   Vector by_normal_force() const noexcept {
     return slides_ && !fallen_ ? Vector(sliding_ * across(direction_)) : Vector(Vector::Zero());
@@ -272,7 +276,6 @@ class FrictionLaw {
     length_ = (std::max)(length, Scalar(0));
   }
   void follow() noexcept {
-    length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
     const Vector turned = force_at(bound_.next());
     if (turned.squaredNorm() > 0) direction_ = turned;
     length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
