@@ -32,7 +32,7 @@ struct Touched {
 void touch(Balance& balance, const Touched& t) {
   balance.work.begin();
   balance.work.touches(0, {0, Vector(t.x, 0), t.reach, 1},
-                       {0, Status::ok, 0, false, 0, Vector(0, 0), Vector(0, 1)}, Vector(t.f, 0));
+                       {0, Status::ok, false, 0, Vector(0, 0), Vector(0, 1)}, Vector(t.f, 0));
   if (t.held) balance.work.holds(1, {0.3, t.led, Vector(0, 1)}, 0);
 }
 
