@@ -96,9 +96,9 @@ class RodBubbles : protected Stacked<S, Most> {
     const S rise = spot.g.by(0) * contact.force / 2;
     const S off = contact.normal.dot(spot.t) + rise * stiffer(), bends = contact.normal.dot(spot.k),
             round = spot.t.dot(Vector(spot.curved * spot.t));
-    // Along a curve that is flatter than the capsule the distance has a minimum, which may be anywhere unless it is half as flat.
+    // Along a curve that is flatter than the capsule the distance has a minimum, which may be anywhere where it is nearly as sharp.
     const S least = parallel * spot.t.squaredNorm() / contact.reach;
-    if (!(bends + round > (std::max)(least, round / 2))) return std::numeric_limits<S>::quiet_NaN();
+    if (!(bends + round > (std::max)(least, round / 4))) return std::numeric_limits<S>::quiet_NaN();
     return std::clamp(-off / (bends + round), -p_->length, p_->length);
   }
   void look(int k) noexcept {
