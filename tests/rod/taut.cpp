@@ -163,7 +163,7 @@ void slide_along_suture(const Model& model, double depth, Tick&& tick) {
     before = force;
   }
   CHECK(sharpest > (depth > 0.008 ? 1.4 : 1));
-  CHECK(largest <= 0.01);
+  CHECK(largest <= 0.02);
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ class RodBubbles : protected Stacked<S, Most> {
             round = spot.t.dot(Vector(spot.curved * spot.t));
     // Along a curve that is flatter than the capsule the distance has a minimum, which may be anywhere where it is nearly as sharp.
     const S least = parallel * spot.t.squaredNorm() / contact.reach;
-    if (!(bends + round > (std::max)(least, round / 4))) return std::numeric_limits<S>::quiet_NaN();
+    if (!(bends + round > (std::max)(least, round / 3))) return std::numeric_limits<S>::quiet_NaN();
     return std::clamp(-off / (bends + round), -p_->length, p_->length);
   }
   void look(int k) noexcept {
