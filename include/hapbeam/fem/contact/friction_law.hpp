@@ -94,20 +94,15 @@ class FrictionLaw {
   void look(const Place& now) noexcept {
     now_ = now;
     shear();
-    if (!slides_) {
-      force_ = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
-    } else {
-      if (D == 3) follow();
-      force_ = force_at(bound_.next());
-    }
+    act();
   }
   /// The same where the solve took the bound along: B = μN again, and the way is as long as it has become.
   void look(const Place& now, Scalar normal_force) noexcept {
     if (slides_ && !fallen_) bound_.set(sliding_ * (std::max)(normal_force, Scalar(0)));
     now_ = now;
     shear();
-    length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
-    look(now);
+    lengthen();
+    act();
   }
   /// T [N]
   const Vector& force() const noexcept { return force_; }
@@ -275,10 +270,19 @@ class FrictionLaw {
     direction_ = direction;
     length_ = (std::max)(length, Scalar(0));
   }
+  void act() noexcept {
+    if (!slides_) {
+      force_ = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
+    } else {
+      if (D == 3) follow();
+      force_ = force_at(bound_.next());
+    }
+  }
+  void lengthen() noexcept { length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8); }
   void follow() noexcept {
     const Vector turned = force_at(bound_.next());
     if (turned.squaredNorm() > 0) direction_ = turned;
-    length_ = (std::max)(across(direction_).dot(sheared_), length_ / 8);
+    lengthen();
   }
   /// Stiffness across the way of sliding [N/m].
   Scalar aside(Scalar bound) const noexcept {
