@@ -91,6 +91,8 @@ void add_beam_shape(py::class_<Beam>& beam) {
           },
           arg("parts"), py::return_value_policy::reference_internal,
           "Parts (end, function) with sections of their own: arc position [m] at which each ends.")
+      .def("shear", &Beam::shear, arg("stiffness"), py::return_value_policy::reference_internal,
+           "Lets a beam of Element.Corotational shear: kappa G A [N].")
       .def(
           "place",
           [](Beam& self, const Numbers& left, const Numbers& right) -> Beam& {

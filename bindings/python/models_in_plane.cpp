@@ -25,7 +25,7 @@ FemPointer model_in_plane(Element element, const Beam& beam, int elements) {
     case Element::VonKarman: return made<VonKarman<>, Also::arrays>(beam, elements, kind);
     case Element::AssumedStrain: return made<VonKarman<AssumedStrain>>(beam, elements, kind);
     case Element::Corotational:
-      if (beam.parts().empty()) return made<Corotational<>, Also::arrays>(beam, elements, kind);
+      if (beam.uniform()) return made<Corotational<>, Also::arrays>(beam, elements, kind);
       return made<Corotational<Tapered<>>>(beam, elements, kind);
     default: throw NotOffered("Element.RoundRod and TwistedRod: of a Rod, not of a Beam");
   }
@@ -37,7 +37,7 @@ int elements_in_plane(Element element, const Beam& beam, double depth, double er
     case Element::VonKarman: return elements_for<VonKarman<>>(beam, depth, error);
     case Element::AssumedStrain: return elements_for<VonKarman<AssumedStrain>>(beam, depth, error);
     case Element::Corotational:
-      if (beam.parts().empty()) return elements_for<Corotational<>>(beam, depth, error);
+      if (beam.uniform()) return elements_for<Corotational<>>(beam, depth, error);
       return elements_for<Corotational<Tapered<>>>(beam, depth, error);
     default: throw NotOffered("Element.RoundRod and TwistedRod: of a Rod, not of a Beam");
   }

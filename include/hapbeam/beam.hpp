@@ -115,6 +115,11 @@ class Beam : public detail::Slender<Beam, Section, Arc> {
   /// elements rejects the beam.
   /// @throws std::invalid_argument unless the ends increase, up to the length, and the beam was built of a material
   Beam& sections(std::vector<BeamPart> parts) { return Slender::sections(std::move(parts)), weigh(), *this; }
+  /// Lets it shear, as Timoshenko's: elements of Tapered<Local> take it; a FemModel of other elements rejects the beam.
+  /// @param stiffness  κGA [N] of the section that it was built with; that of other sections is as their area
+  Beam& shear(double stiffness) {
+    return shear_stiffness_ = detail::positive("shear stiffness", stiffness, "N"), *this;
+  }
   /// Places the ends: an end shortening or a stretch, an arch or an inclined beam.
   Beam& place(const EndPlace& left, const EndPlace& right) {
     for (const EndPlace* end : {&left, &right}) {
@@ -128,6 +133,7 @@ class Beam : public detail::Slender<Beam, Section, Arc> {
   /// Of the section that the beam was built with.
   double axial_stiffness() const noexcept { return axial_stiffness_; }      ///< EA [N]
   double bending_stiffness() const noexcept { return bending_stiffness_; }  ///< EI [N·m²]
+  double shear_stiffness() const noexcept { return shear_stiffness_; }  ///< κGA [N]; 0: it does not shear
   double young() const noexcept { return young_; }  ///< E [Pa]; 0 where only the stiffness is known
   Support left() const noexcept { return left_; }
   Support right() const noexcept { return right_; }
@@ -136,6 +142,8 @@ class Beam : public detail::Slender<Beam, Section, Arc> {
   const DistributedLoad& axial() const noexcept { return axial_; }            ///< empty where there is none
   const EndPlace& left_place() const noexcept { return left_place_; }
   const EndPlace& right_place() const noexcept { return right_place_; }
+  /// Whether EA and EI say all of its stiffness: it has one section and does not shear.
+  bool uniform() const noexcept { return parts_.empty() && shear_stiffness_ == 0; }
   /// Whether it lies on the x axis, at full length, where nothing loads it.
   bool straight() const noexcept {
     const auto home = [](const EndPlace& p) { return p.u == 0 && p.w == 0 && p.theta == 0; };
@@ -152,7 +160,7 @@ class Beam : public detail::Slender<Beam, Section, Arc> {
     if (specific_weight_.y() != 0) transverse_ = load(specific_weight_.y());
   }
 
-  double axial_stiffness_, bending_stiffness_;
+  double axial_stiffness_, bending_stiffness_, shear_stiffness_ = 0;
   Damping damping_;
   Support left_, right_;
   std::vector<PointLoad> point_loads_;

@@ -115,6 +115,16 @@ def test_a_tapered_cantilever_gives_as_its_flexibility_says():
         hb.FemModel(beam, 8, hb.Element.VonKarman)
 
 
+def test_a_stocky_cantilever_shears():
+    length, height = 0.1, 0.02
+    shear = 5 / 6 * 77e9 * 0.02 * height
+    beam = hb.Beam(length, hb.Section.rectangle(0.02, height), STEEL, hb.Support.clamped,
+                   hb.Support.free).shear(shear)
+    gives = length**3 / (3 * beam.bending_stiffness) + length / shear
+    model = hb.FemModel(beam, 2, hb.Element.Corotational)
+    assert model.press(length, 1e-6).force == pytest.approx(1e-6 / gives, rel=1e-6)
+
+
 def test_a_rod_goes_through_points_in_space():
     turn = np.linspace(0, 4 * np.pi, 49)
     points = np.column_stack([0.01 * np.cos(turn), 0.01 * np.sin(turn), 0.001 * turn])

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Stiffness of a beam whose section changes along it.
+// Stiffness of a beam whose section changes along it, or that shears.
 //
 // An element carries a moment that is linear between its ends, and one normal force. Its flexibility against end moments is
 //
-//   F = l ∫ m mᵀ/EI dξ,   m = (ξ - 1, ξ),   l/EA the mean of 1/EA,
+//   F = l ∫ (m mᵀ/EI + m' m'ᵀ/κGA) dξ,   m = (ξ - 1, ξ),   m' = (1, 1)/l,   l/EA the mean of 1/EA,
 //
 // by three Gauss points on each piece of a part. Its stiffness is F⁻¹: without an axial load the nodes are exact.
 // Allocates and throws at construction; all else is noexcept and allocation-free, O(parts).
+// Source: shear, Timoshenko, Phil. Mag. 41 (1921); Przemieniecki, Theory of Matrix Structural Analysis, 5.6.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +24,9 @@ template <typename Scalar>
 class BeamProfile {
  public:
   /// @throws std::invalid_argument where a section of the beam makes no sense
-  [[gnu::cold]] explicit BeamProfile(const Beam& beam) : profile_(as_rod(beam)) {
+  [[gnu::cold]] explicit BeamProfile(const Beam& beam)
+      : profile_(as_rod(beam)),
+        shears_(beam.shear_stiffness() > 0 ? beam.axial_stiffness() / beam.shear_stiffness() : 0) {
     for (const BeamPart& part : beam.parts()) ends_.push_back(part.end);
     if (ends_.empty()) ends_.push_back(beam.length());
   }
@@ -45,9 +48,11 @@ class BeamProfile {
         const double at = begin + detail::three_points.x[g] * (end - begin), x = (at - from) / l,
                      weight = detail::three_points.weight[g] * (end - begin) / l;
         const RodStiffness here = profile_.at(at);
-        const double bends = weight / here.bending1;
-        stretching += weight / here.axial;
-        f11 += bends * (1 - x) * (1 - x), f12 -= bends * x * (1 - x), f22 += bends * x * x;
+        const double bends = weight / here.bending1, stretches = weight / here.axial,
+                     shears = shears_ * stretches / (l * l);
+        stretching += stretches;
+        f11 += bends * (1 - x) * (1 - x) + shears, f22 += bends * x * x + shears;
+        f12 -= bends * x * (1 - x) - shears;
       }
       begin = end;
     }
@@ -80,6 +85,7 @@ class BeamProfile {
   }
 
   RodProfile<double> profile_;
+  double shears_;  // EA/κGA; 0: it does not
   std::vector<double> ends_;
 };
 
@@ -87,11 +93,11 @@ namespace detail {
 
 /// In its place where the element has one section.
 struct OneSection {
-  /// @throws std::invalid_argument where the section changes
+  /// @throws std::invalid_argument where the section changes, or the beam shears
   [[gnu::cold]] explicit OneSection(const Beam& beam) {
-    if (!beam.parts().empty())
-      reject("beam sections", static_cast<double>(beam.parts().size()), "",
-             "none, unless the elements are Tapered<> or Corotational<Tapered<>>");
+    constexpr const char* allowed = "none, unless the elements are Tapered<> or Corotational<Tapered<>>";
+    if (!beam.parts().empty()) reject("beam sections", static_cast<double>(beam.parts().size()), "", allowed);
+    if (!beam.uniform()) reject("beam shear stiffness", beam.shear_stiffness(), "N", allowed);
   }
 };
 

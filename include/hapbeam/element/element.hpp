@@ -10,7 +10,7 @@
 //   E::tangent(p, d, r, K)     S        V, r as above and K = ∂r/∂d, symmetric, both triangles, overwritten
 //   E::name()                  const char*
 //   E::any_rotation            bool, optional, true: valid at finite rotation
-//   E::tapers                  bool, optional, true: takes beams whose section changes, p.taper11 and the like
+//   E::tapers                  bool, optional, true: takes beams whose section changes or that shear, p.taper11 and the like
 //   E::membrane_feels_slope    bool, optional, true: ε contains ½ w'², so an axial load on the element bends it
 //   E::ExactUnderTension       type, optional, E itself: a prismatic element without load solves the equations of moderate rotation
 //                              exactly, so that any number of elements gives the same answers.  A class derived from E does not
@@ -57,7 +57,7 @@ struct ElementProperties {
   Scalar natural_a = 0;            ///< l times the rotation of end 1 against the chord that bends nothing [m]
   Scalar natural_b = 0;            ///< the same at end 2 [m]
   Scalar natural_stretch = 0;      ///< the natural shape's chord less l [m]
-  /// What a section that changes adds to 4, 2 and 4 EI/l³, for Tapered alone [N/m].
+  /// What a section that changes, or shears, adds to 4, 2 and 4 EI/l³, for Tapered alone [N/m].
   Scalar taper11 = 0, taper12 = 0, taper22 = 0;
 };
 

@@ -47,7 +47,7 @@ class DynamicModel {
 
   /// At rest under its dead loads.
   /// @param substeps  parts of a step, each of two solves
-  /// @throws std::invalid_argument where the beam has no density and is not viscous, or as FemModel
+  /// @throws std::invalid_argument where the beam has no density and is not viscous, or shears, or as FemModel
   DynamicModel(const Body& beam, int elements, int substeps = 4)
       : system_(beam, elements),
         inertia_(beam, elements, [this](int i) { return system_.node(i).s; }),
@@ -65,6 +65,10 @@ class DynamicModel {
     if (substeps < 1) detail::reject("substeps", substeps, "", "1 or more");
     if (massless_ && viscosity_.none())
       detail::reject("density", 0, "kg/m³", "known for a beam that moves: Material{young, density}");
+    // Its sections would turn with a mass of their own.
+    if constexpr (dimension == 2)
+      if (beam.shear_stiffness() > 0)
+        detail::reject("beam shear stiffness", beam.shear_stiffness(), "N", "none for a beam that moves");
     let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
     system_.keep(rest_);
   }

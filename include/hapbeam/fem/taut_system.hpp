@@ -35,7 +35,7 @@ namespace hapbeam {
 inline bool is_taut(const Beam& beam) noexcept {
   const EndPlace &l = beam.left_place(), &r = beam.right_place();
   const bool drawn_apart = !fixes_u(beam.left()) || !fixes_u(beam.right()) || r.u >= l.u;
-  return beam.parts().empty() && beam.arcs().empty() && beam.point_loads().empty() && !beam.transverse() &&
+  return beam.uniform() && beam.arcs().empty() && beam.point_loads().empty() && !beam.transverse() &&
          !beam.axial() && l.w == 0 && l.theta == 0 && r.w == 0 && r.theta == 0 && drawn_apart;
 }
 

@@ -62,9 +62,9 @@ struct Scene {
   bool mirrored() const noexcept {
     const EndPlace &a = beam.left_place(), &b = beam.right_place();
     return one_place() && std::abs(2 * s_min - beam.length()) < 1e-9 * beam.length() &&
-           beam.left() == beam.right() && beam.parts().empty() && beam.arcs().empty() && a.u == 0 &&
-           a.w == 0 && a.theta == 0 && b.w == 0 && b.theta == 0 && beam.point_loads().empty() &&
-           !beam.transverse() && !beam.axial();
+           beam.left() == beam.right() && beam.uniform() && beam.arcs().empty() && a.u == 0 && a.w == 0 &&
+           a.theta == 0 && b.w == 0 && b.theta == 0 && beam.point_loads().empty() && !beam.transverse() &&
+           !beam.axial();
   }
 
   /// @throws std::invalid_argument
@@ -72,10 +72,11 @@ struct Scene {
     const double margin = 0.999999 * beam.length() / 1000;
     detail::check_scene(*this, fixes_w(beam.left()) ? margin : 0,
                         beam.length() - (fixes_w(beam.right()) ? margin : 0), "beam");
+    constexpr const char* allowed =
+        "none: take FemModel<Tapered<>>, or FemModel<Corotational<Tapered<>>> for finite rotation";
     if (!beam.parts().empty())
-      detail::reject("scene beam sections", static_cast<double>(beam.parts().size()), "",
-                     "none, one section for all of it: take FemModel<Tapered<>>, or "
-                     "FemModel<Corotational<Tapered<>>> for finite rotation");
+      detail::reject("scene beam sections", static_cast<double>(beam.parts().size()), "", allowed);
+    if (!beam.uniform()) detail::reject("scene beam shear stiffness", beam.shear_stiffness(), "N", allowed);
     return *this;
   }
 };

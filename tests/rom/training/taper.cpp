@@ -36,6 +36,11 @@ TEST_CASE("a Galerkin model and a full model of one section reject a taper", "[t
   const FemModel<Corotational<Tapered<>>> full(beam, 16);
   const TrainingPlan plan = TrainingPlan::anywhere(beam, 0.006);
   CHECK_THROWS_WITH(take_snapshots_at_tensions(beam, full, plan), ContainsSubstring("beam sections"));
+  Beam shears(0.3, Section::rectangle(0.025, 0.003), Material{200e9}, Support::pinned, Support::pinned);
+  shears.shear(5e6);
+  const FemModel<Corotational<Tapered<>>> that_shears(shears, 16);
+  CHECK_THROWS_WITH(take_snapshots_at_tensions(shears, that_shears, plan),
+                    ContainsSubstring("beam shear stiffness"));
   const Beam plain(0.3, Section::rectangle(0.025, 0.003), Material{200e9}, Support::pinned, Support::pinned);
   CHECK_THROWS_WITH(take_snapshots(beam, FemModel<Corotational<>>(plain, 16), plan),
                     ContainsSubstring("beam sections"));

@@ -265,13 +265,14 @@ Snapshots take_snapshots(const Beam& beam, const Model& full, const TrainingPlan
 
 /// Snapshots for a GalerkinModel: at each position the depths whose tensions are the grid's.
 /// @param full  as above, with strain_energy() [J] and a solver tight enough for F d - 2V, 1e-12 or so
-/// @throws std::invalid_argument where the section of the beam changes: a GalerkinModel has one EA
+/// @throws std::invalid_argument where the section of the beam changes or it shears: a GalerkinModel has one EA and one EI
 template <class Nodes = ChebyshevNodes, class Model>
 Snapshots take_snapshots_at_tensions(const Beam& beam, const Model& full, const TrainingPlan& plan,
                                      const TrainingOptions& options = {}) {
+  constexpr const char* allowed = "none for a GalerkinModel; a PodModel takes it";
   if (!beam.parts().empty())
-    detail::reject("beam sections", static_cast<double>(beam.parts().size()), "",
-                   "none for a GalerkinModel; a PodModel takes them");
+    detail::reject("beam sections", static_cast<double>(beam.parts().size()), "", allowed);
+  if (!beam.uniform()) detail::reject("beam shear stiffness", beam.shear_stiffness(), "N", allowed);
   return detail::SnapshotTaker<Nodes, Model>(beam, full, plan, options).by_tension();
 }
 
