@@ -43,12 +43,12 @@ struct Arc {
   void check() const { detail::finite("arc curvature", curvature, "1/m"); }
 };
 
-/// A part of the beam with a section of its own, which may change along it.
-using BeamPart = detail::PartOf<Section>;
+/// A part of the beam with a section of its own, which may change along it, and a material, of which damping is not counted.
+using BeamPart = detail::PartOf<Section, Material>;
 
 /// A beam, its ends and its loads. It is prismatic unless sections() says otherwise. It is straight unless naturally() gives it a curvature. Its ends are those
 /// of the straight beam unless place() moves them. Immutable but for what is added to it.
-class Beam : public detail::Slender<Beam, Section, Arc> {
+class Beam : public detail::Slender<Beam, Section, Material, Arc> {
  public:
   static constexpr const char* word = "beam";
 

@@ -10,7 +10,6 @@
 // unit and what is allowed.  Offline only; nothing here is called in a servo tick.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -40,8 +39,8 @@ struct RodArc {
   }
 };
 
-/// A part of the rod with a section of its own, which may change along it: a taper, a step.
-using RodPart = detail::PartOf<RodSection>;
+/// A part of the rod with a section of its own, which may change along it, and a material: a taper, a step, a soft tip.
+using RodPart = detail::PartOf<RodSection, RodMaterial>;
 
 /// Springs along a part of the rod that pull each point back to where it is in the natural shape: a needle in tissue.
 struct RodFoundation {
@@ -67,7 +66,7 @@ struct RodOutline {
 
 /// A rod, its ends and its loads; straight, unless it is given a natural shape, and its right end where that shape puts it,
 /// unless it is placed elsewhere.  An immutable value but for what is added to it.
-class Rod : public detail::Slender<Rod, RodSection, RodArc> {
+class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
  public:
   static constexpr const char* word = "rod";
 
@@ -140,16 +139,16 @@ class Rod : public detail::Slender<Rod, RodSection, RodArc> {
   const RodOutline& outline() const noexcept { return outline_; }
   const RodSupport& left() const noexcept { return left_; }
   const RodSupport& right() const noexcept { return right_; }
-  /// That of a section of its parts.   @throws std::invalid_argument where it makes no sense
-  RodStiffness stiffness(const RodSection& section) const { return stiffness(section, material_); }
+  /// That of a part at s [m].   @throws std::invalid_argument where it makes no sense
+  RodStiffness stiffness(const RodPart& part, double s) const {
+    return stiffness(part.section(s), part.material.value_or(material_));
+  }
   const std::vector<RodFoundation>& foundations() const noexcept { return foundations_; }
   const RodPose& left_pose() const noexcept { return left_pose_; }
   /// ρ I_p [kg·m] of a section that turns about the tangent; 0 where the density is not known.
   double spin_per_length(double s) const {
-    const auto part = std::find_if(parts_.begin(), parts_.end(), [s](const RodPart& p) { return s < p.end; });
-    const RodStiffness k = parts_.empty()         ? stiffness_
-                           : part == parts_.end() ? stiffness(parts_.back().section(s))
-                                                  : stiffness(part->section(s));
+    const RodPart* const part = part_at(parts_, s);
+    const RodStiffness k = part ? stiffness(*part, s) : stiffness_;
     return mass_per_length(s) * (k.bending1 + k.bending2) / k.axial;
   }
   /// Null where the natural shape places it.

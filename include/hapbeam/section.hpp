@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -168,24 +169,27 @@ struct Material {
 
 namespace detail {
 
-/// A part with a section of its own, which may change along it: a taper, a step.
-template <class SectionType>
+/// A part with a section of its own, which may change along it, and a material: a taper, a step, a soft tip.
+template <class SectionType, class MaterialType>
 struct PartOf {
   double end;                                  ///< [m] arc position at which it ends
   std::function<SectionType(double)> section;  ///< by arc position s [m]; smooth within the part
+  std::optional<MaterialType> material;        ///< moduli and density; none: that of the whole
 
-  PartOf(double part_end, std::function<SectionType(double)> by_s)
-      : end(part_end), section(std::move(by_s)) {}
-  PartOf(double part_end, const SectionType& same)
-      : end(part_end), section([same](double) { return same; }) {}
+  PartOf(double part_end, std::function<SectionType(double)> by_s,
+         const std::optional<MaterialType>& of = std::nullopt)
+      : end(part_end), section(std::move(by_s)), material(of) {}
+  PartOf(double part_end, const SectionType& same, const std::optional<MaterialType>& of = std::nullopt)
+      : PartOf(
+            part_end, [same](double) { return same; }, of) {}
 };
 
 /// What a Beam and a Rod have alike.
 /// @tparam Body  the one or the other, with its word for itself   @tparam Arc  a part of the natural shape, with check()
-template <class Body, class SectionType, class Arc>
+template <class Body, class SectionType, class MaterialType, class Arc>
 class Slender {
  public:
-  using Part = PartOf<SectionType>;
+  using Part = PartOf<SectionType, MaterialType>;
 
   /// Gives it a natural shape of arcs, from the left end on; straight and without twist where they end.
   /// @throws std::invalid_argument unless the ends increase, within the length
@@ -195,8 +199,12 @@ class Slender {
     return arcs_ = std::move(arcs), body();
   }
   /// [kg/m] at arc position s; 0 where the density is not known.
-  double mass_per_length(double s) const { return density_ > 0 ? density_ * area_(s) : 0; }
-  /// Gives parts of it sections of their own, from the left end on: a taper or steps.  The avatar touches a round surface of the
+  double mass_per_length(double s) const {
+    const Part* const part = part_at(parts_, s);
+    const double density = part && part->material ? part->material->density : density_;
+    return density > 0 ? density * area_(s) : 0;
+  }
+  /// Gives parts of it sections and materials of their own, from the left end on: a taper or steps.  The avatar touches a round surface of the
   /// thickness that it was built with, and the strain there is that of this thickness.
   /// @throws std::invalid_argument unless the ends increase, up to the length, and it was built of a material
   Body& sections(std::vector<Part> parts) {
@@ -206,12 +214,10 @@ class Slender {
     const double last = check_order("part", parts);
     if (!(last >= length_ * (1 - 1e-12)))
       refuse("part end = %g m: must be the %s's length for the last part", last, Body::word);
+    for (const Part& part : parts)
+      if (part.material) not_negative("part density", part.material->density, "kg/m³");
     parts_ = std::move(parts);
-    area_ = [parts = parts_](double s) {
-      std::size_t k = 0;
-      while (k + 1 < parts.size() && parts[k].end <= s) ++k;
-      return parts[k].section(s).area;
-    };
+    area_ = [parts = parts_](double s) { return part_at(parts, s)->section(s).area; };
     return body();
   }
   /// The same with one section that changes along all of it.
@@ -232,6 +238,13 @@ class Slender {
     young_ = young;
     density_ = not_negative("density", density, "kg/m³");
     area_ = [area](double) { return area; };
+  }
+
+  /// That which holds s [m], null where there are none.
+  static const Part* part_at(const std::vector<Part>& parts, double s) noexcept {
+    std::size_t k = 0;
+    while (k + 1 < parts.size() && parts[k].end <= s) ++k;
+    return parts.empty() ? nullptr : &parts[k];
   }
 
   double length_, thickness_, young_ = 0, density_ = 0;

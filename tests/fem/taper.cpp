@@ -73,6 +73,18 @@ TEST_CASE("a step of the section is exact wherever it stands", "[taper]") {
   }
 }
 
+TEST_CASE("a beam of two materials bends as its parts do", "[taper]") {
+  const Section section = taper_section(0.008);
+  const Beam beam =
+      Beam(taper_length, section, Material{taper_young}, Support::clamped, Support::free)
+          .sections({{0.25 * taper_length, section}, {taper_length, section, Material{taper_young / 10}}});
+  const double soft = std::pow(0.75 * taper_length, 3), EI = taper_young * section.inertia,
+               exact = 1 / ((std::pow(taper_length, 3) - soft) / (3 * EI) + soft / (0.3 * EI));
+  for (const int elements : {2, 5})
+    CHECK(std::abs(pressed<FemModel<Tapered<Linear>>>(beam, elements, taper_length, 1e-5) / 1e-5 / exact -
+                   1) <= 1e-9);
+}
+
 TEST_CASE("a stepped beam sags under its own weight as its closed form says", "[taper]") {
   // M(L - s)/EI, integrated over the thin part of length l and the thick one of length a.
   const double density = 1200, g = 9.81;

@@ -102,6 +102,33 @@ TEST_CASE("a section that is the same function everywhere is the same section", 
           Approx(b.push({0.15, d, {0, 0.6, 0.8}}).force).epsilon(1e-12));
 }
 
+TEST_CASE("a rod of two materials bends, twists and weighs as its parts do", "[rod]") {
+  // A soft tip of 0.4 of the length.
+  const RodSection section = RodSection::circle(0.002);
+  const RodMaterial soft{2e9, 0.5e9, 1100};
+  Rod rod(length, section, {200e9, 77e9, 7850}, RodSupport::clamped, RodSupport::clamped);
+  rod.sections({{0.6 * length, section}, {length, section, soft}});
+  CHECK(rod.mass_per_length(0.3 * length) == Approx(7850 * section.area).epsilon(1e-12));
+  CHECK(rod.mass_per_length(0.9 * length) == Approx(1100 * section.area).epsilon(1e-12));
+  CHECK(rod.spin_per_length(0.9 * length) == Approx(1100 * 2 * section.inertia1).epsilon(1e-12));
+  FemModel<TwistedRod> model(rod, 10);
+  const double angle = 1e-3,
+               gives = 0.6 * length / (77e9 * section.torsion) + 0.4 * length / (0.5e9 * section.torsion);
+  const auto held =
+      model.hold(RodSide::right, {{length, 0, 0}, {1, 0, 0}, {0, std::cos(angle), std::sin(angle)}});
+  CHECK(held.moment.x() == Approx(angle / gives).epsilon(1e-6));
+  Rod tip(length, section, {200e9, 77e9}, RodSupport::clamped, RodSupport::free);
+  tip.sections({{0.6 * length, section}, {length, section, soft}});
+  const double expected =
+      compliance([](double s) { return (s < 0.6 * length ? 200e9 : 2e9) * pi * 1.6e-11 / 64; });
+  CHECK(tip_error<TwistedRod>(tip, 10, expected) <= 1e-6);
+  CHECK(tip_error<RoundRod>(tip, 10, expected) <= 1e-6);
+  CHECK_THROWS_WITH(FemModel<RoundRod>(Rod(tip).sections({{length, section, RodMaterial{-1, 1}}}), 8),
+                    Catch::Matchers::ContainsSubstring("young"));
+  CHECK_THROWS_WITH(Rod(tip).sections({{length, section, RodMaterial{1, 1, -1}}}),
+                    Catch::Matchers::ContainsSubstring("part density"));
+}
+
 TEST_CASE("a tapered rod weighs what its sections weigh", "[rod]") {
   // Moment at the clamp: ∫ ρgA s ds with A = A0 (1 - s/2L)²: A0 L² (1/2 - 1/3 + 1/16)
   Rod rod = cantilever();

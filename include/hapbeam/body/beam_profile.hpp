@@ -76,9 +76,12 @@ class BeamProfile {
       return RodSection{section.area, section.inertia, section.inertia, section.inertia, section.thickness};
     };
     std::vector<RodPart> parts;
-    for (const BeamPart& part : beam.parts())
-      parts.emplace_back(part.end,
-                         [section = part.section, in_space](double s) { return in_space(section(s)); });
+    for (const BeamPart& part : beam.parts()) {
+      const double young = part.material ? part.material->young : beam.young();
+      parts.emplace_back(
+          part.end, [section = part.section, in_space](double s) { return in_space(section(s)); },
+          RodMaterial{young, young});
+    }
     Rod rod(beam.length(), in_space(beam.parts().front().section(0)), RodMaterial{beam.young(), beam.young()},
             RodSupport::clamped, RodSupport::clamped);
     return rod.sections(std::move(parts));

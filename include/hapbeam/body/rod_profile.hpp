@@ -26,7 +26,7 @@ class RodProfile {
     double from = 0;
     if (rod.parts().empty()) add(0, rod.length(), [&rod](double) { return rod.stiffness(); });
     for (const RodPart& part : rod.parts()) {
-      add(from, part.end, [&](double s) { return rod.stiffness(part.section(s)); });
+      add(from, part.end, [&](double s) { return rod.stiffness(part, s); });
       from = part.end;
     }
     constant_ = rod.parts().empty();
