@@ -31,6 +31,7 @@ hapbeam::Rod BeamOptions::make_rod() const {
     const Cut cut = cut_at(*this, length / 2);
     hapbeam::Rod made(length, section_of<RodSection>(*this, cut), material, cli::in_space(left, *this),
                       cli::in_space(right, *this));
+    made.check_held();
     if (!arcs.empty()) made.naturally(arcs);
     if (!parts.empty()) made.sections(parts_of<hapbeam::RodPart, RodSection>(*this));
     if (density > 0) made.weight(density, {0, gravity, 0});

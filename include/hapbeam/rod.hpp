@@ -64,7 +64,7 @@ struct RodOutline {
   bool corners;          ///< whether both extents meet: a rectangle
 };
 
-/// A rod, its ends and its loads; straight, unless it is given a natural shape, and its right end where that shape puts it,
+/// A rod, its ends and its loads, which a World's joints may hold where the ends do not; straight, unless it is given a natural shape, and its right end where that shape puts it,
 /// unless it is placed elsewhere.  An immutable value but for what is added to it.
 class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
  public:
@@ -93,7 +93,6 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
     detail::positive("bending1 stiffness", stiffness.bending1, "N·m²");
     detail::positive("bending2 stiffness", stiffness.bending2, "N·m²");
     detail::positive("torsion stiffness", stiffness.torsion, "N·m²");
-    detail::check_supports(left, right);
   }
 
   /// Lays a part of the rod in an elastic foundation.
@@ -134,9 +133,18 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
     return forces_.push_back(force), *this;
   }
 
+  /// A joint of a World holds it there.
+  Rod& join(double s) { return joined_ = true, add(RodForce{s, {0, 0, 0}}); }
+
   const RodStiffness& stiffness() const noexcept { return stiffness_; }
   /// Of the section that it was built with; a rod that is given by its stiffness has a round one of its thickness.
   const RodOutline& outline() const noexcept { return outline_; }
+  /// Whether its ends hold it.
+  bool held() const noexcept { return detail::hold_rod(left_, right_); }
+  /// @throws std::invalid_argument unless they do
+  void check_held() const { detail::check_supports(left_, right_); }
+  /// Whether ends or joints may draw it taut.
+  bool drawn() const noexcept { return joined_ || (left_.along > 0 && right_.along > 0); }
   const RodSupport& left() const noexcept { return left_; }
   const RodSupport& right() const noexcept { return right_; }
   /// That of a part at s [m].   @throws std::invalid_argument where it makes no sense
@@ -191,6 +199,7 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
 
   RodStiffness stiffness_;
   double drag_ = 0;
+  bool joined_ = false;
   RodMaterial material_{0, 0};  // not known where the stiffness is given
   RodOutline outline_;
   RodSupport left_, right_;

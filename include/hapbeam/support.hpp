@@ -151,15 +151,19 @@ enum class RodSide { left, right };
 
 namespace detail {
 
-/// @throws std::invalid_argument where a rod with these ends, at d3 of the same direction, is a mechanism
-[[gnu::cold]] inline void check_supports(const RodSupport& left, const RodSupport& right) {
+/// Whether a rod with these ends, at d3 of the same direction, is no mechanism.
+constexpr bool hold_rod(const RodSupport& left, const RodSupport& right) noexcept {
   const bool direction = (holds_across(left) && holds_direction(left)) ||
                          (holds_across(right) && holds_direction(right)),
-             both = holds_across(left) && holds_across(right), along = left.along > 0 || right.along > 0;
-  if (along && (direction || both)) return;
+             both = holds_across(left) && holds_across(right);
+  return (left.along > 0 || right.along > 0) && (direction || both);
+}
+/// @throws std::invalid_argument where it is one
+[[gnu::cold]] inline void check_supports(const RodSupport& left, const RodSupport& right) {
+  if (hold_rod(left, right)) return;
   refuse("supports = %s, %s: the rod is a mechanism, %s", name(left), name(right),
-         along ? "hold the direction of one end or the place of both"
-               : "it slides along its axis; hold that at one end");
+         left.along > 0 || right.along > 0 ? "hold the direction of one end or the place of both"
+                                           : "it slides along its axis; hold that at one end");
 }
 
 }  // namespace detail

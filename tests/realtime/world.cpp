@@ -75,7 +75,40 @@ void check_tick() {
   CHECK(world.contacts() == 0);
 }
 
+/// A string between two posts, tied to both, that a ball leads and a rod is below.
+void check_joints() {
+  std::vector<WorldRod> rods;
+  for (const double x : {0., 0.2})
+    rods.push_back({rod_at({{x, 0, 0}, {0, 0, 1}, {0, 1, 0}}, RodSupport::free), 8});
+  Rod string(0.19, RodSection::circle(0.0005), spring_steel, RodSupport::free, RodSupport::free);
+  rods.push_back({string.place_left({{0.005, 0, 0.2}, {1, 0, 0}, {0, 1, 0}}), 8});
+  rods.push_back({rod_at({{0.08, -0.1, 0.197}, {0, 1, 0}, {0, 0, 1}}, RodSupport::clamped), 8});
+  World<RoundRod> world(rods, {RigidBody::sphere({0.1, 0, 0.2}, 0.001)},
+                        {{{0, 2}, {0.2, 0}}, {{2, 1}, {0.19, 0.2}}, {{2, 4}, {0.095, 0}}});
+  const auto path = poses({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  int answered = 0, touching = 0, not_finite = 0, most = 0;
+  const HeapUse use = heap_use([&]() noexcept {
+    for (const RodPose& pose : path) {
+      (void)world.place(0, pose);
+      answered += is_answer(world.tick());
+      touching += world.contacts() > 0;
+      most = std::max(most, world.solves());
+      for (int k = 0; k < 3; ++k) not_finite += !world.joint_force(k).allFinite();
+    }
+    world.reset();
+  });
+  INFO(answered << " of " << path.size() << " answered, " << touching << " with contacts, at most " << most
+                << " solves");
+  CHECK(use == HeapUse{});
+  CHECK(not_finite == 0);
+  CHECK(most <= 48 + 2);
+  CHECK(answered > 380);
+  CHECK(touching > 300);
+}
+
 }  // namespace
+
+TEST_CASE("joints take nothing from the heap in a tick", "[realtime][world]") { check_joints(); }
 
 TEST_CASE("rods that touch take nothing from the heap in a tick", "[realtime][world]") {
   check_tick<RoundRod>();

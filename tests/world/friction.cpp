@@ -25,7 +25,7 @@ World<Element> pressed(const Friction& friction, const RodSection& section, Cros
   at.angle = 1.2;
   at.off = {0, 0, 2e-4};
   top.place_left(at.pose());
-  World<Element> world({{top, 8, friction}, {wire, 8}}, {}, solver);
+  World<Element> world({{top, 8, friction}, {wire, 8}}, {}, {}, solver);
   Crossing deep = at;
   deep.off = {0, 0, -0.008};
   REQUIRE(lead(world, at, deep, 100) == Status::ok);

@@ -264,6 +264,7 @@ class AllDisplacements {
   /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
   /// the model computes in: round-off would hide which way a branch goes on.
   [[gnu::cold]] void find_rest(const Body& beam) {
+    if constexpr (dimension == 3) beam.check_held();
     if constexpr (std::is_same_v<Scalar, double>) {
       follow_loads(system_);
     } else {

@@ -218,9 +218,9 @@ Look look_around(System& system) noexcept {
   for (int i = 0; i < rods && look.close; ++i) {
     const bool moves = system.body(i).moves;
     for (int j = i; j < rods && look.close; ++j)
-      if (moves || system.body(j).moves) look_at(system, i, j, look);
+      if ((moves || system.body(j).moves) && !system.joined(i, j)) look_at(system, i, j, look);
     for (int j = rods; j < all && look.close; ++j)
-      if (moves || system.rigid(j)->moves) look_at_rigid(system, i, j, look);
+      if ((moves || system.rigid(j)->moves) && !system.joined(i, j)) look_at_rigid(system, i, j, look);
   }
   return look;
 }

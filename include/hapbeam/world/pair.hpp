@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A contact of a rod with another, with itself or with a rigid body: one force and two places, unknowns of the equations of both.
+// A contact of a rod with another, with itself or with a rigid body: one force and two places, unknowns of the equations of both.  Or a ball joint of
+// two places that stay.
 //
 //   L = Σ V - f · w + h(f) - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n to rod 1; with friction f = λ n + t
-//   h(f) = R |f| + b |f across the axis of a tube|,  b = ±its radius, from outside and from inside
+//   h(f) = R |f| + b |f across the axis of a tube|,  b = ±its radius, from outside and from inside;  of a joint f · what is left of w
 //
 // Stationary by f where w + C f = ∂h/∂f, which is R n but in a tube: the true curves, which C bends off what nodes hold, are R apart.  By a place where the
 // true curve is across n.  Where the sections bend alike about all axes this is  Σ V - λ (|w| - R) - ½ λ² c.
@@ -32,12 +33,15 @@ namespace detail {
 
 struct RodPair {
   using Vector = VectorOf<double, 3>;
+  enum class Kind { contact, joint };
 
+  Kind kind = Kind::contact;
   std::array<int, 2> rod{};
   std::array<double, 2> s{};
   double reach = 0;                 // R, of both radii [m]
   double ring = 0;                  // b [m]
   Vector axis = Vector::Zero();     // of a tube
+  Vector apart = Vector::Zero();    // w of a joint at this part of its path [m]
   double force = 0;                 // λ [N]
   Vector normal = Vector::UnitZ();  // n
   /// New: its direction and its places stay until it presses.
@@ -55,6 +59,7 @@ struct RodPair {
   }
   /// ∂²L/∂f∂f along the axes.
   double bends(std::size_t c, std::size_t d) const noexcept {
+    if (kind == Kind::joint) return 0;
     const double even = c == d ? reach : 0;
     if (ring == 0) return even / force;
     const Around now = around();
@@ -63,10 +68,12 @@ struct RodPair {
   }
   /// ∂h/∂f along an axis [m].
   double offset(std::size_t c) const noexcept {
+    if (kind == Kind::joint) return axes[c].dot(apart);
     return (c == 0 ? reach : 0) + (ring != 0 ? ring * axes[c].dot(around().way) : 0);
   }
-  /// Eigenvalues of its own that are negative in a stable equilibrium: of λ and of two places of least distance, and from inside of a turn of n.
-  int negative() const noexcept { return ring < 0 ? 4 : 3; }
+  /// Eigenvalues of its own that are negative in a stable equilibrium: of λ and of two places of least distance, and from inside of a turn of n; of a joint
+  /// all.
+  int negative() const noexcept { return kind == Kind::joint ? 5 : ring < 0 ? 4 : 3; }
   /// Whether friction acts.
   bool rough() const noexcept { return !fresh && friction.acts(); }
 
@@ -103,6 +110,12 @@ struct RodPair {
     normal = unit(Vector(normal + turn));
     const double next = force + by[0];
     force = std::abs(next) < least_left * std::abs(force) ? std::copysign(least_left * force, next) : next;
+  }
+  /// Of a joint, whose force may be any.
+  void pull_by(const Vector& by) noexcept {
+    const Vector f = force * normal + by;
+    force = std::sqrt(f.squaredNorm());
+    if (force > 0) normal = f / force;
   }
   /// A step begins here.
   void mark() noexcept { met = s, met_held = held, pulls = 0; }

@@ -34,8 +34,8 @@ class PairEquilibrium {
 
   /// @throws std::invalid_argument as PairSystem
   PairEquilibrium(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid,
-                  const NewtonRaphson& solver)
-      : system_(rods, rigid), solver_(solver) {}
+                  const std::vector<BallJoint>& joints, const NewtonRaphson& solver)
+      : system_(rods, rigid, joints), solver_(solver) {}
   System& system() noexcept { return system_; }
   const System& system() const noexcept { return system_; }
 
@@ -54,7 +54,7 @@ class PairEquilibrium {
     int leaves = 0, tries = 0;
     bool sticks = false;
     system_.begin_friction();
-    for (int k = 0; k < system_.pairs(); ++k) {
+    for (int k = system_.joints(); k < system_.pairs(); ++k) {
       RodPair& pair = system_.pair(k);
       if (is_pinned(k) && !is_beside(k)) pair.held[0] = false;
       pair.mark();
@@ -147,7 +147,7 @@ class PairEquilibrium {
   }
   /// A place leaves an end of its rod.   @return whether there is one
   bool leave_end() noexcept {
-    for (int k = 0; k < system_.pairs(); ++k)
+    for (int k = system_.joints(); k < system_.pairs(); ++k)
       for (std::size_t side = 0; side < 2; ++side)
         if (system_.moves(system_.pair(k)) &&
             (side == 0 && is_pinned(k) ? !is_beside(k) : system_.pair(k).leaves_end(side)))
@@ -158,18 +158,18 @@ class PairEquilibrium {
   /// @return whether there is one
   bool release() noexcept {
     int worst = -1;
-    for (int k = 0; k < system_.pairs(); ++k) {
+    for (int k = system_.joints(); k < system_.pairs(); ++k) {
       const RodPair& pair = system_.pair(k);
       if (system_.moves(pair) && !(pair.force > 0) && (worst < 0 || pair.force < system_.pair(worst).force))
         worst = k;
     }
-    for (int k = 0; k < system_.pairs() && worst < 0; ++k) {
+    for (int k = system_.joints(); k < system_.pairs() && worst < 0; ++k) {
       const RodPair& pair = system_.pair(k);
       const double off = pair.distance(system_.between(pair)) - pair.reach;
       if (system_.moves(pair) && off > apart * pair.reach) worst = k;
     }
-    for (int k = 1; k < system_.pairs() && worst < 0; ++k)
-      for (int j = 0; j < k && worst < 0; ++j)
+    for (int k = system_.joints() + 1; k < system_.pairs() && worst < 0; ++k)
+      for (int j = system_.joints(); j < k && worst < 0; ++j)
         if (system_.moves(system_.pair(k)) &&
             beside_each_other(system_, system_.pair(k), system_.pair(j), 1, 0))
           worst = k;

@@ -27,8 +27,9 @@ class PairSystem : public WorldPairs<Element> {
   using typename Base::Body;
 
   /// @throws std::invalid_argument as WorldPairs
-  PairSystem(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid)
-      : Base(rods, rigid), bounds_(3 * most_pairs) {}
+  PairSystem(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid,
+             const std::vector<BallJoint>& joints)
+      : Base(rods, rigid, joints), bounds_(3 * most_pairs) {}
 
   /// How far along their path, 0 to 1, the next step takes all ends.
   void aim(double t) noexcept { goal_ = t; }
@@ -39,6 +40,7 @@ class PairSystem : public WorldPairs<Element> {
   void set_target(double) noexcept {
     each([&](Body& body) { body.set_target(goal_); });
     for (PlacedBody& core : rigid_) core.set_target(goal_);
+    this->lead_joints(goal_);
   }
   double size() const noexcept { return size_; }
   double unit() const noexcept {
@@ -95,13 +97,15 @@ class PairSystem : public WorldPairs<Element> {
     return std::isfinite(increment_) ? Status::ok : Status::non_finite;
   }
   void advance() noexcept {
-    each([](Body& body) { body.advance(); });
     int row = 0;
     for (int k = 0; k < pairs(); ++k) {
       RodPair& pair = this->pair(k);
       if (!moves(pair)) continue;
       const PairEquations& u = *equations_;
-      if (pair.rough())
+      if (pair.kind == RodPair::Kind::joint)
+        pair.pull_by(u[row] * pair.axes[0] + u[row + 1] * pair.axes[1] + u[row + 2] * pair.axes[2] -
+                     taken_back(k));
+      else if (pair.rough())
         pair.rub(
             pair.friction.increment({u[row], u[row + 1], u[row + 2], u[row + 3], u[row + 4]}, pair.force));
       else pair.push(u[row], u[row + 1], u[row + 2]);
@@ -112,6 +116,7 @@ class PairSystem : public WorldPairs<Element> {
       }
       row += pair_unknowns;
     }
+    each([](Body& body) { body.advance(); });
   }
   double increment() const noexcept { return increment_; }
   int negative_pivots() const noexcept { return negative_; }
@@ -122,7 +127,16 @@ class PairSystem : public WorldPairs<Element> {
   }
 
  private:
-  using Base::at, Base::each, Base::each_pair, Base::equations_, Base::look, Base::rigid_;
+  using Base::at, Base::each, Base::each_pair, Base::equations_, Base::held_, Base::look, Base::rigid_;
+
+  /// ½ κ (r₁ + r₂) of a joint in the last increment [N].
+  VectorOf<double, 3> taken_back(int k) const noexcept {
+    const auto& rod = this->pair(k).rod;
+    VectorOf<double, 3> sum = VectorOf<double, 3>::Zero();
+    for (std::size_t side = 0; side < 2; ++side)
+      if (!this->rigid(rod[side])) sum += this->body(rod[side]).moved(held_[at(k)].node[side]);
+    return held_[at(k)].lent / 2 * sum;
+  }
 
   /// Gives each pair its rows, and each rod its sides.
   void lay_out() noexcept {

@@ -12,6 +12,8 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <hapbeam/contact/box.hpp>
 #include <hapbeam/fem/load_path.hpp>
@@ -32,7 +34,8 @@ class RodBody {
   using Vector = VectorOf<double, 3>;
   using Hand = VectorOf<double, 18>;  // both ends: at, along and director times the length [m]
 
-  /// In its shape at rest.   @throws std::invalid_argument as ChainSystem, and where the rod has no shape at rest
+  /// In its shape at rest, or where its ends do not hold it in its natural shape.
+  /// @throws std::invalid_argument as ChainSystem, and where the rod has no shape at rest
   RodBody(const Rod& rod, int elements, PairEquations& equations)
       : sides(elements, equations),
         saved(elements),
@@ -42,17 +45,14 @@ class RodBody {
         rest_(elements),
         swept_(BoxTree<double, 3>::leaves_for(elements)),
         radius_(rod.thickness() / 2) {
-    system_.set_goal();
-    SolveReport<double> report = LoadPath{}.solve(system_).report;
-    if (is_answer(report.status)) {
-      system_.set_goal();
-      report = NewtonRaphson{}.solve(system_);
-    }
-    if (!is_answer(report.status))
-      throw std::invalid_argument(std::string("rod: no shape at rest was found, ") + name(report.status));
-    system_.keep(rest_);
+    if (rod.held()) find_rest();
+    keep_rest();
     reset();
   }
+  /// It rests as it lies.
+  void keep_rest() noexcept { system_.keep(rest_); }
+  /// A node holds it by so much, which a joint there takes back: no solution changes [N/m].
+  void lend(int node, double stiffness) { lent_.push_back({node, stiffness}); }
 
   const System& system() const noexcept { return system_; }
   Chain& chain() noexcept { return system_.chain(); }
@@ -116,6 +116,11 @@ class RodBody {
     if (!chain().ends().follow(nodes)) return {0, 0, Status::iteration_limit};
     const ChainEnergies<double> energies = chain().assemble(1, sides, assembler_);
     if (shift != 0) system_.add_shift(shift, assembler_);
+    for (const auto& [node, stiffness] : lent_) {
+      Increment diagonal = Increment::Zero();
+      diagonal.template head<3>().setConstant(stiffness);
+      assembler_.add_at(node, Block(diagonal.asDiagonal()), Increment::Zero());
+    }
     for (std::size_t k = 0; k < 2; ++k) {
       if (chain().ends()[k].is_free()) continue;
       const int i = chain().ends().node(k);
@@ -134,6 +139,8 @@ class RodBody {
     assembler_.substitute();
     return energy;
   }
+  /// Of a node in the last increment [m].
+  Vector moved(int node) const noexcept { return increment(node).template head<3>(); }
   /// Largest rotation of a node in the last increment [rad].
   double turn() const noexcept {
     double largest = 0;
@@ -187,6 +194,16 @@ class RodBody {
 
  private:
   static constexpr int unknowns = Element::unknowns;
+  void find_rest() {
+    system_.set_goal();
+    SolveReport<double> report = LoadPath{}.solve(system_).report;
+    if (is_answer(report.status)) {
+      system_.set_goal();
+      report = NewtonRaphson{}.solve(system_);
+    }
+    if (!is_answer(report.status))
+      throw std::invalid_argument(std::string("rod: no shape at rest was found, ") + name(report.status));
+  }
   using Increment = VectorOf<double, unknowns>;
   using Block = Eigen::Matrix<double, unknowns, unknowns>;
   struct End {
@@ -202,6 +219,7 @@ class RodBody {
   BoxTree<double, 3> swept_;
   bool swept_at_rest_ = false;
   double radius_;
+  std::vector<std::pair<int, double>> lent_;
   std::array<End, 2> ends_;
   std::array<Increment, 2> held_;
   Hand hand_, hand_next_, step_;  // of the last tick, of the next, and between the last two

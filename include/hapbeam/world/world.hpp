@@ -31,12 +31,15 @@ class World {
  public:
   static constexpr int most_contacts = detail::most_pairs;
 
-  /// @throws std::invalid_argument where there is no rod, a rod or a body makes no sense, a rod has no shape at rest, or lies in another or in a body there
+  /// Joints draw their rods together from where those rest without them.
+  /// @throws std::invalid_argument where there is no rod, a rod, a body or a joint makes no sense, a rod has no shape at rest, or lies in another or in a body
+  /// there, or joints do not come together
   explicit World(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& bodies = {},
-                 const NewtonRaphson& solver = {})
-      : equilibrium_(rods, bodies, solver) {
+                 const std::vector<BallJoint>& joints = {}, const NewtonRaphson& solver = {})
+      : equilibrium_(rods, bodies, joints, solver) {
     if (rods.empty()) throw std::invalid_argument("rods = 0: must be 1 or more");
     look_at_rest();
+    if (!joints.empty()) join();
   }
 
   int rods() const noexcept { return static_cast<int>(system().bodies().size()); }
@@ -105,9 +108,13 @@ class World {
     const auto& [force, moment] = held_[2 * static_cast<std::size_t>(rod) + static_cast<std::size_t>(side)];
     return {force, moment, status_};
   }
-  int contacts() const noexcept { return system().pairs(); }
+  /// Of a joint on its first rod [N].
+  VectorOf<double, 3> joint_force(int k) const noexcept {
+    return system().pair(k).force * system().pair(k).normal;
+  }
+  int contacts() const noexcept { return system().pairs() - system().joints(); }
   RodContact contact(int k) const noexcept {
-    const detail::RodPair& pair = system().pair(k);
+    const detail::RodPair& pair = system().pair(system().joints() + k);
     const Vector at = shape(pair.rod[0]).at(pair.s[0]).r;
     const bool rigid = system().rigid(pair.rod[1]) != nullptr;
     return {pair.rod,
@@ -122,7 +129,7 @@ class World {
   double strain_energy() const noexcept {
     double energy = 0;
     for (const Body& body : system().bodies()) energy += body.system().strain_energy();
-    for (int k = 0; k < contacts(); ++k) {
+    for (int k = system().joints(); k < system().pairs(); ++k) {
       const detail::RodPair& pair = system().pair(k);
       const Vector w = system().between(pair);
       energy += (pair.force * (pair.reach - pair.distance(w)) - pair.friction.kept().dot(w)) / 2 +
@@ -166,7 +173,7 @@ class World {
   /// @return whether anything moves
   bool begin() noexcept {
     equilibrium_.begin();
-    system().spread();
+    system().spread(), system().begin_joints();
     double along = 0, square = 0, before = 0;
     bool moving = false;
     const auto begin_path = [&](auto& body) {
@@ -226,6 +233,16 @@ class World {
 
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
+  /// From the shapes of rods alone to that which they have together.
+  void join() {
+    constexpr int most = 200;
+    for (int k = 0; k < most; ++k)
+      if (tick() == Status::ok) break;
+    if (status_ != Status::ok)
+      throw std::invalid_argument(std::string("joints: they do not come together, ") + name(status_));
+    system().keep_rest();
+    reset();
+  }
   /// @throws std::invalid_argument where rods lie in each other or in bodies
   void look_at_rest() {
     held_.resize(2 * at(rods()));

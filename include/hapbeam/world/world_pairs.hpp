@@ -10,8 +10,10 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include <hapbeam/world/ball_joint.hpp>
 #include <hapbeam/world/rigid_body.hpp>
 #include <hapbeam/world/rod_body.hpp>
 
@@ -33,15 +35,28 @@ class WorldPairs {
  public:
   using Body = RodBody<Element>;
 
-  /// @throws std::invalid_argument as RodBody, RigidBody and Friction
-  WorldPairs(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid)
+  /// @throws std::invalid_argument as RodBody, RigidBody, Friction and BallJoint
+  WorldPairs(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid,
+             const std::vector<BallJoint>& joints)
       : equations_(std::make_unique<PairEquations>()), rigid_(rigid.begin(), rigid.end()) {
-    bodies_.reserve(rods.size());
-    for (const auto& [rod, elements, friction] : rods) {
-      friction.check();
-      bodies_.emplace_back(rod, elements, *equations_);
-      frictions_.push_back(friction);
+    std::vector<Rod> jointed;
+    for (const WorldRod& rod : rods) jointed.push_back(rod.rod);
+    for (const BallJoint& joint : joints) {
+      check_joint(joint, jointed, rigid);
+      for (std::size_t side = 0; side < 2; ++side)
+        if (at(joint.rod[side]) < rods.size()) jointed[at(joint.rod[side])].join(joint.s[side]);
     }
+    const std::vector<int> away = joints_away(jointed, joints);
+    bodies_.reserve(rods.size());
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+      rods[i].friction.check();
+      if (at(away[i]) > rods.size()) jointed[i].check_held();
+      bodies_.emplace_back(jointed[i], rods[i].elements, *equations_);
+      frictions_.push_back(rods[i].friction);
+    }
+    for (const BallJoint& joint : joints) add(joint, away);
+    joined_ = held_together(joints);
+    keep_rest();
   }
 
   std::vector<Body>& bodies() noexcept { return bodies_; }
@@ -68,12 +83,32 @@ class WorldPairs {
            (core ? core->at(pair.s[1]) : body(pair.rod[1]).line().at(pair.s[1]).r);
   }
 
-  // The pairs that touch.
+  // The joints, and behind them the pairs that touch.
+
+  int joints() const noexcept { return static_cast<int>(held_.size()); }
+  /// Whether joints hold both together, at one place.
+  bool joined(int i, int j) const noexcept {
+    return std::find(joined_.begin(), joined_.end(), std::pair<int, int>(std::minmax(i, j))) != joined_.end();
+  }
+  /// Their paths begin where they are.
+  void begin_joints() noexcept {
+    for (int k = 0; k < joints(); ++k) held_[at(k)].apart = between(pair(k));
+  }
+  /// So far along their paths, 0 to 1.
+  void lead_joints(double t) noexcept {
+    for (int k = 0; k < joints(); ++k) pair(k).apart = (1 - t) * held_[at(k)].apart;
+  }
+  /// All rests as it lies.
+  void keep_rest() noexcept {
+    for (Body& body : bodies_) body.keep_rest();
+    rest_number_ = number_, rest_ = pairs_;
+  }
 
   int pairs() const noexcept { return number_; }
   RodPair& pair(int k) noexcept { return pairs_[at(k)]; }
   const RodPair& pair(int k) const noexcept { return pairs_[at(k)]; }
-  void clear() noexcept { number_ = 0; }
+  /// As at rest.
+  void clear() noexcept { number_ = rest_number_, pairs_ = rest_; }
   /// @return whether there was room
   bool add(const RodPair& pair) noexcept {
     if (number_ == most_pairs) return false;
@@ -156,6 +191,12 @@ class WorldPairs {
   }
 
  protected:
+  /// A joint beside its pair: nodes of its rods, what it lends the first of them, and where its path begins.
+  struct Joint {
+    std::array<int, 2> node;
+    double lent;  // [N/m]
+    VectorOf<double, 3> apart;
+  };
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
   template <class F>
   void each(F&& f) noexcept {
@@ -192,8 +233,38 @@ class WorldPairs {
 
   std::unique_ptr<PairEquations> equations_;
   std::vector<PlacedBody> rigid_;
+  std::vector<Joint> held_;
 
  private:
+  /// @throws std::invalid_argument where there are too many, or a mesh has no node there
+  [[gnu::cold]] void add(const BallJoint& joint, const std::vector<int>& away) {
+    if (number_ == most_pairs) reject("joints", number_ + 1.0, "", "at most 16");
+    RodPair& pair = pairs_[at(number_++)];
+    pair.kind = RodPair::Kind::joint, pair.fresh = false, pair.held = {true, true};
+    pair.rod = joint.rod, pair.s = joint.s;
+    Joint beside{{}, 0, VectorOf<double, 3>::Zero()};
+    std::array<int, 2> steps{};
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (rigid(joint.rod[side])) continue;
+      const Body& body = this->body(joint.rod[side]);
+      const auto line = body.line();
+      int& node = beside.node[side];
+      while (node < body.elements() && line[node].s < joint.s[side] - line[node + 1].s * 1e-9) ++node;
+      if (std::abs(line[node].s - joint.s[side]) > 1e-6 * body.length())
+        reject("joint s", joint.s[side], "m", "a node of the rod: take more elements");
+      pair.s[side] = line[node].s, steps[side] = away[at(joint.rod[side])];
+    }
+    const double share = lent_share(steps[0], steps[1]);
+    if (share != 0) {
+      const Body& borrows = body(joint.rod[share > 0 ? 0 : 1]);
+      const double unit = borrows.system().unit() / borrows.length();
+      beside.lent = share * unit * unit;
+    }
+    for (std::size_t side = 0; side < 2; ++side)
+      if (!rigid(joint.rod[side]) && beside.lent != 0)
+        body(joint.rod[side]).lend(beside.node[side], side == 0 ? beside.lent : -beside.lent);
+    held_.push_back(beside);
+  }
   void give_friction(RodPair& pair) noexcept {
     if (rigid(pair.rod[1])) return;
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
@@ -207,9 +278,10 @@ class WorldPairs {
   }
 
   std::vector<Body> bodies_;
+  std::vector<std::pair<int, int>> joined_;
   std::vector<Friction> frictions_;  // of each rod
-  std::array<RodPair, most_pairs> pairs_, saved_;
-  int number_ = 0, saved_number_ = 0;
+  std::array<RodPair, most_pairs> pairs_, saved_, rest_;
+  int number_ = 0, saved_number_ = 0, rest_number_ = 0;
 };
 
 }  // namespace detail

@@ -60,8 +60,7 @@ class RodElements {
         throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
                                     ": TwistedRod turns about its axis, hold its twist at one end");
     round_ = natural_.straight() && profile_.round() && profile_.smooth();
-    const bool held = rod.left().along > 0 && rod.right().along > 0;
-    own_ = has_twist && !round_ ? Own::twist : held ? Own::tension : Own::none;
+    own_ = has_twist && !round_ ? Own::twist : rod.drawn() ? Own::tension : Own::none;
     lay_mesh<Scalar>(rod, rod.forces(), elements, [this](int i, Scalar s) { nodes_[i] = natural_.at(s); });
     for (int e = 0; e < elements; ++e) make(e);
     if (!loads_.empty()) loads_.take(view(nodes_));

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Ball joints of a World: a place of a rod is held on one of another rod, or of a body.
+//
+//   World<RoundRod> bow({{limb, 16}, {string, 16}, {other, 16}}, {}, {{{0, 1}, {0.5, 0}}, {{1, 2}, {0.9, 0.5}}});
+//
+// A joint is a pair whose places are nodes and stay: its three forces are unknowns of the same equations.  A rod that its ends do not hold has no factor of
+// its own.  So a joint lends it a stiffness κ, and takes that back from what it is held on and from the force:
+//
+//   ½ x₁ᵀK₁x₁ + ½ x₂ᵀK₂x₂ - f · (r₁ - r₂) = ½ x₁ᵀ(K₁ + κ) x₁ + ½ x₂ᵀ(K₂ - κ) x₂ - φ · (r₁ - r₂),   f = φ - ½ κ (r₁ + r₂)
+//
+// which is a congruence: solutions and inertia stay what they are.
+// Offline: checks throw std::invalid_argument.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <hapbeam/check.hpp>
+#include <hapbeam/rod.hpp>
+#include <hapbeam/world/rigid_body.hpp>
+
+namespace hapbeam {
+
+/// Rods that joints hold together at one place do not touch each other, nor bodies there.
+struct BallJoint {
+  std::array<int, 2>
+      rod;  ///< 0-based numbers in the World: rods; the second may be rods() + that of a sphere or a capsule
+  std::array<double, 2> s;  ///< [m] arc positions; along the axis of a body
+};
+
+namespace detail {
+
+/// @throws std::invalid_argument where there is no such rod or place
+[[gnu::cold]] inline void check_joint(const BallJoint& joint, const std::vector<Rod>& rods,
+                                      const std::vector<RigidBody>& bodies) {
+  const int number = static_cast<int>(rods.size()), all = number + static_cast<int>(bodies.size());
+  for (std::size_t side = 0; side < 2; ++side) {
+    const int rod = joint.rod[side];
+    if (rod < 0 || rod >= (side == 0 ? number : all))
+      reject("joint rod", rod, "",
+             side == 0 ? "the number of a rod" : "the number of a rod, or rods + that of a body");
+    if (rod >= number && bodies[static_cast<std::size_t>(rod - number)].kind() != RigidBody::Kind::round)
+      reject("joint body", rod - number, "", "a sphere or a capsule");
+    const double length = rod < number ? rods[static_cast<std::size_t>(rod)].length()
+                                       : bodies[static_cast<std::size_t>(rod - number)].way().norm();
+    if (!(joint.s[side] >= 0 && joint.s[side] <= length))
+      reject("joint s", joint.s[side], "m",
+             rod < number ? "on the rod, 0 to its length" : "on the axis of the body");
+  }
+  if (joint.rod[0] == joint.rod[1]) reject("joint rod", joint.rod[1], "", "another one than the first");
+}
+
+/// How many joints lead from what holds itself to each rod; more than there are rods: none do.
+inline std::vector<int> joints_away(const std::vector<Rod>& rods, const std::vector<BallJoint>& joints) {
+  const int number = static_cast<int>(rods.size());
+  std::vector<int> away;
+  for (const Rod& rod : rods) away.push_back(rod.held() ? 0 : number + 1);
+  const auto of = [&](int rod) { return rod < number ? away[static_cast<std::size_t>(rod)] : 0; };
+  for (int pass = 0; pass < number; ++pass)
+    for (const BallJoint& joint : joints)
+      for (std::size_t side = 0; side < 2; ++side)
+        if (const int next = of(joint.rod[1 - side]) + 1; next < of(joint.rod[side]))
+          away[static_cast<std::size_t>(joint.rod[side])] = next;
+  return away;
+}
+
+/// Who does not touch whom, the smaller number first: those of one joint, and of two at one place of a rod.
+inline std::vector<std::pair<int, int>> held_together(const std::vector<BallJoint>& joints) {
+  std::vector<std::pair<int, int>> all;
+  const auto add = [&all](int i, int j) {
+    if (i != j) all.emplace_back((std::min)(i, j), (std::max)(i, j));
+  };
+  for (const BallJoint& a : joints) {
+    add(a.rod[0], a.rod[1]);
+    for (const BallJoint& b : joints)
+      for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t j = 0; j < 2; ++j)
+          if (a.rod[i] == b.rod[j] && a.s[i] == b.s[j]) add(a.rod[1 - i], b.rod[1 - j]);
+  }
+  return all;
+}
+
+/// What a joint lends the first of its rods, in units of a rod's own stiffness; negative: the second.   @param first, second  joints_away() of both
+inline double lent_share(int first, int second) noexcept {
+  if (first == 0 && second == 0) return 0;
+  const double share = std::pow(0.25, first == second ? first + 1 : (std::min)(first, second));
+  return second > first ? -share : share;
+}
+
+}  // namespace detail
+
+}  // namespace hapbeam
