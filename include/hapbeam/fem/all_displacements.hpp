@@ -98,7 +98,7 @@ class AllDisplacements {
     aim();
     // On the way down Newton's method may be near enough by now.
     report_ =
-        descending_ ? solve_within(solver_.max_solves / 4) : solve_within(solver_.max_solves, report_.step);
+        descends() ? solve_within(solver_.max_solves / 4) : solve_within(solver_.max_solves, report_.step);
     Descent descent;
     descent.max_solves = solver_.max_solves - report_.solves;
     const bool on_ridge = gives_way(), on_its_way = report_.steps > 0 && descent.max_solves <= 0;
@@ -153,7 +153,7 @@ class AllDisplacements {
   MeshDifference<Scalar> differ_from(const AllDisplacements& other) noexcept {
     using Vector = typename System::Vector;
     forget();
-    falling_ = descending_ = false;
+    course_ = Course::stands;
     system_.take_shape(other.system_);
     system_.set_goal_of(other.system_);
     report_ = solve_within(solver_.max_solves);
@@ -189,11 +189,19 @@ class AllDisplacements {
   friend Places;
   using Middle = decltype(std::declval<const System&>().middle());
 
+  enum class Course {
+    stands,
+    falls,     ///< off the shape that gave way, and not yet at a stable one
+    descends,  ///< and not yet near one
+  };
+  bool descends() const noexcept { return course_ == Course::descends; }
+  void descend() noexcept { course_ = Course::descends; }
+
   void to_rest() noexcept {
     system_.set_state(rest_state_);
     if constexpr (dimension == 3) system_.chain().go_home();
     home_ = system_.middle();
-    falling_ = descending_ = false;
+    course_ = Course::stands;
     unanswered_ = 0;
     forget();
   }
@@ -235,7 +243,7 @@ class AllDisplacements {
     report_ = {Status::iteration_limit, 0, 0, 0, 0, first_step};
     if (left_ <= 0) return {system_.linear_reaction(), report_.status};
     aim();
-    if (!descending_) report_ = solve_within(left_, first_step, looser);
+    if (!descends()) report_ = solve_within(left_, first_step, looser);
     // A straight beam pressed across gives way in no element but those that lock.
     const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
     Descent descent;
@@ -245,13 +253,13 @@ class AllDisplacements {
     if (on_ridge || (report_.status == Status::iteration_limit && (!single_valued_ || slips))) {
       if (!fall(on_ridge, descent, aim)) {
         to_rest();
-        falling_ = true;
+        course_ = Course::falls;
       }
     } else if (any_rotation<Element> && report_.status == Status::iteration_limit && report_.steps == 0 &&
                first_) {
       to_rest();  // what the last request has left leads nowhere: the next one begins at rest
-    } else if (falling_ && report_.status == Status::ok) {
-      falling_ = false;
+    } else if (course_ == Course::falls && report_.status == Status::ok) {
+      course_ = Course::stands;
       report_.status = Status::snapped;
     }
     left_ -= report_.solves;
@@ -321,19 +329,19 @@ class AllDisplacements {
     const int budget = solves + descent.max_solves;
     bool any_way = true;
     system_.forget_force();
-    descending_ = !descent.solve(system_, solves);
-    if (!descending_) {
+    if (descent.solve(system_, solves)) {
       aim();
       report_ = solve_within(budget - solves);
       if (report_.status == Status::ok)
         report_.status = gives_way() ? Status::iteration_limit : Status::snapped;
+      course_ = report_.status == Status::iteration_limit ? Course::falls : Course::stands;
     } else {
+      descend();
       report_.status = Status::iteration_limit;
       report_.solves = 0;
       any_way = solves >= budget;
     }
     report_.solves += solves;
-    falling_ = report_.status == Status::iteration_limit;
     return any_way;
   }
 
@@ -352,10 +360,9 @@ class AllDisplacements {
   bool single_valued_;  // one shape for each press, as far as is known
   Pushes pushes_{system_};
   Places place_{system_};
-  bool first_ = true;        // nothing has been solved for this request
-  int left_ = 0;             // linear solves that this request may still take
-  bool falling_ = false;     // off the shape that gave way, and not yet at a stable one
-  bool descending_ = false;  // and not yet near one
+  bool first_ = true;  // nothing has been solved for this request
+  int left_ = 0;       // linear solves that this request may still take
+  Course course_ = Course::stands;
   static constexpr int patience = 32;
   int unanswered_ = 0;  // poses of an end in succession
   Middle home_;         // where the middle is in the shape from which the beam is pressed

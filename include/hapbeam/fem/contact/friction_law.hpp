@@ -64,14 +64,14 @@ class FrictionLaw {
     far_shear_ = sheared_;
     const Scalar carried = norm(sheared_ - carried_);
     const bool hurries = carried > hurry;
-    slides_ = !known_ || ((state.slides || hurries) && bound_.next() > 0);
-    if (slides_ && state.slides) bound_.go_on(state.rise);
-    if (slides_) aim(sheared_, (std::max)(norm(sheared_), state.slip));
-    last_force_ = state.slides ? state.force : Vector(Vector::Zero());
+    const bool goes_on = (state.slides || hurries) && bound_.next() > 0;
     // In its first tick a contact slides without friction to where the touch begins.
-    fallen_ = !known_;
-    if (fallen_) bound_.set(0);
-    slid_ = slides_, stuck_ = !slides_;
+    mode_ = !known_ ? Mode::falls : goes_on ? Mode::slides : Mode::sticks;
+    if (slides() && state.slides) bound_.go_on(state.rise);
+    if (slides()) aim(sheared_, (std::max)(norm(sheared_), state.slip));
+    last_force_ = state.slides ? state.force : Vector(Vector::Zero());
+    if (falls()) bound_.set(0);
+    slid_ = slides(), stuck_ = !slides();
     tries_ = 0;
   }
 
@@ -88,7 +88,7 @@ class FrictionLaw {
 
   /// The hand goes on as it went.  So does what slid, though the beam may go farther than the hand: over a peg by twice its way.
   void go_on() noexcept {
-    if (slides_ && !last_force_.isZero(0)) direction_ = last_force_;
+    if (slides() && !last_force_.isZero(0)) direction_ = last_force_;
   }
   /// To be called where the beam has moved.
   void look(const Place& now) noexcept {
@@ -98,7 +98,7 @@ class FrictionLaw {
   }
   /// The same where the solve took the bound along: B = μN again, and the way is as long as it has become.
   void look(const Place& now, Scalar normal_force) noexcept {
-    if (slides_ && !fallen_) bound_.set(sliding_ * (std::max)(normal_force, Scalar(0)));
+    if (mode_ == Mode::slides) bound_.set(sliding_ * (std::max)(normal_force, Scalar(0)));
     now_ = now;
     shear();
     lengthen();
@@ -109,15 +109,15 @@ class FrictionLaw {
   /// ∂T/∂e [N/m], across the normal.
   Matrix tangent() const noexcept {
     Matrix t = Matrix::Identity() - now_.normal * now_.normal.transpose();
-    if (!slides_) return (stiffness_ + damping_) * t;
+    if (!slides()) return (stiffness_ + damping_) * t;
     const Vector d = across(direction_);
     return aside(bound_.next()) * (t - d * d.transpose());
   }
   /// In a plane that is a number.
-  Scalar stiffness() const noexcept { return slides_ ? Scalar(0) : stiffness_ + damping_; }
+  Scalar stiffness() const noexcept { return slides() ? Scalar(0) : stiffness_ + damping_; }
   /// [J]
   Scalar potential() const noexcept {
-    if (!slides_)
+    if (!slides())
       return (stiffness_ + damping_) / 2 * sheared_.squaredNorm() - damping_ * carried_.dot(sheared_);
     return (force_.dot(sheared_) + bound_.next() * across(direction_).dot(sheared_)) / 2;
   }
@@ -125,18 +125,19 @@ class FrictionLaw {
   /// To be called after each linear solve.  @param normal_force  of it [N]
   void feel(Scalar normal_force) noexcept {
     bound_.use();
-    if (slides_ && !fallen_) bound_.follow(normal_force);
+    if (mode_ == Mode::slides) bound_.follow(normal_force);
   }
 
   /// ∂T/∂N, where the bound is taken along.
   Vector by_normal_force() const noexcept {
-    return slides_ && !fallen_ ? Vector(sliding_ * across(direction_)) : Vector(Vector::Zero());
+    return mode_ == Mode::slides ? Vector(sliding_ * across(direction_)) : Vector(Vector::Zero());
   }
 
   /// The beam falls.  What slides does that without friction, and the touch begins anew where it arrives; what sticks goes along.
   void fall() noexcept {
-    fallen_ = slides_;
-    if (slides_) bound_.set(0);
+    if (!slides()) return;
+    mode_ = Mode::falls;
+    bound_.set(0);
   }
 
   /// To be called where an equilibrium was found, after look().  @param normal_force  of it [N]
@@ -146,19 +147,19 @@ class FrictionLaw {
     const Scalar size = norm(elastic), most = sliding_ * (std::max)(normal_force, Scalar(0));
     // What pulls while it sticks may press where it slides.
     const bool pulls = !(normal_force > 0);
-    if (fallen_ || ++tries_ > most_tries) return true;
-    if (pulls && (slides_ ? !(bound_.used() > 0) : !(size > 0))) return true;
+    if (falls() || ++tries_ > most_tries) return true;
+    if (pulls && (slides() ? !(bound_.used() > 0) : !(size > 0))) return true;
     torn_ = false;
     // What pulls has no friction.  With that of the last tick, or with none, it may press.
-    if (pulls && slides_) {
+    if (pulls && slides()) {
       torn_ = true;
       bound_.leap(bound_.before() < bound_.used() ? bound_.before() : Scalar(0), true);
       aim(far_shear_, norm(far_shear_));
       return false;
     }
-    if (!slides_) {
+    if (!slides()) {
       if (!pulls && size <= (1 + exact) * sticking_ * normal_force) return true;
-      slides_ = slid_ = true;
+      mode_ = Mode::slides, slid_ = true;
       torn_ = pulls || size > 2 * sticking_ * normal_force;
       // From afar the last bound says more than what sticks there.
       bound_.leap(torn_ && bound_.before() > 0 ? bound_.before() : most, torn_);
@@ -169,7 +170,7 @@ class FrictionLaw {
     // One that has stopped sticks.  With one coefficient for both that makes no difference.  What a bound stops that was too large slides on.
     const Scalar stopped = sticking_ > sliding_ ? 1 + exact : 1 - exact;
     if (d.dot(elastic) < (std::min)(bound_.used(), most) * stopped) {
-      slides_ = false;
+      mode_ = Mode::sticks;
       return false;
     }
     bound_.see(normal_force);
@@ -181,16 +182,16 @@ class FrictionLaw {
 
   /// Whether it sticks, and by more than it can.  @param normal_force  of an equilibrium, after look() [N]
   bool holds_too_much(Scalar normal_force) const noexcept {
-    return !slides_ &&
+    return !slides() &&
            !(force_.squaredNorm() <= squared((1 + exact) * sticking_ * (std::max)(normal_force, Scalar(0))));
   }
-  bool slides() const noexcept { return slides_; }
+  bool slides() const noexcept { return mode_ != Mode::sticks; }
   /// T of an equilibrium, after look() [N]
-  Vector acting() const noexcept { return slides_ ? force_at(bound_.used()) : force_; }
+  Vector acting() const noexcept { return slides() ? force_at(bound_.used()) : force_; }
   /// What it can hold as it begins to slide, by the last tick [N].
   Scalar last_bound() const noexcept { return bound_.before(); }
   /// Whether it slides without friction.
-  bool falls() const noexcept { return fallen_; }
+  bool falls() const noexcept { return mode_ == Mode::falls; }
   /// To be called where no equilibrium is near.  A hand that pushes a beam along itself has no end of force while it sticks, and a beam that
   /// hardly slides has none while it slides: each way is tried once.
   /// Without friction it is tried most_tries times at most.
@@ -198,21 +199,22 @@ class FrictionLaw {
   bool turn() noexcept {
     torn_ = true;
     // A bound that follows what Newton's method is far from leads it astray.  In space that has taken too many solves for another try.
-    const bool may_hold = D == 2 && slides_ && !fallen_ && !bound_.held();
+    const bool may_hold = D == 2 && mode_ == Mode::slides && !bound_.held();
     bound_.start(true);
     if (may_hold) {
       bound_.hold();
       return true;
     }
-    if (slides_ && !fallen_ && !stuck_) {
-      slides_ = false, stuck_ = true;
+    if (mode_ == Mode::slides && !stuck_) {
+      mode_ = Mode::sticks, stuck_ = true;
       return true;
     }
     // What sticks where no other way leads may be found from where it slides without friction.
-    const bool freely = D == 2 && !fallen_ && stuck_ && bound_.used() > 0 && ++tries_ < most_tries,
-               another = !slides_ && !slid_;
-    slides_ = slid_ = true;
-    bound_.set(fallen_ || freely ? Scalar(0) : bound_.before());
+    const bool freely = D == 2 && !falls() && stuck_ && bound_.used() > 0 && ++tries_ < most_tries,
+               another = !slides() && !slid_;
+    if (!slides()) mode_ = Mode::slides;
+    slid_ = true;
+    bound_.set(falls() || freely ? Scalar(0) : bound_.before());
     aim(far_shear_, norm(far_shear_));
     return another || freely;
   }
@@ -223,7 +225,7 @@ class FrictionLaw {
   void leave(FrictionState<Scalar, D>& state, Scalar normal_force) const noexcept {
     const Vector elastic = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
     const Scalar size = norm(elastic),
-                 most = (slides_ ? sliding_ : sticking_) * (std::max)(normal_force, Scalar(0));
+                 most = (slides() ? sliding_ : sticking_) * (std::max)(normal_force, Scalar(0));
     const bool slid = size > most;
     const Vector before = now_.carried(state.force, before_);
     const bool falls_or_slides = state.slides || sticking_ > sliding_;
@@ -234,16 +236,16 @@ class FrictionLaw {
     // quadratic, whatever happens within the tick: so it is where T falls at once.  What turns back slides with all of its force.
     const Vector mean =
         falls_or_slides && before.dot(state.force) > 0 ? Vector((before + state.force) / 2) : state.force;
-    if (!fallen_)
+    if (!falls())
       state.dissipated += mean.dot(sheared_ - state.skin) + damping_ * (state.skin - carried_).squaredNorm();
-    if (fallen_) state.force.setZero(), state.skin.setZero();
+    if (falls()) state.force.setZero(), state.skin.setZero();
     const bool goes_on = state.slides;
     state.known = true;
-    state.slides = slides_ && !fallen_;
+    state.slides = mode_ == Mode::slides;
     state.rise = goes_on && state.slides ? most - bound_.before() : Scalar(0);
     // Where the tries have ended before the changes: what acted, and what should have.
     state.settled =
-        tries_ <= most_tries || fallen_ || (slides_ ? norm(state.force - acting()) <= loose * most : !slid);
+        tries_ <= most_tries || falls() || (slides() ? norm(state.force - acting()) <= loose * most : !slid);
     state.s = now_.s, state.ahead = now_.ahead, state.normal = now_.normal, state.along = now_.along;
     state.place = now_.place, state.axis = now_.axis;
     state.gain = bound_.gain();
@@ -271,7 +273,7 @@ class FrictionLaw {
     length_ = (std::max)(length, Scalar(0));
   }
   void act() noexcept {
-    if (!slides_) {
+    if (!slides()) {
       force_ = (stiffness_ + damping_) * sheared_ - damping_ * carried_;
     } else {
       if (D == 3) follow();
@@ -293,7 +295,13 @@ class FrictionLaw {
     const Vector d = across(direction_);
     return bound * d + aside(bound) * (sheared_ - d * d.dot(sheared_));
   }
-  bool known_ = false, slides_ = false, fallen_ = false, torn_ = false;
+  enum class Mode {
+    sticks,
+    slides,
+    falls,  ///< slides without friction
+  };
+  Mode mode_ = Mode::sticks;
+  bool known_ = false, torn_ = false;
   bool slid_ = false, stuck_ = false;  // ways that were tried
   Place before_, now_;
   Vector skin_ = Vector::Zero(), carried_ = Vector::Zero(), sheared_ = Vector::Zero();

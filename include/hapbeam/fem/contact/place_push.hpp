@@ -69,7 +69,7 @@ class PlacePush {
     };
     const auto fall = [&] {
       back();
-      way.descending_ = true;
+      way.descend();
     };
     return continuation_.follow(go, judge, keep, back, fall);
   }

@@ -170,7 +170,7 @@ class RowPush : private RowContacts<Element, System> {
     };
     const auto fall = [&] {
       back();
-      way.descending_ = true;
+      way.descend();
     };
     const Status status = continuation_.follow(go, judge, keep, back, fall).status;
     if (holds && status != Status::ok) all[0].pushed.status = status;
@@ -304,7 +304,7 @@ class RowPush : private RowContacts<Element, System> {
              : some && !stay                         ? near_with_friction * 3 / 4
                                                      : near_with_friction;
     };
-    bool all = !rough || way.descending_ || friction.falls();
+    bool all = !rough || way.descends() || friction.falls();
     const auto begin_again = [&] {
       for (int i = 0; i < count_; ++i)
         if (slot(i).goal >= 0) static_cast<State&>(slot(i)) = slot(i).begins;
