@@ -225,3 +225,28 @@ TEST_CASE("a world takes poses of ends that can be placed alone", "[world]") {
   CHECK(world.tick() == Status::ok);
   CHECK(world.held(0, RodSide::left).force.norm() == 0);
 }
+
+TEST_CASE("a flat strip that a needle draws too taut for its elements says so", "[world]") {
+  const double length = 0.2, width = 0.01, height = 0.0005;
+  const auto pressed = [&](int elements, double depth) {
+    Rod strip(length, RodSection::rectangle(width, height), spring_steel, RodSupport::clamped,
+              RodSupport::clamped);
+    Rod tool(0.1, RodSection::circle(0.004), spring_steel, RodSupport::clamped, RodSupport::free);
+    const Point across = detail::cross3<double>(Point(1, 0, 0), strip.left_pose().director);
+    const Point aside = strip.left_pose().director;
+    RodPose above{Point(0.09, 0, 0) + 0.00226 * across - 0.05 * aside, aside, Point(1, 0, 0)};
+    tool.place_left(above);
+    World<TwistedRod> world({{tool, 6}, {strip, elements}});
+    Status status = Status::ok;
+    for (int k = 1; k <= 100; ++k) {
+      RodPose hand = above;
+      hand.at -= depth * k / 100 * across;
+      CHECK(world.hold(0, RodSide::left, hand) == Status::ok);
+      status = world.tick();
+    }
+    CHECK(world.contacts() >= 1);
+    return status;
+  };
+  CHECK(pressed(8, 0.0005) == Status::ok);
+  CHECK(pressed(8, 0.006) == Status::out_of_range);
+}

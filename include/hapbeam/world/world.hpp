@@ -59,7 +59,7 @@ class World {
   }
   /// Once a period.
   /// @return ok | snapped | out_of_range, where there are more contacts than most_contacts, or
-  ///         one bends an element by half of its reach | iteration_limit, where the ends or a fall are on their
+  ///         one bends an element by half of its reach, or a rod that has no tension of its own is drawn too taut for its elements | iteration_limit, where the ends or a fall are on their
   ///         way: the next tick goes on | singular | non_finite.  No rod has passed another.  After 32 ticks that have led
   ///         nowhere all rods begin anew at rest.
   Status tick() noexcept {
@@ -89,7 +89,9 @@ class World {
     if (equilibrium_.changed()) known_ = 0;
     if (outcome == Outcome::settled) {
       rest();
-      status_ = course_ == Course::has_fallen ? Status::snapped : Status::ok;
+      status_ = course_ == Course::has_fallen ? Status::snapped
+                : system().overdrawn()        ? Status::out_of_range
+                                              : Status::ok;
       course_ = Course::follows, unmoved_ = 0;
       return status_;
     }

@@ -119,6 +119,15 @@ class WorldPairs {
   void remove(int k) noexcept {
     for (--number_; k < number_; ++k) pairs_[at(k)] = pairs_[at(k + 1)];
   }
+  /// Whether a rod that has no tension of its own is drawn so taut where it touches that its cubics may be off by 1 %.
+  bool overdrawn() const noexcept {
+    return std::any_of(pairs_.begin(), pairs_.begin() + number_, [this](const RodPair& pair) {
+      const auto is = [&](std::size_t side) {
+        return !rigid(pair.rod[side]) && body(pair.rod[side]).system().overdrawn(pair.s[side]);
+      };
+      return is(0) || is(1);
+    });
+  }
   /// Whether a pair is solved for.
   bool moves(const RodPair& pair) const noexcept { return body(pair.rod[0]).moves; }
   /// What moves moves all that it touches.
