@@ -91,10 +91,11 @@ class DynamicModel {
   /// Goes on by a time.   @param dt [s], not negative
   /// @return ok | iteration_limit: it has stopped where a part had no solution | invalid_request: nothing has changed
   Status step(Scalar dt) noexcept { return go(dt, nullptr, 0); }
-  /// The same with a hand, which moves evenly from where it was.   @return force and place at the end of the step; not limited in size
+  /// The same with a hand, which moves evenly from where it was.   @return force and place at the end of the step; not limited in size.  out_of_range: as of
+  /// FemModel::push()
   Felt step(Scalar dt, const Hand& hand) noexcept {
     Felt pushed;
-    pushed.status = step(dt, &hand, 1, &pushed);
+    (void)step(dt, &hand, 1, &pushed);
     return pushed;
   }
   /// The same with several hands, each with its number in every step.   @param count  of them, no more than contacts   @param pushed  out, of each
@@ -102,7 +103,8 @@ class DynamicModel {
     const Status status = go(dt, hands, count);
     for (int i = 0; i < count && i < contacts; ++i) {
       pushed[i] = contacts_.pushed(i);
-      pushed[i].status = status;
+      const bool taut = pushed[i].force != 0 && system_.overdrawn(pushed[i].s);
+      pushed[i].status = status == Status::ok && taut ? Status::out_of_range : status;
     }
     return status;
   }
