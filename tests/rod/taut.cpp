@@ -229,3 +229,24 @@ TEST_CASE("a flat strip that is drawn too taut for its elements says so", "[rod]
   CHECK(answered > 6);
   CHECK(told > 6);
 }
+
+TEST_CASE("a flat strip between clamps is followed wherever a bar presses it", "[rod]") {
+  const double length = 0.2, radius = 0.005;
+  for (const double width : {0.001, 0.004, 0.01})
+    for (const double s : {0.03, 0.09, 0.1, 0.115, 0.16}) {
+      const Rod strip(length, RodSection::rectangle(width, 0.0005), spring_steel, RodSupport::clamped,
+                      RodSupport::clamped);
+      FemModel<TwistedRod> model(strip, 8);
+      const Point aside = strip.left_pose().director, flat = detail::cross3<double>(Point(1, 0, 0), aside);
+      int lost = 0;
+      double force = 0;
+      for (int k = 0; k <= 300; ++k) {
+        const Point tip = Point(s, 0, 0) - 0.05 * aside + (radius - 0.004 * k / 300) * flat;
+        const auto pushed = model.push(Capsule<double>{s, {tip, 0.1 * aside}, radius, flat});
+        lost += !is_answer(pushed.status) || !(pushed.force <= force + 1e-9);
+        force = pushed.force;
+      }
+      CAPTURE(width, s, force);
+      CHECK(lost == 0);
+    }
+}

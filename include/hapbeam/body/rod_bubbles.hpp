@@ -91,15 +91,29 @@ class RodBubbles : protected Stacked<S, Most> {
   S way_to_foot() noexcept {
     look(0), seen_ = 1;
     const Contact& contact = *contacts_[0];
-    const Spot& spot = spots_[0];
+    Spot& spot = spots_[0];
+    look_at_section(spot);
     // Near enough for where it begins, the bubble is that of the force along n.
+    S yields = stiffer();
+    if (!even()) {
+      const S along = contact.normal.dot(spot.softer);
+      yields += std::abs(p_->soft[0] - p_->soft[1]) * along * along;
+    }
     const S rise = spot.g.by(0) * contact.force / 2;
-    const S off = contact.normal.dot(spot.t) + rise * stiffer(), bends = contact.normal.dot(spot.k),
+    const S off = contact.normal.dot(spot.t) + rise * yields, bends = contact.normal.dot(spot.k),
             round = spot.t.dot(Vector(spot.curved * spot.t));
     // Along a curve that is flatter than the capsule the distance has a minimum, which may be anywhere where it is nearly as sharp.
     const S least = parallel * spot.t.squaredNorm() / contact.reach;
     if (!(bends + round > (std::max)(least, round / 3))) return std::numeric_limits<S>::quiet_NaN();
     return std::clamp(-off / (bends + round), -p_->length, p_->length);
+  }
+  /// Along which axis of the section it yields more.
+  void look_at_section([[maybe_unused]] Spot& spot) const noexcept {
+    if constexpr (unknowns == 7)
+      if (!even()) {
+        const Vector d1 = Element::director(*p_, *a_, *b_, inner_.value, spot.x);
+        spot.softer = p_->soft[0] > p_->soft[1] ? d1 : cross3(spot.u, d1);
+      }
   }
   void look(int k) noexcept {
     using std::sqrt;
@@ -143,11 +157,7 @@ class RodBubbles : protected Stacked<S, Most> {
       // Along itself the curve yields to nothing; but what pushes across the true curve, and so not quite across the cubic, moves it along itself.
       spot.axes = Matrix::Identity();
       if (contact.rough || contact.kind == Contact::Kind::along) spot.axes -= spot.u * spot.u.transpose();
-      if constexpr (unknowns == 7)
-        if (!even()) {
-          const Vector d1 = Element::director(*p_, *a_, *b_, inner_.value, spot.x);
-          spot.softer = p_->soft[0] > p_->soft[1] ? d1 : cross3(spot.u, d1);
-        }
+      look_at_section(spot);
     }
     slope_ = {};
     const S soft = stiffer();
