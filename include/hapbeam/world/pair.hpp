@@ -37,7 +37,9 @@ struct RodPair {
   std::array<double, 2> s{};
   double reach = 0;                 // R, of both radii [m]
   double ring = 0;                  // b [m]
+  double curve = 1;                 // radius of what r₁ goes round, in reaches; of a plane as good as none
   Vector axis = Vector::Zero();     // of a tube
+  Vector on = Vector::Zero();       // a plane: where, across n [m]
   double force = 0;                 // λ [N]
   Vector normal = Vector::UnitZ();  // n
   /// New: its direction and its places stay until it presses.
@@ -53,20 +55,25 @@ struct RodPair {
   double distance(const Vector& w) const noexcept {
     return normal.dot(w) - (ring != 0 ? ring * around().length : 0);
   }
-  /// ∂²L/∂f∂f along the axes.
-  double bends(std::size_t c, std::size_t d) const noexcept {
-    const double even = c == d ? reach : 0;
-    if (ring == 0) return even / force;
+  /// How ∂h/∂f goes as n turns, along the two axes across n [m].
+  Eigen::Matrix<double, 2, 2> bends() const noexcept {
+    Eigen::Matrix<double, 2, 2> bends = curve * reach * Eigen::Matrix<double, 2, 2>::Identity();
+    if (ring == 0) return bends;
     const Around now = around();
     const Vector turns = cross3(axis, now.way);
-    return (even + ring / now.length * axes[c].dot(turns) * axes[d].dot(turns)) / force;
+    for (std::size_t c = 1; c < 3; ++c)
+      for (std::size_t d = 1; d < 3; ++d)
+        bends(int(c) - 1, int(d) - 1) += ring / now.length * axes[c].dot(turns) * axes[d].dot(turns);
+    return bends;
   }
   /// ∂h/∂f along an axis [m].
   double offset(std::size_t c) const noexcept {
-    return (c == 0 ? reach : 0) + (ring != 0 ? ring * axes[c].dot(around().way) : 0);
+    return (c == 0 ? reach : 0) + (ring != 0 ? ring * axes[c].dot(around().way) : axes[c].dot(on));
   }
+  /// ∂h/∂f less R n [m].
+  Vector off() const noexcept { return ring != 0 ? Vector(ring * around().way) : on; }
   /// Eigenvalues of its own that are negative in a stable equilibrium: of λ and of two places of least distance, and from inside of a turn of n.
-  int negative() const noexcept { return ring < 0 ? 4 : 3; }
+  int negative() const noexcept { return rough() ? 3 + friction.negative() : ring < 0 ? 4 : 3; }
   /// Whether friction acts.
   bool rough() const noexcept { return !fresh && friction.acts(); }
 
@@ -95,14 +102,20 @@ struct RodPair {
     const Vector f = next * normal + aside;
     force = std::sqrt(f.squaredNorm()), normal = f / force;
   }
-  /// The same with friction, which may pull on the way to an equilibrium.   @param by  δλ, and λ δn across n
+  /// The same with friction, which may pull on the way to an equilibrium.   @param by  δλ, and δn across n
   void rub(const std::array<double, 3>& by) noexcept {
     constexpr double most_turn = 0.3, least_left = 1e-3;
-    Vector turn = (by[1] * axes[1] + by[2] * axes[2]) / force;
+    Vector turn = by[1] * axes[1] + by[2] * axes[2];
+    if (curve > 1) on += curve * reach * turn, turn.setZero();
     if (const double angle = std::sqrt(turn.squaredNorm()); angle > most_turn) turn *= most_turn / angle;
     normal = unit(Vector(normal + turn));
     const double next = force + by[0];
     force = std::abs(next) < least_left * std::abs(force) ? std::copysign(least_left * force, next) : next;
+  }
+  /// A body has turned.   @param turn  (vector &)
+  template <class Turn>
+  void carry(Turn&& turn) noexcept {
+    turn(on), friction.carry(turn);
   }
   /// A step begins here.
   void mark() noexcept { met = s, met_held = held, pulls = 0; }
@@ -123,7 +136,7 @@ struct RodPair {
     const Vector next = force * normal + ratio * (force * normal - before.force * before.normal);
     const double size = std::sqrt(next.squaredNorm());
     if (!(next.dot(normal) > size / 2)) return;
-    force = size, normal = next / size;
+    force = size, normal = next / size, on += ratio * (on - before.on);
     for (std::size_t k = 0; k < 2; ++k) s[k] += ratio * (s[k] - before.s[k]);
   }
 

@@ -125,8 +125,9 @@ class World {
     for (int k = 0; k < contacts(); ++k) {
       const detail::RodPair& pair = system().pair(k);
       const Vector w = system().between(pair);
-      energy += (pair.force * (pair.reach - pair.distance(w)) - pair.friction.kept().dot(w)) / 2 +
-                pair.friction.stored();
+      energy +=
+          (pair.force * (pair.reach - pair.distance(w)) - pair.friction.kept().dot(w - pair.off())) / 2 +
+          pair.friction.stored();
     }
     return energy;
   }

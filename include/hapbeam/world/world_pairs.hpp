@@ -21,7 +21,7 @@ namespace hapbeam {
 struct WorldRod {
   Rod rod;
   int elements;  ///< 2 or more
-  /// Of two rods that touch the larger coefficients count.
+  /// Of what touches the larger coefficients count.
   Friction friction = {};
 };
 
@@ -42,6 +42,7 @@ class WorldPairs {
       bodies_.emplace_back(rod, elements, *equations_);
       frictions_.push_back(friction);
     }
+    for (const RigidBody& body : rigid) frictions_.push_back(body.friction());
   }
 
   std::vector<Body>& bodies() noexcept { return bodies_; }
@@ -180,25 +181,32 @@ class WorldPairs {
   }
   /// Where friction acts, as all lies.
   void look(RodPair& pair) noexcept {
-    const VectorOf<double, 3> force = pair.force * pair.normal + pair.friction.force();
-    std::array<VectorOf<double, 3>, 2> along;
-    for (std::size_t side = 0; side < 2; ++side) {
+    using Vector = VectorOf<double, 3>;
+    const Vector force = pair.force * pair.normal + pair.friction.force();
+    const auto point = [&](std::size_t side, const Vector& acts) {
       const Body& body = this->body(pair.rod[side]);
-      along[side] = Body::Sides::tangent(body.parts(), body.line().segment_at(pair.s[side]), pair.s[side],
-                                         side == 0 ? force : -force);
-    }
-    pair.friction.look(pair.normal, pair.s, along, pair.force);
+      return Body::Sides::point(body.parts(), body.line().segment_at(pair.s[side]), pair.s[side], acts);
+    };
+    const RodPoint<double> first = point(0, force);
+    const PlacedBody* core = rigid(pair.rod[1]);
+    if (core) carry(pair, *core, first.r - core->at(0));
+    pair.friction.look(pair.normal, pair.off(), pair.s,
+                       {first.tangent, core ? core->tangent() : point(1, -force).tangent}, pair.force);
   }
 
   std::unique_ptr<PairEquations> equations_;
   std::vector<PlacedBody> rigid_;
 
  private:
+  /// What a body that turns takes along, and where a new contact is on a plane.   @param w  from its tip
+  void carry(RodPair& pair, const PlacedBody& core, const VectorOf<double, 3>& w) noexcept {
+    if (pair.curve > 1 && !pair.friction.known()) pair.on = w - w.dot(pair.normal) * pair.normal;
+    else if (pair.friction.begins() && core.moves) pair.carry([&](auto& v) { v = core.carried(v); });
+  }
   void give_friction(RodPair& pair) noexcept {
-    if (rigid(pair.rod[1])) return;
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
     if (friction.none()) return;
-    const Body &a = body(pair.rod[0]), &b = body(pair.rod[1]);
+    const Body &a = body(pair.rod[0]), &b = rigid(pair.rod[1]) ? a : body(pair.rod[1]);
     const auto skin = [](const Body& of) { return of.system().unit() / of.length(); };
     const double least = (std::min)(skin(a), skin(b));
     pair.friction.take(friction, pair.reach,
@@ -207,7 +215,7 @@ class WorldPairs {
   }
 
   std::vector<Body> bodies_;
-  std::vector<Friction> frictions_;  // of each rod
+  std::vector<Friction> frictions_;  // of each rod and body
   std::array<RodPair, most_pairs> pairs_, saved_;
   int number_ = 0, saved_number_ = 0;
 };
