@@ -32,8 +32,10 @@ class PairFriction {
  public:
   using Vector = VectorOf<double, 3>;
   enum class Start {
-    goes_on,  ///< as in the last equilibrium
+    none,     ///< it has begun
+    goes_on,  ///< as in the last equilibrium; where there it did not act, without friction until there is the next
     sticks,   ///< whatever it did there
+    has_slid  ///< from there without friction
   };
   using Plane = VectorOf<double, 2>;  // across n, along the axes of the pair
   using Matrix = Eigen::Matrix<double, 2, 2>;
@@ -46,16 +48,18 @@ class PairFriction {
   }
   bool none() const noexcept { return !(state_.sticking > 0); }
   /// A step begins.
-  void begin(Start start = Start::goes_on) noexcept { begins_ = true, start_ = start; }
+  void begin(Start start = Start::goes_on) noexcept { start_ = start; }
   /// What follows is without friction until there is an equilibrium.
   void let_go() noexcept {
     state_.let_go();
     begin();
   }
 
-  /// Whether there was an equilibrium to go on from.
-  bool known() const noexcept { return state_.known; }
-  bool begins() const noexcept { return begins_; }
+  /// Whether it slides without friction until there is an equilibrium.
+  bool waits() const noexcept {
+    return !state_.known || (start_ == Start::goes_on && !state_.slides && state_.skin.isZero(0));
+  }
+  bool begins() const noexcept { return start_ != Start::none; }
   /// To be called then, where a body has turned.   @param turn  (vector &)
   template <class Turn>
   void carry(Turn&& turn) noexcept {
@@ -70,17 +74,18 @@ class PairFriction {
     place.s = s[0], place.place = s[1];
     place.normal = -normal, place.off = off;
     place.along = along[0], place.axis = along[1];
-    if (begins_) {
-      law_.begin(state_, true, place, 1, reach_, stiffest_, length_ / 1000, last_);
+    if (state_.known && waits()) return;
+    if (begins()) {
+      law_.begin(state_, true, place, 1, reach_, stiffest_, start_ == Start::has_slid ? 0 : length_ / 1000,
+                 last_);
       if (start_ == Start::sticks && law_.slides()) (void)law_.turn();
-      turned_ = 0;
+      turned_ = 0, start_ = Start::none;
     }
-    begins_ = false;
     tangents_ = along;
     law_.look(place, force);
   }
   /// Whether it is more than a place that slides without friction.
-  bool acts() const noexcept { return !none() && !begins_ && !law_.falls(); }
+  bool acts() const noexcept { return !none() && !begins() && !law_.falls(); }
   /// T, on the first rod [N].
   const Vector& force() const noexcept { return law_.force(); }
 
@@ -137,6 +142,7 @@ class PairFriction {
   bool settled(const std::array<Vector, 3>& axes, double force) noexcept {
     constexpr double exact = 1e-7;
     constexpr int most = 3;
+    if (begins()) return begin(Start::has_slid), false;
     if (!law_.settled(force)) return false;
     // Where slips are short T changes by more than increments tell, and not below round-off.
     const double off1 = law_.force().dot(axes[1]) - taken_[0], off2 = law_.force().dot(axes[2]) - taken_[1];
@@ -184,7 +190,6 @@ class PairFriction {
   std::array<Vector, 2> tangents_;                  // r'
   int negative_ = 0, turned_ = 0;
   Start start_ = Start::goes_on;
-  bool begins_ = true;
 };
 
 }  // namespace hapbeam::detail
