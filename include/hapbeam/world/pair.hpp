@@ -136,7 +136,7 @@ struct RodPair {
     const Vector next = force * normal + ratio * (force * normal - before.force * before.normal);
     const double size = std::sqrt(next.squaredNorm());
     if (!(next.dot(normal) > size / 2)) return;
-    force = size, normal = next / size, on += ratio * (on - before.on);
+    force = size, normal = next / size, on += ratio * friction.gone();
     for (std::size_t k = 0; k < 2; ++k) s[k] += ratio * (s[k] - before.s[k]);
   }
 

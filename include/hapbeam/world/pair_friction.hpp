@@ -32,7 +32,7 @@ class PairFriction {
  public:
   using Vector = VectorOf<double, 3>;
   enum class Start {
-    none,     ///< it has begun
+    none,  ///< it has begun
     goes_on,  ///< as in the last equilibrium; where there it did not act, without friction until there is the next
     sticks,   ///< whatever it did there
     has_slid  ///< from there without friction
@@ -55,11 +55,10 @@ class PairFriction {
     begin();
   }
 
-  /// Whether it slides without friction until there is an equilibrium.
-  bool waits() const noexcept {
-    return !state_.known || (start_ == Start::goes_on && !state_.slides && state_.skin.isZero(0));
-  }
-  bool begins() const noexcept { return start_ != Start::none; }
+  /// Whether it has slid without friction since the last equilibrium, or does until the next.
+  bool is_free() const noexcept { return !state_.known || start_ == Start::has_slid || waits(); }
+  /// Whether look() begins it.
+  bool begins() const noexcept { return start_ != Start::none && !waits(); }
   /// To be called then, where a body has turned.   @param turn  (vector &)
   template <class Turn>
   void carry(Turn&& turn) noexcept {
@@ -74,7 +73,7 @@ class PairFriction {
     place.s = s[0], place.place = s[1];
     place.normal = -normal, place.off = off;
     place.along = along[0], place.axis = along[1];
-    if (state_.known && waits()) return;
+    if (waits()) return;
     if (begins()) {
       law_.begin(state_, true, place, 1, reach_, stiffest_, start_ == Start::has_slid ? 0 : length_ / 1000,
                  last_);
@@ -85,7 +84,7 @@ class PairFriction {
     law_.look(place, force);
   }
   /// Whether it is more than a place that slides without friction.
-  bool acts() const noexcept { return !none() && !begins() && !law_.falls(); }
+  bool acts() const noexcept { return !none() && start_ == Start::none && !law_.falls(); }
   /// T, on the first rod [N].
   const Vector& force() const noexcept { return law_.force(); }
 
@@ -142,7 +141,7 @@ class PairFriction {
   bool settled(const std::array<Vector, 3>& axes, double force) noexcept {
     constexpr double exact = 1e-7;
     constexpr int most = 3;
-    if (begins()) return begin(Start::has_slid), false;
+    if (waits()) return begin(Start::has_slid), false;
     if (!law_.settled(force)) return false;
     // Where slips are short T changes by more than increments tell, and not below round-off.
     const double off1 = law_.force().dot(axes[1]) - taken_[0], off2 = law_.force().dot(axes[2]) - taken_[1];
@@ -152,7 +151,9 @@ class PairFriction {
   /// To be called where that is kept.   @return what it has dissipated [J]
   double leave(double force) noexcept {
     const double before = state_.dissipated;
+    const Vector off = state_.off;
     law_.leave(state_, force);
+    gone_ = state_.off - off;
     last_ = force;
     begin();
     return state_.dissipated - before;
@@ -160,6 +161,8 @@ class PairFriction {
   /// Of the last equilibrium: T, no more than its share of λ [N].
   const Vector& kept() const noexcept { return state_.force; }
   bool slid() const noexcept { return state_.slides; }
+  /// How off has changed in the last step [m].
+  const Vector& gone() const noexcept { return gone_; }
   /// Energy of the skin [J].
   double stored() const noexcept {
     return state_.known ? (std::min)(state_.stiffness, stiffest_) / 2 * state_.skin.squaredNorm() : 0.0;
@@ -167,6 +170,10 @@ class PairFriction {
 
  private:
   using Law = FrictionLaw<double, 3>;
+
+  bool waits() const noexcept {
+    return start_ == Start::goes_on && state_.known && !state_.slides && state_.skin.isZero(0);
+  }
 
   static double determinant(const Matrix& A) noexcept { return A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0); }
   /// G, which has a pole where the slip of a step is about μR.
@@ -187,7 +194,8 @@ class PairFriction {
   Plane follows_ = Plane::Zero(), acts_ = follows_,
         taken_ = follows_;                          // m, t, and what the last answer took t for
   std::array<Plane, 2> along_{follows_, follows_};  // t₁, -t₂
-  std::array<Vector, 2> tangents_;                  // r'
+  Vector gone_ = Vector::Zero();
+  std::array<Vector, 2> tangents_;  // r'
   int negative_ = 0, turned_ = 0;
   Start start_ = Start::goes_on;
 };
