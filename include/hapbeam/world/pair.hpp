@@ -2,7 +2,7 @@
 // A contact of a rod with another, with itself or with a rigid body: one force and two places, unknowns of the equations of both.
 //
 //   L = Σ V - f · w + h(f) - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n to rod 1; with friction f = λ n + t
-//   h(f) = R |f| + b |f across the axis of a tube|,  b = ±its radius, from outside and from inside
+//   h(f) = R |f| + b |f across the axis of a tube|,  b = ±its radius, from outside and from inside;  of a plane f · (R n + o), o on it
 //
 // Stationary by f where w + C f = ∂h/∂f, which is R n but in a tube: the true curves, which C bends off what nodes hold, are R apart.  By a place where the
 // true curve is across n.  Where the sections bend alike about all axes this is  Σ V - λ (|w| - R) - ½ λ² c.
@@ -37,9 +37,9 @@ struct RodPair {
   std::array<double, 2> s{};
   double reach = 0;                 // R, of both radii [m]
   double ring = 0;                  // b [m]
-  double curve = 1;                 // radius of what r₁ goes round, in reaches; of a plane as good as none
+  double curve = 1;                 // radius of what r₁ goes round, in reaches; of a plane large
   Vector axis = Vector::Zero();     // of a tube
-  Vector on = Vector::Zero();       // a plane: where, across n [m]
+  Vector on = Vector::Zero();       // o, across n [m]
   double force = 0;                 // λ [N]
   Vector normal = Vector::UnitZ();  // n
   /// New: its direction and its places stay until it presses.

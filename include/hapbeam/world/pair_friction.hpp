@@ -32,10 +32,9 @@ class PairFriction {
  public:
   using Vector = VectorOf<double, 3>;
   enum class Start {
-    none,  ///< it has begun
-    goes_on,  ///< as in the last equilibrium; where there it did not act, without friction until there is the next
+    none,     ///< it has begun
+    goes_on,  ///< as in the last equilibrium
     sticks,   ///< whatever it did there
-    has_slid  ///< from there without friction
   };
   using Plane = VectorOf<double, 2>;  // across n, along the axes of the pair
   using Matrix = Eigen::Matrix<double, 2, 2>;
@@ -55,10 +54,10 @@ class PairFriction {
     begin();
   }
 
-  /// Whether it has slid without friction since the last equilibrium, or does until the next.
-  bool is_free() const noexcept { return !state_.known || start_ == Start::has_slid || waits(); }
+  /// Whether there is an equilibrium from which it goes on.
+  bool known() const noexcept { return state_.known; }
   /// Whether look() begins it.
-  bool begins() const noexcept { return start_ != Start::none && !waits(); }
+  bool begins() const noexcept { return start_ != Start::none; }
   /// To be called then, where a body has turned.   @param turn  (vector &)
   template <class Turn>
   void carry(Turn&& turn) noexcept {
@@ -73,10 +72,8 @@ class PairFriction {
     place.s = s[0], place.place = s[1];
     place.normal = -normal, place.off = off;
     place.along = along[0], place.axis = along[1];
-    if (waits()) return;
     if (begins()) {
-      law_.begin(state_, true, place, 1, reach_, stiffest_, start_ == Start::has_slid ? 0 : length_ / 1000,
-                 last_);
+      law_.begin(state_, true, place, 1, reach_, stiffest_, length_ / 1000, last_);
       if (start_ == Start::sticks && law_.slides()) (void)law_.turn();
       turned_ = 0, start_ = Start::none;
     }
@@ -84,7 +81,7 @@ class PairFriction {
     law_.look(place, force);
   }
   /// Whether it is more than a place that slides without friction.
-  bool acts() const noexcept { return !none() && start_ == Start::none && !law_.falls(); }
+  bool acts() const noexcept { return !none() && !begins() && !law_.falls(); }
   /// T, on the first rod [N].
   const Vector& force() const noexcept { return law_.force(); }
 
@@ -141,7 +138,6 @@ class PairFriction {
   bool settled(const std::array<Vector, 3>& axes, double force) noexcept {
     constexpr double exact = 1e-7;
     constexpr int most = 3;
-    if (waits()) return begin(Start::has_slid), false;
     if (!law_.settled(force)) return false;
     // Where slips are short T changes by more than increments tell, and not below round-off.
     const double off1 = law_.force().dot(axes[1]) - taken_[0], off2 = law_.force().dot(axes[2]) - taken_[1];
@@ -171,10 +167,6 @@ class PairFriction {
  private:
   using Law = FrictionLaw<double, 3>;
 
-  bool waits() const noexcept {
-    return start_ == Start::goes_on && state_.known && !state_.slides && state_.skin.isZero(0);
-  }
-
   static double determinant(const Matrix& A) noexcept { return A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0); }
   /// G, which has a pole where the slip of a step is about μR.
   void invert(double force) noexcept {
@@ -192,7 +184,7 @@ class PairFriction {
   double reach_ = 0, stiffest_ = 0, length_ = 0, last_ = 0;  // [m], [N/m], [m], λ of the last equilibrium [N]
   Matrix stiff_ = Matrix::Zero(), bends_ = stiff_, turns_ = stiff_;  // S, H and G
   Plane follows_ = Plane::Zero(), acts_ = follows_,
-        taken_ = follows_;                          // m, t, and what the last answer took t for
+        taken_ = follows_;                          // m, t, and t as the last answer had it
   std::array<Plane, 2> along_{follows_, follows_};  // t₁, -t₂
   Vector gone_ = Vector::Zero();
   std::array<Vector, 2> tangents_;  // r'

@@ -201,7 +201,7 @@ class WorldPairs {
   /// What a body that turns takes along, and where a new contact is on a plane.   @param w  from its tip
   void carry(RodPair& pair, const PlacedBody& core, const VectorOf<double, 3>& w) noexcept {
     if (pair.friction.begins() && core.moves) pair.carry([&](auto& v) { v = core.carried(v); });
-    if (pair.curve > 1 && pair.friction.is_free()) pair.on = w - w.dot(pair.normal) * pair.normal;
+    if (pair.curve > 1 && !pair.friction.known()) pair.on = w - w.dot(pair.normal) * pair.normal;
   }
   void give_friction(RodPair& pair) noexcept {
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
