@@ -181,7 +181,7 @@ double depth_in(const Centreline<double, 3>& line, int kind, double radius, doub
 }
 
 /// A needle from somewhere led somewhere, or what it meets led there.
-void approach(Random& random, Passed& passed) {
+void approach(Random& random, const Friction& friction, Passed& passed) {
   const int kind = random.integer(0, 3);
   const double thickness = random(0.001, 0.003),
                radius = kind == 3 ? random(0.004, 0.008) : random(0.0, 0.01);
@@ -200,7 +200,7 @@ void approach(Random& random, Passed& passed) {
   Rod rod(kind == 3 ? 0.16 : 0.1, RodSection::circle(thickness), RodMaterial{young, young / 2.6}, clamped,
           free_end);
   rod.place_left(start);
-  World<RoundRod> world({{rod, random.integer(6, 20)}}, {bodies[static_cast<std::size_t>(kind)]});
+  World<RoundRod> world({{rod, random.integer(6, 20), friction}}, {bodies[static_cast<std::size_t>(kind)]});
   const double reach = thickness / 2 + (kind == 1 || kind == 2 ? radius : 0),
                step = reach * std::pow(10, random(-1, 0.903));
   const bool hand_leads = random(1.0) > 0;
@@ -230,28 +230,32 @@ void approach(Random& random, Passed& passed) {
 }  // namespace
 
 TEST_CASE("no rod passes a body, whoever moves", "[world]") {
-  Random random(45);
-  Passed passed;
-  for (int k = 0; k < 150; ++k) approach(random, passed);
-  INFO(passed.ticks << " ticks, " << passed.answered << " answered");
-  CHECK(passed.wrong == 0);
-  CHECK(passed.not_finite == 0);
-  CHECK(passed.answered > passed.ticks / 2);
+  for (const double mu : {0.0, 0.4}) {
+    Random random(45);
+    Passed passed;
+    for (int k = 0; k < 150; ++k) approach(random, mu, passed);
+    INFO("friction " << mu << ": " << passed.ticks << " ticks, " << passed.answered << " answered");
+    CHECK(passed.wrong == 0);
+    CHECK(passed.not_finite == 0);
+    CHECK(passed.answered > passed.ticks / 2);
+  }
 }
 
 TEST_CASE("rods that meet bodies in odd ways have a status", "[world]") {
   const auto run = [](const RigidBody& body, const RodPose& from, const Point& way) {
-    World<RoundRod> world({{needle(0.1, 0.002, from), 8}}, {body});
-    bool finite = true;
-    for (int k = 1; k <= 40; ++k) {
-      RodPose pose = from;
-      pose.at += k / 40.0 * way;
-      REQUIRE(world.hold(0, RodSide::left, pose) == Status::ok);
-      (void)world.tick();
-      finite = finite && world.held(0, RodSide::left).force.allFinite();
-      for (const auto& node : world.shape(0)) finite = finite && is_finite(node);
+    for (const double mu : {0.0, 0.4}) {
+      World<RoundRod> world({{needle(0.1, 0.002, from), 8, mu}}, {body});
+      bool finite = true;
+      for (int k = 1; k <= 40; ++k) {
+        RodPose pose = from;
+        pose.at += k / 40.0 * way;
+        REQUIRE(world.hold(0, RodSide::left, pose) == Status::ok);
+        (void)world.tick();
+        finite = finite && world.held(0, RodSide::left).force.allFinite();
+        for (const auto& node : world.shape(0)) finite = finite && is_finite(node);
+      }
+      CHECK(finite);
     }
-    CHECK(finite);
   };
   const RodPose along{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
   // Head on: a point, a sphere, a plane, the rim of a tube, the end of a capsule.
@@ -283,6 +287,8 @@ TEST_CASE("a world rejects bodies that make no sense, and rods that lie in them"
   CHECK_THROWS_WITH(of(RigidBody::sphere({1, 0, 0}, -1)), ContainsSubstring("body radius"));
   CHECK_THROWS_WITH(of(RigidBody::tube({1, 0, 0}, {1, 0, 0}, 0.1)), ContainsSubstring("tube length"));
   CHECK_THROWS_WITH(of(RigidBody::plane({0, 0, -1}, {0, 0, 0})), ContainsSubstring("plane normal"));
+  CHECK_THROWS_WITH(of(RigidBody::plane({0, 0, -1}, {0, 0, 1}, 3)),
+                    ContainsSubstring("friction sticking = 3"));
   World<RoundRod> world = of(RigidBody::sphere({0.05, 0, 0.1}, 0.003));
   CHECK(world.place(0, {{0, 0, 0}, {1, 0, NAN}, {0, 0, 1}}) == Status::invalid_request);
 }

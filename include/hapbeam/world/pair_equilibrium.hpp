@@ -52,7 +52,7 @@ class PairEquilibrium {
   Outcome settle() noexcept {
     Curvature<double> unknown;
     int leaves = 0, tries = 0;
-    bool sticks = false;
+    auto start = PairFriction::Start::goes_on;
     system_.begin_friction();
     for (int k = 0; k < system_.pairs(); ++k) {
       RodPair& pair = system_.pair(k);
@@ -68,11 +68,11 @@ class PairEquilibrium {
       solves_ += report.solves;
       if (report.status != Status::ok) {
         system_.restore();
-        // What turns back is found from where it sticks.
-        if (!sticks && system_.stick()) {
-          sticks = true;
-          continue;
-        }
+        // What has not rubbed yet is found from where it slides freely, what turns back from where it sticks.
+        const auto begins = [&](PairFriction::Start another) {
+          return start < another && system_.begin_friction(start = another);
+        };
+        if (begins(PairFriction::Start::waits) || begins(PairFriction::Start::sticks)) continue;
         return failure_ = report.status, Outcome::lost;
       }
       const Look look = look_around(system_);

@@ -32,9 +32,11 @@ class PairFriction {
  public:
   using Vector = VectorOf<double, 3>;
   enum class Start {
-    none,     ///< it has begun
-    goes_on,  ///< as in the last equilibrium
-    sticks,   ///< whatever it did there
+    none,      ///< it has begun
+    goes_on,   ///< as in the last equilibrium
+    waits,     ///< without friction until the next equilibrium
+    sticks,    ///< whatever it did in the last equilibrium
+    has_slid,  ///< from where it has waited
   };
   using Plane = VectorOf<double, 2>;  // across n, along the axes of the pair
   using Matrix = Eigen::Matrix<double, 2, 2>;
@@ -43,21 +45,27 @@ class PairFriction {
   void take(const Friction& friction, double reach, double stiffest, double length) noexcept {
     state_.sticking = friction.sticking, state_.sliding = friction.sliding;
     reach_ = reach, stiffest_ = stiffest, length_ = length;
-    begin();
+    start_ = Start::goes_on;
   }
   bool none() const noexcept { return !(state_.sticking > 0); }
-  /// A step begins.
-  void begin(Start start = Start::goes_on) noexcept { start_ = start; }
+  /// A step begins, or anew, where only what has not rubbed yet waits.   @return whether another way than it went on
+  bool begin(Start start = Start::goes_on) noexcept {
+    const bool is_new = state_.known && !state_.slides && state_.skin.isZero(0);
+    start_ = start == Start::waits && !is_new ? Start::goes_on : start;
+    return start == Start::sticks ? state_.slides : start_ == Start::waits;
+  }
   /// What follows is without friction until there is an equilibrium.
   void let_go() noexcept {
     state_.let_go();
-    begin();
+    start_ = Start::goes_on;
   }
 
-  /// Whether there is an equilibrium from which it goes on.
-  bool known() const noexcept { return state_.known; }
+  /// Whether it slides, or has slid, freely since the last equilibrium.
+  bool is_free() const noexcept {
+    return !state_.known || start_ == Start::waits || start_ == Start::has_slid;
+  }
   /// Whether look() begins it.
-  bool begins() const noexcept { return start_ != Start::none; }
+  bool begins() const noexcept { return start_ != Start::none && start_ != Start::waits; }
   /// To be called then, where a body has turned.   @param turn  (vector &)
   template <class Turn>
   void carry(Turn&& turn) noexcept {
@@ -72,8 +80,10 @@ class PairFriction {
     place.s = s[0], place.place = s[1];
     place.normal = -normal, place.off = off;
     place.along = along[0], place.axis = along[1];
+    if (start_ == Start::waits) return;
     if (begins()) {
-      law_.begin(state_, true, place, 1, reach_, stiffest_, length_ / 1000, last_);
+      law_.begin(state_, true, place, 1, reach_, stiffest_, start_ == Start::has_slid ? 0 : length_ / 1000,
+                 last_);
       if (start_ == Start::sticks && law_.slides()) (void)law_.turn();
       turned_ = 0, start_ = Start::none;
     }
@@ -81,7 +91,7 @@ class PairFriction {
     law_.look(place, force);
   }
   /// Whether it is more than a place that slides without friction.
-  bool acts() const noexcept { return !none() && !begins() && !law_.falls(); }
+  bool acts() const noexcept { return !none() && start_ == Start::none && !law_.falls(); }
   /// T, on the first rod [N].
   const Vector& force() const noexcept { return law_.force(); }
 
@@ -138,6 +148,7 @@ class PairFriction {
   bool settled(const std::array<Vector, 3>& axes, double force) noexcept {
     constexpr double exact = 1e-7;
     constexpr int most = 3;
+    if (start_ == Start::waits) return start_ = Start::has_slid, false;
     if (!law_.settled(force)) return false;
     // Where slips are short T changes by more than increments tell, and not below round-off.
     const double off1 = law_.force().dot(axes[1]) - taken_[0], off2 = law_.force().dot(axes[2]) - taken_[1];
@@ -151,7 +162,7 @@ class PairFriction {
     law_.leave(state_, force);
     gone_ = state_.off - off;
     last_ = force;
-    begin();
+    start_ = Start::goes_on;
     return state_.dissipated - before;
   }
   /// Of the last equilibrium: T, no more than its share of λ [N].

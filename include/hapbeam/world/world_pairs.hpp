@@ -107,17 +107,10 @@ class WorldPairs {
 
   // Friction.
 
-  /// A step begins.
-  void begin_friction() noexcept {
-    each_rough([](PairFriction& friction) { friction.begin(); });
-  }
-  /// It begins anew with all that slid as it sticks.   @return whether there is any
-  bool stick() noexcept {
+  /// As PairFriction::begin().   @return whether any begins another way than it went on
+  bool begin_friction(PairFriction::Start start = PairFriction::Start::goes_on) noexcept {
     bool any = false;
-    each_rough([&](PairFriction& friction) {
-      any = any || friction.slid();
-      friction.begin(PairFriction::Start::sticks);
-    });
+    each_rough([&](PairFriction& friction) { any = friction.begin(start) || any; });
     return any;
   }
   /// All that moves slides without friction until it has come to an equilibrium.
@@ -201,7 +194,7 @@ class WorldPairs {
   /// What a body that turns takes along, and where a new contact is on a plane.   @param w  from its tip
   void carry(RodPair& pair, const PlacedBody& core, const VectorOf<double, 3>& w) noexcept {
     if (pair.friction.begins() && core.moves) pair.carry([&](auto& v) { v = core.carried(v); });
-    if (pair.curve > 1 && !pair.friction.known()) pair.on = w - w.dot(pair.normal) * pair.normal;
+    if (pair.curve > 1 && pair.friction.is_free()) pair.on = w - w.dot(pair.normal) * pair.normal;
   }
   void give_friction(RodPair& pair) noexcept {
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
