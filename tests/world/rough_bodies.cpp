@@ -40,7 +40,7 @@ double missing_work(const Scene& scene, int ticks) {
   double work = 0, stored = 0, dissipated = 0;
   for (int k = 1; k <= ticks; ++k) {
     const double t = double(k) / ticks;
-    const Point to = scene.end + t * (deep + Point(0.01, 0.003, 0)) + t * t * Point(0, 0.001, 0),
+    const Point to = scene.end + t * (deep + Point(0.005, 0.0015, 0)) + t * t * Point(0, 5e-4, 0),
                 before = world.held(0, RodSide::left).force;
     REQUIRE(lead(world, hand_at(at), to, 1) == Status::ok);
     for (int c = 0; c < world.contacts(); ++c)

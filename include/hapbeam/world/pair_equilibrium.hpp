@@ -78,6 +78,8 @@ class PairEquilibrium {
       const Look look = look_around(system_);
       // What leaps as it begins to slide does so in steps of any length.
       if (!look.close) return tries > 0 ? Outcome::lost : Outcome::too_far;
+      // What pulls as it sticks may press as it slides.
+      if (sticks_and_pulls() && !system_.settled() && tries++ < most_tries) continue;
       if (release()) continue;
       // One that comes back to its end has left it for a place that gives way.
       if (leave_end()) {
@@ -153,6 +155,14 @@ class PairEquilibrium {
             (side == 0 && is_pinned(k) ? !is_beside(k) : system_.pair(k).leaves_end(side)))
           return system_.pair(k).held[side] = false, true;
     return false;
+  }
+  bool sticks_and_pulls() const noexcept {
+    bool any = false;
+    for (int k = 0; k < system_.pairs(); ++k) {
+      const RodPair& pair = system_.pair(k);
+      any = any || (system_.moves(pair) && pair.rough() && !pair.friction.slides() && !(pair.force > 0));
+    }
+    return any;
   }
   /// The pair that pulls most lets go, one that is apart, between clamps that no force moves, or one of two that have come together.
   /// @return whether there is one
