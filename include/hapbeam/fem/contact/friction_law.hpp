@@ -52,9 +52,8 @@ class FrictionLaw {
     before_ = state.known
                   ? Place{state.s, state.ahead, state.normal, state.along, state.place, state.axis, state.off}
                   : first;
-    stretch_ = stretch;
+    stretch_ = stretch, reach_ = reach;
     skin_ = state.skin;
-    reach_ = reach;
     stiffness_ = (std::min)(state.stiffness, stiffest);
     damping_ = (std::min)(state.damping, stiffest);
     sticking_ = state.sticking, sliding_ = state.sliding;
