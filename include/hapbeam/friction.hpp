@@ -63,6 +63,7 @@ struct FrictionState {
   Vector normal = Vector::Zero();  ///< unit, out of the beam
   Vector along = Vector::Zero();   ///< unit, along the beam
   Vector axis = Vector::Zero();    ///< unit, along the avatar's axis; zero where that is a point
+  Vector off = Vector::Zero();     ///< [m] of the contact from there: on a plane, or to the wall of a tube
   Vector skin = Vector::Zero();    ///< [m] how far the skin is sheared
   Scalar slip = 0;                 ///< [m] how far it would be sheared if nothing slid
   Vector force = Vector::Zero();   ///< [N] of friction on the beam

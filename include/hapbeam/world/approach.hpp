@@ -131,11 +131,13 @@ bool beside_each_other(const System& system, const RodPair& a, const RodPair& b,
 template <class System>
 double lacking(const System& system, const RodPair& found) noexcept {
   // Of contacts in a row one in half an element is enough, and closer ones are one.
-  constexpr double line = 0.01, same = 0.25;
+  // What slides lies flat beyond it but for what the mesh leaves.
+  constexpr double line = 0.01, same = 0.25, flat = 1e-4;
   double most = 0;
   for (int k = 0; k < system.pairs(); ++k) {
     const RodPair& pair = system.pair(k);
     if (pair.rod != found.rod) continue;
+    if (pair.rough()) most = (std::max)(most, flat);
     if (beside_each_other(system, pair, found, 2, 0.5))
       most = (std::max)(most, beside_each_other(system, pair, found, 2, 0) ? same : line);
     double beside = 0;

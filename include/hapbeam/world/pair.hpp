@@ -3,7 +3,8 @@
 // two places that stay.
 //
 //   L = Σ V - f · w + h(f) - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n to rod 1; with friction f = λ n + t
-//   h(f) = R |f| + b |f across the axis of a tube|,  b = ±its radius, from outside and from inside;  of a joint f · what is left of w
+//   h(f) = R |f| + b |f across the axis of a tube|,  b = ±its radius, from outside and from inside;  of a plane f · (R n + o), o on it;  of a joint f · o,
+//   o what is left of w
 //
 // Stationary by f where w + C f = ∂h/∂f, which is R n but in a tube: the true curves, which C bends off what nodes hold, are R apart.  By a place where the
 // true curve is across n.  Where the sections bend alike about all axes this is  Σ V - λ (|w| - R) - ½ λ² c.
@@ -40,8 +41,9 @@ struct RodPair {
   std::array<double, 2> s{};
   double reach = 0;                 // R, of both radii [m]
   double ring = 0;                  // b [m]
+  double curve = 1;                 // radius of what r₁ goes round, in reaches; of a plane large
   Vector axis = Vector::Zero();     // of a tube
-  Vector apart = Vector::Zero();    // w of a joint at this part of its path [m]
+  Vector on = Vector::Zero();       // o, of a plane across n [m]
   double force = 0;                 // λ [N]
   Vector normal = Vector::UnitZ();  // n
   /// New: its direction and its places stay until it presses.
@@ -57,23 +59,28 @@ struct RodPair {
   double distance(const Vector& w) const noexcept {
     return normal.dot(w) - (ring != 0 ? ring * around().length : 0);
   }
-  /// ∂²L/∂f∂f along the axes.
-  double bends(std::size_t c, std::size_t d) const noexcept {
-    if (kind == Kind::joint) return 0;
-    const double even = c == d ? reach : 0;
-    if (ring == 0) return even / force;
+  /// How ∂h/∂f goes as n turns, along the two axes across n [m].
+  Eigen::Matrix<double, 2, 2> bends() const noexcept {
+    Eigen::Matrix<double, 2, 2> bends = curve * reach * Eigen::Matrix<double, 2, 2>::Identity();
+    if (ring == 0) return bends;
     const Around now = around();
     const Vector turns = cross3(axis, now.way);
-    return (even + ring / now.length * axes[c].dot(turns) * axes[d].dot(turns)) / force;
+    for (std::size_t c = 1; c < 3; ++c)
+      for (std::size_t d = 1; d < 3; ++d)
+        bends(int(c) - 1, int(d) - 1) += ring / now.length * axes[c].dot(turns) * axes[d].dot(turns);
+    return bends;
   }
   /// ∂h/∂f along an axis [m].
   double offset(std::size_t c) const noexcept {
-    if (kind == Kind::joint) return axes[c].dot(apart);
-    return (c == 0 ? reach : 0) + (ring != 0 ? ring * axes[c].dot(around().way) : 0);
+    return (c == 0 ? reach : 0) + (ring != 0 ? ring * axes[c].dot(around().way) : axes[c].dot(on));
   }
+  /// ∂h/∂f less R n [m].
+  Vector off() const noexcept { return ring != 0 ? Vector(ring * around().way) : on; }
   /// Eigenvalues of its own that are negative in a stable equilibrium: of λ and of two places of least distance, and from inside of a turn of n; of a joint
   /// all.
-  int negative() const noexcept { return kind == Kind::joint ? 5 : ring < 0 ? 4 : 3; }
+  int negative() const noexcept {
+    return kind == Kind::joint ? 5 : rough() ? 3 + friction.negative() : ring < 0 ? 4 : 3;
+  }
   /// Whether friction acts.
   bool rough() const noexcept { return !fresh && friction.acts(); }
 
@@ -102,10 +109,11 @@ struct RodPair {
     const Vector f = next * normal + aside;
     force = std::sqrt(f.squaredNorm()), normal = f / force;
   }
-  /// The same with friction, which may pull on the way to an equilibrium.   @param by  δλ, and λ δn across n
+  /// The same with friction, which may pull on the way to an equilibrium.   @param by  δλ, and δn across n
   void rub(const std::array<double, 3>& by) noexcept {
     constexpr double most_turn = 0.3, least_left = 1e-3;
-    Vector turn = (by[1] * axes[1] + by[2] * axes[2]) / force;
+    Vector turn = by[1] * axes[1] + by[2] * axes[2];
+    if (curve > 1) on += curve * reach * turn, turn.setZero();
     if (const double angle = std::sqrt(turn.squaredNorm()); angle > most_turn) turn *= most_turn / angle;
     normal = unit(Vector(normal + turn));
     const double next = force + by[0];
@@ -116,6 +124,11 @@ struct RodPair {
     const Vector f = force * normal + by;
     force = std::sqrt(f.squaredNorm());
     if (force > 0) normal = f / force;
+  }
+  /// A body has turned.   @param turn  (vector &)
+  template <class Turn>
+  void carry(Turn&& turn) noexcept {
+    turn(on), friction.carry(turn);
   }
   /// A step begins here.
   void mark() noexcept { met = s, met_held = held, pulls = 0; }
@@ -136,7 +149,7 @@ struct RodPair {
     const Vector next = force * normal + ratio * (force * normal - before.force * before.normal);
     const double size = std::sqrt(next.squaredNorm());
     if (!(next.dot(normal) > size / 2)) return;
-    force = size, normal = next / size;
+    force = size, normal = next / size, on += ratio * friction.gone();
     for (std::size_t k = 0; k < 2; ++k) s[k] += ratio * (s[k] - before.s[k]);
   }
 

@@ -52,7 +52,7 @@ class PairEquilibrium {
   Outcome settle() noexcept {
     Curvature<double> unknown;
     int leaves = 0, tries = 0;
-    bool sticks = false;
+    auto start = PairFriction::Start::goes_on;
     system_.begin_friction();
     for (int k = system_.joints(); k < system_.pairs(); ++k) {
       RodPair& pair = system_.pair(k);
@@ -68,16 +68,18 @@ class PairEquilibrium {
       solves_ += report.solves;
       if (report.status != Status::ok) {
         system_.restore();
-        // What turns back is found from where it sticks.
-        if (!sticks && system_.stick()) {
-          sticks = true;
-          continue;
-        }
+        // What has not rubbed yet is found from where it slides freely, what turns back from where it sticks.
+        const auto begins = [&](PairFriction::Start another) {
+          return start < another && system_.begin_friction(start = another);
+        };
+        if (begins(PairFriction::Start::waits) || begins(PairFriction::Start::sticks)) continue;
         return failure_ = report.status, Outcome::lost;
       }
       const Look look = look_around(system_);
       // What leaps as it begins to slide does so in steps of any length.
       if (!look.close) return tries > 0 ? Outcome::lost : Outcome::too_far;
+      // What pulls as it sticks may press as it slides.
+      if (sticks_and_pulls() && !system_.settled() && tries++ < most_tries) continue;
       if (release()) continue;
       // One that comes back to its end has left it for a place that gives way.
       if (leave_end()) {
@@ -153,6 +155,14 @@ class PairEquilibrium {
             (side == 0 && is_pinned(k) ? !is_beside(k) : system_.pair(k).leaves_end(side)))
           return system_.pair(k).held[side] = false, true;
     return false;
+  }
+  bool sticks_and_pulls() const noexcept {
+    bool any = false;
+    for (int k = 0; k < system_.pairs(); ++k) {
+      const RodPair& pair = system_.pair(k);
+      any = any || (system_.moves(pair) && pair.rough() && !pair.friction.slides() && !(pair.force > 0));
+    }
+    return any;
   }
   /// The pair that pulls most lets go, one that is apart, between clamps that no force moves, or one of two that have come together.
   /// @return whether there is one

@@ -120,18 +120,19 @@ class PairSide {
     return F.dot(v) / 2;
   }
 
-  /// r' of the true curve of a rod under a force there.
+  /// Of the true curve of a rod under a force there.
   template <class Parts>
-  static Vector tangent(const Parts& parts, int e, double s, const Vector& F) noexcept {
+  static RodPoint<double> point(const Parts& parts, int e, double s, const Vector& F) noexcept {
     const RodProperties<double>& p = parts.properties(e);
     const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
     const double N = parts.inners()[e];
     RodSpot<double> spot;
     spot.look(p, n1, n2, N, s - n1.s);
     const Matrix yields = shape(p, n1, n2, N, spot);
-    Vector t = spot.t + spot.g.by(0) / 2 * (yields * F);
+    const Vector yield = yields * F;
+    Vector t = spot.t + spot.g.by(0) / 2 * yield;
     if (unknowns == 7 && p.soft[0] != p.soft[1]) t += turned_yield(yields, F, spot);
-    return t;
+    return {spot.r + spot.g.value * yield, t};
   }
 
  private:

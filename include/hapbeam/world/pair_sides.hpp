@@ -38,10 +38,10 @@ class PairSides {
     for (int k = 0; k < most; ++k) sides_.emplace_back(elements);
   }
 
-  /// r' of the true curve of a rod at s, where a force acts on it.
+  /// Of the true curve of a rod at s, where a force acts on it.
   template <class Parts>
-  static Vector tangent(const Parts& parts, int e, double s, const Vector& force) noexcept {
-    return Side::tangent(parts, e, s, force);
+  static RodPoint<double> point(const Parts& parts, int e, double s, const Vector& force) noexcept {
+    return Side::point(parts, e, s, force);
   }
 
   void clear() noexcept { size_ = 0; }

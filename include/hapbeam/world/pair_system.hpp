@@ -153,19 +153,17 @@ class PairSystem : public WorldPairs<Element> {
       const PlacedBody* core = this->rigid(pair.rod[1]);
       if (core) core->lead(pair);
       pair.look();
-      own_negative_ += pair.negative();
       if (!pair.friction.none() && !pair.fresh) look(pair);
+      for (int c = 0; c < 3; ++c) dense[row + c] -= pair.offset(at(c));
       if (pair.rough()) {
-        dense[row] -= pair.reach;
-        pair.friction.add(pair.axes, pair.force, row, dense);
-        own_negative_ += pair.friction.negative();
+        pair.friction.add(pair.axes, pair.bends(), pair.force, row, dense);
         rough_ = true;
-      } else {
-        for (int c = 0; c < 3; ++c) {
-          dense[row + c] -= pair.offset(at(c));
-          for (int d = 1; d <= c && !pair.fresh; ++d) dense(row + c, row + d) = pair.bends(at(c), at(d));
-        }
+      } else if (!pair.fresh && pair.kind == RodPair::Kind::contact) {
+        const auto bends = pair.bends();
+        for (int c = 1; c < 3; ++c)
+          for (int d = 1; d <= c; ++d) dense(row + c, row + d) = bends(c - 1, d - 1) / pair.force;
       }
+      own_negative_ += pair.negative();
       for (std::size_t side = 0; side < 2 && !(core && side == 1); ++side) {
         Body& body = this->body(pair.rod[side]);
         body.sides.add(pair, side, row, body.line().segment_at(pair.s[side]));
@@ -182,7 +180,7 @@ class PairSystem : public WorldPairs<Element> {
     dense[row + 4] -= pair.pull[1];
     for (int c = 0; c < 3; ++c) {
       dense[row + c] -= pair.axes[at(c)].dot(at_core);
-      dense(row + 4, row + c) = pair.axes[at(c)].dot(core.axis());
+      if (c == 0 || !pair.rough()) dense(row + 4, row + c) = pair.axes[at(c)].dot(core.axis());
     }
   }
   /// No place goes farther uphill, to a least distance, than a part of an element.
@@ -214,15 +212,14 @@ class PairSystem : public WorldPairs<Element> {
     });
     bounds_.follow(*equations_, at(row));
   }
-  /// What is new keeps its direction, as does the force of a plane.  What is held on a body has no rod that says so.
+  /// What is new keeps its direction, as does the force of a plane without friction.  What is held on a body has no rod that says so.
   void hold_still() noexcept {
     int row = 0;
     for (int k = 0; k < pairs(); ++k) {
       const RodPair& pair = this->pair(k);
       if (!moves(pair)) continue;
       const PlacedBody* core = this->rigid(pair.rod[1]);
-      const bool plane = core && core->kind() == RigidBody::Kind::half_space;
-      for (int c = 1; c < 3 && (pair.fresh || plane); ++c)
+      for (int c = 1; c < 3 && (pair.fresh || (pair.curve > 1 && !pair.rough())); ++c)
         equations_->hold(row + c, c == 1 && pair.ring < 0 ? -1 : 1);
       if (core && (pair.fresh || pair.held[1])) equations_->hold(row + 4, -1);
       row += pair_unknowns;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bodies of a World that do not yield: a plane, a sphere, a capsule and a thin tube, which rods touch from inside and from outside.
 //
-//   World<RoundRod> world({{needle, 16}}, {RigidBody::plane({0, 0, 0}, {0, 0, 1})});
+//   World<RoundRod> world({{needle, 16}}, {RigidBody::plane({0, 0, 0}, {0, 0, 1}, 0.3)});
 //
 // Checks throw std::invalid_argument; all else is noexcept.
 #pragma once
@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include <hapbeam/check.hpp>
+#include <hapbeam/fem/rod/end_path.hpp>
 #include <hapbeam/support.hpp>
 #include <hapbeam/world/pair.hpp>
 
@@ -25,30 +26,33 @@ class RigidBody {
     tube,        ///< the wall of a tube, which has no thickness and is open at both ends
   };
 
-  /// @param point  [m] on it   @param normal  out of it
-  static RigidBody plane(const Vector& point, const Vector& normal) {
-    return RigidBody(Kind::half_space, point, normal, 0);
+  /// @param point  [m] on it   @param normal  out of it   @param friction  of body and rod the larger coefficients count
+  static RigidBody plane(const Vector& point, const Vector& normal, const Friction& friction = {}) {
+    return RigidBody(Kind::half_space, point, normal, 0, friction);
   }
   /// @param centre, radius  [m]; the radius may be 0
-  static RigidBody sphere(const Vector& centre, double radius) {
-    return RigidBody(Kind::round, centre, Vector::Zero(), radius);
+  static RigidBody sphere(const Vector& centre, double radius, const Friction& friction = {}) {
+    return RigidBody(Kind::round, centre, Vector::Zero(), radius, friction);
   }
   /// @param from, to  [m] ends of its axis
-  static RigidBody capsule(const Vector& from, const Vector& to, double radius) {
-    return RigidBody(Kind::round, from, to - from, radius);
+  static RigidBody capsule(const Vector& from, const Vector& to, double radius,
+                           const Friction& friction = {}) {
+    return RigidBody(Kind::round, from, to - from, radius, friction);
   }
   /// @param radius  [m] of its wall, more than 0
-  static RigidBody tube(const Vector& from, const Vector& to, double radius) {
-    return RigidBody(Kind::tube, from, to - from, radius);
+  static RigidBody tube(const Vector& from, const Vector& to, double radius, const Friction& friction = {}) {
+    return RigidBody(Kind::tube, from, to - from, radius, friction);
   }
 
   Kind kind() const noexcept { return kind_; }
   double radius() const noexcept { return radius_; }
+  const Friction& friction() const noexcept { return friction_; }
   /// The end of its axis, or a point of the plane [m], and from there to its other end [m], or a normal.
   const Vector& tip() const noexcept { return tip_; }
   const Vector& way() const noexcept { return way_; }
   /// @throws std::invalid_argument naming what makes no sense
   void check() const {
+    friction_.check();
     detail::finite("body place", tip_.squaredNorm() + way_.squaredNorm(), "m");
     const bool tube = kind_ == Kind::tube;
     if (!(std::isfinite(radius_) && radius_ >= 0 && (radius_ > 0 || !tube)))
@@ -58,27 +62,29 @@ class RigidBody {
   }
 
  private:
-  RigidBody(Kind kind, const Vector& tip, const Vector& way, double radius)
-      : kind_(kind), tip_(tip), way_(way), radius_(radius) {}
+  RigidBody(Kind kind, const Vector& tip, const Vector& way, double radius, const Friction& friction)
+      : kind_(kind), tip_(tip), way_(way), radius_(radius), friction_(friction) {}
 
   Kind kind_;
   Vector tip_, way_;
   double radius_;
+  Friction friction_;
 };
 
 namespace detail {
 
-/// A body as it lies, and its path in a tick: its tip goes straight, its axis turns.
+/// A body as it lies, and its path in a tick: its tip goes straight, and it turns.
 class PlacedBody {
  public:
   using Vector = VectorOf<double, 3>;
-  using Step = VectorOf<double, 6>;  // of both ends of its axis [m]
+  using Step = VectorOf<double, 9>;  // of its tip, and of two directions as far as it reaches [m]
 
   /// @throws std::invalid_argument as RigidBody::check()
   explicit PlacedBody(const RigidBody& body) : body_(body) {
     body.check();
     extent_ = std::sqrt(body.way().squaredNorm());
-    home_ = {body.tip(), extent_ > 0 ? Vector(body.way() / extent_) : Vector::Zero()};
+    if (extent_ > 0) home_axis_ = body.way() / extent_;
+    home_ = placed({0, body.tip(), {1, 0, 0}, {0, 1, 0}});
     reset();
   }
 
@@ -86,20 +92,28 @@ class PlacedBody {
   double radius() const noexcept { return body_.radius(); }
   /// Of its axis, on which places are [m].
   double length() const noexcept { return kind() == RigidBody::Kind::half_space ? 0 : extent_; }
-  Vector at(double s) const noexcept { return now_.tip + s * now_.axis; }
+  Vector at(double s) const noexcept { return now_.tip() + s * now_.axis; }
   /// Unit: of its axis, or out of the plane; 0 of a sphere.
   const Vector& axis() const noexcept { return now_.axis; }
-  Shaft<double> shaft() const noexcept { return {now_.tip, length() * now_.axis}; }
-  Shaft<double> saved_shaft() const noexcept { return {saved_.tip, length() * saved_.axis}; }
+  /// How a place on it goes along that, where it does.
+  Vector tangent() const noexcept { return length() > 0 ? now_.axis : Vector(Vector::Zero()); }
+  Shaft<double> shaft() const noexcept { return {now_.tip(), length() * now_.axis}; }
+  Shaft<double> saved_shaft() const noexcept { return {saved_.tip(), length() * saved_.axis}; }
   /// How far a point of it has moved since save(), at most, squared [m²].
   double travel_squared() const noexcept {
-    const Vector tip = now_.tip - saved_.tip, end = tip + length() * (now_.axis - saved_.axis);
+    const Vector tip = now_.tip() - saved_.tip(), end = tip + length() * (now_.axis - saved_.axis);
     return (std::max)(tip.squaredNorm(), end.squaredNorm());
+  }
+
+  /// A direction that has turned with it since save().
+  Vector carried(const Vector& v) const noexcept {
+    return axes_of(now_.frame) * (axes_of(saved_.frame).transpose() * v);
   }
 
   /// What it decides of a pair: the direction of a plane's force, and the axis of a tube.
   void lead(RodPair& pair) const noexcept {
-    if (kind() == RigidBody::Kind::half_space) pair.normal = now_.axis;
+    constexpr double flat = 1e9;
+    if (kind() == RigidBody::Kind::half_space) pair.normal = now_.axis, pair.curve = flat;
     if (kind() == RigidBody::Kind::tube) pair.axis = now_.axis;
   }
 
@@ -110,23 +124,25 @@ class PlacedBody {
   /// @param pose  of the frame in which it was built   @return whether it is one
   bool place(RodPose pose) noexcept {
     if (!pose.make_valid()) return false;
-    const auto turned = [&](const Vector& x) -> Vector {
-      return x[0] * pose.along + x[1] * pose.director + x[2] * cross3(pose.along, pose.director);
-    };
-    const Place goal{pose.at + turned(home_.tip), turned(home_.axis)};
-    moves = moves || goal.tip != goal_.tip || goal.axis != goal_.axis;
-    goal_ = goal;
+    Node to{0, pose.at, pose.along, pose.director};
+    to.r += turned(to, home_.tip());
+    const Node& last = goal_.frame;
+    moves = moves || to.r != last.r || to.tangent != last.tangent || to.director != last.director;
+    goal_ = placed(to);
     return true;
   }
   void begin_path() noexcept { start_ = now_; }
   void set_target(double t) noexcept {
-    now_.tip = start_.tip + t * (goal_.tip - start_.tip);
-    now_.axis = turned(t);
+    const Node &from = start_.frame, &to = goal_.frame;
+    if (t >= 1) now_ = goal_;
+    else now_ = placed(gone<double>(from, t * (to.r - from.r), t * rotation_between(from, to)));
   }
   /// As RodBody: product with the step before, and the squares of both.
   std::array<double, 3> take_step() noexcept {
+    const Node &from = last_.frame, &to = goal_.frame;
+    const double reaches = extent_ + radius();
     Step step;
-    step << goal_.tip - last_.tip, extent_ * (goal_.axis - last_.axis);
+    step << to.r - from.r, reaches * (to.tangent - from.tangent), reaches * (to.director - from.director);
     const std::array<double, 3> products{step.dot(step_), step.squaredNorm(), step_.squaredNorm()};
     last_ = goal_, step_ = step;
     return products;
@@ -135,28 +151,22 @@ class PlacedBody {
   bool moves = true;  // since the last equilibrium
 
  private:
+  using Node = RodNode<double>;
+  /// Its tip, and the axes of the frame in which it was built.
   struct Place {
-    Vector tip, axis;
+    Node frame;
+    Vector axis;
+    const Vector& tip() const noexcept { return frame.r; }
   };
-  /// Between start and goal, by way of the middle of both.
-  Vector turned(double t) const noexcept {
-    const Vector &a = start_.axis, &b = goal_.axis;
-    if (t >= 1 || a == b) return b;
-    Vector middle = a + b;
-    constexpr double opposite = 1e-12;
-    if (!(middle.squaredNorm() > opposite)) {
-      int least = 0;
-      for (int k = 1; k < 3; ++k)
-        if (std::abs(a[k]) < std::abs(a[least])) least = k;
-      middle = across<double>(Vector::Unit(least), a);
-    }
-    middle = unit(middle);
-    return t < 0.5 ? unit(Vector(a + 2 * t * (middle - a)))
-                   : unit(Vector(middle + (2 * t - 1) * (b - middle)));
+  /// A vector of the frame in which it was built.
+  static Vector turned(const Node& frame, const Vector& x) noexcept {
+    return x[0] * frame.tangent + x[1] * frame.director + x[2] * cross3(frame.tangent, frame.director);
   }
+  Place placed(const Node& frame) const noexcept { return {frame, turned(frame, home_axis_)}; }
 
   RigidBody body_;
   double extent_;
+  Vector home_axis_ = Vector::Zero();
   Place home_, start_, now_, saved_, goal_, last_;
   Step step_;
 };

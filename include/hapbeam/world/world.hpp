@@ -81,7 +81,8 @@ class World {
         if (outcome != Outcome::too_far) course_ = Course::has_fallen;
         break;
       }
-      restore();
+      system().restore();
+      known_ = 0;
       if (outcome == Outcome::full || equilibrium_.left() <= 0) break;
       step = (to - t) / 8;
       if (outcome == Outcome::lost && step < shortest) course_ = Course::falls, step = to - t;
@@ -124,8 +125,8 @@ class World {
             pair.force * pair.normal + pair.friction.kept(),
             pair.friction.kept(),
             pair.friction.slid(),
-            {at, rigid ? Vector(at - system().body(pair.rod[0]).radius() * pair.normal)
-                       : shape(pair.rod[1]).at(pair.s[1]).r}};
+            {at, at - (rigid ? Vector(system().body(pair.rod[0]).radius() * pair.normal)
+                             : system().between(pair))}};
   }
   /// Of all rods, the springs that hold them, what contacts bend beside nodes, and their skins [J].
   double strain_energy() const noexcept {
@@ -134,8 +135,9 @@ class World {
     for (int k = system().joints(); k < system().pairs(); ++k) {
       const detail::RodPair& pair = system().pair(k);
       const Vector w = system().between(pair);
-      energy += (pair.force * (pair.reach - pair.distance(w)) - pair.friction.kept().dot(w)) / 2 +
-                pair.friction.stored();
+      energy +=
+          (pair.force * (pair.reach - pair.distance(w)) - pair.friction.kept().dot(w - pair.off())) / 2 +
+          pair.friction.stored();
     }
     return energy;
   }
@@ -227,10 +229,6 @@ class World {
     for (detail::PlacedBody& body : system().rigid()) body.restart();
     course_ = Course::follows, known_ = unmoved_ = 0;
     system().save();
-  }
-  void restore() noexcept {
-    system().restore();
-    known_ = 0;
   }
 
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }

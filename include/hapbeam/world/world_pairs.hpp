@@ -23,7 +23,7 @@ namespace hapbeam {
 struct WorldRod {
   Rod rod;
   int elements;  ///< 2 or more
-  /// Of two rods that touch the larger coefficients count.
+  /// Of what touches the larger coefficients count.
   Friction friction = {};
 };
 
@@ -54,6 +54,7 @@ class WorldPairs {
       bodies_.emplace_back(jointed[i], rods[i].elements, *equations_);
       frictions_.push_back(rods[i].friction);
     }
+    for (const RigidBody& body : rigid) frictions_.push_back(body.friction());
     for (const BallJoint& joint : joints) add(joint, away);
     joined_ = held_together(joints);
     keep_rest();
@@ -96,7 +97,7 @@ class WorldPairs {
   }
   /// So far along their paths, 0 to 1.
   void lead_joints(double t) noexcept {
-    for (int k = 0; k < joints(); ++k) pair(k).apart = (1 - t) * held_[at(k)].apart;
+    for (int k = 0; k < joints(); ++k) pair(k).on = (1 - t) * held_[at(k)].apart;
   }
   /// All rests as it lies.
   void keep_rest() noexcept {
@@ -150,17 +151,10 @@ class WorldPairs {
 
   // Friction.
 
-  /// A step begins.
-  void begin_friction() noexcept {
-    each_rough([](PairFriction& friction) { friction.begin(); });
-  }
-  /// It begins anew with all that slid as it sticks.   @return whether there is any
-  bool stick() noexcept {
+  /// As PairFriction::begin().   @return whether any begins another way than it went on
+  bool begin_friction(PairFriction::Start start = PairFriction::Start::goes_on) noexcept {
     bool any = false;
-    each_rough([&](PairFriction& friction) {
-      any = any || friction.slid();
-      friction.begin(PairFriction::Start::sticks);
-    });
+    each_rough([&](PairFriction& friction) { any = friction.begin(start) || any; });
     return any;
   }
   /// All that moves slides without friction until it has come to an equilibrium.
@@ -230,14 +224,17 @@ class WorldPairs {
   }
   /// Where friction acts, as all lies.
   void look(RodPair& pair) noexcept {
-    const VectorOf<double, 3> force = pair.force * pair.normal + pair.friction.force();
-    std::array<VectorOf<double, 3>, 2> along;
-    for (std::size_t side = 0; side < 2; ++side) {
+    using Vector = VectorOf<double, 3>;
+    const Vector force = pair.force * pair.normal + pair.friction.force();
+    const auto point = [&](std::size_t side, const Vector& acts) {
       const Body& body = this->body(pair.rod[side]);
-      along[side] = Body::Sides::tangent(body.parts(), body.line().segment_at(pair.s[side]), pair.s[side],
-                                         side == 0 ? force : -force);
-    }
-    pair.friction.look(pair.normal, pair.s, along, pair.force);
+      return Body::Sides::point(body.parts(), body.line().segment_at(pair.s[side]), pair.s[side], acts);
+    };
+    const RodPoint<double> first = point(0, force);
+    const PlacedBody* core = rigid(pair.rod[1]);
+    if (core) carry(pair, *core, first.r - core->at(0));
+    pair.friction.look(pair.normal, pair.off(), pair.s,
+                       {first.tangent, core ? core->tangent() : point(1, -force).tangent}, pair.force);
   }
 
   std::unique_ptr<PairEquations> equations_;
@@ -274,11 +271,15 @@ class WorldPairs {
         body(joint.rod[side]).lend(beside.node[side], side == 0 ? beside.lent : -beside.lent);
     held_.push_back(beside);
   }
+  /// What a body that turns takes along, and where a new contact is on a plane.   @param w  from its tip
+  void carry(RodPair& pair, const PlacedBody& core, const VectorOf<double, 3>& w) noexcept {
+    if (pair.friction.begins() && core.moves) pair.carry([&](auto& v) { v = core.carried(v); });
+    if (pair.curve > 1 && pair.friction.is_free()) pair.on = w - w.dot(pair.normal) * pair.normal;
+  }
   void give_friction(RodPair& pair) noexcept {
-    if (rigid(pair.rod[1])) return;
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
     if (friction.none()) return;
-    const Body &a = body(pair.rod[0]), &b = body(pair.rod[1]);
+    const Body &a = body(pair.rod[0]), &b = rigid(pair.rod[1]) ? a : body(pair.rod[1]);
     const auto skin = [](const Body& of) { return of.system().unit() / of.length(); };
     const double least = (std::min)(skin(a), skin(b));
     pair.friction.take(friction, pair.reach,
@@ -288,7 +289,7 @@ class WorldPairs {
 
   std::vector<Body> bodies_;
   std::vector<std::pair<int, int>> joined_;
-  std::vector<Friction> frictions_;  // of each rod
+  std::vector<Friction> frictions_;  // of each rod and body
   std::array<RodPair, most_pairs> pairs_, saved_, rest_;
   int number_ = 0, saved_number_ = 0, rest_number_ = 0;
 };

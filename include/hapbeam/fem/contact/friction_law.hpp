@@ -49,11 +49,11 @@ class FrictionLaw {
   void begin(const FrictionState<Scalar, D>& state, bool alone, const Place& first, Scalar stretch,
              Scalar reach, Scalar stiffest, Scalar hurry, Scalar normal_force) noexcept {
     known_ = state.known;
-    before_ =
-        state.known ? Place{state.s, state.ahead, state.normal, state.along, state.place, state.axis} : first;
-    stretch_ = stretch;
+    before_ = state.known
+                  ? Place{state.s, state.ahead, state.normal, state.along, state.place, state.axis, state.off}
+                  : first;
+    stretch_ = stretch, reach_ = reach;
     skin_ = state.skin;
-    reach_ = reach;
     stiffness_ = (std::min)(state.stiffness, stiffest);
     damping_ = (std::min)(state.damping, stiffest);
     sticking_ = state.sticking, sliding_ = state.sliding;
@@ -247,7 +247,7 @@ class FrictionLaw {
     state.settled =
         tries_ <= most_tries || falls() || (slides() ? norm(state.force - acting()) <= loose * most : !slid);
     state.s = now_.s, state.ahead = now_.ahead, state.normal = now_.normal, state.along = now_.along;
-    state.place = now_.place, state.axis = now_.axis;
+    state.place = now_.place, state.axis = now_.axis, state.off = now_.off;
     state.gain = bound_.gain();
   }
   /// Energy of the skin of a touch, after leave() [J]

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Where a beam and an avatar touch, and how far their surfaces slip from one such place to another.
 //
-//   slip = t Δs + R Δn - a Δλ           s, λ: lengths along beam, as it is stretched, and avatar's axis, t, a: their directions, n: normal
+//   slip = t Δs + R Δn - a Δλ - Δo      s, λ: lengths along beam, as it is stretched, and avatar's axis, t, a: their directions, n: normal
 //
-// R is the reach, from the avatar's axis to the centreline.
+// R is the reach, from the avatar's axis to the centreline, or from o off that.
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
 
@@ -32,6 +32,7 @@ struct FrictionPlace {
   Vector normal = Vector::Zero(), along = Vector::Zero();  ///< unit; along the beam
   Scalar place = 0;                                        ///< [m] on the avatar's axis
   Vector axis = Vector::Zero();                            ///< its direction
+  Vector off = Vector::Zero();                             ///< [m] o; in the plane of a beam none
 
   /// What lies across the normal of another place, turned with it to this one.
   Vector carried(const Vector& v, const FrictionPlace& from) const noexcept {
@@ -49,7 +50,8 @@ struct FrictionPlace {
     } else {
       const Vector turn = n - m, middle = unit<Scalar>(m + n);
       const Scalar half = std::sqrt(turn.squaredNorm()) / 2;
-      Vector v = moved / 2 * (from.along + along) - (place - from.place) / 2 * (from.axis + axis) +
+      Vector v = moved / 2 * (from.along + along) - (place - from.place) / 2 * (from.axis + axis) -
+                 (off - from.off) +
                  (half > 0 ? reach * std::asin((std::min)(half, Scalar(1))) / half : reach) * turn;
       v -= middle * middle.dot(v);
       return carry<Scalar>(v, middle, n);
