@@ -222,6 +222,8 @@ const char* name(CouplingChoice coupling) {
 
 const char* name(DeviceChoice device) { return device == DeviceChoice::phantom ? "phantom" : "virtual"; }
 
+const char* name(Avatar avatar) { return avatar == Avatar::needle ? "needle" : "ball"; }
+
 void settle(Options& o, double from, double to) {
   o.from = from, o.to = to;
   if (std::isnan(o.place)) o.place = (from + to) / 2;

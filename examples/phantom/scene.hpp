@@ -14,9 +14,29 @@
 
 namespace phantom {
 
-/// @param pressed  [m] of the centreline at rest, at the place to be pressed   @param reach  [m] from there to the avatar's centre
-inline hapbeam::Placement placement(const Eigen::Vector3d& pressed, double reach, double scale) {
-  return {Eigen::Matrix3d::Identity(), pressed + Eigen::Vector3d(0, reach, 0), scale};
+/// From the centreline to the avatar's centre, or to the needle's centreline [m].
+inline double reach_of(const Options& options) { return options.radius + options.beam.touched() / 2; }
+
+/// From where the beam is touched to the hand [m]: a needle crosses the rod and comes from who looks.
+inline Eigen::Vector3d to_hand(const Options& options) {
+  return {0, reach_of(options), options.avatar == Avatar::needle ? 0.15 : 0};
+}
+
+/// @param pressed  [m] of the centreline at rest, at the place to be pressed
+inline hapbeam::Placement placement(const Eigen::Vector3d& pressed, const Options& options) {
+  return {Eigen::Matrix3d::Identity(), pressed + to_hand(options), options.scale};
+}
+
+/// [m, device] from where the avatar touches the beam at rest: where a script begins.
+inline constexpr double height_above = 0.02;
+
+/// The needle in the hand, of steel.   @param hand  [m] where it is held   @param held  how
+inline hapbeam::Rod needle(const Options& options, const Eigen::Vector3d& hand,
+                           const hapbeam::RodSupport& held) {
+  const auto section = hapbeam::RodSection::circle(2 * options.radius);
+  hapbeam::Rod rod(0.2, section, hapbeam::RodMaterial::isotropic(200e9, 0.3), held,
+                   hapbeam::RodSupport::free);
+  return rod.place_left({hand, {0, 0, -1}, {0, 1, 0}});
 }
 
 /// How far the hand slides to either side of the place [m, device]: 0.15 m of the half width of 0.19 m, or less
@@ -61,8 +81,8 @@ inline ReachPath make_path_around(const Options& options) {
 /// The script in the device's axes; its parts take fixed fractions of the duration.
 inline Way make_path(const Options& options) {
   if (options.script == Script::around) return make_path_around(options);
-  const double above = 0.02, down = above + options.depth, T = options.duration;
-  hapbeam::HandPath path({0, above});
+  const double down = height_above + options.depth, T = options.duration;
+  hapbeam::HandPath path({0, height_above});
   switch (options.script) {
     case Script::slide: {
       const double r = reach(options);

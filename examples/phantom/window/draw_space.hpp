@@ -4,6 +4,7 @@
 // down to its shadow, and the distance of avatar and rod in figures.  All lengths are true to scale.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "../options.hpp"
@@ -32,13 +33,15 @@ class SpaceDrawing final : public Drawing {
   using Vector = Eigen::Vector3d;
   void aim(const ImVec2& low, const ImVec2& high);
   void draw_floor(ImDrawList& list, float unit) const;
-  void draw_shadow(ImDrawList& list, float unit) const;  ///< of the rod
+  void draw_shadow(ImDrawList& list, const RodLine& rod, float unit) const;
   void draw_shadow(ImDrawList& list, const Vector& avatar, float unit) const;
+  void draw_rod(Solids& solids, const RodLine& rod) const;
   void draw_ends(Solids& solids) const;
   void draw_hanging(ImDrawList& list, float unit) const;
   void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Vector& target,
                  float unit) const;
   void draw_arm(ImDrawList& list, const hapbeam::ServoRecord& record, float unit) const;  ///< and its force
+  void draw_contact(ImDrawList& list, const Vector& contact, float unit) const;
   /// Where words at a place are farthest from the rod.   @param beside  [pixel] that they keep from the place
   ImVec2 clear_of_rod(const ImVec2& at, float beside, const std::string& words, float unit) const;
   void draw_legend(ImDrawList& list, const ImVec2& low, const ImVec2& high, float unit) const;
@@ -46,6 +49,8 @@ class SpaceDrawing final : public Drawing {
 
   Options options_;
   RodLine line_;
+  std::optional<RodLine> needle_;  // that the hand holds
+  double ball_;                    // [m] radius of the avatar, or of what holds the needle
   hapbeam::Placement placement_;
   Vector workspace_;             // [m] scene, half of it
   Vector low_, high_;            // [m] of what is looked at

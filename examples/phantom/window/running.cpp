@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "../rest.hpp"
-#include "../scene.hpp"
 #include "plot.hpp"
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 
@@ -95,6 +94,8 @@ void Running::remember(const Tick& tick) {
 double Running::first_depth() {
   constexpr double press = 1e-6;  // [m]
   const Options& o = options();
+  // A needle gives way, too.
+  if (o.avatar == Avatar::needle) return 1e-4;
   const auto curves =
       force_curves(session_.body().slender(), o.elements, place_of_curves(), curve_along_, press);
   const double k = curves.empty() ? 0 : std::abs(static_cast<double>(curves[0].force.back())) / press;
