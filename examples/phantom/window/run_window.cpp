@@ -96,16 +96,16 @@ class Window {
 
   /// The next scene, model and coupling of a tour, in a window of another size now and then.
   void tour(int step) {
-    constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip", "string", "arch"};
+    constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip", "string", "arch", "probe"};
     constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::corotational,
                                           ElementChoice::stability_functions, ElementChoice::reduced,
                                           ElementChoice::full};
     Options options = first_;
     // Two changes under the hand that presses, then another scene.
-    set_scene(options, scenes[step / 3 % 6]);
+    set_scene(options, scenes[step / 3 % 7]);
     settle(options, 0, options.beam.length);
     if (!options.beam.in_space()) options.element = elements[step % 5];
-    else if (step % 2 == 1) options.element = ElementChoice::twisted_rod;
+    else if (step % 2 == 1 && options.avatar == Avatar::ball) options.element = ElementChoice::twisted_rod;
     options.elements = 4 << step / 25 % 3;
     // What is stiffer than the device can render throws the hand about without a coupling.
     const bool soft = options.scene == "strip" || options.scene == "string";
