@@ -1,23 +1,30 @@
 #include <memory>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "couple.hpp"
 #include "hands.hpp"
-#include "probe.hpp"
+#include "held_rod.hpp"
 
 namespace phantom {
 
-std::unique_ptr<Body> couple_needle(Parts parts) {
+std::unique_ptr<Body> couple_held(Parts parts) {
   const Options& o = parts.options;
-  const auto& rod = std::get<hapbeam::Rod>(parts.slender);
   // A device of three axes does not turn it: the spring against that is as good as a clamp.
   constexpr double turning = 100;  // [N·m/rad]
   const hapbeam::GripCoupling coupling =
       hapbeam::GripCoupling({o.stiffness, o.damping}, {turning, 0}, parts.device.period).in_scene(o.scale);
-  const Eigen::Vector3d hand = placement({o.place, 0, 0}, o).scene_position({0, height_above, 0});
-  Probe probe(rod, needle(o, hand, coupling.support()), o.elements, coupling);
-  return couple<OneHand>(std::move(probe), std::move(parts));
+  std::vector<hapbeam::WorldRod> rods;
+  if (o.avatar == Avatar::needle) {
+    const Eigen::Vector3d hand = placement({o.place, 0, 0}, o).scene_position({0, height_above, 0});
+    rods = {{std::get<hapbeam::Rod>(parts.slender), o.elements, {}},
+            {needle(o, hand, coupling.support()), o.elements, {}}};
+  } else {
+    rods = {{o.beam.make_rod(coupling.support()), o.elements, {}}};
+  }
+  HeldRod held(rods, vessel(o), coupling);
+  return couple<OneHand>(std::move(held), std::move(parts));
 }
 
 }  // namespace phantom

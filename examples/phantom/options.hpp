@@ -20,12 +20,12 @@ enum class ElementChoice {
   twisted_rod,
   with_mass
 };
-enum class Script { slide, press, tap, around, pluck };
+enum class Script { slide, press, tap, around, pluck, push };
 enum class CouplingChoice { direct, virtual_coupling };
 enum class ModelChoice { finite_elements, pod, galerkin };
 enum class DeviceChoice { simulated, phantom };
-/// What the hand touches with: a ball, or a flexible needle whose end it holds.
-enum class Avatar { ball, needle };
+/// What the hand touches with: a ball, or a flexible needle whose end it holds; or it holds the left end of the rod itself.
+enum class Avatar { ball, needle, end };
 
 /// Everything in SI.
 struct Options {

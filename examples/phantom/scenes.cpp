@@ -54,8 +54,11 @@ constexpr NamedScene scenes[] = {
     {"fishing-rod", ElementChoice::round_rod, Script::around, 0.9, 0.02, 3,
      "soft at the tip and hard at the butt, and a weight on its line that comes along", 1, 1, 0.06},
     {"probe", ElementChoice::round_rod, Script::slide, middle, 0.03, 1,
-     "two springs in a row: the rod that the needle meets, and the needle, which near a clamp bends alone",
-     1, 1, 0.001, 0.012, Avatar::needle},
+     "two springs in a row: the rod that the needle meets, and the needle, which near a clamp bends alone", 1,
+     1, 0.001, 0.012, Avatar::needle},
+    {"catheter", ElementChoice::round_rod, Script::push, 0, 0.1, 1.5,
+     "it pushes back at each tube of the vessel while its tip is bent, and slides on: there is no friction",
+     1, 1, 0.001, 0.012, Avatar::end},
 };
 
 const char* name(const NamedScene& scene) { return scene.label; }

@@ -8,7 +8,6 @@
 #include <string>
 #include <variant>
 
-#include "../scene.hpp"
 #include "colours.hpp"
 #include "draw_scene.hpp"
 
@@ -28,7 +27,8 @@ std::unique_ptr<Drawing> make_drawing(const Body& body, const hapbeam::DeviceInf
 SpaceDrawing::SpaceDrawing(const Body& body, const hapbeam::DeviceInfo& device)
     : options_(body.options()),
       line_(std::get<hapbeam::Rod>(body.slender())),
-      ball_(options_.avatar == Avatar::needle ? 4 * options_.radius : options_.radius),
+      vessel_(vessel(options_)),
+      ball_(options_.avatar == Avatar::ball ? options_.radius : 4 * options_.radius),
       placement_(body.placement()),
       workspace_(device.workspace * options_.scale / 2) {
   const Shape rest = body.rest();
@@ -44,6 +44,10 @@ SpaceDrawing::SpaceDrawing(const Body& body, const hapbeam::DeviceInfo& device)
     needle_.emplace(needle(options_, pressed, hapbeam::RodSupport::clamped));
     low_.z() = std::min(low_.z(), pressed.z() - needle_->rod().length());
     high_.z() += 2 * around;
+  }
+  for (const hapbeam::RigidBody& tube : vessel_) {
+    const Vector end = tube.tip() + tube.way(), around_it = Vector::Constant(tube.radius());
+    low_ = low_.cwiseMin(end - around_it), high_ = high_.cwiseMax(end + around_it);
   }
   if (options_.hands == 2)
     low_ = low_.cwiseMin(std::get<RodLine::Shape>(rest).at(second_place(options_)).r - Vector(0, around, 0));
@@ -133,7 +137,7 @@ void SpaceDrawing::draw_ends(Solids& solids) const {
     block.col(2) = half * hapbeam::detail::cross3<double>(end.tangent, end.across);
     solids.block(end.middle + side * block.col(0), block, IM_COL32(200, 204, 210, 255));
   };
-  hold(line_.rod().left(), line_.samples().front().ring, -1);
+  if (options_.avatar != Avatar::end) hold(line_.rod().left(), line_.samples().front().ring, -1);
   hold(line_.rod().right(), line_.samples().back().ring, 1);
 }
 
@@ -177,7 +181,7 @@ void SpaceDrawing::draw_arm(ImDrawList& list, const hapbeam::ServoRecord& r, flo
     const std::string words = text("%.2f N", force);
     label(list, clear_of_rod(hidden ? avatar : to, hidden ? beside : 0, words, unit), colour::vermilion,
           words);
-  } else if (!r.pressing) {
+  } else if (!r.pressing && options_.avatar != Avatar::end) {
     Vector from = r.avatar;
     RodLine::Nearest rod = line_.nearest(from);
     if (needle_)
@@ -189,6 +193,20 @@ void SpaceDrawing::draw_arm(ImDrawList& list, const hapbeam::ServoRecord& r, flo
     dashed(list, camera_(from + options_.radius * way), camera_(rod.place), colour::blue, 0.2f * unit);
     const std::string words = metres(std::round(std::max(0.0, gap) * 1e4) / 1e4) + " to the rod";
     label(list, clear_of_rod(avatar, beside, words, unit), colour::blue, words);
+  }
+}
+
+/// As glass: what is in it is seen.
+void SpaceDrawing::draw_vessel(ImDrawList& list) const {
+  for (const hapbeam::RigidBody& tube : vessel_) {
+    const Vector along = tube.way().normalized(), ends[] = {tube.tip(), tube.tip() + tube.way()};
+    const Vector side =
+        tube.radius() * hapbeam::detail::cross3<double>(along, camera_.sight(ends[0])).normalized();
+    const ImVec2 corners[] = {camera_(ends[0] - side), camera_(ends[1] - side), camera_(ends[1] + side),
+                              camera_(ends[0] + side)};
+    list.AddConvexPolyFilled(corners, 4, colour::with_alpha(colour::sky, 50));
+    list.AddLine(corners[0], corners[1], colour::faint, 1);
+    list.AddLine(corners[2], corners[3], colour::faint, 1);
   }
 }
 
@@ -267,6 +285,7 @@ void SpaceDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
   if (picture.second)
     solids.ball(picture.second->avatar, options_.radius, colour::with_alpha(colour::sky, 225));
   solids.paint(list);
+  draw_vessel(list);
   for (const Vector& contact : picture.body.contacts) draw_contact(list, contact, unit);
   draw_hanging(list, unit);
   if (picture.second) {

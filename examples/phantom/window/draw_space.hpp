@@ -6,8 +6,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "../options.hpp"
+#include "../scene.hpp"
 #include "drawing.hpp"
 #include "rod_line.hpp"
 #include "solids.hpp"
@@ -41,6 +42,7 @@ class SpaceDrawing final : public Drawing {
   void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Vector& target,
                  float unit) const;
   void draw_arm(ImDrawList& list, const hapbeam::ServoRecord& record, float unit) const;  ///< and its force
+  void draw_vessel(ImDrawList& list) const;
   void draw_contact(ImDrawList& list, const Vector& contact, float unit) const;
   /// Where words at a place are farthest from the rod.   @param beside  [pixel] that they keep from the place
   ImVec2 clear_of_rod(const ImVec2& at, float beside, const std::string& words, float unit) const;
@@ -50,7 +52,8 @@ class SpaceDrawing final : public Drawing {
   Options options_;
   RodLine line_;
   std::optional<RodLine> needle_;  // that the hand holds
-  double ball_;                    // [m] radius of the avatar, or of what holds the needle
+  std::vector<hapbeam::RigidBody> vessel_;
+  double ball_;  // [m] radius of the avatar, or of what holds the needle
   hapbeam::Placement placement_;
   Vector workspace_;             // [m] scene, half of it
   Vector low_, high_;            // [m] of what is looked at

@@ -96,13 +96,14 @@ class Window {
 
   /// The next scene, model and coupling of a tour, in a window of another size now and then.
   void tour(int step) {
-    constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip", "string", "arch", "probe"};
+    constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip",
+                                      "string", "arch",  "probe",  "catheter"};
     constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::corotational,
                                           ElementChoice::stability_functions, ElementChoice::reduced,
                                           ElementChoice::full};
     Options options = first_;
     // Two changes under the hand that presses, then another scene.
-    set_scene(options, scenes[step / 3 % 7]);
+    set_scene(options, scenes[step / 3 % 8]);
     settle(options, 0, options.beam.length);
     if (!options.beam.in_space()) options.element = elements[step % 5];
     else if (step % 2 == 1 && options.avatar == Avatar::ball) options.element = ElementChoice::twisted_rod;
@@ -138,7 +139,7 @@ class Window {
 
   static Pressed pressed(const Options& options) {
     if (options.element == ElementChoice::with_mass) return Pressed::with_mass;
-    return options.beams > 1 ? Pressed::array : Pressed::beam;
+    return options.beams > 1 || options.avatar == Avatar::end ? Pressed::way : Pressed::beam;
   }
 
   void draw_scene(const ImVec2& low, const ImVec2& high, float unit) {
