@@ -10,6 +10,7 @@
 
 #include "colours.hpp"
 #include "draw_scene.hpp"
+#include "draw_vessel.hpp"
 
 namespace phantom {
 
@@ -196,24 +197,6 @@ void SpaceDrawing::draw_arm(ImDrawList& list, const hapbeam::ServoRecord& r, flo
   }
 }
 
-/// As glass: what is in it is seen.
-void SpaceDrawing::draw_vessel(ImDrawList& list) const {
-  for (const hapbeam::RigidBody& tube : vessel_) {
-    const Vector along = tube.way().normalized(), ends[] = {tube.tip(), tube.tip() + tube.way()};
-    const Vector side =
-        tube.radius() * hapbeam::detail::cross3<double>(along, camera_.sight(ends[0])).normalized();
-    const ImVec2 corners[] = {camera_(ends[0] - side), camera_(ends[1] - side), camera_(ends[1] + side),
-                              camera_(ends[0] + side)};
-    list.AddConvexPolyFilled(corners, 4, colour::with_alpha(colour::sky, 50));
-    list.AddLine(corners[0], corners[1], colour::faint, 1);
-    list.AddLine(corners[2], corners[3], colour::faint, 1);
-  }
-}
-
-void SpaceDrawing::draw_contact(ImDrawList& list, const Vector& contact, float unit) const {
-  list.AddCircle(camera_(contact), 0.5f * unit, colour::vermilion, 0, unit / 7);
-}
-
 ImVec2 SpaceDrawing::clear_of_rod(const ImVec2& at, float beside, const std::string& words,
                                   float unit) const {
   const ImVec2 size = ImGui::CalcTextSize(words.c_str());
@@ -285,8 +268,8 @@ void SpaceDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
   if (picture.second)
     solids.ball(picture.second->avatar, options_.radius, colour::with_alpha(colour::sky, 225));
   solids.paint(list);
-  draw_vessel(list);
-  for (const Vector& contact : picture.body.contacts) draw_contact(list, contact, unit);
+  draw_vessel(list, camera_, vessel_);
+  draw_contacts(list, camera_, picture.body.contacts, unit);
   draw_hanging(list, unit);
   if (picture.second) {
     const Vector& second = picture.second->avatar;

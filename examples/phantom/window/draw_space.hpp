@@ -42,8 +42,6 @@ class SpaceDrawing final : public Drawing {
   void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Vector& target,
                  float unit) const;
   void draw_arm(ImDrawList& list, const hapbeam::ServoRecord& record, float unit) const;  ///< and its force
-  void draw_vessel(ImDrawList& list) const;
-  void draw_contact(ImDrawList& list, const Vector& contact, float unit) const;
   /// Where words at a place are farthest from the rod.   @param beside  [pixel] that they keep from the place
   ImVec2 clear_of_rod(const ImVec2& at, float beside, const std::string& words, float unit) const;
   void draw_legend(ImDrawList& list, const ImVec2& low, const ImVec2& high, float unit) const;
