@@ -3,7 +3,7 @@
 #
 #   bash examples/run.sh [OPTION...]           a simulated Phantom presses a beam
 #   bash examples/run.sh train [OPTION...]     makes a model of a beam, for --model of the other
-#   bash examples/run.sh 1_press_a_beam        and 2_… to 10_…: the files of examples/numbered
+#   bash examples/run.sh 1_press_a_beam        and 2_… to 11_…: the files of examples/numbered
 #
 # The options are the program's own; --help lists them.
 set -u

@@ -60,6 +60,6 @@ rubbed() {
 
 mkdir -p "$top/tests/examples/pictures"
 picture thesis 3.5 && picture ruler 1.6 && picture strip 3.5 && picture string 4.5 && picture arch 1.75 && picture comb 2 &&
-  picture needle 1.2 && picture hook 4.1 && picture fishing-rod 7.2 &&
+  picture needle 1.2 && picture hook 4.1 && picture fishing-rod 7.2 && picture probe 2.4 && picture catheter 4.5 &&
   picture arch 1.4 two_hands --hands 2 && picture ruler 3.2 twang --element with-mass && step arch.gif animation && step needle.gif around &&
   step friction.gif rubbed

@@ -47,6 +47,16 @@ void check_in_space(const Options& options) {
     cli::refuse("--element", name(options.element), "round-rod or twisted-rod for a rod in space");
 }
 
+void check_held(const Options& options) {
+  if (options.hands != 1) cli::refuse("--hands", "2", "1 with a rod in the hand");
+  if (options.element != ElementChoice::round_rod)
+    cli::refuse("--element", name(options.element), "round-rod for a rod in the hand");
+  if (options.coupling == CouplingChoice::direct)
+    cli::refuse("--coupling", name(options.coupling), "virtual for a rod in the hand");
+  if (options.avatar == Avatar::end && options.place != 0)
+    cli::refuse("--place", cli::digits(options.place), "0 where the hand holds the end");
+}
+
 }  // namespace
 
 std::unique_ptr<Body> make_body(const Options& options, std::shared_ptr<const Trained> trained,
@@ -54,8 +64,14 @@ std::unique_ptr<Body> make_body(const Options& options, std::shared_ptr<const Tr
   if (options.hands == 2) check_two_hands(options);
   if (options.beam.in_space()) {
     check_in_space(options);
+    if (options.avatar != Avatar::ball) {
+      check_held(options);
+      return couple_held({filled_in(options, device), options.beam.make_rod(), nullptr, device});
+    }
     return couple_in_space({filled_in(options, device), options.beam.make_rod(), nullptr, device});
   }
+  if (options.avatar != Avatar::ball)
+    cli::refuse("--beam", options.beam.name, "a rod in space, for what the hand holds");
   if (bends_in_space(options.element))
     cli::refuse("--element", name(options.element), "one of a beam that bends in its plane");
   const bool of_file = !options.model.empty() && options.hands == 1;

@@ -30,6 +30,11 @@ struct DrawnBeam {
   Shape shape;
   double above;  ///< [m] of its axis, over that of the first
 };
+/// All that yields: the beams, or a rod and the needle in the hand.
+struct DrawnBody {
+  std::vector<DrawnBeam> beams;
+  std::vector<Eigen::Vector3d> contacts;  ///< [m] of the needle with the rod
+};
 
 class Body {
  public:
@@ -39,8 +44,8 @@ class Body {
   virtual const hapbeam::ServoRecord& record() const noexcept = 0;  ///< of the last tick, the same thread's
   virtual const hapbeam::ServoRecord* second() const noexcept = 0;  ///< the same of the second hand, or null
   virtual void reset() noexcept = 0;                                ///< while no tick runs
-  /// Of the newest tick, from one other thread: wait-free.  They stay until the next call.
-  virtual const std::vector<DrawnBeam>& beams() noexcept = 0;
+  /// Of the newest tick, from one other thread: wait-free.  It stays until the next call.
+  virtual const DrawnBody& drawn() noexcept = 0;
   virtual Shape rest() const noexcept = 0;                           ///< one of them, before it is touched
   virtual const hapbeam::Placement& placement() const noexcept = 0;  ///< of the device in the scene
   /// How far the beam is pressed from where it rests there [m]; 0 where it is not.

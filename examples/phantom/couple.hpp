@@ -23,6 +23,8 @@ struct Parts {
 // Of the options' element and number of hands.   @throws std::invalid_argument where the model does not take the beam
 std::unique_ptr<Body> couple_in_plane(Parts parts);
 std::unique_ptr<Body> couple_in_space(Parts parts);
+/// In the hand, or met by what is there.
+std::unique_ptr<Body> couple_held(Parts parts);
 /// Swinging.
 std::unique_ptr<Body> couple_with_mass(Parts parts);
 /// Below one another, of Corotational<>.

@@ -10,6 +10,12 @@
 
 namespace phantom {
 
+/// Whether a touch is that of a tool in the hand, which has the coupling's springs itself.
+template <typename Touch, typename = void>
+inline constexpr bool is_led = false;
+template <typename Touch>
+inline constexpr bool is_led<Touch, std::void_t<decltype(&Touch::lead)>> = true;
+
 class Coupling {
  public:
   /// @throws std::invalid_argument as hapbeam::VirtualCoupling
@@ -30,7 +36,8 @@ class Coupling {
   [[nodiscard]] auto tick(Touch& touch, const hapbeam::VectorOf<double, hapbeam::dimension_of<Touch>>& hand,
                           double dt) noexcept {
     // A beam with mass has no other coupling.
-    if constexpr (hapbeam::detail::couples_itself<Touch>)
+    if constexpr (is_led<Touch>) return touch.lead(hand, dt);
+    else if constexpr (hapbeam::detail::couples_itself<Touch>)
       return std::get_if<hapbeam::VirtualCoupling>(&kind_)->tick(touch, hand, dt);
     else return std::visit([&](auto& kind) { return kind.tick(touch, hand, dt); }, kind_);
   }

@@ -15,9 +15,6 @@
 
 namespace phantom {
 
-/// From the centreline to the avatar's centre [m].
-inline double reach_of(const Options& options) { return options.radius + options.beam.touched() / 2; }
-
 /// Where the centreline is at rest [m].
 inline Eigen::Vector3d at_rest(const hapbeam::Centreline<double>& rest, double place) {
   return {place, height_at(rest, place), 0};
@@ -31,7 +28,7 @@ template <int D>
 hapbeam::ServoOptions servo_options(const Options& options, const hapbeam::Centreline<double, D>& rest,
                                     double place) {
   hapbeam::ServoOptions servo;
-  servo.placement = placement(at_rest(rest, place), reach_of(options), options.scale);
+  servo.placement = placement(at_rest(rest, place), options);
   servo.avatar_radius = options.radius;
   servo.friction = hapbeam::Friction(options.friction, options.friction);
   return servo;
@@ -47,13 +44,13 @@ hapbeam::Centreline<double> rest_of(const hapbeam::BeamArray<Model>& array) {
 }
 
 template <int D>
-void show(const hapbeam::ServoPicture<double, D>& picture, std::vector<DrawnBeam>& beams) noexcept {
-  beams[0].shape = picture.shape();
+void show(const hapbeam::ServoPicture<double, D>& picture, DrawnBody& body) noexcept {
+  body.beams[0].shape = picture.shape();
 }
 /// Those that are not pressed are at rest.
-inline void show(const hapbeam::ArrayPicture<double>& picture, std::vector<DrawnBeam>& beams) noexcept {
+inline void show(const hapbeam::ArrayPicture<double>& picture, DrawnBody& body) noexcept {
   for (int i = 0; i < picture.size(); ++i)
-    beams[static_cast<std::size_t>(picture.beam(i))].shape = picture.shape(i);
+    body.beams[static_cast<std::size_t>(picture.beam(i))].shape = picture.shape(i);
 }
 
 /// @tparam Loop  of one hand, or of two: OneHand | BothHands
@@ -70,7 +67,8 @@ class Live final : public Body {
         loop_(std::move(model), parts_, servo_options_),
         heard_(loop_.model(), parts_.options),
         bound_(parts_) {
-    for (int i = 0; i < parts_.options.beams; ++i) beams_.push_back({rest(), -parts_.options.pitch * i});
+    for (int i = 0; i < parts_.options.beams; ++i)
+      drawn_.beams.push_back({rest(), -parts_.options.pitch * i});
   }
 
   Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept override {
@@ -93,20 +91,25 @@ class Live final : public Body {
     peak_ = {0, 0};
     dissipated_ = 0;
   }
-  const std::vector<DrawnBeam>& beams() noexcept override {
-    for (DrawnBeam& beam : beams_) beam.shape = rest();
-    show(loop_.servo().picture(), beams_);
-    return beams_;
+  const DrawnBody& drawn() noexcept override {
+    for (DrawnBeam& beam : drawn_.beams) beam.shape = rest();
+    show(loop_.servo().picture(), drawn_);
+    return drawn_;
   }
   Shape rest() const noexcept override { return rest_.shape(); }
   const hapbeam::Placement& placement() const noexcept override { return servo_options_.placement; }
   double depth(const hapbeam::ServoRecord& r) const noexcept override {
     const Options& o = parts_.options;
+    // How far it is pushed in.
+    if (o.avatar == Avatar::end) return r.avatar.x() - at_rest(rest_.shape(), 0).x();
     if (!r.pressing) return 0;
     if constexpr (dimension == 2) return height_at(rest_.shape(), r.press.s) - r.press.d;
     // Along the normal; the device's axes are the scene's.
-    else if (const double force = r.force.norm(); force > 0)
-      return r.force.dot(rest_.shape().position(r.press.s) - r.avatar) / force + reach_of(o);
+    else if (const double force = r.force.norm(); force > 0) {
+      const double at_rest = r.force.dot(rest_.shape().position(r.press.s)) / force;
+      if (o.avatar == Avatar::needle) return at_rest - r.press.d;
+      return at_rest - r.force.dot(r.avatar) / force + reach_of(o);
+    }
     return 0;
   }
   double deepest() const noexcept override { return dimension == 3 ? deepest_ : record().max_press; }
@@ -134,7 +137,7 @@ class Live final : public Body {
   Loop loop_;
   Heard<Model> heard_;
   ForceBound<Model> bound_;
-  std::vector<DrawnBeam> beams_;
+  DrawnBody drawn_;
   double deepest_ = 0;  // [m] of a rod
   hapbeam::PeakStrain<double> peak_{0, 0};
   double dissipated_ = 0;  // [J]

@@ -1,8 +1,11 @@
 #include <memory>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "couple.hpp"
 #include "hands.hpp"
+#include "held_rod.hpp"
 #include <hapbeam/element/rod.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/rod_system.hpp>
@@ -13,6 +16,25 @@ std::unique_ptr<Body> couple_in_space(Parts parts) {
   if (parts.options.element == ElementChoice::round_rod)
     return couple_hands<hapbeam::RoundRod>(std::move(parts));
   return couple_hands<hapbeam::TwistedRod>(std::move(parts));
+}
+
+// In the unit of the rods: it shares what takes longest to compile.
+std::unique_ptr<Body> couple_held(Parts parts) {
+  const Options& o = parts.options;
+  // A device of three axes does not turn it: the spring against that is as good as a clamp.
+  constexpr double turning = 100;  // [N·m/rad]
+  const hapbeam::GripCoupling coupling =
+      hapbeam::GripCoupling({o.stiffness, o.damping}, {turning, 0}, parts.device.period).in_scene(o.scale);
+  std::vector<hapbeam::WorldRod> rods;
+  if (o.avatar == Avatar::needle) {
+    const Eigen::Vector3d hand = placement({o.place, 0, 0}, o).scene_position({0, height_above, 0});
+    rods = {{std::get<hapbeam::Rod>(parts.slender), o.elements, {}},
+            {needle(o, hand, coupling.support()), o.elements, {}}};
+  } else {
+    rods = {{o.beam.make_rod(coupling.support()), o.elements, {}}};
+  }
+  HeldRod held(rods, vessel(o), coupling);
+  return couple<OneHand>(std::move(held), std::move(parts));
 }
 
 }  // namespace phantom

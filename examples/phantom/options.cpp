@@ -18,7 +18,8 @@ constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice
                                       ElementChoice::corotational, ElementChoice::tapered,
                                       ElementChoice::round_rod,    ElementChoice::twisted_rod,
                                       ElementChoice::with_mass};
-constexpr Script scripts[] = {Script::slide, Script::press, Script::tap, Script::around, Script::pluck};
+constexpr Script scripts[] = {Script::slide,  Script::press, Script::tap,
+                              Script::around, Script::pluck, Script::push};
 constexpr CouplingChoice couplings[] = {CouplingChoice::direct, CouplingChoice::virtual_coupling};
 constexpr DeviceChoice devices[] = {DeviceChoice::simulated, DeviceChoice::phantom};
 
@@ -59,7 +60,7 @@ cli::Entries entries(Options& o) {
        "around: press a "
        "rod in space from above, from the front and from below;  pluck: press and let go at once, the "
        "default where what has "
-       "mass is held at both ends",
+       "mass is held at both ends;  push: push what is held along, and pull it back",
        [&o](const std::string& v) { o.script = one_of(scripts, "--script", v); }},
       figure("--place", "M",
              "where it presses, from the beam's left end [m]; by default the middle of the beam, or of the "
@@ -148,6 +149,12 @@ void suit_beam(Options& o, const std::vector<std::string>& given) {
     cli::refuse("--script", name(o.script), "one of slide, press, tap, pluck for what bends in a plane");
 }
 
+/// Only what is held is pushed along.
+void suit_hold(const Options& o) {
+  if (o.script == Script::push && o.avatar != Avatar::end)
+    cli::refuse("--script", name(o.script), "one of slide, press, tap, around, pluck for what is touched");
+}
+
 /// What is to be heard is let go at once; one with a free end lets go by itself.
 void suit_mass(Options& o, const std::vector<std::string>& given) {
   if (o.element == ElementChoice::with_mass && o.beam.right != hapbeam::Support::free &&
@@ -208,6 +215,7 @@ const char* name(Script script) {
     case Script::tap: return "tap";
     case Script::around: return "around";
     case Script::pluck: return "pluck";
+    case Script::push: return "push";
   }
   return "unknown";
 }
@@ -221,6 +229,15 @@ const char* name(CouplingChoice coupling) {
 }
 
 const char* name(DeviceChoice device) { return device == DeviceChoice::phantom ? "phantom" : "virtual"; }
+
+const char* name(Avatar avatar) {
+  switch (avatar) {
+    case Avatar::ball: return "ball";
+    case Avatar::needle: return "needle";
+    case Avatar::end: return "end";
+  }
+  return "unknown";
+}
 
 void settle(Options& o, double from, double to) {
   o.from = from, o.to = to;
@@ -239,6 +256,7 @@ Options parse(const std::vector<std::string>& arguments) {
     throw cli::UsageError("--guarded: must stand beside --model, whose range it guards");
   check_model(options, given);
   suit_beam(options, given);
+  suit_hold(options);
   suit_mass(options, given);
   if (!options.sound.empty() && options.element != ElementChoice::with_mass)
     throw cli::UsageError("--sound: must stand beside --element with-mass: no other is heard");

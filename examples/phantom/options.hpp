@@ -20,10 +20,12 @@ enum class ElementChoice {
   twisted_rod,
   with_mass
 };
-enum class Script { slide, press, tap, around, pluck };
+enum class Script { slide, press, tap, around, pluck, push };
 enum class CouplingChoice { direct, virtual_coupling };
 enum class ModelChoice { finite_elements, pod, galerkin };
 enum class DeviceChoice { simulated, phantom };
+/// What the hand touches with: a ball, or a flexible needle whose end it holds; or it holds the left end of the rod itself.
+enum class Avatar { ball, needle, end };
 
 /// Everything in SI.
 struct Options {
@@ -47,7 +49,8 @@ struct Options {
   double from, to;       ///< [m] the hand slides in between
   double depth =
       0.012;  ///< [m] that the hand aims below the beam's surface; at 500 N/m no beam is too stiff then
-  double duration = 10;   ///< [s]
+  double duration = 10;  ///< [s]
+  Avatar avatar = Avatar::ball;
   double radius = 0.005;  ///< [m] of the avatar
   double friction = 0;    ///< coefficient, between avatar and beam
   double scale = 1;       ///< metres of the scene for one of the device
@@ -87,6 +90,7 @@ const char* name(ElementChoice element);
 const char* name(Script script);
 const char* name(CouplingChoice coupling);
 const char* name(DeviceChoice device);
+const char* name(Avatar avatar);
 
 /// Lets the hand slide between two positions of the beam and, unless told otherwise, press midway.
 /// @throws cli::UsageError where it was told to press beside the beam

@@ -77,9 +77,14 @@ void print_scene(const Options& o, const Trained* trained, const hapbeam::Device
     if (!o.feels.empty()) std::printf("feels    %s\n", o.feels.c_str());
     std::printf("model    finite elements, %s, %d elements\n", name(o.element), o.elements);
   }
-  std::printf("hand     %s, at %g m, aims %g mm below the surface, %g s; avatar of radius %g mm\n",
-              o.script == Script::around ? "around: from above, the front and below" : name(o.script),
-              o.place, o.depth * 1e3, o.duration, o.radius * 1e3);
+  if (o.avatar == Avatar::end)
+    std::printf("hand     %s, holds the left end, by %g mm, %g s\n", name(o.script), o.depth * 1e3,
+                o.duration);
+  else
+    std::printf("hand     %s, at %g m, aims %g mm below the surface, %g s; %s of radius %g mm\n",
+                o.script == Script::around ? "around: from above, the front and below" : name(o.script),
+                o.place, o.depth * 1e3, o.duration, o.avatar == Avatar::needle ? "a needle" : "avatar",
+                o.radius * 1e3);
   if (o.hands == 2)
     std::printf("second   a simulated Phantom holds it from below, at %g m\n", second_place(o));
   if (o.friction > 0) std::printf("friction coefficient %g between avatar and beam\n", o.friction);
@@ -266,6 +271,7 @@ std::string json(const Run& run) {
   report.add("script", name(o.script));
   report.add("place_m", o.place);
   report.add("depth_m", o.depth);
+  report.add("avatar", name(o.avatar));
   report.add("radius_m", o.radius);
   report.add("friction", o.friction);
   report.add("scale", o.scale);

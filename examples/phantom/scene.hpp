@@ -7,16 +7,62 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "hand.hpp"
 #include "options.hpp"
 #include <hapbeam/haptics/servo/placement.hpp>
+#include <hapbeam/world/rigid_body.hpp>
 
 namespace phantom {
 
-/// @param pressed  [m] of the centreline at rest, at the place to be pressed   @param reach  [m] from there to the avatar's centre
-inline hapbeam::Placement placement(const Eigen::Vector3d& pressed, double reach, double scale) {
-  return {Eigen::Matrix3d::Identity(), pressed + Eigen::Vector3d(0, reach, 0), scale};
+/// [m, device] from where the avatar touches the beam at rest: where a script begins.
+inline constexpr double height_above = 0.02;
+
+/// From the centreline to the avatar's centre, or to the needle's centreline [m].
+inline double reach_of(const Options& options) { return options.radius + options.beam.touched() / 2; }
+
+/// From where the beam is touched to the hand [m]: a needle crosses the rod and comes from who looks.  An end that is held is in the hand
+/// where a script begins.
+inline Eigen::Vector3d to_hand(const Options& options) {
+  if (options.avatar == Avatar::end) return {0, -height_above * options.scale, 0};
+  return {0, reach_of(options), options.avatar == Avatar::needle ? 0.15 : 0};
+}
+
+/// @param pressed  [m] of the centreline at rest, at the place to be pressed
+inline hapbeam::Placement placement(const Eigen::Vector3d& pressed, const Options& options) {
+  return {Eigen::Matrix3d::Identity(), pressed + to_hand(options), options.scale};
+}
+
+/// The needle in the hand, of steel.   @param hand  [m] where it is held   @param held  how
+inline hapbeam::Rod needle(const Options& options, const Eigen::Vector3d& hand,
+                           const hapbeam::RodSupport& held) {
+  const auto section = hapbeam::RodSection::circle(2 * options.radius);
+  hapbeam::Rod rod(0.2, section, hapbeam::RodMaterial::isotropic(200e9, 0.3), held,
+                   hapbeam::RodSupport::free);
+  return rod.place_left({hand, {0, 0, -1}, {0, 1, 0}});
+}
+
+/// The vessel that a held rod is pushed into: a bend up, of tubes each of which is wider than the one before and begins within it, so that
+/// no rim is in the way.  Empty where the hand holds something else.
+inline std::vector<hapbeam::RigidBody> vessel(const Options& options) {
+  std::vector<hapbeam::RigidBody> tubes;
+  if (options.avatar != Avatar::end) return tubes;
+  constexpr int pieces = 6;
+  constexpr double bend = 0.08, lead = 0.04, wider = 1.04, within = 0.001;  // [m], [m], -, [m]
+  const Eigen::Vector3d entry(options.beam.length - 0.03, 0, 0);
+  const auto axis = [&](int k) -> Eigen::Vector3d {
+    const double turn = 1.5707963 * k / pieces;
+    return entry + Eigen::Vector3d(lead + bend * std::sin(turn), bend * (1 - std::cos(turn)), 0);
+  };
+  double radius = 0.004;  // [m]
+  tubes.push_back(hapbeam::RigidBody::tube(entry, axis(0), radius));
+  for (int k = 0; k < pieces; ++k) {
+    const Eigen::Vector3d along = (axis(k + 1) - axis(k)).normalized();
+    tubes.push_back(hapbeam::RigidBody::tube(axis(k) - within * along, axis(k + 1), radius *= wider));
+  }
+  return tubes;
 }
 
 /// How far the hand slides to either side of the place [m, device]: 0.15 m of the half width of 0.19 m, or less
@@ -61,8 +107,8 @@ inline ReachPath make_path_around(const Options& options) {
 /// The script in the device's axes; its parts take fixed fractions of the duration.
 inline Way make_path(const Options& options) {
   if (options.script == Script::around) return make_path_around(options);
-  const double above = 0.02, down = above + options.depth, T = options.duration;
-  hapbeam::HandPath path({0, above});
+  const double down = height_above + options.depth, T = options.duration;
+  hapbeam::HandPath path({0, height_above});
   switch (options.script) {
     case Script::slide: {
       const double r = reach(options);
@@ -72,6 +118,9 @@ inline Way make_path(const Options& options) {
     }
     case Script::press: path.press(down, 0.3 * T).rest(0.4 * T).release(down, 0.25 * T).rest(0.05 * T); break;
     case Script::around: break;
+    case Script::push:
+      path.slide(options.depth, 0.4 * T).rest(0.1 * T).slide(-options.depth, 0.4 * T).rest(0.1 * T);
+      break;
     case Script::pluck:
       for (int i = 0; i < 3; ++i)
         path.press(down, 0.1 * T).rest(0.03 * T).release(down, 0.02).rest(0.2 * T - 0.02);

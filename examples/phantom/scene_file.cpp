@@ -83,10 +83,11 @@ void visit_scene(Fields& f, Options& o) {
   f.real("beams.pitch", "m", o.pitch, 1e-6, 1.0);
   f.choice("model.element", o.element, ElementChoice::with_mass);
   f.count("model.elements", o.elements, 2, 4096);
-  f.choice("hand.script", o.script, Script::pluck);
+  f.choice("hand.script", o.script, Script::push);
   f.real("hand.place", "m", o.place, 0.0, o.beam.length);
   f.real("hand.depth", "m", o.depth, 0.0, 0.1);
   f.real("hand.duration", "s", o.duration, 1.0, 86400.0);
+  f.choice("hand.avatar", o.avatar, Avatar::end);
   f.real("hand.radius", "m", o.radius, 0.0, 0.1);
   f.real("hand.friction", "1", o.friction, 0.0, 2.0);
   f.real("hand.scale", "1", o.scale, 1e-3, 1e3);

@@ -20,6 +20,7 @@ struct NamedScene {
   int beams = 1;
   double radius = 0.005;  ///< [m] of the avatar
   double pitch = 0.012;   ///< [m] from one beam to the next
+  Avatar avatar = Avatar::ball;
 };
 
 constexpr double middle = std::numeric_limits<double>::quiet_NaN();
@@ -52,6 +53,12 @@ constexpr NamedScene scenes[] = {
      "a spring that is another one from each side: from the front its stem twists", 1, 1, 0.01},
     {"fishing-rod", ElementChoice::round_rod, Script::around, 0.9, 0.02, 3,
      "soft at the tip and hard at the butt, and a weight on its line that comes along", 1, 1, 0.06},
+    {"probe", ElementChoice::round_rod, Script::slide, middle, 0.03, 1,
+     "two springs in a row: the rod that the needle meets, and the needle, which near a clamp bends alone", 1,
+     1, 0.001, 0.012, Avatar::needle},
+    {"catheter", ElementChoice::round_rod, Script::push, 0, 0.1, 1.5,
+     "it pushes back at each tube of the vessel while its tip is bent, and slides on: there is no friction",
+     1, 1, 0.001, 0.012, Avatar::end},
 };
 
 const char* name(const NamedScene& scene) { return scene.label; }
@@ -71,6 +78,7 @@ void set_scene(Options& o, const std::string& label) {
   o.depth = scene.depth;
   o.scale = scene.scale;
   o.beams = scene.beams;
+  o.avatar = scene.avatar;
   o.radius = scene.radius;
   o.pitch = scene.pitch;
 }

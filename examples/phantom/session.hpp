@@ -16,12 +16,12 @@ namespace phantom {
 
 class Session {
  public:
-  /// The newest tick; the beams stay until the next call of picture().
+  /// The newest tick; the body stays until the next call of picture().
   struct Picture {
     const hapbeam::ServoRecord& record;
     const hapbeam::ServoRecord* second;  ///< of the second hand, or null
-    const std::vector<DrawnBeam>& beams;
-    bool swings;  ///< they have mass
+    const DrawnBody& body;
+    bool swings;  ///< it has mass
   };
 
   /// @param trained  as for make_body   @param hand, tape  kept by reference
@@ -46,7 +46,7 @@ class Session {
   int changes() const noexcept { return newest_.changes; }  ///< until it was
   Picture picture() noexcept {
     const Options& options = body().options();
-    return {newest_.record, options.hands == 2 ? &newest_.second : nullptr, body().beams(),
+    return {newest_.record, options.hands == 2 ? &newest_.second : nullptr, body().drawn(),
             options.element == ElementChoice::with_mass};
   }
 

@@ -32,7 +32,7 @@ struct NamedBeam {
 // ruler: a steel ruler of 30 cm held at one end; soft enough for the device.
 // strip: steel, so thin that stretching stiffens it at once.  string: steel wire under the tension of a guitar's.
 // arch: a strip of steel, bent by nature, that snaps through.  comb: one of its teeth, of nylon.
-// needle: for knitting.  hook: of spring wire.  fishing-rod: of glass fibre, with 100 g on its line.
+// needle: for knitting.  hook: of spring wire.  fishing-rod: of glass fibre, with 100 g on its line.  probe: what a needle meets, of nylon.  catheter: of nitinol.
 constexpr NamedBeam beams[] = {
     {"thesis", 2.54, 0.0254, 0.0254, 206.8427e9, Support::pinned, Support::pinned},
     {"ruler", 0.3, 0.025, 0.001, 200e9, Support::clamped, Support::free},
@@ -44,6 +44,10 @@ constexpr NamedBeam beams[] = {
     {"hook", 0.2, 0.0025, 0.0025, 200e9, Support::clamped, Support::free, true, 0, 0, Shape::hook},
     {"fishing-rod", 1.2, 0.008, 0.008, 40e9, Support::clamped, Support::free, true, 0, 0, Shape::tapered, 1,
      1900},
+    {"probe", 0.25, 0.003, 0.003, 3e9, Support::clamped, Support::clamped, true, 0, 0, Shape::straight, 0,
+     1150},
+    {"catheter", 0.24, 0.0012, 0.0012, 60e9, Support::clamped, Support::free, true, 0, 0, Shape::straight, 0,
+     6450},
 };
 constexpr Support supports[] = {Support::free, Support::clamped, Support::pinned, Support::roller,
                                 Support::guided};
@@ -185,7 +189,8 @@ Entries beam_entries(BeamOptions& b) {
        "0.2 m wide, 12 mm high, 10 mm x 0.5 mm, pinned;  comb: a tooth of nylon, 0.1 m x 3 mm, round, "
        "clamped-free.  Rods in space, round and clamped-free:  needle: steel, 0.15 m x 2.5 mm;  hook: steel "
        "wire, 0.2 m x "
-       "2.5 mm, naturally bent;  fishing-rod: glass fibre, 1.2 m x 8 mm, tapered, 1 N on its line;  " +
+       "2.5 mm, naturally bent;  fishing-rod: glass fibre, 1.2 m x 8 mm, tapered, 1 N on its line;  probe: "
+       "nylon, 0.25 m x 3 mm, clamped at both ends;  catheter: nitinol wire, 0.24 m x 1.2 mm;  " +
            b.name + " by default",
        [&b](const std::string& v) { set_beam(b, v); }, true},
       customised(b, {"--length", "M", "length of the beam [m]",

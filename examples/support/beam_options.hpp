@@ -53,6 +53,8 @@ struct BeamOptions {
   hapbeam::Beam make() const;
   /// @throws UsageError where it is none, a mechanism, or has ends that a rod has not
   hapbeam::Rod make_rod() const;
+  /// @param left_end  in place of its own support there
+  hapbeam::Rod make_rod(const hapbeam::RodSupport& left_end) const;
 };
 
 /// Takes a named beam.  @throws UsageError

@@ -22,14 +22,16 @@ RodSupport in_space(Support support, const BeamOptions& beam) {
 
 }  // namespace
 
-hapbeam::Rod BeamOptions::make_rod() const {
+hapbeam::Rod BeamOptions::make_rod() const { return make_rod(cli::in_space(left, *this)); }
+
+hapbeam::Rod BeamOptions::make_rod(const RodSupport& left_end) const {
   if (!in_space()) refuse("--beam", name, "a rod in space");
   if (rise != 0) refuse("--rise", digits(rise), "0 for a rod in space");
   if (tension != 0) refuse("--tension", digits(tension), "0 for a rod in space");
   const auto material = hapbeam::RodMaterial::isotropic(young, 0.3);
   try {
     const Cut cut = cut_at(*this, length / 2);
-    hapbeam::Rod made(length, section_of<RodSection>(*this, cut), material, cli::in_space(left, *this),
+    hapbeam::Rod made(length, section_of<RodSection>(*this, cut), material, left_end,
                       cli::in_space(right, *this));
     made.check_held();
     if (!arcs.empty()) made.naturally(arcs);

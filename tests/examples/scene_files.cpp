@@ -153,8 +153,8 @@ void broken_files() {
 }  // namespace
 
 int main() {
-  for (const char* scene :
-       {"thesis", "ruler", "strip", "string", "arch", "comb", "needle", "hook", "fishing-rod"})
+  for (const char* scene : {"thesis", "ruler", "strip", "string", "arch", "comb", "needle", "hook",
+                            "fishing-rod", "probe", "catheter"})
     round_trip(scene, phantom::parse({"--scene", scene}));
   round_trip("two hands", phantom::parse({"--scene", "arch", "--hands", "2"}));
   round_trip("friction", phantom::parse({"--scene", "ruler", "--friction", "0.3"}));

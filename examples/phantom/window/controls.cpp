@@ -13,8 +13,8 @@ namespace phantom {
 
 namespace {
 
-constexpr const char* scene_labels[] = {"thesis", "ruler",  "strip", "string",     "arch",
-                                        "comb",   "needle", "hook",  "fishing-rod"};
+constexpr const char* scene_labels[] = {"thesis", "ruler", "strip",       "string", "arch",    "comb",
+                                        "needle", "hook",  "fishing-rod", "probe",  "catheter"};
 constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice::full,
                                       ElementChoice::reduced,      ElementChoice::stability_functions,
                                       ElementChoice::corotational, ElementChoice::tapered,
@@ -168,7 +168,9 @@ void show_state(Running& running) {
     ImGui::Text("energy received: %.2g J, second %.2g J", r.energy_generated,
                 picture.second->energy_generated);
   else
-    ImGui::Text("energy generated: %.2g J%s", r.energy_generated, r.energy_generated > 0 ? "" : " (passive)");
+    // Less is round-off of a rod that is led through the air.
+    ImGui::Text("energy generated: %.2g J%s", r.energy_generated > 1e-15 ? r.energy_generated : 0,
+                r.energy_generated > 1e-15 ? "" : " (passive)");
   if (const double friction = running.options().friction; friction > 0) {
     if (r.pressing)
       ImGui::Text("friction: %s, %.2f N   took: %.3g mJ", r.sliding ? "slides" : "sticks", r.friction.norm(),

@@ -231,8 +231,8 @@ void SceneDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
   list.AddRectFilled(low, high, colour::paper);
   draw_workspace(list, unit);
   if (!picture.swings) strobe_.clear();
-  for (const DrawnBeam& beam : picture.beams) draw_axis(list, beam.above, unit);
-  for (const DrawnBeam& beam : picture.beams) {
+  for (const DrawnBeam& beam : picture.body.beams) draw_axis(list, beam.above, unit);
+  for (const DrawnBeam& beam : picture.body.beams) {
     sample(beam);
     if (picture.swings) draw_strobe(list, unit);
     draw_beam(list, unit);

@@ -8,9 +8,9 @@
 #include <string>
 #include <variant>
 
-#include "../scene.hpp"
 #include "colours.hpp"
 #include "draw_scene.hpp"
+#include "draw_vessel.hpp"
 
 namespace phantom {
 
@@ -28,18 +28,28 @@ std::unique_ptr<Drawing> make_drawing(const Body& body, const hapbeam::DeviceInf
 SpaceDrawing::SpaceDrawing(const Body& body, const hapbeam::DeviceInfo& device)
     : options_(body.options()),
       line_(std::get<hapbeam::Rod>(body.slender())),
+      vessel_(vessel(options_)),
+      ball_(options_.avatar == Avatar::ball ? options_.radius : 4 * options_.radius),
       placement_(body.placement()),
       workspace_(device.workspace * options_.scale / 2) {
   const Shape rest = body.rest();
   line_.take(std::get<RodLine::Shape>(rest));
   // The rod, and the hand around it.
-  const double reach = options_.radius + options_.beam.touched() / 2;
-  const Vector pressed = placement_.origin() - Vector(0, reach, 0);
+  const Vector pressed = placement_.origin() - Vector(0, reach_of(options_), 0);
   const double around = hand_away(options_) * options_.scale + options_.radius;
   low_ = pressed - Vector(options_.radius, around, around),
   high_ = pressed + Vector(options_.radius, around, around);
   for (const RodLine::Sample& sample : line_.samples())
     low_ = low_.cwiseMin(sample.ring.middle), high_ = high_.cwiseMax(sample.ring.middle);
+  if (options_.avatar == Avatar::needle) {
+    needle_.emplace(needle(options_, pressed, hapbeam::RodSupport::clamped));
+    low_.z() = std::min(low_.z(), pressed.z() - needle_->rod().length());
+    high_.z() += 2 * around;
+  }
+  for (const hapbeam::RigidBody& tube : vessel_) {
+    const Vector end = tube.tip() + tube.way(), around_it = Vector::Constant(tube.radius());
+    low_ = low_.cwiseMin(end - around_it), high_ = high_.cwiseMax(end + around_it);
+  }
   if (options_.hands == 2)
     low_ = low_.cwiseMin(std::get<RodLine::Shape>(rest).at(second_place(options_)).r - Vector(0, around, 0));
   low_.y() -= line_.rod().forces().empty() ? 0 : 0.15 * line_.rod().length();
@@ -85,13 +95,14 @@ void SpaceDrawing::draw_floor(ImDrawList& list, float unit) const {
   for (int i = 0; i < 4; ++i)
     dashed(list, reach[i], reach[(i + 1) % 4], colour::with_alpha(colour::blue, 90), 0.4f * unit);
   // At the corner that is left and in front as the view begins: the rod stands behind it.
-  label(list, {reach[3].x + 0.6f * unit, reach[3].y - 1.4f * unit}, colour::blue, "device's reach");
+  const float left_edge = std::max(reach[3].x, list.GetClipRectMin().x);
+  label(list, {left_edge + 0.6f * unit, reach[3].y - 1.4f * unit}, colour::blue, "device's reach");
 }
 
-void SpaceDrawing::draw_shadow(ImDrawList& list, float unit) const {
+void SpaceDrawing::draw_shadow(ImDrawList& list, const RodLine& rod, float unit) const {
   std::vector<ImVec2> line;
-  for (const RodLine::Sample& sample : line_.samples()) line.push_back(camera_(on_floor(sample.ring.middle)));
-  const Ring& middle = line_.samples()[line_.samples().size() / 2].ring;
+  for (const RodLine::Sample& sample : rod.samples()) line.push_back(camera_(on_floor(sample.ring.middle)));
+  const Ring& middle = rod.samples()[rod.samples().size() / 2].ring;
   const auto width = static_cast<float>(2 * middle.radius * camera_.pixels(on_floor(middle.middle)));
   list.AddPolyline(line.data(), static_cast<int>(line.size()), shade, ImDrawFlags_None,
                    std::max(0.2f * unit, width));
@@ -101,11 +112,18 @@ void SpaceDrawing::draw_shadow(ImDrawList& list, const Vector& avatar, float uni
   ImVec2 rim[32];
   for (int k = 0; k < 32; ++k) {
     const double angle = 2 * 3.141592653589793 * k / 32;
-    rim[k] = camera_(on_floor(avatar + options_.radius * Vector(std::cos(angle), 0, std::sin(angle))));
+    rim[k] = camera_(on_floor(avatar + ball_ * Vector(std::cos(angle), 0, std::sin(angle))));
   }
   list.AddConvexPolyFilled(rim, 32, shade);
   dashed(list, camera_(avatar), camera_(on_floor(avatar)), colour::faint, 0.3f * unit);
   list.AddCircleFilled(camera_(on_floor(avatar)), 0.15f * unit, colour::faint);
+}
+
+void SpaceDrawing::draw_rod(Solids& solids, const RodLine& rod) const {
+  const auto& samples = rod.samples();
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+    solids.tube(samples[i].ring, samples[i + 1].ring,
+                colour::viridis((samples[i].strain + samples[i + 1].strain) / 2 / largest_strain_));
 }
 
 /// A wall behind a clamp, a ball in a hinge.
@@ -120,7 +138,7 @@ void SpaceDrawing::draw_ends(Solids& solids) const {
     block.col(2) = half * hapbeam::detail::cross3<double>(end.tangent, end.across);
     solids.block(end.middle + side * block.col(0), block, IM_COL32(200, 204, 210, 255));
   };
-  hold(line_.rod().left(), line_.samples().front().ring, -1);
+  if (options_.avatar != Avatar::end) hold(line_.rod().left(), line_.samples().front().ring, -1);
   hold(line_.rod().right(), line_.samples().back().ring, 1);
 }
 
@@ -153,9 +171,9 @@ void SpaceDrawing::draw_arm(ImDrawList& list, const hapbeam::ServoRecord& r, flo
   list.AddLine(hand, avatar, colour::blue, unit / 9);
   list.AddCircleFilled(hand, 0.2f * unit, colour::blue);
   const double force = r.force.norm();
-  const auto beside = static_cast<float>(options_.radius * camera_.pixels(r.avatar));
+  const auto beside = static_cast<float>(ball_ * camera_.pixels(r.avatar));
   if (force > 0.02) {
-    const Vector along = r.force / force, from = r.avatar + options_.radius * along;
+    const Vector along = r.force / force, from = r.avatar + ball_ * along;
     const double length = static_cast<double>(arrow_length(force, unit)) / camera_.pixels(r.avatar);
     const ImVec2 to = camera_(from + length * along);
     arrow(list, camera_(from), to, colour::vermilion, unit);
@@ -164,11 +182,16 @@ void SpaceDrawing::draw_arm(ImDrawList& list, const hapbeam::ServoRecord& r, flo
     const std::string words = text("%.2f N", force);
     label(list, clear_of_rod(hidden ? avatar : to, hidden ? beside : 0, words, unit), colour::vermilion,
           words);
-  } else if (!r.pressing) {
-    const RodLine::Nearest rod = line_.nearest(r.avatar);
+  } else if (!r.pressing && options_.avatar != Avatar::end) {
+    Vector from = r.avatar;
+    RodLine::Nearest rod = line_.nearest(from);
+    if (needle_)
+      for (const RodLine::Sample& sample : needle_->samples())
+        if (const auto next = line_.nearest(sample.ring.middle); next.distance < rod.distance)
+          rod = next, from = sample.ring.middle;
     const double gap = rod.distance - options_.radius - line_.rod().thickness() / 2;
-    const Vector way = (rod.place - r.avatar).normalized();
-    dashed(list, camera_(r.avatar + options_.radius * way), camera_(rod.place), colour::blue, 0.2f * unit);
+    const Vector way = (rod.place - from).normalized();
+    dashed(list, camera_(from + options_.radius * way), camera_(rod.place), colour::blue, 0.2f * unit);
     const std::string words = metres(std::round(std::max(0.0, gap) * 1e4) / 1e4) + " to the rod";
     label(list, clear_of_rod(avatar, beside, words, unit), colour::blue, words);
   }
@@ -179,11 +202,15 @@ ImVec2 SpaceDrawing::clear_of_rod(const ImVec2& at, float beside, const std::str
   const ImVec2 size = ImGui::CalcTextSize(words.c_str());
   const auto from_rod = [&](const ImVec2& low) {
     float least = 1e9f;
-    for (const RodLine::Sample& sample : line_.samples()) {
-      const ImVec2 p = camera_(sample.ring.middle);
-      least = std::min(least, std::hypot(p.x - std::clamp(p.x, low.x, low.x + size.x),
-                                         p.y - std::clamp(p.y, low.y, low.y + size.y)));
-    }
+    const auto look = [&](const RodLine& rod) {
+      for (const RodLine::Sample& sample : rod.samples()) {
+        const ImVec2 p = camera_(sample.ring.middle);
+        least = std::min(least, std::hypot(p.x - std::clamp(p.x, low.x, low.x + size.x),
+                                           p.y - std::clamp(p.y, low.y, low.y + size.y)));
+      }
+    };
+    look(line_);
+    if (needle_) look(*needle_);
     return least;
   };
   const float gap = beside + 0.6f * unit, right = at.x + gap, left = at.x - gap - size.x,
@@ -221,21 +248,28 @@ void SpaceDrawing::draw(ImDrawList& list, const Session::Picture& picture, const
   list.PushClipRect(low, high, true);
   list.AddRectFilled(low, high, colour::paper);
   draw_floor(list, unit);
-  line_.take(std::get<RodLine::Shape>(picture.beams.front().shape));
-  if (line_.largest_strain() > largest_strain_) largest_strain_ = rounded_up(line_.largest_strain());
-  draw_shadow(list, unit);
+  const auto take = [&](RodLine& rod, const DrawnBeam& drawn) {
+    rod.take(std::get<RodLine::Shape>(drawn.shape));
+    if (rod.largest_strain() > largest_strain_) largest_strain_ = rounded_up(rod.largest_strain());
+    draw_shadow(list, rod, unit);
+  };
+  take(line_, picture.body.beams[0]);
+  if (needle_) take(*needle_, picture.body.beams[1]);
   draw_shadow(list, r.avatar, unit);
   if (picture.second) draw_shadow(list, picture.second->avatar, unit);
   Solids solids(camera_);
-  const auto& samples = line_.samples();
-  for (std::size_t i = 0; i + 1 < samples.size(); ++i)
-    solids.tube(samples[i].ring, samples[i + 1].ring,
-                colour::viridis((samples[i].strain + samples[i + 1].strain) / 2 / largest_strain_));
+  draw_rod(solids, line_);
   draw_ends(solids);
-  solids.ball(r.avatar, options_.radius, colour::with_alpha(colour::orange, 225));
+  if (needle_) {
+    draw_rod(solids, *needle_);
+    solids.cap(needle_->samples().back().ring, 1, colour::viridis(0));
+  }
+  solids.ball(r.avatar, ball_, colour::with_alpha(colour::orange, 225));
   if (picture.second)
     solids.ball(picture.second->avatar, options_.radius, colour::with_alpha(colour::sky, 225));
   solids.paint(list);
+  draw_vessel(list, camera_, vessel_);
+  draw_contacts(list, camera_, picture.body.contacts, unit);
   draw_hanging(list, unit);
   if (picture.second) {
     const Vector& second = picture.second->avatar;

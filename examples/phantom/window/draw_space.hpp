@@ -4,9 +4,11 @@
 // down to its shadow, and the distance of avatar and rod in figures.  All lengths are true to scale.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "../options.hpp"
+#include "../scene.hpp"
 #include "drawing.hpp"
 #include "rod_line.hpp"
 #include "solids.hpp"
@@ -32,8 +34,9 @@ class SpaceDrawing final : public Drawing {
   using Vector = Eigen::Vector3d;
   void aim(const ImVec2& low, const ImVec2& high);
   void draw_floor(ImDrawList& list, float unit) const;
-  void draw_shadow(ImDrawList& list, float unit) const;  ///< of the rod
+  void draw_shadow(ImDrawList& list, const RodLine& rod, float unit) const;
   void draw_shadow(ImDrawList& list, const Vector& avatar, float unit) const;
+  void draw_rod(Solids& solids, const RodLine& rod) const;
   void draw_ends(Solids& solids) const;
   void draw_hanging(ImDrawList& list, float unit) const;
   void draw_hand(ImDrawList& list, const hapbeam::ServoRecord& record, const Vector& target,
@@ -46,6 +49,9 @@ class SpaceDrawing final : public Drawing {
 
   Options options_;
   RodLine line_;
+  std::optional<RodLine> needle_;  // that the hand holds
+  std::vector<hapbeam::RigidBody> vessel_;
+  double ball_;  // [m] radius of the avatar, or of what holds the needle
   hapbeam::Placement placement_;
   Vector workspace_;             // [m] scene, half of it
   Vector low_, high_;            // [m] of what is looked at

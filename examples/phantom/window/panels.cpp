@@ -47,10 +47,10 @@ struct Trace {
   Trace(const PanelData& data)
       : history(data.history),
         place(data.place),
-        beside(data.pressed == Pressed::array ? std::numeric_limits<double>::infinity() : data.beside) {
+        beside(data.pressed == Pressed::way ? std::numeric_limits<double>::infinity() : data.beside) {
     end = history.size();
     while (end > 0 && !history[end - 1].pressing) --end;
-    begin = data.pressed == Pressed::array ? 0 : end;
+    begin = data.pressed == Pressed::way ? 0 : end;
     while (begin > 0 && history[begin - 1].pressing) --begin;
     for (std::size_t i = begin; i < end; ++i) {
       const auto force = static_cast<double>(history[i].force_against),
@@ -90,7 +90,7 @@ struct Trace {
 
 void force_against_depth(ImDrawList& list, const ImVec2& low, const ImVec2& high, const PanelData& data) {
   char title[80];
-  if (data.pressed == Pressed::array) std::snprintf(title, sizeof title, "force against the way of the hand");
+  if (data.pressed == Pressed::way) std::snprintf(title, sizeof title, "force against the way of the hand");
   else std::snprintf(title, sizeof title, "force against depth, at %.4g mm", data.place * 1e3);
   const Trace trace(data);
   // A curve that grows much faster than the others leaves the diagram.
@@ -149,7 +149,7 @@ void draw_panels(ImDrawList& list, const PanelData& data, const ImVec2& low, con
   }
   over_time(list, "force on the hand", from[0], to[0], data.history, &History::Moment::force, 1, "N", 1,
             colour::vermilion);
-  constexpr const char* titles[] = {"depth of the press", "way of the hand, down", "deflection"};
+  constexpr const char* titles[] = {"depth of the press", "way of the hand", "deflection"};
   over_time(list, titles[static_cast<int>(data.pressed)], from[1], to[1], data.history,
             data.pressed == Pressed::with_mass ? &History::Moment::moved : &History::Moment::depth, 1e-4,
             "mm", 1e3, colour::blue);

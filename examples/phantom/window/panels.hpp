@@ -9,8 +9,8 @@
 
 namespace phantom {
 
-/// A beam, whose depth is that of the press; an array, through which the hand goes: its way down is told; or a beam with mass: how it decays.
-enum class Pressed { beam, array, with_mass };
+/// A beam, whose depth is that of the press; an array or a vessel, through which the hand goes: its way is told; or a beam with mass: how it decays.
+enum class Pressed { beam, way, with_mass };
 
 struct PanelData {
   const History& history;

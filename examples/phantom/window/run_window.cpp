@@ -96,16 +96,17 @@ class Window {
 
   /// The next scene, model and coupling of a tour, in a window of another size now and then.
   void tour(int step) {
-    constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip", "string", "arch"};
+    constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip",
+                                      "string", "arch",  "probe",  "catheter"};
     constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::corotational,
                                           ElementChoice::stability_functions, ElementChoice::reduced,
                                           ElementChoice::full};
     Options options = first_;
     // Two changes under the hand that presses, then another scene.
-    set_scene(options, scenes[step / 3 % 6]);
+    set_scene(options, scenes[step / 3 % 8]);
     settle(options, 0, options.beam.length);
     if (!options.beam.in_space()) options.element = elements[step % 5];
-    else if (step % 2 == 1) options.element = ElementChoice::twisted_rod;
+    else if (step % 2 == 1 && options.avatar == Avatar::ball) options.element = ElementChoice::twisted_rod;
     options.elements = 4 << step / 25 % 3;
     // What is stiffer than the device can render throws the hand about without a coupling.
     const bool soft = options.scene == "strip" || options.scene == "string";
@@ -138,7 +139,7 @@ class Window {
 
   static Pressed pressed(const Options& options) {
     if (options.element == ElementChoice::with_mass) return Pressed::with_mass;
-    return options.beams > 1 ? Pressed::array : Pressed::beam;
+    return options.beams > 1 || options.avatar == Avatar::end ? Pressed::way : Pressed::beam;
   }
 
   void draw_scene(const ImVec2& low, const ImVec2& high, float unit) {

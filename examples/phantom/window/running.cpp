@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "../rest.hpp"
-#include "../scene.hpp"
 #include "plot.hpp"
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 
@@ -33,7 +32,7 @@ Eigen::Vector3d Running::beside(const Options& next) {
   if (!same_scene(next, options())) return {0, height_above, 0};
   const double side = r.force.y() < 0 ? -1 : 1, reach = next.radius + next.beam.touched() / 2;
   const hapbeam::Placement& placement = session_.body().placement();
-  if (next.beam.in_space() && !(r.force.norm() > 0)) return r.position;
+  if (next.beam.in_space() && (!(r.force.norm() > 0) || next.avatar == Avatar::end)) return r.position;
   if (next.beam.in_space())
     return placement.device_position(r.avatar +
                                      (session_.body().depth(r) + 0.1 * reach) * r.force.normalized());
@@ -95,6 +94,8 @@ void Running::remember(const Tick& tick) {
 double Running::first_depth() {
   constexpr double press = 1e-6;  // [m]
   const Options& o = options();
+  // What is in the hand gives way, too.
+  if (o.avatar != Avatar::ball) return 1e-4;
   const auto curves =
       force_curves(session_.body().slender(), o.elements, place_of_curves(), curve_along_, press);
   const double k = curves.empty() ? 0 : std::abs(static_cast<double>(curves[0].force.back())) / press;
@@ -122,7 +123,7 @@ void Running::refresh_curves() {
   if (turned) curve_along_ = -r.force / force;
   curve_depth_ = depth;
   curve_place_ = place;
-  if (options().beams > 1) curves_.clear();
+  if (options().beams > 1 || options().avatar == Avatar::end) curves_.clear();
   else curves_ = force_curves(session_.body().slender(), options().elements, place, curve_along_, depth);
 }
 

@@ -10,6 +10,7 @@
 
 #include "../hand.hpp"
 #include "../options.hpp"
+#include "../scene.hpp"
 #include "../session.hpp"
 #include "curves.hpp"
 #include "drawing.hpp"
@@ -60,8 +61,6 @@ class Running {
   Drawing& drawing() { return *drawing_; }
 
  private:
-  static constexpr double height_above = 0.02;  // [m]
-
   void remember(const Tick& tick);
   void show_newest();  ///< once another body is felt
   void show_body();
