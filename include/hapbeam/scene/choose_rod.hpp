@@ -223,6 +223,24 @@ class RodPilot : public detail::PilotOf<detail::PushLine> {
   }
 };
 
+namespace detail {
+
+/// [Hz]
+inline double first_mode(const RodScene& scene) {
+  const double s = (scene.s_min + scene.s_max) / 2;
+  const auto askew = [s](auto& model, double by) {
+    const Centreline<double, 3> rest = model.shape();
+    const auto at = rest.at(s);
+    const VectorOf<double, 3> d3 = unit(at.tangent), d1 = across(rest[rest.segment_at(s)].director, d3),
+                              normal = 0.8 * d1 + 0.6 * cross3<double>(d3, d1);
+    return model.push({s, normal.dot(at.r) + by, normal});
+  };
+  const bool twists = holds_twist(scene.rod.left()) || holds_twist(scene.rod.right());
+  return twists ? first_mode<TwistedRod>(scene.rod, askew) : first_mode<RoundRod>(scene.rod, askew);
+}
+
+}  // namespace detail
+
 /// @param costs  what presses cost on the machine that will run them
 /// @throws std::invalid_argument for a scene that makes no sense
 inline Choice choose(const RodScene& scene, const TickCosts& costs = TickCosts::typical()) {
@@ -231,6 +249,7 @@ inline Choice choose(const RodScene& scene, const TickCosts& costs = TickCosts::
       Choice choice = choose(*planar, costs);
       if (choice.candidate) choice.candidate->turning = true;
       for (Verdict& verdict : choice.verdicts) verdict.candidate.turning = true;
+      choice.first_mode = detail::first_mode(scene);
       return choice;
     } catch (const std::invalid_argument&) {  // deeper than a press across the axis goes: pushes go on
     }
@@ -239,7 +258,9 @@ inline Choice choose(const RodScene& scene, const TickCosts& costs = TickCosts::
   // Two or three elements of a bent rod turn by so much each that they are accurate to one side alone, by chance.
   for (const Kinematics kinematics : {Kinematics::round_rod, Kinematics::twisted_rod})
     chooser.elements(kinematics, scene.rod.straight() ? 2 : 4);
-  return chooser.decide();
+  Choice choice = chooser.decide();
+  choice.first_mode = detail::first_mode(scene);
+  return choice;
 }
 
 }  // namespace hapbeam
