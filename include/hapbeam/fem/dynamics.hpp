@@ -55,7 +55,7 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   template <class Nodes>
   void draw(const Nodes& rest) noexcept {
     for (int e = 0; e < masses_.size(); ++e) {
-      const auto &a = rest[e], &b = rest[e + 1];
+      const auto &a = rest.data()[e], &b = rest.data()[e + 1];
       const ElementProperties<S> p(b.s - a.s, 1, 1);
       const Vector6<S> d = (Vector6<S>() << a.u, a.w, a.theta, b.u, b.w, b.theta).finished();
       const auto bent = Corotational<>::deformation(p, d);
