@@ -67,7 +67,7 @@ class DynamicModel {
       detail::reject("density", 0, "kg/m³", "known for a beam that moves: Material{young, density}");
     let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
     system_.keep(rest_);
-    inertia_.draw(rest_.nodes);
+    if constexpr (dimension == 2) inertia_.draw(rest_.nodes);
   }
 
   /// Back to rest.

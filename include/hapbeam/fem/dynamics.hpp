@@ -57,10 +57,9 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
     for (int e = 0; e < masses_.size(); ++e) {
       const auto &a = rest.data()[e], &b = rest.data()[e + 1];
       const ElementProperties<S> p(b.s - a.s, 1, 1);
-      const Vector6<S> d = (Vector6<S>() << a.u, a.w, a.theta, b.u, b.w, b.theta).finished();
-      const auto bent = Corotational<>::deformation(p, d);
-      const S chord = 1 + bent.stretch / p.length, i = 1 / p.length, left = i * bent.a, right = i * bent.b;
-      const S drawn = chord * (1 + (2 * left * left - left * right + 2 * right * right) / 30);
+      const auto is = Corotational<>::deformation(p, Vector6<S>{a.u, a.w, a.theta, b.u, b.w, b.theta});
+      const S i = 1 / p.length, bent = (2 * is.a * is.a - is.a * is.b + 2 * is.b * is.b) * (i * i / 30),
+              drawn = (1 + i * is.stretch) * (1 + bent);
       const VectorOf<S, 4> by(1, drawn, 1, drawn);
       masses_[e] = (by.asDiagonal() * masses_[e] * by.asDiagonal()).eval();
     }

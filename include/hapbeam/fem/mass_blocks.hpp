@@ -80,9 +80,6 @@ class MassBlocks {
       }
     }
   }
-  /// To be called once: tangents are as long as the curve is drawn.   @param rest  nodes
-  template <class Nodes>
-  void draw(const Nodes&) noexcept {}
   /// To be called where a stage begins: places and tangents say all of themselves.
   template <class Nodes, class Start>
   void begin_stage(const Nodes&, Start&&) noexcept {}

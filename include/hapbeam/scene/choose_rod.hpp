@@ -223,33 +223,29 @@ class RodPilot : public detail::PilotOf<detail::PushLine> {
   }
 };
 
-namespace detail {
-
-/// [Hz]
-inline double first_mode(const RodScene& scene) {
-  const double s = (scene.s_min + scene.s_max) / 2;
-  const auto askew = [s](auto& model, double by) {
-    const Centreline<double, 3> rest = model.shape();
-    const auto at = rest.at(s);
-    const VectorOf<double, 3> d3 = unit(at.tangent), d1 = across(rest[rest.segment_at(s)].director, d3),
-                              normal = 0.8 * d1 + 0.6 * cross3<double>(d3, d1);
-    return model.push({s, normal.dot(at.r) + by, normal});
-  };
-  const bool twists = holds_twist(scene.rod.left()) || holds_twist(scene.rod.right());
-  return twists ? first_mode<TwistedRod>(scene.rod, askew) : first_mode<RoundRod>(scene.rod, askew);
-}
-
-}  // namespace detail
-
 /// @param costs  what presses cost on the machine that will run them
 /// @throws std::invalid_argument for a scene that makes no sense
 inline Choice choose(const RodScene& scene, const TickCosts& costs = TickCosts::typical()) {
-  if (const auto planar = scene.check().in_any_plane()) {
+  scene.check();
+  using Vector = VectorOf<double, 3>;
+  const auto first_mode = [&scene](auto element) {
+    const double s = (scene.s_min + scene.s_max) / 2;
+    return detail::first_mode<decltype(element)>(scene.rod, [s](auto& model, double by) {
+      const Centreline<double, 3> rest = model.shape();
+      const Vector d1 = rest[rest.segment_at(s)].director,
+                   d2 = detail::cross3<double>(rest.at(s).tangent, d1);
+      const Vector normal = (d1 + d2 / 2).normalized();
+      return model.push({s, normal.dot(rest.at(s).r) + by, normal});
+    });
+  };
+  const bool twists = holds_twist(scene.rod.left()) || holds_twist(scene.rod.right());
+  const double hertz = twists ? first_mode(TwistedRod{}) : first_mode(RoundRod{});
+  if (const auto planar = scene.in_any_plane()) {
     try {
       Choice choice = choose(*planar, costs);
       if (choice.candidate) choice.candidate->turning = true;
       for (Verdict& verdict : choice.verdicts) verdict.candidate.turning = true;
-      choice.first_mode = detail::first_mode(scene);
+      choice.first_mode = hertz;
       return choice;
     } catch (const std::invalid_argument&) {  // deeper than a press across the axis goes: pushes go on
     }
@@ -259,7 +255,7 @@ inline Choice choose(const RodScene& scene, const TickCosts& costs = TickCosts::
   for (const Kinematics kinematics : {Kinematics::round_rod, Kinematics::twisted_rod})
     chooser.elements(kinematics, scene.rod.straight() ? 2 : 4);
   Choice choice = chooser.decide();
-  choice.first_mode = detail::first_mode(scene);
+  choice.first_mode = hertz;
   return choice;
 }
 

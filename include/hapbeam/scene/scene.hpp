@@ -188,10 +188,9 @@ struct Choice {
     for (const Verdict& verdict : verdicts)
       out += "  " + verdict.candidate.text() + ": " + reason(verdict) + "\n";
     char text[120] = "";
-    if (first_mode > 0)
-      std::snprintf(text, sizeof text,
-                    "  first mode %.2g Hz: a hand feels mass at more than %.2g Hz, take DynamicModel there\n",
-                    first_mode, first_mode / 4);
+    const char* const mass =
+        "  first mode %.2g Hz: a hand feels mass at more than %.2g Hz, take DynamicModel there\n";
+    if (first_mode > 0) std::snprintf(text, sizeof text, mass, first_mode, first_mode / 4);
     return out + text;
   }
 
