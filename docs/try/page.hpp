@@ -92,7 +92,7 @@ class Meshed final : public TouchedModel<FemModel<Element>> {
 /// One that swings, in parts of a tick of 42 µs, which are heard: the velocity at a place of it.
 class Swinging final : public Touched {
  public:
-  using Model = DynamicModel<Corotational<VonKarman<AssumedStrain>>>;
+  using Model = DynamicModel<>;
   explicit Swinging(const Scene& scene)
       : model_(scene.beam, scene.stretched() ? 16 : 8, 24),
         touch_(model_, scene.radius),

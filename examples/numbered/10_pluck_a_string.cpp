@@ -16,10 +16,9 @@ int main(int count, char** arguments) {
   Beam pulled = string;
   pulled.add(PointLoad{0.12, 0, 0.5, 0});  // 0.5 N of a finger, 120 mm from the left end
 
-  // Elements as exact as a string's partials require, 96 parts a millisecond; what the right support feels
-  using Element = Corotational<VonKarman<AssumedStrain>>;
-  DynamicModel<Element> model(string, 16, 96);
-  model.let_go_from(FemModel<Element>(pulled, 16).shape());
+  // 16 elements, 96 parts a millisecond; what the right support feels
+  DynamicModel<> model(string, 16, 96);
+  model.let_go_from(FemModel<Corotational<>>(pulled, 16).shape());
   Sound sound(model, {SoundSource::right_support});
 
   std::vector<float> heard(2 * 48000);

@@ -1,7 +1,8 @@
-// The mass of an element, by the modes of straight beams and by a swing that no linear mode has.
+// The mass of an element, by the modes of straight beams, by the partials of a string, and by a swing that no linear mode has.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -16,23 +17,26 @@ using namespace hapbeam::testing;
 
 namespace {
 
-/// Circular frequencies over √(EI/ρA)/L² of a beam of length, ρA and EI 1, by bending alone.   @param held  of w and θ at both ends
-std::vector<double> frequencies(int n, const std::array<bool, 4>& held) {
-  const double EA = 1e4;
-  const Beam beam(1, Section{EA, 1, 0.01}, Material{1, 1 / EA}, Support::clamped, Support::free);
-  detail::Inertia<double, Eigen::Dynamic, Eigen::Dynamic> inertia(beam, n,
-                                                                  [n](int i) { return double(i) / n; });
-  inertia.set_rate(1);
+using Element = Corotational<VonKarman<AssumedStrain>>;
+static_assert(std::is_same_v<DynamicModel<>, DynamicModel<Element>>);
+
+/// Circular frequencies of bending alone [1/s].   @param strain  along it, of the same tension everywhere   @param held  of w and θ at both ends
+std::vector<double> frequencies(const Beam& beam, int n, const std::array<bool, 4>& held, double strain = 0) {
+  const double l = beam.length() / n;
+  detail::Inertia<double, Eigen::Dynamic, Eigen::Dynamic> inertia(beam, n, [l](int i) { return l * i; });
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(2 * n + 2, 2 * n + 2), M = K;
-  const ElementProperties<double> p(1.0 / n, EA, 1);
+  const ElementProperties<double> p(l, beam.axial_stiffness(), beam.bending_stiffness());
   std::vector<CentrelineNode<double>> nodes;
-  for (int i = 0; i <= n; ++i) nodes.push_back({double(i) / n, 0, 0, 0});
+  for (int i = 0; i <= n; ++i) nodes.push_back({l * i, strain * l * i, 0, 0});
+  inertia.draw(nodes);
   for (int i = 0; i <= n; ++i) inertia.ghost()[i] = detail::placed(nodes[static_cast<std::size_t>(i)]);
   CHECK(inertia.look(nodes) == 0);
+  Vector6<double> drawn = Vector6<double>::Zero();
+  drawn[3] = strain * l;
   for (int e = 0; e < n; ++e) {
     Vector6<double> r, no_r = Vector6<double>::Zero();
     Matrix6<double> k, m = Matrix6<double>::Zero();
-    (void)Corotational<>::tangent(p, Vector6<double>(Vector6<double>::Zero()), r, k);
+    (void)Element::tangent(p, drawn, r, k);
     inertia.add(e, no_r, m);
     CHECK(no_r == Vector6<double>::Zero());
     // Of both nodes it is the lower triangle, and what couples them.
@@ -71,6 +75,8 @@ std::vector<double> frequencies(int n, const std::array<bool, 4>& held) {
 
 TEST_CASE("the mass of the cubic gives the modes of a beam, to fourth order", "[dynamics]") {
   const Csv table("modes.csv");
+  const double EA = 1e4;  // of length, ρA and EI 1
+  const Beam beam(1, Section{EA, 1, 0.01}, Material{1, 1 / EA}, Support::clamped, Support::free);
   struct Ends {
     const char* name;
     std::array<bool, 4> held;
@@ -82,7 +88,7 @@ TEST_CASE("the mass of the cubic gives the modes of a beam, to fourth order", "[
                            {"clamped-pinned", {true, true, true, false}, 0},
                            {"clamped-guided", {true, true, false, true}, 0},
                            {"free-free", {false, false, false, false}, 2}}) {
-    const auto coarse = frequencies(8, ends.held), fine = frequencies(16, ends.held);
+    const auto coarse = frequencies(beam, 8, ends.held), fine = frequencies(beam, 16, ends.held);
     const double most[4] = {1e-4, 7e-4, 2.5e-3, 7e-3};
     int found = 0;
     for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -98,6 +104,21 @@ TEST_CASE("the mass of the cubic gives the modes of a beam, to fourth order", "[
       ++found;
     }
     CHECK(found == 4);
+  }
+}
+
+// 648 mm of steel, when it is tuned.
+TEST_CASE("the partials of a string are those of its tension, to a cent", "[dynamics]") {
+  const Csv exact("string_E4.csv");
+  const double tension = 72.59131923866309, diameter = 0.000254, young = 200e9,
+               strain = tension / (young * pi * diameter * diameter / 4);
+  const Beam string(0.648 / (1 + strain), Section::circle(diameter), Material{young, 7850 * (1 + strain)},
+                    Support::pinned, Support::pinned);
+  const auto omega = frequencies(string, 16, {true, false, true, false}, strain);
+  for (std::size_t row = 0; row < 10; ++row) {
+    const double cents = 1200 * std::log2(omega[row] / (2 * pi) / exact.number(row, "pinned_Hz"));
+    CAPTURE(row + 1, cents);
+    CHECK(std::abs(cents) <= 1);
   }
 }
 

@@ -9,9 +9,12 @@
 
 #include "once_training.hpp"
 #include "support/catch.hpp"
+#include "support/csv.hpp"
+#include "support/pi.hpp"
 #include "support/random_scene.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/scene/choose.hpp>
+#include <hapbeam/shapes.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -248,8 +251,50 @@ TEST_CASE("a scene gets no more model than it needs", "[scene]") {
   }
 }
 
+TEST_CASE("it says the first mode of a beam with density, and from where on a hand feels mass", "[scene]") {
+  const Csv table("modes.csv");
+  const auto expect = [](const Beam& beam, double hertz, double error) {
+    Scene scene = Scene::at(beam, 0.4 * beam.length(), 1e-4);
+    const Choice choice = choose(scene);
+    CAPTURE(choice.text(), hertz);
+    CHECK(choice.first_mode == Approx(hertz).epsilon(error));
+  };
+  struct Ends {
+    const char* name;
+    Support left, right;
+  };
+  int found = 0;
+  for (const Ends& ends : {Ends{"pinned-pinned", Support::pinned, Support::pinned},
+                           {"clamped-free", Support::clamped, Support::free},
+                           {"clamped-clamped", Support::clamped, Support::clamped},
+                           {"clamped-pinned", Support::clamped, Support::pinned},
+                           {"clamped-guided", Support::clamped, Support::guided}})
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      if (table.text(row, "support") != ends.name || table.number(row, "mode") != 1) continue;
+      const Beam strip(0.3, Section::rectangle(0.025, 0.001), Material{200e9, 7850}, ends.left, ends.right);
+      expect(strip,
+             table.number(row, "omega_over_sqrt(EI/rhoA)/L2") / (2 * pi * 0.3 * 0.3) *
+                 std::sqrt(strip.bending_stiffness() / strip.mass_per_length(0)),
+             2e-4);
+      ++found;
+    }
+  CHECK(found == 5);
+  const double tension = 72.59131923866309, drawn = 1 + tension / (200e9 * pi * 0.000254 * 0.000254 / 4);
+  expect(tensioned(Beam(0.648 / drawn, Section::circle(0.000254), Material{200e9, 7850 * drawn},
+                        Support::pinned, Support::pinned),
+                   tension),
+         Csv("string_E4.csv").number(0, "pinned_Hz"), 5e-4);
+
+  const Beam massless(0.3, Section::rectangle(0.025, 0.001), Material{200e9}, Support::clamped,
+                      Support::free);
+  const Choice choice = choose(Scene::at(massless, 0.2, 1e-4));
+  CHECK(choice.first_mode == 0);
+  CHECK_THAT(choice.text(), !ContainsSubstring("first mode"));
+}
+
 TEST_CASE("the example of docs/choosing.md prints what stands there", "[scene]") {
-  const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{200e9}, Support::clamped, Support::free);
+  const Beam ruler(0.3, Section::rectangle(0.025, 0.001), Material{200e9, 7850}, Support::clamped,
+                   Support::free);
   Scene scene = Scene::at(ruler, 0.3, 0.06);
   scene.force_error = 0.02;
   scene.tick = 10e-6;

@@ -1,8 +1,10 @@
 // choose() of a rod: what it picks holds what was asked on pushes that it has not seen, and planar models where they are exact.
+#include <cmath>
 #include <stdexcept>
 
 #include "once_training.hpp"
 #include "support/catch.hpp"
+#include "support/pi.hpp"
 #include "support/random_rod_scene.hpp"
 #include <hapbeam/scene/choose_rod.hpp>
 
@@ -17,6 +19,19 @@ constexpr RodMaterial steel{200e9, 77e9};
 Rod wire() { return {0.2, RodSection::circle(0.001), steel, RodSupport::clamped, RodSupport::free}; }
 
 }  // namespace
+
+TEST_CASE("it says the first mode of a rod to its softer side", "[scene][rod]") {
+  const double E = 200e9, density = 7850, h = 0.001, L = 0.2;
+  for (const bool flat : {true, false}) {
+    const Rod rod(L, flat ? RodSection::rectangle(0.004, h) : RodSection::circle(h),
+                  RodMaterial::isotropic(E, 0.3, density), RodSupport::clamped, RodSupport::free);
+    const Choice choice = choose(RodScene::at(rod, 0.15, 1e-3));
+    CAPTURE(choice.text(), flat);
+    CHECK(choice.first_mode == Approx(std::pow(1.8751040687119611 / L, 2) * h *
+                                      std::sqrt(E / density / (flat ? 12 : 16)) / (2 * pi))
+                                   .epsilon(1e-4));
+  }
+}
 
 TEST_CASE("what is chosen for a rod keeps the tolerance on pushes that it has not seen", "[scene][rod]") {
   Random random(23);

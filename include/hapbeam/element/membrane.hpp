@@ -85,6 +85,7 @@ struct ReducedIntegration {
 };
 
 /// The element's mean strain, in closed form:  l² ∫w'² dx/l = rise² + (2a² - ab + 2b²)/15.
+/// Along a chord it is that of the curve as it is drawn:  ε (1 + q), q = ½ ∫w'² dx/l, to second order of the slopes.
 struct AssumedStrain {
   static constexpr const char* name() noexcept { return "assumed-strain"; }
   template <typename S>
@@ -93,17 +94,19 @@ struct AssumedStrain {
     const S i = p.inverse_length;
     // g = ½ ∂(l² mean w'²)/∂(rise, lθ1, lθ2)
     const S g1 = (4 * e.a - e.b) * S(1. / 30), g2 = (4 * e.b - e.a) * S(1. / 30), gr = e.rise + g1 + g2;
-    const S mean_square = e.rise * e.rise + e.a * g1 + e.b * g2 - detail::natural_mean_square(p);
-    const S strain = (e.stretch + mean_square * i / 2) * i;
-    const S normal = p.axial_stiffness * strain, n = normal * i;
-    const S ks = p.axial_per_length, kg = ks * i, kgg = kg * i;
+    const S mean_square = e.rise * e.rise + e.a * g1 + e.b * g2;
+    const S mean = (e.stretch + (mean_square - detail::natural_mean_square(p)) * i / 2) * i;
+    const S along = e.chord * i * i, longer = 1 + along * mean_square / 2, turning = longer + e.chord * mean;
+    const S strain = mean * longer, normal = p.axial_stiffness * strain, n = normal * i * turning;
+    const S k = p.axial_per_length * i * turning, kg = k * longer + along * normal,
+            kgg = (k * turning + 2 * along * normal) * i;
     return {
         p.length * normal * strain / 2,
-        normal,
+        normal * longer,
         n * gr,
         n * g1,
         n * g2,
-        {ks, kg * gr, kg * g1, kg * g2,                                                        //
+        {p.axial_per_length * longer * longer, kg * gr, kg * g1, kg * g2,                      //
          n * S(6. / 5) + kgg * gr * gr, n * S(.1) + kgg * gr * g1, n * S(.1) + kgg * gr * g2,  //
          n * S(2. / 15) + kgg * g1 * g1, n * S(-1. / 30) + kgg * g1 * g2, n * S(2. / 15) + kgg * g2 * g2}};
   }

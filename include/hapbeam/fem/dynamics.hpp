@@ -20,7 +20,7 @@
 #include <hapbeam/angle.hpp>
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/element/element.hpp>
+#include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/mass_blocks.hpp>
 #include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
@@ -41,7 +41,7 @@ Placed<S> placed(const CentrelineNode<S>& node) noexcept {
 template <typename S, int Elements, int MaxElements>
 class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   using Base = MassBlocks<S, 2, Elements, MaxElements>;
-  using Base::blocks_, Base::ghost_, typename Base::Block;
+  using Base::blocks_, Base::ghost_, Base::masses_, typename Base::Block;
 
  public:
   using typename Base::Values;
@@ -50,6 +50,21 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   Inertia(const Beam& beam, int elements, At&& at)
       : Base(beam, elements, at), at_(elements), seen_(elements) {}
 
+  /// To be called once: unit tangents stand for those of the curve, which is longer than the beam where that is drawn.
+  /// @param rest  nodes
+  template <class Nodes>
+  void draw(const Nodes& rest) noexcept {
+    for (int e = 0; e < masses_.size(); ++e) {
+      const auto &a = rest.data()[e], &b = rest.data()[e + 1];
+      const ElementProperties<S> p(b.s - a.s, 1, 1);
+      const auto is = Corotational<>::deformation(p, Vector6<S>{a.u, a.w, a.theta, b.u, b.w, b.theta});
+      const S i = 1 / p.length, bent = (2 * is.a * is.a - is.a * is.b + 2 * is.b * is.b) * (i * i / 30),
+              drawn = (1 + i * is.stretch) * (1 + bent);
+      const VectorOf<S, 4> by(1, drawn, 1, drawn);
+      masses_[e] = (by.asDiagonal() * masses_[e] * by.asDiagonal()).eval();
+    }
+    this->rate_ = 0, this->set_rate(1);
+  }
   /// Place and unit tangent of each node, as they lie now.
   template <class Nodes>
   const Values& find(const Nodes& nodes) noexcept {

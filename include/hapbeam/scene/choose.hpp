@@ -22,6 +22,7 @@
 #include <string>
 
 #include <hapbeam/scene/build.hpp>
+#include <hapbeam/scene/first_mode.hpp>
 #include <hapbeam/scene/pilot.hpp>
 #include <hapbeam/scene/scene.hpp>
 
@@ -191,7 +192,12 @@ inline Choice choose(const Scene& scene, const TickCosts& costs = TickCosts::typ
   // The model that trains costs nothing in a tick, so the most accurate one is taken.  Galerkin's equation is von Kármán's.
   chooser.trained(Reduction::pod, Kinematics::corotational);
   chooser.trained(Reduction::galerkin, Kinematics::von_karman);
-  return chooser.decide();
+  Choice choice = chooser.decide();
+  const double s = (scene.s_min + scene.s_max) / 2;
+  choice.first_mode = detail::first_mode<Corotational<>>(scene.beam, [s](auto& model, double by) {
+    return model.press({s, model.shape().at(s).w + by});
+  });
+  return choice;
 }
 
 }  // namespace hapbeam

@@ -226,11 +226,26 @@ class RodPilot : public detail::PilotOf<detail::PushLine> {
 /// @param costs  what presses cost on the machine that will run them
 /// @throws std::invalid_argument for a scene that makes no sense
 inline Choice choose(const RodScene& scene, const TickCosts& costs = TickCosts::typical()) {
-  if (const auto planar = scene.check().in_any_plane()) {
+  scene.check();
+  using Vector = VectorOf<double, 3>;
+  const auto first_mode = [&scene](auto element) {
+    const double s = (scene.s_min + scene.s_max) / 2;
+    return detail::first_mode<decltype(element)>(scene.rod, [s](auto& model, double by) {
+      const Centreline<double, 3> rest = model.shape();
+      const Vector d1 = rest[rest.segment_at(s)].director,
+                   d2 = detail::cross3<double>(rest.at(s).tangent, d1);
+      const Vector normal = (d1 + d2 / 2).normalized();
+      return model.push({s, normal.dot(rest.at(s).r) + by, normal});
+    });
+  };
+  const bool twists = holds_twist(scene.rod.left()) || holds_twist(scene.rod.right());
+  const double hertz = twists ? first_mode(TwistedRod{}) : first_mode(RoundRod{});
+  if (const auto planar = scene.in_any_plane()) {
     try {
       Choice choice = choose(*planar, costs);
       if (choice.candidate) choice.candidate->turning = true;
       for (Verdict& verdict : choice.verdicts) verdict.candidate.turning = true;
+      choice.first_mode = hertz;
       return choice;
     } catch (const std::invalid_argument&) {  // deeper than a press across the axis goes: pushes go on
     }
@@ -239,7 +254,9 @@ inline Choice choose(const RodScene& scene, const TickCosts& costs = TickCosts::
   // Two or three elements of a bent rod turn by so much each that they are accurate to one side alone, by chance.
   for (const Kinematics kinematics : {Kinematics::round_rod, Kinematics::twisted_rod})
     chooser.elements(kinematics, scene.rod.straight() ? 2 : 4);
-  return chooser.decide();
+  Choice choice = chooser.decide();
+  choice.first_mode = hertz;
+  return choice;
 }
 
 }  // namespace hapbeam

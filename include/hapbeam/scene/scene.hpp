@@ -174,6 +174,7 @@ struct Choice {
   double force_error;                  ///< [-] that was allowed
   double tick;                         ///< [s] that was allowed
   std::string advice;                  ///< what to relax, where no model is admissible
+  double first_mode = 0;               ///< [Hz] of what is pressed; 0 where it has no density
 
   /// @throws std::runtime_error with the advice, where no model is admissible
   const Candidate& model() const {
@@ -181,12 +182,17 @@ struct Choice {
     return *candidate;
   }
 
-  /// The choice, and a line for each family: which bound rejected it, or what it would cost.
+  /// The choice, and a line for each family: which bound rejected it, or what it would cost; and from which frequency of the hand on
+  /// its mass, which none of them has, is more than 7 % of the force.
   std::string text() const {
     std::string out = candidate ? "chosen: " + candidate->text() + "\n" : advice + "\n";
     for (const Verdict& verdict : verdicts)
       out += "  " + verdict.candidate.text() + ": " + reason(verdict) + "\n";
-    return out;
+    char text[120] = "";
+    const char* const mass =
+        "  first mode %.2g Hz: a hand feels mass at more than %.2g Hz, take DynamicModel there\n";
+    if (first_mode > 0) std::snprintf(text, sizeof text, mass, first_mode, first_mode / 4);
+    return out + text;
   }
 
   std::string reason(const Verdict& verdict) const {
