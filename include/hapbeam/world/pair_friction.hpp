@@ -124,18 +124,22 @@ class PairFriction {
 
   /// To be called where an equilibrium was found, after look().   @param axes  of its last equations   @return whether it is one of Coulomb's law, too
   bool settled(const std::array<Vector, 3>& axes, double force) noexcept {
-    constexpr double exact = 1e-7;
     constexpr int most = 3;
-    if (!law_.settled(force)) return false;
-    // Where slips are short T changes by more than increments tell, and not below round-off.
-    const double off1 = law_.force().dot(axes[1]) - taken_[0], off2 = law_.force().dot(axes[2]) - taken_[1];
-    const bool far_off = off1 * off1 + off2 * off2 > exact * exact * force * force;
-    return !(acts() && far_off && turned_++ < most);
+    felt_ = taken_[0] * axes[1] + taken_[1] * axes[2];
+    if (acts() && !is_exact(axes, force) && turned_++ < most) return false;
+    if (law_.settled(force)) return true;
+    turned_ = 0;
+    return false;
   }
   /// To be called where that is kept.   @return what it has dissipated [J]
   double leave(double force) noexcept {
     const double before = state_.dissipated;
     law_.leave(state_, force);
+    // A skin that sticks is so stiff that its force has more of what increments have left than of the answer.
+    if (acts() && !law_.slides()) {
+      const double most = state_.sticking * force, size = std::sqrt(felt_.squaredNorm());
+      state_.force = size > most ? Vector(felt_ * (most / size)) : felt_;
+    }
     last_ = force;
     begin();
     return state_.dissipated - before;
@@ -151,6 +155,16 @@ class PairFriction {
  private:
   using Law = FrictionLaw<double, 3>;
   using Symmetric = std::array<double, 3>;
+
+  /// Where slips are short T changes by more than increments tell, and not below round-off.  What sticks has to be known to stick.
+  bool is_exact(const std::array<Vector, 3>& axes, double force) const noexcept {
+    constexpr double exact = 1e-7;
+    const Vector& acts = law_.force();
+    const double off1 = acts.dot(axes[1]) - taken_[0], off2 = acts.dot(axes[2]) - taken_[1];
+    if (law_.slides()) return off1 * off1 + off2 * off2 <= exact * exact * force * force;
+    const double most = state_.sticking * force * state_.sticking * force;
+    return (acts.squaredNorm() > most) == (felt_.squaredNorm() > most);
+  }
 
   static double dot(const Plane& a, const Plane& b) noexcept { return a[0] * b[0] + a[1] * b[1]; }
   static Plane times(const Symmetric& A, const Plane& v) noexcept {
@@ -176,6 +190,7 @@ class PairFriction {
   Plane follows_{}, acts_{}, taken_{};                       // m, t, and what the last answer took t for
   std::array<Plane, 2> along_{};                             // t₁, -t₂
   std::array<Vector, 2> tangents_;                           // r'
+  Vector felt_;                                              // T of the last answer
   int negative_ = 0, turned_ = 0;
   Start start_ = Start::goes_on;
   bool begins_ = true;
