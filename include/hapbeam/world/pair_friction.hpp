@@ -60,7 +60,7 @@ class PairFriction {
     if (begins_) {
       law_.begin(state_, true, place, 1, reach_, stiffest_, length_ / 1000, last_);
       if (start_ == Start::sticks && law_.slides()) (void)law_.turn();
-      turned_ = 0;
+      felt_ = state_.force, turned_ = 0;
     }
     begins_ = false;
     tangents_ = along;
@@ -68,8 +68,8 @@ class PairFriction {
   }
   /// Whether it is more than a place that slides without friction.
   bool acts() const noexcept { return !none() && !begins_ && !law_.falls(); }
-  /// T, on the first rod [N].
-  const Vector& force() const noexcept { return law_.force(); }
+  /// T, on the first rod [N].  A skin that sticks is so stiff that its T says more of what increments have left than of the answer.
+  const Vector& force() const noexcept { return law_.slides() ? law_.force() : felt_; }
 
   /// Puts in its own entries.   @param axes  of the pair   @param row  of its equations   @param force  λ [N]
   template <class Equations>
@@ -79,14 +79,19 @@ class PairFriction {
     const Plane first = in_plane(tangent * axes[1]), second = in_plane(tangent * axes[2]);
     stiff_ = {first[0], second[0], second[1]};
     invert(force);
-    follows_ = in_plane(law_.by_normal_force()), acts_ = in_plane(law_.force());
+    follows_ = in_plane(law_.by_normal_force()), acts_ = in_plane(this->force());
+    lacks_ = in_plane(law_.force() - this->force());
+    const Plane lacking = times(turns_, lacks_);
     along_ = {in_plane(tangents_[0]), in_plane(-tangents_[1])};
-    for (int c = 0; c < 2; ++c)
+    for (int c = 0; c < 2; ++c) {
+      dense[row + 1 + c] += reach_ * lacking[static_cast<std::size_t>(c)];
       for (int d = 0; d <= c; ++d)
         dense(row + 1 + c, row + 1 + d) += reach_ * turns_[static_cast<std::size_t>(c + d)];
+    }
     for (std::size_t i = 0; i < 2; ++i) {
       const int here = row + 3 + static_cast<int>(i);
       const Plane turned = times(turns_, along_[i]), stuck = times(stiff_, turned);
+      dense[here] -= force * dot(along_[i], lacking);
       for (int c = 0; c < 2; ++c) dense(here, row + 1 + c) -= force * turned[static_cast<std::size_t>(c)];
       for (std::size_t j = 0; j <= i; ++j)
         dense(here, row + 3 + static_cast<int>(j)) += force * dot(stuck, along_[j]);
@@ -109,23 +114,26 @@ class PairFriction {
     const double over = 1 / (1 + dot(acts_, times(turns_, follows_)));
     return {over, over * turned[0], over * turned[1]};
   }
-  /// δλ and λ δn of an answer.   @param u  δf along the axes, δs
-  std::array<double, 3> increment(const std::array<double, 5>& u, double force) noexcept {
-    Plane rest{u[1], u[2]};
+  /// δλ and λ δn of an answer.   @param axes  of the pair   @param u  δf along those, δs
+  std::array<double, 3> increment(const std::array<Vector, 3>& axes, const std::array<double, 5>& u,
+                                  double force) noexcept {
+    Plane rest{u[1] - lacks_[0], u[2] - lacks_[1]};
     for (std::size_t i = 0; i < 2; ++i) {
       const Plane stuck = times(stiff_, along_[i]);
       rest[0] -= stuck[0] * u[3 + i], rest[1] -= stuck[1] * u[3 + i];
     }
     const double more = (u[0] + dot(acts_, times(turns_, rest))) / (1 + dot(acts_, times(turns_, follows_)));
     const Plane turn = times(turns_, {rest[0] - follows_[0] * more, rest[1] - follows_[1] * more});
-    taken_ = {acts_[0] + u[1] - force * turn[0], acts_[1] + u[2] - force * turn[1]};
+    // The force less its part along the normal, which turns.
+    const double next = force + more;
+    const Plane T{acts_[0] + u[1] - next * turn[0], acts_[1] + u[2] - next * turn[1]};
+    felt_ = T[0] * axes[1] + T[1] * axes[2] - dot(T, turn) * axes[0];
     return {more, force * turn[0], force * turn[1]};
   }
 
   /// To be called where an equilibrium was found, after look().   @param axes  of its last equations   @return whether it is one of Coulomb's law, too
   bool settled(const std::array<Vector, 3>& axes, double force) noexcept {
     constexpr int most = 3;
-    felt_ = taken_[0] * axes[1] + taken_[1] * axes[2];
     if (acts() && !is_exact(axes, force) && turned_++ < most) return false;
     if (law_.settled(force)) return true;
     turned_ = 0;
@@ -135,7 +143,6 @@ class PairFriction {
   double leave(double force) noexcept {
     const double before = state_.dissipated;
     law_.leave(state_, force);
-    // A skin that sticks is so stiff that its force has more of what increments have left than of the answer.
     if (acts() && !law_.slides()) {
       const double most = state_.sticking * force, size = std::sqrt(felt_.squaredNorm());
       state_.force = size > most ? Vector(felt_ * (most / size)) : felt_;
@@ -159,8 +166,8 @@ class PairFriction {
   /// Where slips are short T changes by more than increments tell, and not below round-off.  What sticks has to be known to stick.
   bool is_exact(const std::array<Vector, 3>& axes, double force) const noexcept {
     constexpr double exact = 1e-7;
-    const Vector& acts = law_.force();
-    const double off1 = acts.dot(axes[1]) - taken_[0], off2 = acts.dot(axes[2]) - taken_[1];
+    const Vector &acts = law_.force(), off = acts - felt_;
+    const double off1 = off.dot(axes[1]), off2 = off.dot(axes[2]);
     if (law_.slides()) return off1 * off1 + off2 * off2 <= exact * exact * force * force;
     const double most = state_.sticking * force * state_.sticking * force;
     return (acts.squaredNorm() > most) == (felt_.squaredNorm() > most);
@@ -187,7 +194,7 @@ class PairFriction {
   Law law_;
   double reach_ = 0, stiffest_ = 0, length_ = 0, last_ = 0;  // [m], [N/m], [m], λ of the last equilibrium [N]
   Symmetric stiff_{}, turns_{};                              // S and G
-  Plane follows_{}, acts_{}, taken_{};                       // m, t, and what the last answer took t for
+  Plane follows_{}, acts_{}, lacks_{};                       // m, t, and what the law has it more
   std::array<Plane, 2> along_{};                             // t₁, -t₂
   std::array<Vector, 2> tangents_;                           // r'
   Vector felt_;                                              // T of the last answer
