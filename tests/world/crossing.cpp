@@ -222,6 +222,10 @@ TEST_CASE("a world takes poses of ends that can be placed alone", "[world]") {
   World<RoundRod> world({{held_rod(0.1, 0.002, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}), 8}});
   CHECK(world.hold(0, RodSide::right, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}) == Status::invalid_request);
   CHECK(world.hold(0, RodSide::left, {{0, NAN, 0}, {1, 0, 0}, {0, 0, 1}}) == Status::invalid_request);
+  for (const double size : {1e300, 1e-300, 0.0}) {
+    CHECK(world.hold(0, RodSide::left, {{0, 0, 0}, {size, 0, 0}, {0, 0, 1}}) == Status::invalid_request);
+    CHECK(world.hold(0, RodSide::left, {{0, 0, 0}, {1, 0, 0}, {0, size, size}}) == Status::invalid_request);
+  }
   CHECK(world.tick() == Status::ok);
   CHECK(world.held(0, RodSide::left).force.norm() == 0);
 }
