@@ -142,7 +142,9 @@ struct RodPose {
     along /= std::sqrt(along.squaredNorm());
     director -= along * along.dot(director);
     director /= std::sqrt(director.squaredNorm());
-    return at.allFinite() && along.allFinite() && director.allFinite();
+    // One that is too long to be squared comes out as none.
+    const double sizes = along.squaredNorm() * director.squaredNorm();
+    return at.allFinite() && std::isfinite(sizes) && sizes > 0;
   }
 };
 

@@ -83,7 +83,7 @@ template <class Element>
 World<Element> world_of(const Scene& scene, const Motion& motion, int elements, const Friction& friction = {},
                         const NewtonRaphson& solver = {}) {
   const RodPose pose = motion(RodPose{scene.start, start_along, {0, 1, 0}});
-  return World<Element>({{needle(0.2, 0.002, pose), elements, friction}}, {scene.body(motion)}, solver);
+  return World<Element>({{needle(0.2, 0.002, pose), elements, friction}}, {scene.body(motion)}, {}, solver);
 }
 
 }  // namespace hapbeam::testing

@@ -222,6 +222,10 @@ TEST_CASE("a world takes poses of ends that can be placed alone", "[world]") {
   World<RoundRod> world({{held_rod(0.1, 0.002, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}), 8}});
   CHECK(world.hold(0, RodSide::right, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}) == Status::invalid_request);
   CHECK(world.hold(0, RodSide::left, {{0, NAN, 0}, {1, 0, 0}, {0, 0, 1}}) == Status::invalid_request);
+  for (const double size : {1e300, 1e-300, 0.0}) {
+    CHECK(world.hold(0, RodSide::left, {{0, 0, 0}, {size, 0, 0}, {0, 0, 1}}) == Status::invalid_request);
+    CHECK(world.hold(0, RodSide::left, {{0, 0, 0}, {1, 0, 0}, {0, size, size}}) == Status::invalid_request);
+  }
   CHECK(world.tick() == Status::ok);
   CHECK(world.held(0, RodSide::left).force.norm() == 0);
 }
@@ -249,4 +253,30 @@ TEST_CASE("a flat strip that a needle draws too taut for its elements says so", 
   };
   CHECK(pressed(8, 0.0005) == Status::ok);
   CHECK(pressed(8, 0.006) == Status::out_of_range);
+}
+
+// While they fall the hand goes on by several reaches a tick.
+TEST_CASE("what a hand tears off in haste is at rest once the hand is", "[world]") {
+  for (const double deep : {0.004, 0.01, 0.02})
+    for (const double speed : {3, 4, 6, 8})
+      for (const Point& way : {Point(0, -1, 0), Point(1, 0, 0), Point(0, 0, 1)}) {
+        Rod tool(0.2, RodSection::circle(0.002), spring_steel, RodSupport::clamped, RodSupport::free);
+        const Rod wire(0.25, RodSection::circle(0.0015), spring_steel, RodSupport::clamped,
+                       RodSupport::clamped);
+        RodPose hand{{0.18, -0.15, 0.00185}, {0, 1, 0}, {0, 0, 1}};
+        tool.place_left(hand);
+        World<RoundRod> world({{tool, 8}, {wire, 8}});
+        const auto move = [&](const Point& by) {
+          hand.at += by;
+          REQUIRE(world.hold(0, RodSide::left, hand) == Status::ok);
+          return world.tick();
+        };
+        for (int k = 0; k < 100; ++k) REQUIRE(is_answer(move({0, 0, -deep / 100})));
+        for (int k = 0; k < 30; ++k) (void)move(speed * crossed_reach * way);
+        for (int k = 0; k < 3; ++k) (void)world.tick();
+        CAPTURE(deep, speed, way.transpose());
+        CHECK(world.tick() == Status::ok);
+        CHECK(world.contacts() == 0);
+        CHECK(world.held(0, RodSide::left).force.norm() < 1e-9);
+      }
 }

@@ -177,6 +177,29 @@ TEST_CASE("rods stick until friction can hold no more", "[world][friction]") {
   CHECK(world.contact(0).friction.norm() == Approx(0.3 * normal_force(world.contact(0))));
 }
 
+// A skin that sticks is so stiff that the tolerance of places is 1e-5 of its force, and more between three rods.
+TEST_CASE("what sticks is held by as much as it holds", "[world][friction]") {
+  for (const double step : {2e-4, 4e-4}) {
+    Rod tool(0.2, RodSection::circle(0.002), spring_steel, RodSupport::clamped, RodSupport::free);
+    const Rod wire(0.25, RodSection::circle(0.0015), spring_steel, RodSupport::clamped, RodSupport::free);
+    RodPose hand{{0.15, -0.09, 0.00185}, {0.2, 1, 0}, {0, 0, 1}};
+    tool.place_left(hand);
+    World<RoundRod> world({{tool, 8, 2}, {wire, 8}});
+    double off = 0;
+    for (int k = 1; k <= 60; ++k) {
+      hand.at.z() -= step;
+      REQUIRE(world.hold(0, RodSide::left, hand) == Status::ok);
+      REQUIRE(world.tick() == Status::ok);
+      if (world.contacts() == 0) continue;
+      const Point force = world.held(0, RodSide::left).force;
+      off = std::max(off, (force + world.contact(0).force).norm() / force.norm());
+    }
+    INFO(step << ": " << off << " of the force");
+    CHECK_FALSE(world.contact(0).sliding);
+    CHECK(off < 1e-6);
+  }
+}
+
 TEST_CASE("what sticks takes nothing", "[world][friction]") {
   Crossing at;
   World<RoundRod> world = pressed<RoundRod>(1, RodSection::circle(0.0015), at);

@@ -194,6 +194,31 @@ TEST_CASE("a body that spins about its own axis drags a rod that stays", "[world
   CHECK(contact.friction.dot(way) == Approx(mu * normal_force(contact) * way.norm()).epsilon(0.01));
 }
 
+// The tolerance of places is up to all of the force of a skin that sticks.
+TEST_CASE("what sticks to a body is held by as much as it holds", "[world][friction]") {
+  for (const Scene& scene : scenes) {
+    World<RoundRod> world = pressed<RoundRod>(scene, 2);
+    double off = 0;
+    int stuck = 0;
+    for (int k = 1; k <= 60; ++k) {
+      const double t = 0.5 * k;
+      const Point at = scene.end + 1e-5 * Point(std::cos(t) - 1, 0.2 * std::sin(t), 0.2 * std::sin(t));
+      REQUIRE(world.hold(0, RodSide::left, hand_at(at)) == Status::ok);
+      if (world.tick() != Status::ok) continue;
+      const Point force = world.held(0, RodSide::left).force;
+      Point sum = force;
+      bool slides = false;
+      for (int c = 0; c < world.contacts(); ++c)
+        sum += world.contact(c).force, slides = slides || world.contact(c).sliding;
+      if (slides) continue;
+      off = std::max(off, sum.norm() / force.norm()), ++stuck;
+    }
+    INFO(scene.name << ": " << off << " of the force in " << stuck << " ticks");
+    CHECK(stuck >= 1);
+    CHECK(off < 1e-8);
+  }
+}
+
 TEST_CASE("a rod on a table sticks until friction can hold no more", "[world][friction]") {
   const double angle = 0.3, length = 0.2;
   const RodPose pose{

@@ -100,7 +100,8 @@ class PairEquilibrium {
     return failure_ = Status::iteration_limit, Outcome::lost;
   }
   /// Down to the next stable equilibrium, as in a viscous fluid:  (K + μM) Δ = -r,  with the pairs that touch on the way, which slide without friction.
-  Outcome fall() noexcept {
+  /// @param from, to  of the path, 0 to 1, on which ends and bodies are led meanwhile
+  Outcome fall(double from, double to) noexcept {
     constexpr double first_shift = 100, largest_shift = 1e12, farthest = 1, enough = 1e-3;
     system_.let_go();
     system_.save();
@@ -109,19 +110,23 @@ class PairEquilibrium {
         if (body.moves && (body.sides.any() || body.negative_pivots() > 0))
           body.chain().nudge(body.length() / 1000, -1, 1);
     on_ridge_ = false;
-    system_.set_target(1);
     double bad = 0;  // a shift with which a step went too far
+    double led = to - from;
     for (double shift = first_shift; left() > 0;) {
+      const double next = (std::min)(from + led, to);
+      system_.aim(next);
+      system_.set_target(1);
       ++solves_;
       const bool steep = system_.factor(shift) != Status::ok || system_.negative_pivots() > 0;
       if (!steep && system_.turn() <= farthest) {
-        const bool near_by = shift == 0 && system_.increment() <= enough * system_.unit();
+        const bool near_by = shift == 0 && next >= to && system_.increment() <= enough * system_.unit();
         system_.advance();
         const Look look = look_around(system_);
         if (look.close && look.least >= closest) {
           while (release() || leave_end()) continue;
           if (look.deepest < -nothing && !meet(look)) return Outcome::full;
           system_.save();
+          from = next, led *= 4;
           if (near_by && settle() == Outcome::settled) return Outcome::settled;
           if (near_by) system_.restore(), shift = first_shift;
           else shift = shift > 1 || bad > 1 ? (std::max)(shift / 10, 1.5 * bad) : 0;
@@ -130,7 +135,7 @@ class PairEquilibrium {
         }
         system_.restore();
       }
-      bad = (std::max)(shift, 1.0), shift = 3 * bad;
+      bad = (std::max)(shift, 1.0), shift = 3 * bad, led /= 4;
       if (shift > largest_shift) return failure_ = Status::iteration_limit, Outcome::lost;
     }
     return Outcome::too_far;

@@ -7,6 +7,7 @@
 //
 //   δn = G (δf - S (t₁ δs₁ - t₂ δs₂) - m δλ),   G = (λ - S H)⁻¹,   δλ = δf · n + t · δn
 //
+// What sticks has the t of the last answer; what the law has it more is taken from δf in that.
 // H = R between rods.  H G is symmetric.  A plane is what a large H stands for: n stays, and H δn is how the rod goes over it.
 // A body that has turned has taken all of the last equilibrium along.
 // All but m is symmetric, and that T goes along with the places.  Both are of rank one a pair or a place, and put in after the symmetric equations
@@ -85,15 +86,15 @@ class PairFriction {
       law_.begin(state_, true, place, 1, reach_, stiffest_, start_ == Start::has_slid ? 0 : length_ / 1000,
                  last_);
       if (start_ == Start::sticks && law_.slides()) (void)law_.turn();
-      turned_ = 0, start_ = Start::none;
+      felt_ = state_.force, turned_ = 0, start_ = Start::none;
     }
     tangents_ = along;
     law_.look(place, force);
   }
   /// Whether it is more than a place that slides without friction.
   bool acts() const noexcept { return !none() && start_ == Start::none && !law_.falls(); }
-  /// T, on the first rod [N].
-  const Vector& force() const noexcept { return law_.force(); }
+  /// T, on the first rod [N].  A skin that sticks is so stiff that its T says more of what increments have left than of the answer.
+  const Vector& force() const noexcept { return law_.slides() ? law_.force() : felt_; }
 
   /// Puts in its own entries.   @param axes  of the pair   @param bends  H   @param row  of its equations   @param force  λ [N]
   template <class Equations>
@@ -104,15 +105,20 @@ class PairFriction {
     stiff_ << in_plane(tangent * axes[1]), in_plane(tangent * axes[2]);
     bends_ = bends;
     invert(force);
-    follows_ = in_plane(law_.by_normal_force()), acts_ = in_plane(law_.force());
+    follows_ = in_plane(law_.by_normal_force()), acts_ = in_plane(this->force());
+    lacks_ = in_plane(law_.force() - this->force());
     along_ = {in_plane(tangents_[0]), in_plane(-tangents_[1])};
+    const Plane lacking = turns_ * lacks_, moved = bends_ * lacking;
     const Matrix yields = bends_ * turns_;
     negative_ = determinant(yields) < 0 ? 1 : yields.trace() < 0 ? 2 : 0;
-    for (int c = 0; c < 2; ++c)
+    for (int c = 0; c < 2; ++c) {
+      dense[row + 1 + c] += moved[c];
       for (int d = 0; d <= c; ++d) dense(row + 1 + c, row + 1 + d) += yields(c, d);
+    }
     for (std::size_t i = 0; i < 2; ++i) {
       const int here = row + 3 + static_cast<int>(i);
       const Plane turned = turns_.transpose() * along_[i], stuck = stiff_ * turned;
+      dense[here] -= force * along_[i].dot(lacking);
       for (int c = 0; c < 2; ++c) dense(here, row + 1 + c) -= force * turned[c];
       for (std::size_t j = 0; j <= i; ++j)
         dense(here, row + 3 + static_cast<int>(j)) += force * stuck.dot(along_[j]);
@@ -134,26 +140,27 @@ class PairFriction {
     const double over = 1 / (1 + turned.dot(follows_));
     return {over, over * turned[0], over * turned[1]};
   }
-  /// δλ and δn of an answer.   @param u  δf along the axes, δs
-  std::array<double, 3> increment(const std::array<double, 5>& u, double force) noexcept {
-    const Plane aside(u[1], u[2]), rest = aside - stiff_ * (along_[0] * u[3] + along_[1] * u[4]),
+  /// δλ and δn of an answer.   @param axes  of the pair   @param u  δf along those, δs
+  std::array<double, 3> increment(const std::array<Vector, 3>& axes, const std::array<double, 5>& u,
+                                  double force) noexcept {
+    const Plane aside(u[1], u[2]), rest = aside - lacks_ - stiff_ * (along_[0] * u[3] + along_[1] * u[4]),
                                    turned = turns_.transpose() * acts_;
     const double more = (u[0] + turned.dot(rest)) / (1 + turned.dot(follows_));
     const Plane turn = turns_ * (rest - follows_ * more);
-    taken_ = acts_ + aside - force * turn;
+    // The force less its part along the normal, which turns.
+    const Plane T = acts_ + aside - (force + more) * turn;
+    felt_ = T[0] * axes[1] + T[1] * axes[2] - T.dot(turn) * axes[0];
     return {more, turn[0], turn[1]};
   }
 
   /// To be called where an equilibrium was found, after look().   @param axes  of its last equations   @return whether it is one of Coulomb's law, too
   bool settled(const std::array<Vector, 3>& axes, double force) noexcept {
-    constexpr double exact = 1e-7;
     constexpr int most = 3;
     if (start_ == Start::waits) return start_ = Start::has_slid, false;
-    if (!law_.settled(force)) return false;
-    // Where slips are short T changes by more than increments tell, and not below round-off.
-    const double off1 = law_.force().dot(axes[1]) - taken_[0], off2 = law_.force().dot(axes[2]) - taken_[1];
-    const bool far_off = off1 * off1 + off2 * off2 > exact * exact * force * force;
-    return !(acts() && far_off && turned_++ < most);
+    if (acts() && !is_exact(axes, force) && turned_++ < most) return false;
+    if (law_.settled(force)) return true;
+    turned_ = 0;
+    return false;
   }
   /// To be called where that is kept.   @return what it has dissipated [J]
   double leave(double force) noexcept {
@@ -161,6 +168,10 @@ class PairFriction {
     const Vector off = state_.off;
     law_.leave(state_, force);
     gone_ = state_.off - off;
+    if (acts() && !law_.slides()) {
+      const double most = state_.sticking * force, size = std::sqrt(felt_.squaredNorm());
+      state_.force = size > most ? Vector(felt_ * (most / size)) : felt_;
+    }
     last_ = force;
     start_ = Start::goes_on;
     return state_.dissipated - before;
@@ -179,6 +190,15 @@ class PairFriction {
   using Law = FrictionLaw<double, 3>;
 
   static double determinant(const Matrix& A) noexcept { return A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0); }
+  /// Where slips are short T changes by more than increments tell, and not below round-off.  What sticks has to be known to stick.
+  bool is_exact(const std::array<Vector, 3>& axes, double force) const noexcept {
+    constexpr double exact = 1e-7;
+    const Vector &acts = law_.force(), off = acts - felt_;
+    const double off1 = off.dot(axes[1]), off2 = off.dot(axes[2]);
+    if (law_.slides()) return off1 * off1 + off2 * off2 <= exact * exact * force * force;
+    const double most = state_.sticking * force * state_.sticking * force;
+    return (acts.squaredNorm() > most) == (felt_.squaredNorm() > most);
+  }
   /// G, which has a pole where the slip of a step is about μR.
   void invert(double force) noexcept {
     constexpr double least = 1e-6, aside = 1.01;
@@ -193,10 +213,10 @@ class PairFriction {
   FrictionState<double, 3> state_;
   Law law_;
   double reach_ = 0, stiffest_ = 0, length_ = 0, last_ = 0;  // [m], [N/m], [m], λ of the last equilibrium [N]
-  Matrix stiff_ = Matrix::Zero(), bends_ = stiff_, turns_ = stiff_;  // S, H and G
-  Plane follows_ = Plane::Zero(), acts_ = follows_,
-        taken_ = follows_;                          // m, t, and t as the last answer had it
-  std::array<Plane, 2> along_{follows_, follows_};  // t₁, -t₂
+  Matrix stiff_ = Matrix::Zero(), bends_ = stiff_, turns_ = stiff_;     // S, H and G
+  Plane follows_ = Plane::Zero(), acts_ = follows_, lacks_ = follows_;  // m, t, and what the law has it more
+  std::array<Plane, 2> along_{follows_, follows_};                      // t₁, -t₂
+  Vector felt_ = Vector::Zero();                                        // T of the last answer
   Vector gone_ = Vector::Zero();
   std::array<Vector, 2> tangents_;  // r'
   int negative_ = 0, turned_ = 0;

@@ -106,8 +106,8 @@ class PairSystem : public WorldPairs<Element> {
         pair.pull_by(u[row] * pair.axes[0] + u[row + 1] * pair.axes[1] + u[row + 2] * pair.axes[2] -
                      taken_back(k));
       else if (pair.rough())
-        pair.rub(
-            pair.friction.increment({u[row], u[row + 1], u[row + 2], u[row + 3], u[row + 4]}, pair.force));
+        pair.rub(pair.friction.increment(pair.axes, {u[row], u[row + 1], u[row + 2], u[row + 3], u[row + 4]},
+                                         pair.force));
       else pair.push(u[row], u[row + 1], u[row + 2]);
       for (std::size_t side = 0; side < 2 && !pair.fresh; ++side) {
         const double most = stride(this->rigid(pair.rod[side]) ? pair.rod[0] : pair.rod[side]);

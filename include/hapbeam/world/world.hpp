@@ -64,14 +64,15 @@ class World {
   ///         nowhere all rods begin anew at rest.
   Status tick() noexcept {
     const bool moving = begin();
-    double t = 0, step = 1;
+    // A fall goes on to where ends and bodies have come.
+    double t = 0, step = course_ == Course::falls ? 0 : step_, farthest = 1;
     Outcome outcome = Outcome::settled;
     while (t < 1 && moving) {
       const double to = (std::min)(t + step, 1.0);
       system().aim(to);
-      outcome = course_ == Course::falls ? equilibrium_.fall() : equilibrium_.settle();
+      outcome = course_ == Course::falls ? equilibrium_.fall(t, to) : equilibrium_.settle();
       if (outcome == Outcome::settled) {
-        t = to, step *= 4;
+        t = to, step = step > 0 ? (std::min)(4 * step, farthest) : 1.0, unmoved_ = 0;
         if (course_ == Course::falls) course_ = Course::has_fallen;
         accept();
         continue;
@@ -85,7 +86,9 @@ class World {
       known_ = 0;
       if (outcome == Outcome::full || equilibrium_.left() <= 0) break;
       step = (to - t) / 8;
-      if (outcome == Outcome::lost && step < shortest) course_ = Course::falls, step = to - t;
+      if (outcome == Outcome::too_far) farthest = 4 * step;
+      // What has fallen halfway is close to no equilibrium, however short the step.
+      if (step < (outcome == Outcome::lost ? shortest : nothing)) course_ = Course::falls, step = to - t;
     }
     if (equilibrium_.changed()) known_ = 0;
     if (outcome == Outcome::settled) {
@@ -93,16 +96,16 @@ class World {
       status_ = course_ == Course::has_fallen ? Status::snapped
                 : system().overdrawn()        ? Status::out_of_range
                                               : Status::ok;
-      course_ = Course::follows, unmoved_ = 0;
+      course_ = Course::follows, step_ = 1;
       return status_;
     }
-    known_ = 0;
+    known_ = 0, step_ = (std::min)(4 * step, 1.0);
     // The next path begins where this one has come.
     if (course_ != Course::falls) {
       system().aim(t);
       system().set_target(1);
     }
-    unmoved_ = t > 0 || outcome == Outcome::full ? 0 : unmoved_ + 1;
+    unmoved_ = outcome == Outcome::full ? 0 : unmoved_ + 1;
     if (unmoved_ == patience) restart();
     return status_ = outcome == Outcome::full ? Status::out_of_range : equilibrium_.failure();
   }
@@ -166,7 +169,7 @@ class World {
   using Vector = VectorOf<double, 3>;
   using Pairs = std::array<detail::RodPair, std::size_t(most_contacts)>;
 
-  static constexpr double shortest = 1.0 / 32;  // step of a path
+  static constexpr double shortest = 1.0 / 32, nothing = 1e-3;  // steps of a path
   static constexpr int patience = 32;
 
   typename Equilibrium::System& system() noexcept { return equilibrium_.system(); }
@@ -227,7 +230,7 @@ class World {
     system().clear();
     for (Body& body : system().bodies()) body.restart();
     for (detail::PlacedBody& body : system().rigid()) body.restart();
-    course_ = Course::follows, known_ = unmoved_ = 0;
+    course_ = Course::follows, known_ = unmoved_ = 0, step_ = 1;
     system().save();
   }
 
@@ -262,6 +265,7 @@ class World {
   std::vector<std::array<Vector, 2>> held_;  // force and moment at the ends, two a rod
   int known_ = 0;                            // ticks in a row that went on with the same pairs
   int unmoved_ = 0;                          // ticks in a row that have led nowhere
+  double step_ = 1;                          // of a path, to be tried first
   double dissipated_ = 0;                    // [J]
   Course course_ = Course::follows;
   Status status_ = Status::ok;
