@@ -32,7 +32,7 @@ struct CrisfieldRod {
   using Matrix14 = TwistedRod::Matrix14<S>;
   /// Nothing is the element's own: it stays zero.
   template <typename S>
-  using Inner = detail::RodInner<S, 7>;
+  using Inner = detail::RodInners<S, 7>;
 
   template <typename S>
   static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,

@@ -66,7 +66,7 @@ class Scene {
   void push(int contact, double by) { contacts_[at(contact)].force += by; }
   int count() const { return count_; }
   double place(int k) const { return (contacts_[at(k)].s - nodes_[0].s) / p_.length; }
-  double tension() const { return inner_.value; }
+  double tension() const { return inner_.tension.value; }
 
   /// To its forces from none, at which places stay.
   void ramp() {
@@ -106,7 +106,7 @@ class Scene {
       for (int j = 0; j < count_; ++j) told.yields[at(k)][at(j)] = touched.yields(k, j);
     }
     double longer = 0;
-    inner_.value = touched.advance(Unknowns::Zero(), {}, longer);
+    inner_.tension.value = touched.advance(Unknowns::Zero(), {}, longer);
     return told;
   }
 

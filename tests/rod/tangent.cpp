@@ -131,9 +131,13 @@ void check_tangent(const Rod& rod, int elements) {
         Eigen::Matrix<double, 2 * unknowns, 1> both = Eigen::Matrix<double, 2 * unknowns, 1>::Zero();
         both.template segment<unknowns>(e == i ? 0 : unknowns) = x;
         auto inner = system.parts().inner(e);
-        const double before = inner.value;
-        inner.advance(both);
-        there.inner[e] += inner.value - before;
+        const auto go = [&](auto& own, double& value) {
+          const double before = own.value;
+          own.advance(both);
+          value += own.value - before;
+        };
+        go(inner.tension, there.inner[e]);
+        if constexpr (unknowns == 7) go(inner.twist, there.inner[elements + e]);
       }
       return gradient(there);
     };

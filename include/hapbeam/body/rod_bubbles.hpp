@@ -111,7 +111,7 @@ class RodBubbles : protected Stacked<S, Most> {
   void look_at_section([[maybe_unused]] Spot& spot) const noexcept {
     if constexpr (unknowns == 7)
       if (!even()) {
-        const Vector d1 = Element::director(*p_, *a_, *b_, inner_.value, spot.x);
+        const Vector d1 = Element::director(*p_, *a_, *b_, inner_.twist.value, spot.x);
         spot.softer = p_->soft[0] > p_->soft[1] ? d1 : cross3(spot.u, d1);
       }
   }
@@ -119,7 +119,7 @@ class RodBubbles : protected Stacked<S, Most> {
     using std::sqrt;
     Contact& contact = *contacts_[at(k)];
     Spot& spot = spots_[at(k)];
-    spot.look(*p_, *a_, *b_, inner_.value, contact.s - a_->s);
+    spot.look(*p_, *a_, *b_, inner_.tension.value, contact.s - a_->s);
     contact.place = spot.r + contact.bubble;
     spot.curved.setZero();
     if (contact.kind == Contact::Kind::along) {
@@ -160,7 +160,7 @@ class RodBubbles : protected Stacked<S, Most> {
       look_at_section(spot);
     }
     slope_ = {};
-    const S soft = stiffer();
+    const S soft = p_->softest();
     for (int k = 0; k < ways(); ++k) {
       J_[at(k)] = {};
       for (auto& twice : turned_twice_[at(k)]) twice = 0;
@@ -214,7 +214,7 @@ class RodBubbles : protected Stacked<S, Most> {
   /// N/EI as a variable; none where N is no unknown.
   template <class J>
   J tension(int variable) const noexcept {
-    return p_->taut ? J::variable(inner_.value * stiffer(), variable) : J(0);
+    return p_->taut ? J::variable(inner_.tension.value * p_->softest(), variable) : J(0);
   }
   template <class J>
   J stretch(const J& n) const noexcept {
@@ -246,7 +246,7 @@ class RodBubbles : protected Stacked<S, Most> {
   static constexpr std::size_t most_ways = std::size_t(Most + 1);
   const RodNode<S>*a_, *b_;
   const RodProperties<S>* p_;
-  Inner inner_;  // ψ or N, as of the last equations
+  Inner inner_;  // ψ and N, as of the last equations
   std::array<Contact*, std::size_t(Most)> contacts_{};
   std::array<int, std::size_t(Most)> ids_{};
   int seen_ = 0;  // so many of them have been looked at

@@ -27,16 +27,16 @@ struct RodSpot {
 
   /// Along the axis along which an element yields less [1/(N·m²)].
   static S stiffer(const RodProperties<S>& p) noexcept { return (std::min)(p.soft[0], p.soft[1]); }
-  /// 1 + N/EA: so much longer it is than where s counts.   @param n  N/EI
+  /// 1 + N/EA: so much longer it is than where s counts.   @param n  N/EI of the softest
   template <class J>
   static J stretch(const RodProperties<S>& p, const J& n) noexcept {
-    return J(1) + 1 / (stiffer(p) * p.axial) * n;
+    return J(1) + 1 / (p.softest() * p.axial) * n;
   }
 
   /// @param a, b  nodes   @param N  tension, where that is an unknown [N]   @param s  from a [m]
   void look(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b, S N, S s) noexcept {
     using std::sqrt;
-    const S soft = stiffer(p);
+    const S soft = p.softest();
     x = s * p.inverse_length;
     if (p.taut) {
       const ByPlace n = ByPlace::variable(N * soft, 1), longer = stretch(p, n);

@@ -69,7 +69,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     }
     contact.enter(e);
   }
-  S tension() const noexcept { return inner_.value; }
+  S tension() const noexcept { return inner_.tension.value; }
 
   /// What they add to residual and tangent.   @param rub  (id of a contact) sets its friction, where it touches
   /// @return the energy of what they bend [J]
@@ -179,7 +179,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       contact.force += forces[at(k)];
       contact.s += goes[at(k)];
     }
-    return inner_.value + goes[at(count())] * (p_->taut ? 1 : 0);
+    return tension() + goes[at(count())] * (p_->taut ? 1 : 0);
   }
 
  private:
@@ -269,11 +269,11 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         for (int c = 0; c < n; ++c) steep[at(c)] += A_[at(k)][at(c)] * zeta[at(k)];
       const Stack stiff = times(H_, bends);
       for (int c = 0; c < n; ++c) steep[at(c)] -= stiff[at(c)];
-      way.residual = is_place ? -spots_[at(i)].turns.dot(spots_[at(i)].k) : inner_.residual;
+      way.residual = is_place ? -spots_[at(i)].turns.dot(spots_[at(i)].k) : inner_.tension.residual;
       for (int c = 0; c < n; ++c)
         way.residual += steep[at(c)] * off_[at(c)] - force_[at(c)] * bends[at(c)] / 2;
       if (is_place) way.by_nodes.setZero();
-      else way.by_nodes = inner_.row;
+      else way.by_nodes = inner_.tension.row;
       pull(steep, way.by_nodes);
       for (int k = 0; k < count(); ++k) {
         if (is_place && k != i) continue;
@@ -285,7 +285,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         if (!is_place) way.residual -= spot.turns.dot(spot.turned_by_N);
         for (int q = 0; q < 4; ++q)
           way.by_nodes.template segment<3>(start(q)) -=
-              (is_place ? spot.h[q].by(0) : Base::stiffer() * spot.h[q].by(1)) * pushes;
+              (is_place ? spot.h[q].by(0) : p_->softest() * spot.h[q].by(1)) * pushes;
       }
       const Stack Azeta = times(AC_, zeta);
       for (int j = 0; j < ways(); ++j) {
@@ -308,7 +308,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         }
         way.by_way[at(j)] = sum;
       }
-      if (!is_place) way.by_way[at(i)] += inner_.stiffness;
+      if (!is_place) way.by_way[at(i)] += inner_.tension.stiffness;
       for (int j = 0; j < count(); ++j) {
         const Vector& normal = contacts_[at(j)]->normal;
         S by = -vector(moves[at(i)], j).dot(normal) - vector(Azeta, j).dot(normal);
@@ -351,12 +351,13 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         if (contact.sharp) turned_ += contact.force > 0 ? 1 : -1;
       } else {
         // Without contacts it has been condensed before.
-        const S over = 1 / inner_.stiffness;
-        r += (inner_.residual * over) * inner_.row;
-        K += (over * inner_.row) * inner_.row.transpose();
+        const S over = 1 / inner_.tension.stiffness;
+        r += (inner_.tension.residual * over) * inner_.tension.row;
+        K += (over * inner_.tension.row) * inner_.tension.row.transpose();
         const auto lacks = [&](S residual, S stiffness) { return (std::max)(-residual / stiffness, S(0)); };
-        stiffen<unknowns>(*p_, *Base::a_, *Base::b_,
-                          lacks(way.residual, way.stiff) - lacks(inner_.residual, inner_.stiffness), K);
+        stiffen<unknowns>(
+            *p_, *Base::a_, *Base::b_,
+            lacks(way.residual, way.stiff) - lacks(inner_.tension.residual, inner_.tension.stiffness), K);
       }
       const S over = 1 / way.stiff;
       change_ -= way.residual * way.residual * over / 2;

@@ -37,12 +37,12 @@ struct RoundRod {
 
   /// N, of one that is taut.
   template <typename S>
-  using Inner = detail::RodInner<S, unknowns>;
+  using Inner = detail::RodInners<S, unknowns>;
 
   template <typename S>
   static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
                   const Inner<S>& inner) noexcept {
-    return energy(p, n1, n2, detail::EndsAndMiddle<S>(p, n1, n2), inner.value);
+    return energy(p, n1, n2, detail::EndsAndMiddle<S>(p, n1, n2), inner.tension.value);
   }
   /// The same under a tension.
   template <typename S>
@@ -79,13 +79,14 @@ struct RoundRod {
   HAPBEAM_ALIGNED_STACK [[gnu::flatten]] static S tangent(const RodProperties<S>& p, const RodNode<S>& n1,
                                                           const RodNode<S>& n2, Inner<S>& inner,
                                                           RodTangent<S, 3>& to) noexcept {
-    return respond(p, n1, n2, detail::EndsAndMiddle<S>(p, n1, n2), inner, to);
+    return respond(p, n1, n2, detail::EndsAndMiddle<S>(p, n1, n2), inner.tension, to);
   }
   /// The same, of all but φ where an element has it.
   template <typename S, int M>
   [[gnu::always_inline]] static S respond(const RodProperties<S>& p, const RodNode<S>& n1,
                                           const RodNode<S>& n2, const detail::EndsAndMiddle<S>& at,
-                                          detail::RodInner<S, 3 + M>& inner, RodTangent<S, M>& to) noexcept {
+                                          detail::RodInner<S, 3 + M>& tension_of,
+                                          RodTangent<S, M>& to) noexcept {
     const V3<S>&t1 = n1.tangent, &t2 = n2.tangent, &m = at.middle;
     V3<S> e, low, high, to_low, to_high;
     HAPBEAM_UNROLL
@@ -104,8 +105,8 @@ struct RoundRod {
     collect(bends, stretch, p.inverse_length, to);
     const S energy = stretch.energy + (bends[0].energy + bends[1].energy + bends[2].energy);
     if (!p.taut) return energy;
-    const detail::RoundTension<S> tension(p, at, inner.value);
-    tension.add(p.inverse_length, inner, to);
+    const detail::RoundTension<S> tension(p, at, tension_of.value);
+    tension.add(p.inverse_length, tension_of, to);
     return energy + tension.energy();
   }
 

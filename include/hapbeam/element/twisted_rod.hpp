@@ -52,9 +52,9 @@ struct TwistedRod {
   template <typename S>
   using Matrix14 = Eigen::Matrix<S, 14, 14>;
 
-  /// ψ, or N of one that is round and taut.
+  /// ψ of one that is not round, and N of one that is taut.
   template <typename S>
-  using Inner = detail::RodInner<S, unknowns>;
+  using Inner = detail::RodInners<S, unknowns>;
 
   /// V [J].
   template <typename S>
@@ -62,7 +62,7 @@ struct TwistedRod {
                   const Inner<S>& inner) noexcept {
     if (p.round) {
       const detail::EndsAndMiddle<S> at(p, n1, n2);
-      return RoundRod::energy(p, n1, n2, at, inner.value) + Twist<S>(p, n1, n2, at).energy();
+      return RoundRod::energy(p, n1, n2, at, inner.tension.value) + Twist<S>(p, n1, n2, at).energy();
     }
     const Frame<S> f(p, n1, n2);
     S sum = 0;
@@ -72,17 +72,19 @@ struct TwistedRod {
       const S x = S(rule.x[g]);
       const Point<S> point(f, cubics[g]);
       S k[3];
-      point.strains(m * x + 4 * inner.value * x * (1 - x), m + 4 * inner.value * (1 - 2 * x),
+      point.strains(m * x + 4 * inner.twist.value * x * (1 - x), m + 4 * inner.twist.value * (1 - 2 * x),
                     p.inverse_length, k);
       const S e1 = k[0] - at.natural[0], e2 = k[1] - at.natural[1], e3 = k[2] - at.natural[2];
       sum += S(rule.weight[g]) * (at.bending1 * e1 * e1 + at.bending2 * e2 * e2 + at.torsion * e3 * e3);
     }
     S e[3];
     f.stretches(p, e);
+    if (p.taut) e[1] = 0;
     S axial = 0;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) axial += S(detail::quadratic_mass[i][j]) * e[i] * e[j];
-    return p.length * (sum + p.axial * axial) / 2;
+    const S energy = p.length * (sum + p.axial * axial) / 2;
+    return p.taut ? S(energy + Tension<S>(p, {p, n1, n2}, inner.tension.value).energy()) : energy;
   }
 
   /// The director at ξ.   @param twist  ψ
@@ -140,9 +142,9 @@ struct TwistedRod {
     if (p.round) return round_tangent(p, n1, n2, inner, all);
     const Frame<S> f(p, n1, n2);
     detail::TwistedCore<S> core;
-    const S energy = detail::respond(p, f, inner.value, core);
-    detail::expand(f, core, p.inverse_length, inner, all);
-    return energy;
+    const S energy = detail::respond(p, f, inner.twist.value, core);
+    detail::expand(f, core, p.inverse_length, inner.twist, all);
+    return p.taut ? S(energy + add_tension(p, n1, n2, inner.tension, all)) : energy;
   }
 
  private:
@@ -158,12 +160,26 @@ struct TwistedRod {
                                                                 Inner<S>& inner,
                                                                 RodTangent<S, 4>& all) noexcept {
     const detail::EndsAndMiddle<S> at(p, n1, n2);
-    const S energy = RoundRod::respond(p, n1, n2, at, inner, all);
+    const S energy = RoundRod::respond(p, n1, n2, at, inner.tension, all);
     const Twist<S> twist(p, n1, n2, at);
     twist.add(p.inverse_length, all);
     return energy + twist.energy();
   }
 
+  /// Of one that is not round.   @return the energy [J]
+  template <typename S>
+  HAPBEAM_ALIGNED_STACK [[gnu::flatten]] static S add_tension(const RodProperties<S>& p, const RodNode<S>& n1,
+                                                              const RodNode<S>& n2,
+                                                              detail::RodInner<S, 7>& inner,
+                                                              RodTangent<S, 4>& all) noexcept {
+    const detail::EndsAndMiddle<S> at(p, n1, n2);
+    const Tension<S> tension(p, at, inner.value);
+    tension.add(p.inverse_length, inner, all);
+    return tension.energy();
+  }
+
+  template <typename S>
+  using Tension = detail::RoundTension<S>;
   template <typename S>
   using Twist = detail::RoundTwist<S>;
   template <typename S>

@@ -78,7 +78,9 @@ class AllDisplacements {
   }
 
   /// Whether the element at s is too long for the tension that it is under.
-  bool overdrawn(Scalar s) const noexcept { return system_.overdrawn(s); }
+  bool overdrawn(Scalar s, const VectorOf<Scalar, dimension>& normal) const noexcept {
+    return system_.overdrawn(s, normal);
+  }
 
   /// Moves a clamped end of a rod, without a contact.
   template <class Side, class Pose>

@@ -104,7 +104,7 @@ class DynamicModel {
     const Status status = go(dt, hands, count);
     for (int i = 0; i < count && i < contacts; ++i) {
       pushed[i] = contacts_.pushed(i);
-      const bool taut = pushed[i].force != 0 && system_.overdrawn(pushed[i].s);
+      const bool taut = pushed[i].force != 0 && system_.overdrawn(pushed[i].s, pushed[i].normal);
       pushed[i].status = status == Status::ok && taut ? Status::out_of_range : status;
     }
     return status;

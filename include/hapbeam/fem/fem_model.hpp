@@ -189,8 +189,9 @@ class FemModel {
   }
 
   /// Of an answer at s: ok only where the mesh is fine enough for the tension there, too.
-  Status judged(Status status, [[maybe_unused]] Scalar s, bool in_range) const noexcept {
-    if constexpr (dimension == 3) in_range = in_range && !std::get_if<General>(&ways_)->overdrawn(s);
+  Status judged(Status status, [[maybe_unused]] Scalar s,
+                [[maybe_unused]] const VectorOf<Scalar, dimension>& normal, bool in_range) const noexcept {
+    if constexpr (dimension == 3) in_range = in_range && !std::get_if<General>(&ways_)->overdrawn(s, normal);
     return status == Status::ok && !in_range ? Status::out_of_range : status;
   }
 
@@ -250,7 +251,7 @@ template <class Element, typename Scalar, int Elements, int MaxElements, class S
 Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Solver>::solve(
     const Push<Scalar, dimension>& nearest, bool valid, bool in_range) noexcept {
   const Response<Scalar> response = take(ways_, [&](auto& way) { return way.press(nearest, valid); });
-  return finite({response.force, judged(response.status, nearest.s, in_range)});
+  return finite({response.force, judged(response.status, nearest.s, nearest.normal, in_range)});
 }
 
 template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
@@ -260,7 +261,8 @@ auto FemModel<Element, Scalar, Elements, MaxElements, Solver>::push_round(
   const bool valid = is_finite(request) && range_.on_beam(request.s);
   Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid, friction);
   if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;
-  pushed.status = judged(pushed.status, pushed.s, range().nearest({pushed.s, 0}).s == pushed.s);
+  pushed.status =
+      judged(pushed.status, pushed.s, pushed.normal, range().nearest({pushed.s, 0}).s == pushed.s);
   return pushed;
 }
 
@@ -278,7 +280,8 @@ Status FemModel<Element, Scalar, Elements, MaxElements, Solver>::push(Obstacle<S
     auto& pushed = obstacles[i].pushed;
     if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = status = Status::non_finite;
     if (obstacles[i].touching)
-      pushed.status = judged(pushed.status, pushed.s, range().nearest({pushed.s, 0}).s == pushed.s);
+      pushed.status =
+          judged(pushed.status, pushed.s, pushed.normal, range().nearest({pushed.s, 0}).s == pushed.s);
   }
   return status;
 }

@@ -175,7 +175,7 @@ class RodChain {
     Scalar energy = strain, inner = all;
     // Where it is touched, its tension has its equation there.
     if (rows.any() && parts_.taut())
-      detail::each_touched(rows, [&](int e) { inner -= parts_.inner(e).energy(); });
+      detail::each_touched(rows, [&](int e) { inner -= parts_.inner(e).tension.energy(); });
     energy += ends_.visit_springs(
         parts_.nodes(), [&](int i, const Block& K, const Increment& r) { assembler.add_at(i, K, r); });
     if (rows.any()) energy += add_contacts(rows, assembler);
@@ -198,7 +198,7 @@ class RodChain {
     const bool free = !rows.any() && !inertia_;
     Scalar longer = 0;
     if (free) detail::turn_chords(parts_.nodes(), increments_);
-    parts_.advance_inners(increments_, [&](int e) { return parts_.taut() && rows.in(e); });
+    parts_.advance_inners(increments_, [&](int e) { return rows.in(e); });
     if (!free)
       longer = rows.advance(
           [this](int e) {
@@ -207,7 +207,7 @@ class RodChain {
             return both;
           },
           [this](int e, Scalar N) {
-            if (parts_.taut()) parts_.set_inner(e, N);
+            if (parts_.taut()) parts_.set_tension(e, N);
           },
           element_at);
     detail::move_nodes<unknowns == 7>(parts_.nodes(), increments_, !free);
@@ -307,7 +307,7 @@ class RodChain {
     typename Rows::Tangent K;
     (void)touched.condense(r, K, [](int) {});
     // Its tension, which they have changed, was condensed without them.
-    const auto inner = parts_.inner(e);
+    const auto inner = parts_.inner(e).tension;
     if (parts_.taut()) r -= (inner.residual / inner.stiffness) * inner.row;
     return r;
   }

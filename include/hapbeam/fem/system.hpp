@@ -82,9 +82,9 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
 
   /// What changes as the chain moves.
   struct State {
-    explicit State(int elements) : nodes(elements), inner(elements) {}
+    explicit State(int elements) : nodes(elements), inner(Parts::own_unknowns * elements) {}
     typename Parts::Nodes nodes;
-    typename Parts::Inners inner;  ///< unknown of each element: its tension [N], or its twist [rad]
+    typename Parts::Inners inner;  ///< unknowns of each element: its tension [N], or its twist [rad]
   };
 
   /// @param number  of elements   @throws std::invalid_argument as the elements, and where the number does not fit the type
@@ -181,8 +181,8 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     return beside(line, line.segment_at(s), element_at(s), s).place;
   }
   /// Whether the element at s is too long for the tension that it is under.
-  bool overdrawn([[maybe_unused]] Scalar s) const noexcept {
-    if constexpr (dimension == 3) return parts().overdrawn(element_at(s));
+  bool overdrawn([[maybe_unused]] Scalar s, [[maybe_unused]] const Vector& normal) const noexcept {
+    if constexpr (dimension == 3) return parts().overdrawn(element_at(s), s, normal);
     else return false;
   }
   /// Where its middle is: a beam's across alone [m].
@@ -351,7 +351,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   }
   template <class F>
   void each_inner(F&& f) const noexcept {
-    for (int e = 0; Parts::has_inners && e < elements(); ++e) f(e);
+    for (int e = 0; Parts::has_inners && e < Parts::own_unknowns * elements(); ++e) f(e);
   }
   void begin_path() noexcept { chain_.ends().begin_path(nodes()); }
   void look_in(int e) noexcept {

@@ -57,12 +57,12 @@ class PairSide {
   /// Whether there is a fifth.
   bool dragged() const noexcept { return pair->rough() && !pair->held[side]; }
 
-  /// @param p, n1, n2, N  of the element: its nodes, and its tension or its twist   @param tension  of its sides, where that is an unknown
+  /// @param p, n1, n2, own  of the element: its nodes, and what are unknowns of its own   @param tension  of its sides, where that is one
   /// @return ½ F · C F [J]
-  template <class Node>
-  double add(const RodProperties<double>& p, const Node& n1, const Node& n2, double N, PairEquations& dense,
-             Residual& r, Tangent& K, TensionRow<Residual>& tension) noexcept {
-    spot_.look(p, n1, n2, N, pair->s[side] - n1.s);
+  template <class Node, class Inner>
+  double add(const RodProperties<double>& p, const Node& n1, const Node& n2, const Inner& own,
+             PairEquations& dense, Residual& r, Tangent& K, TensionRow<Residual>& tension) noexcept {
+    spot_.look(p, n1, n2, own.tension.value, pair->s[side] - n1.s);
     const RodSpot<double>& spot = spot_;
     const double sign = side == 0 ? 1 : -1, C = spot.g.value;
     const bool rough = pair->rough();
@@ -75,7 +75,7 @@ class PairSide {
       b[4].setZero();
       pull(T, 1, b[4]);
     }
-    const Matrix yields = shape(p, n1, n2, N, spot);
+    const Matrix yields = shape(p, n1, n2, own, spot);
     const Vector yield = yields * F, v = C * yield, rise = spot.g.by(0) * yield;
     const bool even = unknowns < 7 || p.soft[0] == p.soft[1];
     pull(F, 0, r);
@@ -108,7 +108,7 @@ class PairSide {
     dense[here] -= place;
     dense(here, here) -= along_n.dot(spot.k) + spot.g.by(0, 0) * along_n.dot(yield) / 2;
     if (p.taut) {
-      const double soft = RodSpot<double>::stiffer(p);
+      const double soft = p.softest();
       const Vector moved = soft * spot.g.by(1) * yield;
       tension.residual -= F.dot(spot.by_N) + F.dot(moved) / 2;
       tension.stiff -= F.dot(spot.by_N_twice) + soft * soft * spot.g.by(1, 1) * F.dot(yield) / 2;
@@ -125,10 +125,10 @@ class PairSide {
   static RodPoint<double> point(const Parts& parts, int e, double s, const Vector& F) noexcept {
     const RodProperties<double>& p = parts.properties(e);
     const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
-    const double N = parts.inners()[e];
+    const auto own = parts.own(e);
     RodSpot<double> spot;
-    spot.look(p, n1, n2, N, s - n1.s);
-    const Matrix yields = shape(p, n1, n2, N, spot);
+    spot.look(p, n1, n2, own.tension.value, s - n1.s);
+    const Matrix yields = shape(p, n1, n2, own, spot);
     const Vector yield = yields * F;
     Vector t = spot.t + spot.g.by(0) / 2 * yield;
     if (unknowns == 7 && p.soft[0] != p.soft[1]) t += turned_yield(yields, F, spot);
@@ -159,13 +159,14 @@ class PairSide {
     }
   }
   /// What a unit of g yields by, along the axes of the section.
-  template <class Node>
+  template <class Node, class Inner>
   static Matrix shape(const RodProperties<double>& p, const Node& n1, const Node& n2,
-                      [[maybe_unused]] double twist, [[maybe_unused]] const RodSpot<double>& spot) noexcept {
+                      [[maybe_unused]] const Inner& own,
+                      [[maybe_unused]] const RodSpot<double>& spot) noexcept {
     Matrix shape = RodSpot<double>::stiffer(p) * Matrix::Identity();
     if constexpr (unknowns == 7)
       if (p.soft[0] != p.soft[1]) {
-        const Vector d1 = Chain::Element::director(p, n1, n2, twist, spot.x);
+        const Vector d1 = Chain::Element::director(p, n1, n2, own.twist.value, spot.x);
         const Vector softer = p.soft[0] > p.soft[1] ? d1 : cross3(spot.u, d1);
         shape += std::abs(p.soft[0] - p.soft[1]) * softer * softer.transpose();
       }

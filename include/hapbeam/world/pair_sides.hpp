@@ -78,10 +78,10 @@ class PairSides {
     const auto &a = parts.nodes()[e], &b = parts.nodes()[e + 1];
     const RodProperties<double>& p = parts.properties(e);
     const auto inner = parts.inner(e);
-    TensionRow<Residual> tension{inner.row, inner.residual, inner.stiffness};
+    TensionRow<Residual> tension{inner.tension.row, inner.tension.residual, inner.tension.stiffness};
     double energy = 0;
-    each_in(e, [&](Side& side) { energy += side.add(p, a, b, inner.value, *equations_, r, K, tension); });
-    if (p.taut) condense(e, p, a, b, inner, tension, r, K);
+    each_in(e, [&](Side& side) { energy += side.add(p, a, b, inner, *equations_, r, K, tension); });
+    if (p.taut) condense(e, p, a, b, inner.tension, tension, r, K);
     each_in(e, [](Side& side) { side.raw = side.b; });
     return energy;
   }

@@ -124,7 +124,7 @@ class WorldPairs {
   bool overdrawn() const noexcept {
     return std::any_of(pairs_.begin(), pairs_.begin() + number_, [this](const RodPair& pair) {
       const auto is = [&](std::size_t side) {
-        return !rigid(pair.rod[side]) && body(pair.rod[side]).system().overdrawn(pair.s[side]);
+        return !rigid(pair.rod[side]) && body(pair.rod[side]).system().overdrawn(pair.s[side], pair.normal);
       };
       return is(0) || is(1);
     });

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include <hapbeam/element/pack.hpp>
+#include <hapbeam/element/tension_stiffness.hpp>
 #include <hapbeam/rod_centreline.hpp>
 #include <hapbeam/unroll.hpp>
 
@@ -24,7 +25,7 @@ struct RodProperties {
   Scalar soft[2] = {1, 1};    ///< mean of 1/EI against what moves it along d1, and along d2 [1/(N·m²)]
   int number = 3;             ///< of Gauss points: 2 | 3
   bool round = false;         ///< bends alike about all axes, is straight by nature, and has three points
-  bool taut = false;          ///< the same, between ends that may draw it: its tension is an unknown
+  bool taut = false;  ///< is straight by nature, between ends that may draw it: its tension is an unknown
   struct Point {
     Scalar bending1 = 0;            ///< EI against curvature about d1 [N·m²]
     Scalar bending2 = 0;            ///< EI against curvature about d2 [N·m²]
@@ -32,6 +33,11 @@ struct RodProperties {
     Scalar natural[3] = {0, 0, 0};  ///< curvature about d1, about d2, and twist, that cost nothing [1/m]
   } points[3];
   Scalar natural_strain[3] = {0, 0, 0};  ///< ε of the interpolated natural shape at ξ = 0, ½, 1
+
+  [[gnu::always_inline]] Scalar softest() const noexcept {
+    using detail::larger;
+    return larger(soft[0], soft[1]);
+  }
 };
 
 namespace detail {

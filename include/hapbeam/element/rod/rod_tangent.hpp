@@ -62,7 +62,7 @@ struct RodTangent {
 
 namespace detail {
 
-/// The unknown that is an element's own, and how it follows the nodes: its twist ψ [rad], or its tension N [N].
+/// An unknown that is an element's own, and how it follows the nodes: its twist ψ [rad], or its tension N [N].
 template <typename S, int Unknowns>
 struct RodInner {
   using Row = Eigen::Matrix<S, 2 * Unknowns, 1>;
@@ -77,7 +77,17 @@ struct RodInner {
   void advance(const Row& x) noexcept { value -= (residual + row.dot(x)) / stiffness; }
 };
 
-/// The same in full: of an element that has it so alone, and where something is added that is no function of Δ.
+/// Those of an element, which do not depend on each other.
+template <typename S, int Unknowns>
+struct RodInners {
+  RodInner<S, Unknowns> tension;
+};
+template <typename S>
+struct RodInners<S, 7> {
+  RodInner<S, 7> tension, twist;
+};
+
+/// A tangent in full: of an element that has it so alone, and where something is added that is no function of Δ.
 template <typename S, int Unknowns>
 struct FullRodTangent {
   Eigen::Matrix<S, 2 * Unknowns, 1> r;

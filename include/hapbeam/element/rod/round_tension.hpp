@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tension of an element does to its bending, where the section is round: it makes an element exact that is drawn taut.
+// What the tension of an element does to its bending: it makes an element exact that is drawn taut.  EI is that of the softest axis.
 //
 //   Π(d, N) = V(d) + EI/4l ((B - 6 - q/4) |û + v̂|²/m + (A - 2 - q/6) |û - v̂|²) + l N (ε - ē/5) - 2 l N²/5EA,     q = N (1 + N/EA) l²/EI
 //
@@ -34,7 +34,7 @@ class RoundTension {
   [[gnu::always_inline]] RoundTension(const RodProperties<S>& p, const EndsAndMiddle<S>& at,
                                       const S& N) noexcept
       : at_(at) {
-    const S l = p.length, by_q = l * l * p.soft[0], quarter = S(0.25) / (l * p.soft[0]);
+    const S l = p.length, by_q = l * l * p.softest(), quarter = S(0.25) / (l * p.softest());
     const S yields = 1 / p.axial, strain = N * yields, by = 1 + 2 * strain, q = N * (1 + strain) * by_q;
     const TensionStiffness<S> k = tension_stiffness(q);
     const V3 &u = at.v[0], &m = at.v[1], &v = at.v[2];

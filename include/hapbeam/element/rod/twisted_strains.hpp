@@ -21,28 +21,28 @@ template <typename S>
   return point == 0 ? S(0) : sum;
 }
 
-/// Stretch at both ends and in the middle.
+/// Stretch at both ends and in the middle; of what is taut at the ends (round_tension.hpp).
 template <typename S>
 [[gnu::always_inline]] inline void add_stretch(const RodProperties<S>& p, const CarriedFrame<S>& f,
                                                TwistedCore<S>& core, S& energy) noexcept {
   using std::sqrt;
   S e[3], N[3];
   const V3<S> a = f.middle();
-  const S n = sqrt(a.squaredNorm()), i = 1 / n, EA = p.axial * p.length;
+  const S n = sqrt(a.squaredNorm()), i = 1 / n, EA = p.axial * p.length, middle = p.taut ? S(0) : EA;
   e[0] = f.l1 - 1 - p.natural_strain[0];
-  e[1] = n - 1 - p.natural_strain[1];
+  e[1] = p.taut ? S(0) : S(n - 1 - p.natural_strain[1]);
   e[2] = f.l2 - 1 - p.natural_strain[2];
   for (int r = 0; r < 3; ++r) {
     const auto& M = quadratic_mass[r];
-    N[r] = EA * (S(M[0]) * e[0] + S(M[1]) * e[1] + S(M[2]) * e[2]);
+    N[r] = (r == 1 ? middle : EA) * (S(M[0]) * e[0] + S(M[1]) * e[1] + S(M[2]) * e[2]);
     energy += N[r] * e[r] / 2;
   }
   const V3<S> v = a * i;
   const S w = S(1.5), w1 = S(-0.25);
   // By (Δ, |r1'|, r2'): ε at the middle and at node 2.
   const S R[7] = {w * v[0], w * v[1], w * v[2], w1 * v[2], w1 * v[0], w1 * v[1], w1 * v[2]};
-  const S m0 = EA * S(quadratic_mass[0][0]), m1 = EA * S(quadratic_mass[1][1]),
-          c01 = EA * S(quadratic_mass[0][1]), c02 = EA * S(quadratic_mass[0][2]);
+  const S m0 = EA * S(quadratic_mass[0][0]), m1 = middle * S(quadratic_mass[1][1]),
+          c01 = middle * S(quadratic_mass[0][1]), c02 = EA * S(quadratic_mass[0][2]);
   for (int r = 0; r < 7; ++r) core.g[r] = N[1] * R[r];
   core.g[3] += N[0];
   for (int k = 0; k < 3; ++k) core.g[4 + k] += N[2] * f.v[k];

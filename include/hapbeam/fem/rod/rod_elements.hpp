@@ -29,8 +29,11 @@ class RodElements {
   using Scalar = ScalarType;
   using Node = RodNode<Scalar>;
   using Nodes = detail::PerNode<Node, Elements, MaxElements>;
-  using Inners = detail::PerNode<Scalar, Elements, MaxElements>;
   static constexpr int unknowns = Element::unknowns;
+  /// Unknowns of their own: tensions N [N] of all elements, and behind them twists ψ [rad].
+  static constexpr int own_unknowns = unknowns == 7 ? 2 : 1;
+  using Inners = detail::PerNode<Scalar, detail::times(Elements, own_unknowns),
+                                 detail::times(MaxElements, own_unknowns)>;
   static constexpr bool has_inners = true, has_tensions = false;
   using Inner = typename Element::template Inner<Scalar>;
   using Residual = Eigen::Matrix<Scalar, 2 * unknowns, 1>;
@@ -40,7 +43,7 @@ class RodElements {
   /// elements does not fit the type, or the element does not model such a rod
   RodElements(const Rod& rod, int elements)
       : nodes_(elements),
-        inner_(elements),
+        inner_(own_unknowns * elements),
         properties_(elements),
         abreast_(elements),
         natural_(rod),
@@ -60,7 +63,7 @@ class RodElements {
         throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
                                     ": TwistedRod turns about its axis, hold its twist at one end");
     round_ = natural_.straight() && profile_.round() && profile_.smooth();
-    own_ = has_twist && !round_ ? Own::twist : rod.drawn() ? Own::tension : Own::none;
+    own_ = {rod.drawn() && natural_.straight() && profile_.smooth(), has_twist && !round_};
     lay_mesh<Scalar>(rod, rod.forces(), elements, [this](int i, Scalar s) { nodes_[i] = natural_.at(s); });
     for (int e = 0; e < elements; ++e) make(e);
     if (!loads_.empty()) loads_.take(view(nodes_));
@@ -69,26 +72,35 @@ class RodElements {
   int size() const noexcept { return nodes_.size() - 1; }
   Nodes& nodes() noexcept { return nodes_; }
   const Nodes& nodes() const noexcept { return nodes_; }
-  /// Of each element: its twist ψ [rad], or its tension N [N] where that is an unknown.
+  /// Each is 0 where it is no unknown.
   Inners& inners() noexcept { return inner_; }
   const Inners& inners() const noexcept { return inner_; }
   /// Whether elements have a tension of their own.
-  bool taut() const noexcept { return own_ == Own::tension; }
+  bool taut() const noexcept { return own_.tension; }
   /// N (1 + N/EA)/EI, where elements have a tension of their own [1/m²].
   Scalar stiffening(int e) const noexcept {
     const RodProperties<Scalar>& p = properties_[e];
-    return taut() ? inner_[e] * (1 + inner_[e] / p.axial) * p.soft[0] : Scalar(0);
+    return taut() ? inner_[e] * (1 + inner_[e] / p.axial) * p.softest() : Scalar(0);
   }
-  /// Whether an element is drawn so taut that its curve is no cubic any more, N l²/EI above 4, and has no tension of its own: a press
-  /// within it may be off by more than 1 %.
-  bool overdrawn(int e) const noexcept {
-    constexpr Scalar most = 4;
-    if (taut()) return false;
+  /// Whether an element is drawn so taut that its curve is no cubic any more, N l²/EI above 4, and does not know that: it has no tension of its own, or is
+  /// bent about its stiffer axis.  A press within it may be off by more than 1 %.   @param s  of the press [m]   @param normal  along which
+  bool overdrawn(int e, Scalar s, const VectorOf<Scalar, 3>& normal) const noexcept {
+    constexpr Scalar most = 4, aside = Scalar(0.01);
     const RodProperties<Scalar>& p = properties_[e];
-    const detail::EndsAndMiddle<Scalar> at(p, nodes_[e], nodes_[e + 1]);
-    const auto strain = [&](int k) { return at.n[k] - 1 - p.natural_strain[k]; };
-    const Scalar tension = p.axial * (strain(0) + 4 * strain(1) + strain(2)) / 6;
-    return tension * p.length * p.length * (std::max)(p.soft[0], p.soft[1]) > most;
+    if (taut() && p.soft[0] == p.soft[1]) return false;
+    Scalar tension = inner_[e];
+    if (!taut()) {
+      const detail::EndsAndMiddle<Scalar> at(p, nodes_[e], nodes_[e + 1]);
+      const auto strain = [&](int k) { return at.n[k] - 1 - p.natural_strain[k]; };
+      tension = p.axial * (strain(0) + 4 * strain(1) + strain(2)) / 6;
+    }
+    if (!(tension * p.length * p.length * p.softest() > most)) return false;
+    if (!taut()) return true;
+    const Node there = node_within(e, s);
+    const VectorOf<Scalar, 3> u = detail::unit(there.tangent), across = normal - u * u.dot(normal),
+                              stiffer = p.soft[0] > p.soft[1] ? detail::cross3(u, there.director)
+                                                              : VectorOf<Scalar, 3>(there.director);
+    return stiffer.dot(across) * stiffer.dot(across) > aside * across.squaredNorm();
   }
   /// What an element is made of.
   const RodProperties<Scalar>& properties(int e) const noexcept { return properties_[e]; }
@@ -97,57 +109,69 @@ class RodElements {
     return {nodes.data(), nodes.size()};
   }
 
-  /// What is an element's own, and how it follows the nodes since visit_tangents().
+  /// What is an element's own, as it lies.
+  Inner own(int e) const noexcept {
+    Inner own;
+    own.tension.value = inner_[e];
+    if constexpr (has_twist) own.twist.value = inner_[size() + e];
+    return own;
+  }
+  /// The same, and how it follows the nodes since visit_tangents().
   Inner inner(int e) const noexcept {
     const int place = abreast_.order().place(e), lane = place % lanes;
+    Inner inner = own(e);
+    const auto take = [lane](const auto& from, auto& to) {
+      to.residual = from.residual[lane], to.stiffness = from.stiffness[lane];
+      for (int i = 0; i < 2 * unknowns; ++i) to.row[i] = from.row[i][lane];
+    };
     const auto& from = inners_abreast_[place / lanes];
-    Inner inner;
-    inner.value = inner_[e];
-    inner.residual = from.residual[lane];
-    inner.stiffness = from.stiffness[lane];
-    for (int i = 0; i < 2 * unknowns; ++i) inner.row[i] = from.row[i][lane];
+    take(from.tension, inner.tension);
+    if constexpr (has_twist) take(from.twist, inner.twist);
     return inner;
   }
   /// To be called before the nodes move.  @param increments  of all nodes: RodIncrements   @param skip  (e) -> whether it follows otherwise
   template <class Increments, class Skip>
   void advance_inners(const Increments& increments, Skip&& skip) noexcept {
-    for (int first = 0; own_ != Own::none && first < places(); first += lanes) {
+    for (int first = 0; (own_.tension || own_.twist) && first < places(); first += lanes) {
       auto& inner = inners_abreast_[first / lanes];
       Eigen::Matrix<Wide, 2 * unknowns, 1> both;
       increments.of_elements(first, both);
-      inner.advance(both);
+      if (own_.tension) inner.tension.advance(both);
+      if constexpr (has_twist)
+        if (own_.twist) inner.twist.advance(both);
       for_each_lane(first, [&](int e, int lane) {
-        if (!skip(e)) set_inner(e, inner.value[lane]);
+        if (own_.tension && !skip(e)) set_tension(e, inner.tension.value[lane]);
+        if constexpr (has_twist)
+          if (own_.twist) inner_[size() + e] = inner.twist.value[lane];
       });
     }
   }
   /// A step far into compression, which has no bending stiffness left, leads nowhere.
-  void set_inner(int e, Scalar value) noexcept {
-    if (taut()) {
-      const RodProperties<Scalar>& p = properties_[e];
-      value = (std::max)(value, (std::min)(inner_[e], Scalar(0)) -
-                                    largest_push * p.inverse_length * p.inverse_length / p.soft[0]);
-    }
-    inner_[e] = value;
+  void set_tension(int e, Scalar value) noexcept {
+    const RodProperties<Scalar>& p = properties_[e];
+    inner_[e] = (std::max)(value, (std::min)(inner_[e], Scalar(0)) -
+                                      largest_push * p.inverse_length * p.inverse_length / p.softest());
   }
   /// Gives each element the twist with which its middle has a director.   @param director  (s) -> d1 there
   template <class Director>
   void find_twists([[maybe_unused]] Director&& director) noexcept {
     if constexpr (has_twist)
-      for (int e = 0; own_ == Own::twist && e < size(); ++e)
-        inner_[e] = Element::twist_to(properties_[e], nodes_[e], nodes_[e + 1],
-                                      director((nodes_[e].s + nodes_[e + 1].s) / 2));
+      for (int e = 0; own_.twist && e < size(); ++e)
+        inner_[size() + e] = Element::twist_to(properties_[e], nodes_[e], nodes_[e + 1],
+                                               director((nodes_[e].s + nodes_[e + 1].s) / 2));
   }
   /// Twists that belong to the shape, from about there.
   void relax_twists() noexcept {
-    for (int k = 0; own_ == Own::twist && k < most_relaxations; ++k)
-      for (int first = 0; first < places(); first += lanes) {
-        WideInner inner;
-        typename Stiffness::Type unused;
-        (void)compute(first, inner, unused);
-        for_each_lane(first,
-                      [&](int e, int lane) { inner_[e] -= inner.residual[lane] / inner.stiffness[lane]; });
-      }
+    if constexpr (has_twist)
+      for (int k = 0; own_.twist && k < most_relaxations; ++k)
+        for (int first = 0; first < places(); first += lanes) {
+          WideInner inner;
+          typename Stiffness::Type unused;
+          (void)compute(first, inner, unused);
+          for_each_lane(first, [&](int e, int lane) {
+            inner_[size() + e] -= inner.twist.residual[lane] / inner.twist.stiffness[lane];
+          });
+        }
   }
   /// Tensions that belong to the shape.
   void find_tensions() noexcept {
@@ -179,9 +203,9 @@ class RodElements {
       const Wide energy = compute(first, inner, K);
       if (first + lanes <= places() && abreast_.order().element(first) >= 0) {
         strain += energy;
-        own += inner.energy();
+        own += energy_of(inner);
       } else {
-        const Wide of_inner = inner.energy();
+        const Wide of_inner = energy_of(inner);
         for_each_lane(first, [&](int, int lane) { sum.strain += energy[lane], sum.inner += of_inner[lane]; });
       }
       if (loads_.empty() && bed_.empty()) {
@@ -207,7 +231,7 @@ class RodElements {
     // What a contact does to its tension is not in the equation of that.
     if (taut())
       for (int i = 0; i < 2 * unknowns; ++i)
-        r[i] += inner.row[i][lane] * inner.residual[lane] / inner.stiffness[lane];
+        r[i] += inner.tension.row[i][lane] * inner.tension.residual[lane] / inner.tension.stiffness[lane];
     Tangent unused = Tangent::Zero();
     if (!bed_.empty()) (void)bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, unused);
     if (!loads_.empty()) loads_.template subtract<unknowns>(e, lambda, r);
@@ -311,8 +335,11 @@ class RodElements {
   }
 
  private:
-  /// What is an unknown of each element: its twist, unless it is round and straight by nature; else its tension, unless an end lets it go.
-  enum class Own { none, twist, tension };
+  /// What is an unknown of each element: its tension, where ends or joints may draw it taut and it is straight by nature; its twist, unless it is round and
+  /// straight.
+  struct Own {
+    bool tension = false, twist = false;
+  };
   static constexpr bool has_twist = unknowns == 7;
   using Wide = detail::Pack<Scalar>;
   static constexpr int lanes = Wide::size;
@@ -324,14 +351,15 @@ class RodElements {
   void make(int e) noexcept {
     const Scalar from = nodes_[e].s, to = nodes_[e + 1].s;
     RodProperties<Scalar>& p = properties_[e];
-    p.number = own_ == Own::twist ? 2 : 3, p.round = round_, p.taut = taut();
+    p.number = own_.twist ? 2 : 3, p.round = round_, p.taut = taut();
     p.length = to - from;
     p.inverse_length = 1 / p.length;
     profile_.apply(from, to, p);
     if constexpr (has_twist)
       if (!round_) {
-        inner_[e] = Element::twist_to(p, nodes_[e], nodes_[e + 1], natural_.at((from + to) / 2).director);
-        if (!natural_.straight()) Element::take_natural(nodes_[e], nodes_[e + 1], inner_[e], p);
+        Scalar& twist = inner_[size() + e];
+        twist = Element::twist_to(p, nodes_[e], nodes_[e + 1], natural_.at((from + to) / 2).director);
+        if (!natural_.straight()) Element::take_natural(nodes_[e], nodes_[e + 1], twist, p);
       }
     abreast_.take(e, p);
     if (!bed_.empty()) bed_.take(e, from, to, natural_);
@@ -340,16 +368,27 @@ class RodElements {
   /// @param t  ξ
   VectorOf<Scalar, 3> director_within(int e, Scalar t) const noexcept {
     const Node &a = nodes_[e], &b = nodes_[e + 1];
-    if constexpr (has_twist) return Element::director(properties_[e], a, b, inner_[e], t);
+    if constexpr (has_twist) return Element::director(properties_[e], a, b, inner_[size() + e], t);
     else return detail::CarriedFrame<Scalar>(properties_[e], a, b).director(a.director, 0, t);
   }
   int places() const noexcept { return 2 * abreast_.order().pairs(); }
+  /// Of the increments that they make on their own [J].
+  Wide energy_of(const WideInner& inner) const noexcept {
+    Wide sum = own_.tension ? inner.tension.energy() : Wide(0);
+    if constexpr (has_twist)
+      if (own_.twist) sum += inner.twist.energy();
+    return sum;
+  }
   /// @param first  of the places of elements   @param inner, a, b  out: what is their own, and their nodes
   [[gnu::always_inline]] void gather(int first, WideInner& inner, RodNode<Wide>& a,
                                      RodNode<Wide>& b) const noexcept {
     const auto& order = abreast_.order();
-    if (own_ != Own::none)
-      inner.value = detail::gather(abreast_.elements(first), [&](int e) { return inner_[e]; });
+    if (own_.tension)
+      inner.tension.value = detail::gather(abreast_.elements(first), [&](int e) { return inner_[e]; });
+    if constexpr (has_twist)
+      if (own_.twist)
+        inner.twist.value =
+            detail::gather(abreast_.elements(first), [&](int e) { return inner_[size() + e]; });
     // The nodes of these places and of the pair behind them are those of both ends.
     detail::Abreast<Scalar> of;
     order.nodes_from(first, of.of);
@@ -424,7 +463,7 @@ class RodElements {
       inners_abreast_;
   detail::RodSurface<Scalar> surface_;
   bool round_ = false;  // section, and straight by nature
-  Own own_ = Own::none;
+  Own own_;
 };
 
 }  // namespace hapbeam

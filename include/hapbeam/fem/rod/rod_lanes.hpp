@@ -152,7 +152,7 @@ class RodAbreast {
       to.number = from.number, to.round = from.round, to.taut = from.taut;
       set(to.length, from.length), set(to.inverse_length, from.inverse_length);
       set(to.axial, from.axial), set(to.torsion, from.torsion);
-      set(to.soft[0], from.soft[0]);
+      set(to.soft[0], from.soft[0]), set(to.soft[1], from.soft[1]);
       for (int i = 0; i < 3; ++i) {
         auto& point = to.points[i];
         set(point.bending1, from.points[i].bending1), set(point.bending2, from.points[i].bending2);

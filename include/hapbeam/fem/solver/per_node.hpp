@@ -14,6 +14,11 @@
 
 namespace hapbeam::detail {
 
+/// So many times a number of elements, which may be Eigen::Dynamic.
+constexpr int times(int elements, int factor) noexcept {
+  return elements == Eigen::Dynamic ? elements : factor * elements;
+}
+
 /// @tparam Elements     number of elements, or Eigen::Dynamic
 /// @tparam MaxElements  the largest number of elements, or Eigen::Dynamic
 template <typename T, int Elements, int MaxElements>
