@@ -30,7 +30,7 @@ template <class Element, class Body, class Press>
 double first_mode(const Body& body, Press&& press) {
   constexpr int elements = 32, places = 8 * elements, D = dimension_of<Element>;
   using Shape = Eigen::Matrix<double, D, places + 1>;
-  const double step = body.length() / places, small = body.thickness() / 100;
+  const double step = body.length() / places, tiny = body.thickness() / 100;
   Eigen::Matrix<double, 1, places + 1> mass;  // at each place [kg]
   for (int i = 0; i <= places; ++i)
     mass[i] = body.mass_per_length(i * step) * step * (i % places == 0 ? 0.5 : 1);
@@ -46,12 +46,12 @@ double first_mode(const Body& body, Press&& press) {
   };
   FemModel<Element> model(body, elements);
   const Shape rest = lies(model);
-  const auto response = press(model, small);
+  const auto response = press(model, tiny);
   if (!is_answer(response.status)) return 0;
   Shape mode = lies(model) - rest;
-  double square = std::abs(response.force) * small / product(mode, mode);
+  double square = std::abs(response.force) * tiny / product(mode, mode);
   for (int k = 0; k < 8; ++k) {
-    mode *= small / mode.colwise().norm().maxCoeff();
+    mode *= tiny / mode.colwise().norm().maxCoeff();
     Body pulled = body;
     add_load(pulled, [&](double s) {
       return VectorOf<double, D>(square * body.mass_per_length(s) * mode.col(std::lround(s / step)));
