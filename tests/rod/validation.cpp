@@ -90,7 +90,7 @@ TEST_CASE("ends, sections and foundations that make no sense are rejected by nam
         "support place2 = -2 N/m: must be 0 (free), positive, or infinity (held)");
   CHECK(rejection([&] { RodSupport::elastic(1, 1, 1, INFINITY, 0, 0); }) ==
         "support turn2 = 0 N·m/rad: must be held where turn1 is, and only there");
-  CHECK(rejection([&] { Rod(1, round, spring_steel, RodSupport::sliding, RodSupport::free); }) ==
+  CHECK(rejection([&] { Rod(1, round, spring_steel, RodSupport::sliding, RodSupport::free).check_held(); }) ==
         "supports = sliding, free: the rod is a mechanism, it slides along its axis; hold that at one end");
   CHECK(rejection([&] {
           wire().sections({{0.1, round}, {0.15, round}});

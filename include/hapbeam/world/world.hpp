@@ -64,8 +64,8 @@ class World {
   ///         nowhere all rods begin anew at rest.
   Status tick() noexcept {
     const bool moving = begin();
-    // A fall goes on to where ends and bodies have come.
-    double t = 0, step = course_ == Course::falls ? 0 : step_, farthest = 1;
+    // A fall goes on to where ends and bodies have come; one that has found nothing there, to where they go.
+    double t = 0, step = course_ == Course::falls && unmoved_ < 2 ? 0 : step_, farthest = 1;
     Outcome outcome = Outcome::settled;
     while (t < 1 && moving) {
       const double to = (std::min)(t + step, 1.0);
