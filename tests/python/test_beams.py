@@ -33,7 +33,8 @@ def test_sections_have_the_areas_of_geometry():
      "section inner_diameter = 0.02 m: must be less than outer_diameter"),
     (lambda: cantilever().add(0.5), "point load s = 0.5 m: must be on the beam, 0 to its length"),
     (lambda: hb.FemModel(hb.Rod(1, hb.RodSection.circle(0.001), hb.RodMaterial(1e9, 1e9),
-                                hb.RodSupport.free, hb.RodSupport.hinged), 8),
+                                hb.RodSupport.free, hb.RodSupport.hinged), 8,
+                            hb.Element.RoundRod),
      "supports = free, hinged: the rod is a mechanism, hold the direction of one end or the place"
      " of both"),
     (lambda: hb.RodMaterial.isotropic(1e9, 0.7),
