@@ -58,7 +58,7 @@ TEST_CASE("what makes no sense of a rod is rejected by name", "[rod]") {
           Rod(1, RodStiffness{1, 1, -2, 1}, 0.1, c, f);
         }) == "bending2 stiffness = -2 N·m²: must be positive and finite");
   CHECK(
-      rejection([&] { Rod(1, round, spring_steel, h, f); }) ==
+      rejection([&] { Rod(1, round, spring_steel, h, f).check_held(); }) ==
       "supports = hinged, free: the rod is a mechanism, hold the direction of one end or the place of both");
   CHECK(rejection([&] { RodSection::rectangle(0.01, 0); }) ==
         "section height = 0 m: must be positive and finite");
