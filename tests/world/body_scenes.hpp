@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rod/rods.hpp"
+#include "support/catch.hpp"
 #include <hapbeam/world/world.hpp>
 
 namespace hapbeam::testing {
@@ -50,6 +51,17 @@ struct Scene {
   RigidBody (*body)(const Motion&);
   Point start, end;
 };
+
+/// That all of it may be turned and moved by.
+inline const Motion elsewhere{detail::unit(Point(1, -2, 0.5)), 2.1, {0.3, -0.2, 0.1}};
+
+/// That what is felt in a scene is what is felt in it moved, turned back.
+inline void check_same(const Scene& scene, const std::vector<Point>& one, const std::vector<Point>& other) {
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    INFO(scene.name << ": " << one[k].transpose() << ", moved: " << other[k].transpose());
+    CHECK((one[k] - other[k]).norm() < 1e-11 * one[k].norm());
+  }
+}
 
 inline const Point start_along = detail::unit(Point(1, 0, 0.01));
 inline const std::vector<Scene> scenes{
