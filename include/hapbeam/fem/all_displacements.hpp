@@ -77,7 +77,7 @@ class AllDisplacements {
     return drawn(pushes_.push(*this, all, count, range));
   }
 
-  /// Whether the element at s is too long for the tension that it is under.
+  /// Whether the element at s is too long for the tension that it is under, to one who presses along a normal.  @param s  [m]
   bool overdrawn(Scalar s, const VectorOf<Scalar, dimension>& normal) const noexcept {
     return system_.overdrawn(s, normal);
   }

@@ -180,7 +180,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     const Line line = drawn();
     return beside(line, line.segment_at(s), element_at(s), s).place;
   }
-  /// Whether the element at s is too long for the tension that it is under.
+  /// Whether the element at s is too long for the tension that it is under, to one who presses along a normal.  @param s  [m]
   bool overdrawn([[maybe_unused]] Scalar s, [[maybe_unused]] const Vector& normal) const noexcept {
     if constexpr (dimension == 3) return parts().overdrawn(element_at(s), s, normal);
     else return false;

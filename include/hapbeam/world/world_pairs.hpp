@@ -120,7 +120,7 @@ class WorldPairs {
   void remove(int k) noexcept {
     for (--number_; k < number_; ++k) pairs_[at(k)] = pairs_[at(k + 1)];
   }
-  /// Whether a rod that has no tension of its own is drawn so taut where it touches that its cubics may be off by 1 %.
+  /// Whether a rod is drawn so taut where it touches that its cubics may be off by 1 %: it has no tension of its own, or touches on its stiffer side.
   bool overdrawn() const noexcept {
     return std::any_of(pairs_.begin(), pairs_.begin() + number_, [this](const RodPair& pair) {
       const auto is = [&](std::size_t side) {
