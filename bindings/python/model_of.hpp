@@ -18,7 +18,10 @@ template <class Model, class Base>
 class ModelOf : public Base {
  protected:
   static constexpr int D = dimension_of<Model>;
-  static constexpr bool several = takes_obstacles<Model>;
+  static constexpr bool several = [] {
+    if constexpr (takes_push<Model>) return Model::contacts > 1;
+    else return false;
+  }();
 
  public:
   template <class... Args>

@@ -13,19 +13,16 @@
 //   m.thickness()        Scalar [m]             noexcept; what contact adds on either side of the centreline
 //   m.reset()            void                   noexcept; back to the shape that the beam has untouched
 //
-// A model of finite rotation may offer two more, which contact then calls instead of press() and reset():
+// A model of finite rotation says at how many places it may be touched, `static constexpr int contacts`, and offers two more, which contact then
+// calls instead of press() and reset():
 //
-//   m.push(c)            Pushed<Scalar>         of a Circle<Scalar>; promises as press()
+//   m.push(o, n)         Status                 of n Obstacle<Scalar, dimension>, in and out; promises as press()
 //   m.release()          Status                 noexcept, bounded; without contact the beam goes from its present shape to
 //                                               equilibrium.  That may be another equilibrium than before (snapped),
 //                                               and may take several calls (iteration_limit)
 //
 // A model in space has `static constexpr int dimension = 3`. It has no press(). Its shape() is a Centreline<Scalar, 3>.
-// Its push() takes a Push<Scalar, 3>, or a Capsule<Scalar> for contact, and then returns a Pushed<Scalar, 3>.
-//
-// A model that several bodies may touch at once says at how many places, `static constexpr int contacts`, and offers one more:
-//
-//   m.push(o, n)         Status                 of n Obstacle<Scalar, dimension>, in and out; promises as press()
+// Its push() takes a Push<Scalar, 3>, too.
 //
 // A model with mass has no press(). It goes on by a time, with a hand that holds an avatar by its coupling:
 //
@@ -299,19 +296,12 @@ struct IsForceModel<M, std::void_t<typename M::Scalar>> {
       decltype(rest<M>(0))::value;
 };
 
-/// The circle or capsule by which M can be pushed: the model finds the point of contact.
-template <typename M>
-using PushOf = typename RoundOf<typename M::Scalar, dimension_of<M>>::Type;
-
 /// Whether Call<M> names a type: std::enable_if_t of noexcept calls that M offers.
 template <template <typename> class Call, typename M, typename = void>
 inline constexpr bool offers = false;
 template <template <typename> class Call, typename M>
 inline constexpr bool offers<Call, M, std::void_t<Call<M>>> = true;
 
-template <typename M>
-using PushRound = std::enable_if_t<noexcept(std::declval<M&>().release())&& noexcept(
-    std::declval<M&>().push(std::declval<const PushOf<M>&>()))>;
 template <typename M>
 using PushObstacles = std::enable_if_t<noexcept(std::declval<M&>().release())&& noexcept(
     std::declval<M&>().push(std::declval<Obstacle<typename M::Scalar, dimension_of<M>>*>(), 0))>;
@@ -333,13 +323,9 @@ CentrelinePart<typename M::Scalar> part_of(const M& model, typename M::Scalar s0
   else return part_of(model.shape(), s0, s1);
 }
 
-/// True where M can be pushed along any direction, noexcept included.
+/// True where bodies can push M along any direction, noexcept included; M::contacts says how many at once.
 template <typename M>
-inline constexpr bool takes_push = detail::offers<detail::PushRound, M>;
-
-/// True where M can be pushed by several bodies at once, noexcept included; M::contacts says by how many.
-template <typename M>
-inline constexpr bool takes_obstacles = detail::offers<detail::PushObstacles, M>;
+inline constexpr bool takes_push = detail::offers<detail::PushObstacles, M>;
 
 /// True where M has mass, noexcept included.
 template <typename M>

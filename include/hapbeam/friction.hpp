@@ -4,10 +4,7 @@
 // The avatar does not turn.  Slip is how far it has gone along the surface of the beam beyond the point of the beam that it touches; a
 // round avatar that rolls on the beam does not slip.  Friction acts at the centreline.
 //
-// A model of finite rotation or in space may offer a push with friction, which contact then takes where there is friction:
-//
-//   m.push(c, friction)  Pushed<Scalar, D>      of a Circle or a Capsule; promises as push(c).  The FrictionState says what was touched in the
-//                                               tick before, and comes back as it is in this one; without an answer friction begins anew.
+// An Obstacle (force_model.hpp) takes it to a push, and brings it back as it is then.  Without an answer friction begins anew.
 //
 // A plain value.  No allocation, noexcept, O(1).
 #pragma once
@@ -88,17 +85,5 @@ struct FrictionState {
     skin.setZero(), force.setZero();
   }
 };
-
-namespace detail {
-
-template <typename M>
-using PushRough = std::enable_if_t<noexcept(std::declval<M&>().push(
-    std::declval<const PushOf<M>&>(), std::declval<FrictionState<typename M::Scalar, dimension_of<M>>&>()))>;
-
-}  // namespace detail
-
-/// True where M can be pushed with friction, noexcept included.
-template <typename M>
-inline constexpr bool takes_friction = detail::offers<detail::PushRough, M>;
 
 }  // namespace hapbeam

@@ -97,7 +97,7 @@ void check_friction(Make make, Scalar radius) {
   using Vector = Vector2<Scalar>;
   const Friction friction(0.5, 0.3);
   Model model = make();
-  if constexpr (!takes_friction<Model>) {
+  if constexpr (!takes_push<Model>) {
     CHECK_THROWS_AS(Touch<Model>(model, radius, friction), std::invalid_argument);
   } else {
     Model smooth = make(), smoother = make();

@@ -5,6 +5,7 @@
 #include "support/arch.hpp"
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/push_round.hpp"
 #include "support/random.hpp"
 #include "support/ruler.hpp"
 #include "support/status.hpp"
@@ -30,12 +31,14 @@ TEST_CASE("the contact does not depend on where it is sought", "[push]") {
     const auto from = [&](double s) {
       model.reset();
       Pushed<double> pushed{};
+      PushRound push(model);
       for (int tick = 1; tick <= 20; ++tick)  // down to there
-        pushed = model.push(Circle<double>{s, {0.2, 0.0055 - depth * tick / 20}, 0.0055, 1});
+        pushed = push({s, {0.2, 0.0055 - depth * tick / 20}, 0.0055, 1});
       return pushed;
     };
     Pushed<double> exact = from(0.2);
-    for (int k = 0; k < 3; ++k) exact = model.push(Circle<double>{exact.s, centre, 0.0055, 1});
+    PushRound push(model);
+    for (int k = 0; k < 3; ++k) exact = push({exact.s, centre, 0.0055, 1});
     REQUIRE(exact.status == Status::ok);
     CHECK((centre - exact.point).norm() == Approx(0.0055).epsilon(1e-9));
     for (const double away : {-0.01, -1e-3, -4e-5, 4e-5, 1e-3, 0.01}) {

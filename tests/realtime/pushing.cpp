@@ -92,7 +92,7 @@ TEMPLATE_TEST_CASE("Touch on beams of any rotation: no heap, pressed, slipping o
 TEMPLATE_TEST_CASE("Touch with friction: noexcept, no heap, whatever the hand does", "[friction]",
                    (FemModel<Corotational<>, double>), (FemModel<Corotational<>, float>)) {
   using S = typename TestType::Scalar;
-  STATIC_REQUIRE(takes_friction<TestType>);
+  STATIC_REQUIRE(takes_push<TestType>);
   STATIC_REQUIRE(noexcept(std::declval<Touch<TestType>&>().tick(std::declval<const Vector2<S>&>())));
   int sliding = 0, sticking = 0;
   for (const auto& [name, beam] : beams()) {

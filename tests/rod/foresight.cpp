@@ -1,6 +1,7 @@
 // A hand that goes on finds a rod where it was foreseen: fewer linear solves, the same force.
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
+#include "support/push_round.hpp"
 #include <hapbeam/contact/touch.hpp>
 
 using namespace hapbeam;
@@ -32,7 +33,7 @@ void check_stroke(const Rod& rod) {
     // The same press, from rest.
     other.reset();
     const auto pressed =
-        other.push(Capsule<double>{felt.contact.s, {hand(k, top), Point(0, 0, 0)}, top, felt.contact.normal});
+        PushRound(other)({felt.contact.s, {hand(k, top), Point(0, 0, 0)}, top, felt.contact.normal});
     REQUIRE(pressed.status == Status::ok);
     CHECK(felt.force.norm() == Approx(-pressed.force).epsilon(5e-6));
   }

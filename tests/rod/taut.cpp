@@ -6,6 +6,7 @@
 
 #include "rod/touching.hpp"
 #include "support/catch.hpp"
+#include "support/push_round.hpp"
 #include "support/random.hpp"
 #include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/element/corotational.hpp>
@@ -276,12 +277,13 @@ TEST_CASE("a flat strip between clamps is followed wherever a bar presses it", "
       const Rod strip(length, RodSection::rectangle(width, 0.0005), spring_steel, RodSupport::clamped,
                       RodSupport::clamped);
       FemModel<TwistedRod> model(strip, 8);
+      PushRound push(model);
       const Point aside = strip.left_pose().director, flat = detail::cross3<double>(Point(1, 0, 0), aside);
       int lost = 0;
       double force = 0;
       for (int k = 0; k <= 300; ++k) {
         const Point tip = Point(s, 0, 0) - 0.05 * aside + (radius - 0.004 * k / 300) * flat;
-        const auto pushed = model.push(Capsule<double>{s, {tip, 0.1 * aside}, radius, flat});
+        const auto pushed = push({s, {tip, 0.1 * aside}, radius, flat});
         lost += !is_answer(pushed.status) || !(pushed.force <= force + 1e-9);
         force = pushed.force;
       }

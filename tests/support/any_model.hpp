@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/friction.hpp>
 
 namespace hapbeam::testing {
 
@@ -33,7 +34,7 @@ class AnyModel {
   struct Holder {
     virtual ~Holder() = default;
     virtual Response<Scalar> press(const Press<Scalar>&) noexcept = 0;
-    virtual Pushed<Scalar> push(const Circle<Scalar>&) noexcept = 0;
+    virtual Status push(Obstacle<Scalar>*, int) noexcept = 0;
     virtual Centreline<Scalar> shape() const noexcept = 0;
     virtual Range<Scalar> range() const noexcept = 0;
     virtual Scalar thickness() const noexcept = 0;
@@ -45,9 +46,9 @@ class AnyModel {
   struct Held final : Holder {
     explicit Held(Model&& moved) : model(std::move(moved)) {}
     Response<Scalar> press(const Press<Scalar>& press) noexcept override { return model.press(press); }
-    Pushed<Scalar> push([[maybe_unused]] const Circle<Scalar>& circle) noexcept override {
-      if constexpr (takes_push<Model>) return model.push(circle);
-      else return {0, Status::invalid_request};
+    Status push([[maybe_unused]] Obstacle<Scalar>* all, [[maybe_unused]] int count) noexcept override {
+      if constexpr (takes_push<Model>) return model.push(all, count);
+      else return Status::invalid_request;
     }
     Centreline<Scalar> shape() const noexcept override { return model.shape(); }
     Range<Scalar> range() const noexcept override { return model.range(); }
@@ -66,11 +67,13 @@ class AnyModel {
 template <typename Scalar>
 class AnyPushedModel : public AnyModel<Scalar> {
  public:
+  static constexpr int contacts = 1;
+
   template <class Model, std::enable_if_t<!std::is_base_of_v<AnyModel<Scalar>, Model>, int> = 0>
   explicit AnyPushedModel(Model model) : AnyModel<Scalar>(std::move(model)) {
     static_assert(takes_push<Model>);
   }
-  Pushed<Scalar> push(const Circle<Scalar>& circle) noexcept { return this->held_->push(circle); }
+  Status push(Obstacle<Scalar>* all, int count) noexcept { return this->held_->push(all, count); }
   Status release() noexcept { return this->held_->release(); }
 };
 

@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/push_round.hpp"
 #include "support/status.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
@@ -22,10 +23,11 @@ template <class Element>
 double pressed_strip(int elements) {
   const Beam strip(0.4, Section::rectangle(0.01, 0.0003), Material{200e9}, Support::pinned, Support::clamped);
   FemModel<Element> model(strip, elements);
+  PushRound push(model);
   double s = 0.13, force = 0;
   for (int k = 1; k <= 70; ++k) {
     const double depth = 1e-4 * std::min(k, 60);
-    const Pushed<double> pushed = model.push(Circle<double>{s, {0.13, 0.005 - depth}, 0.005, 1});
+    const Pushed<double> pushed = push({s, {0.13, 0.005 - depth}, 0.005, 1});
     REQUIRE(is_answer(pushed.status));
     s = pushed.s, force = -pushed.force;
   }

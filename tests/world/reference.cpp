@@ -5,6 +5,7 @@
 #include "crossed.hpp"
 #include "support/catch.hpp"
 #include "support/csv.hpp"
+#include "support/push_round.hpp"
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -78,6 +79,7 @@ double against_capsule(const Rod& wire, int elements, const Point& down, double 
   tool.place_left(pose(0));
   World<Element> world({{wire, elements}, {tool, 2}});
   FemModel<Element> model(wire, elements);
+  PushRound push(model);
   Capsule<double> capsule;
   capsule.reach = 2 * radius, capsule.normal = -down, capsule.s = s;
   capsule.axis.way = 0.2 * wire.length() * across;
@@ -86,7 +88,7 @@ double against_capsule(const Rod& wire, int elements, const Point& down, double 
     REQUIRE(world.hold(1, RodSide::left, pose(k * depth / 20)) == Status::ok);
     REQUIRE(world.tick() == Status::ok);
     capsule.axis.tip = place(k * depth / 20) - capsule.axis.way / 2;
-    pushed = model.push(capsule);
+    pushed = push(capsule);
     REQUIRE(is_answer(pushed.status));
   }
   REQUIRE(world.contacts() == 1);

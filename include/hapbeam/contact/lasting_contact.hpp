@@ -37,7 +37,8 @@ struct LastingContact {
   static constexpr bool planar = dimension == 2;
   using Avatar = hapbeam::Avatar<Scalar, dimension>;
   using Contact = hapbeam::Contact<Scalar, dimension>;
-  using Round = PushOf<Model>;
+  using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
+  using Round = decltype(Obstacle::round);
 
   /// Of the length: an end that holds w has not slid.
   static constexpr Scalar still = Scalar(1e-6);
@@ -47,6 +48,7 @@ struct LastingContact {
   ContactMemory<Scalar, dimension> memory;
   PlaceContact<Scalar, dimension> place;
   FrictionState<Scalar, dimension> friction;
+  Obstacle obstacle;  // as the model is asked, and has answered
 
   bool rough() const noexcept { return friction.sticking > 0; }
   void take(const Friction& coefficients) noexcept {
@@ -107,7 +109,10 @@ struct LastingContact {
     const Scalar reach = avatar.radius + model.thickness() / 2;
     choose(model, contact, avatar, reach, before);
     if constexpr (takes_push<Model>)
-      if (mode == Mode::pushed) return push(model, contact, avatar, reach, asked);
+      if (mode == Mode::pushed) {
+        if (before != mode) obstacle = {};
+        return push(model, contact, avatar, reach, asked);
+      }
     if (mode == Mode::support && place.slid(contact, model, still))
       return {Hold::slipped, 0, Status::out_of_range};
     Push<Scalar, dimension> at{0, 0, VectorOf<Scalar, dimension>::Zero()};
@@ -141,25 +146,21 @@ struct LastingContact {
                     Press<Scalar>& asked) noexcept {
     // No beam goes along with a hand farther than it is long.
     if (contact.depth > reach + model.shape().length()) return {Hold::lost, 0, Status::iteration_limit};
-    const auto request = round(avatar, contact.s, reach, contact);
-    const auto pushed = [&] {
-      if constexpr (takes_friction<Model>)
-        if (rough()) return model.push(request, friction);
-      return model.push(request);
-    }();
+    obstacle.round = round(avatar, contact.s, reach, contact);
+    obstacle.valid = obstacle.touching = true;
+    obstacle.friction = rough() ? &friction : nullptr;
+    Status status = model.push(&obstacle, 1);
+    const auto& pushed = obstacle.pushed;
+    if (status == Status::ok) status = pushed.status;
     asked = {pushed.s, planar ? pushed.point[1] : pushed.normal.dot(pushed.point)};
-    const bool answer = is_answer(pushed.status);
-    // What pulls on the way to the contact may press there.
-    if (pushed.force > 0 || (answer && pushed.force == 0))
-      return {answer ? Hold::released : Hold::lost, 0, pushed.status};
+    if (!obstacle.touching) return {Hold::released, 0, status};
     // Pushed along itself an end has no place on the circle any more: it slips off.
-    if (pushed.status == Status::iteration_limit && pushed.past_end) return {Hold::lost, 0, pushed.status};
+    if (status == Status::iteration_limit && pushed.past_end) return {Hold::lost, 0, status};
     contact.s = pushed.s;
     contact.foot = pushed.point;
     contact.normal = pushed.normal;
     contact.point = pushed.point + pushed.normal * (model.thickness() / 2);
     contact.past_end = pushed.past_end;
-    Status status = pushed.status;
     if (status == Status::ok && rough() && !friction.settled) status = Status::iteration_limit;
     if (status == Status::ok && !pushed.past_end && pinched(model.shape(), pushed.s, avatar, reach))
       status = Status::out_of_range;

@@ -42,7 +42,7 @@ class PlaceContact {
   /// |F| / least_normal.  A shape that has turned over, of a model far beyond its range, counts as upright: its normal never
   /// points to the other side.
   static constexpr Scalar least_normal = Scalar(0.5);
-  /// Of the length.  So near to the end a thin avatar bends the beam more sharply than the mesh of several contacts can show.
+  /// Of the length.  So near to the end a thin avatar bends the beam more sharply than a mesh can show.
   static constexpr Scalar beside = Scalar(3e-3);
 
   /// A touch begins.   @param model  before it is touched
@@ -62,14 +62,10 @@ class PlaceContact {
     if (contact.past_end && std::isfinite(contact.s > 0 ? range.right_support : range.left_support))
       return Mode::support;
     // Beside a rigid end, which no push moves, the beam is pressed across, and that ends with its range.
-    constexpr bool pushed = takes_push<Model> || takes_obstacles<Model>;
-    if (!pushed || (before == Mode::across && contact.depth > reach)) return Mode::across;
+    if (!takes_push<Model> || (before == Mode::across && contact.depth > reach)) return Mode::across;
     const Centreline<Scalar> line = model.shape();
-    Scalar around = reach;
-    if constexpr (takes_obstacles<Model>) {
-      around = (std::max)(reach, beside * line.length());
-      if (range.nearest({contact.s, 0}).s != contact.s) return Mode::across;
-    }
+    if (range.nearest({contact.s, 0}).s != contact.s) return Mode::across;
+    const Scalar around = (std::max)(reach, beside * line.length());
     const auto within = [&](const CentrelineNode<Scalar>& end, Scalar support) {
       return std::isfinite(support) && avatar.way_from({end.s + end.u, end.w}).norm() < around;
     };

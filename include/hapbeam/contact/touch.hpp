@@ -64,7 +64,7 @@ class Touch {
     detail::check_radius("avatar_radius", static_cast<double>(avatar_radius),
                          static_cast<double>(model.shape().length()));
     friction.check();
-    if (!takes_friction<Model> && !friction.none())
+    if (!takes_push<Model> && !friction.none())
       detail::reject("friction", friction.sticking, "",
                      "0 for a model that is pressed across the beam: see docs/contact.md");
     at_.take(friction);
@@ -97,7 +97,7 @@ class Touch {
 
   [[nodiscard]] bool pressing() const noexcept { return at_.mode > Mode::inside; }
   /// Whether there is friction.
-  [[nodiscard]] bool rough() const noexcept { return takes_friction<Model> && at_.rough(); }
+  [[nodiscard]] bool rough() const noexcept { return takes_push<Model> && at_.rough(); }
   /// Where there is friction, the avatar's skin yields along the surface: a hand that cannot render what is stiffer.  From then on.
   /// @param stiffness  [N/m] positive   @param damping  [N/m] of a damper, N·s/m over the time of a tick
   void soften(Scalar stiffness, Scalar damping) noexcept { at_.soften(stiffness, damping); }

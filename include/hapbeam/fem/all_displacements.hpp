@@ -39,7 +39,6 @@ class AllDisplacements {
   using Scalar = ScalarType;
   using Body = typename detail::SystemOf<Element>::Body;
   static constexpr int dimension = dimension_of<Element>;
-  using Round = typename detail::RoundOf<Scalar, dimension>::Type;
 
   /// Finds the shape at rest.
   /// @throws std::invalid_argument as BeamSystem, and where the scalar cannot tell so many elements apart
@@ -60,17 +59,8 @@ class AllDisplacements {
     return place_.push(*this, request);
   }
 
-  /// Lays the beam on a circle, a rod on a capsule.   @param range  says where a node can be   @param valid  whether there is a request
-  /// @return as press()
-  /// @param friction  of its touch, null: without friction
-  Pushed<Scalar, dimension> push(const Round& request, const PressRange<Scalar>& range, bool valid,
-                                 FrictionState<Scalar, dimension>* friction) noexcept {
-    if (!begins(valid)) return {0, report_.status};
-    place_.forget();
-    return drawn(pushes_.push(*this, request, range, friction));
-  }
-
-  /// Lays it on several.  @param all  in and out   @return the status that is common to all of them
+  /// Lays the beam on circles, a rod on capsules.  @param all  in and out   @param range  says where they can touch
+  /// @return the status that is common to all of them
   Status push(Obstacle<Scalar, dimension>* all, int count, const PressRange<Scalar>& range) noexcept {
     if (!begins(true)) return report_.status;
     place_.forget();

@@ -50,7 +50,6 @@ class FemModel {
   using Scalar = ScalarType;
   using Body = typename Of::Body;  ///< Beam, or Rod in space
   static constexpr int dimension = dimension_of<Element>;
-  using Round = typename detail::RoundOf<Scalar, dimension>::Type;  ///< Circle, or Capsule in space
   using ElementType = Element;
   /// At how many places it may be touched at once.
   static constexpr int contacts = contacts_of<Element>;
@@ -100,25 +99,12 @@ class FemModel {
     return solve({s, request.d, request.normal}, valid, s == request.s);
   }
 
-  /// Lays the centreline on a circle that touches it beside request.s, in space on a capsule: the point of contact and the
-  /// equilibrium are found together.  out_of_range: they touch nearer to a support than range() says, or a rod that
-  /// has no tension of its own is drawn so taut there that its cubics may be off by more than 1 %.
-  /// @return as press()
+  /// Lays the centreline on circles, in space capsules: which of them touch, where, and the equilibrium are found together.  Each pushes or does
+  /// not touch; none pulls.  That of a model of Several<Element, Contacts> has so many, any other one.
+  /// @param obstacles  in and out: count of them
+  /// @return ok | snapped | iteration_limit | singular | non_finite; each obstacle has a status of its own, too: out_of_range where it touches nearer
+  ///         to a support than range() says, or a rod that has no tension of its own is drawn so taut there that its cubics may be off by more than 1 %
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
-  Pushed<Scalar, dimension> push(const Round& request) noexcept {
-    return push_round(request, nullptr);
-  }
-  /// The same with friction.  @param friction  of the touch: friction.hpp
-  template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
-  Pushed<Scalar, dimension> push(const Round& request, FrictionState<Scalar, dimension>& friction) noexcept {
-    return push_round(request, &friction);
-  }
-
-  /// Lays the centreline on several circles, in space capsules, of a model of Several<Element, Contacts>: which of them touch, where, and the
-  /// equilibrium are found together.  Each pushes or does not touch; none pulls.
-  /// @param obstacles  in and out: count of them, at most Contacts
-  /// @return ok | snapped | iteration_limit | singular | non_finite; each obstacle has a status of its own, too
-  template <class E = Element, std::enable_if_t<(contacts_of<E> > 1), int> = 0>
   Status push(Obstacle<Scalar, dimension>* obstacles, int count) noexcept;
 
   Centreline<Scalar, dimension> shape() const noexcept {
@@ -225,9 +211,6 @@ class FemModel {
     const Response<Scalar> across = solve({s, d, {0, 1}}, valid && std::isfinite(d), s == request.s);
     return finite({across.force / n_w, across.status});
   }
-  template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
-  Pushed<Scalar, dimension> push_round(const Round& request,
-                                       FrictionState<Scalar, dimension>* friction) noexcept;
   static Response<Scalar> finite(const Response<Scalar>& response) noexcept {
     return std::isfinite(response.force) ? response : Response<Scalar>{0, Status::non_finite};
   }
@@ -256,18 +239,6 @@ Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Solver>::solve
 
 template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
 template <class E, std::enable_if_t<any_rotation<E>, int>>
-auto FemModel<Element, Scalar, Elements, MaxElements, Solver>::push_round(
-    const Round& request, FrictionState<Scalar, dimension>* friction) noexcept -> Pushed<Scalar, dimension> {
-  const bool valid = is_finite(request) && range_.on_beam(request.s);
-  Pushed<Scalar, dimension> pushed = std::get_if<General>(&ways_)->push(request, range_, valid, friction);
-  if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = Status::non_finite;
-  pushed.status =
-      judged(pushed.status, pushed.s, pushed.normal, range().nearest({pushed.s, 0}).s == pushed.s);
-  return pushed;
-}
-
-template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
-template <class E, std::enable_if_t<(contacts_of<E> > 1), int>>
 Status FemModel<Element, Scalar, Elements, MaxElements, Solver>::push(Obstacle<Scalar, dimension>* obstacles,
                                                                       int count) noexcept {
   if (count < 0 || count > contacts_of<Element>) return Status::invalid_request;

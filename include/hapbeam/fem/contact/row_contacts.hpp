@@ -51,27 +51,35 @@ class RowContacts {
   Slot& slot(int i) noexcept { return slots_[of(i)]; }
   static constexpr std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
 
-  /// To be called where a push begins.  @param all  in: where they are and whether they touched   @param holds  whether they pull, too
+  /// To be called where a push begins.  @param all  in: where they are and whether they touched
   template <class Extent>
-  void begin(const System& system, Obstacle* all, int count, const Extent& range, bool holds) noexcept {
-    all_ = all, count_ = count, holds_ = holds;
+  void begin(const System& system, Obstacle* all, int count, const Extent& range) noexcept {
+    all_ = all, count_ = count;
     const auto where = range.range();
     least_ = (std::max)(where.s_min, Scalar(0)), most_ = (std::min)(where.s_max, range.length());
     for (int i = 0; i < count; ++i) {
       const bool round = all[i].kind == ObstacleKind::round;
       // What had no answer at an end that has been pushed past it slips off.
-      const bool off = round && !holds && all[i].pushed.past_end && !is_answer(all[i].pushed.status);
+      const bool off = round && all[i].pushed.past_end && !is_answer(all[i].pushed.status);
       all[i].touching = all[i].valid && !off && (all[i].touching || all[i].kind == ObstacleKind::support);
       Slot& now = slot(i);
       if (!all[i].touching) static_cast<State&>(now) = {};
       now.force = force_of(all[i]);
       now.sharp = round && now.force != 0 && now.sharp;
       const bool was_held = now.sharp && now.held;
+      // One that jumps touches where it is nearest now: the way along the beam from where it was is long.
+      const bool lasts = round && now.force != 0 && (now.sharp || !now.held) &&
+                         jumped(i, all[i].round) <= all[i].round.reach;
       now.moves = true, now.crowded = off, now.held = now.let_go = false, now.goal = -1;
       if (!round) now.s = std::clamp(all[i].place.s, Scalar(0), range.length()), now.moves = false;
       else if (was_held) hold(system, i);
-      else this->place(system, i, all[i].round.s);
+      else this->place(system, i, lasts ? now.s : all[i].round.s);
     }
+  }
+  /// Whether one that touched does so elsewhere now, which begins anew.
+  bool elsewhere(const System& system, const Obstacle& obstacle) const noexcept {
+    return obstacle.kind == ObstacleKind::round && obstacle.touching &&
+           std::abs(obstacle.round.s - obstacle.pushed.s) > obstacle.round.reach + system.length() / 10;
   }
   /// λ of an obstacle by what it was pushed with.
   static Scalar force_of(const Obstacle& obstacle) noexcept {
@@ -129,7 +137,6 @@ class RowContacts {
     const Vector& at = slot(i).place;
     return std::sqrt((RoundContact{round}.centre(at) - centre_before(i, at)).squaredNorm());
   }
-  bool held_beside_support(int i) noexcept { return slot(i).held && !slot(i).sharp; }
   /// Where it is, along the normal that the beam has there.
   void hold_along(const System& system, int i, Scalar there) noexcept {
     const RoundContact round{all_[i].round};
@@ -207,7 +214,7 @@ class RowContacts {
   /// What the equilibrium says of all of them, after take().   @return whether there has to be another one
   template <class Extent, class Friction>
   bool review(System& system, const Extent& range, Friction& friction) noexcept {
-    if (!holds_ && any_pulls()) return true;
+    if (any_pulls()) return true;
     bool again = false;
     for (int i = 0; i < count_; ++i) {
       Slot& now = slot(i);
@@ -216,7 +223,7 @@ class RowContacts {
       const Contact& found = system.rows()[now.goal];
       if (!now.moves && !now.held && outward(all_[i].round, found) < 0) now.moves = again = true;
     }
-    if (again || holds_) return again;
+    if (again) return true;
     if (slip_off(system, range)) return true;
     // What is seen of it is asked for by all but the bodies that touch.
     const auto touches = [](const Obstacle& obstacle) {
@@ -280,7 +287,7 @@ class RowContacts {
     const Scalar nothing =
         std::numeric_limits<Scalar>::epsilon() * system.unit() * system.unit() / system.length();
     if (!all_[i].touching || std::abs(pushed.force) < nothing ||
-        (pushed.force > 0 && !holds_ && all_[i].kind != ObstacleKind::support))
+        (pushed.force > 0 && all_[i].kind != ObstacleKind::support))
       pushed.force = 0;
     if (all_[i].kind == ObstacleKind::round) return;
     const auto node = RoundContact::node_at(system.drawn(), slot(i).s);
@@ -432,7 +439,6 @@ class RowContacts {
     return RoundContact{before_[of(i)]}.centre(at);
   }
 
-  bool holds_ = false;
   Scalar least_ = 0, most_ = 0;
   std::array<Slot, most> slots_{};
   std::array<Round, most> before_{};  // in the push before

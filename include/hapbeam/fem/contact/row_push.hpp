@@ -69,7 +69,7 @@ class RowPush : private RowContacts<Element, System> {
   /// To be called where something else moves the beam.
   void forget() noexcept {
     foresight_.reset();
-    alone_.pushed.force = 0, last_count_ = 0;
+    last_count_ = 0;
     this->forget_pieces();
     forget_shape();
   }
@@ -86,40 +86,21 @@ class RowPush : private RowContacts<Element, System> {
     return status == Status::ok && before.fell(way.system_.total_potential()) ? Status::snapped : status;
   }
 
-  /// One circle, which pulls, too.   @param friction  null: none
-  template <class Way, class Extent>
-  Pushed<Scalar, dimension> push(Way& way, const Round& request, const Extent& range,
-                                 FrictionState* friction) noexcept {
-    const bool beside = std::abs(request.s - alone_.pushed.s) <= request.reach + way.system_.length() / 10;
-    // One that jumps touches where it is nearest to the beam now: the way along the beam from where it was is long.
-    const bool touches = beside && alone_.pushed.force != 0, jumps = this->jumped(0, request) > request.reach;
-    const Scalar s =
-        touches && !jumps && !this->held_beside_support(0)
-            ? slot(0).s
-            : Base::foot(way.system_, request, touches ? slot(0).s : request.s, way.system_.length() / 10);
-    if (!beside) continuation_.forget();
-    if (!beside || alone_.pushed.force == 0) alone_.pushed = {}, alone_.pushed.s = s;
-    alone_.round = request;
-    alone_.round.s = s;
-    alone_.valid = alone_.touching = true;
-    alone_.friction = friction;
-    push(way, &alone_, 1, range, true);
-    const Pushed<Scalar, dimension> pushed = alone_.pushed;
-    if (!is_answer(pushed.status)) alone_.pushed.force = 0;
-    return pushed;
-  }
-
   /// @param way  AllDisplacements, which settles the system   @param range  says where they can touch
-  /// @param all  in: where they are and whether they touched;  out: whether they touch, and their forces   @param holds  whether they pull, too
+  /// @param all  in: where they are and whether they touched;  out: whether they touch, and their forces
   /// @return the worst Status of those that touch | iteration_limit where the passes have ended before the changes
   template <class Way, class Extent>
-  Status push(Way& way, Obstacle* all, int count, const Extent& range, bool holds = false) noexcept {
+  Status push(Way& way, Obstacle* all, int count, const Extent& range) noexcept {
     System& system = way.system_;
     let_go_.known = false;
-    // A straight beam that is pressed across has one shape for each press.
-    if (holds && way.single_valued_) {
+    for (int i = 0; i < count; ++i) {
+      if (!is_answer(all[i].pushed.status)) all[i].pushed.force = 0;
+      if (this->elsewhere(system, all[i])) all[i].pushed = {0, Status::ok}, continuation_.forget();
+    }
+    // A straight beam that one body presses has one shape for each press.
+    if (count == 1 && way.single_valued_) {
       continuation_.forget();
-      return answer(way, all, count, range, holds);
+      return answer(way, all, count, range);
     }
     struct Answer {
       Status status;
@@ -137,22 +118,16 @@ class RowPush : private RowContacts<Element, System> {
       }
       before.work = work_, before.balance = balance_, before.force = system.linear_reaction();
       before.potential = continuation_.potential(), before.known = continuation_.known();
-      return Answer{answer(way, all, count, range, holds)};
-    };
-    const auto begins_to_pull = [&] {
-      return holds && !(all[0].pushed.force < 0) && !(before.pushed[0].force > 0);
+      return Answer{answer(way, all, count, range)};
     };
     const auto judge = [&](const Answer&) {
       if (!began_ || work_.strange()) return Branch::same;
-      // What begins to pull is let go by who touches it, and ends there.  A hand that has not drawn back feels why on a shorter way.
-      if (begins_to_pull()) return work_.ahead() > 0 ? Branch::unsure : Branch::same;
       return continuation_.judge(
           {potential_, work_.done() - taken_, work_.size(), work_.change(), system.strain(), system.length(),
            work_.way(), rough, dimension == 3 && work_.turned()},
           [&] { return farthest(system.view(foresight_.before()), system.centreline()); });
     };
     const auto keep = [&](const Answer& found) {
-      if (is_answer(found.status) && begins_to_pull()) let_go_ = lets_go(system);
       if (is_answer(found.status) && work_.any()) continuation_.know(potential_);
       else continuation_.forget();
     };
@@ -172,9 +147,7 @@ class RowPush : private RowContacts<Element, System> {
       back();
       way.descend();
     };
-    const Status status = continuation_.follow(go, judge, keep, back, fall).status;
-    if (holds && status != Status::ok) all[0].pushed.status = status;
-    return status;
+    return continuation_.follow(go, judge, keep, back, fall).status;
   }
 
  private:
@@ -191,13 +164,12 @@ class RowPush : private RowContacts<Element, System> {
   };
 
   template <class Way, class Extent>
-  Status answer(Way& way, Obstacle* all, int count, const Extent& range, bool holds) noexcept {
+  Status answer(Way& way, Obstacle* all, int count, const Extent& range) noexcept {
     System& system = way.system_;
-    this->begin(system, all, count, range, holds);
+    this->begin(system, all, count, range);
     const bool goes_on = look_ahead(system);
-    if (!holds)
-      for (int i = 0; i < count; ++i)
-        if (all[i].touching && !(all[i].pushed.force < 0) && this->beside_a_touch(i)) all[i].touching = false;
+    for (int i = 0; i < count; ++i)
+      if (all[i].touching && !(all[i].pushed.force < 0) && this->beside_a_touch(i)) all[i].touching = false;
     Friction friction(system, all, count, count == 1);
     if (foresight_.forth()) friction.go_on();
     began_ = false;
@@ -214,7 +186,7 @@ class RowPush : private RowContacts<Element, System> {
       this->take(system);
       if (!this->review(system, range, friction)) break;
       if (pass == most_passes) {
-        if (!holds) status = Status::iteration_limit;
+        status = Status::iteration_limit;
         break;
       }
     }
@@ -390,7 +362,6 @@ class RowPush : private RowContacts<Element, System> {
   int last_count_ = 0;
   std::array<bool, most> touched_{};
   std::array<ObstacleKind, most> kind_{};
-  Obstacle alone_{};  // the one circle of a push by one
   Work work_, from_;
   Before before_;
   std::array<Round, most> to_{};
