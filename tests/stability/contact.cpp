@@ -114,6 +114,7 @@ TEST_CASE("without a memory a point passes a ruler at 1.1 m/s; with one it is he
       for (double y = 0.02 + step * phase / 10; y > -0.02; y -= step) {
         const TouchResult<double> result = touch.tick({0.15, y});
         CAPTURE(speed, phase, y, result.force.y());
+        if (std::abs(y - reach) < 1e-12) continue;  // round-off says whether they touch
         CHECK(result.pressing == (y < reach));
         if (result.pressing) CHECK(result.force.y() > 0);
       }

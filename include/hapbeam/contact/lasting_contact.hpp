@@ -153,7 +153,7 @@ struct LastingContact {
     const auto& pushed = obstacle.pushed;
     if (status == Status::ok) status = pushed.status;
     asked = {pushed.s, planar ? pushed.point[1] : pushed.normal.dot(pushed.point)};
-    if (!obstacle.touching) return {Hold::released, 0, status};
+    if (!obstacle.touching || (is_answer(status) && pushed.force == 0)) return {Hold::released, 0, status};
     // Pushed along itself an end has no place on the circle any more: it slips off.
     if (status == Status::iteration_limit && pushed.past_end) return {Hold::lost, 0, status};
     contact.s = pushed.s;
