@@ -89,25 +89,6 @@ function default_in(model, scene) {
 }
 
 # Of reduced_press.csv.
-function press_row(model, what, shown,  k) {
-  for (k = 1; k <= rows; ++k)
-    if (cell[k, "path"] == "press" && cell[k, "model"] == model && cell[k, "what"] == what)
-      line(shown, digits(cell[k, "p50_us"]), percent(cell[k, "force_error_median"]), percent(cell[k, "force_error_max"]), \
-        cell[k, "pod_ms"] == "" ? "–" : digits(cell[k, "snapshots_ms"] + cell[k, "pod_ms"]))
-}
-function presses(  k, models, titles, n) {
-  line("pressed at mid-span, 0 to 50 mm", "tick, µs", "force error, median", "largest", "training, ms")
-  rule(5)
-  n = split("pod_1 galerkin_1 pod_2 galerkin_2", models, " ")
-  split("PodModel, 14;GalerkinModel, 14;PodModel, 16 × 12;GalerkinModel, 16 × 12", titles, ";")
-  for (k = 1; k <= n; ++k) {
-    press_row(models[k], "force", titles[k] ", force")
-    press_row(models[k], "shape", titles[k] ", force and shape")
-  }
-  press_row("fem", "8", "FemModel, 8 elements")
-  press_row("fem", "64", "FemModel, 64 elements")
-  press_row("fem", "1024", "FemModel, 1024 elements")
-}
 function trained_row(model, what, shown, deeper,  k) {
   for (k = 1; k <= rows; ++k)
     if (cell[k, "path"] == "slide" && cell[k, "model"] == model && cell[k, "what"] == what)
@@ -134,16 +115,6 @@ function solvers(  k, n, s, e, solver, text) {
         found[s, cell[k, "elements"]] = digits(cell[k, "solve_ns"] / 1e3)
     if ((s, 64) in found) line(text[s], found[s, 16], found[s, 64], found[s, 256], found[s, 1024])
   }
-}
-
-# Of any_rotation.csv.
-function rotation(  k, text) {
-  line("finite rotation, 16 elements", "a tick", "times moderate rotation", "error")
-  rule(4)
-  for (k = 1; k <= rows; ++k)
-    if (cell[k, "elements"] == 16 && cell[k, "model"] == "corotational")
-      line(cell[k, "scene"] ", `Corotational<>`", \
-        digits(cell[k, "p50_us"]) " µs", digits(cell[k, "ratio"]), percent(cell[k, "force_error"]))
 }
 
 # Of rod_ticks.csv.
@@ -199,51 +170,6 @@ function stability(  k, n, s, text, where, least, most, runs, rest, slow, own, o
     s = where[k]
     line(text[s], least[s] " to " most[s] " N", runs[s], rest[s], slow[s], own[s], off[s])
   }
-}
-
-# Of stability_friction.csv, where each coefficient has a row of hands with a spring and one of hands without: all coefficients together.
-function rough(  k, n, s, where, least, most, with, rest, without, still, off, slow) {
-  for (k = 1; k < rows; k += 2) {
-    s = cell[k, "scene"]
-    if (!(s in with)) { where[++n] = s; least[s] = most[s] = cell[k, "sticking"] }
-    if (cell[k, "sticking"] + 0 < least[s] + 0) least[s] = cell[k, "sticking"]
-    if (cell[k, "sticking"] + 0 > most[s] + 0) most[s] = cell[k, "sticking"]
-    with[s] += cell[k, "combinations"]; rest[s] += cell[k, "at_rest"]
-    without[s] += cell[k + 1, "combinations"]; still[s] += cell[k + 1, "at_rest"]
-    off[s] += cell[k + 1, "slides_off"]; slow[s] += cell[k + 1, "slow"]
-  }
-  line("leans on", "coefficients", "hands with a spring", "at rest", "without one", "at rest", "slides off", "slower, or in this loop alone")
-  rule(8)
-  for (k = 1; k <= n; ++k) {
-    s = where[k]
-    line(s, least[s] " to " most[s], with[s], rest[s], without[s], still[s], off[s], slow[s])
-  }
-}
-
-# Of turning_sweep.csv: all rods together.
-function turning(  k, by, friction, factor, key, ways, frictions, factors, f, w, n, all, moves, gives, off, row, text) {
-  text["tip"] = "the tip of a stylus"; text["shaft"] = "its shaft"; text["grip"] = "a hand that holds its end"
-  text["none"] = "none"; text["some"] = "0.5 or 5 mN·m"
-  for (k = 1; k <= rows; ++k) {
-    by = cell[k, "touched_by"]; friction = cell[k, "gimbal_friction"]
-    factor = cell[k, "stiffness_factor"] "," cell[k, "damping_factor"]
-    key = by SUBSEP friction SUBSEP factor
-    all[by, friction, factor] += cell[k, "combinations"]; moves[key] += cell[k, "moves"]
-    gives[key] += cell[k, "gives_energy"]; off[key] += cell[k, "slips_off"]
-  }
-  line("touched by", "friction of the gimbal", "runs each", "× 1", "× 4", "× 8", "K_r × 8, no B_r")
-  rule(7)
-  split("tip shaft grip", ways, " "); split("none some", frictions, " "); n = split("1,1 4,4 8,8 8,0", factors, " ")
-  for (w = 1; w <= 3; ++w)
-    for (f = 1; f <= 2; ++f) {
-      for (k = 1; k <= n; ++k) {
-        key = ways[w] SUBSEP frictions[f] SUBSEP factors[k]
-        row[k] = (moves[key] ? moves[key] " swing" : "") (moves[key] && gives[key] ? ", " : "") \
-          (gives[key] ? gives[key] " give energy" : "") (off[key] ? (moves[key] || gives[key] ? ", " : "") off[key] " slip off" : "")
-        if (row[k] == "") row[k] = "–"
-      }
-      line(text[ways[w]], text[frictions[f]], all[ways[w], frictions[f], factors[1]], row[1], row[2], row[3], row[4])
-    }
 }
 
 function most_beams(  k, most) {
@@ -347,11 +273,11 @@ function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, e
   line("a choice, time of the processor", sprintf("%.1f s in the mean, %.0f s at most", mean / 1e3, slowest / 1e3))
 }
 
-# A tick with each combination of flags, but for -DNDEBUG, beside other models: a row for each, a column for each compiler and model.
+# A tick with each combination of flags of g++, but for -DNDEBUG, beside other models: a row for each, a column for each model.
 function flags(  k, c, f, title, text) {
   for (k = 1; k <= rows; ++k) {
-    if (cell[k, "flags"] ~ /NDEBUG/ || cell[k, "model"] !~ / beside others$/) continue
-    title = cell[k, "compiler"] ", `" cell[k, "model"] "`"
+    if (cell[k, "compiler"] != "g++" || cell[k, "flags"] ~ /NDEBUG/ || cell[k, "model"] !~ / beside others$/) continue
+    title = "`" cell[k, "model"] "`"
     sub(/ beside others`/, "`", title)
     if (!(title in seen)) { seen[title] = 1; column[++c] = title }
     if (!(cell[k, "flags"] in known)) { known[cell[k, "flags"]] = 1; row[++f] = cell[k, "flags"] }
@@ -370,8 +296,8 @@ function flags(  k, c, f, title, text) {
 
 # What a file costs the compiler, dearest first: the README's programs or the headers that programs name most.
 function compile_times(programs,  k, j, n, order, t, shown) {
-  shown = "^hapbeam/(hapbeam|fem/fem_model|fem/rod_system|contact/touch|haptics/servo/servo_loop|haptics/device/virtual_phantom|" \
-    "haptics/hdapi/hdapi|rom/trained/pod_model|rom/file/model_file|rom/training/train|scene/choose|scene/choose_rod)\\.hpp$"
+  shown = "^hapbeam/(hapbeam|fem/fem_model|fem/rod_system|contact/touch|haptics/servo/servo_loop|rom/trained/pod_model|" \
+    "rom/file/model_file|rom/training/train|scene/choose)\\.hpp$"
   for (k = 1; k <= rows; ++k)
     if (cell[k, "file"] ~ (programs ? "^README" : shown)) order[++n] = k
   for (k = 2; k <= n; ++k)
@@ -406,15 +332,11 @@ END {
   if (table == "machine") print head "."
   else if (table == "scenes") scenes()
   else if (table == "fronts") fronts()
-  else if (table == "press") presses()
   else if (table == "trained") trained()
   else if (table == "solvers") solvers()
-  else if (table == "rotation") rotation()
   else if (table == "rod_ticks") rod_ticks()
   else if (table == "limits") limits()
   else if (table == "stability") stability()
-  else if (table == "rough") rough()
-  else if (table == "turning") turning()
   else if (table == "hostile") hostile()
   else if (table == "many") many()
   else if (table == "chosen") chosen()
