@@ -314,17 +314,15 @@ function compile_times(programs,  k, j, n, order, t, shown) {
 }
 
 # The rooms of include/hapbeam, from the ground up.
-function rooms_of_headers(  k, where, from, holds) {
-  line("room", "headers", "includes", "holds")
-  rule(4)
+function rooms_of_headers(  k, where, holds) {
+  line("room", "headers", "holds")
+  rule(3)
   for (k = 1; k <= rows; ++k) {
     where = cell[k, "headers"]
     gsub(/ /, "`, `", where)
-    from = cell[k, "may include"]
-    gsub(/ /, ", ", from)
     holds = cell[k, "holds"]
     gsub(/;/, ",", holds)
-    line(cell[k, "room"], "`" where "`", from == "" ? "none" : from, holds)
+    line(cell[k, "room"], "`" where "`", holds)
   }
 }
 
