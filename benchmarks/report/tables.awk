@@ -224,20 +224,6 @@ function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst
   line("longest choice", sprintf("%.0f ms", slowest))
 }
 
-# Of hostile_hands.csv: of each way to touch the beam or rod that has most ticks without an answer.
-function hostile(  k, n, by, kinds, share, most, wrong) {
-  for (k = 1; k <= rows; ++k) {
-    by = cell[k, "touched_by"]
-    if (!(by in share)) { kinds[++n] = by; share[by] = most[by] = wrong[by] = 0 }
-    if (cell[k, "unanswered"] / cell[k, "ticks"] > share[by]) share[by] = cell[k, "unanswered"] / cell[k, "ticks"]
-    if (cell[k, "most_in_a_row"] + 0 > most[by]) most[by] = cell[k, "most_in_a_row"] + 0
-    wrong[by] += cell[k, "not_finite"] + cell[k, "pulls"] + cell[k, "beyond_the_cone"]
-  }
-  line("touched by", "ticks without an answer", "most in a row", "forces that are wrong")
-  rule(4)
-  for (k = 1; k <= n; ++k) line(kinds[k], percent(share[kinds[k]]), most[kinds[k]], wrong[kinds[k]])
-}
-
 # Of chooser_rods.csv.
 function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, error, worst, missed, unanswered, more, most, slowest, mean, text, own, best) {
   n = split("straight loaded bent curled", kind, " ")
@@ -335,7 +321,6 @@ END {
   else if (table == "rod_ticks") rod_ticks()
   else if (table == "limits") limits()
   else if (table == "stability") stability()
-  else if (table == "hostile") hostile()
   else if (table == "many") many()
   else if (table == "chosen") chosen()
   else if (table == "chosen_rods") chosen_rods()
