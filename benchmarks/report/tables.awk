@@ -135,37 +135,18 @@ function at(k, part) {
   return sprintf("%.3g°, %.2g L, " (cell[k, "press_" part] + 0 < 99.5 ? "%.2g" : "%.0f") " h", cell[k, "slope_" part], \
     cell[k, "deflection_" part], cell[k, "press_" part])
 }
-function limits(  i, k, ends, at_1, at_5, at_10, linear, best) {
+function limits(  i, k, ends, at_1, at_10, linear, best) {
   split("pinned-pinned clamped-clamped pinned-roller clamped-free", ends, " ")
-  line("ends", "`Linear`, 1 %", "`VonKarman`, 1 %", "5 %", "10 %", "`Corotational`, at the deepest")
-  rule(6)
+  line("ends", "`Linear`, 1 %", "`VonKarman`, 1 %", "10 %", "`Corotational`, at the deepest")
+  rule(5)
   for (i = 1; i <= 4; ++i) {
     for (k = 1; k <= rows; ++k) {
       if (cell[k, "ends"] != ends[i] || cell[k, "section"] != "thick") continue
       if (cell[k, "element"] == "linear") linear = at(k, 1)
-      if (cell[k, "element"] == "von_karman") { at_1 = at(k, 1); at_5 = at(k, 5); at_10 = at(k, 10) }
+      if (cell[k, "element"] == "von_karman") { at_1 = at(k, 1); at_10 = at(k, 10) }
       if (cell[k, "element"] == "corotational") best = sprintf("%.1g at %g L", cell[k, "error_at_deepest"], cell[k, "deepest"])
     }
-    line(ends[i], linear, at_1, at_5, at_10, best)
-  }
-}
-
-# Of stability_sweep.csv: all pushes of a scene together.
-function stability(  k, n, s, text, where, least, most, runs, rest, slow, own, off) {
-  text["bar_tenth"] = "bar, a tenth of the span"; text["bar_middle"] = "bar, mid-span"
-  text["strip_middle"] = "strip 500 × 20 × 0.5 mm, mid-span"; text["ruler_tip"] = "ruler 300 × 30 × 1 mm, clamped, tip"
-  for (k = 1; k <= rows; ++k) {
-    s = cell[k, "scene"]
-    if (!(s in runs)) { where[++n] = s; least[s] = cell[k, "push_N"] }
-    most[s] = cell[k, "push_N"]
-    runs[s] += cell[k, "combinations"]; rest[s] += cell[k, "at_rest"]; slow[s] += cell[k, "slow"]
-    own[s] += cell[k, "slow_as_the_arm_itself"]; off[s] += cell[k, "slides_off"] + cell[k, "lost"]
-  }
-  line("pressed", "push", "runs", "at rest within 0.5 s", "slower", "slower, as the arm itself", "slides off")
-  rule(7)
-  for (k = 1; k <= n; ++k) {
-    s = where[k]
-    line(text[s], least[s] " to " most[s] " N", runs[s], rest[s], slow[s], own[s], off[s])
+    line(ends[i], linear, at_1, at_10, best)
   }
 }
 
@@ -317,7 +298,6 @@ END {
   else if (table == "solvers") solvers()
   else if (table == "rod_ticks") rod_ticks()
   else if (table == "limits") limits()
-  else if (table == "stability") stability()
   else if (table == "many") many()
   else if (table == "chosen") chosen()
   else if (table == "chosen_rods") chosen_rods()
