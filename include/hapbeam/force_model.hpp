@@ -32,8 +32,7 @@
 //   m.step(dt, h)        Pushed<Scalar>         of a Coupled<Scalar>; promises as press(); dt [s]; in space as push()
 //   m.energy()           with sum() [J]         noexcept; of motion, strain and loads
 //
-// A model whose shape costs more than its force may offer a part of the shape. A lasting contact reads no more than
-// that:
+// A model whose shape costs more than its force may offer a part of the shape, for a lasting contact:
 //
 //   m.part(s0, s1)       CentrelinePart<Scalar> noexcept; the pieces of shape() that hold arc positions s0 to s1, both
 //                                               pieces of a node at either; valid until the next call
@@ -41,10 +40,7 @@
 // Cost of shape() and part(): FemModel has its nodes from the press, O(1) and O(log n). Trained models have the two
 // pieces beside the contact from it, and compute all others on demand, O(modes (grid + nodes)).
 // After a press with ok a centreline of moderate rotation does not turn back: x = s + u increases along it.
-//
-// The bound on the work is a number that the model states. FemModel solves at most solver.max_solves (48) linear
-// systems a press, push or release. It then returns iteration_limit with the force of the last equilibrium, and
-// continues in the next call.
+// A model states the bound on its work: FemModel solves at most solver.max_solves (48) linear systems a call.
 //
 // No allocation, no exception, no dependency but the standard library.
 #pragma once
@@ -199,7 +195,7 @@ enum class ObstacleKind : std::int8_t {
   support,  ///< one place of the beam is so far along a direction: it is pushed and pulled
 };
 
-/// One of several bodies beside a beam that may touch it, and what becomes of it in a push.
+/// One of several bodies that may touch a beam, and its contact in a push.
 template <typename Scalar, int D = 2>
 struct Obstacle {
   ObstacleKind kind = ObstacleKind::round;
@@ -232,7 +228,7 @@ struct HeldEnd {
   Status status;
 };
 
-/// Of a damper beside the springs of an end: which part of their stiffness stands for it, B/T, where they are those of ticks of length T.
+/// A damper beside the springs of an end: B/T as a part of their stiffness, with ticks of length T.
 struct HoldDamper {
   double place = 0, turning = 0;  ///< 0 to 1, 1 excluded; 0: none
   double period = 1;              ///< T [s]

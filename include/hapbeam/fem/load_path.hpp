@@ -2,13 +2,11 @@
 // The branch of equilibria that a beam follows while its loads rise and its ends are moved, from nothing to their full size.
 //
 // Newton's method under the full load finds an equilibrium, but not always that of the branch: a cantilever under PL²/EI = 15
-// may end with its tip turned the other way round.  So each step along the path has to show that it has stayed on the branch.
-// Its first increment is the predictor, the others are corrections.  A correction may turn no node by more than half of what
-// the one before turned any, nor by more than a quarter of a radian; else the step is taken back and cut.  A path without
-// bend is one step, however far it goes: a beam that hardly turns, a cantilever that a moment rolls up.
+// may end with its tip turned the other way round.  So a correction after the predictor may turn no node by more than half of what
+// the one before turned any, nor by more than a quarter of a radian; else the step is taken back and cut.
 //
-// Where the branch ends or gives way, the beam falls to a stable shape just beyond, and the path goes on from there.  It has
-// snapped if that shape is another under the load before, too: a column that has buckled goes back.
+// Where the branch ends, the beam falls to a stable shape just beyond, and the path goes on from there.  It has snapped if that shape
+// is another under the load before, too: a column that has buckled goes back.
 //
 //   expression of a system, beyond those of Descent
 //   -----------------------   ------------------------------------------------------------------------
@@ -127,8 +125,8 @@ struct LoadPath {
     return lost;
   }
 
-  /// The last tangent is that of the state before the last increment.  Where it has a negative pivot, or that increment was the
-  /// whole step, a second look decides.
+  /// The last tangent is that of the state before the last increment.  Where it has a negative pivot, or that increment was the whole step,
+  /// the tangent is assembled anew.
   template <class System>
   static bool stable(System& system, int& solves, int corrections) noexcept {
     if (corrections > 0 && system.negative_pivots() == 0) return true;
