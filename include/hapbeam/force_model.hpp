@@ -104,8 +104,7 @@ constexpr const char* name(Status status) noexcept {
 template <typename Scalar>
 struct Press {
   Scalar s;  ///< [m] arc position along the undeformed beam, 0 at the left end
-  Scalar
-      d;  ///< [m] displacement w(s), from the x axis, along which the unloaded straight beam lies; either sign
+  Scalar d;  ///< [m] displacement w(s) from the x axis; either sign
 };
 
 /// A frictionless plane that the centreline touches at one point: there its displacement along n is d, and the force
@@ -114,7 +113,7 @@ struct Press {
 template <typename Scalar, int D = 2>
 struct Push {
   Scalar s;                    ///< [m] arc position of the point
-  Scalar d;                    ///< [m] n · (u, w) at s; in space n · r, of the place
+  Scalar d;                    ///< [m] n · (u, w) at s; in space n · r
   VectorOf<Scalar, D> normal;  ///< n, unit
 };
 
@@ -133,9 +132,9 @@ struct Capsule {
   Scalar s;            ///< [m] arc position beside which the point is sought
   Shaft<Scalar> axis;  ///< of the capsule; a sphere's is a point
   Scalar reach;        ///< [m] from the axis to the centreline
-  VectorOf<Scalar, 3> normal =
-      VectorOf<Scalar,
-               3>::Zero();  ///< about from the centreline to the axis, unit: from where the capsule has come
+  VectorOf<Scalar, 3> normal = VectorOf<
+      Scalar,
+      3>::Zero();  ///< unit, about from the centreline to the axis: the side from which the capsule has come
 };
 
 template <typename Scalar>
@@ -191,8 +190,8 @@ struct Coupled {
 /// What a body does to a beam that it touches.
 enum class ObstacleKind : std::int8_t {
   round,    ///< a round body pushes it away, wherever they touch
-  stop,     ///< one place of the beam goes no farther along a direction than so far
-  support,  ///< one place of the beam is so far along a direction: it is pushed and pulled
+  stop,     ///< one place of the beam goes no farther than d along a direction
+  support,  ///< one place of the beam is held at d along a direction, pushed and pulled
 };
 
 /// One of several bodies that may touch a beam, and its contact in a push.

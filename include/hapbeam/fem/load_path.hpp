@@ -32,7 +32,7 @@ namespace hapbeam {
 template <typename Scalar>
 struct PathEnd {
   SolveReport<Scalar> report;  ///< ok | snapped, where the beam has jumped on the way | iteration_limit
-  bool fell;                   ///< whether the branch ended or gave way
+  bool fell;                   ///< whether the branch ended or became unstable
 };
 
 struct LoadPath {
@@ -41,8 +41,8 @@ struct LoadPath {
   double largest_correction = 0.25;  ///< [rad]
   double nothing = 1e-6;             ///< [rad] a rotation that is round-off
   double resolution = 1e-5;          ///< how closely the end of a branch is found, of the load there
-  double fork = 1e-2;  ///< the same where it gives way: nearer to that nothing drives the beam aside
-  double jump = 1e-5;  ///< energy set free, of EI/L, that says that it has jumped
+  double fork = 1e-2;  ///< the same where it becomes unstable: nearer to that nothing drives the beam aside
+  double jump = 1e-5;  ///< energy set free by a jump, of EI/L, at least
 
   /// Goes from the start of the system's path to its end.
   template <class System>
