@@ -27,7 +27,7 @@ done
 kept=$top/docs/data
 page=$top/docs/where_methods_fail.md
 
-# The page with its tables as the CSV has them: the second column of the first, and all of those in the sections.
+# The page with its tables as the CSV has them: the second column of those of failures, and all of the others.
 filled() {
   awk -F'"' '
     NR == FNR {
@@ -38,10 +38,10 @@ filled() {
     }
     /^<!-- measured: begins -->/ { overview = 1 }
     /^<!-- end -->/ { overview = skip = 0 }
-    overview && /^\| \[[^]]*\]\(#/ {
-      key = $0; sub(/^[^(]*\(#/, "", key); sub(/\).*/, "", key)
-      if (!(key in begins)) { print key ": not measured" >"/dev/stderr"; exit 1 }
+    overview && /^\| / && !/^\| failure / {
       count = split($0, cell, / \| /)
+      key = tolower(substr(cell[1], 3)); gsub(/ /, "-", key)
+      if (!(key in begins)) { print key ": not measured" >"/dev/stderr"; exit 1 }
       cell[2] = begins[key]
       line = cell[1]
       for (k = 2; k <= count; ++k) line = line " | " cell[k]

@@ -22,7 +22,7 @@ filled=$(mktemp)
 trap 'rm -f "$filled"' EXIT
 
 status=0
-for page in README.md docs/benchmarks.md docs/limits.md docs/haptics.md docs/many_beams.md docs/choosing.md docs/architecture.md docs/training.md docs/contact.md; do
+for page in README.md docs/benchmarks.md docs/limits.md docs/many_beams.md docs/choosing.md docs/architecture.md docs/training.md; do
   report=$top/benchmarks/report
   awk -v data="$data" -v report="$report" -f "$report/numbers.awk" -f "$report/fill.awk" "$top/$page" >"$filled" ||
     { echo "$page: cannot be filled in" >&2; exit 1; }

@@ -89,25 +89,6 @@ function default_in(model, scene) {
 }
 
 # Of reduced_press.csv.
-function press_row(model, what, shown,  k) {
-  for (k = 1; k <= rows; ++k)
-    if (cell[k, "path"] == "press" && cell[k, "model"] == model && cell[k, "what"] == what)
-      line(shown, digits(cell[k, "p50_us"]), percent(cell[k, "force_error_median"]), percent(cell[k, "force_error_max"]), \
-        cell[k, "pod_ms"] == "" ? "–" : digits(cell[k, "snapshots_ms"] + cell[k, "pod_ms"]))
-}
-function presses(  k, models, titles, n) {
-  line("pressed at mid-span, 0 to 50 mm", "tick, µs", "force error, median", "largest", "training, ms")
-  rule(5)
-  n = split("pod_1 galerkin_1 pod_2 galerkin_2", models, " ")
-  split("PodModel, 14;GalerkinModel, 14;PodModel, 16 × 12;GalerkinModel, 16 × 12", titles, ";")
-  for (k = 1; k <= n; ++k) {
-    press_row(models[k], "force", titles[k] ", force")
-    press_row(models[k], "shape", titles[k] ", force and shape")
-  }
-  press_row("fem", "8", "FemModel, 8 elements")
-  press_row("fem", "64", "FemModel, 64 elements")
-  press_row("fem", "1024", "FemModel, 1024 elements")
-}
 function trained_row(model, what, shown, deeper,  k) {
   for (k = 1; k <= rows; ++k)
     if (cell[k, "path"] == "slide" && cell[k, "model"] == model && cell[k, "what"] == what)
@@ -136,28 +117,15 @@ function solvers(  k, n, s, e, solver, text) {
   }
 }
 
-# Of any_rotation.csv.
-function rotation(  k, text) {
-  line("finite rotation, 16 elements", "a tick", "times moderate rotation", "error")
-  rule(4)
-  for (k = 1; k <= rows; ++k)
-    if (cell[k, "elements"] == 16 && cell[k, "model"] == "corotational")
-      line(cell[k, "scene"] ", `Corotational<>`", \
-        digits(cell[k, "p50_us"]) " µs", digits(cell[k, "ratio"]), percent(cell[k, "force_error"]))
-}
-
-# Of rod_ticks.csv.
-function rod_ticks(  k, n, found) {
-  line("elements", "planar `Corotational`", "`RoundRod`", "of planar", "error", "`TwistedRod`", "of planar", "error")
-  rule(8)
+# Of rod_ticks.csv, where both rods have the same error.
+function rod_ticks(  k, found) {
+  line("elements", "error of rods", "planar `Corotational`", "`RoundRod`", "`TwistedRod`")
+  rule(5)
   for (k = 1; k <= rows; ++k) {
     found[cell[k, "model"]] = k
-    if (cell[k, "model"] == "twisted_rod") {
-      n = found["round_rod"]
-      line(cell[k, "elements"], digits(cell[found["planar"], "p50_us"]) " µs", digits(cell[n, "p50_us"]) " µs", \
-        sprintf("%.2f", cell[n, "ratio"]), percent(cell[n, "force_error"]), digits(cell[k, "p50_us"]) " µs", \
-        sprintf("%.2f", cell[k, "ratio"]), percent(cell[k, "force_error"]))
-    }
+    if (cell[k, "model"] == "twisted_rod")
+      line(cell[k, "elements"], percent(cell[k, "force_error"]), digits(cell[found["planar"], "p50_us"]) " µs", \
+        digits(cell[found["round_rod"], "p50_us"]) " µs", digits(cell[k, "p50_us"]) " µs")
   }
 }
 
@@ -167,83 +135,19 @@ function at(k, part) {
   return sprintf("%.3g°, %.2g L, " (cell[k, "press_" part] + 0 < 99.5 ? "%.2g" : "%.0f") " h", cell[k, "slope_" part], \
     cell[k, "deflection_" part], cell[k, "press_" part])
 }
-function limits(  i, k, ends, at_1, at_5, at_10, linear, best) {
+function limits(  i, k, ends, at_1, at_10, linear, best) {
   split("pinned-pinned clamped-clamped pinned-roller clamped-free", ends, " ")
-  line("ends", "`Linear`, 1 %", "`VonKarman`, 1 %", "5 %", "10 %", "`Corotational`, at the deepest")
-  rule(6)
+  line("ends", "`Linear`, 1 %", "`VonKarman`, 1 %", "10 %", "`Corotational`, at the deepest")
+  rule(5)
   for (i = 1; i <= 4; ++i) {
     for (k = 1; k <= rows; ++k) {
       if (cell[k, "ends"] != ends[i] || cell[k, "section"] != "thick") continue
       if (cell[k, "element"] == "linear") linear = at(k, 1)
-      if (cell[k, "element"] == "von_karman") { at_1 = at(k, 1); at_5 = at(k, 5); at_10 = at(k, 10) }
+      if (cell[k, "element"] == "von_karman") { at_1 = at(k, 1); at_10 = at(k, 10) }
       if (cell[k, "element"] == "corotational") best = sprintf("%.1g at %g L", cell[k, "error_at_deepest"], cell[k, "deepest"])
     }
-    line(ends[i], linear, at_1, at_5, at_10, best)
+    line(ends[i], linear, at_1, at_10, best)
   }
-}
-
-# Of stability_sweep.csv: all pushes of a scene together.
-function stability(  k, n, s, text, where, least, most, runs, rest, slow, own, off) {
-  text["bar_tenth"] = "bar, a tenth of the span"; text["bar_middle"] = "bar, mid-span"
-  text["strip_middle"] = "strip 500 × 20 × 0.5 mm, mid-span"; text["ruler_tip"] = "ruler 300 × 30 × 1 mm, clamped, tip"
-  for (k = 1; k <= rows; ++k) {
-    s = cell[k, "scene"]
-    if (!(s in runs)) { where[++n] = s; least[s] = cell[k, "push_N"] }
-    most[s] = cell[k, "push_N"]
-    runs[s] += cell[k, "combinations"]; rest[s] += cell[k, "at_rest"]; slow[s] += cell[k, "slow"]
-    own[s] += cell[k, "slow_as_the_arm_itself"]; off[s] += cell[k, "slides_off"] + cell[k, "lost"]
-  }
-  line("pressed", "push", "runs", "at rest within 0.5 s", "slower", "slower, as the arm itself", "slides off")
-  rule(7)
-  for (k = 1; k <= n; ++k) {
-    s = where[k]
-    line(text[s], least[s] " to " most[s] " N", runs[s], rest[s], slow[s], own[s], off[s])
-  }
-}
-
-# Of stability_friction.csv, where each coefficient has a row of hands with a spring and one of hands without: all coefficients together.
-function rough(  k, n, s, where, least, most, with, rest, without, still, off, slow) {
-  for (k = 1; k < rows; k += 2) {
-    s = cell[k, "scene"]
-    if (!(s in with)) { where[++n] = s; least[s] = most[s] = cell[k, "sticking"] }
-    if (cell[k, "sticking"] + 0 < least[s] + 0) least[s] = cell[k, "sticking"]
-    if (cell[k, "sticking"] + 0 > most[s] + 0) most[s] = cell[k, "sticking"]
-    with[s] += cell[k, "combinations"]; rest[s] += cell[k, "at_rest"]
-    without[s] += cell[k + 1, "combinations"]; still[s] += cell[k + 1, "at_rest"]
-    off[s] += cell[k + 1, "slides_off"]; slow[s] += cell[k + 1, "slow"]
-  }
-  line("leans on", "coefficients", "hands with a spring", "at rest", "without one", "at rest", "slides off", "slower, or in this loop alone")
-  rule(8)
-  for (k = 1; k <= n; ++k) {
-    s = where[k]
-    line(s, least[s] " to " most[s], with[s], rest[s], without[s], still[s], off[s], slow[s])
-  }
-}
-
-# Of turning_sweep.csv: all rods together.
-function turning(  k, by, friction, factor, key, ways, frictions, factors, f, w, n, all, moves, gives, off, row, text) {
-  text["tip"] = "the tip of a stylus"; text["shaft"] = "its shaft"; text["grip"] = "a hand that holds its end"
-  text["none"] = "none"; text["some"] = "0.5 or 5 mN·m"
-  for (k = 1; k <= rows; ++k) {
-    by = cell[k, "touched_by"]; friction = cell[k, "gimbal_friction"]
-    factor = cell[k, "stiffness_factor"] "," cell[k, "damping_factor"]
-    key = by SUBSEP friction SUBSEP factor
-    all[by, friction, factor] += cell[k, "combinations"]; moves[key] += cell[k, "moves"]
-    gives[key] += cell[k, "gives_energy"]; off[key] += cell[k, "slips_off"]
-  }
-  line("touched by", "friction of the gimbal", "runs each", "× 1", "× 4", "× 8", "K_r × 8, no B_r")
-  rule(7)
-  split("tip shaft grip", ways, " "); split("none some", frictions, " "); n = split("1,1 4,4 8,8 8,0", factors, " ")
-  for (w = 1; w <= 3; ++w)
-    for (f = 1; f <= 2; ++f) {
-      for (k = 1; k <= n; ++k) {
-        key = ways[w] SUBSEP frictions[f] SUBSEP factors[k]
-        row[k] = (moves[key] ? moves[key] " swing" : "") (moves[key] && gives[key] ? ", " : "") \
-          (gives[key] ? gives[key] " give energy" : "") (off[key] ? (moves[key] || gives[key] ? ", " : "") off[key] " slip off" : "")
-        if (row[k] == "") row[k] = "–"
-      }
-      line(text[ways[w]], text[frictions[f]], all[ways[w], frictions[f], factors[1]], row[1], row[2], row[3], row[4])
-    }
 }
 
 function most_beams(  k, most) {
@@ -298,20 +202,6 @@ function chosen(  k, n, kind, kinds, part, count, none, overlooked, error, worst
   line("longest choice", sprintf("%.0f ms", slowest))
 }
 
-# Of hostile_hands.csv: of each way to touch the beam or rod that has most ticks without an answer.
-function hostile(  k, n, by, kinds, share, most, wrong) {
-  for (k = 1; k <= rows; ++k) {
-    by = cell[k, "touched_by"]
-    if (!(by in share)) { kinds[++n] = by; share[by] = most[by] = wrong[by] = 0 }
-    if (cell[k, "unanswered"] / cell[k, "ticks"] > share[by]) share[by] = cell[k, "unanswered"] / cell[k, "ticks"]
-    if (cell[k, "most_in_a_row"] + 0 > most[by]) most[by] = cell[k, "most_in_a_row"] + 0
-    wrong[by] += cell[k, "not_finite"] + cell[k, "pulls"] + cell[k, "beyond_the_cone"]
-  }
-  line("touched by", "ticks without an answer", "most in a row", "forces that are wrong")
-  rule(4)
-  for (k = 1; k <= n; ++k) line(kinds[k], percent(share[kinds[k]]), most[kinds[k]], wrong[kinds[k]])
-}
-
 # Of chooser_rods.csv.
 function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, error, worst, missed, unanswered, more, most, slowest, mean, text, own, best) {
   n = split("straight loaded bent curled", kind, " ")
@@ -347,11 +237,11 @@ function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, e
   line("a choice, time of the processor", sprintf("%.1f s in the mean, %.0f s at most", mean / 1e3, slowest / 1e3))
 }
 
-# A tick with each combination of flags, but for -DNDEBUG, beside other models: a row for each, a column for each compiler and model.
+# A tick with each combination of flags of g++, but for -DNDEBUG, beside other models: a row for each, a column for each model.
 function flags(  k, c, f, title, text) {
   for (k = 1; k <= rows; ++k) {
-    if (cell[k, "flags"] ~ /NDEBUG/ || cell[k, "model"] !~ / beside others$/) continue
-    title = cell[k, "compiler"] ", `" cell[k, "model"] "`"
+    if (cell[k, "compiler"] != "g++" || cell[k, "flags"] ~ /NDEBUG/ || cell[k, "model"] !~ / beside others$/) continue
+    title = "`" cell[k, "model"] "`"
     sub(/ beside others`/, "`", title)
     if (!(title in seen)) { seen[title] = 1; column[++c] = title }
     if (!(cell[k, "flags"] in known)) { known[cell[k, "flags"]] = 1; row[++f] = cell[k, "flags"] }
@@ -370,8 +260,8 @@ function flags(  k, c, f, title, text) {
 
 # What a file costs the compiler, dearest first: the README's programs or the headers that programs name most.
 function compile_times(programs,  k, j, n, order, t, shown) {
-  shown = "^hapbeam/(hapbeam|fem/fem_model|fem/rod_system|contact/touch|haptics/servo/servo_loop|haptics/device/virtual_phantom|" \
-    "haptics/hdapi/hdapi|rom/trained/pod_model|rom/file/model_file|rom/training/train|scene/choose|scene/choose_rod)\\.hpp$"
+  shown = "^hapbeam/(hapbeam|fem/fem_model|fem/rod_system|contact/touch|haptics/servo/servo_loop|rom/trained/pod_model|" \
+    "rom/file/model_file|rom/training/train|scene/choose)\\.hpp$"
   for (k = 1; k <= rows; ++k)
     if (cell[k, "file"] ~ (programs ? "^README" : shown)) order[++n] = k
   for (k = 2; k <= n; ++k)
@@ -388,17 +278,15 @@ function compile_times(programs,  k, j, n, order, t, shown) {
 }
 
 # The rooms of include/hapbeam, from the ground up.
-function rooms_of_headers(  k, where, from, holds) {
-  line("room", "headers", "includes", "holds")
-  rule(4)
+function rooms_of_headers(  k, where, holds) {
+  line("room", "headers", "holds")
+  rule(3)
   for (k = 1; k <= rows; ++k) {
     where = cell[k, "headers"]
     gsub(/ /, "`, `", where)
-    from = cell[k, "may include"]
-    gsub(/ /, ", ", from)
     holds = cell[k, "holds"]
     gsub(/;/, ",", holds)
-    line(cell[k, "room"], "`" where "`", from == "" ? "none" : from, holds)
+    line(cell[k, "room"], "`" where "`", holds)
   }
 }
 
@@ -406,16 +294,10 @@ END {
   if (table == "machine") print head "."
   else if (table == "scenes") scenes()
   else if (table == "fronts") fronts()
-  else if (table == "press") presses()
   else if (table == "trained") trained()
   else if (table == "solvers") solvers()
-  else if (table == "rotation") rotation()
   else if (table == "rod_ticks") rod_ticks()
   else if (table == "limits") limits()
-  else if (table == "stability") stability()
-  else if (table == "rough") rough()
-  else if (table == "turning") turning()
-  else if (table == "hostile") hostile()
   else if (table == "many") many()
   else if (table == "chosen") chosen()
   else if (table == "chosen_rods") chosen_rods()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Angles and directions in the plane, in a third of the library's instructions and without branches where a beam mostly is.
+// Angles and directions in the plane, in a third of the instructions of the standard library, mostly without branches.
 //
 // The angle of a vector whose length is known is 2 atan r, r = y/(|v| + x).  Up to a right angle r is at most 1, and atan r / r a
 // polynomial in r², by interpolation at Chebyshev's nodes: relative error 4e-17.  Directions are Taylor's series after the angle was
@@ -57,7 +57,7 @@ template <typename S>
   return abs(y) < whole ? twice_atan(y / whole) : atan2(y, x);
 }
 
-/// The same, in the turn in which it is next to another one.
+/// The same, in the turn nearest to another angle.
 template <typename S>
 [[gnu::always_inline]] inline S angle_near(S y, S x, S length, S other) noexcept {
   using std::abs;

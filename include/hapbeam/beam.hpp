@@ -46,8 +46,8 @@ struct Arc {
 /// A part of the beam with a section of its own, which may change along it, and a material, of which damping is not counted.
 using BeamPart = detail::PartOf<Section, Material>;
 
-/// A beam, its ends and its loads. It is prismatic unless sections() says otherwise. It is straight unless naturally() gives it a curvature. Its ends are those
-/// of the straight beam unless place() moves them. Immutable but for what is added to it.
+/// A beam, its ends and its loads: prismatic unless sections() says otherwise, straight unless naturally() gives it a curvature, with the ends
+/// of the straight beam unless place() moves them.  Immutable but for what is added to it.
 class Beam : public detail::Slender<Beam, Section, Material, Arc> {
  public:
   static constexpr const char* word = "beam";
@@ -108,7 +108,7 @@ class Beam : public detail::Slender<Beam, Section, Material, Arc> {
     return specific_weight_ = density * gravity, weigh(), *this;
   }
 
-  /// What it loses where it moves.
+  /// Of its material and of the air.
   const Damping& damping() const noexcept { return damping_; }
 
   /// Gives parts of the beam sections of their own: a taper or steps.  Elements of Tapered<Local> take them; a FemModel of other

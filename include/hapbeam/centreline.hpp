@@ -184,8 +184,7 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
     }
     return sum / pieces;
   }
-  /// The same with an error of second order.  A piece has the mean of its stretch, which its shear force changes along it where it is bent; on
-  /// either side that of the next piece says by how much.
+  /// The same with an error of second order: the mean of each piece is extrapolated by that of the next one on either side.
   Scalar extrapolated_stretch(int i) const noexcept {
     const Vector2<Scalar> from = direction(i);
     Scalar sum = 0, sides = 0;

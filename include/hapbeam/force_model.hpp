@@ -29,8 +29,7 @@
 //   m.step(dt, h)        Pushed<Scalar>         of a Coupled<Scalar>; promises as press(); dt [s]; in space as push()
 //   m.energy()           with sum() [J]         noexcept; of motion, strain and loads
 //
-// A model whose shape costs more than its force may offer a part of the shape. A lasting contact reads no more than
-// that:
+// A model whose shape costs more than its force may offer a part of the shape, for a lasting contact:
 //
 //   m.part(s0, s1)       CentrelinePart<Scalar> noexcept; the pieces of shape() that hold arc positions s0 to s1, both
 //                                               pieces of a node at either; valid until the next call
@@ -38,10 +37,7 @@
 // Cost of shape() and part(): FemModel has its nodes from the press, O(1) and O(log n). Trained models have the two
 // pieces beside the contact from it, and compute all others on demand, O(modes (grid + nodes)).
 // After a press with ok a centreline of moderate rotation does not turn back: x = s + u increases along it.
-//
-// The bound on the work is a number that the model states. FemModel solves at most solver.max_solves (48) linear
-// systems a press, push or release. It then returns iteration_limit with the force of the last equilibrium, and
-// continues in the next call.
+// A model states the bound on its work: FemModel solves at most solver.max_solves (48) linear systems a call.
 //
 // No allocation, no exception, no dependency but the standard library.
 #pragma once
@@ -105,8 +101,7 @@ constexpr const char* name(Status status) noexcept {
 template <typename Scalar>
 struct Press {
   Scalar s;  ///< [m] arc position along the undeformed beam, 0 at the left end
-  Scalar
-      d;  ///< [m] displacement w(s), from the x axis, along which the unloaded straight beam lies; either sign
+  Scalar d;  ///< [m] displacement w(s) from the x axis; either sign
 };
 
 /// A frictionless plane that the centreline touches at one point: there its displacement along n is d, and the force
@@ -115,7 +110,7 @@ struct Press {
 template <typename Scalar, int D = 2>
 struct Push {
   Scalar s;                    ///< [m] arc position of the point
-  Scalar d;                    ///< [m] n · (u, w) at s; in space n · r, of the place
+  Scalar d;                    ///< [m] n · (u, w) at s; in space n · r
   VectorOf<Scalar, D> normal;  ///< n, unit
 };
 
@@ -134,9 +129,9 @@ struct Capsule {
   Scalar s;            ///< [m] arc position beside which the point is sought
   Shaft<Scalar> axis;  ///< of the capsule; a sphere's is a point
   Scalar reach;        ///< [m] from the axis to the centreline
-  VectorOf<Scalar, 3> normal =
-      VectorOf<Scalar,
-               3>::Zero();  ///< about from the centreline to the axis, unit: from where the capsule has come
+  VectorOf<Scalar, 3> normal = VectorOf<
+      Scalar,
+      3>::Zero();  ///< unit, about from the centreline to the axis: the side from which the capsule has come
 };
 
 template <typename Scalar>
@@ -192,11 +187,11 @@ struct Coupled {
 /// What a body does to a beam that it touches.
 enum class ObstacleKind : std::int8_t {
   round,    ///< a round body pushes it away, wherever they touch
-  stop,     ///< one place of the beam goes no farther along a direction than so far
-  support,  ///< one place of the beam is so far along a direction: it is pushed and pulled
+  stop,     ///< one place of the beam goes no farther than d along a direction
+  support,  ///< one place of the beam is held at d along a direction, pushed and pulled
 };
 
-/// One of several bodies beside a beam that may touch it, and what becomes of it in a push.
+/// One of several bodies that may touch a beam, and its contact in a push.
 template <typename Scalar, int D = 2>
 struct Obstacle {
   ObstacleKind kind = ObstacleKind::round;
@@ -229,7 +224,7 @@ struct HeldEnd {
   Status status;
 };
 
-/// Of a damper beside the springs of an end: which part of their stiffness stands for it, B/T, where they are those of ticks of length T.
+/// A damper beside the springs of an end: B/T as a part of their stiffness, with ticks of length T.
 struct HoldDamper {
   double place = 0, turning = 0;  ///< 0 to 1, 1 excluded; 0: none
   double period = 1;              ///< T [s]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Coulomb friction between avatar and beam, and what a touch with friction remembers.
+// Coulomb friction between avatar and beam, and the state of a touch with friction.
 //
 // The avatar does not turn.  Slip is how far it has gone along the surface of the beam beyond the point of the beam that it touches; a
 // round avatar that rolls on the beam does not slip.  Friction acts at the centreline.
@@ -68,7 +68,7 @@ struct FrictionState {
   Scalar gain = 0;                 ///< change of the normal force by a tangential one, as it was
   Scalar dissipated = 0;           ///< [J] since the touch began
 
-  /// A contact begins: nothing of the one before is left but what the touch has dissipated.
+  /// A contact begins; what the touch has dissipated stays.
   void begin() noexcept {
     let_go();
     gain = 0;

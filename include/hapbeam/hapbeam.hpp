@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// All that a servo needs.  Training (rom/training/train.hpp, rom/training/validate.hpp) and model files (rom/file/model_file.hpp)
-// are included by name: they cost an SVD and one more library.  So are a real device
-// (haptics/hdapi/openhaptics.hpp), which needs its maker's kit, and haptics/servo/real_time.hpp, which brings the
-// system's headers.
+// All that a servo needs.  Included by name are training (rom/training/train.hpp, rom/training/validate.hpp), which costs an SVD; model files
+// (rom/file/model_file.hpp), which need jansson; a real device (haptics/hdapi/openhaptics.hpp), which needs its maker's kit; and
+// haptics/servo/real_time.hpp, which brings the system's headers.
 #pragma once
 
 #include <hapbeam/beam.hpp>

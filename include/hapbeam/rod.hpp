@@ -58,14 +58,14 @@ struct RodForce {
 /// A dead load per unit length, as a function of arc position s [m] -> [N/m].
 using RodLoad = std::function<VectorOf<double, 3>(double)>;
 
-/// How far a section reaches along both axes: where its surface is strained.
+/// Extents of a section along both axes, for the strain at its surface.
 struct RodOutline {
   double width, height;  ///< [m] along d1 and d2
   bool corners;          ///< whether both extents meet: a rectangle
 };
 
-/// A rod, its ends and its loads, which a World's joints may hold where the ends do not; straight, unless it is given a natural shape, and its right end where that shape puts it,
-/// unless it is placed elsewhere.  An immutable value but for what is added to it.
+/// A rod, its ends and its loads.  It is straight unless it is given a natural shape, and its right end is where that shape puts it unless it is
+/// placed.  Where its ends do not hold it, joints of a World have to.  Immutable but for what is added to it.
 class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
  public:
   static constexpr const char* word = "rod";

@@ -75,7 +75,7 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
     visit(beside, segment(beside));
     const Scalar squared = shaft.way.squaredNorm(), over = squared > 0 ? 1 / squared : Scalar(0);
     for (const int step : {-1, 1}) {
-      // What a node tells both of its pieces is computed once.
+      // Computed once a node, for both of its pieces.
       const Node* a = &nodes_[step < 0 ? beside : beside + 1];
       VectorOf<Scalar, 3> off = a->r - shaft.tip;
       Scalar distance_a = off.squaredNorm(), along_a = shaft.way.dot(off),

@@ -23,7 +23,7 @@ struct RodSection {
   double inertia2;   ///< I about d2 [m⁴]
   double torsion;    ///< Saint-Venant's J [m⁴]
   double thickness;  ///< [m] diameter of the round surface that an avatar touches: the smallest extent
-  /// What is strained at the surface; 0: as far as the thickness.
+  /// For the strain at the surface; 0: the thickness.
   double width = 0;      ///< [m] extent along d1
   double height = 0;     ///< [m] extent along d2
   bool corners = false;  ///< whether both extents meet: a rectangle
@@ -204,8 +204,8 @@ class Slender {
     const double density = part && part->material ? part->material->density : density_;
     return density > 0 ? density * area_(s) : 0;
   }
-  /// Gives parts of it sections and materials of their own, from the left end on: a taper or steps.  The avatar touches a round surface of the
-  /// thickness that it was built with, and the strain there is that of this thickness.
+  /// Gives parts of it sections and materials of their own, from the left end on: a taper or steps.  For contact and surface strain it keeps
+  /// the thickness that it was built with.
   /// @throws std::invalid_argument unless the ends increase, up to the length, and it was built of a material
   Body& sections(std::vector<Part> parts) {
     if (!(young_ > 0))
@@ -233,7 +233,7 @@ class Slender {
  protected:
   Slender(double length, double thickness)
       : length_(positive("length", length, "m")), thickness_(positive("thickness", thickness, "m")) {}
-  /// Knows its material and its section.
+  /// Keeps what it was built of.
   void build_of(double young, double density, double area) {
     young_ = young;
     density_ = not_negative("density", density, "kg/m³");

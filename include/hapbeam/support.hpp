@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How the ends of a beam or a rod are held, and where those of a rod are.
 //
-// What a trained model needs to know of a beam.  beam.hpp has the rest: loads, which are functions, and which a program
-// that only loads a model would compile for nothing.
+// Apart from beam.hpp, because a program that loads a trained model needs no loads.
 // An end of a rod has six motions, in the axes of its pose: along d1, d2 and d3, turns of its tangent about d1 and d2, and twist about
 // d3.  Each is held, free, or on a spring.
 // Offline: checks throw std::invalid_argument naming field, value, unit and what is allowed.  All else is noexcept.
@@ -142,7 +141,7 @@ struct RodPose {
     along /= std::sqrt(along.squaredNorm());
     director -= along * along.dot(director);
     director /= std::sqrt(director.squaredNorm());
-    // One that is too long to be squared comes out as none.
+    // Not finite where one is too long to be squared.
     const double sizes = along.squaredNorm() * director.squaredNorm();
     return at.allFinite() && std::isfinite(sizes) && sizes > 0;
   }

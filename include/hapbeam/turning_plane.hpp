@@ -124,7 +124,7 @@ class TurningPlane {
     const Scalar n_x = axis_.dot(n);
     const VectorOf<Scalar, 3> across = n - n_x * axis_;
     const Scalar size = sqrt(across.squaredNorm());
-    // The side of before: a rod that is pulled where it was pushed is the same.
+    // On the side of before: pulled or pushed.
     const Scalar n_w = up_.dot(across) < 0 ? -size : size;
     drawn_ = false;
     if (!(size > (any_direction ? Scalar(1e-6) : Scalar(0.5)))) return {0, Status::invalid_request};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A loop of known length that is to be written out: HAPBEAM_UNROLL stands before it.
 //
-// g++ -O2 leaves short loops over small matrices as they are, and what they touch goes through memory.  clang leaves one whose length hangs on an
-// argument of its function, before that is inlined: for_each_constant() makes such an argument a constant.
+// g++ -O2 does not unroll short loops over small matrices, which then go through memory.  clang does not where the length depends on an
+// argument of the function: for_each_constant() makes such an argument a constant.
 #pragma once
 
 #include <type_traits>
@@ -22,8 +22,7 @@
 #define HAPBEAM_INLINED
 #endif
 
-/// What stands in memory before this is read from there behind it.  In a loop it keeps a compiler from carrying numbers in registers from
-/// one turn to the next: where there are too few, it would store and load others instead.
+/// A compiler reads memory anew behind this.  In a loop it keeps numbers out of registers where those are too few.
 #if defined(__GNUC__)
 #define HAPBEAM_KEEP_IN_MEMORY() asm volatile("" : : : "memory")
 #else

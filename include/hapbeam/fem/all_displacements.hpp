@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A press of any beam or rod, solved for the displacements of all nodes: the general way of FemModel.
 //
-// BeamSystem or RodSystem is solved by Newton–Raphson from the last press or
-// from rest, whichever is closer.  A beam with more than one shape at rest keeps to the branch on which it is; where that ends or
-// gives way it falls to a stable one (Descent), and the status says snapped.
+// BeamSystem or RodSystem is solved by Newton–Raphson from the last press or from rest, whichever is closer; where a branch ends, by
+// Descent to a stable shape.
 // Offline: construction allocates, finds the shape at rest and may throw.  Servo: every other member is noexcept and
-// allocation-free; a press, a push or a release takes at most solver.max_solves linear solves of
-// O(elements), a fall included, and two more in each solution where the beam gives way.
+// allocation-free, with the solves of FemModel.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +39,7 @@ class AllDisplacements {
   static constexpr int dimension = dimension_of<Element>;
 
   /// Finds the shape at rest.
-  /// @throws std::invalid_argument as BeamSystem, and where the scalar cannot tell so many elements apart
+  /// @throws std::invalid_argument as BeamSystem, and where round-off leaves no stiffness of so many elements
   [[gnu::cold]] AllDisplacements(const Body& beam, int elements, const Solver& solver)
       : system_(beam, elements), rest_state_(elements), solver_(solver), single_valued_(beam.straight()) {
     find_rest(beam);
@@ -67,7 +65,7 @@ class AllDisplacements {
     return drawn(pushes_.push(*this, all, count, range));
   }
 
-  /// Whether the element at s is too long for the tension that it is under, to one who presses along a normal.  @param s  [m]
+  /// Whether the element at s is too long for its tension, pressed along a normal.  @param s  [m]
   bool overdrawn(Scalar s, const VectorOf<Scalar, dimension>& normal) const noexcept {
     return system_.overdrawn(s, normal);
   }
@@ -100,7 +98,7 @@ class AllDisplacements {
     HeldEnd<Scalar> held = drawn(take());
     if (!held.force.allFinite() || !held.moment.allFinite())
       held.force.setZero(), held.moment.setZero(), held.status = report_.status = Status::non_finite;
-    // A shape from which no way leads to where a hand waits is left for that at rest.
+    // A shape from which nothing leads to the hand's pose is left for that at rest.
     unanswered_ = is_answer(held.status) ? 0 : unanswered_ + 1;
     if (held.status == Status::non_finite || unanswered_ == patience) {
       const Status status = report_.status;
@@ -110,8 +108,8 @@ class AllDisplacements {
     return held;
   }
 
-  /// Falls to the shape at rest on whose slope the beam is; one that is folded, which only a request beyond all reach leaves,
-  /// and which may be stable, goes back to where it began.   @return ok | snapped | iteration_limit
+  /// Descends to a shape at rest.  One that is folded, which only a request beyond all reach leaves, goes back to where it began.
+  /// @return ok | snapped | iteration_limit
   Status release() noexcept { return drawn(report_.status = pushes_.release(*this)); }
   Status let_go() noexcept {
     forget();
@@ -134,7 +132,7 @@ class AllDisplacements {
     return (home_ - before).norm() > system_.length() / 1000 ? Status::snapped : Status::ok;
   }
 
-  /// Back to the shape that construction has found, and to steps of the size that a new model takes.
+  /// Back to the shape that construction has found, as a new model.
   void reset() noexcept {
     to_rest();
     report_.step = 1;
@@ -197,7 +195,7 @@ class AllDisplacements {
     unanswered_ = 0;
     forget();
   }
-  /// What was answered, and the beam can be seen.
+  /// Draws the beam.   @return the answer
   template <class Answer>
   const Answer& drawn(const Answer& answer) noexcept {
     system_.draw();
@@ -236,7 +234,7 @@ class AllDisplacements {
     if (left_ <= 0) return {system_.linear_reaction(), report_.status};
     aim();
     if (!descends()) report_ = solve_within(left_, first_step, looser);
-    // A straight beam pressed across gives way in no element but those that lock.
+    // A straight beam pressed across is unstable in no element but those that lock.
     const bool on_ridge = (any_rotation<Element> || !single_valued_) && gives_way();
     Descent descent;
     descent.max_solves = left_ - report_.solves;
@@ -261,8 +259,8 @@ class AllDisplacements {
     return {is_answer(report_.status) || now != 0 ? now : last, report_.status};
   }
 
-  /// The shape that the beam reaches when its loads rise from nothing and its ends are moved.  It is sought in double, whatever
-  /// the model computes in: round-off would hide which way a branch goes on.
+  /// The shape that the beam reaches when its loads rise from nothing and its ends are moved, in double: in float round-off hides how a branch
+  /// continues.
   [[gnu::cold]] void find_rest(const Body& beam) {
     if constexpr (dimension == 3) beam.check_held();
     if constexpr (std::is_same_v<Scalar, double>) {
@@ -273,7 +271,7 @@ class AllDisplacements {
       system_.take_state(exact);
       system_.set_goal();
       system_.set_target(1);
-      // Whether so many elements can be told apart in this scalar at all.
+      // Whether round-off leaves a stiffness of so many elements.
       if (is_answer(rest_.status) && system_.factor(0) != Status::ok)
         throw std::invalid_argument(
             "elements = " + std::to_string(elements()) +
@@ -302,15 +300,15 @@ class AllDisplacements {
              Scalar(last.reached), Scalar(last.error), Scalar(last.step)};
   }
 
-  /// Whether the equilibrium that was found is none to stay at.  The last tangent is that of the state before the last
-  /// increment, where a slender beam may be under a compression that is gone now: a second look decides.
+  /// Whether the equilibrium that was found is unstable.  The last tangent is that of the state before the last increment, where a slender
+  /// beam may be under a compression that is gone: then the tangent is assembled anew.
   bool gives_way() noexcept {
     if (report_.status != Status::ok || system_.negative_pivots() == 0) return false;
     ++report_.solves;
     return system_.factor(system_.neutral()) == Status::ok && system_.negative_pivots() > 0;
   }
 
-  /// From an equilibrium that gives way, or where none was found, down to a stable one.
+  /// From an unstable equilibrium, or where none was found, down to a stable one.
   /// @param on_ridge  nothing but a nudge makes it go   @param descent  its max_solves bound the whole of it
   /// @param aim  sets the system's goal anew
   /// @return false where no way leads down: the shape is one that only a request beyond all reach can have made

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The elements of one beam on a mesh that stays: displacements, strain energy, dead loads, and their derivatives.
 //
-// Displacements are those from the straight beam, of arches too: an arch is a beam that bends nothing where it is bent,
-// between ends that stand closer.  The tension of each element is an unknown of its own where the element has one; it moves with the nodes.
+// Displacements are those from the straight beam, of arches too.  The tension of each element is an unknown where the element has one.
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
@@ -62,7 +61,7 @@ class BeamElements {
   /// N of each element [N].
   Inners& inners() noexcept { return tensions_; }
   const Inners& inners() const noexcept { return tensions_; }
-  /// Of which the elements are made, and parts of them.
+  /// What elements and parts of them are made of.
   const Pieces& pieces() const noexcept { return pieces_; }
   const NaturalShape<Scalar>& natural_shape() const noexcept { return pieces_.natural_shape(); }
   /// Any nodes of this beam, seen with its kinematics.
@@ -100,7 +99,7 @@ class BeamElements {
         const ElementProperties<Scalar>& p = properties_[e];
         const Scalar by = own.missing[k] + own.s[k] * (y[0] - x[0]) + own.r[k] * (y[1] - x[1]) +
                           p.length * (own.t1[k] * x[2] + own.t2[k] * y[2]);
-        // A step far into compression, which has no bending stiffness left, leads nowhere.
+        // No step goes far into compression, which has no bending stiffness left.
         if (!skip(e)) {
           const Scalar before = tensions_[e];
           tensions_[e] = (std::max)(

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What dead loads do to an element of a beam in the plane.
 //
-// A force inside an element, where the mesh has no node for it, acts on a point of a bent piece.  The piece stretches evenly, but its
-// slope does not shorten it evenly, and that moves the point along the chord by
+// A force inside an element acts on a point of a bent piece, which the slope moves along the chord by
 //
 //   β = ½ (t ∫w'² ds - ∫w'² ds to the point)
 //
-// Without it an axial load is of second order, and of third at any rotation.  β is the force's share of what the normal
-// force, N' = -f, does on the slope beyond its mean.
+// Without β an axial load is of second order, of third at any rotation; with it of fourth.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 

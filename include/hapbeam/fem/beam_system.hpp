@@ -128,8 +128,8 @@ class BeamChain {
   // Its equations.
 
   static constexpr Scalar neutral() noexcept { return 0; }
-  /// Of a beam without stress, of which nothing is left but what the round-off of displacements stretches and bends its elements by, and of one
-  /// in motion what that of places is to its inertia [√J].   @param state  √(2V)
+  /// By what the round-off of displacements stretches and bends the elements of a beam without stress, and of places what it is to the inertia of
+  /// one in motion [√J].   @param state  √(2V)
   Scalar round_off(Scalar state) const noexcept {
     const int n = parts_.size();
     if (inertia_) return inertia_->round_off(std::numeric_limits<Scalar>::epsilon() * parts_.nodes()[n].s);
@@ -140,7 +140,7 @@ class BeamChain {
                  energy = stiffness_ * off * off;
     return 16 * state * state <= energy ? std::sqrt(energy) : Scalar(0);
   }
-  /// Residual and tangent of all elements.  What most of them need takes no address of their tangent: it stays in registers.
+  /// Residual and tangent of all elements.  Nothing takes the address of a tangent that most of them need: it stays in registers.
   template <class Rows>
   [[gnu::always_inline]] detail::ChainEnergies<Scalar> assemble(Scalar load, Rows& rows,
                                                                 Assembler& assembler) noexcept {
@@ -189,7 +189,7 @@ class BeamChain {
   Scalar advance(const Assembler& assembler, Rows& rows, ElementAt&& element_at) noexcept {
     if constexpr (any_rotation<Element>) {
       if (!rows.any() && !inertia_) {
-        // A chain that ended where its ends were would share out a second time what is prescribed.
+        // Prescribed increments included, which would be shared out a second time.
         const auto with_ends = [&](int i) {
           return ends_.increment(assembler.increment(i), i, parts_.nodes()[i]);
         };

@@ -4,21 +4,16 @@
 //   FemModel<> model(beam, 8);
 //   const auto [force, status] = model.press({0.5 * beam.length(), -2e-3});
 //
-// press() prescribes the transverse displacement of any place, solves by Newton–Raphson with the tangent as predictor, from the
-// last press or from rest, whichever is closer, and returns the reaction (thesis eq. 3.40–3.42).  The mesh stays, and
-// the place lies within an element (contact_rows.hpp).  Elements of finite rotation take a push() along any direction as well, and
-// one by a circle.  A beam with
-// more than one shape at rest keeps to the branch on which it is; where that ends or gives way it falls to a stable one,
-// and the status says snapped.
-// There are two ways to the answer, and the beam decides when it is built.  A straight beam without dead loads whose ends stand
-// no closer than it is long has one unknown, the tension; of elements that are exact under theirs the model solves for that alone,
-// without the error of a mesh (taut_system.hpp).  All else is solved for the displacements of all nodes (all_displacements.hpp).
-// Composed of policies: Element × Solver.  Sizes are fixed, or dynamic with a maximum (no heap at all
-// but for the list of dead loads), or dynamic.
-// Offline: construction allocates, and throws std::invalid_argument.  Servo: press(), reset() and all else are noexcept
-// and allocation-free; a press, a push or a release takes at most solver.max_solves linear solves of O(elements), the way of
-// a beam that falls included, and two more in each solution where it gives way.  What is not done then is
-// iteration_limit: the force is that of the last equilibrium, and the next call continues.
+// press() prescribes the transverse displacement of any place and returns the reaction (thesis eq. 3.40–3.42).  Elements of finite
+// rotation take a push() along any direction as well, and one by a circle.  The mesh stays; the place lies within an element.
+// A straight beam without dead loads, whose ends stand no closer than it is long and whose elements are exact under their tension, is
+// solved for the tension alone, without the error of a mesh (taut_system.hpp).  All else is solved for the displacements of all nodes
+// (all_displacements.hpp).  A beam with more than one shape at rest keeps to its branch; where that ends it falls to a stable shape,
+// and the status is snapped.
+// Policies: Element × Solver.  Sizes are fixed, dynamic with a maximum (no heap but for the list of dead loads), or dynamic.
+// Offline: construction allocates, and throws std::invalid_argument.  Servo: all else is noexcept and allocation-free; a press, a push
+// or a release takes at most solver.max_solves linear solves of O(elements), a fall included, and two more in each solution where the
+// beam is unstable.
 #pragma once
 
 #include <algorithm>
@@ -54,8 +49,7 @@ class FemModel {
   /// At how many places it may be touched at once.
   static constexpr int contacts = contacts_of<Element>;
 
-  /// Builds the beam and finds its shape at rest, the one that it reaches when its dead loads rise from nothing.  Look at
-  /// rest() for how that went.
+  /// Builds the beam and finds its shape at rest, the one that it reaches when its dead loads rise from nothing: see rest().
   /// @param elements two to most_elements(beam)   @throws std::invalid_argument naming field, value and what is allowed
   FemModel(const Body& beam, int elements, const Solver& solver = {})
       : ways_(make_way(beam, at_most(most_elements(beam), elements), solver)),
@@ -64,9 +58,8 @@ class FemModel {
     check_rest();
   }
 
-  /// Elements that round-off allows.  The condition of the bending stiffness grows with their fourth power, and eps times it
-  /// may be 32: in double 19483 elements, in float 128.  A beam with an end that does not hold w bends as one of twice the
-  /// length, and has half as many.
+  /// Elements that round-off allows: eps times the condition number of the bending stiffness, their fourth power, is at most 32.  In double
+  /// these are 19483, in float 128; half as many where an end does not hold w.
   static int most_elements(const Body& beam) noexcept {
     const double most = std::pow(32 / static_cast<double>(std::numeric_limits<Scalar>::epsilon()), 0.25);
     return static_cast<int>(PressRange<Scalar>(beam).holds_both() ? most : most / 2);
@@ -74,9 +67,8 @@ class FemModel {
 
   /// Prescribes the centreline's transverse displacement d [m] at arc position s [m]: its w, from the x axis.
   /// Within range() the answer is that of the request; else, out_of_range, that of the nearest request in range.
-  /// Beside an end that yields, closer than a thousandth of the length (3 % in float), an element of a mesh up to the contact
-  /// would lose the force to round-off; there the end's node is pressed through a straight tip, whose error is about
-  /// (δ/L)³ at a free end and (δ/L)² at a guided one.
+  /// Closer to an end that yields than a thousandth of the length (3 % in float), the end's node is pressed through a straight tip.  Its
+  /// error is about (δ/L)³ at a free end and (δ/L)² at a guided one.
   /// @return force [N] and ok | out_of_range | snapped | invalid_request | iteration_limit | singular | non_finite
   template <int D = dimension, std::enable_if_t<D == 2, int> = 0>
   Response<Scalar> press(const Press<Scalar>& request) noexcept {
@@ -85,8 +77,8 @@ class FemModel {
     return solve({press.s, press.d, {0, 1}}, valid, press.s == request.s && press.d == request.d);
   }
 
-  /// Prescribes the displacement along any direction, by a force along it: what an element of finite rotation needs where
-  /// it has turned.  At an end that slides along a wall the wall takes what does not act along it.
+  /// Prescribes the displacement along any direction, by a force along it.  At an end that slides along a wall the wall takes what does not
+  /// act along it.
   /// @return as press(); invalid_request also where the normal is not unit to half a thousandth
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Response<Scalar> push(const Push<Scalar, dimension>& request) noexcept {
@@ -100,10 +92,10 @@ class FemModel {
   }
 
   /// Lays the centreline on circles, in space capsules: which of them touch, where, and the equilibrium are found together.  Each pushes or does
-  /// not touch; none pulls.  That of a model of Several<Element, Contacts> has so many, any other one.
+  /// not touch; none pulls.  Several<Element, Contacts> takes so many, any other element one.
   /// @param obstacles  in and out: count of them
-  /// @return ok | snapped | iteration_limit | singular | non_finite; each obstacle has a status of its own, too: out_of_range where it touches nearer
-  ///         to a support than range() says, or a rod that has no tension of its own is drawn so taut there that its cubics may be off by more than 1 %
+  /// @return ok | snapped | iteration_limit | singular | non_finite; each obstacle has a status of its own, too.  out_of_range: nearer to a support
+  ///         than range() says, or a rod without a tension of its own is drawn so taut that its error may exceed 1 %.
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Status push(Obstacle<Scalar, dimension>* obstacles, int count) noexcept;
 
@@ -111,9 +103,8 @@ class FemModel {
     return take(ways_, [](const auto& way) { return way.shape(); });
   }
 
-  /// Holds a clamped end of a rod elsewhere, and otherwise turned: what a hand does that has taken hold of it.  Of an end on springs
-  /// the pose is theirs.
-  /// @return force and moment that takes, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
+  /// Moves and turns a clamped end of a rod, or the springs of an end.
+  /// @return force and moment that this takes, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
   template <class InSpace = Of>
   HeldEnd<Scalar> hold(typename InSpace::Side side, const typename InSpace::Pose& pose) noexcept;
 
@@ -122,17 +113,15 @@ class FemModel {
 
   Scalar thickness() const noexcept { return thickness_; }
 
-  /// Lets go: the beam falls from its present shape to where it is at rest, which need not be rest() where it has more
-  /// than one such shape.
-  /// @return ok | snapped, where it has left the one that it was pressed from | iteration_limit, on its way: call again
+  /// The beam goes from its present shape to one at rest, which need not be rest() where it has more than one.
+  /// @return ok | snapped, where that is not the one it was pressed from | iteration_limit, on its way: call again
   Status release() noexcept;
 
   /// Back to rest().
   void reset() noexcept;
 
-  /// How the search for the shape under the dead loads ended: ok | snapped, where the branch on which the beam was ended
-  /// before the loads had risen to their size, and rest() is the stable shape to which it then falls | iteration_limit,
-  /// singular, non_finite, where there is none and no press is answered.
+  /// How the search for the shape under the dead loads ended: ok | snapped, where the branch ended before the loads had risen to their size,
+  /// and the beam has fallen to a stable shape | iteration_limit, singular, non_finite: no press is answered.
   const SolveReport<Scalar>& rest() const noexcept {
     return take(
         ways_, [](const auto& way) -> auto& { return way.rest(); });
@@ -166,7 +155,7 @@ class FemModel {
 
   static Ways make_way(const Body& beam, int elements, const Solver& solver);
 
-  /// f of the way that this beam goes.
+  /// Calls f with the solver of this beam: OneTension or AllDisplacements.
   template <class AnyWays, class F>
   [[gnu::always_inline]] static decltype(auto) take(AnyWays& ways, F&& f) noexcept {
     if constexpr (may_be_taut)
@@ -174,7 +163,7 @@ class FemModel {
     return f(*std::get_if<General>(&ways));
   }
 
-  /// Of an answer at s: ok only where the mesh is fine enough for the tension there, too.
+  /// Of an answer at s: out_of_range where the mesh is too coarse for the tension there.
   Status judged(Status status, [[maybe_unused]] Scalar s,
                 [[maybe_unused]] const VectorOf<Scalar, dimension>& normal, bool in_range) const noexcept {
     if constexpr (dimension == 3) in_range = in_range && !std::get_if<General>(&ways_)->overdrawn(s, normal);

@@ -8,11 +8,10 @@
 //   force_error(model);                                                    // [N], where it is asked for
 //
 // A mesh of four times the elements takes the model's shape.  It is held at each place where the model is touched, along the force
-// there, friction included.  By what the force then differs the error is known: elements are of fourth order.  The bound
-// is six times that, because tension that bends a beam within an element makes the order lower.  It bounds what the mesh does,
-// and not what the kinematics leaves out.  It is of models in double: in float round-off is most of the difference.
+// there, friction included.  The bound is six times the difference of the forces, because elements are of fourth order, and of lower where
+// tension bends a beam within an element.  It bounds what the mesh does, not the kinematics.  In float round-off is most of the difference.
 // Offline: construction and elements_for() allocate and throw.  Servo: the call is noexcept and allocation-free, at most
-// NewtonRaphson::max_solves linear solves of four times the elements.  docs/limits.md has what was measured.
+// NewtonRaphson::max_solves linear solves of four times the elements.  docs/limits.md says how often the bound holds.
 #pragma once
 
 #include <algorithm>

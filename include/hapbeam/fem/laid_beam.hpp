@@ -2,14 +2,10 @@
 // How the nodes of a beam in the plane are laid: its two ends and where they hold it, the shapes from which a search for equilibrium
 // begins, a nudge off an equilibrium that gives way, and large increments as a chain.
 //
-// The displacements that one Newton step finds are those of a linear beam.  Added as they are, they lengthen every
-// element that turns by its angle squared, and EA times that drowns the load: Newton then needs small steps, and the
-// smaller the more elements there are.  As a chain each element turns by its angle and keeps the normal force that the tangent
-// foresees, and the chain is laid from its left end.  What it then misses of a held right end is shared out along the
-// arc.  A cantilever bends into a full circle in one step of two iterations, whatever the number of elements and however
-// stiff the beam is against stretching.
-// Not for a beam that is held at a contact: its turns are small from tick to tick, and what the chain would miss there
-// costs more iterations than the stretch does.
+// Increments that are added as vectors lengthen every element that turns by its angle squared, and EA times that exceeds the load.  As a
+// chain each element turns by its angle and keeps the predicted normal force; the chain is laid from its left end, and what it misses of a
+// held right end is shared out along the arc.  A cantilever bends into a full circle in one step of two iterations, on any mesh.
+// Not for a beam that is held at a contact, where turns are small and what the chain would miss costs more iterations.
 // Real-time: noexcept, no allocation, O(n).
 #pragma once
 
@@ -136,8 +132,8 @@ void lay(const NaturalShape<Scalar>& shape, const EndSupport<Scalar>& left, cons
   }
 }
 
-/// Bends a straight beam whose ends are to stand closer, in its own direction and facing each other, by some slack: to one
-/// side, as far as its length allows, so that its search for rest begins on the buckled side.
+/// Bends a straight beam whose ends are to stand closer by some slack to one side, as far as its length allows: its search for rest begins
+/// on the buckled side.
 ///   w = a f(s/L),  f = 16 t² (1 - t)²,  u' = -½ w'²,  a² ∫f'² dt = 2 slack L          along and across the beam
 /// @param side  1: the upper, -1: the lower   @param nodes  in and out, as lay() lays a straight beam
 template <typename Scalar, class Nodes>

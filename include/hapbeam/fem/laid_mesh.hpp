@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Nodes of the mesh of a beam or rod, which stays: one wherever something begins or ends, and the others shared out evenly; and
-// those at which a beam in closed form is drawn, one at the contact among them.
+// The mesh of a beam or rod, which stays, and the nodes at which a beam in closed form is drawn, one at the contact among them.
 //
-// That is where an arc of the natural shape ends, or a part with a section of its own, and where a point load acts.  An element in the plane bends against
-// the linear function nearest to its natural curvature, and no load acts between the contacts of one that is touched; one in space has one natural curvature.  Where there are too few elements, what is close to another one is left out.
-// Each further element goes to the part whose elements are the longest.  A beam of which nothing changes has the uniform mesh.
+// Nodes lie where an arc of the natural shape or a part with a section of its own ends, and where a point load acts.  With too few elements, what is
+// close to another one is left out.  Each further element goes to the part whose elements are the longest.
 // Laying a mesh is offline.  ContactMesh is real-time: noexcept, no allocation, O(1).
 #pragma once
 

@@ -2,13 +2,11 @@
 // The branch of equilibria that a beam follows while its loads rise and its ends are moved, from nothing to their full size.
 //
 // Newton's method under the full load finds an equilibrium, but not always that of the branch: a cantilever under PL²/EI = 15
-// may end with its tip turned the other way round.  So each step along the path has to show that it has stayed on the branch.
-// Its first increment is the predictor, the others are corrections.  A correction may turn no node by more than half of what
-// the one before turned any, nor by more than a quarter of a radian; else the step is taken back and cut.  A path without
-// bend is one step, however far it goes: a beam that hardly turns, a cantilever that a moment rolls up.
+// may end with its tip turned the other way round.  So a correction after the predictor may turn no node by more than half of what
+// the one before turned any, nor by more than a quarter of a radian; else the step is taken back and cut.
 //
-// Where the branch ends or gives way, the beam falls to a stable shape just beyond, and the path goes on from there.  It has
-// snapped if that shape is another under the load before, too: a column that has buckled goes back.
+// Where the branch ends, the beam falls to a stable shape just beyond, and the path goes on from there.  It has snapped if that shape
+// is another under the load before, too: a column that has buckled goes back.
 //
 //   expression of a system, beyond those of Descent
 //   -----------------------   ------------------------------------------------------------------------
@@ -34,7 +32,7 @@ namespace hapbeam {
 template <typename Scalar>
 struct PathEnd {
   SolveReport<Scalar> report;  ///< ok | snapped, where the beam has jumped on the way | iteration_limit
-  bool fell;                   ///< whether the branch ended or gave way
+  bool fell;                   ///< whether the branch ended or became unstable
 };
 
 struct LoadPath {
@@ -43,8 +41,8 @@ struct LoadPath {
   double largest_correction = 0.25;  ///< [rad]
   double nothing = 1e-6;             ///< [rad] a rotation that is round-off
   double resolution = 1e-5;          ///< how closely the end of a branch is found, of the load there
-  double fork = 1e-2;  ///< the same where it gives way: nearer to that nothing drives the beam aside
-  double jump = 1e-5;  ///< energy set free, of EI/L, that says that it has jumped
+  double fork = 1e-2;  ///< the same where it becomes unstable: nearer to that nothing drives the beam aside
+  double jump = 1e-5;  ///< energy set free by a jump, of EI/L, at least
 
   /// Goes from the start of the system's path to its end.
   template <class System>
@@ -127,8 +125,8 @@ struct LoadPath {
     return lost;
   }
 
-  /// The last tangent is that of the state before the last increment.  Where it has a negative pivot, or that increment was the
-  /// whole step, a second look decides.
+  /// The last tangent is that of the state before the last increment.  Where it has a negative pivot, or that increment was the whole step,
+  /// the tangent is assembled anew.
   template <class System>
   static bool stable(System& system, int& solves, int corrections) noexcept {
     if (corrections > 0 && system.negative_pivots() == 0) return true;

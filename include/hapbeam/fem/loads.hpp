@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Dead loads as forces at fixed points of a beam or rod.
 //
-// A distributed load becomes the consistent nodal forces of the mesh (thesis eq. 3.31), once; point loads stay
-// where they are.  Each is then given to whichever element holds it.
+// A distributed load becomes the consistent nodal forces of the mesh (thesis eq. 3.31); point loads stay where they are.
 //
-// What a distributed load gives a node beside a force is its first moment about the node.  The forces stay dead while
-// their arms, which lie along the beam, turn with it: in the plane
+// A distributed load also gives a node its first moment.  Forces stay dead while their arms, which lie along the beam, turn with it: in the plane
 //
 //   ∫f u + q w ds = Σ f u + q w + p (cos θ - 1) - q_arm sin θ         for one element and even loads p = ± f l²/12
 //
-// (Euler and Maclaurin's formula: an error of O(l⁵) an element.)  Taken for a moment, which works on θ whatever θ is, it
-// leaves second order at large rotation; moderate rotation has -p θ²/2 for the first and -q_arm θ for the second.
+// (Euler and Maclaurin's formula: an error of O(l⁵) an element.)  Moderate rotation has -p θ²/2 for the first and -q_arm θ for the second.
 // Building the list is offline, and may allocate and throw; all else is noexcept and allocation-free.
 #pragma once
 
@@ -45,7 +42,7 @@ inline constexpr std::array<double, 5> gauss_weights = {0.11846344252809454376, 
                                                         0.28444444444444444444, 0.23931433524968323402,
                                                         0.11846344252809454376};
 
-/// Beside a force of EI/L² over the unit round-off of the model's scalar no digit is left of what bends the beam: there is no answer.
+/// EI/L² over the unit round-off of the model's scalar: beside a larger force no digit is left of what bends the beam.
 template <typename Scalar>
 class LargestLoad {
  public:

@@ -3,7 +3,7 @@
 //
 //   |q|² = qᵀ M q,   M of the cubic: constant, alike along each axis, and of neighbours alone
 //
-// That of sections that turn across the tangent, ρI, is left out: the first frequency between hinges is (πh/L)²/24 of itself too high, h: height.
+// The inertia ρI of sections that turn across the tangent is left out: the first frequency between hinges is (πh/L)²/24 of itself too high, h: height.
 // Allocates at construction; all else is noexcept and allocation-free, O(n).
 // Source: Archer 1963.
 #pragma once
@@ -73,7 +73,7 @@ class MassBlocks {
       };
       blocks_[i] = {block(own), block(next), block(before)};
       if constexpr (Spins > 0) {
-        // Between what is consistent with an angle that is linear, and all of it at the nodes: of fourth order.
+        // The mean of the consistent mass of a linear angle and of lumped mass: of fourth order.
         const S left = i > 0 ? c * spins_[i - 1] : S(0), right = i < last ? c * spins_[i] : S(0);
         blocks_[i].own.own[2 * D] = 5 * (left + right) / 12;
         blocks_[i].next.own[2 * D] = right / 12, blocks_[i].before.own[2 * D] = left / 12;
@@ -108,7 +108,7 @@ class MassBlocks {
     return sum;
   }
 
-  /// √(c |q|²) of places that are all off by so much [√J].   @param off [m]
+  /// √(c |q|²) of places that are all displaced by so much [√J].   @param off [m]
   S round_off(S off) const noexcept {
     Placed x = Placed::Zero();
     x.template head<D>().setConstant(off);

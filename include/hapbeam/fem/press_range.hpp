@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Where a press of a finite-element beam, or a push of a rod, is answered, and at which place the mesh of a beam takes the contact.
 //
-// A support that holds its place across is rigid: the shortest element keeps its distance from it.
-// Moderate rotation: |d| up to a tenth of the length and half of the distance to such a support, where it has ended,
-// though the solver has not.  Finite rotation: where the ends hold the beam along its axis, as far beyond what its length
-// allows; where it can slide, 0.3 of the length and of the distance, the deepest that one call reaches from rest.
-// A push of a rod has no limit of depth.
+// From a support that holds its place across a press keeps a distance.  Moderate rotation: |d| up to a tenth of the length and half of the
+// distance to such a support.  Finite rotation: where the ends hold the beam along its axis, as far beyond what its length allows; where it can
+// slide, 0.3 of the length and of the distance, the deepest that one call reaches from rest.  A push of a rod has no limit of depth.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 

@@ -57,7 +57,7 @@ class RodChain {
         ends_(rod, parts_.nodes()),
         length_(static_cast<Scalar>(rod.length())),
         axial_(static_cast<Scalar>(rod.stiffness().axial)) {}
-  /// The right end goes to where it belongs, which the natural shape does not say.
+  /// Places the right end, where that is not the end of the natural shape.
   void place_right(const Rod& rod) noexcept {
     if (rod.right_pose()) ends_[1].place_home(*rod.right_pose());
   }
@@ -155,7 +155,7 @@ class RodChain {
 
   // Its equations.
 
-  /// A rod that is round may roll where it is bowed, but for round-off; 1/10⁷ of what bends one.
+  /// A round rod that is bowed may roll, but for round-off.
   static constexpr Scalar neutral() noexcept { return Scalar(1e-6); }
   /// That of places, which stretches the shortest element, and of what is in motion is inertia [√J].
   Scalar round_off(Scalar) const noexcept {
@@ -187,9 +187,8 @@ class RodChain {
     const Increment x = assembler.increment(i);
     return ends_.has(i) ? ends_.increment(x, i, node(i)) : x;
   }
-  /// Adds the increment of the last equations: what turns keeps its length.  Without a contact, which would be missed, the chords
-  /// turn as the tangents do, from the left end on (as laid_beam.hpp says of the plane).
-  /// @return by how much it is longer than the nodes alone say [J]
+  /// Adds the increment of the last equations: what turns keeps its length.  Without a contact the chords turn as the tangents do, from the
+  /// left end on (laid_beam.hpp).   @return by how much the increment is longer than its nodes alone say [J]
   template <class Rows, class ElementAt>
   Scalar advance(const Assembler& assembler, Rows& rows, ElementAt&& element_at) noexcept {
     increments_.take(assembler);
@@ -249,7 +248,7 @@ class RodChain {
   void nudge(Scalar size, Scalar contact, Scalar load) noexcept {
     const Node& middle = node(parts_.size() / 2);
     const Vector3 d1 = middle.director, d2 = detail::cross3(detail::unit(middle.tangent), d1);
-    // Where nothing pushes, along the director and half as much across it.
+    // Without loads along the director and half as much across it.
     Vector3 way = d1 + d2 / 2;
     if (contact < 0 && parts_.loaded(load)) {
       const Vector3 pushed = pushed_by(size, d1, load) * d1 + pushed_by(size, d2, load) * d2;
@@ -283,7 +282,7 @@ class RodChain {
   using Residual = typename Parts::Residual;
   using Block = Eigen::Matrix<Scalar, unknowns, unknowns>;
   const Node& node(int i) const noexcept { return parts_.nodes()[i]; }
-  /// What contacts are to their elements.  Not inlined by intent: the equations are long, and what all elements need comes first.   @return their energy [J]
+  /// Residual and tangent of contacts within elements.  Not inlined by intent.   @return their energy [J]
   template <class Rows>
   [[gnu::noinline]] Scalar add_contacts(Rows& rows, Assembler& assembler) noexcept {
     Scalar energy = 0;
@@ -332,7 +331,7 @@ class RodChain {
       detail::set_tangent<Scalar>(node, node.tangent + slope / length_ * e);
     }
   }
-  /// The part of the work of its loads in a bow that changes its sign with that: none, where it is round-off [J].
+  /// The part of the work of its loads that changes its sign with a bow; 0 where it is round-off [J].
   Scalar pushed_by(Scalar size, const Vector3& d, Scalar load) noexcept {
     bow(size * d, -1);
     const Scalar there = parts_.work(load);

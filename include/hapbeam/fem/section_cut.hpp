@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a section of a beam or rod carries, from its elements: equilibrium of a piece that is cut out.
 //
-// The forces of an element on its nodes, less its dead loads, are those of the neighbours.  From its left node the moment goes on
-// along the bent centreline as  M(s) = M1 - (r(s) - r1) × F,  F the force; what that misses of the right node's is
-// shared out.  In the plane × is counted clockwise, as θ is; in space the moment of a node is r' × g + φ t, with g and φ
-// those on r' and on the twist.  At nodes this is as accurate as the force of a press, where second derivatives of the shape are of second order.
+// The forces of an element on its nodes, less its dead loads, are those of the neighbours.  From its left node the moment is
+// M(s) = M1 - (r(s) - r1) × F  along the bent centreline, F the force; what that misses of the right node's is shared out.  In the plane × is
+// counted clockwise, as θ is; in space the moment of a node is r' × g + φ t, with g and φ those on r' and on the twist.
+// At nodes this is as accurate as the force of a press; second derivatives of the shape are of second order.
 //
 // A distributed load is nodal forces of the mesh (loads.hpp).  Between two of those it has, at ξ of their distance h,
 //
@@ -48,7 +48,7 @@ CutPlace<Scalar, 2> cut_place(Scalar s, const Displacement<Scalar>& at) noexcept
   else return {{s, 0}, {1, 0}};
 }
 
-/// A cut on its way along an element.
+/// A cut that moves along an element.
 template <typename Scalar, int D>
 struct SectionCut {
   using Vector = VectorOf<Scalar, D>;

@@ -40,7 +40,7 @@ struct ChainEnergies {
   Scalar measured;  ///< what increments are measured by
 };
 
-/// Goes on as it went, so many times as far.   @param before  becomes what it is now
+/// Extrapolates the last step, times a ratio.   @param before  in: the value before that step, out: the present one
 template <typename Scalar>
 void extrapolate(Scalar& now, Scalar& before, Scalar ratio) noexcept {
   const Scalar was = now;
@@ -108,10 +108,10 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   Scalar length() const noexcept { return length_; }
   const Node& node(int i) const noexcept { return parts().nodes()[i]; }
   Line centreline() const noexcept { return parts().view(parts().nodes()); }
-  /// Another state of it, seen with its kinematics.
+  /// A view of another state of it.
   Line view(const State& state) const noexcept { return parts().view(state.nodes); }
 
-  /// The state as it is.  @param state  out
+  /// @param state  out, the present one
   void keep(State& state) const noexcept {
     state.nodes.set(parts().nodes());
     each_inner([&](int e) { state.inner[e] = parts().inners()[e]; });
@@ -135,7 +135,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     chain_.take_shape(other.chain_);
     Contacts::let_go(0);
   }
-  /// The goal is the contacts of another mesh, each at its place, held by its force.
+  /// The goal is the contacts of another mesh, each at its place and held along its force.
   void set_goal_of(const ChainSystem& other) noexcept {
     Contacts::set_goal();
     for (int k = 0; k < other.rows_.size(); ++k) {
@@ -155,17 +155,17 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     const Scalar reaction = this->linear_reaction(k);
     return (contact.kind == Contact::Kind::round ? -reaction : reaction) * contact.normal + contact.friction;
   }
-  /// Goes on as it went from a state before, so many times as far.   @param before  becomes what the state is now
+  /// Extrapolates from a state before, times a ratio.   @param before  out: the present state
   void go_on(State& before, Scalar ratio) noexcept {
     Chain::go_on(nodes(), before.nodes, ratio);
     each_inner([&](int e) { detail::extrapolate(inners()[e], before.inner[e], ratio); });
   }
-  /// What goes on as from one state to another.  @param from  becomes the state now, less the way from there to `to`
+  /// Extrapolates by the step between two states.  @param from  out: the present state less the step from there to `to`
   void carry(State& from, const State& to) const noexcept {
     for (int i = 0; i <= elements(); ++i) Chain::carry(node(i), from.nodes[i], to.nodes[i]);
     each_inner([&](int e) { from.inner[e] += parts().inners()[e] - to.inner[e]; });
   }
-  /// Gives each element the tension that belongs to the displacements of its nodes: where those alone were set.
+  /// Gives each element the tension that belongs to the displacements of its nodes.
   void find_tensions() noexcept { chain_.parts().find_tensions(); }
 
   /// n · (u, w) or n · r at s, of a state, of the mesh, and as it is drawn [m].
@@ -180,14 +180,14 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     const Line line = drawn();
     return beside(line, line.segment_at(s), element_at(s), s).place;
   }
-  /// Whether the element at s is too long for the tension that it is under, to one who presses along a normal.  @param s  [m]
+  /// Whether the element at s is too long for its tension, pressed along a normal.  @param s  [m]
   bool overdrawn([[maybe_unused]] Scalar s, [[maybe_unused]] const Vector& normal) const noexcept {
     if constexpr (dimension == 3) return parts().overdrawn(element_at(s), s, normal);
     else return false;
   }
   /// Where its middle is: a beam's across alone [m].
   auto middle() const noexcept { return Chain::middle(centreline().at(length_ / 2)); }
-  /// Whether an element that does not do so at rest has turned so far in itself that it no longer stands for a beam.
+  /// Whether an element has turned further in itself than its kinematics allows, and not so at rest.
   bool folded(const State& rest) const noexcept {
     for (int e = 0; e < elements(); ++e)
       if (Chain::folds(node(e), node(e + 1)) && !Chain::folds(rest.nodes[e], rest.nodes[e + 1])) return true;
@@ -215,7 +215,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     Contacts::restore_contacts();
   }
   Scalar size() const noexcept { return weight_; }
-  /// Strain energy before the last increment, at least that of a bend by 10⁻⁴ rad, of which no snap is told [J].
+  /// Strain energy before the last increment, at least that of a bend by 10⁻⁴ rad, below which no snap is detected [J].
   Scalar strain() const noexcept { return (size_ * size_ + Scalar(1e-8) * unit_ * unit_) / 2; }
   Scalar unit() const noexcept { return unit_; }
   Scalar round_off() const noexcept { return chain_.round_off(size_); }
@@ -251,7 +251,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
       to.add_at(i, Eigen::Matrix<Scalar, unknowns, unknowns>(diagonal.asDiagonal()), Increment::Zero());
     }
   }
-  /// On the way down the forces of before are no longer there.
+  /// A descent begins: without the forces of before.
   void forget_force() noexcept { rows_.fall(); }
   /// Adds the increment to the state.
   void advance() noexcept;
@@ -264,11 +264,11 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   }
   /// V - λ f · x before the last increment was added [J].
   Scalar potential() const noexcept { return potential_; }
-  /// How many directions there are along which the tangent of the last increment is not stiff but gives way.
+  /// How many unstable directions the tangent of the last increment has.
   int negative_pivots() const noexcept {
     return rows_.any() ? rows_.negative_pivots() : assembler_.negative_pivots();
   }
-  /// Bends it a little where nothing makes it leave an equilibrium, without a contact to where its loads push.  @param size  [m]
+  /// Bends it a little off an unstable equilibrium, without a contact to where its loads push.  @param size  [m]
   void nudge(Scalar size) noexcept { chain_.nudge(size, rows_.any() ? rows_[0].s : Scalar(-1), load_); }
 
   // Required by LoadPath, in addition.
@@ -363,7 +363,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     if constexpr (dimension == 2) chain_.parts().set_turning(share);
   }
   int element_at(Scalar s) const noexcept { return centreline().segment_at(s); }
-  /// How far the curve lies beside a piece of a line in an element, and how much steeper it is: its tension straightens it between what bends it.
+  /// How far the curve, which its tension straightens, lies beside a piece of a line in an element, and how much steeper it is.
   struct Beside {
     Vector place = Vector::Zero(), slope = Vector::Zero();
   };
@@ -385,12 +385,12 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     add(taut.right - cubic[3], Vector(3 / l * (control.col(3) - control.col(2)) - chord));
     return by;
   }
-  /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one.  Farther beside the node both do not answer alike.
+  /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one element.
   int element_at(Scalar s, int before) const noexcept {
     const Scalar from = node(before).s, to = node(before + 1).s, over = (to - from) / 10000;
     return from - over <= s && s <= to + over ? before : element_at(s);
   }
-  /// A node of drawn() where a contact is: on what touches it, where an equilibrium was found; the last increment has left that by its square.
+  /// A node of drawn() at a contact: on what touches it, where an equilibrium was found.
   Node mark(int k) const noexcept {
     const Contact& contact = rows_[k];
     const Scalar off = contact.gap - contact.ahead + contact.force * contact.compliance,
@@ -419,7 +419,7 @@ Status ChainSystem<Chain>::factor(Scalar shift) noexcept {
   if (rows_.any()) potential_ += rows_.potential() + rows_.friction_potential();
   chain_.ends().hold(nodes(), rows_, assembler_);
   const Status status = rows_.any() ? rows_.solve(assembler_) : assembler_.solve();
-  // A round rod that is bowed between two ends on one axis may roll about it: that takes no force, and leads nowhere.
+  // A round rod that is bowed between two ends on one axis may roll about it, without force.
   if (status == Status::singular && shift == 0 && no_mechanism_) return factor(neutral());
   return status;
 }

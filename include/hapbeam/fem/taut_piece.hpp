@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The part of a straight, unloaded beam between one of its ends and the contact, under a tension, in closed form.
 //
-// It is seen from its end: ξ is 0 there and 1 at the contact, and rotations are turned about on the right, so that either side is
-// a left one.  A hinge is the middle of an antisymmetric piece of twice the length, an end that is guided that of a symmetric one; an
-// end that is free stays straight.
+// ξ is 0 at its end and 1 at the contact; on the right rotations are mirrored.  A hinge is the middle of an antisymmetric piece of twice the
+// length, an end that is guided that of a symmetric one; an end that is free stays straight.
 // Lengths are in units of the beam's L, forces of EI/L², so that tension is ν = N L²/EI.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once

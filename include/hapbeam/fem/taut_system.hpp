@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The equations of a straight beam without dead loads whose ends stand no closer than it is long: one unknown, the tension.
 //
-// Without axial load the tension N is the same in all elements, and under N the beam is linear.  What is left is that the arc,
-// as long as tension and slope make it, fits between the ends:
+// Under one tension N the beam is linear.  The arc has to fit between the ends:
 //
 //   N L/EA = δ + ½ k'(N) d²          δ how far the ends are drawn apart, k(N) the stiffness at the contact
 //
 // The potential is convex: there is one equilibrium, it is stable, and N >= EA δ/L >= 0.  As k' falls like C/(N + a)², an
-// iteration takes that function through the value and slope at the present N and solves for N what is then a cubic; it
-// converges from anywhere.  An end that slides leaves N = 0, and one iteration.
-// Between its ends and the contact the beam is two pieces in closed form (taut_piece.hpp): there is no mesh, and no error of one.
-// The nodes are places at which the shape is drawn.
-// It takes the place of BeamSystem, whose iterations solve for u, w, θ of all nodes.
+// iteration fits that function to the value and slope at the present N and solves a cubic; it converges from anywhere.  An end that slides
+// leaves N = 0, and one iteration.
+// Between its ends and the contact the beam is two pieces in closed form (taut_piece.hpp).  Nodes are where the shape is drawn.
 // Allocates at construction; every other member is noexcept and allocation-free.  An iteration is O(1), the shape O(n).
 // Source: the function is that of the secular equations of trust regions: Moré and Sorensen, Computing a trust region step,
 // SIAM J. Sci. Stat. Comput. 4 (1983).
@@ -85,10 +82,10 @@ class TautSystem {
     right_.set((length_ - s) / length_);
     goal_d_ = d / length_;
   }
-  /// Back to the place of lay(), where no step went on from there.
+  /// Back to the place of lay().
   void take_back() noexcept { set_goal(laid_s_, d_ * length_); }
 
-  // What NewtonRaphson asks of a system, in units of EI/L.
+  // Required by NewtonRaphson, in units of EI/L.
 
   void set_target(Scalar t) noexcept {
     d_ = goal_d_;
@@ -135,7 +132,7 @@ class TautSystem {
     left_.bend(tension_, d_, turn);
     right_.bend(tension_, d_, -turn);
     place_nodes();
-    // Without tension an end that slides is where the length of the arc leaves it.
+    // Without tension the length of the arc says where an end that slides is.
     Scalar ends[2] = {place_[0], place_[1]};
     if (!between_ends_) {
       const Scalar span = left_.shortening() + right_.shortening();
@@ -237,8 +234,7 @@ class TautSystem {
     return right ? right_.at((length_ - s) / length_) : left_.at(s / length_);
   }
 
-  /// The predictor: the function of the last press, and where the hand slides on by at most as much again, its rate as it goes
-  /// on from the last two.
+  /// The predictor: the function of the last press; its rate is extrapolated where the hand slides by at most as much again.
   Longer foreseen() const noexcept {
     Longer longer = known_;
     const Scalar moved = contact_s_ - known_.s, way = known_.s - before_.s;
@@ -260,7 +256,7 @@ class TautSystem {
       const Scalar q = 1 + beta * change, p = above + change;
       const Scalar step = (wanted - p * q * q) / (q * (q + 2 * beta * p));
       change += step;
-      // What is left is of second order, as what the function has left out.
+      // The rest is of second order, as is what the function leaves out.
       if (beta * std::abs(step) <= Scalar(1e-2) * q) break;
     }
     return change;
@@ -281,8 +277,7 @@ class TautSystem {
   Scalar size_ = 0, stiffness_ = 0;
 };
 
-/// A press of such a beam, from the last press on: the taut way of FemModel.  Letting go leads back to rest.
-/// The members are those of AllDisplacements; a press takes at most solver.max_solves iterations.
+/// A press of such a beam, from the last press on, with the members of AllDisplacements; at most solver.max_solves iterations.
 template <typename ScalarType, int Elements, int MaxElements, class Solver>
 class OneTension {
  public:

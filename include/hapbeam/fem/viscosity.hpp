@@ -48,12 +48,12 @@ class Viscosity {
 
   bool none() const noexcept { return viscosity_ == 0 && count_ == 0; }
 
-  /// It has been as it is for long.
+  /// At rest in the present shape.
   template <class Parts>
   void relax(const Parts& parts) noexcept {
     for (int e = 0; e < size(); ++e) now_[e] = {}, now_[e].strain = strain(e, parts.displacements(e));
   }
-  /// It has stopped as it is.
+  /// Its rates are zero from here on.
   void stop() noexcept {
     for (int e = 0; e < size(); ++e) now_[e].rate.setZero();
   }
@@ -70,7 +70,7 @@ class Viscosity {
   void take_back() noexcept {
     for (int e = 0; e < size(); ++e) now_[e] = before_[e];
   }
-  /// As before the last part, with the rates behind it.
+  /// Back to the state before the last part, with the rates behind it.
   void start_again() noexcept {
     for (int e = 0; e < size(); ++e)
       now_[e].strain = before_[e].strain, now_[e].branches = before_[e].branches;
@@ -140,9 +140,9 @@ class Viscosity {
   using States = PerNode<State, Elements, MaxElements>;
   using Properties = PerNode<ElementProperties<S>, Elements, MaxElements>;
 
-  /// Elements to look after.
+  /// Number of elements; 0 without viscosity.
   int size() const noexcept { return none() ? 0 : elastic_.size() - 1; }
-  /// What a bent element is longer than its chord [m].
+  /// By how much a bent element is longer than its chord [m].
   static S longer(const ElementProperties<S>& p, S a, S b) noexcept {
     return (2 * a * a - a * b + 2 * b * b) * (p.inverse_length / 30);
   }

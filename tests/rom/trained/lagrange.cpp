@@ -33,7 +33,7 @@ double lebesgue_constant(int n) {
   return most;
 }
 
-/// A policy of one's own, the one of docs/training.md: Chebyshev nodes of the second kind.
+/// A policy of one's own: Chebyshev nodes of the second kind.
 struct Lobatto {
   static constexpr const char* name() noexcept { return "lobatto"; }
   static double node(int k, int n) { return n == 1 ? 0 : -std::cos(3.14159265358979324 * k / (n - 1)); }

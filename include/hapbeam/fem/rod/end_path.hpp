@@ -3,8 +3,7 @@
 //
 //   x(t) = x0 + t Δ + t (t - 1) ρ/(1 + ρ) (Δ - ρ Δ₋)         ρ: length of the step in units of the one before
 //
-// is the parabola through this pose and the two before, so that a hand that moves evenly faster is one for the step, too.  Rotations go
-// the same way by their rotation vectors.
+// is the parabola through this pose and the two before: the acceleration of the hand.  Rotations alike, by their rotation vectors.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
@@ -76,7 +75,7 @@ class EndPath {
  public:
   using Node = RodNode<S>;
 
-  /// It has been there for long.
+  /// At rest there.
   void stay(const Node& at) noexcept { from_ = to_ = next_ = at, way_ = turn_ = {}, span_ = 0; }
   /// Where the next step leads, and those after it.
   void lead(const Node& to) noexcept { next_ = to; }

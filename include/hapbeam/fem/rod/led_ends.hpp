@@ -3,8 +3,8 @@
 //
 //   F = K g + B (g - g0)/τ          g = x - h of the end x against the hand h
 //
-// in each stage of length τ, as of hands that touch (contact/coupled_contacts.hpp).  The damper is springs B/τ that have no force where the end is
-// to the hand as where the stage begins, turned alike: with a hand at rest a stage takes energy however far it turns.
+// in each stage of length τ, as of hands that touch (contact/coupled_contacts.hpp).  The damper is springs B/τ without force at the pose, against the hand,
+// in which the stage begins: with a hand at rest each stage dissipates.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 

@@ -82,8 +82,8 @@ class RodElements {
     const RodProperties<Scalar>& p = properties_[e];
     return taut() ? inner_[e] * (1 + inner_[e] / p.axial) * p.softest() : Scalar(0);
   }
-  /// Whether an element is drawn so taut that its curve is no cubic any more, N l²/EI above 4, and does not know that: it has no tension of its own, or is
-  /// bent about its stiffer axis.  A press within it may be off by more than 1 %.   @param s  of the press [m]   @param normal  along which
+  /// Whether an element without a tension of its own, or bent about its stiffer axis, has N l²/EI above 4: a press within it may have an error of more
+  /// than 1 %.   @param s  of the press [m]   @param normal  along which
   bool overdrawn(int e, Scalar s, const VectorOf<Scalar, 3>& normal) const noexcept {
     constexpr Scalar most = 4, aside = Scalar(0.01);
     const RodProperties<Scalar>& p = properties_[e];
@@ -146,7 +146,7 @@ class RodElements {
       });
     }
   }
-  /// A step far into compression, which has no bending stiffness left, leads nowhere.
+  /// No step goes far into compression, which has no bending stiffness left.
   void set_tension(int e, Scalar value) noexcept {
     const RodProperties<Scalar>& p = properties_[e];
     inner_[e] = (std::max)(value, (std::min)(inner_[e], Scalar(0)) -
@@ -228,7 +228,7 @@ class RodElements {
     typename Stiffness::Type all;
     (void)compute(place - lane, inner, all);
     for (int i = 0; i < 2 * unknowns; ++i) r[i] = all[i][lane];
-    // What a contact does to its tension is not in the equation of that.
+    // The equation of its tension lacks what a contact does to that.
     if (taut())
       for (int i = 0; i < 2 * unknowns; ++i)
         r[i] += inner.tension.row[i][lane] * inner.tension.residual[lane] / inner.tension.stiffness[lane];
@@ -280,7 +280,7 @@ class RodElements {
       const detail::CutPlace<Scalar, 3> held = place_at(x);
       ByPlace h[4];
       cut_at(x).weights(p.inverse_length, h);
-      // What stands off has a moment, which turns the tangent there.
+      // A contact that lies off the curve of the nodes has a moment about it, which turns the tangent.
       const Scalar stretched = std::sqrt(held.tangent.squaredNorm()), f = (x - a.s) * p.inverse_length;
       const Vector3 u = held.tangent / stretched, moment = detail::cross3<Scalar>(there - held.r, force),
                     turns = detail::cross3<Scalar>(moment, u) / stretched;
@@ -335,8 +335,7 @@ class RodElements {
   }
 
  private:
-  /// What is an unknown of each element: its tension, where ends or joints may draw it taut and it is straight by nature; its twist, unless it is round and
-  /// straight.
+  /// Unknowns of each element: its tension, where ends or joints may draw it taut and it is straight by nature; its twist, unless it is round and straight.
   struct Own {
     bool tension = false, twist = false;
   };
@@ -429,7 +428,7 @@ class RodElements {
       for (int i = 0; i < 2 * unknowns; ++i) r[i].set(lane, r[i][lane] + by[i]);
     });
   }
-  /// With the foundation, which knows more of the places than their difference.
+  /// With the foundation, which works on places, not on their difference alone.
   template <class Visit>
   void visit_on_bed(int first, const typename Stiffness::Type& K, WideResidual& r, Energies& sum,
                     Visit&& visit) noexcept {

@@ -37,7 +37,7 @@ class RodEnd {
     begin(natural);
     set_target(1);
   }
-  /// Where it belongs when the rod is at rest, too.
+  /// Its goal, also when the rod is at rest.
   void place_home(const RodPose& pose) noexcept {
     place(pose);
     home_ = goal_;
@@ -103,7 +103,7 @@ class RodEnd {
     if constexpr (Increment::RowsAtCompileTime == 7) by[6] = twist(node);
     return by;
   }
-  /// Which way a clamped end points.
+  /// Direction of a clamped end.
   const Vector3& direction() const noexcept { return target_.tangent; }
   /// Calls visit(component, increment) for what is held: r 0-2 in place_axes(), r' 3-4 in tangent_axes(), φ 6 where there is one.
   template <bool has_twist, class Visitor>
@@ -116,7 +116,7 @@ class RodEnd {
       for (int k = 0; k < 2; ++k) visitor(3 + k, -axes_.col(k).dot(node.tangent));
     if (has_twist && twist_) visitor(6, twist(node));
   }
-  /// Whether a pose says all of where it is: clamped, or on springs against each of its motions but twist.
+  /// Whether a pose places it fully: clamped, or on springs against each of its motions but twist.
   bool takes_pose() const noexcept {
     return (direction_ && holds_place()) || (on_springs() && across_[0] > 0 && across_[1] > 0 &&
                                              place_[0] > 0 && place_[1] > 0 && place_[2] > 0);
@@ -125,7 +125,7 @@ class RodEnd {
   bool holds_place() const noexcept { return held_[0] && held_[1] && held_[2]; }
   /// Whether something keeps its place, springs too.
   bool is_anchored() const noexcept { return holds_any_place() || !place_.isZero(0); }
-  /// How far the node is from where it is held; nothing where it is not.
+  /// From the node to where it is held; 0 where it is not.
   Vector3 miss(const Node& node) const noexcept {
     const Vector3 way = target_.r - node.r;
     if (holds_place()) return way;
@@ -134,7 +134,7 @@ class RodEnd {
       if (held_[k]) miss += axes_.col(k).dot(way) * axes_.col(k);
     return miss;
   }
-  /// A joint that holds the twist alone: what the director turns by when the tangent moves, -∂φ/∂r' at held twist, in space.
+  /// A joint that holds the twist alone: the director turns by -∂φ/∂r' when the tangent moves.
   bool is_joint() const noexcept { return twist_ && !direction_; }
   Vector3 arm(const Node& node) const noexcept { return holonomy(target_.tangent, node.tangent); }
   /// ∂²φ/∂r'², by the same.

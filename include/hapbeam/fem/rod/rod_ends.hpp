@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Both ends of a rod in its equations: what they hold is prescribed, in their own axes, and their springs are added.
 //
-// A clamped end has one unknown, how much longer r' becomes.  Any other end keeps its own: those of place and of r' along the axes of
-// what holds them, and the twist of a joint that holds it less what the director turns by with r'.
+// A clamped end has one unknown, how much longer r' becomes.  Any other end has those of place and of r' along the axes of what holds them; the twist
+// of a joint is less what the director turns by with r'.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The inertia of a rod as a step of time sees it: a spring to where it would be without force (dynamics.hpp).
 //
-// In places and tangents it is linear.  A node that has a director turns about its tangent by ψ, counted on from where a stage begins against the
-// director that is carried from there by the smallest rotation:
+// In places and tangents it is linear.  A node that has a director turns about its tangent by ψ, against the director that is carried from the
+// beginning of a stage by the smallest rotation:
 //
 //   ρ I_p ψ'²/2,   ∂ψ/∂φ = 1,   ∂ψ/∂r' = holonomy()
 //
@@ -93,7 +93,7 @@ class RodInertia : public MassBlocks<S, 3, Elements, MaxElements, Unknowns - 6> 
     K.template block<3, 3>(3, 3) = own * k * k.transpose() - moment * holonomy_change(from, tangent);
     K.template block<1, 3>(6, 3) = own * k.transpose(), K(6, 6) = own;
     assembler.add_at(i, K, r);
-    // Of neighbours by ψ alone: what their tangents turn in a stage is little.
+    // Of neighbours by ψ alone: their tangents turn little in a stage.
     if (i + 1 < blocks_.size()) assembler.couple_at(i, 6, 6, blocks_[i].next.own[6]);
   }
 

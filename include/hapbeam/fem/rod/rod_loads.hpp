@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The dead loads and elastic foundations of a rod on its mesh.
 //
-// A dead load does work on places and tangents, which the cubic has as linear functions of the nodes: the loads of an element
-// are a constant vector, exact wherever they stand in it.  A distributed load is made the consistent load of the mesh.
+// The cubic is linear in its nodes: dead loads of an element are a constant vector.  A distributed load is made the consistent load of the mesh.
 // A foundation is a quadratic form of them, integrated exactly where the natural shape is straight, and once for each mesh:
 //
 //   V = ½ ∫ (r - r°)ᵀ (k⊥ I + (k∥ - k⊥) t° t°ᵀ) (r - r°) ds        ° of the natural shape, t° its tangent

@@ -31,8 +31,7 @@ VectorOf<Scalar, 3> turned(const VectorOf<Scalar, 3>& v, const VectorOf<Scalar, 
   cos_and_sin_of_square(Scalar(aside.squaredNorm() / square), cosine, sine);
   return (1 + share) * (cosine * v + sine * aside);
 }
-/// Adds an increment of r' and φ to a node, as turned() and set_tangent() do.  What a processor would wait for is found early: the angle
-/// needs no length, and the director is made a unit vector first.
+/// Adds an increment of r' and φ to a node, as turned() and set_tangent() do, in an order in which a processor waits little.
 template <typename S>
 [[gnu::always_inline]] inline void move_tangent(RodNode<S>& node, const VectorOf<S, 3>& change,
                                                 const S* twist) noexcept {
@@ -123,7 +122,7 @@ template <typename S>
   return {from.dot(beside), from.dot(to), whole};
 }
 
-/// Nodes go on as they went, so many times as far.   @param then  becomes what they are now
+/// Extrapolates nodes, times a ratio.   @param then  in: before the last step, out: the present ones
 /// @tparam twists  whether their directors turn about the tangents
 template <bool twists, class Nodes, typename Scalar>
 [[gnu::flatten]] void go_on(Nodes& now, Nodes& then, Scalar ratio) noexcept {
