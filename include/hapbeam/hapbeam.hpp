@@ -30,5 +30,4 @@
 #include <hapbeam/rom/trained/guarded.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
 #include <hapbeam/shapes.hpp>
-#include <hapbeam/turning_plane.hpp>
 #include <hapbeam/version.hpp>

@@ -5,8 +5,8 @@
 //   const auto peak = peak_strain(model);               // the largest strain anywhere, and where
 //   if (peak.strain > 0.01) …                           // it breaks there
 //
-// A cut at s shows what the part beyond s does to the part before it.  FemModel has internal_forces(), and a TurningPlane of one;
-// nothing is computed unless it is asked for.
+// A cut at s shows what the part beyond s does to the part before it.  FemModel has internal_forces(); nothing is computed
+// unless it is asked for.
 // Forces are those of equilibrium: an element's forces on its nodes, and between its nodes the moments of those about the
 // bent centreline and of the dead loads.
 // Real-time: noexcept, no allocation; a cut takes O(log n), a peak O(n).

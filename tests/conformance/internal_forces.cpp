@@ -7,7 +7,6 @@
 #include "support/thesis_beam.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
-#include <hapbeam/turning_plane.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -78,6 +77,4 @@ TEST_CASE("models in space tell what their sections carry", "[contract][internal
   const Rod rod(0.5, RodSection::circle(0.005), spring_steel, RodSupport::clamped, RodSupport::free);
   check_in_space(FemModel<RoundRod>(rod, 8));
   check_in_space(FemModel<TwistedRod>(rod, 8));
-  check_in_space(TurningPlane<FemModel<Corotational<>>>(rod, {beam_in_any_plane(rod), 8}));
-  check_in_space(TurningPlane<FemModel<>>(rod, {beam_in_any_plane(rod), 8}));
 }

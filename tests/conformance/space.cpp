@@ -8,7 +8,6 @@
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
 #include <hapbeam/rom/training/train.hpp>
-#include <hapbeam/turning_plane.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -57,26 +56,5 @@ TEST_CASE("a rod that is bent, tapered, loaded or laid in a bed keeps the contra
     Rod rod = straight(c, c);
     rod.weight(7850, {0, -9.81, 0});
     check(FemModel<RoundRod>(rod, 16));
-  }
-}
-
-TEST_CASE("a planar model that turns keeps the contract of a ForceModel", "[contract][rod]") {
-  const Rod rod = straight(RodSupport::clamped, RodSupport::free);
-  const Beam beam = beam_in_any_plane(rod);
-  SECTION("pressed") { check(TurningPlane<FemModel<>>(rod, FemModel<>(beam, 8))); }
-  SECTION("pushed") { check(TurningPlane<FemModel<Corotational<>>>(rod, {beam, 8})); }
-}
-
-TEST_CASE("a trained model that turns keeps the contract of a ForceModel", "[contract][rod][rom]") {
-  const Rod rod = straight(RodSupport::clamped, RodSupport::free);
-  const Beam beam = beam_in_any_plane(rod);
-  const auto plan = TrainingPlan::anywhere(beam, 0.01, 12, 10);
-  const auto full = full_model(beam, 64);
-  SECTION("PodModel") {
-    check(TurningPlane<PodModel<>>(rod, PodModel<>(train_pod(take_snapshots(beam, full, plan)))));
-  }
-  SECTION("GalerkinModel") {
-    check(TurningPlane<GalerkinModel<>>(
-        rod, GalerkinModel<>(train_galerkin(take_snapshots_at_tensions(beam, full, plan)))));
   }
 }

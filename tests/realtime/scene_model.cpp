@@ -15,12 +15,11 @@ static_assert(noexcept(std::declval<SceneModel&>().force(std::declval<const Pres
 
 TEST_CASE("a scene's model touches no heap, whatever is asked, and every force is finite") {
   const Beam beam = thesis_beam(Support::pinned, Support::pinned);
-  const Candidate candidate =
-      GENERATE(Candidate{Kinematics::linear, Reduction::none, 8},
-               Candidate{Kinematics::von_karman, Reduction::none, 8, true},
-               Candidate{Kinematics::corotational, Reduction::none, 8},
-               Candidate{Kinematics::corotational, Reduction::pod, 16, false, 1, 8},
-               Candidate{Kinematics::von_karman, Reduction::galerkin, 16, false, 1, 8});
+  const Candidate candidate = GENERATE(Candidate{Kinematics::linear, Reduction::none, 8},
+                                       Candidate{Kinematics::von_karman, Reduction::none, 8, true},
+                                       Candidate{Kinematics::corotational, Reduction::none, 8},
+                                       Candidate{Kinematics::corotational, Reduction::pod, 16, 1, 8},
+                                       Candidate{Kinematics::von_karman, Reduction::galerkin, 16, 1, 8});
   SceneModel model = build(Scene::at(beam, thesis_length / 2, 0.02), candidate);
   const auto path = requests(model.range(), model.shape().length(), 1);
   int not_finite = 0;

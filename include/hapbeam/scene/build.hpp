@@ -5,7 +5,7 @@
 //   model.press({s, d});                             // one switch and the model's own press: nothing virtual
 //   model.visit([](auto& chosen) { … });             // or a loop that is compiled for the one that was chosen
 //
-// Touch and ServoLoop push a model of finite rotation along the normal if they are given that model itself, through visit().
+// Touch and ServoLoop push a planar model of finite rotation along the normal if they are given that model itself, through visit().
 // Building allocates and throws what training throws; it includes an SVD, which takes seconds to compile.
 // Servo: noexcept, allocation-free, bounded as the model that it holds.
 #pragma once
@@ -30,70 +30,6 @@
 
 namespace hapbeam {
 
-/// The left half of a beam whose right half is its mirror image: no loads, ends alike, perhaps pulled apart.
-inline Beam half_of(const Beam& beam) {
-  Beam half(beam.length() / 2, beam.axial_stiffness(), beam.bending_stiffness(), beam.thickness(),
-            beam.left(), Support::guided);
-  return half.place({}, {beam.right_place().u / 2, 0, 0});
-}
-
-/// A beam that is alike on both sides of the place where it is pressed, by a model of its left half.  That one ends in a plane of
-/// symmetry (Support::guided), where it is pressed with half of the force.  The other side of the shape takes O(nodes).
-/// @tparam Half  a ForceModel of half_of(beam)
-template <class Half>
-class Mirrored {
- public:
-  using Scalar = typename Half::Scalar;
-
-  /// @param apart  [m] how far the whole beam's ends are pulled apart
-  explicit Mirrored(Half half, Scalar apart = 0) : half_(std::move(half)), apart_(apart) {
-    nodes_.resize(static_cast<std::size_t>(2 * half_.shape().segments() + 1));
-    mirror();
-  }
-
-  /// As the half's, in the middle alone: elsewhere out_of_range.
-  Response<Scalar> press(const Press<Scalar>& request) noexcept {
-    const Scalar middle = half_.shape().length();
-    const bool on_beam = request.s >= 0 && request.s <= 2 * middle;
-    const Response<Scalar> half = half_.press({on_beam ? middle : request.s, request.d});
-    if (is_answer(half.status)) mirror();
-    using std::abs;
-    const bool off = abs(request.s - middle) > Scalar(1e-6) * middle;
-    return {2 * half.force, half.status == Status::ok && off ? Status::out_of_range : half.status};
-  }
-
-  Centreline<Scalar> shape() const noexcept {
-    return {nodes_.data(), static_cast<int>(nodes_.size()), half_.shape().any_rotation()};
-  }
-  Range<Scalar> range() const noexcept {
-    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-    const Scalar middle = half_.shape().length();
-    return {middle, middle, half_.range().depth_at(middle), Scalar(1), -infinity, infinity};
-  }
-  Scalar thickness() const noexcept { return half_.thickness(); }
-  void reset() noexcept {
-    half_.reset();
-    mirror();
-  }
-
-  const Half& half() const noexcept { return half_; }
-
- private:
-  void mirror() noexcept {
-    const Centreline<Scalar> left = half_.shape();
-    const Scalar length = 2 * left.length();
-    for (std::size_t i = 0, last = nodes_.size() - 1; i <= last / 2; ++i) {
-      const CentrelineNode<Scalar>& node = left[static_cast<int>(i)];
-      nodes_[last - i] = {length - node.s, apart_ - node.u, node.w, -node.theta};
-      nodes_[i] = node;
-    }
-  }
-
-  Half half_;
-  Scalar apart_;
-  std::vector<CentrelineNode<Scalar>> nodes_;
-};
-
 namespace detail {
 
 template <class Model>
@@ -112,7 +48,7 @@ class AnyOf {
  public:
   using Scalar = double;
   using Any = std::variant<Models...>;
-  static constexpr int dimension = D;
+  static constexpr int dimension = D, contacts = 1;
 
   explicit AnyOf(Any model) : model_(std::move(model)) {}
 
@@ -138,6 +74,10 @@ class AnyOf {
     return visit([&](auto& model) { return model.push(request); });
   }
   template <int N = D, std::enable_if_t<N == 3, int> = 0>
+  Status push(Obstacle<double, N>* all, int count) noexcept {
+    return visit([&](auto& model) { return model.push(all, count); });
+  }
+  template <int N = D, std::enable_if_t<N == 3, int> = 0>
   Status release() noexcept {
     return visit([](auto& model) { return model.release(); });
   }
@@ -158,8 +98,8 @@ class AnyOf {
   Any model_;
 };
 
-using SceneModel = AnyOf<2, FemModel<Linear>, FemModel<>, FemModel<Corotational<>>, Mirrored<FemModel<>>,
-                         Mirrored<FemModel<Corotational<>>>, PodModel<>, GalerkinModel<>>;
+using SceneModel =
+    AnyOf<2, FemModel<Linear>, FemModel<>, FemModel<Corotational<>>, PodModel<>, GalerkinModel<>>;
 
 namespace detail {
 
@@ -175,13 +115,7 @@ template <class Element>
 SceneModel build(const Scene& scene, const Candidate& candidate, int segments) {
   const Beam& beam = scene.beam;
   const int n = candidate.elements;
-  if (candidate.reduction == Reduction::none) {
-    if constexpr (!std::is_same_v<Element, Linear>)
-      if (candidate.mirrored)
-        return SceneModel(
-            Mirrored<FemModel<Element>>(FemModel<Element>(half_of(beam), n / 2), beam.right_place().u));
-    return SceneModel(FemModel<Element>(beam, n));
-  }
+  if (candidate.reduction == Reduction::none) return SceneModel(FemModel<Element>(beam, n));
   const bool loaded = !beam.point_loads().empty() || beam.transverse() || beam.axial();
   const auto full = full_model<Element>(beam, n);
   // A scene's depth counts from rest, a plan's from the straight beam; other meshes have rest about a percent lower at most.

@@ -45,13 +45,13 @@ class Chooser {
     choice_.force_error = scene.force_error, choice_.tick = scene.tick;
   }
 
-  /// Finite elements: the fewest that are accurate enough, if many are.   @param least, multiple  that a model can have
-  void elements(Kinematics kinematics, int least, bool mirrored = false) {
-    const auto of = [&](int n) { return judge({kinematics, Reduction::none, n, mirrored}); };
+  /// Finite elements: the fewest that are accurate enough, if many are.   @param least  that a model can have
+  void elements(Kinematics kinematics, int least) {
+    const auto of = [&](int n) { return judge({kinematics, Reduction::none, n}); };
     Verdict verdict = of(pilot_.elements());
     for (const int n : {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384}) {
       if (!barely_right(verdict) || n >= pilot_.elements()) break;
-      if (n < least || (mirrored && n % 2 != 0)) continue;
+      if (n < least) continue;
       const Verdict fewer = of(n);
       if (!fewer.right) continue;
       verdict = fewer;
@@ -64,7 +64,7 @@ class Chooser {
   void trained(Reduction reduction, Kinematics kinematics) {
     const Verdict& full = of(kinematics);
     // Fourth order: twice the elements leave a sixteenth of the error to the full model.
-    Candidate candidate{kinematics, reduction, 2 * full.candidate.elements, false, 1, 2};
+    Candidate candidate{kinematics, reduction, 2 * full.candidate.elements, 1, 2};
     Verdict verdict{candidate, infinity, candidate.tick(costs_, scene_.shape), false, {}};
     if (!full.right)
       verdict.refusal =
@@ -126,7 +126,7 @@ class Chooser {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  /// Of one kinematics by itself, on the whole beam.
+  /// Of one kinematics by itself.
   const Verdict& of(Kinematics kinematics) const {
     const auto is = [&](const Verdict& verdict) { return verdict.candidate.kinematics == kinematics; };
     return *std::find_if(choice_.verdicts.begin(), choice_.verdicts.end(), is);
@@ -185,10 +185,8 @@ class Chooser {
 /// @throws std::invalid_argument for a scene that makes no sense
 inline Choice choose(const Scene& scene, const TickCosts& costs = TickCosts::typical()) {
   detail::Chooser<Scene, Pilot> chooser(scene, costs);
-  for (const Kinematics kinematics : {Kinematics::linear, Kinematics::von_karman, Kinematics::corotational}) {
+  for (const Kinematics kinematics : {Kinematics::linear, Kinematics::von_karman, Kinematics::corotational})
     chooser.elements(kinematics, 2);
-    if (scene.mirrored() && kinematics != Kinematics::linear) chooser.elements(kinematics, 4, true);
-  }
   // The model that trains costs nothing in a tick, so the most accurate one is taken.  Galerkin's equation is von Kármán's.
   chooser.trained(Reduction::pod, Kinematics::corotational);
   chooser.trained(Reduction::galerkin, Kinematics::von_karman);

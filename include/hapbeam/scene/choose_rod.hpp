@@ -5,8 +5,7 @@
 //   const Choice choice = choose(scene);
 //   RodModel model = build(scene, choice.model());
 //
-// A rod that answers in any plane alike is chosen for as a beam is (choose.hpp), and its model turned (turning_plane.hpp).  For all
-// others RoundRod and TwistedRod are tried at growing size on the pushes of a RodPilot.
+// RoundRod and TwistedRod are tried at growing size on the pushes of a RodPilot.
 // The pilot's reference is TwistedRod, or RoundRod where nobody holds the twist, with as many elements as
 // it takes until half of them give the same force to a twentieth of the tolerated error, or with 256.  A rod that rests straight is
 // pushed along three directions across it, from a hundredth of the depth on; another along eight, from a thousandth on.
@@ -22,10 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include <hapbeam/element/rod.hpp>
@@ -33,7 +29,6 @@
 #include <hapbeam/fem/press_range.hpp>
 #include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/scene/choose.hpp>
-#include <hapbeam/turning_plane.hpp>
 
 namespace hapbeam {
 
@@ -70,18 +65,6 @@ struct RodScene {
     return deep * (cosine * x + sine * y) / std::hypot(x, y);
   }
 
-  /// The same in a plane, where that is exact: turning_plane.hpp.
-  std::optional<Scene> in_any_plane() const {
-    try {
-      const Beam beam = beam_in_any_plane(rod);
-      (void)TurningPlane<FemModel<Corotational<>>>(rod, {beam, 16});  // it rests straight
-      // Turned, a push by all of the depth is a press by that and its round-off.
-      return Scene{beam, s_min, s_max, depth * (1 + 1e-12), force_error, force_floor, tick, shape};
-    } catch (const std::invalid_argument&) {
-      return {};
-    }
-  }
-
   /// @throws std::invalid_argument
   const RodScene& check() const {
     const Range<double> range = PressRange<double>(rod).range();
@@ -90,37 +73,17 @@ struct RodScene {
   }
 };
 
-namespace detail {
-
-/// Those of a scene in the plane, turned; and the rods.
-template <class Planar>
-struct ModelsInSpace;
-template <class... Planar>
-struct ModelsInSpace<AnyOf<2, Planar...>> {
-  using Type = AnyOf<3, TurningPlane<Planar>..., FemModel<RoundRod>, FemModel<TwistedRod>>;
-};
-
-}  // namespace detail
-
 /// The model that a scene in space needs, whichever it is, as one ForceModel.
-using RodModel = detail::ModelsInSpace<SceneModel>::Type;
+using RodModel = AnyOf<3, FemModel<RoundRod>, FemModel<TwistedRod>>;
 
 /// @throws std::invalid_argument, TrainingError
-inline RodModel build(const RodScene& scene, const Candidate& candidate, int segments = 32) {
+inline RodModel build(const RodScene& scene, const Candidate& candidate, [[maybe_unused]] int segments = 32) {
   scene.check();
   if (candidate.kinematics == Kinematics::round_rod)
     return RodModel(FemModel<RoundRod>(scene.rod, candidate.elements));
   if (candidate.kinematics == Kinematics::twisted_rod)
     return RodModel(FemModel<TwistedRod>(scene.rod, candidate.elements));
-  const auto planar = scene.in_any_plane();
-  if (!planar)
-    detail::refuse("kinematics = %s: must be that of a rod, for this one is not the same in each plane",
-                   name(candidate.kinematics));
-  SceneModel model = build(*planar, candidate, segments);
-  return model.visit([&](auto& chosen) {
-    using Model = std::decay_t<decltype(chosen)>;
-    return RodModel(TurningPlane<Model>(scene.rod, std::move(chosen)));
-  });
+  detail::refuse("kinematics = %s: must be that of a rod for a RodScene", name(candidate.kinematics));
 }
 
 namespace detail {
@@ -240,16 +203,6 @@ inline Choice choose(const RodScene& scene, const TickCosts& costs = TickCosts::
   };
   const bool twists = holds_twist(scene.rod.left()) || holds_twist(scene.rod.right());
   const double hertz = twists ? first_mode(TwistedRod{}) : first_mode(RoundRod{});
-  if (const auto planar = scene.in_any_plane()) {
-    try {
-      Choice choice = choose(*planar, costs);
-      if (choice.candidate) choice.candidate->turning = true;
-      for (Verdict& verdict : choice.verdicts) verdict.candidate.turning = true;
-      choice.first_mode = hertz;
-      return choice;
-    } catch (const std::invalid_argument&) {  // deeper than a press across the axis goes: pushes go on
-    }
-  }
   detail::Chooser<RodScene, RodPilot> chooser(scene, costs);
   // Two or three elements of a bent rod turn by so much each that they are accurate to one side alone, by chance.
   for (const Kinematics kinematics : {Kinematics::round_rod, Kinematics::twisted_rod})

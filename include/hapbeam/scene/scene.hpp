@@ -58,15 +58,6 @@ struct Scene {
 
   bool one_place() const noexcept { return s_min == s_max; }
 
-  /// Whether half of the beam is enough: pressed in the middle, alike on both sides.
-  bool mirrored() const noexcept {
-    const EndPlace &a = beam.left_place(), &b = beam.right_place();
-    return one_place() && std::abs(2 * s_min - beam.length()) < 1e-9 * beam.length() &&
-           beam.left() == beam.right() && beam.uniform() && beam.arcs().empty() && a.u == 0 && a.w == 0 &&
-           a.theta == 0 && b.w == 0 && b.theta == 0 && beam.point_loads().empty() && !beam.transverse() &&
-           !beam.axial();
-  }
-
   /// @throws std::invalid_argument
   const Scene& check() const {
     const double margin = 0.999999 * beam.length() / 1000;
@@ -123,11 +114,9 @@ constexpr const char* name(Kinematics kinematics) noexcept {
 struct Candidate {
   Kinematics kinematics;
   Reduction reduction;
-  int elements;           ///< of the model, or of the one that trains it
-  bool mirrored = false;  ///< half of the beam, with half of the elements
+  int elements;  ///< of the model, or of the one that trains it
   int positions = 0,
-      depths = 0;        ///< snapshots of a trained model, at Chebyshev's nodes; tensions for Galerkin's
-  bool turning = false;  ///< planar, of a rod in space: TurningPlane
+      depths = 0;  ///< snapshots of a trained model, at Chebyshev's nodes; tensions for Galerkin's
 
   int snapshots() const noexcept { return positions * depths; }
 
@@ -141,20 +130,17 @@ struct Candidate {
                            : kinematics == Kinematics::round_rod   ? costs.round_rod
                            : kinematics == Kinematics::twisted_rod ? costs.twisted_rod
                                                                    : costs.corotational;
-    return cost(mirrored ? elements / 2 : elements);
+    return cost(elements);
   }
 
   /// In words, as "VonKarman, 8 elements" or "POD of VonKarman, 16 x 12 snapshots".
   std::string text() const {
-    const char* const plane = turning ? ", in the plane that turns" : "";
     char text[120];
     if (reduction == Reduction::none)
-      std::snprintf(text, sizeof text, "%s, %d elements%s%s", name(kinematics), elements,
-                    mirrored ? ", half of them by symmetry" : "", plane);
+      std::snprintf(text, sizeof text, "%s, %d elements", name(kinematics), elements);
     else
-      std::snprintf(text, sizeof text, "%s of %s, %d x %d snapshots%s",
-                    reduction == Reduction::pod ? "POD" : "Galerkin", name(kinematics), positions, depths,
-                    plane);
+      std::snprintf(text, sizeof text, "%s of %s, %d x %d snapshots",
+                    reduction == Reduction::pod ? "POD" : "Galerkin", name(kinematics), positions, depths);
     return text;
   }
 };
