@@ -85,8 +85,8 @@ inline TickCosts measure_tick_costs() {
     return line_through(4, time_push<Element>(4), 32, time_push<Element>(32));
   };
   const auto trained = [&](Reduction reduction, TickCost& force, TickCost& shape) {
-    SceneModel few = build(hold, {Kinematics::von_karman, reduction, 64, false, 1, 8}),
-               many = build(slide, {Kinematics::von_karman, reduction, 64, false, 16, 12});
+    SceneModel few = build(hold, {Kinematics::von_karman, reduction, 64, 1, 8}),
+               many = build(slide, {Kinematics::von_karman, reduction, 64, 16, 12});
     force = line_through(8, time_press(few, hold, false), 192, time_press(many, slide, false));
     shape = line_through(8, time_press(few, hold, true), 192, time_press(many, slide, true));
   };

@@ -6,6 +6,7 @@
 #include "support/catch.hpp"
 #include "support/csv.hpp"
 #include "support/pi.hpp"
+#include "support/push_round.hpp"
 #include "support/random.hpp"
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/fem/dynamic_model.hpp>
@@ -161,7 +162,7 @@ TEST_CASE("a hand that rests feels what a beam without mass gives", "[dynamics]"
     // The avatar stands where the spring has taken it, on the beam.
     FemModel<Corotational<>> still(beam, 8);
     const auto held =
-        still.push({felt.s, hand.hand.centre + felt.normal * (-felt.force / stiffness), 0.005, 1});
+        PushRound(still)({felt.s, hand.hand.centre + felt.normal * (-felt.force / stiffness), 0.005, 1});
     CAPTURE(depth, felt.force, held.force);
     CHECK(felt.force < 0);
     CHECK(felt.force == Approx(held.force).epsilon(1e-6));
