@@ -291,3 +291,18 @@ TEST_CASE("an avatar that is none is rejected, and a hand that is nowhere", "[ro
   }
   CHECK(touch.tick({0.14, 0, 0.003}).status == Status::ok);
 }
+
+// Its shaft goes down to the hinge as far as to the wire.  A place of contact that runs to the hinge finds a million newtons there, or nothing.
+TEST_CASE("a stylus that leans over a hinge is held by the wire beside it", "[rod]") {
+  const Rod wire(0.3, RodSection::circle(0.001), spring_steel, RodSupport::hinged, RodSupport::clamped);
+  FemModel<RoundRod> model(wire, 8);
+  Touch<FemModel<RoundRod>> touch(model, 0.01);
+  const double lean = 5 * pi / 180;
+  const Point shaft = 0.2 * Point(-std::cos(lean), std::sin(lean), 0);
+  for (int k = 4; k <= 60; ++k) {
+    const Felt felt = touch.tick(Point(0.015, 0.0105 - 1e-4 * k, 0), shaft);
+    CAPTURE(k, name(felt.status), felt.force.norm());
+    CHECK(felt.pressing);
+    CHECK(felt.force.norm() <= 100);
+  }
+}

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/body/rod_inner_contact.hpp>
@@ -308,6 +309,9 @@ class RowContacts {
     for (Slot& slot : slots_) slot.forget(), slot.sharp = slot.held = false;
   }
 
+  /// Whether a place has run to an end in the equilibrium that was reviewed last: the beam is far from where it was.
+  bool ran_away() noexcept { return std::exchange(ran_away_, false); }
+
   Obstacle* all_ = nullptr;
   int count_ = 0;
 
@@ -343,11 +347,21 @@ class RowContacts {
       if (now.goal < 0 || now.moves || all_[i].kind != ObstacleKind::round) continue;
       const bool right = now.s >= most_;
       if (!std::isfinite(right ? where.right_support : where.left_support)) continue;
+      // An end that holds w takes any force: what was beside it, and has run there, stays where it was.
+      const Scalar began = now.begins.s;
+      if (now.held && now.of > least_ && now.of < most_) continue;
+      if (!now.held && (right ? most_ - began : began - least_) > all_[i].round.reach / 4) {
+        static_cast<State&>(slot(i)) = now.begins;
+        hold_along(system, i, began);
+        ran_away_ = any = true;
+        continue;
+      }
       const auto view =
           RoundContact{all_[i].round}.look(system.node(right ? system.elements() : 0), right ? 1 : -1);
       if (!view.past_end) continue;
+      any = true;
       all_[i].touching = false;
-      slot(i).crowded = any = true;
+      slot(i).crowded = true;
     }
     return any;
   }
@@ -439,6 +453,7 @@ class RowContacts {
     return RoundContact{before_[of(i)]}.centre(at);
   }
 
+  bool ran_away_ = false;  // a place, to an end that it was not at
   Scalar least_ = 0, most_ = 0;
   std::array<Slot, most> slots_{};
   std::array<Round, most> before_{};  // in the push before

@@ -94,7 +94,8 @@ class RowPush : private RowContacts<Element, System> {
     System& system = way.system_;
     let_go_.known = false;
     for (int i = 0; i < count; ++i) {
-      if (!is_answer(all[i].pushed.status)) all[i].pushed.force = 0;
+      auto& pushed = all[i].pushed;
+      if (!is_answer(pushed.status) && !pushed.past_end) pushed = {0, Status::ok}, pushed.s = all[i].round.s;
       if (this->elsewhere(system, all[i])) all[i].pushed = {0, Status::ok}, continuation_.forget();
     }
     // A straight beam that one body presses has one shape for each press.
@@ -185,6 +186,7 @@ class RowPush : private RowContacts<Element, System> {
       }
       this->take(system);
       if (!this->review(system, range, friction)) break;
+      if (this->ran_away()) foresight_.begin_again(system), system.draw();
       if (pass == most_passes) {
         status = Status::iteration_limit;
         break;
