@@ -244,7 +244,7 @@ class DynamicModel {
     for (int stage = 0; stage < steps_.stages && found; ++stage) {
       const Scalar to = begin + steps_.end(stage) * (end - begin);
       ends_.aim(system_.chain(), from, to, steps_.length(stage));
-      found = solve(stage, to), from = to;
+      found = solve(stage, to, !massless_ && halvings == 0), from = to;
     }
     if (found) return ends_.settle(system_.chain(), end), true;
     system_.set_state(before_);
@@ -255,16 +255,17 @@ class DynamicModel {
     return halvings < most_halvings && go_on(dt / 2, begin, middle, halvings + 1) &&
            go_on(dt / 2, middle, end, halvings + 1);
   }
-  /// One stage.   @param way  of the hands
-  bool solve(int stage, Scalar way) noexcept {
+  /// One stage.   @param way  of the hands   @param foresees  whether nodes begin where their accelerations lead, else where they are:
+  /// beyond a sudden change those lead far off
+  bool solve(int stage, Scalar way, bool foresees) noexcept {
     steps_.aim(stage, inertia_);
     viscosity_.aim(stage);
     contacts_.draw(system_);
     // Tensions go on as they went, and nodes as their accelerations say.
-    const Scalar onward = massless_ ? Scalar(0) : steps_.onward(stage);
+    const Scalar onward = foresees ? steps_.onward(stage) : Scalar(0);
     system_.go_on(last_, onward);
     inertia_.begin_stage(last_.nodes, [&](int i) { return steps_.start(stage, i).q; });
-    if (!massless_)
+    if (foresees)
       system_.chain().place([&](int i) {
         return Chain::moved(last_.nodes[i], steps_.start(stage, i).q, steps_.foreseen(stage, i));
       });
