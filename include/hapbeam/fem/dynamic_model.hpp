@@ -20,8 +20,8 @@
 
 namespace hapbeam {
 
-/// @tparam Element  of finite rotation.  Mass and bending of the default are those of one cubic.  An element that is exact under tension, as
-///                  Corotational<> and RoundRod, bends otherwise: with 16 of them partials 1, 3 and 5 of a string are 3, 32 and 134 cents too low
+/// @tparam Element  of finite rotation.  Mass and bending of the default and of rods are those of one cubic.  Corotational<> is exact under tension and
+///                  bends otherwise: with 16 of them partials 1, 3 and 5 of a string are 3, 32 and 134 cents too low
 template <class Element = Corotational<VonKarman<AssumedStrain>>, typename ScalarType = double,
           int Elements = Eigen::Dynamic, int MaxElements = Elements>
 class DynamicModel {
@@ -69,8 +69,12 @@ class DynamicModel {
     if constexpr (dimension == 2)
       if (beam.shear_stiffness() > 0)
         detail::reject("beam shear stiffness", beam.shear_stiffness(), "N", "none for a beam that moves");
+    if constexpr (dimension == 3) system_.chain().parts().swing();
     let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
+    // Of elements that swing it is not quite that.
+    if constexpr (dimension == 3) (void)NewtonRaphson().solve(system_);
     system_.keep(rest_);
+    reset();
     if constexpr (dimension == 2) inertia_.draw(rest_.nodes);
   }
 
