@@ -164,6 +164,70 @@ TEST_CASE("a rod in space that is thrown keeps its momentum, and never has more 
   }
 }
 
+// 648 mm of steel, when it is tuned: an element that is exact under tension would leave it 134 cents flat at partial 5.
+TEST_CASE("the partials of a string in space are those of its tension, and a hand on it is told of its error",
+          "[dynamics]") {
+  const Csv exact("string_E4.csv");
+  const int n = 16;
+  const double tension = 72.59131923866309, d = 0.000254, young = 200e9, length = 0.648,
+               longer = 1 + tension / (young * pi * d * d / 4);
+  Rod string(length / longer, RodSection::circle(d), RodMaterial::isotropic(young, 0.3, 7850 * longer),
+             RodSupport::hinged, RodSupport::hinged);
+  string.place_right({{length, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  Model model(string, n, 1);
+  for (int k = 1; k <= 10; ++k) {
+    const double wave = k * pi / length, size = 1e-5,
+                 hz = exact.number(static_cast<std::size_t>(k - 1), "pinned_Hz");
+    Nodes start;
+    for (int i = 0; i <= n; ++i) {
+      const double x = length * i / n, slope = size * wave * std::cos(wave * x);
+      start.nodes.push_back(
+          {x / longer, Place(x, size * std::sin(wave * x), 0), longer * Place(1, slope, 0), Place(0, 0, 1)});
+    }
+    model.let_go_from(start.shape());
+    // From its first zero on, ten periods.
+    double before = 1, first = 0, last = 0, dt = 1.0 / 192000;
+    for (int step = 1, zeros = 0; zeros <= 20; ++step) {
+      REQUIRE(model.step(dt) == Status::ok);
+      double now = 0;
+      for (int i = 0; i <= n; ++i)
+        now += std::sin(pi * k * i / n) * model.shape().at(length / longer * i / n).r.y();
+      if (now * before < 0) {
+        last = (step - now / (now - before)) * dt;
+        if (zeros++ == 0) first = last;
+      }
+      before = now;
+    }
+    const double cents = 1200 * std::log2(10 / (last - first) / hz);
+    CAPTURE(k, cents);
+    CHECK(std::abs(cents) <= 1);
+  }
+  // Where it rests it is as stiff as its cubics.
+  const double reach = 0.005, place = length / longer / 5;
+  RodMaterial damped = RodMaterial::isotropic(young, 0.3, 7850 * longer);
+  damped.drag = 2000;
+  Rod still(length / longer, RodSection::circle(d), damped, RodSupport::hinged, RodSupport::hinged);
+  still.place_right({{length, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  Rod heavy = string;
+  Model hangs(heavy.weight(7850, {0, 0, -9.81}), n);
+  for (int k = 0; k < 20; ++k) REQUIRE(hangs.step(1e-3) == Status::ok);
+  CHECK(hangs.energy().kinetic <= 1e-24);
+  Model pressed(still, n);
+  Pushed<double, 3> felt{0, Status::ok};
+  for (int k = 0; k < 400; ++k)
+    felt = pressed.step(1e-3, {{place,
+                                {Place(length / 5, reach - 1e-5 * std::min(k, 300), 0), Place::Zero()},
+                                reach,
+                                Place(0, 1, 0)},
+                               20000,
+                               0});
+  CHECK(felt.status == Status::out_of_range);
+  const auto held = FemModel<RoundRod>(still, n).push(Push<double, 3>{felt.s, felt.point.y(), {0, 1, 0}});
+  CAPTURE(felt.force, held.force);
+  CHECK(felt.force < held.force);
+  CHECK(felt.force == Approx(held.force).epsilon(0.02));
+}
+
 // What swings in a plane swings as the beam of that plane does, touched by a hand, too.
 TEST_CASE("a hand feels of a rod what it feels of a beam in the plane", "[dynamics]") {
   const double d = 0.002, radius = 0.005;

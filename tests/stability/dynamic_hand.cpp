@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -120,7 +121,7 @@ struct Course {
 
 /// A beam of a gram to a kilogram, and hands of a gram to a kilogram with the coupling of a delay.
 Course course(Kind kind, int parts, int delay, int loop) {
-  using Model = DynamicModel<Several<Corotational<>, 2>>;
+  using Model = DynamicModel<Several<Corotational<VonKarman<AssumedStrain>>, 2>>;
   const DeviceInfo device{"arm", Eigen::Vector3d::Ones(), 100, 100, 1e4, 0, 0, 1e-3, 5, 0.2};
   Random random(static_cast<std::uint64_t>(1000 * loop + 17));
   const double length = random(0.1, 0.5), width = random(0.005, 0.03), height = random(0.0005, 0.006),
@@ -209,12 +210,12 @@ Course course(Kind kind, int parts, int delay, int loop) {
   }
   return found;
 }
-void sweep(int loops, int every) {
+void sweep(const std::vector<int>& loops) {
   for (const Kind kind : {Kind::stays, Kind::slides, Kind::rubs, Kind::two}) {
     int touched = 0, rubbed = 0, both = 0;
     for (const int parts : {1, 4})
       for (int delay = 0; delay <= 3; ++delay)
-        for (int loop = 0; loop < loops; loop += every) {
+        for (const int loop : loops) {
           const Course found = course(kind, parts, delay, loop);
           CAPTURE(static_cast<int>(kind), parts, delay, loop);
           CHECK(found.most <= 1e-9);
@@ -299,11 +300,15 @@ TEST_CASE("a hand that is deep in a stiff bar beside a hinge has an answer in ea
     }
   }
 }
+// The last four were left without an answer: a stage that was taken for a linear one, and halves that began where no beam is.
 TEST_CASE(
     "late loops gain nothing from a beam with mass by the coupling of their delay: hands that stay, slide "
-    "and rub, "
-    "and two of them",
+    "and rub, and two of them",
     "[dynamics]") {
-  sweep(36, 7);
+  sweep({0, 7, 14, 21, 28, 35, 15, 149, 150, 157});
 }
-TEST_CASE("220 loops of each kind gain nothing from a beam with mass", "[.][sweep]") { sweep(220, 1); }
+TEST_CASE("220 loops of each kind gain nothing from a beam with mass", "[.][sweep]") {
+  std::vector<int> all(220);
+  std::iota(all.begin(), all.end(), 0);
+  sweep(all);
+}

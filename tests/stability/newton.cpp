@@ -1,5 +1,7 @@
 // Where Newton's method fails as it is first written: far from the answer, beyond a limit point, on a ridge, at zero.
 // benchmarks/where_methods_fail charts the same.
+#include <limits>
+
 #include "support/arch.hpp"
 #include "support/catch.hpp"
 #include "support/elliptic.hpp"
@@ -141,4 +143,16 @@ TEST_CASE("a relative criterion is never met at zero; the library's is absolute 
     CHECK(response.force == 0);
     CHECK(model.report().solves <= 3);
   }
+}
+
+// |Δ(k+1)| = C|Δ(k)|² with one C, whatever the state.
+TEST_CASE("what hardly moves says of what moves far that it is as curved, not that it is linear",
+          "[newton]") {
+  Curvature<double> known;
+  const double C = 0.5, size = 0.6;  // [1/√J], of the state
+  for (const double still : {1e-9, 1.0}) {
+    known.measure(1, size, C * size * size * still, still);
+    for (const double state : {1.0, 10.0}) CHECK(known.of(1, size, state) >= C * state);
+  }
+  CHECK(known.of(1, 2 * size, 1) == std::numeric_limits<double>::infinity());
 }

@@ -145,6 +145,57 @@ TEST_CASE("a body that strikes a ruler feels what the modes of the ruler give", 
   }
 }
 
+// An infinite beam resists where it is struck by C √p, p: of the Laplace transform, C = 2√2 (EI)^¼ (ρA)^¾.  A hand at speed V behind a spring K feels
+//   F = V/(p (p/K + 1/(C √p))) = K V t E(2, -z),  of impulse K V t² E(3, -z),   z = t^(3/2) K/C,   E(β, z) = Σ z^k/Γ(3k/2 + β)
+// and without a spring F = C V/√(πt), of impulse 2 C V √(t/π).  Waves reach the ends after 2 ms.
+TEST_CASE("a hand that strikes a long beam meets the inertia of an infinite one", "[dynamics]") {
+  const double length = 1.2, width = 0.025, height = 0.001, speed = 0.1, reach = 0.005 + height / 2;
+  const int n = 64;
+  const Beam beam(length, Section::rectangle(width, height), steel, Support::pinned, Support::roller);
+  const double mass = beam.mass_per_length(0),
+               resists = 2 * std::sqrt(2) * std::pow(beam.bending_stiffness(), 0.25) * std::pow(mass, 0.75);
+  const auto E = [](double beta, double z) {
+    double sum = 0;
+    for (int k = 0; k < 80; ++k) sum += std::pow(z, k) / std::tgamma(1.5 * k + beta);
+    return sum;
+  };
+  struct Strike {
+    int parts;
+    double stiffness, force, impulse, least,
+        most;  // the last two of the momentum, in what an impulse gives it
+  };
+  const double any = 10;
+  for (const Strike& strike : {Strike{1, 3500, 0.025, 0.05, 0.95, 1.3},
+                               {4, 3500, 2e-3, 4e-3, 0.97, 1.03},
+                               {20, 3500, 1e-4, 2e-4, 0.97, 1.03},
+                               {20, 1e5, 2e-3, 4e-3, 0.97, 1.03},
+                               {4, 1e7, any, any, 0.85, 1.05},
+                               {20, 1e7, any, any, 0.95, 1.03}}) {
+    DynamicModel<> model(beam, n, 1);
+    double impulse = 0, before = 0;
+    for (int part = 1; part <= 2 * strike.parts; ++part) {
+      const double dt = 1e-3 / strike.parts, t = dt * part, K = strike.stiffness,
+                   z = std::pow(t, 1.5) * K / resists;
+      const auto felt = model.step(dt, {{0.6, {0.6, reach - speed * t}, reach, 1}, K, 0});
+      REQUIRE(felt.status == Status::ok);
+      impulse += dt * (before - felt.force) / 2, before = -felt.force;
+      if (part % strike.parts != 0) continue;
+      const bool springs = K < 1e6;
+      const double force = springs ? K * speed * t * E(2, -z) : resists * speed / std::sqrt(pi * t),
+                   all = springs ? K * speed * t * t * E(3, -z) : 2 * resists * speed * std::sqrt(t / pi);
+      double momentum = 0;
+      for (int e = 0; e < n; ++e)
+        for (const double at : {0.21132486540518708, 0.78867513459481287})
+          momentum -= mass * length / (2 * n) * model.velocity(length * (e + at) / n).y();
+      CAPTURE(strike.parts, K, t, before / force, impulse / all, momentum / all);
+      CHECK(std::abs(before / force - 1) <= strike.force);
+      CHECK(std::abs(impulse / all - 1) <= strike.impulse);
+      CHECK(momentum >= strike.least * all);
+      CHECK(momentum <= strike.most * all);
+    }
+  }
+}
+
 TEST_CASE("a hand that rests feels what a beam without mass gives", "[dynamics]") {
   const Beam beam = ruler();
   const double omega = circular_frequency(beam), stiffness = 3500;

@@ -123,6 +123,11 @@ inline TensionStiffness<S> tension_stiffness(const S& q) noexcept {
   k.b += by * (k.b1 + by * k.b2 / 2), k.b1 += by * k.b2;
   return k;
 }
+/// Those of a cubic, which its consistent mass goes with.
+template <typename S>
+[[gnu::always_inline]] inline TensionStiffness<S> tension_stiffness_of_cubic(const S& q) noexcept {
+  return {S(1. / 6) * q, S(1. / 6), S(0), S(0.1) * q, S(0.1), S(0)};
+}
 template <typename T, int Size>
 [[gnu::always_inline]] inline TensionStiffness<Pack<T, Size>> tension_stiffness(
     const Pack<T, Size>& q) noexcept {

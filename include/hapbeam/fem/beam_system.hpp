@@ -226,12 +226,6 @@ class BeamChain {
         },
         [&](int e) { return rows.in(e); });
   }
-  /// Places its nodes alone.   @param at  i -> node
-  template <class At>
-  void place(At&& at) noexcept {
-    for (int i = 0; i < parts_.nodes().size(); ++i) parts_.nodes()[i] = at(i);
-    ends_.correct(parts_.nodes());
-  }
   /// Takes another shape of the same beam.
   void lay(const Centreline<Scalar>& shape) noexcept {
     for (Node& node : parts_.nodes()) {

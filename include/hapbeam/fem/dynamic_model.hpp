@@ -15,13 +15,14 @@
 #include <cmath>
 
 #include <hapbeam/element/corotational.hpp>
+#include <hapbeam/element/hermite.hpp>
 #include <hapbeam/fem/contact/coupled_contacts.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 namespace hapbeam {
 
-/// @tparam Element  of finite rotation.  Mass and bending of the default are those of one cubic.  An element that is exact under tension, as
-///                  Corotational<> and RoundRod, bends otherwise: with 16 of them partials 1, 3 and 5 of a string are 3, 32 and 134 cents too low
+/// @tparam Element  of finite rotation.  Mass and bending of the default and of rods are those of one cubic.  Corotational<> is exact under tension and
+///                  bends otherwise: with 16 of them partials 1, 3 and 5 of a string are 3, 32 and 134 cents too low
 template <class Element = Corotational<VonKarman<AssumedStrain>>, typename ScalarType = double,
           int Elements = Eigen::Dynamic, int MaxElements = Elements>
 class DynamicModel {
@@ -69,8 +70,12 @@ class DynamicModel {
     if constexpr (dimension == 2)
       if (beam.shear_stiffness() > 0)
         detail::reject("beam shear stiffness", beam.shear_stiffness(), "N", "none for a beam that moves");
+    if constexpr (dimension == 3) system_.chain().parts().swing();
     let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
+    // Of elements that swing it is not quite that.
+    if constexpr (dimension == 3) (void)NewtonRaphson().solve(system_);
     system_.keep(rest_);
+    reset();
     if constexpr (dimension == 2) inertia_.draw(rest_.nodes);
   }
 
@@ -118,12 +123,11 @@ class DynamicModel {
   Vector velocity(Scalar s) const noexcept {
     const auto line = system_.centreline();
     const int e = line.segment_at(s);
-    const Scalar l = line[e + 1].s - line[e].s, t = (s - line[e].s) / l, u = 1 - t;
+    const Scalar l = line[e + 1].s - line[e].s;
+    const auto h = ShapeFunctions<Scalar>((s - line[e].s) / l, l).w;  // of θ, which is -w'
     const auto &a = steps_[e].v, &b = steps_[e + 1].v;
-    return u * u * (1 + 2 * t) * a.template head<dimension>() +
-           l * t * u * u * a.template segment<dimension>(dimension) +
-           t * t * (3 - 2 * t) * b.template head<dimension>() -
-           l * t * t * u * b.template segment<dimension>(dimension);
+    return h[0] * a.template head<dimension>() - h[1] * a.template segment<dimension>(dimension) +
+           h[2] * b.template head<dimension>() - h[3] * b.template segment<dimension>(dimension);
   }
   struct Energy {
     Scalar kinetic, strain, loads;  ///< [J], the last of the dead loads
@@ -181,28 +185,11 @@ class DynamicModel {
     steps_.stop([&at](int i) { return at[i]; });
     viscosity_.stop();
   }
-  /// What pulls at it accelerates it: as it does within a hundredth of the first part.
-  void accelerate(Scalar part) noexcept {
+  /// From rest it has the accelerations and rates that a hundredth of the first part has.   @param end  of the way of the hands
+  bool start(Scalar part, Scalar end, int halvings) noexcept {
     starts_ = false;
-    contacts_.begin(system_, nullptr, 0);
-    if (!go_on(part / 100, 0, 1, most_halvings)) return;
+    if (!go_on(part / 100, 0, end, halvings)) return false;
     steps_.start_again();
-    viscosity_.take_back();
-    system_.set_state(before_);
-  }
-
-  /// Without mass it takes its load at once, and creeps on as it does within a hundredth of the first part.
-  bool yield(Scalar part) noexcept {
-    starts_ = false;
-    const auto go_short = [&](Scalar time) {
-      const bool found = go_on(time, 0, 0, 0);
-      const auto& at = inertia_.find(system_.parts().nodes());
-      steps_.stop([&at](int i) { return at[i]; });
-      return found;
-    };
-    if (!go_short(part / 1000000)) return false;
-    viscosity_.stop();
-    if (!go_short(part / 100)) return false;
     viscosity_.start_again();
     system_.set_state(before_);
     return true;
@@ -217,10 +204,11 @@ class DynamicModel {
     if (!(dt > 0)) return Status::ok;
     system_.chain().move_with(massless_ ? nullptr : &inertia_, viscosity_.none() ? nullptr : &viscosity_);
     const Scalar all = massless_ ? dt : (std::min)(dt, longest), part = all / Scalar(substeps_);
-    if (starts_ && !massless_) accelerate(part);
+    if (starts_ && !massless_) contacts_.begin(system_, nullptr, 0), (void)start(part, 1, most_halvings);
     contacts_.begin(system_, hands, count);
     ends_.begin(all);
-    bool found = !starts_ || yield(part);
+    // Without mass it takes its load at once, and creeps on.
+    bool found = !starts_ || (go_on(part / 1000000, 0, 0, 0) && (stop(), start(part, 0, 0)));
     for (int k = 0; k < substeps_ && found; ++k) {
       found = go_on(part, Scalar(k) / Scalar(substeps_), Scalar(k + 1) / Scalar(substeps_), 0);
       if (found && listener_) listener_(listens_, *this, part);
@@ -244,7 +232,7 @@ class DynamicModel {
     for (int stage = 0; stage < steps_.stages && found; ++stage) {
       const Scalar to = begin + steps_.end(stage) * (end - begin);
       ends_.aim(system_.chain(), from, to, steps_.length(stage));
-      found = solve(stage, to), from = to;
+      found = solve(stage, to, !massless_ && halvings == 0), from = to;
     }
     if (found) return ends_.settle(system_.chain(), end), true;
     system_.set_state(before_);
@@ -255,17 +243,18 @@ class DynamicModel {
     return halvings < most_halvings && go_on(dt / 2, begin, middle, halvings + 1) &&
            go_on(dt / 2, middle, end, halvings + 1);
   }
-  /// One stage.   @param way  of the hands
-  bool solve(int stage, Scalar way) noexcept {
+  /// One stage.   @param way  of the hands   @param foresees  whether nodes begin where their accelerations lead, else where they are:
+  /// beyond a sudden change those lead far off
+  bool solve(int stage, Scalar way, bool foresees) noexcept {
     steps_.aim(stage, inertia_);
     viscosity_.aim(stage);
     contacts_.draw(system_);
     // Tensions go on as they went, and nodes as their accelerations say.
-    const Scalar onward = massless_ ? Scalar(0) : steps_.onward(stage);
+    const Scalar onward = foresees ? steps_.onward(stage) : Scalar(0);
     system_.go_on(last_, onward);
     inertia_.begin_stage(last_.nodes, [&](int i) { return steps_.start(stage, i).q; });
-    if (!massless_)
-      system_.chain().place([&](int i) {
+    if (foresees)
+      system_.place([&](int i) {
         return Chain::moved(last_.nodes[i], steps_.start(stage, i).q, steps_.foreseen(stage, i));
       });
     const bool found = contacts_.solve(system_, steps_.length(stage), way, onward, [&](bool touched) {

@@ -84,7 +84,6 @@ class MassBlocks {
   template <class Nodes, class Start>
   void begin_stage(const Nodes&, Start&&) noexcept {}
   Values& ghost() noexcept { return ghost_; }
-  const Values& ghost() const noexcept { return ghost_; }
   /// What increments are measured by, beside the strain energy [J].
   S scale() const noexcept { return scale_; }
   void set_scale(S energy) noexcept { scale_ = energy; }

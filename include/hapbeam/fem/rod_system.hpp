@@ -214,12 +214,6 @@ class RodChain {
     ends_.correct(parts_.nodes());
     return longer;
   }
-  /// Places its nodes alone.   @param at  i -> node
-  template <class At>
-  void place(At&& at) noexcept {
-    for (int i = 0; i < parts_.nodes().size(); ++i) parts_.nodes()[i] = at(i);
-    ends_.correct(parts_.nodes());
-  }
   /// Takes another shape of the same rod.
   void lay(const Centreline<Scalar, 3>& shape) noexcept {
     for (Node& node : parts_.nodes()) {

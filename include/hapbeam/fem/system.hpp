@@ -118,6 +118,12 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   }
   /// Sets the whole state, without a contact.
   void set_state(const State& state) noexcept { go_back(state, 0); }
+  /// Places its nodes alone.   @param at  i -> node
+  template <class At>
+  void place(At&& at) noexcept {
+    for (int i = 0; i <= elements(); ++i) nodes()[i] = at(i);
+    chain_.ends().correct(nodes());
+  }
   /// Back to an equilibrium that was left.  @param force  of its first contact [N]
   void go_back(const State& state, Scalar force) noexcept {
     set(state);

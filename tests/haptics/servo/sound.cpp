@@ -12,7 +12,9 @@
 #include "support/pi.hpp"
 #include "support/random.hpp"
 #include <hapbeam/element/corotational.hpp>
+#include <hapbeam/element/rod.hpp>
 #include <hapbeam/fem/dynamic_model.hpp>
+#include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/haptics/servo/sound.hpp>
 #include <hapbeam/shapes.hpp>
 
@@ -184,6 +186,45 @@ TEST_CASE("a plucked string is heard with its partials, by a pickup and on the b
       CAPTURE(row + 1, cents);
       CHECK(std::abs(cents) <= 1.5);
     }
+  }
+}
+
+TEST_CASE("a string in space sounds as the one in its plane", "[sound]") {
+  const double length = 0.648, d = 0.000254, longer = 1.007, density = 7850 * longer;
+  const Beam slack(length / longer, Section::circle(d), Material{200e9, density}, Support::pinned,
+                   Support::pinned);
+  Rod rod(length / longer, RodSection::circle(d), RodMaterial::isotropic(200e9, 0.3, density),
+          RodSupport::hinged, RodSupport::hinged);
+  rod.place_right({{length, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const int n = 16;
+  DynamicModel<> planar(stretched(slack, length - length / longer), n, 48);
+  DynamicModel<RoundRod> space(rod, n, 48);
+  std::vector<CentrelineNode<double>> flat;
+  std::vector<RodNode<double>> nodes;
+  for (int i = 0; i <= n; ++i) {
+    const double x = length * i / n, s = x / longer, wave = 3 * pi / length, size = 1e-4;
+    const double slope = size * wave * std::cos(wave * x), w = size * std::sin(wave * x);
+    flat.push_back({s, x - s, w, -std::atan(slope)});
+    nodes.push_back({s, {x, w, 0}, longer * Vector3<double>(1, slope, 0), {0, 0, 1}});
+  }
+  for (const SoundSource source :
+       {SoundSource::velocity, SoundSource::left_support, SoundSource::right_support}) {
+    planar.let_go_from({flat.data(), n + 1, true}), space.let_go_from({nodes.data(), n + 1});
+    Sound<DynamicModel<>> there(planar, {source, 0.1});
+    Sound<DynamicModel<RoundRod>> here(space, {source, 0.1});
+    for (int k = 0; k < 10; ++k) {
+      REQUIRE(planar.step(1e-3) == Status::ok);
+      REQUIRE(space.step(1e-3) == Status::ok);
+    }
+    float a[470], b[470];
+    REQUIRE(there.read(a, 470) == 470);
+    REQUIRE(here.read(b, 470) == 470);
+    float loudest = 0, off = 0;
+    for (int k = 0; k < 470; ++k)
+      loudest = std::max(loudest, std::abs(a[k])), off = std::max(off, std::abs(a[k] - b[k]));
+    CAPTURE(static_cast<int>(source), loudest, off);
+    CHECK(loudest > 0.1F);
+    CHECK(off <= 2e-3F * loudest);
   }
 }
 

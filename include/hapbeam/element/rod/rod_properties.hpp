@@ -25,7 +25,8 @@ struct RodProperties {
   Scalar soft[2] = {1, 1};    ///< mean of 1/EI against what moves it along d1, and along d2 [1/(N·m²)]
   int number = 3;             ///< of Gauss points: 2 | 3
   bool round = false;         ///< bends alike about all axes, is straight by nature, and has three points
-  bool taut = false;  ///< is straight by nature, between ends that may draw it: its tension is an unknown
+  bool taut = false;    ///< is straight by nature, between ends that may draw it: its tension is an unknown
+  bool swings = false;  ///< is in motion: it bends under that as the cubic of its mass does
   struct Point {
     Scalar bending1 = 0;            ///< EI against curvature about d1 [N·m²]
     Scalar bending2 = 0;            ///< EI against curvature about d2 [N·m²]

@@ -36,7 +36,7 @@ class RoundTension {
       : at_(at) {
     const S l = p.length, by_q = l * l * p.softest(), quarter = S(0.25) / (l * p.softest());
     const S yields = 1 / p.axial, strain = N * yields, by = 1 + 2 * strain, q = N * (1 + strain) * by_q;
-    const TensionStiffness<S> k = tension_stiffness(q);
+    const TensionStiffness<S> k = p.swings ? tension_stiffness_of_cubic(q) : tension_stiffness(q);
     const V3 &u = at.v[0], &m = at.v[1], &v = at.v[2];
     W_ = u.dot(v), X_ = u.dot(m), Y_ = v.dot(m);
     const S sum = X_ + Y_, less = X_ - Y_, across = S(4. / 9) * (2 + 2 * W_ - sum * sum),

@@ -69,6 +69,10 @@ class RodElements {
     if (!loads_.empty()) loads_.take(view(nodes_));
   }
 
+  /// From here on its elements bend under tension as the cubics of its mass do.
+  void swing() noexcept {
+    for (int e = 0; e < size(); ++e) properties_[e].swings = true, abreast_.take(e, properties_[e]);
+  }
   int size() const noexcept { return nodes_.size() - 1; }
   Nodes& nodes() noexcept { return nodes_; }
   const Nodes& nodes() const noexcept { return nodes_; }
@@ -82,12 +86,13 @@ class RodElements {
     const RodProperties<Scalar>& p = properties_[e];
     return taut() ? inner_[e] * (1 + inner_[e] / p.axial) * p.softest() : Scalar(0);
   }
-  /// Whether an element without a tension of its own, or bent about its stiffer axis, has N l²/EI above 4: a press within it may have an error of more
-  /// than 1 %.   @param s  of the press [m]   @param normal  along which
+  /// Whether an element is drawn so taut that its curve is no cubic any more, N l²/EI above 4, and does not know that: it has no tension of its own, swings, or
+  /// is bent about its stiffer axis.  The error of a press within it may exceed 1 %.   @param s  of the press [m]   @param normal  along which
   bool overdrawn(int e, Scalar s, const VectorOf<Scalar, 3>& normal) const noexcept {
     constexpr Scalar most = 4, aside = Scalar(0.01);
     const RodProperties<Scalar>& p = properties_[e];
-    if (taut() && p.soft[0] == p.soft[1]) return false;
+    const bool exact = taut() && !p.swings;
+    if (exact && p.soft[0] == p.soft[1]) return false;
     Scalar tension = inner_[e];
     if (!taut()) {
       const detail::EndsAndMiddle<Scalar> at(p, nodes_[e], nodes_[e + 1]);
@@ -95,7 +100,7 @@ class RodElements {
       tension = p.axial * (strain(0) + 4 * strain(1) + strain(2)) / 6;
     }
     if (!(tension * p.length * p.length * p.softest() > most)) return false;
-    if (!taut()) return true;
+    if (!exact) return true;
     const Node there = node_within(e, s);
     const VectorOf<Scalar, 3> u = detail::unit(there.tangent), across = normal - u * u.dot(normal),
                               stiffer = p.soft[0] > p.soft[1] ? detail::cross3(u, there.director)

@@ -149,7 +149,7 @@ class RodAbreast {
   /// Lays an element's properties beside those of its neighbours.
   void take(int e, const RodProperties<Scalar>& from) noexcept {
     fill(e, [&](auto&& set, RodProperties<Wide>& to) {
-      to.number = from.number, to.round = from.round, to.taut = from.taut;
+      to.number = from.number, to.round = from.round, to.taut = from.taut, to.swings = from.swings;
       set(to.length, from.length), set(to.inverse_length, from.inverse_length);
       set(to.axial, from.axial), set(to.torsion, from.torsion);
       set(to.soft[0], from.soft[0]), set(to.soft[1], from.soft[1]);

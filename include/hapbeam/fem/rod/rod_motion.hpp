@@ -96,32 +96,6 @@ void turn_chords(Nodes& nodes, const Increments& increments) noexcept {
   }
 }
 
-/// An angle by its sine and cosine, both times the size.
-template <typename S>
-struct Turn {
-  S sine, cosine, size;
-
-  [[gnu::always_inline]] Turn operator-(const Turn& b) const noexcept {
-    return {sine * b.cosine - cosine * b.sine, cosine * b.cosine + sine * b.sine, size * b.size};
-  }
-  [[gnu::always_inline]] S value() const noexcept { return angle(sine, cosine, size); }
-};
-/// That about the unit vector v from the director of a node, carried there, to another one.   @param to, beside  that one, and it × v
-template <typename S>
-[[gnu::always_inline]] inline Turn<S> carried_turn(const VectorOf<S, 3>& tangent,
-                                                   const VectorOf<S, 3>& director, const VectorOf<S, 3>& v,
-                                                   const VectorOf<S, 3>& to,
-                                                   const VectorOf<S, 3>& beside) noexcept {
-  using std::sqrt;
-  const S whole = sqrt(tangent.squaredNorm()) + tangent.dot(v);
-  // As carry(), times that, less what is along v.
-  const S back = v.dot(director);
-  VectorOf<S, 3> from;
-  HAPBEAM_UNROLL
-  for (int k = 0; k < 3; ++k) from[k] = whole * director[k] - back * tangent[k];
-  return {from.dot(beside), from.dot(to), whole};
-}
-
 /// Extrapolates nodes, times a ratio.   @param then  in: before the last step, out: the present ones
 /// @tparam twists  whether their directors turn about the tangents
 template <bool twists, class Nodes, typename Scalar>
@@ -140,9 +114,8 @@ template <bool twists, class Nodes, typename Scalar>
     }
     if constexpr (twists) {
       const Vector u = unit(x.tangent);
-      const Wide angle =
-          onward *
-          carried_turn<Wide>(before.tangent, before.director, u, x.director, cross3(x.director, u)).value();
+      const Vector from = across(carry(before.director, unit(before.tangent), u), u);
+      const Wide angle = onward * angle_about(u, from, x.director);
       move_tangent(next, change, &angle);
     } else {
       move_tangent<Wide>(next, change, nullptr);

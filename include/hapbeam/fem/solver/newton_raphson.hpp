@@ -67,24 +67,26 @@ struct SolveReport {
 
 /// What the first two increments of a solve made of the next ones, for solves that follow each other as the ticks of a hand do: |Δ(k+1)| = C|Δ(k)|².
 /// An increment within a factor of two of the one that was measured, in units of √(2V), is taken to have four times its C.  That rises by a quarter with each
-/// solve that is accepted by it, so that it is measured anew before it is a guess.
+/// solve that is accepted by it, so that it is measured anew before it is a guess.  In a state that is larger C √(2V) is as many times as large: what hardly
+/// moves is linear.
 template <typename Scalar>
 class Curvature {
  public:
-  /// C √(2V) of increment k, of so many √(2V); infinite where nothing is known.
-  Scalar of(int k, Scalar size) const noexcept {
+  /// C √(2V) of increment k, of so many √(2V); infinite where nothing is known.   @param state √(2V) [√J]
+  Scalar of(int k, Scalar size, Scalar state) const noexcept {
     const bool known = k <= 2 && size_[k - 1] < 2 * size && size < 2 * size_[k - 1];
-    return known ? 4 * c_[k - 1] : std::numeric_limits<Scalar>::infinity();
+    return known ? 4 * c_[k - 1] * (std::max)(state / state_[k - 1], Scalar(1))
+                 : std::numeric_limits<Scalar>::infinity();
   }
-  void measure(int k, Scalar size, Scalar next) noexcept {
-    if (k <= 2) size_[k - 1] = size, c_[k - 1] = next / (size * size);
+  void measure(int k, Scalar size, Scalar next, Scalar state) noexcept {
+    if (k <= 2) size_[k - 1] = size, c_[k - 1] = next / (size * size), state_[k - 1] = state;
   }
   void accept(int k) noexcept {
     if (k <= 2) c_[k - 1] *= Scalar(1.25);
   }
 
  private:
-  Scalar size_[2] = {0, 0}, c_[2] = {0, 0};
+  Scalar size_[2] = {0, 0}, c_[2] = {0, 0}, state_[2] = {1, 1};
 };
 
 namespace detail {
@@ -170,10 +172,10 @@ struct NewtonRaphson {
       const S measured = k > 2 ? 4 * iteration.size / (before * before) : S(0);
       S least = least_curvature<System>(k, from_afar);
       if (known) {
-        if (k > 1) known->measure(k - 1, before / state, iteration.size / state);
+        if (k > 1) known->measure(k - 1, before / state, iteration.size / state, state);
         // The increment of w that follows one of u is another in the next element.
         if (k > 1 || !detail::InPairs<System>::value || !pairs_differ)
-          least = (std::min)(least, known->of(k, iteration.size / state));
+          least = (std::min)(least, known->of(k, iteration.size / state, state));
       }
       const S curvature = (std::max)({measured, measured_before, state > 0 ? least / state : S(0)});
       // No larger than this one, which is what round-off would else make of it.

@@ -16,12 +16,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <hapbeam/centreline.hpp>
 #include <hapbeam/haptics/servo/ring.hpp>
 
 namespace hapbeam {
 
 enum class SoundSource : std::int8_t {
-  velocity,       ///< across the undeformed beam, at a place [m/s]: a pickup
+  velocity,       ///< across the undeformed beam, of a rod along y, at a place [m/s]: a pickup
   left_support,   ///< force across it on what holds its left end [N]: a bridge
   right_support,  ///< the same of its right end
 };
@@ -86,7 +87,9 @@ class Sound {
   double value(const Model& model) const noexcept {
     if (options_.source == SoundSource::velocity)
       return static_cast<double>(model.velocity(static_cast<Scalar>(options_.place)).y());
-    return -static_cast<double>(model.reaction(options_.source == SoundSource::left_support ? 0 : 1).y());
+    const auto held = model.reaction(options_.source == SoundSource::left_support ? 0 : 1);
+    if constexpr (dimension_of<Model> == 3) return -static_cast<double>(held.force.y());
+    else return -static_cast<double>(held.y());
   }
   /// Times are counted from the second of the last values.
   void hear(const Model& model, double part) noexcept {
