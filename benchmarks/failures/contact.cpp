@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "report.hpp"
+#include "support/chain.hpp"
 #include "support/error.hpp"
 #include "support/naive_contact.hpp"
 #include "support/thesis_beam.hpp"
@@ -35,13 +36,13 @@ double stiffness_inside(double s) {
   const ShapeFunctions<double> there(s / l - e, l);
   const Vector6<double> load = there.nodal_forces(0, 1, 0);
   BlockTridiagonal<double> chain(n);
-  for (int i = 0; i < n; ++i) {
-    Vector6<double> r;
-    Matrix6<double> K;
-    Linear::tangent(ElementProperties<double>(l, thesis_EA, thesis_EI),
-                    Vector6<double>(Vector6<double>::Zero()), r, K);
-    chain.add(i, K, Vector6<double>(i == e ? Vector6<double>(r - load) : r));
-  }
+  Vector6<double> r;
+  Matrix6<double> K;
+  Linear::tangent(ElementProperties<double>(l, thesis_EA, thesis_EI),
+                  Vector6<double>(Vector6<double>::Zero()), r, K);
+  testing::add_elements(
+      chain, n, [&](int) -> const auto& { return K; },
+      [&](int i) { return Vector6<double>(i == e ? Vector6<double>(r - load) : r); });
   for (const int end : {0, n})
     for (const int component : {0, 1}) chain.prescribe(end, component, 0);
   if (chain.solve() != Status::ok) return std::numeric_limits<double>::quiet_NaN();
@@ -88,10 +89,8 @@ Scalar force_at_node(Scalar s, Scalar d) {
   Vector6<Scalar> r, next;
   Matrix6<Scalar> K;
   for (int k = 0; k < 3; ++k) {
-    for (int e = 0; e < n; ++e) {
-      respond(e, r, K);
-      chain.add(e, K, r);
-    }
+    testing::add_elements(
+        chain, n, [&](int e) { return respond(e, r, K), K; }, [&](int e) { return respond(e, r, K), r; });
     for (const int end : {0, n})
       for (const int component : {0, 1}) chain.prescribe(end, component, 0);
     chain.prescribe(at, 1, d - x(1, at));

@@ -25,11 +25,8 @@ class DenseLdlt : public WholeColumns<DenseLdlt<Scalar>, Scalar> {
 
   explicit DenseLdlt(int elements) : K_(3 * (elements + 1), 3 * (elements + 1)), x_(K_.rows()) {}
 
+  void start() noexcept { K_.setZero(), x_.setZero(); }
   void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
-    if (e == 0) {
-      K_.setZero();
-      x_.setZero();
-    }
     K_.template block<6, 6>(3 * e, 3 * e) += K;
     x_.template segment<6>(3 * e) -= r;
   }

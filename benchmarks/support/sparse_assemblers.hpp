@@ -43,12 +43,8 @@ class SimplicialLdlt : public WholeColumns<SimplicialLdlt<Scalar, Ordering>, Sca
     solver_.analyzePattern(K_);
   }
 
+  void start() noexcept { K_.coeffs().setZero(), rhs_.setZero(); }
   void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) noexcept {
-    if (e == 0) {
-      clear_own(0);
-      rhs_.template head<3>().setZero();
-    }
-    clear_own(e + 1);
     for (int j = 0; j < 3; ++j) {
       Scalar* a = own(e, j);
       Scalar* b = own(e + 1, j);
@@ -56,8 +52,7 @@ class SimplicialLdlt : public WholeColumns<SimplicialLdlt<Scalar, Ordering>, Sca
       for (int i = 0; i < 3; ++i) b[i - 3] = K(i, j + 3);
       for (int i = 0; i <= j; ++i) b[i] += K(i + 3, j + 3);
     }
-    rhs_.template segment<3>(3 * e) -= r.template head<3>();
-    rhs_.template segment<3>(3 * e + 3) = -r.template tail<3>();
+    rhs_.template segment<6>(3 * e) -= r;
   }
   void add_at(int node, const Block& K, const Vector3<Scalar>& r) noexcept {
     for (int j = 0; j < 3; ++j)
@@ -102,10 +97,6 @@ class SimplicialLdlt : public WholeColumns<SimplicialLdlt<Scalar, Ordering>, Sca
     if (3 * node + 3 < K_.cols())
       for (int j = 0; j < 3; ++j) visit(own(node + 1, j)[component - 3], 3 * node + 3 + j);
   }
-  void clear_own(int node) noexcept {
-    for (int j = 0; j < 3; ++j)
-      for (int i = 0; i <= j; ++i) own(node, j)[i] = 0;
-  }
 
   Matrix K_;
   Vector rhs_, x_;
@@ -137,12 +128,8 @@ class SparseLuFromTriplets : public WholeColumns<SparseLuFromTriplets<Scalar>, S
         fixed_(K_.rows()),
         given_(K_.rows()) {}
 
+  void start() { triplets_.clear(), rhs_.setZero(), fixed_.setZero(); }
   void add(int e, const Matrix6<Scalar>& K, const Vector6<Scalar>& r) {
-    if (e == 0) {
-      triplets_.clear();
-      rhs_.setZero();
-      fixed_.setZero();
-    }
     for (int j = 0; j < 6; ++j)
       for (int i = 0; i < 6; ++i) triplets_.emplace_back(3 * e + i, 3 * e + j, K(i, j));
     rhs_.template segment<6>(3 * e) -= r;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/solver/pair_order.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::benchmarks {
@@ -20,6 +21,24 @@ class WholeColumns {
     explicit Column(int elements) : x(3 * (elements + 1)) {}
   };
 
+  /// As of BlockTridiagonal: elements that were computed side by side.
+  template <class Tangent, class Residual>
+  void add_pairs(int first, const Tangent& K, const Residual& r) {
+    Solver& self = static_cast<Solver&>(*this);
+    const detail::PairOrder order{static_cast<int>(self.x_.rows()) / 3 - 1};
+    if (first == 0) self.start();
+    for (int lane = 0; lane < r[0].size && first + lane < 2 * order.pairs(); ++lane) {
+      const int e = order.element(first + lane);
+      if (e < 0) continue;
+      Matrix6<Scalar> its;
+      Vector6<Scalar> residual;
+      for (int j = 0; j < 6; ++j) {
+        residual[j] = r[j][lane];
+        for (int i = 0; i < 6; ++i) its(i, j) = K(i, j)[lane];
+      }
+      self.add(e, its, residual);
+    }
+  }
   void forward(int e, const Vector6<Scalar>& b, Column& column) const {
     column.first = 3 * e;
     column.b = b;

@@ -57,8 +57,7 @@ struct Scene {
   int count = 0;
 
   /// @param q  N l²/EI, about
-  Scene(Random& random, double curvature, double q)
-      : pieces(make_beam(curvature, detail::Tapers<Element>::value)) {
+  Scene(Random& random, double curvature, double q) : pieces(make_beam(curvature, detail::tapers<Element>)) {
     const double a = random(0.03, 0.1), b = -random(0.03, 0.1), bow = (2 * a * a - a * b + 2 * b * b) / 30;
     const bool bows = !std::is_same_v<Element, Linear>;
     d << random(1e-3), random(1e-3), a, 0, 0, b;

@@ -37,7 +37,14 @@ std::vector<double> frequencies(const Beam& beam, int n, const std::array<bool, 
     Vector6<double> r, no_r = Vector6<double>::Zero();
     Matrix6<double> k, m = Matrix6<double>::Zero();
     (void)Element::tangent(p, drawn, r, k);
-    inertia.add(e, no_r, m);
+    const auto at = [](int i) { return [i](auto&& f) { return f(i); }; };
+    inertia.add(at(e), no_r, m);
+    if (e + 1 == n) {
+      Eigen::Matrix3d last = Eigen::Matrix3d::Zero();
+      Vector3<double> no_force = Vector3<double>::Zero();
+      inertia.add_node(at(n), no_force, last);
+      m.bottomRightCorner<3, 3>() += last;
+    }
     CHECK(no_r == Vector6<double>::Zero());
     // Of both nodes it is the lower triangle, and what couples them.
     for (int i = 0; i < 6; ++i)

@@ -68,4 +68,12 @@ struct RandomElement {
   }
 };
 
+/// V of an element [J].   @param inner  what is its own
+template <class E, typename S>
+S energy_of(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b,
+            typename E::template Inner<S> inner = {}) {
+  RodTangent<S, E::unknowns - 3> unused;
+  return E::tangent(p, a, b, inner, unused);
+}
+
 }  // namespace hapbeam::testing

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <vector>
 
 #include <Eigen/LU>
 
 #include "support/catch.hpp"
+#include "support/chain.hpp"
 #include "support/eigenvalues.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
@@ -58,6 +60,15 @@ struct DenseSystem {
   Eigen::VectorXd solve() const { return K.fullPivLu().solve(b); }
 };
 
+/// @param K, r  of each element
+template <class Chain, class Tangents, class Residuals>
+void add_all(Chain& chain, const Tangents& K, const Residuals& r) {
+  const auto of = [](const auto& all) {
+    return [&all](int e) -> const auto& { return all[static_cast<std::size_t>(e)]; };
+  };
+  add_elements(chain, static_cast<int>(K.size()), of(K), of(r));
+}
+
 struct Prescribed {
   int node, component;
   double increment;
@@ -92,7 +103,7 @@ struct Problem {
   int elements() const { return static_cast<int>(K.size()); }
 
   void assemble(BlockTridiagonal<double>& assembler) const {
-    for (std::size_t e = 0; e < K.size(); ++e) assembler.add(static_cast<int>(e), K[e], r[e]);
+    add_all(assembler, K, r);
     for (const Prescribed& p : prescribed) assembler.prescribe(p.node, p.component, p.increment);
   }
   Status solve(BlockTridiagonal<double>& assembler) const {
@@ -197,10 +208,10 @@ TEST_CASE("a bar that can slide is reported as singular", "[assembler]") {
       VonKarman<>::tangent(ElementProperties<double>(0.25, 1 << 20, 1 << 10), Vector6<double>::Zero().eval(),
                            r, K);
       BlockTridiagonal<double> chain(elements);
-      for (int e = 0; e < elements; ++e) {
-        if (loaded) r[0] = e == 0 ? -1 : 0;
-        chain.add(e, K, r);
-      }
+      const Vector6<double> end = r - Vector6<double>::Unit(0);
+      add_elements(
+          chain, elements, [&](int) -> const auto& { return K; },
+          [&](int e) -> const auto& { return loaded && e == 0 ? end : r; });
       for (int i = 0; i <= elements; ++i)
         for (const int component : {1, 2}) chain.prescribe(i, component, 0);
       CHECK(chain.solve() == Status::singular);
@@ -212,7 +223,8 @@ namespace {
 /// As in a program of few calls, which a compiler inlines differently from a model: g++ 12 -O3 has solved another system here.
 [[gnu::noinline]] Status solve_apart(BlockTridiagonal<double>& assembler, const Matrix6<double>& K,
                                      const Vector6<double>& r, int elements) {
-  for (int e = 0; e < elements; ++e) assembler.add(e, K, r);
+  add_elements(
+      assembler, elements, [&](int) -> const auto& { return K; }, [&](int) -> const auto& { return r; });
   return assembler.solve();
 }
 
@@ -258,6 +270,8 @@ void check_block(Random& random, double shift) {
   const int elements = random.integer(2, 9);
   BlockTridiagonal<double, Eigen::Dynamic, Eigen::Dynamic, Block> chain(elements);
   DenseSystem<Block> all(elements);
+  std::vector<Eigen::MatrixXd> tangents;
+  std::vector<Eigen::VectorXd> residuals;
   for (int e = 0; e < elements; ++e) {
     Eigen::Matrix<double, 2 * Block, 2 * Block> K;
     Eigen::Matrix<double, 2 * Block, 1> r;
@@ -266,9 +280,10 @@ void check_block(Random& random, double shift) {
       for (int j = 0; j <= i; ++j) K(i, j) = K(j, i) = random(1.0);
       K(i, i) += shift;
     }
-    chain.add(e, K, r);
+    tangents.push_back(K), residuals.push_back(r);
     all.add(e, K, r);
   }
+  add_all(chain, tangents, residuals);
   const int node = random.integer(1, elements), component = random.integer(0, Block - 1), p = Block - 1,
             h = Block * node + component;
   const double at_0 = random(1.0), at_h = random(1.0);
@@ -318,6 +333,8 @@ void check_changes(Random& random, bool clamped) {
   const int elements = random.integer(2, 9);
   BlockTridiagonal<double, Eigen::Dynamic, Eigen::Dynamic, Block> chain(elements);
   DenseSystem<Block> dense(elements);
+  std::vector<Eigen::MatrixXd> tangents;
+  std::vector<Eigen::VectorXd> residuals;
   for (int e = 0; e < elements; ++e) {
     Tangent K = Tangent::Identity() * 20;
     Eigen::Matrix<double, 2 * Block, 1> r;
@@ -325,9 +342,10 @@ void check_changes(Random& random, bool clamped) {
       r[i] = random(1.0);
       for (int j = 0; j < i; ++j) K(i, j) = K(j, i) = random(1.0);
     }
-    chain.add(e, K, r);
+    tangents.push_back(K), residuals.push_back(r);
     dense.add(e, K, r);
   }
+  add_all(chain, tangents, residuals);
   for (const int e : {0, random.integer(0, elements - 1), elements - 1}) {
     Tangent K = Tangent::Identity();
     Eigen::Matrix<double, 2 * Block, 1> r;

@@ -32,13 +32,13 @@ class BeamPieces {
   /// An element between two places of the beam.
   ElementProperties<Scalar> between(Scalar from, Scalar to) const noexcept {
     ElementProperties<Scalar> p(to - from, stiffness_.axial, stiffness_.bending);
-    if constexpr (Tapers<Element>::value) profile_.apply(from, to - from, p);
+    if constexpr (tapers<Element>) profile_.apply(from, to - from, p);
     if (!natural_.straight()) natural_.apply(from, p);
     return p;
   }
   /// Of the section at s.
   Stiffness stiffness([[maybe_unused]] Scalar s) const noexcept {
-    if constexpr (Tapers<Element>::value) {
+    if constexpr (tapers<Element>) {
       const auto [EA, EI] = profile_.at(s);
       return {EA, EI};
     } else {
@@ -50,7 +50,7 @@ class BeamPieces {
 
  private:
   NaturalShape<Scalar> natural_;
-  std::conditional_t<Tapers<Element>::value, BeamProfile<Scalar>, OneSection> profile_;
+  std::conditional_t<tapers<Element>, BeamProfile<Scalar>, OneSection> profile_;
   Stiffness stiffness_;
   Scalar length_;
 };

@@ -53,7 +53,8 @@ struct ContactOnNode {
     GapChange<S> gap;
     const bool round = contact.kind == Contact::Kind::round;
     bool is_plane = false;
-    const S distance = round ? look_at_circle(contact, is_plane) : contact.normal.dot(contact.moved);
+    const S distance =
+        round ? contact.look_at_circle(contact.was, is_plane) : contact.normal.dot(contact.moved);
     contact.gap = distance - contact.reach;
     const Vector n = contact.normal, t(-n.y(), n.x());
     gap.by = J.transpose() * n, gap.slides = J.transpose() * t;
@@ -89,18 +90,6 @@ struct ContactOnNode {
   static Vector tangent_of(S theta) noexcept { return Turns ? direction(S(-theta)) : Vector(1, -theta); }
   static Vector left_of(const Vector& tangent) noexcept {
     return Turns ? Vector(-tangent.y(), tangent.x()) : Vector(0, 1);
-  }
-  /// @param is_plane  out: nearer to the centre than half of the reach a plane stands for the circle, for there the direction to the centre says nothing
-  /// @return D
-  static S look_at_circle(Contact& contact, bool& is_plane) noexcept {
-    const Vector off = contact.place - contact.centre, &t = contact.tangent;
-    const S distance = std::sqrt(off.squaredNorm());
-    // The centre may have passed the curve.
-    const bool passed = (t.x() * off.y() - t.y() * off.x()) * contact.side > 0;
-    is_plane = passed || distance < contact.reach / 2;
-    if (!is_plane) return contact.normal = off / distance, distance;
-    contact.normal = contact.side * Vector(t.y(), -t.x()) / std::sqrt(t.squaredNorm());
-    return contact.normal.dot(off);
   }
 };
 

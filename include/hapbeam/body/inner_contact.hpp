@@ -7,6 +7,8 @@
 // Unknown of both is the force λ, which pushes the beam away from the centre, or along n.  Those of a rod in space are in rod_inner_contact.hpp.
 #pragma once
 
+#include <cmath>
+
 #include <hapbeam/centreline.hpp>
 
 namespace hapbeam::detail {
@@ -112,6 +114,21 @@ struct InnerContact : InnerRow<S, D> {
   Vector2<S> way_to_curve() const noexcept {
     const Vector2<S> across = side * Vector2<S>(this->tangent.y(), -this->tangent.x());
     return this->place - this->reach / across.norm() * across - centre;
+  }
+  /// Finds the normal where place, displacement and tangent of the curve are known.   @param at  of the displacement [m]
+  /// @param is_plane  out: nearer to the centre than half of the reach a plane stands for the circle, for there the direction to the centre says nothing
+  /// @return D
+  S look_at_circle(S at, bool& is_plane) noexcept {
+    using std::sqrt;
+    const Vector2<S>& t = this->tangent;
+    const Vector2<S> off(this->moved.x() - (centre.x() - at), this->moved.y() - centre.y());
+    const S distance = sqrt(off.squaredNorm());
+    // The centre may have passed the curve.
+    const bool passed = (t.x() * off.y() - t.y() * off.x()) * side > 0;
+    is_plane = passed || distance < this->reach / 2;
+    this->normal = is_plane ? Vector2<S>(side / sqrt(t.squaredNorm()) * Vector2<S>(t.y(), -t.x()))
+                            : Vector2<S>(off / distance);
+    return is_plane ? this->normal.dot(off) : distance;
   }
   /// How far the place has moved from where it is at rest [m].
   Vector2<S> displacement() const noexcept { return this->place - Vector2<S>(this->s, 0); }

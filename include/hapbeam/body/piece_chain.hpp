@@ -72,7 +72,8 @@ class PieceChain {
     S energy = 0;
     for (int k = 0; k < count_; ++k) energy += length(k) * density(k).D;
     S stretch, p, q;
-    return energy + (chain_[of(longest_ + 1)].s - chain_[of(longest_)].s) * bridge_density(stretch, p, q).D;
+    return energy + (chain_[of(longest_ + 1)].s - chain_[of(longest_)].s) *
+                        bridge_density(bridge_chord(), stretch, p, q).D;
   }
   /// Of the longest piece [N].
   S tension() const noexcept { return N_; }
@@ -239,36 +240,24 @@ class PieceChain {
             side_of(piece), piece.tension, piece.stretch,
             piece.at_root,  piece.at_tip,  true};
   }
+  Chord bridge_chord() const noexcept { return {chain_[of(longest_)], chain_[of(longest_ + 1)]}; }
   /// Of the longest one.   @param stretch, p, q  out
-  Density bridge_density(S& stretch, S& p, S& q) const noexcept {
+  Density bridge_density(const Chord& chord, S& stretch, S& p, S& q) const noexcept {
     const Node &a = chain_[of(longest_)], &b = chain_[of(longest_ + 1)];
-    const Chord chord(a, b);
     const S l = b.s - a.s, i = 1 / l;
     stretch = chord.extension * i, p = (a.theta + chord.angle) * i, q = (b.theta + chord.angle) * i;
     return {properties_, a.s, b.s, S(1), N_, stretch, p, q, longest_ < count_};
   }
   /// Where a contact is as it lies.
   void see(int k) noexcept {
-    using std::sqrt;
     Contact& contact = in_order(k);
     const Node& node = chain_[of(k + 1)];
     contact.moved = node.moved, contact.theta = node.theta;
     contact.place = Vector(node.s + node.moved.x(), node.moved.y());
     contact.tangent = Turns ? direction(S(-node.theta)) : Vector(1, -node.theta);
     if (contact.kind == Contact::Kind::round) {
-      const Vector off(node.moved.x() - (contact.centre.x() - node.s), node.moved.y() - contact.centre.y());
-      S distance = sqrt(off.squaredNorm());
-      // The centre may have passed the curve.
-      if ((contact.tangent.x() * off.y() - contact.tangent.y() * off.x()) * contact.side > 0)
-        distance = -distance;
-      // Nearer to the centre than half of the reach a plane stands for the circle: there the direction to the centre says nothing.
-      if (distance < contact.reach / 2) {
-        contact.normal = contact.side * Vector(contact.tangent.y(), -contact.tangent.x());
-        distance = contact.normal.dot(off);
-      } else {
-        contact.normal = off / distance;
-      }
-      contact.gap = distance - contact.reach;
+      bool unused;
+      contact.gap = contact.look_at_circle(node.s, unused) - contact.reach;
     } else {
       // Of the place, which a node that is held off another is beside.
       const Vector moved = node.moved + (contact.s - node.s) * (contact.tangent - Vector(1, 0));

@@ -67,10 +67,10 @@ class RodBubbles : protected Stacked<S, Most> {
  protected:
   /// The curve beside a contact.
   struct Spot : RodSpot<S> {
-    Matrix curved;  // D''
-    Matrix axes;    // along which C is the same: all, or those across r'
-    Vector softer;  // of the section
-    Vector turns;   // moment with which C turns with the section, crossed with u
+    Matrix curved;     // D''
+    Matrix axes;       // along which C is the same: all, or those across r'
+    Vector soft_axis;  // of the section
+    Vector turns;      // moment with which C turns with the section, crossed with u
 
     Vector move(const Column& by) const noexcept {
       Vector sum = this->h[0].value * by.template segment<3>(0);
@@ -79,7 +79,7 @@ class RodBubbles : protected Stacked<S, Most> {
     }
   };
   /// Where r1, r1', r2 and r2' stand among the unknowns.
-  static constexpr int start(int q) noexcept { return q < 2 ? 3 * q : unknowns + 3 * (q - 2); }
+  static constexpr int start(int q) noexcept { return RodSpot<S>::start(unknowns, q); }
   /// Whether it yields alike along both axes of its section.
   bool even() const noexcept { return unknowns < 7 || p_->soft[0] == p_->soft[1]; }
   /// Along the axis along which it yields less [1/(N·m²)].
@@ -96,7 +96,7 @@ class RodBubbles : protected Stacked<S, Most> {
     // Near enough for where it begins, the bubble is that of the force along n.
     S yields = stiffer();
     if (!even()) {
-      const S along = contact.normal.dot(spot.softer);
+      const S along = contact.normal.dot(spot.soft_axis);
       yields += std::abs(p_->soft[0] - p_->soft[1]) * along * along;
     }
     const S rise = spot.g.by(0) * contact.force / 2;
@@ -110,10 +110,7 @@ class RodBubbles : protected Stacked<S, Most> {
   /// Along which axis of the section it yields more.
   void look_at_section([[maybe_unused]] Spot& spot) const noexcept {
     if constexpr (unknowns == 7)
-      if (!even()) {
-        const Vector d1 = Element::director(*p_, *a_, *b_, inner_.twist.value, spot.x);
-        spot.softer = p_->soft[0] > p_->soft[1] ? d1 : cross3(spot.u, d1);
-      }
+      if (!even()) spot.soft_axis = spot.template softer<Element>(*p_, *a_, *b_, inner_.twist.value);
   }
   void look(int k) noexcept {
     using std::sqrt;
@@ -168,14 +165,15 @@ class RodBubbles : protected Stacked<S, Most> {
     for (int i = 0; i < count(); ++i) {
       const ByPlace& own = spots_[at(i)].g;
       const Matrix shape = between(i, i);
+      const Vector force = vector(force_, i), moved = shape * force;
+      const S half = force.dot(moved) / 2;
       put(C_, i, i, own.value * shape);
-      bend(i, i, i, own.by(0) * shape);
-      lean(i, i, own.by(0) / 2 * shape);
-      turn_twice(i, i, half_product(i, i, own.by(0, 0) * shape));
+      add_to(J_[at(i)], i, own.by(0) * moved), add_to(slope_, i, own.by(0) / 2 * moved);
+      turn_twice(i, i, half * own.by(0, 0));
       if (p_->taut) {
-        bend(count(), i, i, soft * own.by(1) * shape);
-        turn_twice(i, count(), half_product(i, i, soft * own.by(1, 0) * shape));
-        turn_twice(count(), count(), half_product(i, i, soft * soft * own.by(1, 1) * shape));
+        add_to(J_[at(count())], i, soft * own.by(1) * moved);
+        turn_twice(i, count(), half * soft * own.by(1, 0));
+        turn_twice(count(), count(), half * soft * soft * own.by(1, 1));
       }
       for (int j = 0; j < i; ++j) {
         using ByBoth = Jet<S, 3>;
@@ -189,8 +187,10 @@ class RodBubbles : protected Stacked<S, Most> {
         put(C_, first, second, to.value * both), put(C_, second, first, to.value * both.transpose());
         bend(first, first, second, to.by(0) * both);
         bend(second, second, first, to.by(1) * both.transpose());
-        lean(first, second, to.by(0) * both), lean(second, first, to.by(1) * both.transpose());
-        const S product = 2 * half_product(first, second, both);
+        // How steep the force at the other makes the curve.
+        add_to(slope_, first, to.by(0) * both * vector(force_, second));
+        add_to(slope_, second, to.by(1) * both.transpose() * vector(force_, first));
+        const S product = vector(force_, first).dot(Vector(both * vector(force_, second)));
         turn_twice(first, first, product * to.by(0, 0)), turn_twice(second, second, product * to.by(1, 1));
         turn_twice(first, second, product * to.by(1, 0));
         if (p_->taut) {
@@ -208,7 +208,7 @@ class RodBubbles : protected Stacked<S, Most> {
   Matrix between(int i, int j) const noexcept {
     const Spot &a = spots_[at(i)], &b = spots_[at(j)];
     Matrix sum = stiffer() * (i == j ? a.axes : Matrix(a.axes * b.axes));
-    if (!even()) sum += std::abs(p_->soft[0] - p_->soft[1]) * a.softer * b.softer.transpose();
+    if (!even()) sum += std::abs(p_->soft[0] - p_->soft[1]) * a.soft_axis * b.soft_axis.transpose();
     return sum;
   }
   /// N/EI as a variable; none where N is no unknown.
@@ -228,19 +228,10 @@ class RodBubbles : protected Stacked<S, Most> {
   }
   /// As place k moves, or N grows: what C between two places has of CF, and of ½ F · CF.
   void bend(int k, int i, int j, const Matrix& by) noexcept {
-    const Vector here = vector(force_, i), there = vector(force_, j), moved = by * there;
-    for (int c = 0; c < 3; ++c) J_[at(k)][at(3 * i + c)] += moved[c];
-    if (i == j) return;
-    const Vector back = by.transpose() * here;
-    for (int c = 0; c < 3; ++c) J_[at(k)][at(3 * j + c)] += back[c];
+    add_to(J_[at(k)], i, by * vector(force_, j)), add_to(J_[at(k)], j, by.transpose() * vector(force_, i));
   }
-  /// How steep the force at j makes the curve at i.
-  void lean(int i, int j, const Matrix& by) noexcept {
-    const Vector slope = by * vector(force_, j);
-    for (int c = 0; c < 3; ++c) slope_[at(3 * i + c)] += slope[c];
-  }
-  S half_product(int i, int j, const Matrix& by) const noexcept {
-    return vector(force_, i).dot(Vector(by * vector(force_, j))) / 2;
+  static void add_to(Stack& to, int k, const Vector& v) noexcept {
+    for (int c = 0; c < 3; ++c) to[at(3 * k + c)] += v[c];
   }
 
   static constexpr std::size_t most_ways = std::size_t(Most + 1);

@@ -33,6 +33,26 @@ struct RodSpot {
     return J(1) + 1 / (p.softest() * p.axial) * n;
   }
 
+  /// Where r1, r1', r2 and r2' stand among so many unknowns a node.
+  static constexpr int start(int unknowns, int q) noexcept { return q < 2 ? 3 * q : unknowns + 3 * (q - 2); }
+  /// Takes off a moment that turns with the section.   @param of  of both nodes
+  template <class Column>
+  void turn(const Vector& moment, Column& of) const noexcept {
+    constexpr int unknowns = Column::RowsAtCompileTime / 2;
+    const Vector turns = cross3(moment, u) / stretched;
+    for (int q = 0; q < 4; ++q) of.template segment<3>(start(unknowns, q)) -= h[q].by(0) * turns;
+    if constexpr (unknowns == 7) {
+      const S about = moment.dot(u);
+      of[6] -= (1 - x) * about, of[13] -= x * about;
+    }
+  }
+  /// Along which axis of its section an element yields more, where that is not the same to all sides.   @param twist  ψ
+  template <class Element>
+  Vector softer(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b, S twist) const noexcept {
+    const Vector d1 = Element::director(p, a, b, twist, x);
+    return p.soft[0] > p.soft[1] ? d1 : cross3(u, d1);
+  }
+
   /// @param a, b  nodes   @param N  tension, where that is an unknown [N]   @param s  from a [m]
   void look(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b, S N, S s) noexcept {
     using std::sqrt;
@@ -69,7 +89,7 @@ template <int Unknowns, typename S, class Tangent>
 void stiffen(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b, S more,
              Tangent& K) noexcept {
   using Matrix = Eigen::Matrix<S, 3, 3>;
-  constexpr auto start = [](int q) { return q < 2 ? 3 * q : Unknowns + 3 * (q - 2); };
+  constexpr auto start = [](int q) { return RodSpot<S>::start(Unknowns, q); };
   const EndsAndMiddle<S> ends(p, a, b);
   const S draws = more * p.length, by_chord = S(1.5) * p.inverse_length;
   const S middle[4] = {-by_chord, S(-0.25), by_chord, S(-0.25)};

@@ -115,10 +115,10 @@ class TouchedElement : private PieceChain<Element, S, Most> {
   /// The longest piece, between its nodes.
   void bridge() noexcept {
     const Node &a = chain_[of(longest_)], &b = chain_[of(longest_ + 1)];
-    const Chord chord(a, b);
+    const Chord chord = this->bridge_chord();
     const S l = b.s - a.s, i = 1 / l;
     S stretch, p, q;
-    const Density D = bridge_density(stretch, p, q);
+    const Density D = bridge_density(chord, stretch, p, q);
     energy_ = l * D.D;
     const S lack = l * D.N, stiff = l * D.NN, missing = -lack / stiff, inverse = 1 / stiff;
     change_ += lack * missing / 2;

@@ -207,7 +207,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       if (turns) {
         const Vector moment = cross3(vector(yield_, k), vector(force_, k));
         spot.turns = cross3(moment, spot.u) / spot.stretched;
-        turn(spot, moment, r);
+        spot.turn(moment, r);
       }
       if constexpr (unknowns == 7)
         if (!even()) {
@@ -238,7 +238,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       if (turns) {
         const Vector rises = cross3<S>(block(C_, k, k) * contact.normal, vector(force_, k)) +
                              cross3<S>(vector(yield_, k), contact.normal);
-        turn(spot, rises, column);
+        spot.turn(rises, column);
       }
       S off = contact.gap;
       for (int c = 0; c < 3; ++c)
@@ -323,15 +323,6 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     for (int k = 0; k < count(); ++k)
       turns = turns || contacts_[at(k)]->rough || contacts_[at(k)]->kind == Contact::Kind::along;
     return turns;
-  }
-  /// Takes off a moment that turns with the section.
-  void turn(const Spot& spot, const Vector& moment, Column& of) const noexcept {
-    const Vector turns = cross3(moment, spot.u) / spot.stretched;
-    for (int q = 0; q < 4; ++q) of.template segment<3>(start(q)) -= spot.h[q].by(0) * turns;
-    if constexpr (unknowns == 7) {
-      const S about = moment.dot(spot.u);
-      of[6] -= (1 - spot.x) * about, of[13] -= spot.x * about;
-    }
   }
   /// Condenses the places that are sought, and N.
   void condense_ways(Column& r, Tangent& K) noexcept {

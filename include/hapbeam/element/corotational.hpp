@@ -37,7 +37,7 @@ struct Corotational : ElementFromCore<Corotational<Local>> {
   static constexpr bool any_rotation = true;
   using Abreast = std::conditional_t<std::is_same_v<Local, VonKarman<AssumedStrain>> || goes_abreast<Local>,
                                      Corotational, void>;
-  static constexpr bool tapers = detail::Tapers<Local>::value;
+  static constexpr bool tapers = detail::tapers<Local>;
   static constexpr const char* name() noexcept {
     if constexpr (std::is_same_v<Local, VonKarman<StabilityFunctions>>)
       return "corotational-stability-functions";

@@ -144,93 +144,65 @@ template <typename S>
 
 namespace detail {
 
-template <typename E, typename S, typename = void>
-struct IsElement : std::false_type {};
+/// Whether Op<A…> is a valid type, and whether that is a true one.
+template <template <class...> class Op, typename Void, class... A>
+inline constexpr bool is_valid_type = false;
+template <template <class...> class Op, class... A>
+inline constexpr bool is_valid_type<Op, std::void_t<Op<A...>>, A...> = true;
+template <template <class...> class Op, class... A>
+inline constexpr bool is_valid = is_valid_type<Op, void, A...>;
+template <template <class...> class Op, class E, bool Valid = is_valid<Op, E>>
+inline constexpr bool is_true = false;
+template <template <class...> class Op, class E>
+inline constexpr bool is_true<Op, E, true> = Op<E>::value;
 
-template <typename E, typename S>
-struct IsElement<
-    E, S,
-    std::void_t<
-        decltype(E::name()),
-        std::enable_if_t<noexcept(E::energy(
-            std::declval<const ElementProperties<S>&>(),
-            std::declval<const Vector6<
-                S>&>()))&& noexcept(E::
-                                        residual(
-                                            std::declval<const ElementProperties<S>&>(),
-                                            std::declval<const Vector6<S>&>(),
-                                            std::declval<Vector6<
-                                                S>&>()))&& noexcept(E::
-                                                                        tangent(
-                                                                            std::declval<
-                                                                                const ElementProperties<
-                                                                                    S>&>(),
-                                                                            std::declval<const Vector6<S>&>(),
-                                                                            std::declval<Vector6<S>&>(),
-                                                                            std::declval<Matrix6<S>&>()))>>>
-    : std::true_type {};
-
-template <typename E, typename = void>
-struct ContactsOf : std::integral_constant<int, 1> {};
-template <typename E>
-struct ContactsOf<E, std::void_t<decltype(E::contacts)>> : std::integral_constant<int, E::contacts> {};
-
-template <typename L, typename S, typename = void>
-struct RespondsToDeformation : std::false_type {};
-template <typename L, typename S>
-struct RespondsToDeformation<L, S,
-                             std::void_t<decltype(L::respond(std::declval<const ElementProperties<S>&>(),
-                                                             std::declval<const Deformation<S>&>())),
-                                         decltype(L::name())>>
-    : std::bool_constant<noexcept(L::respond(std::declval<const ElementProperties<S>&>(),
-                                             std::declval<const Deformation<S>&>())) &&
-                         std::is_same_v<decltype(L::respond(std::declval<const ElementProperties<S>&>(),
-                                                            std::declval<const Deformation<S>&>())),
-                                        CoreResponse<S>> &&
-                         std::is_convertible_v<decltype(L::name()), const char*>> {};
-
-template <class E, typename = void>
-struct AnyRotation : std::false_type {};
-template <class E>
-struct AnyRotation<E, std::void_t<decltype(E::any_rotation)>> : std::bool_constant<E::any_rotation> {};
-
-template <class E, typename = void>
-struct IsAbreast : std::false_type {};
-template <class E>
-struct IsAbreast<E, std::void_t<typename E::Abreast>> : std::is_same<typename E::Abreast, E> {};
-
-/// @tparam Of  Deformation<S> | Vector6<S>
-template <class E, typename S, class Of, typename = void>
-struct RespondsWithTension : std::false_type {};
+template <class T>
+T some() noexcept;
+template <class E, typename S, typename P = const ElementProperties<S>&, typename D = const Vector6<S>&>
+using Contract = std::enable_if_t<noexcept(E::energy(some<P>(), some<D>()))&& noexcept(E::residual(
+                                      some<P>(), some<D>(),
+                                      some<Vector6<S>&>()))&& noexcept(E::tangent(some<P>(), some<D>(),
+                                                                                  some<Vector6<S>&>(),
+                                                                                  some<Matrix6<S>&>())),
+                                  decltype(E::name())>;
+template <class L, typename S, typename P = const ElementProperties<S>&, typename D = const Deformation<S>&>
+using Responds =
+    std::enable_if_t<noexcept(L::respond(some<P>(), some<D>())) &&
+                     std::is_same_v<decltype(L::respond(some<P>(), some<D>())), CoreResponse<S>> &&
+                     std::is_convertible_v<decltype(L::name()), const char*>>;
 template <class E, typename S, class Of>
-struct RespondsWithTension<
-    E, S, Of,
-    std::void_t<decltype(E::respond(std::declval<const ElementProperties<S>&>(), std::declval<const Of&>(),
-                                    std::declval<OwnTension<S>&>()))>> : std::true_type {};
-
-template <class E, typename = void>
-struct Tapers : std::false_type {};
+using RespondsWithTension =
+    decltype(E::respond(some<const ElementProperties<S>&>(), some<const Of&>(), some<OwnTension<S>&>()));
 template <class E>
-struct Tapers<E, std::void_t<decltype(E::tapers)>> : std::bool_constant<E::tapers> {};
-
-template <class E, typename = void>
-struct MembraneFeelsSlope : std::false_type {};
+using TurnsFar = std::bool_constant<E::any_rotation>;
 template <class E>
-struct MembraneFeelsSlope<E, std::void_t<decltype(E::membrane_feels_slope)>>
-    : std::bool_constant<E::membrane_feels_slope> {};
-
-template <class E, typename = void>
-struct ExactUnderTension : std::false_type {};
+using GoesAbreast = std::is_same<typename E::Abreast, E>;
 template <class E>
-struct ExactUnderTension<E, std::void_t<typename E::ExactUnderTension>>
-    : std::is_same<typename E::ExactUnderTension, E> {};
+using TakesTaper = std::bool_constant<E::tapers>;
+template <class E>
+using FeelsSlope = std::bool_constant<E::membrane_feels_slope>;
+template <class E>
+using IsExact = std::is_same<typename E::ExactUnderTension, E>;
+template <class E>
+using Contacts = std::integral_constant<int, E::contacts>;
+
+template <class E>
+inline constexpr bool tapers = is_true<TakesTaper, E>;
+template <class E>
+inline constexpr bool membrane_feels_slope = is_true<FeelsSlope, E>;
+
+template <class E>
+constexpr int most_contacts() noexcept {
+  if constexpr (is_valid<Contacts, E>) return E::contacts;
+  else return 1;
+}
 
 }  // namespace detail
 
 /// True where L has what an element needs of its membrane policy, and an element of finite rotation of its local element:
 ///   `L::respond(const ElementProperties<S>&, const Deformation<S>&) noexcept -> CoreResponse<S>`,   `L::name() -> const char*`
 template <typename L, typename S>
-inline constexpr bool responds_to_deformation = detail::RespondsToDeformation<L, S>::value;
+inline constexpr bool responds_to_deformation = detail::is_valid<detail::Responds, L, S>;
 
 /// Functions that run once an element and iteration are [[gnu::always_inline]], here and in the elements. Without it
 /// g++ -O2 calls them, their results go through memory and take a quarter of the tick.
@@ -281,21 +253,21 @@ struct ElementFromCore {
 
 /// True where E is declared valid at finite rotation.
 template <class E>
-inline constexpr bool any_rotation = detail::AnyRotation<E>::value;
+inline constexpr bool any_rotation = detail::is_true<detail::TurnsFar, E>;
 
 /// True where a few elements E are computed side by side.
 template <class E>
-inline constexpr bool goes_abreast = detail::IsAbreast<E>::value;
+inline constexpr bool goes_abreast = detail::is_true<detail::GoesAbreast, E>;
 
 /// True where E, or a membrane policy, is exact under a tension that is constant along it.
 template <class E>
-inline constexpr bool exact_under_tension = detail::ExactUnderTension<E>::value;
+inline constexpr bool exact_under_tension = detail::is_true<detail::IsExact, E>;
 
 /// True where the tension of an element, or of a membrane policy, is an unknown of its own.
 template <class E>
-inline constexpr bool has_own_tension = goes_abreast<E> &&
-                                        (detail::RespondsWithTension<E, double, Deformation<double>>::value ||
-                                         detail::RespondsWithTension<E, double, Vector6<double>>::value);
+inline constexpr bool has_own_tension =
+    goes_abreast<E> && (detail::is_valid<detail::RespondsWithTension, E, double, Deformation<double>> ||
+                        detail::is_valid<detail::RespondsWithTension, E, double, Vector6<double>>);
 
 /// An element of beams that may be touched at several places at once, as FemModel<Several<Corotational<>, 3>>.
 /// @tparam Contacts  the most of them
@@ -310,10 +282,10 @@ struct Several : Element {
 
 /// At how many places a beam of such elements may be touched: 1, unless it says so.
 template <class E>
-inline constexpr int contacts_of = detail::ContactsOf<E>::value;
+inline constexpr int contacts_of = detail::most_contacts<E>();
 
 /// True where E fulfils the contract above for scalar S, every noexcept included.
 template <typename E, typename S>
-inline constexpr bool is_element = detail::IsElement<E, S>::value;
+inline constexpr bool is_element = detail::is_valid<detail::Contract, E, S>;
 
 }  // namespace hapbeam

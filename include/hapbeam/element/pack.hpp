@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -53,10 +54,13 @@ template <typename S>
 
 template <typename T, int Size>
 struct PackRows;
+template <typename T>
+struct Columns;
 
 template <typename T, int Size = pack_size<T>>
 class Pack {
   friend struct PackRows<T, Size>;
+  friend struct Columns<T>;
 
  public:
   static constexpr int size = Size;
@@ -84,6 +88,18 @@ class Pack {
     return pack;
   }
   [[gnu::always_inline]] void store(T* to) const noexcept { std::memcpy(to, &v_, sizeof v_); }
+#if defined(__GNUC__)
+  /// Where they stand at a multiple of their size.
+  [[gnu::always_inline]] static Pack load_aligned(const T* from) noexcept {
+    return load(static_cast<const T*>(__builtin_assume_aligned(from, sizeof(Vector))));
+  }
+  [[gnu::always_inline]] void store_aligned(T* to) const noexcept {
+    store(static_cast<T*>(__builtin_assume_aligned(to, sizeof(Vector))));
+  }
+#else
+  static Pack load_aligned(const T* from) noexcept { return load(from); }
+  void store_aligned(T* to) const noexcept { store(to); }
+#endif
 
   [[gnu::always_inline]] T operator[](int i) const noexcept { return v_[i]; }
   [[gnu::always_inline]] void set(int i, T a) noexcept { v_[i] = a; }
@@ -114,6 +130,12 @@ class Pack {
 #undef HAPBEAM_LANEWISE
 #undef HAPBEAM_FUSED
 
+  /// Sum of all of them.
+  friend T total(const Pack& a) noexcept {
+    T sum = a[0];
+    for (int i = 1; i < size; ++i) sum += a[i];
+    return sum;
+  }
   /// Every other number is one of b.
   [[gnu::always_inline]] friend Pack in_turn(const Pack& a, const Pack& b) noexcept {
     Pack both;
@@ -163,6 +185,31 @@ class Pack {
 #endif
   }
 
+  [[gnu::always_inline]] friend Pack subtract_product(Pack a, const Pack& b, const Pack& c) noexcept {
+#if defined(__GNUC__)
+    return a.v_ = a.v_ - b.v_ * c.v_, a;
+#else
+    return a - b * c;
+#endif
+  }
+  [[gnu::always_inline]] friend Pack abs(Pack a) noexcept {
+#if defined(__GNUC__)
+    // All bits but the sign: one instruction.
+    return a.v_ = Vector(Mask(a.v_) & (std::numeric_limits<Bits>::max)()), a;
+#else
+    for (int i = 0; i < size; ++i) a.v_[i] = std::abs(a.v_[i]);
+    return a;
+#endif
+  }
+  /// 1 where a number is negative, else 0.
+  [[gnu::always_inline]] friend Pack negatives(Pack a) noexcept {
+#if defined(__GNUC__)
+    return a.v_ = a.v_ < 0 ? Pack(1).v_ : Pack(0).v_, a;
+#else
+    for (int i = 0; i < size; ++i) a.v_[i] = T(a.v_[i] < 0);
+    return a;
+#endif
+  }
   [[gnu::always_inline]] friend Pack sqrt(Pack a) noexcept {
     // std::sqrt sets errno, which keeps a compiler from its instruction.  Eigen has that for up to 32 bytes, through memory; in
     // double it is exact.

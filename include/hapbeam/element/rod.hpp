@@ -39,31 +39,6 @@ struct RoundRod {
   template <typename S>
   using Inner = detail::RodInners<S, unknowns>;
 
-  template <typename S>
-  static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
-                  const Inner<S>& inner) noexcept {
-    return energy(p, n1, n2, detail::EndsAndMiddle<S>(p, n1, n2), inner.tension.value);
-  }
-  /// The same under a tension.
-  template <typename S>
-  static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
-                  const detail::EndsAndMiddle<S>& at, const S& N) noexcept {
-    const V3<S> chord = n2.r - n1.r;
-    S sum = 0, axial = 0;
-    for (int g = 0; g < points; ++g) {
-      const detail::CubicWeights<S> w(S(rule.x[g]), p.inverse_length);
-      const V3<S> a = w.a * chord + w.a1 * n1.tangent + w.a2 * n2.tangent,
-                  b = w.b * chord + w.b1 * n1.tangent + w.b2 * n2.tangent;
-      const S A = 1 / a.squaredNorm(), C = a.dot(b) * A;
-      sum += S(rule.weight[g]) * p.points[g].bending1 * (b.squaredNorm() * A - C * C);
-    }
-    const S e[3] = {at.n[0] - 1, p.taut ? S(0) : S(at.n[1] - 1), at.n[2] - 1};
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) axial += S(detail::quadratic_mass[i][j]) * e[i] * e[j];
-    const S energy = p.length * (sum + p.axial * axial) / 2;
-    return p.taut ? S(energy + detail::RoundTension<S>(p, at, N).energy()) : energy;
-  }
-
   /// Residual and tangent.
   /// @param r  out [N, N·m of r']   @param K  out, symmetric, both triangles   @return V [J]
   template <typename S>
@@ -112,7 +87,6 @@ struct RoundRod {
 
  private:
   static constexpr int points = 3;
-  static constexpr const detail::GaussRule& rule = detail::three_points;
   template <typename S>
   using V3 = VectorOf<S, 3>;
 

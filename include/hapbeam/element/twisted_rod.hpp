@@ -56,37 +56,6 @@ struct TwistedRod {
   template <typename S>
   using Inner = detail::RodInners<S, unknowns>;
 
-  /// V [J].
-  template <typename S>
-  static S energy(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,
-                  const Inner<S>& inner) noexcept {
-    if (p.round) {
-      const detail::EndsAndMiddle<S> at(p, n1, n2);
-      return RoundRod::energy(p, n1, n2, at, inner.tension.value) + Twist<S>(p, n1, n2, at).energy();
-    }
-    const Frame<S> f(p, n1, n2);
-    S sum = 0;
-    const S m = f.mismatch;
-    for (int g = 0; g < points; ++g) {
-      const auto& at = p.points[g];
-      const S x = S(rule.x[g]);
-      const Point<S> point(f, cubics[g]);
-      S k[3];
-      point.strains(m * x + 4 * inner.twist.value * x * (1 - x), m + 4 * inner.twist.value * (1 - 2 * x),
-                    p.inverse_length, k);
-      const S e1 = k[0] - at.natural[0], e2 = k[1] - at.natural[1], e3 = k[2] - at.natural[2];
-      sum += S(rule.weight[g]) * (at.bending1 * e1 * e1 + at.bending2 * e2 * e2 + at.torsion * e3 * e3);
-    }
-    S e[3];
-    f.stretches(p, e);
-    if (p.taut) e[1] = 0;
-    S axial = 0;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) axial += S(detail::quadratic_mass[i][j]) * e[i] * e[j];
-    const S energy = p.length * (sum + p.axial * axial) / 2;
-    return p.taut ? S(energy + Tension<S>(p, {p, n1, n2}, inner.tension.value).energy()) : energy;
-  }
-
   /// The director at ξ.   @param twist  ψ
   template <typename S>
   static VectorOf<S, 3> director(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2,

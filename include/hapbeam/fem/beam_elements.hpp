@@ -18,6 +18,7 @@
 #include <hapbeam/fem/section_cut.hpp>
 #include <hapbeam/fem/solver/ldlt.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
+#include <hapbeam/unroll.hpp>
 
 namespace hapbeam {
 
@@ -45,13 +46,15 @@ class BeamElements {
       : nodes_(elements),
         properties_(elements),
         tensions_(elements),
+        abreast_(elements),
         own_(detail::groups_of<Scalar>(elements)),
         loads_(beam, elements),
         pieces_(beam) {
     lay_mesh<Scalar>(beam, beam.point_loads(), elements, [this](int i, Scalar s) {
       nodes_[i] = {s, 0, 0, 0};
     });
-    for (int e = 0; e < elements; ++e) properties_[e] = pieces_.between(nodes_[e].s, nodes_[e + 1].s);
+    for (int e = 0; e < elements; ++e)
+      abreast_.take(e, properties_[e] = pieces_.between(nodes_[e].s, nodes_[e + 1].s));
   }
 
   int size() const noexcept { return nodes_.size() - 1; }
@@ -84,62 +87,84 @@ class BeamElements {
         tensions_[e] = own.normal;
       }
   }
-  /// To be called where the nodes have moved.   @param increment  i -> [u, w, θ] of node i   @param skip  (e) -> whether it follows otherwise
+  /// Tensions follow the nodes.   @param increments  of all nodes: ChainIncrements
   /// @return Σ |∂²Π/∂N²| (ΔN² - (ΔN - m)²), m: what N lacked: by so much the increment is longer than its nodes alone say [J]
-  template <class Increment, class Skip>
-  [[gnu::always_inline]] Scalar follow([[maybe_unused]] Increment&& increment,
-                                       [[maybe_unused]] Skip&& skip) noexcept {
-    Scalar longer = 0;
-    if constexpr (has_tensions) {
-      Vector3<Scalar> x = increment(0);
-      for (int e = 0; e < size(); ++e) {
-        const Vector3<Scalar> y = increment(e + 1);
-        const auto& own = own_[e / Group::size];
-        const int k = e % Group::size;
-        const ElementProperties<Scalar>& p = properties_[e];
-        const Scalar by = own.missing[k] + own.s[k] * (y[0] - x[0]) + own.r[k] * (y[1] - x[1]) +
-                          p.length * (own.t1[k] * x[2] + own.t2[k] * y[2]);
-        // No step goes far into compression, which has no bending stiffness left.
-        if (!skip(e)) {
-          const Scalar before = tensions_[e];
-          tensions_[e] = (std::max)(
-              before + by, (std::min)(before, Scalar(0)) - largest_push * p.bending_per_length3 * p.length);
-          longer += own.lack[k] * (2 * by - own.missing[k]);
-        }
-        x = y;
+  template <class Increments>
+  [[gnu::always_inline]] Scalar follow([[maybe_unused]] const Increments& increments) noexcept {
+    Wide longer = 0;
+    if constexpr (has_tensions)
+      for (int first = 0; first < abreast_.places(); first += lanes) {
+        const auto& own = own_[first / lanes];
+        const auto& p = abreast_.properties(first);
+        Vector6<Wide> x;
+        increments.of_elements(first, x);
+        // A step far into compression, which has no bending stiffness left, leads nowhere.
+        const Wide by = own.missing + own.s * (x[3] - x[0]) + own.r * (x[4] - x[1]) +
+                        p.length * (own.t1 * x[2] + own.t2 * x[5]),
+                   least = -larger(-own.normal, Wide(0)) - largest_push * p.bending_per_length3 * p.length,
+                   next = larger(own.normal + by, least);
+        abreast_.for_each_lane(first, [&](int e, int lane) { tensions_[e] = next[lane]; });
+        abreast_.add(first, own.lack * (2 * by - own.missing), longer);
       }
-    }
-    return longer;
+    return total(longer);
   }
+  /// What is touched follows otherwise.
+  void leave([[maybe_unused]] int e) noexcept {
+    if constexpr (has_tensions) own_[place(e) / lanes].lack.set(place(e) % lanes, 0);
+  }
+  int place(int e) const noexcept { return abreast_.order().place(e); }
 
-  /// Elements that are computed side by side, from the one on whose number is a multiple of their size.
-  struct Group {
-    using Number = std::conditional_t<goes_abreast<Element>, detail::Pack<Scalar>, Scalar>;
-    static constexpr int size = goes_abreast<Element> ? detail::pack_size<Scalar> : 1;
-    CoreResponse<Number> core;
-  };
-  /// To be called with each element, in order.
-  [[gnu::always_inline]] void respond([[maybe_unused]] int e, [[maybe_unused]] Group& group) noexcept {
-    if constexpr (goes_abreast<Element>)
-      if (e % Group::size == 0) respond_abreast(e, group);
-  }
-  /// Residual and tangent of V in element e.   @param group  with which respond(e, group) was called   @return V [J]
-  [[gnu::always_inline]] Scalar tangent(int e, [[maybe_unused]] const Group& group, Vector6<Scalar>& r,
-                                        Matrix6<Scalar>& K) const noexcept {
-    if constexpr (goes_abreast<Element>) {
-      const auto& c = group.core;
-      const int i = e % Group::size;
-      const CoreResponse<Scalar> core{c.energy[i],
-                                      c.s[i],
-                                      c.r[i],
-                                      c.t1[i],
-                                      c.t2[i],
-                                      {c.k.ss[i], c.k.sr[i], c.k.s1[i], c.k.s2[i], c.k.rr[i], c.k.r1[i],
-                                       c.k.r2[i], c.k.t11[i], c.k.t12[i], c.k.t22[i]}};
-      return Element::tangent(properties_[e], core, r, K);
-    } else {
-      return Element::tangent(properties_[e], displacements(e), r, K);
+  using Wide = detail::Pack<Scalar>;
+  static constexpr int lanes = Wide::size;
+  /// Residual and tangent of V in each element, a few at a time.   @param visit  called with (place, V [J], r, K) of those from that place on, in the order of
+  /// PairOrder
+  template <class Visit>
+  [[gnu::always_inline]] void visit_tangents(Visit&& visit) noexcept {
+    for (int first = 0; first < abreast_.places(); first += lanes) {
+      Vector6<Wide> r;
+      Matrix6<Wide> K;
+      Wide energy = 0;
+      if constexpr (goes_abreast<Element>) {
+        energy = Element::tangent(abreast_.properties(first), core_abreast(first), r, K);
+      } else {
+        for_each_lane(first, [&](int e, int lane) {
+          Vector6<Scalar> its;
+          Matrix6<Scalar> stiff;
+          energy.set(lane, Element::tangent(properties_[e], displacements(e), its, stiff));
+          set_lane(lane, its, stiff, r, K);
+        });
+      }
+      visit(first, energy, r, K);
     }
+  }
+  /// Calls f(element, lane) for those from a place on.
+  template <class F>
+  [[gnu::always_inline]] void for_each_lane(int first, F&& f) const noexcept {
+    abreast_.for_each_lane(first, f);
+  }
+  /// Of one number of each of those from a place on.   @param f  element -> number
+  template <class F>
+  [[gnu::always_inline]] Wide gather(int first, F&& f) const noexcept {
+    return abreast_.gather(first, f);
+  }
+  /// Adds to a sum what each of those from a place on has.
+  [[gnu::always_inline]] void add(int first, const Wide& each, Wide& sum) const noexcept {
+    abreast_.add(first, each, sum);
+  }
+  /// Residual and tangent of one of them, as far as a system reads them.
+  [[gnu::always_inline]] static void get_lane(int lane, const Vector6<Wide>& r, const Matrix6<Wide>& K,
+                                              Vector6<Scalar>& its, Matrix6<Scalar>& stiff) noexcept {
+    stiff.setZero();
+    each_entry([&](int i, int j) HAPBEAM_INLINED { stiff(i, j) = K(i, j)[lane]; });
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 6; ++k) its[k] = r[k][lane];
+  }
+  [[gnu::always_inline]] static void set_lane(int lane, const Vector6<Scalar>& its,
+                                              const Matrix6<Scalar>& stiff, Vector6<Wide>& r,
+                                              Matrix6<Wide>& K) noexcept {
+    each_entry([&](int i, int j) HAPBEAM_INLINED { K(i, j).set(lane, stiff(i, j)); });
+    HAPBEAM_UNROLL
+    for (int k = 0; k < 6; ++k) r[k].set(lane, its[k]);
   }
   /// Whether λ times the loads are any.
   bool loaded(Scalar lambda) const noexcept { return lambda != 0 && !loads_.empty(); }
@@ -203,6 +228,18 @@ class BeamElements {
 
  private:
   static constexpr int most_tensions = 16;
+  /// Calls f(i, j) with the lower triangles of both nodes, and with what couples the first with the second.
+  template <class F>
+  [[gnu::always_inline]] static void each_entry(F&& f) noexcept {
+    HAPBEAM_UNROLL
+    for (int j = 0; j < 3; ++j) {
+      HAPBEAM_UNROLL
+      for (int i = 0; i < 3; ++i) {
+        if (i >= j) f(i, j), f(3 + i, 3 + j);
+        f(i, 3 + j);
+      }
+    }
+  }
   static constexpr Scalar largest_push = 8;  // in one increment [EI/l²]
 
   /// Of one element under its own tension.
@@ -211,53 +248,43 @@ class BeamElements {
     own.normal = tensions_[e];
     return Element::core(properties_[e], displacements(e), own);
   }
-  void respond_abreast(int first, Group& group) noexcept {
+  CoreResponse<Wide> core_abreast(int first) noexcept {
+    const Vector6<Wide> d = displacements_abreast(first);
     if constexpr (has_tensions) {
-      auto& own = own_[first / Group::size];
-      own.normal = Group::Number::of([&](int k) { return tensions_[(std::min)(first + k, size() - 1)]; });
+      auto& own = own_[first / lanes];
+      own.normal = abreast_.gather(first, [this](int e) { return tensions_[e]; });
       own.turning = turning_;
-      group.core = gather(first, [&own](const auto& p, const auto& d) { return Element::core(p, d, own); });
+      return Element::core(abreast_.properties(first), d, own);
     } else {
-      group.core = gather(first, [](const auto& p, const auto& d) { return Element::core(p, d); });
+      return Element::core(abreast_.properties(first), d);
     }
   }
-  /// Of a group from its first element on: use(properties, displacements), side by side.
-  template <class Use>
-  [[gnu::always_inline]] auto gather(int first, Use&& use) const noexcept {
-    using Wide = typename Group::Number;
-    const auto each = [&](auto&& number) {
-      return Wide::of([&](int k) { return number((std::min)(first + k, size() - 1)); });
+  /// The nodes of these places and of the pair behind them are those of both ends.
+  [[gnu::always_inline]] Vector6<Wide> displacements_abreast(int first) const noexcept {
+    const detail::PairOrder& order = abreast_.order();
+    detail::Abreast<Scalar> of;
+    order.nodes_from(first, of.of);
+    const Node &left = nodes_[order.node((std::min)(first + lanes, order.last_node() - 1))],
+               &right = nodes_[order.node((std::min)(first + lanes + 1, order.last_node()))];
+    Vector6<Wide> d;
+    const auto take = [&](int k, Scalar Node::*member) HAPBEAM_INLINED {
+      const Scalar two[2] = {left.*member, right.*member};
+      const Wide outer = detail::gather(of, [&](int i) { return nodes_[i].*member; }),
+                 next = before(outer, two);
+      d[k] = in_turn(outer, next), d[3 + k] = in_turn(next, outer);
     };
-    const auto property = [&](Scalar ElementProperties<Scalar>::*member) {
-      return each([&](int e) { return properties_[e].*member; });
-    };
-    const auto moved = [&](int by, Scalar Node::*member) {
-      return each([&](int e) { return nodes_[e + by].*member; });
-    };
-    using P = ElementProperties<Scalar>;
-    ElementProperties<Wide> p;
-    p.length = property(&P::length);
-    p.inverse_length = property(&P::inverse_length);
-    p.axial_stiffness = property(&P::axial_stiffness);
-    p.axial_per_length = property(&P::axial_per_length);
-    p.bending_per_length3 = property(&P::bending_per_length3);
-    if (!natural_shape().straight()) {
-      p.natural_a = property(&P::natural_a);
-      p.natural_b = property(&P::natural_b);
-      p.natural_stretch = property(&P::natural_stretch);
-    }
-    const Vector6<Wide> d(moved(0, &Node::u), moved(0, &Node::w), moved(0, &Node::theta), moved(1, &Node::u),
-                          moved(1, &Node::w), moved(1, &Node::theta));
-    return use(p, d);
+    take(0, &Node::u), take(1, &Node::w), take(2, &Node::theta);
+    return d;
   }
 
   Nodes nodes_;
   Properties properties_;
   Inners tensions_;
   Scalar turning_ = 1;
-  detail::PerNode<OwnTension<typename Group::Number>, detail::groups_of<Scalar>(Elements),
+  detail::ElementsAbreast<ElementProperties, Scalar, Elements, MaxElements> abreast_;
+  detail::PerNode<OwnTension<Wide>, detail::groups_of<Scalar>(Elements),
                   detail::groups_of<Scalar>(MaxElements)>
-      own_;  // since respond()
+      own_;  // since visit_tangents()
   DeadLoads<Scalar> loads_;
   Pieces pieces_;
 };

@@ -165,8 +165,7 @@ Scalar subtract_loads(const DeadLoads<Scalar>& loads, Scalar begin, Scalar end, 
   loads.visit(begin, end, last, [&](const PointForce<Scalar>& load) {
     const Scalar t = load.s == end ? Scalar(1) : (load.s - begin) / p.length;
     if constexpr (any_rotation<Element>) work += subtract_load(load, t, lambda, p, d, r, K);
-    else
-      work += subtract_moderate_load<detail::MembraneFeelsSlope<Element>::value>(load, t, lambda, p, d, r, K);
+    else work += subtract_moderate_load<detail::membrane_feels_slope<Element>>(load, t, lambda, p, d, r, K);
   });
   return work;
 }

@@ -40,7 +40,7 @@ class BeamChain {
   /// @param number  of elements
   /// @throws std::invalid_argument where a load is not finite somewhere on the beam, or the number does not fit the type
   [[gnu::cold]] BeamChain(const Beam& beam, int number)
-      : parts_(beam, number), before_(number), ends_(beam, number) {
+      : parts_(beam, number), increments_(number), ends_(beam, number) {
     const NaturalShape<Scalar>& natural = parts_.natural_shape();
     const auto stand = [&](Scalar side) {
       detail::lay(natural, ends_[0], ends_[1], parts_.nodes());
@@ -140,44 +140,42 @@ class BeamChain {
                  energy = stiffness_ * off * off;
     return 16 * state * state <= energy ? std::sqrt(energy) : Scalar(0);
   }
-  /// Residual and tangent of all elements.  Nothing takes the address of a tangent that most of them need: it stays in registers.
+  /// Residual and tangent of all elements.
   template <class Rows>
   [[gnu::always_inline]] detail::ChainEnergies<Scalar> assemble(Scalar load, Rows& rows,
                                                                 Assembler& assembler) noexcept {
+    using Wide = typename Parts::Wide;
+    using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
+    Wide strain = 0;
     Scalar energy = 0, work = 0;
-    typename Parts::Group group;
-    const auto add = [&](int e, auto&& change) {
-      Matrix6<Scalar> K;
-      Vector6<Scalar> r;
-      energy += parts_.tangent(e, group, r, K);
-      change(r, K);
-      assembler.add(e, K, r);
-    };
     if (inertia_) energy += inertia_->look(parts_.nodes());
     const bool plain = !parts_.loaded(load) && !viscosity_;
-    for (int e = 0; e < parts_.size(); ++e) {
-      parts_.respond(e, group);
-      const auto move = [&](Vector6<Scalar>& r, Matrix6<Scalar>& K)
-                            HAPBEAM_INLINED { inertia_->add(e, r, K); };
-      const auto load_and_move = [&](Vector6<Scalar>& r, Matrix6<Scalar>& K) {
-        work += parts_.subtract_loads(e, load, r, &K);
-        if (viscosity_) energy += viscosity_->add(e, parts_.displacements(e), r, K);
-        if (inertia_) move(r, K);
+    parts_.visit_tangents([&](int first, Wide& each, Vector6<Wide>& r, Matrix6<Wide>& K) HAPBEAM_INLINED {
+      const auto change = [&](int e, int lane) {
+        Vector6<Scalar> its;
+        Matrix6<Scalar> stiff;
+        if (rows.in(e)) each.set(lane, rows.touch(parts_, e, its, stiff)), parts_.leave(e);
+        else Parts::get_lane(lane, r, K, its, stiff);
+        work += parts_.subtract_loads(e, load, its, &stiff);
+        if (viscosity_) energy += viscosity_->add(e, parts_.displacements(e), its, stiff);
+        Parts::set_lane(lane, its, stiff, r, K);
       };
-      if (rows.in(e)) {
-        Matrix6<Scalar> K;
-        Vector6<Scalar> r;
-        energy += rows.touch(parts_, e, r, K);
-        if (!plain || inertia_) load_and_move(r, K);
-        assembler.add(e, K, r);
-      } else if (!plain) {
-        add(e, load_and_move);
-      } else if (inertia_) {
-        add(e, move);
-      } else {
-        add(e, [](auto&, auto&) {});
-      }
+      if (!plain) parts_.for_each_lane(first, change);
+      else
+        detail::each_touched(rows, [&](int e) {
+          if (const int lane = parts_.place(e) - first; lane >= 0 && lane < Parts::lanes) change(e, lane);
+        });
+      if (inertia_) inertia_->add([&](auto&& f) HAPBEAM_INLINED { return parts_.gather(first, f); }, r, K);
+      parts_.add(first, each, strain);
+      assembler.add_pairs(first, K, r);
+    });
+    if (inertia_) {
+      Matrix3 K = Matrix3::Zero();
+      Vector3<Scalar> r = Vector3<Scalar>::Zero();
+      inertia_->add_node([last = parts_.size()](auto&& f) { return f(last); }, r, K);
+      assembler.add_at(parts_.size(), K, r);
     }
+    energy += total(strain);
     // Where tensions are far from those of the nodes the energy has either sign.
     return {energy, work, 0, std::abs(energy) + (inertia_ ? inertia_->scale() : Scalar(0))};
   }
@@ -187,44 +185,33 @@ class BeamChain {
   /// Adds the increment of the last equations.   @return as of BeamElements::follow() [J]
   template <class Rows, class ElementAt>
   Scalar advance(const Assembler& assembler, Rows& rows, ElementAt&& element_at) noexcept {
+    increments_.take(assembler);
     if constexpr (any_rotation<Element>) {
       if (!rows.any() && !inertia_) {
-        // Prescribed increments included, which would be shared out a second time.
-        const auto with_ends = [&](int i) {
-          return ends_.increment(assembler.increment(i), i, parts_.nodes()[i]);
-        };
-        const Scalar longer = parts_.follow(with_ends, [](int) { return false; });
-        detail::lay_chain<Element, Scalar>(parts_.nodes(), parts_.properties(), parts_.inners(), with_ends);
+        // A chain that ended where its ends were would share out a second time what is prescribed.
+        ends_.lead(parts_.nodes(), increments_);
+        const Scalar longer = parts_.follow(increments_);
+        detail::lay_chain<Element, Scalar>(parts_.nodes(), parts_.properties(), parts_.inners(),
+                                           [this](int i) { return increments_[i]; });
         detail::close_chain(parts_.nodes(), ends_[0], ends_[1]);
         ends_.correct(parts_.nodes());
         return longer;
       }
     }
-    const Scalar longer = move([&](int i) { return assembler.increment(i); }, rows);
+    const Scalar longer = move();
     return longer + rows.advance(
                         [this](int e) {
-                          const Node &a = before_[e], &b = before_[e + 1];
-                          return Vector6<Scalar>(parts_.displacements(e) -
-                                                 Vector6<Scalar>(a.u, a.w, a.theta, b.u, b.w, b.theta));
+                          Vector6<Scalar> both;
+                          both << increments_[e], increments_[e + 1];
+                          return both;
                         },
                         [this](int e, Scalar N) { parts_.set_tension(e, N); }, element_at);
   }
   /// Adds to its nodes.  @param change  i -> [u, w, θ]   @return the same
-  template <class Change, class Rows>
-  Scalar move(Change&& change, const Rows& rows) noexcept {
-    Nodes& nodes = parts_.nodes();
-    for (int i = 0; i < nodes.size(); ++i) {
-      const Vector3<Scalar> x = change(i);
-      before_[i] = nodes[i];
-      nodes[i].u += x[0], nodes[i].w += x[1], nodes[i].theta += x[2];
-    }
-    ends_.correct(nodes);
-    return parts_.follow(
-        [&](int i) {
-          const Node &now = nodes[i], &then = before_[i];
-          return Vector3<Scalar>(now.u - then.u, now.w - then.w, now.theta - then.theta);
-        },
-        [&](int e) { return rows.in(e); });
+  template <class Change>
+  Scalar move(Change&& change) noexcept {
+    for (int i = 0; i < parts_.nodes().size(); ++i) increments_.set(i, change(i));
+    return move();
   }
   /// Takes another shape of the same beam.
   void lay(const Centreline<Scalar>& shape) noexcept {
@@ -317,9 +304,19 @@ class BeamChain {
   }
 
  private:
+  Scalar move() noexcept {
+    ends_.lead(parts_.nodes(), increments_);
+    increments_.for_each_node([this](int i, const Vector3<Scalar>& x) HAPBEAM_INLINED {
+      Node& node = parts_.nodes()[i];
+      node.u += x[0], node.w += x[1], node.theta += x[2];
+    });
+    ends_.correct(parts_.nodes());
+    return parts_.follow(increments_);
+  }
+
   Parts parts_;
-  Nodes before_;                // the last increment
-  Inertia* inertia_ = nullptr;  // of what it is in motion with
+  detail::ChainIncrements<Scalar, Elements, MaxElements, 3> increments_;  // the last ones
+  Inertia* inertia_ = nullptr;                                            // of what it is in motion with
   const Viscosity* viscosity_ = nullptr;
   detail::BeamEnds<Scalar> ends_;
   Scalar stiffness_ = 0;  // of all elements, along and across [N/m]

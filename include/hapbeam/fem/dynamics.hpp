@@ -17,6 +17,8 @@
 // Numer. Math. 20, 1996.
 #pragma once
 
+#include <type_traits>
+
 #include <hapbeam/angle.hpp>
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
@@ -102,26 +104,41 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
     const Placed<S> at = placed(nodes[i]);
     return {sum[0], sum[1], at[3] * sum[2] - at[2] * sum[3]};
   }
-  /// Adds to an element's residual and tangent what is its first node's, the last one's its second's, too, and what couples both: as read by
-  /// BlockTridiagonal::add().
-  [[gnu::always_inline]] void add(int e, Vector6<S>& r, Matrix6<S>& K) const noexcept {
-    const auto turns = [this](int i) HAPBEAM_INLINED { return Vector2<S>(at_[i][3], -at_[i][2]); };
-    const Vector2<S> a = turns(e), b = turns(e + 1);
-    const auto add_node = [&](int i, int at, const Vector2<S>& turn) HAPBEAM_INLINED {
-      const Seen& seen = seen_[i];
-      const Block& own = blocks_[i].own;
-      r[at] += seen.force[0], r[at + 1] += seen.force[1], r[at + 2] += seen.moment;
-      K(at, at) += own.own[0], K(at + 1, at + 1) += own.own[0];
-      K(at + 2, at) += own.other[0] * turn[0], K(at + 2, at + 1) += own.other[0] * turn[1];
-      K(at + 2, at + 2) += seen.stiffness;
+  /// Adds to residual and tangent of elements what is their first nodes', and what couples both, as read by BlockTridiagonal::add_pairs().
+  /// @param of  (f) -> f(e) of an element, or of those that are computed side by side
+  template <class Of, class Residual, class Tangent>
+  [[gnu::always_inline]] void add(Of&& of, Residual& r, Tangent& K) const noexcept {
+    add_node(of, r, K);
+    using Number = std::decay_t<decltype(r[0])>;
+    const auto turn = [&](int k, int sign, int by) HAPBEAM_INLINED {
+      return Number(of([&](int e) HAPBEAM_INLINED { return S(sign) * at_[e + by][k]; }));
     };
-    add_node(e, 0, a);
-    if (e + 2 == blocks_.size()) add_node(e + 1, 3, b);
-    const Block& next = blocks_[e].next;
-    K(0, 3) += next.own[0], K(1, 4) += next.own[0];
-    K(0, 5) += next.other[0] * b[0], K(1, 5) += next.other[0] * b[1];
-    K(2, 3) += next.other[2] * a[0], K(2, 4) += next.other[2] * a[1];
-    K(2, 5) += next.own[2] * a.dot(b);
+    const auto next = [&](auto member, int k) HAPBEAM_INLINED {
+      return Number(of([&](int e) HAPBEAM_INLINED { return (blocks_[e].next.*member)[k]; }));
+    };
+    const Number ax = turn(3, 1, 0), ay = turn(2, -1, 0), bx = turn(3, 1, 1), by = turn(2, -1, 1);
+    const Number own = next(&std::decay_t<decltype(blocks_[0].next)>::own, 0),
+                 mine = next(&std::decay_t<decltype(blocks_[0].next)>::other, 0),
+                 its = next(&std::decay_t<decltype(blocks_[0].next)>::other, 2);
+    K(0, 3) += own, K(1, 4) += own;
+    K(0, 5) += mine * bx, K(1, 5) += mine * by;
+    K(2, 3) += its * ax, K(2, 4) += its * ay;
+    K(2, 5) += next(&std::decay_t<decltype(blocks_[0].next)>::own, 2) * (ax * bx + ay * by);
+  }
+  /// What is one node's.   @param of  (f) -> f(i)
+  template <class Of, class Residual, class Tangent>
+  [[gnu::always_inline]] void add_node(Of&& of, Residual& r, Tangent& K) const noexcept {
+    using Number = std::decay_t<decltype(r[0])>;
+    const auto find = [&](auto&& f) HAPBEAM_INLINED { return Number(of(f)); };
+    const Number own = find([this](int i) { return blocks_[i].own.own[0]; }),
+                 other = find([this](int i) { return blocks_[i].own.other[0]; });
+    r[0] += find([this](int i) { return seen_[i].force[0]; });
+    r[1] += find([this](int i) { return seen_[i].force[1]; });
+    r[2] += find([this](int i) { return seen_[i].moment; });
+    K(0, 0) += own, K(1, 1) += own;
+    K(2, 0) += other * find([this](int i) { return at_[i][3]; });
+    K(2, 1) -= other * find([this](int i) { return at_[i][2]; });
+    K(2, 2) += find([this](int i) { return seen_[i].stiffness; });
   }
 
  private:

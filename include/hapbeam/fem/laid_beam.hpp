@@ -80,14 +80,16 @@ class BeamEnds {
         assembler.prescribe(node(k), component, target - now);
       });
   }
-  /// From the assembler's answer: what is prescribed answers 0.
-  template <class Node>
-  Vector3<Scalar> increment(Vector3<Scalar> answer, int i, const Node& at) const noexcept {
+  /// What is prescribed answers 0.   @param increments  ChainIncrements: in and out
+  template <class Nodes, class Increments>
+  void lead(const Nodes& nodes, Increments& increments) const noexcept {
     for (int k = 0; k < 2; ++k)
-      if (i == node(k))
-        ends_[k].visit(at,
-                       [&](int component, Scalar now, Scalar target) { answer[component] = target - now; });
-    return answer;
+      ends_[k].visit(nodes[node(k)], [&](int component, Scalar now, Scalar target) {
+        if (target == now) return;
+        Vector3<Scalar> x = increments[node(k)];
+        x[component] = target - now;
+        increments.set(node(k), x);
+      });
   }
   /// Puts them exactly where they belong.
   template <class Nodes>

@@ -122,10 +122,10 @@ class RodChain {
   /// That of a contact, in element e.   @param off  from what touches it
   template <class Contact>
   Node mark(int e, const Contact& contact, const Vector3& off) const noexcept {
-    Node at = parts_.node_within(e, contact.s);
-    at.r = contact.place - off;
-    detail::set_tangent<Scalar>(at, contact.tangent);
-    return at;
+    const Node& left = node(e);
+    return {contact.s, contact.place - off, contact.tangent,
+            detail::across(parts_.director_within(e, (contact.s - left.s) / (node(e + 1).s - left.s)),
+                           detail::unit(contact.tangent))};
   }
 
   detail::RodEnds<Scalar, unknowns>& ends() noexcept { return ends_; }
@@ -176,6 +176,8 @@ class RodChain {
     // Where it is touched, its tension has its equation there.
     if (rows.any() && parts_.taut())
       detail::each_touched(rows, [&](int e) { inner -= parts_.inner(e).tension.energy(); });
+    energy += parts_.visit_foundation(
+        [&](int e, const auto& K, const Residual& r) { assembler.add_more(e, K, r); });
     energy += ends_.visit_springs(
         parts_.nodes(), [&](int i, const Block& K, const Increment& r) { assembler.add_at(i, K, r); });
     if (rows.any()) energy += add_contacts(rows, assembler);
@@ -337,7 +339,7 @@ class RodChain {
   }
 
   Parts parts_;
-  detail::RodIncrements<Scalar, Elements, MaxElements, unknowns> increments_;  // in advance()
+  detail::ChainIncrements<Scalar, Elements, MaxElements, unknowns> increments_;  // in advance()
   detail::RodEnds<Scalar, unknowns> ends_;
   Scalar length_, axial_;
   Inertia* inertia_ = nullptr;  // of what it is in motion with

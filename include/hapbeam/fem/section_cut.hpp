@@ -44,7 +44,7 @@ struct CutPlace {
 template <class Element, typename Scalar>
 CutPlace<Scalar, 2> cut_place(Scalar s, const Displacement<Scalar>& at) noexcept {
   if constexpr (any_rotation<Element>) return {{s + at.u, at.w}, direction(-at.theta)};
-  else if constexpr (MembraneFeelsSlope<Element>::value) return {{s, at.w}, {1, -at.theta}};
+  else if constexpr (membrane_feels_slope<Element>) return {{s, at.w}, {1, -at.theta}};
   else return {{s, 0}, {1, 0}};
 }
 
@@ -123,7 +123,7 @@ InternalForces<Scalar> in_section(const SectionCut<Scalar, 2>& cut, Scalar theta
   constexpr bool turns = any_rotation<Element>;
   const Vector2<Scalar> t = turns ? direction(-theta) : Vector2<Scalar>(1, 0);
   Scalar shear = t.x() * cut.force.y() - t.y() * cut.force.x();
-  if (!turns && MembraneFeelsSlope<Element>::value) shear += theta * cut.force.x();
+  if (!turns && membrane_feels_slope<Element>) shear += theta * cut.force.x();
   const Scalar normal = cut.force.dot(t), strain = normal / stiffness.axial;
   return {normal, shear, cut.moment, strain,
           abs(strain) + abs(cut.moment) / stiffness.bending * thickness / 2};

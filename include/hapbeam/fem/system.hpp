@@ -291,7 +291,7 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   /// Adds to the state.  @param change  i -> increment of node i
   template <class Change>
   void move(Change&& change) noexcept {
-    longer_ = chain_.move(change, rows_);
+    longer_ = chain_.move(change);
   }
 
   /// What holds an end.   @param k  0: left, 1: right   @param motion  what a chain takes of one in motion

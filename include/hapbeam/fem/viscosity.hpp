@@ -24,7 +24,7 @@ namespace hapbeam::detail {
 template <class Element, typename S, int Elements, int MaxElements>
 class Viscosity {
   using Prismatic = VonKarman<AssumedStrain>;
-  using Local = std::conditional_t<Tapers<Element>::value, Tapered<Prismatic>, Prismatic>;
+  using Local = std::conditional_t<tapers<Element>, Tapered<Prismatic>, Prismatic>;
   using Viscous = Corotational<Local>;
   using Step = TrBdf2<S, Elements, MaxElements>;
   using Strain = Eigen::Matrix<S, 3, 1>;  // l θ1, l θ2 against the chord, and l ε [m]

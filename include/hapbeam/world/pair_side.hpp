@@ -81,7 +81,7 @@ class PairSide {
     pull(F, 0, r);
     double place = -along_n.dot(spot.t) - along_n.dot(rise) / 2;
     if (!even) {
-      turn(cross3(v, F), r);
+      spot_.turn(cross3(v, F), r);
       place -= along_n.dot(turned_yield(yields, F, spot));
       if constexpr (unknowns == 7) {
         // By how much it grows as the section twists.
@@ -100,7 +100,7 @@ class PairSide {
       if (c == 0 || !rough) dense(here, row + c) -= axis.dot(spot.t + rise);
       b[at(c)].setZero();
       pull(axis, 0, b[at(c)]);
-      if (!even) turn(C * cross3<double>(moved, F) + cross3<double>(v, axis), b[at(c)]);
+      if (!even) spot_.turn(C * cross3<double>(moved, F) + cross3<double>(v, axis), b[at(c)]);
     }
     b[3].setZero();
     pull(along_n, 1, b[3]);
@@ -143,20 +143,11 @@ class PairSide {
     return spot.g.value / 2 * (cross3<double>(turns, yields * F) - yields * cross3(turns, F));
   }
   /// Where r1, r1', r2 and r2' stand among the unknowns.
-  static constexpr int start(int q) noexcept { return q < 2 ? 3 * q : unknowns + 3 * (q - 2); }
+  static constexpr int start(int q) noexcept { return RodSpot<double>::start(unknowns, q); }
   /// Takes off a force there, or one along how the place moves.
   void pull(const Vector& force, int derivative, Residual& of) const noexcept {
     for (int q = 0; q < 4; ++q)
       of.template segment<3>(start(q)) -= (derivative == 0 ? spot_.h[q].value : spot_.h[q].by(0)) * force;
-  }
-  /// Takes off a moment that turns with the section.
-  void turn(const Vector& moment, Residual& of) const noexcept {
-    const Vector turns = cross3(moment, spot_.u) / spot_.stretched;
-    for (int q = 0; q < 4; ++q) of.template segment<3>(start(q)) -= spot_.h[q].by(0) * turns;
-    if constexpr (unknowns == 7) {
-      const double about = moment.dot(spot_.u);
-      of[6] -= (1 - spot_.x) * about, of[13] -= spot_.x * about;
-    }
   }
   /// What a unit of g yields by, along the axes of the section.
   template <class Node, class Inner>
@@ -166,8 +157,7 @@ class PairSide {
     Matrix shape = RodSpot<double>::stiffer(p) * Matrix::Identity();
     if constexpr (unknowns == 7)
       if (p.soft[0] != p.soft[1]) {
-        const Vector d1 = Chain::Element::director(p, n1, n2, own.twist.value, spot.x);
-        const Vector softer = p.soft[0] > p.soft[1] ? d1 : cross3(spot.u, d1);
+        const Vector softer = spot.template softer<typename Chain::Element>(p, n1, n2, own.twist.value);
         shape += std::abs(p.soft[0] - p.soft[1]) * softer * softer.transpose();
       }
     return shape;

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "support/catch.hpp"
+#include "support/chain.hpp"
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 
 using namespace hapbeam;
@@ -38,8 +39,9 @@ void check(int n) {
   typename Chain::Column one(n), other(n);
   for (int e = 0; e < n; ++e)
     for (int f = 0; f < n; ++f) {
-      for (int i = 0; i < n; ++i)
-        chain.add(i, tangents[static_cast<std::size_t>(i)], residuals[static_cast<std::size_t>(i)]);
+      testing::add_elements(
+          chain, n, [&](int i) -> const auto& { return tangents[static_cast<std::size_t>(i)]; },
+          [&](int i) -> const auto& { return residuals[static_cast<std::size_t>(i)]; });
       REQUIRE(chain.factor() == Status::ok);
       const Eigen::VectorXd b = random(2 * Block, 1), c = random(2 * Block, 1);
       chain.forward(e, b, one);

@@ -87,7 +87,7 @@ struct RodInners<S, 7> {
   RodInner<S, 7> tension, twist;
 };
 
-/// A tangent in full: of an element that has it so alone, and where something is added that is no function of Δ.
+/// A tangent in full, of an element that has it so alone.
 template <typename S, int Unknowns>
 struct FullRodTangent {
   Eigen::Matrix<S, 2 * Unknowns, 1> r;

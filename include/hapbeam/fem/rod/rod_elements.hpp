@@ -134,17 +134,17 @@ class RodElements {
     if constexpr (has_twist) take(from.twist, inner.twist);
     return inner;
   }
-  /// To be called before the nodes move.  @param increments  of all nodes: RodIncrements   @param skip  (e) -> whether it follows otherwise
+  /// To be called before the nodes move.  @param increments  of all nodes: ChainIncrements   @param skip  (e) -> whether it follows otherwise
   template <class Increments, class Skip>
   void advance_inners(const Increments& increments, Skip&& skip) noexcept {
-    for (int first = 0; (own_.tension || own_.twist) && first < places(); first += lanes) {
+    for (int first = 0; (own_.tension || own_.twist) && first < abreast_.places(); first += lanes) {
       auto& inner = inners_abreast_[first / lanes];
       Eigen::Matrix<Wide, 2 * unknowns, 1> both;
       increments.of_elements(first, both);
       if (own_.tension) inner.tension.advance(both);
       if constexpr (has_twist)
         if (own_.twist) inner.twist.advance(both);
-      for_each_lane(first, [&](int e, int lane) {
+      abreast_.for_each_lane(first, [&](int e, int lane) {
         if (own_.tension && !skip(e)) set_tension(e, inner.tension.value[lane]);
         if constexpr (has_twist)
           if (own_.twist) inner_[size() + e] = inner.twist.value[lane];
@@ -169,11 +169,11 @@ class RodElements {
   void relax_twists() noexcept {
     if constexpr (has_twist)
       for (int k = 0; own_.twist && k < most_relaxations; ++k)
-        for (int first = 0; first < places(); first += lanes) {
+        for (int first = 0; first < abreast_.places(); first += lanes) {
           WideInner inner;
           typename Stiffness::Type unused;
           (void)compute(first, inner, unused);
-          for_each_lane(first, [&](int e, int lane) {
+          abreast_.for_each_lane(first, [&](int e, int lane) {
             inner_[size() + e] -= inner.twist.residual[lane] / inner.twist.stiffness[lane];
           });
         }
@@ -201,30 +201,36 @@ class RodElements {
   template <class Visit>
   [[gnu::always_inline]] Energies visit_tangents(Scalar lambda, Visit&& visit) noexcept {
     Energies sum;
-    Wide strain = 0, own = 0;  // of places that are all elements
-    for (int first = 0; first < places(); first += lanes) {
+    Wide strain = 0, own = 0;
+    for (int first = 0; first < abreast_.places(); first += lanes) {
       auto& inner = inners_abreast_[first / lanes];
       typename Stiffness::Type K;
       const Wide energy = compute(first, inner, K);
-      if (first + lanes <= places() && abreast_.order().element(first) >= 0) {
-        strain += energy;
-        own += energy_of(inner);
-      } else {
-        const Wide of_inner = energy_of(inner);
-        for_each_lane(first, [&](int, int lane) { sum.strain += energy[lane], sum.inner += of_inner[lane]; });
-      }
-      if (loads_.empty() && bed_.empty()) {
+      abreast_.add(first, energy, strain);
+      abreast_.add(first, energy_of(inner), own);
+      if (loads_.empty()) {
         visit(first, K, K);
         continue;
       }
       WideResidual r;
       for (int i = 0; i < 2 * unknowns; ++i) r[i] = K[i];
-      if (!loads_.empty()) subtract_loads(first, lambda, r, sum);
-      if (bed_.empty()) visit(first, K, r);
-      else visit_on_bed(first, K, r, sum, visit);
+      subtract_loads(first, lambda, r, sum);
+      visit(first, K, r);
     }
-    for (int lane = 0; lane < lanes; ++lane) sum.strain += strain[lane], sum.inner += own[lane];
+    sum.strain += total(strain), sum.inner += total(own);
     return sum;
+  }
+  /// The same of a foundation, to which places matter and not their differences alone.   @param visit  called with (element, tangent, residual)   @return [J]
+  template <class Visit>
+  Scalar visit_foundation(Visit&& visit) const noexcept {
+    Scalar energy = 0;
+    for (int e = 0; !bed_.empty() && e < size(); ++e) {
+      Residual r = Residual::Zero();
+      Tangent K = Tangent::Zero();
+      energy += bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, K);
+      visit(e, K, r);
+    }
+    return energy;
   }
   /// The residual alone of one element.
   void residual(int e, Scalar lambda, Residual& r) const noexcept {
@@ -254,6 +260,12 @@ class RodElements {
     const RodPoint<Scalar> at = view(nodes_).at(e, s);
     return {s, at.r, at.tangent,
             detail::across(director_within(e, (s - a.s) / (b.s - a.s)), detail::unit(at.tangent))};
+  }
+  /// d1 in element e.   @param t  ξ
+  VectorOf<Scalar, 3> director_within(int e, Scalar t) const noexcept {
+    const Node &a = nodes_[e], &b = nodes_[e + 1];
+    if constexpr (has_twist) return Element::director(properties_[e], a, b, inner_[size() + e], t);
+    else return detail::CarriedFrame<Scalar>(properties_[e], a, b).director(a.director, 0, t);
   }
   /// What the section carries, in element e.
   /// @param curve  s -> node on it   @param contacts  calls its argument with place, force and point of each of that element [m], [N]
@@ -319,14 +331,13 @@ class RodElements {
   }
   /// [J]
   Scalar strain_energy() const noexcept {
-    Scalar sum = 0;
-    for (int first = 0; first < places(); first += lanes) {
+    Wide strain = 0;
+    for (int first = 0; first < abreast_.places(); first += lanes) {
       WideInner inner;
-      RodNode<Wide> a, b;
-      gather(first, inner, a, b);
-      const Wide energy = Element::energy(abreast_.properties(first), a, b, inner);
-      for_each_lane(first, [&](int, int lane) { sum += energy[lane]; });
+      typename Stiffness::Type unused;
+      abreast_.add(first, compute(first, inner, unused), strain);
     }
+    Scalar sum = total(strain);
     for (int e = 0; !bed_.empty() && e < size(); ++e) sum += bed_.energy(e, nodes_[e], nodes_[e + 1]);
     return sum;
   }
@@ -369,13 +380,6 @@ class RodElements {
     if (!bed_.empty()) bed_.take(e, from, to, natural_);
   }
 
-  /// @param t  ξ
-  VectorOf<Scalar, 3> director_within(int e, Scalar t) const noexcept {
-    const Node &a = nodes_[e], &b = nodes_[e + 1];
-    if constexpr (has_twist) return Element::director(properties_[e], a, b, inner_[size() + e], t);
-    else return detail::CarriedFrame<Scalar>(properties_[e], a, b).director(a.director, 0, t);
-  }
-  int places() const noexcept { return 2 * abreast_.order().pairs(); }
   /// Of the increments that they make on their own [J].
   Wide energy_of(const WideInner& inner) const noexcept {
     Wide sum = own_.tension ? inner.tension.energy() : Wide(0);
@@ -387,12 +391,9 @@ class RodElements {
   [[gnu::always_inline]] void gather(int first, WideInner& inner, RodNode<Wide>& a,
                                      RodNode<Wide>& b) const noexcept {
     const auto& order = abreast_.order();
-    if (own_.tension)
-      inner.tension.value = detail::gather(abreast_.elements(first), [&](int e) { return inner_[e]; });
+    if (own_.tension) inner.tension.value = abreast_.gather(first, [&](int e) { return inner_[e]; });
     if constexpr (has_twist)
-      if (own_.twist)
-        inner.twist.value =
-            detail::gather(abreast_.elements(first), [&](int e) { return inner_[size() + e]; });
+      if (own_.twist) inner.twist.value = abreast_.gather(first, [&](int e) { return inner_[size() + e]; });
     // The nodes of these places and of the pair behind them are those of both ends.
     detail::Abreast<Scalar> of;
     order.nodes_from(first, of.of);
@@ -418,47 +419,22 @@ class RodElements {
     gather(first, inner, a, b);
     return Stiffness::compute(abreast_.properties(first), a, b, inner, K);
   }
-  /// Calls f(element, lane) for those from a place on.
-  template <class F>
-  void for_each_lane(int first, F&& f) const noexcept {
-    for (int lane = 0; lane < lanes && first + lane < places(); ++lane)
-      if (const int e = abreast_.order().element(first + lane); e >= 0) f(e, lane);
-  }
   /// Dead loads.
   void subtract_loads(int first, Scalar lambda, WideResidual& r, Energies& sum) noexcept {
-    for_each_lane(first, [&](int e, int lane) {
+    abreast_.for_each_lane(first, [&](int e, int lane) {
       Residual by = Residual::Zero();
       loads_.template subtract<unknowns>(e, lambda, by);
       sum.work += lambda * loads_.work(e, nodes_[e], nodes_[e + 1]);
       for (int i = 0; i < 2 * unknowns; ++i) r[i].set(lane, r[i][lane] + by[i]);
     });
   }
-  /// With the foundation, which works on places, not on their difference alone.
-  template <class Visit>
-  void visit_on_bed(int first, const typename Stiffness::Type& K, WideResidual& r, Energies& sum,
-                    Visit&& visit) noexcept {
-    detail::FullRodTangent<Wide, unknowns> all;
-    for (int j = 0; j < 2 * unknowns; ++j)
-      for (int i = 0; i < 2 * unknowns; ++i) all.K(i, j) = K(i, j);
-    for_each_lane(first, [&](int e, int lane) {
-      Residual by = Residual::Zero();
-      Tangent own = Tangent::Zero();
-      sum.strain += bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], by, own);
-      for (int j = 0; j < 2 * unknowns; ++j) {
-        r[j].set(lane, r[j][lane] + by[j]);
-        for (int i = 0; i < 2 * unknowns; ++i) all.K(i, j).set(lane, all.K(i, j)[lane] + own(i, j));
-      }
-    });
-    visit(first, all, r);
-  }
-
   static constexpr int most_tensions = 16, most_relaxations = 4;
   static constexpr Scalar largest_push = 8;  // in one increment [EI/l²]
 
   Nodes nodes_;
   Inners inner_;
   detail::PerNode<RodProperties<Scalar>, Elements, MaxElements> properties_;
-  detail::RodAbreast<Scalar, Elements, MaxElements> abreast_;
+  detail::ElementsAbreast<RodProperties, Scalar, Elements, MaxElements> abreast_;
   NaturalRod<Scalar> natural_;
   RodProfile<Scalar> profile_;
   RodLoads<Scalar, Elements, MaxElements> loads_;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Nodes and elements of a rod side by side in the lanes of a register: what is computed of each alone is computed of a few at a time.
+// Nodes and elements of a chain side by side in the lanes of a register: what is computed of each alone is computed of a few at a time.
 //
 // Real-time: noexcept, no allocation after construction, O(1).
 #pragma once
 
 #include <algorithm>
 
+#include <hapbeam/element/element.hpp>
 #include <hapbeam/element/pack_rows.hpp>
 #include <hapbeam/element/rod/rod_properties.hpp>
 #include <hapbeam/fem/solver/pair_order.hpp>
@@ -15,7 +16,7 @@
 
 namespace hapbeam::detail {
 
-/// Groups of what stands side by side in a rod, for PerNode, which has one more.
+/// Groups of what stands side by side in a chain, for PerNode, which has one more.
 template <typename Scalar>
 constexpr int groups_of(int elements) noexcept {
   return elements == Eigen::Dynamic ? Eigen::Dynamic : (std::max)(elements / pack_size<Scalar> + 1, 2);
@@ -32,12 +33,6 @@ struct Abreast {
   static Abreast from(int first, int last) noexcept {
     Abreast abreast;
     for (int k = 0; k < size; ++k) abreast.of[k] = (std::min)(first + k, last);
-    return abreast;
-  }
-  /// Those so many nodes further on, none before 0 or behind the last one.
-  Abreast next(int by, int last) const noexcept {
-    Abreast abreast;
-    for (int k = 0; k < size; ++k) abreast.of[k] = std::clamp(of[k] + by, 0, last);
     return abreast;
   }
 };
@@ -129,67 +124,87 @@ template <typename Scalar, int Size, class Nodes>
   NodeRows<Scalar, Size>::scatter(abreast, all, nodes);
 }
 
-/// Properties of elements in the order of PairOrder.  An empty place has another element, once more.
-template <typename Scalar, int Elements, int MaxElements>
-class RodAbreast {
+/// Lays the properties of an element in a lane.
+template <typename Wide, typename Scalar>
+void set_lane(RodProperties<Wide>& to, int lane, const RodProperties<Scalar>& from) noexcept {
+  to.number = from.number, to.round = from.round, to.taut = from.taut, to.swings = from.swings;
+  to.length.set(lane, from.length), to.inverse_length.set(lane, from.inverse_length);
+  to.axial.set(lane, from.axial), to.torsion.set(lane, from.torsion);
+  to.soft[0].set(lane, from.soft[0]), to.soft[1].set(lane, from.soft[1]);
+  for (int i = 0; i < 3; ++i) {
+    auto& point = to.points[i];
+    point.bending1.set(lane, from.points[i].bending1), point.bending2.set(lane, from.points[i].bending2);
+    point.torsion.set(lane, from.points[i].torsion);
+    for (int j = 0; j < 3; ++j) point.natural[j].set(lane, from.points[i].natural[j]);
+    to.natural_strain[i].set(lane, from.natural_strain[i]);
+  }
+}
+template <typename Wide, typename Scalar>
+void set_lane(ElementProperties<Wide>& to, int lane, const ElementProperties<Scalar>& from) noexcept {
+  to.length.set(lane, from.length), to.inverse_length.set(lane, from.inverse_length);
+  to.axial_stiffness.set(lane, from.axial_stiffness), to.axial_per_length.set(lane, from.axial_per_length);
+  to.bending_per_length3.set(lane, from.bending_per_length3);
+  to.natural_a.set(lane, from.natural_a), to.natural_b.set(lane, from.natural_b);
+  to.natural_stretch.set(lane, from.natural_stretch);
+}
+
+/// Elements in the order of PairOrder, and their properties.  An empty place has another element, once more.
+/// @tparam Properties  RodProperties | ElementProperties
+template <template <typename> class Properties, typename Scalar, int Elements, int MaxElements>
+class ElementsAbreast {
   using Wide = Pack<Scalar>;
-  static constexpr int lanes = Wide::size;
 
  public:
-  explicit RodAbreast(int elements) : order_{elements}, wide_(elements) {}
+  static constexpr int lanes = Wide::size;
+
+  explicit ElementsAbreast(int elements) : order_{elements}, wide_(elements) {}
 
   const PairOrder& order() const noexcept { return order_; }
+  int places() const noexcept { return 2 * order_.pairs(); }
   /// Of the elements from a place on that is a multiple of the lanes.
-  const RodProperties<Wide>& properties(int first) const noexcept { return wide_[first / lanes]; }
-  Abreast<Scalar> elements(int first) const noexcept {
+  const Properties<Wide>& properties(int first) const noexcept { return wide_[first / lanes]; }
+  /// Of one number of each element.   @param f  element -> number
+  template <class F>
+  [[gnu::always_inline]] Wide gather(int first, F&& f) const noexcept {
     Abreast<Scalar> which;
     order_.elements_from(first, which.of);
-    return which;
+    return detail::gather(which, f);
+  }
+  /// Calls f(element, lane) for those from a place on.
+  template <class F>
+  [[gnu::always_inline]] void for_each_lane(int first, F&& f) const noexcept {
+    for (int lane = 0; lane < lanes && first + lane < places(); ++lane)
+      if (const int e = order_.element(first + lane); e >= 0) f(e, lane);
+  }
+  /// Adds to a sum what each of those from a place on has.
+  [[gnu::always_inline]] void add(int first, const Wide& each, Wide& sum) const noexcept {
+    if (first + lanes <= places() && order_.element(first) >= 0) sum += each;
+    else for_each_lane(first, [&](int, int lane) { sum.set(lane, sum[lane] + each[lane]); });
   }
   /// Lays an element's properties beside those of its neighbours.
-  void take(int e, const RodProperties<Scalar>& from) noexcept {
-    fill(e, [&](auto&& set, RodProperties<Wide>& to) {
-      to.number = from.number, to.round = from.round, to.taut = from.taut, to.swings = from.swings;
-      set(to.length, from.length), set(to.inverse_length, from.inverse_length);
-      set(to.axial, from.axial), set(to.torsion, from.torsion);
-      set(to.soft[0], from.soft[0]), set(to.soft[1], from.soft[1]);
-      for (int i = 0; i < 3; ++i) {
-        auto& point = to.points[i];
-        set(point.bending1, from.points[i].bending1), set(point.bending2, from.points[i].bending2);
-        set(point.torsion, from.points[i].torsion);
-        for (int j = 0; j < 3; ++j) set(point.natural[j], from.points[i].natural[j]);
-        set(to.natural_strain[i], from.natural_strain[i]);
-      }
-    });
-  }
-
- private:
-  /// Calls put(set, properties) for an element's lane, and for all others in which it stands.
-  template <class Put>
-  void fill(int e, Put&& put) noexcept {
-    const auto at = [&](int place) {
-      put([place](Wide& wide, Scalar value) { wide.set(place % lanes, value); }, wide_[place / lanes]);
-    };
-    const int place = order_.place(e), last = 2 * order_.pairs() - 1;
+  void take(int e, const Properties<Scalar>& from) noexcept {
+    const auto at = [&](int place) { set_lane(wide_[place / lanes], place % lanes, from); };
+    const int place = order_.place(e), last = places() - 1;
     at(place);
     if (e == 0 && order_.odd()) at(0);
     if (place == last)
       for (int k = last + 1; k % lanes != 0; ++k) at(k);
   }
 
+ private:
   PairOrder order_;
-  PerNode<RodProperties<Wide>, Elements, MaxElements> wide_;
+  PerNode<Properties<Wide>, Elements, MaxElements> wide_;
 };
 
 /// The increments of all nodes, in the order in which their chain is solved from both ends.   @tparam Unknowns  of a node
 template <typename Scalar, int Elements, int MaxElements, int Unknowns>
-class RodIncrements {
+class ChainIncrements {
  public:
   using Vector = VectorOf<Scalar, Unknowns>;
   using Wide = Pack<Scalar>;
   static constexpr int lanes = Wide::size;
 
-  explicit RodIncrements(int elements) : order_{elements}, groups_(groups_of<Scalar>(elements)) {}
+  explicit ChainIncrements(int elements) : order_{elements}, groups_(groups_of<Scalar>(elements)) {}
 
   /// From an assembler that has solved for them.
   template <class Assembler>
@@ -218,6 +233,22 @@ class RodIncrements {
     return x;
   }
 
+  /// Calls f(node, increment) for each node.
+  template <class F>
+  [[gnu::always_inline]] void for_each_node(F&& f) const noexcept {
+    const auto at = [&](int node, const Group& group, int lane) HAPBEAM_INLINED {
+      Vector x;
+      HAPBEAM_UNROLL
+      for (int k = 0; k < Unknowns; ++k) x[k] = group.x[k][lane];
+      f(node, x);
+    };
+    for (int j = 0; j <= order_.pairs(); ++j) {
+      const Group& group = groups_[2 * j / lanes];
+      const int lane = 2 * j % lanes;
+      if (j >= order_.odd()) at(j - order_.odd(), group, lane);
+      if (j < order_.pairs()) at(order_.elements - j, group, lane + 1);
+    }
+  }
   /// Calls f(nodes, increments) for a few nodes at a time: which they are, and k -> of their unknown k.
   template <class F>
   [[gnu::always_inline]] void visit(F&& f) const noexcept {

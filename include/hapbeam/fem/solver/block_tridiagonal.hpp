@@ -46,8 +46,8 @@ template <typename Scalar, int Elements = Eigen::Dynamic, int MaxElements = Elem
 class BlockTridiagonal {
   using Lanes = detail::Lanes<Scalar>;
   using Number = detail::TwoNumbers<Scalar>;
-  /// As many rows lie side by side as elements of a rod are computed; those of beams come one by one.
-  static constexpr int abreast = Block > 3 ? detail::pack_size<Scalar> / 2 : 1;
+  /// As many rows lie side by side as elements are computed.
+  static constexpr int abreast = detail::pack_size<Scalar> / 2;
   using Rows = detail::ChainRows<Scalar, Block, abreast>;
   using Row = detail::ChainRow<Scalar, Block, abreast>;
   using Vector = Eigen::Matrix<Scalar, Block, 1>;
@@ -63,43 +63,6 @@ class BlockTridiagonal {
       for (int k = 0; k < Block; ++k) row(0).block(k, k).a[0] = 1;
   }
 
-  /// Adds element e: its tangent, and its residual to the right-hand side with the sign turned.
-  /// Elements come in order, 0 to n - 1; element 0 starts a new system.
-  /// @param K  (i, j) -> entry: of the lower triangles of both nodes, and of what couples the first with the second
-  /// @param r  [i] -> entry
-  template <class Tangent, class Residual>
-  [[gnu::always_inline]] void add(int e, const Tangent& K, const Residual& r) noexcept {
-    const Place at = place(e), to = place(e + 1);
-    const Row a = row(at.row), b = row(to.row);
-    const int p = at.lane, q = to.lane;
-    if (e == 0) {
-      for (int k = 0; k < Rows::coupling; ++k) a.entry(k).a[p] = 0;
-    }
-    HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) {
-      HAPBEAM_UNROLL
-      for (int i = j; i < Block; ++i) {
-        a.block(i, j).a[p] += K(i, j);
-        b.block(i, j).a[q] = K(Block + i, Block + j);
-      }
-      a.x(j).a[p] -= r[j];
-      b.x(j).a[q] = -r[Block + j];
-    }
-    if (q == 0) {
-      HAPBEAM_UNROLL
-      for (int j = 0; j < Block; ++j) {
-        HAPBEAM_UNROLL
-        for (int i = 0; i < Block; ++i) a.coupling(i, j).a[0] = K(i, Block + j);
-      }
-    } else {
-      HAPBEAM_UNROLL
-      for (int j = 0; j < Block; ++j) {
-        HAPBEAM_UNROLL
-        for (int i = 0; i < Block; ++i) b.coupling(j, i).a[1] = K(i, Block + j);
-      }
-    }
-  }
-
   /// Adds elements that were computed side by side, in the order of PairOrder, two at a time.
   /// @param first  place of the first, even; 0 starts a new system
   /// @param K  (i, j) -> entries of all: of the lower triangles of both nodes, and of what couples the first with the second
@@ -109,7 +72,7 @@ class BlockTridiagonal {
     const int row = first / 2, count = (std::min)(abreast, pairs_ - row);
     const bool odd = odd_ && first == 0;
     if (first == 0) {
-      for (int k = 0; k < Rows::coupling; ++k) this->row(0).entry(k).set(Lanes::both(0));
+      for (int k = 0; k < Rows::coupling; ++k) this->row(0).entry(k).set(Lanes(0));
     }
     Rows* const rows = &rows_[row / abreast];
     if (count == abreast && !odd) Rows::template add<true>(rows, count, odd, K, r);
@@ -305,7 +268,7 @@ class BlockTridiagonal {
     for (int k = 0; k < Rows::coupling; ++k) {
       Number& entry = row(pairs_).entry(k);
       const Lanes both = entry.get();
-      entry.set(Lanes(both[0] + both[1], 0));
+      entry.set(detail::lanes<Scalar>(both[0] + both[1], 0));
     }
   }
 
@@ -319,8 +282,9 @@ class BlockTridiagonal {
     return from_left <= pairs_ ? Place{from_left, 0} : Place{last_ - node, 1};
   }
   [[gnu::always_inline]] Row row(int i) const noexcept {
-    Rows& rows = const_cast<Rows&>(rows_[i / abreast]);
-    return {&rows.entry[0][i % abreast], rows.strip[0][Rows::place(i % abreast)]};
+    const unsigned group = static_cast<unsigned>(i) / abreast, k = static_cast<unsigned>(i) % abreast;
+    Rows& rows = const_cast<Rows&>(rows_[static_cast<int>(group)]);
+    return {&rows.entry[0][k], rows.strip[0][Rows::place(static_cast<int>(k))]};
   }
 
   [[gnu::always_inline]] detail::NodeBlock<Scalar, Block, 2 * abreast> own_of(int node) const noexcept {
@@ -361,7 +325,7 @@ class BlockTridiagonal {
 template <typename Scalar, int Elements, int MaxElements, int Block>
 Status BlockTridiagonal<Scalar, Elements, MaxElements, Block>::factor() noexcept {
   detail::Pivots<Scalar> pivots;
-  Lanes front[triangle_size], f[Block], energy = Lanes::both(0);  // with the sign turned
+  Lanes front[triangle_size], f[Block], energy = Lanes(0);  // with the sign turned
   for (int k = 0; k < triangle_size; ++k) front[k] = row(0).entry(k).get();
   for (int k = 0; k < Block; ++k) f[k] = row(0).x(k).get();
   for (int i = 0; i < pairs_; ++i) Row::eliminate(row(i), row(i + 1), front, f, energy, pivots);

@@ -20,7 +20,7 @@ template <typename Scalar, int Block, int Abreast>
 struct alignas(2 * Abreast * sizeof(Scalar)) ChainRows {
   using Number = TwoNumbers<Scalar>;
   /// Columns of the coupling stand side by side as they are eliminated: so many strips of each of its rows.
-  static constexpr int columns = columns_abreast<Scalar, Block>, strips = (Block + columns - 1) / columns;
+  static constexpr int columns = columns_abreast<Scalar>, strips = (Block + columns - 1) / columns;
   static constexpr int x = triangle_size<Block>, coupling = x + Block;
   Number entry[coupling][Abreast];
   Number strip[Block * strips][Abreast][columns];
@@ -50,7 +50,7 @@ struct alignas(2 * Abreast * sizeof(Scalar)) ChainRows {
       Number(&at)[Abreast] = rows->entry[e];
       (outer + after(at[0].a, inner)).store(at[0].a);
       if (Full || count == Abreast) {
-        rows[1].entry[e][0].set(Lanes<Scalar>(inner[2 * Abreast - 2], inner[2 * Abreast - 1]));
+        rows[1].entry[e][0].set(lanes(inner[2 * Abreast - 2], inner[2 * Abreast - 1]));
       } else {
         Number all[Abreast];
         inner.store(all[0].a);
@@ -116,24 +116,22 @@ struct ChainRow {
   /// By value: what is reached through a reference would be read anew after each store.
   static void eliminate(const ChainRow row, const ChainRow next, Pair* front, Pair* f, Pair& energy,
                         Pivots<Scalar>& pivots) noexcept {
-    constexpr bool side_by_side = columns_abreast<Scalar, Block> == 2;
-    if constexpr (side_by_side) eliminate_pivot_by_pivot<Block>(row, next, front, f, energy, pivots);
-    else eliminate_block_first(row, next, front, f, energy, pivots);
+    eliminate_pivot_by_pivot<Block>(row, next, front, f, energy, pivots);
   }
 
   /// The same for the node at which both chains end, in lane 0.  @param f  right-hand sides of both
   static void join(const ChainRow row, Pair* front, Pair* f, Pair& energy, Pivots<Scalar>& pivots) noexcept {
-    for (int k = 0; k < triangle_size<Block>; ++k) front[k] = front[k] + front[k].swapped();
-    for (int k = 0; k < Block; ++k) f[k] = f[k] + f[k].swapped();
+    for (int k = 0; k < triangle_size<Block>; ++k) front[k] = total(front[k]);
+    for (int k = 0; k < Block; ++k) f[k] = total(f[k]);
     const Factor factor(front);
     Pair z[Block];
     factor.forward(f);
     factor.scale(f, z);
-    const Pair twice = less<Block>(Pair::both(0), f, z);
-    energy = energy + twice * Pair(1, 0);
+    const Pair twice = less<Block>(Pair(0), f, z);
+    energy += twice * lanes<Scalar>(1, 0);
     HAPBEAM_UNROLL
     for (int j = 0; j < Block; ++j) {
-      pivots.see(Pair(factor.p[j][0], 1), row.block(j, j).get());
+      pivots.see(lanes<Scalar>(factor.p[j][0], 1), row.block(j, j).get());
       row.block(j, j).a[0] = factor.i[j][0];
       HAPBEAM_UNROLL
       for (int i = j + 1; i < Block; ++i) row.block(i, j).a[0] = factor.l[triangle<Block>(i, j)][0];
@@ -147,7 +145,7 @@ struct ChainRow {
       Scalar sum = row.x(j).a[0];
       HAPBEAM_UNROLL
       for (int k = Block - 1; k > j; --k) sum -= row.block(k, j).a[0] * increment[k][0];
-      increment[j] = Pair::both(sum);
+      increment[j] = Pair(sum);
       row.x(j).a[0] = sum;
     }
   }
@@ -186,45 +184,6 @@ struct ChainRow {
     }
     HAPBEAM_UNROLL
     for (int k = 0; k < Block; ++k) row.x(k).set(later[k] = rest[k]);
-  }
-
- private:
-  /// LDLᵀ of the block first, and then what that makes of all else: of few unknowns a processor looks so far ahead, and without AVX
-  /// there are no registers for more.
-  [[gnu::always_inline]] static void eliminate_block_first(const ChainRow row, const ChainRow next,
-                                                           Pair* front, Pair* f, Pair& energy,
-                                                           Pivots<Scalar>& pivots) noexcept {
-    const Factor factor(front);
-    Pair zx[Block];                         // P⁻¹L⁻¹ of the right-hand side
-    Pair y[Block][Block], z[Block][Block];  // L⁻¹C and P⁻¹L⁻¹C, column by column
-    HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) {
-      pivots.see(factor.p[j], row.block(j, j).get());
-      row.block(j, j).set(factor.i[j]);
-      HAPBEAM_UNROLL
-      for (int i = j + 1; i < Block; ++i) row.block(i, j).set(factor.l[triangle<Block>(i, j)]);
-    }
-    factor.forward(f);
-    factor.scale(f, zx);
-    energy = less<Block>(energy, f, zx);
-    HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) row.x(k).set(zx[k]);
-    HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) {
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) y[j][k] = row.coupling(k, j).get();
-      factor.forward(y[j]);
-      factor.scale(y[j], z[j]);
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) row.coupling(k, j).set(z[j][k]);
-    }
-    HAPBEAM_UNROLL
-    for (int j = 0; j < Block; ++j) {
-      f[j] = less<Block>(next.x(j).get(), y[j], zx);
-      HAPBEAM_UNROLL
-      for (int i = j; i < Block; ++i)
-        front[triangle<Block>(i, j)] = less<Block>(next.block(i, j).get(), y[i], z[j]);
-    }
   }
 };
 

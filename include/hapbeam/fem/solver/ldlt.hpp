@@ -27,8 +27,8 @@ template <typename S>
 struct alignas(2 * sizeof(S)) TwoNumbers {
   S a[2] = {0, 0};
 
-  [[gnu::always_inline]] Lanes<S> get() const noexcept { return Lanes<S>::load(a); }
-  [[gnu::always_inline]] void set(const Lanes<S>& lanes) noexcept { lanes.store(a); }
+  [[gnu::always_inline]] Lanes<S> get() const noexcept { return Lanes<S>::load_aligned(a); }
+  [[gnu::always_inline]] void set(const Lanes<S>& lanes) noexcept { lanes.store_aligned(a); }
 };
 
 /// Where the lower triangle of a symmetric N×N matrix has (i, j), i >= j, column by column.
@@ -56,7 +56,7 @@ struct Ldlt {
   V i[N];                 ///< their inverses
 
   [[gnu::always_inline]] explicit Ldlt(const V* a) noexcept {
-    const V one = V::both(1);
+    const V one = V(1);
     V c[triangle_size<N>];  // LP
     HAPBEAM_UNROLL
     for (int j = 0; j < N; ++j) {
@@ -97,22 +97,21 @@ class Pivots {
  public:
   /// @param assembled  its diagonal entry before elimination
   [[gnu::always_inline]] void see(const V& pivot, const V& assembled) noexcept {
-    const V left = subtract_product(abs(pivot), V::both(std::numeric_limits<S>::epsilon()), abs(assembled));
-    least_ = lesser(least_, left);
-    sum_ = sum_ + left;
-    negative_ = negative_ + negatives(pivot);
+    const V lost = std::numeric_limits<S>::epsilon() * abs(assembled) - abs(pivot);
+    most_ = larger(most_, lost), sum_ += lost;
+    negative_ += negatives(pivot);
   }
   /// Whether all were numbers, and none of them but round-off of what was assembled.   @return ok | singular | non_finite
   Status status() const noexcept {
-    if (least_[0] <= 0 || least_[1] <= 0) return Status::singular;
+    if (most_[0] >= 0 || most_[1] >= 0) return Status::singular;
     return std::isfinite(sum_[0]) && std::isfinite(sum_[1]) ? Status::ok : Status::non_finite;
   }
   int negative() const noexcept { return static_cast<int>(negative_[0] + negative_[1]); }
 
  private:
-  V least_ = V::both((std::numeric_limits<S>::max)());  // |pivot| - eps |its diagonal entry|
-  V sum_ = V::both(0);                                  // of those, no number where one was none or infinite
-  V negative_ = V::both(0);                             // how many
+  V most_ = V(-(std::numeric_limits<S>::max)());  // eps |its diagonal entry| - |pivot|
+  V sum_ = V(0);                                  // of those, no number where one was none or infinite
+  V negative_ = V(0);                             // how many
 };
 
 }  // namespace detail

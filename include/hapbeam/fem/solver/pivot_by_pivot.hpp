@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How a row of a chain whose nodes have many unknowns is eliminated: LDLᵀ of its block, and pivot by pivot what that makes of its right-hand side
-// and of what couples it with the next row.
+// How a row of a chain is eliminated: LDLᵀ of its block, and pivot by pivot what that makes of its right-hand side and of what couples it with
+// the next row.
 //
-// A processor waits for each division by a pivot, and does not look as far ahead as the rest of so large a block: what a pivot makes of all
+// A processor waits for each division by a pivot, and does not look as far ahead as the rest of a large block: what a pivot makes of all
 // but the next column stands where the next one is divided by.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
@@ -24,10 +24,11 @@ template <int Block, typename Scalar, class Row>
   HAPBEAM_KEEP_IN_MEMORY();
   // Columns of the coupling stand side by side in strips.  Some have registers while the block is factored; the others come later.  Where
   // a column is left alone, the right-hand side stands beside it, as one more.
-  constexpr int columns = columns_abreast<Scalar, Block>, strips = (Block + columns - 1) / columns,
+  constexpr int columns = columns_abreast<Scalar>, strips = (Block + columns - 1) / columns,
                 at_once = (std::min)(12 / Block, strips);
   constexpr bool beside = strips * columns > Block;
-  using Strip = detail::Strip<Scalar, columns>;
+  using Strips = Columns<Scalar>;
+  using Strip = typename Strips::Wide;
   // In place: a compiler would copy the block in wider registers than it was stored from, for which a processor waits.
   Pair *const c = front, *const x = f;  // LP; L⁻¹ of the right-hand side, where it stands alone
   Pair l[triangle_size<Block>], inverse[Block], zx[Block];  // L, P⁻¹, P⁻¹L⁻¹ of the right-hand side
@@ -37,14 +38,15 @@ template <int Block, typename Scalar, class Row>
     HAPBEAM_UNROLL
     for (int k = 0; k < Block; ++k) {
       constexpr int from = g * columns, to = from + columns - 1;
-      y[g][k] = to < Block ? Strip::load(row.strip(k, g)) : Strip(row.coupling(k, from).get(), x[k]);
+      y[g][k] =
+          to < Block ? Strip::load_aligned(row.strip(k, g)) : Strips::of(row.coupling(k, from).get(), x[k]);
     }
   };
   // A row of P⁻¹L⁻¹C.
   const auto scale = [&](auto g, auto k) HAPBEAM_INLINED {
-    const Strip scaled = y[g][k] * Strip::repeat(inverse[k]);
-    scaled.store(row.strip(k, g));  // beside the last column stands nothing else
-    if (g * columns + columns > Block) row.x(k).set(zx[k] = scaled.column(columns - 1));
+    const Strip scaled = y[g][k] * Strips::repeat(inverse[k]);
+    scaled.store_aligned(row.strip(k, g));  // beside the last column stands nothing else
+    if (g * columns + columns > Block) row.x(k).set(zx[k] = Strips::column(scaled, columns - 1));
   };
   // What column k of L makes of column j of the block.
   const auto take_away = [&](auto k, auto j) HAPBEAM_INLINED {
@@ -60,7 +62,7 @@ template <int Block, typename Scalar, class Row>
     HAPBEAM_UNROLL
     for (int i = k + 1; i < Block; ++i) {
       if (!beside) x[i] = subtract_product(x[i], l[triangle<Block>(i, k)], x[k]);
-      const Strip by = Strip::repeat(l[triangle<Block>(i, k)]);
+      const Strip by = Strips::repeat(l[triangle<Block>(i, k)]);
       HAPBEAM_UNROLL
       for (int g = 0; g < at_once; ++g) y[g][i] = subtract_product(y[g][i], by, y[g][k]);
     }
@@ -81,7 +83,7 @@ template <int Block, typename Scalar, class Row>
     constexpr bool both = k + 1 < Block;
     // The second pivot is det/pivot, whose inverse does not wait for that of the first.
     const Pair pivot = c[triangle<Block>(k, k)];
-    inverse[k] = Pair::both(1) / pivot;
+    inverse[k] = Pair(1) / pivot;
     if constexpr (both) {
       const Pair across = c[triangle<Block>(k + 1, k)];
       inverse[k + 1] = pivot / subtract_product(pivot * c[triangle<Block>(k + 1, k + 1)], across, across);
@@ -99,13 +101,13 @@ template <int Block, typename Scalar, class Row>
     for_each_constant<0, Block>([&](auto k) HAPBEAM_INLINED {
       HAPBEAM_UNROLL
       for (int i = k + 1; i < Block; ++i)
-        y[g][i] = subtract_product(y[g][i], Strip::repeat(row.block(i, k).a), y[g][k]);
+        y[g][i] = subtract_product(y[g][i], Strips::repeat(row.block(i, k).a), y[g][k]);
       scale(g, k);
     });
   });
   if constexpr (beside) {
     HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) x[k] = y[strips - 1][k].column(columns - 1);
+    for (int k = 0; k < Block; ++k) x[k] = Strips::column(y[strips - 1][k], columns - 1);
   }
   energy = less<Block>(energy, x, zx);
 
@@ -115,24 +117,27 @@ template <int Block, typename Scalar, class Row>
   for (int j = 0; j < Block; ++j) {
     Strip z[Block];
     HAPBEAM_UNROLL
-    for (int k = 0; k < Block; ++k) z[k] = Strip::repeat(row.coupling(k, j).a);
+    for (int k = 0; k < Block; ++k) z[k] = Strips::repeat(row.coupling(k, j).a);
     HAPBEAM_UNROLL
     for (int i = j; i < Block; ++i) {
       if (i > j && i % columns != 0) continue;  // stands beside the one before
       if (i % columns == 0 && (beside || i + columns <= Block)) {
         const int to = i + columns - 1;
-        Strip strip(next.block(i, j).get(),
-                    to < Block ? next.block((std::min)(to, Block - 1), j).get() : next.x(j).get());
+        Strip strip =
+            Strips::of(next.block(i, j).get(),
+                       to < Block ? next.block((std::min)(to, Block - 1), j).get() : next.x(j).get());
         HAPBEAM_UNROLL
         for (int k = 0; k < Block; ++k) strip = subtract_product(strip, y[i / columns][k], z[k]);
         HAPBEAM_UNROLL
         for (int n = 0; n < columns; ++n)
-          (i + n < Block ? front[triangle<Block>((std::min)(i + n, Block - 1), j)] : f[j]) = strip.column(n);
+          (i + n < Block ? front[triangle<Block>((std::min)(i + n, Block - 1), j)] : f[j]) =
+              Strips::column(strip, n);
       } else {
         Pair entry = next.block(i, j).get();
         HAPBEAM_UNROLL
         for (int k = 0; k < Block; ++k)
-          entry = subtract_product(entry, y[i / columns][k].column(i % columns), z[k].column(0));
+          entry = subtract_product(entry, Strips::column(y[i / columns][k], i % columns),
+                                   Strips::column(z[k], 0));
         front[triangle<Block>(i, j)] = entry;
       }
     }
@@ -140,11 +145,11 @@ template <int Block, typename Scalar, class Row>
   if constexpr (!beside) {
     HAPBEAM_UNROLL
     for (int g = 0; g < strips; ++g) {
-      Strip rest(next.x(g * columns).get(), next.x(g * columns + columns - 1).get());
+      Strip rest = Strips::of(next.x(g * columns).get(), next.x(g * columns + columns - 1).get());
       HAPBEAM_UNROLL
-      for (int k = 0; k < Block; ++k) rest = subtract_product(rest, y[g][k], Strip::repeat(row.x(k).a));
+      for (int k = 0; k < Block; ++k) rest = subtract_product(rest, y[g][k], Strips::repeat(row.x(k).a));
       HAPBEAM_UNROLL
-      for (int n = 0; n < columns; ++n) f[g * columns + n] = rest.column(n);
+      for (int n = 0; n < columns; ++n) f[g * columns + n] = Strips::column(rest, n);
     }
   }
 }

@@ -55,12 +55,11 @@ class SymmetricIndefinite {
       negative += p != q || a_[at(k)][at(k)] < 0;
       k += eliminate(k, size_[at(k)]);
     }
-    for (int i = k; i < n_; ++i) x_[at(i)] = 0;
     rank_ = k;
-    substitute(x_);
+    solve(x_);
     return negative;
   }
-  /// The same of another right-hand side, after solve().   @param x  becomes the solution
+  /// Of another right-hand side, after solve().   @param x  becomes the solution
   void solve(Unknowns& x) const noexcept {
     Unknowns y;
     for (int i = 0; i < n_; ++i) y[at(i)] = x[at(order_[at(i)])] * scale_[at(order_[at(i)])];
@@ -71,8 +70,15 @@ class SymmetricIndefinite {
       divide(k, size, y);
     }
     for (int i = rank_; i < n_; ++i) y[at(i)] = 0;
-    substitute(y);
-    x = y;
+    std::array<int, Most> starts;
+    int count = 0;
+    for (int k = 0; k < rank_; k += size_[at(k)]) starts[at(count++)] = k;
+    while (count > 0) {
+      const int k = starts[at(--count)], next = k + size_[at(k)];
+      for (int m = k; m < next; ++m)
+        for (int i = next; i < n_; ++i) y[at(m)] -= a_[at(i)][at(m)] * y[at(i)];
+    }
+    for (int i = 0; i < n_; ++i) x[at(order_[at(i)])] = y[at(i)] * scale_[at(order_[at(i)])];
   }
 
  private:
@@ -86,10 +92,8 @@ class SymmetricIndefinite {
       scale_[at(i)] = most > 0 ? 1 / std::sqrt(most) : Scalar(1);
       order_[at(i)] = i;
     }
-    for (int i = 0; i < n_; ++i) {
-      x_[at(i)] *= scale_[at(i)];
+    for (int i = 0; i < n_; ++i)
       for (int j = 0; j <= i; ++j) a_[at(i)][at(j)] *= scale_[at(i)] * scale_[at(j)];
-    }
   }
   /// A pivot of one at p = q, or of two at p > q, and the larger of both sizes.
   struct Pivot {
@@ -109,26 +113,22 @@ class SymmetricIndefinite {
   void exchange(int i, int j) noexcept {
     if (i == j) return;
     std::swap(order_[at(i)], order_[at(j)]);
-    std::swap(x_[at(i)], x_[at(j)]);
     std::swap(a_[at(i)][at(i)], a_[at(j)][at(j)]);
     for (int m = 0; m < n_; ++m)
       if (m != i && m != j) std::swap(entry(i, m), entry(j, m));
   }
-  /// Leaves a pivot's columns divided by it, and the right-hand side, too.   @return its size
+  /// Leaves a pivot's columns divided by it.   @return its size
   int eliminate(int k, int size) noexcept {
     const bool two = size == 2;
     const Inverse inverse = this->inverse(k, size);
     std::array<std::array<Scalar, 2>, Most> l;
     for (int i = k + size; i < n_; ++i) {
       l[at(i)] = inverse(a_[at(i)][at(k)], two ? a_[at(i)][at(k + 1)] : Scalar(0));
-      for (int m = 0; m < size; ++m) {
+      for (int m = 0; m < size; ++m)
         for (int j = k + size; j <= i; ++j) a_[at(i)][at(j)] -= l[at(i)][at(m)] * a_[at(j)][at(k + m)];
-        x_[at(i)] -= l[at(i)][at(m)] * x_[at(k + m)];
-      }
     }
     for (int i = k + size; i < n_; ++i)
       for (int m = 0; m < size; ++m) a_[at(i)][at(k + m)] = l[at(i)][at(m)];
-    divide(k, size, x_);
     return size;
   }
   /// Of a pivot.
@@ -148,21 +148,6 @@ class SymmetricIndefinite {
     const auto divided = inverse(k, size)(x[at(k)], size == 2 ? x[at(k + 1)] : Scalar(0));
     for (int m = 0; m < size; ++m) x[at(k + m)] = divided[at(m)];
   }
-  /// To be called where the pivots are divided.
-  void substitute(Unknowns& x) const noexcept {
-    std::array<int, Most> starts;
-    int count = 0;
-    for (int k = 0; k < rank_; k += size_[at(k)]) starts[at(count++)] = k;
-    while (count > 0) {
-      const int k = starts[at(--count)], next = k + size_[at(k)];
-      for (int m = k; m < next; ++m)
-        for (int i = next; i < n_; ++i) x[at(m)] -= a_[at(i)][at(m)] * x[at(i)];
-    }
-    Unknowns y;
-    for (int i = 0; i < n_; ++i) y[at(order_[at(i)])] = x[at(i)];
-    for (int i = 0; i < n_; ++i) x[at(i)] = y[at(i)] * scale_[at(i)];
-  }
-
   int n_ = 0, rank_ = 0;  // pivots
   std::array<std::array<Scalar, Most>, Most> a_{};
   Unknowns x_{}, scale_{};
