@@ -19,7 +19,7 @@
 
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/rom/trained/coordinates.hpp>
-#include <hapbeam/rom/training/full_model.hpp>
+#include <hapbeam/rom/training/training_plan.hpp>
 #include <hapbeam/scene/scene.hpp>
 
 namespace hapbeam {

@@ -16,7 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <hapbeam/haptics/servo/ring.hpp>
+#include <hapbeam/haptics/servo/exchange.hpp>
 
 namespace hapbeam {
 

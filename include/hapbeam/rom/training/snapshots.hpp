@@ -18,7 +18,6 @@
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rom/trained/coordinates.hpp>
 #include <hapbeam/rom/trained/lagrange.hpp>
-#include <hapbeam/rom/training/full_model.hpp>
 #include <hapbeam/rom/training/training_plan.hpp>
 
 namespace hapbeam {

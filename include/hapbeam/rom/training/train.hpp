@@ -15,9 +15,9 @@
 #include <limits>
 #include <vector>
 
-#include <hapbeam/rom/training/full_model.hpp>
 #include <hapbeam/rom/training/pod.hpp>
 #include <hapbeam/rom/training/snapshots.hpp>
+#include <hapbeam/rom/training/training_plan.hpp>
 
 namespace hapbeam {
 
