@@ -39,7 +39,7 @@ class AllDisplacements {
   using Scalar = ScalarType;
   using Body = typename detail::SystemOf<Element>::Body;
   static constexpr int dimension = dimension_of<Element>;
-  using Round = typename detail::RoundOf<Scalar, dimension>::Type;
+  using Round = detail::RoundOf<Scalar, dimension>;
 
   /// Finds the shape at rest.
   /// @throws std::invalid_argument as BeamSystem, and where the scalar cannot tell so many elements apart

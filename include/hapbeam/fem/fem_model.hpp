@@ -50,7 +50,7 @@ class FemModel {
   using Scalar = ScalarType;
   using Body = typename Of::Body;  ///< Beam, or Rod in space
   static constexpr int dimension = dimension_of<Element>;
-  using Round = typename detail::RoundOf<Scalar, dimension>::Type;  ///< Circle, or Capsule in space
+  using Round = detail::RoundOf<Scalar, dimension>;  ///< Circle, or Capsule in space
   using ElementType = Element;
   /// At how many places it may be touched at once.
   static constexpr int contacts = contacts_of<Element>;

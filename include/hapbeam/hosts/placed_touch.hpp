@@ -19,13 +19,11 @@
 // call picture(), wait-free.
 #pragma once
 
-#include <atomic>
 #include <limits>
 #include <type_traits>
 
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/servo/exchange.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo.hpp>
 #include <hapbeam/haptics/servo/stylus.hpp>
@@ -48,12 +46,10 @@ class PlacedTouch {
   /// Allocates.   @throws std::invalid_argument as Touch, or for a stylus of a planar beam
   PlacedTouch(Model& model, double avatar_radius, const Placement& placement = {},
               const StylusOptions& stylus = {}, const Friction& friction = {})
-      : model_(model),
-        placement_(placement),
+      : placement_(placement),
         touch_(detail::make_touch(model, static_cast<Scalar>(avatar_radius), friction)),
         stylus_(stylus),
-        seen_(model.shape()),
-        pictures_(seen_) {}
+        pictures_(model, touch_) {}
 
   /// With a round tool.
   /// @param position  in the host's axes and units of length   @return [N] on the hand, host's axes; always finite
@@ -93,11 +89,7 @@ class PlacedTouch {
   /// The newest shape and its record. The record has status, model, position, hand, avatar, force, torque, shaft, press,
   /// pressing, what friction does, and the counts of ticks. One reader, from any thread: wait-free. Both stay until the next call.
   /// A shape that costs more than its force is that of the first tick after the last call.
-  const Picture& picture() noexcept {
-    looked_.store(true, std::memory_order_relaxed);
-    pictures_.update();
-    return pictures_.value();
-  }
+  const Picture& picture() noexcept { return pictures_.newest(); }
 
  private:
   LoopStatus status() const noexcept {
@@ -140,30 +132,15 @@ class PlacedTouch {
     ++r.ticks;
     r.contact_ticks += r.pressing;
     r.failed_ticks += r.status == LoopStatus::no_answer;
-    publish();
+    pictures_.publish(r, true);
   }
 
-  void publish() noexcept {
-    Picture& draft = pictures_.draft();
-    draft.record = record_;
-    if constexpr (Drawn<Model>::for_who_looks) {
-      if (looked_.exchange(false, std::memory_order_relaxed)) seen_.take(model_.shape());
-      draft.take(seen_);
-    } else {
-      draft.take(model_.shape());
-    }
-    pictures_.publish();
-  }
-
-  const Model& model_;
   Placement placement_;
   Touch<Model> touch_;
   detail::Stylus<Scalar, dimension> stylus_;
   TouchResult<Scalar, dimension> felt_;
   ServoRecord record_;
-  Picture seen_;
-  std::atomic<bool> looked_{true};
-  Exchange<Picture> pictures_;
+  detail::Pictures<Model> pictures_;
 };
 
 }  // namespace hapbeam

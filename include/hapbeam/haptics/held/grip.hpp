@@ -177,10 +177,9 @@ class GripCoupling {
 
   /// Once a period.   @param hand  in the scene   @param dt [s] since the tick before, which matters to a rod with mass alone
   template <typename Model>
-  [[nodiscard]] CoupledWrench<typename Model::Scalar> tick(Touch<Grip<Model>>& touch, const HandPose& hand,
-                                                           double dt) noexcept {
-    using Scalar = typename Model::Scalar;
-    CoupledWrench<Scalar> result;
+  [[nodiscard]] CoupledForce<typename Model::Scalar, 3> tick(Touch<Grip<Model>>& touch, const HandPose& hand,
+                                                             double dt) noexcept {
+    CoupledForce<typename Model::Scalar, 3> result;
     result.avatar = touch.end().place;
     if (!touch.held()) {
       touch.let_go();
@@ -190,8 +189,7 @@ class GripCoupling {
     }
     const HandPose at = touch.follow(hand);
     const HandPose aim{at.place + share(place_) * gap_, turn_by(share(turning_) * turn_) * at.turn};
-    const HeldEnd<Scalar> held =
-        touch.hold(has_mass<Model> ? at : aim, {share(place_), share(turning_), period_}, dt);
+    const auto held = touch.hold(has_mass<Model> ? at : aim, {share(place_), share(turning_), period_}, dt);
     result.touch.status = held.status;
     result.touch.press = {touch.s(), 0};
     if (is_answer(held.status)) {

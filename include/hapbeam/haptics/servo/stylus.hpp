@@ -96,12 +96,12 @@ class Stylus {
 
   /// One tick of the coupling with a capsule.   @return with the torque on the hand
   template <class Coupling, class Touch>
-  CoupledWrench<Scalar> tick(Coupling& coupling, Touch& touch, const HandPose& hand, double dt) noexcept {
+  CoupledForce<Scalar, 3> tick(Coupling& coupling, Touch& touch, const HandPose& hand, double dt) noexcept {
     const Eigen::Vector3d tied = hand.turn * tied_;
     const Shaft<double> axis{tip(hand), shaft(hand)};
     std::conditional_t<couples_itself<Touch>, CoupledCapsule<Touch>, CapsuleTouch<Touch>> capsule{
         touch, (axis.tip - tied).template cast<Scalar>(), axis.way.template cast<Scalar>(), tied};
-    CoupledWrench<Scalar> felt{coupling.tick(capsule, hand.place + tied, dt)};
+    CoupledForce<Scalar, 3> felt{coupling.tick(capsule, hand.place + tied, dt)};
     // Without an answer of this tick the force goes on along the line on which it was.
     const auto& contact = felt.touch.contact;
     if (felt.touch.pressing && !felt.continued && contact.segment >= 0) {

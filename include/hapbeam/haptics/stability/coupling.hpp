@@ -9,7 +9,7 @@
 //   C::for_device(info, delay_ticks)   C   its default; may throw std::invalid_argument
 //   c.reset()             void           noexcept; no contact
 //
-// A coupling of a hand that turns takes a HandPose and returns a CoupledWrench.
+// A coupling of a hand that turns takes a HandPose, and may return a torque.
 // Touch is Touch<Model>, or a class with its tick(position) and contact_at(position).
 //
 // VirtualCoupling: a steel beam is stiffer than a sampled loop can render. So the hand h does not press the beam
@@ -64,7 +64,14 @@ struct CoupledForce {
   bool continued = false;  ///< along the tangent: the model had no answer, or the beam was missed
   /// [J] that beam and coupling would give back, in metres of the scene; of a beam with mass without contact, too
   double energy = 0;
-  TouchResult<Scalar, D> touch;  ///< the response of the beam
+  TouchResult<Scalar, D> touch;                      ///< the response of the beam
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m] about a hand that turns; always finite
+};
+
+/// Where a hand is in the scene, and how it is turned.
+struct HandPose {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< [m]
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< of the stylus' axes, a rotation
 };
 
 namespace detail {
@@ -129,6 +136,16 @@ auto as_coupling(C* c, const C* same, AnyTouch* touch, const Vector2<double>* ha
                           std::is_same_v<decltype(C::for_device(*info, 0)), C>>;
 template <typename>
 std::false_type as_coupling(...);
+
+/// Whether a coupling takes the orientation of the hand.
+template <typename C, typename Touch>
+auto as_turning_coupling(C* c, Touch* touch, const HandPose* hand)
+    -> std::bool_constant<noexcept(c->tick(*touch, *hand, 0.0))>;
+template <typename, typename>
+std::false_type as_turning_coupling(...);
+template <typename C, typename Touch>
+inline constexpr bool couples_pose =
+    decltype(as_turning_coupling<C, Touch>(nullptr, nullptr, nullptr))::value;
 
 }  // namespace detail
 
@@ -316,31 +333,5 @@ class VirtualCoupling {
   LastResponse last_;
   double gap_ = 0;  // g [m], how far the hand is below the point
 };
-
-/// Where a hand is in the scene, and how it is turned.
-struct HandPose {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< [m]
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< of the stylus' axes, a rotation
-};
-
-/// The result of a tick, with the torque on the hand.
-template <typename Scalar>
-struct CoupledWrench : CoupledForce<Scalar, 3> {
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m] about the hand; always finite
-};
-
-namespace detail {
-
-template <typename C, typename Touch>
-auto as_turning_coupling(C* c, Touch* touch, const HandPose* hand)
-    -> std::bool_constant<noexcept(c->tick(*touch, *hand, 0.0))>;
-template <typename, typename>
-std::false_type as_turning_coupling(...);
-/// Whether a coupling takes the orientation of the hand.
-template <typename C, typename Touch>
-inline constexpr bool couples_pose =
-    decltype(as_turning_coupling<C, Touch>(nullptr, nullptr, nullptr))::value;
-
-}  // namespace detail
 
 }  // namespace hapbeam

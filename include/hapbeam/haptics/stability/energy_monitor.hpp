@@ -66,14 +66,8 @@ class EnergyMonitor {
     sent_.clear(), sent_torque_.clear();
   }
 
-  /// A period has ended.   @param position [m] now   @param sent [N] by the loop in the tick before   @param dt [s] since, positive
-  void observe(const Eigen::Vector3d& position, const Eigen::Vector3d& sent, double dt) noexcept {
-    const Eigen::Vector3d held = hold(sent_, sent, peak_);
-    const double work = of_way(position, held, dt);
-    if (held.isZero(0)) end_contact();
-    else add(work);
-  }
-  /// The same of a device that turns.   @param orientation  now   @param sent  by the loop in the tick before
+  /// A period has ended.   @param position [m], orientation  now   @param sent  by the loop in the tick before
+  /// @param dt [s] since, positive
   void observe(const Eigen::Vector3d& position, const Eigen::Matrix3d& orientation, const Wrench& sent,
                double dt) noexcept {
     const Eigen::Vector3d held = hold(sent_, sent.force, peak_),
@@ -81,6 +75,10 @@ class EnergyMonitor {
     const double work = of_way(position, held, dt) + of_turn(orientation, torque, dt);
     if (held.isZero(0) && torque.isZero(0)) end_contact();
     else add(work);
+  }
+  /// Of a device that does not turn.   @param sent [N]
+  void observe(const Eigen::Vector3d& position, const Eigen::Vector3d& sent, double dt) noexcept {
+    observe(position, Eigen::Matrix3d::Identity(), {sent, Eigen::Vector3d::Zero()}, dt);
   }
 
   /// A share of the beam's energy that has come in [J]; what has gone out again is lost.
@@ -109,9 +107,7 @@ class EnergyMonitor {
     if (!(moved.norm() <= longest_step)) moved.setZero();
     if (finite) position_ = position;
     const Eigen::Array3d way(least(moved[0], step_), least(moved[1], step_), least(moved[2], step_));
-    const double work = held.dot(moved);
-    const double taken = damping_ * way.square().sum() / dt + friction_ * way.sum();
-    return work - taken;
+    return held.dot(moved) - damping_ * way.square().sum() / dt - friction_ * way.sum();
   }
   /// [J]  The same of a torque, by the rotation vector.
   double of_turn(const Eigen::Matrix3d& orientation, const Eigen::Vector3d& held, double dt) noexcept {

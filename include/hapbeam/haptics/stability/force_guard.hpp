@@ -44,15 +44,10 @@ struct ForceGuardOptions {
   double torque_slew_rate = 100;  ///< [N·m/s] positive; at a lever of 0.1 m a tenth of the force's
 };
 
-/// A force after the guard.
-struct GuardedForce {
-  Eigen::Vector3d force;  ///< [N] to be sent
-  bool limited;           ///< cut by peak, heat or slew
-  bool engaging;          ///< reduced because the loop has just started or restarted
-};
-/// The same of force and torque.
-struct GuardedWrench : GuardedForce {
-  Eigen::Vector3d torque;  ///< [N·m] to be sent
+/// Force and torque after the guard.
+struct GuardedForce : Wrench {
+  bool limited;   ///< cut by peak, heat or slew
+  bool engaging;  ///< reduced because the loop has just started or restarted
 };
 
 namespace detail {
@@ -150,23 +145,21 @@ class ForceGuard {
     engaged_ = 0;
   }
 
-  /// @param wanted [N]   @param time [s] of the device's clock   @param safe  false: zero, whatever is wanted
-  GuardedForce limit(const Eigen::Vector3d& wanted, double time, bool safe) noexcept {
+  /// @param wanted  force and torque   @param time [s] of the device's clock   @param safe  false: zero, whatever is wanted
+  GuardedForce limit(const Wrench& wanted, double time, bool safe) noexcept {
     const LoopClock::Passed passed = clock_.passed(time);
+    const bool turns = o_.peak_torque > 0;
     force_.warm_up(passed.dt);
-    if (!engage(passed, safe && detail::all_finite(wanted))) return {force(), false, true};
-    const bool limited = force_.limit(wanted, engaged_, passed.dt);
-    return {force(), limited, engaged_ < 1};
-  }
-  /// The same of both.
-  GuardedWrench limit(const Wrench& wanted, double time, bool safe) noexcept {
-    const LoopClock::Passed passed = clock_.passed(time);
-    force_.warm_up(passed.dt), torque_.warm_up(passed.dt);
+    if (turns) torque_.warm_up(passed.dt);
     if (!engage(passed, safe && detail::all_finite(wanted.force) && detail::all_finite(wanted.torque)))
-      return {{force(), false, true}, torque()};
+      return {{force(), torque()}, false, true};
     bool limited = force_.limit(wanted.force, engaged_, passed.dt);
-    if (o_.peak_torque > 0) limited |= torque_.limit(wanted.torque, engaged_, passed.dt);
-    return {{force(), limited, engaged_ < 1}, torque()};
+    if (turns) limited |= torque_.limit(wanted.torque, engaged_, passed.dt);
+    return {{force(), torque()}, limited, engaged_ < 1};
+  }
+  /// A force alone [N].
+  GuardedForce limit(const Eigen::Vector3d& wanted, double time, bool safe) noexcept {
+    return limit(Wrench{wanted}, time, safe);
   }
 
  private:
