@@ -88,7 +88,7 @@ std::string mutated(const std::vector<std::string>& seeds, bool& numbers_alone) 
 void repair_checksum(std::string& text) {
   const std::size_t line = text.find('\n'), at = text.find("crc32:");
   if (line == std::string::npos || at == std::string::npos || at + 14 > line) return;
-  text.replace(at, 14, detail::Checksum(text.data() + line + 1, text.size() - line - 1).text);
+  text.replace(at, 14, detail::checksum(text.data() + line + 1, text.size() - line - 1));
 }
 
 template <class Model>
