@@ -99,10 +99,9 @@ struct RodStiffness {
 
 /// Cross-section: area, second moment about the bending axis, and extent in the bending direction.
 struct Section {
-  double area;     ///< A [m²]
-  double inertia;  ///< I [m⁴]
-  double
-      thickness;  ///< [m] across the beam, in the plane of bending; what the avatar, the round tool, touches
+  double area;       ///< A [m²]
+  double inertia;    ///< I [m⁴]
+  double thickness;  ///< [m] across the beam, in the plane of bending: what the avatar touches
 
   /// @param width [m] out of the plane of bending   @param height [m] in it
   static Section rectangle(double width, double height) {

@@ -27,9 +27,8 @@ namespace hapbeam {
 /// hardest. The contact is in the array's axes.
 template <typename Scalar>
 struct ArrayTouchResult : TouchResult<Scalar> {
-  int beam = -1;  ///< the one that pushes hardest; -1: none
-  bool complete =
-      true;  ///< false: more beams were met than taken or examined; the status is out_of_range or worse
+  int beam = -1;         ///< the one that pushes hardest; -1: none
+  bool complete = true;  ///< false: more beams were met than taken or examined; out_of_range or worse
 };
 
 /// One of the beams in contact.

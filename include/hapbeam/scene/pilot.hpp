@@ -58,10 +58,8 @@ class PilotOf {
       if (line.s == s) most = (std::max)(most, error(model, line));
     return most;
   }
-  int elements() const noexcept { return elements_; }  ///< of the reference
-  double own_error() const noexcept {
-    return own_error_;
-  }  ///< of half as many elements: more than the reference's
+  int elements() const noexcept { return elements_; }       ///< of the reference
+  double own_error() const noexcept { return own_error_; }  ///< of half as many elements: more than its own
 
  protected:
   explicit PilotOf(double force_floor) noexcept : floor_(force_floor) {}

@@ -99,13 +99,7 @@ struct TickCosts {
   }
 };
 
-enum class Kinematics {
-  linear,
-  von_karman,
-  corotational,
-  round_rod,
-  twisted_rod
-};  ///< the last two: of rods
+enum class Kinematics { linear, von_karman, corotational, round_rod, twisted_rod };
 enum class Reduction { none, pod, galerkin };
 
 constexpr const char* name(Kinematics kinematics) noexcept {
@@ -123,11 +117,10 @@ constexpr const char* name(Kinematics kinematics) noexcept {
 struct Candidate {
   Kinematics kinematics;
   Reduction reduction;
-  int elements;           ///< of the model, or of the one that trains it
-  bool mirrored = false;  ///< half of the beam, with half of the elements
-  int positions = 0,
-      depths = 0;        ///< snapshots of a trained model, at Chebyshev's nodes; tensions for Galerkin's
-  bool turning = false;  ///< planar, of a rod in space: TurningPlane
+  int elements;                   ///< of the model, or of the one that trains it
+  bool mirrored = false;          ///< half of the beam, with half of the elements
+  int positions = 0, depths = 0;  ///< snapshots of a trained model; tensions for Galerkin's
+  bool turning = false;           ///< planar, of a rod in space: TurningPlane
 
   int snapshots() const noexcept { return positions * depths; }
 

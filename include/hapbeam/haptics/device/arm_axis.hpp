@@ -230,7 +230,7 @@ class Encoders {
   }
 
   double resolution_, cutoff_;  // [m], [rad/s]
-  Eigen::Vector3d position_ = Eigen::Vector3d::Zero(), velocity_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position_{0, 0, 0}, velocity_{0, 0, 0};
 };
 
 }  // namespace hapbeam

@@ -84,12 +84,12 @@ constexpr const char* name(DeviceStatus status) noexcept {
 
 /// Input of the servo at the beginning of a tick.
 struct DeviceState {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] as the encoders read it, in the device's axes
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s] as the device estimates it
-  double time = 0;                                     ///< [s] since start
-  ForceCut cut = ForceCut::none;                   ///< what the device did to the force of the tick before
-  Eigen::Vector3d sent = Eigen::Vector3d::Zero();  ///< [N] that force, as it was sent
-  DeviceStatus status = DeviceStatus::running;     ///< running, warm or force_error
+  Eigen::Vector3d position{0, 0, 0};            ///< [m] as the encoders read it, in the device's axes
+  Eigen::Vector3d velocity{0, 0, 0};            ///< [m/s] as the device estimates it
+  double time = 0;                              ///< [s] since start
+  ForceCut cut = ForceCut::none;                ///< what the device did to the force of the tick before
+  Eigen::Vector3d sent{0, 0, 0};                ///< [N] that force, as it was sent
+  DeviceStatus status = DeviceStatus::running;  ///< running, warm or force_error
   /// Start without contact: in the first tick since the start or since a calibration, and in each tick in which a force
   /// error is found. A real device then sends zero and ramps the force in. A simulated one sends what is requested.
   bool reset = false;
@@ -99,13 +99,13 @@ struct DeviceState {
 struct OrientedState : DeviceState {
   /// The axes of the stylus, one a column, in the device's axes; z along its shaft, from the tip to the hand.  A rotation.
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d sent_torque = Eigen::Vector3d::Zero();  ///< [N·m] of the tick before, as it was sent
+  Eigen::Vector3d sent_torque{0, 0, 0};  ///< [N·m] of the tick before, as it was sent
 };
 
 /// A force on the hand and a torque about the device's position.
 struct Wrench {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m]
+  Eigen::Vector3d force{0, 0, 0};   ///< [N]
+  Eigen::Vector3d torque{0, 0, 0};  ///< [N·m]
 };
 
 /// What happened since start.

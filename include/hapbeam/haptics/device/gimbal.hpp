@@ -35,6 +35,25 @@ struct GimbalOptions {
   double hand_stiffness = 0.45;     ///< [N·m/rad] of the hand, 500 N/m at the 30 mm where fingers hold a pen
   double hand_damping = 1.2e-3;     ///< [N·m·s/rad] the same of 1.3 N·s/m
   double grip_inertia = 1.8e-4;     ///< [kg·m²] the same of 0.2 kg
+
+  ArmAxis axis() const noexcept {
+    return ArmAxis({inertia + grip_inertia, damping + hand_damping, hand_stiffness, friction});
+  }
+  /// @param period [s] of the loop   @throws std::invalid_argument
+  void check(double period) const {
+    detail::positive("gimbal inertia", inertia, "kg·m²");
+    detail::not_negative("gimbal damping", damping, "N·m·s/rad");
+    detail::not_negative("gimbal friction", friction, "N·m");
+    detail::not_negative("gimbal resolution", resolution, "rad");
+    detail::not_negative("gimbal peak_torque", peak_torque, "N·m");
+    detail::positive("gimbal continuous_torque", continuous_torque, "N·m");
+    detail::not_negative("gimbal hand_stiffness", hand_stiffness, "N·m/rad");
+    detail::not_negative("gimbal hand_damping", hand_damping, "N·m·s/rad");
+    detail::not_negative("gimbal grip_inertia", grip_inertia, "kg·m²");
+    if (period > 500 * axis().longest_piece())
+      detail::reject("gimbal inertia", inertia, "kg·m²",
+                     "large enough that the gimbal does not settle in 1/1000 period");
+  }
 };
 
 /// How a stylus is turned by its gimbal.   @param angles [rad] yaw, pitch, roll
@@ -42,46 +61,33 @@ inline Eigen::Matrix3d gimbal_orientation(const Eigen::Vector3d& angles) noexcep
   const double sa = std::sin(angles[0]), ca = std::cos(angles[0]), sb = std::sin(angles[1]),
                cb = std::cos(angles[1]), sc = std::sin(angles[2]), cc = std::cos(angles[2]);
   Eigen::Matrix3d R;
-  const double columns[9] = {ca * cc + sa * sb * sc,
-                             cb * sc,
-                             ca * sb * sc - sa * cc,
-                             sa * sb * cc - ca * sc,
-                             cb * cc,
-                             sa * sc + ca * sb * cc,
-                             sa * cb,
-                             -sb,
-                             ca * cb};
-  for (int k = 0; k < 9; ++k) R(k % 3, k / 3) = columns[k];
+  R << ca * cc + sa * sb * sc, sa * sb * cc - ca * sc, sa * cb,  //
+      cb * sc, cb * cc, -sb,                                     //
+      ca * sb * sc - sa * cc, sa * sc + ca * sb * cc, ca * cb;
   return R;
 }
 
 class Gimbal {
  public:
   Gimbal(const GimbalOptions& options, double velocity_cutoff) noexcept
-      : axes_{axis(options), axis(options), axis(options)},
+      : axes_{options.axis(), options.axis(), options.axis()},
         hand_damping_(options.hand_damping),
         encoders_(options.resolution, velocity_cutoff) {}
 
-  static ArmAxis axis(const GimbalOptions& o) noexcept {
-    return ArmAxis({o.inertia + o.grip_inertia, o.damping + o.hand_damping, o.hand_stiffness, o.friction});
-  }
   /// As DeviceInfo has it.
   static GimbalInfo describe(const GimbalOptions& o) noexcept {
-    GimbalInfo info;
-    if (!o.present) return info;
-    info.reads = true;
-    info.peak_torque = o.peak_torque, info.continuous_torque = o.continuous_torque;
-    info.resolution = o.resolution, info.friction = o.friction;
-    info.damping = o.damping, info.inertia = o.inertia;
-    return info;
+    if (!o.present) return {};
+    return {true, o.peak_torque, o.continuous_torque, 0, o.resolution, o.friction, o.damping, o.inertia};
   }
 
+  /// As they are [rad].
   Eigen::Vector3d angles() const noexcept {
     return {axes_[0].position(), axes_[1].position(), axes_[2].position()};
-  }  ///< [rad] as they are
+  }
+  /// [rad/s]
   Eigen::Vector3d rates() const noexcept {
     return {axes_[0].velocity(), axes_[1].velocity(), axes_[2].velocity()};
-  }  ///< [rad/s]
+  }
   /// As the encoders read it.
   Eigen::Matrix3d orientation() const noexcept { return gimbal_orientation(encoders_.position()); }
 

@@ -21,13 +21,13 @@ namespace hapbeam {
 
 /// Target position and velocity of the hand, and the force it adds.
 struct HandTarget {
-  Eigen::Vector3d position;                        ///< [m] device axes
-  Eigen::Vector3d velocity;                        ///< [m/s]
-  Eigen::Vector3d push = Eigen::Vector3d::Zero();  ///< [N] held until the next target; a weight, for example
+  Eigen::Vector3d position;       ///< [m] device axes
+  Eigen::Vector3d velocity;       ///< [m/s]
+  Eigen::Vector3d push{0, 0, 0};  ///< [N] held until the next target; a weight, for example
   // Of a device with a gimbal: about its axes of yaw, pitch and roll (gimbal.hpp).
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();   ///< [rad] any number of turns
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();   ///< [rad/s]
-  Eigen::Vector3d twist = Eigen::Vector3d::Zero();  ///< [N·m] held until the next target
+  Eigen::Vector3d turn{0, 0, 0};   ///< [rad] any number of turns
+  Eigen::Vector3d spin{0, 0, 0};   ///< [rad/s]
+  Eigen::Vector3d twist{0, 0, 0};  ///< [N·m] held until the next target
 };
 
 /// A script for the hand in the device's x-y plane (z = 0). It begins at a place and appends one motion after the
@@ -36,9 +36,9 @@ class HandPath {
  public:
   /// One way-point, passed without velocity.
   struct WayPoint {
-    double time;                                     ///< [s] since the beginning
-    Vector2<double> position;                        ///< [m] x to the right, y up
-    Eigen::Vector3d turn = Eigen::Vector3d::Zero();  ///< [rad] yaw, pitch and roll of the stylus
+    double time;                    ///< [s] since the beginning
+    Vector2<double> position;       ///< [m] x to the right, y up
+    Eigen::Vector3d turn{0, 0, 0};  ///< [rad] yaw, pitch and roll of the stylus
   };
 
   /// A hand that rests at a place.

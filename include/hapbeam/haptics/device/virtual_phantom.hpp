@@ -59,6 +59,55 @@ struct Tip {
   Eigen::Vector3d velocity;  ///< [m/s]
 };
 
+namespace detail {
+
+inline ArmAxis arm_axis(const VirtualPhantomOptions& o) noexcept {
+  return ArmAxis({o.arm.apparent_mass + o.hand.grip_mass, o.arm.damping + o.hand.damping, o.hand.stiffness,
+                  o.arm.friction});
+}
+
+/// @throws std::invalid_argument
+[[gnu::cold]] inline const VirtualPhantomOptions& checked(const VirtualPhantomOptions& options) {
+  const ArmOptions& arm = options.arm;
+  const HandOptions& hand = options.hand;
+  positive("apparent_mass", arm.apparent_mass, "kg");
+  not_negative("arm damping", arm.damping, "N·s/m");
+  not_negative("friction", arm.friction, "N");
+  not_negative("resolution", arm.resolution, "m");
+  positive("velocity_cutoff", arm.velocity_cutoff, "Hz");
+  positive("peak_force", arm.peak_force, "N");
+  if (!(arm.period >= 1e-5 && arm.period <= 1)) reject("period", arm.period, "s", "1e-5 to 1");
+  if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= DelayLine::longest))
+    reject("delay_ticks", arm.delay_ticks, "", "0 to 16");
+  if (!(arm.jitter >= 0 && arm.jitter <= 0.9)) reject("jitter", arm.jitter, "", "0 to 0.9");
+  not_negative("hand stiffness", hand.stiffness, "N/m");
+  not_negative("hand damping", hand.damping, "N·s/m");
+  not_negative("grip_mass", hand.grip_mass, "kg");
+  // Bounded work: an arm that settles a thousand times within a period is a mistake in a unit.
+  if (arm.period > 500 * arm_axis(options).longest_piece())
+    reject("apparent_mass", arm.apparent_mass, "kg",
+           "large enough that the arm does not settle in 1/1000 period");
+  options.gimbal.check(arm.period);
+  return options;
+}
+
+[[gnu::cold]] inline DeviceInfo describe(const VirtualPhantomOptions& options) {
+  const ArmOptions& arm = options.arm;
+  return {"virtual Phantom Premium 1.5/6DOF High Force",
+          {0.381, 0.267, 0.191},
+          arm.peak_force,
+          6.2,
+          3500,
+          arm.resolution,
+          arm.friction,
+          arm.period,
+          arm.damping,
+          arm.apparent_mass,
+          Gimbal::describe(options.gimbal)};
+}
+
+}  // namespace detail
+
 /// @tparam Path  target of the hand: HandTarget path(double time) noexcept, time in [s]
 template <typename Path = HandPath>
 class VirtualPhantom {
@@ -69,7 +118,7 @@ class VirtualPhantom {
  public:
   /// @throws std::invalid_argument naming field, value and unit; also where a HandPath leaves the workspace
   explicit VirtualPhantom(Path path, const VirtualPhantomOptions& options = {})
-      : path_(std::move(path)), options_(checked(options)), info_(describe(options)) {
+      : path_(std::move(path)), options_(detail::checked(options)), info_(detail::describe(options)) {
     check_workspace();
     reset();
   }
@@ -176,18 +225,12 @@ class VirtualPhantom {
     }
   }
 
-  static VirtualPhantomOptions checked(const VirtualPhantomOptions& options);
-  static ArmAxis axis(const VirtualPhantomOptions& o) noexcept {
-    return ArmAxis({o.arm.apparent_mass + o.hand.grip_mass, o.arm.damping + o.hand.damping, o.hand.stiffness,
-                    o.arm.friction});
-  }
-  static DeviceInfo describe(const VirtualPhantomOptions& options);
   void check_workspace() const;
 
   Path path_;
   VirtualPhantomOptions options_;
   DeviceInfo info_;
-  ArmAxis axes_[3] = {axis(options_), axis(options_), axis(options_)};
+  ArmAxis axes_[3] = {detail::arm_axis(options_), detail::arm_axis(options_), detail::arm_axis(options_)};
   Encoders encoders_{options_.arm.resolution, options_.arm.velocity_cutoff};
   Gimbal gimbal_{options_.gimbal, options_.arm.velocity_cutoff};
   HandTarget target_{};
@@ -231,60 +274,6 @@ void VirtualPhantom<Path>::advance() noexcept {
   encoders_.read(tip().position, period);
   if (!options_.gimbal.present) return;
   gimbal_.advance(late_motors_.pass(gimbal_.by_axes(sent_.torque), delay), from, target_, period);
-}
-
-template <typename Path>
-VirtualPhantomOptions VirtualPhantom<Path>::checked(const VirtualPhantomOptions& options) {
-  const ArmOptions& arm = options.arm;
-  const HandOptions& hand = options.hand;
-  using detail::not_negative;
-  detail::positive("apparent_mass", arm.apparent_mass, "kg");
-  not_negative("arm damping", arm.damping, "N·s/m");
-  not_negative("friction", arm.friction, "N");
-  not_negative("resolution", arm.resolution, "m");
-  detail::positive("velocity_cutoff", arm.velocity_cutoff, "Hz");
-  detail::positive("peak_force", arm.peak_force, "N");
-  if (!(arm.period >= 1e-5 && arm.period <= 1)) detail::reject("period", arm.period, "s", "1e-5 to 1");
-  if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= detail::DelayLine::longest))
-    detail::reject("delay_ticks", arm.delay_ticks, "", "0 to 16");
-  if (!(arm.jitter >= 0 && arm.jitter <= 0.9)) detail::reject("jitter", arm.jitter, "", "0 to 0.9");
-  not_negative("hand stiffness", hand.stiffness, "N/m");
-  not_negative("hand damping", hand.damping, "N·s/m");
-  not_negative("grip_mass", hand.grip_mass, "kg");
-  // Bounded work: an arm that settles a thousand times within a period is a mistake in a unit.
-  if (arm.period > 500 * axis(options).longest_piece())
-    detail::reject("apparent_mass", arm.apparent_mass, "kg",
-                   "large enough that the arm does not settle in 1/1000 period");
-  const GimbalOptions& gimbal = options.gimbal;
-  detail::positive("gimbal inertia", gimbal.inertia, "kg·m²");
-  not_negative("gimbal damping", gimbal.damping, "N·m·s/rad");
-  not_negative("gimbal friction", gimbal.friction, "N·m");
-  not_negative("gimbal resolution", gimbal.resolution, "rad");
-  not_negative("gimbal peak_torque", gimbal.peak_torque, "N·m");
-  detail::positive("gimbal continuous_torque", gimbal.continuous_torque, "N·m");
-  not_negative("gimbal hand_stiffness", gimbal.hand_stiffness, "N·m/rad");
-  not_negative("gimbal hand_damping", gimbal.hand_damping, "N·m·s/rad");
-  not_negative("gimbal grip_inertia", gimbal.grip_inertia, "kg·m²");
-  if (arm.period > 500 * Gimbal::axis(gimbal).longest_piece())
-    detail::reject("gimbal inertia", gimbal.inertia, "kg·m²",
-                   "large enough that the gimbal does not settle in 1/1000 period");
-  return options;
-}
-
-template <typename Path>
-DeviceInfo VirtualPhantom<Path>::describe(const VirtualPhantomOptions& options) {
-  const ArmOptions& arm = options.arm;
-  return {"virtual Phantom Premium 1.5/6DOF High Force",
-          {0.381, 0.267, 0.191},
-          arm.peak_force,
-          6.2,
-          3500,
-          arm.resolution,
-          arm.friction,
-          arm.period,
-          arm.damping,
-          arm.apparent_mass,
-          Gimbal::describe(options.gimbal)};
 }
 
 template <typename Path>

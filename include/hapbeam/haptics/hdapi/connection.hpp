@@ -27,8 +27,8 @@ namespace hapbeam {
 struct HdapiOptions {
   std::string device;    ///< its name in the vendor's setup program; empty: the default device
   unsigned rate = 1000;  ///< [Hz] of the servo loop, one that the device supports; the same for all devices
-  double force_limit =
-      std::numeric_limits<double>::infinity();  ///< [N] positive; the device's own peak applies too
+  /// [N] positive; the device's own peak applies too
+  double force_limit = std::numeric_limits<double>::infinity();
   double ramp_time = 0.5;  ///< [s] from gain 0 to 1, after a start and after an error; positive
 
   // Not available from HDAPI; 0 where unknown.
@@ -38,8 +38,8 @@ struct HdapiOptions {
   double apparent_mass = 0;        ///< [kg] at the tip
 
   // Of a device of six axes.
-  double torque_limit = std::numeric_limits<
-      double>::infinity();       ///< [N·m] not negative, 0: no torque; the device's own peak applies too
+  /// [N·m] not negative, 0: no torque; the device's own peak applies too
+  double torque_limit = std::numeric_limits<double>::infinity();
   double gimbal_resolution = 0;  ///< [rad]
   double gimbal_friction = 0;    ///< [N·m] to turn the stylus by hand
   double gimbal_damping = 0;     ///< [N·m·s/rad] viscous, of the gimbal
@@ -82,9 +82,6 @@ class HdConnection {
 
   const HdapiOptions& options() const noexcept { return options_; }
   const DeviceInfo& info() const noexcept { return info_; }
-  const Eigen::Vector3d& middle() const noexcept {
-    return middle_;
-  }  ///< [mm] of the workspace, vendor's axes
   bool connected() const noexcept { return connected_; }
 
   /// Initialises the device and reads its figures.  With the scheduler's mutex.
@@ -287,7 +284,7 @@ class HdConnection {
 
   HdapiOptions options_;
   DeviceInfo info_;
-  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  // [mm] of the workspace, in the vendor's axes
+  Eigen::Vector3d middle_{0, 0, 0};  // [mm] of the workspace, in the vendor's axes
   bool has_temperature_ = false, has_torque_ = false, connected_ = false;
 };
 

@@ -59,30 +59,11 @@ struct HdApiFunctions<Api, std::void_t<typename Api::Callback, typename Api::Err
           std::is_same_v<decltype(Api::ErrorInfo::internalErrorCode), int> &&
           std::is_same_v<decltype(Api::ErrorInfo::hHD), unsigned>> {};
 
-template <typename Api, typename = void>
-struct HdApiConstants : std::false_type {};
-/// A constant is one where it can size an array.
-template <typename Api>
-struct HdApiConstants<
-    Api,
-    std::enable_if_t<(
-        (Api::success | Api::current_position | Api::current_velocity | Api::current_force |
-         Api::motor_temperature | Api::device_model_type | Api::usable_workspace | Api::nominal_max_force |
-         Api::nominal_max_continuous_force | Api::nominal_max_stiffness | Api::force_output |
-         Api::current_transform | Api::current_torque | Api::input_dof | Api::output_dof |
-         Api::nominal_max_torque | Api::nominal_max_continuous_torque | Api::nominal_max_torque_stiffness |
-         Api::calibration_ok | Api::calibration_needs_update | Api::calibration_style |
-         Api::calibration_auto | Api::calibration_inkwell | Api::calibration_encoder_reset |
-         Api::callback_done | Api::callback_continue | Api::default_priority | Api::warm_motors |
-         Api::exceeded_max_force | Api::exceeded_max_force_impulse | Api::exceeded_max_velocity |
-         Api::force_error | Api::comm_error | Api::comm_config_error | Api::invalid_priority |
-         Api::scheduler_full | Api::invalid_handle) != 0)>> : std::true_type {};
-
 }  // namespace detail
 
-/// True where Api has all that Hdapi<Api> calls, with the vendor's types.
+/// True where Api has all functions that Hdapi<Api> calls, with the vendor's types.  A constant that it lacks is named by the compiler.
 template <typename Api>
-inline constexpr bool is_hd_api = detail::HdApiFunctions<Api>::value&& detail::HdApiConstants<Api>::value;
+inline constexpr bool is_hd_api = detail::HdApiFunctions<Api>::value;
 
 /// Consequence of a device's error for the loop, in ascending order of severity.
 enum class HdErrorClass : std::uint8_t {

@@ -243,9 +243,9 @@ class GripCoupling {
   }
   CouplingFigures place_, turning_;
   double period_;
-  Eigen::Vector3d gap_ = Eigen::Vector3d::Zero();   // g [m]
-  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();  // of the end against the hand [rad]
-  Wrench last_;                                     // of the last answer
+  Eigen::Vector3d gap_{0, 0, 0};   // g [m]
+  Eigen::Vector3d turn_{0, 0, 0};  // of the end against the hand [rad]
+  Wrench last_;                    // of the last answer
   int continued_ = 0;
 };
 

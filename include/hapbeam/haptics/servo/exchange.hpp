@@ -78,10 +78,9 @@ class Exchange {
   };
 
   Slot slots_[3];
-  alignas(line) std::uint8_t draft_ = 0;  // writer's
-  alignas(line) std::uint8_t taken_ = 1;  // reader's
-  alignas(line) std::atomic<std::uint8_t> between_{
-      2};  // nobody's: index, and whether it is newer than taken_
+  alignas(line) std::uint8_t draft_ = 0;                // writer's
+  alignas(line) std::uint8_t taken_ = 1;                // reader's
+  alignas(line) std::atomic<std::uint8_t> between_{2};  // nobody's: index, and whether it is newer
   static_assert(std::atomic<std::uint8_t>::is_always_lock_free, "an exchange must not lock");
 };
 

@@ -128,7 +128,7 @@ class Placement {
   }
 
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d origin_{0, 0, 0};
   double scale_ = 1;
 };
 

@@ -128,8 +128,7 @@ class ServoPicture {
 template <typename Model>
 struct Drawn {
   using Picture = ServoPicture<typename Model::Scalar, dimension_of<Touch<Model>>>;
-  static constexpr bool for_who_looks =
-      detail::offers<detail::Part, Model>;  ///< it costs more than the force
+  static constexpr bool for_who_looks = detail::offers<detail::Part, Model>;  ///< it costs more than forces
   static auto of(const Model& model, const Touch<Model>&) noexcept { return model.shape(); }
 };
 

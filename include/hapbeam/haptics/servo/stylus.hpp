@@ -125,9 +125,8 @@ class Stylus {
 
  private:
   StylusOptions o_;
-  Eigen::Vector3d tied_ =
-      Eigen::Vector3d::Zero();                     // from the hand to the tied point, in the stylus' axes [m]
-  Eigen::Vector3d arm_ = Eigen::Vector3d::Zero();  // from the hand to the contact, in the scene [m]
+  Eigen::Vector3d tied_{0, 0, 0};  // from the hand to the tied point, in the stylus' axes [m]
+  Eigen::Vector3d arm_{0, 0, 0};   // from the hand to the contact, in the scene [m]
 };
 
 }  // namespace detail

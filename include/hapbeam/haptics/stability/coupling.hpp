@@ -64,13 +64,13 @@ struct CoupledForce {
   bool continued = false;  ///< along the tangent: the model had no answer, or the beam was missed
   /// [J] that beam and coupling would give back, in metres of the scene; of a beam with mass without contact, too
   double energy = 0;
-  TouchResult<Scalar, D> touch;                      ///< the response of the beam
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m] about a hand that turns; always finite
+  TouchResult<Scalar, D> touch;     ///< the response of the beam
+  Eigen::Vector3d torque{0, 0, 0};  ///< [N·m] about a hand that turns; always finite
 };
 
 /// Where a hand is in the scene, and how it is turned.
 struct HandPose {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< [m]
+  Eigen::Vector3d place{0, 0, 0};                      ///< [m]
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< of the stylus' axes, a rotation
 };
 

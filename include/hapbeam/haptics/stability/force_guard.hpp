@@ -105,7 +105,7 @@ class GuardedMotors {
   }
 
   Limits o_;
-  Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sent_{0, 0, 0};
   double heat_ = 0;
 };
 

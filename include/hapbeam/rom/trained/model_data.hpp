@@ -48,8 +48,8 @@ struct ErrorReport {
   /// that of the places beside.
   /// The search is no proof; none of 250 000 random presses of 50 beams exceeded the bound.
   double force_bound = 0;
-  double reference_error =
-      0;  ///< largest relative error of the full model's force, by one with twice its elements
+  /// Largest relative error of the full model's force, by one with twice its elements.
+  double reference_error = 0;
 };
 
 /// Of a PodModel.  Grids run through the positions, and for each through the depths.

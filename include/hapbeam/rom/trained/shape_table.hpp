@@ -215,8 +215,7 @@ class ShapeTable {
   std::vector<Scalar> weights_;  // of the last press, along both axes
   std::vector<Scalar> work_;     // displacements of the last shape, freed of units; its modes; these by depth
   std::vector<Node> nodes_;
-  int first_ = 0,
-      last_ = 0;  // of the nodes that are those of the last press; none where the last is before the first
+  int first_ = 0, last_ = 0;  // nodes that are those of the last press; none where last_ < first_
   // The last press.
   Scalar s_ = 0, d_ = 0, unit_ = 1;
   std::optional<Scalar> theta_;  // none: by the modes

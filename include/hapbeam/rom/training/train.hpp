@@ -76,10 +76,6 @@ std::vector<double> potential(const Lagrange<Nodes>& y, const DepthCoordinate<do
   return work;
 }
 
-}  // namespace detail
-
-namespace detail {
-
 template <class Nodes>
 void check_nodes(const Snapshots& snapshots) {
   if (snapshots.nodes != Nodes::name())

@@ -27,14 +27,12 @@ namespace hapbeam {
 
 /// A grid of presses: positions along the beam, and at each so many depths.
 struct TrainingPlan {
-  double s_min, s_max;  ///< [m] equal for a single position
-  int positions;        ///< 2 to 64, or 1
-  double depth;         ///< [m] largest |d|
-  int depths;           ///< 2 to 64; for a GalerkinModel, of tensions
-  bool symmetric =
-      true;  ///< train d > 0 alone, for a beam without dead loads; else both signs, with the same number of depths
-  int segments =
-      32;  ///< pieces of the shape that the model draws; even where there is more than one position
+  double s_min, s_max;    ///< [m] equal for a single position
+  int positions;          ///< 2 to 64, or 1
+  double depth;           ///< [m] largest |d|
+  int depths;             ///< 2 to 64; for a GalerkinModel, of tensions
+  bool symmetric = true;  ///< train d > 0 alone, for a beam without dead loads; else as many of both signs
+  int segments = 32;      ///< pieces of the shape that the model draws; even where positions > 1
 
   /// Anywhere from 5 to 95 % of the span, or up to an end that yields.
   static TrainingPlan anywhere(const Beam& beam, double depth, int positions = 16, int depths = 12) {
@@ -115,10 +113,9 @@ inline std::string describe(double s, double d) { return "s = " + number(s) + " 
 /// One press, or a TrainingError.
 template <class Model>
 double press_for_training(Model& model, double s, double d) {
-  using S = typename Model::Scalar;
-  const Response<S> response = model.press({static_cast<S>(s), static_cast<S>(d)});
-  if (response.status == Status::ok) return static_cast<double>(response.force);
-  const double limit = static_cast<double>(model.range().depth_at(static_cast<S>(s)));
+  const Response<double> response = model.press({s, d});
+  if (response.status == Status::ok) return response.force;
+  const double limit = model.range().depth_at(s);
   throw TrainingError("the press at " + describe(s, d) + ": " + name(response.status) +
                       (response.status == Status::out_of_range
                            ? ", the full model answers up to " + number(limit) + " m there"
@@ -152,42 +149,36 @@ void for_each_position(const Model& full, int positions, int threads, const Work
   if (failure) std::rethrow_exception(failure);
 }
 
-template <class Model, typename = void>
-inline constexpr bool is_finite_elements = false;
+/// Finite elements can be built anew for a beam.
 template <class Model>
-inline constexpr bool is_finite_elements<
-    Model, std::void_t<typename Model::ElementType, decltype(std::declval<const Model&>().elements())>> =
-    true;
+using FiniteElements =
+    std::pair<typename Model::ElementType, decltype(std::declval<const Model&>().elements())>;
 
-/// Compares length and thickness of any ForceModel. With finite elements, which can be rebuilt for the beam, forces are
-/// compared as well. A difference in stiffness, ends, dead loads or natural shape changes the force.
-/// @throws std::invalid_argument
+/// Compares length and thickness of any ForceModel, and of finite elements the forces: a difference in stiffness, ends, dead
+/// loads or natural shape changes them.   @throws std::invalid_argument
 template <class Model>
 void check_same_beam(const Beam& beam, const Model& full, const TrainingPlan& plan) {
-  using S = typename Model::Scalar;
   const auto compare = [](const char* what, double found, double wanted) {
     if (std::abs(found - wanted) > 1e-6 * wanted)
       reject(what, found, "m", "that of the beam that is trained");
   };
-  compare("length of the full model", static_cast<double>(full.shape().length()), beam.length());
-  compare("thickness of the full model", static_cast<double>(full.thickness()), beam.thickness());
-  if constexpr (is_finite_elements<Model>) {
+  compare("length of the full model", full.shape().length(), beam.length());
+  compare("thickness of the full model", full.thickness(), beam.thickness());
+  if constexpr (offers<FiniteElements, Model>) {
     Model given(full);
-    FemModel<typename Model::ElementType, S> own(beam, full.elements());
+    FemModel<typename Model::ElementType> own(beam, full.elements());
     const double s = (plan.s_min + plan.s_max) / 2;
     double off = 0, size = 0;
     for (const double d : {plan.depth, -plan.depth, plan.depth / 10}) {
-      const Press<S> press{static_cast<S>(s), static_cast<S>(d)};
       given.reset(), own.reset();
-      const Response<S> a = given.press(press), b = own.press(press);
+      const Response<double> a = given.press({s, d}), b = own.press({s, d});
       if (a.status != Status::ok || b.status != Status::ok) continue;
-      off = (std::max)(off, std::abs(static_cast<double>(a.force) - static_cast<double>(b.force)));
-      size = (std::max)(size, std::abs(static_cast<double>(b.force)));
+      off = (std::max)(off, std::abs(a.force - b.force));
+      size = (std::max)(size, std::abs(b.force));
     }
     if (off > 1e-3 * size)
       refuse(
-          "full model: must be of the beam that is trained; pressed at s = %g m their forces are %.3g N "
-          "apart of "
+          "full model: must be of the beam that is trained; pressed at s = %g m forces are %.3g N apart of "
           "%.3g N",
           s, off, size);
   }
