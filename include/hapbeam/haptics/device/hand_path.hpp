@@ -96,11 +96,10 @@ class HandPath {
   HandTarget operator()(double time) const noexcept {
     const auto next = std::upper_bound(points_.begin(), points_.end(), time,
                                        [](double t, const WayPoint& point) { return t < point.time; });
-    if (next == points_.begin()) return at_rest(points_.front());
-    if (next == points_.end()) return at_rest(points_.back());
-    const WayPoint &a = *(next - 1), &b = *next;
-    const double span = b.time - a.time, t = (time - a.time) / span, r = 1 - t;
-    const double share = t * t * t * (10 + t * (6 * t - 15)), rate = 30 * t * t * r * r / span;
+    const WayPoint& b = next == points_.end() ? points_.back() : *next;
+    const WayPoint& a = next == points_.begin() ? b : *(next - 1);
+    const double span = b.time - a.time, t = span > 0 ? (time - a.time) / span : 0, r = 1 - t;
+    const double share = t * t * t * (10 + t * (6 * t - 15)), rate = span > 0 ? 30 * t * t * r * r / span : 0;
     const Vector2<double> way = b.position - a.position;
     const Vector2<double> position = a.position + way * share;
     const Vector2<double> velocity = way * rate;
@@ -125,11 +124,6 @@ class HandPath {
       if (!(spin <= fastest)) detail::reject("hand path spin", spin, "rad/s", "at most 1e9");
     }
     points_.push_back(next);
-  }
-  static HandTarget at_rest(const WayPoint& point) noexcept {
-    HandTarget target{{point.position.x(), point.position.y(), 0}, Eigen::Vector3d::Zero()};
-    target.turn = point.turn;
-    return target;
   }
   HandPath& move_by(double x, double y, double duration) {
     return move_to(points_.back().position + Vector2<double>(x, y), duration);

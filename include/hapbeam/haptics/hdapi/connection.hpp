@@ -19,7 +19,7 @@
 #include <hapbeam/check.hpp>
 #include <hapbeam/haptics/device/device.hpp>
 #include <hapbeam/haptics/hdapi/calibration.hpp>
-#include <hapbeam/haptics/hdapi/scheduler.hpp>
+#include <hapbeam/haptics/hdapi/contract.hpp>
 
 namespace hapbeam {
 
@@ -180,11 +180,9 @@ class HdConnection {
   /// @param orientation  out   @return false where the vendor's functions give no rotation
   bool read(Eigen::Matrix3d& orientation) const noexcept {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    double transform[16];  // column by column
-    for (double& entry : transform) entry = none;
-    Api::get_doublev(Api::current_transform, transform);
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column) orientation(row, column) = transform[4 * column + row];
+    Eigen::Matrix4d transform = Eigen::Matrix4d::Constant(none);  // column by column
+    Api::get_doublev(Api::current_transform, transform.data());
+    orientation = transform.topLeftCorner<3, 3>();
     return make_rotation(orientation);
   }
 

@@ -18,7 +18,7 @@
 //   that is no rotation, a frame that is     where the driver reports an error in that, it is done again in the
 //   not this device's                        next three ticks
 //
-// Several devices share one scheduler (scheduler.hpp). A device is constructed, or restarted after its loop was lost,
+// Several devices share one scheduler (contract.hpp). A device is constructed, or restarted after its loop was lost,
 // while no other runs. A healthy device starts and stops at any time. Units and origin are those of connection.hpp.
 // Construction, calibrate() and start() allocate and throw. A tick does neither, and never waits for a thread.
 // Source: OpenHaptics Toolkit, programmer's guide.

@@ -88,10 +88,6 @@ struct GalerkinModelData {
 
 namespace detail {
 
-[[gnu::cold]] [[noreturn]] inline void reject_data(const char* field, double value, const char* allowed) {
-  reject(field, value, "", allowed);
-}
-
 /// At most this many numbers in a table: 128 MB in double.
 inline constexpr std::size_t largest_table = std::size_t(1) << 24;
 
@@ -102,7 +98,7 @@ template <typename Scalar>
   if (values.size() != wanted)
     refuse("%s = %g: must be %g numbers", field, double(values.size()), double(wanted));
   for (const Scalar value : values)
-    if (!(value > low && value <= high)) reject_data(field, static_cast<double>(value), allowed);
+    if (!(value > low && value <= high)) reject(field, static_cast<double>(value), "", allowed);
 }
 /// What has no unit, or is a length of a beam: products of a few of them are finite in float, too.
 template <typename Scalar>
@@ -140,7 +136,7 @@ template <typename Scalar>
   if (!(s_max >= s_min && s_max <= high))
     reject("s_max", static_cast<double>(s_max), "m", "s_min to the end, a thousandth away where it is held");
   if ((s_min == s_max) != (positions == 1))
-    reject_data("positions", positions, "1 where s_min = s_max, 2 or more elsewhere");
+    reject("positions", positions, "", "1 where s_min = s_max, 2 or more elsewhere");
 }
 
 template <typename Scalar>
@@ -148,7 +144,7 @@ template <typename Scalar>
   const std::size_t segments = check_count("segments", shape.segments, 1, 1 << 14),
                     modes = check_count("modes", shape.modes, 1, 1 << 10);
   check_count("contact_node", shape.contact_node, 0, shape.segments);
-  if (grid * modes > largest_table) reject_data("modes", shape.modes, "fewer");
+  if (grid * modes > largest_table) reject("modes", shape.modes, "", "fewer");
   check_table("basis", shape.basis, 3 * (segments + 1) * modes);
   check_table("coefficients", shape.coefficients, grid * modes);
   check_table("rest_shape", shape.rest, 3 * (segments + 1));
@@ -166,7 +162,7 @@ template <typename Scalar>
   finite("y_low", static_cast<double>(data.y_low), "");
   finite("y_high", static_cast<double>(data.y_high), "");
   if (!(data.y_low < data.y_high) || (data.symmetric && data.y_low != 0))
-    reject_data("y_low", static_cast<double>(data.y_low), "below y_high, 0 where symmetric");
+    reject("y_low", static_cast<double>(data.y_low), "", "below y_high, 0 where symmetric");
   check_table("potential", data.potential, positions * depths, Scalar(0),
               (std::numeric_limits<Scalar>::max)(), "positive and finite in every entry");
   check_table("rest", data.rest, positions);
@@ -174,7 +170,7 @@ template <typename Scalar>
   const DepthCoordinate<Scalar> y(data.beam, data.symmetric);
   const Scalar rounding = std::sqrt(std::numeric_limits<Scalar>::epsilon()) * (data.y_high - data.y_low);
   for (const Scalar rest : data.rest) {
-    if (data.symmetric && rest != 0) reject_data("rest", static_cast<double>(rest), "0 where symmetric");
+    if (data.symmetric && rest != 0) reject("rest", static_cast<double>(rest), "", "0 where symmetric");
     if (!(y(data.depth - rest) <= data.y_high + rounding && y(-data.depth - rest) >= data.y_low - rounding))
       reject("depth", static_cast<double>(data.depth), "m", "within the depths of the grid, y_low to y_high");
   }

@@ -66,9 +66,7 @@ std::vector<double> potential(const Lagrange<Nodes>& y, const DepthCoordinate<do
       for (std::size_t g = 0; g < gauss_points.size(); ++g) {
         const double t = low + (high - low) * gauss_points[g];
         y.weights(coordinate(t * e), l.data());
-        double sum = 0;
-        for (std::size_t k = 0; k < K.size(); ++k) sum += l[k] * K[k];
-        work[j] += 2 * (high - low) * gauss_weights[g] * t * sum;
+        work[j] += 2 * (high - low) * gauss_weights[g] * t * dot(l.data(), K.data(), y.size());
       }
       high = low;
     }
@@ -94,12 +92,8 @@ void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coord
   for (int k = 0; k <= steps; ++k) {
     const double at = y.low() + (y.high() - y.low()) * k / steps, e = coordinate.inverse(at);
     y.weights(at, l.data());
-    double value = 0, slope = 0;
-    for (int i = 0; i < n; ++i) {
-      value += l[static_cast<std::size_t>(i)] * work[static_cast<std::size_t>(i)];
-      slope += l[static_cast<std::size_t>(i)] * slopes[static_cast<std::size_t>(i)];
-    }
-    const double stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
+    const double value = dot(l.data(), work.data(), n), slope = dot(l.data(), slopes.data(), n),
+                 stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
     if (!(value > 0 && stiffness > 0 && force > before))
       refuse(
           "depths = %d: must be more, or the plan less deep: at s = %g m the force between them is not a "

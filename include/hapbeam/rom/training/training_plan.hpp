@@ -55,7 +55,7 @@ struct TrainingPlan {
     detail::check_count("positions", positions, 1, 64);
     detail::check_count("depths", depths, 2, 64);
     detail::check_count("segments", segments, 2, 1 << 14);
-    if (positions > 1 && segments % 2 != 0) detail::reject_data("segments", segments, "even");
+    if (positions > 1 && segments % 2 != 0) detail::reject("segments", segments, "", "even");
     if (!beam.straight())
       detail::refuse(
           "beam: must be straight, with its ends where they are in the straight beam, to train a model of "
