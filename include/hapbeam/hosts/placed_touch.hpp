@@ -6,17 +6,15 @@
 //   const Eigen::Vector3d force = beam.tick(position);        // haptic thread
 //   draw(beam.picture().shape());                             // graphics thread
 //
-// A rod in space is touched with all of a stylus, too: it takes the pose of the hand and answers with force and torque.
+// A rod in space is touched with all of a stylus, too: it takes the pose of the hand and answers with force and torque about its place.
 //
 //   PlacedTouch<FemModel<RoundRod>> rod(model, 0.002, placement, {0.1, 0.1});   // a shaft of 100 mm behind its tip
 //   const Wrench felt = rod.tick(HandPose{position, orientation});
 //
-//   τ = (c - p) × F      c: where rod and shaft touch, p: the hand's place
-//
-// The force is that of Touch, bit by bit if the placement only exchanges axes. Force and torque are zero where the status is no
-// answer. A position beyond 1e9 or an orientation that is no rotation is invalid_request. There is no coupling and no guard: use a Servo for a beam stiffer than the device can render.
-// Real-time: tick() does not allocate and is noexcept, wait-free, and bounded as Touch::tick(). One other thread may
-// call picture(), wait-free.
+// The force is that of Touch, bit by bit if the placement only exchanges axes, and zero where the status is no answer.  A position beyond
+// 1e9 or an orientation that is no rotation is invalid_request.  There is no coupling and no guard: use a Servo for a beam stiffer than
+// the device can render.
+// Real-time: tick() does not allocate and is noexcept, wait-free, and bounded as Touch::tick().
 #pragma once
 
 #include <limits>

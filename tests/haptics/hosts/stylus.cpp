@@ -4,7 +4,7 @@
 
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
-#include <hapbeam/haptics/device/gimbal.hpp>
+#include <hapbeam/haptics/device/arm.hpp>
 #include <hapbeam/hosts/axes.hpp>
 #include <hapbeam/hosts/placed_touch.hpp>
 

@@ -24,7 +24,7 @@ struct HandTarget {
   Eigen::Vector3d position;       ///< [m] device axes
   Eigen::Vector3d velocity;       ///< [m/s]
   Eigen::Vector3d push{0, 0, 0};  ///< [N] held until the next target; a weight, for example
-  // Of a device with a gimbal: about its axes of yaw, pitch and roll (gimbal.hpp).
+  // Of a device with a gimbal: about its axes of yaw, pitch and roll (arm.hpp).
   Eigen::Vector3d turn{0, 0, 0};   ///< [rad] any number of turns
   Eigen::Vector3d spin{0, 0, 0};   ///< [rad/s]
   Eigen::Vector3d twist{0, 0, 0};  ///< [N·m] held until the next target

@@ -3,7 +3,7 @@
 //
 // The arm is a mass with viscous damping and Coulomb friction on each axis, which encoders read (arm_axis.hpp). Its force is held over the period and limited to the peak. A hand of mass, spring and damper pulls
 // the arm along a path (hand_path.hpp). Figures: thesis Table 2.1. There are three translations and, optionally, a
-// gimbal (gimbal.hpp), which the torque turns. There are no end stops.
+// gimbal (arm.hpp), which the torque turns. There are no end stops.
 //
 // It fulfils the device contract (device.hpp) with a thread of its own, in real time. It also runs in lock step with
 // simulated time: as fast as the machine can, with the same bits every time.
@@ -20,9 +20,9 @@
 #include <type_traits>
 #include <utility>
 
+#include <hapbeam/haptics/device/arm.hpp>
 #include <hapbeam/haptics/device/arm_axis.hpp>
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/device/gimbal.hpp>
 #include <hapbeam/haptics/device/hand_path.hpp>
 
 namespace hapbeam {
@@ -61,9 +61,9 @@ struct Tip {
 
 namespace detail {
 
-inline ArmAxis arm_axis(const VirtualPhantomOptions& o) noexcept {
-  return ArmAxis({o.arm.apparent_mass + o.hand.grip_mass, o.arm.damping + o.hand.damping, o.hand.stiffness,
-                  o.arm.friction});
+inline ArmAxisParameters axis_of(const VirtualPhantomOptions& o) noexcept {
+  return {o.arm.apparent_mass + o.hand.grip_mass, o.arm.damping + o.hand.damping, o.hand.stiffness,
+          o.arm.friction};
 }
 
 /// @throws std::invalid_argument
@@ -84,7 +84,7 @@ inline ArmAxis arm_axis(const VirtualPhantomOptions& o) noexcept {
   not_negative("hand damping", hand.damping, "N·s/m");
   not_negative("grip_mass", hand.grip_mass, "kg");
   // Bounded work: an arm that settles a thousand times within a period is a mistake in a unit.
-  if (arm.period > 500 * arm_axis(options).longest_piece())
+  if (arm.period > 500 * ArmAxis(axis_of(options)).longest_piece())
     reject("apparent_mass", arm.apparent_mass, "kg",
            "large enough that the arm does not settle in 1/1000 period");
   options.gimbal.check(arm.period);
@@ -171,10 +171,7 @@ class VirtualPhantom {
   /// Back to the beginning of the path, without motion, all counts zero.  Only while it does not run.
   void reset() noexcept;
   /// True state of the tip.  Only while it does not run, or from the servo.
-  Tip tip() const noexcept {
-    return {{axes_[0].position(), axes_[1].position(), axes_[2].position()},
-            {axes_[0].velocity(), axes_[1].velocity(), axes_[2].velocity()}};
-  }
+  Tip tip() const noexcept { return {arm_.position(), arm_.velocity()}; }
   /// True orientation of the stylus.  As tip().
   const Gimbal& gimbal() const noexcept { return gimbal_; }
 
@@ -185,7 +182,7 @@ class VirtualPhantom {
   template <typename Servo>
   void tick(Servo& servo) noexcept {
     OrientedState state;
-    state.position = encoders_.position(), state.velocity = encoders_.velocity();
+    state.position = arm_.encoders().position(), state.velocity = arm_.encoders().velocity();
     state.time = time_, state.cut = cut_, state.sent = sent_.force, state.sent_torque = sent_.torque;
     state.reset = ticks_.load(std::memory_order_relaxed) == 0;
     if (options_.gimbal.present) state.orientation = gimbal_.orientation();
@@ -230,8 +227,8 @@ class VirtualPhantom {
   Path path_;
   VirtualPhantomOptions options_;
   DeviceInfo info_;
-  ArmAxis axes_[3] = {detail::arm_axis(options_), detail::arm_axis(options_), detail::arm_axis(options_)};
-  Encoders encoders_{options_.arm.resolution, options_.arm.velocity_cutoff};
+  Arm arm_{detail::axis_of(options_), options_.hand.damping, options_.arm.resolution,
+           options_.arm.velocity_cutoff};
   Gimbal gimbal_{options_.gimbal, options_.arm.velocity_cutoff};
   HandTarget target_{};
   Wrench sent_;
@@ -255,8 +252,7 @@ void VirtualPhantom<Path>::reset() noexcept {
   late_.clear(), late_motors_.clear();
   cut_ = ForceCut::none;
   target_ = path_(0);
-  for (int i = 0; i < 3; ++i) axes_[i].place(target_.position[i]);
-  encoders_.reset(tip().position);
+  arm_.place(target_.position);
   gimbal_.reset(target_);
 }
 
@@ -266,12 +262,8 @@ void VirtualPhantom<Path>::advance() noexcept {
   const HandTarget from = target_;
   target_ = path_(time_);
   const int delay = options_.arm.delay_ticks;
-  const Eigen::Vector3d force = late_.pass(sent_.force, delay) + from.push;
-  for (int i = 0; i < 3; ++i)
-    axes_[i].advance(axes_[i].drive(force[i], from.position[i], from.velocity[i], target_.position[i],
-                                    target_.velocity[i], options_.hand.damping, period),
-                     period);
-  encoders_.read(tip().position, period);
+  arm_.advance(late_.pass(sent_.force, delay) + from.push, from.position, from.velocity, target_.position,
+               target_.velocity, period);
   if (!options_.gimbal.present) return;
   gimbal_.advance(late_motors_.pass(gimbal_.by_axes(sent_.torque), delay), from, target_, period);
 }

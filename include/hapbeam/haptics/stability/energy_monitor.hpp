@@ -3,17 +3,12 @@
 //
 //   W += F·Δx - b |Δx|²/T - f |Δx|      over each period of a contact
 //
-// F is the force that the motors held over the period, Δx the motion of the hand: F·Δx is exactly the work on hand and
-// arm. A device with rotations adds τ·Δθ - b_r |Δθ|²/T - f_r |Δθ|, with the torque that the motors held and the
-// rotation between two readings.
-// The work that the arm's own damping b and friction f have dissipated is subtracted. Its path is shortened by one step
-// of the encoders, which may not have been travelled. A beam returns the work of the press: at the end of a contact a
-// passive loop has W <= 0, and W > 0 is energy that the loop has generated.
-// While the force engages (ForceGuard), a beam costs less to press than it returns. A share e of its energy U that
-// rises by de lends the hand U de. That amount is known and bounded by U, and is subtracted as well.
+// F is the force that the motors held over the period, Δx the motion of the hand, b and f the arm's own damping and friction, whose path
+// is shortened by one step of the encoders.  A device with rotations adds τ·Δθ - b_r |Δθ|²/T - f_r |Δθ|.
+// A beam returns the work of the press: at the end of a contact W > 0 is energy that the loop has generated.  While the force engages
+// (ForceGuard), a share e of the beam's energy U that rises by de lends the hand U de, which is subtracted.
 // A beam that moves on gives back in one touch what it took in another: an account begins with what the beam has, as owed.
-// The controller adds -α v, α = W / (T v²), while W > 0. It dissipates the generated energy within a period, with at
-// most the damping of the arm, which is the limit for this sampling. Its force passes the guard like any other.
+// The controller adds -α v, α = W / (T v²), while W > 0, with at most the damping of the arm.  Its force passes the guard like any other.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 // Source: Hannaford and Ryu, IEEE Trans. Robotics and Automation 18(1), 2002; the exact work of a held force:
 // Stramigioli et al., IEEE Trans. Robotics 21(4), 2005.

@@ -6,17 +6,13 @@
 //   peak         |F| <= peak
 //   heat         of the motors, which goes with F²:  q' = (F²/Fc² - q)/τ.  The force that is allowed falls from peak to
 //                the continuous Fc as q goes from warm to 1, so q <= 1 always: Fc for ever, more for a moment
-//   engage       after start, failure or a pause what is allowed comes in linearly over engage_time
+//   engage       after start, failure or a pause what is allowed comes in linearly over engage_time, by a period a tick at most
 //   slew         the force grows by at most slew_rate · dt; toward zero it may fall at once
 //
-// dt is the time since the tick before, by the device's clock. If the clock stands, runs backwards or is NaN, nothing
-// grows, and the motors are heated for a period. After a late tick the force grows by no more than in two periods.
-// After longest_pause, or where the clock has been set back by more, the hand may be anywhere: the force engages anew.
-// A tick engages for a period T at most, however late it is: n ticks after start, failure or pause the force is at most
-// n T / engage_time of what is allowed. A pause is no time in which the force has come in.
-// For every input the force is finite and within the peak, and lies within slew_rate · 2 periods of the segment from
-// the last force to zero. q <= 1 while ticks are on time.
-// A torque is treated likewise, with limits and motors of its own. Failure and engagement apply to both.
+// dt is the time since the tick before, by the device's clock; two periods at most.  If the clock stands, runs backwards or is NaN,
+// nothing grows, and the motors are heated for a period.  After longest_pause, or where the clock has been set back by more, the hand
+// may be anywhere: the force engages anew.
+// A torque is treated likewise, with limits and motors of its own.  Failure and engagement apply to both.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 #pragma once
 
