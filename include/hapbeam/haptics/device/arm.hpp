@@ -97,6 +97,50 @@ class Arm {
   Encoders encoders_;
 };
 
+/// The hand that holds the arm, a spring and a damper between path and grip; within the published fits.
+struct HandOptions {
+  double stiffness = 500;  ///< [N/m]; 0: the hand does not follow the path
+  double damping = 1.3;    ///< [N·s/m]
+  double grip_mass = 0.2;  ///< [kg] that moves with the arm
+};
+
+/// The arm.  Defaults are the thesis' Table 2.1 where no other source is named.
+struct ArmOptions {
+  double apparent_mass = 0.21;   ///< [kg] at the tip, positive
+  double damping = 5;            ///< [N·s/m] viscous; not in the table, a figure seen for such a unit
+  double friction = 0.2;         ///< [N] Coulomb, on each axis
+  double resolution = 7e-6;      ///< [m] of the encoders; 0: exact
+  double velocity_cutoff = 100;  ///< [Hz] of the velocity's low pass, positive; not in the table
+  double peak_force = 37.5;      ///< [N] positive
+  double period = 1e-3;          ///< [s] of the servo loop, 1e-5 to 1
+  int delay_ticks = 0;           ///< whole periods between a force and the motors, 0 to 16
+  double jitter = 0;  ///< share of a period by which the time between two ticks differs from it, 0 to 0.9
+
+  ArmAxisParameters axis(const HandOptions& hand) const noexcept {
+    return {apparent_mass + hand.grip_mass, damping + hand.damping, hand.stiffness, friction};
+  }
+  /// @throws std::invalid_argument
+  void check(const HandOptions& hand) const {
+    detail::positive("apparent_mass", apparent_mass, "kg");
+    detail::not_negative("arm damping", damping, "N·s/m");
+    detail::not_negative("friction", friction, "N");
+    detail::not_negative("resolution", resolution, "m");
+    detail::positive("velocity_cutoff", velocity_cutoff, "Hz");
+    detail::positive("peak_force", peak_force, "N");
+    if (!(period >= 1e-5 && period <= 1)) detail::reject("period", period, "s", "1e-5 to 1");
+    if (!(delay_ticks >= 0 && delay_ticks <= detail::DelayLine::longest))
+      detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
+    if (!(jitter >= 0 && jitter <= 0.9)) detail::reject("jitter", jitter, "", "0 to 0.9");
+    detail::not_negative("hand stiffness", hand.stiffness, "N/m");
+    detail::not_negative("hand damping", hand.damping, "N·s/m");
+    detail::not_negative("grip_mass", hand.grip_mass, "kg");
+    // Bounded work: an arm that settles a thousand times within a period is a mistake in a unit.
+    if (period > 500 * ArmAxis(axis(hand)).longest_piece())
+      detail::reject("apparent_mass", apparent_mass, "kg",
+                     "large enough that the arm does not settle in 1/1000 period");
+  }
+};
+
 /// No published figures were found: these are assumed, and the torque is low for such a device.
 struct GimbalOptions {
   bool present = false;             ///< false: a device of three axes

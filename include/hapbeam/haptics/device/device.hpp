@@ -27,7 +27,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -148,26 +147,6 @@ Eigen::Vector3d rotation_vector(const Rotation& R) noexcept {
   if (!(sine > 0)) return Eigen::Vector3d::Zero();
   return twice * (std::atan2(sine, (R(0, 0) + R(1, 1) + R(2, 2) - 1) / 2) / (2 * sine));
 }
-
-/// What is late by whole ticks.
-class DelayLine {
- public:
-  static constexpr int longest = 16;
-
-  /// @param newest  of this tick   @param ticks  0 to longest   @return of so many ticks ago; zero where there was none
-  const Eigen::Vector3d& pass(const Eigen::Vector3d& newest, int ticks) noexcept {
-    std::move_backward(all_.begin(), all_.end() - 1, all_.end());
-    all_[0] = newest;
-    return all_[static_cast<std::size_t>(ticks)];
-  }
-  void clear() noexcept { all_.fill(Eigen::Vector3d::Zero()); }
-
- private:
-  std::array<Eigen::Vector3d, longest + 1> all_ = [] {
-    std::array<Eigen::Vector3d, longest + 1> none;
-    return none.fill(Eigen::Vector3d::Zero()), none;
-  }();
-};
 
 }  // namespace detail
 

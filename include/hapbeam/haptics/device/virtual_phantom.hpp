@@ -27,30 +27,17 @@
 
 namespace hapbeam {
 
-/// The arm.  Defaults are the thesis' Table 2.1 where no other source is named.
-struct ArmOptions {
-  double apparent_mass = 0.21;   ///< [kg] at the tip, positive
-  double damping = 5;            ///< [N·s/m] viscous; not in the table, a figure seen for such a unit
-  double friction = 0.2;         ///< [N] Coulomb, on each axis
-  double resolution = 7e-6;      ///< [m] of the encoders; 0: exact
-  double velocity_cutoff = 100;  ///< [Hz] of the velocity's low pass, positive; not in the table
-  double peak_force = 37.5;      ///< [N] positive
-  double period = 1e-3;          ///< [s] of the servo loop, 1e-5 to 1
-  int delay_ticks = 0;           ///< whole periods between a force and the motors, 0 to 16
-  double jitter = 0;  ///< share of a period by which the time between two ticks differs from it, 0 to 0.9
-};
-
-/// The hand that holds the arm, a spring and a damper between path and grip; within the published fits.
-struct HandOptions {
-  double stiffness = 500;  ///< [N/m]; 0: the hand does not follow the path
-  double damping = 1.3;    ///< [N·s/m]
-  double grip_mass = 0.2;  ///< [kg] that moves with the arm
-};
-
 struct VirtualPhantomOptions {
   ArmOptions arm;
   HandOptions hand;
   GimbalOptions gimbal = {};
+
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  const VirtualPhantomOptions& check() const {
+    arm.check(hand);
+    gimbal.check(arm.period);
+    return *this;
+  }
 };
 
 /// True position and velocity of the arm's tip, which a real device cannot report.
@@ -60,36 +47,6 @@ struct Tip {
 };
 
 namespace detail {
-
-inline ArmAxisParameters axis_of(const VirtualPhantomOptions& o) noexcept {
-  return {o.arm.apparent_mass + o.hand.grip_mass, o.arm.damping + o.hand.damping, o.hand.stiffness,
-          o.arm.friction};
-}
-
-/// @throws std::invalid_argument
-[[gnu::cold]] inline const VirtualPhantomOptions& checked(const VirtualPhantomOptions& options) {
-  const ArmOptions& arm = options.arm;
-  const HandOptions& hand = options.hand;
-  positive("apparent_mass", arm.apparent_mass, "kg");
-  not_negative("arm damping", arm.damping, "N·s/m");
-  not_negative("friction", arm.friction, "N");
-  not_negative("resolution", arm.resolution, "m");
-  positive("velocity_cutoff", arm.velocity_cutoff, "Hz");
-  positive("peak_force", arm.peak_force, "N");
-  if (!(arm.period >= 1e-5 && arm.period <= 1)) reject("period", arm.period, "s", "1e-5 to 1");
-  if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= DelayLine::longest))
-    reject("delay_ticks", arm.delay_ticks, "", "0 to 16");
-  if (!(arm.jitter >= 0 && arm.jitter <= 0.9)) reject("jitter", arm.jitter, "", "0 to 0.9");
-  not_negative("hand stiffness", hand.stiffness, "N/m");
-  not_negative("hand damping", hand.damping, "N·s/m");
-  not_negative("grip_mass", hand.grip_mass, "kg");
-  // Bounded work: an arm that settles a thousand times within a period is a mistake in a unit.
-  if (arm.period > 500 * ArmAxis(axis_of(options)).longest_piece())
-    reject("apparent_mass", arm.apparent_mass, "kg",
-           "large enough that the arm does not settle in 1/1000 period");
-  options.gimbal.check(arm.period);
-  return options;
-}
 
 [[gnu::cold]] inline DeviceInfo describe(const VirtualPhantomOptions& options) {
   const ArmOptions& arm = options.arm;
@@ -118,7 +75,7 @@ class VirtualPhantom {
  public:
   /// @throws std::invalid_argument naming field, value and unit; also where a HandPath leaves the workspace
   explicit VirtualPhantom(Path path, const VirtualPhantomOptions& options = {})
-      : path_(std::move(path)), options_(detail::checked(options)), info_(detail::describe(options)) {
+      : path_(std::move(path)), options_(options.check()), info_(detail::describe(options)) {
     check_workspace();
     reset();
   }
@@ -227,7 +184,7 @@ class VirtualPhantom {
   Path path_;
   VirtualPhantomOptions options_;
   DeviceInfo info_;
-  Arm arm_{detail::axis_of(options_), options_.hand.damping, options_.arm.resolution,
+  Arm arm_{options_.arm.axis(options_.hand), options_.hand.damping, options_.arm.resolution,
            options_.arm.velocity_cutoff};
   Gimbal gimbal_{options_.gimbal, options_.arm.velocity_cutoff};
   HandTarget target_{};
