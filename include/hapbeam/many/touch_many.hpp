@@ -3,9 +3,8 @@
 // and the sum of their forces.
 //
 // A beam that is met takes a model and a Touch from a pool. It returns them when it is released and clear of the
-// avatar: the memory of a contact ends with the touch. All other beams are undeformed. A hierarchy over them finds
-// those near the avatar's last step, and contact is sought with these alone. So the force is that of one Touch a beam,
-// and a tick costs O(log n + beams near by).
+// avatar. All other beams are undeformed. A hierarchy over them finds those near the avatar's last step, and contact is
+// sought with these alone: a tick costs O(log n + beams near by).
 // If more beams are met than the pool holds, the deepest are taken. A beam that was left out is ignored until the
 // avatar has left it.
 // Only the constructor allocates and throws.
@@ -148,7 +147,6 @@ class Touch<BeamArray<Model>> {
   };
 
   int most_looks() const noexcept { return 2 * array_.most_touched() + 8; }
-  int most_boxes() const noexcept { return 64 * array_.most_touched(); }
   Slot& slot(std::int32_t i) noexcept { return *slots_[static_cast<std::size_t>(i)]; }
   const typename Array::Beam& beam(const Slot& slot) const noexcept { return array_.sorted(slot.beam); }
 
@@ -156,7 +154,7 @@ class Touch<BeamArray<Model>> {
   bool meet(const Vector2<Scalar>& position) noexcept {
     met_.clear();
     const detail::Step<Scalar> step{known_ ? last_ : position, position, avatar_radius_};
-    int looks = most_looks(), boxes = most_boxes();
+    int looks = most_looks(), boxes = 64 * array_.most_touched();
     bool complete = true;
     array_.tree_.visit(step, [&](int i) {
       if (slot_of_[static_cast<std::size_t>(i)] != none) return true;
@@ -176,11 +174,12 @@ class Touch<BeamArray<Model>> {
       else met_.push_back({contact, i});
       return true;
     });
-    const std::size_t room = static_cast<std::size_t>(array_.most_touched()) - held_.size();
-    if (met_.size() <= room) return complete;
-    std::nth_element(met_.begin(), met_.begin() + static_cast<std::ptrdiff_t>(room), met_.end(),
+    const std::ptrdiff_t room = array_.most_touched() - static_cast<std::ptrdiff_t>(held_.size());
+    if (static_cast<std::ptrdiff_t>(met_.size()) <= room) return complete;
+    const auto left_out = met_.begin() + room;
+    std::nth_element(met_.begin(), left_out, met_.end(),
                      [](const Met& a, const Met& b) { return a.contact.depth > b.contact.depth; });
-    met_.erase(met_.begin() + static_cast<std::ptrdiff_t>(room), met_.end());
+    met_.erase(left_out, met_.end());
     return false;
   }
   Contact<Scalar> look(const typename Array::Kind& kind, const Vector2<Scalar>& local,

@@ -6,12 +6,10 @@
 //   RodModel model = build(scene, choice.model());
 //
 // A rod that answers in any plane alike is chosen for as a beam is (choose.hpp), and its model turned (turning_plane.hpp).  For all
-// others RoundRod and TwistedRod are tried at growing size on the pushes of a RodPilot.
-// The pilot's reference is TwistedRod, or RoundRod where nobody holds the twist, with as many elements as
-// it takes until half of them give the same force to a twentieth of the tolerated error, or with 256.  A rod that rests straight is
-// pushed along three directions across it, from a hundredth of the depth on; another along eight, from a thousandth on.
-// A bent rod gives way to one side many times as much as to another, and the relative error of its force peaks near the stiffest
-// side, in a range of angles that is the narrower the more the stiffnesses differ.  With C the compliance across the rod,
+// others RoundRod and TwistedRod are tried at growing size on the pushes of a RodPilot.  Its reference is TwistedRod, or RoundRod where
+// nobody holds the twist, with at most 256 elements.  A rod that rests straight is pushed along three directions across it, another along
+// eight: it gives way to one side many times as much as to another, and the relative error of its force peaks near the stiffest side.
+// With C the compliance across the rod,
 //
 //   F = d/(nᵀC n),   n ~ C^(-½) m:   δF/F = -mᵀ C^(-½) δC C^(-½) m        for unit m
 //

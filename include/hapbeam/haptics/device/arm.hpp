@@ -128,8 +128,7 @@ struct ArmOptions {
     detail::positive("velocity_cutoff", velocity_cutoff, "Hz");
     detail::positive("peak_force", peak_force, "N");
     if (!(period >= 1e-5 && period <= 1)) detail::reject("period", period, "s", "1e-5 to 1");
-    if (!(delay_ticks >= 0 && delay_ticks <= detail::DelayLine::longest))
-      detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
+    detail::DelayLine::checked(delay_ticks);
     if (!(jitter >= 0 && jitter <= 0.9)) detail::reject("jitter", jitter, "", "0 to 0.9");
     detail::not_negative("hand stiffness", hand.stiffness, "N/m");
     detail::not_negative("hand damping", hand.damping, "N·s/m");

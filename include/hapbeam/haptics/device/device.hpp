@@ -2,8 +2,7 @@
 // The contract between a haptic device and the computation that gives it force.
 //
 // A device owns the servo loop. Once a period, on its own thread, it reads the position of the hand, calls a servo for
-// the force and sends that force. A servo is a callable object, passed by reference: nothing is copied or allocated,
-// and a C callback with a void* can carry it. It must outlive the loop.
+// the force and sends that force. A servo is a callable object, passed by reference. It must outlive the loop.
 //
 //   a servo S
 //   s(state)      Eigen::Vector3d   noexcept; the force on the hand [N], device axes; no allocation or waiting
@@ -20,10 +19,9 @@
 //   d.status()    DeviceStatus      noexcept, wait-free, from any thread: how it is, or what ended the loop
 //   d.counts()    DeviceCounts      noexcept, wait-free, from any thread, while running and after
 //
-// A device sends only finite forces and torques within its peak, whatever the servo returns. The next tick's state has
-// what was sent. A device in trouble sends less than requested, or nothing. DeviceState::status has the reason, and
-// DeviceState::reset tells the servo to discard the contact. Axes: x right, y up, z toward the user, as in OpenHaptics'
-// HDAPI. Units are SI.
+// A device sends only finite forces and torques within its peak, whatever the servo returns; the next tick's state has what was sent.
+// DeviceState::status has the reason for less, and DeviceState::reset tells the servo to discard the contact.  Axes: x right, y up, z
+// toward the user, as in OpenHaptics' HDAPI. Units are SI.
 #pragma once
 
 #include <algorithm>
@@ -120,23 +118,20 @@ inline bool all_finite(const Eigen::Vector3d& v) noexcept {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
-/// Whether a hand can be there: farther out, positions are a reading or a unit gone wrong, and their powers overflow.
-inline bool is_place(const Eigen::Vector3d& position) noexcept {
-  constexpr double farthest = 1e9;  // [m]
-  return std::abs(position[0]) <= farthest && std::abs(position[1]) <= farthest &&
-         std::abs(position[2]) <= farthest;
+/// Whether a hand can be there: beyond 1e9 m positions are a reading or a unit gone wrong, and their powers overflow.
+inline bool is_place(const Eigen::Vector3d& r) noexcept {
+  return std::abs(r[0]) <= 1e9 && std::abs(r[1]) <= 1e9 && std::abs(r[2]) <= 1e9;
 }
 
 /// Whether a matrix is a rotation but for its last digits.
 inline bool is_rotation(const Eigen::Matrix3d& R) noexcept {
-  constexpr double most = 1e-2;
   double skew = 0;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {
       const double error = R(0, i) * R(0, k) + R(1, i) * R(1, k) + R(2, i) * R(2, k) - (i == k);
       skew += error * error;
     }
-  return skew <= most * most;
+  return skew <= 1e-4;
 }
 
 /// Axis times angle of a rotation [rad].   @param R  its entries, R(i, j)

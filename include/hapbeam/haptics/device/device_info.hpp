@@ -126,6 +126,11 @@ class DelayLine {
  public:
   static constexpr int longest = 16;
 
+  /// @throws std::invalid_argument for ticks that are not 0 to longest
+  static int checked(int ticks) {
+    if (!(ticks >= 0 && ticks <= longest)) reject("delay_ticks", ticks, "", "0 to 16");
+    return ticks;
+  }
   /// @param newest  of this tick   @param ticks  0 to longest   @return of so many ticks ago; zero where there was none
   const Eigen::Vector3d& pass(const Eigen::Vector3d& newest, int ticks) noexcept {
     std::move_backward(all_.begin(), all_.end() - 1, all_.end());

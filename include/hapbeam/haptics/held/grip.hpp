@@ -171,7 +171,7 @@ class GripCoupling {
                                detail::positive("grip turning stiffness", t, "N·m/rad"), t, t);
   }
   void reset() noexcept {
-    forget();
+    gap_.setZero(), turn_.setZero();
     continued_ = 0, last_ = {};
   }
 
@@ -227,20 +227,16 @@ class GripCoupling {
   double share(const CouplingFigures& figures) const noexcept {
     return 1 - figures.stiffness / stiff(figures);
   }
-  void forget() noexcept { gap_.setZero(), turn_.setZero(); }
 
   static Eigen::Matrix3d turn_by(const Eigen::Vector3d& by) noexcept {
     const double angle = by.norm();
-    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-    if (!(angle > 0)) return R;
-    const Eigen::Vector3d axis = by / angle;
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d e = R.col(k);
-      R.col(k) = std::cos(angle) * e + std::sin(angle) * detail::cross3<double>(axis, e) +
-                 ((1 - std::cos(angle)) * axis[k]) * axis;
-    }
-    return R;
+    if (!(angle > 0)) return Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d K;  // by × …
+    K << 0, -by[2], by[1], by[2], 0, -by[0], -by[1], by[0], 0;
+    return Eigen::Matrix3d::Identity() + std::sin(angle) / angle * K +
+           (1 - std::cos(angle)) / (angle * angle) * (K * K);
   }
+
   CouplingFigures place_, turning_;
   double period_;
   Eigen::Vector3d gap_{0, 0, 0};   // g [m]

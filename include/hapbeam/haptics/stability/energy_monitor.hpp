@@ -39,10 +39,7 @@ class EnergyMonitor {
         gimbal_friction_(device.gimbal.friction),
         gimbal_step_(device.gimbal.resolution),
         peak_torque_(device.gimbal.peak_torque),
-        delay_(delay_ticks) {
-    if (!(delay_ticks >= 0 && delay_ticks <= detail::DelayLine::longest))
-      detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
-  }
+        delay_(detail::DelayLine::checked(delay_ticks)) {}
 
   /// [J] generated so far, in contacts that have ended and in this one.
   double generated() const noexcept { return ended_ + (std::max)(0.0, net_); }

@@ -47,17 +47,6 @@ struct Snapshots {
 
 namespace detail {
 
-/// The tension of the model's present press [N], from F d = 2V + N² L/EA with V the model's strain energy. An end that
-/// slides takes none.
-template <class Model>
-double tension_of(const Model& model, const BeamData<double>& beam, double force, double d) {
-  if (!fixes_u(beam.left) || !fixes_u(beam.right)) return 0;
-  const double membrane = force * d - 2 * model.strain_energy();
-  // Round-off and the solver's tolerance leave a linear element this much.
-  if (!(membrane > 1e-8 * std::abs(force * d))) return 0;
-  return std::sqrt(membrane * beam.axial_stiffness / beam.length);
-}
-
 template <class Nodes, class Model>
 class SnapshotTaker {
  public:
@@ -82,8 +71,7 @@ class SnapshotTaker {
       for (const double value : {at.u, at.w, at.theta}) out_.rest_shape.push_back(value);
     }
     if (!loaded) std::fill(out_.rest_shape.begin(), out_.rest_shape.end(), 0.0);
-    if (loaded && plan.symmetric)
-      throw std::invalid_argument("symmetric = true: must be false for a beam under dead loads");
+    if (loaded && plan.symmetric) refuse("symmetric = true: must be false for a beam under dead loads");
     for (int i = 0; i < plan.positions; ++i) {
       const double rest = shape.at(s(i)).w;
       if (std::abs(rest) >= plan.depth)
@@ -105,7 +93,7 @@ class SnapshotTaker {
     out_.y_low = plan.symmetric ? 0 : coordinate(-plan.depth - *high);
     out_.y_high = coordinate(plan.depth - *low);
     const Lagrange<Nodes> y(plan.depths, out_.y_low, out_.y_high);
-    allocate();
+    out_.grid.resize(static_cast<std::size_t>(plan.positions * out_.columns));
     for_each_position(full_, plan.positions, options_.threads, [&](Model& model, int i) {
       const double rest = out_.rest[static_cast<std::size_t>(i)];
       // From rest outward to either side, as a hand would.
@@ -121,8 +109,7 @@ class SnapshotTaker {
 
   Snapshots by_tension() {
     const TrainingPlan& plan = out_.plan;
-    if (!plan.symmetric)
-      throw std::invalid_argument("symmetric = false: must be true, a GalerkinModel takes no dead loads");
+    if (!plan.symmetric) refuse("symmetric = false: must be true, a GalerkinModel takes no dead loads");
     // The tensions of the plan and some way beyond, as far as the full model goes everywhere.
     const double headroom = 1.6;
     double needed = 0, reach = std::numeric_limits<double>::infinity(), nearest_limit = 0;
@@ -138,16 +125,16 @@ class SnapshotTaker {
       out_.tension = (std::max)(out_.tension, tension_at(full_, at, (std::min)(headroom * plan.depth, most)));
     }
     if (needed > reach)
-      throw TrainingError(
-          "depth = " + detail::number(plan.depth) + " m: its tension, " + detail::number(needed) +
-          " N, must be one that the full model reaches within its range everywhere, at s = " +
-          detail::number(nearest_limit) +
-          " m too: " + detail::number(0.99 * plan.depth * std::sqrt(reach / needed)) + " m would be");
+      refuse<TrainingError>(
+          "depth = %g m: its tension, %g N, must be one that the full model reaches within its range "
+          "everywhere, "
+          "at s = %g m too: %g m would be",
+          plan.depth, needed, nearest_limit, 0.99 * plan.depth * std::sqrt(reach / needed));
     // A plan so shallow that it stretches nothing gets the tensions where bending still outweighs them.
     out_.tension = reach > 0 ? (std::min)((std::max)(out_.tension, coordinate.unit()), reach) : 0;
     if (out_.tension == 0) out_.columns = 1;
     const Lagrange<Nodes> z(out_.columns, 0, coordinate(out_.tension));
-    allocate();
+    out_.grid.resize(static_cast<std::size_t>(plan.positions * out_.columns));
     for_each_position(full_, plan.positions, options_.threads, [&](Model& model, int i) {
       model.reset();
       // Where bending and stretching are alike.
@@ -177,12 +164,14 @@ class SnapshotTaker {
     return std::abs(inside - s) <= 1e-9 * out_.beam.length ? inside : s;
   }
 
-  void allocate() {
-    out_.grid.resize(static_cast<std::size_t>(out_.plan.positions) * static_cast<std::size_t>(out_.columns));
-  }
-
+  /// The tension of a press [N], from F d = 2V + N² L/EA with V the model's strain energy.  An end that slides takes none.
   double tension_at(Model& model, double s, double d) const {
-    return tension_of(model, out_.beam, press_for_training(model, s, d), d);
+    const double work = press_for_training(model, s, d) * d;
+    if (!fixes_u(out_.beam.left) || !fixes_u(out_.beam.right)) return 0;
+    const double membrane = work - 2 * model.strain_energy();
+    // Round-off and the solver's tolerance leave a linear element this much.
+    if (!(membrane > 1e-8 * std::abs(work))) return 0;
+    return std::sqrt(membrane * out_.beam.axial_stiffness / out_.beam.length);
   }
 
   /// The depth whose tension is N, by secants of ln N over ln d.
@@ -202,8 +191,11 @@ class SnapshotTaker {
       before = next, miss_before = now;
       next *= std::exp(-now * power);
     }
-    throw TrainingError("no press at s = " + detail::number(s) + " m has a tension of " + detail::number(N) +
-                        " N; the full model's solver may be too loose, or its range too small");
+    refuse<TrainingError>(
+        "no press at s = %g m has a tension of %g N; the full model's solver may be too loose, or its range "
+        "too "
+        "small",
+        s, N);
   }
 
   /// A depth that stands for zero [m]: the error of F/e is (e/ρ)².
@@ -218,8 +210,7 @@ class SnapshotTaker {
     if (out_.plan.symmetric) e = (std::max)(e, shallow);
     const double s = this->s(i), d = e + rest;
     const double force = press_for_training(model, s, d);
-    Snapshot& snapshot = out_.grid[static_cast<std::size_t>(i) * static_cast<std::size_t>(out_.columns) +
-                                   static_cast<std::size_t>(j)];
+    Snapshot& snapshot = out_.grid[static_cast<std::size_t>(i * out_.columns + j)];
     snapshot = {s, d, force, force / e, {}};
     for (int k = 0; k <= out_.plan.segments; ++k) {
       const double x = frame_.position(k, s);

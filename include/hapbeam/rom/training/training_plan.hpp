@@ -108,18 +108,16 @@ struct TrainingOptions {
 
 namespace detail {
 
-inline std::string describe(double s, double d) { return "s = " + number(s) + " m, d = " + number(d) + " m"; }
-
 /// One press, or a TrainingError.
 template <class Model>
 double press_for_training(Model& model, double s, double d) {
   const Response<double> response = model.press({s, d});
   if (response.status == Status::ok) return response.force;
-  const double limit = model.range().depth_at(s);
-  throw TrainingError("the press at " + describe(s, d) + ": " + name(response.status) +
-                      (response.status == Status::out_of_range
-                           ? ", the full model answers up to " + number(limit) + " m there"
-                           : ""));
+  char limit[80] = "";
+  if (response.status == Status::out_of_range)
+    std::snprintf(limit, sizeof limit, ", the full model answers up to %g m there",
+                  model.range().depth_at(s));
+  refuse<TrainingError>("the press at s = %g m, d = %g m: %s%s", s, d, name(response.status), limit);
 }
 
 /// Runs work(model, i) for each position i on as many threads.  The first exception ends all and is thrown again.
