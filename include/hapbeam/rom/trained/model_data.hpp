@@ -52,36 +52,37 @@ struct ErrorReport {
   double reference_error = 0;
 };
 
+/// What both kinds of trained models have.
+template <typename Scalar>
+struct TrainedData {
+  BeamData<Scalar> beam;
+  Scalar s_min, s_max;  ///< [m] equal where one position was trained
+  Scalar depth;         ///< [m] largest |d| in range
+  int positions;        ///< of the grid
+  ShapeData<Scalar> shape;
+  ErrorReport errors;
+};
+
 /// Of a PodModel.  Grids run through the positions, and for each through the depths.
 template <typename Scalar>
-struct PodModelData {
+struct PodModelData : TrainedData<Scalar> {
   static constexpr const char* kind = "pod";
-  BeamData<Scalar> beam;
-  Scalar s_min, s_max;            ///< [m] equal where one position was trained
-  Scalar depth;                   ///< [m] largest |d| in range
   bool symmetric;                 ///< the force is odd in d: no dead load
-  int positions, depths;          ///< of the grid
+  int depths;                     ///< of the grid
   Scalar y_low, y_high;           ///< ends of the interval of DepthCoordinate
   std::vector<Scalar> potential;  ///< positions × depths: scale(s) · 2V/e² [N/m], V the work of the press
   std::vector<Scalar> rest;  ///< positions: w of the untouched beam [m], from which e = d - rest is measured
-  ShapeData<Scalar> shape;
-  ErrorReport errors;
 
   int others() const noexcept { return depths; }  ///< size of the grid along its other axis
 };
 
 /// Of a GalerkinModel.  Grids run through the positions, and for each through the tensions.
 template <typename Scalar>
-struct GalerkinModelData {
+struct GalerkinModelData : TrainedData<Scalar> {
   static constexpr const char* kind = "galerkin";
-  BeamData<Scalar> beam;
-  Scalar s_min, s_max;                ///< [m]
-  Scalar depth;                       ///< [m] largest |d| in range
-  int positions, tensions;            ///< of the grid; one tension where none arises
+  int tensions;                       ///< of the grid; one tension where none arises
   Scalar tension;                     ///< [N] largest trained; 0 where none arises
   std::vector<Scalar> log_stiffness;  ///< positions × tensions: ln(scale(s) F/d) of the force in N/m
-  ShapeData<Scalar> shape;
-  ErrorReport errors;
 
   int others() const noexcept { return tensions; }  ///< size of the grid along its other axis
 };
@@ -207,22 +208,27 @@ ShapeData<To> cast(const ShapeData<From>& s) {
   return {s.segments, s.contact_node, s.modes, cast<To>(s.basis), cast<To>(s.coefficients), cast<To>(s.rest)};
 }
 
+template <typename To, typename From>
+TrainedData<To> cast(const TrainedData<From>& d) {
+  return {cast<To>(d.beam), To(d.s_min), To(d.s_max), To(d.depth), d.positions, cast<To>(d.shape), d.errors};
+}
+
 }  // namespace detail
 
 /// The same model in another scalar: cast<float>(data).  The error report stays; measure again if it matters.
 template <typename To, typename From>
 PodModelData<To> cast(const PodModelData<From>& d) {
-  using detail::cast;
-  return {cast<To>(d.beam), To(d.s_min),       To(d.s_max), To(d.depth),  d.symmetric,
-          d.positions,      d.depths,          To(d.y_low), To(d.y_high), cast<To>(d.potential),
-          cast<To>(d.rest), cast<To>(d.shape), d.errors};
+  return {detail::cast<To>(d),
+          d.symmetric,
+          d.depths,
+          To(d.y_low),
+          To(d.y_high),
+          detail::cast<To>(d.potential),
+          detail::cast<To>(d.rest)};
 }
 template <typename To, typename From>
 GalerkinModelData<To> cast(const GalerkinModelData<From>& d) {
-  using detail::cast;
-  return {cast<To>(d.beam),  To(d.s_min), To(d.s_max),   To(d.depth),
-          d.positions,       d.tensions,  To(d.tension), cast<To>(d.log_stiffness),
-          cast<To>(d.shape), d.errors};
+  return {detail::cast<To>(d), d.tensions, To(d.tension), detail::cast<To>(d.log_stiffness)};
 }
 
 }  // namespace hapbeam
