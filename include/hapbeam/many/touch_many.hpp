@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <hapbeam/contact/touch.hpp>
@@ -67,7 +68,8 @@ class Touch<BeamArray<Model>> {
   void reset() noexcept {
     while (!held_.empty()) give_back(held_.size() - 1);
     touches_.clear();
-    known_ = pressing_ = false;
+    last_.reset();
+    pressing_ = false;
   }
 
   /// One tick.   @param position  [m] centre of the avatar, in the array's axes
@@ -95,7 +97,6 @@ class Touch<BeamArray<Model>> {
     }
     pressing_ = result.pressing;
     last_ = position;
-    known_ = true;
     if (!result.complete && worse(Status::out_of_range, result.status)) result.status = Status::out_of_range;
     return result;
   }
@@ -153,7 +154,7 @@ class Touch<BeamArray<Model>> {
   /// Fills met_ with those beams that may be taken, the deepest.   @return false where there are more
   bool meet(const Vector2<Scalar>& position) noexcept {
     met_.clear();
-    const detail::Step<Scalar> step{known_ ? last_ : position, position, avatar_radius_};
+    const detail::Step<Scalar> step{last_.value_or(position), position, avatar_radius_};
     int looks = most_looks(), boxes = 64 * array_.most_touched();
     bool complete = true;
     array_.tree_.visit(step, [&](int i) {
@@ -166,11 +167,11 @@ class Touch<BeamArray<Model>> {
       if (looks-- == 0) return complete = false;
       ContactMemory<Scalar> memory;
       memory.place = before;
-      memory.known = known_;
+      memory.known = last_.has_value();
       const Contact<Scalar> contact = look(kind, here, memory);
       if (!contact.touching) return true;
       ContactMemory<Scalar> nothing;
-      if (known_ && look(kind, before, nothing).touching) complete = false;  // left out before
+      if (last_ && look(kind, before, nothing).touching) complete = false;  // left out before
       else met_.push_back({contact, i});
       return true;
     });
@@ -198,7 +199,7 @@ class Touch<BeamArray<Model>> {
     Slot& slot = this->slot(taken);
     slot.beam = met.beam;
     slot.touch.reset();
-    if (known_) (void)slot.touch.tick(beam(slot).frame.local(last_));
+    if (last_) (void)slot.touch.tick(beam(slot).frame.local(*last_));
     return slot;
   }
   void give_back(std::size_t k) noexcept {
@@ -240,8 +241,7 @@ class Touch<BeamArray<Model>> {
   std::vector<std::int32_t> slot_of_;            // by beam as the array has sorted them, or none
   std::vector<Met> met_;
   std::vector<BeamTouch<Scalar>> touches_;
-  Vector2<Scalar> last_{0, 0};
-  bool known_ = false;  // last_ is where the avatar was
+  std::optional<Vector2<Scalar>> last_;  // where the avatar was
   bool pressing_ = false;
   Scalar hardest_ = 0;  // [N²] in this tick
 };

@@ -28,6 +28,7 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -134,7 +135,8 @@ class Hdapi {
     cut_ = ForceCut::none;
     ramp_.start();
     device_.calibration.start();
-    anew_ = true, timed_ = false;
+    anew_ = true;
+    first_.reset();
     detail::HdErrors errors;
     part_ = Part::scheduled;
     const bool linked = Scheduler::call([this]() noexcept {
@@ -257,10 +259,10 @@ class Hdapi {
 
   /// Time since the first tick [s]; counts the ticks that should have been since the last one.
   double elapsed(typename Clock::time_point now) noexcept {
-    if (!std::exchange(timed_, true)) first_ = last_ = now;
+    if (!first_) first_ = last_ = now;
     const double gap = std::chrono::duration<double>(now - std::exchange(last_, now)).count() / info().period;
     if (gap >= 2) missed_ticks_.fetch_add(static_cast<std::uint64_t>(gap) - 1, relaxed);
-    return std::chrono::duration<double>(now - first_).count();
+    return std::chrono::duration<double>(now - *first_).count();
   }
 
   /// What of the scheduler this loop has: its tick is scheduled, then it counts as one that runs.
@@ -277,11 +279,11 @@ class Hdapi {
   unsigned long schedule_ = 0;
   Part part_ = Part::none;
   bool anew_ = true;    // the servo has not been asked since the arm's place is known
-  bool timed_ = false;  // the clock runs
   int last_ticks_ = 0;  // left to switch the motors off, after the loop has ended
   Wrench sent_;
   ForceCut cut_ = ForceCut::none;
-  typename Clock::time_point first_{}, last_{};
+  std::optional<typename Clock::time_point> first_;  // none: no tick yet
+  typename Clock::time_point last_{};
   std::atomic<DeviceStatus> status_{DeviceStatus::stopped};
   std::atomic<std::uint64_t> ticks_{0}, missed_ticks_{0}, force_cut_ticks_{0};
   std::atomic<bool> stopping_{false}, ended_{false};

@@ -41,22 +41,6 @@ struct ServoOptions {
   StylusOptions stylus = {};     ///< touches a rod in space, where the device reads its orientation
 };
 
-namespace detail {
-
-/// @throws std::invalid_argument as Touch, and where the touch of such a model has no friction and one is asked for
-template <typename Model, typename Scalar>
-Touch<Model> make_touch(Model& model, Scalar radius, const Friction& friction) {
-  if constexpr (std::is_constructible_v<Touch<Model>, Model&, Scalar, const Friction&>) {
-    return Touch<Model>(model, radius, friction);
-  } else {
-    friction.check();
-    if (!friction.none()) reject("friction", friction.sticking, "", "0 for this model: see docs/contact.md");
-    return Touch<Model>(model, radius);
-  }
-}
-
-}  // namespace detail
-
 /// The coupling of a servo that is given none.
 template <typename Model>
 struct CouplingOf {

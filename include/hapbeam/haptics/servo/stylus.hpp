@@ -31,6 +31,18 @@ struct StylusOptions {
 
 namespace detail {
 
+/// @throws std::invalid_argument as Touch, and where the touch of such a model has no friction and one is asked for
+template <typename Model, typename Scalar>
+Touch<Model> make_touch(Model& model, Scalar radius, const Friction& friction) {
+  if constexpr (std::is_constructible_v<Touch<Model>, Model&, Scalar, const Friction&>) {
+    return Touch<Model>(model, radius, friction);
+  } else {
+    friction.check();
+    if (!friction.none()) reject("friction", friction.sticking, "", "0 for this model: see docs/contact.md");
+    return Touch<Model>(model, radius);
+  }
+}
+
 /// A touch whose avatar is a capsule with a place and a direction of its own in each tick.
 template <class Touch>
 struct CapsuleTouch {
