@@ -8,15 +8,10 @@
 // sends its force. Zero is sent, too, because the device keeps a force until it is replaced. The orientation is read if
 // device and servo have one. Torque is sent only to devices that render it.
 //
-//   found in a tick                          what follows
-//   a force or speed was rejected            zero is sent, DeviceState::reset, the force ramps in
-//   warm motors, or a temperature above 0.7  the force ramps down to zero, and in again below 0.5
-//   calibration missing or lost              the servo is not called, zero is sent until the device has calibrated
-//                                            itself, then reset and ramp; one that a person calibrates: the loop ends
-//   communication lost; any other error, a   the servo is not called, zero is sent, forces are switched off,
-//   position that is no number, a transform  the loop ends, status() has the reason; start() reconnects
-//   that is no rotation, a frame that is     where the driver reports an error in that, it is done again in the
-//   not this device's                        next three ticks
+// A rejected force or speed: zero is sent, DeviceState::reset, and the force ramps in.  Warm motors: it ramps down, and in again when they
+// have cooled.  A calibration that is missing or lost: zero is sent, and the servo not called, until the device has calibrated itself.
+// Any other fault, and a reading that is no number or not this device's: zero is sent, forces are switched off and the loop ends; status()
+// has the reason, and start() reconnects.  Where the driver reports an error in that, it is done again in the next three ticks.
 //
 // Several devices share one scheduler (contract.hpp). A device is constructed, or restarted after its loop was lost,
 // while no other runs. A healthy device starts and stops at any time. Units and origin are those of connection.hpp.
@@ -33,8 +28,8 @@
 #include <utility>
 
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/hdapi/calibration.hpp>
 #include <hapbeam/haptics/hdapi/connection.hpp>
+#include <hapbeam/haptics/hdapi/setup.hpp>
 
 namespace hapbeam {
 
