@@ -10,7 +10,6 @@
 // Construction and start() allocate and throw. A tick does neither, and never waits for another thread.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>

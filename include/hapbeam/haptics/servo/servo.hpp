@@ -16,7 +16,6 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/contact/touch_in_motion.hpp>
@@ -222,7 +221,7 @@ template <bool Turns>
 Wrench Servo<Model, Coupling>::run(const OrientedState& state) noexcept {
   if (state.reset) times_.pause();  // the device had no ticks for it meanwhile
   times_.begin();
-  const bool known = detail::is_place(state.position) && detail::is_rotation(state.orientation);
+  const bool known = detail::is_place(state.position) && (!Turns || detail::is_rotation(state.orientation));
   // Ticks in which nobody knows where the hand is are no time of the loop: many of them are a pause.
   const LoopClock::Passed passed = clock_.passed(known ? state.time : not_a_number);
   const bool whole = state.cut == ForceCut::none;

@@ -11,7 +11,6 @@
 // Real-time: no allocation, noexcept, wait-free; as the coupling's tick and O(1).
 #pragma once
 
-#include <cmath>
 #include <type_traits>
 #include <utility>
 

@@ -62,9 +62,13 @@ class EnergyMonitor {
   /// @param dt [s] since, positive
   void observe(const Eigen::Vector3d& position, const Eigen::Matrix3d& orientation, const Wrench& sent,
                double dt) noexcept {
-    const Eigen::Vector3d held = hold(sent_, sent.force, peak_),
-                          torque = hold(sent_torque_, sent.torque, peak_torque_);
-    const double work = of_way(position, held, dt) + of_turn(orientation, torque, dt);
+    const Eigen::Vector3d held = hold(sent_, sent.force, peak_);
+    Eigen::Vector3d torque = zero();
+    double work = of_way(position, held, dt);
+    if (peak_torque_ > 0 || gimbal_damping_ > 0 || gimbal_friction_ > 0) {
+      torque = hold(sent_torque_, sent.torque, peak_torque_);
+      work += of_turn(orientation, torque, dt);
+    }
     if (held.isZero(0) && torque.isZero(0)) end_contact();
     else add(work);
   }

@@ -9,7 +9,6 @@
 // Offline: allocates, throws.
 #pragma once
 
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
