@@ -21,7 +21,7 @@
 #include <cmath>
 #include <string>
 
-#include <hapbeam/hosts/axes.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/hosts/placed_touch.hpp>
 
 namespace hapbeam {

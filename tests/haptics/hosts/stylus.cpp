@@ -5,7 +5,7 @@
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
 #include <hapbeam/haptics/device/arm.hpp>
-#include <hapbeam/hosts/axes.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/hosts/placed_touch.hpp>
 
 using namespace hapbeam;

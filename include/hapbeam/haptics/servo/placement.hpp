@@ -11,7 +11,12 @@
 //   const Vector2<double> hand = placement.beam_position(state.position);
 //   const Eigen::Vector3d force = placement.device_force_of_beam(touch.tick(hand).force);
 //
-// Real-time: no allocation, noexcept, wait-free, O(1), but for the constructors.
+//   device or host                x                y           z                 a beam that lies to the right, w up
+//   HDAPI, HLAPI, HAPI, H3D       right            up          toward the user   Placement::in_plane(origin, scale)
+//   CHAI3D, Force Dimension DHD   toward the user  right       up                x_toward_user(origin, scale)
+//   Haply Inverse3                right            away        up                y_away_from_user(origin, scale)
+//
+// Real-time: no allocation, noexcept, wait-free, O(1), but for what makes a Placement.
 #pragma once
 
 #include <cmath>
@@ -126,5 +131,20 @@ class Placement {
   Eigen::Vector3d origin_{0, 0, 0};
   double scale_ = 1;
 };
+
+/// The beam lies along the host's y, its w along the host's z.
+/// @param origin  [m] x along the beam and w where the host's origin lies   @param scale  [m/m] of the beam's for the host's
+inline Placement x_toward_user(const Vector2<double>& origin, double scale = 1) {
+  Eigen::Matrix3d turn;
+  turn << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  return Placement(turn, {origin.x(), origin.y(), 0}, scale);
+}
+
+/// The beam lies along the host's x, its w along the host's z.   @param origin, scale  as above
+inline Placement y_away_from_user(const Vector2<double>& origin, double scale = 1) {
+  Eigen::Matrix3d turn;
+  turn << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  return Placement(turn, {origin.x(), origin.y(), 0}, scale);
+}
 
 }  // namespace hapbeam
