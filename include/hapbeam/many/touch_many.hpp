@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One avatar (the round tool, or haptic interaction point) on an array of beams: a Touch for each beam that it meets,
-// and the sum of their forces.
+// One avatar on an array of beams: a Touch for each beam that it meets, and the sum of their forces.
 //
 // A beam that is met takes a model and a Touch from a pool. It returns them when it is released and clear of the
 // avatar. All other beams are undeformed. A hierarchy over them finds those near the avatar's last step, and contact is
@@ -23,8 +22,7 @@
 
 namespace hapbeam {
 
-/// The result of a tick: the sum of all forces, the worst status, and contact and press of the beam that pushes
-/// hardest. The contact is in the array's axes.
+/// The sum of all forces, the worst status, and contact and press of the beam that pushes hardest.  The contact is in the array's axes.
 template <typename Scalar>
 struct ArrayTouchResult : TouchResult<Scalar> {
   int beam = -1;         ///< the one that pushes hardest; -1: none

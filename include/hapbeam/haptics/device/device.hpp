@@ -44,8 +44,7 @@ enum class ForceCut : std::uint8_t {
   ramped,      ///< scaled down, to zero perhaps, after a start or an error or with warm motors
 };
 
-/// State of a device. The first five have a loop that runs or may be started. The last three have ended the loop, or
-/// prevented its start, and stay until the next start().
+/// The first five have a loop that runs or may be started; the last three have ended it, or prevented its start, until the next start().
 enum class DeviceStatus : std::uint8_t {
   stopped,      ///< no loop, and nothing wrong
   running,      ///< the servo is called and its force sent
@@ -162,8 +161,7 @@ Eigen::Vector3d rotation_vector(const Rotation& R) noexcept {
   return ForceCut::peak;
 }
 
-/// The same for force and torque together. If one is not finite, neither is sent. A device without torque gets none.
-/// @param peak_torque [N·m]; 0: it renders none
+/// The same for force and torque together: if one is not finite, neither is sent.   @param peak_torque [N·m]; 0: it renders none
 [[nodiscard]] inline ForceCut limit_wrench(Wrench& wrench, double peak_force, double peak_torque) noexcept {
   if (!detail::all_finite(wrench.force) || !detail::all_finite(wrench.torque)) {
     wrench = {};

@@ -7,17 +7,16 @@
 //   Grip<FemModel<TwistedRod>> grip(model, RodSide::left);
 //   ServoLoop loop(device, grip, options);
 //
-// In the first tick the hand takes hold of the end where it is.  From then on the end goes where the hand goes, and turns as
-// it turns, any number of turns.  A wrist has no three turns: grip.let_go() leaves the end in a vice, grip.take() takes it again.
-// What is felt is the force on the hand and the torque about the end; a device of three axes gets the force alone.
+// In the first tick the hand takes hold of the end where it is.  From then on the end goes where the hand goes, and turns as it turns.
+// grip.let_go() leaves the end in a vice, grip.take() takes it again.  What is felt is the force on the hand and the torque about the end.
 //
 // The coupling is K, B between places and K_r, B_r between orientations.  Its springs belong to the rod, so that the end's
 // equilibrium is Newton's: implicit, whatever is stiffer.  With the hand at h and the end at x, g = x - h, and by backward Euler
 //
 //   F = K g + B (g - g0)/T = K' (x - h'),   K' = K + B/T,   h' = h + β g0,   β = 1 - K/K'
 //
-// K' are the springs' stiffnesses, h' is where they are placed.  Orientations go the same way by the rotation vector.  In a tick of another
-// length than T the damper is K' β dt.  Where the end is turned against the hand by more than `slip` the grip slips.
+// K' are the springs' stiffnesses, h' is where they are placed.  Orientations go the same way by the rotation vector.  Where the end is
+// turned against the hand by more than `slip` the grip slips.
 // A rod with mass has K and B within its steps, and goes on where it is let go.
 // Real-time: no allocation, noexcept, wait-free; one hold() of the model a tick, or step().
 #pragma once
