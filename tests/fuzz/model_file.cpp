@@ -127,9 +127,10 @@ void press_everywhere(Model& model, const std::string& text) {
       if (!std::isfinite(response.force))
         violation(text, "press({" + std::to_string(s) + ", " + std::to_string(d) +
                             "}) gives a force that is not finite");
-      if (!detail::is_finite(model.shape()))
-        violation(text, "press({" + std::to_string(s) + ", " + std::to_string(d) +
-                            "}) gives a shape that is not finite");
+      for (const CentrelineNode<S>& node : model.shape())
+        if (!is_finite(node))
+          violation(text, "press({" + std::to_string(s) + ", " + std::to_string(d) +
+                              "}) gives a shape that is not finite");
       if (model.shape().size() != model.data().shape.segments + 1)
         violation(text, "the shape has lost nodes");
     }
