@@ -2,7 +2,7 @@
 #pragma once
 
 #include <hapbeam/haptics/device/hand_path.hpp>
-#include <hapbeam/haptics/servo/ring.hpp>
+#include <hapbeam/haptics/servo/exchange.hpp>
 #include <hapbeam/haptics/servo/servo_record.hpp>
 
 namespace phantom {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What is modelled: a slender beam, its two ends and its dead loads, which keep their direction.
+// What is modelled: a slender beam, its section and material, its two ends and its dead loads, which keep their direction.
 //
 // Plain values in SI, checked where they enter: every function here throws std::invalid_argument naming field,
 // value, unit and the permitted range.  Offline only: nothing here is called in a servo tick.
 // x runs along the beam from its left end, w across it (up), theta = -dw/dx.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -15,6 +16,75 @@
 #include <hapbeam/support.hpp>
 
 namespace hapbeam {
+
+/// Cross-section: area, second moment about the bending axis, and extent in the bending direction.
+struct Section {
+  double area;       ///< A [m²]
+  double inertia;    ///< I [m⁴]
+  double thickness;  ///< [m] across the beam, in the plane of bending: what the avatar touches
+
+  /// @param width [m] out of the plane of bending   @param height [m] in it
+  static Section rectangle(double width, double height) {
+    detail::positive("section width", width, "m");
+    detail::positive("section height", height, "m");
+    return {width * height, width * height * height * height / 12, height};
+  }
+  /// @param diameter [m]
+  static Section circle(double diameter) { return of(RodSection::circle(diameter)); }
+  /// @param outer_diameter [m]   @param inner_diameter [m] of the hole, not the thickness of the wall
+  static Section tube(double outer_diameter, double inner_diameter) {
+    return of(RodSection::tube(outer_diameter, inner_diameter));
+  }
+
+ private:
+  static Section of(const RodSection& section) { return {section.area, section.inertia1, section.thickness}; }
+};
+
+/// A branch of a material that relaxes: strained at once it is stiffer by g E, which goes as exp(-t/τ).
+struct Relaxation {
+  double share = 0;  ///< g, not negative; 0: none
+  double time = 1;   ///< τ [s], positive
+};
+
+/// What a beam that moves loses, in its material and in the air: σ = E (ε + τ ε') + the branches', and a force of α m v.
+/// A model without mass has no time, and none of this.
+struct Damping {
+  double viscosity = 0;                     ///< τ [s], not negative
+  double drag = 0;                          ///< α [1/s], not negative
+  std::array<Relaxation, 4> branches = {};  ///< of a Prony series; E is what is left when all have relaxed
+
+  /// Of the material, with a damping ratio at a frequency [Hz], and ratios that rise with it.
+  static Damping ratio(double ratio, double frequency) {
+    return {detail::not_negative("damping ratio", ratio, "") / (pi * of(frequency)), 0, {}};
+  }
+  /// The same by its loss factor η = 2 ζ.
+  static Damping loss_factor(double factor, double frequency) { return ratio(factor / 2, frequency); }
+  /// Of the air, with ratios that fall as frequencies rise.
+  static Damping air(double ratio, double frequency) {
+    return {0, detail::not_negative("damping ratio", ratio, "") * 4 * pi * of(frequency), {}};
+  }
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  const Damping& check() const {
+    detail::not_negative("damping viscosity", viscosity, "s");
+    detail::not_negative("damping drag", drag, "1/s");
+    for (const Relaxation& branch : branches) {
+      detail::not_negative("relaxation share", branch.share, "");
+      detail::positive("relaxation time", branch.time, "s");
+    }
+    return *this;
+  }
+
+ private:
+  static constexpr double pi = 3.14159265358979323846;
+  static double of(double frequency) { return detail::positive("damping frequency", frequency, "Hz"); }
+};
+
+/// Material of a beam.
+struct Material {
+  double young;          ///< Young's modulus E [Pa]
+  double density = 0;    ///< [kg/m³]; 0: not known, and the beam has no mass
+  Damping damping = {};  ///< of a model with mass
+};
 
 /// A force and a moment at one point of the beam.  They keep their direction as the beam turns (dead, non-follower loads).
 struct PointLoad {
@@ -46,8 +116,8 @@ struct Arc {
 /// A part of the beam with a section of its own, which may change along it, and a material, of which damping is not counted.
 using BeamPart = detail::PartOf<Section, Material>;
 
-/// A beam, its ends and its loads: prismatic unless sections() says otherwise, straight unless naturally() gives it a curvature, with the ends
-/// of the straight beam unless place() moves them.  Immutable but for what is added to it.
+/// A beam, its ends and its loads.  Prismatic unless sections() says otherwise, straight unless naturally() gives it a curvature, with the
+/// ends of the straight beam unless place() moves them.  Immutable but for what is added to it.
 class Beam : public detail::Slender<Beam, Section, Material, Arc> {
  public:
   static constexpr const char* word = "beam";

@@ -11,7 +11,6 @@
 // No allocation, noexcept, O(1) but for the search of the piece, which is O(log n).
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -204,12 +203,7 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
 
   /// Where the point at arc position s is [m], as in a centreline in space.
   Vector2<Scalar> position(Scalar s) const noexcept {
-    const int i = segment_at(s);
-    const Node& a = nodes_[i];
-    if (any_rotation_)
-      return a.position() +
-             way(segment(i, direction(i), direction(i + 1)), (s - a.s) / (nodes_[i + 1].s - a.s));
-    const Displacement<Scalar> moved = at(i, s);
+    const Displacement<Scalar> moved = at(s);
     return {s + moved.u, moved.w};
   }
   /// Displacements at arc position s [m].
@@ -268,12 +262,6 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
     return c * (1 + m * (1 + Scalar(0.7) * m));
   }
 
-  /// From the first node of a piece on.
-  static Vector2<Scalar> way(const CubicSegment<Scalar>& b, Scalar t) noexcept {
-    const Scalar r = 1 - t;
-    return t * ((1 + r + r * r) * (b.col(1) - b.col(0)) + t * (1 + 2 * r) * (b.col(2) - b.col(1)) +
-                t * t * (b.col(3) - b.col(2)));
-  }
   /// θ is the angle of the tangent, in the turn in which the piece begins.
   Displacement<Scalar> on_curve(int i, Scalar s, Scalar t) const noexcept {
     const Node& a = nodes_[i];
@@ -281,8 +269,8 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
     const CubicSegment<Scalar> b = segment(i, from, direction(i + 1));
     const Scalar r = 1 - t;
     const Vector2<Scalar> c0 = b.col(1) - b.col(0), c1 = b.col(2) - b.col(1), c2 = b.col(3) - b.col(2);
-    const Vector2<Scalar> velocity = r * r * c0 + 2 * r * t * c1 + t * t * c2;
-    const Vector2<Scalar> way = this->way(b, t);
+    const Vector2<Scalar> velocity = r * r * c0 + 2 * r * t * c1 + t * t * c2,
+                          way = t * ((1 + r + r * r) * c0 + t * (1 + 2 * r) * c1 + t * t * c2);
     const Scalar turned =
         detail::angle(from.x() * velocity.y() - from.y() * velocity.x(), from.dot(velocity), velocity.norm());
     return {a.u + (way.x() - (s - a.s)), a.w + way.y(), a.theta - turned};

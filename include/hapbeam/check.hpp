@@ -19,14 +19,15 @@ namespace hapbeam::detail {
   return text;
 }
 
-/// @param format, ...  as printf's   @throws std::invalid_argument
-[[noreturn, gnu::cold, gnu::format(printf, 1, 2)]] inline void refuse(const char* format, ...) {
+/// @param format, ...  as printf's   @throws Error
+template <class Error = std::invalid_argument>
+[[noreturn, gnu::cold, gnu::format(printf, 1, 2)]] void refuse(const char* format, ...) {
   char text[400];
   std::va_list arguments;
   va_start(arguments, format);
   std::vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
-  throw std::invalid_argument(text);
+  throw Error(text);
 }
 [[gnu::cold]] [[noreturn]] inline void reject(const char* field, double value, const char* unit,
                                               const char* allowed) {

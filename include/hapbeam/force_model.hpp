@@ -129,9 +129,8 @@ struct Capsule {
   Scalar s;            ///< [m] arc position beside which the point is sought
   Shaft<Scalar> axis;  ///< of the capsule; a sphere's is a point
   Scalar reach;        ///< [m] from the axis to the centreline
-  VectorOf<Scalar, 3> normal = VectorOf<
-      Scalar,
-      3>::Zero();  ///< unit, about from the centreline to the axis: the side from which the capsule has come
+  /// About from the centreline to the axis, unit: from where the capsule has come.
+  VectorOf<Scalar, 3> normal{0, 0, 0};
 };
 
 template <typename Scalar>
@@ -166,9 +165,7 @@ namespace detail {
 
 /// What contact asks of a model that can be pushed: the point of contact is found by the model.
 template <typename Scalar, int D>
-struct RoundOf {
-  using Type = std::conditional_t<D == 2, Circle<Scalar>, Capsule<Scalar>>;
-};
+using RoundOf = std::conditional_t<D == 2, Circle<Scalar>, Capsule<Scalar>>;
 
 }  // namespace detail
 
@@ -178,10 +175,10 @@ struct FrictionState;
 /// A hand that holds an avatar by its coupling, a spring and a damper.
 template <typename Scalar, int D = 2>
 struct Coupled {
-  typename detail::RoundOf<Scalar, D>::Type hand;  ///< where the avatar would be without the beam
-  Scalar stiffness = 1000;                         ///< K [N/m], positive
-  Scalar damping = 0;                              ///< B [N·s/m], not negative
-  FrictionState<Scalar, D>* friction = nullptr;    ///< of the avatar (friction.hpp), in and out; null: none
+  detail::RoundOf<Scalar, D> hand;               ///< where the avatar would be without the beam
+  Scalar stiffness = 1000;                       ///< K [N/m], positive
+  Scalar damping = 0;                            ///< B [N·s/m], not negative
+  FrictionState<Scalar, D>* friction = nullptr;  ///< of the avatar (friction.hpp), in and out; null: none
 };
 
 /// What a body does to a beam that it touches.
@@ -195,16 +192,13 @@ enum class ObstacleKind : std::int8_t {
 template <typename Scalar, int D = 2>
 struct Obstacle {
   ObstacleKind kind = ObstacleKind::round;
-  typename detail::RoundOf<Scalar, D>::Type round{};  ///< with s where they touched, or are nearest
-  Push<Scalar, D> place{
-      0, 0,
-      VectorOf<Scalar,
-               D>::Zero()};  ///< of a stop or a support; its normal points out of the beam to the stop
-  int body = 0;        ///< round obstacles of one body have the same number: it may touch at as many places
-  bool valid = false;  ///< there is one
+  detail::RoundOf<Scalar, D> round{};  ///< with s where they touched, or are nearest
+  /// Of a stop or a support; its normal points out of the beam to the stop.
+  Push<Scalar, D> place{0, 0, VectorOf<Scalar, D>::Zero()};
+  int body = 0;           ///< round obstacles of one body have the same number: it touches at as many places
+  bool valid = false;     ///< there is one
   bool touching = false;  ///< in: in the push before;  out: now
-  Pushed<Scalar, D> pushed{0,
-                           Status::ok};  ///< in: of the push before;  out: zero force where they do not touch
+  Pushed<Scalar, D> pushed{0, Status::ok};  ///< in: of the push before;  out: no force where they are apart
   FrictionState<Scalar, D>* friction = nullptr;  ///< of a round one (friction.hpp), null: without
 };
 
@@ -233,12 +227,11 @@ struct HoldDamper {
 /// Where a model answers with Status::ok: s_min <= s <= s_max and |d| <= depth_at(s).
 template <typename Scalar>
 struct Range {
-  Scalar s_min;  ///< [m]
-  Scalar s_max;  ///< [m]
-  Scalar depth;  ///< [m] largest |d| anywhere
-  Scalar slope;  ///< [-] largest |d| over the distance to a support that holds w
-  Scalar
-      left_support;  ///< [m] arc position of that support, -infinity if the left end is free to move across
+  Scalar s_min;          ///< [m]
+  Scalar s_max;          ///< [m]
+  Scalar depth;          ///< [m] largest |d| anywhere
+  Scalar slope;          ///< [-] largest |d| over the distance to a support that holds w
+  Scalar left_support;   ///< [m] arc position of that support, -infinity if the left end moves across
   Scalar right_support;  ///< [m] the same at the right, or +infinity
 
   Scalar depth_at(Scalar s) const noexcept {
@@ -247,51 +240,39 @@ struct Range {
 
   /// The nearest request inside: s first, then d.
   Press<Scalar> nearest(const Press<Scalar>& press) const noexcept {
-    const Scalar s = press.s < s_min ? s_min : press.s > s_max ? s_max : press.s;
-    const Scalar limit = depth_at(s);
-    return {s, press.d < -limit ? -limit : press.d > limit ? limit : press.d};
+    const Scalar s = std::clamp(press.s, s_min, s_max), limit = depth_at(s);
+    return {s, std::clamp(press.d, -limit, limit)};
   }
 };
 
 namespace detail {
 
-template <typename M, typename = void>
-struct IsForceModel : std::false_type {};
+// Signatures alone, to be called with null pointers: what takes them is offered.
+template <typename M, typename S = typename M::Scalar, int D = dimension_of<M>>
+auto as_model(M* m, const M* seen)
+    -> std::bool_constant<noexcept(m->reset()) && noexcept(seen->shape()) && noexcept(
+                              seen->range()) && noexcept(seen->thickness()) &&
+                          std::is_same_v<decltype(seen->shape()), Centreline<S, D>> &&
+                          std::is_same_v<decltype(seen->range()), Range<S>> &&
+                          std::is_same_v<decltype(seen->thickness()), S>>;
+template <typename>
+std::false_type as_model(...);
 
 template <typename M>
-struct IsForceModel<M, std::void_t<typename M::Scalar>> {
-  using S = typename M::Scalar;
-  static constexpr int D = dimension_of<M>;
-  template <typename T>
-  static auto press(int) -> std::bool_constant<
-      noexcept(std::declval<T&>().press(std::declval<const Press<S>&>())) &&
-      std::is_same_v<decltype(std::declval<T&>().press(std::declval<const Press<S>&>())), Response<S>>>;
-  template <typename T>
-  static auto push(int) -> std::bool_constant<
-      noexcept(std::declval<T&>().push(std::declval<const Push<S, D>&>())) && noexcept(
-          std::declval<T&>().release()) &&
-      std::is_same_v<decltype(std::declval<T&>().push(std::declval<const Push<S, D>&>())), Response<S>>>;
-  template <typename T>
-  static auto rest(int)
-      -> std::bool_constant<noexcept(std::declval<const T&>().shape()) &&
-                            std::is_same_v<decltype(std::declval<const T&>().shape()),
-                                           Centreline<S, D>>&& noexcept(std::declval<const T&>().range()) &&
-                            std::is_same_v<decltype(std::declval<const T&>().range()), Range<S>>&& noexcept(
-                                std::declval<const T&>().thickness()) &&
-                            std::is_same_v<decltype(std::declval<const T&>().thickness()), S>&& noexcept(
-                                std::declval<T&>().reset())>;
-  template <typename>
-  static std::false_type press(long);
-  template <typename>
-  static std::false_type push(long);
-  template <typename>
-  static std::false_type rest(long);
-  static constexpr bool value =
-      std::conditional_t<D == 2, decltype(press<M>(0)), decltype(push<M>(0))>::value &&
-      decltype(rest<M>(0))::value;
-};
+auto as_pressed(M* m, const Press<typename M::Scalar>* p)
+    -> std::bool_constant<dimension_of<M> == 2 && noexcept(m->press(*p)) &&
+                          std::is_same_v<decltype(m->press(*p)), Response<typename M::Scalar>>>;
+template <typename>
+std::false_type as_pressed(...);
 
-/// Whether Call<M> names a type: std::enable_if_t of noexcept calls that M offers.
+template <typename M>
+auto as_pushed(M* m, const Push<typename M::Scalar, 3>* p)
+    -> std::bool_constant<dimension_of<M> == 3 && noexcept(m->push(*p)) && noexcept(m->release()) &&
+                          std::is_same_v<decltype(m->push(*p)), Response<typename M::Scalar>>>;
+template <typename>
+std::false_type as_pushed(...);
+
+/// Whether Call<M> names a type: that of an expression which M offers, or std::enable_if_t of noexcept calls.
 template <template <typename> class Call, typename M, typename = void>
 inline constexpr bool offers = false;
 template <template <typename> class Call, typename M>
@@ -303,7 +284,6 @@ using PushObstacles = std::enable_if_t<noexcept(std::declval<M&>().release())&& 
 template <typename M>
 using Part =
     std::enable_if_t<noexcept(std::declval<const M&>().part(typename M::Scalar(), typename M::Scalar()))>;
-
 template <typename M>
 using StepWithHand = std::enable_if_t<noexcept(std::declval<M&>().step(
     typename M::Scalar(), std::declval<const Coupled<typename M::Scalar, dimension_of<M>>&>()))>;
@@ -328,6 +308,8 @@ inline constexpr bool has_mass = detail::offers<detail::StepWithHand, M>;
 
 /// True where M fulfils the contract above, every noexcept included.
 template <typename M>
-inline constexpr bool is_force_model = detail::IsForceModel<M>::value;
+inline constexpr bool is_force_model = decltype(detail::as_model<M>(nullptr, nullptr))::value &&
+                                       (decltype(detail::as_pressed<M>(nullptr, nullptr))::value ||
+                                        decltype(detail::as_pushed<M>(nullptr, nullptr))::value);
 
 }  // namespace hapbeam

@@ -45,10 +45,9 @@ struct FrictionState {
   using Vector = VectorOf<Scalar, D>;
 
   // Of the touch.
-  Scalar sticking = 0, sliding = 0;  ///< coefficients
-  Scalar stiffness =
-      std::numeric_limits<Scalar>::infinity();  ///< [N/m] of the avatar's skin along the surface
-  Scalar damping = 0;                           ///< [N/m] what its damping adds, N·s/m over the tick
+  Scalar sticking = 0, sliding = 0;                            ///< coefficients
+  Scalar stiffness = std::numeric_limits<Scalar>::infinity();  ///< [N/m] of the avatar's skin
+  Scalar damping = 0;  ///< [N/m] what its damping adds, N·s/m over the tick
 
   // Of its last contact.
   bool known = false;              ///< there is one

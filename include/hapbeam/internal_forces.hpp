@@ -13,7 +13,6 @@
 #pragma once
 
 #include <type_traits>
-#include <utility>
 
 #include <hapbeam/centreline.hpp>
 

@@ -64,8 +64,8 @@ struct RodOutline {
   bool corners;          ///< whether both extents meet: a rectangle
 };
 
-/// A rod, its ends and its loads.  It is straight unless it is given a natural shape, and its right end is where that shape puts it unless it is
-/// placed.  Where its ends do not hold it, joints of a World have to.  Immutable but for what is added to it.
+/// A rod, its ends and its loads, which a World's joints may hold where the ends do not.  It is straight unless it is given a natural
+/// shape, and its right end is where that shape puts it unless it is placed elsewhere.  Immutable but for what is added to it.
 class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
  public:
   static constexpr const char* word = "rod";
@@ -101,10 +101,8 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
       detail::reject("foundation from", foundation.from, "m", "on the rod, 0 to its length");
     if (!(foundation.to > foundation.from && foundation.to <= length_ * (1 + 1e-12)))
       detail::reject("foundation to", foundation.to, "m", "beyond where it begins and on the rod");
-    if (!(std::isfinite(foundation.across) && foundation.across >= 0))
-      detail::reject("foundation across", foundation.across, "N/m²", "0 or positive, and finite");
-    if (!(std::isfinite(foundation.along) && foundation.along >= 0))
-      detail::reject("foundation along", foundation.along, "N/m²", "0 or positive, and finite");
+    detail::not_negative("foundation across", foundation.across, "N/m²");
+    detail::not_negative("foundation along", foundation.along, "N/m²");
     return foundations_.push_back(foundation), *this;
   }
 

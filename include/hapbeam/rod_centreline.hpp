@@ -17,8 +17,8 @@ namespace hapbeam {
 /// The axis of an avatar in space, from its tip to its other end; a point where `way` is zero.
 template <typename Scalar>
 struct Shaft {
-  VectorOf<Scalar, 3> tip = VectorOf<Scalar, 3>::Zero();  ///< [m]
-  VectorOf<Scalar, 3> way = VectorOf<Scalar, 3>::Zero();  ///< [m] from the tip to the other end
+  VectorOf<Scalar, 3> tip{0, 0, 0};  ///< [m]
+  VectorOf<Scalar, 3> way{0, 0, 0};  ///< [m] from the tip to the other end
 
   /// Where along the way, 0 to 1, it is nearest to a point.
   [[nodiscard]] Scalar nearest(const VectorOf<Scalar, 3>& point) const noexcept {
@@ -102,7 +102,7 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
 
   /// Curvature at node i, across its tangent and toward the centre of curvature [1/m]: the mean of both pieces.
   VectorOf<Scalar, 3> curvature(int i) const noexcept {
-    VectorOf<Scalar, 3> sum = VectorOf<Scalar, 3>::Zero();
+    VectorOf<Scalar, 3> sum{0, 0, 0};
     int pieces = 0;
     for (int k = i > 0 ? i - 1 : 0; k <= i && k < segments(); ++k) {
       const Node &a = nodes_[k], &b = nodes_[k + 1];

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include <hapbeam/hapbeam.hpp>
-#include <hapbeam/hosts/axes.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/hosts/placed_touch.hpp>
 
 using namespace hapbeam;

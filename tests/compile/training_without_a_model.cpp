@@ -1,5 +1,5 @@
 // What is trained from must answer presses.
-// expect: a full model is a ForceModel: see hapbeam/force_model.hpp
+// expect: a full model is a ForceModel of doubles: see hapbeam/force_model.hpp
 #include <hapbeam/fem/fem_model.hpp>
 #include <hapbeam/rom/training/snapshots.hpp>
 

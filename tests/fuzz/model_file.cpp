@@ -88,7 +88,7 @@ std::string mutated(const std::vector<std::string>& seeds, bool& numbers_alone) 
 void repair_checksum(std::string& text) {
   const std::size_t line = text.find('\n'), at = text.find("crc32:");
   if (line == std::string::npos || at == std::string::npos || at + 14 > line) return;
-  text.replace(at, 14, detail::Checksum(text.data() + line + 1, text.size() - line - 1).text);
+  text.replace(at, 14, detail::checksum(text.data() + line + 1, text.size() - line - 1));
 }
 
 template <class Model>
@@ -127,9 +127,10 @@ void press_everywhere(Model& model, const std::string& text) {
       if (!std::isfinite(response.force))
         violation(text, "press({" + std::to_string(s) + ", " + std::to_string(d) +
                             "}) gives a force that is not finite");
-      if (!detail::is_finite(model.shape()))
-        violation(text, "press({" + std::to_string(s) + ", " + std::to_string(d) +
-                            "}) gives a shape that is not finite");
+      for (const CentrelineNode<S>& node : model.shape())
+        if (!is_finite(node))
+          violation(text, "press({" + std::to_string(s) + ", " + std::to_string(d) +
+                              "}) gives a shape that is not finite");
       if (model.shape().size() != model.data().shape.segments + 1)
         violation(text, "the shape has lost nodes");
     }

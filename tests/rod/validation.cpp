@@ -111,7 +111,7 @@ TEST_CASE("ends, sections and foundations that make no sense are rejected by nam
         }) == "foundation to = 0.3 m: must be beyond where it begins and on the rod");
   CHECK(rejection([&] {
           wire().add(RodFoundation{0, 0.1, -1, 1});
-        }) == "foundation across = -1 N/m²: must be 0 or positive, and finite");
+        }) == "foundation across = -1 N/m²: must be finite and not negative");
 }
 
 TEST_CASE("an element rejects the rods that it does not model", "[rod]") {

@@ -9,7 +9,7 @@
 
 #include "random.hpp"
 #include <hapbeam/element/corotational.hpp>
-#include <hapbeam/rom/training/full_model.hpp>
+#include <hapbeam/rom/training/training_plan.hpp>
 #include <hapbeam/scene/scene.hpp>
 #include <hapbeam/shapes.hpp>
 

@@ -15,7 +15,7 @@
 #include <hapbeam/beam.hpp>
 #include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/force_model.hpp>
-#include <hapbeam/rod_support.hpp>
+#include <hapbeam/support.hpp>
 
 namespace hapbeam {
 

@@ -5,13 +5,10 @@
 //   ruler->setLocalPos(0, -0.15, 0);
 //   world->addChild(ruler);                                   // from here on as any object: tool->computeInteractionForces()
 //
-// Units are m and N. In its own frame the beam lies along y, from its left end at the origin; w is along z. Without
-// rotation that is to the operator's right, and up. Motion of the tool along x has no effect.
-// The force is that of Touch (placed_touch.hpp), without a coupling, so the beam must be softer than the device
-// renders. For a stiffer one call a Servo in a loop of your own. One tool presses the beam, the first whose haptic
+// Units are m and N. In its own frame the beam lies along y, from its left end at the origin; w is along z. Motion of the tool along x
+// has no effect.  The force is that of Touch (placed_touch.hpp), without a coupling. One tool presses the beam, the first whose haptic
 // point comes; another one feels nothing.
-// Haptic thread: computeInteractions(). Graphics thread: renderSceneGraph(). They share an Exchange, and neither waits.
-// hapbeam allocates in neither; CHAI3D's list of events grows.
+// Haptic thread: computeInteractions(). Graphics thread: renderSceneGraph(). Neither waits, and hapbeam allocates in neither.
 //
 // For CHAI3D 3.3.0.  HAPBEAM_CHAI3D_HEADER is the header to include, <chai3d.h> unless it was defined before.
 #pragma once
@@ -24,7 +21,7 @@
 #include <cmath>
 #include <string>
 
-#include <hapbeam/hosts/axes.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/hosts/placed_touch.hpp>
 
 namespace hapbeam {

@@ -6,26 +6,22 @@
 //   const Eigen::Vector3d force = beam.tick(position);        // haptic thread
 //   draw(beam.picture().shape());                             // graphics thread
 //
-// A rod in space is touched with all of a stylus, too: it takes the pose of the hand and answers with force and torque.
+// A rod in space is touched with all of a stylus, too: it takes the pose of the hand and answers with force and torque about its place.
 //
 //   PlacedTouch<FemModel<RoundRod>> rod(model, 0.002, placement, {0.1, 0.1});   // a shaft of 100 mm behind its tip
 //   const Wrench felt = rod.tick(HandPose{position, orientation});
 //
-//   τ = (c - p) × F      c: where rod and shaft touch, p: the hand's place
-//
-// The force is that of Touch, bit by bit if the placement only exchanges axes. Force and torque are zero where the status is no
-// answer. A position beyond 1e9 or an orientation that is no rotation is invalid_request. There is no coupling and no guard: use a Servo for a beam stiffer than the device can render.
-// Real-time: tick() does not allocate and is noexcept, wait-free, and bounded as Touch::tick(). One other thread may
-// call picture(), wait-free.
+// The force is that of Touch, bit by bit if the placement only exchanges axes, and zero where the status is no answer.  A position beyond
+// 1e9 or an orientation that is no rotation is invalid_request.  There is no coupling and no guard: use a Servo for a beam stiffer than
+// the device can render.
+// Real-time: tick() does not allocate and is noexcept, wait-free, and bounded as Touch::tick().
 #pragma once
 
-#include <atomic>
 #include <limits>
 #include <type_traits>
 
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/servo/exchange.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo.hpp>
 #include <hapbeam/haptics/servo/stylus.hpp>
@@ -48,12 +44,10 @@ class PlacedTouch {
   /// Allocates.   @throws std::invalid_argument as Touch, or for a stylus of a planar beam
   PlacedTouch(Model& model, double avatar_radius, const Placement& placement = {},
               const StylusOptions& stylus = {}, const Friction& friction = {})
-      : model_(model),
-        placement_(placement),
+      : placement_(placement),
         touch_(detail::make_touch(model, static_cast<Scalar>(avatar_radius), friction)),
         stylus_(stylus),
-        seen_(model.shape()),
-        pictures_(seen_) {}
+        pictures_(model, touch_) {}
 
   /// With a round tool.
   /// @param position  in the host's axes and units of length   @return [N] on the hand, host's axes; always finite
@@ -93,11 +87,7 @@ class PlacedTouch {
   /// The newest shape and its record. The record has status, model, position, hand, avatar, force, torque, shaft, press,
   /// pressing, what friction does, and the counts of ticks. One reader, from any thread: wait-free. Both stay until the next call.
   /// A shape that costs more than its force is that of the first tick after the last call.
-  const Picture& picture() noexcept {
-    looked_.store(true, std::memory_order_relaxed);
-    pictures_.update();
-    return pictures_.value();
-  }
+  const Picture& picture() noexcept { return pictures_.newest(); }
 
  private:
   LoopStatus status() const noexcept {
@@ -140,30 +130,15 @@ class PlacedTouch {
     ++r.ticks;
     r.contact_ticks += r.pressing;
     r.failed_ticks += r.status == LoopStatus::no_answer;
-    publish();
+    pictures_.publish(r, true);
   }
 
-  void publish() noexcept {
-    Picture& draft = pictures_.draft();
-    draft.record = record_;
-    if constexpr (Drawn<Model>::for_who_looks) {
-      if (looked_.exchange(false, std::memory_order_relaxed)) seen_.take(model_.shape());
-      draft.take(seen_);
-    } else {
-      draft.take(model_.shape());
-    }
-    pictures_.publish();
-  }
-
-  const Model& model_;
   Placement placement_;
   Touch<Model> touch_;
   detail::Stylus<Scalar, dimension> stylus_;
   TouchResult<Scalar, dimension> felt_;
   ServoRecord record_;
-  Picture seen_;
-  std::atomic<bool> looked_{true};
-  Exchange<Picture> pictures_;
+  detail::Pictures<Model> pictures_;
 };
 
 }  // namespace hapbeam

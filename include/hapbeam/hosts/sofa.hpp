@@ -16,9 +16,6 @@
 #endif
 #include HAPBEAM_SOFA_HEADER
 
-#include <type_traits>
-#include <utility>
-
 #include <hapbeam/hosts/placed_touch.hpp>
 
 namespace hapbeam {

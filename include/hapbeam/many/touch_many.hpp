@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One avatar (the round tool, or haptic interaction point) on an array of beams: a Touch for each beam that it meets,
-// and the sum of their forces.
+// One avatar on an array of beams: a Touch for each beam that it meets, and the sum of their forces.
 //
 // A beam that is met takes a model and a Touch from a pool. It returns them when it is released and clear of the
-// avatar: the memory of a contact ends with the touch. All other beams are undeformed. A hierarchy over them finds
-// those near the avatar's last step, and contact is sought with these alone. So the force is that of one Touch a beam,
-// and a tick costs O(log n + beams near by).
+// avatar. All other beams are undeformed. A hierarchy over them finds those near the avatar's last step, and contact is
+// sought with these alone: a tick costs O(log n + beams near by).
 // If more beams are met than the pool holds, the deepest are taken. A beam that was left out is ignored until the
 // avatar has left it.
 // Only the constructor allocates and throws.
@@ -16,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <hapbeam/contact/touch.hpp>
@@ -23,13 +22,11 @@
 
 namespace hapbeam {
 
-/// The result of a tick: the sum of all forces, the worst status, and contact and press of the beam that pushes
-/// hardest. The contact is in the array's axes.
+/// The sum of all forces, the worst status, and contact and press of the beam that pushes hardest.  The contact is in the array's axes.
 template <typename Scalar>
 struct ArrayTouchResult : TouchResult<Scalar> {
-  int beam = -1;  ///< the one that pushes hardest; -1: none
-  bool complete =
-      true;  ///< false: more beams were met than taken or examined; the status is out_of_range or worse
+  int beam = -1;         ///< the one that pushes hardest; -1: none
+  bool complete = true;  ///< false: more beams were met than taken or examined; out_of_range or worse
 };
 
 /// One of the beams in contact.
@@ -69,7 +66,8 @@ class Touch<BeamArray<Model>> {
   void reset() noexcept {
     while (!held_.empty()) give_back(held_.size() - 1);
     touches_.clear();
-    known_ = pressing_ = false;
+    last_.reset();
+    pressing_ = false;
   }
 
   /// One tick.   @param position  [m] centre of the avatar, in the array's axes
@@ -97,7 +95,6 @@ class Touch<BeamArray<Model>> {
     }
     pressing_ = result.pressing;
     last_ = position;
-    known_ = true;
     if (!result.complete && worse(Status::out_of_range, result.status)) result.status = Status::out_of_range;
     return result;
   }
@@ -149,15 +146,14 @@ class Touch<BeamArray<Model>> {
   };
 
   int most_looks() const noexcept { return 2 * array_.most_touched() + 8; }
-  int most_boxes() const noexcept { return 64 * array_.most_touched(); }
   Slot& slot(std::int32_t i) noexcept { return *slots_[static_cast<std::size_t>(i)]; }
   const typename Array::Beam& beam(const Slot& slot) const noexcept { return array_.sorted(slot.beam); }
 
   /// Fills met_ with those beams that may be taken, the deepest.   @return false where there are more
   bool meet(const Vector2<Scalar>& position) noexcept {
     met_.clear();
-    const detail::Step<Scalar> step{known_ ? last_ : position, position, avatar_radius_};
-    int looks = most_looks(), boxes = most_boxes();
+    const detail::Step<Scalar> step{last_.value_or(position), position, avatar_radius_};
+    int looks = most_looks(), boxes = 64 * array_.most_touched();
     bool complete = true;
     array_.tree_.visit(step, [&](int i) {
       if (slot_of_[static_cast<std::size_t>(i)] != none) return true;
@@ -169,19 +165,20 @@ class Touch<BeamArray<Model>> {
       if (looks-- == 0) return complete = false;
       ContactMemory<Scalar> memory;
       memory.place = before;
-      memory.known = known_;
+      memory.known = last_.has_value();
       const Contact<Scalar> contact = look(kind, here, memory);
       if (!contact.touching) return true;
       ContactMemory<Scalar> nothing;
-      if (known_ && look(kind, before, nothing).touching) complete = false;  // left out before
+      if (last_ && look(kind, before, nothing).touching) complete = false;  // left out before
       else met_.push_back({contact, i});
       return true;
     });
-    const std::size_t room = static_cast<std::size_t>(array_.most_touched()) - held_.size();
-    if (met_.size() <= room) return complete;
-    std::nth_element(met_.begin(), met_.begin() + static_cast<std::ptrdiff_t>(room), met_.end(),
+    const std::ptrdiff_t room = array_.most_touched() - static_cast<std::ptrdiff_t>(held_.size());
+    if (static_cast<std::ptrdiff_t>(met_.size()) <= room) return complete;
+    const auto left_out = met_.begin() + room;
+    std::nth_element(met_.begin(), left_out, met_.end(),
                      [](const Met& a, const Met& b) { return a.contact.depth > b.contact.depth; });
-    met_.erase(met_.begin() + static_cast<std::ptrdiff_t>(room), met_.end());
+    met_.erase(left_out, met_.end());
     return false;
   }
   Contact<Scalar> look(const typename Array::Kind& kind, const Vector2<Scalar>& local,
@@ -200,7 +197,7 @@ class Touch<BeamArray<Model>> {
     Slot& slot = this->slot(taken);
     slot.beam = met.beam;
     slot.touch.reset();
-    if (known_) (void)slot.touch.tick(beam(slot).frame.local(last_));
+    if (last_) (void)slot.touch.tick(beam(slot).frame.local(*last_));
     return slot;
   }
   void give_back(std::size_t k) noexcept {
@@ -242,8 +239,7 @@ class Touch<BeamArray<Model>> {
   std::vector<std::int32_t> slot_of_;            // by beam as the array has sorted them, or none
   std::vector<Met> met_;
   std::vector<BeamTouch<Scalar>> touches_;
-  Vector2<Scalar> last_{0, 0};
-  bool known_ = false;  // last_ is where the avatar was
+  std::optional<Vector2<Scalar>> last_;  // where the avatar was
   bool pressing_ = false;
   Scalar hardest_ = 0;  // [N²] in this tick
 };

@@ -5,12 +5,10 @@
 //   const Choice choice = choose(scene);
 //   RodModel model = build(scene, choice.model());
 //
-// RoundRod and TwistedRod are tried at growing size on the pushes of a RodPilot.
-// The pilot's reference is TwistedRod, or RoundRod where nobody holds the twist, with as many elements as
-// it takes until half of them give the same force to a twentieth of the tolerated error, or with 256.  A rod that rests straight is
-// pushed along three directions across it, from a hundredth of the depth on; another along eight, from a thousandth on.
-// A bent rod gives way to one side many times as much as to another, and the relative error of its force peaks near the stiffest
-// side, in a range of angles that is the narrower the more the stiffnesses differ.  With C the compliance across the rod,
+// RoundRod and TwistedRod are tried at growing size on the pushes of a RodPilot.  Its reference is TwistedRod, or RoundRod where
+// nobody holds the twist, with at most 256 elements.  A rod that rests straight is pushed along three directions across it, another along
+// eight: it gives way to one side many times as much as to another, and the relative error of its force peaks near the stiffest side.
+// With C the compliance across the rod,
 //
 //   F = d/(nᵀC n),   n ~ C^(-½) m:   δF/F = -mᵀ C^(-½) δC C^(-½) m        for unit m
 //
@@ -36,8 +34,7 @@ namespace hapbeam {
 struct RodScene {
   Rod rod;
   double s_min, s_max;  ///< [m] where it is pushed; equal: at one place
-  double
-      depth;  ///< [m] how far it is pushed from where it rests, to any side; beside a support a fifth of the distance
+  double depth;         ///< [m] from where it rests, to any side; beside a support a fifth of the distance
   double force_error = 0.05;  ///< largest relative error of the force; a hand tells forces apart from 7 % on
   double force_floor = 0;  ///< [N] smaller forces count as this one, where they change sign or cannot be felt
   double tick = 50e-6;     ///< [s] largest time of a push
@@ -53,11 +50,13 @@ struct RodScene {
   static RodScene at(const Rod& rod, double s, double depth) { return {rod, s, s, depth}; }
 
   bool one_place() const noexcept { return s_min == s_max; }
+  bool twists() const noexcept { return holds_twist(rod.left()) || holds_twist(rod.right()); }
+  Range<double> range() const { return PressRange<double>(rod).range(); }
 
   /// How deep it is pushed at s along cos d1 + sin d2 [m].  A flat rod that is pushed askew gives way across the push: its depth is
   /// less by that, as a straight one's of even stiffness is.
   double depth_at(double s, double cosine, double sine) const noexcept {
-    const Range<double> range = PressRange<double>(rod).range();
+    const Range<double> range = this->range();
     double deep = depth;
     if (range.s_min > 0) deep = (std::min)(deep, s / 5);
     if (range.s_max < rod.length()) deep = (std::min)(deep, (rod.length() - s) / 5);
@@ -67,7 +66,7 @@ struct RodScene {
 
   /// @throws std::invalid_argument
   const RodScene& check() const {
-    const Range<double> range = PressRange<double>(rod).range();
+    const Range<double> range = this->range();
     detail::check_scene(*this, 0.999999 * range.s_min, range.s_max + 1e-6 * range.s_min, "rod");
     return *this;
   }
@@ -113,15 +112,14 @@ class RodPilot : public detail::PilotOf<detail::PushLine> {
 
  public:
   explicit RodPilot(const RodScene& scene) : PilotOf(scene.check().force_floor) {
-    const bool twists = holds_twist(scene.rod.left()) || holds_twist(scene.rod.right());
-    twists ? search<TwistedRod>(scene) : search<RoundRod>(scene);
+    scene.twists() ? search<TwistedRod>(scene) : search<RoundRod>(scene);
   }
 
  private:
   template <class Element>
   void search(const RodScene& scene) {
     const double length = scene.rod.length();
-    const Range<double> range = PressRange<double>(scene.rod).range();
+    const Range<double> range = scene.range();
     const double left = range.s_min > 0 ? scene.s_min : length,
                  right = range.s_max < length ? length - scene.s_max : length;
     FemModel<Element> resting(scene.rod, 64);
@@ -201,8 +199,7 @@ inline Choice choose(const RodScene& scene, const TickCosts& costs = TickCosts::
       return model.push({s, normal.dot(rest.at(s).r) + by, normal});
     });
   };
-  const bool twists = holds_twist(scene.rod.left()) || holds_twist(scene.rod.right());
-  const double hertz = twists ? first_mode(TwistedRod{}) : first_mode(RoundRod{});
+  const double hertz = scene.twists() ? first_mode(TwistedRod{}) : first_mode(RoundRod{});
   detail::Chooser<RodScene, RodPilot> chooser(scene, costs);
   // Two or three elements of a bent rod turn by so much each that they are accurate to one side alone, by chance.
   for (const Kinematics kinematics : {Kinematics::round_rod, Kinematics::twisted_rod})

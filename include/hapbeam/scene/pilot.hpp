@@ -2,13 +2,11 @@
 // Presses and pushes by which candidates are judged: a few lines of increasing depth, answered by a reference whose error is known.
 //
 // The reference is Corotational<>, with as many elements as it takes until half of them give the same force to a twentieth of the
-// tolerated error, or with 512.  own_error() is a third of what they differ by then: the error of the reference where it is
-// of second order or better.  Lines stand at both ends of the range and between, closer toward supports, where every method
+// tolerated error, or with 512.  Lines stand at both ends of the range and between, closer toward supports, where every method
 // is at its worst; along a line the beam is pressed from rest ever deeper, as a hand would.
-// The error is relative to the force.  A straight beam's force has a stiffness at rest, so that the error of its shallowest
-// presses is that of a hundredth of the depth.  A beam that dead loads or nature bend is at rest where its force changes
-// sign, and a model that has it rest elsewhere errs by a force that does not vanish with the depth: it is pressed from a
-// thousandth of the depth on, at many more places, and shallower presses are not judged.
+// The error is relative to the force.  A straight beam is pressed from a hundredth of the depth on.  A beam that dead loads or nature
+// bend is at rest where its force changes sign, and a model that has it rest elsewhere errs by a force that does not vanish with the
+// depth: it is pressed from a thousandth of the depth on, at many more places.
 // Offline: allocates, throws std::invalid_argument where the scene asks for presses that no model answers.
 #pragma once
 
@@ -19,7 +17,7 @@
 
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/rom/trained/coordinates.hpp>
-#include <hapbeam/rom/training/full_model.hpp>
+#include <hapbeam/rom/training/training_plan.hpp>
 #include <hapbeam/scene/scene.hpp>
 
 namespace hapbeam {
@@ -58,10 +56,8 @@ class PilotOf {
       if (line.s == s) most = (std::max)(most, error(model, line));
     return most;
   }
-  int elements() const noexcept { return elements_; }  ///< of the reference
-  double own_error() const noexcept {
-    return own_error_;
-  }  ///< of half as many elements: more than the reference's
+  int elements() const noexcept { return elements_; }       ///< of the reference
+  double own_error() const noexcept { return own_error_; }  ///< of half as many elements: more than its own
 
  protected:
   explicit PilotOf(double force_floor) noexcept : floor_(force_floor) {}

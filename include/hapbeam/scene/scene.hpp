@@ -90,13 +90,7 @@ struct TickCosts {
   }
 };
 
-enum class Kinematics {
-  linear,
-  von_karman,
-  corotational,
-  round_rod,
-  twisted_rod
-};  ///< the last two: of rods
+enum class Kinematics { linear, von_karman, corotational, round_rod, twisted_rod };
 enum class Reduction { none, pod, galerkin };
 
 constexpr const char* name(Kinematics kinematics) noexcept {
@@ -114,9 +108,8 @@ constexpr const char* name(Kinematics kinematics) noexcept {
 struct Candidate {
   Kinematics kinematics;
   Reduction reduction;
-  int elements;  ///< of the model, or of the one that trains it
-  int positions = 0,
-      depths = 0;  ///< snapshots of a trained model, at Chebyshev's nodes; tensions for Galerkin's
+  int elements;                   ///< of the model, or of the one that trains it
+  int positions = 0, depths = 0;  ///< snapshots of a trained model; tensions for Galerkin's
 
   int snapshots() const noexcept { return positions * depths; }
 

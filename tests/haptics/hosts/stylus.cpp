@@ -4,8 +4,8 @@
 
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
-#include <hapbeam/haptics/device/gimbal.hpp>
-#include <hapbeam/hosts/axes.hpp>
+#include <hapbeam/haptics/device/arm.hpp>
+#include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/hosts/placed_touch.hpp>
 
 using namespace hapbeam;

@@ -211,7 +211,7 @@ TEST_CASE("n ticks after a start, failure, reset or pause at most n T / 0.2 s of
         default: break;
       }
       if (begins) engagement.begins(), begun = time, honest = true;
-      const GuardedWrench sent = guard.limit(wanted, time, safe);
+      const GuardedForce sent = guard.limit(wanted, time, safe);
       wrong += !engagement.allows({sent.force, sent.torque});
       wrong += honest && sent.force.norm() > (time - begun + T) / 0.2 * most * (1 + 1e-9);
       wrong += !safe && !(sent.force.isZero(0) && sent.torque.isZero(0));

@@ -40,7 +40,7 @@ TEST_CASE("whatever is wanted, force and torque are finite, limited and slewed, 
     if (random(0, 1) < 0.01) wanted.torque[random.integer(0, 2)] = bad[random.integer(0, 2)];
     time += random(0, 1) < 0.01 ? random(-1, 0) : 1e-3;  // a clock that runs backwards
     const bool safe = random(0, 1) > 0.002;
-    const GuardedWrench sent = guard.limit(wanted, time, safe);
+    const GuardedForce sent = guard.limit(wanted, time, safe);
     REQUIRE(sent.force.norm() <= device.peak_force * (1 + 1e-12));
     REQUIRE(sent.torque.norm() <= device.gimbal.peak_torque * (1 + 1e-12));
     // No farther from the way between the last one and zero than two periods allow.
@@ -58,7 +58,7 @@ TEST_CASE("torque that lasts falls to what its motors bear, while the force stay
   const DeviceInfo device = six_axes();
   ForceGuard guard(ForceGuard::for_device(device));
   const Wrench wanted{{0, 2, 0}, {0, 0, 1}};
-  GuardedWrench sent{};
+  GuardedForce sent{};
   for (int i = 1; i <= 100000; ++i) sent = guard.limit(wanted, 1e-3 * i, true);
   CHECK(sent.torque.norm() == Approx(device.gimbal.continuous_torque).epsilon(1e-2));
   CHECK(sent.force == wanted.force);
@@ -75,7 +75,7 @@ TEST_CASE("a force alone is guarded as it was, and a wrench without a torque is 
     const Eigen::Vector3d force = any(random, 60), torque = any(random, 1);
     const double time = 1e-3 * i;
     const GuardedForce a = alone.limit(force, time, true), b = six.limit(force, time, true);
-    const GuardedWrench c = both.limit(Wrench{force, torque}, time, true);
+    const GuardedForce c = both.limit(Wrench{force, torque}, time, true);
     REQUIRE(a.force == b.force);
     REQUIRE(a.force == c.force);
     REQUIRE(a.limited == c.limited);

@@ -53,8 +53,7 @@ std::string edited(std::string text, const std::string& from, const std::string&
   text.replace(at, from.size(), to);
   const std::size_t line = text.find('\n') + 1;
   const std::size_t checksum = text.find("crc32:");
-  if (checksum < line)
-    text.replace(checksum, 14, detail::Checksum(text.data() + line, text.size() - line).text);
+  if (checksum < line) text.replace(checksum, 14, detail::checksum(text.data() + line, text.size() - line));
   return text;
 }
 

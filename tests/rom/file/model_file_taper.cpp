@@ -22,8 +22,7 @@ std::string with_section(std::string text, const std::string& value, bool whole)
   REQUIRE(at > field.size());
   text.replace(at, text.find(',', at) - at, value);
   const std::size_t line = text.find('\n') + 1;
-  if (whole)
-    text.replace(text.find("crc32:"), 14, detail::Checksum(text.data() + line, text.size() - line).text);
+  if (whole) text.replace(text.find("crc32:"), 14, detail::checksum(text.data() + line, text.size() - line));
   return text;
 }
 

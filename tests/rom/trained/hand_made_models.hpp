@@ -39,22 +39,21 @@ inline ErrorReport hand_made_errors() {
           1e-7};
 }
 
+template <typename S>
+TrainedData<S> hand_made(const BeamData<S>& beam) {
+  return {beam, S(0.127), S(2.413), S(0.05), 3, hand_made_shape<S>(9), hand_made_errors()};
+}
+
 /// 3 positions × 3 depths, 2 modes, 2 segments.
 template <typename S>
 PodModelData<S> hand_made_pod(bool symmetric = true) {
-  return {hand_made_beam<S>(),
-          S(0.127),
-          S(2.413),
-          S(0.05),
+  return {hand_made(hand_made_beam<S>()),
           symmetric,
-          3,
           3,
           symmetric ? S(0) : S(-2.9),
           symmetric ? S(8.4) : S(2.9),
           irregular<S>(9, 500),
-          irregular<S>(3, symmetric ? 0 : 1e-4),
-          hand_made_shape<S>(9),
-          hand_made_errors()};
+          irregular<S>(3, symmetric ? 0 : 1e-4)};
 }
 
 /// 3 positions × 3 tensions, 2 modes, 2 segments.
@@ -63,16 +62,7 @@ GalerkinModelData<S> hand_made_galerkin() {
   std::vector<S> log_stiffness;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) log_stiffness.push_back(static_cast<S>(std::log(500 + 30.1 * i) + 0.3 * j));
-  return {hand_made_beam<S>(Support::pinned, Support::pinned),
-          S(0.127),
-          S(2.413),
-          S(0.05),
-          3,
-          3,
-          S(1e5),
-          log_stiffness,
-          hand_made_shape<S>(9),
-          hand_made_errors()};
+  return {hand_made(hand_made_beam<S>(Support::pinned, Support::pinned)), 3, S(1e5), log_stiffness};
 }
 
 }  // namespace hapbeam::testing

@@ -10,7 +10,7 @@
 #include "support/thesis_beam.hpp"
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
-#include <hapbeam/rom/training/full_model.hpp>
+#include <hapbeam/rom/training/training_plan.hpp>
 #include <hapbeam/rom/training/validate.hpp>
 
 using namespace hapbeam;

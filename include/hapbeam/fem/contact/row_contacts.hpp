@@ -31,7 +31,7 @@ class RowContacts {
   using Contact = typename System::Contact;
   using RoundContact = typename System::RoundContact;
   static constexpr int most = contacts_of<Element>, dimension = dimension_of<Element>;
-  using Round = typename RoundOf<Scalar, dimension>::Type;
+  using Round = RoundOf<Scalar, dimension>;
   using Vector = VectorOf<Scalar, dimension>;
   using State = InnerState<Scalar, dimension>;
   using Obstacle = hapbeam::Obstacle<Scalar, dimension>;

@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: MIT
-// A simulated arm: the mechanics of one of its axes in a hand, and its encoders.
+// A simulated arm: the mechanics of one of its axes in a hand.
 //
 //   m x'' = F + k (p - x) + c (p' - x') - b x' - friction
 //
 // m is the apparent mass of arm and grip, b the arm's viscous damping. k and c are spring and damper of the hand, which
-// pulls toward p(t). F is the device's force, held over the interval (zero-order hold). Coulomb friction f opposes x';
-// at x' = 0 it holds the arm against any force up to f.
-//
-// There is no time stepping. Between two changes of the sign of x' the equation is linear. With p a cubic its solution
-// is a power series in time, summed to round-off. The instants at which the arm stops or breaks away are roots of that
-// series. The motion therefore does not depend on how an interval is divided, stiction is exact, and friction never
-// adds energy. There are no end stops.
+// pulls toward p(t). F is the device's force, held over the interval. Coulomb friction f opposes x'; at x' = 0 it holds
+// the arm against any force up to f.
+// There is no time stepping. Between two changes of the sign of x' the solution is a power series in time, summed to
+// round-off, and the arm stops or breaks away at roots of that series. The motion therefore does not depend on how an
+// interval is divided, and friction never adds energy. There are no end stops.
 // Real-time: no allocation, noexcept, wait-free, bounded by max_events and by duration / longest_piece().
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Core>
 
 namespace hapbeam {
 
@@ -192,45 +188,6 @@ class ArmAxis {
 
   ArmAxisParameters p_;
   double x_ = 0, v_ = 0;
-};
-
-/// Encoders of a simulated device: positions on a grid, and a velocity estimated from them.  Axis by axis the nearest point of a grid of
-/// the resolution.  Velocity is the difference of successive readings over the period, q', through a low pass of first order,
-///
-///   v += (1 - exp(-2 pi f T)) (q' - v)
-///
-/// because one step of the grid in one period alone would read as 7 mm/s.  It lags by about 1 / (2 pi f).
-class Encoders {
- public:
-  /// @param resolution [m]; 0: positions are read as they are   @param cutoff f [Hz]
-  Encoders(double resolution, double cutoff) noexcept
-      : resolution_(resolution), cutoff_(2 * 3.141592653589793 * cutoff) {}
-
-  const Eigen::Vector3d& position() const noexcept { return position_; }  ///< [m]
-  const Eigen::Vector3d& velocity() const noexcept { return velocity_; }  ///< [m/s]
-
-  /// Begins at a place, without motion.  @param tip [m]
-  void reset(const Eigen::Vector3d& tip) noexcept {
-    position_ = on_grid(tip);
-    velocity_.setZero();
-  }
-  /// Reads the tip.  @param tip [m]   @param period [s] since the last reading
-  void read(const Eigen::Vector3d& tip, double period) noexcept {
-    const Eigen::Vector3d reading = on_grid(tip);
-    velocity_ += -std::expm1(-cutoff_ * period) * ((reading - position_) / period - velocity_);
-    position_ = reading;
-  }
-
- private:
-  Eigen::Vector3d on_grid(const Eigen::Vector3d& tip) const noexcept {
-    if (resolution_ == 0) return tip;
-    return {resolution_ * std::nearbyint(tip.x() / resolution_),
-            resolution_ * std::nearbyint(tip.y() / resolution_),
-            resolution_ * std::nearbyint(tip.z() / resolution_)};
-  }
-
-  double resolution_, cutoff_;  // [m], [rad/s]
-  Eigen::Vector3d position_ = Eigen::Vector3d::Zero(), velocity_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace hapbeam

@@ -2,8 +2,7 @@
 // The contract between a haptic device and the computation that gives it force.
 //
 // A device owns the servo loop. Once a period, on its own thread, it reads the position of the hand, calls a servo for
-// the force and sends that force. A servo is a callable object, passed by reference: nothing is copied or allocated,
-// and a C callback with a void* can carry it. It must outlive the loop.
+// the force and sends that force. A servo is a callable object, passed by reference. It must outlive the loop.
 //
 //   a servo S
 //   s(state)      Eigen::Vector3d   noexcept; the force on the hand [N], device axes; no allocation or waiting
@@ -20,16 +19,13 @@
 //   d.status()    DeviceStatus      noexcept, wait-free, from any thread: how it is, or what ended the loop
 //   d.counts()    DeviceCounts      noexcept, wait-free, from any thread, while running and after
 //
-// A device sends only finite forces and torques within its peak, whatever the servo returns. The next tick's state has
-// what was sent. A device in trouble sends less than requested, or nothing. DeviceState::status has the reason, and
-// DeviceState::reset tells the servo to discard the contact. Axes: x right, y up, z toward the user, as in OpenHaptics'
-// HDAPI. Units are SI.
+// A device sends only finite forces and torques within its peak, whatever the servo returns; the next tick's state has what was sent.
+// DeviceState::status has the reason for less, and DeviceState::reset tells the servo to discard the contact.  Axes: x right, y up, z
+// toward the user, as in OpenHaptics' HDAPI. Units are SI.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
@@ -48,8 +44,7 @@ enum class ForceCut : std::uint8_t {
   ramped,      ///< scaled down, to zero perhaps, after a start or an error or with warm motors
 };
 
-/// State of a device. The first five have a loop that runs or may be started. The last three have ended the loop, or
-/// prevented its start, and stay until the next start().
+/// The first five have a loop that runs or may be started; the last three have ended it, or prevented its start, until the next start().
 enum class DeviceStatus : std::uint8_t {
   stopped,      ///< no loop, and nothing wrong
   running,      ///< the servo is called and its force sent
@@ -84,12 +79,12 @@ constexpr const char* name(DeviceStatus status) noexcept {
 
 /// Input of the servo at the beginning of a tick.
 struct DeviceState {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] as the encoders read it, in the device's axes
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s] as the device estimates it
-  double time = 0;                                     ///< [s] since start
-  ForceCut cut = ForceCut::none;                   ///< what the device did to the force of the tick before
-  Eigen::Vector3d sent = Eigen::Vector3d::Zero();  ///< [N] that force, as it was sent
-  DeviceStatus status = DeviceStatus::running;     ///< running, warm or force_error
+  Eigen::Vector3d position{0, 0, 0};            ///< [m] as the encoders read it, in the device's axes
+  Eigen::Vector3d velocity{0, 0, 0};            ///< [m/s] as the device estimates it
+  double time = 0;                              ///< [s] since start
+  ForceCut cut = ForceCut::none;                ///< what the device did to the force of the tick before
+  Eigen::Vector3d sent{0, 0, 0};                ///< [N] that force, as it was sent
+  DeviceStatus status = DeviceStatus::running;  ///< running, warm or force_error
   /// Start without contact: in the first tick since the start or since a calibration, and in each tick in which a force
   /// error is found. A real device then sends zero and ramps the force in. A simulated one sends what is requested.
   bool reset = false;
@@ -99,13 +94,13 @@ struct DeviceState {
 struct OrientedState : DeviceState {
   /// The axes of the stylus, one a column, in the device's axes; z along its shaft, from the tip to the hand.  A rotation.
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d sent_torque = Eigen::Vector3d::Zero();  ///< [N·m] of the tick before, as it was sent
+  Eigen::Vector3d sent_torque{0, 0, 0};  ///< [N·m] of the tick before, as it was sent
 };
 
 /// A force on the hand and a torque about the device's position.
 struct Wrench {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m]
+  Eigen::Vector3d force{0, 0, 0};   ///< [N]
+  Eigen::Vector3d torque{0, 0, 0};  ///< [N·m]
 };
 
 /// What happened since start.
@@ -121,23 +116,20 @@ inline bool all_finite(const Eigen::Vector3d& v) noexcept {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
-/// Whether a hand can be there: farther out, positions are a reading or a unit gone wrong, and their powers overflow.
-inline bool is_place(const Eigen::Vector3d& position) noexcept {
-  constexpr double farthest = 1e9;  // [m]
-  return std::abs(position[0]) <= farthest && std::abs(position[1]) <= farthest &&
-         std::abs(position[2]) <= farthest;
+/// Whether a hand can be there: beyond 1e9 m positions are a reading or a unit gone wrong, and their powers overflow.
+inline bool is_place(const Eigen::Vector3d& r) noexcept {
+  return std::abs(r[0]) <= 1e9 && std::abs(r[1]) <= 1e9 && std::abs(r[2]) <= 1e9;
 }
 
 /// Whether a matrix is a rotation but for its last digits.
 inline bool is_rotation(const Eigen::Matrix3d& R) noexcept {
-  constexpr double most = 1e-2;
   double skew = 0;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {
       const double error = R(0, i) * R(0, k) + R(1, i) * R(1, k) + R(2, i) * R(2, k) - (i == k);
       skew += error * error;
     }
-  return skew <= most * most;
+  return skew <= 1e-4;
 }
 
 /// Axis times angle of a rotation [rad].   @param R  its entries, R(i, j)
@@ -148,26 +140,6 @@ Eigen::Vector3d rotation_vector(const Rotation& R) noexcept {
   if (!(sine > 0)) return Eigen::Vector3d::Zero();
   return twice * (std::atan2(sine, (R(0, 0) + R(1, 1) + R(2, 2) - 1) / 2) / (2 * sine));
 }
-
-/// What is late by whole ticks.
-class DelayLine {
- public:
-  static constexpr int longest = 16;
-
-  /// @param newest  of this tick   @param ticks  0 to longest   @return of so many ticks ago; zero where there was none
-  const Eigen::Vector3d& pass(const Eigen::Vector3d& newest, int ticks) noexcept {
-    std::move_backward(all_.begin(), all_.end() - 1, all_.end());
-    all_[0] = newest;
-    return all_[static_cast<std::size_t>(ticks)];
-  }
-  void clear() noexcept { all_.fill(Eigen::Vector3d::Zero()); }
-
- private:
-  std::array<Eigen::Vector3d, longest + 1> all_ = [] {
-    std::array<Eigen::Vector3d, longest + 1> none;
-    return none.fill(Eigen::Vector3d::Zero()), none;
-  }();
-};
 
 }  // namespace detail
 
@@ -189,8 +161,7 @@ class DelayLine {
   return ForceCut::peak;
 }
 
-/// The same for force and torque together. If one is not finite, neither is sent. A device without torque gets none.
-/// @param peak_torque [N·m]; 0: it renders none
+/// The same for force and torque together: if one is not finite, neither is sent.   @param peak_torque [N·m]; 0: it renders none
 [[nodiscard]] inline ForceCut limit_wrench(Wrench& wrench, double peak_force, double peak_torque) noexcept {
   if (!detail::all_finite(wrench.force) || !detail::all_finite(wrench.torque)) {
     wrench = {};

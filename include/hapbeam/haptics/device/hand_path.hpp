@@ -21,13 +21,13 @@ namespace hapbeam {
 
 /// Target position and velocity of the hand, and the force it adds.
 struct HandTarget {
-  Eigen::Vector3d position;                        ///< [m] device axes
-  Eigen::Vector3d velocity;                        ///< [m/s]
-  Eigen::Vector3d push = Eigen::Vector3d::Zero();  ///< [N] held until the next target; a weight, for example
-  // Of a device with a gimbal: about its axes of yaw, pitch and roll (gimbal.hpp).
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();   ///< [rad] any number of turns
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();   ///< [rad/s]
-  Eigen::Vector3d twist = Eigen::Vector3d::Zero();  ///< [N·m] held until the next target
+  Eigen::Vector3d position;       ///< [m] device axes
+  Eigen::Vector3d velocity;       ///< [m/s]
+  Eigen::Vector3d push{0, 0, 0};  ///< [N] held until the next target; a weight, for example
+  // Of a device with a gimbal: about its axes of yaw, pitch and roll (arm.hpp).
+  Eigen::Vector3d turn{0, 0, 0};   ///< [rad] any number of turns
+  Eigen::Vector3d spin{0, 0, 0};   ///< [rad/s]
+  Eigen::Vector3d twist{0, 0, 0};  ///< [N·m] held until the next target
 };
 
 /// A script for the hand in the device's x-y plane (z = 0). It begins at a place and appends one motion after the
@@ -36,9 +36,9 @@ class HandPath {
  public:
   /// One way-point, passed without velocity.
   struct WayPoint {
-    double time;                                     ///< [s] since the beginning
-    Vector2<double> position;                        ///< [m] x to the right, y up
-    Eigen::Vector3d turn = Eigen::Vector3d::Zero();  ///< [rad] yaw, pitch and roll of the stylus
+    double time;                    ///< [s] since the beginning
+    Vector2<double> position;       ///< [m] x to the right, y up
+    Eigen::Vector3d turn{0, 0, 0};  ///< [rad] yaw, pitch and roll of the stylus
   };
 
   /// A hand that rests at a place.
@@ -96,11 +96,10 @@ class HandPath {
   HandTarget operator()(double time) const noexcept {
     const auto next = std::upper_bound(points_.begin(), points_.end(), time,
                                        [](double t, const WayPoint& point) { return t < point.time; });
-    if (next == points_.begin()) return at_rest(points_.front());
-    if (next == points_.end()) return at_rest(points_.back());
-    const WayPoint &a = *(next - 1), &b = *next;
-    const double span = b.time - a.time, t = (time - a.time) / span, r = 1 - t;
-    const double share = t * t * t * (10 + t * (6 * t - 15)), rate = 30 * t * t * r * r / span;
+    const WayPoint& b = next == points_.end() ? points_.back() : *next;
+    const WayPoint& a = next == points_.begin() ? b : *(next - 1);
+    const double span = b.time - a.time, t = span > 0 ? (time - a.time) / span : 0, r = 1 - t;
+    const double share = t * t * t * (10 + t * (6 * t - 15)), rate = span > 0 ? 30 * t * t * r * r / span : 0;
     const Vector2<double> way = b.position - a.position;
     const Vector2<double> position = a.position + way * share;
     const Vector2<double> velocity = way * rate;
@@ -125,11 +124,6 @@ class HandPath {
       if (!(spin <= fastest)) detail::reject("hand path spin", spin, "rad/s", "at most 1e9");
     }
     points_.push_back(next);
-  }
-  static HandTarget at_rest(const WayPoint& point) noexcept {
-    HandTarget target{{point.position.x(), point.position.y(), 0}, Eigen::Vector3d::Zero()};
-    target.turn = point.turn;
-    return target;
   }
   HandPath& move_by(double x, double y, double duration) {
     return move_to(points_.back().position + Vector2<double>(x, y), duration);

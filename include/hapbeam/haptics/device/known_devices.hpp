@@ -3,14 +3,11 @@
 //
 //   Servo<FemModel<>> servo(model, known_device("omega.3"));
 //
-// Workspace, force, stiffness, resolution, friction and apparent mass are those of the makers' data sheets (SensAble and
-// 3D Systems: Phantom Omni, Desktop, Premium 1.5 and 3.0, Touch, Touch X; Force Dimension: omega.3, .6, .7, sigma.7; Novint:
-// Falcon).  Those of the Premium with high force are from the thesis, Table 2.1.  Stiffness is that of the softest axis, and no
-// more than CHAI3D 3.3.0 permits for the device.  Torque and its stiffness are those of CHAI3D 3.3.0's source; the Premium's are
-// the ones given there for the 1.5 6DOF.  If a source gives one maximum alone, the continuous value is half of it, except
-// that Force Dimension's forces are continuous.
+// They are those of the makers' data sheets (SensAble, 3D Systems, Force Dimension, Novint).  The Premium with high force is that of the
+// thesis, Table 2.1.  Stiffness is that of the softest axis, and no more than CHAI3D 3.3.0 permits; torque and its stiffness are
+// CHAI3D's.  If a source gives one maximum alone, the continuous value is half of it; Force Dimension's forces are continuous.
 // The figures were not checked against the sheets: compare them with the one that came with the device before a force is sent.
-// Not found, and 0: friction of the parallel arms, viscous damping (see safe_coupling()), and resolution, friction, damping and
+// Unknown, and 0: friction of the parallel arms, viscous damping (see safe_coupling()), and resolution, friction, damping and
 // inertia of the gimbals.  Nothing is published about the Inverse3: its figures are low on purpose.
 // docs/haptics.md has the table.  The rate is 1 kHz: set `period` for a loop at another rate.
 // Offline: allocates.

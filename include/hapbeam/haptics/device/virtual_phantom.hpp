@@ -3,14 +3,13 @@
 //
 // The arm is a mass with viscous damping and Coulomb friction on each axis, which encoders read (arm_axis.hpp). Its force is held over the period and limited to the peak. A hand of mass, spring and damper pulls
 // the arm along a path (hand_path.hpp). Figures: thesis Table 2.1. There are three translations and, optionally, a
-// gimbal (gimbal.hpp), which the torque turns. There are no end stops.
+// gimbal (arm.hpp), which the torque turns. There are no end stops.
 //
 // It fulfils the device contract (device.hpp) with a thread of its own, in real time. It also runs in lock step with
 // simulated time: as fast as the machine can, with the same bits every time.
 // Construction and start() allocate and throw. A tick does neither, and never waits for another thread.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -20,37 +19,24 @@
 #include <type_traits>
 #include <utility>
 
+#include <hapbeam/haptics/device/arm.hpp>
 #include <hapbeam/haptics/device/arm_axis.hpp>
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/device/gimbal.hpp>
 #include <hapbeam/haptics/device/hand_path.hpp>
 
 namespace hapbeam {
-
-/// The arm.  Defaults are the thesis' Table 2.1 where no other source is named.
-struct ArmOptions {
-  double apparent_mass = 0.21;   ///< [kg] at the tip, positive
-  double damping = 5;            ///< [N·s/m] viscous; not in the table, a figure seen for such a unit
-  double friction = 0.2;         ///< [N] Coulomb, on each axis
-  double resolution = 7e-6;      ///< [m] of the encoders; 0: exact
-  double velocity_cutoff = 100;  ///< [Hz] of the velocity's low pass, positive; not in the table
-  double peak_force = 37.5;      ///< [N] positive
-  double period = 1e-3;          ///< [s] of the servo loop, 1e-5 to 1
-  int delay_ticks = 0;           ///< whole periods between a force and the motors, 0 to 16
-  double jitter = 0;  ///< share of a period by which the time between two ticks differs from it, 0 to 0.9
-};
-
-/// The hand that holds the arm, a spring and a damper between path and grip; within the published fits.
-struct HandOptions {
-  double stiffness = 500;  ///< [N/m]; 0: the hand does not follow the path
-  double damping = 1.3;    ///< [N·s/m]
-  double grip_mass = 0.2;  ///< [kg] that moves with the arm
-};
 
 struct VirtualPhantomOptions {
   ArmOptions arm;
   HandOptions hand;
   GimbalOptions gimbal = {};
+
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  const VirtualPhantomOptions& check() const {
+    arm.check(hand);
+    gimbal.check(arm.period);
+    return *this;
+  }
 };
 
 /// True position and velocity of the arm's tip, which a real device cannot report.
@@ -58,6 +44,25 @@ struct Tip {
   Eigen::Vector3d position;  ///< [m]
   Eigen::Vector3d velocity;  ///< [m/s]
 };
+
+namespace detail {
+
+[[gnu::cold]] inline DeviceInfo describe(const VirtualPhantomOptions& options) {
+  const ArmOptions& arm = options.arm;
+  return {"virtual Phantom Premium 1.5/6DOF High Force",
+          {0.381, 0.267, 0.191},
+          arm.peak_force,
+          6.2,
+          3500,
+          arm.resolution,
+          arm.friction,
+          arm.period,
+          arm.damping,
+          arm.apparent_mass,
+          Gimbal::describe(options.gimbal)};
+}
+
+}  // namespace detail
 
 /// @tparam Path  target of the hand: HandTarget path(double time) noexcept, time in [s]
 template <typename Path = HandPath>
@@ -69,7 +74,7 @@ class VirtualPhantom {
  public:
   /// @throws std::invalid_argument naming field, value and unit; also where a HandPath leaves the workspace
   explicit VirtualPhantom(Path path, const VirtualPhantomOptions& options = {})
-      : path_(std::move(path)), options_(checked(options)), info_(describe(options)) {
+      : path_(std::move(path)), options_(options.check()), info_(detail::describe(options)) {
     check_workspace();
     reset();
   }
@@ -122,10 +127,7 @@ class VirtualPhantom {
   /// Back to the beginning of the path, without motion, all counts zero.  Only while it does not run.
   void reset() noexcept;
   /// True state of the tip.  Only while it does not run, or from the servo.
-  Tip tip() const noexcept {
-    return {{axes_[0].position(), axes_[1].position(), axes_[2].position()},
-            {axes_[0].velocity(), axes_[1].velocity(), axes_[2].velocity()}};
-  }
+  Tip tip() const noexcept { return {arm_.position(), arm_.velocity()}; }
   /// True orientation of the stylus.  As tip().
   const Gimbal& gimbal() const noexcept { return gimbal_; }
 
@@ -136,7 +138,7 @@ class VirtualPhantom {
   template <typename Servo>
   void tick(Servo& servo) noexcept {
     OrientedState state;
-    state.position = encoders_.position(), state.velocity = encoders_.velocity();
+    state.position = arm_.encoders().position(), state.velocity = arm_.encoders().velocity();
     state.time = time_, state.cut = cut_, state.sent = sent_.force, state.sent_torque = sent_.torque;
     state.reset = ticks_.load(std::memory_order_relaxed) == 0;
     if (options_.gimbal.present) state.orientation = gimbal_.orientation();
@@ -176,19 +178,13 @@ class VirtualPhantom {
     }
   }
 
-  static VirtualPhantomOptions checked(const VirtualPhantomOptions& options);
-  static ArmAxis axis(const VirtualPhantomOptions& o) noexcept {
-    return ArmAxis({o.arm.apparent_mass + o.hand.grip_mass, o.arm.damping + o.hand.damping, o.hand.stiffness,
-                    o.arm.friction});
-  }
-  static DeviceInfo describe(const VirtualPhantomOptions& options);
   void check_workspace() const;
 
   Path path_;
   VirtualPhantomOptions options_;
   DeviceInfo info_;
-  ArmAxis axes_[3] = {axis(options_), axis(options_), axis(options_)};
-  Encoders encoders_{options_.arm.resolution, options_.arm.velocity_cutoff};
+  Arm arm_{options_.arm.axis(options_.hand), options_.hand.damping, options_.arm.resolution,
+           options_.arm.velocity_cutoff};
   Gimbal gimbal_{options_.gimbal, options_.arm.velocity_cutoff};
   HandTarget target_{};
   Wrench sent_;
@@ -212,8 +208,7 @@ void VirtualPhantom<Path>::reset() noexcept {
   late_.clear(), late_motors_.clear();
   cut_ = ForceCut::none;
   target_ = path_(0);
-  for (int i = 0; i < 3; ++i) axes_[i].place(target_.position[i]);
-  encoders_.reset(tip().position);
+  arm_.place(target_.position);
   gimbal_.reset(target_);
 }
 
@@ -223,68 +218,10 @@ void VirtualPhantom<Path>::advance() noexcept {
   const HandTarget from = target_;
   target_ = path_(time_);
   const int delay = options_.arm.delay_ticks;
-  const Eigen::Vector3d force = late_.pass(sent_.force, delay) + from.push;
-  for (int i = 0; i < 3; ++i)
-    axes_[i].advance(axes_[i].drive(force[i], from.position[i], from.velocity[i], target_.position[i],
-                                    target_.velocity[i], options_.hand.damping, period),
-                     period);
-  encoders_.read(tip().position, period);
+  arm_.advance(late_.pass(sent_.force, delay) + from.push, from.position, from.velocity, target_.position,
+               target_.velocity, period);
   if (!options_.gimbal.present) return;
   gimbal_.advance(late_motors_.pass(gimbal_.by_axes(sent_.torque), delay), from, target_, period);
-}
-
-template <typename Path>
-VirtualPhantomOptions VirtualPhantom<Path>::checked(const VirtualPhantomOptions& options) {
-  const ArmOptions& arm = options.arm;
-  const HandOptions& hand = options.hand;
-  using detail::not_negative;
-  detail::positive("apparent_mass", arm.apparent_mass, "kg");
-  not_negative("arm damping", arm.damping, "N·s/m");
-  not_negative("friction", arm.friction, "N");
-  not_negative("resolution", arm.resolution, "m");
-  detail::positive("velocity_cutoff", arm.velocity_cutoff, "Hz");
-  detail::positive("peak_force", arm.peak_force, "N");
-  if (!(arm.period >= 1e-5 && arm.period <= 1)) detail::reject("period", arm.period, "s", "1e-5 to 1");
-  if (!(arm.delay_ticks >= 0 && arm.delay_ticks <= detail::DelayLine::longest))
-    detail::reject("delay_ticks", arm.delay_ticks, "", "0 to 16");
-  if (!(arm.jitter >= 0 && arm.jitter <= 0.9)) detail::reject("jitter", arm.jitter, "", "0 to 0.9");
-  not_negative("hand stiffness", hand.stiffness, "N/m");
-  not_negative("hand damping", hand.damping, "N·s/m");
-  not_negative("grip_mass", hand.grip_mass, "kg");
-  // Bounded work: an arm that settles a thousand times within a period is a mistake in a unit.
-  if (arm.period > 500 * axis(options).longest_piece())
-    detail::reject("apparent_mass", arm.apparent_mass, "kg",
-                   "large enough that the arm does not settle in 1/1000 period");
-  const GimbalOptions& gimbal = options.gimbal;
-  detail::positive("gimbal inertia", gimbal.inertia, "kg·m²");
-  not_negative("gimbal damping", gimbal.damping, "N·m·s/rad");
-  not_negative("gimbal friction", gimbal.friction, "N·m");
-  not_negative("gimbal resolution", gimbal.resolution, "rad");
-  not_negative("gimbal peak_torque", gimbal.peak_torque, "N·m");
-  detail::positive("gimbal continuous_torque", gimbal.continuous_torque, "N·m");
-  not_negative("gimbal hand_stiffness", gimbal.hand_stiffness, "N·m/rad");
-  not_negative("gimbal hand_damping", gimbal.hand_damping, "N·m·s/rad");
-  not_negative("gimbal grip_inertia", gimbal.grip_inertia, "kg·m²");
-  if (arm.period > 500 * Gimbal::axis(gimbal).longest_piece())
-    detail::reject("gimbal inertia", gimbal.inertia, "kg·m²",
-                   "large enough that the gimbal does not settle in 1/1000 period");
-  return options;
-}
-
-template <typename Path>
-DeviceInfo VirtualPhantom<Path>::describe(const VirtualPhantomOptions& options) {
-  const ArmOptions& arm = options.arm;
-  return {"virtual Phantom Premium 1.5/6DOF High Force",
-          {0.381, 0.267, 0.191},
-          arm.peak_force,
-          6.2,
-          3500,
-          arm.resolution,
-          arm.friction,
-          arm.period,
-          arm.damping,
-          arm.apparent_mass,
-          Gimbal::describe(options.gimbal)};
 }
 
 template <typename Path>

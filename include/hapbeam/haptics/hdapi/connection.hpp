@@ -16,45 +16,11 @@
 #include <string>
 #include <utility>
 
-#include <hapbeam/check.hpp>
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/hdapi/calibration.hpp>
-#include <hapbeam/haptics/hdapi/scheduler.hpp>
+#include <hapbeam/haptics/hdapi/contract.hpp>
+#include <hapbeam/haptics/hdapi/setup.hpp>
 
 namespace hapbeam {
-
-/// Which device, and how it is to be used.
-struct HdapiOptions {
-  std::string device;    ///< its name in the vendor's setup program; empty: the default device
-  unsigned rate = 1000;  ///< [Hz] of the servo loop, one that the device supports; the same for all devices
-  double force_limit =
-      std::numeric_limits<double>::infinity();  ///< [N] positive; the device's own peak applies too
-  double ramp_time = 0.5;  ///< [s] from gain 0 to 1, after a start and after an error; positive
-
-  // Not available from HDAPI; 0 where unknown.
-  double position_resolution = 0;  ///< [m]
-  double friction = 0;             ///< [N] to drive the arm back by hand
-  double damping = 0;              ///< [N·s/m] viscous, of the arm
-  double apparent_mass = 0;        ///< [kg] at the tip
-
-  // Of a device of six axes.
-  double torque_limit = std::numeric_limits<
-      double>::infinity();       ///< [N·m] not negative, 0: no torque; the device's own peak applies too
-  double gimbal_resolution = 0;  ///< [rad]
-  double gimbal_friction = 0;    ///< [N·m] to turn the stylus by hand
-  double gimbal_damping = 0;     ///< [N·m·s/rad] viscous, of the gimbal
-  double gimbal_inertia = 0;     ///< [kg·m²] of gimbal and stylus
-};
-
-/// A device that cannot be used; why() is the reason, as in its status().
-class DeviceError : public std::runtime_error {
- public:
-  DeviceError(DeviceStatus why, const std::string& text) : std::runtime_error(text), why_(why) {}
-  DeviceStatus why() const noexcept { return why_; }
-
- private:
-  DeviceStatus why_;
-};
 
 namespace detail {
 
@@ -63,28 +29,11 @@ class HdConnection {
  public:
   using Scheduler = HdScheduler<Api>;
 
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
-  explicit HdConnection(const HdapiOptions& options) : options_(options) {
-    if (options.rate < 100 || options.rate > 10000)
-      reject("rate", options.rate, "Hz", "one that the device knows, 100 to 10000");
-    if (!(options.force_limit > 0)) reject("force_limit", options.force_limit, "N", "positive");
-    positive("ramp_time", options.ramp_time, "s");
-    not_negative("position_resolution", options.position_resolution, "m");
-    not_negative("friction", options.friction, "N");
-    not_negative("damping", options.damping, "N·s/m");
-    not_negative("apparent_mass", options.apparent_mass, "kg");
-    if (!(options.torque_limit >= 0)) reject("torque_limit", options.torque_limit, "N·m", "not negative");
-    not_negative("gimbal_resolution", options.gimbal_resolution, "rad");
-    not_negative("gimbal_friction", options.gimbal_friction, "N·m");
-    not_negative("gimbal_damping", options.gimbal_damping, "N·m·s/rad");
-    not_negative("gimbal_inertia", options.gimbal_inertia, "kg·m²");
-  }
+  /// @throws as HdapiOptions::check()
+  explicit HdConnection(const HdapiOptions& options) : options_(options.check()) {}
 
   const HdapiOptions& options() const noexcept { return options_; }
   const DeviceInfo& info() const noexcept { return info_; }
-  const Eigen::Vector3d& middle() const noexcept {
-    return middle_;
-  }  ///< [mm] of the workspace, vendor's axes
   bool connected() const noexcept { return connected_; }
 
   /// Initialises the device and reads its figures.  With the scheduler's mutex.
@@ -183,11 +132,9 @@ class HdConnection {
   /// @param orientation  out   @return false where the vendor's functions give no rotation
   bool read(Eigen::Matrix3d& orientation) const noexcept {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    double transform[16];  // column by column
-    for (double& entry : transform) entry = none;
-    Api::get_doublev(Api::current_transform, transform);
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column) orientation(row, column) = transform[4 * column + row];
+    Eigen::Matrix4d transform = Eigen::Matrix4d::Constant(none);  // column by column
+    Api::get_doublev(Api::current_transform, transform.data());
+    orientation = transform.topLeftCorner<3, 3>();
     return make_rotation(orientation);
   }
 
@@ -287,7 +234,7 @@ class HdConnection {
 
   HdapiOptions options_;
   DeviceInfo info_;
-  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  // [mm] of the workspace, in the vendor's axes
+  Eigen::Vector3d middle_{0, 0, 0};  // [mm] of the workspace, in the vendor's axes
   bool has_temperature_ = false, has_torque_ = false, connected_ = false;
 };
 

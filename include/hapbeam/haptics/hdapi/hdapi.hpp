@@ -8,17 +8,12 @@
 // sends its force. Zero is sent, too, because the device keeps a force until it is replaced. The orientation is read if
 // device and servo have one. Torque is sent only to devices that render it.
 //
-//   found in a tick                          what follows
-//   a force or speed was rejected            zero is sent, DeviceState::reset, the force ramps in
-//   warm motors, or a temperature above 0.7  the force ramps down to zero, and in again below 0.5
-//   calibration missing or lost              the servo is not called, zero is sent until the device has calibrated
-//                                            itself, then reset and ramp; one that a person calibrates: the loop ends
-//   communication lost; any other error, a   the servo is not called, zero is sent, forces are switched off,
-//   position that is no number, a transform  the loop ends, status() has the reason; start() reconnects
-//   that is no rotation, a frame that is     where the driver reports an error in that, it is done again in the
-//   not this device's                        next three ticks
+// A rejected force or speed: zero is sent, DeviceState::reset, and the force ramps in.  Warm motors: it ramps down, and in again when they
+// have cooled.  A calibration that is missing or lost: zero is sent, and the servo not called, until the device has calibrated itself.
+// Any other fault, and a reading that is no number or not this device's: zero is sent, forces are switched off and the loop ends; status()
+// has the reason, and start() reconnects.  Where the driver reports an error in that, it is done again in the next three ticks.
 //
-// Several devices share one scheduler (scheduler.hpp). A device is constructed, or restarted after its loop was lost,
+// Several devices share one scheduler (contract.hpp). A device is constructed, or restarted after its loop was lost,
 // while no other runs. A healthy device starts and stops at any time. Units and origin are those of connection.hpp.
 // Construction, calibrate() and start() allocate and throw. A tick does neither, and never waits for a thread.
 // Source: OpenHaptics Toolkit, programmer's guide.
@@ -28,12 +23,13 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include <hapbeam/haptics/device/device.hpp>
-#include <hapbeam/haptics/hdapi/calibration.hpp>
 #include <hapbeam/haptics/hdapi/connection.hpp>
+#include <hapbeam/haptics/hdapi/setup.hpp>
 
 namespace hapbeam {
 
@@ -134,7 +130,8 @@ class Hdapi {
     cut_ = ForceCut::none;
     ramp_.start();
     device_.calibration.start();
-    anew_ = true, timed_ = false;
+    anew_ = true;
+    first_.reset();
     detail::HdErrors errors;
     part_ = Part::scheduled;
     const bool linked = Scheduler::call([this]() noexcept {
@@ -257,10 +254,10 @@ class Hdapi {
 
   /// Time since the first tick [s]; counts the ticks that should have been since the last one.
   double elapsed(typename Clock::time_point now) noexcept {
-    if (!std::exchange(timed_, true)) first_ = last_ = now;
+    if (!first_) first_ = last_ = now;
     const double gap = std::chrono::duration<double>(now - std::exchange(last_, now)).count() / info().period;
     if (gap >= 2) missed_ticks_.fetch_add(static_cast<std::uint64_t>(gap) - 1, relaxed);
-    return std::chrono::duration<double>(now - first_).count();
+    return std::chrono::duration<double>(now - *first_).count();
   }
 
   /// What of the scheduler this loop has: its tick is scheduled, then it counts as one that runs.
@@ -277,11 +274,11 @@ class Hdapi {
   unsigned long schedule_ = 0;
   Part part_ = Part::none;
   bool anew_ = true;    // the servo has not been asked since the arm's place is known
-  bool timed_ = false;  // the clock runs
   int last_ticks_ = 0;  // left to switch the motors off, after the loop has ended
   Wrench sent_;
   ForceCut cut_ = ForceCut::none;
-  typename Clock::time_point first_{}, last_{};
+  std::optional<typename Clock::time_point> first_;  // none: no tick yet
+  typename Clock::time_point last_{};
   std::atomic<DeviceStatus> status_{DeviceStatus::stopped};
   std::atomic<std::uint64_t> ticks_{0}, missed_ticks_{0}, force_cut_ticks_{0};
   std::atomic<bool> stopping_{false}, ended_{false};

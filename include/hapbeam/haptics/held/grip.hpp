@@ -7,17 +7,16 @@
 //   Grip<FemModel<TwistedRod>> grip(model, RodSide::left);
 //   ServoLoop loop(device, grip, options);
 //
-// In the first tick the hand takes hold of the end where it is.  From then on the end goes where the hand goes, and turns as
-// it turns, any number of turns.  A wrist has no three turns: grip.let_go() leaves the end in a vice, grip.take() takes it again.
-// What is felt is the force on the hand and the torque about the end; a device of three axes gets the force alone.
+// In the first tick the hand takes hold of the end where it is.  From then on the end goes where the hand goes, and turns as it turns.
+// grip.let_go() leaves the end in a vice, grip.take() takes it again.  What is felt is the force on the hand and the torque about the end.
 //
 // The coupling is K, B between places and K_r, B_r between orientations.  Its springs belong to the rod, so that the end's
 // equilibrium is Newton's: implicit, whatever is stiffer.  With the hand at h and the end at x, g = x - h, and by backward Euler
 //
 //   F = K g + B (g - g0)/T = K' (x - h'),   K' = K + B/T,   h' = h + β g0,   β = 1 - K/K'
 //
-// K' are the springs' stiffnesses, h' is where they are placed.  Orientations go the same way by the rotation vector.  In a tick of another
-// length than T the damper is K' β dt.  Where the end is turned against the hand by more than `slip` the grip slips.
+// K' are the springs' stiffnesses, h' is where they are placed.  Orientations go the same way by the rotation vector.  Where the end is
+// turned against the hand by more than `slip` the grip slips.
 // A rod with mass has K and B within its steps, and goes on where it is let go.
 // Real-time: no allocation, noexcept, wait-free; one hold() of the model a tick, or step().
 #pragma once
@@ -171,16 +170,15 @@ class GripCoupling {
                                detail::positive("grip turning stiffness", t, "N·m/rad"), t, t);
   }
   void reset() noexcept {
-    forget();
+    gap_.setZero(), turn_.setZero();
     continued_ = 0, last_ = {};
   }
 
   /// Once a period.   @param hand  in the scene   @param dt [s] since the tick before, which matters to a rod with mass alone
   template <typename Model>
-  [[nodiscard]] CoupledWrench<typename Model::Scalar> tick(Touch<Grip<Model>>& touch, const HandPose& hand,
-                                                           double dt) noexcept {
-    using Scalar = typename Model::Scalar;
-    CoupledWrench<Scalar> result;
+  [[nodiscard]] CoupledForce<typename Model::Scalar, 3> tick(Touch<Grip<Model>>& touch, const HandPose& hand,
+                                                             double dt) noexcept {
+    CoupledForce<typename Model::Scalar, 3> result;
     result.avatar = touch.end().place;
     if (!touch.held()) {
       touch.let_go();
@@ -190,8 +188,7 @@ class GripCoupling {
     }
     const HandPose at = touch.follow(hand);
     const HandPose aim{at.place + share(place_) * gap_, turn_by(share(turning_) * turn_) * at.turn};
-    const HeldEnd<Scalar> held =
-        touch.hold(has_mass<Model> ? at : aim, {share(place_), share(turning_), period_}, dt);
+    const auto held = touch.hold(has_mass<Model> ? at : aim, {share(place_), share(turning_), period_}, dt);
     result.touch.status = held.status;
     result.touch.press = {touch.s(), 0};
     if (is_answer(held.status)) {
@@ -229,25 +226,21 @@ class GripCoupling {
   double share(const CouplingFigures& figures) const noexcept {
     return 1 - figures.stiffness / stiff(figures);
   }
-  void forget() noexcept { gap_.setZero(), turn_.setZero(); }
 
   static Eigen::Matrix3d turn_by(const Eigen::Vector3d& by) noexcept {
     const double angle = by.norm();
-    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-    if (!(angle > 0)) return R;
-    const Eigen::Vector3d axis = by / angle;
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d e = R.col(k);
-      R.col(k) = std::cos(angle) * e + std::sin(angle) * detail::cross3<double>(axis, e) +
-                 ((1 - std::cos(angle)) * axis[k]) * axis;
-    }
-    return R;
+    if (!(angle > 0)) return Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d K;  // by × …
+    K << 0, -by[2], by[1], by[2], 0, -by[0], -by[1], by[0], 0;
+    return Eigen::Matrix3d::Identity() + std::sin(angle) / angle * K +
+           (1 - std::cos(angle)) / (angle * angle) * (K * K);
   }
+
   CouplingFigures place_, turning_;
   double period_;
-  Eigen::Vector3d gap_ = Eigen::Vector3d::Zero();   // g [m]
-  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();  // of the end against the hand [rad]
-  Wrench last_;                                     // of the last answer
+  Eigen::Vector3d gap_{0, 0, 0};   // g [m]
+  Eigen::Vector3d turn_{0, 0, 0};  // of the end against the hand [rad]
+  Wrench last_;                    // of the last answer
   int continued_ = 0;
 };
 

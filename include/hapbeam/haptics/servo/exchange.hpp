@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT
-// The newest value from one thread to another, without waiting and without torn reads: from the servo to the
-// graphics (a shape, a state), or back (settings).
-//
-// Three copies: the writer fills one, the reader holds one, the third lies between them and is swapped, with
-// the flag "newer", in one atomic exchange.  Neither side ever waits for the other or repeats anything,
-// values that nobody read are overwritten, and what is read is always one whole value as it was published,
-// never older than one read before.  One writer, one reader: a value that several threads want takes one
-// Exchange each.
+// Values from one thread to another without waiting: the newest one alone (Exchange), or all in order (Ring).  One writer, one reader.
 //
 //   Exchange<Shape> shapes(empty);                      // allocates what copying `empty` allocates, thrice
 //   shapes.draft() = …;  shapes.publish();              // servo, each tick
 //   if (shapes.update()) draw(shapes.value());          // graphics, each picture
 //
-// A value that owns memory may be used where assigning to it does not allocate, for example one whose size is
-// fixed by `initial` and that is filled in place.
-// Source: the triple buffer; H. Simpson's "Four-slot fully asynchronous communication mechanism" (1990) is
-// its ancestor.
+//   Ring<float> samples(96000);                         // allocates
+//   samples.add(sample);                                // servo
+//   samples.take(visit);                                // sound card
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
+#include <vector>
+
+#include <hapbeam/check.hpp>
 
 namespace hapbeam {
 
+/// Three copies: the writer fills one, the reader holds one, the third lies between them and is swapped, with the flag "newer", in one
+/// atomic exchange.  Values that nobody read are overwritten.  What is read is one whole value as it was published, never older than one
+/// read before.  A value may own memory where assigning to it does not allocate.
+/// Source: the triple buffer; its ancestor is H. Simpson's "Four-slot fully asynchronous communication mechanism", 1990.
 template <typename T>
 class Exchange {
   static_assert(std::is_copy_constructible_v<T>,
@@ -78,11 +78,61 @@ class Exchange {
   };
 
   Slot slots_[3];
-  alignas(line) std::uint8_t draft_ = 0;  // writer's
-  alignas(line) std::uint8_t taken_ = 1;  // reader's
-  alignas(line) std::atomic<std::uint8_t> between_{
-      2};  // nobody's: index, and whether it is newer than taken_
+  alignas(line) std::uint8_t draft_ = 0;                // writer's
+  alignas(line) std::uint8_t taken_ = 1;                // reader's
+  alignas(line) std::atomic<std::uint8_t> between_{2};  // nobody's: index, and whether it is newer
   static_assert(std::atomic<std::uint8_t>::is_always_lock_free, "an exchange must not lock");
+};
+
+/// Of fixed room.  A full ring loses what is added, and counts it.
+/// Source: L. Lamport, "Specifying concurrent program modules", ACM TOPLAS 5, 1983.
+template <typename T>
+class Ring {
+ public:
+  /// Allocates.   @param room  values that can wait   @throws std::invalid_argument where there is none
+  explicit Ring(std::size_t room) : values_(room) {
+    if (room == 0) detail::reject("room", 0, "", "1 or more values");
+  }
+
+  /// Writer: wait-free where T's assignment is.
+  void add(const T& value) noexcept {
+    const std::size_t end = end_.load(std::memory_order_relaxed);
+    if (end - begin_.load(std::memory_order_acquire) == values_.size()) {
+      lost_.fetch_add(1, std::memory_order_relaxed);
+      return;
+    }
+    values_[end % values_.size()] = value;
+    end_.store(end + 1, std::memory_order_release);
+  }
+
+  /// Calls visit(value) for each that waits, oldest first.   @param most  that are taken   @return how many were
+  /// Reader: wait-free where visit is.
+  template <typename Visitor>
+  std::size_t take(Visitor&& visit, std::size_t most = static_cast<std::size_t>(-1)) {
+    const std::size_t begin = begin_.load(std::memory_order_relaxed), count = (std::min)(waiting(), most);
+    for (std::size_t i = begin; i != begin + count; ++i) {
+      visit(values_[i % values_.size()]);
+      begin_.store(i + 1, std::memory_order_release);
+    }
+    return count;
+  }
+
+  /// Values that can be taken.  From the reader's thread.
+  std::size_t waiting() const noexcept {
+    return end_.load(std::memory_order_acquire) - begin_.load(std::memory_order_relaxed);
+  }
+  /// Values that were added to a full ring.
+  std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
+
+ private:
+  std::vector<T> values_;
+  // What two threads write lies on different cache lines.
+  alignas(64) std::atomic<std::size_t> begin_{0};
+  alignas(64) std::atomic<std::size_t> end_{0};
+  std::atomic<std::uint64_t> lost_{0};
+  static_assert(std::atomic<std::size_t>::is_always_lock_free &&
+                    std::atomic<std::uint64_t>::is_always_lock_free,
+                "a ring must not lock");
 };
 
 }  // namespace hapbeam

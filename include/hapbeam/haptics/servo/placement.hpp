@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Where the device's workspace lies in the scene: from the hand to the beam and, for forces, back.
 //
-//   p_scene = origin + scale R p_device      v_scene = scale R v_device      F_device = Rᵀ F_scene
+//   p_scene = origin + scale R p_device      v_scene = scale R v_device      F_device = Rᵀ F_scene      τ_device = Rᵀ τ_scene / scale
 //
-// R turns the device's axes (x right, y up, z toward the user) into the scene's.  The scene's x and y are the
-// plane of the beam, x along it and y = w across it, and z stands on that plane.  Forces are not scaled: with
-// a scale of 2 the hand moves half as far for the same force and feels a beam twice as stiff, so what a
-// device can render in the scene is its own limit divided by the scale.  Power shrinks by 1 / scale and never
-// changes sign: a passive scene stays passive in the hand.
+// R turns the device's axes (x right, y up, z toward the user) into the scene's, whose x and y are the plane of the beam, x along it and
+// y = w across it.  Forces are not scaled: with a scale of 2 the hand moves half as far for the same force, so what a device can render
+// in the scene is its own limit divided by the scale.  A passive scene stays passive in the hand.
 //
 //   const Placement placement = Placement::in_plane({1.27, 0.02});    // the device's origin, above mid-span
 //   const Vector2<double> hand = placement.beam_position(state.position);
 //   const Eigen::Vector3d force = placement.device_force_of_beam(touch.tick(hand).force);
 //
-// What is turned in the device is turned by R in the scene.  Torques are divided by the scale, as levers are: with a scale of 2 a
-// lever of the scene is half as long in the hand.
+//   device or host                x                y           z                 a beam that lies to the right, w up
+//   HDAPI, HLAPI, HAPI, H3D       right            up          toward the user   Placement::in_plane(origin, scale)
+//   CHAI3D, Force Dimension DHD   toward the user  right       up                x_toward_user(origin, scale)
+//   Haply Inverse3                right            away        up                y_away_from_user(origin, scale)
 //
-// Real-time: no allocation, noexcept, wait-free, O(1), but for the constructors.
+// Real-time: no allocation, noexcept, wait-free, O(1), but for what makes a Placement.
 #pragma once
 
 #include <cmath>
@@ -128,8 +128,23 @@ class Placement {
   }
 
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d origin_{0, 0, 0};
   double scale_ = 1;
 };
+
+/// The beam lies along the host's y, its w along the host's z.
+/// @param origin  [m] x along the beam and w where the host's origin lies   @param scale  [m/m] of the beam's for the host's
+inline Placement x_toward_user(const Vector2<double>& origin, double scale = 1) {
+  Eigen::Matrix3d turn;
+  turn << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  return Placement(turn, {origin.x(), origin.y(), 0}, scale);
+}
+
+/// The beam lies along the host's x, its w along the host's z.   @param origin, scale  as above
+inline Placement y_away_from_user(const Vector2<double>& origin, double scale = 1) {
+  Eigen::Matrix3d turn;
+  turn << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  return Placement(turn, {origin.x(), origin.y(), 0}, scale);
+}
 
 }  // namespace hapbeam

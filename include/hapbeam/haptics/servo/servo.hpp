@@ -13,16 +13,13 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/contact/touch_in_motion.hpp>
 #include <hapbeam/haptics/device/device_info.hpp>
-#include <hapbeam/haptics/servo/exchange.hpp>
 #include <hapbeam/haptics/servo/placement.hpp>
 #include <hapbeam/haptics/servo/servo_record.hpp>
 #include <hapbeam/haptics/servo/stylus.hpp>
@@ -40,33 +37,7 @@ struct ServoOptions {
   int delay_ticks = 0;           ///< whole periods between the servo's answer and the motors, 0 to 16
   bool dissipate = false;        ///< energy that the loop has generated is taken back by damping
   Friction friction = {};        ///< between avatar and beam: docs/contact.md
-  StylusOptions stylus =
-      {};  ///< what touches a rod in space, where the device reads its orientation; else a sphere
-};
-
-namespace detail {
-
-/// @throws std::invalid_argument as Touch, and where the touch of such a model has no friction and one is asked for
-template <typename Model, typename Scalar>
-Touch<Model> make_touch(Model& model, Scalar radius, const Friction& friction) {
-  if constexpr (std::is_constructible_v<Touch<Model>, Model&, Scalar, const Friction&>) {
-    return Touch<Model>(model, radius, friction);
-  } else {
-    friction.check();
-    if (!friction.none()) reject("friction", friction.sticking, "", "0 for this model: see docs/contact.md");
-    return Touch<Model>(model, radius);
-  }
-}
-
-}  // namespace detail
-
-/// What is drawn of a model: its shape.  Arrays have another (servo_many.hpp).
-template <typename Model>
-struct Drawn {
-  using Picture = ServoPicture<typename Model::Scalar, dimension_of<Touch<Model>>>;
-  static constexpr bool for_who_looks =
-      detail::offers<detail::Part, Model>;  ///< it costs more than the force
-  static auto of(const Model& model, const Touch<Model>&) noexcept { return model.shape(); }
+  StylusOptions stylus = {};     ///< touches a rod in space, where the device reads its orientation
 };
 
 /// The coupling of a servo that is given none.
@@ -81,6 +52,9 @@ class Servo {
                 "a coupling has: tick(touch, hand, dt) noexcept -> CoupledForce<Scalar>; in_scene(scale) "
                 "const noexcept -> "
                 "itself; reset() noexcept; static for_device(info, delay_ticks) -> itself");
+
+  template <typename State>
+  using IfTurns = std::enable_if_t<dimension_of<Touch<Model>> == 3 && std::is_same_v<State, OrientedState>>;
 
  public:
   using Scalar = typename Model::Scalar;
@@ -102,15 +76,13 @@ class Servo {
   Eigen::Vector3d operator()(const DeviceState& state) noexcept { return tick(state); }
 
   /// The same with the orientation of the stylus, of a rod in space.   @return on the hand, device axes
-  template <typename State, int D = dimension,
-            std::enable_if_t<D == 3 && std::is_same_v<State, OrientedState>, int> = 0>
+  template <typename State, typename = IfTurns<State>>
   [[nodiscard]] Wrench tick(const State& state) noexcept {
-    return run(state);
+    return run<true>(state);
   }
-  template <typename State, int D = dimension,
-            std::enable_if_t<D == 3 && std::is_same_v<State, OrientedState>, int> = 0>
+  template <typename State, typename = IfTurns<State>>
   Wrench operator()(const State& state) noexcept {
-    return run(state);
+    return run<true>(state);
   }
 
   /// For a host that hands over its own time step, or runs free.
@@ -142,40 +114,18 @@ class Servo {
 
   /// The newest record and shape.  One reader, from any thread: wait-free.  They stay until the next call.
   /// The shape of a trained model is computed for who looks, and is that of a tick up to shape_period before the last look.
-  const Picture& picture() noexcept {
-    looked_.store(true, std::memory_order_relaxed);
-    pictures_.update();
-    return pictures_.value();
-  }
+  const Picture& picture() noexcept { return pictures_.newest(); }
 
  private:
   using Coupled = CoupledForce<Scalar, dimension>;
   static constexpr bool couples_pose = detail::couples_pose<Coupling, Touch<Model>>;
   using Stylus = detail::Stylus<Scalar, dimension>;
 
-  template <typename State>
-  [[nodiscard]] auto run(const State& state) noexcept;
-  template <typename State>
-  static constexpr bool oriented = std::is_same_v<State, OrientedState>;
-
-  template <typename State>
-  static bool readable(const State& state) noexcept {
-    if constexpr (oriented<State>)
-      if (!detail::is_rotation(state.orientation)) return false;
-    return detail::is_place(state.position);
-  }
-
-  template <typename State>
-  [[nodiscard]] auto couple(const State& state, double dt) noexcept;
-  template <typename State>
-  void observe(const State& state, double dt) noexcept {
-    const bool whole = state.cut == ForceCut::none;
-    const Eigen::Vector3d& force = whole ? guard_.force() : state.sent;
-    if constexpr (oriented<State>)
-      energy_.observe(state.position, state.orientation, {force, whole ? guard_.torque() : state.sent_torque},
-                      dt);
-    else energy_.observe(state.position, force, dt);
-  }
+  /// @tparam Turns  the state has an orientation that was read
+  template <bool Turns>
+  Wrench run(const OrientedState& state) noexcept;
+  template <bool Turns>
+  [[nodiscard]] Coupled couple(const OrientedState& state, double dt) noexcept;
 
   /// The hand may be anywhere: no contact, and what reaches it begins anew.
   void release() noexcept {
@@ -199,23 +149,26 @@ class Servo {
 
   void keep(const DeviceState& state, const Coupled& coupled, const GuardedForce& guarded,
             bool safe) noexcept;
-  template <typename State>
-  void keep_place(const State& state, const Coupled& coupled) noexcept {
+  template <bool Turns>
+  void keep_place(const OrientedState& state, const Coupled& coupled) noexcept {
     record_.position = state.position;
     record_.hand = detail::in_scene(options_.placement.template position_of<dimension>(state.position));
     record_.avatar = detail::in_scene(coupled.avatar);
-    if constexpr (oriented<State> && !couples_pose) {
+    if constexpr (Turns && !couples_pose) {
       const HandPose hand{record_.hand, options_.placement.scene_orientation(state.orientation)};
       record_.avatar += stylus_.tip(hand), record_.shaft = stylus_.shaft(hand);
     }
   }
 
-  void publish() noexcept;
+  void publish() noexcept {
+    // What another hand may move now is drawn by ticks alone.
+    if (detail::is_shared<Touch<Model>> && record_.ticks == 0) return pictures_.publish(record_);
+    pictures_.publish(record_, record_.ticks % shape_period == 0);
+  }
 
   static constexpr int shape_period = 8;  // [ticks]
   static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-  const Model& model_;
   ServoOptions options_;
   Touch<Model> touch_;
   Coupling coupling_;
@@ -225,9 +178,7 @@ class Servo {
   ForceGuard guard_;
   TickTimes times_;
   ServoRecord record_;
-  Picture seen_;  // the last shape of a model whose shape costs more than its force
-  std::atomic<bool> looked_{true};
-  Exchange<Picture> pictures_;
+  detail::Pictures<Model> pictures_;
 };
 
 // What costs a compiler time is defined outside of the class: only so does "extern template class Servo<FemModel<>>;" keep it out of
@@ -235,8 +186,7 @@ class Servo {
 template <typename Model, typename Coupling>
 Servo<Model, Coupling>::Servo(Model& model, const DeviceInfo& device, const ServoOptions& options,
                               const Coupling& coupling)
-    : model_(model),
-      options_(options),
+    : options_(options),
       touch_(detail::make_touch(model, static_cast<Scalar>(options.avatar_radius), options.friction)),
       coupling_(coupling.in_scene(options.placement.scale())),
       stylus_(options.stylus),
@@ -244,66 +194,59 @@ Servo<Model, Coupling>::Servo(Model& model, const DeviceInfo& device, const Serv
       energy_(device, options.delay_ticks),
       guard_(ForceGuard::for_device(device)),
       times_(device.period),
-      seen_(Drawn<Model>::of(model, touch_)),
-      pictures_(seen_) {}
+      pictures_(model, touch_) {}
 
 template <typename Model, typename Coupling>
 Eigen::Vector3d Servo<Model, Coupling>::tick(const DeviceState& state) noexcept {
-  return run(state);
+  return run<false>(OrientedState{state}).force;
 }
 
 template <typename Model, typename Coupling>
-template <typename State>
-auto Servo<Model, Coupling>::couple(const State& state, double dt) noexcept {
+template <bool Turns>
+auto Servo<Model, Coupling>::couple(const OrientedState& state, double dt) noexcept -> Coupled {
   const VectorOf<double, dimension> place =
       options_.placement.template position_of<dimension>(state.position);
-  if constexpr (oriented<State>) {
-    const HandPose hand{place, options_.placement.scene_orientation(state.orientation)};
+  if constexpr (couples_pose || Turns) {
+    HandPose hand{place};
+    if constexpr (Turns) hand.turn = options_.placement.scene_orientation(state.orientation);
     if constexpr (couples_pose) return coupling_.tick(touch_, hand, dt);
     else return stylus_.tick(coupling_, touch_, hand, dt);
-  } else if constexpr (couples_pose) {
-    return coupling_.tick(touch_, HandPose{place}, dt);
   } else {
     return coupling_.tick(touch_, place, dt);
   }
 }
 
 template <typename Model, typename Coupling>
-template <typename State>
-auto Servo<Model, Coupling>::run(const State& state) noexcept {
+template <bool Turns>
+Wrench Servo<Model, Coupling>::run(const OrientedState& state) noexcept {
   if (state.reset) times_.pause();  // the device had no ticks for it meanwhile
   times_.begin();
-  const bool known = readable(state);
+  const bool known = detail::is_place(state.position) && (!Turns || detail::is_rotation(state.orientation));
   // Ticks in which nobody knows where the hand is are no time of the loop: many of them are a pause.
   const LoopClock::Passed passed = clock_.passed(known ? state.time : not_a_number);
-  observe(state, passed.step);
+  const bool whole = state.cut == ForceCut::none;
+  energy_.observe(state.position, state.orientation,
+                  whole ? Wrench{guard_.force(), guard_.torque()} : Wrench{state.sent, state.sent_torque},
+                  passed.step);
   if (state.reset || passed.pause || (known && detail::was_lifted(touch_))) release();
-  auto coupled = decltype(couple(state, passed.step)){};
-  if (known) coupled = couple(state, passed.step);
+  Coupled coupled;
+  if (known) coupled = couple<Turns>(state, passed.step);
   else coupled.touch.status = Status::invalid_request;
   const bool safe = is_answer(coupled.touch.status) || coupled.continued;
-  Eigen::Vector3d force = options_.placement.device_force(detail::in_scene(coupled.force));
-  if (options_.dissipate && coupled.touch.pressing) force += energy_.dissipation(state.velocity);
+  Wrench wanted{options_.placement.device_force(detail::in_scene(coupled.force))};
+  if constexpr (Turns) wanted.torque = options_.placement.device_torque(coupled.torque);
+  if (options_.dissipate && coupled.touch.pressing) wanted.force += energy_.dissipation(state.velocity);
   if constexpr (couples_pose)
     if (!coupled.touch.pressing) guard_.reset();  // the hand has let go: what it takes again comes in anew
-  const auto guarded = [&] {
-    if constexpr (oriented<State>)
-      return guard_.limit(Wrench{force, options_.placement.device_torque(coupled.torque)}, state.time, safe);
-    else return guard_.limit(force, state.time, safe);
-  }();
+  const GuardedForce guarded = guard_.limit(wanted, state.time, safe);
   const double stored = coupled.energy / options_.placement.scale();
   energy_.lend(guard_.came_in() * stored);
   if (known && !coupled.touch.pressing) energy_.keep(stored);
   keep(state, coupled, guarded, safe);
-  if (known) keep_place(state, coupled);
-  if constexpr (oriented<State>) {
-    record_.torque = guarded.torque;
-    record_.max_torque = (std::max)(record_.max_torque, guarded.torque.norm());
-  }
+  if (known) keep_place<Turns>(state, coupled);
   publish();
   times_.end();
-  if constexpr (oriented<State>) return Wrench{guarded.force, guarded.torque};
-  else return guarded.force;
+  return guarded;
 }
 
 template <typename Model, typename Coupling>
@@ -314,7 +257,7 @@ void Servo<Model, Coupling>::keep(const DeviceState& state, const Coupled& coupl
   r.status = status(state, coupled, guarded, safe);
   r.model = coupled.touch.status;
   r.time = state.time;
-  r.force = guarded.force;
+  r.force = guarded.force, r.torque = guarded.torque;
   r.press = {static_cast<double>(coupled.touch.press.s), static_cast<double>(coupled.touch.press.d)};
   r.pressing = pressing;
   r.sliding = coupled.touch.sliding;
@@ -329,24 +272,9 @@ void Servo<Model, Coupling>::keep(const DeviceState& state, const Coupled& coupl
   r.failed_ticks += !safe;
   if (pressing) r.max_press = (std::max)(r.max_press, std::abs(r.press.d));
   r.max_force = (std::max)(r.max_force, guarded.force.norm());
+  r.max_torque = (std::max)(r.max_torque, guarded.torque.norm());
   r.energy_generated = energy_.generated();
   if (worse(r.model, r.worst)) r.worst = r.model;
-}
-
-template <typename Model, typename Coupling>
-void Servo<Model, Coupling>::publish() noexcept {
-  Picture& draft = pictures_.draft();
-  draft.record = record_;
-  // What another hand may move now is drawn by ticks alone.
-  if (detail::is_shared<Touch<Model>> && record_.ticks == 0) return pictures_.publish();
-  if constexpr (Drawn<Model>::for_who_looks) {
-    if (record_.ticks % shape_period == 0 && looked_.exchange(false, std::memory_order_relaxed))
-      seen_.take(Drawn<Model>::of(model_, touch_));
-    draft.take(seen_);
-  } else {
-    draft.take(Drawn<Model>::of(model_, touch_));
-  }
-  pictures_.publish();
 }
 
 }  // namespace hapbeam

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -13,8 +14,9 @@
 #include <Eigen/Core>
 
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/contact/touch.hpp>
 #include <hapbeam/force_model.hpp>
-#include <hapbeam/haptics/device/device.hpp>
+#include <hapbeam/haptics/servo/exchange.hpp>
 
 namespace hapbeam {
 
@@ -50,25 +52,20 @@ constexpr const char* name(LoopStatus status) noexcept {
 /// `shaft` are those of the last one that was.
 struct ServoRecord {
   LoopStatus status = LoopStatus::free;
-  Status model = Status::ok;                           ///< what the beam said
-  double time = 0;                                     ///< [s] of the device's clock
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] of the hand, device axes
-  Eigen::Vector3d hand =
-      Eigen::Vector3d::Zero();  ///< [m] the same in the scene; a beam's plane is its x and y
-  Eigen::Vector3d avatar = Eigen::Vector3d::
-      Zero();  ///< [m] from where the beam is pressed; the hand, where free; a stylus' tip, a held end
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N] sent, device axes
-  Eigen::Vector3d torque =
-      Eigen::Vector3d::Zero();  ///< [N·m] sent, device axes; zero for a device of three axes
-  Eigen::Vector3d shaft = Eigen::Vector3d::
-      Zero();  ///< [m] from the avatar to the other end of its axis, in the scene; zero: a sphere
-  Press<double> press{0, 0};  ///< asked of the model; zero where nothing was
-  bool pressing = false;      ///< the beam is touched, or its last force is continued
-  bool sliding = false;       ///< with friction: the contact slides, else it sticks
-  Eigen::Vector3d friction =
-      Eigen::Vector3d::Zero();  ///< [N] the tangential part of the beam's force, in the scene
-  double dissipated = 0;        ///< [J] by friction, since the touch began
-  double heat = 0;              ///< of the motors, 1: only the continuous force is left
+  Status model = Status::ok;          ///< what the beam said
+  double time = 0;                    ///< [s] of the device's clock
+  Eigen::Vector3d position{0, 0, 0};  ///< [m] of the hand, device axes
+  Eigen::Vector3d hand{0, 0, 0};      ///< [m] the same in the scene; a beam's plane is its x and y
+  Eigen::Vector3d avatar{0, 0, 0};  ///< [m] presses the beam: the hand where free, a stylus' tip, a held end
+  Eigen::Vector3d force{0, 0, 0};   ///< [N] sent, device axes
+  Eigen::Vector3d torque{0, 0, 0};  ///< [N·m] sent, device axes; zero for a device of three axes
+  Eigen::Vector3d shaft{0, 0, 0};   ///< [m] from the avatar to its other end, in the scene; zero: a sphere
+  Press<double> press{0, 0};        ///< asked of the model; zero where nothing was
+  bool pressing = false;            ///< the beam is touched, or its last force is continued
+  bool sliding = false;             ///< with friction: the contact slides, else it sticks
+  Eigen::Vector3d friction{0, 0, 0};  ///< [N] the tangential part of the beam's force, in the scene
+  double dissipated = 0;              ///< [J] by friction, since the touch began
+  double heat = 0;                    ///< of the motors, 1: only the continuous force is left
 
   std::uint64_t ticks = 0;            ///< since the start
   std::uint64_t contact_ticks = 0;    ///< the beam was touched
@@ -126,5 +123,59 @@ class ServoPicture {
   int size_ = 0;
   bool any_rotation_ = false;  // of a planar one
 };
+
+/// What is drawn of a model: its shape.  Arrays have another (servo_many.hpp).
+template <typename Model>
+struct Drawn {
+  using Picture = ServoPicture<typename Model::Scalar, dimension_of<Touch<Model>>>;
+  static constexpr bool for_who_looks = detail::offers<detail::Part, Model>;  ///< it costs more than forces
+  static auto of(const Model& model, const Touch<Model>&) noexcept { return model.shape(); }
+};
+
+namespace detail {
+
+/// Pictures from the thread that ticks to one that draws.  A shape that costs more than its force is computed for who looks.
+template <typename Model>
+class Pictures {
+ public:
+  using Picture = typename Drawn<Model>::Picture;
+
+  Pictures(const Model& model, const Touch<Model>& touch)
+      : model_(model), touch_(touch), seen_(shape()), pictures_(seen_) {}
+
+  /// The newest one, until the next call.  One reader.
+  const Picture& newest() noexcept {
+    looked_.store(true, std::memory_order_relaxed);
+    pictures_.update();
+    return pictures_.value();
+  }
+  /// @param due  a shape that costs more than its force may be computed
+  void publish(const ServoRecord& record, bool due) noexcept {
+    Picture& draft = pictures_.draft();
+    if constexpr (Drawn<Model>::for_who_looks) {
+      if (due && looked_.exchange(false, std::memory_order_relaxed)) seen_.take(shape());
+      draft.take(seen_);
+    } else {
+      draft.take(shape());
+    }
+    publish(record);
+  }
+  /// With the shape of an earlier one.
+  void publish(const ServoRecord& record) noexcept {
+    pictures_.draft().record = record;
+    pictures_.publish();
+  }
+
+ private:
+  decltype(auto) shape() const noexcept { return Drawn<Model>::of(model_, touch_); }
+
+  const Model& model_;
+  const Touch<Model>& touch_;
+  Picture seen_;  // the last shape of a model whose shape costs more than its force
+  std::atomic<bool> looked_{true};
+  Exchange<Picture> pictures_;
+};
+
+}  // namespace detail
 
 }  // namespace hapbeam

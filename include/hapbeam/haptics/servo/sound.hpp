@@ -17,7 +17,7 @@
 #include <cstdint>
 
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/haptics/servo/ring.hpp>
+#include <hapbeam/haptics/servo/exchange.hpp>
 
 namespace hapbeam {
 

@@ -11,7 +11,6 @@
 // Real-time: no allocation, noexcept, wait-free; as the coupling's tick and O(1).
 #pragma once
 
-#include <cmath>
 #include <type_traits>
 #include <utility>
 
@@ -30,6 +29,18 @@ struct StylusOptions {
 };
 
 namespace detail {
+
+/// @throws std::invalid_argument as Touch, and where the touch of such a model has no friction and one is asked for
+template <typename Model, typename Scalar>
+Touch<Model> make_touch(Model& model, Scalar radius, const Friction& friction) {
+  if constexpr (std::is_constructible_v<Touch<Model>, Model&, Scalar, const Friction&>) {
+    return Touch<Model>(model, radius, friction);
+  } else {
+    friction.check();
+    if (!friction.none()) reject("friction", friction.sticking, "", "0 for this model: see docs/contact.md");
+    return Touch<Model>(model, radius);
+  }
+}
 
 /// A touch whose avatar is a capsule with a place and a direction of its own in each tick.
 template <class Touch>
@@ -96,12 +107,12 @@ class Stylus {
 
   /// One tick of the coupling with a capsule.   @return with the torque on the hand
   template <class Coupling, class Touch>
-  CoupledWrench<Scalar> tick(Coupling& coupling, Touch& touch, const HandPose& hand, double dt) noexcept {
+  CoupledForce<Scalar, 3> tick(Coupling& coupling, Touch& touch, const HandPose& hand, double dt) noexcept {
     const Eigen::Vector3d tied = hand.turn * tied_;
     const Shaft<double> axis{tip(hand), shaft(hand)};
     std::conditional_t<couples_itself<Touch>, CoupledCapsule<Touch>, CapsuleTouch<Touch>> capsule{
         touch, (axis.tip - tied).template cast<Scalar>(), axis.way.template cast<Scalar>(), tied};
-    CoupledWrench<Scalar> felt{coupling.tick(capsule, hand.place + tied, dt)};
+    CoupledForce<Scalar, 3> felt{coupling.tick(capsule, hand.place + tied, dt)};
     // Without an answer of this tick the force goes on along the line on which it was.
     const auto& contact = felt.touch.contact;
     if (felt.touch.pressing && !felt.continued && contact.segment >= 0) {
@@ -125,9 +136,8 @@ class Stylus {
 
  private:
   StylusOptions o_;
-  Eigen::Vector3d tied_ =
-      Eigen::Vector3d::Zero();                     // from the hand to the tied point, in the stylus' axes [m]
-  Eigen::Vector3d arm_ = Eigen::Vector3d::Zero();  // from the hand to the contact, in the scene [m]
+  Eigen::Vector3d tied_{0, 0, 0};  // from the hand to the tied point, in the stylus' axes [m]
+  Eigen::Vector3d arm_{0, 0, 0};   // from the hand to the contact, in the scene [m]
 };
 
 }  // namespace detail

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-// How long the ticks of a servo loop take and how regularly they come, in fixed memory: the servo adds,
-// anybody reads.
+// How long the ticks of a servo loop take and how regularly they come, in fixed memory: the servo adds, anybody reads.
 //
 //   TickTimes times(1e-3);                                     // offline
 //   times.begin();  …  times.end();                            // in each tick, first and last
 //   const TimeSummary period = times.period().summary();       // from any thread, at any time
 //
-// A histogram of log-linear bins: below 64 ns one for each, above that 64 for each doubling, so that a
-// quantile is at most 1/64 above the time that it stands for, and never below.  Longer than 9 minutes is one
-// bin; the maximum is exact.
+// A histogram of log-linear bins, 64 for each doubling: a quantile is at most 1/64 above the time that it stands for, and never below.
 // Source: the layout of HdrHistogram, G. Tene.
 #pragma once
 

@@ -3,16 +3,13 @@
 //
 //   f(p) = f0 - k n·(p - p0)      never below zero: a beam does not pull
 //
-// p0 and f0 n are place and force of the last valid response, n is the normal of the contact. The stiffness k
-// along n is not taken from the model: it follows from the responses. Contact without friction is conservative, so the work
-// done on the beam since it was touched is its energy U. That holds wherever the hand has slid meanwhile, and with any
-// dead loads. For a force law f ~ y^q the tangent is
+// p0 and f0 n are place and force of the last valid response, n is the normal of the contact.  Contact without friction is conservative,
+// so the work done on the beam since it was touched is its energy U, wherever the hand has slid.  For a force law f ~ y^q the tangent is
 //
 //   df/dy = 2q/(q + 1) · f²/2U      1 × f²/2U where the beam is linear, 1.5 × where it is cubic
 //
-// and k = 1.25 f²/2U is within a fifth of both: Newton's method with this slope divides an error by five each tick.
-// Other estimates are worse. A difference of two responses is noise while the hand stands, and has a large error where
-// it slides. f/depth ignores the change of stiffness along the beam, a factor of thousands near a support.
+// and k = 1.25 f²/2U is within a fifth of both: Newton's method with this slope divides an error by five each tick.  A difference of two
+// responses is noise while the hand stands; f/depth ignores the change of stiffness along the beam.
 // If a response differs from its prediction by more than 40 %, the response is taken and the energy restarts from it.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 #pragma once

@@ -9,29 +9,20 @@
 //   C::for_device(info, delay_ticks)   C   its default; may throw std::invalid_argument
 //   c.reset()             void           noexcept; no contact
 //
-// A coupling of a hand that turns takes a HandPose and returns a CoupledWrench.
+// A coupling of a hand that turns takes a HandPose, and may return a torque.
 // Touch is Touch<Model>, or a class with its tick(position) and contact_at(position).
 //
-// VirtualCoupling: a steel beam is stiffer than a sampled loop can render. So the hand h does not press the beam
-// itself. A massless point p presses it, the haptic interaction point (here: avatar), and a spring K and a damper B tie
-// h to p. Hand and beam share the displacement, and the force passes through both:
+// VirtualCoupling: the hand h does not press the beam itself.  A massless point p, the avatar, presses it, and a spring K and a damper B
+// tie h to p:
 //
 //   K g + B g' = f(p),   p = h + n g,   g >= 0        n: normal of the contact, f: the beam's force along it
 //
-// A beam that is touched by the shaft of a stylus, at a lever ρ, turns the hand, too. If the device renders torque, a
-// spring K_r and a damper B_r about the hand are in series with K and B: 1/K becomes 1/K + ρ²/K_r, and 1/B likewise.
-// Together they take no more of the damping of arm and gimbal than each takes of its own.
-//
-// In steady state this is exactly the series of coupling and beam. It is solved implicitly (backward Euler in g), with
-// f continued along its tangent: once before the press, for the place of p, and once after it, for the force. Therefore
-// p does not oscillate by itself: the stiffer the beam, the less p moves. Off the beam p returns to h at once or within
-// B/K, without a force, so free motion is free. Across n, p moves with the hand.
-//
-// With friction the surface of the avatar has a spring and a damper of the same figures along the beam, within the
-// model's own equilibrium. Sticking is then rendered through the coupling in every direction.
-//
-// A beam with mass is touched through K and B within the steps of its model (touch_in_motion.hpp): p has no place of its own between
-// them, and no tangent is needed.
+// It is solved by backward Euler in g, with f continued along its tangent: once before the press, for the place of p, and once after it,
+// for the force.  Off the beam p returns to h within B/K, without a force.  Across n, p moves with the hand.
+// The shaft of a stylus, at a lever ρ, turns the hand.  A spring K_r and a damper B_r about the hand are then in series with K and B: 1/K
+// becomes 1/K + ρ²/K_r, and 1/B likewise.
+// With friction the surface of the avatar has a spring and a damper of the same figures along the beam, within the model's equilibrium.
+// A beam with mass is touched through K and B within the steps of its model (touch_in_motion.hpp), and no tangent is needed.
 //
 // If the model exhausts its budget, the last valid force is continued along its tangent (contact_tangent.hpp). With any
 // other failure the force is zero. In both cases the status is touch.status.
@@ -64,7 +55,14 @@ struct CoupledForce {
   bool continued = false;  ///< along the tangent: the model had no answer, or the beam was missed
   /// [J] that beam and coupling would give back, in metres of the scene; of a beam with mass without contact, too
   double energy = 0;
-  TouchResult<Scalar, D> touch;  ///< the response of the beam
+  TouchResult<Scalar, D> touch;     ///< the response of the beam
+  Eigen::Vector3d torque{0, 0, 0};  ///< [N·m] about a hand that turns; always finite
+};
+
+/// Where a hand is in the scene, and how it is turned.
+struct HandPose {
+  Eigen::Vector3d place{0, 0, 0};                      ///< [m]
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< of the stylus' axes, a rotation
 };
 
 namespace detail {
@@ -129,6 +127,16 @@ auto as_coupling(C* c, const C* same, AnyTouch* touch, const Vector2<double>* ha
                           std::is_same_v<decltype(C::for_device(*info, 0)), C>>;
 template <typename>
 std::false_type as_coupling(...);
+
+/// Whether a coupling takes the orientation of the hand.
+template <typename C, typename Touch>
+auto as_turning_coupling(C* c, Touch* touch, const HandPose* hand)
+    -> std::bool_constant<noexcept(c->tick(*touch, *hand, 0.0))>;
+template <typename, typename>
+std::false_type as_turning_coupling(...);
+template <typename C, typename Touch>
+inline constexpr bool couples_pose =
+    decltype(as_turning_coupling<C, Touch>(nullptr, nullptr, nullptr))::value;
 
 }  // namespace detail
 
@@ -316,31 +324,5 @@ class VirtualCoupling {
   LastResponse last_;
   double gap_ = 0;  // g [m], how far the hand is below the point
 };
-
-/// Where a hand is in the scene, and how it is turned.
-struct HandPose {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< [m]
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< of the stylus' axes, a rotation
-};
-
-/// The result of a tick, with the torque on the hand.
-template <typename Scalar>
-struct CoupledWrench : CoupledForce<Scalar, 3> {
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N·m] about the hand; always finite
-};
-
-namespace detail {
-
-template <typename C, typename Touch>
-auto as_turning_coupling(C* c, Touch* touch, const HandPose* hand)
-    -> std::bool_constant<noexcept(c->tick(*touch, *hand, 0.0))>;
-template <typename, typename>
-std::false_type as_turning_coupling(...);
-/// Whether a coupling takes the orientation of the hand.
-template <typename C, typename Touch>
-inline constexpr bool couples_pose =
-    decltype(as_turning_coupling<C, Touch>(nullptr, nullptr, nullptr))::value;
-
-}  // namespace detail
 
 }  // namespace hapbeam

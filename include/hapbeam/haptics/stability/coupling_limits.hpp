@@ -62,8 +62,7 @@ struct ArmFigures {
 /// @throws std::invalid_argument for a delay that is not 0 to 16
 inline CouplingFigures renderable(const ArmFigures& arm, double T, int delay_ticks) {
   constexpr double spring_share = 0.4, both_share = 0.75, friction_share = 0.5;
-  if (!(delay_ticks >= 0 && delay_ticks <= 16)) reject("delay_ticks", delay_ticks, "", "0 to 16");
-  const double bound = passive_stiffness(arm.damping, T, delay_ticks);
+  const double bound = passive_stiffness(arm.damping, T, DelayLine::checked(delay_ticks));
   double stiffness = (std::min)(arm.hardest, spring_share * bound);
   double damping = arm.damping;
   // An arm without friction holds no step of the grid; (1) is all there is.

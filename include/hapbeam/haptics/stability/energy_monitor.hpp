@@ -3,17 +3,12 @@
 //
 //   W += F·Δx - b |Δx|²/T - f |Δx|      over each period of a contact
 //
-// F is the force that the motors held over the period, Δx the motion of the hand: F·Δx is exactly the work on hand and
-// arm. A device with rotations adds τ·Δθ - b_r |Δθ|²/T - f_r |Δθ|, with the torque that the motors held and the
-// rotation between two readings.
-// The work that the arm's own damping b and friction f have dissipated is subtracted. Its path is shortened by one step
-// of the encoders, which may not have been travelled. A beam returns the work of the press: at the end of a contact a
-// passive loop has W <= 0, and W > 0 is energy that the loop has generated.
-// While the force engages (ForceGuard), a beam costs less to press than it returns. A share e of its energy U that
-// rises by de lends the hand U de. That amount is known and bounded by U, and is subtracted as well.
+// F is the force that the motors held over the period, Δx the motion of the hand, b and f the arm's own damping and friction, whose path
+// is shortened by one step of the encoders.  A device with rotations adds τ·Δθ - b_r |Δθ|²/T - f_r |Δθ|.
+// A beam returns the work of the press: at the end of a contact W > 0 is energy that the loop has generated.  While the force engages
+// (ForceGuard), a share e of the beam's energy U that rises by de lends the hand U de, which is subtracted.
 // A beam that moves on gives back in one touch what it took in another: an account begins with what the beam has, as owed.
-// The controller adds -α v, α = W / (T v²), while W > 0. It dissipates the generated energy within a period, with at
-// most the damping of the arm, which is the limit for this sampling. Its force passes the guard like any other.
+// The controller adds -α v, α = W / (T v²), while W > 0, with at most the damping of the arm.  Its force passes the guard like any other.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 // Source: Hannaford and Ryu, IEEE Trans. Robotics and Automation 18(1), 2002; the exact work of a held force:
 // Stramigioli et al., IEEE Trans. Robotics 21(4), 2005.
@@ -44,10 +39,7 @@ class EnergyMonitor {
         gimbal_friction_(device.gimbal.friction),
         gimbal_step_(device.gimbal.resolution),
         peak_torque_(device.gimbal.peak_torque),
-        delay_(delay_ticks) {
-    if (!(delay_ticks >= 0 && delay_ticks <= detail::DelayLine::longest))
-      detail::reject("delay_ticks", delay_ticks, "", "0 to 16");
-  }
+        delay_(detail::DelayLine::checked(delay_ticks)) {}
 
   /// [J] generated so far, in contacts that have ended and in this one.
   double generated() const noexcept { return ended_ + (std::max)(0.0, net_); }
@@ -66,21 +58,23 @@ class EnergyMonitor {
     sent_.clear(), sent_torque_.clear();
   }
 
-  /// A period has ended.   @param position [m] now   @param sent [N] by the loop in the tick before   @param dt [s] since, positive
-  void observe(const Eigen::Vector3d& position, const Eigen::Vector3d& sent, double dt) noexcept {
-    const Eigen::Vector3d held = hold(sent_, sent, peak_);
-    const double work = of_way(position, held, dt);
-    if (held.isZero(0)) end_contact();
-    else add(work);
-  }
-  /// The same of a device that turns.   @param orientation  now   @param sent  by the loop in the tick before
+  /// A period has ended.   @param position [m], orientation  now   @param sent  by the loop in the tick before
+  /// @param dt [s] since, positive
   void observe(const Eigen::Vector3d& position, const Eigen::Matrix3d& orientation, const Wrench& sent,
                double dt) noexcept {
-    const Eigen::Vector3d held = hold(sent_, sent.force, peak_),
-                          torque = hold(sent_torque_, sent.torque, peak_torque_);
-    const double work = of_way(position, held, dt) + of_turn(orientation, torque, dt);
+    const Eigen::Vector3d held = hold(sent_, sent.force, peak_);
+    Eigen::Vector3d torque = zero();
+    double work = of_way(position, held, dt);
+    if (peak_torque_ > 0 || gimbal_damping_ > 0 || gimbal_friction_ > 0) {
+      torque = hold(sent_torque_, sent.torque, peak_torque_);
+      work += of_turn(orientation, torque, dt);
+    }
     if (held.isZero(0) && torque.isZero(0)) end_contact();
     else add(work);
+  }
+  /// Of a device that does not turn.   @param sent [N]
+  void observe(const Eigen::Vector3d& position, const Eigen::Vector3d& sent, double dt) noexcept {
+    observe(position, Eigen::Matrix3d::Identity(), {sent, Eigen::Vector3d::Zero()}, dt);
   }
 
   /// A share of the beam's energy that has come in [J]; what has gone out again is lost.
@@ -109,9 +103,7 @@ class EnergyMonitor {
     if (!(moved.norm() <= longest_step)) moved.setZero();
     if (finite) position_ = position;
     const Eigen::Array3d way(least(moved[0], step_), least(moved[1], step_), least(moved[2], step_));
-    const double work = held.dot(moved);
-    const double taken = damping_ * way.square().sum() / dt + friction_ * way.sum();
-    return work - taken;
+    return held.dot(moved) - damping_ * way.square().sum() / dt - friction_ * way.sum();
   }
   /// [J]  The same of a torque, by the rotation vector.
   double of_turn(const Eigen::Matrix3d& orientation, const Eigen::Vector3d& held, double dt) noexcept {

@@ -6,17 +6,13 @@
 //   peak         |F| <= peak
 //   heat         of the motors, which goes with F²:  q' = (F²/Fc² - q)/τ.  The force that is allowed falls from peak to
 //                the continuous Fc as q goes from warm to 1, so q <= 1 always: Fc for ever, more for a moment
-//   engage       after start, failure or a pause what is allowed comes in linearly over engage_time
+//   engage       after start, failure or a pause what is allowed comes in linearly over engage_time, by a period a tick at most
 //   slew         the force grows by at most slew_rate · dt; toward zero it may fall at once
 //
-// dt is the time since the tick before, by the device's clock. If the clock stands, runs backwards or is NaN, nothing
-// grows, and the motors are heated for a period. After a late tick the force grows by no more than in two periods.
-// After longest_pause, or where the clock has been set back by more, the hand may be anywhere: the force engages anew.
-// A tick engages for a period T at most, however late it is: n ticks after start, failure or pause the force is at most
-// n T / engage_time of what is allowed. A pause is no time in which the force has come in.
-// For every input the force is finite and within the peak, and lies within slew_rate · 2 periods of the segment from
-// the last force to zero. q <= 1 while ticks are on time.
-// A torque is treated likewise, with limits and motors of its own. Failure and engagement apply to both.
+// dt is the time since the tick before, by the device's clock; two periods at most.  If the clock stands, runs backwards or is NaN,
+// nothing grows, and the motors are heated for a period.  After longest_pause, or where the clock has been set back by more, the hand
+// may be anywhere: the force engages anew.
+// A torque is treated likewise, with limits and motors of its own.  Failure and engagement apply to both.
 // Real-time: no allocation, noexcept, wait-free, O(1).
 #pragma once
 
@@ -44,15 +40,10 @@ struct ForceGuardOptions {
   double torque_slew_rate = 100;  ///< [N·m/s] positive; at a lever of 0.1 m a tenth of the force's
 };
 
-/// A force after the guard.
-struct GuardedForce {
-  Eigen::Vector3d force;  ///< [N] to be sent
-  bool limited;           ///< cut by peak, heat or slew
-  bool engaging;          ///< reduced because the loop has just started or restarted
-};
-/// The same of force and torque.
-struct GuardedWrench : GuardedForce {
-  Eigen::Vector3d torque;  ///< [N·m] to be sent
+/// Force and torque after the guard.
+struct GuardedForce : Wrench {
+  bool limited;   ///< cut by peak, heat or slew
+  bool engaging;  ///< reduced because the loop has just started or restarted
 };
 
 namespace detail {
@@ -110,7 +101,7 @@ class GuardedMotors {
   }
 
   Limits o_;
-  Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sent_{0, 0, 0};
   double heat_ = 0;
 };
 
@@ -150,23 +141,21 @@ class ForceGuard {
     engaged_ = 0;
   }
 
-  /// @param wanted [N]   @param time [s] of the device's clock   @param safe  false: zero, whatever is wanted
-  GuardedForce limit(const Eigen::Vector3d& wanted, double time, bool safe) noexcept {
+  /// @param wanted  force and torque   @param time [s] of the device's clock   @param safe  false: zero, whatever is wanted
+  GuardedForce limit(const Wrench& wanted, double time, bool safe) noexcept {
     const LoopClock::Passed passed = clock_.passed(time);
+    const bool turns = o_.peak_torque > 0;
     force_.warm_up(passed.dt);
-    if (!engage(passed, safe && detail::all_finite(wanted))) return {force(), false, true};
-    const bool limited = force_.limit(wanted, engaged_, passed.dt);
-    return {force(), limited, engaged_ < 1};
-  }
-  /// The same of both.
-  GuardedWrench limit(const Wrench& wanted, double time, bool safe) noexcept {
-    const LoopClock::Passed passed = clock_.passed(time);
-    force_.warm_up(passed.dt), torque_.warm_up(passed.dt);
+    if (turns) torque_.warm_up(passed.dt);
     if (!engage(passed, safe && detail::all_finite(wanted.force) && detail::all_finite(wanted.torque)))
-      return {{force(), false, true}, torque()};
+      return {{force(), torque()}, false, true};
     bool limited = force_.limit(wanted.force, engaged_, passed.dt);
-    if (o_.peak_torque > 0) limited |= torque_.limit(wanted.torque, engaged_, passed.dt);
-    return {{force(), limited, engaged_ < 1}, torque()};
+    if (turns) limited |= torque_.limit(wanted.torque, engaged_, passed.dt);
+    return {{force(), torque()}, limited, engaged_ < 1};
+  }
+  /// A force alone [N].
+  GuardedForce limit(const Eigen::Vector3d& wanted, double time, bool safe) noexcept {
+    return limit(Wrench{wanted}, time, safe);
   }
 
  private:

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <jansson.h>
 #include <stdexcept>
 #include <string>
@@ -183,17 +184,13 @@ class JsonWriter {
   void set(json_t* object, const char* key, json_t* value) const {
     if (json_object_set_new(object, key, value)) fail(source_, "%s: out of memory", key);
   }
-  /// Into the object of its name, which is created if necessary.
+  /// "key.name" into the object of that key, which is created if necessary.
   void add(const char* name, json_t* value) {
-    json_t* object = root_;
-    std::string rest = name;
-    for (std::size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
-      const std::string key = rest.substr(0, dot);
-      if (!json_object_get(object, key.c_str())) set(object, key.c_str(), json_object());
-      object = json_object_get(object, key.c_str());
-      rest.erase(0, dot + 1);
-    }
-    set(object, rest.c_str(), value);
+    const char* const dot = std::strchr(name, '.');
+    if (!dot) return set(root_, name, value);
+    const std::string key(name, dot);
+    if (!json_object_get(root_, key.c_str())) set(root_, key.c_str(), json_object());
+    set(json_object_get(root_, key.c_str()), dot + 1, value);
   }
   void add_unit(const char* name, const char* unit) {
     if (units_) set(units_, (path_ + name).c_str(), json_string(unit));

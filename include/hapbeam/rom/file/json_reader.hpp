@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Members of a JSON object, read by name and unit.
 //
-// JsonReader and JsonWriter offer the same functions, so that one list of a model's fields, in model_fields.hpp, serves both.
+// JsonReader and JsonWriter offer the same functions, so that one list of fields serves both.
 // A name is a path: "beam.length" is the member length of the object beam. Units are a member of their own,
 // {"beam.length": "m", …}: one for each real number, "1" for a number without unit.
 // Nothing is skipped, guessed or converted. A member that is missing, unknown, of another type or unit, or out of the
@@ -9,7 +9,6 @@
 // Offline: allocates, throws.
 #pragma once
 
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>

@@ -10,10 +10,9 @@
 //   {"units":{"beam.length":"m", …},"beam":{…},"nodes":"chebyshev",…,"grid":{…},…,"shape":{…},"errors":{…}}
 //
 // The checksum covers every byte after the first line feed. The members of the second line are those of PodModelData
-// and GalerkinModelData; model_fields.hpp is their list. Reals have enough digits to restore every bit.
-// A file gives a whole model or a ModelFileError. Each member must be present, of its type and in its unit, and no
-// other is accepted. The model's own check comes last. The error names the file, the field, its value, unit and
-// permitted values.
+// and GalerkinModelData: one list, visit_model(), serves reader and writer. Reals have enough digits to restore every bit.
+// A file gives a whole model or a ModelFileError, which names the file, the field, its value, unit and permitted values.
+// Each member must be present, of its type and in its unit, and no other is accepted.
 // Offline: allocates and throws.  Needs jansson: link hapbeam::model_file.  hapbeam.hpp does not include this file.
 #pragma once
 
@@ -21,12 +20,12 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <hapbeam/rom/file/json.hpp>
 #include <hapbeam/rom/file/json_file.hpp>
 #include <hapbeam/rom/file/json_reader.hpp>
-#include <hapbeam/rom/file/model_fields.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
 
@@ -47,13 +46,94 @@ namespace detail {
 
 inline constexpr int model_file_version = 2;
 
-struct Checksum {
-  char text[16];
+template <typename Scalar>
+constexpr const char* scalar_name() noexcept {
+  static_assert(std::is_same_v<Scalar, double> || std::is_same_v<Scalar, float>,
+                "a model file holds double or float");
+  return std::is_same_v<Scalar, double> ? "double" : "float";
+}
 
-  explicit Checksum(const char* bytes, std::size_t size) {
-    std::snprintf(text, sizeof text, "crc32:%08lx", static_cast<unsigned long>(crc32(bytes, size)));
-  }
-};
+template <class Fields, class Data>
+[[gnu::cold]] void visit_beam_and_range(Fields& f, Data& data) {
+  f.real("beam.length", "m", data.beam.length);
+  f.real("beam.axial_stiffness", "N", data.beam.axial_stiffness);
+  f.real("beam.bending_stiffness", "N·m²", data.beam.bending_stiffness);
+  f.real("beam.thickness", "m", data.beam.thickness);
+  f.choice("beam.left", data.beam.left, Support::guided);
+  f.choice("beam.right", data.beam.right, Support::guided);
+  f.real("range.s_min", "m", data.s_min);
+  f.real("range.s_max", "m", data.s_max);
+  f.real("range.depth", "m", data.depth);
+}
+
+template <class Fields, typename Scalar>
+[[gnu::cold]] void visit_grid(Fields& f, PodModelData<Scalar>& data) {
+  f.flag("grid.symmetric", data.symmetric);
+  f.count("grid.positions", data.positions);
+  f.count("grid.depths", data.depths);
+  f.real("grid.y_low", "1", data.y_low);
+  f.real("grid.y_high", "1", data.y_high);
+  f.table("potential", "N/m", data.potential);
+  f.table("rest", "m", data.rest);
+}
+
+template <class Fields, typename Scalar>
+[[gnu::cold]] void visit_grid(Fields& f, GalerkinModelData<Scalar>& data) {
+  f.count("grid.positions", data.positions);
+  f.count("grid.tensions", data.tensions);
+  f.real("grid.tension", "N", data.tension);
+  f.table("log_stiffness", "ln(N/m)", data.log_stiffness);
+}
+
+template <class Fields, typename Scalar>
+[[gnu::cold]] void visit_shape(Fields& f, ShapeData<Scalar>& shape) {
+  f.count("shape.segments", shape.segments);
+  f.count("shape.contact_node", shape.contact_node);
+  f.count("shape.modes", shape.modes);
+  f.table("shape.basis", "1", shape.basis);
+  f.table("shape.coefficients", "1", shape.coefficients);
+  f.table("shape.rest", "m, m, rad", shape.rest);
+}
+
+template <class Fields>
+[[gnu::cold]] void visit_errors(Fields& f, ErrorSummary& errors) {
+  f.count("presses", errors.presses);
+  f.real("force_median", "1", errors.force_median);
+  f.real("force_p95", "1", errors.force_p95);
+  f.real("force_max", "1", errors.force_max);
+  f.real("shape_median", "1", errors.shape_median);
+  f.real("shape_max", "1", errors.shape_max);
+}
+
+template <class Fields>
+[[gnu::cold]] void visit_region(Fields& f, RegionError& region) {
+  f.real("s_min", "m", region.s_min);
+  f.real("s_max", "m", region.s_max);
+  f.real("depth_min", "m", region.depth_min);
+  f.real("depth_max", "m", region.depth_max);
+  visit_errors(f, region.errors);
+}
+
+template <class Fields, class Data>
+[[gnu::cold]] void visit_model(Fields& f, Data& data, const char* nodes) {
+  f.units();
+  visit_beam_and_range(f, data);
+  f.constant("nodes", nodes);
+  visit_grid(f, data);
+  visit_shape(f, data.shape);
+  f.word("errors.reference", data.errors.reference);
+  f.real("errors.force_bound", "1", data.errors.force_bound);
+  f.real("errors.reference_error", "1", data.errors.reference_error);
+  f.object("errors.all", data.errors.all, visit_errors<Fields>);
+  f.list("errors.regions", data.errors.regions, visit_region<Fields>);
+  f.finish();
+}
+
+[[gnu::cold]] inline std::string checksum(const char* bytes, std::size_t size) {
+  char text[16];
+  std::snprintf(text, sizeof text, "crc32:%08lx", static_cast<unsigned long>(crc32(bytes, size)));
+  return text;
+}
 
 /// Header and payload.   @param payload  with its line feed
 [[gnu::cold]] inline std::string model_file_text(const char* kind, const char* scalar,
@@ -63,7 +143,7 @@ struct Checksum {
   f.count("version", model_file_version);
   f.constant("kind", kind);
   f.constant("scalar", scalar);
-  f.constant("checksum", Checksum(payload.data(), payload.size()).text);
+  f.word("checksum", checksum(payload.data(), payload.size()));
   std::string text = f.text(17) + "\n" + payload;
   check_size(text.size(), source);
   return text;
@@ -85,7 +165,7 @@ struct Checksum {
   f.word("scalar", info.scalar);
   const char* const payload = text.data() + end + 1;
   const std::size_t size = text.size() - end - 1;
-  f.constant("checksum", Checksum(payload, size).text,
+  f.constant("checksum", checksum(payload, size).c_str(),
              ", that of all after the first line: the file is cut off, damaged or changed");
   f.finish();
   return parse_json(payload, size, source, 2);
@@ -124,7 +204,7 @@ template <class Model>
   detail::visit_model(fields, data, Model::Nodes::name());
   try {
     Model model(std::move(data));
-    detail::check_answers(model, model.data().positions, model.data().others());
+    detail::check_answers(model);
     return model;
   } catch (const std::invalid_argument& error) {
     detail::fail(source, "%s", error.what());

@@ -12,7 +12,6 @@
 #pragma once
 
 #include <cerrno>
-#include <cstddef>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>

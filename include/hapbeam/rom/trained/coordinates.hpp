@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The coordinates in which a beam's response is smooth enough for a polynomial.
 //
-// Toward an end that holds w the stiffness grows without bound: as the 2nd power of the inverse distance beside a
-// hinge, and the 3rd beside a clamp. No polynomial in s approximates that. In x = ln(s/(L - s)), and with these powers
-// divided out, the stiffness is smooth.
-// Deep presses stiffen from k to k + c d². In d that growth spans orders of magnitude. In y = ln(1 + (d/ρ)²), ρ =
-// ½√(EI/EA), it is gradual.
-// Example: 16 × 12 Chebyshev nodes, presses up to 50 mm on 5 to 95 % of the thesis' pinned beam. The largest error of
-// the force is 5e-5; with s and d² it is 7e-2.
+// Toward an end that holds w the stiffness grows as the 2nd power of the inverse distance beside a hinge, and the 3rd beside a clamp.
+// With these powers divided out it is smooth in x = ln(s/(L - s)).  Deep presses stiffen from k to k + c d², which is gradual in
+// y = ln(1 + (d/ρ)²), ρ = ½√(EI/EA).  Presses up to 50 mm of the thesis' pinned beam, 16 × 12 nodes: the largest error of the force is
+// 5e-5; with s and d² it is 7e-2.
 // noexcept, no allocation, O(1).
 #pragma once
 

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A trained beam that still solves its equation, in one unknown, as a ForceModel.
-//
-// Without axial load the tension N is uniform. The deflection is then a multiple of g(x; s, N), the response to a unit
-// force at the contact s under that tension. This one function, which moves with the contact and the tension, is the
-// basis of a Galerkin projection. The membrane energy remains a polynomial, and the contact a constraint whose
-// multiplier is the force:
+// A trained beam that still solves its equation, in one unknown, the tension N, as a ForceModel.
 //
 //   V(d, N) = ½ k(s, N) d² - N² L/(2EA),     F = ∂V/∂d = k d,     0 = ∂V/∂N = ½ d² ∂k/∂N - N L/EA
 //
-// k = 1/g(s; s, N) is interpolated: ln(scale k) over x(s) and z = ln(1 + N/N0), N0 = 10 EI/L². For the von Kármán beam
-// there is no other error. k increases with N and is concave, so the equation has one root: Newton's method within a
-// bracket.
-// A fixed basis is less accurate, because the kink moves with the contact. With 8 global modes the error of the force
-// beside a support exceeds 10 %; with this function it is 1e-5.
-// Beyond the largest trained tension, k' falls to that of a string, 1/A, as N^(-1/2), the effect of its boundary
-// layers: A = s(L - s)/L between two ends that hold w.
-// If no tension arises (an end slides, or the element is linear), there is no unknown and k depends on s alone.
+// k = 1/g(s; s, N), with g the response to a unit force at s under N (docs/theory.md, reduced models).  It is interpolated: ln(scale k)
+// over x(s) and z = ln(1 + N/N0), N0 = 10 EI/L².  For the von Kármán beam there is no other error.  k increases with N and is concave, so
+// the equation has one root: Newton's method within a bracket.
+// Beyond the largest trained tension k' falls to that of a string, 1/A, as N^(-1/2), the effect of its boundary layers: A = s(L - s)/L
+// between two ends that hold w.  Where no tension arises (an end slides, or the element is linear) k depends on s alone.
 // Offline: construction allocates and throws.  Servo: noexcept, allocation-free, at most max_iterations iterations.
 #pragma once
 

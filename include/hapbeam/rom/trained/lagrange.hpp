@@ -3,10 +3,8 @@
 //
 //   p(x) = Σ l_k(x) f_k,    l_k(x) = (w_k/(x - x_k)) / Σ_j w_j/(x - x_j)
 //
-// The weights l_k depend on x alone: one set serves every quantity that is known at the same nodes, and on a grid the
-// products of two sets.  At a node l_k is exactly 1 or 0, and nothing is divided by zero.
-// ChebyshevNodes are the default: with 50 of them Σ|l_k|, by which an error in the values can grow, is at most 3.5.
-// With the thesis' EquispacedNodes it is 2e12, because it grows as 2ⁿ/(e n ln n).
+// The weights l_k depend on x alone: one set serves every quantity at the same nodes, and on a grid the products of two sets.
+// With 50 ChebyshevNodes an error in the values grows by at most Σ|l_k| = 3.5, with the thesis' EquispacedNodes by 2e12.
 //
 // Nodes of your own are a class N of static functions:
 //
@@ -17,7 +15,6 @@
 //   take_snapshots<N>(…), train_pod<N>(…), PodModel<double, N>
 //
 // Source: Berrut and Trefethen, Barycentric Lagrange interpolation, SIAM Review 46 (2004).
-// combine() is the one loop that a trained model spends its time in.
 // Real-time: weights() and combine() are noexcept, allocation-free, O(n) and O(rows × columns); construction throws.
 #pragma once
 

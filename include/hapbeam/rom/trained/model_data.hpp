@@ -48,49 +48,46 @@ struct ErrorReport {
   /// that of the places beside.
   /// The search is no proof; none of 250 000 random presses of 50 beams exceeded the bound.
   double force_bound = 0;
-  double reference_error =
-      0;  ///< largest relative error of the full model's force, by one with twice its elements
+  /// Largest relative error of the full model's force, by one with twice its elements.
+  double reference_error = 0;
+};
+
+/// What both kinds of trained models have.
+template <typename Scalar>
+struct TrainedData {
+  BeamData<Scalar> beam;
+  Scalar s_min, s_max;  ///< [m] equal where one position was trained
+  Scalar depth;         ///< [m] largest |d| in range
+  int positions;        ///< of the grid
+  ShapeData<Scalar> shape;
+  ErrorReport errors;
 };
 
 /// Of a PodModel.  Grids run through the positions, and for each through the depths.
 template <typename Scalar>
-struct PodModelData {
+struct PodModelData : TrainedData<Scalar> {
   static constexpr const char* kind = "pod";
-  BeamData<Scalar> beam;
-  Scalar s_min, s_max;            ///< [m] equal where one position was trained
-  Scalar depth;                   ///< [m] largest |d| in range
   bool symmetric;                 ///< the force is odd in d: no dead load
-  int positions, depths;          ///< of the grid
+  int depths;                     ///< of the grid
   Scalar y_low, y_high;           ///< ends of the interval of DepthCoordinate
   std::vector<Scalar> potential;  ///< positions × depths: scale(s) · 2V/e² [N/m], V the work of the press
   std::vector<Scalar> rest;  ///< positions: w of the untouched beam [m], from which e = d - rest is measured
-  ShapeData<Scalar> shape;
-  ErrorReport errors;
 
   int others() const noexcept { return depths; }  ///< size of the grid along its other axis
 };
 
 /// Of a GalerkinModel.  Grids run through the positions, and for each through the tensions.
 template <typename Scalar>
-struct GalerkinModelData {
+struct GalerkinModelData : TrainedData<Scalar> {
   static constexpr const char* kind = "galerkin";
-  BeamData<Scalar> beam;
-  Scalar s_min, s_max;                ///< [m]
-  Scalar depth;                       ///< [m] largest |d| in range
-  int positions, tensions;            ///< of the grid; one tension where none arises
+  int tensions;                       ///< of the grid; one tension where none arises
   Scalar tension;                     ///< [N] largest trained; 0 where none arises
   std::vector<Scalar> log_stiffness;  ///< positions × tensions: ln(scale(s) F/d) of the force in N/m
-  ShapeData<Scalar> shape;
-  ErrorReport errors;
 
   int others() const noexcept { return tensions; }  ///< size of the grid along its other axis
 };
 
 namespace detail {
-
-[[gnu::cold]] [[noreturn]] inline void reject_data(const char* field, double value, const char* allowed) {
-  reject(field, value, "", allowed);
-}
 
 /// At most this many numbers in a table: 128 MB in double.
 inline constexpr std::size_t largest_table = std::size_t(1) << 24;
@@ -102,7 +99,7 @@ template <typename Scalar>
   if (values.size() != wanted)
     refuse("%s = %g: must be %g numbers", field, double(values.size()), double(wanted));
   for (const Scalar value : values)
-    if (!(value > low && value <= high)) reject_data(field, static_cast<double>(value), allowed);
+    if (!(value > low && value <= high)) reject(field, static_cast<double>(value), "", allowed);
 }
 /// What has no unit, or is a length of a beam: products of a few of them are finite in float, too.
 template <typename Scalar>
@@ -140,7 +137,7 @@ template <typename Scalar>
   if (!(s_max >= s_min && s_max <= high))
     reject("s_max", static_cast<double>(s_max), "m", "s_min to the end, a thousandth away where it is held");
   if ((s_min == s_max) != (positions == 1))
-    reject_data("positions", positions, "1 where s_min = s_max, 2 or more elsewhere");
+    reject("positions", positions, "", "1 where s_min = s_max, 2 or more elsewhere");
 }
 
 template <typename Scalar>
@@ -148,7 +145,7 @@ template <typename Scalar>
   const std::size_t segments = check_count("segments", shape.segments, 1, 1 << 14),
                     modes = check_count("modes", shape.modes, 1, 1 << 10);
   check_count("contact_node", shape.contact_node, 0, shape.segments);
-  if (grid * modes > largest_table) reject_data("modes", shape.modes, "fewer");
+  if (grid * modes > largest_table) reject("modes", shape.modes, "", "fewer");
   check_table("basis", shape.basis, 3 * (segments + 1) * modes);
   check_table("coefficients", shape.coefficients, grid * modes);
   check_table("rest_shape", shape.rest, 3 * (segments + 1));
@@ -166,7 +163,7 @@ template <typename Scalar>
   finite("y_low", static_cast<double>(data.y_low), "");
   finite("y_high", static_cast<double>(data.y_high), "");
   if (!(data.y_low < data.y_high) || (data.symmetric && data.y_low != 0))
-    reject_data("y_low", static_cast<double>(data.y_low), "below y_high, 0 where symmetric");
+    reject("y_low", static_cast<double>(data.y_low), "", "below y_high, 0 where symmetric");
   check_table("potential", data.potential, positions * depths, Scalar(0),
               (std::numeric_limits<Scalar>::max)(), "positive and finite in every entry");
   check_table("rest", data.rest, positions);
@@ -174,7 +171,7 @@ template <typename Scalar>
   const DepthCoordinate<Scalar> y(data.beam, data.symmetric);
   const Scalar rounding = std::sqrt(std::numeric_limits<Scalar>::epsilon()) * (data.y_high - data.y_low);
   for (const Scalar rest : data.rest) {
-    if (data.symmetric && rest != 0) reject_data("rest", static_cast<double>(rest), "0 where symmetric");
+    if (data.symmetric && rest != 0) reject("rest", static_cast<double>(rest), "", "0 where symmetric");
     if (!(y(data.depth - rest) <= data.y_high + rounding && y(-data.depth - rest) >= data.y_low - rounding))
       reject("depth", static_cast<double>(data.depth), "m", "within the depths of the grid, y_low to y_high");
   }
@@ -211,22 +208,27 @@ ShapeData<To> cast(const ShapeData<From>& s) {
   return {s.segments, s.contact_node, s.modes, cast<To>(s.basis), cast<To>(s.coefficients), cast<To>(s.rest)};
 }
 
+template <typename To, typename From>
+TrainedData<To> cast(const TrainedData<From>& d) {
+  return {cast<To>(d.beam), To(d.s_min), To(d.s_max), To(d.depth), d.positions, cast<To>(d.shape), d.errors};
+}
+
 }  // namespace detail
 
 /// The same model in another scalar: cast<float>(data).  The error report stays; measure again if it matters.
 template <typename To, typename From>
 PodModelData<To> cast(const PodModelData<From>& d) {
-  using detail::cast;
-  return {cast<To>(d.beam), To(d.s_min),       To(d.s_max), To(d.depth),  d.symmetric,
-          d.positions,      d.depths,          To(d.y_low), To(d.y_high), cast<To>(d.potential),
-          cast<To>(d.rest), cast<To>(d.shape), d.errors};
+  return {detail::cast<To>(d),
+          d.symmetric,
+          d.depths,
+          To(d.y_low),
+          To(d.y_high),
+          detail::cast<To>(d.potential),
+          detail::cast<To>(d.rest)};
 }
 template <typename To, typename From>
 GalerkinModelData<To> cast(const GalerkinModelData<From>& d) {
-  using detail::cast;
-  return {cast<To>(d.beam),  To(d.s_min), To(d.s_max),   To(d.depth),
-          d.positions,       d.tensions,  To(d.tension), cast<To>(d.log_stiffness),
-          cast<To>(d.shape), d.errors};
+  return {detail::cast<To>(d), d.tensions, To(d.tension), detail::cast<To>(d.log_stiffness)};
 }
 
 }  // namespace hapbeam

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A trained beam: force and shape by interpolation between presses of the full model, as a ForceModel.
 //
-// The work V of a press is interpolated, as 2V/e² in the coordinates of coordinates.hpp. The force is its derivative, F
-// = ∂V/∂d, so a closed path of the contact neither gains nor loses energy, whatever the error. The rotation at the
-// contact follows from the same V, ∂V/∂s = F θ. The rest of the shape is made of POD modes (thesis eq. 3.54, 3.67).
-// The cost does not depend on the elements: positions × depths for the force, and points × modes more for the shape.
-// Outside range() nothing is extrapolated. A deeper press has the force at the end of the range plus its tangent
-// stiffness there, held constant; s is that of the nearest press in range. Closed paths conserve energy inside the
-// range alone.
+// The work V of a press is interpolated, as 2V/e² in the coordinates of coordinates.hpp.  F = ∂V/∂d and ∂V/∂s = F θ give the force and
+// the rotation at the contact, so a closed path neither gains nor loses energy.  The rest of the shape is made of POD modes (thesis eq.
+// 3.54, 3.67).  The cost does not depend on the elements: positions × depths for the force, and points × modes more for the shape.
+// A press deeper than range() has the force at its end plus the tangent stiffness there, held constant; s is that of the nearest press
+// in range.  Closed paths conserve energy inside the range alone.
 // Offline: construction allocates and throws std::invalid_argument.  Servo: all else is noexcept and allocation-free.
 #pragma once
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The deformed shape of a trained model: POD modes, and their coefficients on a grid of presses.
 //
-// Nodes at fixed places are not accurate. At the contact w''' jumps, and the jump moves with the contact. Shapes at
-// fixed places are therefore not smooth in s, and interpolation between 16 positions has an error of a fifth in the
-// slopes. In the snapshots the contact is always the same node. The others share both sides evenly. Displacements are
-// made dimensionless:
+// At the contact w‴ jumps, so that shapes at fixed places are not smooth in s.  In the snapshots the contact is always the same node,
+// and the others share both sides evenly.  Displacements are made dimensionless:
 //
 //   w/d,   θ h/d,   u h/d²,    h the length of the node's side of the beam
 //
@@ -215,8 +213,7 @@ class ShapeTable {
   std::vector<Scalar> weights_;  // of the last press, along both axes
   std::vector<Scalar> work_;     // displacements of the last shape, freed of units; its modes; these by depth
   std::vector<Node> nodes_;
-  int first_ = 0,
-      last_ = 0;  // of the nodes that are those of the last press; none where the last is before the first
+  int first_ = 0, last_ = 0;  // nodes that are those of the last press; none where last_ < first_
   // The last press.
   Scalar s_ = 0, d_ = 0, unit_ = 1;
   std::optional<Scalar> theta_;  // none: by the modes

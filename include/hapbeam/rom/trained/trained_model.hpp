@@ -6,6 +6,7 @@
 // Offline: construction allocates and throws std::invalid_argument.  Servo: all else is noexcept and allocation-free.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -118,5 +119,35 @@ struct TrainedTable {
   int row_size() const noexcept { return (first + Shape::near_size) * others(); }
   Scalar* nearby(Scalar* row, int j) const noexcept { return row + first * others() + Shape::near_size * j; }
 };
+
+/// Members may be valid one by one and yet make no model: a potential that vanishes between two positions, a shape that overflows its
+/// scalar.  So a model is pressed all over its range and far beyond: twice for each node of the grid and each sign, for interpolation
+/// oscillates most between nodes.   @throws std::invalid_argument for the first press that fails
+template <class Model>
+[[gnu::cold]] void check_answers(Model& model) {
+  using S = typename Model::Scalar;
+  const auto& data = model.data();
+  const int positions = data.positions, depths = data.others();
+  const auto finite = [](const CentrelineNode<S>& node) { return is_finite(node); };
+  const PositionCoordinate<S> coordinate(data.beam);
+  const S low = coordinate(data.s_min), high = coordinate(data.s_max);
+  for (int i = 0, last = positions > 1 ? 2 * positions : 0; i <= last; ++i)
+    for (int j = -2 * depths - 1; j <= 2 * depths + 1; ++j) {
+      const S part = S(j) / S(2 * depths), size = part < 0 ? -part : part;
+      const S s = i == 0      ? data.s_min
+                  : i == last ? data.s_max
+                              : coordinate.inverse(low + (high - low) * S(i) / S(last));
+      // Quadratically, as the depths of a grid are; the last goes to a thousand lengths.
+      const S d = size > 1 ? 1000 * part * data.beam.length : data.depth * part * size;
+      const Response<S> response = model.press({s, d});
+      const auto shape = model.shape();
+      if (is_answer(response.status) && std::isfinite(response.force) &&
+          std::all_of(shape.begin(), shape.end(), finite))
+        continue;
+      refuse("is no model: its press at s = %g m, d = %g m is %s", double(s), double(d),
+             is_answer(response.status) ? "not finite" : name(response.status));
+    }
+  model.reset();
+}
 
 }  // namespace hapbeam::detail

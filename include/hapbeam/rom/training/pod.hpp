@@ -10,8 +10,6 @@
 // Offline: allocates and throws std::invalid_argument.
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 

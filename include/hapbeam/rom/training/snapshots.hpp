@@ -10,15 +10,14 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rom/trained/coordinates.hpp>
 #include <hapbeam/rom/trained/lagrange.hpp>
-#include <hapbeam/rom/training/full_model.hpp>
 #include <hapbeam/rom/training/training_plan.hpp>
 
 namespace hapbeam {
@@ -47,17 +46,6 @@ struct Snapshots {
 
 namespace detail {
 
-/// The tension of the model's present press [N], from F d = 2V + N² L/EA with V the model's strain energy. An end that
-/// slides takes none.
-template <class Model>
-double tension_of(const Model& model, const BeamData<double>& beam, double force, double d) {
-  if (!fixes_u(beam.left) || !fixes_u(beam.right)) return 0;
-  const double membrane = force * d - 2 * static_cast<double>(model.strain_energy());
-  // Round-off and the solver's tolerance leave a linear element this much.
-  if (!(membrane > 1e-8 * std::abs(force * d))) return 0;
-  return std::sqrt(membrane * beam.axial_stiffness / beam.length);
-}
-
 template <class Nodes, class Model>
 class SnapshotTaker {
  public:
@@ -67,25 +55,24 @@ class SnapshotTaker {
         out_{BeamData<double>::of(beam), plan.check(beam), Nodes::name(), plan.contact_node(beam)},
         frame_(out_.beam, plan.segments, out_.contact_node),
         x_(plan.positions, position(plan.s_min), position(plan.s_max)) {
-    static_assert(is_force_model<Model>, "a full model is a ForceModel: see hapbeam/force_model.hpp");
+    static_assert(is_force_model<Model> && std::is_same_v<typename Model::Scalar, double>,
+                  "a full model is a ForceModel of doubles: see hapbeam/force_model.hpp");
     check_same_beam(beam, full, plan);
     out_.columns = plan.depths;
     full_.reset();
     const auto shape = full_.shape();
     bool loaded = false;
     for (int i = 0; i <= plan.segments; ++i) {
-      const auto at = shape.at(shape.length() * static_cast<S>(i) / static_cast<S>(plan.segments));
+      const auto at = shape.at(shape.length() * i / plan.segments);
       // Between the nodes of an element of finite rotation there is round-off.
-      const double least = 1e-9 * plan.depth, length = out_.beam.length;
-      for (const S value : {at.u, at.w, at.theta * static_cast<S>(length)})
-        loaded = loaded || std::abs(static_cast<double>(value)) > least;
-      for (const S value : {at.u, at.w, at.theta}) out_.rest_shape.push_back(static_cast<double>(value));
+      for (const double value : {at.u, at.w, at.theta * out_.beam.length})
+        loaded = loaded || std::abs(value) > 1e-9 * plan.depth;
+      for (const double value : {at.u, at.w, at.theta}) out_.rest_shape.push_back(value);
     }
     if (!loaded) std::fill(out_.rest_shape.begin(), out_.rest_shape.end(), 0.0);
-    if (loaded && plan.symmetric)
-      throw std::invalid_argument("symmetric = true: must be false for a beam under dead loads");
+    if (loaded && plan.symmetric) refuse("symmetric = true: must be false for a beam under dead loads");
     for (int i = 0; i < plan.positions; ++i) {
-      const double rest = static_cast<double>(shape.at(static_cast<S>(s(i))).w);
+      const double rest = shape.at(s(i)).w;
       if (std::abs(rest) >= plan.depth)
         reject("depth", plan.depth, "m", "more than dead loads bend the beam");
       out_.rest.push_back(rest);
@@ -101,10 +88,11 @@ class SnapshotTaker {
   Snapshots by_depth() {
     const TrainingPlan& plan = out_.plan;
     const DepthCoordinate<double> coordinate(out_.beam, plan.symmetric);
-    out_.y_low = plan.symmetric ? 0 : coordinate(-plan.depth - highest(out_.rest, 1));
-    out_.y_high = coordinate(plan.depth + highest(out_.rest, -1));
+    const auto [low, high] = std::minmax_element(out_.rest.begin(), out_.rest.end());
+    out_.y_low = plan.symmetric ? 0 : coordinate(-plan.depth - *high);
+    out_.y_high = coordinate(plan.depth - *low);
     const Lagrange<Nodes> y(plan.depths, out_.y_low, out_.y_high);
-    allocate();
+    out_.grid.resize(static_cast<std::size_t>(plan.positions * out_.columns));
     for_each_position(full_, plan.positions, options_.threads, [&](Model& model, int i) {
       const double rest = out_.rest[static_cast<std::size_t>(i)];
       // From rest outward to either side, as a hand would.
@@ -120,15 +108,14 @@ class SnapshotTaker {
 
   Snapshots by_tension() {
     const TrainingPlan& plan = out_.plan;
-    if (!plan.symmetric)
-      throw std::invalid_argument("symmetric = false: must be true, a GalerkinModel takes no dead loads");
+    if (!plan.symmetric) refuse("symmetric = false: must be true, a GalerkinModel takes no dead loads");
     // The tensions of the plan and some way beyond, as far as the full model goes everywhere.
     const double headroom = 1.6;
     double needed = 0, reach = std::numeric_limits<double>::infinity(), nearest_limit = 0;
     const TensionCoordinate<double> coordinate(out_.beam);
     for (int i = -2; i < plan.positions; ++i) {
       const double at = i < 0 ? edge(i == -1 ? plan.s_min : plan.s_max) : s(i);
-      const double most = 0.999 * static_cast<double>(full_.range().depth_at(static_cast<S>(at)));
+      const double most = 0.999 * full_.range().depth_at(at);
       full_.reset();
       const double reached = tension_at(full_, at, most);
       if (reached < reach) reach = reached, nearest_limit = at;
@@ -137,16 +124,16 @@ class SnapshotTaker {
       out_.tension = (std::max)(out_.tension, tension_at(full_, at, (std::min)(headroom * plan.depth, most)));
     }
     if (needed > reach)
-      throw TrainingError(
-          "depth = " + detail::number(plan.depth) + " m: its tension, " + detail::number(needed) +
-          " N, must be one that the full model reaches within its range everywhere, at s = " +
-          detail::number(nearest_limit) +
-          " m too: " + detail::number(0.99 * plan.depth * std::sqrt(reach / needed)) + " m would be");
+      refuse<TrainingError>(
+          "depth = %g m: its tension, %g N, must be one that the full model reaches within its range "
+          "everywhere, "
+          "at s = %g m too: %g m would be",
+          plan.depth, needed, nearest_limit, 0.99 * plan.depth * std::sqrt(reach / needed));
     // A plan so shallow that it stretches nothing gets the tensions where bending still outweighs them.
     out_.tension = reach > 0 ? (std::min)((std::max)(out_.tension, coordinate.unit()), reach) : 0;
     if (out_.tension == 0) out_.columns = 1;
     const Lagrange<Nodes> z(out_.columns, 0, coordinate(out_.tension));
-    allocate();
+    out_.grid.resize(static_cast<std::size_t>(plan.positions * out_.columns));
     for_each_position(full_, plan.positions, options_.threads, [&](Model& model, int i) {
       model.reset();
       // Where bending and stretching are alike.
@@ -162,8 +149,6 @@ class SnapshotTaker {
   }
 
  private:
-  using S = typename Model::Scalar;
-
   double position(double s) const {
     return out_.plan.positions > 1 ? PositionCoordinate<double>(out_.beam)(s) : s;
   }
@@ -173,28 +158,24 @@ class SnapshotTaker {
   }
   /// An end of the plan's range; the full model's, if they differ by round-off.
   double edge(double s) const {
-    const Range<S> range = full_.range();
-    const double inside =
-        (std::min)((std::max)(s, static_cast<double>(range.s_min)), static_cast<double>(range.s_max));
+    const Range<double> range = full_.range();
+    const double inside = std::clamp(s, range.s_min, range.s_max);
     return std::abs(inside - s) <= 1e-9 * out_.beam.length ? inside : s;
   }
-  static double highest(const std::vector<double>& values, double sign) {
-    double most = sign * values.front();
-    for (const double value : values) most = (std::max)(most, sign * value);
-    return most;
-  }
 
-  void allocate() {
-    out_.grid.resize(static_cast<std::size_t>(out_.plan.positions) * static_cast<std::size_t>(out_.columns));
-  }
-
+  /// The tension of a press [N], from F d = 2V + N² L/EA with V the model's strain energy.  An end that slides takes none.
   double tension_at(Model& model, double s, double d) const {
-    return tension_of(model, out_.beam, press_for_training(model, s, d), d);
+    const double work = press_for_training(model, s, d) * d;
+    if (!fixes_u(out_.beam.left) || !fixes_u(out_.beam.right)) return 0;
+    const double membrane = work - 2 * model.strain_energy();
+    // Round-off and the solver's tolerance leave a linear element this much.
+    if (!(membrane > 1e-8 * std::abs(work))) return 0;
+    return std::sqrt(membrane * out_.beam.axial_stiffness / out_.beam.length);
   }
 
   /// The depth whose tension is N, by secants of ln N over ln d.
   double depth_at_tension(Model& model, double s, double N, double d) const {
-    const double most = 0.9999 * static_cast<double>(model.range().depth_at(static_cast<S>(s)));
+    const double most = 0.9999 * model.range().depth_at(s);
     const double unit = TensionCoordinate<double>(out_.beam).unit();
     const auto miss = [&](double depth) { return std::log(tension_at(model, s, depth) / N); };
     double before = (std::min)(d, most), miss_before = miss(before);
@@ -209,8 +190,11 @@ class SnapshotTaker {
       before = next, miss_before = now;
       next *= std::exp(-now * power);
     }
-    throw TrainingError("no press at s = " + detail::number(s) + " m has a tension of " + detail::number(N) +
-                        " N; the full model's solver may be too loose, or its range too small");
+    refuse<TrainingError>(
+        "no press at s = %g m has a tension of %g N; the full model's solver may be too loose, or its range "
+        "too "
+        "small",
+        s, N);
   }
 
   /// A depth that stands for zero [m]: the error of F/e is (e/ρ)².
@@ -225,14 +209,12 @@ class SnapshotTaker {
     if (out_.plan.symmetric) e = (std::max)(e, shallow);
     const double s = this->s(i), d = e + rest;
     const double force = press_for_training(model, s, d);
-    Snapshot& snapshot = out_.grid[static_cast<std::size_t>(i) * static_cast<std::size_t>(out_.columns) +
-                                   static_cast<std::size_t>(j)];
+    Snapshot& snapshot = out_.grid[static_cast<std::size_t>(i * out_.columns + j)];
     snapshot = {s, d, force, force / e, {}};
     for (int k = 0; k <= out_.plan.segments; ++k) {
       const double x = frame_.position(k, s);
-      const auto at = model.shape().at(static_cast<S>(x));
-      snapshot.nodes.push_back(
-          {x, static_cast<double>(at.u), static_cast<double>(at.w), static_cast<double>(at.theta)});
+      const auto at = model.shape().at(x);
+      snapshot.nodes.push_back({x, at.u, at.w, at.theta});
     }
     // Nor has force over depth a value: it is the derivative there.
     if (std::abs(e) < shallow)

@@ -15,9 +15,9 @@
 #include <limits>
 #include <vector>
 
-#include <hapbeam/rom/training/full_model.hpp>
 #include <hapbeam/rom/training/pod.hpp>
 #include <hapbeam/rom/training/snapshots.hpp>
+#include <hapbeam/rom/training/training_plan.hpp>
 
 namespace hapbeam {
 
@@ -40,16 +40,17 @@ inline Eigen::MatrixXd snapshot_matrix(const Snapshots& snapshots) {
 
 namespace detail {
 
+/// What does not depend on the kind of model; the shapes by their POD.
 template <class Reducer>
-ShapeData<double> reduce_shapes(const Snapshots& snapshots, const Truncation& truncation) {
+TrainedData<double> trained(const Snapshots& snapshots, const Truncation& truncation) {
+  const TrainingPlan& plan = snapshots.plan;
   const Eigen::MatrixXd X = snapshot_matrix(snapshots);
   const Pod<Reducer> pod(X, truncation);
   const Eigen::MatrixXd C = pod.coefficients(X);
-  ShapeData<double> shape{snapshots.plan.segments, snapshots.contact_node, pod.modes(), {}, {},
-                          snapshots.rest_shape};
+  ShapeData<double> shape{plan.segments, snapshots.contact_node, pod.modes(), {}, {}, snapshots.rest_shape};
   shape.basis.assign(pod.basis().data(), pod.basis().data() + pod.basis().size());
   shape.coefficients.assign(C.data(), C.data() + C.size());
-  return shape;
+  return {snapshots.beam, plan.s_min, plan.s_max, plan.depth, plan.positions, shape, {}};
 }
 
 /// scale(s) · 2V/e² at one position from scale(s) · F/e at the same nodes:  2V/e² = 2 ∫₀¹ t K(y(t e)) dt.
@@ -66,19 +67,13 @@ std::vector<double> potential(const Lagrange<Nodes>& y, const DepthCoordinate<do
       for (std::size_t g = 0; g < gauss_points.size(); ++g) {
         const double t = low + (high - low) * gauss_points[g];
         y.weights(coordinate(t * e), l.data());
-        double sum = 0;
-        for (std::size_t k = 0; k < K.size(); ++k) sum += l[k] * K[k];
-        work[j] += 2 * (high - low) * gauss_weights[g] * t * sum;
+        work[j] += 2 * (high - low) * gauss_weights[g] * t * dot(l.data(), K.data(), y.size());
       }
       high = low;
     }
   }
   return work;
 }
-
-}  // namespace detail
-
-namespace detail {
 
 template <class Nodes>
 void check_nodes(const Snapshots& snapshots) {
@@ -98,12 +93,8 @@ void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coord
   for (int k = 0; k <= steps; ++k) {
     const double at = y.low() + (y.high() - y.low()) * k / steps, e = coordinate.inverse(at);
     y.weights(at, l.data());
-    double value = 0, slope = 0;
-    for (int i = 0; i < n; ++i) {
-      value += l[static_cast<std::size_t>(i)] * work[static_cast<std::size_t>(i)];
-      slope += l[static_cast<std::size_t>(i)] * slopes[static_cast<std::size_t>(i)];
-    }
-    const double stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
+    const double value = dot(l.data(), work.data(), n), slope = dot(l.data(), slopes.data(), n),
+                 stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
     if (!(value > 0 && stiffness > 0 && force > before))
       refuse(
           "depths = %d: must be more, or the plan less deep: at s = %g m the force between them is not a "
@@ -125,20 +116,13 @@ PodModelData<double> train_pod(const Snapshots& snapshots,
   const PositionCoordinate<double> position(snapshots.beam);
   const DepthCoordinate<double> coordinate(snapshots.beam, plan.symmetric);
   const Lagrange<Nodes> y(plan.depths, snapshots.y_low, snapshots.y_high);
-  PodModelData<double> data{snapshots.beam,
-                            plan.s_min,
-                            plan.s_max,
-                            plan.depth,
+  PodModelData<double> data{detail::trained<Reducer>(snapshots, truncation),
                             plan.symmetric,
-                            plan.positions,
                             plan.depths,
                             snapshots.y_low,
                             snapshots.y_high,
                             {},
-                            snapshots.rest,
-                            {},
-                            {}};
-  data.shape = detail::reduce_shapes<Reducer>(snapshots, truncation);
+                            snapshots.rest};
   std::vector<double> K(static_cast<std::size_t>(plan.depths));
   for (auto snapshot = snapshots.grid.begin(); snapshot != snapshots.grid.end();) {
     const double s = snapshot->s;
@@ -155,11 +139,9 @@ template <class Nodes = ChebyshevNodes, class Reducer = Svd>
 GalerkinModelData<double> train_galerkin(const Snapshots& snapshots,
                                          const Truncation& truncation = Truncation::error(1e-4)) {
   detail::check_nodes<Nodes>(snapshots);
-  const TrainingPlan& plan = snapshots.plan;
   const PositionCoordinate<double> position(snapshots.beam);
-  GalerkinModelData<double> data{snapshots.beam,    plan.s_min,        plan.s_max, plan.depth, plan.positions,
-                                 snapshots.columns, snapshots.tension, {},         {},         {}};
-  data.shape = detail::reduce_shapes<Reducer>(snapshots, truncation);
+  GalerkinModelData<double> data{
+      detail::trained<Reducer>(snapshots, truncation), snapshots.columns, snapshots.tension, {}};
   for (const Snapshot& snapshot : snapshots.grid)
     data.log_stiffness.push_back(std::log(position.scale(snapshot.s) * snapshot.stiffness));
   return data;

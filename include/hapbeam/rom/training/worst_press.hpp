@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -41,17 +40,17 @@ class PressComparison {
       : fast_(fast),
         full_(full),
         rest_(full),
-        s_min_(close_to(static_cast<double>(range.s_min), static_cast<double>(full.range().s_min), length())),
-        s_max_(close_to(static_cast<double>(range.s_max), static_cast<double>(full.range().s_max), length())),
+        s_min_(close_to(static_cast<double>(range.s_min), full.range().s_min, length())),
+        s_max_(close_to(static_cast<double>(range.s_max), full.range().s_max, length())),
         depth_(static_cast<double>(range.depth)) {
     rest_.reset();
   }
 
   double s_min() const noexcept { return s_min_; }
   double s_max() const noexcept { return s_max_; }
-  double length() const noexcept { return static_cast<double>(rest_.shape().length()); }
+  double length() const noexcept { return rest_.shape().length(); }
   /// w of the untouched beam [m].
-  double rest(double s) const noexcept { return static_cast<double>(rest_.shape().at(static_cast<F>(s)).w); }
+  double rest(double s) const noexcept { return rest_.shape().at(s).w; }
   /// Where dead loads bend the beam, shallower presses are judged by the force of this depth from rest [m].
   double least() const noexcept { return depth_ / 1000; }
   /// From rest to the end of the range [m].
@@ -67,28 +66,25 @@ class PressComparison {
   /// The press at s by e from the untouched beam, or the nearest in range that both scalars represent and that finite
   /// elements do not press through a straight tip (FemModel::press).
   PressError operator()(double s, double e) {
-    S at = static_cast<S>((std::min)((std::max)(off_tips(s), s_min_), s_max_));
+    S at = static_cast<S>(std::clamp(off_tips(s), s_min_, s_max_));
     // In float an edge of the range may be rounded to the number beyond it.
     if (static_cast<double>(at) > s_max_) at = std::nextafter(at, S(0));
     if (static_cast<double>(at) < s_min_) at = std::nextafter(at, (std::numeric_limits<S>::max)());
     const double most = deepest(static_cast<double>(at));
-    S d = static_cast<S>((std::min)((std::max)(rest(static_cast<double>(at)) + e, -most), most));
+    S d = static_cast<S>(std::clamp(rest(static_cast<double>(at)) + e, -most, most));
     if (std::abs(static_cast<double>(d)) > most) d = std::nextafter(d, S(0));
     return compare(at, d);
   }
 
  private:
   using S = typename Fast::Scalar;
-  using F = typename Full::Scalar;
 
   /// An edge of the range; the full model's, if they differ by round-off.
   static double close_to(double edge, double known, double unit) noexcept {
     return std::abs(edge - known) <= 1e-6 * unit ? known : edge;
   }
   /// Largest |d| in range [m].
-  double deepest(double s) const noexcept {
-    return close_to(depth_, static_cast<double>(full_.range().depth_at(static_cast<F>(s))), depth_);
-  }
+  double deepest(double s) const noexcept { return close_to(depth_, full_.range().depth_at(s), depth_); }
 
   /// To the end itself or to the foot of the tip, whichever is nearer.
   double off_tips(double s) const noexcept {
@@ -107,7 +103,7 @@ class PressComparison {
     error.force = std::abs(found - wanted) / (std::abs(wanted) * (e < least ? least / e : 1));
     double off = 0, size = error.depth;
     for (const CentrelineNode<S>& node : fast_.shape()) {
-      const double height = static_cast<double>(full_.shape().at(static_cast<F>(node.s)).w);
+      const double height = full_.shape().at(static_cast<double>(node.s)).w;
       off = (std::max)(off, std::abs(static_cast<double>(node.w) - height));
       size = (std::max)(size, std::abs(height));
     }
@@ -157,11 +153,11 @@ double worst_error(Comparison& comparison, std::vector<PressError> presses, int 
   std::vector<PressError> begun;
   for (const PressError& press : presses) {
     // Those on the same hill lead to the same top.
-    bool same = false;
-    for (const PressError& other : begun)
-      same = same || (std::abs(press.s - other.s) < 0.05 * to_the_end(press.s, comparison.length()) &&
-                      comparison.alike(press, other));
-    if (same) continue;
+    const auto same = [&](const PressError& other) {
+      return std::abs(press.s - other.s) < 0.05 * to_the_end(press.s, comparison.length()) &&
+             comparison.alike(press, other);
+    };
+    if (std::any_of(begun.begin(), begun.end(), same)) continue;
     begun.push_back(press);
     most = (std::max)(most, climb(comparison, press).force);
     if (static_cast<int>(begun.size()) == climbs) break;
@@ -185,17 +181,14 @@ void add_shallow_presses(Comparison& comparison, std::vector<PressError>& presse
   }
 }
 
-template <class Full, typename = void>
-inline constexpr bool can_be_refined = false;
 template <class Full>
-inline constexpr bool can_be_refined<Full, std::void_t<decltype(std::declval<const Full&>().refined())>> =
-    true;
+using Refined = decltype(std::declval<const Full&>().refined());
 
 /// Largest relative error of a full model's force on a range, against one with twice its elements. With an order of two
 /// or more, the error of that one is at most a third of the difference. Zero for a model without refined().
 template <class Full, typename R>
 double own_error(const Full& full, const Range<R>& range, const std::vector<PressError>& sample) {
-  if constexpr (can_be_refined<Full>) {
+  if constexpr (offers<Refined, Full>) {
     PressComparison<Full, Full> comparison(full, full.refined(), range);
     std::vector<PressError> presses;
     // The corners of the range come first, and its edges in the first of each ten.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calibration of a device of HDAPI, and how its force comes in afterwards.
+// How a device of HDAPI is set up: what is asked of it, its calibration, and how its force comes in afterwards.
 //
 //   style            who calibrates, and when
 //   automatic        the device itself while its servo loop runs, from the motion of the arm; again at any time
@@ -16,8 +16,65 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <hapbeam/check.hpp>
+#include <hapbeam/haptics/device/device.hpp>
 
 namespace hapbeam {
+
+/// Which device, and how it is to be used.
+struct HdapiOptions {
+  std::string device;    ///< its name in the vendor's setup program; empty: the default device
+  unsigned rate = 1000;  ///< [Hz] of the servo loop, one that the device supports; the same for all devices
+  /// [N] positive; the device's own peak applies too
+  double force_limit = std::numeric_limits<double>::infinity();
+  double ramp_time = 0.5;  ///< [s] from gain 0 to 1, after a start and after an error; positive
+
+  // Not available from HDAPI; 0 where unknown.
+  double position_resolution = 0;  ///< [m]
+  double friction = 0;             ///< [N] to drive the arm back by hand
+  double damping = 0;              ///< [N·s/m] viscous, of the arm
+  double apparent_mass = 0;        ///< [kg] at the tip
+
+  // Of a device of six axes.
+  /// [N·m] not negative, 0: no torque; the device's own peak applies too
+  double torque_limit = std::numeric_limits<double>::infinity();
+  double gimbal_resolution = 0;  ///< [rad]
+  double gimbal_friction = 0;    ///< [N·m] to turn the stylus by hand
+  double gimbal_damping = 0;     ///< [N·m·s/rad] viscous, of the gimbal
+  double gimbal_inertia = 0;     ///< [kg·m²] of gimbal and stylus
+
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  const HdapiOptions& check() const {
+    if (rate < 100 || rate > 10000)
+      detail::reject("rate", rate, "Hz", "one that the device knows, 100 to 10000");
+    if (!(force_limit > 0)) detail::reject("force_limit", force_limit, "N", "positive");
+    detail::positive("ramp_time", ramp_time, "s");
+    detail::not_negative("position_resolution", position_resolution, "m");
+    detail::not_negative("friction", friction, "N");
+    detail::not_negative("damping", damping, "N·s/m");
+    detail::not_negative("apparent_mass", apparent_mass, "kg");
+    if (!(torque_limit >= 0)) detail::reject("torque_limit", torque_limit, "N·m", "not negative");
+    detail::not_negative("gimbal_resolution", gimbal_resolution, "rad");
+    detail::not_negative("gimbal_friction", gimbal_friction, "N·m");
+    detail::not_negative("gimbal_damping", gimbal_damping, "N·m·s/rad");
+    detail::not_negative("gimbal_inertia", gimbal_inertia, "kg·m²");
+    return *this;
+  }
+};
+
+/// A device that cannot be used; why() is the reason, as in its status().
+class DeviceError : public std::runtime_error {
+ public:
+  DeviceError(DeviceStatus why, const std::string& text) : std::runtime_error(text), why_(why) {}
+  DeviceStatus why() const noexcept { return why_; }
+
+ private:
+  DeviceStatus why_;
+};
 
 namespace detail {
 

@@ -1,5 +1,0 @@
-// SPDX-License-Identifier: MIT
-// Moved to shapes.hpp; kept for one release.
-#pragma once
-
-#include <hapbeam/shapes.hpp>
