@@ -109,8 +109,8 @@ class PairSystem : public WorldPairs<Element> {
         pair.rub(pair.friction.increment(pair.axes, {u[row], u[row + 1], u[row + 2], u[row + 3], u[row + 4]},
                                          pair.force));
       else pair.push(u[row], u[row + 1], u[row + 2]);
-      for (std::size_t side = 0; side < 2 && !pair.fresh; ++side) {
-        const double most = stride(this->rigid(pair.rod[side]) ? pair.rod[0] : pair.rod[side]);
+      for (std::size_t side = 0; side < 2 && !pair.fresh && !this->rigid(pair.rod[side]); ++side) {
+        const double most = stride(pair.rod[side]);
         pair.slide(side, std::clamp(u[row + 3 + static_cast<int>(side)], -most, most),
                    length(pair.rod[side]));
       }
@@ -151,36 +151,29 @@ class PairSystem : public WorldPairs<Element> {
       RodPair& pair = this->pair(k);
       if (!moves(pair)) continue;
       const PlacedBody* core = this->rigid(pair.rod[1]);
-      if (core) core->lead(pair);
-      pair.look();
+      if (core && pair.kind == RodPair::Kind::contact) {
+        if (core->moves && pair.friction.begins() && !pair.friction.none() && !pair.fresh)
+          pair.carry([&](auto& v) { v = core->carried(v); });
+        lead(*core, this->body(pair.rod[0]).line().at(pair.s[0]).r, pair);
+      } else {
+        pair.look();
+      }
       if (!pair.friction.none() && !pair.fresh) look(pair);
       for (int c = 0; c < 3; ++c) dense[row + c] -= pair.offset(at(c));
       if (pair.rough()) {
-        pair.friction.add(pair.axes, pair.bends(), pair.force, row, dense);
+        pair.friction.add(pair.axes, pair.bends, pair.force, row, dense);
         rough_ = true;
       } else if (!pair.fresh && pair.kind == RodPair::Kind::contact) {
-        const auto bends = pair.bends();
         for (int c = 1; c < 3; ++c)
-          for (int d = 1; d <= c; ++d) dense(row + c, row + d) = bends(c - 1, d - 1) / pair.force;
+          for (int d = 1; d <= c; ++d) dense(row + c, row + d) = pair.bends(c - 1, d - 1) / pair.force;
       }
       own_negative_ += pair.negative();
       for (std::size_t side = 0; side < 2 && !(core && side == 1); ++side) {
         Body& body = this->body(pair.rod[side]);
         body.sides.add(pair, side, row, body.line().segment_at(pair.s[side]));
       }
-      if (core) add_core(pair, *core, row);
+      for (int c = 0; c < 3 && core; ++c) dense[row + c] -= pair.axes[at(c)].dot(core->at(pair.s[1]));
       row += pair_unknowns;
-    }
-  }
-  /// The side of a body, as PairSide::add().
-  void add_core(RodPair& pair, const PlacedBody& core, int row) noexcept {
-    PairEquations& dense = *equations_;
-    const auto at_core = core.at(pair.s[1]);
-    pair.pull[1] = core.length() > 0 ? pair.force * pair.normal.dot(core.axis()) : 0;
-    dense[row + 4] -= pair.pull[1];
-    for (int c = 0; c < 3; ++c) {
-      dense[row + c] -= pair.axes[at(c)].dot(at_core);
-      if (c == 0 || !pair.rough()) dense(row + 4, row + c) = pair.axes[at(c)].dot(core.axis());
     }
   }
   /// No place goes farther uphill, to a least distance, than a part of an element.
@@ -212,16 +205,14 @@ class PairSystem : public WorldPairs<Element> {
     });
     bounds_.follow(*equations_, at(row));
   }
-  /// What is new keeps its direction, as does the force of a plane without friction.  What is held on a body has no rod that says so.
+  /// What is new keeps its direction, and there is no second place on a body.
   void hold_still() noexcept {
     int row = 0;
     for (int k = 0; k < pairs(); ++k) {
       const RodPair& pair = this->pair(k);
       if (!moves(pair)) continue;
-      const PlacedBody* core = this->rigid(pair.rod[1]);
-      for (int c = 1; c < 3 && (pair.fresh || (pair.curve > 1 && !pair.rough())); ++c)
-        equations_->hold(row + c, c == 1 && pair.ring < 0 ? -1 : 1);
-      if (core && (pair.fresh || pair.held[1])) equations_->hold(row + 4, -1);
+      for (int c = 1; c < 3 && pair.fresh; ++c) equations_->hold(row + c, 1);
+      if (this->rigid(pair.rod[1])) equations_->hold(row + 4, -1);
       row += pair_unknowns;
     }
   }

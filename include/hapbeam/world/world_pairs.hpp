@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <hapbeam/world/ball_joint.hpp>
-#include <hapbeam/world/rigid_body.hpp>
+#include <hapbeam/world/placed_body.hpp>
 #include <hapbeam/world/rod_body.hpp>
 
 namespace hapbeam {
@@ -74,7 +74,7 @@ class WorldPairs {
     const std::size_t rods = bodies_.size();
     return at(i) < rods ? nullptr : &rigid_[at(i) - rods];
   }
-  double length(int i) const noexcept { return rigid(i) ? rigid(i)->length() : body(i).length(); }
+  double length(int i) const noexcept { return rigid(i) ? 0 : body(i).length(); }
   /// No place on a rod goes farther at once [m].
   double stride(int i) const noexcept { return body(i).length() / body(i).elements(); }
   /// From the second side of a pair to the first [m].
@@ -226,15 +226,14 @@ class WorldPairs {
   void look(RodPair& pair) noexcept {
     using Vector = VectorOf<double, 3>;
     const Vector force = pair.force * pair.normal + pair.friction.force();
-    const auto point = [&](std::size_t side, const Vector& acts) {
+    // r' of the true curve of a rod.
+    const auto tangent = [&](std::size_t side, const Vector& acts) -> Vector {
+      if (rigid(pair.rod[side])) return Vector::Zero();
       const Body& body = this->body(pair.rod[side]);
-      return Body::Sides::point(body.parts(), body.line().segment_at(pair.s[side]), pair.s[side], acts);
+      return Body::Sides::point(body.parts(), body.line().segment_at(pair.s[side]), pair.s[side], acts)
+          .tangent;
     };
-    const RodPoint<double> first = point(0, force);
-    const PlacedBody* core = rigid(pair.rod[1]);
-    if (core) carry(pair, *core, first.r - core->at(0));
-    pair.friction.look(pair.normal, pair.off(), pair.s,
-                       {first.tangent, core ? core->tangent() : point(1, -force).tangent}, pair.force);
+    pair.friction.look(pair.normal, pair.on, pair.s, {tangent(0, force), tangent(1, -force)}, pair.force);
   }
 
   std::unique_ptr<PairEquations> equations_;
@@ -270,11 +269,6 @@ class WorldPairs {
       if (!rigid(joint.rod[side]) && beside.lent != 0)
         body(joint.rod[side]).lend(beside.node[side], side == 0 ? beside.lent : -beside.lent);
     held_.push_back(beside);
-  }
-  /// What a body that turns takes along, and where a new contact is on a plane.   @param w  from its tip
-  void carry(RodPair& pair, const PlacedBody& core, const VectorOf<double, 3>& w) noexcept {
-    if (pair.friction.begins() && core.moves) pair.carry([&](auto& v) { v = core.carried(v); });
-    if (pair.curve > 1 && pair.friction.is_free()) pair.on = w - w.dot(pair.normal) * pair.normal;
   }
   void give_friction(RodPair& pair) noexcept {
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
