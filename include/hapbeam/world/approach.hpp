@@ -198,11 +198,10 @@ void look_at_rigid(const System& system, int rod, int number, Look& look) noexce
   body.swept().visit([&](const Box<double, 3>& box) { return may_touch(core, box, reach) ? 0.0 : 1.0; },
                      [] { return 0.0; },
                      [&](int e) {
-                       RodPiece was = body.saved_segment(e), now = line.segment(e);
-                       for (int k = 0; k < 4; ++k)
-                         was.col(k) = core.saved_local(was.col(k)), now.col(k) = core.local(now.col(k));
-                       const double travel = core.is_thick() ? 0 : travel_past(core.body(), was, now, reach);
-                       const auto [t, from] = nearest_on(now, core.body(), reach + travel);
+                       const RodPiece now = core.local(line.segment(e));
+        const double travel =
+            core.is_thick() ? 0 : travel_past(core.body(), core.saved_local(body.saved_segment(e)), now, reach);
+        const auto [t, from] = nearest_on(now, core.body(), reach + travel);
                        if (!(from.distance < reach + travel)) return true;
                        if (!(travel <= reach / 2)) return look.close = false;
                        RodPair pair;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -40,8 +41,8 @@ class ArcSpline {
     const Vector bend = curvature - start.tangent.dot(curvature) * start.tangent;
     const double size = std::sqrt(bend.squaredNorm()), half = length / 2, pi = std::acos(-1.0);
     if (!(size * half <= pi)) detail::reject("axis curvature", size, "1/m", "no more than one turn");
-    Piece piece{start.r, start.tangent, Vector::Zero(), this->length() + half, half, 0};
-    if (size * length > straight) piece.inward = bend / size, piece.curvature = size;
+    Piece piece{start.r, start.tangent, Vector::Zero(), this->length() + half, half, 0, 1};
+    if (size * length > straight) piece.inward = bend / size, piece.curvature = size, piece.end_cosine = std::cos(size * half);
     // Where it begins is known, and the rest is as seen from its middle.
     const Point middle = piece.at(half);
     const Vector about = detail::cross3(piece.tangent, piece.inward);
@@ -59,16 +60,13 @@ class ArcSpline {
   Point nearest(const Vector& p) const noexcept {
     Point best{from_, along_};
     double least = std::numeric_limits<double>::infinity();
-    for (const Piece& piece : pieces_) {
-      Point point = piece.nearest(p);
-      const Vector off = p - point.r;
-      const double square = off.squaredNorm();
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const Point point = pieces_[k].nearest(p);
+      const double square = (p - point.r).squaredNorm();
       if (!(square < least)) continue;
-      // Pieces that follow each other end in one plane.
-      const double end = point.beyond;
-      const bool open = end < 0 ? &piece == &pieces_.front() : &piece == &pieces_.back();
-      point.beyond = end != 0 && open ? off.dot(point.tangent) : 0;
       least = square, best = point;
+      // Pieces that follow each other end in one plane.
+      if (point.beyond < 0 ? k > 0 : k + 1 < pieces_.size()) best.beyond = 0;
     }
     return best;
   }
@@ -77,26 +75,24 @@ class ArcSpline {
   /// As seen from its middle.
   struct Piece {
     Vector r, tangent, inward;
-    double s, half, curvature;
+    double s, half, curvature, end_cosine;
 
     Point at(double x) const noexcept {
       if (curvature == 0) return {r + x * tangent, tangent};
       const double c = std::cos(curvature * x), d = std::sin(curvature * x);
       return round(c, d);
     }
-    /// beyond: which of its ends, where it is one.
     Point nearest(const Vector& p) const noexcept {
       if (curvature == 0) {
         const double x = tangent.dot(p - r), inside = std::clamp(x, -half, half);
         return {r + inside * tangent, tangent, x - inside};
       }
       const Vector off = p - r - inward / curvature;
-      const double x = -off.dot(inward), y = off.dot(tangent), size = std::sqrt(x * x + y * y),
-                   least = std::cos(curvature * half);
+      const double x = -off.dot(inward), y = off.dot(tangent), size = std::sqrt(x * x + y * y);
       if (!(size > 0)) return {r, tangent};
-      if (x >= least * size) return round(x / size, y / size);
-      Point end = round(least, std::copysign(std::sqrt(1 - least * least), y));
-      end.beyond = y < 0 ? -1 : 1;
+      if (x >= end_cosine * size) return round(x / size, y / size);
+      Point end = round(end_cosine, std::copysign(std::sqrt(1 - end_cosine * end_cosine), y));
+      end.beyond = (p - end.r).dot(end.tangent);
       return end;
     }
     Point round(double cosine, double sine) const noexcept {

@@ -32,9 +32,15 @@ class PlacedBody {
   bool is_thick() const noexcept { return body_.kind() == RigidBody::Kind::half_space; }
   /// Where the axis is [m].
   Vector at(double s) const noexcept { return now_.node.r + now_.axes * (body_.axis().at(s).r - begin_); }
-  /// A place as it was built, of now or of save().
-  Vector local(const Vector& x) const noexcept { return now_.local(x, begin_); }
-  Vector saved_local(const Vector& x) const noexcept { return saved_.local(x, begin_); }
+  /// Places as it was built, of now or of save().
+  template <class Places>
+  Places local(const Places& x) const noexcept {
+    return now_.local(x, begin_);
+  }
+  template <class Places>
+  Places saved_local(const Places& x) const noexcept {
+    return saved_.local(x, begin_);
+  }
   Vector turned(const Vector& v) const noexcept { return now_.axes * v; }
   /// What is nearest to a place: its direction from there, its distance, and where it is from where the axis begins [m].
   struct Nearest {
@@ -98,8 +104,14 @@ class PlacedBody {
     explicit Place(const Node& at) noexcept : node(at) {
       axes << at.tangent, at.director, cross3(at.tangent, at.director);
     }
-    Vector local(const Vector& x, const Vector& begin) const noexcept {
-      return axes.transpose() * (x - node.r) + begin;
+    template <class Places>
+    Places local(const Places& x, const Vector& begin) const noexcept {
+      Places to;
+      for (int k = 0; k < x.cols(); ++k) {
+        const Vector off = x.col(k) - node.r;
+        for (int c = 0; c < 3; ++c) to(c, k) = axes.col(c).dot(off) + begin[c];
+      }
+      return to;
     }
     Node node;
     Matrix axes;

@@ -41,25 +41,20 @@ inline bool may_touch(const PlacedBody& core, const Box<double, 3>& box, double 
 /// How far points of a piece have moved against the body at most [m].  Along a tube between its ends nothing passes.
 inline double travel_past(const RigidBody& body, const RodPiece& was, const RodPiece& now,
                           double reach) noexcept {
-  std::array<VectorOf<double, 3>, 4> along;
-  bool between = body.kind() == RigidBody::Kind::tube;
-  for (int k = 0; k < 4 && between; ++k)
-    for (const RodPiece* piece : {&was, &now}) {
-      const ArcSpline::Point found = body.axis().nearest(piece->col(k));
-      along[static_cast<std::size_t>(k)] = found.tangent;
-      for (const double end : {0.0, body.axis().length()}) {
-        const double rim = body.radius() + reach;
-        between =
-            between && found.beyond == 0 && (piece->col(k) - body.axis().at(end).r).squaredNorm() > rim * rim;
-      }
-    }
-  double most = 0;
+  double most = 0, aside = 0;
+  for (int k = 0; k < 4; ++k) most = (std::max)(most, (now.col(k) - was.col(k)).squaredNorm());
+  if (body.kind() != RigidBody::Kind::tube || most <= reach * reach / 4) return std::sqrt(most);
+  const double rim = body.radius() + reach;
   for (int k = 0; k < 4; ++k) {
+    for (const RodPiece* piece : {&was, &now}) {
+      if (body.axis().nearest(piece->col(k)).beyond != 0) return std::sqrt(most);
+      for (const double end : {0.0, body.axis().length()})
+        if ((piece->col(k) - body.axis().at(end).r).squaredNorm() < rim * rim) return std::sqrt(most);
+    }
     const VectorOf<double, 3> by = now.col(k) - was.col(k);
-    const double part = between ? by.dot(along[static_cast<std::size_t>(k)]) : 0;
-    most = (std::max)(most, by.squaredNorm() - part * part);
+    aside = (std::max)(aside, cross3<double>(by, body.axis().nearest(now.col(k)).tangent).squaredNorm());
   }
-  return std::sqrt((std::max)(most, 0.0));
+  return std::sqrt(aside);
 }
 
 /// A place of a piece, 0 to 1, and what it has from the core.
@@ -92,7 +87,10 @@ inline PlaceOnPiece nearest_on(const RodPiece& piece, const RigidBody& body, dou
     return middle;
   PlaceOnPiece a = rise > 0 ? seen[best - 1] : middle, b = rise > 0 ? middle : seen[best + 1], c = middle;
   double slope_a = slope(a), slope_b = slope(b);
-  for (int k = 0; k < rounds && slope_a < 0 && slope_b > 0; ++k) {
+  const auto may_be_nearer = [&] {
+    return a.from.distance + b.from.distance - speed * (b.t - a.t) < 2 * most;
+  };
+  for (int k = 0; k < rounds && slope_a < 0 && slope_b > 0 && may_be_nearer(); ++k) {
     c = look(k % 2 == 0 ? (a.t * slope_b - b.t * slope_a) / (slope_b - slope_a) : (a.t + b.t) / 2);
     const double slope_c = slope(c);
     if (std::abs(slope_c) <= exact * speed) break;

@@ -92,8 +92,10 @@ class RigidBody {
     if (kind_ == Kind::half_space) return {tangent.dot(off), tangent};
     if (kind_ == Kind::round) return directed(off, Vector::UnitZ());
     const Vector across = off - tangent.dot(off) * tangent;
-    const SurfaceDistance aside = directed(across, detail::beside(tangent));
-    return directed((aside.distance - radius_) * aside.normal + beyond * tangent, aside.normal);
+    const double size = std::sqrt(across.squaredNorm()), over = size - radius_;
+    const Vector out = size > 0 ? Vector(across / size) : detail::beside(tangent);
+    if (beyond == 0 && over != 0) return {std::abs(over), over < 0 ? Vector(-out) : out};
+    return directed(over * out + beyond * tangent, out);
   }
 
  private:
