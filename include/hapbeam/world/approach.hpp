@@ -195,22 +195,23 @@ void look_at_rigid(const System& system, int rod, int number, Look& look) noexce
   const PlacedBody& core = *system.rigid(number);
   const double reach = core.reach(body.radius());
   const auto line = body.line();
-  body.swept().visit([&](const Box<double, 3>& box) { return may_touch(core, box, reach) ? 0.0 : 1.0; },
-                     [] { return 0.0; },
-                     [&](int e) {
-                       const RodPiece now = core.local(line.segment(e));
+  body.swept().visit(
+      [&](const Box<double, 3>& box) { return may_touch(core, box, reach) ? 0.0 : 1.0; }, [] { return 0.0; },
+      [&](int e) {
+        const RodPiece now = core.local(line.segment(e));
         const double travel =
-            core.is_thick() ? 0 : travel_past(core.body(), core.saved_local(body.saved_segment(e)), now, reach);
+            core.is_thick() ? 0
+                            : travel_past(core.body(), core.saved_local(body.saved_segment(e)), now, reach);
         const auto [t, from] = nearest_on(now, core.body(), reach + travel);
-                       if (!(from.distance < reach + travel)) return true;
-                       if (!(travel <= reach / 2)) return look.close = false;
-                       RodPair pair;
-                       pair.rod = {rod, number}, pair.s[0] = line[e].s + t * (line[e + 1].s - line[e].s);
-                       const PlacedBody::Nearest nearest = core.nearest(point_at(now, t), from);
-                       pair.reach = reach, pair.normal = nearest.normal, pair.on = nearest.on;
-                       look.see(pair, from.distance, lacking(system, pair));
-                       return true;
-                     });
+        if (!(from.distance < reach + travel)) return true;
+        if (!(travel <= reach / 2)) return look.close = false;
+        RodPair pair;
+        pair.rod = {rod, number}, pair.s[0] = line[e].s + t * (line[e + 1].s - line[e].s);
+        const PlacedBody::Nearest nearest = core.nearest(point_at(now, t), from);
+        pair.reach = reach, pair.normal = nearest.normal, pair.on = nearest.on;
+        look.see(pair, from.distance, lacking(system, pair));
+        return true;
+      });
 }
 /// At all of them.   @param system  PairSystem
 template <class System>

@@ -42,7 +42,8 @@ class ArcSpline {
     const double size = std::sqrt(bend.squaredNorm()), half = length / 2, pi = std::acos(-1.0);
     if (!(size * half <= pi)) detail::reject("axis curvature", size, "1/m", "no more than one turn");
     Piece piece{start.r, start.tangent, Vector::Zero(), this->length() + half, half, 0, 1};
-    if (size * length > straight) piece.inward = bend / size, piece.curvature = size, piece.end_cosine = std::cos(size * half);
+    if (size * length > straight)
+      piece.inward = bend / size, piece.curvature = size, piece.end_cosine = std::cos(size * half);
     // Where it begins is known, and the rest is as seen from its middle.
     const Point middle = piece.at(half);
     const Vector about = detail::cross3(piece.tangent, piece.inward);
