@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include <hapbeam/contact/closest_point.hpp>
+#include <hapbeam/world/pair.hpp>
 #include <hapbeam/world/placed_body.hpp>
 
 namespace hapbeam::detail {
