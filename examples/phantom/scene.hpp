@@ -44,25 +44,13 @@ inline hapbeam::Rod needle(const Options& options, const Eigen::Vector3d& hand,
   return rod.place_left({hand, {0, 0, -1}, {0, 1, 0}});
 }
 
-/// The vessel that a held rod is pushed into: a bend up, of tubes each of which is wider than the one before and begins within it, so that
-/// no rim is in the way.  Empty where the hand holds something else.
+/// The vessel that a held rod is pushed into, which bends up.  Empty where the hand holds something else.
 inline std::vector<hapbeam::RigidBody> vessel(const Options& options) {
-  std::vector<hapbeam::RigidBody> tubes;
-  if (options.avatar != Avatar::end) return tubes;
-  constexpr int pieces = 6;
-  constexpr double bend = 0.08, lead = 0.04, wider = 1.04, within = 0.001;  // [m], [m], -, [m]
+  if (options.avatar != Avatar::end) return {};
+  constexpr double bend = 0.08, lead = 0.04, turn = 1.5707963, radius = 0.004;  // [m], [m], [rad], [m]
   const Eigen::Vector3d entry(options.beam.length - 0.03, 0, 0);
-  const auto axis = [&](int k) -> Eigen::Vector3d {
-    const double turn = 1.5707963 * k / pieces;
-    return entry + Eigen::Vector3d(lead + bend * std::sin(turn), bend * (1 - std::cos(turn)), 0);
-  };
-  double radius = 0.004;  // [m]
-  tubes.push_back(hapbeam::RigidBody::tube(entry, axis(0), radius));
-  for (int k = 0; k < pieces; ++k) {
-    const Eigen::Vector3d along = (axis(k + 1) - axis(k)).normalized();
-    tubes.push_back(hapbeam::RigidBody::tube(axis(k) - within * along, axis(k + 1), radius *= wider));
-  }
-  return tubes;
+  return {hapbeam::RigidBody::tube(
+      hapbeam::ArcSpline(entry, {1, 0, 0}).arc(lead).arc(turn * bend, {0, 1 / bend, 0}), radius)};
 }
 
 /// How far the hand slides to either side of the place [m, device]: 0.15 m of the half width of 0.19 m, or less

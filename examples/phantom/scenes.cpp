@@ -57,8 +57,8 @@ constexpr NamedScene scenes[] = {
      "two springs in a row: the rod that the needle meets, and the needle, which near a clamp bends alone", 1,
      1, 0.001, 0.012, Avatar::needle},
     {"catheter", ElementChoice::round_rod, Script::push, 0, 0.1, 1.5,
-     "it pushes back at each tube of the vessel while its tip is bent, and slides on: there is no friction",
-     1, 1, 0.001, 0.012, Avatar::end},
+     "it pushes back while the vessel bends it farther, and slides on: there is no friction", 1, 1, 0.001,
+     0.012, Avatar::end},
 };
 
 const char* name(const NamedScene& scene) { return scene.label; }

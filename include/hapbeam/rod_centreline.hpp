@@ -191,6 +191,15 @@ VectorOf<S, 3> across(const VectorOf<S, 3>& x, const VectorOf<S, 3>& v) noexcept
   return y / sqrt(y.squaredNorm());
 }
 
+/// A unit vector across the unit vector v.
+template <typename S>
+VectorOf<S, 3> beside(const VectorOf<S, 3>& v) noexcept {
+  int least = 0;
+  for (int k = 1; k < 3; ++k)
+    if (std::abs(v[k]) < std::abs(v[least])) least = k;
+  return across<S>(VectorOf<S, 3>::Unit(least), v);
+}
+
 template <typename S>
 VectorOf<S, 3> unit(const VectorOf<S, 3>& x) noexcept {
   using std::sqrt;

@@ -18,6 +18,9 @@ inline Rod needle(double length, double thickness, const RodPose& pose, const Ro
   return rod;
 }
 
+/// Of RodContact::force.
+inline double normal_force(const RodContact& contact) { return (contact.force - contact.friction).norm(); }
+
 /// Takes the first rod's left end there in straight steps.
 template <class Element>
 Status lead(World<Element>& world, RodPose from, const Point& to, int steps) {

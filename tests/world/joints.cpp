@@ -342,3 +342,23 @@ TEST_CASE("what cannot be joined is refused by name", "[world][joint]") {
   CHECK_THROWS_WITH(World<RoundRod>({a, b}, {}, std::vector<BallJoint>(17, {{0, 1}, {0.1, 0.1}})),
                     ContainsSubstring("joints = 17"));
 }
+
+TEST_CASE("a joint takes back in the same solve what it has lent", "[world][joint]") {
+  Rod loose(0.1, limb_section, spring_steel, RodSupport::free, RodSupport::free);
+  loose.place_left({{0.02, 0, limb_length}, {1, 0, 0}, {0, 1, 0}});
+  World<RoundRod> world({{limb(0.02), 8}, {loose, 8}}, {RigidBody::sphere({0.12, 0, limb_length}, 0.001)},
+                        {{{0, 1}, {limb_length, 0}}, {{1, 2}, {0.1, 0}}});
+  const double stiffness = 3 * spring_steel.young * limb_section.inertia1 / std::pow(limb_length, 3);
+  int solves = 0;
+  for (int k = 1; k <= 20; ++k) {
+    const double x = 1e-9 * k * k;  // no way that goes on evenly
+    CHECK(world.place(0, {{x, 0, 0}, {1, 0, 0}, {0, 1, 0}}) == Status::ok);
+    CHECK(world.tick() == Status::ok);
+    solves += world.solves();
+    // What is lent to the loose rod is none of the forces at its ends.
+    const double force = world.joint_force(0).x();
+    CHECK(force == Approx(stiffness * x).epsilon(1e-3));
+    CHECK(std::abs(world.joint_force(1).x() - force) <= 1e-12 * force);
+  }
+  CHECK(solves <= 24);
+}

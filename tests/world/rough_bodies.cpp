@@ -14,9 +14,6 @@ namespace {
 
 constexpr double mu = 0.3;
 
-/// Of RodContact::force.
-double normal_force(const RodContact& contact) { return (contact.force - contact.friction).norm(); }
-
 /// The hand of a scene.
 RodPose hand_at(const Point& at) { return {at, start_along, {0, 1, 0}}; }
 

@@ -47,7 +47,7 @@ SpaceDrawing::SpaceDrawing(const Body& body, const hapbeam::DeviceInfo& device)
     high_.z() += 2 * around;
   }
   for (const hapbeam::RigidBody& tube : vessel_) {
-    const Vector end = tube.tip() + tube.way(), around_it = Vector::Constant(tube.radius());
+    const Vector end = tube.axis().at(tube.axis().length()).r, around_it = Vector::Constant(tube.radius());
     low_ = low_.cwiseMin(end - around_it), high_ = high_.cwiseMax(end + around_it);
   }
   if (options_.hands == 2)

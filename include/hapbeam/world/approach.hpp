@@ -181,7 +181,7 @@ void look_at(const System& system, int i, int j, Look& look) noexcept {
                        {first[e + 1].s - first[e].s, second[f + 1].s - second[f].s});
     if (i == j && found.s[1] - found.s[0] < half_turn) return true;
     RodPair pair;
-    pair.rod = {i, j}, pair.s = found.s, pair.reach = reach;
+    pair.rod = {i, j}, pair.s = found.s, pair.reach = reach, pair.bends = reach * RodPair::Bends::Identity();
     const double distance = std::sqrt(found.from.squaredNorm());
     pair.normal = found.from / distance;
     look.see(pair, distance, lacking(system, pair));
@@ -193,20 +193,23 @@ template <class System>
 void look_at_rigid(const System& system, int rod, int number, Look& look) noexcept {
   const auto& body = system.body(rod);
   const PlacedBody& core = *system.rigid(number);
-  const double reach = reach_of(core, body.radius());
+  const double reach = core.reach(body.radius());
   const auto line = body.line();
   body.swept().visit(
       [&](const Box<double, 3>& box) { return may_touch(core, box, reach) ? 0.0 : 1.0; }, [] { return 0.0; },
       [&](int e) {
-        const CubicSegment<double, 3> was = body.saved_segment(e), now = line.segment(e);
-        if (!may_touch(core, was, now, reach)) return true;
-        if (may_have_passed(core, was, now, reach)) return look.close = false;
-        const double t = nearest_on(now, core);
-        const FromBody found(core, point_at(now, t));
+        const RodPiece now = core.local(line.segment(e));
+        const double travel =
+            core.is_thick() ? 0
+                            : travel_past(core.body(), core.saved_local(body.saved_segment(e)), now, reach);
+        const auto [t, from] = nearest_on(now, core.body(), reach + travel);
+        if (!(from.distance < reach + travel)) return true;
+        if (!(travel <= reach / 2)) return look.close = false;
         RodPair pair;
-        pair.rod = {rod, number}, pair.s = {line[e].s + t * (line[e + 1].s - line[e].s), found.s};
-        pair.reach = reach, pair.ring = found.ring, pair.normal = found.normal;
-        look.see(pair, found.distance, lacking(system, pair));
+        pair.rod = {rod, number}, pair.s[0] = line[e].s + t * (line[e + 1].s - line[e].s);
+        const PlacedBody::Nearest nearest = core.nearest(point_at(now, t), from);
+        pair.reach = reach, pair.normal = nearest.normal, pair.on = nearest.on;
+        look.see(pair, from.distance, lacking(system, pair));
         return true;
       });
 }

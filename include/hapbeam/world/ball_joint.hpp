@@ -46,7 +46,7 @@ namespace detail {
     if (rod >= number && bodies[static_cast<std::size_t>(rod - number)].kind() != RigidBody::Kind::round)
       reject("joint body", rod - number, "", "a sphere or a capsule");
     const double length = rod < number ? rods[static_cast<std::size_t>(rod)].length()
-                                       : bodies[static_cast<std::size_t>(rod - number)].way().norm();
+                                       : bodies[static_cast<std::size_t>(rod - number)].axis().length();
     if (!(joint.s[side] >= 0 && joint.s[side] <= length))
       reject("joint s", joint.s[side], "m",
              rod < number ? "on the rod, 0 to its length" : "on the axis of the body");

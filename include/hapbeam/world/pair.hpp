@@ -3,10 +3,9 @@
 // two places that stay.
 //
 //   L = Σ V - f · w + h(f) - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n to rod 1; with friction f = λ n + t
-//   h(f) = R |f| + b |f across the axis of a tube|,  b = ±its radius, from outside and from inside;  of a plane f · (R n + o), o on it;  of a joint f · o,
-//   o what is left of w
+//   h(f) = R |f| of rods;  on a body f · (R n + o) where it touches, o on its core, and ∂²h/∂f² = H/λ, H its radii of curvature with R;  of a joint f · o, o what is left of w
 //
-// Stationary by f where w + C f = ∂h/∂f, which is R n but in a tube: the true curves, which C bends off what nodes hold, are R apart.  By a place where the
+// Stationary by f where w + C f = ∂h/∂f: the true curves, which C bends off what nodes hold, are R apart.  A body tells n, o and H for where the rod is.  By a place where the
 // true curve is across n.  Where the sections bend alike about all axes this is  Σ V - λ (|w| - R) - ½ λ² c.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
@@ -23,7 +22,7 @@ namespace hapbeam {
 /// Where a rod touches another, itself or a body.
 struct RodContact {
   std::array<int, 2> rod;        ///< 0-based numbers in the World: rods, and rods() + that of a body
-  std::array<double, 2> s;       ///< [m] arc positions; along the axis of a body
+  std::array<double, 2> s;       ///< [m] arc positions; on a body 0
   VectorOf<double, 3> force;     ///< [N] on rod[0]
   VectorOf<double, 3> friction;  ///< [N] its part across the line that joins both places, which is the rest
   bool sliding;                  ///< whether they slide, where there is friction
@@ -34,16 +33,15 @@ namespace detail {
 
 struct RodPair {
   using Vector = VectorOf<double, 3>;
+  using Bends = Eigen::Matrix<double, 2, 2>;
   enum class Kind { contact, joint };
 
   Kind kind = Kind::contact;
   std::array<int, 2> rod{};
   std::array<double, 2> s{};
   double reach = 0;                 // R, of both radii [m]
-  double ring = 0;                  // b [m]
-  double curve = 1;                 // radius of what r₁ goes round, in reaches; of a plane large
-  Vector axis = Vector::Zero();     // of a tube
-  Vector on = Vector::Zero();       // o, of a plane across n [m]
+  Vector on = Vector::Zero();       // o [m]
+  Bends bends = Bends::Zero();      // H, along the two axes across n [m]
   double force = 0;                 // λ [N]
   Vector normal = Vector::UnitZ();  // n
   /// New: its direction and its places stay until it presses.
@@ -55,44 +53,22 @@ struct RodPair {
   int pulls = 0;  // how often it would have pulled in it
   PairFriction friction;
 
-  /// From the core of a tube, which is around its axis, or else from r₂, along n [m].
-  double distance(const Vector& w) const noexcept {
-    return normal.dot(w) - (ring != 0 ? ring * around().length : 0);
-  }
-  /// How ∂h/∂f goes as n turns, along the two axes across n [m].
-  Eigen::Matrix<double, 2, 2> bends() const noexcept {
-    Eigen::Matrix<double, 2, 2> bends = curve * reach * Eigen::Matrix<double, 2, 2>::Identity();
-    if (ring == 0) return bends;
-    const Around now = around();
-    const Vector turns = cross3(axis, now.way);
-    for (std::size_t c = 1; c < 3; ++c)
-      for (std::size_t d = 1; d < 3; ++d)
-        bends(int(c) - 1, int(d) - 1) += ring / now.length * axes[c].dot(turns) * axes[d].dot(turns);
-    return bends;
-  }
+  /// From the core of a body, or else from r₂, along n [m].
+  double distance(const Vector& w) const noexcept { return normal.dot(w - on); }
   /// ∂h/∂f along an axis [m].
-  double offset(std::size_t c) const noexcept {
-    return (c == 0 ? reach : 0) + (ring != 0 ? ring * axes[c].dot(around().way) : axes[c].dot(on));
-  }
-  /// ∂h/∂f less R n [m].
-  Vector off() const noexcept { return ring != 0 ? Vector(ring * around().way) : on; }
-  /// Eigenvalues of its own that are negative in a stable equilibrium: of λ and of two places of least distance, and from inside of a turn of n; of a joint
-  /// all.
+  double offset(std::size_t c) const noexcept { return (c == 0 ? reach : 0) + axes[c].dot(on); }
+  /// Eigenvalues of its own that are negative in a stable equilibrium: of λ, of two places of least distance, and of what is hollow; of a joint all.
   int negative() const noexcept {
-    return kind == Kind::joint ? 5 : rough() ? 3 + friction.negative() : ring < 0 ? 4 : 3;
+    return kind == Kind::joint ? 5
+                               : 3 + (rough() ? friction.negative()
+                                      : fresh ? 0
+                                              : PairFriction::negative_of(bends));
   }
   /// Whether friction acts.
   bool rough() const noexcept { return !fresh && friction.acts(); }
 
   /// Two directions across the normal.
-  void look() noexcept {
-    int least = 0;
-    for (int k = 1; k < 3; ++k)
-      if (std::abs(normal[k]) < std::abs(normal[least])) least = k;
-    axes[0] = normal;
-    axes[1] = across<double>(Vector::Unit(least), normal);
-    axes[2] = cross3(normal, axes[1]);
-  }
+  void look() noexcept { axes[0] = normal, axes[1] = beside(normal), axes[2] = cross3(normal, axes[1]); }
   /// Adds an increment of f along the axes.  One that would pull is as new, back where it began, and the next time its first place stays: where a rod lies
   /// along what it touches, all places are alike for a force of nothing.
   void push(double along, double aside1, double aside2) noexcept {
@@ -106,29 +82,36 @@ struct RodPair {
     Vector aside = aside1 * axes[1] + aside2 * axes[2];
     if (const double angle = std::sqrt(aside.squaredNorm()) / next; angle > most_turn)
       aside *= most_turn / angle;
-    const Vector f = next * normal + aside;
-    force = std::sqrt(f.squaredNorm()), normal = f / force;
+    turn(aside / next);
+    force = std::sqrt(next * next + aside.squaredNorm());
   }
   /// The same with friction, which may pull on the way to an equilibrium.   @param by  δλ, and δn across n
   void rub(const std::array<double, 3>& by) noexcept {
     constexpr double most_turn = 0.3, least_left = 1e-3;
     Vector turn = by[1] * axes[1] + by[2] * axes[2];
-    if (curve > 1) on += curve * reach * turn, turn.setZero();
     if (const double angle = std::sqrt(turn.squaredNorm()); angle > most_turn) turn *= most_turn / angle;
-    normal = unit(Vector(normal + turn));
+    this->turn(turn);
     const double next = force + by[0];
     force = std::abs(next) < least_left * std::abs(force) ? std::copysign(least_left * force, next) : next;
+  }
+  /// Turns n by so much across it, and o along with what it touches.
+  void turn(const Vector& by) noexcept {
+    const Bends moves = bends - reach * Bends::Identity();
+    const double by1 = by.dot(axes[1]), by2 = by.dot(axes[2]);
+    on +=
+        (moves(0, 0) * by1 + moves(0, 1) * by2) * axes[1] + (moves(1, 0) * by1 + moves(1, 1) * by2) * axes[2];
+    normal = unit(Vector(normal + by));
+  }
+  /// A body has turned.   @param turn  (vector &)
+  template <class Turn>
+  void carry(Turn&& turn) noexcept {
+    turn(on), friction.carry(turn);
   }
   /// Of a joint, whose force may be any.
   void pull_by(const Vector& by) noexcept {
     const Vector f = force * normal + by;
     force = std::sqrt(f.squaredNorm());
     if (force > 0) normal = f / force;
-  }
-  /// A body has turned.   @param turn  (vector &)
-  template <class Turn>
-  void carry(Turn&& turn) noexcept {
-    turn(on), friction.carry(turn);
   }
   /// A step begins here.
   void mark() noexcept { met = s, met_held = held, pulls = 0; }
@@ -154,19 +137,6 @@ struct RodPair {
   }
 
   std::array<Vector, 3> axes{Vector::Zero(), Vector::Zero(), Vector::Zero()};  // of look(): n first
-
- private:
-  /// What n has across the axis of a tube.
-  struct Around {
-    double length;
-    Vector way;
-  };
-  Around around() const noexcept {
-    constexpr double least = 1e-9;
-    const Vector part = normal - axis.dot(normal) * axis;
-    const double length = (std::max)(std::sqrt(part.squaredNorm()), least);
-    return {length, part / length};
-  }
 };
 
 }  // namespace detail

@@ -8,7 +8,7 @@
 //   δn = G (δf - S (t₁ δs₁ - t₂ δs₂) - m δλ),   G = (λ - S H)⁻¹,   δλ = δf · n + t · δn
 //
 // What sticks has the t of the last answer; what the law has it more is taken from δf in that.
-// H = R between rods.  H G is symmetric.  A plane is what a large H stands for: n stays, and H δn is how the rod goes over it.
+// H = R between rods, and large where a body is flat: H δn is how the rod goes over it.  H G is symmetric.
 // A body that has turned has taken all of the last equilibrium along.
 // All but m is symmetric, and that T goes along with the places.  Both are of rank one a pair or a place, and put in after the symmetric equations
 // are solved (pair_bounds.hpp).
@@ -63,7 +63,7 @@ class PairFriction {
 
   /// Whether it slides, or has slid, freely since the last equilibrium.
   bool is_free() const noexcept {
-    return !state_.known || start_ == Start::waits || start_ == Start::has_slid;
+    return none() || !state_.known || start_ == Start::waits || start_ == Start::has_slid;
   }
   /// Whether look() begins it.
   bool begins() const noexcept { return start_ != Start::none && start_ != Start::waits; }
@@ -74,7 +74,7 @@ class PairFriction {
         turn(state_.force);
   }
 
-  /// To be called where rods have moved.   @param normal  n   @param off  ∂h/∂f - R n   @param along  r' of both true curves   @param force  λ [N]
+  /// To be called where rods have moved.   @param normal  n   @param off  o [m]   @param along  r' of both true curves   @param force  λ [N]
   void look(const Vector& normal, const Vector& off, const std::array<double, 2>& s,
             const std::array<Vector, 2>& along, double force) noexcept {
     Law::Place place;
@@ -88,7 +88,7 @@ class PairFriction {
       if (start_ == Start::sticks && law_.slides()) (void)law_.turn();
       felt_ = state_.force, turned_ = 0, start_ = Start::none;
     }
-    tangents_ = along;
+    tangents_ = along, felt_ -= normal.dot(felt_) * normal;
     law_.look(place, force);
   }
   /// Whether it is more than a place that slides without friction.
@@ -110,7 +110,7 @@ class PairFriction {
     along_ = {in_plane(tangents_[0]), in_plane(-tangents_[1])};
     const Plane lacking = turns_ * lacks_, moved = bends_ * lacking;
     const Matrix yields = bends_ * turns_;
-    negative_ = determinant(yields) < 0 ? 1 : yields.trace() < 0 ? 2 : 0;
+    negative_ = negative_of(yields);
     for (int c = 0; c < 2; ++c) {
       dense[row + 1 + c] += moved[c];
       for (int d = 0; d <= c; ++d) dense(row + 1 + c, row + 1 + d) += yields(c, d);
@@ -124,7 +124,9 @@ class PairFriction {
         dense(here, row + 3 + static_cast<int>(j)) += force * stuck.dot(along_[j]);
     }
   }
-  /// How many of the eigenvalues that add() has put in are negative.
+  /// How many eigenvalues are negative.
+  static int negative_of(const Matrix& A) noexcept { return determinant(A) < 0 ? 1 : A.trace() < 0 ? 2 : 0; }
+  /// Of those that add() has put in.
   int negative() const noexcept { return negative_; }
 
   /// Whether the bound follows λ.
@@ -179,7 +181,7 @@ class PairFriction {
   /// Of the last equilibrium: T, no more than its share of λ [N].
   const Vector& kept() const noexcept { return state_.force; }
   bool slid() const noexcept { return state_.slides; }
-  /// How off has changed in the last step [m].
+  /// How o has changed in the last step [m].
   const Vector& gone() const noexcept { return gone_; }
   /// Energy of the skin [J].
   double stored() const noexcept {

@@ -97,25 +97,22 @@ class PairSystem : public WorldPairs<Element> {
     return std::isfinite(increment_) ? Status::ok : Status::non_finite;
   }
   void advance() noexcept {
-    int row = 0;
-    for (int k = 0; k < pairs(); ++k) {
-      RodPair& pair = this->pair(k);
-      if (!moves(pair)) continue;
-      const PairEquations& u = *equations_;
+    const PairEquations& u = *equations_;
+    each_pair([&](RodPair& pair, int row) {
       if (pair.kind == RodPair::Kind::joint)
         pair.pull_by(u[row] * pair.axes[0] + u[row + 1] * pair.axes[1] + u[row + 2] * pair.axes[2] -
-                     taken_back(k));
+                     taken_back(pair));
       else if (pair.rough())
         pair.rub(pair.friction.increment(pair.axes, {u[row], u[row + 1], u[row + 2], u[row + 3], u[row + 4]},
                                          pair.force));
       else pair.push(u[row], u[row + 1], u[row + 2]);
-      for (std::size_t side = 0; side < 2 && !pair.fresh; ++side) {
-        const double most = stride(this->rigid(pair.rod[side]) ? pair.rod[0] : pair.rod[side]);
-        pair.slide(side, std::clamp(u[row + 3 + static_cast<int>(side)], -most, most),
-                   length(pair.rod[side]));
-      }
-      row += pair_unknowns;
-    }
+      if (!pair.fresh)
+        each_rod(pair, [&](std::size_t side) {
+          const double most = stride(pair.rod[side]);
+          pair.slide(side, std::clamp(u[row + 3 + static_cast<int>(side)], -most, most),
+                     length(pair.rod[side]));
+        });
+    });
     each([](Body& body) { body.advance(); });
   }
   double increment() const noexcept { return increment_; }
@@ -127,108 +124,82 @@ class PairSystem : public WorldPairs<Element> {
   }
 
  private:
-  using Base::at, Base::each, Base::each_pair, Base::equations_, Base::held_, Base::look, Base::rigid_;
+  using Base::at, Base::each, Base::each_pair, Base::each_rod, Base::equations_, Base::look, Base::rigid_;
 
   /// ½ κ (r₁ + r₂) of a joint in the last increment [N].
-  VectorOf<double, 3> taken_back(int k) const noexcept {
-    const auto& rod = this->pair(k).rod;
+  VectorOf<double, 3> taken_back(const RodPair& pair) noexcept {
+    const auto& joint = this->joint_of(pair);
     VectorOf<double, 3> sum = VectorOf<double, 3>::Zero();
-    for (std::size_t side = 0; side < 2; ++side)
-      if (!this->rigid(rod[side])) sum += this->body(rod[side]).moved(held_[at(k)].node[side]);
-    return held_[at(k)].lent / 2 * sum;
+    each_rod(pair, [&](std::size_t side) { sum += this->body(pair.rod[side]).moved(joint.node[side]); });
+    return joint.lent / 2 * sum;
   }
 
   /// Gives each pair its rows, and each rod its sides.
   void lay_out() noexcept {
     each([](Body& body) { body.sides.clear(); });
-    int rows = 0;
-    for (int k = 0; k < pairs(); ++k) rows += moves(this->pair(k));
+    rows_ = 0, own_negative_ = 0, rough_ = false;
+    each_pair([&](RodPair&, int) { rows_ += pair_unknowns; });
     PairEquations& dense = *equations_;
-    dense.resize(pair_unknowns * rows);
-    own_negative_ = 0, rough_ = false;
-    int row = 0;
-    for (int k = 0; k < pairs(); ++k) {
-      RodPair& pair = this->pair(k);
-      if (!moves(pair)) continue;
+    dense.resize(rows_);
+    each_pair([&](RodPair& pair, int row) {
       const PlacedBody* core = this->rigid(pair.rod[1]);
-      if (core) core->lead(pair);
-      pair.look();
-      if (!pair.friction.none() && !pair.fresh) look(pair);
-      for (int c = 0; c < 3; ++c) dense[row + c] -= pair.offset(at(c));
+      const bool joint = pair.kind == RodPair::Kind::joint, rubs = !pair.friction.none() && !pair.fresh;
+      if (core && !joint) {
+        if (core->moves && rubs && pair.friction.begins()) pair.carry([&](auto& v) { v = core->carried(v); });
+        lead(*core, this->body(pair.rod[0]).line().at(pair.s[0]).r, pair);
+      } else {
+        pair.look();
+      }
+      if (rubs) look(pair);
+      for (int c = 0; c < 3; ++c)
+        dense[row + c] -= pair.offset(at(c)) + (core ? pair.axes[at(c)].dot(core->at(pair.s[1])) : 0.0);
       if (pair.rough()) {
-        pair.friction.add(pair.axes, pair.bends(), pair.force, row, dense);
+        pair.friction.add(pair.axes, pair.bends, pair.force, row, dense);
         rough_ = true;
-      } else if (!pair.fresh && pair.kind == RodPair::Kind::contact) {
-        const auto bends = pair.bends();
+      } else if (!pair.fresh && !joint) {
         for (int c = 1; c < 3; ++c)
-          for (int d = 1; d <= c; ++d) dense(row + c, row + d) = bends(c - 1, d - 1) / pair.force;
+          for (int d = 1; d <= c; ++d) dense(row + c, row + d) = pair.bends(c - 1, d - 1) / pair.force;
       }
       own_negative_ += pair.negative();
-      for (std::size_t side = 0; side < 2 && !(core && side == 1); ++side) {
+      each_rod(pair, [&](std::size_t side) {
         Body& body = this->body(pair.rod[side]);
         body.sides.add(pair, side, row, body.line().segment_at(pair.s[side]));
-      }
-      if (core) add_core(pair, *core, row);
-      row += pair_unknowns;
-    }
-  }
-  /// The side of a body, as PairSide::add().
-  void add_core(RodPair& pair, const PlacedBody& core, int row) noexcept {
-    PairEquations& dense = *equations_;
-    const auto at_core = core.at(pair.s[1]);
-    pair.pull[1] = core.length() > 0 ? pair.force * pair.normal.dot(core.axis()) : 0;
-    dense[row + 4] -= pair.pull[1];
-    for (int c = 0; c < 3; ++c) {
-      dense[row + c] -= pair.axes[at(c)].dot(at_core);
-      if (c == 0 || !pair.rough()) dense(row + 4, row + c) = pair.axes[at(c)].dot(core.axis());
-    }
+      });
+    });
   }
   /// No place goes farther uphill, to a least distance, than a part of an element.
   void slow_down() noexcept {
     constexpr double part = 0.25;
-    int row = 0;
-    for (int k = 0; k < pairs(); ++k) {
-      const RodPair& pair = this->pair(k);
-      if (!moves(pair)) continue;
-      for (std::size_t side = 0; side < 2 && !this->rigid(pair.rod[side]); ++side) {
+    each_pair([&](RodPair& pair, int row) {
+      each_rod(pair, [&](std::size_t side) {
         const int here = row + 3 + static_cast<int>(side);
         (*equations_)(here, here) -= std::abs(pair.pull[side]) / (part * stride(pair.rod[side]));
-      }
-      row += pair_unknowns;
-    }
+      });
+    });
   }
-
   /// After the symmetric equations are solved.
   void follow_bounds() noexcept {
-    int row = 0;
     bounds_.clear();
-    each_pair([&](const RodPair& pair) {
+    each_pair([&](const RodPair& pair, int row) {
       if (pair.rough() && pair.friction.slides()) bounds_.add(pair.friction, row, pair.held, pair.force);
-      row += pair_unknowns;
     });
     each([&](Body& body) {
       body.sides.visit_dragged(
           [&](const PairEquations::Unknowns& v, int unknown) { bounds_.add(v, unknown); });
     });
-    bounds_.follow(*equations_, at(row));
+    bounds_.follow(*equations_, at(rows_));
   }
-  /// What is new keeps its direction, as does the force of a plane without friction.  What is held on a body has no rod that says so.
+  /// What is new keeps its direction, and there is no second place on a body.
   void hold_still() noexcept {
-    int row = 0;
-    for (int k = 0; k < pairs(); ++k) {
-      const RodPair& pair = this->pair(k);
-      if (!moves(pair)) continue;
-      const PlacedBody* core = this->rigid(pair.rod[1]);
-      for (int c = 1; c < 3 && (pair.fresh || (pair.curve > 1 && !pair.rough())); ++c)
-        equations_->hold(row + c, c == 1 && pair.ring < 0 ? -1 : 1);
-      if (core && (pair.fresh || pair.held[1])) equations_->hold(row + 4, -1);
-      row += pair_unknowns;
-    }
+    each_pair([&](const RodPair& pair, int row) {
+      for (int c = 1; c < 3 && pair.fresh; ++c) equations_->hold(row + c, 1);
+      if (this->rigid(pair.rod[1])) equations_->hold(row + 4, -1);
+    });
   }
 
   PairBounds<PairEquations> bounds_;
-  bool rough_ = false;    // whether friction acts
-  int own_negative_ = 0;  // eigenvalues of the pairs that are solved for
+  bool rough_ = false;               // whether friction acts
+  int rows_ = 0, own_negative_ = 0;  // of the pairs that are solved for: unknowns, eigenvalues
   double goal_ = 1;
   double size_ = 0, increment_ = 0;
   int negative_ = 0;

@@ -1,141 +1,132 @@
 // SPDX-License-Identifier: MIT
-// Where a piece of a rod is nearest to a rigid body, and how far both have moved against each other.
+// Where a piece of a rod is nearest to the core of a rigid body, how far both have moved against each other, and how the body bends what touches it.
 //
-// The core of a body is what its surface is its radius from: a plane, a point or an axis; of a tube it is the wall itself.
+// All as seen from the body.  Distances differ by no more than places do, which tells what is too far away.
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
-#include <hapbeam/contact/box.hpp>
 #include <hapbeam/contact/closest_point.hpp>
-#include <hapbeam/world/rigid_body.hpp>
+#include <hapbeam/world/pair.hpp>
+#include <hapbeam/world/placed_body.hpp>
 
 namespace hapbeam::detail {
 
-/// A point as a body sees it.
-struct FromBody {
-  using Vector = VectorOf<double, 3>;
+using RodPiece = CubicSegment<double, 3>;
 
-  FromBody(const PlacedBody& body, const Vector& point) noexcept {
-    const Vector off = point - body.at(0);
-    s = body.axis().dot(off);
-    if (body.kind() == RigidBody::Kind::half_space) {
-      distance = s, s = 0, normal = body.axis();
-      return;
+/// A function of a symmetric matrix, by that of its eigenvalues.
+template <class F>
+RodPair::Bends spectral(const RodPair::Bends& A, F&& f) noexcept {
+  const double mean = (A(0, 0) + A(1, 1)) / 2, off = (A(0, 0) - A(1, 1)) / 2, cross = (A(0, 1) + A(1, 0)) / 2,
+               radius = std::sqrt(off * off + cross * cross), more = f(mean + radius),
+               less = f(mean - radius), over = radius > 0 ? (more - less) / (2 * radius) : 0.0;
+  RodPair::Bends of;
+  of << (more + less) / 2 + over * off, over * cross, over * cross, (more + less) / 2 - over * off;
+  return of;
+}
+
+/// Whether something within a box may be within reach, or has been since save().
+inline bool may_touch(const PlacedBody& core, const Box<double, 3>& box, double reach) noexcept {
+  VectorOf<double, 3> centre, half;
+  for (int k = 0; k < 3; ++k)
+    centre[k] = (box.low[k] + box.high[k]) / 2, half[k] = (box.high[k] - box.low[k]) / 2;
+  const SurfaceDistance found = core.body().from_core(core.local(centre));
+  // A plane is as far from all of it as its normal tells.
+  if (core.is_thick()) return found.distance - core.turned(found.normal).cwiseAbs().dot(half) < reach;
+  return found.distance - std::sqrt(half.squaredNorm()) < reach + core.travel();
+}
+
+/// How far points of a piece have moved against the body at most [m].  Along a tube between its ends nothing passes.
+inline double travel_past(const RigidBody& body, const RodPiece& was, const RodPiece& now,
+                          double reach) noexcept {
+  double most = 0, aside = 0;
+  for (int k = 0; k < 4; ++k) most = (std::max)(most, (now.col(k) - was.col(k)).squaredNorm());
+  if (body.kind() != RigidBody::Kind::tube || most <= reach * reach / 4) return std::sqrt(most);
+  const double rim = body.radius() + reach;
+  for (int k = 0; k < 4; ++k) {
+    for (const RodPiece* piece : {&was, &now}) {
+      if (body.axis().nearest(piece->col(k)).beyond != 0) return std::sqrt(most);
+      for (const double end : {0.0, body.axis().length()})
+        if ((piece->col(k) - body.axis().at(end).r).squaredNorm() < rim * rim) return std::sqrt(most);
     }
-    const double inside = std::clamp(s, 0.0, body.length()), beyond = s - inside;
-    const Vector across = off - s * body.axis();
-    s = inside, aside = std::sqrt(across.squaredNorm());
-    const bool tube = body.kind() == RigidBody::Kind::tube;
-    const double over = aside - (tube ? body.radius() : 0);
-    distance = std::sqrt(over * over + beyond * beyond);
-    const Vector out = aside > 0 ? Vector(across / aside) : Vector::Zero();
-    if (distance > 0) normal = over / distance * out + beyond / distance * body.axis();
-    else normal = tube ? out : Vector::UnitZ();
-    if (tube) ring = over < 0 ? -body.radius() : body.radius();
+    const VectorOf<double, 3> by = now.col(k) - was.col(k);
+    aside = (std::max)(aside, cross3<double>(by, body.axis().nearest(now.col(k)).tangent).squaredNorm());
   }
+  return std::sqrt(aside);
+}
 
-  double distance;   // from the core [m]; below a plane negative
-  double s;          // on the axis [m]
-  double aside = 0;  // from the axis [m]
-  double ring = 0;   // of a tube: its radius, less than 0 from inside [m]
-  Vector normal;     // from the core to the point
+/// A place of a piece, 0 to 1, and what it has from the core.
+struct PlaceOnPiece {
+  double t;
+  SurfaceDistance from;
 };
-
-/// From the core of a body to where it presses a rod [m].
-inline double reach_of(const PlacedBody& body, double radius) noexcept {
-  return radius + (body.kind() == RigidBody::Kind::round ? body.radius() : 0);
-}
-
-/// Whether something within a box may be within reach.
-inline bool may_touch(const PlacedBody& body, const Box<double, 3>& box, double reach) noexcept {
-  if (body.kind() == RigidBody::Kind::half_space) {
-    double least = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double n = body.axis()[k];
-      least += n * ((n > 0 ? box.low[k] : box.high[k]) - body.at(0)[k]);
-    }
-    return least < reach;
+/// @param most  a piece that is farther need not be known better [m]
+inline PlaceOnPiece nearest_on(const RodPiece& piece, const RigidBody& body, double most) noexcept {
+  constexpr std::size_t parts = 4;
+  constexpr int rounds = 32;
+  constexpr double exact = 1e-6;
+  double speed = 0;
+  for (int k = 0; k < 3; ++k)
+    speed = (std::max)(speed, 3 * std::sqrt((piece.col(k + 1) - piece.col(k)).squaredNorm()));
+  const auto look = [&](double t) { return PlaceOnPiece{t, body.from_core(point_at(piece, t))}; };
+  const auto slope = [&](const PlaceOnPiece& at) { return at.from.normal.dot(tangent(piece, at.t)); };
+  std::array<PlaceOnPiece, parts + 1> seen;
+  seen[parts / 2] = look(0.5);
+  if (seen[parts / 2].from.distance - speed / 2 > most) return seen[parts / 2];
+  std::size_t best = parts / 2;
+  for (std::size_t k = 0; k <= parts; ++k) {
+    if (k != parts / 2) seen[k] = look(double(k) / double(parts));
+    if (seen[k].from.distance < seen[best].from.distance) best = k;
   }
-  const double moved = std::sqrt(body.travel_squared());
-  if (body.kind() != RigidBody::Kind::tube)
-    return box.distance_squared(body.shaft()) <= (reach + moved) * (reach + moved);
-  // Within the tube, or outside of it.
-  VectorOf<double, 3> centre;
-  double across = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double u = body.axis()[k];
-    centre[k] = (box.low[k] + box.high[k]) / 2;
-    across += (box.high[k] - box.low[k]) / 2 * std::sqrt((std::max)(1 - u * u, 0.0));
-  }
-  const double out = body.radius() + reach + 2 * moved;
-  return FromBody(body, centre).aside + across > body.radius() - reach - 2 * moved &&
-         box.distance_squared(body.shaft()) <= out * out;
-}
-/// Whether a piece may, as its control points show.  @param was, now  of it
-inline bool may_touch(const PlacedBody& body, const CubicSegment<double, 3>& was,
-                      const CubicSegment<double, 3>& now, double reach) noexcept {
-  const bool wall = body.kind() == RigidBody::Kind::half_space;
-  if (body.kind() == RigidBody::Kind::tube) {
-    // Inside of it all along.
-    const double most = body.radius() - reach - 2 * std::sqrt(body.travel_squared());
-    bool within = true;
-    for (int k = 0; k < 4 && within; ++k)
-      within = FromBody(body, was.col(k)).aside < most && FromBody(body, now.col(k)).aside < most;
-    if (within) return false;
-  }
-  bool below = !wall;
-  for (int k = 0; k < 4 && !below; ++k) below = FromBody(body, now.col(k)).distance < reach;
-  return below;
-}
-
-/// Whether a piece may have passed the core since save(), but for a plane, which remains below.
-inline bool may_have_passed(const PlacedBody& body, const CubicSegment<double, 3>& was,
-                            const CubicSegment<double, 3>& now, double reach) noexcept {
-  if (body.kind() == RigidBody::Kind::half_space) return false;
-  // Along a tube between its ends nothing passes.
-  bool between = body.kind() == RigidBody::Kind::tube;
-  for (int k = 0; k < 4 && between; ++k)
-    for (const auto& piece : {was, now}) {
-      const double s = body.axis().dot(piece.col(k) - body.at(0));
-      between = between && s > reach && s < body.length() - reach;
-    }
-  const Shaft<double> here = body.shaft(), then = body.saved_shaft();
-  const VectorOf<double, 3> tip = here.tip - then.tip, end = tip + here.way - then.way;
-  double most = 0;
-  for (int k = 0; k < 4; ++k)
-    for (const auto& moved : {tip, end}) {
-      const VectorOf<double, 3> by = now.col(k) - was.col(k) - moved;
-      const double along = between ? by.dot(body.axis()) : 0;
-      most = (std::max)(most, by.squaredNorm() - along * along);
-    }
-  return !(most <= reach * reach / 4);
-}
-
-/// Where a piece is nearest, 0 to 1.
-inline double nearest_on(const CubicSegment<double, 3>& piece, const PlacedBody& body) noexcept {
-  if (body.kind() == RigidBody::Kind::round) return closest_point(piece, body.shaft()).t;
-  const auto distance = [&](double t) { return FromBody(body, point_at(piece, t)).distance; };
-  constexpr int parts = 4, rounds = 7;
-  double best = 0, least = std::numeric_limits<double>::infinity();
-  const auto visit = [&](double t) {
-    const double d = distance(t);
-    if (d < least) best = t, least = d;
-    return d;
+  // To where the distance has no slope, between two places from which it falls: by the secant, and every other time halfway.
+  const PlaceOnPiece middle = seen[best];
+  const double rise = slope(middle);
+  if (middle.from.distance - speed / double(2 * parts) > most || best == (rise > 0 ? 0 : parts))
+    return middle;
+  PlaceOnPiece a = rise > 0 ? seen[best - 1] : middle, b = rise > 0 ? middle : seen[best + 1], c = middle;
+  double slope_a = slope(a), slope_b = slope(b);
+  const auto may_be_nearer = [&] {
+    return a.from.distance + b.from.distance - speed * (b.t - a.t) < 2 * most;
   };
-  for (int k = 0; k <= parts; ++k) (void)visit(double(k) / parts);
-  // To the vertex of the parabola through three, ever closer to each other, or to the least of those.
-  double step = 1.0 / parts;
-  for (int k = 0; k < rounds; ++k, step /= 4) {
-    const double from = best, middle = least, low = visit((std::max)(from - step, 0.0)),
-                 high = visit((std::min)(from + step, 1.0)), bend = low + high - 2 * middle;
-    if (bend > 0)
-      (void)visit(std::clamp(from + step * std::clamp((low - high) / (2 * bend), -1.0, 1.0), 0.0, 1.0));
+  for (int k = 0; k < rounds && slope_a < 0 && slope_b > 0 && may_be_nearer(); ++k) {
+    c = look(k % 2 == 0 ? (a.t * slope_b - b.t * slope_a) / (slope_b - slope_a) : (a.t + b.t) / 2);
+    const double slope_c = slope(c);
+    if (std::abs(slope_c) <= exact * speed) break;
+    if (slope_c > 0) b = c, slope_b = slope_c;
+    else a = c, slope_a = slope_c;
   }
-  return best;
+  return c.from.distance < middle.from.distance ? c : middle;
+}
+
+/// Puts in what a body decides of a pair.   @param p  of the rod
+inline void lead(const PlacedBody& core, const VectorOf<double, 3>& p, RodPair& pair) noexcept {
+  using Vector = VectorOf<double, 3>;
+  const auto look = [&](const Vector& beside) {
+    return core.nearest(core.at(0) + pair.on + pair.reach * pair.normal + beside);
+  };
+  const auto put = [&](const PlacedBody::Nearest& found) { pair.normal = found.normal, pair.on = found.on; };
+  put(look(Vector::Zero()));
+  pair.look();
+  // By how much n turns beside it.
+  constexpr double step = 1e-4, flat = 1e9, curved = 1e-6, follows = 1e3;
+  const double beside = step * pair.reach;
+  const Vector &a = pair.axes[1], &b = pair.axes[2], by_a = look(beside * a).normal - pair.normal,
+               by_b = look(beside * b).normal - pair.normal;
+  RodPair::Bends turns;
+  turns << a.dot(by_a), a.dot(by_b), b.dot(by_a), b.dot(by_b);
+  turns /= step;  // times the reach
+  pair.bends = spectral(turns, [&](double k) { return pair.reach * (std::abs(k) > curved ? 1 / k : flat); });
+  if (!pair.friction.is_free()) return;
+  // Where it is flat, the rod goes over it freely.
+  const Vector off = p - core.at(0) - pair.on;
+  const RodPair::Bends free = spectral(
+      turns, [](double k) { return std::abs(k) > curved ? 1 / (1 + follows * k * follows * k) : 1.0; });
+  const VectorOf<double, 2> by = free * VectorOf<double, 2>(off.dot(a), off.dot(b));
+  put(look(by[0] * a + by[1] * b));
+  pair.look();
 }
 
 }  // namespace hapbeam::detail

@@ -138,9 +138,8 @@ class World {
     for (int k = system().joints(); k < system().pairs(); ++k) {
       const detail::RodPair& pair = system().pair(k);
       const Vector w = system().between(pair);
-      energy +=
-          (pair.force * (pair.reach - pair.distance(w)) - pair.friction.kept().dot(w - pair.off())) / 2 +
-          pair.friction.stored();
+      energy += (pair.force * (pair.reach - pair.distance(w)) - pair.friction.kept().dot(w - pair.on)) / 2 +
+                pair.friction.stored();
     }
     return energy;
   }

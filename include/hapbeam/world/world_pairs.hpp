@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <hapbeam/world/ball_joint.hpp>
-#include <hapbeam/world/rigid_body.hpp>
+#include <hapbeam/world/placed_body.hpp>
 #include <hapbeam/world/rod_body.hpp>
 
 namespace hapbeam {
@@ -74,7 +74,7 @@ class WorldPairs {
     const std::size_t rods = bodies_.size();
     return at(i) < rods ? nullptr : &rigid_[at(i) - rods];
   }
-  double length(int i) const noexcept { return rigid(i) ? rigid(i)->length() : body(i).length(); }
+  double length(int i) const noexcept { return rigid(i) ? 0 : body(i).length(); }
   /// No place on a rod goes farther at once [m].
   double stride(int i) const noexcept { return body(i).length() / body(i).elements(); }
   /// From the second side of a pair to the first [m].
@@ -123,10 +123,11 @@ class WorldPairs {
   /// Whether a rod is drawn so taut where it touches that its cubics may be off by 1 %: it has no tension of its own, or touches on its stiffer side.
   bool overdrawn() const noexcept {
     return std::any_of(pairs_.begin(), pairs_.begin() + number_, [this](const RodPair& pair) {
-      const auto is = [&](std::size_t side) {
-        return !rigid(pair.rod[side]) && body(pair.rod[side]).system().overdrawn(pair.s[side], pair.normal);
-      };
-      return is(0) || is(1);
+      bool is = false;
+      each_rod(pair, [&](std::size_t side) {
+        is = is || body(pair.rod[side]).system().overdrawn(pair.s[side], pair.normal);
+      });
+      return is;
     });
   }
   /// Whether a pair is solved for.
@@ -136,15 +137,12 @@ class WorldPairs {
     for (bool more = true; more;) {
       more = false;
       for (int k = 0; k < number_; ++k) {
+        const PlacedBody* core = rigid(pair(k).rod[1]);
         Body& a = body(pair(k).rod[0]);
-        if (const PlacedBody* core = rigid(pair(k).rod[1])) {
-          more = more || (core->moves && !a.moves);
-          a.moves = a.moves || core->moves;
-          continue;
-        }
-        Body& b = body(pair(k).rod[1]);
-        if (a.moves == b.moves) continue;
-        a.moves = b.moves = more = true;
+        const bool other = core ? core->moves : body(pair(k).rod[1]).moves;
+        if (a.moves == other || (core && a.moves)) continue;
+        a.moves = more = true;
+        if (!core) body(pair(k).rod[1]).moves = true;
       }
     }
   }
@@ -154,18 +152,17 @@ class WorldPairs {
   /// As PairFriction::begin().   @return whether any begins another way than it went on
   bool begin_friction(PairFriction::Start start = PairFriction::Start::goes_on) noexcept {
     bool any = false;
-    each_rough([&](PairFriction& friction) { any = friction.begin(start) || any; });
+    each_rough([&](RodPair& pair) { any = pair.friction.begin(start) || any; });
     return any;
   }
   /// All that moves slides without friction until it has come to an equilibrium.
   void let_go() noexcept {
-    each_rough([](PairFriction& friction) { friction.let_go(); });
+    each_rough([](RodPair& pair) { pair.friction.let_go(); });
   }
   /// To be called where an equilibrium was found.   @return whether it is one of Coulomb's law, too
   bool settled() noexcept {
     bool all = true;
-    each_pair([&](RodPair& pair) {
-      if (pair.friction.none()) return;
+    each_rough([&](RodPair& pair) {
       look(pair);
       all = pair.friction.settled(pair.axes, pair.force) && all;
     });
@@ -174,9 +171,7 @@ class WorldPairs {
   /// To be called where that is kept.   @return what friction has dissipated [J]
   double leave_friction() noexcept {
     double dissipated = 0;
-    each_pair([&](RodPair& pair) {
-      if (!pair.friction.none()) dissipated += pair.friction.leave(pair.force);
-    });
+    each_rough([&](RodPair& pair) { dissipated += pair.friction.leave(pair.force); });
     return dissipated;
   }
 
@@ -211,30 +206,40 @@ class WorldPairs {
     for (const Body& body : bodies_)
       if (body.moves) f(body);
   }
+  /// Calls f(pair, row of its equations) of all that are solved for.
   template <class F>
   void each_pair(F&& f) noexcept {
+    int row = 0;
     for (int k = 0; k < number_; ++k)
-      if (moves(pair(k))) f(pair(k));
+      if (moves(pair(k))) f(pair(k), row), row += pair_unknowns;
   }
   template <class F>
   void each_rough(F&& f) noexcept {
-    each_pair([&](RodPair& pair) {
-      if (!pair.friction.none()) f(pair.friction);
+    each_pair([&](RodPair& pair, int) {
+      if (!pair.friction.none()) f(pair);
     });
+  }
+  /// Calls f(side) of a pair where there is a rod.
+  template <class F>
+  void each_rod(const RodPair& pair, F&& f) const noexcept {
+    for (std::size_t side = 0; side < 2; ++side)
+      if (!rigid(pair.rod[side])) f(side);
+  }
+  const Joint& joint_of(const RodPair& pair) const noexcept {
+    return held_[std::size_t(&pair - pairs_.data())];
   }
   /// Where friction acts, as all lies.
   void look(RodPair& pair) noexcept {
     using Vector = VectorOf<double, 3>;
     const Vector force = pair.force * pair.normal + pair.friction.force();
-    const auto point = [&](std::size_t side, const Vector& acts) {
+    // r' of the true curve of a rod.
+    const auto tangent = [&](std::size_t side, const Vector& acts) -> Vector {
+      if (rigid(pair.rod[side])) return Vector::Zero();
       const Body& body = this->body(pair.rod[side]);
-      return Body::Sides::point(body.parts(), body.line().segment_at(pair.s[side]), pair.s[side], acts);
+      return Body::Sides::point(body.parts(), body.line().segment_at(pair.s[side]), pair.s[side], acts)
+          .tangent;
     };
-    const RodPoint<double> first = point(0, force);
-    const PlacedBody* core = rigid(pair.rod[1]);
-    if (core) carry(pair, *core, first.r - core->at(0));
-    pair.friction.look(pair.normal, pair.off(), pair.s,
-                       {first.tangent, core ? core->tangent() : point(1, -force).tangent}, pair.force);
+    pair.friction.look(pair.normal, pair.on, pair.s, {tangent(0, force), tangent(1, -force)}, pair.force);
   }
 
   std::unique_ptr<PairEquations> equations_;
@@ -250,8 +255,7 @@ class WorldPairs {
     pair.rod = joint.rod, pair.s = joint.s;
     Joint beside{{}, 0, VectorOf<double, 3>::Zero()};
     std::array<int, 2> steps{};
-    for (std::size_t side = 0; side < 2; ++side) {
-      if (rigid(joint.rod[side])) continue;
+    each_rod(pair, [&](std::size_t side) {
       const Body& body = this->body(joint.rod[side]);
       const auto line = body.line();
       int& node = beside.node[side];
@@ -259,22 +263,18 @@ class WorldPairs {
       if (std::abs(line[node].s - joint.s[side]) > 1e-6 * body.length())
         reject("joint s", joint.s[side], "m", "a node of the rod: take more elements");
       pair.s[side] = line[node].s, steps[side] = away[at(joint.rod[side])];
-    }
+    });
     const double share = lent_share(steps[0], steps[1]);
     if (share != 0) {
       const Body& borrows = body(joint.rod[share > 0 ? 0 : 1]);
       const double unit = borrows.system().unit() / borrows.length();
       beside.lent = share * unit * unit;
     }
-    for (std::size_t side = 0; side < 2; ++side)
-      if (!rigid(joint.rod[side]) && beside.lent != 0)
+    if (beside.lent != 0)
+      each_rod(pair, [&](std::size_t side) {
         body(joint.rod[side]).lend(beside.node[side], side == 0 ? beside.lent : -beside.lent);
+      });
     held_.push_back(beside);
-  }
-  /// What a body that turns takes along, and where a new contact is on a plane.   @param w  from its tip
-  void carry(RodPair& pair, const PlacedBody& core, const VectorOf<double, 3>& w) noexcept {
-    if (pair.friction.begins() && core.moves) pair.carry([&](auto& v) { v = core.carried(v); });
-    if (pair.curve > 1 && pair.friction.is_free()) pair.on = w - w.dot(pair.normal) * pair.normal;
   }
   void give_friction(RodPair& pair) noexcept {
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
