@@ -184,6 +184,7 @@ TEST_CASE(
   const Place rest = bits();
   CHECK(model.hold(RodSide::right, pose({0.3, 0, 0}, 0)) == Status::invalid_request);
   CHECK(model.hold(RodSide::left, pose({0, NAN, 0}, 0)) == Status::invalid_request);
+  CHECK(model.hold(RodSide::left, pose({0, 1e80, 0}, 0)) == Status::invalid_request);
   CHECK(model.hold(RodSide::left, pose({0, 0.1, 0}, 0), {1, 0, 1e-3}) == Status::invalid_request);
   CHECK(model.hold(RodSide::left, pose({0, 0.1, 0}, 0), {0, -0.1, 1e-3}) == Status::invalid_request);
   CHECK(model.hold(RodSide::left, pose({0, 0.1, 0}, 0), {0, 0, 0}) == Status::invalid_request);

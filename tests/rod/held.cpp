@@ -128,7 +128,9 @@ TEST_CASE("an end that is not clamped, and a pose that is none, are rejected", "
   FemModel<TwistedRod> model(wire, 8);
   CHECK(model.hold(RodSide::right, {}).status == Status::invalid_request);
   CHECK(model.hold(RodSide::left, {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}}).status == Status::invalid_request);
-  CHECK(model.hold(RodSide::left, {{0, 0, NAN}, {1, 0, 0}, {0, 1, 0}}).status == Status::invalid_request);
+  for (const double far_away : {double(NAN), 1e80, 1e8})
+    CHECK(model.hold(RodSide::left, {{0, 0, far_away}, {1, 0, 0}, {0, 1, 0}}).status ==
+          Status::invalid_request);
   // A free rod that is led by its end goes along, and nothing is felt when it is there.
   const auto held = model.hold(RodSide::left, {{0.01, 0.02, 0}, {0.8, 0.6, 0}, {0, 0, 1}});
   REQUIRE(held.status == Status::ok);

@@ -136,9 +136,14 @@ class RodChain {
   /// Places an end anew: where the next path leads.  @param k  0: left, 1: right
   /// @return false where it is neither clamped nor on springs, or the pose is none: nothing has changed
   bool place_end(std::size_t k, RodPose pose) noexcept {
-    const bool valid = ends_[k].takes_pose() && pose.make_valid();
-    if (valid) ends_[k].place(pose);
-    return valid;
+    if (!takes(k, pose)) return false;
+    ends_[k].place(pose);
+    return true;
+  }
+  /// Whether an end can be there.  So far away that places keep no digits of the rod's shape it cannot.   @param pose  in and out, becomes valid
+  bool takes(std::size_t k, RodPose& pose) const noexcept {
+    const double farthest = 1e6 * static_cast<double>(node(parts_.size()).s);
+    return ends_[k].takes_pose() && pose.make_valid() && pose.at.squaredNorm() <= farthest * farthest;
   }
   /// What holds an end.   @param load  λ   @param inertia  null: at rest
   template <class Rows>

@@ -35,8 +35,7 @@ class LedEnds {
   /// @return false where it is neither clamped nor on springs, or an argument makes no sense: nothing has changed
   bool lead(Chain& chain, std::size_t k, RodPose pose, const HoldDamper& damper) noexcept {
     const auto share = [](double part) { return part >= 0 && part < 1; };
-    if (!(chain.ends()[k].takes_pose() && pose.make_valid() && share(damper.place) && share(damper.turning) &&
-          damper.period > 0))
+    if (!(chain.takes(k, pose) && share(damper.place) && share(damper.turning) && damper.period > 0))
       return false;
     Led& led = led_[k];
     led.path.lead(
