@@ -39,6 +39,13 @@ class WholeColumns {
       self.add(e, its, residual);
     }
   }
+  template <std::size_t Lanes>
+  void increments(int first, Scalar (&x)[3][Lanes]) const {
+    int nodes[Lanes];
+    detail::PairOrder{static_cast<int>(solver().x_.rows()) / 3 - 1}.nodes_from(first, nodes);
+    for (std::size_t lane = 0; lane < Lanes; ++lane)
+      for (int k = 0; k < 3; ++k) x[k][lane] = solver().x_[3 * nodes[lane] + k];
+  }
   void forward(int e, const Vector6<Scalar>& b, Column& column) const {
     column.first = 3 * e;
     column.b = b;

@@ -202,7 +202,8 @@ class BeamChain {
     return longer + rows.advance(
                         [this](int e) {
                           Vector6<Scalar> both;
-                          both << increments_[e], increments_[e + 1];
+                          both.template head<3>() = increments_[e];
+                          both.template tail<3>() = increments_[e + 1];
                           return both;
                         },
                         [this](int e, Scalar N) { parts_.set_tension(e, N); }, element_at);

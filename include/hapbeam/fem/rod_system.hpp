@@ -209,7 +209,8 @@ class RodChain {
       longer = rows.advance(
           [this](int e) {
             Residual both;
-            both << increments_[e], increments_[e + 1];
+            both.template head<unknowns>() = increments_[e];
+            both.template tail<unknowns>() = increments_[e + 1];
             return both;
           },
           [this](int e, Scalar N) {
