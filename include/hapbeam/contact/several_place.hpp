@@ -73,7 +73,6 @@ struct SeveralPlace {
   /// Of the length.  A touch bends the beam beside the end, which may slide: farther than that others have drawn it.
   static constexpr Scalar far_away = Scalar(1e-3);
 
-  hapbeam::Obstacle<Scalar, dimension> obstacle;  // as the model is asked, and has answered
   hapbeam::Avatar<Scalar, dimension> avatar{};
   enum { hand, lifted, prop } who = hand;
   bool again = false;    // the place before is of the same body
@@ -86,8 +85,8 @@ struct SeveralPlace {
   void stand(const Prop<dimension>& stands, double length) {
     who = prop;
     avatar = stands.template avatar<Scalar>(length);
-    obstacle.kind = stands.kind();
-    obstacle.place = stands.template place<Scalar>();
+    at.obstacle.kind = stands.kind();
+    at.obstacle.place = stands.template place<Scalar>();
     at.take(stands.friction());
   }
   /// A hand moves it.
@@ -99,23 +98,23 @@ struct SeveralPlace {
   /// Whether an end holds it.
   bool at_end() const noexcept { return at.mode > Mode::pushed; }
   /// Whether it is a place of the beam that is held.
-  bool fixed() const noexcept { return obstacle.kind != ObstacleKind::round && !at_end(); }
+  bool fixed() const noexcept { return at.obstacle.kind != ObstacleKind::round && !at_end(); }
 
   void forget() noexcept {
     at.memory = {};
     forget_friction();
-    if (at_end()) obstacle.kind = ObstacleKind::round;
+    if (at_end()) at.obstacle.kind = ObstacleKind::round;
     at.mode = Mode::apart;
-    obstacle.touching = false;
-    obstacle.round = {}, obstacle.pushed = {0, Status::ok};
+    at.obstacle.touching = false;
+    at.obstacle.round = {}, at.obstacle.pushed = {0, Status::ok};
     answer = {};
-    answer.body = obstacle.body;
+    answer.body = at.obstacle.body;
   }
 
   /// Where it lies to the beam.   @param volumes  () -> those of the present shape   @return whether the two touch
   template <class Volumes>
   bool look(Model& model, Volumes&& volumes) noexcept {
-    const bool touched = obstacle.touching, touches = find(model, volumes);
+    const bool touched = at.obstacle.touching, touches = find(model, volumes);
     // A contact that begins remembers nothing.
     if (!touched || !touches) at.friction.begin();
     // It may begin within the push, where another one brings the beam to it.
@@ -124,24 +123,26 @@ struct SeveralPlace {
   }
 
   /// Whether its friction has settled.
-  bool settled() const noexcept { return !obstacle.touching || fixed() || at_end() || at.friction.settled; }
+  bool settled() const noexcept {
+    return !at.obstacle.touching || fixed() || at_end() || at.friction.settled;
+  }
   /// Answers.   @param pushed  whether there was a push in this tick
   void report(bool pushed) noexcept {
     answer = {};
-    answer.body = obstacle.body;
-    answer.touching = obstacle.touching;
-    answer.status = !obstacle.valid ? status : pushed ? obstacle.pushed.status : Status::ok;
-    if (!obstacle.touching) return;
+    answer.body = at.obstacle.body;
+    answer.touching = at.obstacle.touching;
+    answer.status = !at.obstacle.valid ? status : pushed ? at.obstacle.pushed.status : Status::ok;
+    if (!at.obstacle.touching) return;
     const bool past_end = at_end();
     if (past_end && answer.status == Status::ok) answer.status = Status::out_of_range;
-    answer.s = past_end ? contact.s : obstacle.pushed.s;
+    answer.s = past_end ? contact.s : at.obstacle.pushed.s;
     answer.depth = contact.depth;
-    answer.point = past_end ? contact.foot : obstacle.pushed.point;
-    answer.normal = past_end ? contact.normal : obstacle.pushed.normal;
-    answer.force = -obstacle.pushed.force * (past_end ? at.place.factor() : Scalar(1)) * answer.normal;
+    answer.point = past_end ? contact.foot : at.obstacle.pushed.point;
+    answer.normal = past_end ? contact.normal : at.obstacle.pushed.normal;
+    answer.force = -at.obstacle.pushed.force * (past_end ? at.place.factor() : Scalar(1)) * answer.normal;
     if (at.rough() && !fixed()) {
       answer.dissipated = at.friction.dissipated;
-      if (!past_end) at.rub(-obstacle.pushed.force, answer);
+      if (!past_end) at.rub(-at.obstacle.pushed.force, answer);
     }
   }
 
@@ -154,37 +155,38 @@ struct SeveralPlace {
   template <class Volumes>
   bool find(Model& model, Volumes&& volumes) noexcept {
     status = Status::ok;
-    obstacle.valid = who != lifted;
-    if (!obstacle.valid) return false;
+    at.obstacle.valid = who != lifted;
+    if (!at.obstacle.valid) return false;
     if (fixed()) return true;
     const Scalar reach = avatar.radius + model.thickness() / 2, length = model.shape().length();
-    const bool touched = obstacle.touching;
-    if (touched) at.know(obstacle.pushed.s, at_end() ? contact.normal : obstacle.pushed.normal);
+    const bool touched = at.obstacle.touching;
+    if (touched) at.know(at.obstacle.pushed.s, at_end() ? contact.normal : at.obstacle.pushed.normal);
     contact = at.find(model, avatar, touched, touched, volumes);
-    obstacle.valid = contact.segment >= 0 && !(contact.depth > reach + length);
-    if (obstacle.valid && !again) at.choose(model, contact, avatar, reach, touched ? at.mode : Mode::apart);
+    at.obstacle.valid = contact.segment >= 0 && !(contact.depth > reach + length);
+    if (at.obstacle.valid && !again)
+      at.choose(model, contact, avatar, reach, touched ? at.mode : Mode::apart);
     else at.mode = Mode::pushed;
-    obstacle.kind = at_end() ? ObstacleKind::stop : ObstacleKind::round;
-    if (at_end()) obstacle.valid = stop(model, reach);
-    if (!obstacle.valid) {
+    at.obstacle.kind = at_end() ? ObstacleKind::stop : ObstacleKind::round;
+    if (at_end()) at.obstacle.valid = stop(model, reach);
+    if (!at.obstacle.valid) {
       status = contact.touching ? Status::out_of_range : Status::ok;
-      obstacle.touching = false;
+      at.obstacle.touching = false;
       return false;
     }
     // One avatar that touches twice is nearest to the beam at one place alone.
     auto there = contact;
-    if (touched && several) there.s = obstacle.pushed.s, there.normal = obstacle.pushed.normal;
-    obstacle.round = Lasting::round(avatar, there.s, reach, there);
+    if (touched && several) there.s = at.obstacle.pushed.s, there.normal = at.obstacle.pushed.normal;
+    at.obstacle.round = Lasting::round(avatar, there.s, reach, there);
     // A pressed beam follows a hand that draws back; one that has jumped away is met again, if it is, as the beam springs back.
-    if (contact.depth < -length / 50) obstacle.touching = false, forget_friction();
-    if (!again) obstacle.touching = obstacle.touching || contact.touching;
-    return obstacle.touching;
+    if (contact.depth < -length / 50) at.obstacle.touching = false, forget_friction();
+    if (!again) at.obstacle.touching = at.obstacle.touching || contact.touching;
+    return at.obstacle.touching;
   }
   /// Beside or past an end it is a stop, in a plane no farther than the range of the beam.   @return whether there is one
   bool stop(const Model& model, Scalar reach) noexcept {
     if (at.mode == Mode::support && at.place.slid(contact, model, far_away)) return false;
-    Push<Scalar, dimension>& place = obstacle.place;
-    if (!at.place.aim(model, contact, avatar, reach, at.mode, at.side, obstacle.touching, place))
+    Push<Scalar, dimension>& place = at.obstacle.place;
+    if (!at.place.aim(model, contact, avatar, reach, at.mode, at.side, at.obstacle.touching, place))
       return false;
     if constexpr (dimension == 2) {
       const Press<Scalar> in_range = model.range().nearest({place.s, place.d});

@@ -116,7 +116,7 @@ class TouchSeveral {
   }
   /// Whether an avatar touched in the last tick.
   [[nodiscard]] bool touching(int avatar) noexcept {
-    return any_of(avatar, [](const Place& place) { return place.obstacle.touching; });
+    return any_of(avatar, [](const Place& place) { return place.at.obstacle.touching; });
   }
   /// @param radius [m]   @throws std::invalid_argument
   void set_radius(int avatar, double radius) {
@@ -165,7 +165,7 @@ class TouchSeveral {
     Result result;
     result.size = size_;
     result.status = Status::invalid_request;
-    for (int i = 0; i < size_; ++i) result.places[at(i)].body = places_[at(i)].obstacle.body;
+    for (int i = 0; i < size_; ++i) result.places[at(i)].body = places_[at(i)].at.obstacle.body;
     return result;
   }
 
@@ -178,13 +178,13 @@ class TouchSeveral {
       detail::reject("avatars and props", size_ + 1.0, "places",
                      ("at most " + std::to_string(most) + ", the Contacts of the model's Several").c_str());
     Place& place = places_[at(size_++)];
-    place.obstacle.body = body;
+    place.at.obstacle.body = body;
     return place;
   }
   template <class Use>
   void each_of(int avatar, Use&& use) {
     for (Place& place : *this)
-      if (place.obstacle.body == avatar && place.who != Place::prop) use(place);
+      if (place.at.obstacle.body == avatar && place.who != Place::prop) use(place);
   }
   template <class Is>
   bool any_of(int avatar, Is&& is) {
@@ -201,14 +201,14 @@ class TouchSeveral {
   Status push() noexcept {
     std::array<Obstacle<Scalar, dimension>, most> all;
     for (int i = 0; i < size_; ++i) {
-      all[at(i)] = places_[at(i)].obstacle;
+      all[at(i)] = places_[at(i)].at.obstacle;
       if (places_[at(i)].at.rough()) all[at(i)].friction = &places_[at(i)].at.friction;
     }
     const Status status = model_.push(all.data(), size_);
     bool settled = true;
     for (int i = 0; i < size_; ++i) {
       all[at(i)].friction = nullptr;
-      places_[at(i)].obstacle = all[at(i)];
+      places_[at(i)].at.obstacle = all[at(i)];
       settled = settled && places_[at(i)].settled();
     }
     volumes_.outdate();
@@ -230,7 +230,7 @@ auto TouchSeveral<Model>::tick(const Vector* positions, const Vector* shafts, in
   for (int k = 0; valid && k < count; ++k) valid = is_place(positions[k], shaft(k));
   if (!valid) return invalid();
   for (Place& place : *this) {
-    const int k = place.obstacle.body;
+    const int k = place.at.obstacle.body;
     if (place.who != Place::prop) place.move(positions[k], shaft(k));
   }
   return solve();
