@@ -240,7 +240,7 @@ TEST_CASE("a hand that begins within the beam pushes by its spring alone", "[dyn
 // A hand that jumps about until a step has no answer, and holds still then.
 TEST_CASE("after a step without an answer the hand is felt again", "[dynamics]") {
   int failed = 0;
-  for (int trial = 0; trial < 24; ++trial) {
+  for (int trial = 0; trial < 240; ++trial) {
     Random random(static_cast<std::uint64_t>(trial));
     DynamicModel<> model(ruler(), 8, 1 + trial % 4);
     const auto hold = [&](double x, double y) { return model.step(1e-3, {{x, {x, y}, 0.005, 1}, 3500, 2}); };
@@ -250,16 +250,16 @@ TEST_CASE("after a step without an answer the hand is felt again", "[dynamics]")
     ++failed;
     const double x = random(0.05, 0.28), y = random(-0.04, 0.004);
     int unanswered = 0, felt = 0;
-    for (int k = 0; k < 50; ++k) {
+    for (int k = 0; k < 200; ++k) {
       const auto now = hold(x, y);
       unanswered += now.status != Status::ok, felt += now.force < 0;
     }
     CAPTURE(trial, x, y, unanswered, felt);
-    // One that is never felt again misses all 50; by g++ one of these misses 4.
-    CHECK(unanswered <= 5);
+    // Where the beam stayed as it was, what had no answer had none again: in one of a hundred trials for good.
+    CHECK(unanswered <= 10);
     CHECK(felt > 0);
   }
-  CHECK(failed > 12);
+  CHECK(failed > 120);
 }
 
 // It is bent back over its root, and the hand is where it was straight.

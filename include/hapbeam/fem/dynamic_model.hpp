@@ -204,21 +204,28 @@ class DynamicModel {
     if (!(dt > 0)) return Status::ok;
     system_.chain().move_with(massless_ ? nullptr : &inertia_, viscosity_.none() ? nullptr : &viscosity_);
     const Scalar all = massless_ ? dt : (std::min)(dt, longest), part = all / Scalar(substeps_);
+    const bool stood = starts_ && !massless_;
     if (starts_ && !massless_) contacts_.begin(system_, nullptr, 0), (void)start(part, 1, most_halvings);
     contacts_.begin(system_, hands, count);
     ends_.begin(all);
     // Without mass it takes its load at once, and creeps on.
     bool found = !starts_ || (go_on(part / 1000000, 0, 0, 0) && (stop(), start(part, 0, 0)));
-    for (int k = 0; k < substeps_ && found; ++k) {
-      found = go_on(part, Scalar(k) / Scalar(substeps_), Scalar(k + 1) / Scalar(substeps_), 0);
-      if (found && listener_) listener_(listens_, *this, part);
-    }
-    system_.chain().move_with(nullptr, nullptr);
+    const auto go_all = [&] {
+      for (int k = 0; k < substeps_ && found; ++k) {
+        found = go_on(part, Scalar(k) / Scalar(substeps_), Scalar(k + 1) / Scalar(substeps_), 0);
+        if (found && listener_) listener_(listens_, *this, part);
+      }
+    };
+    go_all();
+    const Status status = found ? Status::ok : Status::iteration_limit;
     contacts_.end();
-    // The next one begins as after a reset, where the beam has stopped.
-    if (!found) stop(), starts_ = true, contacts_.reset(), ends_.stop(system_.chain());
+    // The next one begins as after a reset, where the beam has stopped.  Where one has begun so it goes on without hands, away from there.
+    if (!found) contacts_.reset();
+    if (!found && stood && count > 0) found = true, contacts_.begin(system_, nullptr, 0), go_all();
+    if (!found) stop(), starts_ = true, ends_.stop(system_.chain());
+    system_.chain().move_with(nullptr, nullptr);
     system_.draw();
-    return found ? Status::ok : Status::iteration_limit;
+    return status;
   }
   /// A part of a step.  @param begin, end  of the way of the hands in it
   bool go_on(Scalar dt, Scalar begin, Scalar end, int halvings) noexcept {
