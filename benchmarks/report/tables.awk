@@ -215,7 +215,7 @@ function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, e
       continue
     }
     split(cell[k, "chosen"], own, /[; ]+/)
-    ++count[cell[k, "chosen"] ~ /plane that turns/ ? "planar" : own[1]]
+    ++count[own[1]]
     # To some kinds of awk "inf" is a number, to others 0.
     if (cell[k, "error"] == "inf") { ++missed; unanswered = "; not answered: some"; continue }
     error = cell[k, "error"] / cell[k, "tolerance"]
@@ -229,8 +229,7 @@ function chosen_rods(  k, n, kind, part, count, number, sum, none, overlooked, e
   for (k = 1; k <= n; ++k) text = text (k == 1 ? "" : ", ") number[kind[k]] + 0 " " kind[k]
   line("of " rows " scenes", text)
   rule(2)
-  line("a model was chosen", sprintf("%d: RoundRod %d, TwistedRod %d, planar in the plane that turns %d", rows - none, \
-    count["RoundRod"], count["TwistedRod"], count["planar"]))
+  line("a model was chosen", sprintf("%d: RoundRod %d, TwistedRod %d", rows - none, count["RoundRod"], count["TwistedRod"]))
   line("none was chosen, though a rod would have done on those pushes", overlooked + 0 " of " none + 0)
   line("error above the tolerance, on 60 pushes outside the pilot", sprintf("%d; at worst %.2f of it%s", missed, worst, unanswered))
   line("more than twice the fewest elements that keep the tolerance there", sprintf("%d; at most %s times", more, digits(most)))

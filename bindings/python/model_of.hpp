@@ -18,10 +18,7 @@ template <class Model, class Base>
 class ModelOf : public Base {
  protected:
   static constexpr int D = dimension_of<Model>;
-  static constexpr bool several = [] {
-    if constexpr (takes_push<Model>) return Model::contacts > 1;
-    else return false;
-  }();
+  static constexpr bool several = detail::takes_several<Model>;
 
  public:
   template <class... Args>

@@ -302,6 +302,19 @@ CentrelinePart<typename M::Scalar> part_of(const M& model, typename M::Scalar s0
 template <typename M>
 inline constexpr bool takes_push = detail::offers<detail::PushObstacles, M>;
 
+namespace detail {
+
+template <typename M>
+constexpr bool several_at_once() {
+  if constexpr (takes_push<M>) return M::contacts > 1;
+  else return false;
+}
+/// True where that are more than one.
+template <typename M>
+inline constexpr bool takes_several = several_at_once<M>();
+
+}  // namespace detail
+
 /// True where M has mass, noexcept included.
 template <typename M>
 inline constexpr bool has_mass = detail::offers<detail::StepWithHand, M>;

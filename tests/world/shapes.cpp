@@ -134,6 +134,6 @@ TEST_CASE("bodies that are none are refused by name", "[world]") {
   CHECK_THROWS_WITH(vessel().arc(0.1, {100, 100, 0}), ContainsSubstring("axis curvature"));
   CHECK_THROWS_WITH(RigidBody::field(nullptr, 0.1, 1), ContainsSubstring("body distance"));
   const auto plane = [](const Point& p) { return SurfaceDistance{p.z(), {0, 0, 1}}; };
-  CHECK_THROWS_WITH(RigidBody::field(plane, -1, 1), ContainsSubstring("body radius = -1 m"));
+  CHECK_THROWS_WITH(RigidBody::field(plane, -1, 1), ContainsSubstring("body depth = -1 m"));
   CHECK_THROWS_WITH(RigidBody::field(plane, 1, std::nan("")), ContainsSubstring("body size"));
 }

@@ -1,4 +1,4 @@
-// What a rod in the hand meets: the tubes of a vessel, and a ring where it touches.
+// What a rod in the hand meets: a vessel, and a ring where it touches.
 #pragma once
 
 #include <imgui.h>

@@ -50,9 +50,9 @@ class Touch {
  public:
   using Scalar = typename Model::Scalar;
   static constexpr int dimension = dimension_of<Model>;
-  static_assert(
-      dimension == 2 || takes_push<Model>,
-      "Touch<Model>: a Model in space must offer push(const Capsule<Scalar>&) and release(), each noexcept");
+  static_assert(dimension == 2 || takes_push<Model>,
+                "Touch<Model>: a Model in space must offer push(Obstacle<Scalar, 3>*, int) and release(), "
+                "each noexcept");
   using Vector = VectorOf<Scalar, dimension>;
   using Result = TouchResult<Scalar, dimension>;
 

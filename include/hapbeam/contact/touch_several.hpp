@@ -31,7 +31,7 @@ namespace hapbeam {
 template <class Model>
 class TouchSeveral {
   static_assert(
-      is_force_model<Model> && takes_push<Model>,
+      is_force_model<Model> && detail::takes_several<Model>,
       "TouchSeveral<Model>: Model must offer push(Obstacle<Scalar>*, int) and release(), each noexcept: "
       "FemModel<Several<Element, Contacts>>");
 

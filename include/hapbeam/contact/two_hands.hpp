@@ -56,7 +56,7 @@ class TwoHands {
  public:
   using Scalar = typename Model::Scalar;
   using Prop = hapbeam::Prop<dimension_of<Model>>;
-  static_assert(takes_push<Model>,
+  static_assert(detail::takes_several<Model>,
                 "TwoHands<Model>: Model must take several contacts: FemModel<Several<Element, 2>>");
 
   /// @param model  kept by reference   Allocates.   @throws std::invalid_argument naming what makes no sense

@@ -205,23 +205,24 @@ class DynamicModel {
     system_.chain().move_with(massless_ ? nullptr : &inertia_, viscosity_.none() ? nullptr : &viscosity_);
     const Scalar all = massless_ ? dt : (std::min)(dt, longest), part = all / Scalar(substeps_);
     const bool stood = starts_ && !massless_;
-    if (starts_ && !massless_) contacts_.begin(system_, nullptr, 0), (void)start(part, 1, most_halvings);
+    if (stood) contacts_.begin(system_, nullptr, 0), (void)start(part, 1, most_halvings);
     contacts_.begin(system_, hands, count);
     ends_.begin(all);
     // Without mass it takes its load at once, and creeps on.
     bool found = !starts_ || (go_on(part / 1000000, 0, 0, 0) && (stop(), start(part, 0, 0)));
-    const auto go_all = [&] {
-      for (int k = 0; k < substeps_ && found; ++k) {
-        found = go_on(part, Scalar(k) / Scalar(substeps_), Scalar(k + 1) / Scalar(substeps_), 0);
+    int parts = 0;
+    const auto go_far = [&] {
+      for (; parts < substeps_ && found; parts += found) {
+        found = go_on(part, Scalar(parts) / Scalar(substeps_), Scalar(parts + 1) / Scalar(substeps_), 0);
         if (found && listener_) listener_(listens_, *this, part);
       }
     };
-    go_all();
+    go_far();
     const Status status = found ? Status::ok : Status::iteration_limit;
     contacts_.end();
     // The next one begins as after a reset, where the beam has stopped.  Where one has begun so it goes on without hands, away from there.
     if (!found) contacts_.reset();
-    if (!found && stood && count > 0) found = true, contacts_.begin(system_, nullptr, 0), go_all();
+    if (!found && stood && count > 0) found = true, contacts_.begin(system_, nullptr, 0), go_far();
     if (!found) stop(), starts_ = true, ends_.stop(system_.chain());
     system_.chain().move_with(nullptr, nullptr);
     system_.draw();

@@ -5,7 +5,7 @@
 //   const auto [force, status] = model.press({0.5 * beam.length(), -2e-3});
 //
 // press() prescribes the transverse displacement of any place and returns the reaction (thesis eq. 3.40–3.42).  Elements of finite
-// rotation take a push() along any direction as well, and one by a circle.  The mesh stays; the place lies within an element.
+// rotation take a push() along any direction as well, and one by bodies.  The mesh stays; the place lies within an element.
 // A straight beam without dead loads, whose ends stand no closer than it is long and whose elements are exact under their tension, is
 // solved for the tension alone, without the error of a mesh (taut_system.hpp).  All else is solved for the displacements of all nodes
 // (all_displacements.hpp).  A beam with more than one shape at rest keeps to its branch; where that ends it falls to a stable shape,

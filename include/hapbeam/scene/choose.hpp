@@ -7,8 +7,8 @@
 //   std::puts(choice.text().c_str());                 // what was chosen, and which bound rejected what
 //   SceneModel model = build(scene, choice.model());
 //
-// Each family of models (three kinematics, halves of the beam where the scene is symmetric, two reductions) is tried at growing size on
-// the presses of a Pilot until its error is well below the tolerated one; of those that get there within the time, the cheapest is chosen.
+// Each family of models (three kinematics, two reductions) is tried at growing size on the presses of a Pilot until its error is well below
+// the tolerated one; of those that get there within the time, the cheapest is chosen.
 // Offline: allocates; takes tens of milliseconds, seconds for thin beams under dead loads; throws std::invalid_argument.
 #pragma once
 

@@ -55,7 +55,7 @@ class RigidBody {
   static RigidBody tube(const Vector& from, const Vector& to, double radius, const Friction& friction = {}) {
     return tube(ArcSpline::line(from, to), radius, friction);
   }
-  /// @param axis  bent by less than the radius
+  /// @param axis  its radius of curvature is larger than the radius
   static RigidBody tube(const ArcSpline& axis, double radius, const Friction& friction = {}) {
     if (!(axis.length() > 0)) detail::reject("tube length", axis.length(), "m", "more than 0");
     return RigidBody(Kind::tube, axis, detail::positive("body radius", radius, "m"), friction);
@@ -64,7 +64,8 @@ class RigidBody {
   /// @param depth  [m] half of where the body is thinnest: nothing that thick is passed   @param size  [m] no point of it is farther from the origin
   static RigidBody field(std::function<SurfaceDistance(const Vector&)> distance, double depth, double size,
                          const Friction& friction = {}) {
-    RigidBody body(Kind::field, ArcSpline(Vector::Zero()), depth, friction);
+    RigidBody body(Kind::field, ArcSpline(Vector::Zero()), detail::not_negative("body depth", depth, "m"),
+                   friction);
     if (!distance) detail::reject("body distance", 0, "", "a function");
     body.distance_ = std::move(distance), body.size_ = detail::positive("body size", size, "m");
     return body;

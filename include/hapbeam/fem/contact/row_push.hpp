@@ -78,7 +78,7 @@ class RowPush : private RowContacts<Element, System> {
     work_.forget(), balance_.forget(), continuation_.forget();
     let_go_.known = false;
   }
-  /// Lets go of a beam that one circle has begun to draw.   @return as AllDisplacements::let_go()
+  /// Lets go of the beam.   @return as AllDisplacements::let_go(); snapped where it falls farther than its last forces led it
   template <class Way>
   Status release(Way& way) noexcept {
     const LetGo<Scalar> before = let_go_;
@@ -95,8 +95,10 @@ class RowPush : private RowContacts<Element, System> {
     let_go_.known = false;
     for (int i = 0; i < count; ++i) {
       auto& pushed = all[i].pushed;
-      if (!is_answer(pushed.status) && !pushed.past_end) pushed = {0, Status::ok}, pushed.s = all[i].round.s;
-      if (this->elsewhere(system, all[i])) all[i].pushed = {0, Status::ok}, continuation_.forget();
+      const bool elsewhere = this->elsewhere(system, all[i]);
+      if (elsewhere) continuation_.forget();
+      if (elsewhere || (!is_answer(pushed.status) && !pushed.past_end))
+        pushed = {0, Status::ok}, pushed.s = all[i].round.s;
     }
     // A straight beam that one body presses has one shape for each press.
     if (count == 1 && way.single_valued_) {
