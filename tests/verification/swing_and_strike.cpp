@@ -239,7 +239,7 @@ TEST_CASE("a hand that begins within the beam pushes by its spring alone", "[dyn
 
 // A hand that jumps about until a step has no answer, and holds still then.
 TEST_CASE("after a step without an answer the hand is felt again", "[dynamics]") {
-  int failed = 0;
+  int failed = 0, sum = 0;
   for (int trial = 0; trial < 240; ++trial) {
     Random random(static_cast<std::uint64_t>(trial));
     DynamicModel<> model(ruler(), 8, 1 + trial % 4);
@@ -255,11 +255,13 @@ TEST_CASE("after a step without an answer the hand is felt again", "[dynamics]")
       unanswered += now.status != Status::ok, felt += now.force < 0;
     }
     CAPTURE(trial, x, y, unanswered, felt);
-    // Where the beam stayed as it was, what had no answer had none again: in one of a hundred trials for good.
-    CHECK(unanswered <= 10);
+    // Where the beam stayed as it was, what had no answer had none again: in one of a hundred trials for good, and 554 times in all.
+    CHECK(unanswered <= 30);
     CHECK(felt > 0);
+    sum += unanswered;
   }
   CHECK(failed > 120);
+  CHECK(sum <= 100);
 }
 
 // It is bent back over its root, and the hand is where it was straight.
