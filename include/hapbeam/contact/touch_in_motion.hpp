@@ -3,7 +3,8 @@
 //
 // A tick is a step of the model, in which hand and beam are coupled.  The hand is sought beside the beam, as by Touch: the side on which it
 // is stays while they touch, so that neither is tunnelled through.  Past an end it touches what is round there, or nothing.
-// Where the model has no answer it stops: the force is zero, and the next step begins from there at rest.
+// Where the model has no answer it stops: the force is zero, and the next step begins from there at rest.  If that has none either, the beam
+// goes on without the hand.
 // Allocates and throws in its constructor only.
 #pragma once
 
