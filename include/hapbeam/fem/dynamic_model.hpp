@@ -95,7 +95,8 @@ class DynamicModel {
   }
 
   /// Goes on by a time.   @param dt [s], not negative
-  /// @return ok | iteration_limit: it has stopped where a part had no solution, or gone on without hands where it had stopped before | invalid_request: nothing has changed
+  /// @return ok | iteration_limit: it has stopped where a part had no solution, or gone on without hands where it had stopped before |
+  ///         invalid_request: nothing has changed
   Status step(Scalar dt) noexcept { return go(dt, nullptr, 0); }
   /// The same with a hand, which moves evenly from where it was.   @return force and place at the end of the step; not limited in size.  out_of_range: as of
   /// FemModel::push()
