@@ -3,7 +3,7 @@
 //
 //   M q" + α M q' + V'(q) + what is viscous = forces
 //
-// step() goes on by a time, alone or with a hand.  Each of its parts is a static solve with one term more, the inertia (dynamics.hpp): the elements, supports
+// step() goes on by a time, alone or with a hand.  Each of its parts is a static solve with one term more, the inertia (motion/tr_bdf2.hpp): the elements, supports
 // and contacts are those of FemModel, and the beam stays where that does.  A hand touches through its coupling, a spring and a damper, within the step: a
 // massless avatar between them has no place of its own, so that no blow is infinite.  Where a part has no solution it is taken back and halved.
 // A beam without density, of a material that is viscous, creeps: each part is static, and steps may be as long as they like.
@@ -11,13 +11,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <hapbeam/element/corotational.hpp>
-#include <hapbeam/element/hermite.hpp>
 #include <hapbeam/fem/contact/coupled_contacts.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/fem/motion/chain_motion.hpp>
 
 namespace hapbeam {
 
@@ -30,7 +29,7 @@ class DynamicModel {
                 "DynamicModel takes elements of finite rotation, as Corotational<> and RoundRod");
   using System = typename detail::SystemOf<Element>::template System<ScalarType, Elements, MaxElements>;
   using Chain = typename System::Chain;
-  using Placed = typename Chain::Inertia::Placed;
+  using Motion = detail::ChainMotion<System, Elements, MaxElements>;
 
  public:
   using Scalar = ScalarType;
@@ -42,29 +41,22 @@ class DynamicModel {
   /// Hands that may touch it at once.
   static constexpr int contacts = contacts_of<Element>;
   /// No step is longer: what a late tick has missed is left out [s].
-  static constexpr Scalar longest = Scalar(2e-3);
-  /// Times that a part is halved.
-  static constexpr int most_halvings = 3;
+  static constexpr Scalar longest = static_cast<Scalar>(longest_step);
 
   /// At rest under its dead loads.
   /// @param substeps  parts of a step, each of two solves
   /// @throws std::invalid_argument where the beam has no density and is not viscous, or shears, or as FemModel
   DynamicModel(const Body& beam, int elements, int substeps = 4)
       : system_(beam, elements),
-        inertia_(beam, elements, [this](int i) { return system_.node(i).s; }),
-        steps_(elements),
+        motion_(beam, elements, system_),
         rest_(elements),
-        before_(elements),
-        last_(elements),
+        shape_(elements),
         substeps_(substeps),
-        massless_(!(beam.mass_per_length(beam.length() / 2) > 0)),
         thickness_(static_cast<Scalar>(beam.thickness())),
-        drag_(Chain::drag(beam)),
-        viscosity_(beam, elements, system_.parts()),
         contacts_(PressRange<Scalar>(beam).range(), detail::anchored(beam.left()),
                   detail::anchored(beam.right())) {
     if (substeps < 1) detail::reject("substeps", substeps, "", "1 or more");
-    if (massless_ && viscosity_.none())
+    if (motion_.massless() && !motion_.viscosity())
       detail::reject("density", 0, "kg/m³", "known for a beam that moves: Material{young, density}");
     // Its sections would turn with a mass of their own.
     if constexpr (dimension == 2)
@@ -76,7 +68,7 @@ class DynamicModel {
     if constexpr (dimension == 3) (void)NewtonRaphson().solve(system_);
     system_.keep(rest_);
     reset();
-    if constexpr (dimension == 2) inertia_.draw(rest_.nodes);
+    if constexpr (dimension == 2) motion_.draw(system_);
   }
 
   /// Back to rest.
@@ -84,14 +76,14 @@ class DynamicModel {
   /// Lets it go from another shape, without velocity.   @param shape  of the same beam, as of a FemModel
   void let_go_from(const Centreline<Scalar, dimension>& shape) noexcept {
     system_.chain().lay(shape);
-    system_.keep(before_);
-    begin(before_);
+    system_.keep(shape_);
+    begin(shape_);
   }
   /// The same, and thrown.   @param velocity  (s) -> that of the centreline there, and how that changes along it, below each other [m/s, 1/s]
   template <class Velocity>
   void let_go_from(const Centreline<Scalar, dimension>& shape, Velocity&& velocity) noexcept {
     let_go_from(shape);
-    steps_.throw_at([&](int i) { return velocity(system_.node(i).s); });
+    motion_.step.throw_at([&](int i) { return velocity(system_.node(i).s); });
   }
 
   /// Goes on by a time.   @param dt [s], not negative
@@ -121,37 +113,26 @@ class DynamicModel {
   Scalar thickness() const noexcept { return thickness_; }  ///< [m]
   Centreline<Scalar, dimension> shape() const noexcept { return system_.drawn(); }
   /// [m/s] at arc position s.
-  Vector velocity(Scalar s) const noexcept {
-    const auto line = system_.centreline();
-    const int e = line.segment_at(s);
-    const Scalar l = line[e + 1].s - line[e].s;
-    const auto h = ShapeFunctions<Scalar>((s - line[e].s) / l, l).w;  // of θ, which is -w'
-    const auto &a = steps_[e].v, &b = steps_[e + 1].v;
-    return h[0] * a.template head<dimension>() - h[1] * a.template segment<dimension>(dimension) +
-           h[2] * b.template head<dimension>() - h[3] * b.template segment<dimension>(dimension);
-  }
-  struct Energy {
-    Scalar kinetic, strain, loads;  ///< [J], the last of the dead loads
-    Scalar sum() const noexcept { return kinetic + strain + loads; }
-  };
+  Vector velocity(Scalar s) const noexcept { return motion_.velocity(system_, s); }
+  using Energy = EnergyInMotion<Scalar>;
   Energy energy() const noexcept {
     const Scalar strain = system_.strain_energy();
-    return {kinetic(), strain + viscosity_.energy(), system_.total_potential() - strain};
+    return {motion_.kinetic(), strain + motion_.stored(), system_.total_potential() - strain};
   }
   /// Leads an end of a rod to a pose in the next step, along the parabola of this pose and the two before.  The end is clamped, or on springs,
   /// of which the pose then is.  A step that has no answer leaves it where it has come to.   @param damper  beside those springs
   /// @return ok | invalid_request: it is held otherwise, or an argument makes no sense; nothing has changed
   template <class Side, class Pose, class Damper = HoldDamper>
   Status hold(Side side, const Pose& pose, const Damper& damper = {}) noexcept {
-    const bool valid = ends_.lead(system_.chain(), static_cast<std::size_t>(side), pose, damper);
+    const bool valid = motion_.ends.lead(system_.chain(), static_cast<std::size_t>(side), pose, damper);
     return valid ? Status::ok : Status::invalid_request;
   }
   /// Of what holds an end on the body, inertia and viscosity taken into account: in the plane along x and w [N], and moment [N·m]; in space a
   /// HeldEnd, with moment about the end.   @param side  0 | RodSide::left, 1 | RodSide::right
   template <class Side>
   auto reaction(Side side) const noexcept {
-    return system_.reaction(static_cast<std::size_t>(side), starts_ || massless_ ? nullptr : &inertia_,
-                            starts_ || viscosity_.none() ? nullptr : &viscosity_);
+    return system_.reaction(static_cast<std::size_t>(side), starts_ ? nullptr : motion_.inertia(),
+                            starts_ ? nullptr : motion_.viscosity());
   }
 
   /// Called at the end of each part of a step.   @param part  its length [s]
@@ -163,37 +144,26 @@ class DynamicModel {
   int solves() const noexcept { return solves_; }
 
  private:
-  Scalar kinetic() const noexcept {
-    return inertia_.energy([this](int i) -> const auto& { return steps_[i].v; });
-  }
+  using Step = typename Motion::Step;
+  template <class Moving, typename S>
+  friend bool detail::go_on(Moving&, S, S, S, int) noexcept;
+  template <class Moving, typename S>
+  friend bool detail::start(Moving&, S, S, int) noexcept;
+
   void begin(const typename System::State& state) noexcept {
     system_.set_state(state);
-    system_.keep(last_);
-    inertia_.begin_stage(last_.nodes, [](int) { return Placed(Placed::Zero()); });
-    stop();
-    viscosity_.relax(system_.parts());
+    motion_.begin(system_);
     contacts_.reset();
-    ends_.stay(system_.chain());
+    motion_.ends.stay(system_.chain());
     system_.set_goal();
     system_.set_target(1);  // all of the dead loads
-    for (auto& curvature : curvature_) curvature = {};
+    motion_.curvature = {};
     starts_ = true;
     system_.draw();
   }
-  /// All velocity is gone.
-  void stop() noexcept {
-    const auto& at = inertia_.find(system_.parts().nodes());
-    steps_.stop([&at](int i) { return at[i]; });
-    viscosity_.stop();
-  }
-  /// From rest it has the accelerations and rates that a hundredth of the first part has.   @param end  of the way of the hands
   bool start(Scalar part, Scalar end, int halvings) noexcept {
     starts_ = false;
-    if (!go_on(part / 100, 0, end, halvings)) return false;
-    steps_.start_again();
-    viscosity_.start_again();
-    system_.set_state(before_);
-    return true;
+    return detail::start(*this, part, end, halvings);
   }
 
   Status go(Scalar dt, const Hand* hands, int count) noexcept {
@@ -203,18 +173,19 @@ class DynamicModel {
       valid = is_finite(hands[i].hand) && hands[i].stiffness > 0 && hands[i].damping >= 0;
     if (!valid) return Status::invalid_request;
     if (!(dt > 0)) return Status::ok;
-    system_.chain().move_with(massless_ ? nullptr : &inertia_, viscosity_.none() ? nullptr : &viscosity_);
-    const Scalar all = massless_ ? dt : (std::min)(dt, longest), part = all / Scalar(substeps_);
-    const bool stood = starts_ && !massless_;
-    if (stood) contacts_.begin(system_, nullptr, 0), (void)start(part, 1, most_halvings);
+    system_.chain().move_with(motion_.inertia(), motion_.viscosity());
+    const bool massless = motion_.massless();
+    const Scalar all = massless ? dt : (std::min)(dt, longest), part = all / Scalar(substeps_);
+    const bool stood = starts_ && !massless;
+    if (stood) contacts_.begin(system_, nullptr, 0), (void)start(part, 1, detail::most_halvings);
     contacts_.begin(system_, hands, count);
-    ends_.begin(all);
+    motion_.ends.begin(all);
     // Without mass it takes its load at once, and creeps on.
-    bool found = !starts_ || (go_on(part / 1000000, 0, 0, 0) && (stop(), start(part, 0, 0)));
+    bool found = !starts_ || (go_on(part / 1000000, 0, 0) && (motion_.stop(system_), start(part, 0, 0)));
     int parts = 0;
     const auto go_far = [&] {
       for (; parts < substeps_ && found; parts += found) {
-        found = go_on(part, Scalar(parts) / Scalar(substeps_), Scalar(parts + 1) / Scalar(substeps_), 0);
+        found = go_on(part, Scalar(parts) / Scalar(substeps_), Scalar(parts + 1) / Scalar(substeps_));
         if (found && listener_) listener_(listens_, *this, part);
       }
     };
@@ -224,77 +195,56 @@ class DynamicModel {
     // The next one begins as after a reset, where the beam has stopped.  Where one has begun so it goes on without hands, away from there.
     if (!found) contacts_.reset();
     if (!found && stood && count > 0) found = true, contacts_.begin(system_, nullptr, 0), go_far();
-    if (!found) stop(), starts_ = true, ends_.stop(system_.chain());
+    if (!found) motion_.stop(system_), starts_ = true, motion_.ends.stop(system_.chain());
     system_.chain().move_with(nullptr, nullptr);
     system_.draw();
     return status;
   }
-  /// A part of a step.  @param begin, end  of the way of the hands in it
-  bool go_on(Scalar dt, Scalar begin, Scalar end, int halvings) noexcept {
-    system_.keep(before_);
-    const auto touched = contacts_.kept();
-    steps_.begin(dt, drag_);
-    viscosity_.begin(steps_.rate());
-    inertia_.set_scale(kinetic());
-    bool found = true;
-    Scalar from = begin;
-    for (int stage = 0; stage < steps_.stages && found; ++stage) {
-      const Scalar to = begin + steps_.end(stage) * (end - begin);
-      ends_.aim(system_.chain(), from, to, steps_.length(stage));
-      found = solve(stage, to, !massless_ && halvings == 0), from = to;
-    }
-    if (found) return ends_.settle(system_.chain(), end), true;
-    system_.set_state(before_);
-    steps_.take_back();
-    viscosity_.take_back();
-    contacts_.take_back(touched);
-    const Scalar middle = (begin + end) / 2;
-    return halvings < most_halvings && go_on(dt / 2, begin, middle, halvings + 1) &&
-           go_on(dt / 2, middle, end, halvings + 1);
+  bool go_on(Scalar dt, Scalar begin, Scalar end) noexcept { return detail::go_on(*this, dt, begin, end, 0); }
+
+  // Of its parts.
+
+  auto begin_part(Scalar dt, Scalar) noexcept {
+    motion_.begin_part(system_, dt);
+    return contacts_.kept();
   }
-  /// One stage.   @param way  of the hands   @param foresees  whether nodes begin where their accelerations lead, else where they are:
-  /// beyond a sudden change those lead far off
-  bool solve(int stage, Scalar way, bool foresees) noexcept {
-    steps_.aim(stage, inertia_);
-    viscosity_.aim(stage);
+  void end_part(Scalar end) noexcept { motion_.ends.settle(system_.chain(), end); }
+  template <class Kept>
+  void take_back(const Kept& kept) noexcept {
+    motion_.take_back(system_);
+    contacts_.take_back(kept);
+  }
+  void start_again() noexcept { motion_.start_again(system_); }
+  /// One stage.   @param from, to  of the way of the hands   @param whole  the part has not been halved
+  bool solve(int stage, Scalar from, Scalar to, bool whole) noexcept {
+    const bool foresees = whole && !motion_.massless();
+    const Scalar time = motion_.step.length(stage);
+    motion_.ends.aim(system_.chain(), from, to, time);
     contacts_.draw(system_);
-    // Tensions go on as they went, and nodes as their accelerations say.
-    const Scalar onward = foresees ? steps_.onward(stage) : Scalar(0);
-    system_.go_on(last_, onward);
-    inertia_.begin_stage(last_.nodes, [&](int i) { return steps_.start(stage, i).q; });
-    if (foresees)
-      system_.place([&](int i) {
-        return Chain::moved(last_.nodes[i], steps_.start(stage, i).q, steps_.foreseen(stage, i));
-      });
-    const bool found = contacts_.solve(system_, steps_.length(stage), way, onward, [&](bool touched) {
-      NewtonRaphson solver;
-      solver.pairs_differ = massless_;
-      if (!touched) solver.relative_tolerance = free_tolerance;
-      const auto report = solver.solve(system_, Scalar(1), &curvature_[stage]);
-      solves_ += report.solves;
-      return report.status == Status::ok;
-    });
-    if (!found) return false;
-    const auto& found_at = inertia_.find(system_.parts().nodes());
-    for (int i = 0; i <= system_.elements(); ++i) steps_.know(stage, i, found_at[i]);
-    viscosity_.know(stage, system_.parts());
-    return true;
+    motion_.aim(system_, stage, foresees);
+    const bool found = contacts_.solve(
+        system_, time, to, foresees ? motion_.step.onward(stage) : Scalar(0), [&](bool touched) {
+          NewtonRaphson solver;
+          solver.pairs_differ = motion_.massless();
+          if (!touched) solver.relative_tolerance = free_tolerance;
+          const auto report =
+              solver.solve(system_, Scalar(1), &motion_.curvature[static_cast<std::size_t>(stage)]);
+          solves_ += report.solves;
+          return report.status == Status::ok;
+        });
+    if (found) motion_.know(system_, stage);
+    return found;
   }
 
   static constexpr double free_tolerance = 1e-9;  // errors of steps add up where no hand is
 
   System system_;
-  typename Chain::Inertia inertia_;
-  TrBdf2<Scalar, Elements, MaxElements, Placed::RowsAtCompileTime> steps_;
-  typename System::State rest_, before_, last_;  // at rest, before a part, and before the last stage
-  Curvature<Scalar> curvature_[2];               // of both stages
+  Motion motion_;
+  typename System::State rest_, shape_;  // at rest, and what it was let go from
   int substeps_, solves_ = 0;
-  bool massless_, starts_ = true;
+  bool starts_ = true;
   Scalar thickness_;
-  Scalar drag_;
-  typename Chain::Viscosity viscosity_;
   detail::CoupledContacts<System, contacts> contacts_;
-  typename Chain::LedEnds ends_;
   void* listens_ = nullptr;
   Listener listener_ = nullptr;
 };

@@ -4,7 +4,7 @@
 //
 //   σ = E (ε + τ ε' + Σ g_i h_i),   h_i' = ε' - h_i/τ_i
 //
-// ε are the strain and the bending of an element, by the cubic.  With r of the step (dynamics.hpp) a stage has
+// ε are the strain and the bending of an element, by the cubic.  With r of the step (motion/tr_bdf2.hpp) a stage has
 //   ε' = r (ε - ε^),   h_i = (h^_i + ε - ε^)/(1 + 1/(r τ_i))
 // so that all of it is E κ (ε - ε°), with κ = τ r + Σ g_i/(1 + 1/(r τ_i)) and ε° from what was.
 // Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(n).
@@ -16,7 +16,7 @@
 #include <hapbeam/beam.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/tapered.hpp>
-#include <hapbeam/fem/dynamics.hpp>
+#include <hapbeam/fem/motion/tr_bdf2.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 
 namespace hapbeam::detail {
