@@ -70,6 +70,7 @@ class RodChain {
   const Parts& parts() const noexcept { return parts_; }
   /// Of what it is in motion with; null: at rest.
   void move_with(Inertia* inertia, const Viscosity*) noexcept { inertia_ = inertia; }
+  bool in_motion() const noexcept { return inertia_ != nullptr; }
 
   // Nodes of ChainSystem's states.
 

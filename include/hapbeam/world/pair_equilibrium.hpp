@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -40,9 +41,14 @@ class PairEquilibrium {
   const System& system() const noexcept { return system_; }
 
   /// Begins a tick.
-  void begin() noexcept { solves_ = 0, changed_ = false, failure_ = Status::iteration_limit; }
+  void begin() noexcept {
+    solves_ = 0, most_solves_ = solver_.max_solves, changed_ = false, failure_ = Status::iteration_limit;
+    kind_ = 0;
+  }
+  /// Begins a stage, 0 or 1, of a step of time.
+  void begin_stage(int stage) noexcept { most_solves_ = solves_ + solver_.max_solves, kind_ = 1 + stage; }
   int solves() const noexcept { return solves_; }
-  int left() const noexcept { return solver_.max_solves - solves_; }
+  int left() const noexcept { return most_solves_ - solves_; }
   /// Whether another pair touches than before begin().
   bool changed() const noexcept { return changed_; }
   /// Why the last step was lost.
@@ -63,8 +69,10 @@ class PairEquilibrium {
       if (left() <= 0) return Outcome::too_far;
       NewtonRaphson solver = solver_;
       solver.max_solves = left();
+      if (kind_ > 0) solver.relative_tolerance = in_time;
       solver.max_iterations = (std::min)(solver.max_iterations, pass == 0 ? 8 : 16);
-      const SolveReport<double> report = solver.solve(system_, 1, pass == 0 ? &curvature_ : &unknown);
+      const SolveReport<double> report =
+          solver.solve(system_, 1, pass == 0 ? &curvature_[std::size_t(kind_)] : &unknown);
       solves_ += report.solves;
       if (report.status != Status::ok) {
         system_.restore();
@@ -95,7 +103,9 @@ class PairEquilibrium {
         if (tries++ < most_tries) continue;
         return failure_ = Status::iteration_limit, Outcome::lost;
       }
-      return gives_way() ? (failure_ = Status::iteration_limit, Outcome::lost) : Outcome::settled;
+      // What is in motion may be on its way down.
+      return kind_ == 0 && gives_way() ? (failure_ = Status::iteration_limit, Outcome::lost)
+                                       : Outcome::settled;
     }
     return failure_ = Status::iteration_limit, Outcome::lost;
   }
@@ -143,6 +153,7 @@ class PairEquilibrium {
 
  private:
   static constexpr double nothing = 1e-6, apart = 1e-3;  // of a reach
+  static constexpr double in_time = 1e-9;                // of the force: errors of steps add up
   static constexpr int most_tries = 7;                   // of friction to settle
 
   bool gives_way() noexcept {
@@ -221,8 +232,8 @@ class PairEquilibrium {
 
   System system_;
   NewtonRaphson solver_;
-  Curvature<double> curvature_;
-  int solves_ = 0;
+  std::array<Curvature<double>, 3> curvature_;   // of equilibria, and of both stages of a step of time
+  int solves_ = 0, most_solves_ = 0, kind_ = 0;  // the last: which of them
   bool changed_ = false, on_ridge_ = false;
   Status failure_ = Status::iteration_limit;
 };

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@
 
 #include <hapbeam/contact/box.hpp>
 #include <hapbeam/fem/load_path.hpp>
+#include <hapbeam/fem/motion/chain_motion.hpp>
 #include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/world/pair_sides.hpp>
@@ -31,6 +33,7 @@ class RodBody {
   using Chain = typename System::Chain;
   using State = typename System::State;
   using Sides = PairSides<Chain>;
+  using Motion = ChainMotion<System, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = VectorOf<double, 3>;
   using Hand = VectorOf<double, 18>;  // both ends: at, along and director times the length [m]
 
@@ -45,6 +48,10 @@ class RodBody {
         rest_(elements),
         swept_(BoxTree<double, 3>::leaves_for(elements)),
         radius_(rod.thickness() / 2) {
+    if (rod.mass_per_length(rod.length() / 2) > 0) {
+      chain().parts().swing();
+      motion.emplace(rod, elements, system_);
+    }
     if (rod.held()) find_rest();
     keep_rest();
     reset();
@@ -54,6 +61,7 @@ class RodBody {
   /// A node holds it by so much, which a joint there takes back: no solution changes [N/m].
   void lend(int node, double stiffness) { lent_.push_back({node, stiffness}); }
 
+  System& system() noexcept { return system_; }
   const System& system() const noexcept { return system_; }
   Chain& chain() noexcept { return system_.chain(); }
   double radius() const noexcept { return radius_; }
@@ -65,6 +73,7 @@ class RodBody {
   void reset() noexcept {
     restart();
     for (std::size_t k = 0; k < 2; ++k) chain().ends()[k].place_home();
+    if (motion) motion->ends.stay(chain());
     for (auto& force : held_) force.setZero();
     hand_.setZero(), hand_next_.setZero(), step_.setZero();
   }
@@ -81,9 +90,9 @@ class RodBody {
 
   // The path of its ends.
 
-  /// @return whether the end can be placed, and the pose is one
-  bool place_end(std::size_t k, RodPose pose) noexcept {
-    if (!chain().place_end(k, pose)) return false;
+  /// @param damper  in motion   @return whether the end can be placed, and the pose is one
+  bool place_end(std::size_t k, RodPose pose, const HoldDamper& damper) noexcept {
+    if ((motion && !motion->ends.lead(chain(), k, pose, damper)) || !chain().place_end(k, pose)) return false;
     (void)pose.make_valid();
     hand_next_.segment<9>(9 * static_cast<int>(k)) << pose.at, length() * pose.along,
         length() * pose.director;
@@ -91,7 +100,10 @@ class RodBody {
     return true;
   }
   void begin_path() noexcept { chain().ends().begin_path(chain().parts().nodes()); }
-  void set_target(double t) noexcept { chain().ends().set_target(t); }
+  /// In a step of time its ends are led by that.
+  void set_target(double t) noexcept {
+    if (!chain().in_motion()) chain().ends().set_target(t);
+  }
   /// Of the hands since the last one: its product with the one before, and the squares of both.
   std::array<double, 3> take_step() noexcept {
     const Hand step = hand_next_ - hand_;
@@ -190,7 +202,8 @@ class RodBody {
 
   bool moves = true;  // it is solved for
   Sides sides;
-  State saved, before;  // of the last equilibrium, and of that of the tick before
+  std::optional<Motion> motion;  // of a rod with mass
+  State saved, before;           // of the last equilibrium, and of that of the tick before
 
  private:
   static constexpr int unknowns = Element::unknowns;

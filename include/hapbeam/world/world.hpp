@@ -21,7 +21,7 @@
 #include <vector>
 
 #include <hapbeam/force_model.hpp>
-#include <hapbeam/world/pair_equilibrium.hpp>
+#include <hapbeam/world/pair_motion.hpp>
 
 namespace hapbeam {
 
@@ -37,7 +37,6 @@ class World {
   explicit World(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& bodies = {},
                  const std::vector<BallJoint>& joints = {}, const NewtonRaphson& solver = {})
       : equilibrium_(rods, bodies, joints, solver) {
-    if (rods.empty()) throw std::invalid_argument("rods = 0: must be 1 or more");
     look_at_rest();
     if (!joints.empty()) join();
   }
@@ -47,10 +46,12 @@ class World {
   Centreline<double, 3> shape(int rod) const noexcept { return system().body(rod).line(); }
 
   /// Where an end of a rod is to be from the next tick on.   @param rod  0 to rods() - 1
-  /// @return ok | invalid_request, where the end is neither clamped nor on springs, or the pose is none: nothing has changed
-  [[nodiscard]] Status hold(int rod, RodSide side, const RodPose& pose) noexcept {
-    return system().body(rod).place_end(static_cast<std::size_t>(side), pose) ? Status::ok
-                                                                              : Status::invalid_request;
+  /// @param damper  beside the springs of an end, in step()
+  /// @return ok | invalid_request, where the end is neither clamped nor on springs, or an argument makes no sense: nothing has changed
+  [[nodiscard]] Status hold(int rod, RodSide side, const RodPose& pose,
+                            const HoldDamper& damper = {}) noexcept {
+    const bool placed = system().body(rod).place_end(static_cast<std::size_t>(side), pose, damper);
+    return placed ? Status::ok : Status::invalid_request;
   }
   /// Where a body is to be from the next tick on.   @param body  0-based   @param pose  of the frame in which it was built
   /// @return ok | invalid_request, where the pose is none: nothing has changed
@@ -74,7 +75,7 @@ class World {
       if (outcome == Outcome::settled) {
         t = to, step = step > 0 ? (std::min)(4 * step, farthest) : 1.0, unmoved_ = 0;
         if (course_ == Course::falls) course_ = Course::has_fallen;
-        accept();
+        equilibrium_.accept();
         continue;
       }
       // A fall stays where it has come.
@@ -111,7 +112,7 @@ class World {
   }
   /// What holds an end.
   HeldEnd<double> held(int rod, RodSide side) const noexcept {
-    const auto& [force, moment] = held_[2 * static_cast<std::size_t>(rod) + static_cast<std::size_t>(side)];
+    const auto& [force, moment] = equilibrium_.held(at(rod), static_cast<std::size_t>(side));
     return {force, moment, status_};
   }
   /// Of a joint on its first rod [N].
@@ -144,7 +145,7 @@ class World {
     return energy;
   }
   /// What friction has taken since the start or reset() [J].
-  double dissipated() const noexcept { return dissipated_; }
+  double dissipated() const noexcept { return equilibrium_.dissipated(); }
   /// Linear solves of the last tick.
   int solves() const noexcept { return equilibrium_.solves(); }
   /// Everything is as after construction.
@@ -152,8 +153,40 @@ class World {
     restart();
     for (Body& body : system().bodies()) body.reset();
     for (detail::PlacedBody& body : system().rigid()) body.reset();
-    status_ = Status::ok, dissipated_ = 0;
-    for (auto& hold : held_) hold = {Vector::Zero(), Vector::Zero()};
+    status_ = Status::ok;
+    equilibrium_.reset();
+  }
+
+  // Rods with mass.
+
+  /// Goes on by a time, no more than longest_step at once; ends and bodies go evenly to where they are to be.  After tick() or reset() rods start without velocity.
+  /// @param dt [s], not negative   @param parts  of the step, each of two stages
+  /// @return ok | out_of_range, as of tick() | iteration_limit: all has stopped where a part had no answer | invalid_request: rods have no density, or an argument makes no
+  /// sense, and nothing has changed
+  Status step(double dt, int parts = 4) noexcept {
+    if (!equilibrium_.has_mass() || !(dt >= 0) || !std::isfinite(dt) || parts < 1)
+      return Status::invalid_request;
+    if (!(dt > 0)) return Status::ok;
+    restart_path();
+    const bool found = equilibrium_.step((std::min)(dt, longest_step), parts);
+    return status_ = !found                 ? Status::iteration_limit
+                     : system().overdrawn() ? Status::out_of_range
+                                            : Status::ok;
+  }
+  /// Gives a rod with mass a velocity.   @param velocity  (s) -> that of the centreline there, and how that changes along it, below each other [m/s, 1/s]
+  template <class Velocity>
+  void throw_rod(int rod, Velocity&& velocity) noexcept {
+    equilibrium_.throw_rod(at(rod), velocity);
+  }
+  /// Of a rod with mass at arc position s [m/s].
+  VectorOf<double, 3> velocity(int rod, double s) const noexcept {
+    const Body& body = system().body(rod);
+    return body.motion->velocity(body.system(), s);
+  }
+  EnergyInMotion<double> energy() const noexcept {
+    double work = 0;
+    for (const Body& body : system().bodies()) work += body.parts().work(1);
+    return {equilibrium_.kinetic(), strain_energy(), -work};
   }
 
  private:
@@ -163,7 +196,7 @@ class World {
     has_fallen,  ///< which no status has told yet
   };
   using Outcome = detail::Outcome;
-  using Equilibrium = detail::PairEquilibrium<Element>;
+  using Equilibrium = detail::PairMotion<Element>;
   using Body = typename Equilibrium::Body;
   using Vector = VectorOf<double, 3>;
   using Pairs = std::array<detail::RodPair, std::size_t(most_contacts)>;
@@ -178,7 +211,7 @@ class World {
 
   /// @return whether anything moves
   bool begin() noexcept {
-    equilibrium_.begin();
+    equilibrium_.begin(), equilibrium_.rest();
     system().spread(), system().begin_joints();
     double along = 0, square = 0, before = 0;
     bool moving = false;
@@ -210,15 +243,6 @@ class World {
     }
     ++known_;
   }
-  void accept() noexcept {
-    dissipated_ += system().leave_friction();
-    system().save();
-    for (int i = 0; i < rods(); ++i) {
-      Body& body = system().body(i);
-      if (!body.moves) continue;
-      for (std::size_t k = 0; k < 2; ++k) held_[2 * at(i) + k] = body.held(k);
-    }
-  }
   /// Nothing moves until a hand does.
   void rest() noexcept {
     for (Body& body : system().bodies()) body.moves = false;
@@ -229,9 +253,10 @@ class World {
     system().clear();
     for (Body& body : system().bodies()) body.restart();
     for (detail::PlacedBody& body : system().rigid()) body.restart();
-    course_ = Course::follows, known_ = unmoved_ = 0, step_ = 1;
+    restart_path();
     system().save();
   }
+  void restart_path() noexcept { course_ = Course::follows, known_ = unmoved_ = 0, step_ = 1; }
 
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -247,7 +272,6 @@ class World {
   }
   /// @throws std::invalid_argument where rods lie in each other or in bodies
   void look_at_rest() {
-    held_.resize(2 * at(rods()));
     reset();
     const detail::Look look = detail::look_around(system());
     if (look.least >= Equilibrium::closest) return;
@@ -260,12 +284,10 @@ class World {
   }
 
   Equilibrium equilibrium_;
-  Pairs before_;                             // what touched in the tick before
-  std::vector<std::array<Vector, 2>> held_;  // force and moment at the ends, two a rod
-  int known_ = 0;                            // ticks in a row that went on with the same pairs
-  int unmoved_ = 0;                          // ticks in a row that have led nowhere
-  double step_ = 1;                          // of a path, to be tried first
-  double dissipated_ = 0;                    // [J]
+  Pairs before_;     // what touched in the tick before
+  int known_ = 0;    // ticks in a row that went on with the same pairs
+  int unmoved_ = 0;  // ticks in a row that have led nowhere
+  double step_ = 1;  // of a path, to be tried first
   Course course_ = Course::follows;
   Status status_ = Status::ok;
 };

@@ -50,7 +50,8 @@ class WorldPairs {
     bodies_.reserve(rods.size());
     for (std::size_t i = 0; i < rods.size(); ++i) {
       rods[i].friction.check();
-      if (at(away[i]) > rods.size()) jointed[i].check_held();
+      if (at(away[i]) > rods.size() && !(jointed[i].mass_per_length(jointed[i].length() / 2) > 0))
+        jointed[i].check_held();
       bodies_.emplace_back(jointed[i], rods[i].elements, *equations_);
       frictions_.push_back(rods[i].friction);
     }
@@ -105,6 +106,12 @@ class WorldPairs {
     rest_number_ = number_, rest_ = pairs_;
   }
 
+  struct Pairs {
+    std::array<RodPair, most_pairs> pair;
+    int number;
+  };
+  Pairs kept_pairs() const noexcept { return {pairs_, number_}; }
+  void set_pairs(const Pairs& kept) noexcept { pairs_ = kept.pair, number_ = kept.number; }
   int pairs() const noexcept { return number_; }
   RodPair& pair(int k) noexcept { return pairs_[at(k)]; }
   const RodPair& pair(int k) const noexcept { return pairs_[at(k)]; }

@@ -31,6 +31,15 @@ class LedEnds {
       led_[k].damper = {}, led_[k].path.stay(end.goal());
     }
   }
+  /// They are where they have come to, and go on to their goals.
+  void take_over(Chain& chain) noexcept {
+    for (std::size_t k = 0; k < 2; ++k) {
+      auto& end = chain.ends()[k];
+      const Node goal = end.goal();
+      led_[k].path.stay(end.target()), led_[k].path.lead(goal);
+      place(end, end.target(), led_[k].damper);
+    }
+  }
   /// Where an end goes in the next step, and what of its springs is a damper.
   /// @return false where it is neither clamped nor on springs, or an argument makes no sense: nothing has changed
   bool lead(Chain& chain, std::size_t k, RodPose pose, const HoldDamper& damper) noexcept {

@@ -55,6 +55,7 @@ class RodEnd {
     set_target(1);
   }
   const Node& goal() const noexcept { return goal_; }
+  const Node& target() const noexcept { return target_; }
 
   /// Its goal is where it belongs at rest.
   void place_home() noexcept {
