@@ -45,8 +45,11 @@ class PairEquilibrium {
     solves_ = 0, most_solves_ = solver_.max_solves, changed_ = false, failure_ = Status::iteration_limit;
     kind_ = 0;
   }
-  /// Begins a stage, 0 or 1, of a step of time.
-  void begin_stage(int stage) noexcept { most_solves_ = solves_ + solver_.max_solves, kind_ = 1 + stage; }
+  /// Begins a stage, 0 or 1, of a step of time.   @param known  whether that of the step before tells how linear it is
+  void begin_stage(int stage, bool known) noexcept {
+    most_solves_ = solves_ + solver_.max_solves, kind_ = 1 + stage;
+    if (!known) curvature_[std::size_t(kind_)] = {};
+  }
   int solves() const noexcept { return solves_; }
   int left() const noexcept { return most_solves_ - solves_; }
   /// Whether another pair touches than before begin().

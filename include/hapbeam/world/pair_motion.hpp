@@ -153,13 +153,15 @@ class PairMotion : public PairEquilibrium<Element> {
   }
   bool solve(int stage, double from, double to, bool whole) noexcept {
     system().aim(to);
-    for (;;) {
+    for (bool free = true;;) {
       each([&](Body& body) {
         Motion& motion = *body.motion;
+        const bool touched = motion.step.rule() == Step::Rule::euler;
+        free = free && !touched;
         motion.ends.aim(body.chain(), from, to, motion.step.length(stage));
-        motion.aim(body.system(), stage, whole && motion.step.rule() == Step::Rule::second_order);
+        motion.aim(body.system(), stage, whole && !touched);
       });
-      this->begin_stage(stage);
+      this->begin_stage(stage, free);
       if (this->settle() != Outcome::settled) return false;
       if (!take_euler()) break;
       system().restore();
