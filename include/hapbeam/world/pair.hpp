@@ -50,7 +50,8 @@ struct RodPair {
   std::array<double, 2> pull{};  // ∂L/∂s of the last equations [N]
   std::array<double, 2> met{};   // s where the step began
   std::array<bool, 2> met_held{};
-  int pulls = 0;  // how often it would have pulled in it
+  int pulls = 0;   // how often it would have pulled in it
+  int stages = 0;  // of steps of time that it has lasted
   PairFriction friction;
 
   /// From the core of a body, or else from r₂, along n [m].

@@ -47,7 +47,7 @@ class PairEquilibrium {
   }
   /// Begins a stage, 0 or 1, of a step of time.   @param known  whether that of the step before tells how linear it is
   void begin_stage(int stage, bool known) noexcept {
-    most_solves_ = solves_ + solver_.max_solves, kind_ = 1 + stage;
+    most_solves_ = solves_ + solver_.max_solves, kind_ = 1 + stage, changed_ = false;
     if (!known) curvature_[std::size_t(kind_)] = {};
   }
   int solves() const noexcept { return solves_; }

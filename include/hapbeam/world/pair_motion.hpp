@@ -133,7 +133,7 @@ class PairMotion : public PairEquilibrium<Element> {
   };
   Kept begin_part(double dt, double begin) noexcept {
     each([&](Body& body) { body.motion->begin_part(body.system(), dt); });
-    (void)take_euler();
+    (void)take_euler(2);
     return {system().kept_pairs(), dissipated_, begin};
   }
   void end_part(double end) noexcept {
@@ -153,25 +153,29 @@ class PairMotion : public PairEquilibrium<Element> {
   }
   bool solve(int stage, double from, double to, bool whole) noexcept {
     system().aim(to);
-    for (bool free = true;;) {
+    for (bool free = true, smooth = false;;) {
+      smooth = touches_smoothly();
       each([&](Body& body) {
         Motion& motion = *body.motion;
         const bool touched = motion.step.rule() == Step::Rule::euler;
-        free = free && !touched;
+        free = free && !touched && system().pairs() == system().joints();
         motion.ends.aim(body.chain(), from, to, motion.step.length(stage));
         motion.aim(body.system(), stage, whole && !touched);
       });
       this->begin_stage(stage, free);
       if (this->settle() != Outcome::settled) return false;
-      if (!take_euler()) break;
+      if (!this->changed() || !(take_euler(most_stages) || smooth)) break;
       system().restore();
+      (void)take_euler(most_stages);
     }
+    for (int k = system().joints(); k < system().pairs(); ++k)
+      if (int& lasted = system().pair(k).stages; lasted < most_stages) ++lasted;
     each([&](Body& body) { body.motion->know(body.system(), stage); });
     accept();
     return true;
   }
   /// What touches, and what is tied to that, goes on by Euler's rule.   @return whether any did not yet
-  bool take_euler() noexcept {
+  bool take_euler(int stages) noexcept {
     bool any = false;
     for (bool more = true; more;) {
       more = false;
@@ -182,13 +186,21 @@ class PairMotion : public PairEquilibrium<Element> {
         };
         Step &a = step_of(0), &b = step_of(1);
         const bool first = a.rule() == Step::Rule::euler, second = b.rule() == Step::Rule::euler;
-        if ((first && second) || (pair.kind == RodPair::Kind::joint && !first && !second)) continue;
+        const bool lasts = pair.kind == RodPair::Kind::joint || pair.stages >= stages;
+        if ((first && second) || (lasts && !first && !second)) continue;
         a.take_euler(), b.take_euler();
         more = any = true;
       }
     }
     return any;
   }
+
+  bool touches_smoothly() noexcept {
+    for (int k = system().joints(); k < system().pairs(); ++k)
+      if (system().body(system().pair(k).rod[0]).motion->step.rule() == Step::Rule::second_order) return true;
+    return false;
+  }
+  static constexpr int most_stages = 1000;
 
   std::vector<std::array<Vector, 2>> held_;  // force and moment at the ends, two a rod
   double dissipated_ = 0;                    // [J]
