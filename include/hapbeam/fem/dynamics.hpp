@@ -8,7 +8,7 @@
 //
 //   minimise V(x) + ½ c |q(x) - q~|²       twice, with one c:  M c (q - q~) is the inertia, and the air's drag M α v
 //
-// Of second order, L-stable, and monotone in energy in all that was tried.  A stage has velocity and acceleration by the place that it finds:
+// Of second order, L-stable, and monotone in energy in all that was tried with 50 steps or more in a period of the first mode.  A stage has velocity and acceleration by the place that it finds:
 //
 //   v = v~ + r (q - q^),   a = c (q - q^),   r² = c
 //
