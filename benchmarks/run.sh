@@ -19,7 +19,7 @@ source "$top/benchmarks/report/csv.sh"
 usage() { sed -n '2,14s/^# \{0,1\}//p' "$0"; }
 wrong() { echo "benchmarks/run.sh: $1" >&2; exit 2; }
 
-quick=(speed_accuracy costs thesis_figures reduced_press any_rotation rod_ticks fem_press many_beams kinematics where_methods_fail servo_times)
+quick=(speed_accuracy costs thesis_figures reduced_press any_rotation rod_ticks fem_press many_beams kinematics swing where_methods_fail servo_times)
 all=("${quick[@]}" chooser chooser_rods compile_cost flags)
 what=("${all[@]}") stability= programs=
 while [[ $# -gt 0 ]]; do

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   if (argc != 2)
     return std::fputs("where_methods_fail: must be called with a folder to write to\n", stderr), 2;
   Report report(argv[1]);
-  for (const auto room : {elements, newton, training, round_off, contact, loop}) room(report);
+  for (const auto room : {elements, newton, training, round_off, contact, loop, steps}) room(report);
   if (!report.good()) return std::fprintf(stderr, "where_methods_fail: %s: cannot be written\n", argv[1]), 1;
   return 0;
 }

@@ -309,5 +309,33 @@ do for [format in 'svg png'] {
        '' every ::1 using 1:3 with linespoints ls 2 title 'default, beside a support', \
        '' every ::1 using 1:4 with linespoints ls 3 title 'the same, gap as delay'
   unset multiplot
+
+  # Steps of time
+  eval wide
+  set output above('steps')
+  rows = 1; row = 1; column = 1
+  set multiplot
+  course(rule, what) = sprintf("< awk -F, '$1 == %d' %s | cut -d, -f2,%d", rule, file('steps'), what)
+  eval panel
+  set title "A ruler let go 170 mm aside, steps of 1 ms:\nwhat becomes of its energy" font title_font
+  set xlabel 'time, ms'
+  set ylabel 'energy, over that of the beginning'
+  set yrange [0:3]
+  set xrange [0:500]
+  set key top right
+  plot course(1, 3) using 1:2 with lines ls 1 title 'trapezoidal rule', \
+       course(2, 3) using 1:2 with lines ls 2 title 'backward Euler', \
+       course(3, 3) using 1:2 with lines ls 3 title 'TR-BDF2'
+  eval next_panel
+  set title 'Its tip' font title_font
+  set xlabel 'time, ms'
+  set ylabel 'aside, mm'
+  set xrange [0:500]
+  set yrange [-200:330]
+  set key top right
+  plot course(1, 4) using 1:2 with lines ls 1 title 'trapezoidal rule', \
+       course(2, 4) using 1:2 with lines ls 2 title 'backward Euler', \
+       course(3, 4) using 1:2 with lines ls 3 title 'TR-BDF2'
+  unset multiplot
   set output
 }

@@ -93,5 +93,6 @@ void training(Report& report);
 void round_off(Report& report);
 void contact(Report& report);
 void loop(Report& report);
+void steps(Report& report);
 
 }  // namespace hapbeam::benchmarks

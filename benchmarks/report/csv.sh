@@ -59,6 +59,7 @@ csv_rod_ticks() { csv rod_ticks scene/model/elements p50_us p99_us ratio solves 
 csv_many_beams() {
   csv many_beams model/beams/contacts p50_us p99_us touched per_contact_us force_error bytes_a_beam bytes_a_model
 }
+csv_swing() { csv swing study/rule/elements/steps share tip_error energy_gained energy_lost; }
 csv_fem_press() { csv fem_press path/solver/membrane/elements p50_us p99_us solves solve_ns force_error; }
 csv_kinematics() {
   csv kinematics study/ends/section/element slope_1 deflection_1 press_1 slope_5 deflection_5 press_5 slope_10 deflection_10 \

@@ -89,6 +89,52 @@ class MassSpring {
 
   int steps() const noexcept { return steps_; }
 
+  /// Lets it go without velocity, its links along the chords of a shape.
+  void let_go_from(const Centreline<double, D>& shape) noexcept {
+    const double l = shape.length() / static_cast<double>(x_.size() - 1);
+    const auto at = [&](std::size_t i) { return shape.position(static_cast<double>(i) * l); };
+    for (std::size_t i = 1; i < x_.size(); ++i)
+      x_[i] = x_[i - 1] + link_ * Vector(at(i) - at(i - 1)).normalized();
+    v_.assign(x_.size(), Vector::Zero());
+  }
+  const Vector& tip() const noexcept { return x_.back(); }
+  /// A sub-step alone.
+  void advance(double dt) noexcept {
+    const std::size_t last = x_.size() - 1;
+    force_ = load_;
+    for (std::size_t i = 0; i < last; ++i) {
+      const Vector link = x_[i + 1] - x_[i];
+      const double length = link.norm();
+      const Vector pull = EA_ * (length / link_ - 1) / length * link;
+      force_[i] += pull;
+      force_[i + 1] -= pull;
+    }
+    for (std::size_t i = 0; i <= last; ++i) {
+      const Bend at = bend(i);
+      const bool end = i == 0 || i == last;
+      // A clamp holds the middle of what would be one more link.
+      const Turn moment = (end ? 2 : 1) * bending_ * (at.angle - natural_[i]);
+      if (is_none(moment)) continue;
+      if (i > 0) {
+        const Vector pair = pair_of(moment, at.a);
+        force_[i - 1] -= pair;
+        force_[i] += pair;
+      }
+      if (i < last) {
+        const Vector pair = pair_of(moment, at.b);
+        force_[i] += pair;
+        force_[i + 1] -= pair;
+      }
+    }
+    const double kept = 1 - damping_ * dt;
+    for (std::size_t i = 0; i <= last; ++i) {
+      const double inverse = inverse_mass(i);
+      if (inverse == 0) continue;
+      v_[i] = kept * v_[i] + dt * inverse * force_[i];
+      x_[i] += dt * v_[i];
+    }
+  }
+
  private:
   struct Bend {
     Vector a, b;  // links before and after the mass
@@ -148,42 +194,6 @@ class MassSpring {
     const Vector a = i == 0 ? wall_[0] : Vector(x_[i] - x_[i - 1]);
     const Vector b = i == last ? wall_[1] : Vector(x_[i + 1] - x_[i]);
     return {a, b, 2 * cross(a, b) / (std::sqrt(a.squaredNorm() * b.squaredNorm()) + a.dot(b))};
-  }
-
-  void advance(double dt) noexcept {
-    const std::size_t last = x_.size() - 1;
-    force_ = load_;
-    for (std::size_t i = 0; i < last; ++i) {
-      const Vector link = x_[i + 1] - x_[i];
-      const double length = link.norm();
-      const Vector pull = EA_ * (length / link_ - 1) / length * link;
-      force_[i] += pull;
-      force_[i + 1] -= pull;
-    }
-    for (std::size_t i = 0; i <= last; ++i) {
-      const Bend at = bend(i);
-      const bool end = i == 0 || i == last;
-      // A clamp holds the middle of what would be one more link.
-      const Turn moment = (end ? 2 : 1) * bending_ * (at.angle - natural_[i]);
-      if (is_none(moment)) continue;
-      if (i > 0) {
-        const Vector pair = pair_of(moment, at.a);
-        force_[i - 1] -= pair;
-        force_[i] += pair;
-      }
-      if (i < last) {
-        const Vector pair = pair_of(moment, at.b);
-        force_[i] += pair;
-        force_[i + 1] -= pair;
-      }
-    }
-    const double kept = 1 - damping_ * dt;
-    for (std::size_t i = 0; i <= last; ++i) {
-      const double inverse = inverse_mass(i);
-      if (inverse == 0) continue;
-      v_[i] = kept * v_[i] + dt * inverse * force_[i];
-      x_[i] += dt * v_[i];
-    }
   }
 
   /// Moves the two masses of the link that the avatar has entered out of it.   @return [N·s] on the avatar
