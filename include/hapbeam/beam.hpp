@@ -6,7 +6,6 @@
 // x runs along the beam from its left end, w across it (up), theta = -dw/dx.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -38,45 +37,6 @@ struct Section {
 
  private:
   static Section of(const RodSection& section) { return {section.area, section.inertia1, section.thickness}; }
-};
-
-/// A branch of a material that relaxes: strained at once it is stiffer by g E, which goes as exp(-t/τ).
-struct Relaxation {
-  double share = 0;  ///< g, not negative; 0: none
-  double time = 1;   ///< τ [s], positive
-};
-
-/// What a beam that moves loses, in its material and in the air: σ = E (ε + τ ε') + the branches', and a force of α m v.
-/// A model without mass has no time, and none of this.
-struct Damping {
-  double viscosity = 0;                     ///< τ [s], not negative
-  double drag = 0;                          ///< α [1/s], not negative
-  std::array<Relaxation, 4> branches = {};  ///< of a Prony series; E is what is left when all have relaxed
-
-  /// Of the material, with a damping ratio at a frequency [Hz], and ratios that rise with it.
-  static Damping ratio(double ratio, double frequency) {
-    return {detail::not_negative("damping ratio", ratio, "") / (pi * of(frequency)), 0, {}};
-  }
-  /// The same by its loss factor η = 2 ζ.
-  static Damping loss_factor(double factor, double frequency) { return ratio(factor / 2, frequency); }
-  /// Of the air, with ratios that fall as frequencies rise.
-  static Damping air(double ratio, double frequency) {
-    return {0, detail::not_negative("damping ratio", ratio, "") * 4 * pi * of(frequency), {}};
-  }
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
-  const Damping& check() const {
-    detail::not_negative("damping viscosity", viscosity, "s");
-    detail::not_negative("damping drag", drag, "1/s");
-    for (const Relaxation& branch : branches) {
-      detail::not_negative("relaxation share", branch.share, "");
-      detail::positive("relaxation time", branch.time, "s");
-    }
-    return *this;
-  }
-
- private:
-  static constexpr double pi = 3.14159265358979323846;
-  static double of(double frequency) { return detail::positive("damping frequency", frequency, "Hz"); }
 };
 
 /// Material of a beam.
@@ -129,8 +89,7 @@ class Beam : public detail::Slender<Beam, Section, Material, Arc> {
              detail::positive("young", material.young, "Pa") * detail::positive("area", section.area, "m²"),
              material.young * detail::positive("inertia", section.inertia, "m⁴"), section.thickness, left,
              right) {
-    build_of(material.young, material.density, section.area);
-    damping_ = material.damping.check();
+    build_of(material, section.area);
   }
 
   /// For a section known by its stiffness.
@@ -177,9 +136,6 @@ class Beam : public detail::Slender<Beam, Section, Material, Arc> {
     transverse_ = axial_ = nullptr;
     return specific_weight_ = density * gravity, weigh(), *this;
   }
-
-  /// Of its material and of the air.
-  const Damping& damping() const noexcept { return damping_; }
 
   /// Gives parts of the beam sections of their own: a taper or steps.  Elements of Tapered<Local> take them; a FemModel of other
   /// elements rejects the beam.
@@ -231,7 +187,6 @@ class Beam : public detail::Slender<Beam, Section, Material, Arc> {
   }
 
   double axial_stiffness_, bending_stiffness_, shear_stiffness_ = 0;
-  Damping damping_;
   Support left_, right_;
   std::vector<PointLoad> point_loads_;
   DistributedLoad transverse_, axial_;

@@ -77,8 +77,7 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
     material_ = material;
     outline_ = {section.width > 0 ? section.width : thickness_,
                 section.height > 0 ? section.height : thickness_, section.corners};
-    build_of(material.young, material.density, section.area);
-    drag_ = detail::not_negative("drag", material.drag, "1/s");
+    build_of(material, section.area);
   }
 
   /// For a section known by its stiffness.   @param length [m]   @param thickness [m]
@@ -159,8 +158,6 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
   }
   /// Null where the natural shape places it.
   const RodPose* right_pose() const noexcept { return right_pose_ ? &*right_pose_ : nullptr; }
-  /// α of the air [1/s]
-  double drag() const noexcept { return drag_; }
   /// Empty where there is none.
   RodLoad load() const {
     if (specific_weight_.isZero(0)) return load_;
@@ -196,7 +193,6 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
   }
 
   RodStiffness stiffness_;
-  double drag_ = 0;
   bool joined_ = false;
   RodMaterial material_{0, 0};  // not known where the stiffness is given
   RodOutline outline_;

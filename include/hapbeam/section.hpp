@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -14,6 +15,50 @@
 #include <hapbeam/check.hpp>
 
 namespace hapbeam {
+
+/// A branch of a material that relaxes: strained at once it is stiffer by g E, which goes as exp(-t/τ).
+struct Relaxation {
+  double share = 0;  ///< g, not negative; 0: none
+  double time = 1;   ///< τ [s], positive
+};
+
+/// What a beam or rod that moves loses, in its material and in the air: σ = E (ε + τ ε') + the branches', and a force of α m v.
+/// A model without mass has no time, and none of this.
+struct Damping {
+  double viscosity = 0;                     ///< τ [s], not negative
+  double drag = 0;                          ///< α [1/s], not negative
+  std::array<Relaxation, 4> branches = {};  ///< of a Prony series; E is what is left when all have relaxed
+
+  /// Of the material, with a damping ratio at a frequency [Hz], and ratios that rise with it.
+  static Damping ratio(double ratio, double frequency) {
+    return {detail::not_negative("damping ratio", ratio, "") / (pi * of(frequency)), 0, {}};
+  }
+  /// The same by its loss factor η = 2 ζ.
+  static Damping loss_factor(double factor, double frequency) { return ratio(factor / 2, frequency); }
+  /// Of the air, with ratios that fall as frequencies rise.
+  static Damping air(double ratio, double frequency) {
+    return {0, detail::not_negative("damping ratio", ratio, "") * 4 * pi * of(frequency), {}};
+  }
+  /// Whether the material is viscous.
+  bool viscous() const noexcept {
+    return viscosity > 0 ||
+           std::any_of(branches.begin(), branches.end(), [](const Relaxation& b) { return b.share > 0; });
+  }
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  const Damping& check() const {
+    detail::not_negative("damping viscosity", viscosity, "s");
+    detail::not_negative("damping drag", drag, "1/s");
+    for (const Relaxation& branch : branches) {
+      detail::not_negative("relaxation share", branch.share, "");
+      detail::positive("relaxation time", branch.time, "s");
+    }
+    return *this;
+  }
+
+ private:
+  static constexpr double pi = 3.14159265358979323846;
+  static double of(double frequency) { return detail::positive("damping frequency", frequency, "Hz"); }
+};
 
 /// Cross-section of a rod, with its principal axes along d1 and d2.
 struct RodSection {
@@ -75,16 +120,16 @@ struct RodSection {
 
 /// Linear elastic material of a rod.
 struct RodMaterial {
-  double young;        ///< Young's modulus E [Pa]
-  double shear;        ///< shear modulus G [Pa]
-  double density = 0;  ///< [kg/m³]; 0: not known, and the rod has no mass
-  double drag = 0;     ///< α of the air [1/s]: a force of α m v on a model with mass
+  double young;          ///< Young's modulus E [Pa]
+  double shear;          ///< shear modulus G [Pa]
+  double density = 0;    ///< [kg/m³]; 0: not known, and the rod has no mass
+  Damping damping = {};  ///< of a model with mass; a viscous one is made of TwistedRod
 
   /// @param poisson  ν, more than -1 and at most 0.5; G = E/(2 (1 + ν))
   static RodMaterial isotropic(double young, double poisson, double density = 0) {
     if (!(poisson > -1 && poisson <= 0.5))
       detail::reject("poisson", poisson, "", "more than -1 and at most 0.5");
-    return {young, young / (2 * (1 + poisson)), density};
+    return {young, young / (2 * (1 + poisson)), density, {}};
   }
 };
 
@@ -154,6 +199,8 @@ class Slender {
     return body().sections({Part(length_, std::move(by_s))});
   }
 
+  /// Of its material and of the air.
+  const Damping& damping() const noexcept { return damping_; }
   double length() const noexcept { return length_; }                  ///< L [m]
   double thickness() const noexcept { return thickness_; }            ///< [m]
   const std::vector<Part>& parts() const noexcept { return parts_; }  ///< empty where prismatic
@@ -163,9 +210,10 @@ class Slender {
   Slender(double length, double thickness)
       : length_(positive("length", length, "m")), thickness_(positive("thickness", thickness, "m")) {}
   /// Keeps what it was built of.
-  void build_of(double young, double density, double area) {
-    young_ = young;
-    density_ = not_negative("density", density, "kg/m³");
+  void build_of(const MaterialType& material, double area) {
+    young_ = material.young;
+    density_ = not_negative("density", material.density, "kg/m³");
+    damping_ = material.damping.check();
     area_ = [area](double) { return area; };
   }
 
@@ -177,6 +225,7 @@ class Slender {
   }
 
   double length_, thickness_, young_ = 0, density_ = 0;
+  Damping damping_;
   std::function<double(double)> area_;  // empty where only the stiffness is known
   std::vector<Arc> arcs_;
   std::vector<Part> parts_;

@@ -25,7 +25,7 @@ RodPose pose(const Place& at, double turn) {
 }
 Rod steel(const RodSupport& left, const RodSupport& right, double drag = 0) {
   RodMaterial material = RodMaterial::isotropic(200e9, 0.3, 7850);
-  material.drag = drag;
+  material.damping.drag = drag;
   return Rod(0.3, RodSection::circle(0.002), material, left, right);
 }
 

@@ -205,7 +205,7 @@ TEST_CASE("the partials of a string in space are those of its tension, and a han
   // Where it rests it is as stiff as its cubics.
   const double reach = 0.005, place = length / longer / 5;
   RodMaterial damped = RodMaterial::isotropic(young, 0.3, 7850 * longer);
-  damped.drag = 2000;
+  damped.damping.drag = 2000;
   Rod still(length / longer, RodSection::circle(d), damped, RodSupport::hinged, RodSupport::hinged);
   still.place_right({{length, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   Rod heavy = string;

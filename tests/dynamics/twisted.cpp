@@ -159,7 +159,7 @@ TEST_CASE(
                           six);
   const GripCoupling hand = GripCoupling::for_device(device.info());
   RodMaterial material = RodMaterial::isotropic(10e9, 0.3, 1800);
-  material.drag = 3;
+  material.damping.drag = 3;
   Rod rod(0.5, RodSection::circle(0.004), material, hand.support(), RodSupport::free);
   rod.place_left({{0, 0, 0}, {0, 0, -1}, {0, 1, 0}});
   Model model(rod, 8);

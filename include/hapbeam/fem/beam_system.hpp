@@ -229,7 +229,6 @@ class BeamChain {
     return {node.s, to[0] - node.s, to[1],
             node.theta + detail::angle(aside, along, std::sqrt(along * along + aside * aside))};
   }
-  static Scalar drag(const Beam& beam) noexcept { return static_cast<Scalar>(beam.damping().drag); }
   /// Bends it a little, without a contact to where its loads push.   @param contact  its place, negative: none
   void nudge(Scalar size, Scalar contact, Scalar load) noexcept {
     const auto move = [&](Scalar by) { detail::nudge(parts_.nodes(), contact, by); };

@@ -18,6 +18,7 @@
 #include <hapbeam/fem/rod/rod_ends.hpp>
 #include <hapbeam/fem/rod/rod_inertia.hpp>
 #include <hapbeam/fem/rod/rod_motion.hpp>
+#include <hapbeam/fem/rod/viscous_rod.hpp>
 
 namespace hapbeam {
 
@@ -45,7 +46,7 @@ class RodChain {
   using Assembler = detail::AssemblerOf<Element, Scalar, Elements, MaxElements>;
   using Drawn = detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>>;
   using Inertia = detail::RodInertia<Scalar, Elements, MaxElements, Element::unknowns>;
-  using Viscosity = detail::Elastic;
+  using Viscosity = detail::ViscousRod<Element, Scalar, Elements, MaxElements>;
   using LedEnds = detail::LedEnds<RodChain>;
   static constexpr int unknowns = Element::unknowns;
   using Increment = VectorOf<Scalar, unknowns>;
@@ -246,7 +247,6 @@ class RodChain {
           detail::turn<Scalar>(there.director, detail::unit(there.tangent), Scalar(to[6] - from[6]));
     return there;
   }
-  static Scalar drag(const Rod& rod) noexcept { return static_cast<Scalar>(rod.drag()); }
   /// Bends it a little, without a contact to where its loads push.   @param contact  its place, negative: none
   void nudge(Scalar size, Scalar contact, Scalar load) noexcept {
     const Node& middle = node(parts_.size() / 2);

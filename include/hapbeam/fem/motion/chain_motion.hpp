@@ -44,7 +44,7 @@ class ChainMotion {
         viscosity_(body, elements, system.parts()),
         before_(elements),
         last_(elements),
-        drag_(Chain::drag(body)),
+        drag_(static_cast<S>(body.damping().drag)),
         massless_(!(body.mass_per_length(body.length() / 2) > 0)) {}
 
   bool massless() const noexcept { return massless_; }
@@ -54,11 +54,11 @@ class ChainMotion {
   const Viscosity* viscosity() const noexcept { return viscosity_.none() ? nullptr : &viscosity_; }
 
   /// At rest as it lies.
-  void begin(const System& system) noexcept {
+  void begin(System& system) noexcept {
     system.keep(last_);
     inertia_.begin_stage(last_.nodes, [](int) { return Placed(Placed::Zero()); });
     stop(system);
-    viscosity_.relax(system.parts());
+    viscosity_.relax(system.chain().parts());
   }
   /// Planar ones once, as they lie at rest: Inertia::draw().
   void draw(const System& system) noexcept { inertia_.draw(system.parts().nodes()); }
@@ -71,7 +71,7 @@ class ChainMotion {
   void begin_part(const System& system, S dt) noexcept {
     system.keep(before_);
     step.begin(dt, drag_);
-    viscosity_.begin(step.rate());
+    viscosity_.begin();
     inertia_.set_scale(kinetic());
   }
   void take_back(System& system) noexcept {
@@ -89,7 +89,7 @@ class ChainMotion {
   /// beyond a sudden change those lead far off
   void aim(System& system, int stage, bool foresees) noexcept {
     step.aim(stage, inertia_);
-    viscosity_.aim(stage);
+    viscosity_.aim(stage, step, system.chain().parts());
     // Tensions go on as they went, and nodes as their accelerations say.
     system.go_on(last_, foresees ? step.onward(stage) : S(0));
     inertia_.begin_stage(last_.nodes, [&](int i) { return step.start(stage, i).q; });
@@ -108,8 +108,8 @@ class ChainMotion {
   S kinetic() const noexcept {
     return inertia_.energy([this](int i) -> const auto& { return step[i].v; });
   }
-  /// What viscous branches hold [J].
-  S stored() const noexcept { return static_cast<S>(viscosity_.energy()); }
+  /// What viscous material holds beside the elements [J].
+  S stored() const noexcept { return viscosity_.energy(); }
   /// [m/s] at arc position s.
   VectorOf<S, dimension> velocity(const System& system, S s) const noexcept {
     const auto line = system.centreline();

@@ -62,8 +62,10 @@ class RodElements {
       if (!holds_twist(rod.left()) && !holds_twist(rod.right()))
         throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
                                     ": TwistedRod turns about its axis, hold its twist at one end");
-    round_ = natural_.straight() && profile_.round() && profile_.smooth();
-    own_ = {rod.drawn() && natural_.straight() && profile_.smooth(), has_twist && !round_};
+    const bool even = natural_.straight() && profile_.smooth(),
+               viscous = has_twist && rod.damping().viscous();
+    round_ = even && profile_.round() && !viscous;
+    own_ = {rod.drawn() && even && !viscous, has_twist && !round_};
     lay_mesh<Scalar>(rod, rod.forces(), elements, [this](int i, Scalar s) { nodes_[i] = natural_.at(s); });
     for (int e = 0; e < elements; ++e) make(e);
     if (!loads_.empty()) loads_.take(view(nodes_));
@@ -72,6 +74,10 @@ class RodElements {
   /// From here on its elements bend under tension as the cubics of its mass do.
   void swing() noexcept {
     for (int e = 0; e < size(); ++e) properties_[e].swings = true, abreast_.take(e, properties_[e]);
+  }
+  /// What an element is made of, from here on.
+  void set_properties(int e, const RodProperties<Scalar>& p) noexcept {
+    abreast_.take(e, properties_[e] = p);
   }
   int size() const noexcept { return nodes_.size() - 1; }
   Nodes& nodes() noexcept { return nodes_; }

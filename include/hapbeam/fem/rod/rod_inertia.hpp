@@ -102,22 +102,4 @@ class RodInertia : public MassBlocks<S, 3, Elements, MaxElements, Unknowns - 6> 
   PerNode<S, Elements, MaxElements> turned_;  // ψ there
 };
 
-/// What is viscous in a rod: nothing.
-struct Elastic {
-  template <class Parts>
-  Elastic(const Rod&, int, const Parts&) noexcept {}
-  bool none() const noexcept { return true; }
-  template <class Parts>
-  void relax(const Parts&) noexcept {}
-  template <class Parts>
-  void know(int, const Parts&) noexcept {}
-  template <typename S>
-  void begin(S) noexcept {}
-  void stop() noexcept {}
-  void take_back() noexcept {}
-  void start_again() noexcept {}
-  void aim(int) noexcept {}
-  int energy() const noexcept { return 0; }
-};
-
 }  // namespace hapbeam::detail
