@@ -19,7 +19,7 @@ std::string rejection(const std::function<void()>& call) {
   return "";
 }
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 Rod wire() {
   return Rod(0.2, RodSection::circle(0.001), spring_steel, RodSupport::clamped, RodSupport::free);
@@ -51,7 +51,7 @@ TEST_CASE("what makes no sense of a rod is rejected by name", "[rod]") {
   CHECK(rejection([&] { Rod(-1, round, spring_steel, c, f); }) ==
         "length = -1 m: must be positive and finite");
   CHECK(rejection([&] {
-          Rod(1, round, {nan, 77e9}, c, f);
+          Rod(1, round, {no_number, 77e9}, c, f);
         }) == "young = nan Pa: must be positive and finite");
   CHECK(rejection([&] { Rod(1, round, {200e9, 0}, c, f); }) == "shear = 0 Pa: must be positive and finite");
   CHECK(rejection([&] {
@@ -70,12 +70,12 @@ TEST_CASE("what makes no sense of a rod is rejected by name", "[rod]") {
           wire().naturally({{0.1, 0, 1, 0}, {0.05, 0, 1, 0}});
         }) == "arc end = 0.05 m: must be beyond the arc before it and on the rod");
   CHECK(rejection([&] {
-          wire().naturally({{0.1, nan, 1, 0}});
+          wire().naturally({{0.1, no_number, 1, 0}});
         }) == "arc curvature1 = nan 1/m: must be finite");
   CHECK(rejection([&] {
           wire().add({0.3, {0, 0, 1}});
         }) == "force s = 0.3 m: must be on the rod, 0 to its length");
-  CHECK(rejection([&] { wire().load(Point(0, nan, 0)); }) == "load = nan N/m: must be finite");
+  CHECK(rejection([&] { wire().load(Point(0, no_number, 0)); }) == "load = nan N/m: must be finite");
   CHECK(rejection([&] {
           wire().place_left({{0, 0, 0}, {0, 0, 0}, {0, 1, 0}});
         }) == "pose along = 0: must be positive and finite");
@@ -128,6 +128,6 @@ TEST_CASE("an element rejects the rods that it does not model", "[rod]") {
   CHECK(rejection([&] { FemModel<TwistedRod>(loose, 8); }) ==
         "supports = hinged, hinged: TwistedRod turns about its axis, hold its twist at one end");
   Rod loaded = wire();
-  loaded.load([](double s) { return Point(0, s < 0.1 ? 1 : nan, 0); });
+  loaded.load([](double s) { return Point(0, s < 0.1 ? 1 : no_number, 0); });
   CHECK(rejection([&] { FemModel<TwistedRod>(loaded, 8); }) == "load = nan N/m: must be finite");
 }
