@@ -217,12 +217,24 @@ class DynamicModel {
   void start_again() noexcept { motion_.start_again(system_); }
   /// One stage.   @param from, to  of the way of the hands   @param whole  the part has not been halved
   bool solve(int stage, Scalar from, Scalar to, bool whole) noexcept {
+    const auto touched = contacts_.kept();
+    if (!settle(stage, from, to, whole)) return false;
+    // A blow on what is hard would be thrown back by the trapezoidal rule.
+    if (motion_.step.rule() == Motion::Step::Rule::second_order && contacts_.struck()) {
+      motion_.step.take_euler();
+      contacts_.take_back(touched);
+      if (!settle(stage, from, to, false)) return false;
+    }
+    motion_.know(system_, stage);
+    return true;
+  }
+  bool settle(int stage, Scalar from, Scalar to, bool whole) noexcept {
     const bool foresees = whole && !motion_.massless();
     const Scalar time = motion_.step.length(stage);
     motion_.ends.aim(system_.chain(), from, to, time);
     contacts_.draw(system_);
     motion_.aim(system_, stage, foresees);
-    const bool found = contacts_.solve(
+    return contacts_.solve(
         system_, time, to, foresees ? motion_.step.onward(stage) : Scalar(0), [&](bool touched) {
           NewtonRaphson solver;
           solver.pairs_differ = motion_.massless();
@@ -232,8 +244,6 @@ class DynamicModel {
           solves_ += report.solves;
           return report.status == Status::ok;
         });
-    if (found) motion_.know(system_, stage);
-    return found;
   }
 
   static constexpr double free_tolerance = 1e-9;  // errors of steps add up where no hand is

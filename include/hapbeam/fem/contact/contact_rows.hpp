@@ -275,6 +275,8 @@ class ContactRows {
     }
     return least;
   }
+  /// After solve(): what its compliance is of all of it, the other contacts at rest.
+  Scalar share(int k) const noexcept { return rows_[of(k)].contact.compliance / pivot_[of(k)]; }
   /// After solve(), of contact k: along the normal of a held place, or toward the centre of what is round [N].
   Scalar reaction(int k) const noexcept {
     const Row& row = rows_[of(k)];

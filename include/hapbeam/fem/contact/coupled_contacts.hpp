@@ -92,6 +92,12 @@ class CoupledContacts {
     slots_ = kept;
     for (Slot& slot : slots_) slot.stages = 0;
   }
+  /// Whether one has begun to touch in the last stage, on a spring that is stiffer than what the beam resists with there by its inertia.
+  bool struck() const noexcept {
+    for (int i = 0; i < count_; ++i)
+      if (slots_[of(i)].stages == 1 && slots_[of(i)].hard) return true;
+    return false;
+  }
   /// To be called before a stage moves the system.
   void draw(System& system) const noexcept {
     for (int i = 0; i < count_; ++i)
@@ -149,6 +155,7 @@ class CoupledContacts {
   struct Slot {
     bool known = false, touches = false;
     bool let_go = false;        // in this stage
+    bool hard = false;          // its spring is stiffer than the beam
     bool rigid = false;         // it touches beside an end that cannot move
     int goal = -1, stages = 0;  // its contact in the system, and stages in which it has touched
     Round from{};               // the hand at the end of the last step
@@ -192,6 +199,7 @@ class CoupledContacts {
       if (now.goal >= 0) {
         system.look(now.goal);
         const Contact& found = system.rows()[now.goal];
+        now.hard = system.rows().share(now.goal) < Scalar(0.5);
         now.next = found, now.next.force = -system.linear_reaction(now.goal);
         now.place = found.place, now.normal = found.normal;
       } else if (now.touches) {
