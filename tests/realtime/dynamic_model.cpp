@@ -14,6 +14,7 @@
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 #include <hapbeam/haptics/servo/servo_loop.hpp>
 #include <hapbeam/haptics/servo/sound.hpp>
+#include <hapbeam/rom/training/modes.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -116,6 +117,29 @@ TEST_CASE("an end that a hand leads, anywhere in the end, allocates nothing and 
     CHECK(held.moment.allFinite());
     for (int i = 0; i < model.shape().size(); ++i) REQUIRE(is_finite(model.shape()[i]));
     if (k == 199) CHECK(failed == 0);
+  }
+}
+
+TEST_CASE("modes under a hand that goes anywhere allocate nothing and leave numbers", "[dynamics]") {
+  ModalModel<> model(modes_of(Beam(0.3, Section::rectangle(0.025, 0.001), Material{200e9, 7850},
+                                   Support::clamped, Support::free),
+                              8),
+                     4);
+  Random random(9);
+  for (int k = 0; k < 400; ++k) {
+    const double wild = k < 200 ? 0.002 : 1;
+    const Coupled<double> hand{
+        {random(0, 0.3), {random(0, 0.3) + random(wild), 0.005 + random(wild)}, 0.005, 1}, 1000, 1};
+    Pushed<double> felt{};
+    Vector2<double> held, moves;
+    CHECK(heap_use([&] {
+            felt = model.step(k % 50 == 49 ? 1 : 1e-3, hand);
+            held = model.reaction(0), moves = model.velocity(0.3);
+            if (k % 100 == 99) model.reset(), model.let_go_of(0.3, {0, 0.1});
+          }) == HeapUse{});
+    CHECK(std::isfinite(felt.force));
+    CHECK((held.allFinite() && moves.allFinite() && std::isfinite(model.energy().sum())));
+    for (const auto& node : model.shape()) REQUIRE(is_finite(node));
   }
 }
 
