@@ -174,6 +174,23 @@ TEST_CASE("a hand that goes to and fro across modes takes no energy from them", 
   CHECK(touched > 10000);
 }
 
+TEST_CASE("a hand that comes back meets the beam as at first", "[dynamics]") {
+  Material damped = steel;
+  damped.damping.drag = 60;
+  ModalModel<> model(modes_of(ruler(damped), 6), 1);
+  const auto stroke = [&] {
+    double sum = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const double y = k < 200 ? 0.007 - 1e-5 * k : 0.01;
+      sum -= model.step(1e-3, {{0.2, {0.2, y}, 0.0055, 1}, 1000, 20}).force;
+    }
+    return sum;
+  };
+  const double first = stroke();
+  CHECK(first > 0);
+  CHECK(stroke() == Approx(first).epsilon(1e-6));
+}
+
 TEST_CASE("modes are felt and heard as a model with mass", "[dynamics]") {
   ModalModel<> model(modes_of(ruler(), 8), 48);
   Touch<ModalModel<>> touch(model, 0.005);
