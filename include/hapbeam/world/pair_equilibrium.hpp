@@ -40,14 +40,14 @@ class PairEquilibrium {
   System& system() noexcept { return system_; }
   const System& system() const noexcept { return system_; }
 
-  /// Begins a tick.
-  void begin() noexcept {
-    solves_ = 0, most_solves_ = solver_.max_solves, changed_ = false, failure_ = Status::iteration_limit;
+  /// Begins a tick, or a step of time.   @param share  so many times as many solves as in a tick are in it
+  void begin(int share = 1) noexcept {
+    solves_ = 0, most_solves_ = share * solver_.max_solves, changed_ = false, failure_ = Status::iteration_limit;
     kind_ = 0;
   }
   /// Begins a stage, 0 or 1, of a step of time.   @param known  whether that of the step before tells how linear it is
   void begin_stage(int stage, bool known) noexcept {
-    most_solves_ = solves_ + solver_.max_solves, kind_ = 1 + stage, changed_ = false;
+    kind_ = 1 + stage, changed_ = false;
     if (!known) curvature_[std::size_t(kind_)] = {};
   }
   int solves() const noexcept { return solves_; }
@@ -71,7 +71,7 @@ class PairEquilibrium {
     for (int pass = 0; pass < 4 + 2 * most_pairs; ++pass) {
       if (left() <= 0) return Outcome::too_far;
       NewtonRaphson solver = solver_;
-      solver.max_solves = left();
+      solver.max_solves = (std::min)(left(), solver_.max_solves);
       if (kind_ > 0) solver.relative_tolerance = in_time;
       solver.max_iterations = (std::min)(solver.max_iterations, pass == 0 ? 8 : 16);
       const SolveReport<double> report =

@@ -78,7 +78,7 @@ class PairMotion : public PairEquilibrium<Element> {
   /// @param dt [s]   @return whether all of it has an answer; else all has stopped where it had one last
   bool step(double dt, int parts) noexcept {
     begin_motion();
-    Base::begin();
+    Base::begin(2 + parts);
     system().begin_joints();
     for (PlacedBody& body : system().rigid()) body.begin_path();
     each([](Body& body) {
