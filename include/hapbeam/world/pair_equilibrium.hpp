@@ -61,6 +61,7 @@ class PairEquilibrium {
   Outcome settle() noexcept {
     Curvature<double> unknown;
     int leaves = 0, tries = 0;
+    let_go_ = {-1, -1};
     auto start = PairFriction::Start::goes_on;
     system_.begin_friction();
     for (int k = system_.joints(); k < system_.pairs(); ++k) {
@@ -97,7 +98,7 @@ class PairEquilibrium {
         if (leaves++ < 2) continue;
         return failure_ = Status::iteration_limit, Outcome::lost;
       }
-      if (look.deepest < -nothing) {
+      if (look.deepest < -nothing && !is_at_edge(look)) {
         if (!meet(look)) return Outcome::full;
         continue;
       }
@@ -203,6 +204,7 @@ class PairEquilibrium {
             beside_each_other(system_, system_.pair(k), system_.pair(j), 1, 0))
           worst = k;
     if (worst < 0) return false;
+    let_go_ = system_.pair(worst).rod;
     system_.remove(worst);
     changed_ = true;
     return true;
@@ -219,6 +221,11 @@ class PairEquilibrium {
     return false;
   }
 
+  /// What lets go in a stage of a step of time stays away in it: the drawn cubics may still lie in each other.
+  bool is_at_edge(const Look& look) const noexcept {
+    constexpr double edge = 0.05;  // of a reach
+    return kind_ > 0 && look.pair.rod == let_go_ && look.deepest > -edge;
+  }
   /// One more touches.   @return whether there was room
   bool meet(const Look& look) noexcept {
     changed_ = true;
@@ -237,6 +244,7 @@ class PairEquilibrium {
   NewtonRaphson solver_;
   std::array<Curvature<double>, 3> curvature_;   // of equilibria, and of both stages of a step of time
   int solves_ = 0, most_solves_ = 0, kind_ = 0;  // the last: which of them
+  std::array<int, 2> let_go_{};  // of which rods a pair has in this solution
   bool changed_ = false, on_ridge_ = false;
   Status failure_ = Status::iteration_limit;
 };

@@ -133,7 +133,7 @@ class PairMotion : public PairEquilibrium<Element> {
   };
   Kept begin_part(double dt, double begin) noexcept {
     each([&](Body& body) { body.motion->begin_part(body.system(), dt); });
-    (void)take_euler(2);
+    (void)take_euler(lasting);
     return {system().kept_pairs(), dissipated_, begin};
   }
   void end_part(double end) noexcept {
@@ -164,12 +164,12 @@ class PairMotion : public PairEquilibrium<Element> {
       });
       this->begin_stage(stage, free);
       if (this->settle() != Outcome::settled) return false;
-      if (!this->changed() || !(take_euler(most_stages) || smooth)) break;
+      if (!this->changed() || !(take_euler(lasting + 1) || smooth)) break;
       system().restore();
-      (void)take_euler(most_stages);
+      (void)take_euler(lasting + 1);
     }
     for (int k = system().joints(); k < system().pairs(); ++k)
-      if (int& lasted = system().pair(k).stages; lasted < most_stages) ++lasted;
+      if (int& lasted = system().pair(k).stages; lasted < lasting) ++lasted;
     each([&](Body& body) { body.motion->know(body.system(), stage); });
     accept();
     return true;
@@ -200,7 +200,7 @@ class PairMotion : public PairEquilibrium<Element> {
       if (system().body(system().pair(k).rod[0]).motion->step.rule() == Step::Rule::second_order) return true;
     return false;
   }
-  static constexpr int most_stages = 1000;
+  static constexpr int lasting = 2;  // stages after which a contact lasts
 
   std::vector<std::array<Vector, 2>> held_;  // force and moment at the ends, two a rod
   double dissipated_ = 0;                    // [J]
