@@ -42,7 +42,8 @@ class PairEquilibrium {
 
   /// Begins a tick, or a step of time.   @param share  so many times as many solves as in a tick are in it
   void begin(int share = 1) noexcept {
-    solves_ = 0, most_solves_ = share * solver_.max_solves, changed_ = false, failure_ = Status::iteration_limit;
+    solves_ = 0, most_solves_ = share * solver_.max_solves, changed_ = false,
+    failure_ = Status::iteration_limit;
     kind_ = 0;
   }
   /// Begins a stage, 0 or 1, of a step of time.   @param known  whether that of the step before tells how linear it is
@@ -244,7 +245,7 @@ class PairEquilibrium {
   NewtonRaphson solver_;
   std::array<Curvature<double>, 3> curvature_;   // of equilibria, and of both stages of a step of time
   int solves_ = 0, most_solves_ = 0, kind_ = 0;  // the last: which of them
-  std::array<int, 2> let_go_{};  // of which rods a pair has in this solution
+  std::array<int, 2> let_go_{};                  // of which rods a pair has in this solution
   bool changed_ = false, on_ridge_ = false;
   Status failure_ = Status::iteration_limit;
 };
