@@ -1,4 +1,4 @@
-// World::tick(): no heap, finite, a bounded number of linear solves, whatever hands do.
+// World::tick() and step(): no heap, finite, a bounded number of linear solves, whatever hands do.
 #include <cmath>
 #include <realtime/heap_watch.hpp>
 #include <vector>
@@ -13,8 +13,10 @@ using namespace hapbeam::testing;
 
 namespace {
 
-Rod rod_at(const RodPose& pose, const RodSupport& right) {
-  Rod rod(0.2, RodSection::circle(0.002), spring_steel, RodSupport::clamped, right);
+Rod rod_at(const RodPose& pose, const RodSupport& right, double density = 0) {
+  RodMaterial material = spring_steel;
+  material.density = density;
+  Rod rod(0.2, RodSection::circle(0.002), material, RodSupport::clamped, right);
   return rod.place_left(pose);
 }
 
@@ -86,6 +88,39 @@ void check_tick() {
   CHECK(world.contacts() == 0);
 }
 
+/// The same in steps of a millisecond, with friction.  The hand comes closer by leaps and may be through the rod after one: it begins anew.
+template <class Element>
+void check_step() {
+  const RodPose start{{0.1, -0.1, 0.0025}, {0, 1, 0}, {0, 0, 1}};
+  World<Element> world({{rod_at(start, RodSupport::free, 7850), 8, Friction(0.3, 0.3)},
+                        {rod_at({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, RodSupport::clamped, 7850), 8},
+                        {rod_at({{0, 0.05, 0}, {1, 0, 0}, {0, 0, 1}}, RodSupport::free, 7850), 8}});
+  int answered = 0, touching = 0, not_finite = 0, most = 0;
+  const std::vector<RodPose> path = poses(start);
+  const HeapUse use = heap_use([&]() noexcept {
+    for (const RodPose& pose : path) {
+      (void)world.hold(0, RodSide::left, pose);
+      answered += is_answer(world.step(1e-3));
+      touching += world.contacts() > 0;
+      most = std::max(most, world.solves());
+      not_finite += !std::isfinite(world.energy().sum()) || !world.held(0, RodSide::left).force.allFinite();
+    }
+    world.throw_rod(2, [](double) { return VectorOf<double, 6>(VectorOf<double, 6>::Ones()); });
+    (void)world.step(1e-3);
+    world.reset();
+  });
+  INFO(answered << " of " << path.size() << " answered, " << touching << " with contacts, at most " << most
+                << " solves");
+  CHECK(use == HeapUse{});
+  CHECK(not_finite == 0);
+  CHECK(most <= 6 * 48);
+  CHECK(answered > 380);
+  CHECK(touching > 300);
+  CHECK(noexcept(world.step(1e-3)));
+  CHECK(noexcept(world.energy()));
+  CHECK(world.step(1e-3) == Status::ok);
+}
+
 /// A string between two posts, tied to both, that a ball leads and a rod is below.
 void check_joints() {
   std::vector<WorldRod> rods;
@@ -131,4 +166,9 @@ TEST_CASE("joints take nothing from the heap in a tick", "[realtime][world]") { 
 TEST_CASE("rods that touch take nothing from the heap in a tick", "[realtime][world]") {
   check_tick<RoundRod>();
   check_tick<TwistedRod>();
+}
+
+TEST_CASE("rods with mass that touch take nothing from the heap in a step", "[realtime][world]") {
+  check_step<RoundRod>();
+  check_step<TwistedRod>();
 }

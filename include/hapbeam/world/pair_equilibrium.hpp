@@ -40,14 +40,15 @@ class PairEquilibrium {
   System& system() noexcept { return system_; }
   const System& system() const noexcept { return system_; }
 
-  /// Begins a tick.
-  void begin() noexcept {
-    solves_ = 0, most_solves_ = solver_.max_solves, changed_ = false, failure_ = Status::iteration_limit;
+  /// Begins a tick, or a step of time.   @param share  so many times as many solves as in a tick are in it
+  void begin(int share = 1) noexcept {
+    solves_ = 0, most_solves_ = share * solver_.max_solves, changed_ = false,
+    failure_ = Status::iteration_limit;
     kind_ = 0;
   }
   /// Begins a stage, 0 or 1, of a step of time.   @param known  whether that of the step before tells how linear it is
   void begin_stage(int stage, bool known) noexcept {
-    most_solves_ = solves_ + solver_.max_solves, kind_ = 1 + stage, changed_ = false;
+    kind_ = 1 + stage, changed_ = false;
     if (!known) curvature_[std::size_t(kind_)] = {};
   }
   int solves() const noexcept { return solves_; }
@@ -61,6 +62,7 @@ class PairEquilibrium {
   Outcome settle() noexcept {
     Curvature<double> unknown;
     int leaves = 0, tries = 0;
+    let_go_ = {-1, -1};
     auto start = PairFriction::Start::goes_on;
     system_.begin_friction();
     for (int k = system_.joints(); k < system_.pairs(); ++k) {
@@ -71,7 +73,7 @@ class PairEquilibrium {
     for (int pass = 0; pass < 4 + 2 * most_pairs; ++pass) {
       if (left() <= 0) return Outcome::too_far;
       NewtonRaphson solver = solver_;
-      solver.max_solves = left();
+      solver.max_solves = (std::min)(left(), solver_.max_solves);
       if (kind_ > 0) solver.relative_tolerance = in_time;
       solver.max_iterations = (std::min)(solver.max_iterations, pass == 0 ? 8 : 16);
       const SolveReport<double> report =
@@ -97,7 +99,7 @@ class PairEquilibrium {
         if (leaves++ < 2) continue;
         return failure_ = Status::iteration_limit, Outcome::lost;
       }
-      if (look.deepest < -nothing) {
+      if (look.deepest < -nothing && !is_at_edge(look)) {
         if (!meet(look)) return Outcome::full;
         continue;
       }
@@ -203,6 +205,7 @@ class PairEquilibrium {
             beside_each_other(system_, system_.pair(k), system_.pair(j), 1, 0))
           worst = k;
     if (worst < 0) return false;
+    let_go_ = system_.pair(worst).rod;
     system_.remove(worst);
     changed_ = true;
     return true;
@@ -219,6 +222,11 @@ class PairEquilibrium {
     return false;
   }
 
+  /// What lets go in a stage of a step of time stays away in it: the drawn cubics may still lie in each other.
+  bool is_at_edge(const Look& look) const noexcept {
+    constexpr double edge = 0.05;  // of a reach
+    return kind_ > 0 && look.pair.rod == let_go_ && look.deepest > -edge;
+  }
   /// One more touches.   @return whether there was room
   bool meet(const Look& look) noexcept {
     changed_ = true;
@@ -237,6 +245,7 @@ class PairEquilibrium {
   NewtonRaphson solver_;
   std::array<Curvature<double>, 3> curvature_;   // of equilibria, and of both stages of a step of time
   int solves_ = 0, most_solves_ = 0, kind_ = 0;  // the last: which of them
+  std::array<int, 2> let_go_{};                  // of which rods a pair has in this solution
   bool changed_ = false, on_ridge_ = false;
   Status failure_ = Status::iteration_limit;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rods with mass in a step of time: each stage is an equilibrium of rods, pairs and inertia, and who touches whom is found in it.
 //
-// A rod that nothing touches goes by TR-BDF2.  One that is touched, and all that joints and contacts tie to it, go on by Euler's rule: contacts are walls,
-// and a blow takes energy.  A stage in which a rod is met first is solved anew by that.
+// Contacts are walls, from which the trapezoidal rule throws back.  So a stage in which rods meet or let go is solved anew by Euler's rule, by which a blow
+// takes energy: those rods, and all that contacts and joints tie to them, go by that until the contact lasts.
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
@@ -62,9 +62,10 @@ class PairMotion : public PairEquilibrium<Element> {
 
   /// The next step begins without velocity.
   void rest() noexcept { course_ = Course::rests; }
-  /// @param velocity  (s) -> of the centreline there, and how that changes along it
+  /// As of World.
   template <class Velocity>
   void throw_rod(std::size_t rod, Velocity&& velocity) noexcept {
+    if (!has_mass()) return;
     begin_motion();
     Body& body = system().bodies()[rod];
     body.motion->step.throw_at([&](int i) { return velocity(body.system().node(i).s); });
@@ -78,7 +79,7 @@ class PairMotion : public PairEquilibrium<Element> {
   /// @param dt [s]   @return whether all of it has an answer; else all has stopped where it had one last
   bool step(double dt, int parts) noexcept {
     begin_motion();
-    Base::begin();
+    Base::begin(2 + parts);
     system().begin_joints();
     for (PlacedBody& body : system().rigid()) body.begin_path();
     each([](Body& body) {
@@ -86,8 +87,13 @@ class PairMotion : public PairEquilibrium<Element> {
       body.chain().move_with(body.motion->inertia(), nullptr);
     });
     const double part = dt / parts;
-    if (course_ == Course::starts)
+    if (course_ == Course::starts) {
+      const Kept kept{system().kept_pairs(), dissipated_, 0};
       course_ = Course::goes_on, (void)detail::start(*this, part, 0., most_halvings);
+      put_back(kept);
+      // A blow there is none of the accelerations with which a contact goes on.
+      for (int k = 0; k < system().pairs(); ++k) system().pair(k).stages = 0;
+    }
     each([&](Body& body) { body.motion->ends.begin(dt); });
     bool found = true;
     for (int k = 0; k < parts && found; ++k)
@@ -133,7 +139,7 @@ class PairMotion : public PairEquilibrium<Element> {
   };
   Kept begin_part(double dt, double begin) noexcept {
     each([&](Body& body) { body.motion->begin_part(body.system(), dt); });
-    (void)take_euler(2);
+    (void)take_euler(lasting);
     return {system().kept_pairs(), dissipated_, begin};
   }
   void end_part(double end) noexcept {
@@ -141,6 +147,10 @@ class PairMotion : public PairEquilibrium<Element> {
   }
   void take_back(const Kept& kept) noexcept {
     each([](Body& body) { body.motion->take_back(body.system()); });
+    put_back(kept);
+  }
+  /// All but the rods.
+  void put_back(const Kept& kept) noexcept {
     system().set_pairs(kept.pairs);
     dissipated_ = kept.dissipated;
     system().aim(kept.way);
@@ -149,7 +159,6 @@ class PairMotion : public PairEquilibrium<Element> {
   }
   void start_again() noexcept {
     each([](Body& body) { body.motion->start_again(body.system()); });
-    system().save();
   }
   bool solve(int stage, double from, double to, bool whole) noexcept {
     system().aim(to);
@@ -164,17 +173,17 @@ class PairMotion : public PairEquilibrium<Element> {
       });
       this->begin_stage(stage, free);
       if (this->settle() != Outcome::settled) return false;
-      if (!this->changed() || !(take_euler(most_stages) || smooth)) break;
+      if (!this->changed() || !(take_euler(lasting + 1) || smooth)) break;
       system().restore();
-      (void)take_euler(most_stages);
+      (void)take_euler(lasting + 1);
     }
     for (int k = system().joints(); k < system().pairs(); ++k)
-      if (int& lasted = system().pair(k).stages; lasted < most_stages) ++lasted;
+      if (int& lasted = system().pair(k).stages; lasted < lasting) ++lasted;
     each([&](Body& body) { body.motion->know(body.system(), stage); });
     accept();
     return true;
   }
-  /// What touches, and what is tied to that, goes on by Euler's rule.   @return whether any did not yet
+  /// Contacts of fewer stages, and what is tied to those, go on by Euler's rule.   @return whether any did not yet
   bool take_euler(int stages) noexcept {
     bool any = false;
     for (bool more = true; more;) {
@@ -195,12 +204,13 @@ class PairMotion : public PairEquilibrium<Element> {
     return any;
   }
 
+  /// Whether a contact goes on by second order.
   bool touches_smoothly() noexcept {
     for (int k = system().joints(); k < system().pairs(); ++k)
       if (system().body(system().pair(k).rod[0]).motion->step.rule() == Step::Rule::second_order) return true;
     return false;
   }
-  static constexpr int most_stages = 1000;
+  static constexpr int lasting = 2;  // stages after which a contact lasts
 
   std::vector<std::array<Vector, 2>> held_;  // force and moment at the ends, two a rod
   double dissipated_ = 0;                    // [J]

@@ -44,7 +44,7 @@ class PairSides {
     return Side::point(parts, e, s, force);
   }
 
-  void clear() noexcept { size_ = 0; }
+  void clear() noexcept { size_ = 0, tensions_.clear(); }
   /// @param side  0: the first rod of the pair, 1: the second   @param row  where the pair's unknowns begin
   void add(RodPair& pair, std::size_t side, int row, int element) noexcept {
     Side& to = sides_[at(size_++)];
@@ -68,9 +68,7 @@ class PairSides {
     return false;
   }
   template <class Parts>
-  void seek(const Parts&) noexcept {
-    tensions_.clear();
-  }
+  void seek(const Parts&) noexcept {}
   /// @return what the sides in an element store beside its nodes [J]
   template <class Parts>
   double touch(const Parts& parts, int e, Residual& r, Tangent& K) noexcept {

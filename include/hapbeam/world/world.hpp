@@ -178,10 +178,10 @@ class World {
   void throw_rod(int rod, Velocity&& velocity) noexcept {
     equilibrium_.throw_rod(at(rod), velocity);
   }
-  /// Of a rod with mass at arc position s [m/s].
+  /// Of a rod with mass at arc position s [m/s]; without 0.
   VectorOf<double, 3> velocity(int rod, double s) const noexcept {
     const Body& body = system().body(rod);
-    return body.motion->velocity(body.system(), s);
+    return body.motion ? body.motion->velocity(body.system(), s) : VectorOf<double, 3>(0, 0, 0);
   }
   EnergyInMotion<double> energy() const noexcept {
     double work = 0;
