@@ -122,8 +122,7 @@ TEST_CASE("the blow of two long rods is that of infinite Euler-Bernoulli beams",
 TEST_CASE("two rods that strike keep their momentum, and have less energy with every step", "[world]") {
   const Rod a = loose(0.3, 0.002, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
             b = loose(0.25, 0.002, {{0.13, -0.1, 0.003}, {0, 1, 0}, {0, 0, 1}});
-  double before = 1;
-  for (const double dt : {1e-3, 2.5e-4, 1e-4}) {
+  for (const double dt : {2e-3, 1e-3, 2.5e-4, 1e-4}) {
     World<RoundRod> world({{a, 8}, {b, 8}});
     world.throw_rod(1, [](double) { return both({0, 0, -1}, {0, 0, 0}); });
     const auto momentum = [&] {
@@ -147,15 +146,13 @@ TEST_CASE("two rods that strike keep their momentum, and have less energy with e
     }
     CAPTURE(dt, touching, rise / first, last / first, lost / start.linear.norm(),
             turned / start.angular.norm());
-    CHECK(touching >= 5);
+    CHECK(touching >= 3);
     CHECK(rise <= 1e-9 * first);
     CHECK(last < 0.9 * first);
     CHECK(last > 0.5 * first);
     CHECK(lost <= 1e-8 * start.linear.norm());  // 10⁴ times the solver's 1e-9, of both signs
-    CHECK(turned <=
-          0.25 * before * start.angular.norm());  // of the step, whose places are not those of its velocities
-    before = turned / start.angular.norm();
-    CHECK(before <= 2e-5);
+    // Places are not those of velocities: of the step.
+    CHECK(turned <= 2e-5 * std::pow(dt / 1e-3, 1.5) * start.angular.norm());
   }
 }
 
@@ -238,6 +235,27 @@ TEST_CASE("an equilibrium that is let go starts from there", "[world]") {
   for (int k = 0; k < 5; ++k) (void)world.tick();
   CHECK(world.tick() == Status::ok);
   CHECK(world.energy().kinetic == 0);
+}
+
+TEST_CASE("a rod that is thrown against what it touches takes no energy from that", "[world]") {
+  Crossing at;
+  at.off = {0, 0, 1e-4};
+  World<RoundRod> world = crossed<RoundRod>(at, 7850, 0, RodSupport::clamped);
+  Crossing down = at;
+  down.off = {0, 0, -0.01};
+  REQUIRE(lead(world, at, down, 20) == Status::ok);
+  for (int k = 0; k < 5; ++k) REQUIRE(world.step(1e-3) == Status::ok);
+  REQUIRE(world.contacts() == 1);
+  world.throw_rod(1, [](double s) { return both({0, 0, 20 * s * s}, {0, 0, 40 * s}); });
+  double last = world.energy().sum(), rise = 0;
+  const double thrown = last;
+  for (int k = 0; k < 100; ++k) {
+    REQUIRE(world.step(2.5e-4, 1) == Status::ok);
+    rise = std::max(rise, world.energy().sum() - last), last = world.energy().sum();
+  }
+  CAPTURE(thrown, last, rise);
+  CHECK(rise <= 1e-9 * thrown);
+  CHECK(last < 0.95 * thrown);
 }
 
 TEST_CASE("a hand on a grip's springs that strikes gives energy only as long as it moves", "[world]") {

@@ -67,6 +67,7 @@ class PairMotion : public PairEquilibrium<Element> {
   void throw_rod(std::size_t rod, Velocity&& velocity) noexcept {
     if (!has_mass()) return;
     begin_motion();
+    course_ = Course::starts;
     Body& body = system().bodies()[rod];
     body.motion->step.throw_at([&](int i) { return velocity(body.system().node(i).s); });
   }
