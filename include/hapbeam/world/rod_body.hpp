@@ -34,9 +34,9 @@ class RodBody {
   using Vector = VectorOf<double, 3>;
   using Hand = VectorOf<double, 18>;  // both ends: at, along and director times the length [m]
 
-  /// In its shape at rest, or where its ends do not hold it in its natural shape.
-  /// @throws std::invalid_argument as ChainSystem, and where the rod has no shape at rest
-  RodBody(const Rod& rod, int elements, PairEquations& equations)
+  /// In its shape at rest, or where its ends do not hold it in its natural shape, or through given points.
+  /// @throws std::invalid_argument as ChainSystem and rod_through(), and where the rod has no shape at rest
+  RodBody(const Rod& rod, int elements, PairEquations& equations, const std::vector<Vector>& through = {})
       : sides(elements, equations),
         saved(elements),
         before(elements),
@@ -45,7 +45,8 @@ class RodBody {
         rest_(elements),
         swept_(BoxTree<double, 3>::leaves_for(elements)),
         radius_(rod.thickness() / 2) {
-    if (rod.held()) find_rest();
+    if (!through.empty()) lay(through);
+    else if (rod.held()) find_rest();
     keep_rest();
     reset();
   }
@@ -194,6 +195,24 @@ class RodBody {
 
  private:
   static constexpr int unknowns = Element::unknowns;
+  /// Tangents are those of the circles through three points.
+  void lay(const std::vector<Vector>& points) {
+    if (points.size() < 3) reject("rod through", static_cast<double>(points.size()), "points", "three or more");
+    std::vector<RodNode<double>> nodes;
+    double s = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vector before = points[i] - points[i > 0 ? i - 1 : 1], after = points[i + 1 < points.size() ? i + 1 : i - 1] - points[i];
+      const double in = positive("distance of two points", std::sqrt(before.squaredNorm()), "m"), out = positive("distance of two points", std::sqrt(after.squaredNorm()), "m");
+      const Vector along = i == 0 ? after : i + 1 == points.size() ? before : Vector(out / in * before + in / out * after);
+      if (i > 0) s += in;
+      const Vector tangent = unit(along);
+      nodes.push_back({s, points[i], tangent, i == 0 ? detail::beside(tangent) : across<double>(carry(nodes.back().director, nodes.back().tangent, tangent), tangent)});
+    }
+    for (RodNode<double>& node : nodes) node.s *= length() / s, node.tangent *= s / length();
+    chain().lay({nodes.data(), static_cast<int>(nodes.size())});
+    chain().go_home();
+    chain().ends().correct(chain().parts().nodes());
+  }
   void find_rest() {
     system_.set_goal();
     SolveReport<double> report = LoadPath{}.solve(system_).report;

@@ -39,7 +39,9 @@ class World {
       : equilibrium_(rods, bodies, joints, solver) {
     if (rods.empty()) throw std::invalid_argument("rods = 0: must be 1 or more");
     look_at_rest();
-    if (!joints.empty()) join();
+    const bool bent = std::any_of(rods.begin(), rods.end(), [](const WorldRod& rod) { return !rod.through.empty(); });
+    if (bent) course_ = Course::falls, unmoved_ = 2;
+    if (bent || !joints.empty()) come_to_rest();
   }
 
   int rods() const noexcept { return static_cast<int>(system().bodies().size()); }
@@ -236,12 +238,12 @@ class World {
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
   /// From the shapes of rods alone to that which they have together.
-  void join() {
+  void come_to_rest() {
     constexpr int most = 200;
     for (int k = 0; k < most; ++k)
       if (tick() == Status::ok) break;
     if (status_ != Status::ok)
-      throw std::invalid_argument(std::string("joints: they do not come together, ") + name(status_));
+      throw std::invalid_argument(std::string("rods: they do not come to rest together, ") + name(status_));
     system().keep_rest();
     reset();
   }

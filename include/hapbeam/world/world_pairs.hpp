@@ -25,6 +25,8 @@ struct WorldRod {
   int elements;  ///< 2 or more
   /// Of what touches the larger coefficients count.
   Friction friction = {};
+  /// Where given, it begins bent through these points [m], as rod_through(), and falls from there to an equilibrium: a knot, a buckled strip.
+  std::vector<VectorOf<double, 3>> through = {};
 };
 
 namespace detail {
@@ -51,7 +53,7 @@ class WorldPairs {
     for (std::size_t i = 0; i < rods.size(); ++i) {
       rods[i].friction.check();
       if (at(away[i]) > rods.size()) jointed[i].check_held();
-      bodies_.emplace_back(jointed[i], rods[i].elements, *equations_);
+      bodies_.emplace_back(jointed[i], rods[i].elements, *equations_, rods[i].through);
       frictions_.push_back(rods[i].friction);
     }
     for (const RigidBody& body : rigid) frictions_.push_back(body.friction());
