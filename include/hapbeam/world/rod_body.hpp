@@ -197,16 +197,24 @@ class RodBody {
   static constexpr int unknowns = Element::unknowns;
   /// Tangents are those of the circles through three points.
   void lay(const std::vector<Vector>& points) {
-    if (points.size() < 3) reject("rod through", static_cast<double>(points.size()), "points", "three or more");
+    if (points.size() < 3)
+      reject("rod through", static_cast<double>(points.size()), "points", "three or more");
     std::vector<RodNode<double>> nodes;
     double s = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vector before = points[i] - points[i > 0 ? i - 1 : 1], after = points[i + 1 < points.size() ? i + 1 : i - 1] - points[i];
-      const double in = positive("distance of two points", std::sqrt(before.squaredNorm()), "m"), out = positive("distance of two points", std::sqrt(after.squaredNorm()), "m");
-      const Vector along = i == 0 ? after : i + 1 == points.size() ? before : Vector(out / in * before + in / out * after);
+      const Vector before = points[i] - points[i > 0 ? i - 1 : 1],
+                   after = points[i + 1 < points.size() ? i + 1 : i - 1] - points[i];
+      const double in = positive("distance of two points", std::sqrt(before.squaredNorm()), "m"),
+                   out = positive("distance of two points", std::sqrt(after.squaredNorm()), "m");
+      const Vector along = i == 0                   ? after
+                           : i + 1 == points.size() ? before
+                                                    : Vector(out / in * before + in / out * after);
       if (i > 0) s += in;
       const Vector tangent = unit(along);
-      nodes.push_back({s, points[i], tangent, i == 0 ? detail::beside(tangent) : across<double>(carry(nodes.back().director, nodes.back().tangent, tangent), tangent)});
+      nodes.push_back(
+          {s, points[i], tangent,
+           i == 0 ? detail::beside(tangent)
+                  : across<double>(carry(nodes.back().director, nodes.back().tangent, tangent), tangent)});
     }
     for (RodNode<double>& node : nodes) node.s *= length() / s, node.tangent *= s / length();
     chain().lay({nodes.data(), static_cast<int>(nodes.size())});

@@ -39,7 +39,8 @@ class World {
       : equilibrium_(rods, bodies, joints, solver) {
     if (rods.empty()) throw std::invalid_argument("rods = 0: must be 1 or more");
     look_at_rest();
-    const bool bent = std::any_of(rods.begin(), rods.end(), [](const WorldRod& rod) { return !rod.through.empty(); });
+    const bool bent =
+        std::any_of(rods.begin(), rods.end(), [](const WorldRod& rod) { return !rod.through.empty(); });
     if (bent) course_ = Course::falls, unmoved_ = 2;
     if (bent || !joints.empty()) come_to_rest();
   }
