@@ -8,44 +8,18 @@
 #include <vector>
 
 #include "body_scenes.hpp"
+#include <hapbeam/shapes.hpp>
 #include <hapbeam/world/world.hpp>
 
 namespace hapbeam::testing {
 
-/// A loose overhand knot: a braid of three half turns about the x axis, 2b long and of radius a, a loop of about radius R above it, and straight ends.
-inline std::vector<Point> overhand(double length, double R, double b, double a) {
-  std::vector<Point> knot;
-  const auto braid = [&](double from) {
-    for (int i = 0; i <= 40; ++i) {
-      const double u = i / 40.0, angle = from + 3 * pi * u * u * (3 - 2 * u);
-      knot.push_back({b * (2 * u - 1), a * std::sin(angle), a * std::cos(angle)});
-    }
-  };
-  braid(-pi / 2);
-  for (int i = 1; i < 60; ++i) {
-    const double angle = 2 * pi * i / 60;
-    knot.push_back({b * (1 - angle / pi) + R * std::sin(angle), a + R * (1 - std::cos(angle)), 0});
-  }
-  braid(pi / 2);
-  double tied = 0;
-  for (std::size_t i = 1; i < knot.size(); ++i) tied += (knot[i] - knot[i - 1]).norm();
-  std::vector<Point> points;
-  const double tail = (length - tied) / 2;
-  for (int i = 20; i > 0; --i) points.push_back({-b - tail * i / 20, -a, 0});
-  points.insert(points.end(), knot.begin(), knot.end());
-  for (int i = 1; i <= 20; ++i) points.push_back({b + tail * i / 20, -a, 0});
-  return points;
-}
-
-/// A rod in such a knot, and two hands that hold its ends.
+/// A rod in an overhand knot, and two hands that hold its ends.
 template <class Element>
 class KnottedRod {
  public:
   KnottedRod(double length, double thickness, double young, double R, int elements,
              const Friction& friction = {})
-      : KnottedRod(length, thickness, young,
-                   overhand(length, R, 3.5 * std::sqrt(thickness / 2 * R), 0.75 * thickness), elements,
-                   friction) {}
+      : KnottedRod(length, thickness, young, overhand_knot(length, thickness, R), elements, friction) {}
 
   /// Both hands go from each other.   @param by  each of them [m]
   Status pull(double by) { return move({-by, 0, 0}, {by, 0, 0}); }
