@@ -117,14 +117,14 @@ inline Beam tensioned(const Beam& beam, double force) {
 }
 
 /// Points of a loose overhand knot about the x axis, through which a rod of a World may begin: straight ends, and a loop above a braid of three half turns.
-/// @param length, thickness  of the rod [m]   @param radius  of the loop, ten thicknesses or more [m]
+/// @param length, thickness  of the rod [m]   @param radius  of the loop, nine thicknesses or more [m]
 /// @return [m] the first and the last are where its ends are, along x
 [[gnu::cold]] inline std::vector<VectorOf<double, 3>> overhand_knot(double length, double thickness,
                                                                     double radius) {
   constexpr double half_turn = 3.141592653589793238462643;
   constexpr int pieces = 40;
   detail::positive("thickness", thickness, "m");
-  if (!(radius >= 10 * thickness)) detail::reject("radius", radius, "m", "ten thicknesses or more");
+  if (!(radius >= 9 * thickness)) detail::reject("radius", radius, "m", "nine thicknesses or more");
   // Of the braid half its length, and its radius.
   const double half = 2.5 * std::sqrt(thickness * radius), beside = 0.75 * thickness;
   std::vector<VectorOf<double, 3>> points(1);

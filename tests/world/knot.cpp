@@ -35,7 +35,7 @@ TEST_CASE("a loose knot has the tension of its loop and the friction of its brai
   constexpr double mu = 0.01, by = 5e-5;
   std::array<double, 3> small{}, tension{}, friction{};
   std::size_t k = 0;
-  for (const Size& size : {Size{0.0005, 0.055, 192}, Size{0.001, 0.055, 128}, Size{0.001, 0.03, 192}}) {
+  for (const Size& size : {Size{0.0005, 0.055, 144}, Size{0.001, 0.055, 192}, Size{0.001, 0.03, 192}}) {
     KnottedRod<RoundRod> knot(1, size.thickness, 200e9, size.R, size.elements, {mu, mu});
     int answered = 0;
     const auto go = [&](double step) {
@@ -45,7 +45,7 @@ TEST_CASE("a loose knot has the tension of its loop and the friction of its brai
     const double pulled = go(by), R = knot.radius(), h = size.thickness / 2, EI = knot.stiffness;
     (void)go(by);
     const double let_go = go(-by);
-    CHECK(answered >= 270);
+    CHECK(answered >= 285);
     REQUIRE(knot.world.contacts() >= 4);
     REQUIRE(knot.world.contacts() <= 8);
     small[k] = std::sqrt(h / R);
@@ -61,7 +61,7 @@ TEST_CASE("a loose knot has the tension of its loop and the friction of its brai
 }
 
 TEST_CASE("a knot that is pulled tight stays one", "[world][friction]") {
-  KnottedRod<RoundRod> knot(0.6, 0.004, 1e8, 0.04, 128, 0.2);
+  KnottedRod<RoundRod> knot(0.6, 0.004, 1e8, 0.04, 160, 0.2);
   REQUIRE(knot.determinant() == 3);
   const double stored = knot.world.strain_energy();
   double work = 0, before = knot.tension(), first = before;

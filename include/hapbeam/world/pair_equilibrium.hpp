@@ -56,7 +56,7 @@ class PairEquilibrium {
     system_.begin_friction();
     for (int k = system_.joints(); k < system_.pairs(); ++k) {
       RodPair& pair = system_.pair(k);
-      if (!at_end(pair)) pair.held[0] = pair.held[0] ? is_beside(k) : is_beside(k, pair.force, 0.5);
+      if (is_pinned(k) && !is_beside(k)) pair.held[0] = false;
       pair.mark();
     }
     for (int pass = 0; pass < 4 + 2 * most_pairs; ++pass) {
@@ -184,16 +184,14 @@ class PairEquilibrium {
     }
     return worst;
   }
-  /// A pair that is apart, between clamps that no force moves, or one of two that have come together, whose force the other takes over.
-  /// @return -1: there is none
-  int needless() noexcept {
+  /// A pair that is apart, between clamps that no force moves, or one of two that have come together.   @return -1: there is none
+  int needless() const noexcept {
     for (int k = system_.joints(); k < system_.pairs(); ++k) {
       const RodPair& pair = system_.pair(k);
       if (!system_.moves(pair)) continue;
       if (pair.distance(system_.between(pair)) - pair.reach > apart * pair.reach) return k;
       for (int j = system_.joints(); j < k; ++j)
-        if (RodPair& other = system_.pair(j); beside_each_other(system_, pair, other, 1, 0))
-          return other.force += pair.force, other.held[0] = true, k;
+        if (beside_each_other(system_, pair, system_.pair(j), 1, 0)) return k;
     }
     return -1;
   }
@@ -207,16 +205,11 @@ class PairEquilibrium {
   /// Its first place stays for this step, and as long as another contact is in the same row.
   bool is_pinned(int k) const noexcept {
     const RodPair& pair = system_.pair(k);
-    return pair.held[0] && !at_end(pair);
+    return pair.held[0] && pair.s[0] > 0 && pair.s[0] < system_.length(pair.rod[0]);
   }
-  bool at_end(const RodPair& pair) const noexcept {
-    return pair.s[0] <= 0 || pair.s[0] >= system_.length(pair.rod[0]);
-  }
-  bool is_beside(int k, double force = 0, double elements = 1) const noexcept {
+  bool is_beside(int k) const noexcept {
     for (int j = 0; j < system_.pairs(); ++j)
-      if (j != k && system_.pair(j).force >= force &&
-          beside_each_other(system_, system_.pair(k), system_.pair(j), 0, elements))
-        return true;
+      if (j != k && beside_each_other(system_, system_.pair(k), system_.pair(j), 0, 1)) return true;
     return false;
   }
 
