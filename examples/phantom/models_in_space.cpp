@@ -32,7 +32,7 @@ std::unique_ptr<Body> couple_held(Parts parts) {
     rods = {{std::get<hapbeam::Rod>(parts.slender), o.elements, {}},
             {needle(o, hand, coupling.support()), o.elements, {}}};
   } else if (o.avatar == Avatar::knot) {
-    constexpr double friction = 0.2;
+    constexpr double friction = 0.02;  // wet
     hapbeam::Rod cord = o.beam.make_rod(coupling.support());
     const auto points = hapbeam::overhand_knot(cord.length(), cord.thickness(), 0.065 * cord.length());
     cord.place_left({points.front(), {1, 0, 0}, {0, 1, 0}})

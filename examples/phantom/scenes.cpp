@@ -61,8 +61,8 @@ constexpr NamedScene scenes[] = {
      "it pushes back while the vessel bends it farther, and slides on: there is no friction", 1, 1, 0.001,
      0.012, Avatar::end},
     {"knot", ElementChoice::round_rod, Script::push, 0, 0.08, 2.5,
-     "it pulls back more and more as the loop closes, and less on the way back: what is tied rubs on itself",
-     1, 1, 0.002, 0.012, Avatar::knot, 64},
+     "it pulls back more and more as the loop closes: half as far open it pulls four times as much", 1, 1,
+     0.002, 0.012, Avatar::knot, 64},
 };
 
 const char* name(const NamedScene& scene) { return scene.label; }

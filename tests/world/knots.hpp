@@ -17,9 +17,8 @@ namespace hapbeam::testing {
 template <class Element>
 class KnottedRod {
  public:
-  KnottedRod(double length, double thickness, double young, double R, int elements,
-             const Friction& friction = {})
-      : KnottedRod(length, thickness, young, overhand_knot(length, thickness, R), elements, friction) {}
+  KnottedRod(double l, double d, double young, double R, int elements, const Friction& friction = {})
+      : KnottedRod(l, d, young, overhand_knot(l, d, R), elements, friction) {}
 
   /// Both hands go from each other.   @param by  each of them [m]
   Status pull(double by) { return move({-by, 0, 0}, {by, 0, 0}); }

@@ -35,7 +35,7 @@ class RodBody {
   using Hand = VectorOf<double, 18>;  // both ends: at, along and director times the length [m]
 
   /// In its shape at rest, or where its ends do not hold it in its natural shape, or through given points.
-  /// @throws std::invalid_argument as ChainSystem and rod_through(), and where the rod has no shape at rest
+  /// @throws std::invalid_argument as ChainSystem, and where the rod has no shape at rest
   RodBody(const Rod& rod, int elements, PairEquations& equations, const std::vector<Vector>& through = {})
       : sides(elements, equations),
         saved(elements),
@@ -195,26 +195,26 @@ class RodBody {
 
  private:
   static constexpr int unknowns = Element::unknowns;
-  /// Tangents are those of the circles through three points.
+  /// Through points, with the tangents of circles through three of them, and its ends where they hold it.
+  /// @throws std::invalid_argument where there are fewer, or two that follow each other are one
   void lay(const std::vector<Vector>& points) {
-    if (points.size() < 3)
-      reject("rod through", static_cast<double>(points.size()), "points", "three or more");
+    if (points.size() < 3) reject("rod through", double(points.size()), "points", "three or more");
+    std::vector<Vector> chords;
+    std::vector<double> lengths;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      chords.push_back(points[i] - points[i - 1]);
+      lengths.push_back(positive("distance of two points", std::sqrt(chords.back().squaredNorm()), "m"));
+    }
     std::vector<RodNode<double>> nodes;
     double s = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vector before = points[i] - points[i > 0 ? i - 1 : 1],
-                   after = points[i + 1 < points.size() ? i + 1 : i - 1] - points[i];
-      const double in = positive("distance of two points", std::sqrt(before.squaredNorm()), "m"),
-                   out = positive("distance of two points", std::sqrt(after.squaredNorm()), "m");
-      const Vector along = i == 0                   ? after
-                           : i + 1 == points.size() ? before
-                                                    : Vector(out / in * before + in / out * after);
-      if (i > 0) s += in;
-      const Vector tangent = unit(along);
-      nodes.push_back(
-          {s, points[i], tangent,
-           i == 0 ? detail::beside(tangent)
-                  : across<double>(carry(nodes.back().director, nodes.back().tangent, tangent), tangent)});
+      const std::size_t in = i > 0 ? i - 1 : i, out = i < chords.size() ? i : in;
+      const Vector t =
+          unit(Vector(lengths[out] / lengths[in] * chords[in] + lengths[in] / lengths[out] * chords[out]));
+      const Vector d1 = i == 0 ? detail::beside(t)
+                               : across<double>(carry(nodes.back().director, nodes.back().tangent, t), t);
+      nodes.push_back({s, points[i], t, d1});
+      if (i < lengths.size()) s += lengths[i];
     }
     for (RodNode<double>& node : nodes) node.s *= length() / s, node.tangent *= s / length();
     chain().lay({nodes.data(), static_cast<int>(nodes.size())});

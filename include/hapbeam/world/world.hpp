@@ -31,9 +31,9 @@ class World {
  public:
   static constexpr int most_contacts = detail::most_pairs;
 
-  /// Joints draw their rods together from where those rest without them.
+  /// Joints draw their rods together from where those rest without them, and rods that begin through points fall from there.
   /// @throws std::invalid_argument where there is no rod, a rod, a body or a joint makes no sense, a rod has no shape at rest, or lies in another or in a body
-  /// there, or joints do not come together
+  /// there, or they do not come to rest together
   explicit World(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& bodies = {},
                  const std::vector<BallJoint>& joints = {}, const NewtonRaphson& solver = {})
       : equilibrium_(rods, bodies, joints, solver) {
@@ -238,7 +238,7 @@ class World {
 
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
-  /// From the shapes of rods alone to that which they have together.
+  /// From the shapes with which they begin to that which they have together.
   void come_to_rest() {
     constexpr int most = 200;
     for (int k = 0; k < most; ++k)

@@ -25,7 +25,7 @@ struct WorldRod {
   int elements;  ///< 2 or more
   /// Of what touches the larger coefficients count.
   Friction friction = {};
-  /// Where given, it begins bent through these points [m], as rod_through(), and falls from there to an equilibrium: a knot, a buckled strip.
+  /// Points from one end to the other [m], three or more: it begins bent through them, and falls to an equilibrium from there.  None: it begins at rest.
   std::vector<VectorOf<double, 3>> through = {};
 };
 
