@@ -53,7 +53,7 @@ void check_held(const Options& options) {
     cli::refuse("--element", name(options.element), "round-rod for a rod in the hand");
   if (options.coupling == CouplingChoice::direct)
     cli::refuse("--coupling", name(options.coupling), "virtual for a rod in the hand");
-  if (options.avatar == Avatar::end && options.place != 0)
+  if (holds_end(options.avatar) && options.place != 0)
     cli::refuse("--place", cli::digits(options.place), "0 where the hand holds the end");
 }
 

@@ -100,8 +100,8 @@ class Live final : public Body {
   const hapbeam::Placement& placement() const noexcept override { return servo_options_.placement; }
   double depth(const hapbeam::ServoRecord& r) const noexcept override {
     const Options& o = parts_.options;
-    // How far it is pushed in.
-    if (o.avatar == Avatar::end) return r.avatar.x() - at_rest(rest_.shape(), 0).x();
+    // How far it is pushed in, or pulled.
+    if (holds_end(o.avatar)) return along_end(o) * (r.avatar.x() - at_rest(rest_.shape(), 0).x());
     if (!r.pressing) return 0;
     if constexpr (dimension == 2) return height_at(rest_.shape(), r.press.s) - r.press.d;
     // Along the normal; the device's axes are the scene's.

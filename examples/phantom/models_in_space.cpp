@@ -9,6 +9,7 @@
 #include <hapbeam/element/rod.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/rod_system.hpp>
+#include <hapbeam/shapes.hpp>
 
 namespace phantom {
 
@@ -30,6 +31,13 @@ std::unique_ptr<Body> couple_held(Parts parts) {
     const Eigen::Vector3d hand = placement({o.place, 0, 0}, o).scene_position({0, height_above, 0});
     rods = {{std::get<hapbeam::Rod>(parts.slender), o.elements, {}},
             {needle(o, hand, coupling.support()), o.elements, {}}};
+  } else if (o.avatar == Avatar::knot) {
+    constexpr double friction = 0.02;  // wet
+    hapbeam::Rod cord = o.beam.make_rod(coupling.support());
+    const auto points = hapbeam::overhand_knot(cord.length(), cord.thickness(), 0.065 * cord.length());
+    cord.place_left({points.front(), {1, 0, 0}, {0, 1, 0}})
+        .place_right({points.back(), {1, 0, 0}, {0, 1, 0}});
+    rods = {{cord, o.elements, friction, points}};
   } else {
     rods = {{o.beam.make_rod(coupling.support()), o.elements, {}}};
   }

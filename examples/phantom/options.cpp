@@ -151,7 +151,7 @@ void suit_beam(Options& o, const std::vector<std::string>& given) {
 
 /// Only what is held is pushed along.
 void suit_hold(const Options& o) {
-  if (o.script == Script::push && o.avatar != Avatar::end)
+  if (o.script == Script::push && !holds_end(o.avatar))
     cli::refuse("--script", name(o.script), "one of slide, press, tap, around, pluck for what is touched");
 }
 
@@ -235,6 +235,7 @@ const char* name(Avatar avatar) {
     case Avatar::ball: return "ball";
     case Avatar::needle: return "needle";
     case Avatar::end: return "end";
+    case Avatar::knot: return "knot";
   }
   return "unknown";
 }

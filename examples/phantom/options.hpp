@@ -24,8 +24,9 @@ enum class Script { slide, press, tap, around, pluck, push };
 enum class CouplingChoice { direct, virtual_coupling };
 enum class ModelChoice { finite_elements, pod, galerkin };
 enum class DeviceChoice { simulated, phantom };
-/// What the hand touches with: a ball, or a flexible needle whose end it holds; or it holds the left end of the rod itself.
-enum class Avatar { ball, needle, end };
+/// What the hand touches with: a ball, or a flexible needle whose end it holds; or it holds the left end of the rod itself, which goes into a vessel or is
+/// tied in a knot.
+enum class Avatar { ball, needle, end, knot };
 
 /// Everything in SI.
 struct Options {
@@ -76,6 +77,8 @@ struct Options {
 constexpr bool bends_in_space(ElementChoice element) {
   return element == ElementChoice::round_rod || element == ElementChoice::twisted_rod;
 }
+
+constexpr bool holds_end(Avatar avatar) { return avatar == Avatar::end || avatar == Avatar::knot; }
 
 /// The scene is one of the program's own.
 inline bool is_named_scene(const Options& o) { return !o.scene.empty() && o.scene_file.empty(); }

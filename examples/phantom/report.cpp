@@ -77,7 +77,7 @@ void print_scene(const Options& o, const Trained* trained, const hapbeam::Device
     if (!o.feels.empty()) std::printf("feels    %s\n", o.feels.c_str());
     std::printf("model    finite elements, %s, %d elements\n", name(o.element), o.elements);
   }
-  if (o.avatar == Avatar::end)
+  if (holds_end(o.avatar))
     std::printf("hand     %s, holds the left end, by %g mm, %g s\n", name(o.script), o.depth * 1e3,
                 o.duration);
   else

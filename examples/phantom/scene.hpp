@@ -26,7 +26,7 @@ inline double reach_of(const Options& options) { return options.radius + options
 /// From where the beam is touched to the hand [m]: a needle crosses the rod and comes from who looks.  An end that is held is in the hand
 /// where a script begins.
 inline Eigen::Vector3d to_hand(const Options& options) {
-  if (options.avatar == Avatar::end) return {0, -height_above * options.scale, 0};
+  if (holds_end(options.avatar)) return {0, -height_above * options.scale, 0};
   return {0, reach_of(options), options.avatar == Avatar::needle ? 0.15 : 0};
 }
 
@@ -52,6 +52,9 @@ inline std::vector<hapbeam::RigidBody> vessel(const Options& options) {
   return {hapbeam::RigidBody::tube(
       hapbeam::ArcSpline(entry, {1, 0, 0}).arc(lead).arc(turn * bend, {0, 1 / bend, 0}), radius)};
 }
+
+/// Along x: into a vessel, and away from a knot.
+inline double along_end(const Options& options) { return options.avatar == Avatar::knot ? -1 : 1; }
 
 /// How far the hand slides to either side of the place [m, device]: 0.15 m of the half width of 0.19 m, or less
 /// where there is less beam.
@@ -106,9 +109,11 @@ inline Way make_path(const Options& options) {
     }
     case Script::press: path.press(down, 0.3 * T).rest(0.4 * T).release(down, 0.25 * T).rest(0.05 * T); break;
     case Script::around: break;
-    case Script::push:
-      path.slide(options.depth, 0.4 * T).rest(0.1 * T).slide(-options.depth, 0.4 * T).rest(0.1 * T);
+    case Script::push: {
+      const double way = along_end(options) * options.depth;
+      path.slide(way, 0.4 * T).rest(0.1 * T).slide(-way, 0.4 * T).rest(0.1 * T);
       break;
+    }
     case Script::pluck:
       for (int i = 0; i < 3; ++i)
         path.press(down, 0.1 * T).rest(0.03 * T).release(down, 0.02).rest(0.2 * T - 0.02);

@@ -87,7 +87,7 @@ void visit_scene(Fields& f, Options& o) {
   f.real("hand.place", "m", o.place, 0.0, o.beam.length);
   f.real("hand.depth", "m", o.depth, 0.0, 0.1);
   f.real("hand.duration", "s", o.duration, 1.0, 86400.0);
-  f.choice("hand.avatar", o.avatar, Avatar::end);
+  f.choice("hand.avatar", o.avatar, Avatar::knot);
   f.real("hand.radius", "m", o.radius, 0.0, 0.1);
   f.real("hand.friction", "1", o.friction, 0.0, 2.0);
   f.real("hand.scale", "1", o.scale, 1e-3, 1e3);

@@ -21,6 +21,7 @@ struct NamedScene {
   double radius = 0.005;  ///< [m] of the avatar
   double pitch = 0.012;   ///< [m] from one beam to the next
   Avatar avatar = Avatar::ball;
+  int elements = 16;
 };
 
 constexpr double middle = std::numeric_limits<double>::quiet_NaN();
@@ -59,6 +60,9 @@ constexpr NamedScene scenes[] = {
     {"catheter", ElementChoice::round_rod, Script::push, 0, 0.1, 1.5,
      "it pushes back while the vessel bends it farther, and slides on: there is no friction", 1, 1, 0.001,
      0.012, Avatar::end},
+    {"knot", ElementChoice::round_rod, Script::push, 0, 0.08, 2.5,
+     "it pulls back more and more as the loop closes: half as far open it pulls four times as much", 1, 1,
+     0.002, 0.012, Avatar::knot, 64},
 };
 
 const char* name(const NamedScene& scene) { return scene.label; }
@@ -81,6 +85,7 @@ void set_scene(Options& o, const std::string& label) {
   o.avatar = scene.avatar;
   o.radius = scene.radius;
   o.pitch = scene.pitch;
+  o.elements = scene.elements;
 }
 
 std::string scene_names() { return cli::names(scenes); }

@@ -33,6 +33,7 @@ struct NamedBeam {
 // strip: steel, so thin that stretching stiffens it at once.  string: steel wire under the tension of a guitar's.
 // arch: a strip of steel, bent by nature, that snaps through.  comb: one of its teeth, of nylon.
 // needle: for knitting.  hook: of spring wire.  fishing-rod: of glass fibre, with 100 g on its line.  probe: what a needle meets, of nylon.  catheter: of nitinol.
+// knot: a cord of soft polyethylene.
 constexpr NamedBeam beams[] = {
     {"thesis", 2.54, 0.0254, 0.0254, 206.8427e9, Support::pinned, Support::pinned},
     {"ruler", 0.3, 0.025, 0.001, 200e9, Support::clamped, Support::free},
@@ -48,6 +49,7 @@ constexpr NamedBeam beams[] = {
      1150},
     {"catheter", 0.24, 0.0012, 0.0012, 60e9, Support::clamped, Support::free, true, 0, 0, Shape::straight, 0,
      6450},
+    {"knot", 0.6, 0.004, 0.004, 1e8, Support::clamped, Support::clamped, true, 0, 0, Shape::straight, 0, 920},
 };
 constexpr Support supports[] = {Support::free, Support::clamped, Support::pinned, Support::roller,
                                 Support::guided};
@@ -190,7 +192,8 @@ Entries beam_entries(BeamOptions& b) {
        "clamped-free.  Rods in space, round and clamped-free:  needle: steel, 0.15 m x 2.5 mm;  hook: steel "
        "wire, 0.2 m x "
        "2.5 mm, naturally bent;  fishing-rod: glass fibre, 1.2 m x 8 mm, tapered, 1 N on its line;  probe: "
-       "nylon, 0.25 m x 3 mm, clamped at both ends;  catheter: nitinol wire, 0.24 m x 1.2 mm;  " +
+       "nylon, 0.25 m x 3 mm, clamped at both ends;  catheter: nitinol wire, 0.24 m x 1.2 mm;  knot: "
+       "polyethylene, 0.6 m x 4 mm, clamped at both ends;  " +
            b.name + " by default",
        [&b](const std::string& v) { set_beam(b, v); }, true},
       customised(b, {"--length", "M", "length of the beam [m]",

@@ -116,4 +116,38 @@ inline Beam tensioned(const Beam& beam, double force) {
   return rod.naturally(std::move(arcs)).place_left(pose);
 }
 
+/// Points of a loose overhand knot about the x axis, through which a rod of a World may begin: straight ends, and a loop above a braid of three half turns.
+/// @param length, thickness  of the rod [m]   @param radius  of the loop, nine thicknesses or more [m]
+/// @return [m] the first and the last are where its ends are, along x
+[[gnu::cold]] inline std::vector<VectorOf<double, 3>> overhand_knot(double length, double thickness,
+                                                                    double radius) {
+  constexpr double half_turn = 3.141592653589793238462643;
+  constexpr int pieces = 40;
+  detail::positive("thickness", thickness, "m");
+  if (!(radius >= 9 * thickness)) detail::reject("radius", radius, "m", "nine thicknesses or more");
+  // Of the braid half its length, and its radius.
+  const double half = 2.5 * std::sqrt(thickness * radius), beside = 0.75 * thickness;
+  std::vector<VectorOf<double, 3>> points(1);
+  const auto braid = [&](double from) {
+    for (int i = 0; i <= pieces; ++i) {
+      const double u = double(i) / pieces, angle = from + 3 * half_turn * u * u * (3 - 2 * u);
+      points.push_back({half * (2 * u - 1), beside * std::sin(angle), beside * std::cos(angle)});
+    }
+  };
+  braid(-half_turn / 2);
+  for (int i = 1; i < pieces; ++i) {
+    const double u = 2.0 * i / pieces, angle = u * half_turn;
+    points.push_back({half * (1 - u) + radius * std::sin(angle), beside + radius * (1 - std::cos(angle)), 0});
+  }
+  braid(half_turn / 2);
+  double tied = 0;
+  for (std::size_t i = 2; i < points.size(); ++i)
+    tied += std::sqrt((points[i] - points[i - 1]).squaredNorm());
+  if (!(length > 1.5 * tied)) detail::reject("length", length, "m", "half as long again as what is tied");
+  const double end = half + (length - tied) / 2;
+  points.front() = {-end, -beside, 0};
+  points.push_back({end, -beside, 0});
+  return points;
+}
+
 }  // namespace hapbeam

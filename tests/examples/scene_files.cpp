@@ -154,7 +154,7 @@ void broken_files() {
 
 int main() {
   for (const char* scene : {"thesis", "ruler", "strip", "string", "arch", "comb", "needle", "hook",
-                            "fishing-rod", "probe", "catheter"})
+                            "fishing-rod", "probe", "catheter", "knot"})
     round_trip(scene, phantom::parse({"--scene", scene}));
   round_trip("two hands", phantom::parse({"--scene", "arch", "--hands", "2"}));
   round_trip("friction", phantom::parse({"--scene", "ruler", "--friction", "0.3"}));

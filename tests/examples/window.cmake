@@ -24,7 +24,7 @@ add_dependencies(hapbeam_tests compare_pictures)
 # Each scene looks as it did when its reference was looked at (docs/images/scenes.sh), but for what depends on the machine:
 # the line and the diagram of how long a tick takes.  Under sanitizers it is drawn for half a second.
 set(times 0.78,0.15,1,0.185 0.775,0.655,1,1)
-foreach(scene_at thesis:3.5 ruler:1.6 strip:3.5 string:4.5 arch:1.75 comb:2 needle:1.2 hook:4.1 fishing-rod:7.2 probe:2.4 catheter:4.5)
+foreach(scene_at thesis:3.5 ruler:1.6 strip:3.5 string:4.5 arch:1.75 comb:2 needle:1.2 hook:4.1 fishing-rod:7.2 probe:2.4 catheter:4.5 knot:4)
   string(REPLACE ":" ";" scene_at ${scene_at})
   list(GET scene_at 0 scene)
   list(GET scene_at 1 at)

@@ -13,8 +13,8 @@ namespace phantom {
 
 namespace {
 
-constexpr const char* scene_labels[] = {"thesis", "ruler", "strip",       "string", "arch",    "comb",
-                                        "needle", "hook",  "fishing-rod", "probe",  "catheter"};
+constexpr const char* scene_labels[] = {"thesis", "ruler", "strip",       "string", "arch",     "comb",
+                                        "needle", "hook",  "fishing-rod", "probe",  "catheter", "knot"};
 constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice::full,
                                       ElementChoice::reduced,      ElementChoice::stability_functions,
                                       ElementChoice::corotational, ElementChoice::tapered,

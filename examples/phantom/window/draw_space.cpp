@@ -138,7 +138,7 @@ void SpaceDrawing::draw_ends(Solids& solids) const {
     block.col(2) = half * hapbeam::detail::cross3<double>(end.tangent, end.across);
     solids.block(end.middle + side * block.col(0), block, IM_COL32(200, 204, 210, 255));
   };
-  if (options_.avatar != Avatar::end) hold(line_.rod().left(), line_.samples().front().ring, -1);
+  if (!holds_end(options_.avatar)) hold(line_.rod().left(), line_.samples().front().ring, -1);
   hold(line_.rod().right(), line_.samples().back().ring, 1);
 }
 
@@ -182,7 +182,7 @@ void SpaceDrawing::draw_arm(ImDrawList& list, const hapbeam::ServoRecord& r, flo
     const std::string words = text("%.2f N", force);
     label(list, clear_of_rod(hidden ? avatar : to, hidden ? beside : 0, words, unit), colour::vermilion,
           words);
-  } else if (!r.pressing && options_.avatar != Avatar::end) {
+  } else if (!r.pressing && !holds_end(options_.avatar)) {
     Vector from = r.avatar;
     RodLine::Nearest rod = line_.nearest(from);
     if (needle_)

@@ -96,8 +96,8 @@ class Window {
 
   /// The next scene, model and coupling of a tour, in a window of another size now and then.
   void tour(int step) {
-    constexpr const char* scenes[] = {"thesis", "ruler", "needle", "strip",
-                                      "string", "arch",  "probe",  "catheter"};
+    constexpr const char* scenes[] = {"thesis", "ruler", "needle",   "strip", "string",
+                                      "arch",   "probe", "catheter", "knot"};
     constexpr ElementChoice elements[] = {ElementChoice::linear, ElementChoice::corotational,
                                           ElementChoice::stability_functions, ElementChoice::reduced,
                                           ElementChoice::full};
@@ -139,7 +139,7 @@ class Window {
 
   static Pressed pressed(const Options& options) {
     if (options.element == ElementChoice::with_mass) return Pressed::with_mass;
-    return options.beams > 1 || options.avatar == Avatar::end ? Pressed::way : Pressed::beam;
+    return options.beams > 1 || holds_end(options.avatar) ? Pressed::way : Pressed::beam;
   }
 
   void draw_scene(const ImVec2& low, const ImVec2& high, float unit) {

@@ -32,7 +32,7 @@ Eigen::Vector3d Running::beside(const Options& next) {
   if (!same_scene(next, options())) return {0, height_above, 0};
   const double side = r.force.y() < 0 ? -1 : 1, reach = next.radius + next.beam.touched() / 2;
   const hapbeam::Placement& placement = session_.body().placement();
-  if (next.beam.in_space() && (!(r.force.norm() > 0) || next.avatar == Avatar::end)) return r.position;
+  if (next.beam.in_space() && (!(r.force.norm() > 0) || holds_end(next.avatar))) return r.position;
   if (next.beam.in_space())
     return placement.device_position(r.avatar +
                                      (session_.body().depth(r) + 0.1 * reach) * r.force.normalized());
@@ -123,7 +123,7 @@ void Running::refresh_curves() {
   if (turned) curve_along_ = -r.force / force;
   curve_depth_ = depth;
   curve_place_ = place;
-  if (options().beams > 1 || options().avatar == Avatar::end) curves_.clear();
+  if (options().beams > 1 || holds_end(options().avatar)) curves_.clear();
   else curves_ = force_curves(session_.body().slender(), options().elements, place, curve_along_, depth);
 }
 

@@ -93,7 +93,7 @@ class PairEquilibrium {
       if (!look.close) return tries > 0 ? Outcome::lost : Outcome::too_far;
       // What pulls as it sticks may press as it slides.
       if (sticks_and_pulls() && !system_.settled() && tries++ < most_tries) continue;
-      if (release()) continue;
+      if (release(pulling()) || release(needless())) continue;
       // One that comes back to its end has left it for a place that gives way.
       if (leave_end()) {
         if (leaves++ < 2) continue;
@@ -117,7 +117,7 @@ class PairEquilibrium {
   /// Down to the next stable equilibrium, as in a viscous fluid:  (K + μM) Δ = -r,  with the pairs that touch on the way, which slide without friction.
   /// @param from, to  of the path, 0 to 1, on which ends and bodies are led meanwhile
   Outcome fall(double from, double to) noexcept {
-    constexpr double first_shift = 100, largest_shift = 1e12, farthest = 1, enough = 1e-3;
+    constexpr double first_shift = 100, least_shift = 1e-3, largest_shift = 1e12, farthest = 1, enough = 1e-3;
     system_.let_go();
     system_.save();
     if (on_ridge_)
@@ -138,20 +138,25 @@ class PairEquilibrium {
         system_.advance();
         const Look look = look_around(system_);
         if (look.close && look.least >= closest) {
-          while (release() || leave_end()) continue;
+          while (release(pulling()) || leave_end()) continue;
           if (look.deepest < -nothing && !meet(look)) return Outcome::full;
           system_.save();
           from = next, led *= 4;
           if (near_by && settle() == Outcome::settled) return Outcome::settled;
           if (near_by) system_.restore(), shift = first_shift;
-          else shift = shift > 1 || bad > 1 ? (std::max)(shift / 10, 1.5 * bad) : 0;
+          else shift = shift > least_shift || bad > least_shift ? (std::max)(shift / 10, 1.5 * bad) : 0;
           bad /= 2;
           continue;
         }
         system_.restore();
       }
-      bad = (std::max)(shift, 1.0), shift = 3 * bad, led /= 4;
-      if (shift > largest_shift) return failure_ = Status::iteration_limit, Outcome::lost;
+      bad = (std::max)(shift, least_shift), shift = 3 * bad, led /= 4;
+      if (!(shift > largest_shift)) continue;
+      if (system_.pairs() == system_.joints()) return failure_ = Status::iteration_limit, Outcome::lost;
+      // Forces that no step fits are none.
+      while (release(system_.pairs() > system_.joints() ? system_.pairs() - 1 : -1)) continue;
+      system_.save();
+      shift = first_shift, bad = 0;
     }
     return Outcome::too_far;
   }
@@ -185,30 +190,33 @@ class PairEquilibrium {
     }
     return any;
   }
-  /// The pair that pulls most lets go, one that is apart, between clamps that no force moves, or one of two that have come together.
-  /// @return whether there is one
-  bool release() noexcept {
+  /// The pair that pulls most.   @return -1: there is none
+  int pulling() const noexcept {
     int worst = -1;
     for (int k = system_.joints(); k < system_.pairs(); ++k) {
       const RodPair& pair = system_.pair(k);
       if (system_.moves(pair) && !(pair.force > 0) && (worst < 0 || pair.force < system_.pair(worst).force))
         worst = k;
     }
-    for (int k = system_.joints(); k < system_.pairs() && worst < 0; ++k) {
+    return worst;
+  }
+  /// A pair that is apart, between clamps that no force moves, or one of two that have come together.   @return -1: there is none
+  int needless() const noexcept {
+    for (int k = system_.joints(); k < system_.pairs(); ++k) {
       const RodPair& pair = system_.pair(k);
-      const double off = pair.distance(system_.between(pair)) - pair.reach;
-      if (system_.moves(pair) && off > apart * pair.reach) worst = k;
+      if (!system_.moves(pair)) continue;
+      if (pair.distance(system_.between(pair)) - pair.reach > apart * pair.reach) return k;
+      for (int j = system_.joints(); j < k; ++j)
+        if (beside_each_other(system_, pair, system_.pair(j), 1, 0)) return k;
     }
-    for (int k = system_.joints() + 1; k < system_.pairs() && worst < 0; ++k)
-      for (int j = system_.joints(); j < k && worst < 0; ++j)
-        if (system_.moves(system_.pair(k)) &&
-            beside_each_other(system_, system_.pair(k), system_.pair(j), 1, 0))
-          worst = k;
-    if (worst < 0) return false;
-    let_go_ = system_.pair(worst).rod;
-    system_.remove(worst);
-    changed_ = true;
-    return true;
+    return -1;
+  }
+  /// @param pair  negative: none   @return whether it has let go
+  bool release(int pair) noexcept {
+    if (pair < 0) return false;
+    let_go_ = system_.pair(pair).rod;
+    system_.remove(pair);
+    return changed_ = true;
   }
 
   /// Its first place stays for this step, and as long as another contact is in the same row.

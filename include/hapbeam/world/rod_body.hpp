@@ -37,9 +37,9 @@ class RodBody {
   using Vector = VectorOf<double, 3>;
   using Hand = VectorOf<double, 18>;  // both ends: at, along and director times the length [m]
 
-  /// In its shape at rest, or where its ends do not hold it in its natural shape.
+  /// In its shape at rest, or where its ends do not hold it in its natural shape, or through given points.
   /// @throws std::invalid_argument as ChainSystem, and where the rod has no shape at rest
-  RodBody(const Rod& rod, int elements, PairEquations& equations)
+  RodBody(const Rod& rod, int elements, PairEquations& equations, const std::vector<Vector>& through = {})
       : sides(elements, equations),
         saved(elements),
         before(elements),
@@ -52,7 +52,8 @@ class RodBody {
       chain().parts().swing();
       motion.emplace(rod, elements, system_);
     }
-    if (rod.held()) find_rest();
+    if (!through.empty()) lay(through);
+    else if (rod.held()) find_rest();
     keep_rest();
     reset();
   }
@@ -207,6 +208,32 @@ class RodBody {
 
  private:
   static constexpr int unknowns = Element::unknowns;
+  /// Through points, with the tangents of circles through three of them, and its ends where they hold it.
+  /// @throws std::invalid_argument where there are fewer, or two that follow each other are one
+  void lay(const std::vector<Vector>& points) {
+    if (points.size() < 3) reject("rod through", double(points.size()), "points", "three or more");
+    std::vector<Vector> chords;
+    std::vector<double> lengths;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      chords.push_back(points[i] - points[i - 1]);
+      lengths.push_back(positive("distance of two points", std::sqrt(chords.back().squaredNorm()), "m"));
+    }
+    std::vector<RodNode<double>> nodes;
+    double s = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t in = i > 0 ? i - 1 : i, out = i < chords.size() ? i : in;
+      const Vector t =
+          unit(Vector(lengths[out] / lengths[in] * chords[in] + lengths[in] / lengths[out] * chords[out]));
+      const Vector d1 = i == 0 ? detail::beside(t)
+                               : across<double>(carry(nodes.back().director, nodes.back().tangent, t), t);
+      nodes.push_back({s, points[i], t, d1});
+      if (i < lengths.size()) s += lengths[i];
+    }
+    for (RodNode<double>& node : nodes) node.s *= length() / s, node.tangent *= s / length();
+    chain().lay({nodes.data(), static_cast<int>(nodes.size())});
+    chain().go_home();
+    chain().ends().correct(chain().parts().nodes());
+  }
   void find_rest() {
     system_.set_goal();
     SolveReport<double> report = LoadPath{}.solve(system_).report;

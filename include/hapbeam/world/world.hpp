@@ -31,14 +31,17 @@ class World {
  public:
   static constexpr int most_contacts = detail::most_pairs;
 
-  /// Joints draw their rods together from where those rest without them.
+  /// Joints draw their rods together from where those rest without them, and rods that begin through points fall from there.
   /// @throws std::invalid_argument where there is no rod, a rod, a body or a joint makes no sense, a rod has no shape at rest, or lies in another or in a body
-  /// there, or joints do not come together
+  /// there, or they do not come to rest together
   explicit World(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& bodies = {},
                  const std::vector<BallJoint>& joints = {}, const NewtonRaphson& solver = {})
       : equilibrium_(rods, bodies, joints, solver) {
     look_at_rest();
-    if (!joints.empty()) join();
+    const bool bent =
+        std::any_of(rods.begin(), rods.end(), [](const WorldRod& rod) { return !rod.through.empty(); });
+    if (bent) course_ = Course::falls, unmoved_ = 2;
+    if (bent || !joints.empty()) come_to_rest();
   }
 
   int rods() const noexcept { return static_cast<int>(system().bodies().size()); }
@@ -260,13 +263,13 @@ class World {
 
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
-  /// From the shapes of rods alone to that which they have together.
-  void join() {
+  /// From the shapes with which they begin to that which they have together.
+  void come_to_rest() {
     constexpr int most = 200;
     for (int k = 0; k < most; ++k)
       if (tick() == Status::ok) break;
     if (status_ != Status::ok)
-      throw std::invalid_argument(std::string("joints: they do not come together, ") + name(status_));
+      throw std::invalid_argument(std::string("rods: they do not come to rest together, ") + name(status_));
     system().keep_rest();
     reset();
   }

@@ -25,6 +25,8 @@ struct WorldRod {
   int elements;  ///< 2 or more
   /// Of what touches the larger coefficients count.
   Friction friction = {};
+  /// Points from one end to the other [m], three or more: it begins bent through them, and falls to an equilibrium from there.  None: it begins at rest.
+  std::vector<VectorOf<double, 3>> through = {};
 };
 
 namespace detail {
@@ -52,7 +54,7 @@ class WorldPairs {
       rods[i].friction.check();
       if (at(away[i]) > rods.size() && !(jointed[i].mass_per_length(jointed[i].length() / 2) > 0))
         jointed[i].check_held();
-      bodies_.emplace_back(jointed[i], rods[i].elements, *equations_);
+      bodies_.emplace_back(jointed[i], rods[i].elements, *equations_, rods[i].through);
       frictions_.push_back(rods[i].friction);
     }
     for (const RigidBody& body : rigid) frictions_.push_back(body.friction());
