@@ -145,7 +145,9 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
   /// @throws std::invalid_argument unless they do
   void check_held() const { detail::check_supports(left_, right_); }
   /// Whether its ends resist a turn of its section about the tangent.
-  bool holds_own_twist() const noexcept { return hapbeam::holds_twist(left_) || hapbeam::holds_twist(right_); }
+  bool holds_own_twist() const noexcept {
+    return hapbeam::holds_twist(left_) || hapbeam::holds_twist(right_);
+  }
   /// Whether they or joints do.
   bool holds_twist() const noexcept { return welded_ || holds_own_twist(); }
   /// Whether ends or joints may draw it taut.

@@ -46,6 +46,7 @@ struct RodPair {
   Vector normal = Vector::UnitZ();  // n
   Vector axis = Vector::Zero();     // of a hinge, about which there is no moment
   double lent = 0;                  // κ of a joint [N/m], [N·m]
+  int forces = 3;                   // along the axes; of a hinge 2
   /// New: its direction and its places stay until it presses.
   bool fresh = true;
   std::array<bool, 2> held{};    // at an end of its rod, where the place stays
@@ -62,9 +63,9 @@ struct RodPair {
   /// Eigenvalues of its own that are negative in a stable equilibrium: of λ, of two places of least distance, and of what is hollow; of a joint all.
   int negative() const noexcept {
     return kind != Kind::contact ? 5
-                               : 3 + (rough() ? friction.negative()
-                                      : fresh ? 0
-                                              : PairFriction::negative_of(bends));
+                                 : 3 + (rough() ? friction.negative()
+                                        : fresh ? 0
+                                                : PairFriction::negative_of(bends));
   }
   /// Whether friction acts.
   bool rough() const noexcept { return !fresh && friction.acts(); }
@@ -73,10 +74,9 @@ struct RodPair {
   void look() noexcept { axes[0] = normal, axes[1] = beside(normal), axes[2] = cross3(normal, axes[1]); }
   /// Of a hinge: two across its axis, along which there is nothing.
   void look_along(const Vector& e) noexcept {
-    axis = axes[2] = e, axes[0] = beside(e), axes[1] = cross3(e, axes[0]);
+    forces = 2, axis = axes[2] = e, axes[0] = beside(e), axes[1] = cross3(e, axes[0]);
     pull_by(-force * normal.dot(e) * e);
   }
-  bool hinged() const noexcept { return !axis.isZero(0); }
   /// Adds an increment of f along the axes.  One that would pull is as new, back where it began, and the next time its first place stays: where a rod lies
   /// along what it touches, all places are alike for a force of nothing.
   void push(double along, double aside1, double aside2) noexcept {

@@ -52,9 +52,7 @@ class PairSide {
   PairEquations::Unknowns drags;   // entries of the fifth in all equations of pairs
 
   /// f along n, across it, and the place.
-  int columns() const noexcept {
-    return pair->fresh ? 1 : pair->hinged() ? 2 : pair->held[side] ? 3 : 4;
-  }
+  int columns() const noexcept { return pair->fresh ? 1 : pair->held[side] ? pair->forces : 4; }
   int unknown(int c) const noexcept { return c < 3 ? row + c : row + 3 + static_cast<int>(side); }
   /// Whether there is a fifth.
   bool dragged() const noexcept { return pair->rough() && !pair->held[side]; }
@@ -166,8 +164,7 @@ class PairSide {
     Matrix turns;
     for (int c = 0; c < 3; ++c) turns.col(c) = i * cross3<double>(u, Vector::Unit(c));
     const int t = node() + 3;
-    K.template block<3, 3>(t, t) +=
-        turns.transpose() * H * turns + u * n.transpose() + n * u.transpose();
+    K.template block<3, 3>(t, t) += turns.transpose() * H * turns + u * n.transpose() + n * u.transpose();
     if constexpr (unknowns == 7) {
       const Vector mixed = turns.transpose() * (H * u) - i / 2 * (M - u * u.dot(M));
       K.template block<3, 1>(t, t + 3) += mixed;

@@ -198,7 +198,7 @@ class PairSystem : public WorldPairs<Element> {
   void hold_still() noexcept {
     each_pair([&](const RodPair& pair, int row) {
       for (int c = 1; c < 3 && pair.fresh; ++c) equations_->hold(row + c, 1);
-      if (pair.hinged()) equations_->hold(row + 2, -1);
+      if (pair.forces < 3) equations_->hold(row + 2, -1);
       if (this->rigid(pair.rod[1])) equations_->hold(row + 4, -1);
     });
   }

@@ -332,10 +332,10 @@ class WorldPairs {
     if (has_twist) return;
     // About its own tangent it turns freely.
     held.axis = Vector::UnitZ();
-    if (joint.kind == JointKind::hinge ||
-        (!rigid(joint.rod[1]) && 1 - std::abs(held.rest(2, 2)) > 1e-9))
+    if (joint.kind == JointKind::hinge || (!rigid(joint.rod[1]) && 1 - std::abs(held.rest(2, 2)) > 1e-9))
       throw std::invalid_argument(
-          "joint kind: RoundRod has no twist, so it is welded to a body or to a rod that goes on straight; take "
+          "joint kind: RoundRod has no twist, so it is welded to a body or to a rod that goes on straight; "
+          "take "
           "TwistedRod");
   }
   void give_friction(RodPair& pair) noexcept {
