@@ -147,8 +147,8 @@ class PairSide {
   }
   /// Where those of the node of a joint begin.
   int node() const noexcept { return 2 * spot_.x < 1 ? 0 : unknowns; }
-  /// The same as add(), of a moment of a joint.
-  void turn(double sign, Residual& r, Tangent& K) noexcept {
+  /// The same as add(), of a moment of a joint.  Not inlined by intent: worlds without joints do not pay for it.
+  [[gnu::noinline]] void turn(double sign, Residual& r, Tangent& K) noexcept {
     b[3].setZero(), by_N.fill(0);
     for (int c = 0; c < 3; ++c) {
       b[at(c)].setZero();

@@ -263,7 +263,7 @@ class WorldPairs {
     return axes_of(node);
   }
   /// How the first side is turned against where the second holds it [rad].  Sets the axes along which moments act.
-  Vector look_at_rotation(RodPair& pair) noexcept {
+  [[gnu::noinline]] Vector look_at_rotation(RodPair& pair) noexcept {
     const HeldPlaces& joint = joint_of(pair);
     const Matrix is = axes(pair, 0), belongs = axes(pair, 1) * joint.rest;
     if (!joint.axis.isZero(0)) {
@@ -325,14 +325,14 @@ class WorldPairs {
   /// @throws std::invalid_argument where the element has no twist to do so
   [[gnu::cold]] void hold_rotation(const Joint& joint, int number) {
     RodPair& pair = pairs_[at(number_ - 1)];
-    HeldPlaces& held = held_.back();
+    HeldPlaces& joined = held_.back();
     const Matrix first = axes(pair, 0);
-    held.number = number, held.rest = axes(pair, 1).transpose() * first;
-    if (joint.kind == JointKind::hinge) held.axis = first.transpose() * joint.axis.normalized();
+    joined.number = number, joined.rest = axes(pair, 1).transpose() * first;
+    if (joint.kind == JointKind::hinge) joined.axis = first.transpose() * joint.axis.normalized();
     if (has_twist) return;
     // About its own tangent it turns freely.
-    held.axis = Vector::UnitZ();
-    if (joint.kind == JointKind::hinge || (!rigid(joint.rod[1]) && 1 - std::abs(held.rest(2, 2)) > 1e-9))
+    joined.axis = Vector::UnitZ();
+    if (joint.kind == JointKind::hinge || (!rigid(joint.rod[1]) && 1 - std::abs(joined.rest(2, 2)) > 1e-9))
       throw std::invalid_argument(
           "joint kind: RoundRod has no twist, so it is welded to a body or to a rod that goes on straight; "
           "take "
