@@ -130,8 +130,11 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
     return forces_.push_back(force), *this;
   }
 
-  /// A joint of a World holds it there.
-  Rod& join(double s) { return joined_ = true, add(RodForce{s, {0, 0, 0}}); }
+  /// A joint of a World holds it there.   @param turns  also against turns
+  Rod& join(double s, bool turns = false) {
+    joined_ = true, welded_ = welded_ || turns;
+    return add(RodForce{s, {0, 0, 0}});
+  }
 
   const RodStiffness& stiffness() const noexcept { return stiffness_; }
   /// Of the section that it was built with; a rod that is given by its stiffness has a round one of its thickness.
@@ -140,6 +143,12 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
   bool held() const noexcept { return detail::hold_rod(left_, right_); }
   /// @throws std::invalid_argument unless they do
   void check_held() const { detail::check_supports(left_, right_); }
+  /// Whether its ends resist a turn of its section about the tangent.
+  bool holds_own_twist() const noexcept {
+    return hapbeam::holds_twist(left_) || hapbeam::holds_twist(right_);
+  }
+  /// Whether they or joints do.
+  bool holds_twist() const noexcept { return welded_ || holds_own_twist(); }
   /// Whether ends or joints may draw it taut.
   bool drawn() const noexcept { return joined_ || (left_.along > 0 && right_.along > 0); }
   const RodSupport& left() const noexcept { return left_; }
@@ -193,7 +202,7 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
   }
 
   RodStiffness stiffness_;
-  bool joined_ = false;
+  bool joined_ = false, welded_ = false;
   RodMaterial material_{0, 0};  // not known where the stiffness is given
   RodOutline outline_;
   RodSupport left_, right_;

@@ -232,7 +232,7 @@ TEST_CASE("a string on limbs that hardly yield is touched as one between hinges"
                tied ? RodSupport::free : RodSupport::hinged);
     string.place_left({{0, 0, 0.05}, {1, 0, 0}, {0, 1, 0}});
     std::vector<WorldRod> rods{{tool, 8}, {string, 8}};
-    std::vector<BallJoint> joints;
+    std::vector<Joint> joints;
     for (const double x : {0., 0.2}) {
       Rod post(0.05, stiff, spring_steel, RodSupport::clamped, RodSupport::free);
       if (tied) rods.push_back({post.place_left({{x, 0, 0}, {0, 0, 1}, {0, 1, 0}}), 4});
@@ -325,7 +325,7 @@ TEST_CASE("rods of two principal axes are joined, too", "[world][joint]") {
 TEST_CASE("what cannot be joined is refused by name", "[world][joint]") {
   const WorldRod a{limb(0), 8}, b{limb(apart), 8};
   const RigidBody ball = RigidBody::sphere({1, 1, 1}, 0.001), plane = RigidBody::plane({0, 0, -1}, {0, 0, 1});
-  const auto refuses = [&](const std::vector<WorldRod>& rods, const BallJoint& joint, const char* why) {
+  const auto refuses = [&](const std::vector<WorldRod>& rods, const Joint& joint, const char* why) {
     INFO(why);
     CHECK_THROWS_WITH(World<RoundRod>(rods, {ball, plane}, {joint}), ContainsSubstring(why));
   };
@@ -339,7 +339,7 @@ TEST_CASE("what cannot be joined is refused by name", "[world][joint]") {
   Rod loose(0.1, limb_section, spring_steel, RodSupport::free, RodSupport::free);
   CHECK_THROWS_WITH(FemModel<RoundRod>(loose, 8), ContainsSubstring("mechanism"));
   CHECK_THROWS_WITH(World<RoundRod>({{loose, 8}}), ContainsSubstring("mechanism"));
-  CHECK_THROWS_WITH(World<RoundRod>({a, b}, {}, std::vector<BallJoint>(17, {{0, 1}, {0.1, 0.1}})),
+  CHECK_THROWS_WITH(World<RoundRod>({a, b}, {}, std::vector<Joint>(17, {{0, 1}, {0.1, 0.1}})),
                     ContainsSubstring("joints = 17"));
 }
 

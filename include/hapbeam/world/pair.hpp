@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A contact of a rod with another, with itself or with a rigid body: one force and two places, unknowns of the equations of both.  Or a ball joint of
-// two places that stay.
+// A contact of a rod with another, with itself or with a rigid body: one force and two places, unknowns of the equations of both.  Or a joint of
+// two places that stay, or of two directions there, whose force is a moment (joint.hpp).
 //
 //   L = Σ V - f · w + h(f) - ½ f · C(s₁, s₂) f,   w = r₁(s₁) - r₂(s₂)       f = λ n, n to rod 1; with friction f = λ n + t
 //   h(f) = R |f| of rods;  on a body f · (R n + o) where it touches, o on its core, and ∂²h/∂f² = H/λ, H its radii of curvature with R;  of a joint f · o, o what is left of w
@@ -34,16 +34,19 @@ namespace detail {
 struct RodPair {
   using Vector = VectorOf<double, 3>;
   using Bends = Eigen::Matrix<double, 2, 2>;
-  enum class Kind { contact, joint };
+  enum class Kind { contact, place, rotation };
 
   Kind kind = Kind::contact;
   std::array<int, 2> rod{};
   std::array<double, 2> s{};
   double reach = 0;                 // R, of both radii [m]
-  Vector on = Vector::Zero();       // o [m]
+  Vector on = Vector::Zero();       // o [m]; of rotations [rad]
   Bends bends = Bends::Zero();      // H, along the two axes across n [m]
   double force = 0;                 // λ [N]
   Vector normal = Vector::UnitZ();  // n
+  Vector axis = Vector::Zero();     // of a hinge, about which there is no moment
+  double lent = 0;                  // κ of a joint [N/m], [N·m]
+  int forces = 3;                   // along the axes; of a hinge 2
   /// New: its direction and its places stay until it presses.
   bool fresh = true;
   std::array<bool, 2> held{};    // at an end of its rod, where the place stays
@@ -60,16 +63,21 @@ struct RodPair {
   double offset(std::size_t c) const noexcept { return (c == 0 ? reach : 0) + axes[c].dot(on); }
   /// Eigenvalues of its own that are negative in a stable equilibrium: of λ, of two places of least distance, and of what is hollow; of a joint all.
   int negative() const noexcept {
-    return kind == Kind::joint ? 5
-                               : 3 + (rough() ? friction.negative()
-                                      : fresh ? 0
-                                              : PairFriction::negative_of(bends));
+    return kind != Kind::contact ? 5
+                                 : 3 + (rough() ? friction.negative()
+                                        : fresh ? 0
+                                                : PairFriction::negative_of(bends));
   }
   /// Whether friction acts.
   bool rough() const noexcept { return !fresh && friction.acts(); }
 
   /// Two directions across the normal.
   void look() noexcept { axes[0] = normal, axes[1] = beside(normal), axes[2] = cross3(normal, axes[1]); }
+  /// Of a hinge: two across its axis, along which there is nothing.
+  void look_along(const Vector& e) noexcept {
+    forces = 2, axis = axes[2] = e, axes[0] = beside(e), axes[1] = cross3(e, axes[0]);
+    pull_by(-force * normal.dot(e) * e);
+  }
   /// Adds an increment of f along the axes.  One that would pull is as new, back where it began, and the next time its first place stays: where a rod lies
   /// along what it touches, all places are alike for a force of nothing.
   void push(double along, double aside1, double aside2) noexcept {

@@ -35,7 +35,7 @@ class PairEquilibrium {
 
   /// @throws std::invalid_argument as PairSystem
   PairEquilibrium(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid,
-                  const std::vector<BallJoint>& joints, const NewtonRaphson& solver)
+                  const std::vector<Joint>& joints, const NewtonRaphson& solver)
       : system_(rods, rigid, joints), solver_(solver) {}
   System& system() noexcept { return system_; }
   const System& system() const noexcept { return system_; }

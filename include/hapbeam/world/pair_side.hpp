@@ -52,7 +52,7 @@ class PairSide {
   PairEquations::Unknowns drags;   // entries of the fifth in all equations of pairs
 
   /// f along n, across it, and the place.
-  int columns() const noexcept { return pair->fresh ? 1 : pair->held[side] ? 3 : 4; }
+  int columns() const noexcept { return pair->fresh ? 1 : pair->held[side] ? pair->forces : 4; }
   int unknown(int c) const noexcept { return c < 3 ? row + c : row + 3 + static_cast<int>(side); }
   /// Whether there is a fifth.
   bool dragged() const noexcept { return pair->rough() && !pair->held[side]; }
@@ -65,6 +65,9 @@ class PairSide {
     spot_.look(p, n1, n2, own.tension.value, pair->s[side] - n1.s);
     const RodSpot<double>& spot = spot_;
     const double sign = side == 0 ? 1 : -1, C = spot.g.value;
+    if (pair->kind == RodPair::Kind::rotation) return turn(sign, r, K), 0.0;
+    if (pair->kind == RodPair::Kind::place)
+      for (int c = node(), last = c + 3; c < last; ++c) K(c, c) += sign * pair->lent;
     const bool rough = pair->rough();
     // Places are of its part along n.
     const Vector along_n = sign * pair->force * pair->normal;
@@ -141,6 +144,33 @@ class PairSide {
   static Vector turned_yield(const Matrix& yields, const Vector& F, const RodSpot<double>& spot) noexcept {
     const Vector turns = cross3(spot.u, spot.k) / spot.stretched;
     return spot.g.value / 2 * (cross3<double>(turns, yields * F) - yields * cross3(turns, F));
+  }
+  /// Where those of the node of a joint begin.
+  int node() const noexcept { return 2 * spot_.x < 1 ? 0 : unknowns; }
+  /// The same as add(), of a moment of a joint.  Not inlined by intent: worlds without joints do not pay for it.
+  [[gnu::noinline]] void turn(double sign, Residual& r, Tangent& K) noexcept {
+    b[3].setZero(), by_N.fill(0);
+    for (int c = 0; c < 3; ++c) {
+      b[at(c)].setZero();
+      if (c < columns()) spot_.turn(sign * pair->axes[at(c)], b[at(c)]);
+    }
+    const Vector &u = spot_.u, &e = pair->axis, M = sign * pair->force * pair->normal;
+    spot_.turn(M, r);
+    // θ of increments t of r' and φ, with v = t/|r'| and a = u · v:  u × v + φ u  - a u × v + ½ φ (v - a u),  and of a hinge  ½ (e · θ) e × θ.
+    const double i = 1 / spot_.stretched;
+    const Vector n = i * i * cross3(M, u), q = cross3(M, e);
+    const Matrix H = sign * pair->lent * (Matrix::Identity() - e * e.transpose()) -
+                     (e * q.transpose() + q * e.transpose()) / 2;
+    Matrix turns;
+    for (int c = 0; c < 3; ++c) turns.col(c) = i * cross3<double>(u, Vector::Unit(c));
+    const int t = node() + 3;
+    K.template block<3, 3>(t, t) += turns.transpose() * H * turns + u * n.transpose() + n * u.transpose();
+    if constexpr (unknowns == 7) {
+      const Vector mixed = turns.transpose() * (H * u) - i / 2 * (M - u * u.dot(M));
+      K.template block<3, 1>(t, t + 3) += mixed;
+      K.template block<1, 3>(t + 3, t) += mixed.transpose();
+      K(t + 3, t + 3) += u.dot(H * u);
+    }
   }
   /// Where r1, r1', r2 and r2' stand among the unknowns.
   static constexpr int start(int q) noexcept { return RodSpot<double>::start(unknowns, q); }

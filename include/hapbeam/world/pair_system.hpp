@@ -28,7 +28,7 @@ class PairSystem : public WorldPairs<Element> {
 
   /// @throws std::invalid_argument as WorldPairs
   PairSystem(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid,
-             const std::vector<BallJoint>& joints)
+             const std::vector<Joint>& joints)
       : Base(rods, rigid, joints), bounds_(3 * most_pairs) {}
 
   /// How far along their path, 0 to 1, the next step takes all ends.
@@ -99,7 +99,7 @@ class PairSystem : public WorldPairs<Element> {
   void advance() noexcept {
     const PairEquations& u = *equations_;
     each_pair([&](RodPair& pair, int row) {
-      if (pair.kind == RodPair::Kind::joint)
+      if (pair.kind != RodPair::Kind::contact)
         pair.pull_by(u[row] * pair.axes[0] + u[row + 1] * pair.axes[1] + u[row + 2] * pair.axes[2] -
                      taken_back(pair));
       else if (pair.rough())
@@ -126,12 +126,15 @@ class PairSystem : public WorldPairs<Element> {
  private:
   using Base::at, Base::each, Base::each_pair, Base::each_rod, Base::equations_, Base::look, Base::rigid_;
 
-  /// ½ κ (r₁ + r₂) of a joint in the last increment [N].
+  /// ½ κ (r₁ + r₂) of a joint in the last increment [N], or of rotations [N·m].
   VectorOf<double, 3> taken_back(const RodPair& pair) noexcept {
     const auto& joint = this->joint_of(pair);
     VectorOf<double, 3> sum = VectorOf<double, 3>::Zero();
-    each_rod(pair, [&](std::size_t side) { sum += this->body(pair.rod[side]).moved(joint.node[side]); });
-    return joint.lent / 2 * sum;
+    each_rod(pair, [&](std::size_t side) {
+      const Body& body = this->body(pair.rod[side]);
+      sum += pair.kind == RodPair::Kind::place ? body.moved(joint.node[side]) : body.turned(joint.node[side]);
+    });
+    return pair.lent / 2 * (sum - pair.axis.dot(sum) * pair.axis);
   }
 
   /// Gives each pair its rows, and each rod its sides.
@@ -143,7 +146,7 @@ class PairSystem : public WorldPairs<Element> {
     dense.resize(rows_);
     each_pair([&](RodPair& pair, int row) {
       const PlacedBody* core = this->rigid(pair.rod[1]);
-      const bool joint = pair.kind == RodPair::Kind::joint, rubs = !pair.friction.none() && !pair.fresh;
+      const bool joint = pair.kind != RodPair::Kind::contact, rubs = !pair.friction.none() && !pair.fresh;
       if (core && !joint) {
         if (core->moves && rubs && pair.friction.begins()) pair.carry([&](auto& v) { v = core->carried(v); });
         lead(*core, this->body(pair.rod[0]).line().at(pair.s[0]).r, pair);
@@ -151,8 +154,10 @@ class PairSystem : public WorldPairs<Element> {
         pair.look();
       }
       if (rubs) look(pair);
-      for (int c = 0; c < 3; ++c)
-        dense[row + c] -= pair.offset(at(c)) + (core ? pair.axes[at(c)].dot(core->at(pair.s[1])) : 0.0);
+      VectorOf<double, 3> off = VectorOf<double, 3>::Zero();
+      if (pair.kind == RodPair::Kind::rotation) off = -this->look_at_rotation(pair);
+      else if (core) off = core->at(pair.s[1]);
+      for (int c = 0; c < 3; ++c) dense[row + c] -= pair.offset(at(c)) + pair.axes[at(c)].dot(off);
       if (pair.rough()) {
         pair.friction.add(pair.axes, pair.bends, pair.force, row, dense);
         rough_ = true;
@@ -189,10 +194,11 @@ class PairSystem : public WorldPairs<Element> {
     });
     bounds_.follow(*equations_, at(rows_));
   }
-  /// What is new keeps its direction, and there is no second place on a body.
+  /// What is new keeps its direction, a hinge has no moment about its axis, and there is no second place on a body.
   void hold_still() noexcept {
     each_pair([&](const RodPair& pair, int row) {
       for (int c = 1; c < 3 && pair.fresh; ++c) equations_->hold(row + c, 1);
+      if (pair.forces < 3) equations_->hold(row + 2, -1);
       if (this->rigid(pair.rod[1])) equations_->hold(row + 4, -1);
     });
   }

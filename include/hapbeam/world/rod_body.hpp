@@ -13,8 +13,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <hapbeam/contact/box.hpp>
 #include <hapbeam/fem/load_path.hpp>
@@ -59,8 +57,6 @@ class RodBody {
   }
   /// It rests as it lies.
   void keep_rest() noexcept { system_.keep(rest_); }
-  /// A node holds it by so much, which a joint there takes back: no solution changes [N/m].
-  void lend(int node, double stiffness) { lent_.push_back({node, stiffness}); }
 
   System& system() noexcept { return system_; }
   const System& system() const noexcept { return system_; }
@@ -129,11 +125,6 @@ class RodBody {
     if (!chain().ends().follow(nodes)) return {0, 0, Status::iteration_limit};
     const ChainEnergies<double> energies = chain().assemble(1, sides, assembler_);
     if (shift != 0) system_.add_shift(shift, assembler_);
-    for (const auto& [node, stiffness] : lent_) {
-      Increment diagonal = Increment::Zero();
-      diagonal.template head<3>().setConstant(stiffness);
-      assembler_.add_at(node, Block(diagonal.asDiagonal()), Increment::Zero());
-    }
     for (std::size_t k = 0; k < 2; ++k) {
       if (chain().ends()[k].is_free()) continue;
       const int i = chain().ends().node(k);
@@ -154,6 +145,14 @@ class RodBody {
   }
   /// Of a node in the last increment [m].
   Vector moved(int node) const noexcept { return increment(node).template head<3>(); }
+  /// Rotation of a node in it [rad].
+  Vector turned(int node) const noexcept {
+    const Increment by = increment(node);
+    const Vector& t = system_.node(node).tangent;
+    Vector turn = cross3<double>(t, by.template segment<3>(3)) / t.squaredNorm();
+    if constexpr (unknowns == 7) turn += by[6] * unit(t);
+    return turn;
+  }
   /// Largest rotation of a node in the last increment [rad].
   double turn() const noexcept {
     double largest = 0;
@@ -259,7 +258,6 @@ class RodBody {
   BoxTree<double, 3> swept_;
   bool swept_at_rest_ = false;
   double radius_;
-  std::vector<std::pair<int, double>> lent_;
   std::array<End, 2> ends_;
   std::array<Increment, 2> held_;
   Hand hand_, hand_next_, step_;  // of the last tick, of the next, and between the last two

@@ -35,7 +35,7 @@ class World {
   /// @throws std::invalid_argument where there is no rod, a rod, a body or a joint makes no sense, a rod has no shape at rest, or lies in another or in a body
   /// there, or they do not come to rest together
   explicit World(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& bodies = {},
-                 const std::vector<BallJoint>& joints = {}, const NewtonRaphson& solver = {})
+                 const std::vector<Joint>& joints = {}, const NewtonRaphson& solver = {})
       : equilibrium_(rods, bodies, joints, solver) {
     look_at_rest();
     const bool bent =
@@ -121,6 +121,11 @@ class World {
   /// Of a joint on its first rod [N].
   VectorOf<double, 3> joint_force(int k) const noexcept {
     return system().pair(k).force * system().pair(k).normal;
+  }
+  /// Of a hinge or a weld on its first rod, about its place [N·m]; of a ball joint 0.
+  VectorOf<double, 3> joint_moment(int k) const noexcept {
+    const detail::RodPair* pair = system().rotation_of(k);
+    return pair ? Vector(pair->force * pair->normal) : Vector::Zero();
   }
   int contacts() const noexcept { return system().pairs() - system().joints(); }
   RodContact contact(int k) const noexcept {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <hapbeam/world/ball_joint.hpp>
+#include <hapbeam/world/joint.hpp>
 #include <hapbeam/world/placed_body.hpp>
 #include <hapbeam/world/rod_body.hpp>
 
@@ -37,18 +37,23 @@ class WorldPairs {
  public:
   using Body = RodBody<Element>;
 
-  /// @throws std::invalid_argument as RodBody, RigidBody, Friction and BallJoint
+  /// @throws std::invalid_argument as RodBody, RigidBody, Friction and Joint
   WorldPairs(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid,
-             const std::vector<BallJoint>& joints)
+             const std::vector<Joint>& joints)
       : equations_(std::make_unique<PairEquations>()), rigid_(rigid.begin(), rigid.end()) {
     std::vector<Rod> jointed;
     for (const WorldRod& rod : rods) jointed.push_back(rod.rod);
-    for (const BallJoint& joint : joints) {
+    for (const Joint& joint : joints) {
       check_joint(joint, jointed, rigid);
       for (std::size_t side = 0; side < 2; ++side)
-        if (at(joint.rod[side]) < rods.size()) jointed[at(joint.rod[side])].join(joint.s[side]);
+        if (at(joint.rod[side]) < rods.size())
+          jointed[at(joint.rod[side])].join(joint.s[side], joint.kind != JointKind::ball);
     }
-    const std::vector<int> away = joints_away(jointed, joints);
+    std::vector<int> away;
+    for (const Rod& rod : jointed)
+      away.push_back(rod.held() && (!has_twist || rod.holds_own_twist()) ? 0
+                                                                         : static_cast<int>(rods.size()) + 1);
+    away = joints_away(std::move(away), joints);
     bodies_.reserve(rods.size());
     for (std::size_t i = 0; i < rods.size(); ++i) {
       rods[i].friction.check();
@@ -58,7 +63,12 @@ class WorldPairs {
       frictions_.push_back(rods[i].friction);
     }
     for (const RigidBody& body : rigid) frictions_.push_back(body.friction());
-    for (const BallJoint& joint : joints) add(joint, away);
+    for (const Joint& joint : joints) add(joint, RodPair::Kind::place, away);
+    for (const Joint& joint : joints)
+      if (joint.kind != JointKind::ball) {
+        add(joint, RodPair::Kind::rotation, away);
+        hold_rotation(joint, static_cast<int>(&joint - joints.data()));
+      }
     joined_ = held_together(joints);
     keep_rest();
   }
@@ -96,7 +106,15 @@ class WorldPairs {
   }
   /// Their paths begin where they are.
   void begin_joints() noexcept {
-    for (int k = 0; k < joints(); ++k) held_[at(k)].apart = between(pair(k));
+    for (int k = 0; k < joints(); ++k)
+      held_[at(k)].apart =
+          pair(k).kind == RodPair::Kind::place ? between(pair(k)) : look_at_rotation(pair(k));
+  }
+  /// The moment of a joint; null: it has none.
+  const RodPair* rotation_of(int joint) const noexcept {
+    for (int k = 0; k < joints(); ++k)
+      if (pair(k).kind == RodPair::Kind::rotation && held_[at(k)].number == joint) return &pair(k);
+    return nullptr;
   }
   /// So far along their paths, 0 to 1.
   void lead_joints(double t) noexcept {
@@ -133,6 +151,7 @@ class WorldPairs {
   bool overdrawn() const noexcept {
     return std::any_of(pairs_.begin(), pairs_.begin() + number_, [this](const RodPair& pair) {
       bool is = false;
+      if (pair.kind == RodPair::Kind::rotation) return is;
       each_rod(pair, [&](std::size_t side) {
         is = is || body(pair.rod[side]).system().overdrawn(pair.s[side], pair.normal);
       });
@@ -198,11 +217,15 @@ class WorldPairs {
   }
 
  protected:
-  /// A joint beside its pair: nodes of its rods, what it lends the first of them, and where its path begins.
-  struct Joint {
-    std::array<int, 2> node;
-    double lent;  // [N/m]
-    VectorOf<double, 3> apart;
+  using Vector = VectorOf<double, 3>;
+  using Matrix = Eigen::Matrix<double, 3, 3>;
+  static constexpr bool has_twist = Element::unknowns == 7;
+  /// A joint beside its pair: nodes of its rods, where its path begins, and of directions: axes of the first in those of the second, axis of a hinge in those of the first.
+  struct HeldPlaces {
+    std::array<int, 2> node{};
+    Vector apart = Vector::Zero(), axis = Vector::Zero();
+    Matrix rest = Matrix::Identity();
+    int number = 0;  // of the joint
   };
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
   template <class F>
@@ -234,12 +257,36 @@ class WorldPairs {
     for (std::size_t side = 0; side < 2; ++side)
       if (!rigid(pair.rod[side])) f(side);
   }
-  const Joint& joint_of(const RodPair& pair) const noexcept {
+  const HeldPlaces& joint_of(const RodPair& pair) const noexcept {
     return held_[std::size_t(&pair - pairs_.data())];
+  }
+  /// d1, d2 and tangent where a joint holds a side, or axes that go with a body.
+  Matrix axes(const RodPair& pair, std::size_t side) const noexcept {
+    Matrix axes;
+    if (const PlacedBody* core = rigid(pair.rod[side])) {
+      for (int c = 0; c < 3; ++c) axes.col(c) = core->turned(Vector::Unit(c));
+      return axes;
+    }
+    RodNode<double> node = body(pair.rod[side]).system().node(joint_of(pair).node[side]);
+    node.tangent = unit(node.tangent);
+    return axes_of(node);
+  }
+  /// How the first side is turned against where the second holds it [rad].  Sets the axes along which moments act.
+  [[gnu::noinline]] Vector look_at_rotation(RodPair& pair) noexcept {
+    const HeldPlaces& joint = joint_of(pair);
+    const Matrix is = axes(pair, 0), belongs = axes(pair, 1) * joint.rest;
+    if (!joint.axis.isZero(0)) {
+      const Vector e = is * joint.axis;
+      pair.look_along(e);
+      return cross3<double>(belongs * joint.axis, e);
+    }
+    const auto node = [](const Matrix& of) {
+      return RodNode<double>{0, Vector::Zero(), of.col(2), of.col(0)};
+    };
+    return rotation_between(node(belongs), node(is));
   }
   /// Where friction acts, as all lies.
   void look(RodPair& pair) noexcept {
-    using Vector = VectorOf<double, 3>;
     const Vector force = pair.force * pair.normal + pair.friction.force();
     // r' of the true curve of a rod.
     const auto tangent = [&](std::size_t side, const Vector& acts) -> Vector {
@@ -253,16 +300,17 @@ class WorldPairs {
 
   std::unique_ptr<PairEquations> equations_;
   std::vector<PlacedBody> rigid_;
-  std::vector<Joint> held_;
+  std::vector<HeldPlaces> held_;
 
  private:
   /// @throws std::invalid_argument where there are too many, or a mesh has no node there
-  [[gnu::cold]] void add(const BallJoint& joint, const std::vector<int>& away) {
-    if (number_ == most_pairs) reject("joints", number_ + 1.0, "", "at most 16");
+  [[gnu::cold]] void add(const Joint& joint, RodPair::Kind kind, const std::vector<int>& away) {
+    if (number_ == most_pairs)
+      reject("joints", number_ + 1.0, "", "at most 16, where hinges and welds are two each");
     RodPair& pair = pairs_[at(number_++)];
-    pair.kind = RodPair::Kind::joint, pair.fresh = false, pair.held = {true, true};
+    pair.kind = kind, pair.fresh = false, pair.held = {true, true};
     pair.rod = joint.rod, pair.s = joint.s;
-    Joint beside{{}, 0, VectorOf<double, 3>::Zero()};
+    HeldPlaces beside;
     std::array<int, 2> steps{};
     each_rod(pair, [&](std::size_t side) {
       const Body& body = this->body(joint.rod[side]);
@@ -277,13 +325,27 @@ class WorldPairs {
     if (share != 0) {
       const Body& borrows = body(joint.rod[share > 0 ? 0 : 1]);
       const double unit = borrows.system().unit() / borrows.length();
-      beside.lent = share * unit * unit;
+      pair.lent = share * unit * unit;
+      if (kind == RodPair::Kind::rotation) pair.lent *= borrows.length() * borrows.length();
     }
-    if (beside.lent != 0)
-      each_rod(pair, [&](std::size_t side) {
-        body(joint.rod[side]).lend(beside.node[side], side == 0 ? beside.lent : -beside.lent);
-      });
     held_.push_back(beside);
+  }
+  /// The last joint that was added holds directions as they are.
+  /// @throws std::invalid_argument where the element has no twist to do so
+  [[gnu::cold]] void hold_rotation(const Joint& joint, int number) {
+    RodPair& pair = pairs_[at(number_ - 1)];
+    HeldPlaces& joined = held_.back();
+    const Matrix first = axes(pair, 0);
+    joined.number = number, joined.rest = axes(pair, 1).transpose() * first;
+    if (joint.kind == JointKind::hinge) joined.axis = first.transpose() * joint.axis.normalized();
+    if (has_twist) return;
+    // About its own tangent it turns freely.
+    joined.axis = Vector::UnitZ();
+    if (joint.kind == JointKind::hinge || (!rigid(joint.rod[1]) && 1 - std::abs(joined.rest(2, 2)) > 1e-9))
+      throw std::invalid_argument(
+          "joint kind: RoundRod has no twist, so it is welded to a body or to a rod that goes on straight; "
+          "take "
+          "TwistedRod");
   }
   void give_friction(RodPair& pair) noexcept {
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);

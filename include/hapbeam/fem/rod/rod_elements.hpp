@@ -59,7 +59,7 @@ class RodElements {
             "directions; take "
             "TwistedRod");
     if constexpr (has_twist)
-      if (!holds_twist(rod.left()) && !holds_twist(rod.right()))
+      if (!rod.holds_twist())
         throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
                                     ": TwistedRod turns about its axis, hold its twist at one end");
     const bool even = natural_.straight() && profile_.smooth(),
