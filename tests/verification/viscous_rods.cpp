@@ -8,6 +8,7 @@
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/dynamic_model.hpp>
 #include <hapbeam/fem/rod_system.hpp>
+#include <hapbeam/world/world.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -194,4 +195,37 @@ TEST_CASE("a round rod without twist is elastic, and says so", "[dynamics]") {
   CHECK_THROWS_WITH(DynamicModel<RoundRod>(cantilever(material, false), 8), Catch::Contains("TwistedRod"));
   material.damping.branches[0] = {-0.1, 1};
   CHECK_THROWS_WITH(cantilever(material, false), Catch::Contains("relaxation share"));
+}
+
+// Statics between are those of the elastic rod.
+TEST_CASE("a viscous rod of a World moves as it does alone", "[dynamics][world]") {
+  RodMaterial material = nylon(1100);
+  material.damping = Damping::ratio(0.02, 20);
+  material.damping.branches[0] = {0.4, 0.01};
+  const Rod rod = cantilever(material, true);
+  Model model(rod, 8);
+  World<TwistedRod> world({{rod, 8}});
+  const auto velocity = [](double s) {
+    VectorOf<double, 6> all = VectorOf<double, 6>::Zero();
+    all[1] = 30 * s * s, all[2] = 20 * s * s, all[4] = 60 * s, all[5] = 40 * s;
+    return all;
+  };
+  model.let_go_from(model.shape(), velocity), world.throw_rod(0, velocity);
+  const double begin = world.energy().sum();
+  double off = 0, most = 0;
+  for (int k = 0; k < 200; ++k) {
+    REQUIRE(model.step(1e-3) == Status::ok);
+    REQUIRE(world.step(1e-3) == Status::ok);
+    const Place tip = model.shape().at(0.2).r;
+    off = std::max(off, (world.shape(0).at(0.2).r - tip).norm());
+    most = std::max(most, (tip - Place(0.2, 0, 0)).norm());
+    REQUIRE(std::abs(world.energy().sum() - model.energy().sum()) <= 1e-9 * begin);
+  }
+  CAPTURE(off, most);
+  CHECK(most > 1e-3);
+  CHECK(off <= 1e-9 * most);
+  CHECK(world.energy().sum() < 0.5 * begin);
+  REQUIRE(world.tick() == Status::ok);
+  CHECK(world.strain_energy() <= 1e-12 * begin);
+  CHECK((world.shape(0).at(0.2).r - Place(0.2, 0, 0)).norm() <= 1e-9);
 }

@@ -163,7 +163,7 @@ template <class Element>
 World<Element> crossed(const Crossing& at, double density, double drag, const RodSupport& hand,
                        double friction = 0) {
   RodMaterial material = spring_steel;
-  material.density = density, material.drag = drag;
+  material.density = density, material.damping.drag = drag;
   Rod top(0.2, RodSection::circle(0.002), material, hand, RodSupport::free);
   const Rod wire(0.25, RodSection::circle(0.0015), material, RodSupport::clamped, RodSupport::free);
   return World<Element>({{top.place_left(at.pose()), 8, Friction(friction, friction)}, {wire, 8}});

@@ -29,7 +29,7 @@ class PairMotion : public PairEquilibrium<Element> {
 
   /// @throws std::invalid_argument as PairSystem, and where there is no rod, or some have mass and others not
   PairMotion(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid,
-             const std::vector<BallJoint>& joints, const NewtonRaphson& solver)
+             const std::vector<Joint>& joints, const NewtonRaphson& solver)
       : Base(rods, rigid, joints, solver), held_(2 * rods.size()) {
     if (rods.empty()) throw std::invalid_argument("rods = 0: must be 1 or more");
     for (std::size_t i = 0; i < rods.size(); ++i)
@@ -61,7 +61,11 @@ class PairMotion : public PairEquilibrium<Element> {
   }
 
   /// The next step begins without velocity.
-  void rest() noexcept { course_ = Course::rests; }
+  void rest() noexcept {
+    if (course_ == Course::rests) return;
+    each([](Body& body) { body.motion->begin(body.system()); });
+    course_ = Course::rests;
+  }
   /// As of World.
   template <class Velocity>
   void throw_rod(std::size_t rod, Velocity&& velocity) noexcept {
@@ -196,7 +200,7 @@ class PairMotion : public PairEquilibrium<Element> {
         };
         Step &a = step_of(0), &b = step_of(1);
         const bool first = a.rule() == Step::Rule::euler, second = b.rule() == Step::Rule::euler;
-        const bool lasts = pair.kind == RodPair::Kind::joint || pair.stages >= stages;
+        const bool lasts = pair.kind != RodPair::Kind::contact || pair.stages >= stages;
         if ((first && second) || (lasts && !first && !second)) continue;
         a.take_euler(), b.take_euler();
         more = any = true;

@@ -143,7 +143,8 @@ class World {
   /// Of all rods, the springs that hold them, what contacts bend beside nodes, and their skins [J].
   double strain_energy() const noexcept {
     double energy = 0;
-    for (const Body& body : system().bodies()) energy += body.system().strain_energy();
+    for (const Body& body : system().bodies())
+      energy += body.system().strain_energy() + (body.motion ? body.motion->stored() : 0);
     for (int k = system().joints(); k < system().pairs(); ++k) {
       const detail::RodPair& pair = system().pair(k);
       const Vector w = system().between(pair);
