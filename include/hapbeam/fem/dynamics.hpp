@@ -45,7 +45,7 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   /// @param rest  nodes
   template <class Nodes>
   void draw(const Nodes& rest) noexcept {
-    for (int e = 0; e + 1 < rest.size(); ++e) {
+    for (int e = 0; e + 1 < static_cast<int>(rest.size()); ++e) {
       const auto &a = rest.data()[e], &b = rest.data()[e + 1];
       const ElementProperties<S> p(b.s - a.s, 1, 1);
       const auto is = Corotational<>::deformation(p, Vector6<S>{a.u, a.w, a.theta, b.u, b.w, b.theta});
