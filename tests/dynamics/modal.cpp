@@ -214,16 +214,17 @@ TEST_CASE("modes are felt and heard as a model with mass", "[dynamics]") {
 }
 
 TEST_CASE("what has no modes says why", "[dynamics]") {
-  CHECK_THROWS_WITH(modes_of(ruler(Material{200e9}), 4), Catch::Contains("density"));
-  CHECK_THROWS_WITH(modes_of(ruler(), 0), Catch::Contains("modes = 0"));
+  CHECK_THROWS_WITH(modes_of(ruler(Material{200e9}), 4), Catch::Matchers::ContainsSubstring("density"));
+  CHECK_THROWS_WITH(modes_of(ruler(), 0), Catch::Matchers::ContainsSubstring("modes = 0"));
   CHECK_THROWS_WITH(
       modes_of(Beam(0.3, Section::rectangle(0.025, 0.001), steel, Support::free, Support::free), 4),
-      Catch::Contains("free"));
+      Catch::Matchers::ContainsSubstring("free"));
   Material creeps = steel;
   creeps.damping.branches[0] = {0.5, 0.1};
-  CHECK_THROWS_WITH(modes_of(ruler(creeps), 4), Catch::Contains("relaxation share"));
-  CHECK_THROWS_WITH(modes_of(ruler({200e9, 7850, Damping::ratio(0.5, 9)}), 4), Catch::Contains("overdamped"));
-  CHECK_THROWS_WITH(ModalModel<>(modes_of(ruler(), 2), 0), Catch::Contains("parts = 0"));
+  CHECK_THROWS_WITH(modes_of(ruler(creeps), 4), Catch::Matchers::ContainsSubstring("relaxation share"));
+  CHECK_THROWS_WITH(modes_of(ruler({200e9, 7850, Damping::ratio(0.5, 9)}), 4),
+                    Catch::Matchers::ContainsSubstring("overdamped"));
+  CHECK_THROWS_WITH(ModalModel<>(modes_of(ruler(), 2), 0), Catch::Matchers::ContainsSubstring("parts = 0"));
   ModalModel<> model(modes_of(ruler(), 2));
   CHECK(model.step(-1) == Status::invalid_request);
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -325,6 +325,7 @@ TEST_CASE("requests that make no sense are rejected, and a late step is cut", "[
   CHECK(model.step(1) == Status::ok);
   CHECK(cut.step(2e-3) == Status::ok);
   CHECK(model.shape().at(0.3).w == cut.shape().at(0.3).w);
-  CHECK_THROWS_WITH(DynamicModel<>(ruler(0.001, Material{200e9}), 8), Catch::Contains("density"));
-  CHECK_THROWS_WITH(DynamicModel<>(ruler(), 8, 0), Catch::Contains("substeps"));
+  CHECK_THROWS_WITH(DynamicModel<>(ruler(0.001, Material{200e9}), 8),
+                    Catch::Matchers::ContainsSubstring("density"));
+  CHECK_THROWS_WITH(DynamicModel<>(ruler(), 8, 0), Catch::Matchers::ContainsSubstring("substeps"));
 }
