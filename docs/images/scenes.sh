@@ -31,25 +31,14 @@ animation() {
   return "$status"
 }
 
-# The needle is pressed from three sides, in 6 s: every second picture, at their own pace; the drawing alone.
-around() {
+# A scene in motion: every second picture, at its own pace; the drawing alone.
+#   moving SCENE DURATION FRAMES
+moving() {
   local frames
   frames=$(mktemp -d)
-  draw needle "$frames/frame.png" --duration 7 --at 0.1 --frames 120 &&
+  draw "$1" "$frames/frame.png" --duration "$2" --at 0.1 --frames "$3" &&
     convert -loop 0 -delay 10 "$frames"/frame_*[02468].png -crop 990x466+5+5 +repage -resize 640x -dither None -colors 64 \
-      -layers Optimize "$images/needle.gif"
-  local status=$?
-  rm -r "$frames"
-  return "$status"
-}
-
-# The hand pulls the knot tight, in 2 s: every second picture; the drawing alone.
-tied() {
-  local frames
-  frames=$(mktemp -d)
-  draw knot "$frames/frame.png" --duration 5 --at 0.1 --frames 88 &&
-    convert -loop 0 -delay 10 "$frames"/frame_*[02468].png -crop 990x466+5+5 +repage -resize 640x -dither None -colors 64 \
-      -layers Optimize "$images/knot.gif"
+      -layers Optimize "$images/$1.gif"
   local status=$?
   rm -r "$frames"
   return "$status"
@@ -73,5 +62,5 @@ rubbed() {
 mkdir -p "$top/tests/examples/pictures"
 picture thesis 3.5 && picture ruler 1.6 && picture strip 3.5 && picture string 4.5 && picture arch 1.75 && picture comb 2 &&
   picture needle 1.2 && picture hook 4.1 && picture fishing-rod 7.2 && picture probe 2.4 && picture catheter 4.5 && picture knot 4 &&
-  picture arch 1.4 two_hands --hands 2 && picture ruler 3.2 twang --element with-mass && step arch.gif animation && step needle.gif around &&
-  step knot.gif tied && step friction.gif rubbed
+  picture arch 1.4 two_hands --hands 2 && picture ruler 3.2 twang --element with-mass && step arch.gif animation && step needle.gif moving needle 7 120 &&
+  step knot.gif moving knot 5 88 && step friction.gif rubbed

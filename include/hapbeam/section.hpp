@@ -123,7 +123,7 @@ struct RodMaterial {
   double young;          ///< Young's modulus E [Pa]
   double shear;          ///< shear modulus G [Pa]
   double density = 0;    ///< [kg/m³]; 0: not known, and the rod has no mass
-  Damping damping = {};  ///< of a model with mass; a viscous one is made of TwistedRod
+  Damping damping = {};  ///< of a model with mass; viscous ones are of TwistedRod
 
   /// @param poisson  ν, more than -1 and at most 0.5; G = E/(2 (1 + ν))
   static RodMaterial isotropic(double young, double poisson, double density = 0) {

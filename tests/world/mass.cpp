@@ -209,13 +209,27 @@ TEST_CASE("rods with mass come to rest where those without lie", "[world]") {
   check_rest<RoundRod>(2000);
 }
 
-TEST_CASE("an equilibrium that is let go starts from there", "[world]") {
+namespace {
+
+/// One rod presses another by 10 mm.
+Crossing pressed() {
+  Crossing down;
+  down.off = {0, 0, -0.01};
+  return down;
+}
+World<RoundRod> held_pressed() {
   Crossing at;
   at.off = {0, 0, 1e-4};
   World<RoundRod> world = crossed<RoundRod>(at, 7850, 0, RodSupport::clamped);
-  Crossing down = at;
-  down.off = {0, 0, -0.01};
-  REQUIRE(lead(world, at, down, 20) == Status::ok);
+  REQUIRE(lead(world, at, pressed(), 20) == Status::ok);
+  return world;
+}
+
+}  // namespace
+
+TEST_CASE("an equilibrium that is let go starts from there", "[world]") {
+  const Crossing down = pressed();
+  World<RoundRod> world = held_pressed();
   const double strain = world.energy().strain;
   const Point force = world.contact(0).force;
   CHECK(world.energy().kinetic == 0);
@@ -238,12 +252,7 @@ TEST_CASE("an equilibrium that is let go starts from there", "[world]") {
 }
 
 TEST_CASE("a rod that is thrown against what it touches takes no energy from that", "[world]") {
-  Crossing at;
-  at.off = {0, 0, 1e-4};
-  World<RoundRod> world = crossed<RoundRod>(at, 7850, 0, RodSupport::clamped);
-  Crossing down = at;
-  down.off = {0, 0, -0.01};
-  REQUIRE(lead(world, at, down, 20) == Status::ok);
+  World<RoundRod> world = held_pressed();
   for (int k = 0; k < 5; ++k) REQUIRE(world.step(1e-3) == Status::ok);
   REQUIRE(world.contacts() == 1);
   world.throw_rod(1, [](double s) { return both({0, 0, 20 * s * s}, {0, 0, 40 * s}); });

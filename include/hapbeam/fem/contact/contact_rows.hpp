@@ -275,7 +275,7 @@ class ContactRows {
     }
     return least;
   }
-  /// After solve(): what its compliance is of all of it, the other contacts at rest.
+  /// After solve(): the part of a contact's flexibility that is its compliance, 0 to 1, where those before it yield.
   Scalar share(int k) const noexcept { return rows_[of(k)].contact.compliance / pivot_[of(k)]; }
   /// After solve(), of contact k: along the normal of a held place, or toward the centre of what is round [N].
   Scalar reaction(int k) const noexcept {
