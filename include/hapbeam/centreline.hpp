@@ -11,6 +11,7 @@
 // No allocation, noexcept, O(1) but for the search of the piece, which is O(log n).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -134,14 +135,9 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
     }
   }
 
-  /// True where no point of piece i is within d of q, as its nodes alone show.  Of finite rotation: its inner control points
-  /// are 0.42 chords from its nodes at most (arc()), hence no point is farther than 3/4 · 0.42 chords from the chord.
+  /// True where no point of piece i is within d of q, as its nodes alone show.
   bool excludes(int i, const Vector2<Scalar>& q, Scalar d) const noexcept {
-    const Vector2<Scalar> from = nodes_[i].position() - q, to = nodes_[i + 1].position() - q;
-    const Scalar reach = Scalar(0.82 * 0.82) * (to - from).squaredNorm(), square = d * d,
-                 more = (from + to).squaredNorm() / 4 - square - reach;
-    // Farther than d and the reach together, without a root.
-    return more > 0 && more * more > 4 * square * reach;
+    return excludes(Vector2<Scalar>(nodes_[i].position() - q), Vector2<Scalar>(nodes_[i + 1].position() - q), d);
   }
 
   /// Calls visit(i, segment(i)) for a piece, then for each other one that is not excluded, from there to both ends of the beam.
@@ -150,10 +146,30 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
   void visit_near(int beside, const Vector2<Scalar>& q, const Scalar& d, Visit&& visit) const noexcept {
     const Vector2<Scalar> left = direction(beside), right = direction(beside + 1);
     visit(beside, segment(beside, left, right));
-    for (int i = beside - 1; i >= 0; --i)
-      if (!excludes(i, q, d)) visit(i, segment(i, direction(i), i + 1 == beside ? left : direction(i + 1)));
-    for (int i = beside + 1; i < segments(); ++i)
-      if (!excludes(i, q, d)) visit(i, segment(i, i - 1 == beside ? right : direction(i), direction(i + 1)));
+    // Computed once a node, for both of its pieces.
+    Vector2<Scalar> from = nodes_[beside].position() - q;
+    for (int i = beside - 1; i >= 0; --i) {
+      const Vector2<Scalar> to = nodes_[i].position() - q;
+      if (!excludes(from, to, d))
+        visit(i, segment(i, direction(i), i + 1 == beside ? left : direction(i + 1)));
+      from = to;
+    }
+    from = nodes_[beside + 1].position() - q;
+    for (int i = beside + 1; i < segments(); ++i) {
+      const Vector2<Scalar> to = nodes_[i + 1].position() - q;
+      if (!excludes(from, to, d))
+        visit(i, segment(i, i - 1 == beside ? right : direction(i), direction(i + 1)));
+      from = to;
+    }
+  }
+
+  /// Largest curvature of piece i of a centreline of finite rotation, at its ends, to second order of their rotations [1/m].
+  Scalar sharpest(int i) const noexcept {
+    const Node &a = nodes_[i], &b = nodes_[i + 1];
+    const Vector2<Scalar> along = direction(i), chord = b.position() - a.position();
+    const Scalar l = b.s - a.s, lean = 6 * (along.x() * chord.y() - along.y() * chord.x()),
+                 turn = 2 * l * (b.theta - a.theta);
+    return (std::max)(std::abs(lean + turn), std::abs(lean + 2 * turn)) / (l * l);
   }
 
   /// Curvature at node i of a centreline of finite rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.
@@ -223,6 +239,14 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
   }
 
  private:
+  /// Of finite rotation: its inner control points are 0.42 chords from its nodes at most (arc()), hence no point is farther than 3/4 · 0.42 chords
+  /// from the chord.   @param from, to  its nodes, from q
+  static bool excludes(const Vector2<Scalar>& from, const Vector2<Scalar>& to, Scalar d) noexcept {
+    const Scalar reach = Scalar(0.82 * 0.82) * (to - from).squaredNorm(), square = d * d,
+                 more = (from + to).squaredNorm() / 4 - square - reach;
+    // Farther than d and the reach together, without a root.
+    return more > 0 && more * more > 4 * square * reach;
+  }
   /// Mean of |dr/ds| between two neighbouring nodes, from their directions.
   Scalar stretch(int i, int k, const Vector2<Scalar>& from, const Vector2<Scalar>& to) const noexcept {
     const Node &a = nodes_[i], &b = nodes_[k];

@@ -367,9 +367,9 @@ class RowContacts {
   }
   /// Whether a rod lies in what is round beside where it touches that, too: bent as sharply, it has another place there.
   bool touches_again(System& system, int i) noexcept {
-    if constexpr (dimension == 3 && most == 1) {
+    if constexpr (dimension == 3) {
       const Slot& now = slot(i);
-      if (now.goal < 0 || !now.moves || !(system.rows()[now.goal].wraps > sharpest)) return false;
+      if (count_ > 1 || now.goal < 0 || !now.moves || !(system.rows()[now.goal].wraps > sharpest)) return false;
       system.draw();
       const auto line = system.drawn();
       const ObstacleGap<decltype(line), RoundContact> gap(line, RoundContact{all_[i].round},
