@@ -137,29 +137,33 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
 
   /// True where no point of piece i is within d of q, as its nodes alone show.
   bool excludes(int i, const Vector2<Scalar>& q, Scalar d) const noexcept {
-    return excludes(Vector2<Scalar>(nodes_[i].position() - q), Vector2<Scalar>(nodes_[i + 1].position() - q), d);
+    const Vector2<Scalar> from = nodes_[i].position() - q, to = nodes_[i + 1].position() - q;
+    return is_far(from, to, (to - from).squaredNorm(), d);
   }
 
-  /// Calls visit(i, segment(i)) for a piece, then for each other one that is not excluded, from there to both ends of the beam.
+  /// Calls visit(i, segment(i)) for each piece but one that is not excluded, from there to both ends of the beam.  Those beside it are left out where
+  /// they and it are as long as their chords, as what turns by less than a radian is: no other place of it is nearer than half as near.
   /// @param d  [m] may change with a call
   template <class Visit>
-  void visit_near(int beside, const Vector2<Scalar>& q, const Scalar& d, Visit&& visit) const noexcept {
-    const Vector2<Scalar> left = direction(beside), right = direction(beside + 1);
-    visit(beside, segment(beside, left, right));
-    // Computed once a node, for both of its pieces.
-    Vector2<Scalar> from = nodes_[beside].position() - q;
-    for (int i = beside - 1; i >= 0; --i) {
-      const Vector2<Scalar> to = nodes_[i].position() - q;
-      if (!excludes(from, to, d))
-        visit(i, segment(i, direction(i), i + 1 == beside ? left : direction(i + 1)));
-      from = to;
-    }
-    from = nodes_[beside + 1].position() - q;
-    for (int i = beside + 1; i < segments(); ++i) {
-      const Vector2<Scalar> to = nodes_[i + 1].position() - q;
-      if (!excludes(from, to, d))
-        visit(i, segment(i, i - 1 == beside ? right : direction(i), direction(i + 1)));
-      from = to;
+  void visit_others(int own, const Vector2<Scalar>& q, const Scalar& d, Visit&& visit) const noexcept {
+    const auto straight = [](const Node& a, const Node& b, Scalar chord) {
+      const Scalar l = (b.s - a.s) * (b.s - a.s);
+      return std::abs(chord - l) < Scalar(0.03) * l;
+    };
+    const Vector2<Scalar> ends[] = {nodes_[own].position() - q, nodes_[own + 1].position() - q};
+    const bool plain = straight(nodes_[own], nodes_[own + 1], (ends[1] - ends[0]).squaredNorm());
+    for (const int step : {-1, 1}) {
+      // Computed once a node, for both of its pieces.
+      const Node* a = &nodes_[step < 0 ? own : own + 1];
+      Vector2<Scalar> from = ends[step < 0 ? 0 : 1];
+      bool beside = plain;
+      for (int i = own + step; i >= 0 && i < segments(); i += step) {
+        const Node* const b = a + step;
+        const Vector2<Scalar> to = b->position() - q;
+        const Scalar chord = (to - from).squaredNorm();
+        if (!(beside && straight(*a, *b, chord)) && !is_far(from, to, chord, d)) visit(i, segment(i));
+        a = b, from = to, beside = false;
+      }
     }
   }
 
@@ -240,9 +244,10 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
 
  private:
   /// Of finite rotation: its inner control points are 0.42 chords from its nodes at most (arc()), hence no point is farther than 3/4 · 0.42 chords
-  /// from the chord.   @param from, to  its nodes, from q
-  static bool excludes(const Vector2<Scalar>& from, const Vector2<Scalar>& to, Scalar d) noexcept {
-    const Scalar reach = Scalar(0.82 * 0.82) * (to - from).squaredNorm(), square = d * d,
+  /// from the chord.   @param from, to  its nodes, from q [m]   @param chord  squared [m²]
+  static bool is_far(const Vector2<Scalar>& from, const Vector2<Scalar>& to, Scalar chord,
+                     Scalar d) noexcept {
+    const Scalar reach = Scalar(0.82 * 0.82) * chord, square = d * d,
                  more = (from + to).squaredNorm() / 4 - square - reach;
     // Farther than d and the reach together, without a root.
     return more > 0 && more * more > 4 * square * reach;

@@ -68,19 +68,25 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
     control.col(3) = b.r;
     return control;
   }
-  /// Calls visit(i, segment(i)) for a piece, then for each other one that may come within d of a shaft, as its nodes alone show, from there to both
-  /// ends of the rod.   @param d  [m] may change with a call
+  /// Calls visit(i, segment(i)) for each piece but one that may come within d of a shaft, as its nodes alone show, from there to both ends of the
+  /// rod; but for those beside it, as in a plane.   @param d  [m] may change with a call
   template <class Visit>
-  void visit_near(int beside, const Shaft<Scalar>& shaft, const Scalar& d, Visit&& visit) const noexcept {
-    visit(beside, segment(beside));
+  void visit_others(int own, const Shaft<Scalar>& shaft, const Scalar& d, Visit&& visit) const noexcept {
     const Scalar squared = shaft.way.squaredNorm(), over = squared > 0 ? 1 / squared : Scalar(0);
+    const auto straight = [](Scalar chord, Scalar l, Scalar stretch) {
+      return chord > Scalar(0.97) * l * l * stretch;
+    };
+    const Node &left = nodes_[own], &right = nodes_[own + 1];
+    const bool plain = straight((right.r - left.r).squaredNorm(), right.s - left.s,
+                                (std::max)(left.tangent.squaredNorm(), right.tangent.squaredNorm()));
     for (const int step : {-1, 1}) {
       // Computed once a node, for both of its pieces.
-      const Node* a = &nodes_[step < 0 ? beside : beside + 1];
+      const Node* a = step < 0 ? &left : &right;
       VectorOf<Scalar, 3> off = a->r - shaft.tip;
       Scalar distance_a = off.squaredNorm(), along_a = shaft.way.dot(off),
              stretch_a = a->tangent.squaredNorm();
-      for (int i = beside + step; i >= 0 && i < segments(); i += step) {
+      bool beside = plain;
+      for (int i = own + step; i >= 0 && i < segments(); i += step) {
         const Node* const b = a + step;
         off = b->r - shaft.tip;
         const Scalar distance_b = off.squaredNorm(), along_b = shaft.way.dot(off),
@@ -88,9 +94,11 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
         // With m between a and b, |m|² = (|a|² + |b|²)/2 - |b - a|²/4.
         const Scalar along = (along_a + along_b) / 2,
                      t = (std::min)((std::max)(along * over, Scalar(0)), Scalar(1)),
-                     middle = (distance_a + distance_b) / 2 - chord / 4 - t * (2 * along - t * squared);
-        if (!is_far(middle, chord, b->s - a->s, (std::max)(stretch_a, stretch_b), d)) visit(i, segment(i));
-        a = b, distance_a = distance_b, along_a = along_b, stretch_a = stretch_b;
+                     middle = (distance_a + distance_b) / 2 - chord / 4 - t * (2 * along - t * squared),
+                     l = b->s - a->s, stretch = (std::max)(stretch_a, stretch_b);
+        if (!(beside && straight(chord, l, stretch)) && !is_far(middle, chord, l, stretch, d))
+          visit(i, segment(i));
+        a = b, distance_a = distance_b, along_a = along_b, stretch_a = stretch_b, beside = false;
       }
     }
   }

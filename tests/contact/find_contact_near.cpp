@@ -20,10 +20,10 @@ struct Tried {
 
 /// Whether a touch keeps its place although another one is nearer, by no more than half a reach.
 template <typename Scalar>
-bool keeps_its_own(const Contact<Scalar>& own, const Contact<Scalar>& nearest, Scalar s,
-                   const Avatar<Scalar>& avatar, Scalar reach) {
+bool keeps_its_own(const Contact<Scalar>& own, const Contact<Scalar>& nearest, const Avatar<Scalar>& avatar,
+                   Scalar reach) {
   const auto away = [&](const Contact<Scalar>& contact) { return (contact.foot - avatar.position).norm(); };
-  return own.s != nearest.s && std::abs(nearest.s - s) > 2 * reach && away(own) - away(nearest) <= reach / 2;
+  return own.s != nearest.s && away(own) - away(nearest) <= reach / 2;
 }
 
 /// Presses anywhere, then looks from avatars near and far, fine and coarse, remembered at the right place or another.
@@ -56,7 +56,7 @@ Tried try_random(Model model, int presses) {
       volumes.refit(model.shape());
       const Contact<Scalar> whole = find_contact(avatar, model.shape(), volumes, model.thickness(), all);
       if (any_rotation<typename Model::ElementType> &&
-          keeps_its_own(found, whole, from, avatar, avatar.radius + model.thickness() / 2)) {
+          keeps_its_own(found, whole, avatar, avatar.radius + model.thickness() / 2)) {
         ++tried.kept;
         continue;
       }

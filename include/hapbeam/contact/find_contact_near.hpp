@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The contact of a lasting touch: sought near the last one, with a proof that no other piece is nearer.
+// The contact of a lasting touch: sought near the last one, with a proof that no other piece is nearer, or lies deeper.
 //
 // In its range a beam of moderate rotation runs along x without turning back. Let d be the distance of the avatar's
 // centre q from the nearest point of a few pieces. Any nearer point lies between q.x - d and q.x + d. If the pieces
 // cover that interval, or reach the beam's end, no other piece is searched or computed.
 //
-// A beam of finite rotation may approach from any side. A piece is nowhere farther from the middle of its chord than
-// 0.82 chords (Centreline::piece_radius), so that most pieces are excluded without an angle; the others are searched.
-// Real-time: noexcept, no allocation. The cost is that of three or four pieces, and with finite rotation that of a
+// A beam of finite rotation may approach from any side. A touch goes on where it was, downhill. A piece is nowhere farther from the middle of its
+// chord than 0.82 chords, so that most others are excluded without an angle; the rest are searched.
+// Real-time: noexcept, no allocation. The cost is that of three or four pieces, with finite rotation that of one or two, and of a
 // distance for each further piece.
 #pragma once
 
@@ -40,20 +40,6 @@ NearestPoint<Scalar> nearest_along_x(const Centreline<Scalar>& line, const Vecto
   return best;
 }
 
-/// The nearest point of a whole centreline of finite rotation, to q.
-/// @param beside  the piece that is searched first   @param q  a point or, in space, a Shaft
-template <typename Scalar, int D, class Query>
-NearestPoint<Scalar, D> nearest_beside(const Centreline<Scalar, D>& line, int beside,
-                                       const Query& q) noexcept {
-  NearestPoint<Scalar, D> best;
-  best.segment = beside;
-  Scalar d = 0;
-  line.visit_near(beside, q, d, [&](int i, const CubicSegment<Scalar, D>& piece) {
-    if (best.look(i, piece, q)) d = std::sqrt(best.at.distance_squared);
-  });
-  return best;
-}
-
 /// The nearest point that is reached downhill from a piece, without a way over what is farther.
 template <typename Scalar, int D, class Query>
 NearestPoint<Scalar, D> nearest_downhill(const Centreline<Scalar, D>& line, int piece,
@@ -74,13 +60,15 @@ NearestPoint<Scalar, D> nearest_downhill(const Centreline<Scalar, D>& line, int 
 template <typename Scalar, int D, class Query>
 NearestPoint<Scalar, D> nearest_of_touch(const Centreline<Scalar, D>& line, Scalar s, const Query& q,
                                          Scalar reach) noexcept {
-  const int last = line.segment_at(s);
-  const NearestPoint<Scalar, D> nearest = nearest_beside(line, last, q);
-  const auto &a = line[nearest.segment], &b = line[nearest.segment + 1];
-  if (!(std::abs(a.s + nearest.at.t * (b.s - a.s) - s) > 2 * reach)) return nearest;
-  const NearestPoint<Scalar, D> own = nearest_downhill(line, last, q);
-  const Scalar deeper = std::sqrt(own.at.distance_squared) - std::sqrt(nearest.at.distance_squared);
-  return deeper > reach / 2 ? nearest : own;
+  NearestPoint<Scalar, D> best = nearest_downhill(line, line.segment_at(s), q);
+  if (best.segment < 0) return best;
+  Scalar d = (std::max)(std::sqrt(best.at.distance_squared) - reach / 2, Scalar(0));
+  line.visit_others(best.segment, q, d, [&](int i, const CubicSegment<Scalar, D>& piece) {
+    NearestPoint<Scalar, D> other;
+    (void)other.look(i, piece, q);
+    if (const Scalar its = std::sqrt(other.at.distance_squared); its < d) best = other, d = its;
+  });
+  return best;
 }
 
 /// As find_contact_near(), of a beam that runs along x.   @param part  of the model's shape, at s
