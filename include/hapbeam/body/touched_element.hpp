@@ -143,36 +143,40 @@ class TouchedElement : private PieceChain<Element, S, Most> {
             gl = D.D + l * D.l - N_ * (1 + stretch) - p * D.p - q * D.q + Nl * missing;
     // By place of B against A, and length: the columns are those of the chord, of its angle, and of the length alone.
     const S turns = larger(N_, S(N_ + turning_ * missing)), swings = gp + gq;
-    Eigen::Matrix<S, 3, 3> by;
+    std::array<std::array<S, 3>, 3> by;
     S bow, leans = cp + cq, lengthens = pL + qL;
     if constexpr (Turns) {
       const S j = 1 / chord.length, x = chord.along.x(), y = chord.along.y();
-      by << x, -y * j, 0, y, x * j, 0, 0, 0, 1;
+      by = {{{x, -y * j, 0}, {y, x * j, 0}, {0, 0, 1}}};
       bow = turns * chord.length, leans -= swings * j;
     } else {
       const S alpha = chord.angle;
-      by << 1, 0, 0, alpha, i, 0, -alpha * alpha / 2, -alpha * i, 1;
+      by = {{{1, 0, 0}, {alpha, i, 0}, {-alpha * alpha / 2, -alpha * i, 1}}};
       bow = turns * l, lengthens -= swings * i;
     }
     // Of chord, angle and length: the tangent, rotations of A and B, the gradient, and N.
-    Eigen::Matrix<S, 3, 7> parts;
-    parts << cc, leans, cl, cp, cq, pull, 1,                                              //
-        leans, pp + 2 * pq + qq + bow, lengthens, pp + pq, pq + qq, swings, D.pN + D.qN,  //
-        cl, lengthens, lL, pL, qL, gl, Nl;
-    const Eigen::Matrix<S, 3, 7> there = by * parts;
-    Eigen::Matrix<S, 3, 3> K;
-    for (int m = 0; m < 3; ++m)
-      for (int n = 0; n <= m; ++n)
-        K(m, n) = K(n, m) = there(m, 0) * by(n, 0) + there(m, 1) * by(n, 1) + there(m, 2) * by(n, 2);
-    const auto by_a = there.col(3), by_b = there.col(4), pulls = there.col(5), lacks = there.col(6);
+    const S parts[3][7] = {{cc, leans, cl, cp, cq, pull, 1},
+                           {leans, pp + 2 * pq + qq + bow, lengthens, pp + pq, pq + qq, swings, D.pN + D.qN},
+                           {cl, lengthens, lL, pL, qL, gl, Nl}};
+    S there[7][3], K[3][3];
+    HAPBEAM_UNROLL
+    for (std::size_t m = 0; m < 3; ++m) {
+      HAPBEAM_UNROLL
+      for (int n = 0; n < 7; ++n)
+        there[n][m] = by[m][0] * parts[0][n] + by[m][1] * parts[1][n] + by[m][2] * parts[2][n];
+      HAPBEAM_UNROLL
+      for (std::size_t n = 0; n <= m; ++n)
+        K[m][n] = K[n][m] = there[0][m] * by[n][0] + there[1][m] * by[n][1] + there[2][m] * by[n][2];
+    }
+    const S(&by_a)[3] = there[3], (&by_b)[3] = there[4], (&pulls)[3] = there[5], (&lacks)[3] = there[6];
     // A takes it off, and B adds it.
     const std::array<std::size_t, 3> of_a{0, 1, 3}, of_b{4, 5, 7};
     for (int m = 0; m < 3; ++m) {
       const std::size_t ma = of_a[of(m)], mb = of_b[of(m)];
       for (int n = 0; n < 3; ++n) {
         const std::size_t na = of_a[of(n)], nb = of_b[of(n)];
-        front_[ma][na] = front_[mb][nb] = K(m, n);
-        front_[ma][nb] = front_[mb][na] = -K(m, n);
+        front_[ma][na] = front_[mb][nb] = K[m][n];
+        front_[ma][nb] = front_[mb][na] = -K[m][n];
       }
       front_[ma][2] = front_[2][ma] = -by_a[m], front_[mb][2] = front_[2][mb] = by_a[m];
       front_[ma][6] = front_[6][ma] = -by_b[m], front_[mb][6] = front_[6][mb] = by_b[m];

@@ -89,7 +89,7 @@ class BeamChain {
   }
   static Vector2<Scalar> displacement(const Displacement<Scalar>& at) noexcept { return {at.u, at.w}; }
   static VectorOf<Scalar, 1> middle(const Displacement<Scalar>& at) noexcept {
-    return VectorOf<Scalar, 1>::Constant(at.w);
+    return VectorOf<Scalar, 1>(at.w);
   }
   static bool folds(const Node& a, const Node& b) noexcept { return std::abs(b.theta - a.theta) > 2; }
   /// By which an increment turns a node [rad].

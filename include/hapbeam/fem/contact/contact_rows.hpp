@@ -192,7 +192,7 @@ class ContactRows {
       row.first = first, row.number = number++, row.seen = false;
       if (!sought) touched->add(row.contact, k);
     });
-    const Scalar energy = touched->condense(r, K, [this]([[maybe_unused]] int k) {
+    const Scalar energy = touched->condense(r, K, [&]([[maybe_unused]] int k) {
       if constexpr (takes_bodies)
         if (Row& row = rows_[of(k)]; row.friction)
           row.friction->look(row.contact), row.friction->give(row.contact);
