@@ -228,7 +228,7 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
     return arc({b.s + b.u - a.s - a.u, b.w - a.w}, from, to) / std::abs(b.s - a.s);
   }
   /// Slope or direction of the centreline at a node: dw/dx after (1, dw/dx), or a unit vector.
-  Vector2<Scalar> direction(int i) const noexcept {
+  [[gnu::always_inline]] Vector2<Scalar> direction(int i) const noexcept {
     const Scalar theta = nodes_[i].theta;
     if (!any_rotation_) return {1, -theta};
     return detail::direction(-theta);

@@ -54,9 +54,9 @@ namespace detail {
 /// Calls visit(t, p(t)) for each t within (0, 1) at which a cubic p comes nearest to the origin, of all beside it.
 /// @param p0, p1, p2, p3  [m] its control points
 template <typename Scalar, int D, class Visit>
-inline void for_each_foot(const VectorOf<Scalar, D>& p0, const VectorOf<Scalar, D>& p1,
-                          const VectorOf<Scalar, D>& p2, const VectorOf<Scalar, D>& p3,
-                          Visit&& visit) noexcept {
+[[gnu::always_inline]] inline void for_each_foot(const VectorOf<Scalar, D>& p0, const VectorOf<Scalar, D>& p1,
+                                                 const VectorOf<Scalar, D>& p2, const VectorOf<Scalar, D>& p3,
+                                                 Visit&& visit) noexcept {
   using Vector = VectorOf<Scalar, D>;
   const Vector e0 = p1 - p0, e1 = p2 - p1, e2 = p3 - p2;  // p' / 3 in Bernstein form
   const Bernstein<Scalar, 5> g = {p0.dot(e0),
@@ -83,8 +83,8 @@ inline void for_each_foot(const VectorOf<Scalar, D>& p0, const VectorOf<Scalar, 
 /// @param b  [m] control points   @param q  [m]
 /// Real-time: noexcept, no allocation, bounded.
 template <typename Scalar, int D>
-ClosestPoint<Scalar, D> closest_point(const CubicSegment<Scalar, D>& b,
-                                      const VectorOf<Scalar, D>& q) noexcept {
+[[gnu::always_inline]] inline ClosestPoint<Scalar, D> closest_point(const CubicSegment<Scalar, D>& b,
+                                                                    const VectorOf<Scalar, D>& q) noexcept {
   using Vector = VectorOf<Scalar, D>;
   const Vector p0 = control_point(b, 0) - q, p1 = control_point(b, 1) - q, p2 = control_point(b, 2) - q,
                p3 = control_point(b, 3) - q;
