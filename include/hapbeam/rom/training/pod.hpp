@@ -6,7 +6,7 @@
 // Policy: the method, Svd or the thesis' eigenvalues of XXᵀ.
 // Snapshots are free of units, and the basis is orthonormal in their plain product.  In that of a stiffness, an energy that
 // stretching dominates, shapes within a percent take 16 modes instead of 10.
-// This header alone includes an SVD; a program that loads a trained model does not compile it.
+// This header alone has an SVD; a program that loads a trained model does not compile it.
 // Offline: allocates and throws std::invalid_argument.
 #pragma once
 
