@@ -15,16 +15,10 @@
 #include <cmath>
 #include <type_traits>
 
-#include <Eigen/Core>
-
 #include <hapbeam/angle.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam {
-
-template <typename Scalar, int D>
-using VectorOf = Eigen::Matrix<Scalar, D, 1>;
-template <typename Scalar>
-using Vector2 = VectorOf<Scalar, 2>;
 
 /// One node: where it was and how it moved.  theta = -dw/dx.
 template <typename Scalar>
@@ -95,6 +89,11 @@ bool is_finite(const CentrelineNode<Scalar>& node) noexcept {
 /// Control points of one piece, b0 … b3: the curve is sum of b_k B_k(t), t in [0, 1], in Bernstein form.
 template <typename Scalar, int D = 2>
 using CubicSegment = Eigen::Matrix<Scalar, D, 4>;
+/// Control point k of it [m].
+template <typename Scalar, int D>
+VectorOf<Scalar, D> control_point(const Eigen::Matrix<Scalar, D, 4>& b, int k) noexcept {
+  return detail::vector_of<Scalar, D>([&](int i) { return b(i, k); });
+}
 
 /// Displacements at one arc position.
 template <typename Scalar>
@@ -258,7 +257,7 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
     return arc({b.s + b.u - a.s - a.u, b.w - a.w}, from, to) / std::abs(b.s - a.s);
   }
   /// Slope or direction of the centreline at a node: dw/dx after (1, dw/dx), or a unit vector.
-  Vector2<Scalar> direction(int i) const noexcept {
+  [[gnu::always_inline]] Vector2<Scalar> direction(int i) const noexcept {
     const Scalar theta = nodes_[i].theta;
     if (!any_rotation_) return {1, -theta};
     return detail::direction(-theta);
@@ -297,7 +296,8 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
     const Vector2<Scalar> from = direction(i);
     const CubicSegment<Scalar> b = segment(i, from, direction(i + 1));
     const Scalar r = 1 - t;
-    const Vector2<Scalar> c0 = b.col(1) - b.col(0), c1 = b.col(2) - b.col(1), c2 = b.col(3) - b.col(2);
+    const Vector2<Scalar> p1 = control_point(b, 1), p2 = control_point(b, 2), c0 = p1 - control_point(b, 0),
+                          c1 = p2 - p1, c2 = control_point(b, 3) - p2;
     const Vector2<Scalar> velocity = r * r * c0 + 2 * r * t * c1 + t * t * c2,
                           way = t * ((1 + r + r * r) * c0 + t * (1 + 2 * r) * c1 + t * t * c2);
     const Scalar turned =

@@ -27,23 +27,31 @@ std::vector<double> frequencies(const Beam& beam, int n, const std::array<bool, 
   detail::Inertia<double, Eigen::Dynamic, Eigen::Dynamic> inertia(beam, n, [l](int i) { return l * i; });
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(2 * n + 2, 2 * n + 2), M = K;
   const ElementProperties<double> p(l, beam.axial_stiffness(), beam.bending_stiffness());
-  std::vector<CentrelineNode<double>> nodes;
-  for (int i = 0; i <= n; ++i) nodes.push_back({l * i, strain * l * i, 0, 0});
+  detail::PerNode<CentrelineNode<double>, Eigen::Dynamic, Eigen::Dynamic> nodes(n);
+  for (int i = 0; i <= n; ++i) nodes[i] = {l * i, strain * l * i, 0, 0};
   inertia.draw(nodes);
-  for (int i = 0; i <= n; ++i) inertia.ghost()[i] = detail::placed(nodes[static_cast<std::size_t>(i)]);
+  for (int i = 0; i <= n; ++i) inertia.ghost()[i] = detail::placed(nodes[i]);
   CHECK(inertia.look(nodes) == 0);
   Vector6<double> drawn = Vector6<double>::Zero();
   drawn[3] = strain * l;
   for (int e = 0; e < n; ++e) {
-    Vector6<double> r, no_r = Vector6<double>::Zero();
-    Matrix6<double> k, m = Matrix6<double>::Zero();
+    Vector6<double> r, no_r;
+    Matrix6<double> k, m;
     (void)Element::tangent(p, drawn, r, k);
-    const auto at = [](int i) { return [i](auto&& f) { return f(i); }; };
-    inertia.add(at(e), no_r, m);
+    // One of those that are computed side by side.
+    using Wide = detail::Pack<double>;
+    const int place = detail::PairOrder{n}.place(e), lane = place % Wide::size;
+    Vector6<Wide> none = Vector6<Wide>::Constant(Wide(0));
+    Matrix6<Wide> each = Matrix6<Wide>::Constant(Wide(0));
+    inertia.add(place - lane, none, each);
+    for (int i = 0; i < 6; ++i) {
+      no_r[i] = none[i][lane];
+      for (int j = 0; j < 6; ++j) m(i, j) = each(i, j)[lane];
+    }
     if (e + 1 == n) {
       Eigen::Matrix3d last = Eigen::Matrix3d::Zero();
       Vector3<double> no_force = Vector3<double>::Zero();
-      inertia.add_node(at(n), no_force, last);
+      inertia.add_last(no_force, last);
       m.bottomRightCorner<3, 3>() += last;
     }
     CHECK(no_r == Vector6<double>::Zero());

@@ -83,13 +83,14 @@ struct InnerRow : InnerState<S, D> {
   using Vector = VectorOf<S, D>;
 
   Kind kind = Kind::round;
-  Vector normal =
-      Vector::Unit(D - 1);  ///< n, unit; of what is round from its centre or axis to the curve, found
-  S reach = 0;              ///< [m], or d
-  S curvature = 0;          ///< of what is round, for which a place is held [1/m]
-  S compliance = 0;         ///< of what holds that [m/N]:  D = reach + ahead - λ compliance
-  S ahead = 0;              ///< of where that has no force [m]
-  S least = 0, most = 0;    ///< s stays between them [m]
+  Vector normal = vector_of<S, D>([](int k) {
+    return S(k == D - 1);
+  });                     ///< n, unit; of what is round from its centre or axis to the curve, found
+  S reach = 0;            ///< [m], or d
+  S curvature = 0;        ///< of what is round, for which a place is held [1/m]
+  S compliance = 0;       ///< of what holds that [m/N]:  D = reach + ahead - λ compliance
+  S ahead = 0;            ///< of where that has no force [m]
+  S least = 0, most = 0;  ///< s stays between them [m]
 
   bool waits = false;                ///< s stays in the next solve
   bool rests = false;                ///< s stays, between two elements
@@ -97,9 +98,9 @@ struct InnerRow : InnerState<S, D> {
   Vector friction = Vector::Zero();  ///< on the beam [N]
 
   // Found where an element looks at it.
-  S gap = 0;                         ///< D - reach, or n · (u, w) - d, in space n · r - d [m]
-  Vector place = Vector::Zero();     ///< of the curve [m]
-  Vector tangent = Vector::Unit(0);  ///< of it
+  S gap = 0;                      ///< D - reach, or n · (u, w) - d, in space n · r - d [m]
+  Vector place = Vector::Zero();  ///< of the curve [m]
+  Vector tangent = vector_of<S, D>([](int k) { return S(k == 0); });  ///< of it
 };
 
 template <typename S, int D = 2>

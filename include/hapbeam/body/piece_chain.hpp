@@ -5,7 +5,8 @@
 //
 //   α = l p - θ,     x' = x ± l (1 + ε)(cos α, sin α),     θ' = l q - α          p, q, ε: of a unit of length (piece.hpp)
 //
-// so that a contact may lie as near to a node as it likes, and pass it.  Of moderate rotation (cos α, sin α) (1 + ε) becomes (1 + ε - α²/2, α).
+// so that a contact may lie as near to a node as it likes, and pass it.  Of moderate rotation (cos α, sin α) (1 + ε) becomes (1 + ε - α²/2, α), and
+// a contact is a place that is held, without friction: nothing round touches such elements.
 // Real-time: noexcept, no allocation, O(contacts²).
 // Source: derived here; docs/theory.md, Contact within an element.
 #pragma once
@@ -255,7 +256,7 @@ class PieceChain {
     contact.moved = node.moved, contact.theta = node.theta;
     contact.place = Vector(node.s + node.moved.x(), node.moved.y());
     contact.tangent = Turns ? direction(S(-node.theta)) : Vector(1, -node.theta);
-    if (contact.kind == Contact::Kind::round) {
+    if (Turns && contact.kind == Contact::Kind::round) {
       bool unused;
       contact.gap = contact.look_at_circle(node.s, unused) - contact.reach;
     } else {

@@ -107,6 +107,16 @@ class TouchedElement : private PieceChain<Element, S, Most> {
   }
 
  private:
+  /// What advance() needs of a piece that was condensed.
+  struct Record {
+    bool moves = false, waits = false;
+    S side = 1;
+    std::array<Row, 4> rows;
+    Vector on, turn, slides;  // derivatives of the tip: by ε, by the rotation of its root, by s
+    S length, turns;          // [m]; of its rotation by s
+    std::array<S, 4> tension;
+    S lack, stiff;
+  };
   /// Compliance of its length [m/N].
   S softest() const noexcept {
     const S l = nodes_[1].s - nodes_[0].s;
@@ -133,36 +143,40 @@ class TouchedElement : private PieceChain<Element, S, Most> {
             gl = D.D + l * D.l - N_ * (1 + stretch) - p * D.p - q * D.q + Nl * missing;
     // By place of B against A, and length: the columns are those of the chord, of its angle, and of the length alone.
     const S turns = larger(N_, S(N_ + turning_ * missing)), swings = gp + gq;
-    Eigen::Matrix<S, 3, 3> by;
+    std::array<std::array<S, 3>, 3> by;
     S bow, leans = cp + cq, lengthens = pL + qL;
     if constexpr (Turns) {
       const S j = 1 / chord.length, x = chord.along.x(), y = chord.along.y();
-      by << x, -y * j, 0, y, x * j, 0, 0, 0, 1;
+      by = {{{x, -y * j, 0}, {y, x * j, 0}, {0, 0, 1}}};
       bow = turns * chord.length, leans -= swings * j;
     } else {
       const S alpha = chord.angle;
-      by << 1, 0, 0, alpha, i, 0, -alpha * alpha / 2, -alpha * i, 1;
+      by = {{{1, 0, 0}, {alpha, i, 0}, {-alpha * alpha / 2, -alpha * i, 1}}};
       bow = turns * l, lengthens -= swings * i;
     }
     // Of chord, angle and length: the tangent, rotations of A and B, the gradient, and N.
-    Eigen::Matrix<S, 3, 7> parts;
-    parts << cc, leans, cl, cp, cq, pull, 1,                                              //
-        leans, pp + 2 * pq + qq + bow, lengthens, pp + pq, pq + qq, swings, D.pN + D.qN,  //
-        cl, lengthens, lL, pL, qL, gl, Nl;
-    const Eigen::Matrix<S, 3, 7> there = by * parts;
-    Eigen::Matrix<S, 3, 3> K;
-    for (int m = 0; m < 3; ++m)
-      for (int n = 0; n <= m; ++n)
-        K(m, n) = K(n, m) = there(m, 0) * by(n, 0) + there(m, 1) * by(n, 1) + there(m, 2) * by(n, 2);
-    const auto by_a = there.col(3), by_b = there.col(4), pulls = there.col(5), lacks = there.col(6);
+    const S parts[3][7] = {{cc, leans, cl, cp, cq, pull, 1},
+                           {leans, pp + 2 * pq + qq + bow, lengthens, pp + pq, pq + qq, swings, D.pN + D.qN},
+                           {cl, lengthens, lL, pL, qL, gl, Nl}};
+    S there[7][3], K[3][3];
+    HAPBEAM_UNROLL
+    for (std::size_t m = 0; m < 3; ++m) {
+      HAPBEAM_UNROLL
+      for (int n = 0; n < 7; ++n)
+        there[n][m] = by[m][0] * parts[0][n] + by[m][1] * parts[1][n] + by[m][2] * parts[2][n];
+      HAPBEAM_UNROLL
+      for (std::size_t n = 0; n <= m; ++n)
+        K[m][n] = K[n][m] = there[0][m] * by[n][0] + there[1][m] * by[n][1] + there[2][m] * by[n][2];
+    }
+    const S(&by_a)[3] = there[3], (&by_b)[3] = there[4], (&pulls)[3] = there[5], (&lacks)[3] = there[6];
     // A takes it off, and B adds it.
     const std::array<std::size_t, 3> of_a{0, 1, 3}, of_b{4, 5, 7};
     for (int m = 0; m < 3; ++m) {
       const std::size_t ma = of_a[of(m)], mb = of_b[of(m)];
       for (int n = 0; n < 3; ++n) {
         const std::size_t na = of_a[of(n)], nb = of_b[of(n)];
-        front_[ma][na] = front_[mb][nb] = K(m, n);
-        front_[ma][nb] = front_[mb][na] = -K(m, n);
+        front_[ma][na] = front_[mb][nb] = K[m][n];
+        front_[ma][nb] = front_[mb][na] = -K[m][n];
       }
       front_[ma][2] = front_[2][ma] = -by_a[m], front_[mb][2] = front_[2][mb] = by_a[m];
       front_[ma][6] = front_[6][ma] = -by_b[m], front_[mb][6] = front_[6][mb] = by_b[m];
@@ -180,7 +194,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
   void touch(int k, int from, Rub&& rub) noexcept {
     see(k);
     Contact& contact = in_order(k);
-    const S bend = contact.kind == Contact::Kind::round && contact.gap > -contact.reach / 2
+    const S bend = Turns && contact.kind == Contact::Kind::round && contact.gap > -contact.reach / 2
                        ? contact.force / (contact.gap + contact.reach)
                        : S(0);
     const int number = number_[of(k)];
@@ -200,6 +214,12 @@ class TouchedElement : private PieceChain<Element, S, Most> {
       row[of(both + number)] += arm * n.dot(left);
       if (Turns) row[of(from + 2)] += contact.force * arm * n.dot(contact.tangent);
     }
+    if constexpr (Turns) add_friction(k, from, t, rub);
+  }
+  /// At a contact that was added.   @param t  along the surface
+  template <class Rub>
+  void add_friction(int k, int from, const Vector& t, Rub&& rub) noexcept {
+    Contact& contact = in_order(k);
     // Friction is at this place of the beam: it moves with the curve, less as far as s goes along it.
     rub(id(k));
     const S rubs = contact.friction.dot(t), stiff = contact.friction_stiffness;
@@ -301,7 +321,6 @@ class TouchedElement : private PieceChain<Element, S, Most> {
       A[0][7] -= es, A[1][7] -= ps, A[2][7] -= qs, A[3][7] -= ss, A[6][7] -= st, A[7][7] += ss,
           A[7][last] -= gs;
 
-    const S along = std::abs(front_[from_tip + 3][from_tip + 3]);  // of which little is left
     const auto eliminate = [&](auto number) {
       constexpr std::size_t u = decltype(number)::value;
       const Row row_u = record.rows[u] = A[u];
@@ -325,24 +344,29 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     eliminate(std::integral_constant<std::size_t, 0>());
     eliminate(std::integral_constant<std::size_t, 1>());
     eliminate(std::integral_constant<std::size_t, 2>());
-    // A force of the pieces along the beam, which exact ones would not have, is not to be taken for that of the contact, nor what is out of balance for what
-    // that bends.  What friction jams keeps its row longer: between that and the foot it would go to and fro.
-    const S theirs = A[3][last] + contact.force * contact.normal.dot(contact.tangent),
-            most = contact.friction.isZero(0) ? S(0.05) : S(0.25);
-    const bool told = std::abs(theirs) <= most * std::abs(contact.force) &&
-                      std::abs(change_) <= contact.force * contact.force * softest() &&
-                      std::abs(A[3][3]) > 64 * std::numeric_limits<S>::epsilon() * along;
-    if (told) contact.sharp = A[3][3] * contact.force > contact.curvature * contact.force * contact.force;
-    record.moves = told && contact.moves && !contact.waits && !contact.rests;
-    record.waits = told && contact.moves && contact.waits && !contact.rests;
-    if (record.waits) record.rows[3] = A[3];
-    if (record.moves) {
-      // Along a curve that is flatter than the circle the distance has a minimum; where it is as sharp it has none.
-      const S least = std::sqrt(std::numeric_limits<S>::epsilon()) *
-                      std::abs(contact.force / (contact.gap + contact.reach));
-      if (std::abs(A[3][3]) < least) A[3][3] = std::copysign(least, A[3][3]);
-      if (A[3][3] * contact.force > 0) turned_ += contact.force > 0 ? 1 : -1;
-      eliminate(std::integral_constant<std::size_t, 3>());
+    record.moves = record.waits = false;
+    if constexpr (Turns) {
+      // A force of the pieces along the beam, which exact ones would not have, is not to be taken for that of the contact, nor what is out of balance for what
+      // that bends.  What friction jams keeps its row longer: between that and the foot it would go to and fro.
+      const S theirs = A[3][last] + contact.force * contact.normal.dot(contact.tangent),
+              most = contact.friction.isZero(0) ? S(0.05) : S(0.25);
+      const bool told =
+          std::abs(theirs) <= most * std::abs(contact.force) &&
+          std::abs(change_) <= contact.force * contact.force * softest() &&
+          std::abs(A[3][3]) > 64 * std::numeric_limits<S>::epsilon() *
+                                  std::abs(front_[from_tip + 3][from_tip + 3]);  // little is left of it
+      if (told) contact.sharp = A[3][3] * contact.force > contact.curvature * contact.force * contact.force;
+      record.moves = told && contact.moves && !contact.waits && !contact.rests;
+      record.waits = told && contact.moves && contact.waits && !contact.rests;
+      if (record.waits) record.rows[3] = A[3];
+      if (record.moves) {
+        // Along a curve that is flatter than the circle the distance has a minimum; where it is as sharp it has none.
+        const S least = std::sqrt(std::numeric_limits<S>::epsilon()) *
+                        std::abs(contact.force / (contact.gap + contact.reach));
+        if (std::abs(A[3][3]) < least) A[3][3] = std::copysign(least, A[3][3]);
+        if (A[3][3] * contact.force > 0) turned_ += contact.force > 0 ? 1 : -1;
+        eliminate(std::integral_constant<std::size_t, 3>());
+      }
     }
     const auto give = [&](std::size_t i, std::size_t row_a, std::size_t j, std::size_t column_a) {
       front_[i][j] = front_[j][i] = A[row_a][column_a];
@@ -377,7 +401,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     for (int u = record.moves ? 3 : 2; u >= 0; --u) x[of(u)] = -lacks(u) / record.rows[of(u)][of(u)];
     S change = record.lack + record.tension[3] * record.side * (Most > 1 ? x[3] - x[own + 3] : x[3]);
     for (std::size_t i = 0; i < 3; ++i) change += record.tension[i] * x[i];
-    const S step = -change / record.stiff, l = nodes_[1].s - nodes_[0].s;
+    const S step = -change / record.stiff;
     longer += record.lack * (2 * step + record.lack / record.stiff);
     Piece& piece = contact.piece;
     piece.stretch += x[0], piece.at_root += x[1], piece.at_tip += x[2], piece.tension += step;
@@ -387,17 +411,23 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     const std::array<S, state> tip{moved.x(), moved.y(), turned + record.length * x[2] + along * record.turns,
                                    x[3]};
     contact.moved += Vector(tip[0] - tip[3], tip[1]), contact.theta += tip[2];
+    if constexpr (Turns) move_place(record, x[3], waiting, contact, longer);
+    return tip;
+  }
+  /// The place of a contact goes as it was condensed.   @param by  so far [m]   @param waiting  the force along the beam that it lacks [N]
+  void move_place(const Record& record, S by, S waiting, Contact& contact, S& longer) const noexcept {
+    const S l = nodes_[1].s - nodes_[0].s;
     // Beside a node it stays where it is held off that.
     const auto beside = [&](S s) {
       const S close_by = S(1.01) * shortest(true);
       return std::abs(s - nodes_[0].s) < close_by || std::abs(s - nodes_[1].s) < close_by;
     };
-    S goes = std::clamp(x[3], -l, l), stiff = std::abs(record.rows[3][3]);
+    S goes = std::clamp(by, -l, l), stiff = std::abs(record.rows[3][3]);
     if (contact.waits || contact.rests) {
       // The force along the beam that it lacks, as if that bent as sharply as the circle.
       if (record.waits) longer += waiting * waiting * contact.reach / std::abs(contact.force);
       contact.waits = false;
-      return tip;
+      return;
     }
     if (contact.moves && !record.moves) {
       // A force that is next to none says nothing of its place.  That is the foot of the centre.
@@ -410,7 +440,6 @@ class TouchedElement : private PieceChain<Element, S, Most> {
       longer += stiff * goes * goes;
       contact.s += goes;
     }
-    return tip;
   }
 
   static S dot(const Row& a, const Row& b) noexcept {
@@ -420,16 +449,6 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     for (int i = 1; i < Block::size; ++i) whole += sum[i];
     return whole;
   }
-  /// What advance() needs of a piece that was condensed.
-  struct Record {
-    bool moves = false, waits = false;
-    S side = 1;
-    std::array<Row, 4> rows;
-    Vector on, turn, slides;  // derivatives of the tip: by ε, by the rotation of its root, by s
-    S length, turns;          // [m]; of its rotation by s
-    std::array<S, 4> tension;
-    S lack, stiff;
-  };
   struct Bridge {
     std::array<S, both> by;
     S lack, stiff;

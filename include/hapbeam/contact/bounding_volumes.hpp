@@ -23,7 +23,7 @@ struct NearestPoint {
 
   /// Takes the point of a piece that is nearest to q where it is nearer; among equals that with the smaller index.   @return whether it was nearer
   template <class Query>
-  bool look(int other, const CubicSegment<Scalar, D>& its, const Query& q) noexcept {
+  [[gnu::always_inline]] bool look(int other, const CubicSegment<Scalar, D>& its, const Query& q) noexcept {
     const ClosestPoint<Scalar, D> candidate = closest_point(its, q);
     const Scalar a = candidate.distance_squared, b = at.distance_squared;
     const bool nearer = a < b || (a == b && other < segment);

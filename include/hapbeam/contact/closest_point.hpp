@@ -34,17 +34,19 @@ struct ClosestPoint {
 template <typename Scalar, int D>
 VectorOf<Scalar, D> point_at(const CubicSegment<Scalar, D>& b, Scalar t) noexcept {
   const Scalar r = 1 - t;
-  return r * r * (r * b.col(0) + 3 * t * b.col(1)) + t * t * (3 * r * b.col(2) + t * b.col(3));
+  return r * r * (r * control_point(b, 0) + 3 * t * control_point(b, 1)) +
+         t * t * (3 * r * control_point(b, 2) + t * control_point(b, 3));
 }
 
 /// Derivative dC/dt of a piece [m], for its direction: where it vanishes, the chord's.
 template <typename Scalar, int D>
 VectorOf<Scalar, D> tangent(const CubicSegment<Scalar, D>& b, Scalar t) noexcept {
   const Scalar r = 1 - t;
-  VectorOf<Scalar, D> velocity =
-      3 * (r * r * (b.col(1) - b.col(0)) + 2 * r * t * (b.col(2) - b.col(1)) + t * t * (b.col(3) - b.col(2)));
+  VectorOf<Scalar, D> velocity = 3 * (r * r * (control_point(b, 1) - control_point(b, 0)) +
+                                      2 * r * t * (control_point(b, 2) - control_point(b, 1)) +
+                                      t * t * (control_point(b, 3) - control_point(b, 2)));
   if (velocity.squaredNorm() > 0) return velocity;
-  return b.col(3) - b.col(0);
+  return control_point(b, 3) - control_point(b, 0);
 }
 
 namespace detail {
@@ -52,8 +54,9 @@ namespace detail {
 /// Calls visit(t, p(t)) for each t within (0, 1) at which a cubic p comes nearest to the origin, of all beside it.
 /// @param p0, p1, p2, p3  [m] its control points
 template <typename Scalar, int D, class Visit>
-void for_each_foot(const VectorOf<Scalar, D>& p0, const VectorOf<Scalar, D>& p1,
-                   const VectorOf<Scalar, D>& p2, const VectorOf<Scalar, D>& p3, Visit&& visit) noexcept {
+[[gnu::always_inline]] inline void for_each_foot(const VectorOf<Scalar, D>& p0, const VectorOf<Scalar, D>& p1,
+                                                 const VectorOf<Scalar, D>& p2, const VectorOf<Scalar, D>& p3,
+                                                 Visit&& visit) noexcept {
   using Vector = VectorOf<Scalar, D>;
   const Vector e0 = p1 - p0, e1 = p2 - p1, e2 = p3 - p2;  // p' / 3 in Bernstein form
   const Bernstein<Scalar, 5> g = {p0.dot(e0),
@@ -80,10 +83,11 @@ void for_each_foot(const VectorOf<Scalar, D>& p0, const VectorOf<Scalar, D>& p1,
 /// @param b  [m] control points   @param q  [m]
 /// Real-time: noexcept, no allocation, bounded.
 template <typename Scalar, int D>
-ClosestPoint<Scalar, D> closest_point(const CubicSegment<Scalar, D>& b,
-                                      const VectorOf<Scalar, D>& q) noexcept {
+[[gnu::always_inline]] inline ClosestPoint<Scalar, D> closest_point(const CubicSegment<Scalar, D>& b,
+                                                                    const VectorOf<Scalar, D>& q) noexcept {
   using Vector = VectorOf<Scalar, D>;
-  const Vector p0 = b.col(0) - q, p1 = b.col(1) - q, p2 = b.col(2) - q, p3 = b.col(3) - q;
+  const Vector p0 = control_point(b, 0) - q, p1 = control_point(b, 1) - q, p2 = control_point(b, 2) - q,
+               p3 = control_point(b, 3) - q;
   ClosestPoint<Scalar, D> best{0, -p0, p0.squaredNorm()};
   const Scalar end = p3.squaredNorm();
   if (end < best.distance_squared) best = {1, -p3, end};
@@ -102,7 +106,7 @@ ClosestPoint<Scalar, 3> closest_point(const CubicSegment<Scalar, 3>& b, const Sh
   if (!(squared > 0)) return closest_point(b, shaft.tip);
   Vector p[4];
   for (int k = 0; k < 4; ++k) {
-    p[k] = b.col(k) - shaft.tip;
+    p[k] = control_point(b, k) - shaft.tip;
     p[k] -= shaft.way.dot(p[k]) / squared * shaft.way;
   }
   ClosestPoint<Scalar, 3> best{0, Vector::Zero(), std::numeric_limits<Scalar>::infinity()};
@@ -113,8 +117,8 @@ ClosestPoint<Scalar, 3> closest_point(const CubicSegment<Scalar, 3>& b, const Sh
     const Scalar d = offset.squaredNorm();
     if (d < best.distance_squared) best = {t, offset, d};
   };
-  see(0, b.col(0), p[0].squaredNorm());
-  see(1, b.col(3), p[3].squaredNorm());
+  see(0, control_point(b, 0), p[0].squaredNorm());
+  see(1, control_point(b, 3), p[3].squaredNorm());
   detail::for_each_foot(p[0], p[1], p[2], p[3], [&](Scalar t, const Vector& from_axis) {
     see(t, point_at(b, t), from_axis.squaredNorm());
   });
@@ -157,7 +161,7 @@ Crossings crossings(const CubicSegment<Scalar>& b, const Vector2<Scalar>& p0,
   const Vector path = p1 - p0;
   detail::Bernstein<Scalar, 3> side, along;
   for (int k = 0; k < 4; ++k) {
-    const Vector p = b.col(k) - p0;
+    const Vector p = control_point(b, k) - p0;
     side[static_cast<std::size_t>(k)] = cross(path, p);
     along[static_cast<std::size_t>(k)] = path.dot(p);
   }

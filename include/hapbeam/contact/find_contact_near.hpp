@@ -19,6 +19,7 @@
 #include <hapbeam/contact/find_contact.hpp>
 #include <hapbeam/contact/find_rod_contact.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/unroll.hpp>
 
 namespace hapbeam::detail {
 
@@ -27,7 +28,7 @@ template <typename Scalar>
 NearestPoint<Scalar> nearest_along_x(const Centreline<Scalar>& line, const Vector2<Scalar>& q) noexcept {
   NearestPoint<Scalar> best;
   const auto x = [&](int i) { return line[i].s + line[i].u; };
-  const auto look = [&](int i) {
+  const auto look = [&](int i) HAPBEAM_INLINED {
     const Scalar away = (std::max)((std::max)(x(i) - q.x(), q.x() - x(i + 1)), Scalar(0));
     if (away * away > best.at.distance_squared * more_than_round_off<Scalar>) return;
     best.look(i, line.segment(i), q);

@@ -133,7 +133,7 @@ class PlaceContact {
     const CubicSegment<Scalar> right = line.segment(node);
     const Vector2<Scalar> before = tangent(line.segment(node - 1), Scalar(1)).normalized();
     const Vector2<Scalar> after = tangent(right, Scalar(0)).normalized();
-    const Vector2<Scalar> offset = position - right.col(0);
+    const Vector2<Scalar> offset = position - control_point(right, 0);
     const Vector2<Scalar> mean = (before + after).normalized();
     const Scalar shift = offset.dot(mean), kink = cross(before, after);
     if (!(std::abs(shift) <= std::abs(kink) * offset.norm())) return;

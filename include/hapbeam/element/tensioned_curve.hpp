@@ -64,11 +64,12 @@ class TensionedCurve {
   /// Calls visit(j, At) at count places, evenly spaced, of which the first is the start or the middle: an exponential of all of them is
   /// a power of one.   @param power  j -> two numbers that are its scratch
   template <class Power, class Visit>
-  void visit(int count, bool from_middle, S spacing, Power&& power, Visit&& visit) const noexcept {
+  [[gnu::always_inline]] void visit(int count, bool from_middle, S spacing, Power&& power,
+                                    Visit&& visit) const noexcept {
     using std::exp;
     const S first = from_middle ? S(0.5) : S(0);
     if (!layered()) {
-      for (int j = 0; j < count; ++j) visit(j, by_series(first + S(j) * spacing));
+      for (int j = 0; j < count; ++j) visit(j, from_start(series(first + S(j) * spacing - S(0.5))));
       return;
     }
     const S ratio = exp(-z_ * spacing), rest = 1 - first - S(count - 1) * spacing;
@@ -106,15 +107,17 @@ class TensionedCurve {
   };
 
   bool layered() const noexcept { return !(q_ < border); }
-  At by_series(S x) const noexcept {
-    At a = about_middle(x - S(0.5));
+  At by_series(S x) const noexcept { return from_start(about_middle(x - S(0.5))); }
+  At from_start(At a) const noexcept {
     a.rise -= start_.rise;
     a.square -= start_.square;
     return a;
   }
 
   /// w' = base + first η S1 - second (η² S2 - constant), from η = 0 on.
-  At about_middle(S h) const noexcept {
+  At about_middle(S h) const noexcept { return series(h); }
+  /// The same.  Inlined by intent where it is called in a loop.
+  [[gnu::always_inline]] At series(S h) const noexcept {
     const S hh = h * h, y = q_ * hh;
     const Series s(y);
     const S f = first_, g = second_, c = constant_, b = base_;

@@ -142,11 +142,6 @@ class BeamElements {
   [[gnu::always_inline]] void for_each_lane(int first, F&& f) const noexcept {
     abreast_.for_each_lane(first, f);
   }
-  /// Of one number of each of those from a place on.   @param f  element -> number
-  template <class F>
-  [[gnu::always_inline]] Wide gather(int first, F&& f) const noexcept {
-    return abreast_.gather(first, f);
-  }
   /// Adds to a sum what each of those from a place on has.
   [[gnu::always_inline]] void add(int first, const Wide& each, Wide& sum) const noexcept {
     abreast_.add(first, each, sum);

@@ -89,7 +89,7 @@ class BeamChain {
   }
   static Vector2<Scalar> displacement(const Displacement<Scalar>& at) noexcept { return {at.u, at.w}; }
   static VectorOf<Scalar, 1> middle(const Displacement<Scalar>& at) noexcept {
-    return VectorOf<Scalar, 1>::Constant(at.w);
+    return VectorOf<Scalar, 1>(at.w);
   }
   static bool folds(const Node& a, const Node& b) noexcept { return std::abs(b.theta - a.theta) > 2; }
   /// By which an increment turns a node [rad].
@@ -165,14 +165,14 @@ class BeamChain {
         detail::each_touched(rows, [&](int e) {
           if (const int lane = parts_.place(e) - first; lane >= 0 && lane < Parts::lanes) change(e, lane);
         });
-      if (inertia_) inertia_->add([&](auto&& f) HAPBEAM_INLINED { return parts_.gather(first, f); }, r, K);
+      if (inertia_) inertia_->add(first, r, K);
       parts_.add(first, each, strain);
       assembler.add_pairs(first, K, r);
     });
     if (inertia_) {
       Matrix3 K = Matrix3::Zero();
       Vector3<Scalar> r = Vector3<Scalar>::Zero();
-      inertia_->add_node([last = parts_.size()](auto&& f) { return f(last); }, r, K);
+      inertia_->add_last(r, K);
       assembler.add_at(parts_.size(), K, r);
     }
     energy += total(strain);

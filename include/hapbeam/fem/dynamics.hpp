@@ -3,6 +3,7 @@
 //
 //   Π = V + ½ c |q - q~|²          |·|² = qᵀ M q,   q: place and unit tangent (x, y, cos θ, -sin θ) of each node
 //
+// What a chain calls is virtual: whatever makes one compiles it, and a chain that only may move with one does not.
 // Allocates and throws at construction; all else is noexcept and allocation-free, O(n).
 #pragma once
 
@@ -33,6 +34,8 @@ template <typename S, int Elements, int MaxElements>
 class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
   using Base = MassBlocks<S, 2, Elements, MaxElements>;
   using Base::blocks_, Base::ghost_, Base::masses_, typename Base::Block;
+  using Nodes = PerNode<CentrelineNode<S>, Elements, MaxElements>;
+  using Lanes = Pack<S>;
 
  public:
   using typename Base::Values;
@@ -43,7 +46,6 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
 
   /// To be called once: unit tangents stand for those of the curve, which is longer than the beam where that is drawn.
   /// @param rest  nodes
-  template <class Nodes>
   void draw(const Nodes& rest) noexcept {
     for (int e = 0; e + 1 < static_cast<int>(rest.size()); ++e) {
       const auto &a = rest.data()[e], &b = rest.data()[e + 1];
@@ -57,7 +59,6 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
     this->rate_ = 0, this->set_rate(1);
   }
   /// Place and unit tangent of each node, as they lie now.
-  template <class Nodes>
   const Values& find(const Nodes& nodes) noexcept {
     for_each_abreast<S>(static_cast<int>(nodes.size()) - 1, [&](const auto& here) HAPBEAM_INLINED {
       using Wide = typename std::decay_t<decltype(here)>::Wide;
@@ -72,8 +73,7 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
     return at_;
   }
   /// To be called where the nodes have moved.   @return ½ c |q - q~|² [J]
-  template <class Nodes>
-  S look(const Nodes& nodes) noexcept {
+  virtual S look(const Nodes& nodes) noexcept {
     find(nodes);
     Placed<S> sum = Placed<S>::Zero();
     this->each_product([this](int i) HAPBEAM_INLINED { return Placed<S>(at_[i] - ghost_[i]); },
@@ -87,33 +87,39 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
     return sum.sum() / 2;
   }
   /// c M (q - q~) of node i, as they lie: along x and w [N], and moment [N·m].
-  template <class Nodes>
   VectorOf<S, 3> force(const Nodes& nodes, int i) const noexcept {
     const Placed<S> sum = this->product(i, [&](int k) { return Placed<S>(placed(nodes[k]) - ghost_[k]); });
     const Placed<S> at = placed(nodes[i]);
     return {sum[0], sum[1], at[3] * sum[2] - at[2] * sum[3]};
   }
   /// Adds to residual and tangent of elements what is their first nodes', and what couples both, as read by BlockTridiagonal::add_pairs().
-  /// @param of  (f) -> f(e) of an element, or of those that are computed side by side
-  template <class Of, class Residual, class Tangent>
-  [[gnu::always_inline]] void add(Of&& of, Residual& r, Tangent& K) const noexcept {
+  /// @param first  place of the first of those that are computed side by side
+  virtual void add(int first, Vector6<Lanes>& r, Matrix6<Lanes>& K) const noexcept {
+    Abreast<S> elements;
+    PairOrder{blocks_.size() - 1}.elements_from(first, elements.of);
+    const auto of = [&elements](auto&& f) HAPBEAM_INLINED { return gather(elements, f); };
     add_node(of, r, K);
-    using Number = std::decay_t<decltype(r[0])>;
     const auto turn = [&](int k, int sign, int by) HAPBEAM_INLINED {
-      return Number(of([&](int e) HAPBEAM_INLINED { return S(sign) * at_[e + by][k]; }));
+      return of([&](int e) HAPBEAM_INLINED { return S(sign) * at_[e + by][k]; });
     };
     const auto next = [&](auto member, int k) HAPBEAM_INLINED {
-      return Number(of([&](int e) HAPBEAM_INLINED { return (blocks_[e].next.*member)[k]; }));
+      return of([&](int e) HAPBEAM_INLINED { return (blocks_[e].next.*member)[k]; });
     };
-    const Number ax = turn(3, 1, 0), ay = turn(2, -1, 0), bx = turn(3, 1, 1), by = turn(2, -1, 1);
-    const Number own = next(&std::decay_t<decltype(blocks_[0].next)>::own, 0),
-                 mine = next(&std::decay_t<decltype(blocks_[0].next)>::other, 0),
-                 its = next(&std::decay_t<decltype(blocks_[0].next)>::other, 2);
+    const Lanes ax = turn(3, 1, 0), ay = turn(2, -1, 0), bx = turn(3, 1, 1), by = turn(2, -1, 1);
+    const Lanes own = next(&std::decay_t<decltype(blocks_[0].next)>::own, 0),
+                mine = next(&std::decay_t<decltype(blocks_[0].next)>::other, 0),
+                its = next(&std::decay_t<decltype(blocks_[0].next)>::other, 2);
     K(0, 3) += own, K(1, 4) += own;
     K(0, 5) += mine * bx, K(1, 5) += mine * by;
     K(2, 3) += its * ax, K(2, 4) += its * ay;
     K(2, 5) += next(&std::decay_t<decltype(blocks_[0].next)>::own, 2) * (ax * bx + ay * by);
   }
+  /// What is the last node's.
+  virtual void add_last(Vector3<S>& r, Eigen::Matrix<S, 3, 3>& K) const noexcept {
+    add_node([last = blocks_.size() - 1](auto&& f) { return f(last); }, r, K);
+  }
+
+ private:
   /// What is one node's.   @param of  (f) -> f(i)
   template <class Of, class Residual, class Tangent>
   [[gnu::always_inline]] void add_node(Of&& of, Residual& r, Tangent& K) const noexcept {
@@ -129,8 +135,6 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
     K(2, 1) -= other * find([this](int i) { return at_[i][2]; });
     K(2, 2) += find([this](int i) { return seen_[i].stiffness; });
   }
-
- private:
   /// A node as it lies.
   struct Seen {
     Vector2<S> force;  ///< c M (q - q~) on its place [N],

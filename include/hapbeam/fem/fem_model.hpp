@@ -99,7 +99,7 @@ class FemModel {
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Status push(Obstacle<Scalar, dimension>* obstacles, int count) noexcept;
 
-  Centreline<Scalar, dimension> shape() const noexcept {
+  [[gnu::always_inline]] Centreline<Scalar, dimension> shape() const noexcept {
     return take(ways_, [](const auto& way) { return way.shape(); });
   }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include <hapbeam/body/shortest_element.hpp>
@@ -71,12 +72,11 @@ std::vector<double> where_it_changes(const Body& body, const Forces& forces, dou
   const auto add = [&](double s) {
     const bool is_apart =
         std::none_of(places.begin(), places.end(), [&](double place) { return std::abs(place - s) < apart; });
-    if (is_apart && s <= most) places.push_back(s);
+    if (is_apart && s <= most) places.insert(std::upper_bound(places.begin(), places.end(), s), s);
   };
   for (const auto& part : body.parts()) add(part.end);
   for (const auto& force : forces) add(force.s);
   places.push_back(body.length());
-  std::sort(places.begin(), places.end());
   return places;
 }
 
@@ -84,8 +84,9 @@ std::vector<double> where_it_changes(const Body& body, const Forces& forces, dou
 
 /// Calls set(i, s) with each node and its arc position, from 0 to the length [m].  Where nothing changes it takes no memory.
 /// @param body  Beam | Rod   @param forces  that act at points of it   @param elements  one or more
-template <typename Scalar, class Body, class Forces, class Set>
-void lay_mesh(const Body& body, const Forces& forces, int elements, Set&& set) {
+template <typename Scalar, class Body, class Forces>
+void lay_mesh(const Body& body, const Forces& forces, int elements,
+              const std::function<void(int, Scalar)>& set) {
   int next = 0;
   const auto lay = [&](Scalar from, Scalar to, int share) {
     const ContactMesh<Scalar> part(share, to - from);

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -95,7 +96,6 @@ class DeadLoads {
           Vector(largest.force("point load axial", load.axial),
                  largest.force("point load transverse", load.transverse)),
           largest.moment("point load moment", load.moment));
-    sort();
   }
   /// @param body  Rod   @param bending  its smallest [N·m²]
   template <class Body>
@@ -111,7 +111,6 @@ class DeadLoads {
       for (int c = 0; c < D; ++c) (void)largest.force("force", force.force[c]);
       add(force.s, force.force, 0);
     }
-    sort();
   }
 
   bool empty() const noexcept { return forces_.empty(); }
@@ -140,9 +139,14 @@ class DeadLoads {
     Scalar start, length;  // [m]
     VectorOf<Scalar, D> load;
   };
+  /// Behind those at its place.
   void add(double s, const Vector& force, double moment) {
-    forces_.push_back({static_cast<Scalar>(s), force.template cast<Scalar>(), VectorOf<Scalar, D>::Zero(),
-                       static_cast<Scalar>(moment)});
+    const Scalar at = static_cast<Scalar>(s);
+    std::size_t place = forces_.size();
+    while (place > 0 && forces_[place - 1].s > at) --place;
+    forces_.insert(
+        forces_.begin() + static_cast<std::ptrdiff_t>(place),
+        {at, force.template cast<Scalar>(), VectorOf<Scalar, D>::Zero(), static_cast<Scalar>(moment)});
   }
   /// @param load  (s) -> [N/m]
   template <class Load>
@@ -172,10 +176,6 @@ class DeadLoads {
       cells_.push_back({mesh[e], mesh[e + 1] - mesh[e], mean.template cast<Scalar>()});
     }
     push(mesh.back());
-  }
-  void sort() {
-    std::stable_sort(forces_.begin(), forces_.end(),
-                     [](const Force& a, const Force& b) { return a.s < b.s; });
   }
 
   std::vector<Force> forces_;  // in order of s

@@ -108,7 +108,7 @@ class MassBlocks {
   }
 
   /// √(c |q|²) of places that are all displaced by so much [√J].   @param off [m]
-  S round_off(S off) const noexcept {
+  virtual S round_off(S off) const noexcept {
     Placed x = Placed::Zero();
     x.template head<D>().setConstant(off);
     return std::sqrt(2 * rate_ * energy([&x](int) { return x; }));

@@ -45,7 +45,7 @@ class RodChain {
   using Friction = detail::ContactFriction<Scalar, 3, detail::RodRoundContact>;
   using Assembler = detail::AssemblerOf<Element, Scalar, Elements, MaxElements>;
   using Drawn = detail::DrawnMesh<Node, Elements, MaxElements, contacts_of<Element>>;
-  using Inertia = detail::RodInertia<Scalar, Elements, MaxElements, Element::unknowns>;
+  using Inertia = detail::RodInertia<Scalar, Elements, MaxElements, Element::unknowns, Assembler>;
   using Viscosity = detail::ViscousRod<Element, Scalar, Elements, MaxElements>;
   using LedEnds = detail::LedEnds<RodChain>;
   static constexpr int unknowns = Element::unknowns;

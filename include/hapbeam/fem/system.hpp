@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <limits>
 
-#include <hapbeam/body/cut_piece.hpp>
+#include <hapbeam/element/tensioned_curve.hpp>
 #include <hapbeam/fem/contact/contact_rows.hpp>
 #include <hapbeam/fem/contact/drawn_mesh.hpp>
 #include <hapbeam/fem/contact/system_contacts.hpp>
@@ -252,9 +252,11 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     for (int i = 0; i <= elements(); ++i) {
       const Scalar length = node((std::min)(i + 1, elements())).s - node((std::max)(i - 1, 0)).s,
                    share = shift * unit_ * unit_ * length / (2 * length_);
-      Increment diagonal = Increment::Constant(share);
-      diagonal.template head<dimension>() /= length_ * length_;
-      to.add_at(i, Eigen::Matrix<Scalar, unknowns, unknowns>(diagonal.asDiagonal()), Increment::Zero());
+      const auto diagonal = [share, this](int k, int j) {
+        return k != j ? Scalar(0) : k < dimension ? share / (length_ * length_) : share;
+      };
+      const Scalar none[unknowns] = {};
+      to.add_at(i, diagonal, none);
     }
   }
   /// A descent begins: without the forces of before.
@@ -374,21 +376,20 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     Vector place = Vector::Zero(), slope = Vector::Zero();
   };
   Beside beside(const Line& line, int piece, int e, Scalar s) const noexcept {
-    using Number = detail::Jet<Scalar, 1>;
+    using Curve = detail::TensionedCurve<Scalar>;
     Beside by;
     const Scalar n = parts().stiffening(e);
     if (!(n > 0)) return by;
     const Scalar from = line[piece].s, l = line[piece + 1].s - from;
     const auto control = line.segment(piece);
-    const detail::CutPiece<Number> taut(l, Number::variable(s - from, 0), n);
-    Number cubic[4], lacks;
-    (void)detail::cut_slack_piece(l, Scalar(s - from), cubic, lacks);
-    const Vector chord = (control.col(3) - control.col(0)) / l;
-    const auto add = [&](const Number& more, const Vector& turned) {
-      by.place += more.value * turned, by.slope += more.by(0) * turned;
-    };
-    add(taut.left - cubic[1], Vector(3 / l * (control.col(1) - control.col(0)) - chord));
-    add(taut.right - cubic[3], Vector(3 / l * (control.col(3) - control.col(2)) - chord));
+    // Of its ends' slopes against the chord, with tension and without.
+    const Scalar at = (s - from) / l;
+    for (int k = 0; k < dimension; ++k) {
+      const Scalar chord = control(k, 3) - control(k, 0), a = chord - 3 * (control(k, 1) - control(k, 0)),
+                   b = chord - 3 * (control(k, 3) - control(k, 2)), m = (a - b) / 2, p = (a + b) / 2;
+      const auto taut = Curve(n * l * l, 0, m, p).at(at), slack = Curve(0, 0, m, p).at(at);
+      by.place[k] = taut.rise - slack.rise, by.slope[k] = (taut.slope - slack.slope) / l;
+    }
     return by;
   }
   /// That of before where it holds s, or nearly: a contact that goes to and fro over a node stays in one element.

@@ -93,7 +93,7 @@ class TautPiece {
   S shortening() const noexcept { return scaled(curve_.end()).shortening; }
   /// Calls visit(j, At) at so many places, the first at the end.  @param spacing  [L]   @param power  as of TensionedCurve
   template <class Power, class Visit>
-  void visit(int count, S spacing, Power&& power, Visit&& visit) const noexcept {
+  [[gnu::always_inline]] void visit(int count, S spacing, Power&& power, Visit&& visit) const noexcept {
     curve_.visit(count, mirrored_, spacing * inverse_ * (mirrored_ ? S(0.5) : S(1)), power,
                  [&](int j, const typename TensionedCurve<S>::At& c) { visit(j, scaled(c)); });
   }

@@ -2,6 +2,7 @@
 // What is viscous in a beam that moves: in a stage of its step an element beside the elastic one, stiffer or softer, that is bent by nature.
 //
 // Its strains are the stretch and the bending of an element, by the cubic (viscous_history.hpp).
+// What a chain calls is virtual, as of Inertia.
 // Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(n).
 #pragma once
 
@@ -54,7 +55,7 @@ class Viscosity : public ViscousHistory<S, 3, Elements, MaxElements> {
     });
   }
   /// Adds its part of an element's residual and tangent.   @param d  displacements of its nodes   @return [J]
-  S add(int e, const Vector6<S>& d, Vector6<S>& r, Matrix6<S>& K) const noexcept {
+  virtual S add(int e, const Vector6<S>& d, Vector6<S>& r, Matrix6<S>& K) const noexcept {
     Vector6<S> force;
     Matrix6<S> stiffness;
     const S energy = Viscous::tangent(viscous_[e], d, force, stiffness);

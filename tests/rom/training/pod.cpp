@@ -49,6 +49,16 @@ TEST_CASE("the basis is orthonormal", "[pod]") {
   CHECK(defect(plain.basis().transpose() * plain.basis()) <= 100 * eps);
 }
 
+// All modes of a tall matrix are orthonormal, those beyond its rank, too; σ is known to round-off of the largest.
+TEST_CASE("a matrix with more rows than columns has the basis and values it was made of", "[pod]") {
+  const MatrixXd X = decaying(40, 24, 10);
+  const Pod<> pod(X, Truncation::count(24));
+  CHECK(defect(pod.basis().transpose() * pod.basis()) <= 100 * eps);
+  CHECK((X - pod.basis() * pod.coefficients(X)).norm() <= 100 * eps * X.norm());
+  for (int i = 0; i < 24; ++i)
+    CHECK(std::abs(pod.singular_values()[i] - (i < 10 ? std::pow(10.0, -i) : 0)) <= 100 * eps);
+}
+
 // Eq. 3.55 = 3.65: what a projection on l modes leaves of all snapshots is the sum of the squares of the other σ.
 TEST_CASE("the error of a projection on l modes is the sum of the squares left out, to round-off", "[pod]") {
   const MatrixXd X = decaying(24, 40, 10);

@@ -40,6 +40,8 @@ class ContactRows {
   using Touched = typename TouchedOf<Element, Scalar, Most>::Type;
   using Vector = VectorOf<Scalar, dimension_of<Element>>;
   static constexpr int most = Most, dimension = dimension_of<Element>, unknowns = unknowns_of<Element>();
+  /// Whether bodies touch it, with friction; else its places are held.
+  static constexpr bool takes_bodies = any_rotation<Element>;
   using Residual = VectorOf<Scalar, 2 * unknowns>;
   using Tangent = Eigen::Matrix<Scalar, 2 * unknowns, 2 * unknowns>;
 
@@ -81,12 +83,14 @@ class ContactRows {
       Contact& contact = row.contact;
       if (starts) row.start = now(k);
       row.seen = false;
-      if (contact.kind == Contact::Kind::along) {
+      if (!takes_bodies || contact.kind == Contact::Kind::along) {
         contact.reach = t < 1 ? row.start + t * (row.goal - row.start) : row.goal;
         continue;
       }
-      if (starts) row.way = contact.way_to_curve();
-      contact.centre_or_tip() = t < 1 ? Vector(row.centre + (1 - t) * row.way) : row.centre;
+      if constexpr (takes_bodies) {
+        if (starts) row.way = contact.way_to_curve();
+        contact.centre_or_tip() = t < 1 ? Vector(row.centre + (1 - t) * row.way) : row.centre;
+      }
     }
     starts_known_ = starts_known_ || starts;
   }
@@ -107,7 +111,8 @@ class ContactRows {
   void fall() noexcept {
     for (int k = 0; k < size_; ++k) {
       rows_[of(k)].contact.force = 0, rows_[of(k)].seen = false;
-      if (Friction* const friction = rows_[of(k)].friction) friction->fall();
+      if constexpr (takes_bodies)
+        if (Friction* const friction = rows_[of(k)].friction) friction->fall();
     }
   }
   void forget_friction() noexcept {
@@ -116,8 +121,9 @@ class ContactRows {
   /// What friction stores [J].
   Scalar friction_potential() const noexcept {
     Scalar sum = 0;
-    for (int k = 0; k < size_; ++k)
-      if (const Friction* const friction = rows_[of(k)].friction) sum += friction->potential();
+    if constexpr (takes_bodies)
+      for (int k = 0; k < size_; ++k)
+        if (const Friction* const friction = rows_[of(k)].friction) sum += friction->potential();
     return sum;
   }
 
@@ -186,11 +192,10 @@ class ContactRows {
       row.first = first, row.number = number++, row.seen = false;
       if (!sought) touched->add(row.contact, k);
     });
-    const Scalar energy = touched->condense(r, K, [this](int k) {
-      Row& row = rows_[of(k)];
-      if (!row.friction) return;
-      row.friction->look(row.contact);
-      row.friction->give(row.contact);
+    const Scalar energy = touched->condense(r, K, [&]([[maybe_unused]] int k) {
+      if constexpr (takes_bodies)
+        if (Row& row = rows_[of(k)]; row.friction)
+          row.friction->look(row.contact), row.friction->give(row.contact);
     });
     each_in(e, [&](int k) {
       Row& row = rows_[of(k)];
@@ -285,8 +290,9 @@ class ContactRows {
   }
   /// To be called after solve(): the normal forces that friction feels.
   void feel_friction() noexcept {
-    for (int k = 0; k < size_; ++k)
-      if (Friction* const friction = rows_[of(k)].friction) friction->feel(-reaction(k));
+    if constexpr (takes_bodies)
+      for (int k = 0; k < size_; ++k)
+        if (Friction* const friction = rows_[of(k)].friction) friction->feel(-reaction(k));
   }
   /// What contacts add to V at the last look: -λ g - λ² c/2 [J].
   Scalar potential() const noexcept {
@@ -322,7 +328,8 @@ class ContactRows {
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[of(k)];
       row.by = 0, row.seen = false;
-      if (row.contact.kind == Contact::Kind::round) stay_on_beam(row, element_at);
+      if constexpr (takes_bodies)
+        if (row.contact.kind == Contact::Kind::round) stay_on_beam(row, element_at);
     }
     return longer;
   }

@@ -5,7 +5,6 @@
 // Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(elements).
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -52,8 +51,9 @@ class DrawnMesh {
       for (int k = 0; k < count; ++k) empty = empty && marks[at(k)].first != e;
       if (empty) marks[at(count++)] = {e, within(e, (mesh(e).s + mesh(e + 1).s) / 2)};
     }
-    std::sort(marks.begin(), marks.end(),
-              [](const auto& a, const auto& b) { return a.second.s < b.second.s; });
+    for (int k = 1; k < Most; ++k)
+      for (int j = k; j > 0 && marks[at(j)].second.s < marks[at(j - 1)].second.s; --j)
+        std::swap(marks[at(j)], marks[at(j - 1)]);
     int next = 0;
     for (int k = 0; k < Most; ++k) {
       for (; next <= marks[at(k)].first; ++next) nodes_[next + k] = mesh(next);

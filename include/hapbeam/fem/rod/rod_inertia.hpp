@@ -6,6 +6,7 @@
 //
 //   ρ I_p ψ'²/2,   ∂ψ/∂φ = 1,   ∂ψ/∂r' = holonomy()
 //
+// What a chain calls is virtual, as of Inertia.
 // Allocates and throws at construction; all else is noexcept and allocation-free, O(n).
 #pragma once
 
@@ -17,7 +18,7 @@
 namespace hapbeam::detail {
 
 /// @tparam Unknowns  of a node: 6, or 7 with φ
-template <typename S, int Elements, int MaxElements, int Unknowns>
+template <typename S, int Elements, int MaxElements, int Unknowns, class Assembler>
 class RodInertia : public MassBlocks<S, 3, Elements, MaxElements, Unknowns - 6> {
   using Base = MassBlocks<S, 3, Elements, MaxElements, Unknowns - 6>;
   using Base::blocks_, Base::ghost_;
@@ -52,8 +53,7 @@ class RodInertia : public MassBlocks<S, 3, Elements, MaxElements, Unknowns - 6> 
     return f;
   }
   /// Adds itself to the equations, after all elements are in.   @return ½ c |q - q~|² [J]
-  template <class Assembler>
-  S add(const Nodes& nodes, Assembler& assembler) noexcept {
+  virtual S add(const Nodes& nodes, Assembler& assembler) noexcept {
     find(nodes);
     S sum = 0;
     this->each_product([this](int i) HAPBEAM_INLINED { return Placed(at_[i] - ghost_[i]); },
@@ -82,7 +82,6 @@ class RodInertia : public MassBlocks<S, 3, Elements, MaxElements, Unknowns - 6> 
     return q;
   }
   /// @param moment  on ψ [N·m]
-  template <class Assembler>
   void add_spin(int i, const VectorOf<S, 3>& tangent, S moment, Assembler& assembler) noexcept {
     const S own = blocks_[i].own.own[6];
     const VectorOf<S, 3>& from = from_[i].tangent;
