@@ -25,7 +25,7 @@ static_assert(std::is_same_v<DynamicModel<>, DynamicModel<Element>>);
 std::vector<double> frequencies(const Beam& beam, int n, const std::array<bool, 4>& held, double strain = 0) {
   const double l = beam.length() / n;
   detail::Inertia<double, Eigen::Dynamic, Eigen::Dynamic> inertia(beam, n, [l](int i) { return l * i; });
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(2 * n + 2, 2 * n + 2), M = K;
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(2 * n + 2, 2 * n + 2);
   const ElementProperties<double> p(l, beam.axial_stiffness(), beam.bending_stiffness());
   detail::PerNode<CentrelineNode<double>, Eigen::Dynamic, Eigen::Dynamic> nodes(n);
   for (int i = 0; i <= n; ++i) nodes[i] = {l * i, strain * l * i, 0, 0};
@@ -35,34 +35,16 @@ std::vector<double> frequencies(const Beam& beam, int n, const std::array<bool, 
   Vector6<double> drawn = Vector6<double>::Zero();
   drawn[3] = strain * l;
   for (int e = 0; e < n; ++e) {
-    Vector6<double> r, no_r;
-    Matrix6<double> k, m;
+    Vector6<double> r;
+    Matrix6<double> k;
     (void)Element::tangent(p, drawn, r, k);
-    // One of those that are computed side by side.
-    using Wide = detail::Pack<double>;
-    const int place = detail::PairOrder{n}.place(e), lane = place % Wide::size;
-    Vector6<Wide> none = Vector6<Wide>::Constant(Wide(0));
-    Matrix6<Wide> each = Matrix6<Wide>::Constant(Wide(0));
-    inertia.add(place - lane, none, each);
-    for (int i = 0; i < 6; ++i) {
-      no_r[i] = none[i][lane];
-      for (int j = 0; j < 6; ++j) m(i, j) = each(i, j)[lane];
-    }
-    if (e + 1 == n) {
-      Eigen::Matrix3d last = Eigen::Matrix3d::Zero();
-      Vector3<double> no_force = Vector3<double>::Zero();
-      inertia.add_last(no_force, last);
-      m.bottomRightCorner<3, 3>() += last;
-    }
-    CHECK(no_r == Vector6<double>::Zero());
-    // Of both nodes it is the lower triangle, and what couples them.
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < i; ++j) (i / 3 == j / 3 ? m(j, i) : m(i, j)) = i / 3 == j / 3 ? m(i, j) : m(j, i);
     const int of[4] = {1, 2, 4, 5};
     for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j)
-        K(2 * e + i, 2 * e + j) += k(of[i], of[j]), M(2 * e + i, 2 * e + j) += m(of[i], of[j]);
+      for (int j = 0; j < 4; ++j) K(2 * e + i, 2 * e + j) += k(of[i], of[j]);
   }
+  std::vector<int> across;
+  for (int i = 0; i < 2 * n + 2; ++i) across.push_back(i / 2 * 3 + 1 + i % 2);
+  const Eigen::MatrixXd M = inertia.matrix()(across, across);
   std::vector<int> free;
   for (int i = 0; i < 2 * n + 2; ++i) {
     const int end = i < 2 ? i : i - 2 * n + 2;

@@ -98,28 +98,52 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
     Abreast<S> elements;
     PairOrder{blocks_.size() - 1}.elements_from(first, elements.of);
     const auto of = [&elements](auto&& f) HAPBEAM_INLINED { return gather(elements, f); };
-    add_node(of, r, K);
-    const auto turn = [&](int k, int sign, int by) HAPBEAM_INLINED {
-      return of([&](int e) HAPBEAM_INLINED { return S(sign) * at_[e + by][k]; });
-    };
-    const auto next = [&](auto member, int k) HAPBEAM_INLINED {
-      return of([&](int e) HAPBEAM_INLINED { return (blocks_[e].next.*member)[k]; });
-    };
-    const Lanes ax = turn(3, 1, 0), ay = turn(2, -1, 0), bx = turn(3, 1, 1), by = turn(2, -1, 1);
-    const Lanes own = next(&std::decay_t<decltype(blocks_[0].next)>::own, 0),
-                mine = next(&std::decay_t<decltype(blocks_[0].next)>::other, 0),
-                its = next(&std::decay_t<decltype(blocks_[0].next)>::other, 2);
-    K(0, 3) += own, K(1, 4) += own;
-    K(0, 5) += mine * bx, K(1, 5) += mine * by;
-    K(2, 3) += its * ax, K(2, 4) += its * ay;
-    K(2, 5) += next(&std::decay_t<decltype(blocks_[0].next)>::own, 2) * (ax * bx + ay * by);
+    add_element(of, r, K);
   }
   /// What is the last node's.
   virtual void add_last(Vector3<S>& r, Eigen::Matrix<S, 3, 3>& K) const noexcept {
     add_node([last = blocks_.size() - 1](auto&& f) { return f(last); }, r, K);
   }
 
+  /// c M of u, w and θ of all nodes, as they lie.  Allocates.
+  [[gnu::cold]] Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> matrix() const {
+    const int last = blocks_.size() - 1;
+    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> M = decltype(M)::Zero(3 * (last + 1), 3 * (last + 1));
+    for (int e = 0; e <= last; ++e) {
+      const auto of = [e](auto&& f) { return f(e); };
+      Vector6<S> none = Vector6<S>::Zero();
+      Matrix6<S> m = Matrix6<S>::Zero();
+      e < last ? add_element(of, none, m) : add_node(of, none, m);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+          M(3 * e + i, 3 * e + j) += m((std::max)(i, j), (std::min)(i, j));
+          if (e < last) M(3 * e + i, 3 * e + 3 + j) = M(3 * e + 3 + j, 3 * e + i) = m(i, 3 + j);
+        }
+    }
+    return M;
+  }
+
  private:
+  /// What is an element's, but for its second node.   @param of  (f) -> f(e)
+  template <class Of, class Residual, class Tangent>
+  [[gnu::always_inline]] void add_element(Of&& of, Residual& r, Tangent& K) const noexcept {
+    using Number = std::decay_t<decltype(r[0])>;
+    add_node(of, r, K);
+    const auto turn = [&](int k, int sign, int by) HAPBEAM_INLINED {
+      return Number(of([&](int e) HAPBEAM_INLINED { return S(sign) * at_[e + by][k]; }));
+    };
+    const auto next = [&](auto member, int k) HAPBEAM_INLINED {
+      return Number(of([&](int e) HAPBEAM_INLINED { return (blocks_[e].next.*member)[k]; }));
+    };
+    const Number ax = turn(3, 1, 0), ay = turn(2, -1, 0), bx = turn(3, 1, 1), by = turn(2, -1, 1);
+    const Number own = next(&std::decay_t<decltype(blocks_[0].next)>::own, 0),
+                 mine = next(&std::decay_t<decltype(blocks_[0].next)>::other, 0),
+                 its = next(&std::decay_t<decltype(blocks_[0].next)>::other, 2);
+    K(0, 3) += own, K(1, 4) += own;
+    K(0, 5) += mine * bx, K(1, 5) += mine * by;
+    K(2, 3) += its * ax, K(2, 4) += its * ay;
+    K(2, 5) += next(&std::decay_t<decltype(blocks_[0].next)>::own, 2) * (ax * bx + ay * by);
+  }
   /// What is one node's.   @param of  (f) -> f(i)
   template <class Of, class Residual, class Tangent>
   [[gnu::always_inline]] void add_node(Of&& of, Residual& r, Tangent& K) const noexcept {

@@ -39,23 +39,13 @@ namespace hapbeam {
   (void)inertia.look(nodes);
 
   const int all = 3 * (elements + 1);
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(all, all), M = K;
+  const Eigen::MatrixXd M = inertia.matrix();
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(all, all);
   for (int e = 0; e < elements; ++e) {
-    Vector6<double> r, no_r = Vector6<double>::Zero();
-    Matrix6<double> k, m = Matrix6<double>::Zero();
+    Vector6<double> r;
+    Matrix6<double> k;
     (void)Element::tangent(system.parts().properties()[e], system.parts().displacements(e), r, k);
-    const auto at = [](int i) { return [i](auto&& f) { return f(i); }; };
-    inertia.add(at(e), no_r, m);
-    if (e + 1 == elements) {
-      Eigen::Matrix3d last = Eigen::Matrix3d::Zero();
-      Vector3<double> no_force = Vector3<double>::Zero();
-      inertia.add_node(at(elements), no_force, last);
-      m.bottomRightCorner<3, 3>() += last;
-    }
-    // Of both nodes it is the lower triangle, and what couples them.
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < i; ++j) (i / 3 == j / 3 ? m(j, i) : m(i, j)) = i / 3 == j / 3 ? m(i, j) : m(j, i);
-    K.block<6, 6>(3 * e, 3 * e) += k, M.block<6, 6>(3 * e, 3 * e) += m;
+    K.block<6, 6>(3 * e, 3 * e) += k;
   }
 
   std::vector<int> free;
