@@ -123,9 +123,13 @@ class PairSide {
     return F.dot(v) / 2;
   }
 
+  /// r, r' and r''.
+  struct Point {
+    Vector r, tangent, curvature;
+  };
   /// Of the true curve of a rod under a force there.
   template <class Parts>
-  static RodPoint<double> point(const Parts& parts, int e, double s, const Vector& F) noexcept {
+  static Point point(const Parts& parts, int e, double s, const Vector& F) noexcept {
     const RodProperties<double>& p = parts.properties(e);
     const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
     const auto own = parts.own(e);
@@ -135,7 +139,7 @@ class PairSide {
     const Vector yield = yields * F;
     Vector t = spot.t + spot.g.by(0) / 2 * yield;
     if (unknowns == 7 && p.soft[0] != p.soft[1]) t += turned_yield(yields, F, spot);
-    return {spot.r + spot.g.value * yield, t};
+    return {spot.r + spot.g.value * yield, t, spot.k + spot.bend * yield};
   }
 
  private:
