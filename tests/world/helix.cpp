@@ -55,14 +55,15 @@ Helix helix_of(const World<RoundRod>& world) {
   for (int k = 0; k < world.contacts(); ++k) all.push_back(world.contact(k));
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.s[0] < b.s[0]; });
   const std::size_t first = 3, last = all.size() - 4;
-  double turned = 0, force = 0;
+  double turned = 0, force = all[first].force.norm();
   for (std::size_t k = first; k < last; ++k) {
     const Point &a = all[k].at[0], &b = all[k + 1].at[0];
     turned += std::atan2(a.y() * b.z() - a.z() * b.y(), a.y() * b.y() + a.z() * b.z());
-    force += (all[k].force.norm() + all[k + 1].force.norm()) / 2;
+    force += all[k + 1].force.norm();
   }
+  // Each contact carries half of the way to those beside it.
   return {2 * pi * (all[last].at[0].x() - all[first].at[0].x()) / std::abs(turned),
-          force / (all[last].s[0] - all[first].s[0])};
+          2 * force / (all[last].s[0] + all[last + 1].s[0] - all[first].s[0] - all[first - 1].s[0])};
 }
 Helix expected(double force) {
   double square = force * r * r / (2 * EI);  // sin² α

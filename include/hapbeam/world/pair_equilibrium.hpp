@@ -152,11 +152,7 @@ class PairEquilibrium {
       }
       bad = (std::max)(shift, least_shift), shift = 3 * bad, led /= 4;
       if (!(shift > largest_shift)) continue;
-      if (system_.pairs() == system_.joints()) return failure_ = Status::iteration_limit, Outcome::lost;
-      // Forces that no step fits are none.
-      while (release(system_.pairs() > system_.joints() ? system_.pairs() - 1 : -1)) continue;
-      system_.save();
-      shift = first_shift, bad = 0;
+      return failure_ = Status::iteration_limit, Outcome::lost;
     }
     return Outcome::too_far;
   }
