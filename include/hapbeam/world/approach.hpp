@@ -127,19 +127,31 @@ bool beside_each_other(const System& system, const RodPair& a, const RodPair& b,
   }
   return true;
 }
+/// How far places may lie in each other beside contacts in a row, in reaches.
+inline constexpr double row_depth = 0.01;
+/// Contacts in a row are no more elements apart.
+inline constexpr double row_stride = 1.01;
+/// Whether a place is beside a contact that stays.
+template <class System>
+bool is_in_row(const System& system, const RodPair& found) noexcept {
+  for (int k = 0; k < system.pairs(); ++k)
+    if (system.is_pinned(system.pair(k)) && beside_each_other(system, system.pair(k), found, 2, row_stride))
+      return true;
+  return false;
+}
 /// What the elements of pairs that touch lack of the true curves at a place.   @return in reaches
 template <class System>
 double lacking(const System& system, const RodPair& found) noexcept {
-  // Of contacts in a row one in half an element is enough, and closer ones are one.
+  // One contact in half an element is enough, and closer ones are one.
   // What slides lies flat beyond it but for what the mesh leaves.
-  constexpr double line = 0.01, same = 0.25, flat = 1e-4;
+  constexpr double same = 0.25, flat = 1e-4;
   double most = 0;
   for (int k = 0; k < system.pairs(); ++k) {
     const RodPair& pair = system.pair(k);
     if (pair.rod != found.rod) continue;
     if (pair.rough()) most = (std::max)(most, flat);
     if (beside_each_other(system, pair, found, 2, 0.5))
-      most = (std::max)(most, beside_each_other(system, pair, found, 2, 0) ? same : line);
+      most = (std::max)(most, beside_each_other(system, pair, found, 2, 0) ? same : row_depth);
     double beside = 0;
     for (std::size_t side = 0; side < 2; ++side)
       if (!system.rigid(pair.rod[side]))
@@ -205,11 +217,18 @@ void look_at_rigid(const System& system, int rod, int number, Look& look) noexce
         const auto [t, from] = nearest_on(now, core.body(), reach + travel);
         if (!(from.distance < reach + travel)) return true;
         if (!(travel <= reach / 2)) return look.close = false;
-        RodPair pair;
-        pair.rod = {rod, number}, pair.s[0] = line[e].s + t * (line[e + 1].s - line[e].s);
-        const PlacedBody::Nearest nearest = core.nearest(point_at(now, t), from);
-        pair.reach = reach, pair.normal = nearest.normal, pair.on = nearest.on;
-        look.see(pair, from.distance, lacking(system, pair));
+        const auto see = [&](double at, const SurfaceDistance& is, double least) {
+          RodPair pair;
+          pair.rod = {rod, number}, pair.s[0] = line[e].s + at * (line[e + 1].s - line[e].s);
+          const PlacedBody::Nearest nearest = core.nearest(point_at(now, at), is);
+          pair.reach = reach, pair.normal = nearest.normal, pair.on = nearest.on;
+          const bool in_row = is_in_row(system, pair);
+          look.see(pair, is.distance, (std::max)(in_row ? least : 0, lacking(system, pair)));
+          return in_row;
+        };
+        // A row has its contacts at nodes, and depth between those.
+        if (see(t, from, row_depth))
+          for (const double end : {0.0, 1.0}) (void)see(end, core.body().from_core(point_at(now, end)), 0);
         return true;
       });
 }

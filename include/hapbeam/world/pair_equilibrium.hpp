@@ -67,7 +67,7 @@ class PairEquilibrium {
     system_.begin_friction();
     for (int k = system_.joints(); k < system_.pairs(); ++k) {
       RodPair& pair = system_.pair(k);
-      if (is_pinned(k) && !is_beside(k)) pair.held[0] = false;
+      if (has_left_row(k)) pair.held[0] = false;
       pair.mark();
     }
     for (int pass = 0; pass < 4 + 2 * most_pairs; ++pass) {
@@ -152,11 +152,7 @@ class PairEquilibrium {
       }
       bad = (std::max)(shift, least_shift), shift = 3 * bad, led /= 4;
       if (!(shift > largest_shift)) continue;
-      if (system_.pairs() == system_.joints()) return failure_ = Status::iteration_limit, Outcome::lost;
-      // Forces that no step fits are none.
-      while (release(system_.pairs() > system_.joints() ? system_.pairs() - 1 : -1)) continue;
-      system_.save();
-      shift = first_shift, bad = 0;
+      return failure_ = Status::iteration_limit, Outcome::lost;
     }
     return Outcome::too_far;
   }
@@ -178,7 +174,8 @@ class PairEquilibrium {
     for (int k = system_.joints(); k < system_.pairs(); ++k)
       for (std::size_t side = 0; side < 2; ++side)
         if (system_.moves(system_.pair(k)) &&
-            (side == 0 && is_pinned(k) ? !is_beside(k) : system_.pair(k).leaves_end(side)))
+            (side == 0 && system_.is_pinned(system_.pair(k)) ? has_left_row(k)
+                                                             : system_.pair(k).leaves_end(side)))
           return system_.pair(k).held[side] = false, true;
     return false;
   }
@@ -205,7 +202,9 @@ class PairEquilibrium {
     for (int k = system_.joints(); k < system_.pairs(); ++k) {
       const RodPair& pair = system_.pair(k);
       if (!system_.moves(pair)) continue;
-      if (pair.distance(system_.between(pair)) - pair.reach > apart * pair.reach) return k;
+      const auto is_apart = [&](double distance) { return distance - pair.reach > apart * pair.reach; };
+      // Under compression the true curve bulges beyond the drawn one.
+      if (is_apart(pair.distance(system_.between(pair))) && is_apart(system_.distance(pair))) return k;
       for (int j = system_.joints(); j < k; ++j)
         if (beside_each_other(system_, pair, system_.pair(j), 1, 0)) return k;
     }
@@ -219,15 +218,14 @@ class PairEquilibrium {
     return changed_ = true;
   }
 
-  /// Its first place stays for this step, and as long as another contact is in the same row.
-  bool is_pinned(int k) const noexcept {
-    const RodPair& pair = system_.pair(k);
-    return pair.held[0] && pair.s[0] > 0 && pair.s[0] < system_.length(pair.rod[0]);
-  }
-  bool is_beside(int k) const noexcept {
+  bool is_beside_another(int k) const noexcept {
     for (int j = 0; j < system_.pairs(); ++j)
-      if (j != k && beside_each_other(system_, system_.pair(k), system_.pair(j), 0, 1)) return true;
+      if (j != k && beside_each_other(system_, system_.pair(k), system_.pair(j), 0, row_stride)) return true;
     return false;
+  }
+  /// Whether it has been in a row of contacts, and is no more.
+  bool has_left_row(int k) const noexcept {
+    return system_.is_pinned(system_.pair(k)) && !is_beside_another(k);
   }
 
   /// What lets go in a stage of a step of time stays away in it: the drawn cubics may still lie in each other.
@@ -242,9 +240,12 @@ class PairEquilibrium {
     for (std::size_t side = 0; side < 2; ++side)
       pair.held[side] = pair.s[side] <= 0 || pair.s[side] >= system_.length(pair.rod[side]);
     if (!system_.add(pair)) return false;
-    RodPair& added = system_.pair(system_.pairs() - 1);
-    added.held[0] = added.held[0] || is_beside(system_.pairs() - 1);
-    added.mark();
+    // In a row the gap has no least distance to which a place could go.
+    for (int k = system_.joints(); k < system_.pairs(); ++k) {
+      RodPair& beside = system_.pair(k);
+      beside.held[0] = beside.held[0] || (is_beside_another(k) && (beside.fresh || !system_.parts(beside)));
+    }
+    system_.pair(system_.pairs() - 1).mark();
     system_.spread();
     return true;
   }

@@ -123,9 +123,13 @@ class PairSide {
     return F.dot(v) / 2;
   }
 
+  /// r, r' and r''.
+  struct Point {
+    Vector r, tangent, curvature;
+  };
   /// Of the true curve of a rod under a force there.
   template <class Parts>
-  static RodPoint<double> point(const Parts& parts, int e, double s, const Vector& F) noexcept {
+  static Point point(const Parts& parts, int e, double s, const Vector& F) noexcept {
     const RodProperties<double>& p = parts.properties(e);
     const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
     const auto own = parts.own(e);
@@ -135,7 +139,7 @@ class PairSide {
     const Vector yield = yields * F;
     Vector t = spot.t + spot.g.by(0) / 2 * yield;
     if (unknowns == 7 && p.soft[0] != p.soft[1]) t += turned_yield(yields, F, spot);
-    return {spot.r + spot.g.value * yield, t};
+    return {spot.r + spot.g.value * yield, t, spot.k + spot.bend * yield};
   }
 
  private:
@@ -156,15 +160,15 @@ class PairSide {
     }
     const Vector &u = spot_.u, &e = pair->axis, M = sign * pair->force * pair->normal;
     spot_.turn(M, r);
-    // θ of increments t of r' and φ, with v = t/|r'| and a = u · v:  u × v + φ u  - a u × v + ½ φ (v - a u),  and of a hinge  ½ (e · θ) e × θ.
+    // θ of increments t of r' and φ, with v = t/|r'| and a = u · v:  u × v + φ u + ½ φ (v - a u),  and of a hinge  ½ (e · θ) e × θ.  Stretch is left out.
     const double i = 1 / spot_.stretched;
-    const Vector n = i * i * cross3(M, u), q = cross3(M, e);
+    const Vector q = cross3(M, e);
     const Matrix H = sign * pair->lent * (Matrix::Identity() - e * e.transpose()) -
                      (e * q.transpose() + q * e.transpose()) / 2;
     Matrix turns;
     for (int c = 0; c < 3; ++c) turns.col(c) = i * cross3<double>(u, Vector::Unit(c));
     const int t = node() + 3;
-    K.template block<3, 3>(t, t) += turns.transpose() * H * turns + u * n.transpose() + n * u.transpose();
+    K.template block<3, 3>(t, t) += turns.transpose() * H * turns;
     if constexpr (unknowns == 7) {
       const Vector mixed = turns.transpose() * (H * u) - i / 2 * (M - u * u.dot(M));
       K.template block<3, 1>(t, t + 3) += mixed;

@@ -27,6 +27,7 @@ class PairSides {
   using Assembler = typename Chain::Assembler;
   static constexpr int unknowns = Chain::unknowns;
   using Vector = VectorOf<double, 3>;
+  using Point = typename Side::Point;
   using Residual = VectorOf<double, 2 * unknowns>;
   using Tangent = Eigen::Matrix<double, 2 * unknowns, 2 * unknowns>;
 
@@ -40,7 +41,7 @@ class PairSides {
 
   /// Of the true curve of a rod at s, where a force acts on it.
   template <class Parts>
-  static RodPoint<double> point(const Parts& parts, int e, double s, const Vector& force) noexcept {
+  static Point point(const Parts& parts, int e, double s, const Vector& force) noexcept {
     return Side::point(parts, e, s, force);
   }
 

@@ -64,6 +64,10 @@ class RodBody {
   double radius() const noexcept { return radius_; }
   const typename Chain::Parts& parts() const noexcept { return system_.chain().parts(); }
   auto line() const noexcept { return system_.centreline(); }
+  /// Of the true curve at s, where a force acts on it.
+  typename Sides::Point point(double s, const Vector& force) const noexcept {
+    return Sides::point(parts(), line().segment_at(s), s, force);
+  }
   int elements() const noexcept { return system_.elements(); }
   double length() const noexcept { return system_.length(); }
 
