@@ -148,8 +148,8 @@ struct SeveralPlace {
 
  private:
   void forget_friction() noexcept {
-    const auto& of = at.friction;
-    at.friction = {of.sticking, of.sliding, of.stiffness, of.damping};
+    at.friction.begin();
+    at.friction.dissipated = 0;
   }
 
   template <class Volumes>
