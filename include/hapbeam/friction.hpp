@@ -107,15 +107,30 @@ struct FrictionState : detail::FrictionPlace<Scalar, D> {
   Scalar gain = 0;                ///< change of the normal force by a tangential one, as it was
   Scalar dissipated = 0;          ///< [J] since the touch began
 
+  /// @param coefficients  from now on
+  void take(const Friction& coefficients) noexcept {
+    sticking = static_cast<Scalar>(coefficients.sticking),
+    sliding = static_cast<Scalar>(coefficients.sliding);
+    // It is not looked at while it has none.
+    if (coefficients.none()) let_go();
+  }
+  /// As of the touch.   @param stiffness, damping  [N/m]
+  void soften(Scalar by_stiffness, Scalar by_damping) noexcept {
+    stiffness = by_stiffness, damping = by_damping;
+  }
+  bool rough() const noexcept { return sticking > 0; }
   /// A contact begins; what the touch has dissipated stays.
   void begin() noexcept {
     let_go();
     gain = 0;
   }
-  /// The force on the hand, no more than its share of a normal force [N].
-  Vector on_hand(Scalar normal_force) const noexcept {
+  /// What is felt of it, no more than its share of a normal force [N].   @param felt  in and out, of a TouchResult or a TouchPlace
+  template <class Felt>
+  void rub(Scalar normal_force, Felt& felt) const noexcept {
     const Scalar most = sticking * normal_force, size = std::sqrt(force.squaredNorm());
-    return size > most ? Vector(force * (-most / size)) : Vector(-force);
+    felt.friction = size > most ? Vector(force * (-most / size)) : Vector(-force);
+    felt.force += felt.friction;
+    felt.sliding = slides;
   }
   /// Nothing is left of its last contact.
   void let_go() noexcept {

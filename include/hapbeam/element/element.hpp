@@ -23,10 +23,8 @@
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
 
-#include <algorithm>
 #include <iterator>
 #include <type_traits>
-#include <utility>
 
 #include <Eigen/Core>
 

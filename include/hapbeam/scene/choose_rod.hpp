@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include <hapbeam/element/rod.hpp>

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include <hapbeam/fem/contact/contact_work.hpp>
 #include <hapbeam/fem/contact/continuation.hpp>
