@@ -302,7 +302,9 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   /// Strain energy, that of the springs that hold it included [J].
   Scalar strain_energy() const noexcept {
     Scalar energy = chain_.strain_energy([this](int e) { return rows_.in(e); });
-    detail::each_touched(rows_, [&](int e) { energy += rows_.strain_energy(parts(), e); });
+    detail::each_touched(rows_, [&](int e) {
+      energy += rows_.as_touched(parts(), e, [](auto& touched) { return touched.strain_energy(); });
+    });
     return energy;
   }
   /// V - λ f · x as it lies now [J].

@@ -162,13 +162,23 @@ class ContactRows {
     }
     return another;
   }
-  /// Strain energy of a touched element [J].
-  template <class Parts>
-  Scalar strain_energy(const Parts& beam, int e) const noexcept {
+  /// Calls use(touched) with a touched element as it lies, and returns what that does.
+  template <class Parts, class Use>
+  auto as_touched(const Parts& beam, int e, Use&& use) const noexcept {
     Touched touched(beam, e);
     Contact contacts[Most];
     each_in(e, [&](int k) { touched.add(contacts[k] = rows_[k].contact, k); });
-    return touched.strain_energy();
+    return use(touched);
+  }
+  /// Its residual.
+  template <class Parts>
+  Residual residual(const Parts& beam, int e) const noexcept {
+    return as_touched(beam, e, [](Touched& touched) {
+      Residual r;
+      Tangent K;
+      (void)touched.condense(r, K, [](int) {});
+      return r;
+    });
   }
 
   /// Residual and tangent of a touched element, its contacts included.  @return V [J]
