@@ -121,7 +121,7 @@ class CoupledContacts {
       obstacle.pushed.force = -now.at.force;
       obstacle.friction = rough(i) ? &now.friction : nullptr;
     }
-    Friction friction(system, all_, count_, count_ == 1);
+    Friction friction(system, all_, count_);
     bool found = false;
     for (int pass = 0; pass < most_passes && !found; ++pass) {
       system.set_goal();

@@ -143,11 +143,7 @@ class RowPush : private RowContacts<Element, System> {
       }
       work_ = before.work, balance_ = before.balance;
     };
-    const auto fall = [&] {
-      back();
-      way.descend();
-    };
-    return continuation_.follow(go, judge, keep, back, fall).status;
+    return continuation_.follow(go, judge, keep, back, [&] { way.descend(); }).status;
   }
 
  private:
@@ -170,7 +166,7 @@ class RowPush : private RowContacts<Element, System> {
     const bool goes_on = look_ahead(system);
     for (int i = 0; i < count; ++i)
       if (all[i].touching && !(all[i].pushed.force < 0) && this->beside_a_touch(i)) all[i].touching = false;
-    Friction friction(system, all, count, count == 1);
+    Friction friction(system, all, count);
     if (foresight_.forth()) friction.go_on();
     began_ = false;
     Status status = Status::ok;
@@ -317,13 +313,13 @@ class RowPush : private RowContacts<Element, System> {
       if (goes_on) {
         Status status;
         // What friction settles between two solves is no step of a hand.
-        do status = way.settle_at_once(slack, aim, few(), rough ? nullptr : &curvature_).status;
+        do status = way.settle_at_once(slack, aim, few(), rough ? nullptr : &curvature_);
         while (!agrees(status) && !all);
         if (status == Status::ok) return status;
         foresight_.go_back(system, last);
         begin_again();
         if (!rough && this->hold_sharp(system)) {
-          status = way.settle_at_once(slack, aim, few()).status;
+          status = way.settle_at_once(slack, aim, few());
           if (status == Status::ok) return status;
           foresight_.go_back(system, last);
           begin_again();
@@ -335,7 +331,7 @@ class RowPush : private RowContacts<Element, System> {
       }
     }
     Status status;
-    do status = (all ? way.settle(last, slack, aim) : way.settle_at_once(slack, aim, few())).status;
+    do status = all ? way.settle(last, slack, aim).status : way.settle_at_once(slack, aim, few());
     while (!agrees(status));
     return status;
   }

@@ -71,16 +71,16 @@ class SeveralFriction {
   using Friction = typename System::Friction;
   using Vector = typename Friction::Vector;
 
-  /// @param all  those that touch and have friction go on as they did   @param alone  whether there is one alone
-  SeveralFriction(const System& system, Obstacle* all, int count, bool alone = false) noexcept
-      : all_(all), count_(count), alone_(alone) {
+  /// @param all  those that touch and have friction go on as they did
+  SeveralFriction(const System& system, Obstacle* all, int count) noexcept : all_(all), count_(count) {
     for (int i = 0; i < count; ++i)
       if (all[i].touching) meet(system, i);
   }
   /// An obstacle has a contact now.
   void meet(const System& system, int i) noexcept {
     if (!rough(i)) return;
-    laws_[i].emplace(*all_[i].friction, RoundContact{all_[i].round}, system, -all_[i].pushed.force, alone_);
+    laws_[i].emplace(*all_[i].friction, RoundContact{all_[i].round}, system, -all_[i].pushed.force,
+                     count_ == 1);
     any_ = true;
   }
   /// The same where another place of its body has one already, and it goes on as that does.   @param s  [m]
@@ -212,7 +212,6 @@ class SeveralFriction {
 
   Obstacle* all_;
   int count_;
-  bool alone_;  // the only contact
   bool any_ = false;
   std::optional<Friction> laws_[Most];
 };
