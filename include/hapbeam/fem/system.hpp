@@ -50,7 +50,7 @@ void extrapolate(Scalar& now, Scalar& before, Scalar ratio) noexcept {
 /// Calls f(e) for each element that is touched.
 template <class Rows, class F>
 void each_touched(const Rows& rows, F&& f) noexcept {
-  for (int k = 0; k < rows.size(); ++k) {
+  for (int k = 0; k < Rows::most && k < rows.size(); ++k) {  // a compiler sees how few
     bool first = true;
     for (int j = 0; j < k; ++j) first = first && rows.element(j) != rows.element(k);
     if (first) f(rows.element(k));

@@ -172,7 +172,8 @@ class RowPush : private RowContacts<Element, System> {
     Status status = Status::ok;
     bool snapped = false;
     for (int pass = 1;; ++pass) {
-      if (count > 1) this->part(system);
+      if constexpr (most > 1)
+        if (count > 1) this->part(system);
       status = solve(way, pass == 1, goes_on, friction);
       snapped = snapped || status == Status::snapped;
       if (!is_answer(status)) {
