@@ -66,6 +66,29 @@ struct CrisfieldRod {
     p.natural_strain[0] = at.strain[5];
   }
 
+  /// As the library's elements hand it over.
+  template <typename S>
+  static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
+                   RodTangent<S, 4>& to) noexcept {
+    using To = RodTangent<S, 4>;
+    Vector14<S> r;
+    Matrix14<S> K;
+    const S energy = tangent(p, n1, n2, inner, r, K);
+    for (int i = 0; i < 3; ++i) to.D[i] = r[7 + i];
+    for (int j = 0; j < 3; ++j)
+      for (int i = j; i < 3; ++i) to.DD[To::template half<3>(i, j)] = K(7 + i, 7 + j);
+    for (int j = 0; j < 4; ++j) {
+      to.t1[j] = r[3 + j], to.t2[j] = r[10 + j];
+      for (int i = 0; i < 3; ++i) to.D1[3 * j + i] = K(7 + i, 3 + j), to.D2[3 * j + i] = K(7 + i, 10 + j);
+      for (int i = 0; i < 4; ++i) {
+        to.K12[4 * j + i] = K(3 + i, 10 + j);
+        if (i < j) continue;
+        to.K11[To::template half<4>(i, j)] = K(3 + i, 3 + j),
+                                       to.K22[To::template half<4>(i, j)] = K(10 + i, 10 + j);
+      }
+    }
+    return energy;
+  }
   /// @param r  out [N, N·m of r', N·m]   @param K  out, symmetric, both triangles
   template <typename S>
   static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>&,

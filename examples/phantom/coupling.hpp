@@ -37,7 +37,7 @@ class Coupling {
                           double dt) noexcept {
     // A beam with mass has no other coupling.
     if constexpr (is_led<Touch>) return touch.lead(hand, dt);
-    else if constexpr (hapbeam::detail::couples_itself<Touch>)
+    else if constexpr (hapbeam::detail::offers<hapbeam::detail::Stored, Touch>)
       return std::get_if<hapbeam::VirtualCoupling>(&kind_)->tick(touch, hand, dt);
     else return std::visit([&](auto& kind) { return kind.tick(touch, hand, dt); }, kind_);
   }

@@ -272,11 +272,13 @@ auto as_pushed(M* m, const Push<typename M::Scalar, 3>* p)
 template <typename>
 std::false_type as_pushed(...);
 
-/// Whether Call<M> names a type: that of an expression which M offers, or std::enable_if_t of noexcept calls.
-template <template <typename> class Call, typename M, typename = void>
-inline constexpr bool offers = false;
-template <template <typename> class Call, typename M>
-inline constexpr bool offers<Call, M, std::void_t<Call<M>>> = true;
+/// Whether Call<M…> names a type: that of an expression which M offers, or std::enable_if_t of noexcept calls.
+template <template <class...> class Call, typename Void, class... M>
+inline constexpr bool is_offered = false;
+template <template <class...> class Call, class... M>
+inline constexpr bool is_offered<Call, std::void_t<Call<M...>>, M...> = true;
+template <template <class...> class Call, class... M>
+inline constexpr bool offers = is_offered<Call, void, M...>;
 
 template <typename M>
 using PushObstacles = std::enable_if_t<noexcept(std::declval<M&>().release())&& noexcept(

@@ -26,7 +26,6 @@ struct Shaft {
     if (!(squared > 0)) return 0;
     return std::clamp(way.dot(point - tip) / squared, Scalar(0), Scalar(1));
   }
-  [[nodiscard]] bool is_point() const noexcept { return !(way.squaredNorm() > 0); }
   [[nodiscard]] VectorOf<Scalar, 3> at(Scalar t) const noexcept { return tip + t * way; }
 };
 

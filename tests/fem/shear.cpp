@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/pressed.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/tapered.hpp>
 #include <hapbeam/fem/dynamic_model.hpp>
@@ -33,14 +34,6 @@ double compliance(Support left, Support right, double s) {
                tt = length * bend, rw = w * bend + a * shear, rt = t * bend, det = ww * tt - wt * wt;
   const double F = (rw * tt - rt * wt) / det, M = (ww * rt - wt * rw) / det;
   return a * a * a / 3 * bend + a * shear - F * rw - M * rt;
-}
-
-template <class Model>
-double pressed(const Beam& beam, int elements, double s, double d) {
-  Model model(beam, elements);
-  const auto response = model.press({s, d});
-  CHECK(response.status == Status::ok);
-  return response.force;
 }
 
 /// Tip of a cantilever under a dead force across it: θ' = M/EI, r' = (1 + N/EA) (cos φ, sin φ), φ = θ + V/κGA, with V across r' (Engesser), from

@@ -1,6 +1,7 @@
 // Beams whose section changes along them, against closed forms, and the laws of every planar model.
 #include "support/catch.hpp"
 #include "support/error.hpp"
+#include "support/pressed.hpp"
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/tapered.hpp>
 #include <hapbeam/fem/fem_model.hpp>
@@ -33,14 +34,6 @@ double wedge_stiffness() {
                q = h1 / h0;
   const double integral = (std::log(1 / q) + 2 * q - q * q / 2 - 1.5) / (c * c * c);
   return taper_young * taper_width / 12 / integral;
-}
-
-template <class Model>
-double pressed(const Beam& beam, int elements, double s, double d) {
-  Model model(beam, elements);
-  const auto response = model.press({s, d});
-  CHECK(response.status == Status::ok);
-  return response.force;
 }
 
 }  // namespace

@@ -49,6 +49,14 @@ struct Avatar<Scalar, 3> {
 
 namespace detail {
 
+/// @param shaft  of a capsule in space
+template <typename Scalar, int D>
+Avatar<Scalar, D> avatar_at(const VectorOf<Scalar, D>& position, Scalar radius,
+                            [[maybe_unused]] const VectorOf<Scalar, D>& shaft) noexcept {
+  if constexpr (D == 2) return {position, radius};
+  else return {position, radius, shaft};
+}
+
 /// How far an avatar has gone, at most [m²].
 template <typename Scalar>
 Scalar step_squared(const Vector2<Scalar>& from, const Vector2<Scalar>& to) noexcept {

@@ -50,25 +50,6 @@ struct LastingContact {
   FrictionState<Scalar, dimension> friction;
   Obstacle obstacle;  // as the model is asked, and has answered
 
-  bool rough() const noexcept { return friction.sticking > 0; }
-  void take(const Friction& coefficients) noexcept {
-    friction.sticking = static_cast<Scalar>(coefficients.sticking);
-    friction.sliding = static_cast<Scalar>(coefficients.sliding);
-    // It is not looked at while it has none.
-    if (coefficients.none()) friction.let_go();
-  }
-
-  void soften(Scalar stiffness, Scalar damping) noexcept {
-    friction.stiffness = stiffness, friction.damping = damping;
-  }
-  /// What is felt of it.   @param felt  out, of a TouchResult or a TouchPlace
-  template <class Felt>
-  void rub(Scalar normal_force, Felt& felt) const noexcept {
-    felt.friction = friction.on_hand(normal_force);
-    felt.force += felt.friction;
-    felt.sliding = friction.slides;
-  }
-
   /// Where the avatar lies to the beam.  A pressed beam moves with the hand, which cannot have gone round its end.  Only a beam that has
   /// stopped at the end of its range can be passed, and that must not turn the press into one from the other side.  A rigid end is gone
   /// round.
@@ -148,7 +129,7 @@ struct LastingContact {
     if (contact.depth > reach + model.shape().length()) return {Hold::lost, 0, Status::iteration_limit};
     obstacle.round = round(avatar, contact.s, reach, contact);
     obstacle.valid = obstacle.touching = true;
-    obstacle.friction = rough() ? &friction : nullptr;
+    obstacle.friction = friction.rough() ? &friction : nullptr;
     Status status = model.push(&obstacle, 1);
     const auto& pushed = obstacle.pushed;
     if (status == Status::ok) status = pushed.status;
@@ -156,12 +137,9 @@ struct LastingContact {
     if (!obstacle.touching || (is_answer(status) && pushed.force == 0)) return {Hold::released, 0, status};
     // Pushed along itself an end has no place on the circle any more: it slips off.
     if (status == Status::iteration_limit && pushed.past_end) return {Hold::lost, 0, status};
-    contact.s = pushed.s;
-    contact.foot = pushed.point;
-    contact.normal = pushed.normal;
-    contact.point = pushed.point + pushed.normal * (model.thickness() / 2);
+    lay(contact, pushed.s, pushed.point, pushed.normal, model.thickness());
     contact.past_end = pushed.past_end;
-    if (status == Status::ok && rough() && !friction.settled) status = Status::iteration_limit;
+    if (status == Status::ok && friction.rough() && !friction.settled) status = Status::iteration_limit;
     if constexpr (planar)
       if (status == Status::ok && !pushed.past_end && pinched(model.shape(), pushed.s, avatar, reach))
         status = Status::out_of_range;

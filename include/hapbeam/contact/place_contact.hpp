@@ -33,6 +33,14 @@ enum class Mode : std::int8_t {
   support,  ///< as a fixed point past an end that holds w, in space past or beside one
 };
 
+/// A contact is found at a place of the beam.   @param foot  of the centreline [m]   @param normal  unit, out of the beam
+template <typename Scalar, int D>
+void lay(Contact<Scalar, D>& contact, Scalar s, const VectorOf<Scalar, D>& foot,
+         const VectorOf<Scalar, D>& normal, Scalar thickness) noexcept {
+  contact.s = s, contact.foot = foot, contact.normal = normal;
+  contact.point = foot + normal * (thickness / 2);
+}
+
 /// @tparam D  2 | 3
 template <typename Scalar, int D = 2>
 class PlaceContact {
@@ -138,10 +146,9 @@ class PlaceContact {
     const Scalar shift = offset.dot(mean), kink = cross(before, after);
     if (!(std::abs(shift) <= std::abs(kink) * offset.norm())) return;
     const Scalar side = static_cast<Scalar>(contact.side);
-    contact.s = std::clamp(line[node].s + shift, line[node - 1].s, line[node + 1].s);
-    contact.foot = position - offset + shift * mean;
-    contact.normal = {-side * mean.y(), side * mean.x()};
-    contact.point = contact.foot + contact.normal * (model.thickness() / 2);
+    lay(contact, std::clamp(line[node].s + shift, line[node - 1].s, line[node + 1].s),
+        Vector2<Scalar>(position - offset + shift * mean), Vector2<Scalar>(-side * mean.y(), side * mean.x()),
+        model.thickness());
     contact.depth = reach - offset.dot(contact.normal);
     contact.touching = contact.depth > 0;
   }
@@ -226,10 +233,7 @@ class PlaceContact<Scalar, 3> {
                               : detail::across(ends_[right_].director, tangent_);
     place = {s, across.dot(foot_) - depth, across};
     factor_ = depth_ / depth;
-    contact.s = s;
-    contact.foot = foot_;
-    contact.normal = normal_;
-    contact.point = foot_ + normal_ * (model.thickness() / 2);
+    lay(contact, s, foot_, normal_, model.thickness());
     contact.depth = depth_;
     return true;
   }

@@ -87,13 +87,12 @@ struct SeveralPlace {
     avatar = stands.template avatar<Scalar>(length);
     at.obstacle.kind = stands.kind();
     at.obstacle.place = stands.template place<Scalar>();
-    at.take(stands.friction());
+    at.friction.take(stands.friction());
   }
   /// A hand moves it.
   void move(const Vector& position, const Vector& shaft) noexcept {
     who = hand;
-    avatar.position = position;
-    if constexpr (dimension == 3) avatar.shaft = shaft;
+    avatar = avatar_at(position, avatar.radius, shaft);
   }
   /// Whether an end holds it.
   bool at_end() const noexcept { return at.mode > Mode::pushed; }
@@ -140,16 +139,16 @@ struct SeveralPlace {
     answer.point = past_end ? contact.foot : at.obstacle.pushed.point;
     answer.normal = past_end ? contact.normal : at.obstacle.pushed.normal;
     answer.force = -at.obstacle.pushed.force * (past_end ? at.place.factor() : Scalar(1)) * answer.normal;
-    if (at.rough() && !fixed()) {
+    if (at.friction.rough() && !fixed()) {
       answer.dissipated = at.friction.dissipated;
-      if (!past_end) at.rub(-at.obstacle.pushed.force, answer);
+      if (!past_end) at.friction.rub(-at.obstacle.pushed.force, answer);
     }
   }
 
  private:
   void forget_friction() noexcept {
-    const auto& of = at.friction;
-    at.friction = {of.sticking, of.sliding, of.stiffness, of.damping};
+    at.friction.begin();
+    at.friction.dissipated = 0;
   }
 
   template <class Volumes>

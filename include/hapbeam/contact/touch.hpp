@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include <hapbeam/contact/lasting_contact.hpp>
 #include <hapbeam/force_model.hpp>
@@ -67,7 +66,7 @@ class Touch {
     if (!takes_push<Model> && !friction.none())
       detail::reject("friction", friction.sticking, "",
                      "0 for a model that is pressed across the beam: see docs/contact.md");
-    at_.take(friction);
+    at_.friction.take(friction);
     reset();
   }
 
@@ -82,38 +81,33 @@ class Touch {
   }
 
   /// One tick.
-  /// @param position  [m] centre of the avatar
+  /// @param position  [m] centre of the avatar   @param shaft  [m] of a capsule in space, from the tip of its axis, which is there, to its other end
   /// Real-time: noexcept, no allocation, bounded: at most one press or push and one release; nothing without contact but for a
   /// beam that falls to rest.  With FemModel that is 96 linear solves, and two looks more for each of the four meshes of a push and
   /// for the release: with 64 elements at 0.1 µs an element and solve 0.68 ms.
-  [[nodiscard]] Result tick(const Vector& position) noexcept {
-    return tick(Avatar{position, avatar_radius_});
-  }
-  /// The same in space, with a capsule.  @param position  [m] of the tip of its axis   @param shaft  [m] from there to the other end
-  template <int D = dimension, std::enable_if_t<D == 3, int> = 0>
-  [[nodiscard]] Result tick(const Vector& position, const Vector& shaft) noexcept {
-    return tick(Avatar{position, avatar_radius_, shaft});
-  }
+  [[nodiscard]] Result tick(const Vector& position) noexcept { return tick(position, Vector::Zero()); }
+  [[nodiscard]] Result tick(const Vector& position, const Vector& shaft) noexcept;
 
   [[nodiscard]] bool pressing() const noexcept { return at_.mode > Mode::inside; }
   /// Whether there is friction.
-  [[nodiscard]] bool rough() const noexcept { return takes_push<Model> && at_.rough(); }
+  [[nodiscard]] bool rough() const noexcept { return takes_push<Model> && at_.friction.rough(); }
   /// Where there is friction, the avatar's skin yields along the surface: a hand that cannot render what is stiffer.  From then on.
   /// @param stiffness  [N/m] positive   @param damping  [N/m] of a damper, N·s/m over the time of a tick
-  void soften(Scalar stiffness, Scalar damping) noexcept { at_.soften(stiffness, damping); }
+  void soften(Scalar stiffness, Scalar damping) noexcept { at_.friction.soften(stiffness, damping); }
   /// Ends the touch: the beam is untouched, and the next contact is a new one.
   [[nodiscard]] bool resting() const noexcept { return at_.mode == Mode::apart && !falling_; }
 
   /// The contact of the beam as it lies now with the avatar, gone straight to a place from that of the last tick.
-  /// @param position [m]   Real-time: noexcept, no allocation, bounded; no press.
+  /// @param position, shaft [m] as of tick()   Real-time: noexcept, no allocation, bounded; no press.
   [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position) noexcept {
-    return contact_at(Avatar{position, avatar_radius_});
+    return contact_at(position, Vector::Zero());
   }
-  /// The same of a capsule, as tick().
-  template <int D = dimension, std::enable_if_t<D == 3, int> = 0>
   [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position,
                                                                const Vector& shaft) noexcept {
-    return contact_at(Avatar{position, avatar_radius_, shaft});
+    if (at_.mode == Mode::inside) return {};
+    auto memory = at_.memory;
+    return find_contact(detail::avatar_at(position, avatar_radius_, shaft), model_.shape(), volumes(),
+                        model_.thickness(), memory);
   }
 
   /// Of the avatar's radius, in lengths of the beam.
@@ -128,13 +122,6 @@ class Touch {
   using Mode = detail::Mode;
   using Hold = detail::Hold;
 
-  Result tick(const Avatar& avatar) noexcept;
-
-  Contact contact_at(const Avatar& avatar) noexcept {
-    if (at_.mode == Mode::inside) return {};
-    auto memory = at_.memory;
-    return find_contact(avatar, model_.shape(), volumes(), model_.thickness(), memory);
-  }
   /// What friction has taken is the touch's, wherever the contact has gone since.
   void press_on(Result& result) const noexcept {
     result.pressing = true;
@@ -206,7 +193,8 @@ class Touch {
 
 // Outside of the class: only so does "extern template class Touch<…>;" keep a compiler from it.
 template <typename Model, typename Enabled>
-auto Touch<Model, Enabled>::tick(const Avatar& avatar) noexcept -> Result {
+auto Touch<Model, Enabled>::tick(const Vector& position, const Vector& shaft) noexcept -> Result {
+  const Avatar avatar = detail::avatar_at(position, avatar_radius_, shaft);
   Result result;
   Contact& contact = result.contact;
   if (!pressing() && !falling_ && out_of_reach(avatar, volumes_, model_.thickness(), at_.memory))
@@ -251,7 +239,7 @@ auto Touch<Model, Enabled>::tick(const Avatar& avatar) noexcept -> Result {
   press_on(result);
   if (std::isfinite(held.force)) result.force = contact.normal * held.force;
   else result.status = Status::non_finite;
-  if (rough() && at_.mode == Mode::pushed && std::isfinite(held.force)) at_.rub(held.force, result);
+  if (rough() && at_.mode == Mode::pushed && std::isfinite(held.force)) at_.friction.rub(held.force, result);
   return result;
 }
 

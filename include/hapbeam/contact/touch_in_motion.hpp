@@ -30,8 +30,7 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
     detail::check_radius("avatar_radius", static_cast<double>(avatar_radius),
                          static_cast<double>(model.shape().length()));
     friction.check();
-    friction_.sticking = static_cast<Scalar>(friction.sticking);
-    friction_.sliding = static_cast<Scalar>(friction.sliding);
+    friction_.take(friction);
     reset();
   }
 
@@ -51,15 +50,14 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
   /// @param shaft [m] in space, from the tip of a capsule's axis, which is at the hand, to its other end
   /// Real-time: noexcept, no allocation, bounded as the step.
   [[nodiscard]] Result tick(const Vector& hand, Scalar dt, Scalar stiffness, Scalar damping,
-                            [[maybe_unused]] const Vector& shaft = Vector::Zero()) noexcept {
+                            const Vector& shaft = Vector::Zero()) noexcept {
     Result result;
     const Scalar reach = avatar_radius_ + model_.thickness() / 2;
     volumes_.outdate();
     // One that holds the beam cannot have gone round its end.
     memory_.touching = memory_.through = pressing_;
     memory_.side = side_;
-    Avatar<Scalar, dimension> avatar{hand, avatar_radius_};
-    if constexpr (dimension == 3) avatar.shaft = shaft;
+    const auto avatar = detail::avatar_at(hand, avatar_radius_, shaft);
     result.contact =
         find_contact(avatar, model_.shape(), volumes_.fitted(model_.shape()), model_.thickness(), memory_);
     if (result.contact.segment < 0) {
@@ -86,9 +84,8 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
     if (!(pushed.force < 0)) return result;
     result.force = -pushed.force * pushed.normal;
     if (rough()) {
-      result.friction = friction_.on_hand(-pushed.force);
-      result.force += result.friction;
-      result.sliding = friction_.slides, result.dissipated = friction_.dissipated;
+      friction_.rub(-pushed.force, result);
+      result.dissipated = friction_.dissipated;
     }
     result.press = {pushed.s, dimension == 2 ? pushed.point.y() : pushed.normal.dot(pushed.point)};
     normal_ = pushed.normal;
@@ -98,7 +95,7 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
 
   [[nodiscard]] bool pressing() const noexcept { return pressing_; }
   /// Whether there is friction.
-  [[nodiscard]] bool rough() const noexcept { return friction_.sticking > 0; }
+  [[nodiscard]] bool rough() const noexcept { return friction_.rough(); }
   /// From the hand to the avatar [m].
   const Vector& off() const noexcept { return off_; }
   /// What the beam has more than at rest [J].

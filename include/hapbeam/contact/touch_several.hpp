@@ -53,7 +53,7 @@ class TouchSeveral {
       for (int k = 0; k < avatar.touches; ++k) {
         Place& place = add(avatars_);
         place.avatar.radius = static_cast<Scalar>(avatar.radius);
-        place.at.take(avatar.friction);
+        place.at.friction.take(avatar.friction);
         place.again = k > 0, place.several = avatar.touches > 1;
       }
       ++avatars_;
@@ -126,15 +126,15 @@ class TouchSeveral {
   /// @throws std::invalid_argument naming what makes no sense
   void set_friction(int avatar, const Friction& friction) {
     friction.check();
-    each_of(avatar, [&](Place& place) { place.at.take(friction); });
+    each_of(avatar, [&](Place& place) { place.at.friction.take(friction); });
   }
   /// Whether an avatar has friction.
   [[nodiscard]] bool rough(int avatar) noexcept {
-    return any_of(avatar, [](const Place& place) { return place.at.rough(); });
+    return any_of(avatar, [](const Place& place) { return place.at.friction.rough(); });
   }
   /// As Touch::soften().
   void soften(int avatar, Scalar stiffness, Scalar damping) noexcept {
-    each_of(avatar, [&](Place& place) { place.at.soften(stiffness, damping); });
+    each_of(avatar, [&](Place& place) { place.at.friction.soften(stiffness, damping); });
   }
   /// The contact of the beam as it lies now with an avatar, gone straight to a place from that of its last tick.
   [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
@@ -201,8 +201,9 @@ class TouchSeveral {
   Status push() noexcept {
     std::array<Obstacle<Scalar, dimension>, most> all;
     for (int i = 0; i < size_; ++i) {
-      all[at(i)] = places_[at(i)].at.obstacle;
-      if (places_[at(i)].at.rough()) all[at(i)].friction = &places_[at(i)].at.friction;
+      auto& contact = places_[at(i)].at;
+      all[at(i)] = contact.obstacle;
+      if (contact.friction.rough()) all[at(i)].friction = &contact.friction;
     }
     const Status status = model_.push(all.data(), size_);
     bool settled = true;

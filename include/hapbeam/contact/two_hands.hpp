@@ -231,9 +231,8 @@ class Touch<Hand<Model>> {
     auto& contact = result.contact;
     contact.touching = true;
     contact.segment = shape.segment_at(place.s);
-    contact.s = place.s, contact.depth = place.depth;
-    contact.foot = place.point, contact.normal = place.normal;
-    contact.point = place.point + place.normal * (hands_.model().thickness() / 2);
+    contact.depth = place.depth;
+    detail::lay(contact, place.s, place.point, place.normal, hands_.model().thickness());
     result.friction = place.friction;
     result.sliding = place.sliding;
     result.dissipated = place.dissipated;

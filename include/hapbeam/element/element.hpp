@@ -23,12 +23,12 @@
 // Real-time: no allocation, noexcept, O(1).
 #pragma once
 
-#include <algorithm>
 #include <iterator>
 #include <type_traits>
-#include <utility>
 
 #include <Eigen/Core>
+
+#include <hapbeam/force_model.hpp>
 
 namespace hapbeam {
 
@@ -140,18 +140,8 @@ template <typename S>
   put(5, 5, ll * c.t22);
 }
 
-}  // namespace detail
-
-namespace detail {
-
-/// Whether Op<A…> is a valid type, and whether that is a true one.
-template <template <class...> class Op, typename Void, class... A>
-inline constexpr bool is_valid_type = false;
-template <template <class...> class Op, class... A>
-inline constexpr bool is_valid_type<Op, std::void_t<Op<A...>>, A...> = true;
-template <template <class...> class Op, class... A>
-inline constexpr bool is_valid = is_valid_type<Op, void, A...>;
-template <template <class...> class Op, class E, bool Valid = is_valid<Op, E>>
+/// Whether Op<E> is a type, and a true one.
+template <template <class...> class Op, class E, bool Valid = offers<Op, E>>
 inline constexpr bool is_true = false;
 template <template <class...> class Op, class E>
 inline constexpr bool is_true<Op, E, true> = Op<E>::value;
@@ -193,7 +183,7 @@ inline constexpr bool membrane_feels_slope = is_true<FeelsSlope, E>;
 
 template <class E>
 constexpr int most_contacts() noexcept {
-  if constexpr (is_valid<Contacts, E>) return E::contacts;
+  if constexpr (offers<Contacts, E>) return E::contacts;
   else return 1;
 }
 
@@ -202,7 +192,7 @@ constexpr int most_contacts() noexcept {
 /// True where L has what an element needs of its membrane policy, and an element of finite rotation of its local element:
 ///   `L::respond(const ElementProperties<S>&, const Deformation<S>&) noexcept -> CoreResponse<S>`,   `L::name() -> const char*`
 template <typename L, typename S>
-inline constexpr bool responds_to_deformation = detail::is_valid<detail::Responds, L, S>;
+inline constexpr bool responds_to_deformation = detail::offers<detail::Responds, L, S>;
 
 /// Functions that run once an element and iteration are [[gnu::always_inline]], here and in the elements. Without it
 /// g++ -O2 calls them, their results go through memory and take a quarter of the tick.
@@ -266,8 +256,8 @@ inline constexpr bool exact_under_tension = detail::is_true<detail::IsExact, E>;
 /// True where the tension of an element, or of a membrane policy, is an unknown of its own.
 template <class E>
 inline constexpr bool has_own_tension =
-    goes_abreast<E> && (detail::is_valid<detail::RespondsWithTension, E, double, Deformation<double>> ||
-                        detail::is_valid<detail::RespondsWithTension, E, double, Vector6<double>>);
+    goes_abreast<E> && (detail::offers<detail::RespondsWithTension, E, double, Deformation<double>> ||
+                        detail::offers<detail::RespondsWithTension, E, double, Vector6<double>>);
 
 /// An element of beams that may be touched at several places at once, as FemModel<Several<Corotational<>, 3>>.
 /// @tparam Contacts  the most of them
@@ -286,6 +276,6 @@ inline constexpr int contacts_of = detail::most_contacts<E>();
 
 /// True where E fulfils the contract above for scalar S, every noexcept included.
 template <typename E, typename S>
-inline constexpr bool is_element = detail::is_valid<detail::Contract, E, S>;
+inline constexpr bool is_element = detail::offers<detail::Contract, E, S>;
 
 }  // namespace hapbeam

@@ -12,7 +12,6 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 #if defined(__AVX__)
 #include <immintrin.h>

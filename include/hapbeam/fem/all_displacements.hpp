@@ -215,14 +215,13 @@ class AllDisplacements {
   /// settle() in a few iterations, for a beam that is on its branch and nearly there.  @param few  linear solves   @param known  as of NewtonRaphson
   /// @return ok, or the system may be anywhere
   template <class Aim>
-  Response<Scalar> settle_at_once(int looser, Aim&& aim, int few,
-                                  Curvature<Scalar>* known = nullptr) noexcept {
+  Status settle_at_once(int looser, Aim&& aim, int few, Curvature<Scalar>* known = nullptr) noexcept {
     aim();
     report_ = solve_within((std::min)(left_, few), 1, looser, known);
     const bool stable = !gives_way();
     left_ -= report_.solves;
     if (report_.status != Status::ok || !stable) report_ = {Status::iteration_limit, 0, 0, 0, 0, 1};
-    return {system_.linear_reaction(), report_.status};
+    return report_.status;
   }
 
   /// Solves for what aim() sets as the system's goal.  @param last  the force before [N]   @param looser  than the solver's tolerance

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/body/beam_pieces.hpp>

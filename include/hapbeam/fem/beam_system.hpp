@@ -5,7 +5,6 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(n).
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -253,31 +252,21 @@ class BeamChain {
       if (!touched(e)) sum += parts_.strain_energy(e);
     return sum;
   }
-  /// Forces on the nodes of element e, as it lies, less loads.   @param contacts  out: what touches it   @return how many
+  /// Forces on the nodes of element e, as it lies, less loads.
   template <class Rows>
-  std::size_t nodal_forces(const Rows& rows, int e, Scalar load, Vector6<Scalar>& r,
-                           std::array<typename Rows::Contact, Rows::most>& contacts) const noexcept {
-    if (!rows.in(e)) {
-      parts_.residual(e, load, r);
-      return 0;
-    }
-    typename Rows::Touched touched(parts_, e);
-    std::size_t count = 0;
-    for (int k = 0; k < rows.size(); ++k)
-      if (rows.element(k) == e) touched.add(contacts[count++] = rows[k], k);
-    Matrix6<Scalar> K;
-    (void)touched.condense(r, K, [](int) {});
+  Vector6<Scalar> nodal_forces(const Rows& rows, int e, Scalar load) const noexcept {
+    Vector6<Scalar> r;
+    if (!rows.in(e)) return parts_.residual(e, load, r), r;
+    r = rows.residual(parts_, e);
     (void)parts_.subtract_loads(e, load, r);
-    return count;
+    return r;
   }
   /// What holds an end: along x and w [N], and moment [N·m].   @param load  λ   @param inertia, viscosity  null: none
   template <class Rows>
   VectorOf<Scalar, 3> reaction(std::size_t k, Scalar load, const Rows& rows, const Inertia* inertia,
                                const Viscosity* viscosity) const noexcept {
     const int e = k == 0 ? 0 : parts_.size() - 1;
-    Vector6<Scalar> r;
-    std::array<typename Rows::Contact, Rows::most> touching;
-    (void)nodal_forces(rows, e, load, r, touching);
+    Vector6<Scalar> r = nodal_forces(rows, e, load);
     Matrix6<Scalar> unused = Matrix6<Scalar>::Zero();
     if (viscosity) (void)viscosity->add(e, parts_.displacements(e), r, unused);
     VectorOf<Scalar, 3> sum = r.template segment<3>(k == 0 ? 0 : 3);
@@ -288,19 +277,17 @@ class BeamChain {
   template <class Rows, class Curve>
   InternalForces<Scalar> internal_forces(const Rows& rows, int e, const detail::CutAt<Scalar>& at,
                                          Scalar load, Scalar thickness, Curve&& curve) const noexcept {
-    Vector6<Scalar> r;
-    std::array<typename Rows::Contact, Rows::most> contacts;
-    const std::size_t count = nodal_forces(rows, e, load, r, contacts);
     const auto place = [&curve](Scalar s) {
       const Node there = curve(s);
       return Displacement<Scalar>{there.u, there.w, there.theta};
     };
-    return parts_.internal_forces(at, load, thickness, r, place, [&](auto& cut, bool whole) {
-      for (std::size_t k = 0; k < count; ++k)
-        if (const auto& contact = contacts[k]; whole || at.passed(contact.s))
-          cut.pass(contact.force * contact.normal + contact.friction,
-                   detail::cut_place<Element>(contact.s, place(contact.s)).r);
-    });
+    return parts_.internal_forces(
+        at, load, thickness, nodal_forces(rows, e, load), place, [&](auto& cut, bool whole) {
+          for (int k = 0; k < rows.size(); ++k)
+            if (const auto& contact = rows[k]; rows.element(k) == e && (whole || at.passed(contact.s)))
+              cut.pass(contact.force * contact.normal + contact.friction,
+                       detail::cut_place<Element>(contact.s, place(contact.s)).r);
+        });
   }
 
  private:

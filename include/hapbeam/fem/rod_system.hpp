@@ -301,13 +301,7 @@ class RodChain {
   /// What contacts add to the residual of an element that they touch, as it lies.
   template <class Rows>
   Residual touched(const Rows& rows, int e) const noexcept {
-    typename Rows::Touched touched(parts_, e);
-    std::array<typename Rows::Contact, Rows::most> contacts;
-    for (int k = 0; k < rows.size(); ++k)
-      if (rows.element(k) == e) touched.add(contacts[static_cast<std::size_t>(k)] = rows[k], k);
-    Residual r;
-    typename Rows::Tangent K;
-    (void)touched.condense(r, K, [](int) {});
+    Residual r = rows.residual(parts_, e);
     // Its tension, which they have changed, was condensed without them.
     const auto inner = parts_.inner(e).tension;
     if (parts_.taut()) r -= (inner.residual / inner.stiffness) * inner.row;

@@ -50,7 +50,7 @@ void extrapolate(Scalar& now, Scalar& before, Scalar ratio) noexcept {
 /// Calls f(e) for each element that is touched.
 template <class Rows, class F>
 void each_touched(const Rows& rows, F&& f) noexcept {
-  for (int k = 0; k < rows.size(); ++k) {
+  for (int k = 0; k < Rows::most && k < rows.size(); ++k) {  // a compiler sees how few
     bool first = true;
     for (int j = 0; j < k; ++j) first = first && rows.element(j) != rows.element(k);
     if (first) f(rows.element(k));
@@ -304,7 +304,9 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   /// Strain energy, that of the springs that hold it included [J].
   Scalar strain_energy() const noexcept {
     Scalar energy = chain_.strain_energy([this](int e) { return rows_.in(e); });
-    detail::each_touched(rows_, [&](int e) { energy += rows_.strain_energy(parts(), e); });
+    detail::each_touched(rows_, [&](int e) {
+      energy += rows_.as_touched(parts(), e, [](auto& touched) { return touched.strain_energy(); });
+    });
     return energy;
   }
   /// V - λ f · x as it lies now [J].

@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include <hapbeam/check.hpp>

@@ -12,11 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/element/corotational.hpp>

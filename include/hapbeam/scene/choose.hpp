@@ -20,6 +20,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include <hapbeam/rod.hpp>
 #include <hapbeam/scene/build.hpp>
@@ -65,7 +66,7 @@ class Chooser {
     const Verdict& full = of(kinematics);
     // Fourth order: twice the elements leave a sixteenth of the error to the full model.
     Candidate candidate{kinematics, reduction, 2 * full.candidate.elements, 1, 2};
-    Verdict verdict{candidate, infinity, candidate.tick(costs_, scene_.shape), false, {}};
+    Verdict verdict{candidate, infinity, time_of(candidate), false, {}};
     if (!full.right)
       verdict.refusal =
           std::string(name(kinematics)) + ", which would train it, is not accurate enough itself";
@@ -147,7 +148,7 @@ class Chooser {
   }
 
   Verdict judge(const Candidate& candidate) {
-    Verdict verdict{candidate, infinity, candidate.tick(costs_, scene_.shape), false, {}};
+    Verdict verdict{candidate, infinity, time_of(candidate), false, {}};
     try {
       auto model = build(scene_, candidate, 2);
       verdict.error = pilot_.error(model);
@@ -167,6 +168,11 @@ class Chooser {
            (trained ? trained_least : elements_least) * choice_.force_error;
   }
 
+  /// Models of rods have their shape from the push.
+  double time_of(const Candidate& candidate) const noexcept {
+    if constexpr (std::is_same_v<S, Scene>) return candidate.tick(costs_, scene_.shape);
+    else return candidate.tick(costs_, true);
+  }
   double wanted(const Candidate& candidate) const noexcept {
     return (candidate.reduction == Reduction::none ? elements_margin : trained_margin) * choice_.force_error;
   }

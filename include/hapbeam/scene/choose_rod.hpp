@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include <hapbeam/element/rod.hpp>
@@ -38,7 +37,6 @@ struct RodScene {
   double force_error = 0.05;  ///< largest relative error of the force; a hand tells forces apart from 7 % on
   double force_floor = 0;  ///< [N] smaller forces count as this one, where they change sign or cannot be felt
   double tick = 50e-6;     ///< [s] largest time of a push
-  bool shape = true;       ///< contact and drawing want the shape in each tick
 
   /// Anywhere from 5 to 95 % of the length, or up to an end that yields.
   static RodScene anywhere(const Rod& rod, double depth) {

@@ -5,9 +5,6 @@
 // Real-time: noexcept, no allocation, O(1).
 #pragma once
 
-#include <type_traits>
-#include <utility>
-
 #include <Eigen/Core>
 
 #include <hapbeam/element/rod/rod_properties.hpp>
@@ -85,39 +82,6 @@ struct RodInners {
 template <typename S>
 struct RodInners<S, 7> {
   RodInner<S, 7> tension, twist;
-};
-
-/// A tangent in full, of an element that has it so alone.
-template <typename S, int Unknowns>
-struct FullRodTangent {
-  Eigen::Matrix<S, 2 * Unknowns, 1> r;
-  Eigen::Matrix<S, 2 * Unknowns, 2 * Unknowns> K;
-
-  const S& operator[](int i) const noexcept { return r[i]; }
-  const S& operator()(int i, int j) const noexcept { return K(i, j); }
-};
-
-/// What an element hands over: each derivative once where tangent() takes a RodTangent.
-template <class Element, typename S, typename = void>
-struct RodTangentOf {
-  using Type = FullRodTangent<S, Element::unknowns>;
-  static S compute(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b,
-                   typename Element::template Inner<S>& inner, Type& to) noexcept {
-    return Element::tangent(p, a, b, inner, to.r, to.K);
-  }
-};
-template <class Element, typename S>
-struct RodTangentOf<
-    Element, S,
-    std::void_t<decltype(Element::tangent(
-        std::declval<const RodProperties<S>&>(), std::declval<const RodNode<S>&>(),
-        std::declval<const RodNode<S>&>(), std::declval<typename Element::template Inner<S>&>(),
-        std::declval<RodTangent<S, Element::unknowns - 3>&>()))>> {
-  using Type = RodTangent<S, Element::unknowns - 3>;
-  [[gnu::always_inline]] static S compute(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b,
-                                          typename Element::template Inner<S>& inner, Type& to) noexcept {
-    return Element::tangent(p, a, b, inner, to);
-  }
 };
 
 }  // namespace detail

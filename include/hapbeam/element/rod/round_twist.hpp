@@ -17,8 +17,6 @@
 // Source: a director carried along a curve, Fuller, The writhing number of a space curve, PNAS 68 (1971); the formula is ours.
 #pragma once
 
-#include <cmath>
-
 #include <hapbeam/element/rod/carried_frame.hpp>
 #include <hapbeam/element/rod/rod_properties.hpp>
 #include <hapbeam/element/rod/rod_tangent.hpp>

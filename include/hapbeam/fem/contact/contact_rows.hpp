@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <optional>
 #include <type_traits>
@@ -49,9 +48,9 @@ class ContactRows {
 
   int size() const noexcept { return size_; }
   bool any() const noexcept { return size_ > 0; }
-  const Contact& operator[](int k) const noexcept { return rows_[of(k)].contact; }
-  Friction* friction(int k) const noexcept { return rows_[of(k)].friction; }
-  int element(int k) const noexcept { return rows_[of(k)].element; }
+  const Contact& operator[](int k) const noexcept { return rows_[k].contact; }
+  Friction* friction(int k) const noexcept { return rows_[k].friction; }
+  int element(int k) const noexcept { return rows_[k].element; }
   /// Whether an element is touched.
   bool in(int e) const noexcept {
     bool any = false;
@@ -65,7 +64,7 @@ class ContactRows {
   /// @param stays  s, until an equilibrium is found
   void add(const Contact& goal, int element, Friction* friction,
            [[maybe_unused]] bool stays = false) noexcept {
-    Row& row = rows_[of(size_++)];
+    Row& row = rows_[size_++];
     row.contact = goal, row.element = element, row.friction = friction;
     row.contact.rough = friction != nullptr;
     if constexpr (dimension == 3) row.contact.stays = friction && stays;
@@ -79,7 +78,7 @@ class ContactRows {
   void aim(Scalar t, Now&& now) noexcept {
     const bool starts = t < 1 && !starts_known_;
     for (int k = 0; k < size_; ++k) {
-      Row& row = rows_[of(k)];
+      Row& row = rows_[k];
       Contact& contact = row.contact;
       if (starts) row.start = now(k);
       row.seen = false;
@@ -95,12 +94,11 @@ class ContactRows {
     starts_known_ = starts_known_ || starts;
   }
   void save() noexcept {
-    for (int k = 0; k < size_; ++k)
-      rows_[of(k)].saved = rows_[of(k)].contact, rows_[of(k)].saved_in = rows_[of(k)].element;
+    for (int k = 0; k < size_; ++k) rows_[k].saved = rows_[k].contact, rows_[k].saved_in = rows_[k].element;
   }
   void restore() noexcept {
     for (int k = 0; k < size_; ++k) {
-      Row& row = rows_[of(k)];
+      Row& row = rows_[k];
       const Scalar reach = row.contact.reach;
       const Vector centre = row.contact.centre_or_tip();
       row.contact = row.saved, row.element = row.saved_in, row.by = 0, row.seen = false;
@@ -110,20 +108,20 @@ class ContactRows {
   /// The beam falls, and the forces of before are no longer there.
   void fall() noexcept {
     for (int k = 0; k < size_; ++k) {
-      rows_[of(k)].contact.force = 0, rows_[of(k)].seen = false;
+      rows_[k].contact.force = 0, rows_[k].seen = false;
       if constexpr (takes_bodies)
-        if (Friction* const friction = rows_[of(k)].friction) friction->fall();
+        if (Friction* const friction = rows_[k].friction) friction->fall();
     }
   }
   void forget_friction() noexcept {
-    for (int k = 0; k < size_; ++k) rows_[of(k)].friction = nullptr;
+    for (int k = 0; k < size_; ++k) rows_[k].friction = nullptr;
   }
   /// What friction stores [J].
   Scalar friction_potential() const noexcept {
     Scalar sum = 0;
     if constexpr (takes_bodies)
       for (int k = 0; k < size_; ++k)
-        if (const Friction* const friction = rows_[of(k)].friction) sum += friction->potential();
+        if (const Friction* const friction = rows_[k].friction) sum += friction->potential();
     return sum;
   }
 
@@ -132,10 +130,10 @@ class ContactRows {
   template <class Parts, class Set>
   void look(const Parts& beam, int e, Set&& set) noexcept {
     bool seen = true;
-    each_in(e, [&](int k) { seen = seen && rows_[of(k)].seen; });
+    each_in(e, [&](int k) { seen = seen && rows_[k].seen; });
     if (seen) return;
     Touched touched(beam, e);
-    each_in(e, [&](int k) { touched.add(rows_[of(k)].contact, k), rows_[of(k)].seen = true; });
+    each_in(e, [&](int k) { touched.add(rows_[k].contact, k), rows_[k].seen = true; });
     touched.look();
     set(touched.tension());
   }
@@ -143,7 +141,7 @@ class ContactRows {
   template <class Parts>
   void seek(const Parts& beam) noexcept {
     for (int k = 0; k < size_; ++k) {
-      Row& row = rows_[of(k)];
+      Row& row = rows_[k];
       row.touched.reset();
       if (row.contact.kind != Contact::Kind::round || !row.contact.moves || !row.contact.seeks) continue;
       Touched::seek(beam, row.element, row.contact, k, row.touched);
@@ -157,7 +155,7 @@ class ContactRows {
     constexpr Scalar exact = (std::max)(Scalar(1e-4), 1000 * std::numeric_limits<Scalar>::epsilon());
     bool another = false;
     for (int k = 0; k < size_; ++k) {
-      Row& row = rows_[of(k)];
+      Row& row = rows_[k];
       Contact& contact = row.contact;
       if (!contact.stays) continue;
       const Scalar off = std::abs(contact.off), normal = std::abs(contact.force);
@@ -170,13 +168,23 @@ class ContactRows {
     }
     return another;
   }
-  /// Strain energy of a touched element [J].
-  template <class Parts>
-  Scalar strain_energy(const Parts& beam, int e) const noexcept {
+  /// Calls use(touched) with a touched element as it lies, and returns what that does.
+  template <class Parts, class Use>
+  auto as_touched(const Parts& beam, int e, Use&& use) const noexcept {
     Touched touched(beam, e);
-    std::array<Contact, Most> contacts;
-    each_in(e, [&](int k) { touched.add(contacts[of(k)] = rows_[of(k)].contact, k); });
-    return touched.strain_energy();
+    Contact contacts[Most];
+    each_in(e, [&](int k) { touched.add(contacts[k] = rows_[k].contact, k); });
+    return use(touched);
+  }
+  /// Its residual.
+  template <class Parts>
+  Residual residual(const Parts& beam, int e) const noexcept {
+    return as_touched(beam, e, [](Touched& touched) {
+      Residual r;
+      Tangent K;
+      (void)touched.condense(r, K, [](int) {});
+      return r;
+    });
   }
 
   /// Residual and tangent of a touched element, its contacts included.  @return V [J]
@@ -185,7 +193,7 @@ class ContactRows {
     int first = -1, number = 0;
     Touched* touched = nullptr;
     each_in(e, [&](int k) {
-      Row& row = rows_[of(k)];
+      Row& row = rows_[k];
       // What was sought has been added.
       const bool sought = dimension == 3 && first < 0 && row.touched;
       if (first < 0) first = k, touched = sought ? &*row.touched : &row.touched.emplace(beam, e);
@@ -194,11 +202,11 @@ class ContactRows {
     });
     const Scalar energy = touched->condense(r, K, [&]([[maybe_unused]] int k) {
       if constexpr (takes_bodies)
-        if (Row& row = rows_[of(k)]; row.friction)
+        if (Row& row = rows_[k]; row.friction)
           row.friction->look(row.contact), row.friction->give(row.contact);
     });
     each_in(e, [&](int k) {
-      Row& row = rows_[of(k)];
+      Row& row = rows_[k];
       row.b = touched->column(row.number);
       row.residual =
           touched->residual(row.number) + row.contact.ahead - row.contact.force * row.contact.compliance;
@@ -209,7 +217,7 @@ class ContactRows {
   template <class Change>
   void visit_node(int node, Change&& change) noexcept {
     for (int k = 0; k < size_; ++k) {
-      Row& row = rows_[of(k)];
+      Row& row = rows_[k];
       if (node == row.element) change(row.b.template head<unknowns>(), row.residual);
       else if (node == row.element + 1) change(row.b.template tail<unknowns>(), row.residual);
     }
@@ -223,31 +231,30 @@ class ContactRows {
   }
   Status solve(Assembler& assembler) noexcept {
     Status status = assembler.factor();
-    std::array<Scalar, Most> right{}, before{};
+    Scalar force[Most] = {}, before[Most] = {};
     for (int k = 0; k < size_; ++k) {
-      Row& row = rows_[of(k)];
+      Row& row = rows_[k];
       assembler.forward(row.element, row.b, row.column);
-      before[of(k)] = assembler.product(row.column);
-      right[of(k)] = row.residual + before[of(k)];
+      before[k] = assembler.product(row.column);
+      force[k] = row.residual + before[k];
       for (int j = 0; j <= k; ++j) {
-        const Row& other = rows_[of(j)];
-        stiff_[of(k)][of(j)] =
-            assembler.product(row.column, other.column) -
-            (row.first == other.first ? touched(row).yields(row.number, other.number) : Scalar(0));
+        const Row& other = rows_[j];
+        stiff_[k][j] = assembler.product(row.column, other.column) -
+                       (row.first == other.first ? touched(row).yields(row.number, other.number) : Scalar(0));
       }
-      stiff_[of(k)][of(k)] += row.contact.compliance;
+      stiff_[k][k] += row.contact.compliance;
     }
     int negative = 0;
-    solve_forces(right, negative);
+    solve_forces(force, negative);
     // At a support nothing moves.
-    if (status == Status::ok && size_ == 1 && rows_[0].by == 0 && right[0] != 0) status = Status::singular;
+    if (status == Status::ok && size_ == 1 && rows_[0].by == 0 && force[0] != 0) status = Status::singular;
     Scalar change = 0, more = 0;
     energy_ = 0;
     for (int k = 0; k < size_; ++k) {
-      const Row& row = rows_[of(k)];
+      const Row& row = rows_[k];
       assembler.add(row.column, -row.by);
-      change += row.by * (before[of(k)] + row.residual);
-      more += row.by * (row.residual - before[of(k)]);
+      change += row.by * (before[k] + row.residual);
+      more += row.by * (row.residual - before[k]);
       if (row.number == 0) {
         change += 2 * touched(row).local_change();
         negative += touched(row).turned();
@@ -268,12 +275,12 @@ class ContactRows {
     Scalar least = std::numeric_limits<Scalar>::infinity();
     for (int k = 0; k < size_; ++k) {
       // Row k of S⁻¹ by its factors.
-      std::array<Scalar, Most> y{};
+      Scalar y[Most] = {};
       Scalar stiff = 0;
-      y[of(k)] = 1;
+      y[k] = 1;
       for (int i = k; i < size_; ++i) {
-        for (int j = k; j < i; ++j) y[of(i)] -= stiff_[of(i)][of(j)] * y[of(j)];
-        if (pivot_[of(i)] != 0) stiff += y[of(i)] * y[of(i)] / std::abs(pivot_[of(i)]);
+        for (int j = k; j < i; ++j) y[i] -= stiff_[i][j] * y[j];
+        if (pivot_[i] != 0) stiff += y[i] * y[i] / std::abs(pivot_[i]);
       }
       const Scalar force = reaction(k);
       if (stiff > 0) least = (std::min)(least, force * force / stiff);
@@ -281,10 +288,10 @@ class ContactRows {
     return least;
   }
   /// After solve(): the part of a contact's flexibility that is its compliance, 0 to 1, where those before it yield.
-  Scalar share(int k) const noexcept { return rows_[of(k)].contact.compliance / pivot_[of(k)]; }
+  Scalar share(int k) const noexcept { return rows_[k].contact.compliance / pivot_[k]; }
   /// After solve(), of contact k: along the normal of a held place, or toward the centre of what is round [N].
   Scalar reaction(int k) const noexcept {
-    const Row& row = rows_[of(k)];
+    const Row& row = rows_[k];
     const Scalar next = row.contact.force + row.by;
     return row.contact.kind == Contact::Kind::round ? -next : next;
   }
@@ -292,13 +299,13 @@ class ContactRows {
   void feel_friction() noexcept {
     if constexpr (takes_bodies)
       for (int k = 0; k < size_; ++k)
-        if (Friction* const friction = rows_[of(k)].friction) friction->feel(-reaction(k));
+        if (Friction* const friction = rows_[k].friction) friction->feel(-reaction(k));
   }
   /// What contacts add to V at the last look: -λ g - λ² c/2 [J].
   Scalar potential() const noexcept {
     Scalar sum = 0;
     for (int k = 0; k < size_; ++k) {
-      const Contact& contact = rows_[of(k)].contact;
+      const Contact& contact = rows_[k].contact;
       sum -= contact.force * (contact.gap - contact.ahead + contact.force * contact.compliance / 2);
     }
     return sum;
@@ -307,7 +314,7 @@ class ContactRows {
   Scalar held() const noexcept {
     Scalar sum = 0;
     for (int k = 0; k < size_; ++k)
-      sum += rows_[of(k)].contact.force * rows_[of(k)].contact.force * rows_[of(k)].contact.compliance;
+      sum += rows_[k].contact.force * rows_[k].contact.force * rows_[k].contact.compliance;
     return sum / 2;
   }
   /// By how much all of that and V change with the last increment, to third order of it [J].
@@ -318,15 +325,15 @@ class ContactRows {
   Scalar advance(By&& by, Set&& set, ElementAt&& element_at) noexcept {
     Scalar longer = 0;
     for (int k = 0; k < size_; ++k) {
-      Row& row = rows_[of(k)];
+      Row& row = rows_[k];
       if (row.number != 0) continue;
       std::array<Scalar, Most> forces{};
       for (int j = k; j < size_; ++j)
-        if (rows_[of(j)].first == k) forces[of(rows_[of(j)].number)] = rows_[of(j)].by;
+        if (rows_[j].first == k) forces.data()[rows_[j].number] = rows_[j].by;
       set(row.element, touched(row).advance(by(row.element), forces, longer));
     }
     for (int k = 0; k < size_; ++k) {
-      Row& row = rows_[of(k)];
+      Row& row = rows_[k];
       row.by = 0, row.seen = false;
       if constexpr (takes_bodies)
         if (row.contact.kind == Contact::Kind::round) stay_on_beam(row, element_at);
@@ -374,47 +381,45 @@ class ContactRows {
   }
   template <std::size_t... K>
   ContactRows(int elements, std::index_sequence<K...>) : rows_{((void)K, Row(elements))...} {}
-  Touched& touched(const Row& row) noexcept { return *rows_[of(row.first)].touched; }
-  static constexpr std::size_t of(int k) noexcept { return static_cast<std::size_t>(k); }
+  Touched& touched(const Row& row) noexcept { return *rows_[row.first].touched; }
   template <class F>
   void each_in(int e, F&& f) const noexcept {
     for (int k = 0; k < Most && k < size_; ++k)  // a compiler sees how few
-      if (rows_[of(k)].element == e) f(k);
+      if (rows_[k].element == e) f(k);
   }
 
-  /// By LDLᵀ.  Of contacts that are at one place the last ones keep their forces.   @param negative  in and out: pivots
-  void solve_forces(const std::array<Scalar, Most>& right, int& negative) noexcept {
+  /// By LDLᵀ.  Of contacts that are at one place the last ones keep their forces.   @param x  right side   @param negative  in and out: pivots
+  void solve_forces(Scalar (&x)[Most], int& negative) noexcept {
     constexpr Scalar nothing = 256 * std::numeric_limits<Scalar>::epsilon();
-    std::array<Scalar, Most> x = right;
     auto& l = stiff_;
     auto& pivot = pivot_;
     for (int k = 0; k < size_; ++k) {
-      const Scalar whole = l[of(k)][of(k)];
+      const Scalar whole = l[k][k];
       Scalar rest = whole;
       for (int j = 0; j < k; ++j) {
-        Scalar sum = l[of(k)][of(j)];
-        for (int i = 0; i < j; ++i) sum -= l[of(k)][of(i)] * l[of(j)][of(i)] * pivot[of(i)];
-        const Scalar factor = pivot[of(j)] != 0 ? sum / pivot[of(j)] : Scalar(0);
-        l[of(k)][of(j)] = factor;
-        rest -= factor * factor * pivot[of(j)];
-        x[of(k)] -= factor * x[of(j)];
+        Scalar sum = l[k][j];
+        for (int i = 0; i < j; ++i) sum -= l[k][i] * l[j][i] * pivot[i];
+        const Scalar factor = pivot[j] != 0 ? sum / pivot[j] : Scalar(0);
+        l[k][j] = factor;
+        rest -= factor * factor * pivot[j];
+        x[k] -= factor * x[j];
       }
-      pivot[of(k)] = std::abs(rest) > nothing * std::abs(whole) ? rest : Scalar(0);
-      if (rest < 0 && pivot[of(k)] != 0) ++negative;
+      pivot[k] = std::abs(rest) > nothing * std::abs(whole) ? rest : Scalar(0);
+      if (rest < 0 && pivot[k] != 0) ++negative;
     }
     for (int k = size_ - 1; k >= 0; --k) {
-      Scalar sum = pivot[of(k)] != 0 ? x[of(k)] / pivot[of(k)] : Scalar(0);
-      if (pivot[of(k)] != 0)
-        for (int j = k + 1; j < size_; ++j) sum -= l[of(j)][of(k)] * rows_[of(j)].by;
-      rows_[of(k)].by = sum;
+      Scalar sum = pivot[k] != 0 ? x[k] / pivot[k] : Scalar(0);
+      if (pivot[k] != 0)
+        for (int j = k + 1; j < size_; ++j) sum -= l[j][k] * rows_[j].by;
+      rows_[k].by = sum;
     }
   }
 
-  std::array<Row, Most> rows_;
+  Row rows_[Most];
   int size_ = 0;
   bool starts_known_ = false;
-  std::array<std::array<Scalar, Most>, Most> stiff_{};  // S, then its factor L
-  std::array<Scalar, Most> pivot_{};
+  Scalar stiff_[Most][Most] = {};  // S, then its factor L
+  Scalar pivot_[Most] = {};
   Scalar energy_ = 0, foreseen_ = 0;
   int negative_ = 0;
 };

@@ -9,9 +9,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
+#include <utility>
 
 #include <hapbeam/force_model.hpp>
 
@@ -31,17 +30,17 @@ class ContactWork {
     strange_ = false;
     same_ = known_;
     known_ = true;
-    touched_ = touching_;
-    touching_ = {};
-    if (!same_) placed_ = {};
+    for (Body& body : bodies_) {
+      body.touched = std::exchange(body.touching, false);
+      body.placed = body.placed && same_;
+    }
   }
   /// With each body that touches.  @param pushed  of it   @param friction  on the beam [N]
   void touches(int i, const Round& round, const Pushed<Scalar, D>& pushed, const Vector& friction) noexcept {
-    Body& body = bodies_[of(i)];
+    Body& body = bodies_[i];
     const Vector force = pushed.force * pushed.normal + friction;
-    touching_[of(i)] = true;
-    if (!placed_[of(i)]) {
-      placed_[of(i)] = true;
+    body.touching = true;
+    if (!std::exchange(body.placed, true)) {
       body.take(round, force, pushed);
       return;
     }
@@ -55,47 +54,52 @@ class ContactWork {
   }
   /// With each body that does not touch, or not any more.
   void apart(int i, const Round& round) noexcept {
-    Body& body = bodies_[of(i)];
-    if (touched_[of(i)] && placed_[of(i)]) {
+    Body& body = bodies_[i];
+    if (body.touched && body.placed) {
       const Scalar grown = round.reach - body.round.reach;
       const Vector way = moved(body.round, round, body.point);
       add(body.force.dot(way) - body.push * grown, 0);
       way_ = (std::max)(way_, way.squaredNorm() + grown * grown);
     }
     body.round = round, body.force.setZero(), body.push = 0;
-    placed_[of(i)] = true;
+    body.placed = true;
   }
   /// With each body that is nowhere.
   void absent(int i) noexcept {
-    bodies_[of(i)].force.setZero(), bodies_[of(i)].push = 0;
-    placed_[of(i)] = false;
+    bodies_[i].force.setZero(), bodies_[i].push = 0;
+    bodies_[i].placed = false;
   }
   /// The same of a place of the beam that is held.   @param force  along its normal, on the beam [N]
   void holds(int i, const Push<Scalar, D>& place, Scalar force) noexcept {
-    Held& last = held_[of(i)];
+    Held& last = held_[i];
     const bool stays = last.place.s == place.s && last.place.normal == place.normal;
     same_ = same_ && stays && last.place.d == place.d;
-    if (touched_[of(i)] && stays) {
+    if (bodies_[i].touched && stays) {
       const Scalar by = place.d - last.place.d;
       add(last.force * by, force * by);
       way_ = (std::max)(way_, by * by);
     }
-    strange_ = strange_ || (touched_[of(i)] && !stays);
+    strange_ = strange_ || (bodies_[i].touched && !stays);
     last = {place, force};
-    bodies_[of(i)].force.setZero(), bodies_[of(i)].push = 0;
-    touching_[of(i)] = true;
+    bodies_[i].force.setZero(), bodies_[i].push = 0;
+    bodies_[i].touching = true;
   }
 
   /// Whether another place is held than before: what that gives is not known.
   bool strange() const noexcept { return strange_; }
   /// Whether the same touches that touched before, and its work is known.
-  bool same() const noexcept { return same_ && touching_ == touched_; }
+  bool same() const noexcept {
+    return same_ && std::all_of(bodies_, bodies_ + Most,
+                                [](const Body& body) { return body.touching == body.touched; });
+  }
   /// Whether anything touches.
-  bool any() const noexcept { return std::find(touching_.begin(), touching_.end(), true) != touching_.end(); }
+  bool any() const noexcept {
+    return std::any_of(bodies_, bodies_ + Most, [](const Body& body) { return body.touching; });
+  }
   /// Whether a round body has touched last.
-  bool knows(int i) const noexcept { return known_ && touching_[of(i)] && bodies_[of(i)].push != 0; }
+  bool knows(int i) const noexcept { return known_ && bodies_[i].touching && bodies_[i].push != 0; }
   /// That touched last.
-  const Round& round(int i) const noexcept { return bodies_[of(i)].round; }
+  const Round& round(int i) const noexcept { return bodies_[i].round; }
   /// W [J]
   Scalar done() const noexcept { return work_; }
   /// What the last forces would have given [J].
@@ -117,7 +121,9 @@ class ContactWork {
   struct Body {
     Round round = nowhere();
     Vector force = Vector::Zero(), point = Vector::Zero(), normal = Vector::Zero();
-    Scalar push = 0;  // along the normal [N]
+    Scalar push = 0;                         // along the normal [N]
+    bool touching = false, touched = false;  // now, and before
+    bool placed = false;                     // where it was is known
 
     void take(const Round& now, const Vector& felt, const Pushed<Scalar, D>& pushed) noexcept {
       round = now, force = felt, point = pushed.point, normal = pushed.normal, push = pushed.force;
@@ -127,7 +133,6 @@ class ContactWork {
     Push<Scalar, D> place{0, 0, Vector::Zero()};
     Scalar force = 0;  // along its normal [N]
   };
-  static std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
   void add(Scalar before, Scalar now) noexcept {
     work_ += (before + now) / 2;
     ahead_ += before;
@@ -140,9 +145,8 @@ class ContactWork {
     else return to.axis.tip - from.axis.tip + to.axis.nearest(point) * (to.axis.way - from.axis.way);
   }
 
-  std::array<Body, Most> bodies_{};
-  std::array<Held, Most> held_{};
-  std::array<bool, Most> touching_{}, touched_{}, placed_{};  // placed: where it was is known
+  Body bodies_[Most];
+  Held held_[Most];
   Scalar work_ = 0, size_ = 0, change_ = 0, ahead_ = 0, way_ = 0, turned_ = 0;  // [J], [m²], of normals: [1]
   static constexpr Scalar most_turned = Scalar(0.03);                           // square of 10 degrees
   bool known_ = false, same_ = false, strange_ = false;

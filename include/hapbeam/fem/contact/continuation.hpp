@@ -124,9 +124,9 @@ class Continuation {
 
   /// Goes from the last request to the next.  A snap on the way to where there is no answer is told with the next one.
   /// @param go  t in (0, 1] of the way -> an answer with a status   @param judge  answer -> Branch   @param keep  (): the answer is to be continued
-  /// @param back  (): to where go() began   @param fall  (): back, and down from there in the next go()
-  template <class Go, class Judge, class Keep, class Back, class Fall>
-  auto follow(Go&& go, Judge&& judge, Keep&& keep, Back&& back, Fall&& fall) noexcept {
+  /// @param back  (): to where go() began   @param descend  (): down from there in the next go()
+  template <class Go, class Judge, class Keep, class Back, class Descend>
+  auto follow(Go&& go, Judge&& judge, Keep&& keep, Back&& back, Descend&& descend) noexcept {
     bool snapped = snapped_;
     snapped_ = false;
     Scalar t = 0, step = 1;
@@ -139,7 +139,7 @@ class Continuation {
         continue;
       }
       if (branch == Branch::risen) {
-        fall();
+        back(), descend();
         answer = go(1);
         step = 1 - t;
       }

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/fem/contact/continuation.hpp>
@@ -59,11 +58,11 @@ class CoupledContacts {
     hands_ = hands;
     for (int i = 0; i < count; ++i) {
       Slot& now = slot(i);
-      if (!now.touches) now.foot = hands[i].hand.s;
+      if (!now.touches()) now.foot = hands[i].hand.s;
       // One that comes from nowhere has its spring bent as it lies, and a damper at rest.
-      if (i >= count_ || !now.known) {
+      if (i >= count_ || now.seen == Seen::never) {
         now = {};
-        now.foot = hands[i].hand.s, now.from = hands[i].hand, now.known = true;
+        now.foot = hands[i].hand.s, now.from = hands[i].hand, now.seen = Seen::apart;
         now.penetration = (std::max)(
             hands[i].hand.reach - look_beside<RoundContact>(system, hands[i].hand, now.foot).gap, Scalar(0));
       }
@@ -79,11 +78,9 @@ class CoupledContacts {
   }
   /// What hand i feels at the end of a step.
   Pushed<Scalar, dimension> pushed(int i) const noexcept {
-    const Slot& now = slots_[of(i)];
-    Pushed<Scalar, dimension> pushed{0, Status::ok};
-    if (!now.touches) return pushed;
-    pushed.force = -now.at.force, pushed.s = now.at.s, pushed.point = now.place, pushed.normal = -now.normal;
-    return pushed;
+    const Slot& now = slot(i);
+    if (!now.touches()) return {0, Status::ok};
+    return {-now.at.force, Status::ok, false, now.at.s, now.place, -now.normal};
   }
   /// As it is at the beginning of a part of a step, to be set where that is taken back.
   auto kept() const noexcept { return slots_; }
@@ -95,7 +92,7 @@ class CoupledContacts {
   /// Whether one has begun to touch in the last stage, on a spring that is stiffer than what the beam resists with there by its inertia.
   bool struck() const noexcept {
     for (int i = 0; i < count_; ++i)
-      if (slots_[of(i)].stages == 1 && slots_[of(i)].hard) return true;
+      if (slot(i).stages == 1 && slot(i).hard) return true;
     return false;
   }
   /// To be called before a stage moves the system.
@@ -113,24 +110,24 @@ class CoupledContacts {
       const Scalar by_time = hands_[i].damping / time;
       now.whole = hands_[i].stiffness + by_time, now.lasting = by_time * now.penetration / now.whole;
       now.round = between(now.from, hands_[i].hand, way);
-      now.let_go = false;
       now.next = now.at;
-      if (now.touches) now.foot = now.at.s;
+      if (now.touches()) now.foot = now.at.s, now.seen = Seen::touching;
+      else now.seen = Seen::apart;
       if (now.stages > 1) now.next.go_on(now.at, now.before, onward);
       now.friction.stiffness = hands_[i].stiffness, now.friction.damping = by_time;
-      now.rigid = now.touches && comes_to_rigid(now) && beside_rigid(look(system, now));
-      Obstacle& obstacle = all_[of(i)];
-      obstacle.touching = now.touches && !now.rigid, obstacle.round = now.round;
+      if (now.touches() && comes_to_rigid(now)) now.seen = touches(system, now);
+      Obstacle& obstacle = all_[i];
+      obstacle.touching = now.seen == Seen::touching, obstacle.round = now.round;
       obstacle.pushed.force = -now.at.force;
       obstacle.friction = rough(i) ? &now.friction : nullptr;
     }
-    Friction friction(system, all_.data(), count_, count_ == 1);
+    Friction friction(system, all_, count_);
     bool found = false;
     for (int pass = 0; pass < most_passes && !found; ++pass) {
       system.set_goal();
       int goals = 0;
       for (int i = 0; i < count_; ++i) {
-        slot(i).goal = all_[of(i)].touching ? goals++ : -1;
+        slot(i).goal = all_[i].touching ? goals++ : -1;
         if (slot(i).goal >= 0) system.add_goal(contact(system, i), friction.of(i));
       }
       do
@@ -144,19 +141,24 @@ class CoupledContacts {
       if (now.goal >= 0 && friction.of(i)) friction.of(i)->leave(now.friction, now.next.force);
       else now.friction.let_go();
       now.before = now.at, now.at = now.next;
-      now.stages = now.touches ? now.stages + 1 : 0;
-      now.penetration = now.lasting + (now.touches ? now.at.force / now.whole : Scalar(0));
+      now.stages = now.touches() ? now.stages + 1 : 0;
+      now.penetration = now.lasting + (now.touches() ? now.at.force / now.whole : Scalar(0));
     }
     system.forget_friction();
     return found;
   }
 
  private:
+  enum class Seen {
+    never,
+    apart,
+    let_go,    // in this stage
+    touching,  // as a row of the system
+    rigid,     // touching beside an end that cannot move
+  };
   struct Slot {
-    bool known = false, touches = false;
-    bool let_go = false;        // in this stage
+    Seen seen = Seen::never;
     bool hard = false;          // its spring is stiffer than the beam
-    bool rigid = false;         // it touches beside an end that cannot move
     int goal = -1, stages = 0;  // its contact in the system, and stages in which it has touched
     Round from{};               // the hand at the end of the last step
     Scalar penetration = 0;     // of the hand in the beam, as it lasts in the damper [m]
@@ -166,12 +168,13 @@ class CoupledContacts {
     FrictionState<Scalar, dimension> friction;
     Round round{};                  // the hand in this stage
     Scalar whole = 1, lasting = 0;  // K + B/τ [N/m], and what lasts of the penetration without a force [m]
+    bool touches() const noexcept { return seen >= Seen::touching; }
   };
   static Vector2<Scalar>& place_of(Circle<Scalar>& circle) noexcept { return circle.centre; }
   static VectorOf<Scalar, 3>& place_of(Capsule<Scalar>& capsule) noexcept { return capsule.axis.tip; }
-  static constexpr std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
-  Slot& slot(int i) noexcept { return slots_[of(i)]; }
-  bool rough(int i) const noexcept { return hands_[i].friction && hands_[i].friction->sticking > 0; }
+  Slot& slot(int i) noexcept { return slots_.data()[i]; }
+  const Slot& slot(int i) const noexcept { return slots_.data()[i]; }
+  bool rough(int i) const noexcept { return hands_[i].friction && hands_[i].friction->rough(); }
 
   /// From where the avatar is about: on the beam, and not in it as far as the hand.
   Contact contact(const System& system, int i) noexcept {
@@ -179,7 +182,7 @@ class CoupledContacts {
     const View view = look(system, now);
     const Scalar aside = now.round.reach * now.round.reach - view.aside,
                  ahead = (std::max)(std::sqrt((std::max)(aside, Scalar(0))) - view.height, Scalar(0));
-    Round& avatar = all_[of(i)].round = now.round;
+    Round& avatar = all_[i].round = now.round;
     avatar.s = now.foot, place_of(avatar) += ahead * view.facing;
     Contact contact;
     static_cast<State&>(contact) = now.next;
@@ -202,7 +205,7 @@ class CoupledContacts {
         now.hard = system.rows().share(now.goal) < Scalar(0.5);
         now.next = found, now.next.force = -system.linear_reaction(now.goal);
         now.place = found.place, now.normal = found.normal;
-      } else if (now.touches) {
+      } else if (now.touches()) {
         const View view = look(system, now);
         now.next = {}, now.next.s = now.foot, now.next.force = now.whole * depth(now, view);
         now.normal = -view.normal, now.place = view.place;
@@ -211,30 +214,31 @@ class CoupledContacts {
   }
   /// @return whether another one touches now, or one does not any more
   bool review(const System& system, Friction& friction) noexcept {
-    const auto touch = [&](int i, bool touches) {
-      Slot& now = slot(i);
-      now.touches = touches, now.let_go = !touches;
-      now.rigid = touches && beside_rigid(look(system, now));
-      all_[of(i)].touching = touches && !now.rigid;
-      now.next = {}, now.next.s = now.foot, now.stages = 0;
-      all_[of(i)].pushed.force = 0;
-      if (all_[of(i)].touching) friction.meet(system, i);
-    };
-    int worst = -1, deepest = -1;
+    int changes = -1;
     for (int i = 0; i < count_; ++i)
-      if (slot(i).touches && !(slot(i).next.force > 0) &&
-          (worst < 0 || slot(i).next.force < slot(worst).next.force))
-        worst = i;
-    if (worst >= 0) return touch(worst, false), true;
+      if (slot(i).touches() && !(slot(i).next.force > 0) &&
+          (changes < 0 || slot(i).next.force < slot(changes).next.force))
+        changes = i;
+    const bool pulls = changes >= 0;
     Scalar most = 0;
-    for (int i = 0; i < count_; ++i) {
-      Slot& now = slot(i);
-      if (now.touches || now.let_go) continue;
-      const Scalar deep = depth(now, look(system, now));
-      if (deep > most) most = deep, deepest = i;
+    for (int i = 0; i < count_ && !pulls; ++i) {
+      if (slot(i).seen != Seen::apart) continue;
+      const Scalar deep = depth(slot(i), look(system, slot(i)));
+      if (deep > most) most = deep, changes = i;
     }
-    if (deepest >= 0) touch(deepest, true);
-    return deepest >= 0;
+    if (changes < 0) return false;
+    Slot& now = slot(changes);
+    Obstacle& obstacle = all_[changes];
+    now.seen = pulls ? Seen::let_go : touches(system, now);
+    now.next = {}, now.next.s = now.foot, now.stages = 0;
+    obstacle.touching = now.seen == Seen::touching, obstacle.pushed.force = 0;
+    if (obstacle.touching) friction.meet(system, changes);
+    return true;
+  }
+  /// As what something touches.
+  Seen touches(const System& system, Slot& now) const noexcept {
+    const Scalar foot = look(system, now).foot;
+    return (foot < least_ && rigid_[0]) || (foot > most_ && rigid_[1]) ? Seen::rigid : Seen::touching;
   }
   static View look(const System& system, Slot& now) noexcept {
     return look_beside<RoundContact>(system, now.round, now.foot);
@@ -247,16 +251,13 @@ class CoupledContacts {
     return (now.at.s < least_ + now.round.reach && rigid_[0]) ||
            (now.at.s > most_ - now.round.reach && rigid_[1]);
   }
-  bool beside_rigid(const View& view) const noexcept {
-    return (view.foot < least_ && rigid_[0]) || (view.foot > most_ && rigid_[1]);
-  }
 
   Scalar least_, most_;  // places of rows [m]
   bool rigid_[2];
   const Hand* hands_ = nullptr;
   int count_ = 0;
   std::array<Slot, std::size_t(Most)> slots_{};
-  std::array<Obstacle, std::size_t(Most)> all_{};
+  Obstacle all_[Most] = {};
 };
 
 }  // namespace hapbeam::detail

@@ -5,9 +5,7 @@
 // Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(elements).
 #pragma once
 
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include <hapbeam/fem/solver/per_node.hpp>
@@ -30,41 +28,41 @@ class DrawnMesh {
   void draw(int elements, Mesh&& mesh, ElementAt&& element_at, int contacts, Place&& place, Mark&& mark,
             Within&& within) noexcept {
     // Where contacts are that are apart from each other and from nodes, and in which element.
-    std::array<std::pair<int, Node>, std::size_t(Most)> marks;
+    std::pair<int, Node> marks[Most];
     int count = 0;
     // One that is beside a node of the mesh is drawn instead of it.
-    std::array<std::pair<int, Node>, std::size_t(Most)> instead;
+    std::pair<int, Node> instead[Most];
     int replaced = 0;
     for (int k = 0; k < contacts; ++k) {
       const auto s = place(k);
       const int e = element_at(s);
       const auto from = mesh(e).s, to = mesh(e + 1).s, apart = (to - from) / 1000;
       bool is_apart = s - from > apart && to - s > apart;
-      for (int j = 0; j < count; ++j) is_apart = is_apart && std::abs(marks[at(j)].second.s - s) > apart;
+      for (int j = 0; j < count; ++j) is_apart = is_apart && std::abs(marks[j].second.s - s) > apart;
       const int close_by = s - from < to - s ? e : e + 1;
-      if (is_apart) marks[at(count++)] = {e, mark(k)};
+      if (is_apart) marks[count++] = {e, mark(k)};
       else if (0 < close_by && close_by < elements && std::abs(s - mesh(close_by).s) < (to - from) / 50)
-        instead[at(replaced++)] = {close_by, mark(k)};
+        instead[replaced++] = {close_by, mark(k)};
     }
     for (int e = 0; count < Most; ++e) {
       bool empty = true;
-      for (int k = 0; k < count; ++k) empty = empty && marks[at(k)].first != e;
-      if (empty) marks[at(count++)] = {e, within(e, (mesh(e).s + mesh(e + 1).s) / 2)};
+      for (int k = 0; k < count; ++k) empty = empty && marks[k].first != e;
+      if (empty) marks[count++] = {e, within(e, (mesh(e).s + mesh(e + 1).s) / 2)};
     }
     for (int k = 1; k < Most; ++k)
-      for (int j = k; j > 0 && marks[at(j)].second.s < marks[at(j - 1)].second.s; --j)
-        std::swap(marks[at(j)], marks[at(j - 1)]);
+      for (int j = k; j > 0 && marks[j].second.s < marks[j - 1].second.s; --j)
+        std::swap(marks[j], marks[j - 1]);
     int next = 0;
     for (int k = 0; k < Most; ++k) {
-      for (; next <= marks[at(k)].first; ++next) nodes_[next + k] = mesh(next);
-      marks_[at(k)] = next + k;
-      nodes_[next + k] = marks[at(k)].second;
+      for (; next <= marks[k].first; ++next) nodes_[next + k] = mesh(next);
+      marks_[k] = next + k;
+      nodes_[next + k] = marks[k].second;
     }
     for (; next <= elements; ++next) nodes_[next + Most] = mesh(next);
     for (int k = 0; k < replaced; ++k) {
-      int to = instead[at(k)].first;
-      for (const auto& [e, node] : marks) to += e < instead[at(k)].first;
-      nodes_[to] = instead[at(k)].second;
+      int to = instead[k].first;
+      for (const auto& [e, node] : marks) to += e < instead[k].first;
+      nodes_[to] = instead[k].second;
     }
   }
   /// The element of the mesh of which a piece is.
@@ -76,11 +74,10 @@ class DrawnMesh {
   }
 
  private:
-  static constexpr std::size_t at(int k) noexcept { return static_cast<std::size_t>(k); }
   static constexpr int with_marks(int size) noexcept { return size == Eigen::Dynamic ? size : size + Most; }
 
   PerNode<Node, with_marks(Elements), with_marks(MaxElements)> nodes_;
-  std::array<int, std::size_t(Most)> marks_{};  // those that are not of the mesh
+  int marks_[Most] = {};  // those that are not of the mesh
 };
 
 }  // namespace hapbeam::detail

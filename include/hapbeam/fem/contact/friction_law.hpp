@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Coulomb friction within a push: backward Euler over the tick, as a potential of which Newton's method finds the minimum.
 //
-//   e  = e₀ + slip                      shear of the avatar's skin, e₀ carried along from the tick before;  slip: friction_place.hpp
+//   e  = e₀ + slip                      shear of the avatar's skin, e₀ carried along from the tick before;  slip: friction.hpp
 //   sticks:  T = k e + b (e - e₀)                                while |T| <= μₛ N
 //   slides:  T = B ê,  ê = e/|e|,  B = μ N                       and then the skin is sheared by what T shears it
 //
@@ -20,7 +20,6 @@
 #include <limits>
 
 #include <hapbeam/fem/contact/friction_bound.hpp>
-#include <hapbeam/fem/contact/friction_place.hpp>
 #include <hapbeam/friction.hpp>
 
 namespace hapbeam::detail {
@@ -49,9 +48,7 @@ class FrictionLaw {
   void begin(const FrictionState<Scalar, D>& state, bool alone, const Place& first, Scalar stretch,
              Scalar reach, Scalar stiffest, Scalar hurry, Scalar normal_force) noexcept {
     known_ = state.known;
-    before_ = state.known
-                  ? Place{state.s, state.ahead, state.normal, state.along, state.place, state.axis, state.off}
-                  : first;
+    before_ = state.known ? Place(state) : first;
     stretch_ = stretch, reach_ = reach;
     skin_ = state.skin;
     stiffness_ = (std::min)(state.stiffness, stiffest);
@@ -246,8 +243,7 @@ class FrictionLaw {
     // Where the tries have ended before the changes: what acted, and what should have.
     state.settled =
         tries_ <= most_tries || falls() || (slides() ? norm(state.force - acting()) <= loose * most : !slid);
-    state.s = now_.s, state.ahead = now_.ahead, state.normal = now_.normal, state.along = now_.along;
-    state.place = now_.place, state.axis = now_.axis, state.off = now_.off;
+    static_cast<Place&>(state) = now_;
     state.gain = bound_.gain();
   }
   /// Energy of the skin of a touch, after leave() [J]

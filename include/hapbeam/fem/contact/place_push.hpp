@@ -67,11 +67,7 @@ class PlacePush {
       system.go_back(before_, force);
       system.draw();
     };
-    const auto fall = [&] {
-      back();
-      way.descend();
-    };
-    return continuation_.follow(go, judge, keep, back, fall);
+    return continuation_.follow(go, judge, keep, back, [&] { way.descend(); });
   }
 
  private:

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <hapbeam/fem/contact/friction_place.hpp>
+#include <hapbeam/fem/contact/round_beside.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/friction.hpp>
 #include <hapbeam/rod_centreline.hpp>
 
 namespace hapbeam::detail {

@@ -12,6 +12,15 @@
 
 namespace hapbeam::detail {
 
+/// How a circle or a capsule lies beside a node, as if the curve were straight there.
+template <typename Scalar, int D>
+struct RoundView {
+  VectorOf<Scalar, D> normal;  ///< unit, toward the centre or the axis
+  Scalar distance;             ///< of that from the curve, negative: from its other side [m]
+  Scalar ahead;                ///< arc length from the node to where they would touch [m]
+  bool past_end;               ///< the end point is touched
+};
+
 template <typename Scalar, int D>
 struct RoundBeside {
   using Vector = VectorOf<Scalar, D>;

@@ -7,8 +7,9 @@
 #include <cmath>
 
 #include <hapbeam/angle.hpp>
-#include <hapbeam/fem/contact/friction_place.hpp>
+#include <hapbeam/fem/contact/round_beside.hpp>
 #include <hapbeam/force_model.hpp>
+#include <hapbeam/friction.hpp>
 
 namespace hapbeam::detail {
 

@@ -8,9 +8,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -49,8 +47,6 @@ class RowContacts {
     Scalar depth = 0;                ///< [m]
     State begins;                    ///< from where its way begins anew
   };
-  Slot& slot(int i) noexcept { return slots_[of(i)]; }
-  static constexpr std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
 
   /// To be called where a push begins.  @param all  in: where they are and whether they touched
   template <class Extent>
@@ -63,7 +59,7 @@ class RowContacts {
       // What had no answer at an end that has been pushed past it slips off.
       const bool off = round && all[i].pushed.past_end && !is_answer(all[i].pushed.status);
       all[i].touching = all[i].valid && !off && (all[i].touching || all[i].kind == ObstacleKind::support);
-      Slot& now = slot(i);
+      Slot& now = slots_[i];
       if (!all[i].touching) static_cast<State&>(now) = {};
       now.force = force_of(all[i]);
       now.sharp = round && now.force != 0 && now.sharp;
@@ -101,14 +97,14 @@ class RowContacts {
   void begin_at_rest(System& system) noexcept {
     system.draw();
     for (int i = 0; i < count_; ++i) {
-      slot(i).force = 0;
+      slots_[i].force = 0;
       if (all_[i].kind == ObstacleKind::round)
         place(system, i, foot(system, all_[i].round, all_[i].round.s, system.length()));
     }
   }
   /// Where an obstacle is touched first.
   void place(const System& system, int i, Scalar s) noexcept {
-    Slot& now = slot(i);
+    Slot& now = slots_[i];
     now.s = std::clamp(s, least_, most_);
     now.moves = now.s > least_ && now.s < most_, now.held = false;
     // Nearer to a support the last place has the displacement that this one should have.
@@ -118,14 +114,14 @@ class RowContacts {
   bool hold_sharp(const System& system) noexcept {
     bool any = false;
     for (int i = 0; i < count_; ++i)
-      if (all_[i].touching && slot(i).sharp && !slot(i).held) hold(system, i), any = true;
+      if (all_[i].touching && slots_[i].sharp && !slots_[i].held) hold(system, i), any = true;
     return any;
   }
   /// Where no place is nearest, the one that was goes with the hand, along the normal that the beam had there.
   void hold(const System& system, int i) noexcept {
     const RoundContact round{all_[i].round};
     const Scalar s = all_[i].round.s;
-    Slot& now = slot(i);
+    Slot& now = slots_[i];
     const auto node = round.node_at(system.drawn(), s);
     const Vector at = round.place_of(node), centre = round.centre(at), way = centre - centre_before(i, at);
     place(system, i, s + round.along(node, Vector(way + returns * (centre - at))));
@@ -135,20 +131,20 @@ class RowContacts {
   }
   /// How far what is round has come since the push before [m].
   Scalar jumped(int i, const Round& round) noexcept {
-    const Vector& at = slot(i).place;
+    const Vector& at = slots_[i].place;
     return std::sqrt((RoundContact{round}.centre(at) - centre_before(i, at)).squaredNorm());
   }
   /// Where it is, along the normal that the beam has there.
   void hold_along(const System& system, int i, Scalar there) noexcept {
     const RoundContact round{all_[i].round};
-    Slot& now = slot(i);
+    Slot& now = slots_[i];
     const auto node = round.node_at(system.drawn(), there);
     now.normal = -round.facing(round.tangent(node));
     now.place = round.place_of(node);
     now.held = true, now.moves = false, now.of = there;
   }
   Contact contact(int i) noexcept {
-    const Slot& now = slot(i);
+    const Slot& now = slots_[i];
     Contact contact;
     static_cast<State&>(contact) = now;
     contact.least = least_, contact.most = most_;
@@ -176,7 +172,7 @@ class RowContacts {
   /// What the system has found of those that touch.
   void take(System& system) noexcept {
     for (int i = 0; i < count_; ++i) {
-      Slot& now = slot(i);
+      Slot& now = slots_[i];
       if (now.goal < 0) continue;
       system.look(now.goal);
       const Contact& found = system.rows()[now.goal];
@@ -203,8 +199,8 @@ class RowContacts {
       if (!all_[i].touching || all_[i].kind != ObstacleKind::round) continue;
       auto& pushed = all_[i].pushed;
       pushed.past_end =
-          (least_ == 0 && slot(i).s < close_by) || (most_ == length && slot(i).s > length - close_by);
-      const int goal = slot(i).goal;
+          (least_ == 0 && slots_[i].s < close_by) || (most_ == length && slots_[i].s > length - close_by);
+      const int goal = slots_[i].goal;
       if (pushed.force != 0 || goal < 0 || !(system.linear_reaction(goal) < 0)) continue;
       system.look(goal);
       const Contact& found = system.rows()[goal];
@@ -218,7 +214,7 @@ class RowContacts {
     if (any_pulls()) return true;
     bool again = false;
     for (int i = 0; i < count_; ++i) {
-      Slot& now = slot(i);
+      Slot& now = slots_[i];
       if (now.goal < 0 || all_[i].kind != ObstacleKind::round) continue;
       // What lies beyond an end comes back where the end turns away.
       const Contact& found = system.rows()[now.goal];
@@ -234,7 +230,7 @@ class RowContacts {
     int deepest = -1;
     const Scalar length = system.length(), round_off = 16 * std::numeric_limits<Scalar>::epsilon();
     for (int i = 0; i < count_; ++i) {
-      Slot& now = slot(i);
+      Slot& now = slots_[i];
       if (all_[i].touching || now.crowded || !all_[i].valid) continue;
       if (all_[i].kind == ObstacleKind::round) seek(system, i);
       else
@@ -242,18 +238,18 @@ class RowContacts {
                     system.displacement(now.s, all_[i].place.normal) - all_[i].place.d;
       const Scalar fine = Scalar(1e-9) * length + round_off * (length + all_[i].round.reach);
       const Scalar slack = now.let_go || twin(i) >= 0 ? (std::max)(Scalar(1e-5) * length, fine) : fine;
-      if (now.depth > slack && (deepest < 0 || now.depth > slot(deepest).depth)) deepest = i;
+      if (now.depth > slack && (deepest < 0 || now.depth > slots_[deepest].depth)) deepest = i;
     }
     if (deepest < 0) return false;
     all_[deepest].touching = true;
-    slot(deepest).force = 0;
-    slot(deepest).forget();
-    slot(deepest).begins = slot(deepest);
+    slots_[deepest].force = 0;
+    slots_[deepest].forget();
+    slots_[deepest].begins = slots_[deepest];
     const int other = twin(deepest);
-    if (other >= 0) friction.meet_beside(system, deepest, other, slot(deepest).s);
+    if (other >= 0) friction.meet_beside(system, deepest, other, slots_[deepest].s);
     else friction.meet(system, deepest);
     if constexpr (most > 1) spread(system, deepest);
-    for (int i = 0; i < count_ && !slot(deepest).let_go; ++i)
+    for (int i = 0; i < count_ && !slots_[deepest].let_go; ++i)
       if (all_[i].touching && beside(i, deepest)) let_go(i);
     return true;
   }
@@ -264,26 +260,27 @@ class RowContacts {
       for (int k = 0; k < i; ++k) {
         const bool twins = all_[i].body == all_[k].body;
         if (!all_[i].touching || !all_[k].touching ||
-            std::abs(slot(i).s - slot(k).s) >= (twins ? 2 : 1) * apart)
+            std::abs(slots_[i].s - slots_[k].s) >= (twins ? 2 : 1) * apart)
           continue;
         if (twins) {
-          place(system, k, (slot(i).s + slot(k).s) / 2);
-          slot(k).force += slot(i).force, slot(k).forget(), slot(k).begins = slot(k);
+          place(system, k, (slots_[i].s + slots_[k].s) / 2);
+          slots_[k].force += slots_[i].force, slots_[k].forget(), slots_[k].begins = slots_[k];
           let_go(i);
           continue;
         }
         const int away = all_[k].pushed.force <= all_[i].pushed.force ? i : k;
         all_[away].touching = false;
-        slot(away).crowded = true;
+        slots_[away].crowded = true;
       }
   }
   void end(System& system, int i, Status status) noexcept {
     auto& pushed = all_[i].pushed;
-    before_[of(i)] = all_[i].round;
-    pushed.status = !all_[i].valid ? Status::invalid_request
-                    : slot(i).crowded || (status == Status::ok && (slot(i).held || touches_again(system, i)))
-                        ? Status::out_of_range
-                        : status;
+    before_[i] = all_[i].round;
+    pushed.status =
+        !all_[i].valid ? Status::invalid_request
+        : slots_[i].crowded || (status == Status::ok && (slots_[i].held || touches_again(system, i)))
+            ? Status::out_of_range
+            : status;
     // Of round-off: the place of what does not press may be anywhere.
     const Scalar nothing =
         std::numeric_limits<Scalar>::epsilon() * system.unit() * system.unit() / system.length();
@@ -291,8 +288,8 @@ class RowContacts {
         (pushed.force > 0 && all_[i].kind != ObstacleKind::support))
       pushed.force = 0;
     if (all_[i].kind == ObstacleKind::round) return;
-    const auto node = RoundContact::node_at(system.drawn(), slot(i).s);
-    pushed.s = slot(i).s;
+    const auto node = RoundContact::node_at(system.drawn(), slots_[i].s);
+    pushed.s = slots_[i].s;
     pushed.point = RoundContact::place_of(node);
     pushed.normal = all_[i].place.normal;
   }
@@ -314,6 +311,7 @@ class RowContacts {
 
   Obstacle* all_ = nullptr;
   int count_ = 0;
+  Slot slots_[most] = {};
 
  private:
   /// The worst of those that pull lets go.  What is touched by nothing pulls the least.
@@ -329,7 +327,7 @@ class RowContacts {
   void let_go(int i) noexcept {
     all_[i].touching = false;
     all_[i].pushed.force = 0;
-    slot(i).let_go = true;
+    slots_[i].let_go = true;
   }
   /// How far a centre lies beyond the end of what can be touched, negative: beside it [m].
   Scalar outward(const Round& round, const Contact& found) const noexcept {
@@ -343,7 +341,7 @@ class RowContacts {
     const auto where = range.range();
     bool any = false;
     for (int i = 0; i < count_; ++i) {
-      const Slot& now = slot(i);
+      const Slot& now = slots_[i];
       if (now.goal < 0 || now.moves || all_[i].kind != ObstacleKind::round) continue;
       const bool right = now.s >= most_;
       if (!std::isfinite(right ? where.right_support : where.left_support)) continue;
@@ -351,7 +349,7 @@ class RowContacts {
       const Scalar began = now.begins.s;
       if (now.held && now.of > least_ && now.of < most_) continue;
       if (!now.held && (right ? most_ - began : began - least_) > all_[i].round.reach / 4) {
-        static_cast<State&>(slot(i)) = now.begins;
+        static_cast<State&>(slots_[i]) = now.begins;
         hold_along(system, i, began);
         ran_away_ = any = true;
         continue;
@@ -361,15 +359,16 @@ class RowContacts {
       if (!view.past_end) continue;
       any = true;
       all_[i].touching = false;
-      slot(i).crowded = true;
+      slots_[i].crowded = true;
     }
     return any;
   }
   /// Whether a rod lies in what is round beside where it touches that, too: bent as sharply, it has another place there.
   bool touches_again(System& system, int i) noexcept {
     if constexpr (dimension == 3) {
-      const Slot& now = slot(i);
-      if (count_ > 1 || now.goal < 0 || !now.moves || !(system.rows()[now.goal].wraps > sharpest)) return false;
+      const Slot& now = slots_[i];
+      if (count_ > 1 || now.goal < 0 || !now.moves || !(system.rows()[now.goal].wraps > sharpest))
+        return false;
       system.draw();
       const auto line = system.drawn();
       const ObstacleGap<decltype(line), RoundContact> gap(line, RoundContact{all_[i].round},
@@ -383,7 +382,7 @@ class RowContacts {
   bool beside(int i, int k) noexcept {
     const auto &a = all_[i], &b = all_[k];
     return a.body != b.body && a.kind == ObstacleKind::round && b.kind == ObstacleKind::round &&
-           std::abs(slot(i).s - slot(k).s) < (std::max)(a.round.reach, b.round.reach);
+           std::abs(slots_[i].s - slots_[k].s) < (std::max)(a.round.reach, b.round.reach);
   }
   /// Another obstacle of the same body that touches, -1: none.
   int twin(int i) const noexcept {
@@ -397,25 +396,25 @@ class RowContacts {
   /// does to there.  Of several those at the ends go outward, and the others lie evenly between them: from there the places find their own.
   /// @param last  that has come
   void spread(const System& system, int last) noexcept {
-    std::array<int, most> order{};
+    int order[most] = {};
     int n = 0;
     Scalar force = 0;
     for (int i = 0; i < count_; ++i) {
       if (!all_[i].touching || all_[i].body != all_[last].body) continue;
       int k = n++;
-      for (; k > 0 && slot(i).s < slot(order[of(k - 1)]).s; --k) order[of(k)] = order[of(k - 1)];
-      order[of(k)] = i, force += slot(i).force;
+      for (; k > 0 && slots_[i].s < slots_[order[k - 1]].s; --k) order[k] = order[k - 1];
+      order[k] = i, force += slots_[i].force;
     }
-    const auto at = [&](int k) -> Slot& { return slot(order[of(k)]); };
+    const auto at = [&](int k) -> Slot& { return slots_[order[k]]; };
     bool sharp = false;
-    for (int k = 0; k < n; ++k) sharp = sharp || (order[of(k)] != last && at(k).sharp);
+    for (int k = 0; k < n; ++k) sharp = sharp || (order[k] != last && at(k).sharp);
     if (!sharp) return;
-    const int left = order[0] == last ? 1 : 0, right = order[of(n - 1)] == last ? n - 2 : n - 1;
+    const int left = order[0] == last ? 1 : 0, right = order[n - 1] == last ? n - 2 : n - 1;
     const Scalar middle = (at(left).s + at(right).s) / 2,
                  wide = n == 2 ? at(1).s - at(0).s : (1 + wider / Scalar(n * n)) * (at(right).s - at(left).s);
     for (int k = 0; k < n; ++k) {
       Slot& now = at(k);
-      place(system, order[of(k)], middle + wide * (Scalar(k) / Scalar(n - 1) - Scalar(0.5)));
+      place(system, order[k], middle + wide * (Scalar(k) / Scalar(n - 1) - Scalar(0.5)));
       now.force = force / Scalar(n), now.forget(), now.sharp = false;
       now.moves = now.moves && n == 2;  // the others once their forces are known
       now.begins = now;
@@ -430,9 +429,9 @@ class RowContacts {
     const int other = twin(i);
     const Scalar length = system.length();
     const Gap gap = other < 0 ? Gap(line, round)
-                              : Gap(line, round, line.node_near(slot(other).s), slot(other).s,
+                              : Gap(line, round, line.node_near(slots_[other].s), slots_[other].s,
                                     2 * shortest_element<Scalar>(length));
-    Slot& now = slot(i);
+    Slot& now = slots_[i];
     now.depth = gap.depth;
     if (!std::isfinite(gap.depth)) return;
     now.depth += round.facing(round.tangent(round.node_at(line, gap.s))).dot(system.beside_drawn(gap.s));
@@ -449,14 +448,11 @@ class RowContacts {
   static constexpr Scalar returns = Scalar(0.02);
 
   /// Where the centre, or the axis beside a point, was in the push before [m].
-  Vector centre_before(int i, const Vector& at) const noexcept {
-    return RoundContact{before_[of(i)]}.centre(at);
-  }
+  Vector centre_before(int i, const Vector& at) const noexcept { return RoundContact{before_[i]}.centre(at); }
 
   bool ran_away_ = false;  // a place, to an end that it was not at
   Scalar least_ = 0, most_ = 0;
-  std::array<Slot, most> slots_{};
-  std::array<Round, most> before_{};  // in the push before
+  Round before_[most] = {};  // in the push before
 };
 
 }  // namespace hapbeam::detail

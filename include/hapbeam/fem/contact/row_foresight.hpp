@@ -9,9 +9,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include <hapbeam/body/inner_contact.hpp>
@@ -55,29 +53,29 @@ class RowForesight {
     ratio_ = 0;
     forth_ = false;
     for (int k = 1; k <= like_most && like_ == 0 && !forth_; ++k) {
-      const Hands& then = step_[of(k - 1)];
+      const Hands& then = step_[k - 1];
       ratio_ = step.dot(then) / then.squaredNorm();
       const bool straight_on = std::abs(ratio_) < fastest &&
                                (step - ratio_ * then).squaredNorm() <= aside * aside * step.squaredNorm();
       forth_ = straight_on && ratio_ > 0;
       if (same && straight_on && known_ > k) like_ = k;
     }
-    step_ = {step, step_[0]};
+    step_[1] = step_[0], step_[0] = step;
     return like_ > 0;
   }
   /// Whether the hands go on and do not turn back, whatever they touch.
   bool forth() const noexcept { return forth_; }
   /// What is foreseen of contact i.
   Contact ahead(int i) const noexcept {
-    Contact next = all_[0][of(i)];
-    next.go_on(all_[of(like_ - 1)][of(i)], all_[of(like_)][of(i)], ratio_);
+    Contact next = all_[0][i];
+    next.go_on(all_[like_ - 1][i], all_[like_][i], ratio_);
     return next;
   }
 
   /// To be called once in each push, before it moves the system: which goes on if hands do.
   void go_on(System& system) noexcept {
     newest_ = (newest_ + 1) % like_most;
-    State &older = before_[of((newest_ + 1) % like_most)], &newer = before_[of(newest_)];
+    State &older = before_[(newest_ + 1) % like_most], &newer = before_[newest_];
     if (like_ == 0) return system.keep(newer);
     if (like_ == 2) system.carry(newer, older);
     else if (like_most > 1) newer = older;
@@ -85,19 +83,21 @@ class RowForesight {
   }
   /// Back to where the system was before go_on().  @param force  of its first contact then [N]
   void go_back(System& system, Scalar force) noexcept {
-    system.go_back(before_[of(newest_)], force);
+    system.go_back(before_[newest_], force);
     forget();
   }
   /// Where the system was before the push.
-  const State& before() const noexcept { return before_[of(newest_)]; }
+  const State& before() const noexcept { return before_[newest_]; }
   /// To where the system was before the push.
   void begin_again(System& system) const noexcept { system.go_back(before(), 0); }
   /// To be called after each push.   @param found  whether it was answered on the branch on which the beam was, by the same contacts
   /// @param contact  (i) -> what is left of contact i
   template <class EachContact>
   void know(bool found, int count, EachContact&& contact) noexcept {
-    for (std::size_t k = all_.size() - 1; k > 0; --k) all_[k] = all_[k - 1];
-    for (int i = 0; i < count; ++i) all_[0][of(i)] = contact(i);
+    for (int i = 0; i < count; ++i) {
+      for (int k = like_most; k > 0; --k) all_[k][i] = all_[k - 1][i];
+      all_[0][i] = contact(i);
+    }
     known_ = found ? (std::min)(known_ + 1, 3) : 0;
   }
   void forget() noexcept { known_ = 0; }
@@ -114,13 +114,12 @@ class RowForesight {
   static constexpr int like_most = Most > 1 ? 2 : 1;  // pushes before, of those that may go on
   static constexpr Scalar fastest = 2,
                           aside = Scalar(0.1);  // of a step, in units of the one before and of itself
-  static constexpr std::size_t of(int i) noexcept { return static_cast<std::size_t>(i); }
 
-  std::array<State, like_most> before_;  // the last push, and the one before
+  State before_[like_most];  // the last push, and the one before
   int newest_ = 0;
   Hands hands_ = Hands::Zero();  // in the last push [m]
-  std::array<Hands, 2> step_{Hands::Zero(), Hands::Zero()};
-  std::array<std::array<Contact, Most>, like_most + 1> all_{};  // after the last pushes
+  Hands step_[2] = {Hands::Zero(), Hands::Zero()};
+  Contact all_[like_most + 1][Most] = {};  // after the last pushes
   Scalar ratio_ = 0;
   bool forth_ = false;
   int like_ = 0;   // the push that goes on: the last one or the one before; 0: none

@@ -11,11 +11,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include <hapbeam/fem/contact/contact_work.hpp>
 #include <hapbeam/fem/contact/continuation.hpp>
@@ -34,8 +32,7 @@ class RowPush : private RowContacts<Element, System> {
   using Base::count_;
   using Base::dimension;
   using Base::most;
-  using Base::of;
-  using Base::slot;
+  using Base::slots_;
   using typename Base::Contact;
   using typename Base::Obstacle;
   using typename Base::Round;
@@ -110,14 +107,14 @@ class RowPush : private RowContacts<Element, System> {
     };
     Before& before = before_;
     bool rough = false;
-    for (int i = 0; i < count; ++i) to_[of(i)] = all[i].round, rough = rough || all[i].friction;
+    for (int i = 0; i < count; ++i) to_[i] = all[i].round, rough = rough || all[i].friction;
     bool whole = true;  // the first answer, for all of the way
     const auto go = [&](Scalar t) {
       for (int i = 0; i < count; ++i) {
-        before.pushed[of(i)] = all[i].pushed, before.touching[of(i)] = all[i].touching;
-        before.state[of(i)] = slot(i);
-        if (all[i].friction) before.friction[of(i)] = *all[i].friction;
-        if (!whole) all[i].round = from_.knows(i) ? between(from_.round(i), to_[of(i)], t) : to_[of(i)];
+        before.pushed[i] = all[i].pushed, before.touching[i] = all[i].touching;
+        before.state[i] = slots_[i];
+        if (all[i].friction) before.friction[i] = *all[i].friction;
+        if (!whole) all[i].round = from_.knows(i) ? between(from_.round(i), to_[i], t) : to_[i];
       }
       before.work = work_, before.balance = balance_, before.force = system.linear_reaction();
       before.potential = continuation_.potential(), before.known = continuation_.known();
@@ -140,26 +137,22 @@ class RowPush : private RowContacts<Element, System> {
       foresight_.go_back(system, before.force);
       system.draw();
       for (int i = 0; i < count; ++i) {
-        all[i].pushed = before.pushed[of(i)], all[i].touching = before.touching[of(i)];
-        static_cast<State&>(slot(i)) = before.state[of(i)];
-        if (all[i].friction) *all[i].friction = before.friction[of(i)];
+        all[i].pushed = before.pushed[i], all[i].touching = before.touching[i];
+        static_cast<State&>(slots_[i]) = before.state[i];
+        if (all[i].friction) *all[i].friction = before.friction[i];
       }
       work_ = before.work, balance_ = before.balance;
     };
-    const auto fall = [&] {
-      back();
-      way.descend();
-    };
-    return continuation_.follow(go, judge, keep, back, fall).status;
+    return continuation_.follow(go, judge, keep, back, [&] { way.descend(); }).status;
   }
 
  private:
   /// What answer() changes.
   struct Before {
-    std::array<decltype(Obstacle::pushed), most> pushed{};
-    std::array<bool, most> touching{};
-    std::array<FrictionState, most> friction{};
-    std::array<State, most> state{};
+    Pushed<Scalar, dimension> pushed[most] = {};
+    bool touching[most] = {};
+    FrictionState friction[most];
+    State state[most];
     Work work;
     FrictionBalance<Scalar> balance;
     Scalar force = 0, potential = 0;
@@ -173,13 +166,14 @@ class RowPush : private RowContacts<Element, System> {
     const bool goes_on = look_ahead(system);
     for (int i = 0; i < count; ++i)
       if (all[i].touching && !(all[i].pushed.force < 0) && this->beside_a_touch(i)) all[i].touching = false;
-    Friction friction(system, all, count, count == 1);
+    Friction friction(system, all, count);
     if (foresight_.forth()) friction.go_on();
     began_ = false;
     Status status = Status::ok;
     bool snapped = false;
     for (int pass = 1;; ++pass) {
-      if (count > 1) this->part(system);
+      if constexpr (most > 1)
+        if (count > 1) this->part(system);
       status = solve(way, pass == 1, goes_on, friction);
       snapped = snapped || status == Status::snapped;
       if (!is_answer(status)) {
@@ -196,7 +190,8 @@ class RowPush : private RowContacts<Element, System> {
     }
     if (snapped && status == Status::ok) status = Status::snapped;
     for (int i = 0; i < count; ++i) this->end(system, i, status);
-    const auto left = friction.leave(system, status, work_, balance_, [this](int i) { return slot(i).goal; });
+    const auto left =
+        friction.leave(system, status, work_, balance_, [this](int i) { return slots_[i].goal; });
     taken_ = left.taken;
     potential_ = system.foreseen_potential() + left.stored;
     remember(status == Status::ok);
@@ -212,7 +207,7 @@ class RowPush : private RowContacts<Element, System> {
     Scalar rubbed = 0;
     for (int i = 0; i < count_; ++i)
       if (all_[i].friction)
-        rubbed += before_.friction[of(i)].force.norm() * (work.way() + before_.friction[of(i)].skin.norm());
+        rubbed += before_.friction[i].force.norm() * (work.way() + before_.friction[i].skin.norm());
     return {before_.potential, work.ahead(), rubbed, system.strain(), before_.known};
   }
   /// @return whether the hands go on as they went
@@ -221,11 +216,11 @@ class RowPush : private RowContacts<Element, System> {
     bool same = count_ == last_count_;
     for (int i = 0; i < count_; ++i) {
       hands.template segment<Foresight::each>(Foresight::each * i) = hand_of(all_[i].round);
-      same = same && all_[i].touching == touched_[of(i)] && all_[i].kind == kind_[of(i)];
+      same = same && all_[i].touching == touched_[i] && all_[i].kind == kind_[i];
     }
     const bool goes_on = foresight_.look(hands, same);
     for (int i = 0; i < count_; ++i) {
-      Slot& now = slot(i);
+      Slot& now = slots_[i];
       if (!all_[i].touching) continue;
       now.begins = now;
       if (!goes_on) continue;
@@ -237,19 +232,19 @@ class RowPush : private RowContacts<Element, System> {
   }
   void remember(bool found) noexcept {
     for (int i = 0; i < count_; ++i) {
-      found = found && (count_ != last_count_ || all_[i].touching == touched_[of(i)]);
-      touched_[of(i)] = all_[i].touching, kind_[of(i)] = all_[i].kind;
-      slot(i).force = this->force_of(all_[i]);
+      found = found && (count_ != last_count_ || all_[i].touching == touched_[i]);
+      touched_[i] = all_[i].touching, kind_[i] = all_[i].kind;
+      slots_[i].force = this->force_of(all_[i]);
     }
     last_count_ = count_;
-    foresight_.know(found, count_, [this](int i) -> const State& { return slot(i); });
+    foresight_.know(found, count_, [this](int i) -> const State& { return slots_[i]; });
   }
 
   template <class Way>
   Status solve(Way& way, bool first, bool goes_on, Friction& friction) noexcept {
     System& system = way.system_;
     int contacts = 0;
-    for (int i = 0; i < count_; ++i) slot(i).goal = all_[i].touching ? contacts++ : -1;
+    for (int i = 0; i < count_; ++i) slots_[i].goal = all_[i].touching ? contacts++ : -1;
     if (contacts == 0) {
       if (!way.single_valued_) {
         let_go_ = lets_go(system);
@@ -269,11 +264,11 @@ class RowPush : private RowContacts<Element, System> {
     const auto aim = [&] {
       system.set_goal();
       for (int i = 0; i < count_; ++i)
-        if (slot(i).goal >= 0) system.add_goal(this->contact(i), friction.of(i), stay || stays(i));
+        if (slots_[i].goal >= 0) system.add_goal(this->contact(i), friction.of(i), stay || stays(i));
     };
     // Where some stay, all may have to, and the solves of a push are for both ways.
     bool some = false;
-    for (int i = 0; i < count_; ++i) some = some || (slot(i).goal >= 0 && stays(i));
+    for (int i = 0; i < count_; ++i) some = some || (slots_[i].goal >= 0 && stays(i));
     const auto few = [&] {
       return !rough || (most == 1 && dimension == 2) ? close_by
              : most == 1                             ? near_in_space
@@ -283,13 +278,13 @@ class RowPush : private RowContacts<Element, System> {
     bool all = !rough || way.descends() || friction.falls();
     const auto begin_again = [&] {
       for (int i = 0; i < count_; ++i)
-        if (slot(i).goal >= 0) static_cast<State&>(slot(i)) = slot(i).begins;
+        if (slots_[i].goal >= 0) static_cast<State&>(slots_[i]) = slots_[i].begins;
     };
     // Whether Coulomb's law holds, and the places are those of the equilibrium.
     const auto agrees = [&](Status found) {
       if (!rough) return true;
       if (is_answer(found)) {
-        const bool settled = friction.settled(system, [this](int i) { return slot(i).goal; }),
+        const bool settled = friction.settled(system, [this](int i) { return slots_[i].goal; }),
                    moved = system.places_go_on();
         if (settled && (!moved || ++moves > most_moves)) return true;
         this->take(system);
@@ -319,13 +314,13 @@ class RowPush : private RowContacts<Element, System> {
       if (goes_on) {
         Status status;
         // What friction settles between two solves is no step of a hand.
-        do status = way.settle_at_once(slack, aim, few(), rough ? nullptr : &curvature_).status;
+        do status = way.settle_at_once(slack, aim, few(), rough ? nullptr : &curvature_);
         while (!agrees(status) && !all);
         if (status == Status::ok) return status;
         foresight_.go_back(system, last);
         begin_again();
         if (!rough && this->hold_sharp(system)) {
-          status = way.settle_at_once(slack, aim, few()).status;
+          status = way.settle_at_once(slack, aim, few());
           if (status == Status::ok) return status;
           foresight_.go_back(system, last);
           begin_again();
@@ -337,7 +332,7 @@ class RowPush : private RowContacts<Element, System> {
       }
     }
     Status status;
-    do status = (all ? way.settle(last, slack, aim) : way.settle_at_once(slack, aim, few())).status;
+    do status = all ? way.settle(last, slack, aim).status : way.settle_at_once(slack, aim, few());
     while (!agrees(status));
     return status;
   }
@@ -348,8 +343,8 @@ class RowPush : private RowContacts<Element, System> {
     const System& system = way.system_;
     Scalar jump = 0, from_rest = 0;
     for (int i = 0; i < count_; ++i) {
-      if (slot(i).goal < 0 || all_[i].kind != ObstacleKind::round) continue;
-      const Scalar s = slot(i).s;
+      if (slots_[i].goal < 0 || all_[i].kind != ObstacleKind::round) continue;
+      const Scalar s = slots_[i].s;
       const RoundContact round{all_[i].round};
       const auto off = [&](const auto& line) {
         return std::abs(round.clearance(round.node_at(line, s)) - all_[i].round.reach);
@@ -364,11 +359,11 @@ class RowPush : private RowContacts<Element, System> {
   Curvature<Scalar> curvature_;
   bool began_ = false;  // foresight_ has the state before this push
   int last_count_ = 0;
-  std::array<bool, most> touched_{};
-  std::array<ObstacleKind, most> kind_{};
+  bool touched_[most] = {};
+  ObstacleKind kind_[most] = {};
   Work work_, from_;
   Before before_;
-  std::array<Round, most> to_{};
+  Round to_[most] = {};
   Continuation<Scalar> continuation_;
   FrictionBalance<Scalar> balance_;
   LetGo<Scalar> let_go_;

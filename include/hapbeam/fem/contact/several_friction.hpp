@@ -7,9 +7,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <optional>
 
 #include <hapbeam/force_model.hpp>
@@ -73,23 +71,23 @@ class SeveralFriction {
   using Friction = typename System::Friction;
   using Vector = typename Friction::Vector;
 
-  /// @param all  those that touch and have friction go on as they did   @param alone  whether there is one alone
-  SeveralFriction(const System& system, Obstacle* all, int count, bool alone = false) noexcept
-      : all_(all), count_(count), alone_(alone) {
+  /// @param all  those that touch and have friction go on as they did
+  SeveralFriction(const System& system, Obstacle* all, int count) noexcept : all_(all), count_(count) {
     for (int i = 0; i < count; ++i)
       if (all[i].touching) meet(system, i);
   }
   /// An obstacle has a contact now.
   void meet(const System& system, int i) noexcept {
     if (!rough(i)) return;
-    law(i).emplace(*all_[i].friction, RoundContact{all_[i].round}, system, -all_[i].pushed.force, alone_);
+    laws_[i].emplace(*all_[i].friction, RoundContact{all_[i].round}, system, -all_[i].pushed.force,
+                     count_ == 1);
     any_ = true;
   }
   /// The same where another place of its body has one already, and it goes on as that does.   @param s  [m]
   void meet_beside(const System& system, int i, int other, Scalar s) noexcept {
     if (!of(other)) return meet(system, i);
-    law(i).emplace(*of(other));
-    law(i)->begin_beside(RoundContact::node_at(system.drawn(), s));
+    laws_[i].emplace(*of(other));
+    laws_[i]->begin_beside(RoundContact::node_at(system.drawn(), s));
   }
 
   /// Whether it stuck in the push before, or slid by less than that.  @param way  [m]
@@ -99,7 +97,7 @@ class SeveralFriction {
   /// To be called where the way to an equilibrium begins anew.
   void begin_again(const System& system) noexcept {
     for (int i = 0; i < count_; ++i)
-      if (all_[i].touching && law(i)) meet(system, i);
+      if (all_[i].touching && laws_[i]) meet(system, i);
   }
   /// The hands go on as they went.
   void go_on() noexcept {
@@ -107,7 +105,7 @@ class SeveralFriction {
   }
 
   /// Of an obstacle, null: none.
-  Friction* of(int i) noexcept { return law(i) ? &*law(i) : nullptr; }
+  Friction* of(int i) noexcept { return laws_[i] ? &*laws_[i] : nullptr; }
   bool any() const noexcept { return any_; }
   /// Whether all that touches slides without friction.
   bool falls() noexcept {
@@ -156,7 +154,7 @@ class SeveralFriction {
   Left leave(System& system, Status status, Work& work, FrictionBalance<Scalar>& balance,
              Goal&& goal) noexcept {
     const bool answered = is_answer(status);
-    std::array<Scalar, Most> before{};
+    Scalar before[Most] = {};
     Left left;
     Scalar skins = 0;
     bool slides = false, on_its_way = status == Status::ok && any_;
@@ -164,13 +162,13 @@ class SeveralFriction {
     for (int i = 0; i < count_; ++i) {
       auto* state = all_[i].friction;
       const bool touches = answered && all_[i].touching;
-      if (state) before[at(i)] = state->dissipated;
+      if (state) before[i] = state->dissipated;
       if (state && of(i) && touches && goal(i) >= 0 && all_[i].pushed.force < 0) {
         system.look_at_friction(goal(i));
         slides = slides || state->slides;
         of(i)->leave(*state, -all_[i].pushed.force);
         slides = slides || state->slides;
-        left.taken += state->dissipated - before[at(i)];
+        left.taken += state->dissipated - before[i];
         skins += of(i)->held(*state);
         left.stored += of(i)->held(*state) - of(i)->potential();
         on_its_way = on_its_way && !of(i)->falls();
@@ -191,7 +189,7 @@ class SeveralFriction {
           work, [&] { return system.total_potential() + skins; }, left.taken, slides);
       each([&](int i, const Friction&) {
         Scalar& dissipated = all_[i].friction->dissipated;
-        dissipated = before[at(i)] + factor * (dissipated - before[at(i)]);
+        dissipated = before[i] + factor * (dissipated - before[i]);
       });
       left.taken *= factor;
     } else {
@@ -203,22 +201,19 @@ class SeveralFriction {
 
  private:
   bool rough(int i) const noexcept {
-    return all_[i].kind == ObstacleKind::round && all_[i].friction && all_[i].friction->sticking > 0;
+    return all_[i].kind == ObstacleKind::round && all_[i].friction && all_[i].friction->rough();
   }
-  static std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-  std::optional<Friction>& law(int i) noexcept { return laws_[at(i)]; }
   /// @param use  of those that touch
   template <class Use>
   void each(Use&& use) noexcept {
     for (int i = 0; any_ && i < count_; ++i)
-      if (all_[i].touching && law(i)) use(i, *law(i));
+      if (all_[i].touching && laws_[i]) use(i, *laws_[i]);
   }
 
   Obstacle* all_;
   int count_;
-  bool alone_;  // the only contact
   bool any_ = false;
-  std::array<std::optional<Friction>, Most> laws_;
+  std::optional<Friction> laws_[Most];
 };
 
 }  // namespace hapbeam::detail

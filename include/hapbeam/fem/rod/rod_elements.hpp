@@ -177,7 +177,7 @@ class RodElements {
       for (int k = 0; own_.twist && k < most_relaxations; ++k)
         for (int first = 0; first < abreast_.places(); first += lanes) {
           WideInner inner;
-          typename Stiffness::Type unused;
+          Stiffness unused;
           (void)compute(first, inner, unused);
           abreast_.for_each_lane(first, [&](int e, int lane) {
             inner_[size() + e] -= inner.twist.residual[lane] / inner.twist.stiffness[lane];
@@ -210,7 +210,7 @@ class RodElements {
     Wide strain = 0, own = 0;
     for (int first = 0; first < abreast_.places(); first += lanes) {
       auto& inner = inners_abreast_[first / lanes];
-      typename Stiffness::Type K;
+      Stiffness K;
       const Wide energy = compute(first, inner, K);
       abreast_.add(first, energy, strain);
       abreast_.add(first, energy_of(inner), own);
@@ -242,7 +242,7 @@ class RodElements {
   void residual(int e, Scalar lambda, Residual& r) const noexcept {
     const int place = abreast_.order().place(e), lane = place % lanes;
     WideInner inner;
-    typename Stiffness::Type all;
+    Stiffness all;
     (void)compute(place - lane, inner, all);
     for (int i = 0; i < 2 * unknowns; ++i) r[i] = all[i][lane];
     // The equation of its tension lacks what a contact does to that.
@@ -340,7 +340,7 @@ class RodElements {
     Wide strain = 0;
     for (int first = 0; first < abreast_.places(); first += lanes) {
       WideInner inner;
-      typename Stiffness::Type unused;
+      Stiffness unused;
       abreast_.add(first, compute(first, inner, unused), strain);
     }
     Scalar sum = total(strain);
@@ -367,7 +367,7 @@ class RodElements {
 
   using WideResidual = Eigen::Matrix<Wide, 2 * unknowns, 1>;
   using WideInner = typename Element::template Inner<Wide>;
-  using Stiffness = detail::RodTangentOf<Element, Wide>;
+  using Stiffness = RodTangent<Wide, unknowns - 3>;
 
   void make(int e) noexcept {
     const Scalar from = nodes_[e].s, to = nodes_[e + 1].s;
@@ -419,11 +419,10 @@ class RodElements {
     if constexpr (has_twist) take(&RodNode<Wide>::director, &Node::director);
   }
   /// @param inner, K  out   @return the energies of those from a place on [J]
-  [[gnu::always_inline]] Wide compute(int first, WideInner& inner,
-                                      typename Stiffness::Type& K) const noexcept {
+  [[gnu::always_inline]] Wide compute(int first, WideInner& inner, Stiffness& K) const noexcept {
     RodNode<Wide> a, b;
     gather(first, inner, a, b);
-    return Stiffness::compute(abreast_.properties(first), a, b, inner, K);
+    return Element::tangent(abreast_.properties(first), a, b, inner, K);
   }
   /// Dead loads.
   void subtract_loads(int first, Scalar lambda, WideResidual& r, Energies& sum) noexcept {

@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <type_traits>
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/element/element.hpp>

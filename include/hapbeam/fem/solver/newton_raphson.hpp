@@ -42,6 +42,7 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include <hapbeam/force_model.hpp>
 
@@ -92,18 +93,9 @@ class Curvature {
 namespace detail {
 
 template <class System>
-auto round_off(const System& system, int) noexcept -> decltype(system.round_off()) {
-  return system.round_off();
-}
+using RoundOff = decltype(std::declval<const System&>().round_off());
 template <class System>
-typename System::Scalar round_off(const System&, long) noexcept {
-  return 0;
-}
-
-template <class System, typename = void>
-struct InPairs : std::false_type {};
-template <class System>
-struct InPairs<System, std::enable_if_t<System::in_pairs>> : std::true_type {};
+using InPairs = std::enable_if_t<System::in_pairs>;
 
 }  // namespace detail
 
@@ -151,8 +143,13 @@ struct NewtonRaphson {
   /// C √(2V) of increment k, until more is measured.   @param from_afar  after an increment above a twentieth of the state
   template <class System>
   static constexpr auto least_curvature(int k, bool from_afar) noexcept -> typename System::Scalar {
-    if (detail::InPairs<System>::value) return k == 1 ? 1000 : from_afar ? 20000 : 50;
+    if (detail::offers<detail::InPairs, System>) return k == 1 ? 1000 : from_afar ? 20000 : 50;
     return k > 2 ? 10 : 100;
+  }
+  template <class System>
+  static auto round_off([[maybe_unused]] const System& system) noexcept -> typename System::Scalar {
+    if constexpr (detail::offers<detail::RoundOff, System>) return system.round_off();
+    else return 0;
   }
   template <class System, typename S>
   Status iterate(System& system, SolveReport<S>& report, Curvature<S>* known) const noexcept {
@@ -174,7 +171,7 @@ struct NewtonRaphson {
       if (known) {
         if (k > 1) known->measure(k - 1, before / state, iteration.size / state, state);
         // The increment of w that follows one of u is another in the next element.
-        if (k > 1 || !detail::InPairs<System>::value || !pairs_differ)
+        if (k > 1 || !detail::offers<detail::InPairs, System> || !pairs_differ)
           least = (std::min)(least, known->of(k, iteration.size / state, state));
       }
       const S curvature = (std::max)({measured, measured_before, state > 0 ? least / state : S(0)});
@@ -185,7 +182,7 @@ struct NewtonRaphson {
       if (!std::isfinite(state)) return Status::non_finite;
       const bool lands = k == 1 || before <= std::sqrt(noise) * state;
       if (next <= (std::max)(tolerance, floor) || (lands && iteration.size <= noise * state) ||
-          iteration.size <= detail::round_off(system, 0)) {
+          iteration.size <= round_off(system)) {
         if (known) known->accept(k);
         return Status::ok;
       }

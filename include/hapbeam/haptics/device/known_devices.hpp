@@ -13,10 +13,10 @@
 // Offline: allocates.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <hapbeam/check.hpp>
 #include <hapbeam/haptics/device/device.hpp>
 
 namespace hapbeam {

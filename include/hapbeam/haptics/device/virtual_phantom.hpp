@@ -20,7 +20,6 @@
 #include <utility>
 
 #include <hapbeam/haptics/device/arm.hpp>
-#include <hapbeam/haptics/device/arm_axis.hpp>
 #include <hapbeam/haptics/device/device.hpp>
 #include <hapbeam/haptics/device/hand_path.hpp>
 

@@ -162,7 +162,8 @@ class Servo {
 
   void publish() noexcept {
     // What another hand may move now is drawn by ticks alone.
-    if (detail::is_shared<Touch<Model>> && record_.ticks == 0) return pictures_.publish(record_);
+    if (detail::offers<detail::Meanwhile, Touch<Model>> && record_.ticks == 0)
+      return pictures_.publish(record_);
     pictures_.publish(record_, record_.ticks % shape_period == 0);
   }
 

@@ -53,11 +53,20 @@ struct CapsuleTouch {
   Vector tip, shaft;     // from the tied point to the tip, from there to the other end [m]
   Eigen::Vector3d tied;  // from the hand to the tied point [m]
 
-  auto tick(const Vector& hand) noexcept { return touch.tick(Vector(hand + tip), shaft); }
+  /// @param figures  time and coupling, of a touch that takes them
+  template <typename... Figures>
+  auto tick(const Vector& hand, Figures... figures) noexcept {
+    return touch.tick(Vector(hand + tip), figures..., shaft);
+  }
   template <class T = Touch>
-  auto meanwhile() const noexcept -> decltype(std::declval<const T&>().meanwhile()) {
+  Meanwhile<const T> meanwhile() const noexcept {
     return touch.meanwhile();
   }
+  template <class T = Touch>
+  Stored<const T> stored() const noexcept {
+    return touch.stored();
+  }
+  const auto& off() const noexcept { return touch.off(); }
   auto contact_at(const Vector& hand) noexcept { return touch.contact_at(Vector(hand + tip), shaft); }
   /// From the hand to the contact [m].   @param at  where the tied point is
   template <class Felt>
@@ -69,23 +78,8 @@ struct CapsuleTouch {
   }
 };
 
-/// The same of a touch that solves for hand and beam together.
-template <class Touch>
-struct CoupledCapsule : CapsuleTouch<Touch> {
-  using typename CapsuleTouch<Touch>::Scalar, typename CapsuleTouch<Touch>::Vector;
-
-  auto tick(const Vector& hand, Scalar dt, Scalar stiffness, Scalar damping) noexcept {
-    return this->touch.tick(Vector(hand + this->tip), dt, stiffness, damping, this->shaft);
-  }
-  const Vector& off() const noexcept { return this->touch.off(); }
-  Scalar stored() const noexcept { return this->touch.stored(); }
-};
-
-template <typename C, typename = void>
-inline constexpr bool moves = false;
-template <typename C>
-inline constexpr bool
-    moves<C, std::void_t<decltype(std::declval<C&>().move(std::declval<const Eigen::Vector3d&>()))>> = true;
+template <typename Coupling>
+using Move = decltype(std::declval<Coupling&>().move(std::declval<const Eigen::Vector3d&>()));
 
 /// @tparam D  of the space in which the beam bends: 2, where no shaft touches it, or 3
 template <typename Scalar, int D>
@@ -110,14 +104,14 @@ class Stylus {
   CoupledForce<Scalar, 3> tick(Coupling& coupling, Touch& touch, const HandPose& hand, double dt) noexcept {
     const Eigen::Vector3d tied = hand.turn * tied_;
     const Shaft<double> axis{tip(hand), shaft(hand)};
-    std::conditional_t<couples_itself<Touch>, CoupledCapsule<Touch>, CapsuleTouch<Touch>> capsule{
-        touch, (axis.tip - tied).template cast<Scalar>(), axis.way.template cast<Scalar>(), tied};
+    CapsuleTouch<Touch> capsule{touch, (axis.tip - tied).template cast<Scalar>(),
+                                axis.way.template cast<Scalar>(), tied};
     CoupledForce<Scalar, 3> felt{coupling.tick(capsule, hand.place + tied, dt)};
     // Without an answer of this tick the force goes on along the line on which it was.
     const auto& contact = felt.touch.contact;
     if (felt.touch.pressing && !felt.continued && contact.segment >= 0) {
       arm_ = capsule.arm(felt.touch, felt.avatar);
-      if constexpr (moves<Coupling>) {
+      if constexpr (offers<Move, Coupling>) {
         const Eigen::Vector3d now = axis.at(axis.nearest(arm_));
         coupling.move(now - tied);
         tied_ = hand.turn.transpose() * now;

@@ -67,46 +67,36 @@ struct HandPose {
 
 namespace detail {
 
-/// Whether a touch may have friction.
-template <typename Touch, typename = void>
-inline constexpr bool may_be_rough = false;
-template <typename Touch>
-inline constexpr bool may_be_rough<Touch, std::void_t<decltype(std::declval<Touch&>().rough())>> = true;
-
 /// Where the hand of a touch is [m].
 template <typename Touch>
 using HandOf = VectorOf<double, dimension_of<Touch>>;
 template <typename Touch>
 using CoupledForceOf = CoupledForce<typename Touch::Scalar, dimension_of<Touch>>;
 
-/// Whether a touch turns the hand, by a lever ρ [m].
-template <typename Touch, typename = void>
-inline constexpr bool turns_hand = false;
-template <typename Touch>
-inline constexpr bool turns_hand<Touch, std::void_t<decltype(&Touch::lever)>> = true;
-/// Whether others press the beam of a touch between its ticks, and it says with what force they leave it.
-template <typename Touch, typename = void>
-inline constexpr bool is_shared = false;
-template <typename Touch>
-inline constexpr bool is_shared<Touch, std::void_t<decltype(std::declval<Touch&>().meanwhile())>> = true;
+// What a touch may offer.
 
-/// Whether a touch takes the figures of the coupling, and solves for hand and beam together.
-template <typename Touch, typename = void>
-inline constexpr bool couples_itself = false;
 template <typename Touch>
-inline constexpr bool couples_itself<Touch, std::void_t<decltype(&Touch::stored)>> = true;
+using Rough = decltype(std::declval<Touch&>().rough());  ///< friction
+template <typename Touch>
+using Lever = decltype(&Touch::lever);  ///< ρ [m], by which it turns the hand
+/// Others press its beam between its ticks, and it says with what force they leave it.
+template <typename Touch>
+using Meanwhile = decltype(std::declval<Touch&>().meanwhile());
+/// It takes the figures of the coupling, and solves for hand and beam together.
+template <typename Touch>
+using Stored = decltype(std::declval<Touch&>().stored());
 
 /// What others have changed since the last tick.
 template <typename Touch>
 void look_at_others(const Touch& touch, LastResponse& last) noexcept {
-  if constexpr (is_shared<Touch>)
+  if constexpr (offers<Meanwhile, Touch>)
     if (const auto* const force = touch.meanwhile()) last.renew(in_scene(*force));
 }
 
 /// Whether others have taken the hand off, as its loop stood still: it engages anew.
 template <typename Touch>
 bool was_lifted(const Touch& touch) noexcept {
-  if constexpr (is_shared<Touch>) return touch.lifted();
+  if constexpr (offers<Meanwhile, Touch>) return touch.lifted();
   else return false;
 }
 
@@ -161,7 +151,8 @@ class Direct {
   /// @param touch  of the same beam each tick   @param hand [m]
   template <typename Touch>
   [[nodiscard]] auto tick(Touch& touch, const detail::HandOf<Touch>& hand, double) noexcept {
-    static_assert(!detail::couples_itself<Touch>, "a beam with mass is touched through a VirtualCoupling");
+    static_assert(!detail::offers<detail::Stored, Touch>,
+                  "a beam with mass is touched through a VirtualCoupling");
     constexpr int D = dimension_of<Touch>;
     detail::CoupledForceOf<Touch> result;
     detail::look_at_others(touch, last_);
@@ -226,7 +217,7 @@ class VirtualCoupling {
   /// Once a period.  @param touch  of the same beam each tick   @param hand [m]   @param dt [s] since the tick before, positive
   template <typename Touch>
   [[nodiscard]] auto tick(Touch& touch, const detail::HandOf<Touch>& hand, double dt) noexcept {
-    if constexpr (detail::couples_itself<Touch>) return within(touch, hand, dt);
+    if constexpr (detail::offers<detail::Stored, Touch>) return within(touch, hand, dt);
     else return beside(touch, hand, dt);
   }
 
@@ -252,13 +243,13 @@ class VirtualCoupling {
     const Eigen::Vector3d from = detail::in_scene(hand);
     const auto normal = [&] { return detail::of_beam<double, D>(last_.tangent().normal()); };
     detail::CoupledForceOf<Touch> result;
-    if constexpr (detail::may_be_rough<Touch>)
+    if constexpr (detail::offers<detail::Rough, Touch>)
       if (touch.rough()) touch.soften(static_cast<Scalar>(stiffness_), static_cast<Scalar>(damping_ / dt));
     detail::look_at_others(touch, last_);
     result.avatar = hand + normal() * solve(from, dt).gap;
     result.touch = touch.tick(result.avatar.template cast<Scalar>());
     last_.learn(result.touch, detail::in_scene(result.avatar));
-    if constexpr (detail::turns_hand<Touch>)
+    if constexpr (detail::offers<detail::Lever, Touch>)
       if (result.touch.pressing) lean(touch.lever(result.touch, result.avatar));
     if (!result.touch.pressing && last_.tangent().known())
       last_.look_again(touch.contact_at(hand.template cast<Scalar>()), from);
@@ -272,7 +263,7 @@ class VirtualCoupling {
     result.force = normal() * balance.force;
     result.continued = last_.continued() && (balance.force > 0 || result.touch.pressing);
     if (balance.force > 0) result.energy = last_.tangent().energy() + stiffness_ * gap_ * gap_ / 2;
-    if constexpr (detail::may_be_rough<Touch>)
+    if constexpr (detail::offers<detail::Rough, Touch>)
       if (touch.rough() && balance.force > 0) add_friction(result);
     if (balance.force == 0 && !result.touch.pressing) last_.forget();
     return result;

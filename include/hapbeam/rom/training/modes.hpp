@@ -6,8 +6,6 @@
 // Offline: allocates and throws.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
