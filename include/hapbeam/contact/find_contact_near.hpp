@@ -65,9 +65,9 @@ NearestPoint<Scalar, D> nearest_of_touch(const Centreline<Scalar, D>& line, Scal
   if (best.segment < 0) return best;
   Scalar d = (std::max)(std::sqrt(best.at.distance_squared) - reach / 2, Scalar(0));
   line.visit_others(best.segment, q, d, [&](int i, const CubicSegment<Scalar, D>& piece) {
-    NearestPoint<Scalar, D> other;
-    (void)other.look(i, piece, q);
-    if (const Scalar its = std::sqrt(other.at.distance_squared); its < d) best = other, d = its;
+    const ClosestPoint<Scalar, D> other = closest_point(piece, q);
+    const Scalar its = std::sqrt(other.distance_squared);
+    if (its < d) best.segment = i, best.at = other, best.piece = piece, d = its;
   });
   return best;
 }
