@@ -25,7 +25,7 @@ class PairSides {
 
  public:
   using Assembler = typename Chain::Assembler;
-  static constexpr int unknowns = Chain::unknowns;
+  static constexpr int unknowns = Chain::unknowns, most = 2 * most_pairs;
   using Vector = VectorOf<double, 3>;
   using Point = typename Side::Point;
   using Residual = VectorOf<double, 2 * unknowns>;
@@ -33,7 +33,6 @@ class PairSides {
 
   PairSides(int elements, PairEquations& equations) : equations_(&equations) {
     // Of a rod on itself both sides are here, and have three columns of the same unknowns.
-    constexpr int most = 2 * most_pairs;
     sides_.reserve(most), tensions_.reserve(most),
         products_.reserve(2 * most * (4 * most + 1) + 3 * most_pairs);
     for (int k = 0; k < most; ++k) sides_.emplace_back(elements);

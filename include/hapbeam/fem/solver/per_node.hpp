@@ -31,7 +31,12 @@ class PerNode {
 
  public:
   /// @throws std::invalid_argument where the number of elements does not fit the type.
-  explicit PerNode(int elements) : size_(checked(elements) + 1), storage_(all(size_)) {}
+  explicit PerNode(int elements) : size_(elements + 1) {
+    if (elements < 2 || (Elements != Eigen::Dynamic && elements != Elements) ||
+        (is_inline && elements > MaxElements))
+      throw std::invalid_argument("elements = " + std::to_string(elements) + ": must be " + allowed());
+    if constexpr (!is_inline) storage_.resize(static_cast<std::size_t>(size_));
+  }
 
   int size() const noexcept { return size_; }
   T* data() noexcept { return storage_.data(); }
@@ -47,23 +52,13 @@ class PerNode {
   const T* end() const noexcept { return data() + size_; }
 
  private:
-  static int checked(int elements) {
-    if (elements < 2 || (Elements != Eigen::Dynamic && elements != Elements) ||
-        (is_inline && elements > MaxElements))
-      throw std::invalid_argument("elements = " + std::to_string(elements) + ": must be " + allowed());
-    return elements;
-  }
-  static Storage all([[maybe_unused]] int size) {
-    if constexpr (is_inline) return {};
-    else return Storage(static_cast<std::size_t>(size));
-  }
   static std::string allowed() {
     if (Elements != Eigen::Dynamic) return std::to_string(Elements);
     return is_inline ? "2 to " + std::to_string(MaxElements) : std::string("2 or more");
   }
 
   int size_;
-  Storage storage_;
+  Storage storage_{};
 };
 
 }  // namespace hapbeam::detail
