@@ -48,7 +48,9 @@ class AnyOf {
   using Any = std::variant<Models...>;
   static constexpr int dimension = D, contacts = 1;
 
-  explicit AnyOf(Any model) : model_(std::move(model)) {}
+  /// @param model  one of them
+  template <class Model>
+  explicit AnyOf(Model model) : model_(std::in_place_type<Model>, std::move(model)) {}
 
   /// Calls use(model) with the model itself.
   template <class Use>
