@@ -287,6 +287,8 @@ TEST_CASE("a world rejects bodies that make no sense, and rods that lie in them"
                     ContainsSubstring("friction sticking = 3"));
   World<RoundRod> world = of(RigidBody::sphere({0.05, 0, 0.1}, 0.003));
   CHECK(world.place(0, {{0, 0, 0}, {1, 0, NAN}, {0, 0, 1}}) == Status::invalid_request);
+  for (const int none : {-1, 1000000})
+    CHECK(world.place(none, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}) == Status::invalid_request);
 }
 
 TEST_CASE("a body that is moved presses as a hand that moves the other way", "[world]") {

@@ -221,6 +221,8 @@ TEST_CASE("a world rejects rods that lie in each other", "[world]") {
 TEST_CASE("a world takes poses of ends that can be placed alone", "[world]") {
   World<RoundRod> world({{held_rod(0.1, 0.002, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}), 8}});
   CHECK(world.hold(0, RodSide::right, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}) == Status::invalid_request);
+  for (const int none : {-1, world.rods(), 1000000})
+    CHECK(world.hold(none, RodSide::left, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}) == Status::invalid_request);
   for (const double far_away : {double(NAN), 1e80, 1e8})
     CHECK(world.hold(0, RodSide::left, {{0, far_away, 0}, {1, 0, 0}, {0, 0, 1}}) == Status::invalid_request);
   for (const double size : {1e300, 1e-300, 0.0}) {

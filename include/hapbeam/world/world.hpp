@@ -53,13 +53,15 @@ class World {
   /// @return ok | invalid_request, where the end is neither clamped nor on springs, or an argument makes no sense: nothing has changed
   [[nodiscard]] Status hold(int rod, RodSide side, const RodPose& pose,
                             const HoldDamper& damper = {}) noexcept {
-    const bool placed = system().body(rod).place_end(static_cast<std::size_t>(side), pose, damper);
+    const bool placed = 0 <= rod && rod < rods() &&
+                        system().body(rod).place_end(static_cast<std::size_t>(side), pose, damper);
     return placed ? Status::ok : Status::invalid_request;
   }
   /// Where a body is to be from the next tick on.   @param body  0-based   @param pose  of the frame in which it was built
   /// @return ok | invalid_request, where the pose is none: nothing has changed
   [[nodiscard]] Status place(int body, const RodPose& pose) noexcept {
-    return system().rigid()[at(body)].place(pose) ? Status::ok : Status::invalid_request;
+    auto& all = system().rigid();
+    return at(body) < all.size() && all[at(body)].place(pose) ? Status::ok : Status::invalid_request;
   }
   /// Once a period.
   /// @return ok | snapped | out_of_range, where there are more contacts than most_contacts, or
