@@ -42,7 +42,7 @@ Measured cheapest(const RodScene& scene, const TickCosts& costs, const std::vect
   for (const Kinematics kinematics : {Kinematics::round_rod, Kinematics::twisted_rod})
     for (const int n : {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192}) {
       const Candidate candidate{kinematics, Reduction::none, n};
-      const double tick = candidate.tick(costs, scene.shape);
+      const double tick = candidate.tick(costs, true);
       if (tick > least) break;
       try {
         const Measured measured = measure(scene, candidate, pushes);

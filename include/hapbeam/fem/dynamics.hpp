@@ -101,7 +101,7 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
     add_element(of, r, K);
   }
   /// What is the last node's.
-  virtual void add_last(Vector3<S>& r, Eigen::Matrix<S, 3, 3>& K) const noexcept {
+  virtual void add_last(VectorOf<S, 3>& r, Eigen::Matrix<S, 3, 3>& K) const noexcept {
     add_node([last = blocks_.size() - 1](auto&& f) { return f(last); }, r, K);
   }
 

@@ -252,11 +252,9 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
     for (int i = 0; i <= elements(); ++i) {
       const Scalar length = node((std::min)(i + 1, elements())).s - node((std::max)(i - 1, 0)).s,
                    share = shift * unit_ * unit_ * length / (2 * length_);
-      const auto diagonal = [share, this](int k, int j) {
-        return k != j ? Scalar(0) : k < dimension ? share / (length_ * length_) : share;
-      };
-      const Scalar none[unknowns] = {};
-      to.add_at(i, diagonal, none);
+      Increment diagonal = Increment::Constant(share);
+      diagonal.template head<dimension>() /= length_ * length_;
+      to.add_at(i, Eigen::Matrix<Scalar, unknowns, unknowns>(diagonal.asDiagonal()), Increment::Zero());
     }
   }
   /// A descent begins: without the forces of before.

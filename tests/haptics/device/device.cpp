@@ -16,7 +16,7 @@ struct MayThrow {
   Eigen::Vector3d operator()(const DeviceState&) { return Eigen::Vector3d::Zero(); }
 };
 struct ReturnsExpression {
-  auto operator()(const DeviceState& state) noexcept { return -500 * state.position; }
+  auto operator()(const DeviceState& state) noexcept { return state.position.cwiseAbs(); }
 };
 struct WantsPosition {
   Eigen::Vector3d operator()(const Eigen::Vector3d& position) noexcept { return position; }
