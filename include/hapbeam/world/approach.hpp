@@ -131,9 +131,10 @@ bool beside_each_other(const System& system, const RodPair& a, const RodPair& b,
 inline constexpr double row_depth = 0.01;
 /// Contacts in a row are no more elements apart.
 inline constexpr double row_stride = 1.01;
-/// Whether a place is beside a contact that stays.
+/// Whether a place of a tube is beside a contact that stays.
 template <class System>
 bool is_in_row(const System& system, const RodPair& found) noexcept {
+  if (!system.along_tube(found)) return false;
   for (int k = 0; k < system.pairs(); ++k)
     if (system.is_pinned(system.pair(k)) && beside_each_other(system, system.pair(k), found, 2, row_stride))
       return true;

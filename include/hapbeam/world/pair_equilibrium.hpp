@@ -204,7 +204,9 @@ class PairEquilibrium {
       if (!system_.moves(pair)) continue;
       const auto is_apart = [&](double distance) { return distance - pair.reach > apart * pair.reach; };
       // Under compression the true curve bulges beyond the drawn one.
-      if (is_apart(pair.distance(system_.between(pair))) && is_apart(system_.distance(pair))) return k;
+      if (is_apart(pair.distance(system_.between(pair))) &&
+          (!system_.along_tube(pair) || is_apart(system_.distance(pair))))
+        return k;
       for (int j = system_.joints(); j < k; ++j)
         if (beside_each_other(system_, pair, system_.pair(j), 1, 0)) return k;
     }
@@ -219,8 +221,10 @@ class PairEquilibrium {
   }
 
   bool is_beside_another(int k) const noexcept {
+    const RodPair& pair = system_.pair(k);
+    const double stride = system_.along_tube(pair) ? row_stride : 1;
     for (int j = 0; j < system_.pairs(); ++j)
-      if (j != k && beside_each_other(system_, system_.pair(k), system_.pair(j), 0, row_stride)) return true;
+      if (j != k && beside_each_other(system_, pair, system_.pair(j), 0, stride)) return true;
     return false;
   }
   /// Whether it has been in a row of contacts, and is no more.
@@ -240,12 +244,14 @@ class PairEquilibrium {
     for (std::size_t side = 0; side < 2; ++side)
       pair.held[side] = pair.s[side] <= 0 || pair.s[side] >= system_.length(pair.rod[side]);
     if (!system_.add(pair)) return false;
-    // In a row the gap has no least distance to which a place could go.
-    for (int k = system_.joints(); k < system_.pairs(); ++k) {
+    const int added = system_.pairs() - 1;
+    // In a row along a tube the gap has no least distance to which a place could go.
+    for (int k = system_.joints(); k <= added; ++k) {
       RodPair& beside = system_.pair(k);
-      beside.held[0] = beside.held[0] || (is_beside_another(k) && (beside.fresh || !system_.parts(beside)));
+      const bool stays = system_.along_tube(beside) ? beside.fresh || !system_.parts(beside) : k == added;
+      beside.held[0] = beside.held[0] || (stays && is_beside_another(k));
     }
-    system_.pair(system_.pairs() - 1).mark();
+    system_.pair(added).mark();
     system_.spread();
     return true;
   }

@@ -90,6 +90,11 @@ class WorldPairs : public JointedRods<Element> {
   bool is_pinned(const RodPair& pair) const noexcept {
     return pair.held[0] && pair.s[0] > 0 && pair.s[0] < this->length(pair.rod[0]);
   }
+  /// Whether it touches a tube, along which a rod may lie: elsewhere it leaves the surface beside a contact.
+  bool along_tube(const RodPair& pair) const noexcept {
+    const PlacedBody* core = this->rigid(pair.rod[1]);
+    return core && core->body().kind() == RigidBody::Kind::tube;
+  }
   /// Of the true curves along n, as RodPair::distance() [m].
   double distance(const RodPair& pair) const noexcept {
     Vector w = Vector::Zero();
