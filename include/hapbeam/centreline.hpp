@@ -74,6 +74,14 @@ class NodeView {
   int size_;
 };
 
+/// Whether no point at most √reach from a middle is within d.   @param middle  [m] from there   @param reach  squared [m²]
+template <class Vector, typename Scalar>
+bool is_far(const Vector& middle, Scalar reach, Scalar d) noexcept {
+  const Scalar square = d * d, more = middle.squaredNorm() - square - reach;
+  // Farther than d and the reach together, without a root.
+  return more > 0 && more * more > 4 * square * reach;
+}
+
 }  // namespace detail
 
 /// Dimension of the space in which M, a model or an element, bends: M::dimension, or 2.
@@ -134,45 +142,21 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
     }
   }
 
-  /// True where no point of piece i is within d of q, as its nodes alone show.
+  /// How far q lies ahead of node i, along the beam [m], of a centreline of finite rotation.
+  Scalar ahead(int i, const Vector2<Scalar>& q) const noexcept {
+    return direction(i).dot(q - nodes_[i].position());
+  }
+  /// Whether no point of piece i is within d of q, as its nodes alone show.  Of finite rotation: its inner control points are 0.42 chords from its
+  /// nodes at most (arc()), hence no point is farther than 3/4 · 0.42 chords from the chord.
   bool excludes(int i, const Vector2<Scalar>& q, Scalar d) const noexcept {
-    const Vector2<Scalar> from = nodes_[i].position() - q, to = nodes_[i + 1].position() - q;
-    return is_far(from, to, (to - from).squaredNorm(), d);
+    const Vector2<Scalar> from = nodes_[i].position(), to = nodes_[i + 1].position();
+    return detail::is_far((from + to) / 2 - q, Scalar(0.82 * 0.82) * (to - from).squaredNorm(), d);
   }
-
-  /// Calls visit(i, segment(i)) for each piece but one that is not excluded, from there to both ends of the beam.  Those beside it are left out where
-  /// they and it are as long as their chords, as what turns by less than a radian is: no other place of it is nearer than half as near.
-  /// @param d  [m] may change with a call
-  template <class Visit>
-  void visit_others(int own, const Vector2<Scalar>& q, const Scalar& d, Visit&& visit) const noexcept {
-    const auto straight = [](const Node& a, const Node& b, Scalar chord) {
-      const Scalar l = (b.s - a.s) * (b.s - a.s);
-      return std::abs(chord - l) < Scalar(0.03) * l;
-    };
-    const Vector2<Scalar> ends[] = {nodes_[own].position() - q, nodes_[own + 1].position() - q};
-    const bool plain = straight(nodes_[own], nodes_[own + 1], (ends[1] - ends[0]).squaredNorm());
-    for (const int step : {-1, 1}) {
-      // Computed once a node, for both of its pieces.
-      const Node* a = &nodes_[step < 0 ? own : own + 1];
-      Vector2<Scalar> from = ends[step < 0 ? 0 : 1];
-      bool beside = plain;
-      for (int i = own + step; i >= 0 && i < segments(); i += step) {
-        const Node* const b = a + step;
-        const Vector2<Scalar> to = b->position() - q;
-        const Scalar chord = (to - from).squaredNorm();
-        if (!(beside && straight(*a, *b, chord)) && !is_far(from, to, chord, d)) visit(i, segment(i));
-        a = b, from = to, beside = false;
-      }
-    }
-  }
-
-  /// Largest curvature of piece i of a centreline of finite rotation, at its ends, to second order of their rotations [1/m].
-  Scalar sharpest(int i) const noexcept {
+  /// Whether piece i is as long as its chord, as what turns by less than a radian is.
+  bool straight(int i) const noexcept {
     const Node &a = nodes_[i], &b = nodes_[i + 1];
-    const Vector2<Scalar> along = direction(i), chord = b.position() - a.position();
-    const Scalar l = b.s - a.s, lean = 6 * (along.x() * chord.y() - along.y() * chord.x()),
-                 turn = 2 * l * (b.theta - a.theta);
-    return (std::max)(std::abs(lean + turn), std::abs(lean + 2 * turn)) / (l * l);
+    const Scalar l = (b.s - a.s) * (b.s - a.s);
+    return std::abs((b.position() - a.position()).squaredNorm() - l) < Scalar(0.03) * l;
   }
 
   /// Curvature at node i of a centreline of finite rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.
@@ -242,15 +226,6 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
   }
 
  private:
-  /// Of finite rotation: its inner control points are 0.42 chords from its nodes at most (arc()), hence no point is farther than 3/4 · 0.42 chords
-  /// from the chord.   @param from, to  its nodes, from q [m]   @param chord  squared [m²]
-  static bool is_far(const Vector2<Scalar>& from, const Vector2<Scalar>& to, Scalar chord,
-                     Scalar d) noexcept {
-    const Scalar reach = Scalar(0.82 * 0.82) * chord, square = d * d,
-                 more = (from + to).squaredNorm() / 4 - square - reach;
-    // Farther than d and the reach together, without a root.
-    return more > 0 && more * more > 4 * square * reach;
-  }
   /// Mean of |dr/ds| between two neighbouring nodes, from their directions.
   Scalar stretch(int i, int k, const Vector2<Scalar>& from, const Vector2<Scalar>& to) const noexcept {
     const Node &a = nodes_[i], &b = nodes_[k];

@@ -67,39 +67,25 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
     control.col(3) = b.r;
     return control;
   }
-  /// Calls visit(i, segment(i)) for each piece but one that may come within d of a shaft, as its nodes alone show, from there to both ends of the
-  /// rod; but for those beside it, as in a plane.   @param d  [m] may change with a call
-  template <class Visit>
-  void visit_others(int own, const Shaft<Scalar>& shaft, const Scalar& d, Visit&& visit) const noexcept {
-    const Scalar squared = shaft.way.squaredNorm(), over = squared > 0 ? 1 / squared : Scalar(0);
-    const auto straight = [](Scalar chord, Scalar l, Scalar stretch) {
-      return chord > Scalar(0.97) * l * l * stretch;
-    };
-    const Node &left = nodes_[own], &right = nodes_[own + 1];
-    const bool plain = straight((right.r - left.r).squaredNorm(), right.s - left.s,
-                                (std::max)(left.tangent.squaredNorm(), right.tangent.squaredNorm()));
-    for (const int step : {-1, 1}) {
-      // Computed once a node, for both of its pieces.
-      const Node* a = step < 0 ? &left : &right;
-      VectorOf<Scalar, 3> off = a->r - shaft.tip;
-      Scalar distance_a = off.squaredNorm(), along_a = shaft.way.dot(off),
-             stretch_a = a->tangent.squaredNorm();
-      bool beside = plain;
-      for (int i = own + step; i >= 0 && i < segments(); i += step) {
-        const Node* const b = a + step;
-        off = b->r - shaft.tip;
-        const Scalar distance_b = off.squaredNorm(), along_b = shaft.way.dot(off),
-                     stretch_b = b->tangent.squaredNorm(), chord = (b->r - a->r).squaredNorm();
-        // With m between a and b, |m|² = (|a|² + |b|²)/2 - |b - a|²/4.
-        const Scalar along = (along_a + along_b) / 2,
-                     t = (std::min)((std::max)(along * over, Scalar(0)), Scalar(1)),
-                     middle = (distance_a + distance_b) / 2 - chord / 4 - t * (2 * along - t * squared),
-                     l = b->s - a->s, stretch = (std::max)(stretch_a, stretch_b);
-        if (!(beside && straight(chord, l, stretch)) && !is_far(middle, chord, l, stretch, d))
-          visit(i, segment(i));
-        a = b, distance_a = distance_b, along_a = along_b, stretch_a = stretch_b, beside = false;
-      }
-    }
+  /// How far a shaft lies ahead of node i, in units of the node's tangent [m].
+  Scalar ahead(int i, const Shaft<Scalar>& shaft) const noexcept {
+    const VectorOf<Scalar, 3>& r = nodes_[i].r;
+    return nodes_[i].tangent.dot(shaft.at(shaft.nearest(r)) - r);
+  }
+  /// Whether no point of piece i is within d of a shaft, as its nodes alone show.  Its inner control points are a third of its length times |dr/ds| from
+  /// its nodes, hence no point is farther than 3/4 of that from the chord.
+  bool excludes(int i, const Shaft<Scalar>& shaft, Scalar d) const noexcept {
+    const Node &a = nodes_[i], &b = nodes_[i + 1];
+    const VectorOf<Scalar, 3> middle = (a.r + b.r) / 2;
+    // Half a chord and a quarter of its length, with x + y <= √(2x² + 2y²), squared.  2 % for round-off, which may lengthen what is
+    // computed of the piece.
+    const Scalar least = Scalar(1.02) * ((b.r - a.r).squaredNorm() / 2 + longest(a, b) / 8);
+    return detail::is_far(shaft.at(shaft.nearest(middle)) - middle, least, d);
+  }
+  /// Whether piece i is as long as its chord, as what turns by less than a radian is.
+  bool straight(int i) const noexcept {
+    const Node &a = nodes_[i], &b = nodes_[i + 1];
+    return (b.r - a.r).squaredNorm() > Scalar(0.97) * longest(a, b);
   }
   /// Calls visit(i, segment(i)) for each piece, in order.
   template <class Visitor>
@@ -143,15 +129,10 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
   }
 
  private:
-  /// Whether no point of a piece is within d.  Its inner control points are a third of its length times |dr/ds| from its nodes, hence no point is farther
-  /// than 3/4 of that from the chord.   Squared: the distance of the middle of its chord, the chord, |dr/ds| at one of its ends.
-  static bool is_far(Scalar middle, Scalar chord, Scalar l, Scalar stretch, Scalar d) noexcept {
-    // Half a chord and a quarter of its length, with x + y <= √(2x² + 2y²), squared.  2 % for round-off, which may lengthen what is
-    // computed of the piece.
-    const Scalar least = Scalar(1.02) * (chord / 2 + l * l * stretch / 8);
-    // Farther than d and √least together, without a root.
-    const Scalar more = middle - d * d - least;
-    return more > 0 && more * more > 4 * d * d * least;
+  /// Square of a length of a piece, at the larger |dr/ds| of its ends [m²].
+  static Scalar longest(const Node& a, const Node& b) noexcept {
+    const Scalar l = b.s - a.s;
+    return l * l * (std::max)(a.tangent.squaredNorm(), b.tangent.squaredNorm());
   }
 };
 

@@ -84,7 +84,7 @@ class Scene {
   }
 
   // As of RodElements, of one.
-  const auto& nodes() const { return nodes_; }
+  const auto* nodes() const { return nodes_.data(); }
   const auto& properties(int) const { return p_; }
   const auto& inner(int) const { return inner_; }
 

@@ -8,6 +8,7 @@
 #include <hapbeam/contact/find_contact_near.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
+#include <hapbeam/shapes.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -91,6 +92,13 @@ TEST_CASE("near where it was the contact is that of the whole shape, and little 
     CHECK(tried.apart == 0);
     CHECK(tried.elsewhere == 0);
     CHECK(tried.kept < 10);  // a ruler does not wind
+  }
+  SECTION("half a ring, of which a hand within is as near to either side") {
+    const Beam tall = arch(0.1, 0.049, Section::rectangle(0.02, 0.0005), Material{210e9}, Support::clamped);
+    const Tried tried = try_random(FemModel<Corotational<>>(tall, 16), 1000);
+    CHECK(tried.apart == 0);
+    CHECK(tried.elsewhere == 0);
+    CHECK(tried.kept > 50);
   }
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include <hapbeam/centreline.hpp>
 
@@ -97,7 +98,12 @@ struct InnerRow : InnerState<S, D> {
   bool rough = false;                ///< there is friction
   Vector friction = Vector::Zero();  ///< on the beam [N]
 
-  // Found where an element looks at it.
+  // Found where an element is condensed.
+  /// How far its curvature makes up for that of what is round along it, 1: the distance has no minimum.
+  S wraps = std::numeric_limits<S>::infinity();
+
+  // Found where an element looks at it, or foreseen where it is brought forward.
+  bool seen = false;              ///< as the curve lies now
   S gap = 0;                      ///< D - reach, or n · (u, w) - d, in space n · r - d [m]
   Vector place = Vector::Zero();  ///< of the curve [m]
   Vector tangent = vector_of<S, D>([](int k) { return S(k == 0); });  ///< of it

@@ -250,9 +250,8 @@ class PieceChain {
     return {properties_, a.s, b.s, S(1), N_, stretch, p, q, longest_ < count_};
   }
   /// Where a contact is as it lies.
-  void see(int k) noexcept {
-    Contact& contact = in_order(k);
-    const Node& node = chain_[of(k + 1)];
+  void see(int k) noexcept { see(in_order(k), chain_[of(k + 1)]); }
+  static void see(Contact& contact, const Node& node) noexcept {
     contact.moved = node.moved, contact.theta = node.theta;
     contact.place = Vector(node.s + node.moved.x(), node.moved.y());
     contact.tangent = Turns ? direction(S(-node.theta)) : Vector(1, -node.theta);

@@ -47,18 +47,10 @@ class RodBubbles : protected Stacked<S, Most> {
   /// Where the contacts are as it lies, after all have been added.
   void look() noexcept {
     for (int k = 0; k < count(); ++k) look(k);
-    fill();
-    for (int k = 0; k < count(); ++k) {
-      Contact& contact = *contacts_[at(k)];
-      const Spot& spot = spots_[at(k)];
-      const S flat = spot.t.dot(Vector(spot.curved * spot.t));
-      const Vector curvature = spot.k + spot.bend * (between(k, k) * vector(force_, k));
-      contact.wraps = flat > 0 ? -contact.normal.dot(curvature) / flat : S(0);
-    }
   }
   /// What contacts bend of it alone, as it lies [J].
   S strain_energy() noexcept {
-    look();
+    look(), fill();
     S sum = 0;
     for (int i = 0; i < size(); ++i) sum += force_[at(i)] * yield_[at(i)] / 2;
     return sum;
@@ -166,7 +158,11 @@ class RodBubbles : protected Stacked<S, Most> {
       const ByPlace& own = spots_[at(i)].g;
       const Matrix shape = between(i, i);
       const Vector force = vector(force_, i), moved = shape * force;
-      const S half = force.dot(moved) / 2;
+      const S half = force.dot(moved) / 2,
+              flat = spots_[at(i)].t.dot(Vector(spots_[at(i)].curved * spots_[at(i)].t));
+      contacts_[at(i)]->wraps =
+          flat > 0 ? -contacts_[at(i)]->normal.dot(spots_[at(i)].k + spots_[at(i)].bend * moved) / flat
+                   : S(0);
       put(C_, i, i, own.value * shape);
       add_to(J_[at(i)], i, own.by(0) * moved), add_to(slope_, i, own.by(0) / 2 * moved);
       turn_twice(i, i, half * own.by(0, 0));

@@ -51,8 +51,6 @@ struct InnerContact<S, 3> : InnerRow<S, 3> {
   bool stays = false;            ///< s stays until an equilibrium is found,
   S off = 0;                     ///< and is so far from where the curve is tangent then [m]
   Matrix friction_tangent = Matrix::Zero();  ///< across the normal [N/m]
-  /// How far its curvature makes up for that of the capsule along it, 1: the distance has no minimum; found where an element looks at it.
-  S wraps = 0;
 
   /// What is led along a path [m].
   Vector& centre_or_tip() noexcept { return axis.tip; }

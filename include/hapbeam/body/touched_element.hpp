@@ -246,6 +246,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
             q = piece.at_tip, N = piece.tension, alpha = l * p - root.theta;
     const Density D = density(k);
     energy_ += l * D.D;
+    if (properties_.straight) contact.wraps = contact.reach * std::abs(D.q) / properties_.EI;
     Record& record = records_[of(k)];
     record.side = side;
 
@@ -411,11 +412,15 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     const std::array<S, state> tip{moved.x(), moved.y(), turned + record.length * x[2] + along * record.turns,
                                    x[3]};
     contact.moved += Vector(tip[0] - tip[3], tip[1]), contact.theta += tip[2];
-    if constexpr (Turns) move_place(record, x[3], waiting, contact, longer);
+    // Friction is told exactly where it is.
+    contact.seen = !contact.rough;
+    if constexpr (Turns) contact.seen = move_place(record, x[3], waiting, contact, longer) && contact.seen;
+    if (contact.seen) this->see(contact, {contact.moved, contact.theta, chain_[of(k + 1)].s + x[3]});
     return tip;
   }
   /// The place of a contact goes as it was condensed.   @param by  so far [m]   @param waiting  the force along the beam that it lacks [N]
-  void move_place(const Record& record, S by, S waiting, Contact& contact, S& longer) const noexcept {
+  /// @return whether it has
+  bool move_place(const Record& record, S by, S waiting, Contact& contact, S& longer) const noexcept {
     const S l = nodes_[1].s - nodes_[0].s;
     // Beside a node it stays where it is held off that.
     const auto beside = [&](S s) {
@@ -427,7 +432,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
       // The force along the beam that it lacks, as if that bent as sharply as the circle.
       if (record.waits) longer += waiting * waiting * contact.reach / std::abs(contact.force);
       contact.waits = false;
-      return;
+      return by == 0;
     }
     if (contact.moves && !record.moves) {
       // A force that is next to none says nothing of its place.  That is the foot of the centre.
@@ -439,7 +444,9 @@ class TouchedElement : private PieceChain<Element, S, Most> {
     if (contact.moves && !(beside(contact.s) && beside(contact.s + goes))) {
       longer += stiff * goes * goes;
       contact.s += goes;
+      return goes == by;
     }
+    return by == 0;
   }
 
   static S dot(const Row& a, const Row& b) noexcept {

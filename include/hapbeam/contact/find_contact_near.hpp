@@ -46,6 +46,8 @@ template <typename Scalar, int D, class Query>
 NearestPoint<Scalar, D> nearest_downhill(const Centreline<Scalar, D>& line, int piece,
                                          const Query& q) noexcept {
   NearestPoint<Scalar, D> best;
+  // A contact is a node, and one of the two pieces that meet there leads to q.
+  if (piece > 0 && line.ahead(piece, q) < 0) --piece;
   best.look(piece, line.segment(piece), q);
   const int way = best.at.t <= 0 ? -1 : best.at.t >= 1 ? 1 : 0;
   for (int next = piece + way; way != 0 && next >= 0 && next < line.segments(); next += way) {
@@ -64,11 +66,18 @@ NearestPoint<Scalar, D> nearest_of_touch(const Centreline<Scalar, D>& line, Scal
   NearestPoint<Scalar, D> best = nearest_downhill(line, line.segment_at(s), q);
   if (best.segment < 0) return best;
   Scalar d = (std::max)(std::sqrt(best.at.distance_squared) - reach / 2, Scalar(0));
-  line.visit_others(best.segment, q, d, [&](int i, const CubicSegment<Scalar, D>& piece) {
-    const ClosestPoint<Scalar, D> other = closest_point(piece, q);
-    const Scalar its = std::sqrt(other.distance_squared);
-    if (its < d) best.segment = i, best.at = other, best.piece = piece, d = its;
-  });
+  const int own = best.segment;
+  const bool plain = line.straight(own);
+  for (const int step : {-1, 1})
+    for (int i = own + step; i >= 0 && i < line.segments(); i += step) {
+      // Where both it and the one beside it are as long as their chords, no other place of them is nearer than half as near.
+      const bool beside = i == own + step && plain && line.straight(i);
+      if (beside || line.excludes(i, q, d)) continue;
+      const CubicSegment<Scalar, D> piece = line.segment(i);
+      const ClosestPoint<Scalar, D> other = closest_point(piece, q);
+      const Scalar its = std::sqrt(other.distance_squared);
+      if (its < d) best.segment = i, best.at = other, best.piece = piece, d = its;
+    }
   return best;
 }
 

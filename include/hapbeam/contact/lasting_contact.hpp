@@ -140,24 +140,7 @@ struct LastingContact {
     lay(contact, pushed.s, pushed.point, pushed.normal, model.thickness());
     contact.past_end = pushed.past_end;
     if (status == Status::ok && friction.rough() && !friction.settled) status = Status::iteration_limit;
-    if constexpr (planar)
-      if (status == Status::ok && !pushed.past_end && pinched(model.shape(), pushed.s, avatar, reach))
-        status = Status::out_of_range;
     return {Hold::pressing, -pushed.force, status};
-  }
-  /// Whether the beam beside s lies within the circle, because it bends more sharply there and touches at two points.
-  static bool pinched(const Centreline<Scalar, dimension>& line, Scalar s, const Avatar& avatar,
-                      Scalar reach) noexcept {
-    // Where it bends nowhere half as sharply as the circle it does not.
-    const int last = line.segment_at(s + reach / 2);
-    int i = line.segment_at(s - reach / 2);
-    while (i <= last && line.sharpest(i) * reach < Scalar(0.5)) ++i;
-    if (i > last) return false;
-    for (const Scalar way : {-reach / 2, reach / 2}) {
-      const Scalar beside = std::clamp(s + way, Scalar(0), line.length());
-      if (avatar.way_from(line.position(beside)).norm() < Scalar(0.99) * reach) return true;
-    }
-    return false;
   }
 };
 

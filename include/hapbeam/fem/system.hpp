@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include <hapbeam/element/tensioned_curve.hpp>
 #include <hapbeam/fem/contact/contact_rows.hpp>
@@ -333,9 +334,8 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   void draw() noexcept {
     detail::each_touched(rows_, [this](int e) { look_in(e); });
     drawn_.draw(
-        elements(), [this](int i) -> const Node& { return node(i); },
-        [this](Scalar s) { return element_at(s); }, rows_.size(), [this](int k) { return rows_[k].s; },
-        [this](int k) { return mark(k); },
+        elements(), [this](int i) -> const Node& { return node(i); }, rows_.size(),
+        [this](int k) { return std::pair(rows_.element(k), rows_[k].s); }, [this](int k) { return mark(k); },
         [this](int e, Scalar s) {
           Node node = chain_.node_within(e, s);
           const Beside by = beside(centreline(), e, e, s);

@@ -69,7 +69,6 @@ class ContactRows {
     row.contact.rough = friction != nullptr;
     if constexpr (dimension == 3) row.contact.stays = friction && stays;
     row.contact.enter(element), row.contact.forget_order();
-    row.seen = false;
     row.goal = goal.reach, row.centre = row.contact.centre_or_tip(), row.by = 0, row.from = -1;
     starts_known_ = false;
   }
@@ -81,7 +80,7 @@ class ContactRows {
       Row& row = rows_[k];
       Contact& contact = row.contact;
       if (starts) row.start = now(k);
-      row.seen = false;
+      contact.seen = false;
       if (!takes_bodies || contact.kind == Contact::Kind::along) {
         contact.reach = t < 1 ? row.start + t * (row.goal - row.start) : row.goal;
         continue;
@@ -101,14 +100,15 @@ class ContactRows {
       Row& row = rows_[k];
       const Scalar reach = row.contact.reach;
       const Vector centre = row.contact.centre_or_tip();
-      row.contact = row.saved, row.element = row.saved_in, row.by = 0, row.seen = false;
+      row.contact = row.saved, row.element = row.saved_in, row.by = 0;
+      row.contact.seen = false;
       row.contact.reach = reach, row.contact.centre_or_tip() = centre;
     }
   }
   /// The beam falls, and the forces of before are no longer there.
   void fall() noexcept {
     for (int k = 0; k < size_; ++k) {
-      rows_[k].contact.force = 0, rows_[k].seen = false;
+      rows_[k].contact.force = 0, rows_[k].contact.seen = false;
       if constexpr (takes_bodies)
         if (Friction* const friction = rows_[k].friction) friction->fall();
     }
@@ -130,10 +130,10 @@ class ContactRows {
   template <class Parts, class Set>
   void look(const Parts& beam, int e, Set&& set) noexcept {
     bool seen = true;
-    each_in(e, [&](int k) { seen = seen && rows_[k].seen; });
+    each_in(e, [&](int k) { seen = seen && rows_[k].contact.seen; });
     if (seen) return;
     Touched touched(beam, e);
-    each_in(e, [&](int k) { touched.add(rows_[k].contact, k), rows_[k].seen = true; });
+    each_in(e, [&](int k) { touched.add(rows_[k].contact, k), rows_[k].contact.seen = true; });
     touched.look();
     set(touched.tension());
   }
@@ -163,7 +163,7 @@ class ContactRows {
       another = another || off * (contact.friction.norm() * contact.reach + 1000 * normal * off) >
                                exact * normal * length * contact.reach;
       contact.s -= contact.off;
-      contact.off = 0, row.seen = false;
+      contact.off = 0, contact.seen = false;
       stay_on_beam(row, element_at);
     }
     return another;
@@ -197,7 +197,7 @@ class ContactRows {
       // What was sought has been added.
       const bool sought = dimension == 3 && first < 0 && row.touched;
       if (first < 0) first = k, touched = sought ? &*row.touched : &row.touched.emplace(beam, e);
-      row.first = first, row.number = number++, row.seen = false;
+      row.first = first, row.number = number++, row.contact.seen = false;
       if (!sought) touched->add(row.contact, k);
     });
     const Scalar energy = touched->condense(r, K, [&]([[maybe_unused]] int k) {
@@ -334,7 +334,7 @@ class ContactRows {
     }
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[k];
-      row.by = 0, row.seen = false;
+      row.by = 0;
       if constexpr (takes_bodies)
         if (row.contact.kind == Contact::Kind::round) stay_on_beam(row, element_at);
     }
@@ -347,7 +347,6 @@ class ContactRows {
     explicit Row(int elements) : column(elements) {}
     Contact contact, saved;
     int element = 0, saved_in = 0;
-    bool seen = false;   ///< as it lies now
     int from = -1;       ///< element that it has left,
     Scalar crossed = 0;  ///< and where it came from there [m]
     Friction* friction = nullptr;
@@ -368,14 +367,14 @@ class ContactRows {
     Contact& contact = row.contact;
     // Beyond an end its last point is touched, until the centre comes back.
     const Scalar at = std::clamp(contact.s, contact.least, contact.most);
-    if (at != contact.s) contact.moves = false;
+    if (at != contact.s) contact.moves = contact.seen = false;
     contact.s = at;
     const int left = row.element;
     row.element = element_at(at, left);
     if (row.element != left) {
       // Where each side sends it back by little, it lies at the node between them.
       contact.rests = row.element == row.from && std::abs(at - row.crossed) < close_by * contact.most;
-      row.from = left, row.crossed = at;
+      row.from = left, row.crossed = at, contact.seen = false;
     }
     contact.enter(row.element);
   }

@@ -121,24 +121,24 @@ class CoupledContacts {
       obstacle.pushed.force = -now.at.force;
       obstacle.friction = rough(i) ? &now.friction : nullptr;
     }
-    Friction friction(system, all_, count_);
+    friction_.begin(system, all_, count_);
     bool found = false;
     for (int pass = 0; pass < most_passes && !found; ++pass) {
       system.set_goal();
       int goals = 0;
       for (int i = 0; i < count_; ++i) {
         slot(i).goal = all_[i].touching ? goals++ : -1;
-        if (slot(i).goal >= 0) system.add_goal(contact(system, i), friction.of(i));
+        if (slot(i).goal >= 0) system.add_goal(contact(system, i), friction_.of(i));
       }
       do
         if (!newton(goals > 0)) return system.forget_friction(), false;
-      while (friction.any() && !friction.settled(system, [this](int i) { return slot(i).goal; }));
+      while (friction_.any() && !friction_.settled(system, [this](int i) { return slot(i).goal; }));
       take(system);
-      found = !review(system, friction);
+      found = !review(system);
     }
     for (int i = 0; i < count_; ++i) {
       Slot& now = slot(i);
-      if (now.goal >= 0 && friction.of(i)) friction.of(i)->leave(now.friction, now.next.force);
+      if (now.goal >= 0 && friction_.of(i)) friction_.of(i)->leave(now.friction, now.next.force);
       else now.friction.let_go();
       now.before = now.at, now.at = now.next;
       now.stages = now.touches() ? now.stages + 1 : 0;
@@ -213,7 +213,7 @@ class CoupledContacts {
     }
   }
   /// @return whether another one touches now, or one does not any more
-  bool review(const System& system, Friction& friction) noexcept {
+  bool review(const System& system) noexcept {
     int changes = -1;
     for (int i = 0; i < count_; ++i)
       if (slot(i).touches() && !(slot(i).next.force > 0) &&
@@ -232,7 +232,7 @@ class CoupledContacts {
     now.seen = pulls ? Seen::let_go : touches(system, now);
     now.next = {}, now.next.s = now.foot, now.stages = 0;
     obstacle.touching = now.seen == Seen::touching, obstacle.pushed.force = 0;
-    if (obstacle.touching) friction.meet(system, changes);
+    if (obstacle.touching) friction_.meet(system, changes);
     return true;
   }
   /// As what something touches.
@@ -258,6 +258,7 @@ class CoupledContacts {
   int count_ = 0;
   std::array<Slot, std::size_t(Most)> slots_{};
   Obstacle all_[Most] = {};
+  Friction friction_;
 };
 
 }  // namespace hapbeam::detail

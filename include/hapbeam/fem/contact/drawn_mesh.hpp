@@ -22,11 +22,10 @@ class DrawnMesh {
   int size() const noexcept { return nodes_.size(); }
   const Node& operator[](int i) const noexcept { return nodes_[i]; }
 
-  /// @param mesh  (i) -> node of the mesh   @param elements  of it   @param element_at  (s) -> element
-  /// @param contacts  how many there are   @param place  (k) -> s of one   @param mark  (k) -> node there   @param within  (e, s) -> node in an element
-  template <class Mesh, class ElementAt, class Place, class Mark, class Within>
-  void draw(int elements, Mesh&& mesh, ElementAt&& element_at, int contacts, Place&& place, Mark&& mark,
-            Within&& within) noexcept {
+  /// @param mesh  (i) -> node of the mesh   @param elements  of it   @param contacts  how many there are   @param place  (k) -> element and s of one
+  /// @param mark  (k) -> node there   @param within  (e, s) -> node in an element
+  template <class Mesh, class Place, class Mark, class Within>
+  void draw(int elements, Mesh&& mesh, int contacts, Place&& place, Mark&& mark, Within&& within) noexcept {
     // Where contacts are that are apart from each other and from nodes, and in which element.
     std::pair<int, Node> marks[Most];
     int count = 0;
@@ -34,8 +33,7 @@ class DrawnMesh {
     std::pair<int, Node> instead[Most];
     int replaced = 0;
     for (int k = 0; k < contacts; ++k) {
-      const auto s = place(k);
-      const int e = element_at(s);
+      const auto [e, s] = place(k);
       const auto from = mesh(e).s, to = mesh(e + 1).s, apart = (to - from) / 1000;
       bool is_apart = s - from > apart && to - s > apart;
       for (int j = 0; j < count; ++j) is_apart = is_apart && std::abs(marks[j].second.s - s) > apart;

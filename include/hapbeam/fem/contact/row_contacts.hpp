@@ -363,20 +363,16 @@ class RowContacts {
     }
     return any;
   }
-  /// Whether a rod lies in what is round beside where it touches that, too: bent as sharply, it has another place there.
+  /// Whether it lies in what is round beside where it touches that, too: bent as sharply, it has another place there.
   bool touches_again(System& system, int i) noexcept {
-    if constexpr (dimension == 3) {
-      const Slot& now = slots_[i];
-      if (count_ > 1 || now.goal < 0 || !now.moves || !(system.rows()[now.goal].wraps > sharpest))
-        return false;
-      system.draw();
-      const auto line = system.drawn();
-      const ObstacleGap<decltype(line), RoundContact> gap(line, RoundContact{all_[i].round},
-                                                          line.node_near(now.s), now.s,
-                                                          shortest_element<Scalar>(system.length()));
-      return gap.depth > Scalar(1e-6) * system.length();
-    }
-    return false;
+    const Slot& now = slots_[i];
+    if (count_ > 1 || now.goal < 0 || !now.moves || !(system.rows()[now.goal].wraps > sharpest)) return false;
+    system.draw();
+    const auto line = system.drawn();
+    const ObstacleGap<decltype(line), RoundContact> gap(line, RoundContact{all_[i].round},
+                                                        line.node_near(now.s), now.s,
+                                                        shortest_element<Scalar>(system.length()));
+    return gap.depth > Scalar(1e-6) * system.length();
   }
   /// Whether two bodies lie on the beam side by side.
   bool beside(int i, int k) noexcept {

@@ -166,22 +166,22 @@ class RowPush : private RowContacts<Element, System> {
     const bool goes_on = look_ahead(system);
     for (int i = 0; i < count; ++i)
       if (all[i].touching && !(all[i].pushed.force < 0) && this->beside_a_touch(i)) all[i].touching = false;
-    Friction friction(system, all, count);
-    if (foresight_.forth()) friction.go_on();
+    friction_.begin(system, all, count);
+    if (foresight_.forth()) friction_.go_on();
     began_ = false;
     Status status = Status::ok;
     bool snapped = false;
     for (int pass = 1;; ++pass) {
       if constexpr (most > 1)
         if (count > 1) this->part(system);
-      status = solve(way, pass == 1, goes_on, friction);
+      status = solve(way, pass == 1, goes_on);
       snapped = snapped || status == Status::snapped;
       if (!is_answer(status)) {
         this->lose(system);
         break;
       }
       this->take(system);
-      if (!this->review(system, range, friction)) break;
+      if (!this->review(system, range, friction_)) break;
       if (this->ran_away()) foresight_.begin_again(system), system.draw();
       if (pass == most_passes) {
         status = Status::iteration_limit;
@@ -191,7 +191,7 @@ class RowPush : private RowContacts<Element, System> {
     if (snapped && status == Status::ok) status = Status::snapped;
     for (int i = 0; i < count; ++i) this->end(system, i, status);
     const auto left =
-        friction.leave(system, status, work_, balance_, [this](int i) { return slots_[i].goal; });
+        friction_.leave(system, status, work_, balance_, [this](int i) { return slots_[i].goal; });
     taken_ = left.taken;
     potential_ = system.foreseen_potential() + left.stored;
     remember(status == Status::ok);
@@ -241,7 +241,7 @@ class RowPush : private RowContacts<Element, System> {
   }
 
   template <class Way>
-  Status solve(Way& way, bool first, bool goes_on, Friction& friction) noexcept {
+  Status solve(Way& way, bool first, bool goes_on) noexcept {
     System& system = way.system_;
     int contacts = 0;
     for (int i = 0; i < count_; ++i) slots_[i].goal = all_[i].touching ? contacts++ : -1;
@@ -254,17 +254,17 @@ class RowPush : private RowContacts<Element, System> {
       return Status::ok;
     }
     // With friction what is near is tried first; all of the way may be a fall.
-    const bool rough = friction.any();
+    const bool rough = friction_.any();
     // Places in space stay in that where they hardly slide, and all do where there was none: else there may be none.
     bool stay = dimension == 2;
     const auto stays = [&](int i) {
-      return dimension == 3 && friction.hardly_slides(i, system.length() / 100000);
+      return dimension == 3 && friction_.hardly_slides(i, system.length() / 100000);
     };
     int moves = 0;
     const auto aim = [&] {
       system.set_goal();
       for (int i = 0; i < count_; ++i)
-        if (slots_[i].goal >= 0) system.add_goal(this->contact(i), friction.of(i), stay || stays(i));
+        if (slots_[i].goal >= 0) system.add_goal(this->contact(i), friction_.of(i), stay || stays(i));
     };
     // Where some stay, all may have to, and the solves of a push are for both ways.
     bool some = false;
@@ -275,7 +275,7 @@ class RowPush : private RowContacts<Element, System> {
              : some && !stay                         ? near_with_friction * 3 / 4
                                                      : near_with_friction;
     };
-    bool all = !rough || way.descends() || friction.falls();
+    bool all = !rough || way.descends() || friction_.falls();
     const auto begin_again = [&] {
       for (int i = 0; i < count_; ++i)
         if (slots_[i].goal >= 0) static_cast<State&>(slots_[i]) = slots_[i].begins;
@@ -284,23 +284,23 @@ class RowPush : private RowContacts<Element, System> {
     const auto agrees = [&](Status found) {
       if (!rough) return true;
       if (is_answer(found)) {
-        const bool settled = friction.settled(system, [this](int i) { return slots_[i].goal; }),
+        const bool settled = friction_.settled(system, [this](int i) { return slots_[i].goal; }),
                    moved = system.places_go_on();
         if (settled && (!moved || ++moves > most_moves)) return true;
         this->take(system);
       } else {
         if (all) return true;
         // What two hold between them turns late, what one holds before its place stays.
-        const bool turns = (stay || most == 1) && friction.turn();
+        const bool turns = (stay || most == 1) && friction_.turn();
         if (!turns && !stay) {
           stay = true;
-          friction.begin_again(system);
+          friction_.begin_again(system);
           if (began_) foresight_.begin_again(system), begin_again();
           return false;
         }
         all = !turns;
       }
-      if (friction.torn() && began_) {
+      if (friction_.torn() && began_) {
         foresight_.begin_again(system);
         begin_again();
       }
@@ -361,6 +361,7 @@ class RowPush : private RowContacts<Element, System> {
   int last_count_ = 0;
   bool touched_[most] = {};
   ObstacleKind kind_[most] = {};
+  Friction friction_;
   Work work_, from_;
   Before before_;
   Round to_[most] = {};

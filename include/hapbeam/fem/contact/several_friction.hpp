@@ -2,7 +2,6 @@
 // Friction at each of several contacts of a push (friction_law.hpp).
 //
 // Each has a law of its own, with a bound that follows its own normal force.  An equilibrium is one of Coulomb's where all of them have settled.
-// It is made where a push begins, and gone where the push ends.
 // Real-time: noexcept, no allocation, O(contacts).
 #pragma once
 
@@ -71,10 +70,13 @@ class SeveralFriction {
   using Friction = typename System::Friction;
   using Vector = typename Friction::Vector;
 
-  /// @param all  those that touch and have friction go on as they did
-  SeveralFriction(const System& system, Obstacle* all, int count) noexcept : all_(all), count_(count) {
-    for (int i = 0; i < count; ++i)
+  /// To be called where a push begins.   @param all  those that touch and have friction go on as they did
+  void begin(const System& system, Obstacle* all, int count) noexcept {
+    all_ = all, count_ = count, any_ = false;
+    for (int i = 0; i < count; ++i) {
+      laws_[i].reset();
       if (all[i].touching) meet(system, i);
+    }
   }
   /// An obstacle has a contact now.
   void meet(const System& system, int i) noexcept {
@@ -210,8 +212,8 @@ class SeveralFriction {
       if (all_[i].touching && laws_[i]) use(i, *laws_[i]);
   }
 
-  Obstacle* all_;
-  int count_;
+  Obstacle* all_ = nullptr;
+  int count_ = 0;
   bool any_ = false;
   std::optional<Friction> laws_[Most];
 };
