@@ -9,6 +9,7 @@
 #include "support/error.hpp"
 #include "support/pi.hpp"
 #include "support/random.hpp"
+#include "support/sanitized.hpp"
 #include "world/crossed.hpp"
 #include <hapbeam/fem/dynamic_model.hpp>
 #include <hapbeam/fem/rod_system.hpp>
@@ -134,7 +135,7 @@ TEST_CASE("two rods that strike keep their momentum, and have less energy with e
     const double first = world.energy().sum();
     double last = first, rise = 0, lost = 0, turned = 0;
     int touching = 0;
-    for (int k = 0; k < 10000; ++k) {
+    for (int k = 0; k < trials(10000); ++k) {
       REQUIRE(world.step(dt, 1) == Status::ok);
       touching += world.contacts() > 0;
       const double energy = world.energy().sum();
@@ -343,7 +344,7 @@ TEST_CASE("hands that rush about through rods with mass leave everything finite 
     int failed = 0, touching = 0, most = 0;
     double rests = 0, rise = 0;
     Point by(0, 0, 0);
-    for (int k = 0; k < 10000; ++k) {
+    for (int k = 0; k < trials(10000); ++k) {
       // Half of the time it rests.
       const bool moves = k / 500 % 2 == 0;
       if (moves) {
@@ -361,8 +362,8 @@ TEST_CASE("hands that rush about through rods with mass leave everything finite 
       if (!moves && k % 500 > 5) rise = std::max(rise, energy / rests - 1);
     }
     CAPTURE(speed, failed, touching, most, rise);
-    CHECK(touching > 100);
-    CHECK(failed <= 50);
+    CHECK(touching > trials(100));
+    CHECK(failed <= trials(50));
     CHECK(most <= 6 * 48);
     CHECK(rise <= 1e-9);
   }

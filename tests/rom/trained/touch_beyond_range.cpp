@@ -7,6 +7,7 @@
 #include "rom/training/trained.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/sanitized.hpp"
 #include "support/status.hpp"
 #include "support/thesis_beam.hpp"
 #include <hapbeam/contact/closest_point.hpp>
@@ -54,7 +55,7 @@ TEST_CASE("a hand that jumps far beyond the trained depth presses the nearest po
   Random random(4);
   int compared = 0, elsewhere = 0;
   double worst = 0;
-  for (int stroke = 0; stroke < 250; ++stroke) {
+  for (int stroke = 0; stroke < trials(250); ++stroke) {
     const double radius = L * (stroke % 2 ? random(0.002, 0.05) : std::pow(10, random(-3, 0)));
     const double depth = L * std::pow(10, random(-1.3, 0)), side = random.integer(0, 1) ? 1 : -1;
     const double from = L * random(-0.05, 1.05), to = L * random(-0.05, 1.05);
@@ -78,5 +79,5 @@ TEST_CASE("a hand that jumps far beyond the trained depth presses the nearest po
   }
   CAPTURE(name(left), name(right), worst);
   CHECK(elsewhere == 0);
-  CHECK(compared > 1000);
+  CHECK(compared > trials(1000));
 }
