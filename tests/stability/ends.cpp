@@ -5,7 +5,7 @@
 #include "support/error.hpp"
 #include "support/status.hpp"
 #include "support/thesis_beam.hpp"
-#include <hapbeam/body/shortest_element.hpp>
+#include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 

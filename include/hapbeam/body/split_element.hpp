@@ -19,7 +19,6 @@
 #include <hapbeam/body/contact_on_node.hpp>
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/body/node_front.hpp>
-#include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/centreline.hpp>
 
 namespace hapbeam::detail {

@@ -4,7 +4,7 @@
 //   V = V_Local + ½ (a, b) T (a, b)ᵀ,   a = lθ1 + w2 - w1 - a0,  b = lθ2 + w2 - w1 - b0
 //
 // The membrane is that of Local. T is what the stiffness against end slopes has beyond that of one section. It comes from the
-// flexibility of the element under moments at its ends (body/beam_profile.hpp), which includes steps wherever they are, and shear.
+// flexibility of the element under moments at its ends (body/beam_pieces.hpp), which includes steps wherever they are, and shear.
 // Where it shears θ is the rotation of the section, and the drawn curve has that slope at nodes.
 // Source: Spacone, Ciampi and Filippou, Mixed formulation of nonlinear beam finite element, Computers & Structures 58, 1996.
 #pragma once

@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-#include <hapbeam/body/shortest_element.hpp>
+#include <hapbeam/body/inner_contact.hpp>
 
 namespace hapbeam {
 

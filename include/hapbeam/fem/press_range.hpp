@@ -13,7 +13,7 @@
 #include <type_traits>
 
 #include <hapbeam/beam.hpp>
-#include <hapbeam/body/shortest_element.hpp>
+#include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/support.hpp>
 

@@ -16,7 +16,7 @@
 
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/fem/contact/continuation.hpp>
-#include <hapbeam/fem/contact/round_beside.hpp>
+#include <hapbeam/fem/contact/round_contact.hpp>
 #include <hapbeam/fem/contact/several_friction.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/support.hpp>

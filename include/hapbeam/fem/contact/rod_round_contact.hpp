@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <hapbeam/fem/contact/round_beside.hpp>
+#include <hapbeam/fem/contact/round_contact.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/friction.hpp>
 #include <hapbeam/rod_centreline.hpp>

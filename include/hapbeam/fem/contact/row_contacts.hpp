@@ -14,7 +14,6 @@
 
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/body/rod_inner_contact.hpp>
-#include <hapbeam/body/shortest_element.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/fem/contact/obstacle_gap.hpp>

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <hapbeam/body/shortest_element.hpp>
+#include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/rom/training/training_plan.hpp>
 
