@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 #include "support/status.hpp"
 #include <hapbeam/contact/touch.hpp>
+#include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
@@ -64,4 +65,24 @@ TEST_CASE("the force stays continuous where a beam bends more sharply than the c
     if (radius == 0.005) CHECK(hand.lost + hand.pinched <= 10);  // nowhere as sharp as that
     if (radius == 0.05) CHECK(hand.pinched > 10);
   }
+}
+
+TEST_CASE("a body that touches again is told of beside others, too", "[push][several]") {
+  const double radius = 0.05, height = 0.01;
+  const Beam beam(1, Section::rectangle(0.02, height), Material{200e9}, Support::pinned, Support::pinned);
+  Turning one(beam, 32);
+  Touch<Turning> touch(one, radius);
+  FemModel<Several<Corotational<>, 2>> two(beam, 32);
+  TouchSeveral several(two, {radius}, {Prop<>::peg({0.1, 0.2}, 0.01)});
+  int again = 0, other = 0;
+  for (int k = 0; k < 700; ++k) {
+    const Vector at(0.5, radius + height / 2 - 4e-4 * k);
+    const auto alone = touch.tick(at);
+    const auto beside = several.tick(at);
+    again += alone.status == Status::out_of_range;
+    other += beside.status != alone.status;
+    REQUIRE((beside.force(0) - alone.force).norm() <= 1e-6 * (1 + alone.force.norm()));
+  }
+  CHECK(again > 50);
+  CHECK(other == 0);
 }

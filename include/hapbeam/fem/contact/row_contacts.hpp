@@ -365,7 +365,10 @@ class RowContacts {
   /// Whether it lies in what is round beside where it touches that, too: bent as sharply, it has another place there.
   bool touches_again(System& system, int i) noexcept {
     const Slot& now = slots_[i];
-    if (count_ > 1 || now.goal < 0 || !now.moves || !(system.rows()[now.goal].wraps > sharpest)) return false;
+    if (now.goal < 0 || !now.moves || !(system.rows()[now.goal].wraps > sharpest)) return false;
+    // What may touch at several places is sought at each of them.
+    for (int k = 0; k < count_; ++k)
+      if (k != i && all_[k].body == all_[i].body) return false;
     system.draw();
     const auto line = system.drawn();
     const ObstacleGap<decltype(line), RoundContact> gap(line, RoundContact{all_[i].round},
