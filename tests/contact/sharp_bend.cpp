@@ -6,6 +6,7 @@
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/element/corotational.hpp>
+#include <hapbeam/fem/dynamic_model.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 using namespace hapbeam;
@@ -85,4 +86,28 @@ TEST_CASE("a body that touches again is told of beside others, too", "[push][sev
   }
   CHECK(again > 50);
   CHECK(other == 0);
+}
+
+TEST_CASE("a hand that a beam with mass touches again is told of it", "[push][dynamics]") {
+  const double radius = 0.05, height = 0.01, reach = radius + height / 2;
+  Material steel{200e9};
+  steel.density = 7850, steel.damping.drag = 50;
+  const Beam bar(1, Section::rectangle(0.02, height), steel, Support::pinned, Support::pinned);
+  DynamicModel<Corotational<>> model(bar, 32, 4);
+  int again = 0, wrong = 0;
+  for (int k = 0; k < 500; ++k) {
+    const Vector hand(0.5, reach - 5e-4 * k);
+    const auto felt = model.step(1e-3, {{0.5, hand, reach, 1}, 1e8, 1e4});
+    REQUIRE(is_answer(felt.status));
+    if (!(felt.force < 0)) continue;
+    // Where the avatar is, and how deep the beam lies in it beside where it touches.
+    const Vector centre = felt.point + reach * felt.normal;
+    double deep = 0;
+    for (int i = 0; i <= 2000; ++i)
+      deep = std::max(deep, reach - (model.shape().position(i / 2000.0) - centre).norm());
+    again += felt.status == Status::out_of_range;
+    wrong += felt.status == Status::out_of_range ? deep < 1e-7 : deep > 1e-5;
+  }
+  CHECK(again > 50);
+  CHECK(wrong == 0);
 }

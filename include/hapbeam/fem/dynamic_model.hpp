@@ -101,9 +101,10 @@ class DynamicModel {
   Status step(Scalar dt, const Hand* hands, int count, Felt* pushed) noexcept {
     const Status status = go(dt, hands, count);
     for (int i = 0; i < count && i < contacts; ++i) {
-      pushed[i] = contacts_.pushed(i);
-      const bool taut = pushed[i].force != 0 && system_.overdrawn(pushed[i].s, pushed[i].normal);
-      pushed[i].status = status == Status::ok && taut ? Status::out_of_range : status;
+      pushed[i] = contacts_.pushed(system_, i);
+      if (pushed[i].force != 0 && system_.overdrawn(pushed[i].s, pushed[i].normal))
+        pushed[i].status = Status::out_of_range;
+      if (status != Status::ok) pushed[i].status = status;
     }
     return status;
   }

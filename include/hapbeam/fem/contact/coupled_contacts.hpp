@@ -16,6 +16,7 @@
 
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/fem/contact/continuation.hpp>
+#include <hapbeam/fem/contact/obstacle_gap.hpp>
 #include <hapbeam/fem/contact/round_contact.hpp>
 #include <hapbeam/fem/contact/several_friction.hpp>
 #include <hapbeam/force_model.hpp>
@@ -53,7 +54,7 @@ class CoupledContacts {
 
   /// No hand has ever been there.
   void reset() noexcept { slots_ = {}, count_ = 0; }
-  /// To be called where a step begins.   @param hands  where they go to; kept until end()
+  /// To be called where a step begins.   @param hands  where they go to; kept until pushed()
   void begin(const System& system, const Hand* hands, int count) noexcept {
     hands_ = hands;
     for (int i = 0; i < count; ++i) {
@@ -77,10 +78,15 @@ class CoupledContacts {
     }
   }
   /// What hand i feels at the end of a step.
-  Pushed<Scalar, dimension> pushed(int i) const noexcept {
+  Pushed<Scalar, dimension> pushed(System& system, int i) const noexcept {
     const Slot& now = slot(i);
     if (!now.touches()) return {0, Status::ok};
-    return {-now.at.force, Status::ok, false, now.at.s, now.place, -now.normal};
+    Round avatar = hands_[i].hand;
+    place_of(avatar) +=
+        now.place - avatar.reach * now.normal - RoundContact{hands_[i].hand}.centre(now.place);
+    const bool again = touches_again(system, avatar, now.at.s, now.wraps);
+    return {-now.at.force, again ? Status::out_of_range : Status::ok, false, now.at.s, now.place,
+            -now.normal};
   }
   /// As it is at the beginning of a part of a step, to be set where that is taken back.
   auto kept() const noexcept { return slots_; }
@@ -165,6 +171,7 @@ class CoupledContacts {
     Scalar foot = 0;            // place that is nearest to the hand, of the beam as it is drawn [m]
     State at, before, next;     // after the last stage, the one before, and in this one
     Vector place = Vector::Zero(), normal = Vector::Zero();
+    Scalar wraps = 0;  // as of its contact
     FrictionState<Scalar, dimension> friction;
     Round round{};                  // the hand in this stage
     Scalar whole = 1, lasting = 0;  // K + B/τ [N/m], and what lasts of the penetration without a force [m]
@@ -204,11 +211,11 @@ class CoupledContacts {
         const Contact& found = system.rows()[now.goal];
         now.hard = system.rows().share(now.goal) < Scalar(0.5);
         now.next = found, now.next.force = -system.linear_reaction(now.goal);
-        now.place = found.place, now.normal = found.normal;
+        now.place = found.place, now.normal = found.normal, now.wraps = found.moves ? found.wraps : Scalar(0);
       } else if (now.touches()) {
         const View view = look(system, now);
         now.next = {}, now.next.s = now.foot, now.next.force = now.whole * depth(now, view);
-        now.normal = -view.normal, now.place = view.place;
+        now.normal = -view.normal, now.place = view.place, now.wraps = 0;
       }
     }
   }

@@ -11,6 +11,8 @@
 #include <limits>
 #include <utility>
 
+#include <hapbeam/body/inner_contact.hpp>
+
 namespace hapbeam::detail {
 
 /// @tparam Line  Centreline   @tparam RoundContact  RoundContact<Scalar> | RodRoundContact<Scalar>
@@ -98,5 +100,19 @@ class ObstacleGap {
   bool known_ = false;
   Scalar left_ = 0, right_ = 0, clearance_ = 0;
 };
+
+/// Whether it lies in a body beside where it touches that, too: bent nearly as sharply, it may have another place there.
+/// @param s  where it touches [m]   @param wraps  as of its contact
+template <class System, class Round, typename Scalar>
+bool touches_again(System& system, const Round& round, Scalar s, Scalar wraps) noexcept {
+  using RoundContact = typename System::RoundContact;
+  constexpr Scalar sharpest = Scalar(0.25);  // from there the distance may have another minimum
+  if (!(wraps > sharpest)) return false;
+  system.draw();
+  const auto line = system.drawn();
+  const ObstacleGap<decltype(line), RoundContact> gap(line, RoundContact{round}, line.node_near(s), s,
+                                                      shortest_element<Scalar>(system.length()));
+  return gap.depth > Scalar(1e-6) * system.length();
+}
 
 }  // namespace hapbeam::detail

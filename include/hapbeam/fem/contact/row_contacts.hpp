@@ -362,19 +362,13 @@ class RowContacts {
     }
     return any;
   }
-  /// Whether it lies in what is round beside where it touches that, too: bent as sharply, it has another place there.
+  /// Of what may touch at one place alone.
   bool touches_again(System& system, int i) noexcept {
     const Slot& now = slots_[i];
-    if (now.goal < 0 || !now.moves || !(system.rows()[now.goal].wraps > sharpest)) return false;
-    // What may touch at several places is sought at each of them.
     for (int k = 0; k < count_; ++k)
       if (k != i && all_[k].body == all_[i].body) return false;
-    system.draw();
-    const auto line = system.drawn();
-    const ObstacleGap<decltype(line), RoundContact> gap(line, RoundContact{all_[i].round},
-                                                        line.node_near(now.s), now.s,
-                                                        shortest_element<Scalar>(system.length()));
-    return gap.depth > Scalar(1e-6) * system.length();
+    return now.goal >= 0 && now.moves &&
+           detail::touches_again(system, all_[i].round, now.s, system.rows()[now.goal].wraps);
   }
   /// Whether two bodies lie on the beam side by side.
   bool beside(int i, int k) noexcept {
@@ -437,8 +431,6 @@ class RowContacts {
     if (gap.s < least_ || gap.s > most_) now.depth = -std::numeric_limits<Scalar>::infinity();
   }
 
-  // Of wraps: from there the distance may have another minimum.
-  static constexpr Scalar sharpest = Scalar(0.25);
   // So much over n² longer is the way from the first to the last of n places of a body where the last one comes: a string lies on two and on three with
   // the same force where that is 1.16, by closed form; on three and on four it measures 1.09.
   static constexpr Scalar wider = Scalar(1.44);
