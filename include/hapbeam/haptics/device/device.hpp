@@ -112,25 +112,23 @@ struct DeviceCounts {
 
 namespace detail {
 
-inline bool all_finite(const Eigen::Vector3d& v) noexcept {
-  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-}
-
 /// Whether a hand can be there: beyond 1e9 m positions are a reading or a unit gone wrong, and their powers overflow.
 inline bool is_place(const Eigen::Vector3d& r) noexcept {
   return std::abs(r[0]) <= 1e9 && std::abs(r[1]) <= 1e9 && std::abs(r[2]) <= 1e9;
 }
 
-/// Whether a matrix is a rotation but for its last digits.
-inline bool is_rotation(const Eigen::Matrix3d& R) noexcept {
-  double skew = 0;
+/// |RᵀR - 1|
+inline double skew_of(const Eigen::Matrix3d& R) noexcept {
+  double squared = 0;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {
       const double error = R(0, i) * R(0, k) + R(1, i) * R(1, k) + R(2, i) * R(2, k) - (i == k);
-      skew += error * error;
+      squared += error * error;
     }
-  return skew <= 1e-4;
+  return std::sqrt(squared);
 }
+/// Whether a matrix is a rotation but for its last digits.
+inline bool is_rotation(const Eigen::Matrix3d& R) noexcept { return skew_of(R) <= 1e-2; }
 
 /// Axis times angle of a rotation [rad].   @param R  its entries, R(i, j)
 template <class Rotation>
@@ -147,26 +145,19 @@ Eigen::Vector3d rotation_vector(const Rotation& R) noexcept {
 /// @param force  in: requested, out: permitted [N]   @param peak [N]
 /// Real-time: no allocation, noexcept, wait-free, O(1).
 [[nodiscard]] inline ForceCut limit_force(Eigen::Vector3d& force, double peak) noexcept {
-  if (!detail::all_finite(force)) {
-    force.setZero();
-    return ForceCut::not_finite;
-  }
+  if (!force.allFinite()) return force.setZero(), ForceCut::not_finite;
   // In units of the largest component, whose square may overflow.
   const double largest = (std::max)({std::abs(force[0]), std::abs(force[1]), std::abs(force[2])});
   if (largest == 0) return ForceCut::none;
-  const Eigen::Vector3d direction(force[0] / largest, force[1] / largest, force[2] / largest);
+  const Eigen::Vector3d direction = force / largest;
   const double allowed = peak / direction.norm();
   if (!(largest > allowed)) return ForceCut::none;
-  for (int i = 0; i < 3; ++i) force[i] = direction[i] * allowed;
-  return ForceCut::peak;
+  return force = direction * allowed, ForceCut::peak;
 }
 
 /// The same for force and torque together: if one is not finite, neither is sent.   @param peak_torque [N·m]; 0: it renders none
 [[nodiscard]] inline ForceCut limit_wrench(Wrench& wrench, double peak_force, double peak_torque) noexcept {
-  if (!detail::all_finite(wrench.force) || !detail::all_finite(wrench.torque)) {
-    wrench = {};
-    return ForceCut::not_finite;
-  }
+  if (!wrench.force.allFinite() || !wrench.torque.allFinite()) return wrench = {}, ForceCut::not_finite;
   if (!(peak_torque > 0)) wrench.torque.setZero();
   const ForceCut force = limit_force(wrench.force, peak_force),
                  torque = limit_force(wrench.torque, peak_torque);

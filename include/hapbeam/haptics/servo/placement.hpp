@@ -25,6 +25,7 @@
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/check.hpp>
+#include <hapbeam/haptics/device/device.hpp>
 
 namespace hapbeam {
 
@@ -41,13 +42,7 @@ class Placement {
       : turn_(rotation), origin_(origin), scale_(scale) {
     if (!(scale >= 1e-6 && scale <= 1e6))
       detail::reject("placement scale", scale, "m/m", "1e-6 to 1e6: a hand's centimetres are 10 nm to 10 km");
-    double skew = 0;
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) {
-        const double product = rotation(i, 0) * rotation(k, 0) + rotation(i, 1) * rotation(k, 1) +
-                               rotation(i, 2) * rotation(k, 2);
-        skew = std::hypot(skew, product - (i == k));
-      }
+    const double skew = detail::skew_of(rotation);
     if (!(skew <= 1e-9))
       detail::reject("placement rotation, |R R^T - 1|", skew, "", "an orthonormal matrix, at most 1e-9");
     // The product of the first two axes is the third, or its opposite where the axes are left-handed.
@@ -69,17 +64,15 @@ class Placement {
 
   /// @param device [m]   @return [m]
   Eigen::Vector3d scene_position(const Eigen::Vector3d& device) const noexcept {
-    const Eigen::Vector3d scene = scene_velocity(device);
-    return {origin_[0] + scene[0], origin_[1] + scene[1], origin_[2] + scene[2]};
+    return origin_ + scene_velocity(device);
   }
   /// @param device [m/s]   @return [m/s]
   Eigen::Vector3d scene_velocity(const Eigen::Vector3d& device) const noexcept {
-    return {scale_ * turned(0, device), scale_ * turned(1, device), scale_ * turned(2, device)};
+    return scale_ * Eigen::Vector3d(turned(0, device), turned(1, device), turned(2, device));
   }
   /// Where the hand has to be to be there in the scene.  @param scene [m]   @return [m]
   Eigen::Vector3d device_position(const Eigen::Vector3d& scene) const noexcept {
-    return device_force({(scene[0] - origin_[0]) / scale_, (scene[1] - origin_[1]) / scale_,
-                         (scene[2] - origin_[2]) / scale_});
+    return device_force((scene - origin_) / scale_);
   }
   /// @param scene [N] on the hand   @return [N] on the hand
   Eigen::Vector3d device_force(const Eigen::Vector3d& scene) const noexcept {
@@ -90,14 +83,12 @@ class Placement {
   Eigen::Matrix3d scene_orientation(const Eigen::Matrix3d& device) const noexcept {
     Eigen::Matrix3d scene;
     for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k)
-        scene(i, k) = turn_(i, 0) * device(0, k) + turn_(i, 1) * device(1, k) + turn_(i, 2) * device(2, k);
+      for (int k = 0; k < 3; ++k) scene(i, k) = turned(i, device.col(k));
     return scene;
   }
   /// @param scene [N·m] on the hand   @return [N·m] on the hand
   Eigen::Vector3d device_torque(const Eigen::Vector3d& scene) const noexcept {
-    const Eigen::Vector3d torque = device_force(scene);
-    return {torque[0] / scale_, torque[1] / scale_, torque[2] / scale_};
+    return device_force(scene) / scale_;
   }
 
   /// In the plane of the beam: what the hand does across that plane is not seen.

@@ -93,12 +93,12 @@ class EnergyMonitor {
  private:
   /// What the motors held is late by the delay, and no more than they can.
   Eigen::Vector3d hold(detail::DelayLine& line, Eigen::Vector3d sent, double peak) const noexcept {
-    if (detail::all_finite(sent)) (void)limit_force(sent, peak);
+    if (sent.allFinite()) (void)limit_force(sent, peak);
     return line.pass(sent, delay_);
   }
   /// [J]  Work of a held force since the reading before, less what the arm took.
   double of_way(const Eigen::Vector3d& position, const Eigen::Vector3d& held, double dt) noexcept {
-    const bool finite = detail::all_finite(position);
+    const bool finite = position.allFinite();
     Eigen::Vector3d moved = position_ && finite ? position - *position_ : zero();
     if (!(moved.norm() <= longest_step)) moved.setZero();
     if (finite) position_ = position;
