@@ -56,13 +56,11 @@ enum class DeviceStatus : std::uint8_t {
   communication_lost,  ///< unplugged, switched off, or the line disturbed
 };
 
-/// True while the loop runs.
 constexpr bool is_running(DeviceStatus status) noexcept {
   return status == DeviceStatus::running || status == DeviceStatus::warm ||
          status == DeviceStatus::force_error || status == DeviceStatus::calibrating;
 }
 
-/// Short lower-case name, for messages and reports.
 constexpr const char* name(DeviceStatus status) noexcept {
   switch (status) {
     case DeviceStatus::stopped: return "stopped";

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a device can do, the one check of it, and the clock of its loop and what is late in it.
 //
-// Coupling, energy monitor and force guard take their figures from here. Each of them calls check(): a figure that one of them
-// rejects is rejected by all.
+// Coupling, energy monitor and force guard take their figures from here, and each calls check().
 // Offline: throws std::invalid_argument naming field, value, unit and what is allowed.
 #pragma once
 
@@ -126,6 +125,7 @@ class DelayLine {
  public:
   static constexpr int longest = 16;
 
+  DelayLine() noexcept { clear(); }
   /// @throws std::invalid_argument for ticks that are not 0 to longest
   static int checked(int ticks) {
     if (!(ticks >= 0 && ticks <= longest)) reject("delay_ticks", ticks, "", "0 to 16");
@@ -140,10 +140,7 @@ class DelayLine {
   void clear() noexcept { all_.fill(Eigen::Vector3d::Zero()); }
 
  private:
-  std::array<Eigen::Vector3d, longest + 1> all_ = [] {
-    std::array<Eigen::Vector3d, longest + 1> none;
-    return none.fill(Eigen::Vector3d::Zero()), none;
-  }();
+  std::array<Eigen::Vector3d, longest + 1> all_;
 };
 
 }  // namespace detail

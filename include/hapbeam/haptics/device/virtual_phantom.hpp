@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A simulated Phantom Premium 1.5/6DOF High Force and the hand that holds it.
 //
-// The arm is a mass with viscous damping and Coulomb friction on each axis, which encoders read (arm_axis.hpp). Its force is held over the period and limited to the peak. A hand of mass, spring and damper pulls
-// the arm along a path (hand_path.hpp). Figures: thesis Table 2.1. There are three translations and, optionally, a
-// gimbal (arm.hpp), which the torque turns. There are no end stops.
+// The arm is a mass with viscous damping and Coulomb friction on each axis, which encoders read (arm_axis.hpp). Its force is held over
+// the period and limited to the peak. A hand of mass, spring and damper pulls the arm along a path (hand_path.hpp). There are three
+// translations and, optionally, a gimbal (arm.hpp), which the torque turns. Figures: thesis Table 2.1.
 //
 // It fulfils the device contract (device.hpp) with a thread of its own, in real time. It also runs in lock step with
 // simulated time: as fast as the machine can, with the same bits every time.
@@ -30,7 +30,6 @@ struct VirtualPhantomOptions {
   HandOptions hand;
   GimbalOptions gimbal = {};
 
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   const VirtualPhantomOptions& check() const {
     arm.check(hand);
     gimbal.check(arm.period);

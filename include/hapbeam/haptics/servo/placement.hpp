@@ -49,7 +49,7 @@ class Placement {
     const double third = rotation(0, 0) * rotation(1, 1) - rotation(1, 0) * rotation(0, 1);
     if (!(std::abs(third - rotation(2, 2)) <= 1e-8))
       detail::reject("placement rotation determinant", -1, "", "1: a rotation keeps axes right-handed");
-    for (int i = 0; i < 3; ++i) detail::finite("placement origin", origin[i], "m");
+    detail::all_finite("placement origin", origin, "m");
   }
 
   /// The beam lies along the device's x, its w along the device's y.
