@@ -28,7 +28,7 @@ namespace hapbeam {
 class EnergyMonitor {
  public:
   /// @param delay_ticks  whole periods between a force and the motors, 0 to 16
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  /// @throws std::invalid_argument as DeviceInfo::check()
   explicit EnergyMonitor(const DeviceInfo& device, int delay_ticks = 0)
       : period_(device.check().period),
         damping_(device.damping),
@@ -47,10 +47,7 @@ class EnergyMonitor {
   double net() const noexcept { return net_; }
 
   /// As new.
-  void start() noexcept {
-    reset();
-    ended_ = 0;
-  }
+  void start() noexcept { reset(), ended_ = 0; }
   /// Ends the account of a contact without counting it, as after a reset.
   void reset() noexcept {
     net_ = kept_ = 0;
@@ -132,8 +129,7 @@ class EnergyMonitor {
     if (std::isfinite(net_ + energy)) net_ += energy;
   }
   void end_contact() noexcept {
-    const double sum = ended_ + (std::max)(0.0, net_);
-    if (std::isfinite(sum)) ended_ = sum;
+    if (std::isfinite(generated())) ended_ = generated();
     net_ = -kept_;
   }
 

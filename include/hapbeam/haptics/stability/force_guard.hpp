@@ -108,7 +108,7 @@ class GuardedMotors {
 
 class ForceGuard {
  public:
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  /// @throws std::invalid_argument naming the field of its options
   explicit ForceGuard(const ForceGuardOptions& options)
       : o_(checked(options)),
         clock_(o_.period, o_.longest_pause),
