@@ -37,7 +37,7 @@ class Placement {
   /// @param rotation  3×3, the device's axes in the scene's, orthonormal and right-handed to 1e-9
   /// @param origin    [m] where the device's origin lies in the scene
   /// @param scale     [m/m] of the scene for the device, 1e-6 to 1e6
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  /// @throws std::invalid_argument
   Placement(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& origin, double scale = 1)
       : turn_(rotation), origin_(origin), scale_(scale) {
     if (!(scale >= 1e-6 && scale <= 1e6))

@@ -33,7 +33,6 @@ enum class LoopStatus : std::uint8_t {
   device,     ///< the device is warm, or recovers from a force error, or has asked to begin anew
 };
 
-/// Short lower-case name, for messages and reports.
 constexpr const char* name(LoopStatus status) noexcept {
   switch (status) {
     case LoopStatus::free: return "free";

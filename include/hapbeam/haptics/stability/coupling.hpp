@@ -199,10 +199,8 @@ class VirtualCoupling {
   /// Longer metres, softer springs: force over displacement is divided by the scale.
   VirtualCoupling in_scene(double scale) const noexcept {
     VirtualCoupling scaled = *this;
-    scaled.straight_ = {straight_.stiffness / scale, straight_.damping / scale};
-    scaled.turning_ = turning_ * scale;
-    scaled.reset();
-    return scaled;
+    scaled.straight_ = straight_ * (1 / scale), scaled.turning_ = turning_ * scale;
+    return scaled.reset(), scaled;
   }
   void reset() noexcept {
     last_.forget();
