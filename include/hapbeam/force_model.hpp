@@ -83,7 +83,6 @@ constexpr bool worse(Status a, Status b) noexcept {
   return rank(a) > rank(b);
 }
 
-/// Short lower-case name, for messages and reports.
 constexpr const char* name(Status status) noexcept {
   switch (status) {
     case Status::ok: return "ok";
@@ -307,13 +306,10 @@ inline constexpr bool takes_push = detail::offers<detail::PushObstacles, M>;
 namespace detail {
 
 template <typename M>
-constexpr bool several_at_once() {
-  if constexpr (takes_push<M>) return M::contacts > 1;
-  else return false;
-}
+using ManyContacts = std::enable_if_t<(M::contacts > 1)>;
 /// True where that are more than one.
 template <typename M>
-inline constexpr bool takes_several = several_at_once<M>();
+inline constexpr bool takes_several = takes_push<M>&& offers<ManyContacts, M>;
 
 }  // namespace detail
 

@@ -187,14 +187,12 @@ class Pilot : public detail::PilotOf<detail::PressLine> {
     if (scene.depth <= limit.depth) return;
     if (limit.depth > 0)
       detail::refuse(
-          "depth = %g m: must be at most %.4g m, the deepest press that is answered to both sides of rest, "
-          "%.4g m "
-          "aside, at s = %.4g m",
+          "depth = %g m: must be at most %.4g m, the deepest press that is answered to both "
+          "sides of rest, %.4g m aside, at s = %.4g m",
           scene.depth, 0.999 * limit.depth, limit.w, limit.s);
     detail::refuse(
-        "depth = %g m: must be of presses that are answered; this beam hangs %.4g m deep at rest at s = %.4g "
-        "m, "
-        "which is deeper than those",
+        "depth = %g m: must be of presses that are answered; this beam hangs %.4g m deep at "
+        "rest at s = %.4g m, which is deeper than those",
         scene.depth, limit.w, limit.s);
   }
 

@@ -203,30 +203,26 @@ class HdConnection {
 
   /// A device without a stated number of axes has three.
   GimbalInfo describe_gimbal() {
-    const auto ask = [](unsigned name) {
-      int axes = 0;
-      Api::get_integerv(name, &axes);
-      return Scheduler::drain().worst == HdErrorClass::none ? axes : 0;
+    const auto ask = [](const auto get, unsigned name, auto answer) {
+      get(name, &answer);
+      return Scheduler::drain().worst == HdErrorClass::none && std::isfinite(answer) ? answer : 0;
     };
     GimbalInfo gimbal;
     has_torque_ = false;
-    if (ask(Api::input_dof) < 6) return gimbal;
+    if (ask(Api::get_integerv, Api::input_dof, 0) < 6) return gimbal;
     gimbal.reads = true;
     gimbal.resolution = options_.gimbal_resolution, gimbal.friction = options_.gimbal_friction;
     gimbal.damping = options_.gimbal_damping, gimbal.inertia = options_.gimbal_inertia;
-    if (ask(Api::output_dof) < 6) return gimbal;
-    double peak = 0, continuous = 0, stiffness = 0;  // mN·m, mN·m, mN·m/rad
-    Api::get_doublev(Api::nominal_max_torque, &peak);
-    Api::get_doublev(Api::nominal_max_continuous_torque, &continuous);
-    const bool limits = Scheduler::drain().worst == HdErrorClass::none;
-    Api::get_doublev(Api::nominal_max_torque_stiffness, &stiffness);
-    const bool hardest = Scheduler::drain().worst == HdErrorClass::none;
+    if (ask(Api::get_integerv, Api::output_dof, 0) < 6) return gimbal;
     has_torque_ = true;
+    const double peak = ask(Api::get_doublev, Api::nominal_max_torque, 0.0),          // mN·m
+        continuous = ask(Api::get_doublev, Api::nominal_max_continuous_torque, 0.0),  // mN·m
+        stiffness = ask(Api::get_doublev, Api::nominal_max_torque_stiffness, 0.0);    // mN·m/rad
     // Without a stated limit no torque is sent.
-    if (!(limits && std::isfinite(peak) && peak > 0 && continuous > 0)) return gimbal;
+    if (!(peak > 0 && continuous > 0)) return gimbal;
     gimbal.peak_torque = (std::min)(peak * 1e-3, options_.torque_limit);
     gimbal.continuous_torque = (std::min)(continuous * 1e-3, gimbal.peak_torque);
-    if (hardest && std::isfinite(stiffness) && stiffness > 0) gimbal.max_stiffness = stiffness * 1e-3;
+    gimbal.max_stiffness = (std::max)(stiffness * 1e-3, 0.0);
     return gimbal;
   }
 

@@ -45,11 +45,7 @@ class TimeHistogram {
   /// From any thread: noexcept, wait-free, O(bins).
   double quantile(double fraction) const noexcept { return Moment(*this).quantile(fraction); }
   double longest() const noexcept { return static_cast<double>(longest_.load(relaxed)) * 1e-9; }  ///< [s]
-  std::uint64_t count() const noexcept {
-    std::uint64_t total = 0;
-    for (const auto& bin : bins_) total += bin.load(relaxed);
-    return total;
-  }
+  std::uint64_t count() const noexcept { return Moment(*this).total; }
   /// All of one moment.
   TimeSummary summary() const noexcept {
     const Moment now(*this);

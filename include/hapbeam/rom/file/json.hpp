@@ -155,7 +155,6 @@ class JsonWriter {
   void finish() {}
 
   enum class Layout { line, indented };
-
   /// @param digits  of a real: 17 for double, 9 for float, which bring back every bit
   std::string text(int digits, Layout layout = Layout::line) const {
     const std::size_t flags = layout == Layout::line ? JSON_COMPACT : JSON_INDENT(2);

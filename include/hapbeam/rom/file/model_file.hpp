@@ -180,8 +180,8 @@ template <class Fields, class Data>
 
 }  // namespace detail
 
-/// The text of a model's file.
-/// @tparam Model  PodModel | GalerkinModel   @throws ModelFileError where an error of its report is not finite
+/// The text of a model's file.   @tparam Model  PodModel | GalerkinModel
+/// @throws ModelFileError where an error of its report is not finite
 template <class Model>
 [[gnu::cold]] std::string write_model(const Model& model, const std::string& source = "model") {
   using Scalar = typename Model::Scalar;

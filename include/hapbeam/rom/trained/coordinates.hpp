@@ -116,17 +116,13 @@ template <typename Scalar>
 class TensionCoordinate {
  public:
   explicit TensionCoordinate(const BeamData<Scalar>& beam) noexcept
-      : unit_((is_half(beam) ? Scalar(2.5) : Scalar(10)) * beam.bending_stiffness /
-              (beam.length * beam.length)) {}
+      : unit_((beam.left == Support::guided || beam.right == Support::guided ? Scalar(2.5) : Scalar(10)) *
+              beam.bending_stiffness / (beam.length * beam.length)) {}
   Scalar operator()(Scalar tension) const noexcept { return std::log1p(tension / unit_); }
   Scalar inverse(Scalar z) const noexcept { return unit_ * std::expm1(z); }
   Scalar unit() const noexcept { return unit_; }  ///< N0 [N]
 
  private:
-  static bool is_half(const BeamData<Scalar>& beam) noexcept {
-    return beam.left == Support::guided || beam.right == Support::guided;
-  }
-
   Scalar unit_;
 };
 

@@ -58,7 +58,6 @@ auto as_nodes(N*) -> std::bool_constant<std::is_convertible_v<decltype(N::node(0
                                         std::is_convertible_v<decltype(N::name()), const char*>>;
 template <typename>
 std::false_type as_nodes(...);
-
 }  // namespace detail
 
 /// @tparam Nodes   ChebyshevNodes | EquispacedNodes | a class as above
@@ -109,7 +108,10 @@ class Lagrange {
     for (; k + block <= size_; k += block) sum += Eigen::Map<Block>{l + k} = term(k);
     const Block rest = k < size_ ? term(k) : Block(Block::Zero());
     const Scalar inverse = 1 / (sum + rest).sum();
-    if (!(std::abs(inverse) > 0)) return at_node(x, l);
+    if (!(std::abs(inverse) > 0)) {  // a term of the barycentric form is infinite
+      for (k = 0; k < size_; ++k) l[k] = size_ == 1 || x == nodes_[k] ? Scalar(1) : Scalar(0);
+      return;
+    }
     for (k = 0; k + block <= size_; k += block) Eigen::Map<Block>{l + k} *= inverse;
     for (int i = k; i < size_; ++i) l[i] = rest[i - k] * inverse;
   }
@@ -128,11 +130,6 @@ class Lagrange {
   }
 
  private:
-  /// Where a term of the barycentric form is infinite.
-  [[gnu::cold]] void at_node(Scalar x, Scalar* l) const noexcept {
-    for (int k = 0; k < size_; ++k) l[k] = size_ == 1 || x == nodes_[k] ? Scalar(1) : Scalar(0);
-  }
-
   int size_;
   Scalar low_, high_;
   // Beyond size_ there are weights of zero, and nodes that nothing is near.

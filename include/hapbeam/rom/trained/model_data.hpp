@@ -101,7 +101,7 @@ template <typename Scalar>
   for (const Scalar value : values)
     if (!(value > low && value <= high)) reject(field, static_cast<double>(value), "", allowed);
 }
-/// What has no unit, or is a length of a beam: products of a few of them are finite in float, too.
+/// What has no unit, or is a length: products of a few of them are finite in float, too.
 template <typename Scalar>
 [[gnu::cold]] void check_table(const char* field, const std::vector<Scalar>& values, std::size_t wanted) {
   check_table(field, values, wanted, Scalar(-1e9), Scalar(1e9), "within 1e9 in every entry");

@@ -97,8 +97,8 @@ void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coord
                  stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
     if (!(value > 0 && stiffness > 0 && force > before))
       refuse(
-          "depths = %d: must be more, or the plan less deep: at s = %g m the force between them is not a "
-          "beam's",
+          "depths = %d: must be more, or the plan less deep: at s = %g m the force between them is not "
+          "a beam's",
           n, s);
     before = force;
   }

@@ -55,9 +55,7 @@ struct TrainingPlan {
     detail::check_count("segments", segments, 2, 1 << 14);
     if (positions > 1 && segments % 2 != 0) detail::reject("segments", segments, "", "even");
     if (!beam.straight())
-      detail::refuse(
-          "beam: must be straight, with its ends where they are in the straight beam, to train a model of "
-          "it");
+      detail::refuse("beam: must be straight, with its ends where they are in the straight beam");
     detail::check_range(BeamData<double>::of(beam), s_min, s_max, depth, positions);
     if (!(depth < beam.length())) detail::reject("depth", depth, "m", "less than the beam's length");
     return *this;
@@ -174,8 +172,8 @@ void check_same_beam(const Beam& beam, const Model& full, const TrainingPlan& pl
     }
     if (off > 1e-3 * size)
       refuse(
-          "full model: must be of the beam that is trained; pressed at s = %g m forces are %.3g N apart of "
-          "%.3g N",
+          "full model: must be of the beam that is trained; pressed at s = %g m forces are %.3g N "
+          "apart of %.3g N",
           s, off, size);
   }
 }
