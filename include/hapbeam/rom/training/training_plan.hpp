@@ -55,7 +55,9 @@ struct TrainingPlan {
     detail::check_count("segments", segments, 2, 1 << 14);
     if (positions > 1 && segments % 2 != 0) detail::reject("segments", segments, "", "even");
     if (!beam.straight())
-      detail::refuse("beam: must be straight, with its ends where they are in the straight beam");
+      detail::refuse(
+          "beam: must be straight, with its ends where they are in the straight beam, "
+          "to train a model of it");
     detail::check_range(BeamData<double>::of(beam), s_min, s_max, depth, positions);
     if (!(depth < beam.length())) detail::reject("depth", depth, "m", "less than the beam's length");
     return *this;
