@@ -107,7 +107,6 @@ struct FrictionState : detail::FrictionPlace<Scalar, D> {
   Scalar gain = 0;                ///< change of the normal force by a tangential one, as it was
   Scalar dissipated = 0;          ///< [J] since the touch began
 
-  /// @param coefficients  from now on
   void take(const Friction& coefficients) noexcept {
     sticking = static_cast<Scalar>(coefficients.sticking),
     sliding = static_cast<Scalar>(coefficients.sliding);

@@ -48,7 +48,6 @@ struct RodFoundation {
   double along;     ///< [N/m²] along it
 };
 
-/// A dead force at one point of the rod.
 struct RodForce {
   double s;                   ///< [m] arc position
   VectorOf<double, 3> force;  ///< [N]
@@ -93,7 +92,6 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
     detail::positive("torsion stiffness", stiffness.torsion, "N·m²");
   }
 
-  /// Lays a part of the rod in an elastic foundation.
   Rod& add(const RodFoundation& foundation) {
     if (!(foundation.from >= 0 && foundation.from < length_))
       detail::reject("foundation from", foundation.from, "m", "on the rod, 0 to its length");
@@ -138,7 +136,6 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
   const RodStiffness& stiffness() const noexcept { return stiffness_; }
   /// Of the section that it was built with; a rod that is given by its stiffness has a round one of its thickness.
   const RodOutline& outline() const noexcept { return outline_; }
-  /// Whether its ends hold it.
   bool held() const noexcept { return detail::hold_rod(left_, right_); }
   /// @throws std::invalid_argument unless they do
   void check_held() const { detail::check_supports(left_, right_); }
@@ -166,7 +163,6 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
   }
   /// Null where the natural shape places it.
   const RodPose* right_pose() const noexcept { return right_pose_ ? &*right_pose_ : nullptr; }
-  /// Empty where there is none.
   RodLoad load() const {
     if (specific_weight_.isZero(0)) return load_;
     return

@@ -39,12 +39,10 @@ struct Damping {
   static Damping air(double ratio, double frequency) {
     return {0, detail::not_negative("damping ratio", ratio, "") * 4 * pi * of(frequency), {}};
   }
-  /// Whether the material is viscous.
   bool viscous() const noexcept {
     return viscosity > 0 ||
            std::any_of(branches.begin(), branches.end(), [](const Relaxation& b) { return b.share > 0; });
   }
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   const Damping& check() const {
     detail::not_negative("damping viscosity", viscosity, "s");
     detail::not_negative("damping drag", drag, "1/s");
@@ -133,7 +131,6 @@ struct RodMaterial {
   }
 };
 
-/// Stiffness of a section.
 struct RodStiffness {
   double axial;     ///< EA [N]
   double bending1;  ///< EI about d1 [N·m²]

@@ -147,7 +147,6 @@ struct RodPose {
   }
 };
 
-/// Which end.
 enum class RodSide { left, right };
 
 namespace detail {
@@ -159,7 +158,6 @@ constexpr bool hold_rod(const RodSupport& left, const RodSupport& right) noexcep
              both = holds_across(left) && holds_across(right);
   return (left.along > 0 || right.along > 0) && (direction || both);
 }
-/// @throws std::invalid_argument where it is one
 [[gnu::cold]] inline void check_supports(const RodSupport& left, const RodSupport& right) {
   if (hold_rod(left, right)) return;
   refuse("supports = %s, %s: the rod is a mechanism, %s", name(left), name(right),

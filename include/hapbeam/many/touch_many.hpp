@@ -29,7 +29,6 @@ struct ArrayTouchResult : TouchResult<Scalar> {
   bool complete = true;  ///< false: more beams were met than taken or examined; out_of_range or worse
 };
 
-/// One of the beams in contact.
 template <typename Scalar>
 struct BeamTouch {
   int beam;

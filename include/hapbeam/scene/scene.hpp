@@ -53,12 +53,10 @@ struct Scene {
     const double L = beam.length();
     return {beam, fixes_w(beam.left()) ? 0.05 * L : 0, fixes_w(beam.right()) ? 0.95 * L : L, depth};
   }
-  /// At one place.
   static Scene at(const Beam& beam, double s, double depth) { return {beam, s, s, depth}; }
 
   bool one_place() const noexcept { return s_min == s_max; }
 
-  /// @throws std::invalid_argument
   const Scene& check() const {
     const double margin = 0.999999 * beam.length() / 1000;
     detail::check_scene(*this, fixes_w(beam.left()) ? margin : 0,

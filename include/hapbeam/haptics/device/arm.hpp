@@ -113,7 +113,6 @@ struct ArmOptions {
   ArmAxisParameters axis(const HandOptions& hand) const noexcept {
     return {apparent_mass + hand.grip_mass, damping + hand.damping, hand.stiffness, friction};
   }
-  /// @throws std::invalid_argument
   void check(const HandOptions& hand) const {
     detail::positive("apparent_mass", apparent_mass, "kg");
     detail::not_negative("arm damping", damping, "N·s/m");

@@ -52,7 +52,6 @@ struct GimbalInfo {
   }
 };
 
-/// Figures of a device.
 struct DeviceInfo {
   std::string name;
   Eigen::Vector3d workspace;   ///< [m] width, height, depth, the origin in its middle
@@ -126,7 +125,6 @@ class DelayLine {
   static constexpr int longest = 16;
 
   DelayLine() noexcept { clear(); }
-  /// @throws std::invalid_argument for ticks that are not 0 to longest
   static int checked(int ticks) {
     if (!(ticks >= 0 && ticks <= longest)) reject("delay_ticks", ticks, "", "0 to 16");
     return ticks;

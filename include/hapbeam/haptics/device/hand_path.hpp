@@ -10,7 +10,6 @@
 #pragma once
 
 #include <algorithm>
-#include <stdexcept>
 #include <vector>
 
 #include <hapbeam/centreline.hpp>
@@ -50,7 +49,7 @@ class HandPath {
   /// @throws std::invalid_argument where there is none, the first is not at 0 s, a time does not come after
   ///         the one before it, anything is not finite, or the hand would be faster than 1e9 m/s
   explicit HandPath(const std::vector<WayPoint>& points) {
-    if (points.empty()) throw std::invalid_argument("hand path: must have at least one way-point");
+    if (points.empty()) detail::refuse("hand path: must have at least one way-point");
     if (points.front().time != 0) detail::reject("hand path first time", points.front().time, "s", "0");
     for (const WayPoint& point : points) go_to(point);
   }

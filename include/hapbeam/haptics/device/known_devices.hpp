@@ -13,7 +13,6 @@
 // Offline: allocates.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -57,7 +56,7 @@ inline DeviceInfo known_device(const std::string& name) {
     if (device.name == name) return device;
     names += (names.empty() ? "" : ", ") + device.name;
   }
-  throw std::invalid_argument("device '" + name + "': must be one of " + names);
+  detail::refuse("device '%.60s': must be one of %s", name.c_str(), names.c_str());
 }
 
 }  // namespace hapbeam

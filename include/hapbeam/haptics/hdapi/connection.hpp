@@ -4,8 +4,7 @@
 // mm become m, N/mm N/m and mN·m N·m here and nowhere else. The origin becomes the middle of the workspace. Forces are
 // in N on both sides, and the axes are the same. The stylus' axes are the first three columns of the vendor's
 // transform, made a rotation; its z points from the tip to the hand.
-// Offline but for read(): throws and allocates.  A message names the device, what was asked of it and the
-// vendor's error.
+// Offline but for read(): throws and allocates.  A message names the device, what was asked of it and the vendor's error.
 #pragma once
 
 #include <algorithm>
@@ -94,8 +93,8 @@ class HdConnection {
     if (!calibrated)
       throw DeviceError(DeviceStatus::calibration_needed,
                         title() +
-                            "is not calibrated: put the arm into its reset position, call calibrate() there, "
-                            "and start again");
+                            "is not calibrated: put the arm into its reset position, call "
+                            "calibrate() there, and start again");
   }
 
   /// @throws DeviceError
@@ -103,8 +102,8 @@ class HdConnection {
     const char* said = errors.code == Api::success ? nullptr : Api::get_error_string(errors.code);
     char code[24];
     std::snprintf(code, sizeof code, " (0x%03x)", errors.code);
-    throw DeviceError(errors.worst == HdErrorClass::communication ? DeviceStatus::communication_lost
-                                                                  : DeviceStatus::device_fault,
+    const bool lost = errors.worst == HdErrorClass::communication;
+    throw DeviceError(lost ? DeviceStatus::communication_lost : DeviceStatus::device_fault,
                       title() + what + ": " + (said ? said : "no reason is given") + code);
   }
 

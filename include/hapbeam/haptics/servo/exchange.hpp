@@ -116,7 +116,6 @@ class Ring {
   std::size_t waiting() const noexcept {
     return end_.load(std::memory_order_acquire) - begin_.load(std::memory_order_relaxed);
   }
-  /// Values that were added to a full ring.
   std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 
  private:

@@ -2,6 +2,7 @@
 // Where the device's workspace lies in the scene: from the hand to the beam and, for forces, back.
 //
 //   p_scene = origin + scale R p_device      v_scene = scale R v_device      F_device = Rᵀ F_scene      τ_device = Rᵀ τ_scene / scale
+//   [m]                                      [m/s]                           [N] on the hand            [N·m] on the hand
 //
 // R turns the device's axes (x right, y up, z toward the user) into the scene's, whose x and y are the plane of the beam, x along it and
 // y = w across it.  Forces are not scaled: with a scale of 2 the hand moves half as far for the same force, so what a device can render
@@ -62,11 +63,9 @@ class Placement {
   const Eigen::Vector3d& origin() const noexcept { return origin_; }  ///< [m] scene
   double scale() const noexcept { return scale_; }                    ///< [m/m]
 
-  /// @param device [m]   @return [m]
   Eigen::Vector3d scene_position(const Eigen::Vector3d& device) const noexcept {
     return origin_ + scene_velocity(device);
   }
-  /// @param device [m/s]   @return [m/s]
   Eigen::Vector3d scene_velocity(const Eigen::Vector3d& device) const noexcept {
     return scale_ * Eigen::Vector3d(turned(0, device), turned(1, device), turned(2, device));
   }
@@ -74,7 +73,6 @@ class Placement {
   Eigen::Vector3d device_position(const Eigen::Vector3d& scene) const noexcept {
     return device_force((scene - origin_) / scale_);
   }
-  /// @param scene [N] on the hand   @return [N] on the hand
   Eigen::Vector3d device_force(const Eigen::Vector3d& scene) const noexcept {
     return {turned_back(0, scene), turned_back(1, scene), turned_back(2, scene)};
   }
@@ -86,7 +84,6 @@ class Placement {
       for (int k = 0; k < 3; ++k) scene(i, k) = turned(i, device.col(k));
     return scene;
   }
-  /// @param scene [N·m] on the hand   @return [N·m] on the hand
   Eigen::Vector3d device_torque(const Eigen::Vector3d& scene) const noexcept {
     return device_force(scene) / scale_;
   }

@@ -23,7 +23,6 @@
 
 namespace hapbeam {
 
-/// What became of the request.
 enum class RealTime : std::uint8_t {
   done,
   priority_out_of_range,   ///< nothing was changed

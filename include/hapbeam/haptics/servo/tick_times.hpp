@@ -46,7 +46,6 @@ class TimeHistogram {
   double quantile(double fraction) const noexcept { return Moment(*this).quantile(fraction); }
   double longest() const noexcept { return static_cast<double>(longest_.load(relaxed)) * 1e-9; }  ///< [s]
   std::uint64_t count() const noexcept { return Moment(*this).total; }
-  /// All of one moment.
   TimeSummary summary() const noexcept {
     const Moment now(*this);
     return {now.total, now.quantile(0.5), now.quantile(0.99), now.quantile(0.999), now.longest};
@@ -97,7 +96,6 @@ class TimeHistogram {
   static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "counting in a tick must not lock");
 };
 
-/// @tparam Clock  steady, now() noexcept
 template <typename Clock = std::chrono::steady_clock>
 class BasicTickTimes {
   static_assert(Clock::is_steady&& noexcept(Clock::now()),

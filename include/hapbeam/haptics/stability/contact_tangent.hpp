@@ -47,7 +47,6 @@ VectorOf<Scalar, D> of_beam(const Eigen::Vector3d& v) noexcept {
 
 }  // namespace detail
 
-/// @tparam D  of the space in which the beam bends: 2 | 3
 template <int D>
 class ContactTangent {
   using Vector = VectorOf<double, D>;

@@ -118,15 +118,12 @@ auto as_coupling(C* c, const C* same, AnyTouch* touch, const Vector2<double>* ha
 template <typename>
 std::false_type as_coupling(...);
 
+template <typename C, typename Touch>
+using TickWithPose = std::enable_if_t<noexcept(
+    std::declval<C&>().tick(std::declval<Touch&>(), std::declval<const HandPose&>(), 0.0))>;
 /// Whether a coupling takes the orientation of the hand.
 template <typename C, typename Touch>
-auto as_turning_coupling(C* c, Touch* touch, const HandPose* hand)
-    -> std::bool_constant<noexcept(c->tick(*touch, *hand, 0.0))>;
-template <typename, typename>
-std::false_type as_turning_coupling(...);
-template <typename C, typename Touch>
-inline constexpr bool couples_pose =
-    decltype(as_turning_coupling<C, Touch>(nullptr, nullptr, nullptr))::value;
+inline constexpr bool couples_pose = offers<TickWithPose, C, Touch>;
 
 }  // namespace detail
 
@@ -138,7 +135,6 @@ inline constexpr bool is_coupling =
 /// The hand presses the beam itself.  A beam that is stiffer than the device can render is unstable: steel buzzes near a support.
 class Direct {
  public:
-  /// @throws std::invalid_argument as DeviceInfo::check()
   static Direct for_device(const DeviceInfo& device, int) {
     device.check();
     return {};

@@ -46,7 +46,6 @@ class EnergyMonitor {
   /// W [J] of this contact: positive where the loop gave out more than it took.
   double net() const noexcept { return net_; }
 
-  /// As new.
   void start() noexcept { reset(), ended_ = 0; }
   /// Ends the account of a contact without counting it, as after a reset.
   void reset() noexcept {

@@ -40,7 +40,6 @@ struct ForceGuardOptions {
   double torque_slew_rate = 100;  ///< [N·m/s] positive; at a lever of 0.1 m a tenth of the force's
 };
 
-/// Force and torque after the guard.
 struct GuardedForce : Wrench {
   bool limited;   ///< cut by peak, heat or slew
   bool engaging;  ///< reduced because the loop has just started or restarted

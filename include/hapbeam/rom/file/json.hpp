@@ -42,7 +42,6 @@ namespace detail {
   throw ModelFileError(text);
 }
 
-/// Owns a JSON value.
 class Json {
  public:
   explicit Json(json_t* value) noexcept : value_(value) {}

@@ -32,7 +32,6 @@ namespace hapbeam {
 /// Chebyshev nodes of the first kind: none at the ends of the interval.
 struct ChebyshevNodes {
   static constexpr const char* name() noexcept { return "chebyshev"; }
-  /// Node k of n in [-1, 1], ascending.
   static double node(int k, int n) { return n == 2 * k + 1 ? 0 : -std::cos(angle(k, n)); }
   static double weight(int k, int n) { return (k % 2 ? -1 : 1) * std::sin(angle(k, n)); }
 

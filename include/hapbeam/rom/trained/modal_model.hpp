@@ -71,7 +71,6 @@ class ModalModel {
       held_[k] = modes.held[k].cast<Scalar>(), holds_[k] = modes.holds[k].cast<Scalar>();
   }
 
-  /// Back to rest.
   void reset() noexcept {
     q_.setZero(), v_.setZero();
     hand_ = Seen::never, deep_ = 0;

@@ -107,7 +107,6 @@ template <typename Scalar>
   check_table(field, values, wanted, Scalar(-1e9), Scalar(1e9), "within 1e9 in every entry");
 }
 
-/// A length that a beam may have.
 [[gnu::cold]] inline void check_length(const char* field, double value) {
   if (!(value >= 1e-12 && value <= 1e12))
     reject(field, positive(field, value, "m"), "m", "from 1e-12 to 1e12");
@@ -153,7 +152,6 @@ template <typename Scalar>
 
 }  // namespace detail
 
-/// @throws std::invalid_argument
 template <typename Scalar>
 [[gnu::cold]] const PodModelData<Scalar>& check(const PodModelData<Scalar>& data) {
   using namespace detail;
@@ -179,7 +177,6 @@ template <typename Scalar>
   return data;
 }
 
-/// @throws std::invalid_argument
 template <typename Scalar>
 [[gnu::cold]] const GalerkinModelData<Scalar>& check(const GalerkinModelData<Scalar>& data) {
   using namespace detail;

@@ -38,7 +38,6 @@ struct TrainingPlan {
     return {fixes_w(beam.left()) ? 0.05 * L : 0, fixes_w(beam.right()) ? 0.95 * L : L, positions, depth,
             depths};
   }
-  /// At one place.
   static TrainingPlan at(double s, double depth, int depths = 14) { return {s, s, 1, depth, depths}; }
 
   /// The node of the shape that follows the contact.
@@ -48,7 +47,6 @@ struct TrainingPlan {
     return std::clamp(static_cast<int>(std::lround(s_min / beam.length() * segments)), 1, segments - 1);
   }
 
-  /// @return the plan   @throws std::invalid_argument
   const TrainingPlan& check(const Beam& beam) const {
     detail::check_count("positions", positions, 1, 64);
     detail::check_count("depths", depths, 2, 64);

@@ -19,7 +19,6 @@
 
 namespace hapbeam {
 
-/// Of one press.
 struct PressError {
   double s;      ///< [m]
   double depth;  ///< [m] |d|
