@@ -60,8 +60,7 @@ enum class Status : std::int8_t {
   /// The request lies outside range(). Force and shape are those of the nearest request inside it, or continue from
   /// there as the model states, without a smaller force.
   out_of_range = 1,
-  /// The equilibrium of the beam has ended or become unstable. Force and shape are those of the stable one to which the
-  /// beam has jumped.
+  /// The equilibrium of the beam has ended or become unstable. Force and shape are those of the stable one to which the beam has jumped.
   snapped = 2,
   /// s or d is not finite, or s lies off the beam (s < 0 or s > L): force 0, the state is kept.
   invalid_request = -1,

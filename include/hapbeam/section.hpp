@@ -71,8 +71,7 @@ struct RodSection {
   bool corners = false;  ///< whether both extents meet: a rectangle
 
   /// @param width [m] along d1   @param height [m] along d2
-  /// J of a × b, a >= b, is ab³/3 (1 - 192 b/(π⁵ a) Σ tanh(kπa/2b)/k⁵) over odd k: Timoshenko and Goodier, Theory of
-  /// Elasticity, 109.
+  /// J of a × b, a >= b, is ab³/3 (1 - 192 b/(π⁵ a) Σ tanh(kπa/2b)/k⁵) over odd k: Timoshenko and Goodier, Theory of Elasticity, 109.
   static RodSection rectangle(double width, double height) {
     const double a = (std::max)(detail::positive("section width", width, "m"), height),
                  b = (std::min)(width, detail::positive("section height", height, "m"));

@@ -52,8 +52,7 @@ double bisect(const Function& f, double low, double high) noexcept {
 }
 
 /// When a series that starts at zero or above falls below zero, on the side below; `duration` where it does
-/// not.  A dip between two ends that are both above is found where it is deeper than 1e-12 (m/s or N), far
-/// above round-off.
+/// not.  A dip between two ends that are both above is found where it is deeper than 1e-12 (m/s or N), far above round-off.
 template <int Terms>
 double first_below_zero(const TimeSeries<Terms>& f, double duration) noexcept {
   if (f(duration) < 0) return bisect(f, 0, duration);

@@ -2,8 +2,7 @@
 // Target of a scripted hand: timed way-points in the plane, joined by minimum-jerk motion.
 //
 // Between two way-points the hand moves on the straight line with minimum jerk (Flash and Hogan, J. Neurosci. 5(7),
-// 1985), the profile of a human reach. It starts and stops without velocity or acceleration, so position, velocity and
-// acceleration are continuous:
+// 1985), the profile of a human reach. It starts and stops without velocity or acceleration, so position, velocity and acceleration are continuous:
 //
 //   p(τ) = a + (b - a)(10τ³ - 15τ⁴ + 6τ⁵),  τ in [0, 1]
 // Building allocates and throws std::invalid_argument naming field, value and unit; evaluation does neither.

@@ -3,8 +3,7 @@
 // share: the scheduler, its one servo thread, and the one stack of errors.
 //
 // The real one is haptics/hdapi/openhaptics.hpp; tests have an emulated one. Functions have the vendor's names without
-// "hd", constants without "HD_". All have the vendor's types, which on every platform are those of the table in
-// is_hd_api below.
+// "hd", constants without "HD_". All have the vendor's types, which on every platform are those of the table in is_hd_api below.
 //
 //   Api::ErrorInfo               a struct with: unsigned errorCode, int internalErrorCode, unsigned hHD
 //   Api::Callback                pointer to: unsigned f(void*), in the vendor's calling convention

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Asks the system to let a thread run when it has to: a priority before all ordinary threads, and memory that
-// is never paged out.
+// Asks the system to let a thread run when it has to: a priority before all ordinary threads, and memory that is never paged out.
 //
 //   servo thread   const RealTime priority = set_real_time_priority(80);     // in its first tick, say
 //   main, once     const RealTime memory = lock_memory();                    // before the loop starts

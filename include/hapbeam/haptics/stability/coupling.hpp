@@ -12,8 +12,7 @@
 // A coupling of a hand that turns takes a HandPose, and may return a torque.
 // Touch is Touch<Model>, or a class with its tick(position) and contact_at(position).
 //
-// VirtualCoupling: the hand h does not press the beam itself.  A massless point p, the avatar, presses it, and a spring K and a damper B
-// tie h to p:
+// VirtualCoupling: the hand h does not press the beam itself.  A massless point p, the avatar, presses it, and a spring K and a damper B tie h to p:
 //
 //   K g + B g' = f(p),   p = h + n g,   g >= 0        n: normal of the contact, f: the beam's force along it
 //

@@ -136,8 +136,7 @@ class GalerkinModel : public detail::TrainedModel<detail::GalerkinTable<ScalarTy
   int iterations_ = 0;
 };
 
-// Long functions are defined outside of the class: only then does "extern template class GalerkinModel<>;" compile them in one
-// file alone.
+// Long functions are defined outside of the class: only then does "extern template class GalerkinModel<>;" compile them in one file alone.
 template <typename Scalar, class Nodes>
 Response<Scalar> GalerkinModel<Scalar, Nodes>::press(const Press<Scalar>& request) noexcept {
   Point at;

@@ -94,8 +94,7 @@ class PodModel : public detail::TrainedModel<detail::PodTable<ScalarType, NodePo
   Scalar rotation(const Point& at, Scalar by_x) const noexcept;
 };
 
-// Long functions are defined outside of the class: only then does "extern template class PodModel<>;" compile them in one
-// file alone.
+// Long functions are defined outside of the class: only then does "extern template class PodModel<>;" compile them in one file alone.
 template <typename Scalar, class Nodes>
 Response<Scalar> PodModel<Scalar, Nodes>::press(const Press<Scalar>& request) noexcept {
   Point at;
