@@ -77,14 +77,9 @@ struct RodSection {
                  b = (std::min)(width, detail::positive("section height", height, "m"));
     double sum = 0;
     for (int k = 1; k < 200; k += 2) sum += std::tanh(k * pi * a / (2 * b)) / std::pow(k, 5);
-    return {width * height,
-            width * height * height * height / 12,
-            height * width * width * width / 12,
-            a * b * b * b / 3 * (1 - 192 * b / (std::pow(pi, 5) * a) * sum),
-            b,
-            width,
-            height,
-            true};
+    const double area = width * height,
+                 torsion = a * b * b * b / 3 * (1 - 192 * b / (std::pow(pi, 5) * a) * sum);
+    return {area, area * height * height / 12, area * width * width / 12, torsion, b, width, height, true};
   }
   static RodSection circle(double diameter) {
     return ellipse(detail::positive("section diameter", diameter, "m"), diameter);
@@ -102,13 +97,8 @@ struct RodSection {
   static RodSection ellipse(double width, double height) {
     const double a = detail::positive("section width", width, "m") / 2,
                  b = detail::positive("section height", height, "m") / 2;
-    return {pi * a * b,
-            pi * a * b * b * b / 4,
-            pi * a * a * a * b / 4,
-            pi * a * a * a * b * b * b / (a * a + b * b),
-            (std::min)(width, height),
-            width,
-            height};
+    const double area = pi * a * b, torsion = area * a * a * b * b / (a * a + b * b);
+    return {area, area * b * b / 4, area * a * a / 4, torsion, (std::min)(width, height), width, height};
   }
 
  private:

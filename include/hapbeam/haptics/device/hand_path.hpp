@@ -92,11 +92,8 @@ class HandPath {
     const double share = t * t * t * (10 + t * (6 * t - 15)), rate = span > 0 ? 30 * t * t * r * r / span : 0;
     const Vector2<double> way = b.position - a.position, position = a.position + way * share;
     const Eigen::Vector3d turn = b.turn - a.turn;
-    return {{position.x(), position.y(), 0},
-            {way.x() * rate, way.y() * rate, 0},
-            {0, 0, 0},
-            a.turn + turn * share,
-            turn * rate};
+    HandTarget target{{position.x(), position.y(), 0}, {way.x() * rate, way.y() * rate, 0}};
+    return target.turn = a.turn + turn * share, target.spin = turn * rate, target;
   }
 
  private:

@@ -47,17 +47,13 @@ namespace detail {
 
 [[gnu::cold]] inline DeviceInfo describe(const VirtualPhantomOptions& options) {
   const ArmOptions& arm = options.arm;
-  return {"virtual Phantom Premium 1.5/6DOF High Force",
-          {0.381, 0.267, 0.191},
-          arm.peak_force,
-          6.2,
-          3500,
-          arm.resolution,
-          arm.friction,
-          arm.period,
-          arm.damping,
-          arm.apparent_mass,
-          Gimbal::describe(options.gimbal)};
+  DeviceInfo info;
+  info.name = "virtual Phantom Premium 1.5/6DOF High Force", info.workspace = {0.381, 0.267, 0.191};
+  info.peak_force = arm.peak_force, info.continuous_force = 6.2, info.max_stiffness = 3500;
+  info.position_resolution = arm.resolution, info.friction = arm.friction, info.period = arm.period;
+  info.damping = arm.damping, info.apparent_mass = arm.apparent_mass;
+  info.gimbal = Gimbal::describe(options.gimbal);
+  return info;
 }
 
 }  // namespace detail

@@ -183,17 +183,13 @@ class HdConnection {
     if (!(std::isfinite(peak) && peak > 0)) fail("names no maximal force", {});
     calibration = HdCalibration<Api>(static_cast<unsigned>(styles), options_.rate);
     middle_ = (low + high) / 2;
-    info_ = {model ? model : "unnamed device",
-             (high - low) * 1e-3,
-             (std::min)(peak, options_.force_limit),
-             (std::min)(continuous, options_.force_limit),
-             stiffness * 1e3,
-             options_.position_resolution,
-             options_.friction,
-             1.0 / options_.rate,
-             options_.damping,
-             options_.apparent_mass,
-             describe_gimbal()};
+    info_.name = model ? model : "unnamed device", info_.workspace = (high - low) * 1e-3;
+    info_.peak_force = (std::min)(peak, options_.force_limit);
+    info_.continuous_force = (std::min)(continuous, options_.force_limit);
+    info_.max_stiffness = stiffness * 1e3, info_.period = 1.0 / options_.rate;
+    info_.position_resolution = options_.position_resolution, info_.friction = options_.friction;
+    info_.damping = options_.damping, info_.apparent_mass = options_.apparent_mass;
+    info_.gimbal = describe_gimbal();
     // Not every device measures it; what is an error here must not be one in each tick.
     double temperatures[most_motors] = {};
     Api::get_doublev(Api::motor_temperature, temperatures);

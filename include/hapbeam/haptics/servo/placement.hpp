@@ -4,9 +4,9 @@
 //   p_scene = origin + scale R p_device      v_scene = scale R v_device      F_device = Rᵀ F_scene      τ_device = Rᵀ τ_scene / scale
 //   [m]                                      [m/s]                           [N] on the hand            [N·m] on the hand
 //
-// R turns the device's axes (x right, y up, z toward the user) into the scene's, whose x and y are the plane of the beam, x along it and
-// y = w across it.  Forces are not scaled: with a scale of 2 the hand moves half as far for the same force, so what a device can render
-// in the scene is its own limit divided by the scale.  A passive scene stays passive in the hand.
+// R turns the device's axes into the scene's, whose x and y are the plane of the beam, x along it and y = w across it.  Forces are not
+// scaled: with a scale of 2 the hand moves half as far for the same force, so what a device can render in the scene is its own limit
+// divided by the scale.
 //
 //   const Placement placement = Placement::in_plane({1.27, 0.02});    // the device's origin, above mid-span
 //   const Vector2<double> hand = placement.beam_position(state.position);

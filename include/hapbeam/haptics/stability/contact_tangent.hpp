@@ -28,21 +28,15 @@ namespace hapbeam {
 namespace detail {
 
 // Vectors of a beam and of the scene: a beam that bends in a plane lies in the scene's x and y.
-template <typename Scalar>
-Eigen::Vector3d in_scene(const VectorOf<Scalar, 2>& v) noexcept {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), 0};
-}
-template <typename Scalar>
-Eigen::Vector3d in_scene(const VectorOf<Scalar, 3>& v) noexcept {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+template <typename Scalar, int D>
+Eigen::Vector3d in_scene(const Eigen::Matrix<Scalar, D, 1>& v) noexcept {
+  return vector_of<double, 3>([&v](int k) { return k < D ? static_cast<double>(v[k % D]) : 0; });
 }
 
 /// What a beam sees of it: in its plane, or all.
 template <typename Scalar, int D>
 VectorOf<Scalar, D> of_beam(const Eigen::Vector3d& v) noexcept {
-  VectorOf<Scalar, D> seen;
-  for (int i = 0; i < D; ++i) seen[i] = static_cast<Scalar>(v[i]);
-  return seen;
+  return vector_of<Scalar, D>([&v](int k) { return static_cast<Scalar>(v[k]); });
 }
 
 }  // namespace detail

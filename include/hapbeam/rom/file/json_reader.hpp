@@ -253,7 +253,7 @@ class JsonReader {
 
   const std::string& source_;
   json_t* root_;
-  Json own_units_{nullptr};
+  Json own_units_;
   json_t* units_ = nullptr;
   // Of an object within another: "errors.regions[2]." and "errors.regions.".
   char path_[96] = "", unit_path_[96] = "";

@@ -26,12 +26,8 @@ struct BeamData {
   /// @tparam AnyBeam  Beam; a template, so that a program that only loads a model need not include it
   template <class AnyBeam>
   static BeamData of(const AnyBeam& beam) noexcept {
-    return {Scalar(beam.length()),
-            Scalar(beam.axial_stiffness()),
-            Scalar(beam.bending_stiffness()),
-            Scalar(beam.thickness()),
-            beam.left(),
-            beam.right()};
+    const auto EA = Scalar(beam.axial_stiffness()), EI = Scalar(beam.bending_stiffness());
+    return {Scalar(beam.length()), EA, EI, Scalar(beam.thickness()), beam.left(), beam.right()};
   }
 };
 

@@ -5,7 +5,6 @@
 //
 // The weights l_k depend on x alone: one set serves every quantity at the same nodes, and on a grid the products of two sets.
 // With 50 ChebyshevNodes an error in the values grows by at most Σ|l_k| = 3.5, with the thesis' EquispacedNodes by 2e12.
-//
 // Nodes of your own are a class N of static functions:
 //
 //   N::node(k, n)    double        x_k of n nodes, 0 ≤ k < n, in [-1, 1], ascending
@@ -21,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <type_traits>
 
 #include <Eigen/Core>
@@ -166,9 +166,7 @@ constexpr int padded(int rows) noexcept { return (rows + 7) / 8 * 8; }
 /// Σ x_k y_k
 template <typename Scalar>
 Scalar dot(const Scalar* x, const Scalar* y, int size) noexcept {
-  Scalar sum = 0;
-  for (int k = 0; k < size; ++k) sum += x[k] * y[k];
-  return sum;
+  return std::inner_product(x, x + size, y, Scalar(0));
 }
 
 }  // namespace detail

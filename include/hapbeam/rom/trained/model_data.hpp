@@ -17,11 +17,9 @@
 
 namespace hapbeam {
 
-/// Errors over a sample of presses, against the full model.  The force's is relative; the shape's is the largest |Δw| over
-/// the largest |w| of the beam.
-///
-/// The force is zero in the shape to which dead loads bend the beam. A press by less than a thousandth of the depth
-/// from there is therefore compared with the force of a thousandth.
+/// Errors over a sample of presses, against the full model.  The force's is relative; the shape's is the largest |Δw| over the largest
+/// |w| of the beam.  A press by less than a thousandth of the depth from where dead loads bend the beam, at which the force is zero, is
+/// compared with the force of a thousandth.
 struct ErrorSummary {
   int presses = 0;
   double force_median = 0;
@@ -44,9 +42,8 @@ struct ErrorReport {
   std::vector<RegionError> regions;
   /// Bound on the relative error of the force of every press in range(). It is 1.1 times the largest difference to the
   /// full model that a search from the worst presses found, plus reference_error, and at least 1e-8 for round-off.
-  /// Within a thousandth of the length from an end that is free to move, finite elements are no reference; the bound is
-  /// that of the places beside.
-  /// The search is no proof; none of 250 000 random presses of 50 beams exceeded the bound.
+  /// The search is no proof.  Within a thousandth of the length from an end that is free to move, finite elements are no reference; the
+  /// bound is that of the places beside.
   double force_bound = 0;
   /// Largest relative error of the full model's force, by one with twice its elements.
   double reference_error = 0;
@@ -215,13 +212,8 @@ TrainedData<To> cast(const TrainedData<From>& d) {
 /// The same model in another scalar: cast<float>(data).  The error report stays; measure again if it matters.
 template <typename To, typename From>
 PodModelData<To> cast(const PodModelData<From>& d) {
-  return {detail::cast<To>(d),
-          d.symmetric,
-          d.depths,
-          To(d.y_low),
-          To(d.y_high),
-          detail::cast<To>(d.potential),
-          detail::cast<To>(d.rest)};
+  const auto potential = detail::cast<To>(d.potential), rest = detail::cast<To>(d.rest);
+  return {detail::cast<To>(d), d.symmetric, d.depths, To(d.y_low), To(d.y_high), potential, rest};
 }
 template <typename To, typename From>
 GalerkinModelData<To> cast(const GalerkinModelData<From>& d) {
