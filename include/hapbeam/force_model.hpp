@@ -287,6 +287,12 @@ template <typename M>
 using StepWithHand = std::enable_if_t<noexcept(std::declval<M&>().step(
     typename M::Scalar(), std::declval<const Coupled<typename M::Scalar, dimension_of<M>>&>()))>;
 
+template <typename M>
+using ManyContacts = std::enable_if_t<(M::contacts > 1)>;
+/// True where several bodies can push M at once.
+template <typename M>
+inline constexpr bool takes_several = offers<PushObstacles, M>&& offers<ManyContacts, M>;
+
 }  // namespace detail
 
 /// The pieces of the model's shape that hold arc positions s0 to s1.
@@ -300,16 +306,6 @@ CentrelinePart<typename M::Scalar> part_of(const M& model, typename M::Scalar s0
 /// True where bodies can push M along any direction, noexcept included; M::contacts says how many at once.
 template <typename M>
 inline constexpr bool takes_push = detail::offers<detail::PushObstacles, M>;
-
-namespace detail {
-
-template <typename M>
-using ManyContacts = std::enable_if_t<(M::contacts > 1)>;
-/// True where that are more than one.
-template <typename M>
-inline constexpr bool takes_several = takes_push<M>&& offers<ManyContacts, M>;
-
-}  // namespace detail
 
 /// True where M has mass, noexcept included.
 template <typename M>

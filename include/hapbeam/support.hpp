@@ -45,6 +45,8 @@ constexpr const char* name(Support support) noexcept {
 
 namespace detail {
 
+inline constexpr double held = std::numeric_limits<double>::infinity();
+
 /// @throws std::invalid_argument where a beam with these ends is a mechanism
 [[gnu::cold]] inline void check_supports(Support left, Support right) {
   const char* why = nullptr;
@@ -97,10 +99,6 @@ struct RodSupport {
   }
   friend constexpr bool operator!=(const RodSupport& a, const RodSupport& b) noexcept { return !(a == b); }
 };
-
-namespace detail {
-inline constexpr double held = std::numeric_limits<double>::infinity();
-}  // namespace detail
 
 inline constexpr RodSupport RodSupport::free{0, 0, 0, 0, 0, 0};
 inline constexpr RodSupport RodSupport::clamped{detail::held, detail::held, detail::held,

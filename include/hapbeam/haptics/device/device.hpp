@@ -108,6 +108,29 @@ struct DeviceCounts {
   std::uint64_t force_cut_ticks = 0;  ///< in which the servo's force was not sent unchanged
 };
 
+/// The force that a device may send: finite and no longer than its peak.
+/// @param force  in: requested, out: permitted [N]   @param peak [N]
+/// Real-time: no allocation, noexcept, wait-free, O(1).
+[[nodiscard]] inline ForceCut limit_force(Eigen::Vector3d& force, double peak) noexcept {
+  if (!force.allFinite()) return force.setZero(), ForceCut::not_finite;
+  // In units of the largest component, whose square may overflow.
+  const double largest = (std::max)({std::abs(force[0]), std::abs(force[1]), std::abs(force[2])});
+  if (largest == 0) return ForceCut::none;
+  const Eigen::Vector3d direction = force / largest;
+  const double allowed = peak / direction.norm();
+  if (!(largest > allowed)) return ForceCut::none;
+  return force = direction * allowed, ForceCut::peak;
+}
+
+/// The same for force and torque together: if one is not finite, neither is sent.   @param peak_torque [N·m]; 0: it renders none
+[[nodiscard]] inline ForceCut limit_wrench(Wrench& wrench, double peak_force, double peak_torque) noexcept {
+  if (!wrench.force.allFinite() || !wrench.torque.allFinite()) return wrench = {}, ForceCut::not_finite;
+  if (!(peak_torque > 0)) wrench.torque.setZero();
+  const ForceCut force = limit_force(wrench.force, peak_force),
+                 torque = limit_force(wrench.torque, peak_torque);
+  return force != ForceCut::none ? force : torque;
+}
+
 namespace detail {
 
 /// Whether a hand can be there: beyond 1e9 m positions are a reading or a unit gone wrong, and their powers overflow.
@@ -136,33 +159,6 @@ Eigen::Vector3d rotation_vector(const Rotation& R) noexcept {
   if (!(sine > 0)) return Eigen::Vector3d::Zero();
   return twice * (std::atan2(sine, (R(0, 0) + R(1, 1) + R(2, 2) - 1) / 2) / (2 * sine));
 }
-
-}  // namespace detail
-
-/// The force that a device may send: finite and no longer than its peak.
-/// @param force  in: requested, out: permitted [N]   @param peak [N]
-/// Real-time: no allocation, noexcept, wait-free, O(1).
-[[nodiscard]] inline ForceCut limit_force(Eigen::Vector3d& force, double peak) noexcept {
-  if (!force.allFinite()) return force.setZero(), ForceCut::not_finite;
-  // In units of the largest component, whose square may overflow.
-  const double largest = (std::max)({std::abs(force[0]), std::abs(force[1]), std::abs(force[2])});
-  if (largest == 0) return ForceCut::none;
-  const Eigen::Vector3d direction = force / largest;
-  const double allowed = peak / direction.norm();
-  if (!(largest > allowed)) return ForceCut::none;
-  return force = direction * allowed, ForceCut::peak;
-}
-
-/// The same for force and torque together: if one is not finite, neither is sent.   @param peak_torque [N·m]; 0: it renders none
-[[nodiscard]] inline ForceCut limit_wrench(Wrench& wrench, double peak_force, double peak_torque) noexcept {
-  if (!wrench.force.allFinite() || !wrench.torque.allFinite()) return wrench = {}, ForceCut::not_finite;
-  if (!(peak_torque > 0)) wrench.torque.setZero();
-  const ForceCut force = limit_force(wrench.force, peak_force),
-                 torque = limit_force(wrench.torque, peak_torque);
-  return force != ForceCut::none ? force : torque;
-}
-
-namespace detail {
 
 // Signatures alone, to be called with null pointers: a contract is met where the first of two takes them.
 template <typename S>

@@ -26,6 +26,28 @@ namespace detail {
   return seconds;
 }
 
+/// What is late by whole ticks.
+class DelayLine {
+ public:
+  static constexpr int longest = 16;
+
+  DelayLine() noexcept { clear(); }
+  static int checked(int ticks) {
+    if (!(ticks >= 0 && ticks <= longest)) reject("delay_ticks", ticks, "", "0 to 16");
+    return ticks;
+  }
+  /// @param newest  of this tick   @param ticks  0 to longest   @return of so many ticks ago; zero where there was none
+  const Eigen::Vector3d& pass(const Eigen::Vector3d& newest, int ticks) noexcept {
+    std::move_backward(all_.begin(), all_.end() - 1, all_.end());
+    all_[0] = newest;
+    return all_[static_cast<std::size_t>(ticks)];
+  }
+  void clear() noexcept { all_.fill(Eigen::Vector3d::Zero()); }
+
+ private:
+  std::array<Eigen::Vector3d, longest + 1> all_;
+};
+
 }  // namespace detail
 
 /// Figures of a gimbal, the three rotations of a device; by default there is none.
@@ -116,31 +138,5 @@ class LoopClock {
   double period_, longest_;
   double time_ = 0;
 };
-
-namespace detail {
-
-/// What is late by whole ticks.
-class DelayLine {
- public:
-  static constexpr int longest = 16;
-
-  DelayLine() noexcept { clear(); }
-  static int checked(int ticks) {
-    if (!(ticks >= 0 && ticks <= longest)) reject("delay_ticks", ticks, "", "0 to 16");
-    return ticks;
-  }
-  /// @param newest  of this tick   @param ticks  0 to longest   @return of so many ticks ago; zero where there was none
-  const Eigen::Vector3d& pass(const Eigen::Vector3d& newest, int ticks) noexcept {
-    std::move_backward(all_.begin(), all_.end() - 1, all_.end());
-    all_[0] = newest;
-    return all_[static_cast<std::size_t>(ticks)];
-  }
-  void clear() noexcept { all_.fill(Eigen::Vector3d::Zero()); }
-
- private:
-  std::array<Eigen::Vector3d, longest + 1> all_;
-};
-
-}  // namespace detail
 
 }  // namespace hapbeam

@@ -223,10 +223,9 @@ void VirtualPhantom<Path>::check_workspace() const {
   if constexpr (std::is_same_v<Path, HandPath>)
     for (const HandPath::WayPoint& point : path_.points())
       for (int i = 0; i < 2; ++i)
-        if (std::abs(point.position[i]) > info_.workspace[i] / 2)
-          detail::reject(
-              i == 0 ? "hand path x" : "hand path y", point.position[i], "m",
-              i == 0 ? "in the workspace, -0.1905 to 0.1905" : "in the workspace, -0.1335 to 0.1335");
+        if (const double most = info_.workspace[i] / 2; std::abs(point.position[i]) > most)
+          detail::refuse("hand path %c = %g m: must be in the workspace, %g to %g", "xy"[i],
+                         point.position[i], -most, most);
 }
 
 }  // namespace hapbeam

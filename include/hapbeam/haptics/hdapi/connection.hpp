@@ -19,9 +19,7 @@
 #include <hapbeam/haptics/hdapi/contract.hpp>
 #include <hapbeam/haptics/hdapi/setup.hpp>
 
-namespace hapbeam {
-
-namespace detail {
+namespace hapbeam::detail {
 
 template <typename Api>
 class HdConnection {
@@ -229,6 +227,4 @@ class HdConnection {
   bool has_temperature_ = false, has_torque_ = false, connected_ = false;
 };
 
-}  // namespace detail
-
-}  // namespace hapbeam
+}  // namespace hapbeam::detail

@@ -147,6 +147,24 @@ template <typename Scalar>
   check_table("rest_shape", shape.rest, 3 * (segments + 1));
 }
 
+template <typename To, typename From>
+std::vector<To> cast(const std::vector<From>& values) {
+  return {values.begin(), values.end()};
+}
+template <typename To, typename From>
+BeamData<To> cast(const BeamData<From>& b) {
+  return {To(b.length), To(b.axial_stiffness), To(b.bending_stiffness), To(b.thickness), b.left, b.right};
+}
+template <typename To, typename From>
+ShapeData<To> cast(const ShapeData<From>& s) {
+  return {s.segments, s.contact_node, s.modes, cast<To>(s.basis), cast<To>(s.coefficients), cast<To>(s.rest)};
+}
+
+template <typename To, typename From>
+TrainedData<To> cast(const TrainedData<From>& d) {
+  return {cast<To>(d.beam), To(d.s_min), To(d.s_max), To(d.depth), d.positions, cast<To>(d.shape), d.errors};
+}
+
 }  // namespace detail
 
 template <typename Scalar>
@@ -186,28 +204,6 @@ template <typename Scalar>
   check_shape(data.shape, positions * tensions);
   return data;
 }
-
-namespace detail {
-
-template <typename To, typename From>
-std::vector<To> cast(const std::vector<From>& values) {
-  return {values.begin(), values.end()};
-}
-template <typename To, typename From>
-BeamData<To> cast(const BeamData<From>& b) {
-  return {To(b.length), To(b.axial_stiffness), To(b.bending_stiffness), To(b.thickness), b.left, b.right};
-}
-template <typename To, typename From>
-ShapeData<To> cast(const ShapeData<From>& s) {
-  return {s.segments, s.contact_node, s.modes, cast<To>(s.basis), cast<To>(s.coefficients), cast<To>(s.rest)};
-}
-
-template <typename To, typename From>
-TrainedData<To> cast(const TrainedData<From>& d) {
-  return {cast<To>(d.beam), To(d.s_min), To(d.s_max), To(d.depth), d.positions, cast<To>(d.shape), d.errors};
-}
-
-}  // namespace detail
 
 /// The same model in another scalar: cast<float>(data).  The error report stays; measure again if it matters.
 template <typename To, typename From>
