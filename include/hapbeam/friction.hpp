@@ -24,8 +24,7 @@ struct Friction {
   double sticking = 0;  ///< the contact begins to slide beyond it
   double sliding = 0;   ///< while it slides, not larger
 
-  constexpr Friction() noexcept = default;
-  constexpr Friction(double both) noexcept : sticking(both), sliding(both) {}
+  constexpr Friction(double both = 0) noexcept : sticking(both), sliding(both) {}
   constexpr Friction(double when_sticking, double when_sliding) noexcept
       : sticking(when_sticking), sliding(when_sliding) {}
 

@@ -116,12 +116,9 @@ struct Candidate {
     if (reduction == Reduction::pod) return (shape ? costs.pod_shape : costs.pod_force)(snapshots());
     if (reduction == Reduction::galerkin)
       return (shape ? costs.galerkin_shape : costs.galerkin_force)(snapshots());
-    const TickCost& cost = kinematics == Kinematics::linear        ? costs.linear
-                           : kinematics == Kinematics::von_karman  ? costs.von_karman
-                           : kinematics == Kinematics::round_rod   ? costs.round_rod
-                           : kinematics == Kinematics::twisted_rod ? costs.twisted_rod
-                                                                   : costs.corotational;
-    return cost(elements);
+    const TickCost of_elements[] = {costs.linear, costs.von_karman, costs.corotational, costs.round_rod,
+                                    costs.twisted_rod};  // as Kinematics counts
+    return of_elements[static_cast<int>(kinematics)](elements);
   }
 
   /// In words, as "VonKarman, 8 elements" or "POD of VonKarman, 16 x 12 snapshots".

@@ -71,16 +71,15 @@ class Servo {
 
   /// @param state  of the device, at the beginning of a period   @return [N] on the hand, device axes
   [[nodiscard]] Eigen::Vector3d tick(const DeviceState& state) noexcept;
-  Eigen::Vector3d operator()(const DeviceState& state) noexcept { return tick(state); }
 
   /// The same with the orientation of the stylus, of a rod in space.   @return on the hand, device axes
   template <typename State, typename = IfTurns<State>>
   [[nodiscard]] Wrench tick(const State& state) noexcept {
     return run<true>(state);
   }
-  template <typename State, typename = IfTurns<State>>
-  Wrench operator()(const State& state) noexcept {
-    return run<true>(state);
+  template <typename State>
+  auto operator()(const State& state) noexcept {
+    return tick(state);
   }
 
   /// For a host that hands over its own time step, or runs free.
