@@ -28,6 +28,17 @@
 
 namespace hapbeam {
 
+namespace detail {
+
+template <class Model>
+Response<double> force_of(Model& model, const Press<double>& request) noexcept {
+  if constexpr (std::is_same_v<Model, PodModel<>> || std::is_same_v<Model, GalerkinModel<>>)
+    return model.force(request);
+  else return model.press(request);
+}
+
+}  // namespace detail
+
 /// One of several models.
 /// @tparam D  of the space in which they bend: planar ones are pressed, those in space pushed
 template <int D, class... Models>
@@ -55,12 +66,7 @@ class AnyOf {
   }
   /// The force alone, for less where the model can tell it without the shape; shape() may stay as it was.
   Response<double> force(const Press<double>& request) noexcept {
-    return visit([&](auto& model) {
-      using Model = std::decay_t<decltype(model)>;
-      if constexpr (std::is_same_v<Model, PodModel<>> || std::is_same_v<Model, GalerkinModel<>>)
-        return model.force(request);
-      else return model.press(request);
-    });
+    return visit([&](auto& model) { return detail::force_of(model, request); });
   }
   template <int N = D, std::enable_if_t<N == 3, int> = 0>
   Response<double> push(const Push<double, N>& request) noexcept {

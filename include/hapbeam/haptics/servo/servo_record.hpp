@@ -96,9 +96,10 @@ class KeptShape {
   }
   void take(const Shape& shape) noexcept {
     const int last = shape.size() - 1, step = 1 + (last - 1) / (static_cast<int>(nodes_.size()) - 1);
-    size_ = 0;
-    for (int i = 0; i < last; i += step) nodes_[static_cast<std::size_t>(size_++)] = shape[i];
-    nodes_[static_cast<std::size_t>(size_++)] = shape[last];
+    auto* node = nodes_.data();
+    for (int i = 0; i < last; i += step) *node++ = shape[i];
+    *node++ = shape[last];
+    size_ = static_cast<int>(node - nodes_.data());
     if constexpr (D == 2) any_rotation_ = shape.any_rotation();
   }
 
