@@ -6,8 +6,8 @@
 #include <utility>
 
 #ifdef HAPBEAM_EXAMPLES_MODEL_FILE
-#include <hapbeam/rom/file/json_file.hpp>
 #include <hapbeam/rom/file/json_reader.hpp>
+#include <hapbeam/rom/file/replaced_file.hpp>
 #endif
 
 namespace phantom {
@@ -135,7 +135,9 @@ std::string save_scene(const Options& options) {
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
   std::string file = name + ".json";
   for (int k = 2; std::filesystem::exists(file); ++k) file = name + "_" + std::to_string(k) + ".json";
-  hapbeam::detail::write_file(file, text);
+  hapbeam::detail::ReplacedFile written(file);
+  written.write(text);
+  written.replace();
   return file;
 }
 

@@ -79,7 +79,6 @@ template <typename S>
                  q4 * ((S(1. / 479001600) - q * S(1. / 87178291200.)) + q2 * S(1. / 20922789888000.)));
 }
 
-/// cos α and sin α
 template <typename S>
 void cos_and_sin(const S& alpha, S& cosine, S& sine) noexcept {
   using std::abs;
@@ -110,7 +109,6 @@ void cos_and_sin_of_square(const S& q, S& cosine, S& sine) noexcept {
   cosine = cos(angle), sine = sin(angle) / angle;
 }
 
-/// (cos α, sin α).
 template <typename S>
 [[gnu::always_inline]] inline Eigen::Matrix<S, 2, 1> direction(S alpha) noexcept {
   using std::abs;

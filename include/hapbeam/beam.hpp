@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What is modelled: a slender beam, its section and material, its two ends and its dead loads, which keep their direction.
 //
-// Plain values in SI, checked where they enter: every function here throws std::invalid_argument naming field,
-// value, unit and the permitted range.  Offline only: nothing here is called in a servo tick.
+// Plain values in SI, checked where they enter: every function here throws std::invalid_argument naming field, value, unit and what is
+// allowed.  Offline only.
 // x runs along the beam from its left end, w across it (up), theta = -dw/dx.
 #pragma once
 
@@ -24,11 +24,9 @@ struct Section {
 
   /// @param width [m] out of the plane of bending   @param height [m] in it
   static Section rectangle(double width, double height) {
-    detail::positive("section width", width, "m");
-    detail::positive("section height", height, "m");
-    return {width * height, width * height * height * height / 12, height};
+    const RodSection section = RodSection::rectangle(width, height);
+    return {section.area, section.inertia1, height};
   }
-  /// @param diameter [m]
   static Section circle(double diameter) { return of(RodSection::circle(diameter)); }
   /// @param outer_diameter [m]   @param inner_diameter [m] of the hole, not the thickness of the wall
   static Section tube(double outer_diameter, double inner_diameter) {
@@ -39,7 +37,6 @@ struct Section {
   static Section of(const RodSection& section) { return {section.area, section.inertia1, section.thickness}; }
 };
 
-/// Material of a beam.
 struct Material {
   double young;          ///< Young's modulus E [Pa]
   double density = 0;    ///< [kg/m³]; 0: not known, and the beam has no mass
@@ -73,7 +70,7 @@ struct Arc {
   void check() const { detail::finite("arc curvature", curvature, "1/m"); }
 };
 
-/// A part of the beam with a section of its own, which may change along it, and a material, of which damping is not counted.
+/// Damping of its material is not counted.
 using BeamPart = detail::PartOf<Section, Material>;
 
 /// A beam, its ends and its loads.  Prismatic unless sections() says otherwise, straight unless naturally() gives it a curvature, with the
@@ -104,7 +101,6 @@ class Beam : public detail::Slender<Beam, Section, Material, Arc> {
     detail::check_supports(left, right);
   }
 
-  /// Adds a force and moment at one point.
   Beam& add(const PointLoad& load) {
     if (!(load.s >= 0 && load.s <= length_))
       detail::reject("point load s", load.s, "m", "on the beam, 0 to its length");
@@ -128,7 +124,7 @@ class Beam : public detail::Slender<Beam, Section, Material, Arc> {
   /// @param density [kg/m³]   @param gravity [m/s²] direction and size, (x, w): {0, -9.81} where w points up
   Beam& weight(double density, const Vector2<double>& gravity) {
     detail::positive("density", density, "kg/m³");
-    for (int k = 0; k < 2; ++k) detail::finite("gravity", gravity[k], "m/s²");
+    detail::all_finite("gravity", gravity, "m/s²");
     if (!area_)
       detail::reject(
           "area", 0, "m²",
@@ -137,9 +133,7 @@ class Beam : public detail::Slender<Beam, Section, Material, Arc> {
     return specific_weight_ = density * gravity, weigh(), *this;
   }
 
-  /// Gives parts of the beam sections of their own: a taper or steps.  Elements of Tapered<Local> take them; a FemModel of other
-  /// elements rejects the beam.
-  /// @throws std::invalid_argument unless the ends increase, up to the length, and the beam was built of a material
+  /// As Slender's.  Elements of Tapered<Local> take them; a FemModel of other elements rejects the beam.
   Beam& sections(std::vector<BeamPart> parts) { return Slender::sections(std::move(parts)), weigh(), *this; }
   /// Lets it shear, as Timoshenko's: elements of Tapered<Local> take it; a FemModel of other elements rejects the beam.
   /// @param stiffness  κGA [N] of the section that it was built with; that of other sections is as their area

@@ -48,5 +48,11 @@ template <class Error = std::invalid_argument>
   if (!std::isfinite(value)) reject(field, value, unit, "finite");
   return value;
 }
+/// Of each component of a vector.
+template <class Vector>
+[[gnu::cold]] const Vector& all_finite(const char* field, const Vector& values, const char* unit) {
+  for (int k = 0; k < values.size(); ++k) finite(field, values[k], unit);
+  return values;
+}
 
 }  // namespace hapbeam::detail

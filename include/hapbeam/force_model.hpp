@@ -60,8 +60,7 @@ enum class Status : std::int8_t {
   /// The request lies outside range(). Force and shape are those of the nearest request inside it, or continue from
   /// there as the model states, without a smaller force.
   out_of_range = 1,
-  /// The equilibrium of the beam has ended or become unstable. Force and shape are those of the stable one to which the
-  /// beam has jumped.
+  /// The equilibrium of the beam has ended or become unstable. Force and shape are those of the stable one to which the beam has jumped.
   snapped = 2,
   /// s or d is not finite, or s lies off the beam (s < 0 or s > L): force 0, the state is kept.
   invalid_request = -1,
@@ -83,7 +82,6 @@ constexpr bool worse(Status a, Status b) noexcept {
   return rank(a) > rank(b);
 }
 
-/// Short lower-case name, for messages and reports.
 constexpr const char* name(Status status) noexcept {
   switch (status) {
     case Status::ok: return "ok";
@@ -143,7 +141,6 @@ bool is_finite(const Capsule<Scalar>& capsule) noexcept {
          std::isfinite(capsule.reach);
 }
 
-/// The result of a press.
 template <typename Scalar>
 struct Response {
   Scalar force;   ///< [N] force on the beam along the direction of d; the hand feels -force.  Always finite.
@@ -290,6 +287,12 @@ template <typename M>
 using StepWithHand = std::enable_if_t<noexcept(std::declval<M&>().step(
     typename M::Scalar(), std::declval<const Coupled<typename M::Scalar, dimension_of<M>>&>()))>;
 
+template <typename M>
+using ManyContacts = std::enable_if_t<(M::contacts > 1)>;
+/// True where several bodies can push M at once.
+template <typename M>
+inline constexpr bool takes_several = offers<PushObstacles, M>&& offers<ManyContacts, M>;
+
 }  // namespace detail
 
 /// The pieces of the model's shape that hold arc positions s0 to s1.
@@ -303,19 +306,6 @@ CentrelinePart<typename M::Scalar> part_of(const M& model, typename M::Scalar s0
 /// True where bodies can push M along any direction, noexcept included; M::contacts says how many at once.
 template <typename M>
 inline constexpr bool takes_push = detail::offers<detail::PushObstacles, M>;
-
-namespace detail {
-
-template <typename M>
-constexpr bool several_at_once() {
-  if constexpr (takes_push<M>) return M::contacts > 1;
-  else return false;
-}
-/// True where that are more than one.
-template <typename M>
-inline constexpr bool takes_several = several_at_once<M>();
-
-}  // namespace detail
 
 /// True where M has mass, noexcept included.
 template <typename M>

@@ -24,8 +24,7 @@ struct Friction {
   double sticking = 0;  ///< the contact begins to slide beyond it
   double sliding = 0;   ///< while it slides, not larger
 
-  constexpr Friction() noexcept = default;
-  constexpr Friction(double both) noexcept : sticking(both), sliding(both) {}
+  constexpr Friction(double both = 0) noexcept : sticking(both), sliding(both) {}
   constexpr Friction(double when_sticking, double when_sliding) noexcept
       : sticking(when_sticking), sliding(when_sliding) {}
 
@@ -107,7 +106,6 @@ struct FrictionState : detail::FrictionPlace<Scalar, D> {
   Scalar gain = 0;                ///< change of the normal force by a tangential one, as it was
   Scalar dissipated = 0;          ///< [J] since the touch began
 
-  /// @param coefficients  from now on
   void take(const Friction& coefficients) noexcept {
     sticking = static_cast<Scalar>(coefficients.sticking),
     sliding = static_cast<Scalar>(coefficients.sliding);

@@ -18,7 +18,6 @@
 
 namespace hapbeam {
 
-/// @tparam D  2: in the plane, 3: in space
 template <typename Scalar, int D = 2>
 struct InternalForces {
   Scalar normal;        ///< [N] along the tangent; positive: tension

@@ -7,7 +7,7 @@
 // A rod bends about both axes of its section, d1 and d2, twists about its tangent d3 and stretches.  It leaves its left end
 // along x with d1 along y, unless it is placed elsewhere.  What bends in one plane is shorter to write as a Beam (beam.hpp).
 // Plain values in SI, checked where they enter: every function here throws std::invalid_argument naming field, value,
-// unit and what is allowed.  Offline only; nothing here is called in a servo tick.
+// unit and what is allowed.  Offline only.
 #pragma once
 
 #include <cmath>
@@ -39,7 +39,6 @@ struct RodArc {
   }
 };
 
-/// A part of the rod with a section of its own, which may change along it, and a material: a taper, a step, a soft tip.
 using RodPart = detail::PartOf<RodSection, RodMaterial>;
 
 /// Springs along a part of the rod that pull each point back to where it is in the natural shape: a needle in tissue.
@@ -49,7 +48,6 @@ struct RodFoundation {
   double along;     ///< [N/m²] along it
 };
 
-/// A dead force at one point of the rod.
 struct RodForce {
   double s;                   ///< [m] arc position
   VectorOf<double, 3> force;  ///< [N]
@@ -94,7 +92,6 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
     detail::positive("torsion stiffness", stiffness.torsion, "N·m²");
   }
 
-  /// Lays a part of the rod in an elastic foundation.
   Rod& add(const RodFoundation& foundation) {
     if (!(foundation.from >= 0 && foundation.from < length_))
       detail::reject("foundation from", foundation.from, "m", "on the rod, 0 to its length");
@@ -107,18 +104,18 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
 
   /// Places the left end; the rod begins there.
   Rod& place_left(const RodPose& pose) { return left_pose_ = checked(pose), *this; }
-  /// Places the right end elsewhere than where the natural shape has it.
+  /// Places the right end, elsewhere than where the natural shape has it.
   Rod& place_right(const RodPose& pose) { return right_pose_ = checked(pose), *this; }
 
-  /// Sets the distributed dead load [N/m]; it must be finite on all of the rod.
+  /// The distributed dead load [N/m]; it must be finite on all of the rod.
   Rod& load(RodLoad f) { return load_ = std::move(f), specific_weight_.setZero(), *this; }
   Rod& load(const VectorOf<double, 3>& f) {
-    return finite("load", f, "N/m"), load([f](double) { return f; });
+    return detail::all_finite("load", f, "N/m"), load([f](double) { return f; });
   }
   /// Its own weight, in place of another distributed load.   @param density [kg/m³]   @param gravity [m/s²] direction and size
   Rod& weight(double density, const VectorOf<double, 3>& gravity) {
     detail::positive("density", density, "kg/m³");
-    finite("gravity", gravity, "m/s²");
+    detail::all_finite("gravity", gravity, "m/s²");
     if (!area_)
       detail::reject("area", 0, "m²", "known for a weight: a rod that is given by its stiffness has load()");
     return specific_weight_ = density * gravity, load_ = nullptr, *this;
@@ -126,7 +123,7 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
   Rod& add(const RodForce& force) {
     if (!(force.s >= 0 && force.s <= length_))
       detail::reject("force s", force.s, "m", "on the rod, 0 to its length");
-    finite("force", force.force, "N");
+    detail::all_finite("force", force.force, "N");
     return forces_.push_back(force), *this;
   }
 
@@ -139,7 +136,6 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
   const RodStiffness& stiffness() const noexcept { return stiffness_; }
   /// Of the section that it was built with; a rod that is given by its stiffness has a round one of its thickness.
   const RodOutline& outline() const noexcept { return outline_; }
-  /// Whether its ends hold it.
   bool held() const noexcept { return detail::hold_rod(left_, right_); }
   /// @throws std::invalid_argument unless they do
   void check_held() const { detail::check_supports(left_, right_); }
@@ -167,7 +163,6 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
   }
   /// Null where the natural shape places it.
   const RodPose* right_pose() const noexcept { return right_pose_ ? &*right_pose_ : nullptr; }
-  /// Empty where there is none.
   RodLoad load() const {
     if (specific_weight_.isZero(0)) return load_;
     return
@@ -187,13 +182,10 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
         material.young * detail::positive("inertia2", section.inertia2, "m⁴"),
         detail::positive("shear", material.shear, "Pa") * detail::positive("torsion", section.torsion, "m⁴")};
   }
-  static void finite(const char* field, const VectorOf<double, 3>& x, const char* unit) {
-    for (int k = 0; k < 3; ++k) detail::finite(field, x[k], unit);
-  }
   static RodPose checked(const RodPose& pose) {
-    finite("pose at", pose.at, "m");
-    finite("pose along", pose.along, "");
-    finite("pose director", pose.director, "");
+    detail::all_finite("pose at", pose.at, "m");
+    detail::all_finite("pose along", pose.along, "");
+    detail::all_finite("pose director", pose.director, "");
     detail::positive("pose along", std::sqrt(pose.along.squaredNorm()), "");
     RodPose unit = pose;
     if (!unit.make_valid())

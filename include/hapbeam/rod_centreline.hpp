@@ -29,7 +29,6 @@ struct Shaft {
   [[nodiscard]] VectorOf<Scalar, 3> at(Scalar t) const noexcept { return tip + t * way; }
 };
 
-/// One node of a rod.
 template <typename Scalar>
 struct RodNode {
   Scalar s;                      ///< [m] arc position along the rod when it is not loaded
@@ -40,7 +39,6 @@ struct RodNode {
   VectorOf<Scalar, 3> position() const noexcept { return r; }  ///< [m] as of a planar centreline
 };
 
-/// A point of the centreline.
 template <typename Scalar>
 struct RodPoint {
   VectorOf<Scalar, 3> r;        ///< [m]
@@ -117,7 +115,6 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
 
   /// Where the point at arc position s is [m], as in a planar centreline.
   VectorOf<Scalar, 3> position(Scalar s) const noexcept { return at(s).r; }
-  /// The point at arc position s [m].
   RodPoint<Scalar> at(Scalar s) const noexcept { return at(segment_at(s), s); }
   /// The same, in a piece that is known to hold s.
   RodPoint<Scalar> at(int i, Scalar s) const noexcept {
@@ -136,7 +133,6 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
   }
 };
 
-/// Whether all of a node is a number.
 template <typename Scalar>
 bool is_finite(const RodNode<Scalar>& node) noexcept {
   return std::isfinite(node.s) && node.r.allFinite() && node.tangent.allFinite() && node.director.allFinite();

@@ -39,12 +39,10 @@ struct Damping {
   static Damping air(double ratio, double frequency) {
     return {0, detail::not_negative("damping ratio", ratio, "") * 4 * pi * of(frequency), {}};
   }
-  /// Whether the material is viscous.
   bool viscous() const noexcept {
     return viscosity > 0 ||
            std::any_of(branches.begin(), branches.end(), [](const Relaxation& b) { return b.share > 0; });
   }
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   const Damping& check() const {
     detail::not_negative("damping viscosity", viscosity, "s");
     detail::not_negative("damping drag", drag, "1/s");
@@ -73,21 +71,15 @@ struct RodSection {
   bool corners = false;  ///< whether both extents meet: a rectangle
 
   /// @param width [m] along d1   @param height [m] along d2
-  /// J of a × b, a >= b, is ab³/3 (1 - 192 b/(π⁵ a) Σ tanh(kπa/2b)/k⁵) over odd k: Timoshenko and Goodier, Theory of
-  /// Elasticity, 109.
+  /// J of a × b, a >= b, is ab³/3 (1 - 192 b/(π⁵ a) Σ tanh(kπa/2b)/k⁵) over odd k: Timoshenko and Goodier, Theory of Elasticity, 109.
   static RodSection rectangle(double width, double height) {
     const double a = (std::max)(detail::positive("section width", width, "m"), height),
                  b = (std::min)(width, detail::positive("section height", height, "m"));
     double sum = 0;
     for (int k = 1; k < 200; k += 2) sum += std::tanh(k * pi * a / (2 * b)) / std::pow(k, 5);
-    return {width * height,
-            width * height * height * height / 12,
-            height * width * width * width / 12,
-            a * b * b * b / 3 * (1 - 192 * b / (std::pow(pi, 5) * a) * sum),
-            b,
-            width,
-            height,
-            true};
+    const double area = width * height,
+                 torsion = a * b * b * b / 3 * (1 - 192 * b / (std::pow(pi, 5) * a) * sum);
+    return {area, area * height * height / 12, area * width * width / 12, torsion, b, width, height, true};
   }
   static RodSection circle(double diameter) {
     return ellipse(detail::positive("section diameter", diameter, "m"), diameter);
@@ -105,13 +97,8 @@ struct RodSection {
   static RodSection ellipse(double width, double height) {
     const double a = detail::positive("section width", width, "m") / 2,
                  b = detail::positive("section height", height, "m") / 2;
-    return {pi * a * b,
-            pi * a * b * b * b / 4,
-            pi * a * a * a * b / 4,
-            pi * a * a * a * b * b * b / (a * a + b * b),
-            (std::min)(width, height),
-            width,
-            height};
+    const double area = pi * a * b, torsion = area * a * a * b * b / (a * a + b * b);
+    return {area, area * b * b / 4, area * a * a / 4, torsion, (std::min)(width, height), width, height};
   }
 
  private:
@@ -133,7 +120,6 @@ struct RodMaterial {
   }
 };
 
-/// Stiffness of a section.
 struct RodStiffness {
   double axial;     ///< EA [N]
   double bending1;  ///< EI about d1 [N·m²]

@@ -45,6 +45,8 @@ constexpr const char* name(Support support) noexcept {
 
 namespace detail {
 
+inline constexpr double held = std::numeric_limits<double>::infinity();
+
 /// @throws std::invalid_argument where a beam with these ends is a mechanism
 [[gnu::cold]] inline void check_supports(Support left, Support right) {
   const char* why = nullptr;
@@ -98,10 +100,6 @@ struct RodSupport {
   friend constexpr bool operator!=(const RodSupport& a, const RodSupport& b) noexcept { return !(a == b); }
 };
 
-namespace detail {
-inline constexpr double held = std::numeric_limits<double>::infinity();
-}  // namespace detail
-
 inline constexpr RodSupport RodSupport::free{0, 0, 0, 0, 0, 0};
 inline constexpr RodSupport RodSupport::clamped{detail::held, detail::held, detail::held,
                                                 detail::held, detail::held, detail::held};
@@ -147,7 +145,6 @@ struct RodPose {
   }
 };
 
-/// Which end.
 enum class RodSide { left, right };
 
 namespace detail {
@@ -159,7 +156,6 @@ constexpr bool hold_rod(const RodSupport& left, const RodSupport& right) noexcep
              both = holds_across(left) && holds_across(right);
   return (left.along > 0 || right.along > 0) && (direction || both);
 }
-/// @throws std::invalid_argument where it is one
 [[gnu::cold]] inline void check_supports(const RodSupport& left, const RodSupport& right) {
   if (hold_rod(left, right)) return;
   refuse("supports = %s, %s: the rod is a mechanism, %s", name(left), name(right),

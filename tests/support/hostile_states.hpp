@@ -40,7 +40,7 @@ inline OrientedState hostile_state(const OrientedState& usual, Random& random) {
 
 /// @return the name of a field that is not finite, else null
 inline const char* not_finite(const ServoRecord& r) {
-  const auto bad = [](const Eigen::Vector3d& v) { return !detail::all_finite(v); };
+  const auto bad = [](const Eigen::Vector3d& v) { return !v.allFinite(); };
   const auto none = [](double v) { return !std::isfinite(v); };
   return none(r.time)                              ? "time"
          : bad(r.position)                         ? "position"

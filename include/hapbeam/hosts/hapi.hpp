@@ -5,8 +5,7 @@
 //
 // Units are m and N, axes x right, y up, z toward the user: those of Placement. The force is that of Touch
 // (placed_touch.hpp), without a coupling: HAPI adds up its effects and sends the sum. HAPI deletes the effect with the
-// last reference; the model must outlive it. calculateForces() runs on HAPI's haptic thread. One other thread may call
-// touch().picture().
+// last reference; the model must outlive it. calculateForces() runs on HAPI's haptic thread. One other thread may call touch().picture().
 //
 // For HAPI 1.x (HAPIForceEffect).  HAPBEAM_HAPI_HEADER is what is included, <HAPI/HAPIHapticsDevice.h> unless defined before.
 #pragma once

@@ -25,7 +25,6 @@
 
 namespace hapbeam {
 
-/// Where one beam of an array lies.
 struct BeamPlace {
   Vector2<double> origin{0, 0};  ///< [m] of its left end, s = 0, w = 0, in the plane of the array
   double angle = 0;              ///< [rad] of its x axis, counterclockwise from the array's
@@ -155,7 +154,6 @@ class BeamArray {
       : BeamArray(std::vector<Model>{model}, places, most_touched) {}
 
   /// @param kinds  one or more; their present shapes are those of the untouched beams
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   BeamArray(const std::vector<Model>& kinds, const std::vector<BeamPlace>& places, int most_touched = 64)
       : most_touched_(most_touched),
         kinds_(make_kinds(kinds, places, most_touched)),

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One avatar on an array of beams: a Touch for each beam that it meets, and the sum of their forces.
 //
-// A beam that is met takes a model and a Touch from a pool. It returns them when it is released and clear of the
-// avatar. All other beams are undeformed. A hierarchy over them finds those near the avatar's last step, and contact is
-// sought with these alone: a tick costs O(log n + beams near by).
-// If more beams are met than the pool holds, the deepest are taken. A beam that was left out is ignored until the
-// avatar has left it.
+// A beam that is met takes a model and a Touch from a pool, and returns them when it is released and clear of the avatar. All other beams
+// are undeformed. A hierarchy over them finds those near the avatar's last step: a tick costs O(log n + beams near by).
+// If more beams are met than the pool holds, the deepest are taken. A beam that was left out is ignored until the avatar has left it.
 // Only the constructor allocates and throws.
 #pragma once
 
@@ -29,7 +27,6 @@ struct ArrayTouchResult : TouchResult<Scalar> {
   bool complete = true;  ///< false: more beams were met than taken or examined; out_of_range or worse
 };
 
-/// One of the beams in contact.
 template <typename Scalar>
 struct BeamTouch {
   int beam;

@@ -48,7 +48,6 @@ class AnyOf {
   using Any = std::variant<Models...>;
   static constexpr int dimension = D, contacts = 1;
 
-  /// @param model  one of them
   template <class Model>
   explicit AnyOf(Model model) : model_(std::in_place_type<Model>, std::move(model)) {}
 

@@ -44,7 +44,6 @@ struct RodScene {
     const Range<double> range = PressRange<double>(rod).range();
     return {rod, range.s_min > 0 ? 0.05 * L : 0, range.s_max < L ? 0.95 * L : L, depth};
   }
-  /// At one place.
   static RodScene at(const Rod& rod, double s, double depth) { return {rod, s, s, depth}; }
 
   bool one_place() const noexcept { return s_min == s_max; }
@@ -62,7 +61,6 @@ struct RodScene {
     return deep * (cosine * x + sine * y) / std::hypot(x, y);
   }
 
-  /// @throws std::invalid_argument
   const RodScene& check() const {
     const Range<double> range = this->range();
     detail::check_scene(*this, 0.999999 * range.s_min, range.s_max + 1e-6 * range.s_min, "rod");

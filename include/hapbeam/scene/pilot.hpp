@@ -2,11 +2,10 @@
 // Presses and pushes by which candidates are judged: a few lines of increasing depth, answered by a reference whose error is known.
 //
 // The reference is Corotational<>, with as many elements as it takes until half of them give the same force to a twentieth of the
-// tolerated error, or with 512.  Lines stand at both ends of the range and between, closer toward supports, where every method
-// is at its worst; along a line the beam is pressed from rest ever deeper, as a hand would.
-// The error is relative to the force.  A straight beam is pressed from a hundredth of the depth on.  A beam that dead loads or nature
-// bend is at rest where its force changes sign, and a model that has it rest elsewhere errs by a force that does not vanish with the
-// depth: it is pressed from a thousandth of the depth on, at many more places.
+// tolerated error, or with 512.  Lines stand at both ends of the range and between, closer toward supports, where every method is at its
+// worst.
+// The error is relative to the force.  A straight beam is pressed from a hundredth of the depth on.  One that dead loads or nature bend is
+// pressed from a thousandth on, at many more places: a model that has it rest elsewhere errs by a force that does not vanish with the depth.
 // Offline: allocates, throws std::invalid_argument where the scene asks for presses that no model answers.
 #pragma once
 
@@ -187,14 +186,12 @@ class Pilot : public detail::PilotOf<detail::PressLine> {
     if (scene.depth <= limit.depth) return;
     if (limit.depth > 0)
       detail::refuse(
-          "depth = %g m: must be at most %.4g m, the deepest press that is answered to both sides of rest, "
-          "%.4g m "
-          "aside, at s = %.4g m",
+          "depth = %g m: must be at most %.4g m, the deepest press that is answered to both "
+          "sides of rest, %.4g m aside, at s = %.4g m",
           scene.depth, 0.999 * limit.depth, limit.w, limit.s);
     detail::refuse(
-        "depth = %g m: must be of presses that are answered; this beam hangs %.4g m deep at rest at s = %.4g "
-        "m, "
-        "which is deeper than those",
+        "depth = %g m: must be of presses that are answered; this beam hangs %.4g m deep at "
+        "rest at s = %.4g m, which is deeper than those",
         scene.depth, limit.w, limit.s);
   }
 

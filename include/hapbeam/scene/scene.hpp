@@ -53,12 +53,10 @@ struct Scene {
     const double L = beam.length();
     return {beam, fixes_w(beam.left()) ? 0.05 * L : 0, fixes_w(beam.right()) ? 0.95 * L : L, depth};
   }
-  /// At one place.
   static Scene at(const Beam& beam, double s, double depth) { return {beam, s, s, depth}; }
 
   bool one_place() const noexcept { return s_min == s_max; }
 
-  /// @throws std::invalid_argument
   const Scene& check() const {
     const double margin = 0.999999 * beam.length() / 1000;
     detail::check_scene(*this, fixes_w(beam.left()) ? margin : 0,
@@ -118,12 +116,9 @@ struct Candidate {
     if (reduction == Reduction::pod) return (shape ? costs.pod_shape : costs.pod_force)(snapshots());
     if (reduction == Reduction::galerkin)
       return (shape ? costs.galerkin_shape : costs.galerkin_force)(snapshots());
-    const TickCost& cost = kinematics == Kinematics::linear        ? costs.linear
-                           : kinematics == Kinematics::von_karman  ? costs.von_karman
-                           : kinematics == Kinematics::round_rod   ? costs.round_rod
-                           : kinematics == Kinematics::twisted_rod ? costs.twisted_rod
-                                                                   : costs.corotational;
-    return cost(elements);
+    const TickCost of_elements[] = {costs.linear, costs.von_karman, costs.corotational, costs.round_rod,
+                                    costs.twisted_rod};  // as Kinematics counts
+    return of_elements[static_cast<int>(kinematics)](elements);
   }
 
   /// In words, as "VonKarman, 8 elements" or "POD of VonKarman, 16 x 12 snapshots".

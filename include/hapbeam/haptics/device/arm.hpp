@@ -21,12 +21,10 @@
 
 namespace hapbeam {
 
-/// Encoders of a simulated device: positions on a grid, and a velocity estimated from them.  Axis by axis the nearest point of a grid of
-/// the resolution.  Velocity is the difference of successive readings over the period, q', through a low pass of first order,
+/// Encoders: positions on a grid, and a velocity estimated from them: the difference of successive readings over the period, q',
+/// through a low pass of first order, because one step of the grid in one period alone would read as 7 mm/s.
 ///
-///   v += (1 - exp(-2 pi f T)) (q' - v)
-///
-/// because one step of the grid in one period alone would read as 7 mm/s.  It lags by about 1 / (2 pi f).
+///   v += (1 - exp(-2 pi f T)) (q' - v)        it lags by about 1 / (2 pi f)
 class Encoders {
  public:
   /// @param resolution [m]; 0: positions are read as they are   @param cutoff f [Hz]
@@ -37,10 +35,7 @@ class Encoders {
   const Eigen::Vector3d& velocity() const noexcept { return velocity_; }  ///< [m/s]
 
   /// Begins at a place, without motion.  @param tip [m]
-  void reset(const Eigen::Vector3d& tip) noexcept {
-    position_ = on_grid(tip);
-    velocity_.setZero();
-  }
+  void reset(const Eigen::Vector3d& tip) noexcept { position_ = on_grid(tip), velocity_.setZero(); }
   /// Reads the tip.  @param tip [m]   @param period [s] since the last reading
   void read(const Eigen::Vector3d& tip, double period) noexcept {
     const Eigen::Vector3d reading = on_grid(tip);
@@ -51,9 +46,8 @@ class Encoders {
  private:
   Eigen::Vector3d on_grid(const Eigen::Vector3d& tip) const noexcept {
     if (resolution_ == 0) return tip;
-    return {resolution_ * std::nearbyint(tip.x() / resolution_),
-            resolution_ * std::nearbyint(tip.y() / resolution_),
-            resolution_ * std::nearbyint(tip.z() / resolution_)};
+    const auto nearest = [this](double x) { return resolution_ * std::nearbyint(x / resolution_); };
+    return {nearest(tip.x()), nearest(tip.y()), nearest(tip.z())};
   }
 
   double resolution_, cutoff_;  // [m], [rad/s]
@@ -119,7 +113,6 @@ struct ArmOptions {
   ArmAxisParameters axis(const HandOptions& hand) const noexcept {
     return {apparent_mass + hand.grip_mass, damping + hand.damping, hand.stiffness, friction};
   }
-  /// @throws std::invalid_argument
   void check(const HandOptions& hand) const {
     detail::positive("apparent_mass", apparent_mass, "kg");
     detail::not_negative("arm damping", damping, "N·s/m");

@@ -6,9 +6,8 @@
 // m is the apparent mass of arm and grip, b the arm's viscous damping. k and c are spring and damper of the hand, which
 // pulls toward p(t). F is the device's force, held over the interval. Coulomb friction f opposes x'; at x' = 0 it holds
 // the arm against any force up to f.
-// There is no time stepping. Between two changes of the sign of x' the solution is a power series in time, summed to
-// round-off, and the arm stops or breaks away at roots of that series. The motion therefore does not depend on how an
-// interval is divided, and friction never adds energy. There are no end stops.
+// There is no time stepping: between two changes of the sign of x' the solution is a power series in time, summed to round-off, and
+// the arm stops or breaks away at its roots. The motion does not depend on how an interval is divided. There are no end stops.
 // Real-time: no allocation, noexcept, wait-free, bounded by max_events and by duration / longest_piece().
 #pragma once
 
@@ -53,8 +52,7 @@ double bisect(const Function& f, double low, double high) noexcept {
 }
 
 /// When a series that starts at zero or above falls below zero, on the side below; `duration` where it does
-/// not.  A dip between two ends that are both above is found where it is deeper than 1e-12 (m/s or N), far
-/// above round-off.
+/// not.  A dip between two ends that are both above is found where it is deeper than 1e-12 (m/s or N), far above round-off.
 template <int Terms>
 double first_below_zero(const TimeSeries<Terms>& f, double duration) noexcept {
   if (f(duration) < 0) return bisect(f, 0, duration);
@@ -172,17 +170,11 @@ class ArmAxis {
           (force - (n + 1) * p_.damping * x.c[n + 1] - p_.stiffness * x.c[n]) / ((n + 1) * (n + 2) * p_.mass);
     }
     const auto v = x.slope();
-    double spent = duration;
-    if (p_.friction > 0) {
-      const auto forward = v * direction;
-      spent = detail::first_below_zero(forward, duration);
-      if (forward(spent) < 0) {
-        x_ = x(spent), v_ = 0;
-        direction = direction_from_rest(later(drive, spent));
-        return spent;
-      }
-    }
-    x_ = x(spent), v_ = v(spent);
+    const auto forward = v * direction;
+    const double spent = p_.friction > 0 ? detail::first_below_zero(forward, duration) : duration;
+    const bool stops = p_.friction > 0 && forward(spent) < 0;
+    x_ = x(spent), v_ = stops ? 0 : v(spent);
+    if (stops) direction = direction_from_rest(later(drive, spent));
     return spent;
   }
 

@@ -56,13 +56,11 @@ enum class DeviceStatus : std::uint8_t {
   communication_lost,  ///< unplugged, switched off, or the line disturbed
 };
 
-/// True while the loop runs.
 constexpr bool is_running(DeviceStatus status) noexcept {
   return status == DeviceStatus::running || status == DeviceStatus::warm ||
          status == DeviceStatus::force_error || status == DeviceStatus::calibrating;
 }
 
-/// Short lower-case name, for messages and reports.
 constexpr const char* name(DeviceStatus status) noexcept {
   switch (status) {
     case DeviceStatus::stopped: return "stopped";
@@ -110,27 +108,48 @@ struct DeviceCounts {
   std::uint64_t force_cut_ticks = 0;  ///< in which the servo's force was not sent unchanged
 };
 
-namespace detail {
-
-inline bool all_finite(const Eigen::Vector3d& v) noexcept {
-  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+/// The force that a device may send: finite and no longer than its peak.
+/// @param force  in: requested, out: permitted [N]   @param peak [N]
+/// Real-time: no allocation, noexcept, wait-free, O(1).
+[[nodiscard]] inline ForceCut limit_force(Eigen::Vector3d& force, double peak) noexcept {
+  if (!force.allFinite()) return force.setZero(), ForceCut::not_finite;
+  // In units of the largest component, whose square may overflow.
+  const double largest = (std::max)({std::abs(force[0]), std::abs(force[1]), std::abs(force[2])});
+  if (largest == 0) return ForceCut::none;
+  const Eigen::Vector3d direction = force / largest;
+  const double allowed = peak / direction.norm();
+  if (!(largest > allowed)) return ForceCut::none;
+  return force = direction * allowed, ForceCut::peak;
 }
+
+/// The same for force and torque together: if one is not finite, neither is sent.   @param peak_torque [N·m]; 0: it renders none
+[[nodiscard]] inline ForceCut limit_wrench(Wrench& wrench, double peak_force, double peak_torque) noexcept {
+  if (!wrench.force.allFinite() || !wrench.torque.allFinite()) return wrench = {}, ForceCut::not_finite;
+  if (!(peak_torque > 0)) wrench.torque.setZero();
+  const ForceCut force = limit_force(wrench.force, peak_force),
+                 torque = limit_force(wrench.torque, peak_torque);
+  return force != ForceCut::none ? force : torque;
+}
+
+namespace detail {
 
 /// Whether a hand can be there: beyond 1e9 m positions are a reading or a unit gone wrong, and their powers overflow.
 inline bool is_place(const Eigen::Vector3d& r) noexcept {
   return std::abs(r[0]) <= 1e9 && std::abs(r[1]) <= 1e9 && std::abs(r[2]) <= 1e9;
 }
 
-/// Whether a matrix is a rotation but for its last digits.
-inline bool is_rotation(const Eigen::Matrix3d& R) noexcept {
-  double skew = 0;
+/// |RᵀR - 1|
+inline double skew_of(const Eigen::Matrix3d& R) noexcept {
+  double squared = 0;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {
       const double error = R(0, i) * R(0, k) + R(1, i) * R(1, k) + R(2, i) * R(2, k) - (i == k);
-      skew += error * error;
+      squared += error * error;
     }
-  return skew <= 1e-4;
+  return std::sqrt(squared);
 }
+/// Whether a matrix is a rotation but for its last digits.
+inline bool is_rotation(const Eigen::Matrix3d& R) noexcept { return skew_of(R) <= 1e-2; }
 
 /// Axis times angle of a rotation [rad].   @param R  its entries, R(i, j)
 template <class Rotation>
@@ -140,40 +159,6 @@ Eigen::Vector3d rotation_vector(const Rotation& R) noexcept {
   if (!(sine > 0)) return Eigen::Vector3d::Zero();
   return twice * (std::atan2(sine, (R(0, 0) + R(1, 1) + R(2, 2) - 1) / 2) / (2 * sine));
 }
-
-}  // namespace detail
-
-/// The force that a device may send: finite and no longer than its peak.
-/// @param force  in: requested, out: permitted [N]   @param peak [N]
-/// Real-time: no allocation, noexcept, wait-free, O(1).
-[[nodiscard]] inline ForceCut limit_force(Eigen::Vector3d& force, double peak) noexcept {
-  if (!detail::all_finite(force)) {
-    force.setZero();
-    return ForceCut::not_finite;
-  }
-  // In units of the largest component, whose square may overflow.
-  const double largest = (std::max)({std::abs(force[0]), std::abs(force[1]), std::abs(force[2])});
-  if (largest == 0) return ForceCut::none;
-  const Eigen::Vector3d direction(force[0] / largest, force[1] / largest, force[2] / largest);
-  const double allowed = peak / direction.norm();
-  if (!(largest > allowed)) return ForceCut::none;
-  for (int i = 0; i < 3; ++i) force[i] = direction[i] * allowed;
-  return ForceCut::peak;
-}
-
-/// The same for force and torque together: if one is not finite, neither is sent.   @param peak_torque [N·m]; 0: it renders none
-[[nodiscard]] inline ForceCut limit_wrench(Wrench& wrench, double peak_force, double peak_torque) noexcept {
-  if (!detail::all_finite(wrench.force) || !detail::all_finite(wrench.torque)) {
-    wrench = {};
-    return ForceCut::not_finite;
-  }
-  if (!(peak_torque > 0)) wrench.torque.setZero();
-  const ForceCut force = limit_force(wrench.force, peak_force),
-                 torque = limit_force(wrench.torque, peak_torque);
-  return force != ForceCut::none ? force : torque;
-}
-
-namespace detail {
 
 // Signatures alone, to be called with null pointers: a contract is met where the first of two takes them.
 template <typename S>

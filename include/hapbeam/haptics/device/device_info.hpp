@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a device can do, the one check of it, and the clock of its loop and what is late in it.
 //
-// Coupling, energy monitor and force guard take their figures from here. Each of them calls check(): a figure that one of them
-// rejects is rejected by all.
+// Coupling, energy monitor and force guard take their figures from here, and each calls check().
 // Offline: throws std::invalid_argument naming field, value, unit and what is allowed.
 #pragma once
 
@@ -26,6 +25,28 @@ namespace detail {
   if (!(seconds >= 1e-6 && seconds <= 1e3)) reject(field, positive(field, seconds, "s"), "s", "1e-6 to 1e3");
   return seconds;
 }
+
+/// What is late by whole ticks.
+class DelayLine {
+ public:
+  static constexpr int longest = 16;
+
+  DelayLine() noexcept { clear(); }
+  static int checked(int ticks) {
+    if (!(ticks >= 0 && ticks <= longest)) reject("delay_ticks", ticks, "", "0 to 16");
+    return ticks;
+  }
+  /// @param newest  of this tick   @param ticks  0 to longest   @return of so many ticks ago; zero where there was none
+  const Eigen::Vector3d& pass(const Eigen::Vector3d& newest, int ticks) noexcept {
+    std::move_backward(all_.begin(), all_.end() - 1, all_.end());
+    all_[0] = newest;
+    return all_[static_cast<std::size_t>(ticks)];
+  }
+  void clear() noexcept { all_.fill(Eigen::Vector3d::Zero()); }
+
+ private:
+  std::array<Eigen::Vector3d, longest + 1> all_;
+};
 
 }  // namespace detail
 
@@ -53,7 +74,6 @@ struct GimbalInfo {
   }
 };
 
-/// Figures of a device.
 struct DeviceInfo {
   std::string name;
   Eigen::Vector3d workspace;   ///< [m] width, height, depth, the origin in its middle
@@ -118,34 +138,5 @@ class LoopClock {
   double period_, longest_;
   double time_ = 0;
 };
-
-namespace detail {
-
-/// What is late by whole ticks.
-class DelayLine {
- public:
-  static constexpr int longest = 16;
-
-  /// @throws std::invalid_argument for ticks that are not 0 to longest
-  static int checked(int ticks) {
-    if (!(ticks >= 0 && ticks <= longest)) reject("delay_ticks", ticks, "", "0 to 16");
-    return ticks;
-  }
-  /// @param newest  of this tick   @param ticks  0 to longest   @return of so many ticks ago; zero where there was none
-  const Eigen::Vector3d& pass(const Eigen::Vector3d& newest, int ticks) noexcept {
-    std::move_backward(all_.begin(), all_.end() - 1, all_.end());
-    all_[0] = newest;
-    return all_[static_cast<std::size_t>(ticks)];
-  }
-  void clear() noexcept { all_.fill(Eigen::Vector3d::Zero()); }
-
- private:
-  std::array<Eigen::Vector3d, longest + 1> all_ = [] {
-    std::array<Eigen::Vector3d, longest + 1> none;
-    return none.fill(Eigen::Vector3d::Zero()), none;
-  }();
-};
-
-}  // namespace detail
 
 }  // namespace hapbeam

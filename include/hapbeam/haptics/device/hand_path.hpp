@@ -2,15 +2,13 @@
 // Target of a scripted hand: timed way-points in the plane, joined by minimum-jerk motion.
 //
 // Between two way-points the hand moves on the straight line with minimum jerk (Flash and Hogan, J. Neurosci. 5(7),
-// 1985), the profile of a human reach. It starts and stops without velocity or acceleration, so position, velocity and
-// acceleration are continuous:
+// 1985), the profile of a human reach. It starts and stops without velocity or acceleration, so position, velocity and acceleration are continuous:
 //
 //   p(τ) = a + (b - a)(10τ³ - 15τ⁴ + 6τ⁵),  τ in [0, 1]
 // Building allocates and throws std::invalid_argument naming field, value and unit; evaluation does neither.
 #pragma once
 
 #include <algorithm>
-#include <stdexcept>
 #include <vector>
 
 #include <hapbeam/centreline.hpp>
@@ -43,36 +41,28 @@ class HandPath {
 
   /// A hand that rests at a place.
   /// @param place [m]   @throws std::invalid_argument where a coordinate is not finite
-  explicit HandPath(const Vector2<double>& place) : points_{{0, checked("hand path place", place)}} {}
+  explicit HandPath(const Vector2<double>& place)
+      : points_{{0, detail::all_finite("hand path place", place, "m")}} {}
 
   /// Way-points in the order of their times.
   /// @throws std::invalid_argument where there is none, the first is not at 0 s, a time does not come after
   ///         the one before it, anything is not finite, or the hand would be faster than 1e9 m/s
   explicit HandPath(const std::vector<WayPoint>& points) {
-    if (points.empty()) throw std::invalid_argument("hand path: must have at least one way-point");
+    if (points.empty()) detail::refuse("hand path: must have at least one way-point");
     if (points.front().time != 0) detail::reject("hand path first time", points.front().time, "s", "0");
-    points_.reserve(points.size());
-    for (const WayPoint& point : points) {
-      if (!points_.empty() && !(std::isfinite(point.time) && point.time > points_.back().time))
-        detail::reject("hand path time", point.time, "s", "finite and after the one before it");
-      for (int i = 0; i < 3; ++i) detail::finite("hand path turn", point.turn[i], "rad");
-      go_to({point.time, checked("hand path position", point.position), point.turn});
-    }
+    for (const WayPoint& point : points) go_to(point);
   }
 
   /// Reaches for a place.  @param place [m]   @param duration [s], positive
   HandPath& move_to(const Vector2<double>& place, double duration) {
     detail::positive("hand path duration", duration, "s");
-    go_to({points_.back().time + duration, checked("hand path place", place), points_.back().turn});
-    return *this;
+    return go_to({points_.back().time + duration, place, points_.back().turn});
   }
   /// Turns the stylus where it is.  @param by [rad] yaw, pitch and roll   @param duration [s]
   HandPath& turn(const Eigen::Vector3d& by, double duration) {
     detail::positive("hand path duration", duration, "s");
-    for (int i = 0; i < 3; ++i) detail::finite("hand path turn", by[i], "rad");
     const WayPoint& last = points_.back();
-    go_to({last.time + duration, last.position, last.turn + by});
-    return *this;
+    return go_to({last.time + duration, last.position, last.turn + by});
   }
   /// Moves along the beam.  @param distance [m] to the right, either sign   @param duration [s]
   HandPath& slide(double distance, double duration) { return move_by(distance, 0, duration); }
@@ -100,30 +90,26 @@ class HandPath {
     const WayPoint& a = next == points_.begin() ? b : *(next - 1);
     const double span = b.time - a.time, t = span > 0 ? (time - a.time) / span : 0, r = 1 - t;
     const double share = t * t * t * (10 + t * (6 * t - 15)), rate = span > 0 ? 30 * t * t * r * r / span : 0;
-    const Vector2<double> way = b.position - a.position;
-    const Vector2<double> position = a.position + way * share;
-    const Vector2<double> velocity = way * rate;
+    const Vector2<double> way = b.position - a.position, position = a.position + way * share;
     const Eigen::Vector3d turn = b.turn - a.turn;
-    HandTarget target{{position.x(), position.y(), 0}, {velocity.x(), velocity.y(), 0}};
-    target.turn = a.turn + turn * share, target.spin = turn * rate;
-    return target;
+    HandTarget target{{position.x(), position.y(), 0}, {way.x() * rate, way.y() * rate, 0}};
+    return target.turn = a.turn + turn * share, target.spin = turn * rate, target;
   }
 
  private:
-  static Vector2<double> checked(const char* field, const Vector2<double>& place) {
-    detail::finite(field, place.x(), "m");
-    detail::finite(field, place.y(), "m");
-    return place;
-  }
-  void go_to(const WayPoint& next) {
+  HandPath& go_to(const WayPoint& next) {
+    detail::all_finite("hand path place", next.position, "m");
+    detail::all_finite("hand path turn", next.turn, "rad");
     if (!points_.empty()) {
       const WayPoint& last = points_.back();
+      if (!(std::isfinite(next.time) && next.time > last.time))
+        detail::reject("hand path time", next.time, "s", "finite and after the one before it");
       const double speed = 1.875 * (next.position - last.position).norm() / (next.time - last.time);
       if (!(speed <= fastest)) detail::reject("hand path speed", speed, "m/s", "at most 1e9");
       const double spin = 1.875 * (next.turn - last.turn).norm() / (next.time - last.time);
       if (!(spin <= fastest)) detail::reject("hand path spin", spin, "rad/s", "at most 1e9");
     }
-    points_.push_back(next);
+    return points_.push_back(next), *this;
   }
   HandPath& move_by(double x, double y, double duration) {
     return move_to(points_.back().position + Vector2<double>(x, y), duration);

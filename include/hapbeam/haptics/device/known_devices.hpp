@@ -3,17 +3,12 @@
 //
 //   Servo<FemModel<>> servo(model, known_device("omega.3"));
 //
-// They are those of the makers' data sheets (SensAble, 3D Systems, Force Dimension, Novint).  The Premium with high force is that of the
-// thesis, Table 2.1.  Stiffness is that of the softest axis, and no more than CHAI3D 3.3.0 permits; torque and its stiffness are
-// CHAI3D's.  If a source gives one maximum alone, the continuous value is half of it; Force Dimension's forces are continuous.
-// The figures were not checked against the sheets: compare them with the one that came with the device before a force is sent.
-// Unknown, and 0: friction of the parallel arms, viscous damping (see safe_coupling()), and resolution, friction, damping and
-// inertia of the gimbals.  Nothing is published about the Inverse3: its figures are low on purpose.
-// docs/haptics.md has the table.  The rate is 1 kHz: set `period` for a loop at another rate.
+// docs/haptics.md has the table and its sources.  The figures were not checked: compare them with the sheet that came with the device
+// before a force is sent.  Torque and its stiffness are CHAI3D's.  If a source gives one maximum alone, the continuous value is half of it;
+// Force Dimension's forces are continuous.  What is unknown is 0.  The rate is 1 kHz: set `period` for a loop at another rate.
 // Offline: allocates.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -57,7 +52,7 @@ inline DeviceInfo known_device(const std::string& name) {
     if (device.name == name) return device;
     names += (names.empty() ? "" : ", ") + device.name;
   }
-  throw std::invalid_argument("device '" + name + "': must be one of " + names);
+  detail::refuse("device '%.60s': must be one of %s", name.c_str(), names.c_str());
 }
 
 }  // namespace hapbeam

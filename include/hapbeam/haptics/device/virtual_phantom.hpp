@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A simulated Phantom Premium 1.5/6DOF High Force and the hand that holds it.
 //
-// The arm is a mass with viscous damping and Coulomb friction on each axis, which encoders read (arm_axis.hpp). Its force is held over the period and limited to the peak. A hand of mass, spring and damper pulls
-// the arm along a path (hand_path.hpp). Figures: thesis Table 2.1. There are three translations and, optionally, a
-// gimbal (arm.hpp), which the torque turns. There are no end stops.
+// The arm is a mass with viscous damping and Coulomb friction on each axis, which encoders read (arm_axis.hpp). Its force is held over
+// the period and limited to the peak. A hand of mass, spring and damper pulls the arm along a path (hand_path.hpp). There are three
+// translations and, optionally, a gimbal (arm.hpp), which the torque turns. Figures: thesis Table 2.1.
 //
 // It fulfils the device contract (device.hpp) with a thread of its own, in real time. It also runs in lock step with
 // simulated time: as fast as the machine can, with the same bits every time.
@@ -30,7 +30,6 @@ struct VirtualPhantomOptions {
   HandOptions hand;
   GimbalOptions gimbal = {};
 
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   const VirtualPhantomOptions& check() const {
     arm.check(hand);
     gimbal.check(arm.period);
@@ -48,17 +47,13 @@ namespace detail {
 
 [[gnu::cold]] inline DeviceInfo describe(const VirtualPhantomOptions& options) {
   const ArmOptions& arm = options.arm;
-  return {"virtual Phantom Premium 1.5/6DOF High Force",
-          {0.381, 0.267, 0.191},
-          arm.peak_force,
-          6.2,
-          3500,
-          arm.resolution,
-          arm.friction,
-          arm.period,
-          arm.damping,
-          arm.apparent_mass,
-          Gimbal::describe(options.gimbal)};
+  DeviceInfo info;
+  info.name = "virtual Phantom Premium 1.5/6DOF High Force", info.workspace = {0.381, 0.267, 0.191};
+  info.peak_force = arm.peak_force, info.continuous_force = 6.2, info.max_stiffness = 3500;
+  info.position_resolution = arm.resolution, info.friction = arm.friction, info.period = arm.period;
+  info.damping = arm.damping, info.apparent_mass = arm.apparent_mass;
+  info.gimbal = Gimbal::describe(options.gimbal);
+  return info;
 }
 
 }  // namespace detail
@@ -228,10 +223,9 @@ void VirtualPhantom<Path>::check_workspace() const {
   if constexpr (std::is_same_v<Path, HandPath>)
     for (const HandPath::WayPoint& point : path_.points())
       for (int i = 0; i < 2; ++i)
-        if (std::abs(point.position[i]) > info_.workspace[i] / 2)
-          detail::reject(
-              i == 0 ? "hand path x" : "hand path y", point.position[i], "m",
-              i == 0 ? "in the workspace, -0.1905 to 0.1905" : "in the workspace, -0.1335 to 0.1335");
+        if (const double most = info_.workspace[i] / 2; std::abs(point.position[i]) > most)
+          detail::refuse("hand path %c = %g m: must be in the workspace, %g to %g", "xy"[i],
+                         point.position[i], -most, most);
 }
 
 }  // namespace hapbeam

@@ -4,8 +4,7 @@
 // mm become m, N/mm N/m and mN·m N·m here and nowhere else. The origin becomes the middle of the workspace. Forces are
 // in N on both sides, and the axes are the same. The stylus' axes are the first three columns of the vendor's
 // transform, made a rotation; its z points from the tip to the hand.
-// Offline but for read(): throws and allocates.  A message names the device, what was asked of it and the
-// vendor's error.
+// Offline but for read(): throws and allocates.  A message names the device, what was asked of it and the vendor's error.
 #pragma once
 
 #include <algorithm>
@@ -20,9 +19,7 @@
 #include <hapbeam/haptics/hdapi/contract.hpp>
 #include <hapbeam/haptics/hdapi/setup.hpp>
 
-namespace hapbeam {
-
-namespace detail {
+namespace hapbeam::detail {
 
 template <typename Api>
 class HdConnection {
@@ -94,8 +91,8 @@ class HdConnection {
     if (!calibrated)
       throw DeviceError(DeviceStatus::calibration_needed,
                         title() +
-                            "is not calibrated: put the arm into its reset position, call calibrate() there, "
-                            "and start again");
+                            "is not calibrated: put the arm into its reset position, call "
+                            "calibrate() there, and start again");
   }
 
   /// @throws DeviceError
@@ -103,8 +100,8 @@ class HdConnection {
     const char* said = errors.code == Api::success ? nullptr : Api::get_error_string(errors.code);
     char code[24];
     std::snprintf(code, sizeof code, " (0x%03x)", errors.code);
-    throw DeviceError(errors.worst == HdErrorClass::communication ? DeviceStatus::communication_lost
-                                                                  : DeviceStatus::device_fault,
+    const bool lost = errors.worst == HdErrorClass::communication;
+    throw DeviceError(lost ? DeviceStatus::communication_lost : DeviceStatus::device_fault,
                       title() + what + ": " + (said ? said : "no reason is given") + code);
   }
 
@@ -184,17 +181,13 @@ class HdConnection {
     if (!(std::isfinite(peak) && peak > 0)) fail("names no maximal force", {});
     calibration = HdCalibration<Api>(static_cast<unsigned>(styles), options_.rate);
     middle_ = (low + high) / 2;
-    info_ = {model ? model : "unnamed device",
-             (high - low) * 1e-3,
-             (std::min)(peak, options_.force_limit),
-             (std::min)(continuous, options_.force_limit),
-             stiffness * 1e3,
-             options_.position_resolution,
-             options_.friction,
-             1.0 / options_.rate,
-             options_.damping,
-             options_.apparent_mass,
-             describe_gimbal()};
+    info_.name = model ? model : "unnamed device", info_.workspace = (high - low) * 1e-3;
+    info_.peak_force = (std::min)(peak, options_.force_limit);
+    info_.continuous_force = (std::min)(continuous, options_.force_limit);
+    info_.max_stiffness = stiffness * 1e3, info_.period = 1.0 / options_.rate;
+    info_.position_resolution = options_.position_resolution, info_.friction = options_.friction;
+    info_.damping = options_.damping, info_.apparent_mass = options_.apparent_mass;
+    info_.gimbal = describe_gimbal();
     // Not every device measures it; what is an error here must not be one in each tick.
     double temperatures[most_motors] = {};
     Api::get_doublev(Api::motor_temperature, temperatures);
@@ -203,30 +196,26 @@ class HdConnection {
 
   /// A device without a stated number of axes has three.
   GimbalInfo describe_gimbal() {
-    const auto ask = [](unsigned name) {
-      int axes = 0;
-      Api::get_integerv(name, &axes);
-      return Scheduler::drain().worst == HdErrorClass::none ? axes : 0;
+    const auto ask = [](const auto get, unsigned name, auto answer) {
+      get(name, &answer);
+      return Scheduler::drain().worst == HdErrorClass::none && std::isfinite(answer) ? answer : 0;
     };
     GimbalInfo gimbal;
     has_torque_ = false;
-    if (ask(Api::input_dof) < 6) return gimbal;
+    if (ask(Api::get_integerv, Api::input_dof, 0) < 6) return gimbal;
     gimbal.reads = true;
     gimbal.resolution = options_.gimbal_resolution, gimbal.friction = options_.gimbal_friction;
     gimbal.damping = options_.gimbal_damping, gimbal.inertia = options_.gimbal_inertia;
-    if (ask(Api::output_dof) < 6) return gimbal;
-    double peak = 0, continuous = 0, stiffness = 0;  // mN·m, mN·m, mN·m/rad
-    Api::get_doublev(Api::nominal_max_torque, &peak);
-    Api::get_doublev(Api::nominal_max_continuous_torque, &continuous);
-    const bool limits = Scheduler::drain().worst == HdErrorClass::none;
-    Api::get_doublev(Api::nominal_max_torque_stiffness, &stiffness);
-    const bool hardest = Scheduler::drain().worst == HdErrorClass::none;
+    if (ask(Api::get_integerv, Api::output_dof, 0) < 6) return gimbal;
     has_torque_ = true;
+    const double peak = ask(Api::get_doublev, Api::nominal_max_torque, 0.0),          // mN·m
+        continuous = ask(Api::get_doublev, Api::nominal_max_continuous_torque, 0.0),  // mN·m
+        stiffness = ask(Api::get_doublev, Api::nominal_max_torque_stiffness, 0.0);    // mN·m/rad
     // Without a stated limit no torque is sent.
-    if (!(limits && std::isfinite(peak) && peak > 0 && continuous > 0)) return gimbal;
+    if (!(peak > 0 && continuous > 0)) return gimbal;
     gimbal.peak_torque = (std::min)(peak * 1e-3, options_.torque_limit);
     gimbal.continuous_torque = (std::min)(continuous * 1e-3, gimbal.peak_torque);
-    if (hardest && std::isfinite(stiffness) && stiffness > 0) gimbal.max_stiffness = stiffness * 1e-3;
+    gimbal.max_stiffness = (std::max)(stiffness * 1e-3, 0.0);
     return gimbal;
   }
 
@@ -238,6 +227,4 @@ class HdConnection {
   bool has_temperature_ = false, has_torque_ = false, connected_ = false;
 };
 
-}  // namespace detail
-
-}  // namespace hapbeam
+}  // namespace hapbeam::detail

@@ -3,8 +3,7 @@
 // share: the scheduler, its one servo thread, and the one stack of errors.
 //
 // The real one is haptics/hdapi/openhaptics.hpp; tests have an emulated one. Functions have the vendor's names without
-// "hd", constants without "HD_". All have the vendor's types, which on every platform are those of the table in
-// is_hd_api below.
+// "hd", constants without "HD_". All have the vendor's types, which on every platform are those of the table in is_hd_api below.
 //
 //   Api::ErrorInfo               a struct with: unsigned errorCode, int internalErrorCode, unsigned hHD
 //   Api::Callback                pointer to: unsigned f(void*), in the vendor's calling convention
@@ -158,15 +157,11 @@ class HdScheduler {
   static void link(HdClient& client) noexcept { client.next = first_, first_ = &client; }
   static void unlink(HdClient& client) noexcept {
     for (HdClient** place = &first_; *place; place = &(*place)->next)
-      if (*place == &client) {
-        *place = client.next;
-        return;
-      }
+      if (*place == &client) return void(*place = client.next);
   }
 
   /// Empties the stack and notes each error with its device, one that names none with all.
-  /// @return the errors of no device in the list: of the calls just made for one that is not, else of loops
-  ///         that ended
+  /// @return the errors of no device in the list: of the calls just made for one that is not, else of loops that ended
   /// On the servo thread, or with the mutex where there is none.
   /// Real-time: no allocation, noexcept, bounded by most_errors.
   static HdErrors drain() noexcept {
@@ -196,8 +191,7 @@ class HdScheduler {
     if (kind != HdErrorClass::warm && kind != HdErrorClass::force) errors.note(kind, code);
     return errors;
   }
-  /// One loop less.  Stops the scheduler after the last one, and disables what was to be disabled.  With the
-  /// mutex.
+  /// One loop less.  Stops the scheduler after the last one, and disables what was to be disabled.  With the mutex.
   static void remove_loop() noexcept {
     if (--loops_ > 0) return;
     Api::stop_scheduler();

@@ -46,8 +46,7 @@ class Hdapi {
   using Lock = std::lock_guard<std::mutex>;
 
  public:
-  /// Connects.   @throws std::invalid_argument, DeviceError; std::logic_error while another device's loop
-  /// runs
+  /// Connects.   @throws std::invalid_argument, DeviceError; std::logic_error while another device's loop runs
   explicit Hdapi(const HdapiOptions& options = {})
       : device_(options), ramp_(options.ramp_time, 1.0 / options.rate) {
     const Lock lock(Scheduler::mutex);
@@ -69,8 +68,7 @@ class Hdapi {
             force_cut_ticks_.load(std::memory_order_relaxed)};
   }
 
-  /// The arm stands in its reset position: calibrates with it. Without effect if the device calibrates itself while it
-  /// runs.
+  /// The arm stands in its reset position: calibrates with it. Without effect if the device calibrates itself while it runs.
   /// @throws std::logic_error while it runs, DeviceError where the device is not calibrated even so
   void calibrate() {
     const Lock lock(Scheduler::mutex);
@@ -191,8 +189,7 @@ class Hdapi {
     const unsigned handle = device_.client.handle;
     const auto now = Clock::now();
     Api::begin_frame(handle);
-    // A frame that does not begin may leave another device current, and that one must not get this one's
-    // force.
+    // A frame that does not begin may leave another device current, and that one must not get this one's force.
     const bool current = Api::get_current_device() == handle;
     const auto reading = device_.read();
     OrientedState state;

@@ -6,8 +6,8 @@
 //   inkwell          the same, once the stylus stands in the inkwell
 //   encoder reset    a person puts the arm into its reset position before the loop starts
 //
-// Of several styles the first in this list is used. In the loop the status is read within a frame. When the device is
-// ready, the calibration is updated outside of a frame: elsewhere the first two styles never calibrate.
+// Of several styles the first in this list is used. In the loop the status is read within a frame, and the calibration updated outside
+// of one when the device is ready: elsewhere the first two styles never calibrate.
 // Source: OpenHaptics Toolkit, programmer's guide (calibration) and the order of the calls in its example of that name.
 // In a tick: no allocation, noexcept, O(1).
 #pragma once
@@ -46,7 +46,6 @@ struct HdapiOptions {
   double gimbal_damping = 0;     ///< [N·m·s/rad] viscous, of the gimbal
   double gimbal_inertia = 0;     ///< [kg·m²] of gimbal and stylus
 
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   const HdapiOptions& check() const {
     if (rate < 100 || rate > 10000)
       detail::reject("rate", rate, "Hz", "one that the device knows, 100 to 10000");
@@ -130,12 +129,11 @@ class HdCalibration {
 
 /// Gain of the force after a start, after a force error and with warm motors.  It is zero in the tick of a start or of a force error, and
 /// then rises linearly to 1 within the ramp time.  With warm motors it falls at the same rate to zero, and rises again when they have
-/// cooled.  Motors are warm above 0.7 of their temperature limit and cool below 0.5, the vendor's figures (OpenHaptics programmer's
-/// guide).  A device that reports warm motors without a temperature waits for cooling_time.
+/// cooled.  A device that reports warm motors without a temperature waits for cooling_time.
 class ForceRamp {
  public:
-  static constexpr double warm_above = 0.7;   ///< temperature over its limit
-  static constexpr double cool_below = 0.5;   ///< the same
+  // Of the temperature over its limit; the vendor's figures (OpenHaptics programmer's guide).
+  static constexpr double warm_above = 0.7, cool_below = 0.5;
   static constexpr double cooling_time = 10;  ///< [s] after the last error of warm motors
 
   /// @param ramp_time [s] from gain 0 to 1, positive   @param period [s] of the loop, positive
@@ -164,9 +162,7 @@ class ForceRamp {
     if (warm_error) wait_ = cooling_;
     else if (wait_ > 0) --wait_;
     if (force_error || fresh_) {
-      gain_ = 0;
-      recovering_ |= force_error;
-      fresh_ = false;
+      gain_ = 0, recovering_ |= force_error, fresh_ = false;
       return;
     }
     gain_ = std::clamp(gain_ + (warm() ? -step_ : step_), 0.0, 1.0);

@@ -76,7 +76,6 @@ class Touch<Grip<Model>> {
     taken_ = false;
     rest_ = 0, rest_ = energy();
   }
-  /// Whether the hand holds it.
   bool pressing() const noexcept { return taken_; }
   bool held() const noexcept { return grip_.held(); }
   void let_go() noexcept { taken_ = false; }
@@ -112,8 +111,7 @@ class Touch<Grip<Model>> {
   /// Where it is; the columns are d1, d2 and the tangent.
   HandPose end() const noexcept {
     const auto& node = grip_.end();
-    HandPose pose;
-    pose.place = detail::in_scene(node.r);
+    HandPose pose{detail::in_scene(node.r)};
     const Eigen::Vector3d d3 = detail::unit(detail::in_scene(node.tangent)),
                           d1 = detail::across<double>(detail::in_scene(node.director), d3);
     pose.turn.col(0) = d1, pose.turn.col(1) = detail::cross3<double>(d3, d1), pose.turn.col(2) = d3;
@@ -159,8 +157,7 @@ class GripCoupling {
   /// Between places and torques of a scene of so many metres to one of the device's.
   GripCoupling in_scene(double scale) const noexcept {
     GripCoupling scaled = *this;
-    scaled.place_ = {place_.stiffness / scale, place_.damping / scale};
-    scaled.turning_ = turning_ * scale;
+    scaled.place_ = place_ * (1 / scale), scaled.turning_ = turning_ * scale;
     return scaled;
   }
   /// How the held end of the rod is supported: K' and K_r'.   @throws std::invalid_argument where the scene's scale overflows them

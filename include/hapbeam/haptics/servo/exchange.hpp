@@ -24,7 +24,8 @@ namespace hapbeam {
 
 /// Three copies: the writer fills one, the reader holds one, the third lies between them and is swapped, with the flag "newer", in one
 /// atomic exchange.  Values that nobody read are overwritten.  What is read is one whole value as it was published, never older than one
-/// read before.  A value may own memory where assigning to it does not allocate.
+/// read before.  A value may own memory where assigning to it does not allocate.  The writer's draft() and publish(), and the reader's
+/// update() and value(), are wait-free.
 /// Source: the triple buffer; its ancestor is H. Simpson's "Four-slot fully asynchronous communication mechanism", 1990.
 template <typename T>
 class Exchange {
@@ -38,26 +39,21 @@ class Exchange {
   Exchange& operator=(const Exchange&) = delete;
 
   /// The writer's own copy, to be filled before publish(); it holds some earlier value.
-  /// Writer: wait-free.
   T& draft() noexcept { return slots_[draft_].value; }
 
   /// Makes the draft the newest value, and gives the writer another one to fill.
-  /// Writer: wait-free, one atomic exchange.
   void publish() noexcept {
     draft_ = between_.exchange(static_cast<std::uint8_t>(draft_ | newer), std::memory_order_acq_rel) & index;
   }
 
-  /// Both at once.
-  /// Writer: wait-free where T's assignment is.
+  /// Both at once; wait-free where T's assignment is.
   template <typename U>
   void publish(U&& value) noexcept(std::is_nothrow_assignable_v<T&, U&&>) {
     draft() = std::forward<U>(value);
     publish();
   }
 
-  /// Takes the newest value, where there is one that has not been taken.
-  /// Reader: wait-free, one atomic exchange at most.
-  /// @return whether value() is another one now
+  /// Takes the newest value, where there is one that has not been taken.   @return whether value() is another one now
   bool update() noexcept {
     if (!(between_.load(std::memory_order_relaxed) & newer)) return false;
     taken_ = between_.exchange(taken_, std::memory_order_acq_rel) & index;
@@ -65,7 +61,6 @@ class Exchange {
   }
 
   /// The value last taken, `initial` before the first.  It stays as it is until the next update().
-  /// Reader: wait-free.
   const T& value() const noexcept { return slots_[taken_].value; }
 
  private:
@@ -105,8 +100,8 @@ class Ring {
     end_.store(end + 1, std::memory_order_release);
   }
 
-  /// Calls visit(value) for each that waits, oldest first.   @param most  that are taken   @return how many were
-  /// Reader: wait-free where visit is.
+  /// Reader: calls visit(value) for each that waits, oldest first; wait-free where visit is.   @param most  that are taken
+  /// @return how many were
   template <typename Visitor>
   std::size_t take(Visitor&& visit, std::size_t most = static_cast<std::size_t>(-1)) {
     const std::size_t begin = begin_.load(std::memory_order_relaxed), count = (std::min)(waiting(), most);
@@ -121,7 +116,6 @@ class Ring {
   std::size_t waiting() const noexcept {
     return end_.load(std::memory_order_acquire) - begin_.load(std::memory_order_relaxed);
   }
-  /// Values that were added to a full ring.
   std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 
  private:

@@ -2,10 +2,11 @@
 // Where the device's workspace lies in the scene: from the hand to the beam and, for forces, back.
 //
 //   p_scene = origin + scale R p_device      v_scene = scale R v_device      F_device = Rᵀ F_scene      τ_device = Rᵀ τ_scene / scale
+//   [m]                                      [m/s]                           [N] on the hand            [N·m] on the hand
 //
-// R turns the device's axes (x right, y up, z toward the user) into the scene's, whose x and y are the plane of the beam, x along it and
-// y = w across it.  Forces are not scaled: with a scale of 2 the hand moves half as far for the same force, so what a device can render
-// in the scene is its own limit divided by the scale.  A passive scene stays passive in the hand.
+// R turns the device's axes into the scene's, whose x and y are the plane of the beam, x along it and y = w across it.  Forces are not
+// scaled: with a scale of 2 the hand moves half as far for the same force, so what a device can render in the scene is its own limit
+// divided by the scale.
 //
 //   const Placement placement = Placement::in_plane({1.27, 0.02});    // the device's origin, above mid-span
 //   const Vector2<double> hand = placement.beam_position(state.position);
@@ -25,6 +26,7 @@
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/check.hpp>
+#include <hapbeam/haptics/device/device.hpp>
 
 namespace hapbeam {
 
@@ -36,25 +38,19 @@ class Placement {
   /// @param rotation  3×3, the device's axes in the scene's, orthonormal and right-handed to 1e-9
   /// @param origin    [m] where the device's origin lies in the scene
   /// @param scale     [m/m] of the scene for the device, 1e-6 to 1e6
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  /// @throws std::invalid_argument
   Placement(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& origin, double scale = 1)
       : turn_(rotation), origin_(origin), scale_(scale) {
     if (!(scale >= 1e-6 && scale <= 1e6))
       detail::reject("placement scale", scale, "m/m", "1e-6 to 1e6: a hand's centimetres are 10 nm to 10 km");
-    double skew = 0;
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) {
-        const double product = rotation(i, 0) * rotation(k, 0) + rotation(i, 1) * rotation(k, 1) +
-                               rotation(i, 2) * rotation(k, 2);
-        skew = std::hypot(skew, product - (i == k));
-      }
+    const double skew = detail::skew_of(rotation);
     if (!(skew <= 1e-9))
       detail::reject("placement rotation, |R R^T - 1|", skew, "", "an orthonormal matrix, at most 1e-9");
     // The product of the first two axes is the third, or its opposite where the axes are left-handed.
     const double third = rotation(0, 0) * rotation(1, 1) - rotation(1, 0) * rotation(0, 1);
     if (!(std::abs(third - rotation(2, 2)) <= 1e-8))
       detail::reject("placement rotation determinant", -1, "", "1: a rotation keeps axes right-handed");
-    for (int i = 0; i < 3; ++i) detail::finite("placement origin", origin[i], "m");
+    detail::all_finite("placement origin", origin, "m");
   }
 
   /// The beam lies along the device's x, its w along the device's y.
@@ -67,21 +63,16 @@ class Placement {
   const Eigen::Vector3d& origin() const noexcept { return origin_; }  ///< [m] scene
   double scale() const noexcept { return scale_; }                    ///< [m/m]
 
-  /// @param device [m]   @return [m]
   Eigen::Vector3d scene_position(const Eigen::Vector3d& device) const noexcept {
-    const Eigen::Vector3d scene = scene_velocity(device);
-    return {origin_[0] + scene[0], origin_[1] + scene[1], origin_[2] + scene[2]};
+    return origin_ + scene_velocity(device);
   }
-  /// @param device [m/s]   @return [m/s]
   Eigen::Vector3d scene_velocity(const Eigen::Vector3d& device) const noexcept {
-    return {scale_ * turned(0, device), scale_ * turned(1, device), scale_ * turned(2, device)};
+    return scale_ * Eigen::Vector3d(turned(0, device), turned(1, device), turned(2, device));
   }
   /// Where the hand has to be to be there in the scene.  @param scene [m]   @return [m]
   Eigen::Vector3d device_position(const Eigen::Vector3d& scene) const noexcept {
-    return device_force({(scene[0] - origin_[0]) / scale_, (scene[1] - origin_[1]) / scale_,
-                         (scene[2] - origin_[2]) / scale_});
+    return device_force((scene - origin_) / scale_);
   }
-  /// @param scene [N] on the hand   @return [N] on the hand
   Eigen::Vector3d device_force(const Eigen::Vector3d& scene) const noexcept {
     return {turned_back(0, scene), turned_back(1, scene), turned_back(2, scene)};
   }
@@ -90,14 +81,11 @@ class Placement {
   Eigen::Matrix3d scene_orientation(const Eigen::Matrix3d& device) const noexcept {
     Eigen::Matrix3d scene;
     for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k)
-        scene(i, k) = turn_(i, 0) * device(0, k) + turn_(i, 1) * device(1, k) + turn_(i, 2) * device(2, k);
+      for (int k = 0; k < 3; ++k) scene(i, k) = turned(i, device.col(k));
     return scene;
   }
-  /// @param scene [N·m] on the hand   @return [N·m] on the hand
   Eigen::Vector3d device_torque(const Eigen::Vector3d& scene) const noexcept {
-    const Eigen::Vector3d torque = device_force(scene);
-    return {torque[0] / scale_, torque[1] / scale_, torque[2] / scale_};
+    return device_force(scene) / scale_;
   }
 
   /// In the plane of the beam: what the hand does across that plane is not seen.

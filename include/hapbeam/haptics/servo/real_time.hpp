@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Asks the system to let a thread run when it has to: a priority before all ordinary threads, and memory that
-// is never paged out.
+// Asks the system to let a thread run when it has to: a priority before all ordinary threads, and memory that is never paged out.
 //
 //   servo thread   const RealTime priority = set_real_time_priority(80);     // in its first tick, say
 //   main, once     const RealTime memory = lock_memory();                    // before the loop starts
@@ -23,7 +22,6 @@
 
 namespace hapbeam {
 
-/// What became of the request.
 enum class RealTime : std::uint8_t {
   done,
   priority_out_of_range,   ///< nothing was changed
@@ -55,20 +53,17 @@ constexpr const char* message(RealTime result) noexcept {
 /// The calling thread goes before all ordinary ones (SCHED_FIFO), and is not preempted by a thread of lower priority.
 /// @param priority  1 to 99; the kernel's own threads are at 50 and 99
 /// noexcept, no allocation; a few system calls, so not in every tick.
-[[nodiscard]] inline RealTime set_real_time_priority(int priority) noexcept {
+[[nodiscard]] inline RealTime set_real_time_priority([[maybe_unused]] int priority) noexcept {
 #if defined(__linux__)
   if (priority < sched_get_priority_min(SCHED_FIFO) || priority > sched_get_priority_max(SCHED_FIFO))
     return RealTime::priority_out_of_range;
   sched_param parameter{};
   parameter.sched_priority = priority;
   const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
-  return error == 0       ? RealTime::done
-         : error == EPERM ? RealTime::priority_not_permitted
-                          : RealTime::not_supported;
-#else
-  static_cast<void>(priority);
-  return RealTime::not_supported;
+  if (error == 0) return RealTime::done;
+  if (error == EPERM) return RealTime::priority_not_permitted;
 #endif
+  return RealTime::not_supported;
 }
 
 /// All memory of the process, present and future, stays in RAM: a tick never waits for a page.  Where only so
@@ -80,10 +75,9 @@ constexpr const char* message(RealTime result) noexcept {
   if (geteuid() != 0 && (getrlimit(RLIMIT_MEMLOCK, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY))
     return RealTime::memory_limited;
   if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return RealTime::done;
-  return errno == EPERM || errno == ENOMEM ? RealTime::memory_not_permitted : RealTime::not_supported;
-#else
-  return RealTime::not_supported;
+  if (errno == EPERM || errno == ENOMEM) return RealTime::memory_not_permitted;
 #endif
+  return RealTime::not_supported;
 }
 
 }  // namespace hapbeam

@@ -49,9 +49,8 @@ struct CouplingOf {
 template <typename Model, typename Coupling = typename CouplingOf<Model>::Type>
 class Servo {
   static_assert(is_coupling<Coupling> || detail::couples_pose<Coupling, Touch<Model>>,
-                "a coupling has: tick(touch, hand, dt) noexcept -> CoupledForce<Scalar>; in_scene(scale) "
-                "const noexcept -> "
-                "itself; reset() noexcept; static for_device(info, delay_ticks) -> itself");
+                "a coupling has: tick(touch, hand, dt) noexcept -> CoupledForce<Scalar>; reset() noexcept; "
+                "in_scene(scale) const noexcept -> itself; static for_device(info, delay_ticks) -> itself");
 
   template <typename State>
   using IfTurns = std::enable_if_t<dimension_of<Touch<Model>> == 3 && std::is_same_v<State, OrientedState>>;
@@ -63,8 +62,7 @@ class Servo {
 
   /// @param model   kept by reference, and pressed by this object alone
   /// @param device  what the loop's device can do; its limits are the guard's
-  /// @param coupling  in the device's metres; its figures, too, are for placement.scale() to change
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  /// @param coupling  in the device's metres; its figures, too, are for placement.scale() to change   @throws std::invalid_argument
   Servo(Model& model, const DeviceInfo& device, const ServoOptions& options, const Coupling& coupling);
 
   /// With the coupling that the device can render.   @throws as Coupling::for_device, too
@@ -73,16 +71,15 @@ class Servo {
 
   /// @param state  of the device, at the beginning of a period   @return [N] on the hand, device axes
   [[nodiscard]] Eigen::Vector3d tick(const DeviceState& state) noexcept;
-  Eigen::Vector3d operator()(const DeviceState& state) noexcept { return tick(state); }
 
   /// The same with the orientation of the stylus, of a rod in space.   @return on the hand, device axes
   template <typename State, typename = IfTurns<State>>
   [[nodiscard]] Wrench tick(const State& state) noexcept {
     return run<true>(state);
   }
-  template <typename State, typename = IfTurns<State>>
-  Wrench operator()(const State& state) noexcept {
-    return run<true>(state);
+  template <typename State>
+  auto operator()(const State& state) noexcept {
+    return tick(state);
   }
 
   /// For a host that hands over its own time step, or runs free.

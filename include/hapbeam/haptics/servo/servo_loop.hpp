@@ -21,8 +21,7 @@ class ServoLoop {
  public:
   using Picture = typename Servo<Model, Coupling>::Picture;
 
-  /// @param device, model  kept by reference; both outlive the loop
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  /// @param device, model  kept by reference; both outlive the loop   @throws as Servo
   ServoLoop(Device& device, Model& model, const ServoOptions& options = {})
       : device_(checked(device)), servo_(model, device.info(), options) {}
   ServoLoop(Device& device, Model& model, const ServoOptions& options, const Coupling& coupling)
@@ -33,13 +32,9 @@ class ServoLoop {
 
   /// Begins anew: nothing is touched, counts are zero.  @throws what the device throws
   void start() {
-    if (!running()) {
-      stop();
-      servo_.reset();
-    }
+    if (!running()) stop(), servo_.reset();
     device_.start(servo_);
   }
-  /// Blocks until the last tick has returned.
   void stop() noexcept { device_.stop(); }
   bool running() const noexcept { return device_.running(); }  ///< wait-free; false where the device ended it
 

@@ -5,8 +5,8 @@
 //   Servo<BeamArray<FemModel<>>> servo(brush, device_info, options);      // or a ServoLoop
 //   for (int i = 0; i < picture.size(); ++i) draw(brush.frame(picture.beam(i)), picture.shape(i));
 //
-// Coupling, monitor and guard are those of one beam: they see the sum of the forces and the point from which all are pressed.
-// The placement maps the device to the array's plane.
+// Coupling, monitor and guard see the sum of the forces and the point from which all are pressed.  The placement maps the device to
+// the array's plane.
 // Real-time: as Servo.
 #pragma once
 
@@ -23,14 +23,12 @@ namespace hapbeam {
 template <typename Scalar>
 class ArrayPicture {
  public:
-  /// Allocates.
   template <typename Model>
   explicit ArrayPicture(const Touch<BeamArray<Model>>& touch) {
     const BeamArray<Model>& array = touch.array();
-    for (int k = 0; k < array.kinds(); ++k) room_ = (std::max)(room_, array.kind(k).model.shape().size());
-    const std::size_t most = static_cast<std::size_t>(array.most_touched());
-    beams_.resize(most);
-    nodes_.resize(most * static_cast<std::size_t>(room_));
+    int room = 0;
+    for (int k = 0; k < array.kinds(); ++k) room = (std::max)(room, array.kind(k).model.shape().size());
+    beams_.resize(static_cast<std::size_t>(array.most_touched()), {0, detail::KeptShape<Scalar, 2>(room)});
     take(touch);
   }
 
@@ -38,10 +36,7 @@ class ArrayPicture {
   int size() const noexcept { return size_; }
   int beam(int i) const noexcept { return beams_[static_cast<std::size_t>(i)].index; }  ///< in the array
   /// In its own axes.
-  Centreline<Scalar> shape(int i) const noexcept {
-    const Beam& beam = beams_[static_cast<std::size_t>(i)];
-    return {nodes(nodes_, i), beam.nodes, beam.any_rotation};
-  }
+  Centreline<Scalar> shape(int i) const noexcept { return beams_[static_cast<std::size_t>(i)].kept.shape(); }
 
   template <typename Model>
   void take(const Touch<BeamArray<Model>>& touch) noexcept {
@@ -55,22 +50,17 @@ class ArrayPicture {
 
  private:
   struct Beam {
-    int index, nodes;
-    bool any_rotation;
+    int index;
+    detail::KeptShape<Scalar, 2> kept;
   };
 
-  template <class Nodes>
-  auto* nodes(Nodes& all, int i) const noexcept {
-    return all.data() + static_cast<std::size_t>(i) * static_cast<std::size_t>(room_);
-  }
   void add(int index, const Centreline<Scalar>& shape) noexcept {
-    const int size = ServoPicture<Scalar>::copy(shape, nodes(nodes_, size_), room_);
-    beams_[static_cast<std::size_t>(size_++)] = {index, size, shape.any_rotation()};
+    Beam& beam = beams_[static_cast<std::size_t>(size_++)];
+    beam.index = index;
+    beam.kept.take(shape);
   }
 
   std::vector<Beam> beams_;
-  std::vector<CentrelineNode<Scalar>> nodes_;  // beam by beam
-  int room_ = 0;                               // nodes of a beam
   int size_ = 0;
 };
 

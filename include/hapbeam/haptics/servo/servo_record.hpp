@@ -33,7 +33,6 @@ enum class LoopStatus : std::uint8_t {
   device,     ///< the device is warm, or recovers from a force error, or has asked to begin anew
 };
 
-/// Short lower-case name, for messages and reports.
 constexpr const char* name(LoopStatus status) noexcept {
   switch (status) {
     case LoopStatus::free: return "free";
@@ -80,48 +79,53 @@ struct ServoRecord {
   Status worst = Status::ok;          ///< of the model
 };
 
-/// What is drawn: the record and the centreline of one tick.
-/// @tparam D  of the space in which the beam bends: 2 | 3
-template <typename Scalar, int D = 2>
-class ServoPicture {
-  using Shape = Centreline<Scalar, D>;
-  using Node = typename Shape::Node;
+namespace detail {
 
+/// A copy of a shape.  Of one with more nodes than there is room for, every second one is taken, or third, …, and the last.
+template <typename Scalar, int D>
+class KeptShape {
  public:
-  /// @param shape  as many nodes as it has, and `room` at least, are kept in later ones
-  explicit ServoPicture(const Shape& shape)
-      : nodes_((std::max)(room, static_cast<std::size_t>(shape.size()))) {
-    take(shape);
-  }
+  using Shape = Centreline<Scalar, D>;
 
-  ServoRecord record;
+  /// @param room [nodes] two or more
+  explicit KeptShape(int room) : nodes_(static_cast<std::size_t>(room)) {}
+
   Shape shape() const noexcept {
     if constexpr (D == 2) return {nodes_.data(), size_, any_rotation_};
     else return {nodes_.data(), size_};
   }
-
   void take(const Shape& shape) noexcept {
-    size_ = copy(shape, nodes_.data(), static_cast<int>(nodes_.size()));
+    const int last = shape.size() - 1, step = 1 + (last - 1) / (static_cast<int>(nodes_.size()) - 1);
+    auto* node = nodes_.data();
+    for (int i = 0; i < last; i += step) *node++ = shape[i];
+    *node++ = shape[last];
+    size_ = static_cast<int>(node - nodes_.data());
     if constexpr (D == 2) any_rotation_ = shape.any_rotation();
-  }
-  void take(const ServoPicture& other) noexcept { take(other.shape()); }
-
-  /// Of a shape with more nodes than there is room for, every second one is taken, or third, …, and the last.
-  /// @param most  two or more   @return how many
-  static int copy(const Shape& shape, Node* nodes, int most) noexcept {
-    const int last = shape.size() - 1, step = 1 + (last - 1) / (most - 1);
-    int size = 0;
-    for (int i = 0; i < last; i += step) nodes[size++] = shape[i];
-    nodes[size++] = shape[last];
-    return size;
   }
 
  private:
-  static constexpr std::size_t room = 513;  // models that hand over to others change their number of nodes
-
-  std::vector<Node> nodes_;
+  std::vector<typename Shape::Node> nodes_;
   int size_ = 0;
   bool any_rotation_ = false;  // of a planar one
+};
+
+}  // namespace detail
+
+/// What is drawn: the record and the centreline of one tick.
+/// @tparam D  of the space in which the beam bends: 2 | 3
+template <typename Scalar, int D = 2>
+class ServoPicture : public detail::KeptShape<Scalar, D> {
+  using Base = detail::KeptShape<Scalar, D>;
+
+ public:
+  /// Models that hand over to others change their number of nodes: there is room for 513 at least.
+  explicit ServoPicture(const Centreline<Scalar, D>& shape) : Base((std::max)(513, shape.size())) {
+    take(shape);
+  }
+  using Base::take;
+  void take(const ServoPicture& other) noexcept { take(other.shape()); }
+
+  ServoRecord record;
 };
 
 /// What is drawn of a model: its shape.  Arrays have another (servo_many.hpp).

@@ -54,19 +54,17 @@ class Sound {
   /// The oldest samples that have not been read, then silence.   @param samples  out, of SI units   @return how many there were
   /// One reader, from any thread: wait-free, O(count).
   int read(float* samples, int count) noexcept {
-    float* to = samples;
-    const auto taken = static_cast<int>(samples_.take([&to](float x) noexcept { *to++ = x; },
-                                                      static_cast<std::size_t>((std::max)(count, 0))));
-    std::fill(to, samples + (std::max)(count, taken), 0.0F);
-    missed_ += static_cast<std::uint64_t>((std::max)(count, taken) - taken);
-    return taken;
+    float *to = samples, *const end = samples + (std::max)(count, 0);
+    const std::size_t taken =
+        samples_.take([&to](float x) noexcept { *to++ = x; }, static_cast<std::size_t>(end - to));
+    std::fill(to, end, 0.0F);
+    missed_ += static_cast<std::uint64_t>(end - to);
+    return static_cast<int>(taken);
   }
-  /// Samples that can be read.  From the reader's thread.
-  std::size_t waiting() const noexcept { return samples_.waiting(); }
-  /// Silent samples that were read.  From the reader's thread.
-  std::uint64_t missed() const noexcept { return missed_; }
-  /// Samples that nobody has read in time.
-  std::uint64_t lost() const noexcept { return samples_.lost(); }
+  // From the reader's thread.
+  std::size_t waiting() const noexcept { return samples_.waiting(); }  ///< samples that can be read
+  std::uint64_t missed() const noexcept { return missed_; }            ///< silent samples that were read
+  std::uint64_t lost() const noexcept { return samples_.lost(); }      ///< that nobody has read in time
   const SoundOptions& options() const noexcept { return options_; }
 
  private:

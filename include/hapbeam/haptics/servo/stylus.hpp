@@ -6,8 +6,7 @@
 //   τ = (c - p) × F                                            p: where the device's position is, c: where rod and capsule touch
 //
 // What the coupling ties to the hand is the point of the capsule's axis beside the contact, which turns with the hand.  It moves the
-// capsule along the normal of the contact and does not turn it.  Where the device renders the torque the coupling is softened by the
-// square of the lever (coupling.hpp).
+// capsule along the normal of the contact and does not turn it.
 // Real-time: no allocation, noexcept, wait-free; as the coupling's tick and O(1).
 #pragma once
 

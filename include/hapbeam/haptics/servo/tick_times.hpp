@@ -45,12 +45,7 @@ class TimeHistogram {
   /// From any thread: noexcept, wait-free, O(bins).
   double quantile(double fraction) const noexcept { return Moment(*this).quantile(fraction); }
   double longest() const noexcept { return static_cast<double>(longest_.load(relaxed)) * 1e-9; }  ///< [s]
-  std::uint64_t count() const noexcept {
-    std::uint64_t total = 0;
-    for (const auto& bin : bins_) total += bin.load(relaxed);
-    return total;
-  }
-  /// All of one moment.
+  std::uint64_t count() const noexcept { return Moment(*this).total; }
   TimeSummary summary() const noexcept {
     const Moment now(*this);
     return {now.total, now.quantile(0.5), now.quantile(0.99), now.quantile(0.999), now.longest};
@@ -101,7 +96,6 @@ class TimeHistogram {
   static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "counting in a tick must not lock");
 };
 
-/// @tparam Clock  steady, now() noexcept
 template <typename Clock = std::chrono::steady_clock>
 class BasicTickTimes {
   static_assert(Clock::is_steady&& noexcept(Clock::now()),

@@ -28,26 +28,19 @@ namespace hapbeam {
 namespace detail {
 
 // Vectors of a beam and of the scene: a beam that bends in a plane lies in the scene's x and y.
-template <typename Scalar>
-Eigen::Vector3d in_scene(const VectorOf<Scalar, 2>& v) noexcept {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), 0};
-}
-template <typename Scalar>
-Eigen::Vector3d in_scene(const VectorOf<Scalar, 3>& v) noexcept {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+template <typename Scalar, int D>
+Eigen::Vector3d in_scene(const Eigen::Matrix<Scalar, D, 1>& v) noexcept {
+  return vector_of<double, 3>([&v](int k) { return k < D ? static_cast<double>(v[k % D]) : 0; });
 }
 
 /// What a beam sees of it: in its plane, or all.
 template <typename Scalar, int D>
 VectorOf<Scalar, D> of_beam(const Eigen::Vector3d& v) noexcept {
-  VectorOf<Scalar, D> seen;
-  for (int i = 0; i < D; ++i) seen[i] = static_cast<Scalar>(v[i]);
-  return seen;
+  return vector_of<Scalar, D>([&v](int k) { return static_cast<Scalar>(v[k]); });
 }
 
 }  // namespace detail
 
-/// @tparam D  of the space in which the beam bends: 2 | 3
 template <int D>
 class ContactTangent {
   using Vector = VectorOf<double, D>;
@@ -61,13 +54,12 @@ class ContactTangent {
 
   /// f0 - k n·(p - p0), below zero too where p lies outside; 0 while nothing is known.  @param place [m]   @return [N]
   double force_at(const Vector& place) const noexcept {
-    return known_ ? force_ - stiffness_ * normal_.dot(way(place)) : 0;
+    return known_ ? force_ - stiffness_ * normal_.dot(place - place_) : 0;
   }
 
   /// Places are counted from another point of a body that turns.   @param by [m] from the old one
   void move(const Vector& by) noexcept { place_ += by; }
 
-  /// The beam is touched no more.
   void forget() noexcept { known_ = false, stiffness_ = 0; }
 
   /// A good response.
@@ -98,9 +90,9 @@ class ContactTangent {
   }
 
  private:
-  static constexpr double safety = 1.25;      // over f²/2U
-  static constexpr double least_ratio = 0.6;  // of response to prediction: 0.8 where linear, 1.2 where cubic
-  static constexpr double most_ratio = 1.4;   //
+  static constexpr double safety = 1.25;  // over f²/2U
+  static constexpr double least_ratio = 0.6,
+                          most_ratio = 1.4;  // of response to prediction: linear 0.8, cubic 1.2
   static constexpr double loud = 1e-3;  // change of the force, over it, from which a response says something
   static constexpr double slide = 0.3;  // the same where the hand slides, which changes the force as well
   static constexpr double most_change = 4;      // of the stiffness in a tick
@@ -108,11 +100,8 @@ class ContactTangent {
   static constexpr double least_depth = 1e-12;  // [m]
   static constexpr double rigid = 1e12;         // [N/m]
 
-  /// From the last good response to a place [m].
-  Vector way(const Vector& place) const noexcept { return place - place_; }
-
   void follow(const Vector& place, const Vector& normal, double force) noexcept {
-    const Vector step = way(place);
+    const Vector step = place - place_;
     const double deeper = -normal.dot(step), work = (force * deeper - force_ * normal_.dot(step)) / 2;
     const double along = (step + deeper * normal).norm();
     const double expected = stiffness_ * deeper, change = force - force_, ratio = change / expected;
@@ -156,14 +145,11 @@ class LastResponse {
   /// The last tick had no response, or missed the beam, and the tangent replaces it.
   bool continued() const noexcept { return (continued_ > 0 || missed_) && tangent_.known(); }
 
-  /// As ContactTangent's.
   void move(const Eigen::Vector3d& by) noexcept { tangent_.move(by); }
-
   void forget() noexcept {
     tangent_.forget();
     continued_ = 0, missed_ = false;
   }
-
   /// Something else has moved the beam since.   @param force [N] on the place of the last response, now
   void renew(const Eigen::Vector3d& force) noexcept {
     if (tangent_.known() && !continued()) tangent_.renew(force);

@@ -12,8 +12,7 @@
 // A coupling of a hand that turns takes a HandPose, and may return a torque.
 // Touch is Touch<Model>, or a class with its tick(position) and contact_at(position).
 //
-// VirtualCoupling: the hand h does not press the beam itself.  A massless point p, the avatar, presses it, and a spring K and a damper B
-// tie h to p:
+// VirtualCoupling: the hand h does not press the beam itself.  A massless point p, the avatar, presses it, and a spring K and a damper B tie h to p:
 //
 //   K g + B g' = f(p),   p = h + n g,   g >= 0        n: normal of the contact, f: the beam's force along it
 //
@@ -118,15 +117,12 @@ auto as_coupling(C* c, const C* same, AnyTouch* touch, const Vector2<double>* ha
 template <typename>
 std::false_type as_coupling(...);
 
+template <typename C, typename Touch>
+using TickWithPose = std::enable_if_t<noexcept(
+    std::declval<C&>().tick(std::declval<Touch&>(), std::declval<const HandPose&>(), 0.0))>;
 /// Whether a coupling takes the orientation of the hand.
 template <typename C, typename Touch>
-auto as_turning_coupling(C* c, Touch* touch, const HandPose* hand)
-    -> std::bool_constant<noexcept(c->tick(*touch, *hand, 0.0))>;
-template <typename, typename>
-std::false_type as_turning_coupling(...);
-template <typename C, typename Touch>
-inline constexpr bool couples_pose =
-    decltype(as_turning_coupling<C, Touch>(nullptr, nullptr, nullptr))::value;
+inline constexpr bool couples_pose = offers<TickWithPose, C, Touch>;
 
 }  // namespace detail
 
@@ -138,14 +134,12 @@ inline constexpr bool is_coupling =
 /// The hand presses the beam itself.  A beam that is stiffer than the device can render is unstable: steel buzzes near a support.
 class Direct {
  public:
-  /// @throws std::invalid_argument as DeviceInfo::check()
   static Direct for_device(const DeviceInfo& device, int) {
     device.check();
     return {};
   }
   Direct in_scene(double) const noexcept { return *this; }
   void reset() noexcept { last_.forget(); }
-  /// As VirtualCoupling's.
   void move(const Eigen::Vector3d& by) noexcept { last_.move(by); }
 
   /// @param touch  of the same beam each tick   @param hand [m]
@@ -175,15 +169,12 @@ class Direct {
   LastResponse last_;
 };
 
-/// The spring and the damper above.
 class VirtualCoupling {
  public:
   /// @param figures  K [N/m] and B [N·s/m]
   /// @throws std::invalid_argument unless K is positive, B not negative and both finite
   explicit VirtualCoupling(const CouplingFigures& figures)
-      : straight_(detail::checked(figures, "coupling", "N/m", "N·s/m")),
-        stiffness_(figures.stiffness),
-        damping_(figures.damping) {}
+      : straight_(detail::checked(figures, "coupling", "N/m", "N·s/m")), now_(straight_) {}
   /// @param turning  K_r [N·m/rad] and B_r [N·m·s/rad] about the hand   @throws as above
   VirtualCoupling(const CouplingFigures& figures, const CouplingFigures& turning) : VirtualCoupling(figures) {
     turning_ = detail::checked(turning, "turning coupling", "N·m/rad", "N·m·s/rad");
@@ -203,15 +194,12 @@ class VirtualCoupling {
   /// Longer metres, softer springs: force over displacement is divided by the scale.
   VirtualCoupling in_scene(double scale) const noexcept {
     VirtualCoupling scaled = *this;
-    scaled.straight_ = {straight_.stiffness / scale, straight_.damping / scale};
-    scaled.turning_ = turning_ * scale;
-    scaled.reset();
-    return scaled;
+    scaled.straight_ = straight_ * (1 / scale), scaled.turning_ = turning_ * scale;
+    return scaled.reset(), scaled;
   }
   void reset() noexcept {
     last_.forget();
-    gap_ = 0;
-    stiffness_ = straight_.stiffness, damping_ = straight_.damping;
+    gap_ = 0, now_ = straight_;
   }
 
   /// Once a period.  @param touch  of the same beam each tick   @param hand [m]   @param dt [s] since the tick before, positive
@@ -228,12 +216,12 @@ class VirtualCoupling {
     using Scalar = typename Touch::Scalar;
     detail::CoupledForceOf<Touch> result;
     result.touch = touch.tick(hand.template cast<Scalar>(), static_cast<Scalar>(dt),
-                              static_cast<Scalar>(stiffness_), static_cast<Scalar>(damping_));
+                              static_cast<Scalar>(now_.stiffness), static_cast<Scalar>(now_.damping));
     result.avatar = hand + touch.off().template cast<double>();
     result.force = result.touch.force.template cast<double>();
     result.energy = static_cast<double>(touch.stored()) +
-                    stiffness_ * (result.avatar - hand).squaredNorm() / 2 +
-                    result.touch.friction.template cast<double>().squaredNorm() / (2 * stiffness_);
+                    now_.stiffness * (result.avatar - hand).squaredNorm() / 2 +
+                    result.touch.friction.template cast<double>().squaredNorm() / (2 * now_.stiffness);
     return result;
   }
   template <typename Touch>
@@ -244,7 +232,8 @@ class VirtualCoupling {
     const auto normal = [&] { return detail::of_beam<double, D>(last_.tangent().normal()); };
     detail::CoupledForceOf<Touch> result;
     if constexpr (detail::offers<detail::Rough, Touch>)
-      if (touch.rough()) touch.soften(static_cast<Scalar>(stiffness_), static_cast<Scalar>(damping_ / dt));
+      if (touch.rough())
+        touch.soften(static_cast<Scalar>(now_.stiffness), static_cast<Scalar>(now_.damping / dt));
     detail::look_at_others(touch, last_);
     result.avatar = hand + normal() * solve(from, dt).gap;
     result.touch = touch.tick(result.avatar.template cast<Scalar>());
@@ -262,9 +251,13 @@ class VirtualCoupling {
     gap_ = balance.gap;
     result.force = normal() * balance.force;
     result.continued = last_.continued() && (balance.force > 0 || result.touch.pressing);
-    if (balance.force > 0) result.energy = last_.tangent().energy() + stiffness_ * gap_ * gap_ / 2;
+    if (balance.force > 0) result.energy = last_.tangent().energy() + now_.stiffness * gap_ * gap_ / 2;
     if constexpr (detail::offers<detail::Rough, Touch>)
-      if (touch.rough() && balance.force > 0) add_friction(result);
+      if (touch.rough() && balance.force > 0) {  // what the skin transmits, and what it gives back
+        const auto friction = result.touch.friction.template cast<double>().eval();
+        result.force += friction;
+        result.energy += friction.squaredNorm() / (2 * now_.stiffness);
+      }
     if (balance.force == 0 && !result.touch.pressing) last_.forget();
     return result;
   }
@@ -275,10 +268,10 @@ class VirtualCoupling {
       return straight * turning / (turning + squared * straight);
     };
     if (!(turning_.stiffness > 0 && std::isfinite(lever))) return;
-    stiffness_ = in_series(straight_.stiffness, turning_.stiffness);
-    damping_ = turning_.damping > 0 ? in_series(straight_.damping, turning_.damping)
-               : lever == 0         ? straight_.damping
-                                    : 0;
+    now_ = {in_series(straight_.stiffness, turning_.stiffness),
+            turning_.damping > 0 ? in_series(straight_.damping, turning_.damping)
+            : lever == 0         ? straight_.damping
+                                 : 0};
   }
 
   struct Balance {
@@ -289,29 +282,19 @@ class VirtualCoupling {
   /// (K + B/dt) g - B/dt g_before = f(p0) - k n·(h + n g - p0), g where neither side pulls.
   Balance solve(const Eigen::Vector3d& hand, double dt) const noexcept {
     const ContactTangent<3>& beam = last_.tangent();
-    const double damper = damping_ / dt, given = damper * gap_, own = stiffness_ + damper;
+    const double damper = now_.damping / dt, given = damper * gap_, own = now_.stiffness + damper;
     if (beam.known()) {
-      const double gap = (beam.force_at(hand) + given) / (own + beam.stiffness());
-      const double force = own * gap - given;
+      const double gap = (beam.force_at(hand) + given) / (own + beam.stiffness()), force = own * gap - given;
       if (!(force <= 0)) return {gap, force};
     }
     const double gap = given / own;
     return {gap > least_gap ? gap : 0, 0};
   }
 
-  /// What the skin transmits, and what it gives back.
-  template <class Result>
-  void add_friction(Result& result) const noexcept {
-    const auto friction = result.touch.friction.template cast<double>().eval();
-    result.force += friction;
-    result.energy += friction.squaredNorm() / (2 * stiffness_);
-  }
-
   static constexpr double least_gap = 1e-12;  // [m] is none
 
   CouplingFigures straight_, turning_{0, 0};
-  double stiffness_;  // K [N/m], with what turns
-  double damping_;    // B [N·s/m]
+  CouplingFigures now_;  // K and B, with what turns
   LastResponse last_;
   double gap_ = 0;  // g [m], how far the hand is below the point
 };

@@ -76,10 +76,9 @@ inline CouplingFigures renderable(const ArmFigures& arm, double T, int delay_tic
 
 }  // namespace detail
 
-/// The coupling that a device can render with a margin of a quarter of (1). The spring takes two fifths of the arm's
-/// damping, or the maker's largest stiffness if that is less. The damper takes the rest up to three quarters. Of (2)
-/// and (3), half. With half of the damping the spring would be a quarter stiffer, but four times as many heavy hands
-/// would still move half a second after a step.
+/// The coupling that a device can render with a margin of a quarter of (1). The spring takes two fifths of the arm's damping, or the
+/// maker's largest stiffness if that is less. The damper takes the rest up to three quarters. Of (2) and (3), half. With half of the
+/// damping for the spring four times as many heavy hands would still move half a second after a step.
 /// For an arm of unknown damping (0) least_damping is assumed.
 /// @param delay_ticks  whole periods between the servo's answer and the motors, besides the one that holds it; 0 to 16
 /// @throws std::invalid_argument as DeviceInfo::check(), and for another delay

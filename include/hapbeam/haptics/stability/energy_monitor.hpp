@@ -28,29 +28,16 @@ namespace hapbeam {
 class EnergyMonitor {
  public:
   /// @param delay_ticks  whole periods between a force and the motors, 0 to 16
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  /// @throws std::invalid_argument as DeviceInfo::check()
   explicit EnergyMonitor(const DeviceInfo& device, int delay_ticks = 0)
-      : period_(device.check().period),
-        damping_(device.damping),
-        friction_(device.friction),
-        step_(device.position_resolution),
-        peak_(device.peak_force),
-        gimbal_damping_(device.gimbal.damping),
-        gimbal_friction_(device.gimbal.friction),
-        gimbal_step_(device.gimbal.resolution),
-        peak_torque_(device.gimbal.peak_torque),
-        delay_(detail::DelayLine::checked(delay_ticks)) {}
+      : arm_(device.check()), gimbal_(device.gimbal), delay_(detail::DelayLine::checked(delay_ticks)) {}
 
   /// [J] generated so far, in contacts that have ended and in this one.
   double generated() const noexcept { return ended_ + (std::max)(0.0, net_); }
   /// W [J] of this contact: positive where the loop gave out more than it took.
   double net() const noexcept { return net_; }
 
-  /// As new.
-  void start() noexcept {
-    reset();
-    ended_ = 0;
-  }
+  void start() noexcept { reset(), ended_ = 0; }
   /// Ends the account of a contact without counting it, as after a reset.
   void reset() noexcept {
     net_ = kept_ = 0;
@@ -62,11 +49,11 @@ class EnergyMonitor {
   /// @param dt [s] since, positive
   void observe(const Eigen::Vector3d& position, const Eigen::Matrix3d& orientation, const Wrench& sent,
                double dt) noexcept {
-    const Eigen::Vector3d held = hold(sent_, sent.force, peak_);
+    const Eigen::Vector3d held = hold(sent_, sent.force, arm_.peak_force);
     Eigen::Vector3d torque = zero();
     double work = of_way(position, held, dt);
-    if (peak_torque_ > 0 || gimbal_damping_ > 0 || gimbal_friction_ > 0) {
-      torque = hold(sent_torque_, sent.torque, peak_torque_);
+    if (gimbal_.peak_torque > 0 || gimbal_.damping > 0 || gimbal_.friction > 0) {
+      torque = hold(sent_torque_, sent.torque, gimbal_.peak_torque);
       work += of_turn(orientation, torque, dt);
     }
     if (held.isZero(0) && torque.isZero(0)) end_contact();
@@ -87,23 +74,24 @@ class EnergyMonitor {
   Eigen::Vector3d dissipation(const Eigen::Vector3d& velocity) const noexcept {
     const double speed = velocity.squaredNorm();
     if (!(net_ > 0 && speed > 0 && std::isfinite(speed))) return zero();
-    return -(std::min)(damping_, net_ / (period_ * speed)) * velocity;
+    return -(std::min)(arm_.damping, net_ / (arm_.period * speed)) * velocity;
   }
 
  private:
   /// What the motors held is late by the delay, and no more than they can.
   Eigen::Vector3d hold(detail::DelayLine& line, Eigen::Vector3d sent, double peak) const noexcept {
-    if (detail::all_finite(sent)) (void)limit_force(sent, peak);
+    if (sent.allFinite()) (void)limit_force(sent, peak);
     return line.pass(sent, delay_);
   }
   /// [J]  Work of a held force since the reading before, less what the arm took.
   double of_way(const Eigen::Vector3d& position, const Eigen::Vector3d& held, double dt) noexcept {
-    const bool finite = detail::all_finite(position);
+    const bool finite = position.allFinite();
     Eigen::Vector3d moved = position_ && finite ? position - *position_ : zero();
     if (!(moved.norm() <= longest_step)) moved.setZero();
     if (finite) position_ = position;
-    const Eigen::Array3d way(least(moved[0], step_), least(moved[1], step_), least(moved[2], step_));
-    return held.dot(moved) - damping_ * way.square().sum() / dt - friction_ * way.sum();
+    const double step = arm_.position_resolution;
+    const Eigen::Array3d way(least(moved[0], step), least(moved[1], step), least(moved[2], step));
+    return held.dot(moved) - arm_.damping * way.square().sum() / dt - arm_.friction * way.sum();
   }
   /// [J]  The same of a torque, by the rotation vector.
   double of_turn(const Eigen::Matrix3d& orientation, const Eigen::Vector3d& held, double dt) noexcept {
@@ -117,8 +105,8 @@ class EnergyMonitor {
     const bool finite = orientation.allFinite();
     const Eigen::Vector3d turned = orientation_ && finite ? detail::rotation_vector(by) : zero();
     if (finite) orientation_ = orientation;
-    const double way = least(turned.norm(), gimbal_step_);
-    return held.dot(turned) - gimbal_damping_ * way * way / dt - gimbal_friction_ * way;
+    const double way = least(turned.norm(), gimbal_.resolution);
+    return held.dot(turned) - gimbal_.damping * way * way / dt - gimbal_.friction * way;
   }
 
   /// The least that was moved where it was read to have moved so far, in steps of the encoders.
@@ -132,13 +120,12 @@ class EnergyMonitor {
     if (std::isfinite(net_ + energy)) net_ += energy;
   }
   void end_contact() noexcept {
-    const double sum = ended_ + (std::max)(0.0, net_);
-    if (std::isfinite(sum)) ended_ = sum;
+    if (std::isfinite(generated())) ended_ = generated();
     net_ = -kept_;
   }
 
-  double period_, damping_, friction_, step_, peak_;
-  double gimbal_damping_, gimbal_friction_, gimbal_step_, peak_torque_;
+  DeviceInfo arm_;
+  GimbalInfo gimbal_;
   int delay_;
   double ended_ = 0, net_ = 0;
   double kept_ = 0;                             // by the beam [J]

@@ -40,7 +40,6 @@ struct ForceGuardOptions {
   double torque_slew_rate = 100;  ///< [N·m/s] positive; at a lever of 0.1 m a tenth of the force's
 };
 
-/// Force and torque after the guard.
 struct GuardedForce : Wrench {
   bool limited;   ///< cut by peak, heat or slew
   bool engaging;  ///< reduced because the loop has just started or restarted
@@ -93,11 +92,10 @@ class GuardedMotors {
     const double size = sent_.squaredNorm();
     const double along = size > 0 ? std::clamp(force.dot(sent_) / size, 0.0, 1.0) : 0;
     const Eigen::Vector3d from = along * sent_;
-    const Eigen::Vector3d growth(force[0] - from[0], force[1] - from[1], force[2] - from[2]);
+    const Eigen::Vector3d growth = force - from;
     const double length = growth.norm();
     if (!(length > most)) return false;
-    for (int i = 0; i < 3; ++i) force[i] = from[i] + growth[i] * (most / length);
-    return true;
+    return force = from + growth * (most / length), true;
   }
 
   Limits o_;
@@ -109,7 +107,7 @@ class GuardedMotors {
 
 class ForceGuard {
  public:
-  /// @throws std::invalid_argument naming field, value, unit and what is allowed
+  /// @throws std::invalid_argument naming the field of its options
   explicit ForceGuard(const ForceGuardOptions& options)
       : o_(checked(options)),
         clock_(o_.period, o_.longest_pause),
@@ -147,7 +145,7 @@ class ForceGuard {
     const bool turns = o_.peak_torque > 0;
     force_.warm_up(passed.dt);
     if (turns) torque_.warm_up(passed.dt);
-    if (!engage(passed, safe && detail::all_finite(wanted.force) && detail::all_finite(wanted.torque)))
+    if (!engage(passed, safe && wanted.force.allFinite() && wanted.torque.allFinite()))
       return {{force(), torque()}, false, true};
     bool limited = force_.limit(wanted.force, engaged_, passed.dt);
     if (turns) limited |= torque_.limit(wanted.torque, engaged_, passed.dt);

@@ -16,9 +16,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <jansson.h>
+#include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hapbeam {
@@ -42,22 +42,10 @@ namespace detail {
   throw ModelFileError(text);
 }
 
-/// Owns a JSON value.
-class Json {
- public:
-  explicit Json(json_t* value) noexcept : value_(value) {}
-  Json(Json&& other) noexcept : value_(other.value_) { other.value_ = nullptr; }
-  Json& operator=(Json&& other) noexcept {
-    std::swap(value_, other.value_);
-    return *this;
-  }
-  ~Json() { json_decref(value_); }
-
-  json_t* get() const noexcept { return value_; }
-
- private:
-  json_t* value_;
+struct ReleaseJson {
+  void operator()(json_t* value) const noexcept { json_decref(value); }
 };
+using Json = std::unique_ptr<json_t, ReleaseJson>;
 
 /// A value as it stands in the file, shortened, for a message.
 struct ShownJson {
@@ -155,7 +143,6 @@ class JsonWriter {
   void finish() {}
 
   enum class Layout { line, indented };
-
   /// @param digits  of a real: 17 for double, 9 for float, which bring back every bit
   std::string text(int digits, Layout layout = Layout::line) const {
     const std::size_t flags = layout == Layout::line ? JSON_COMPACT : JSON_INDENT(2);

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Members of a JSON object, read by name and unit.
+// JSON that is read: files as a whole, in memory that their size bounds, and members of an object by name and unit.
 //
 // JsonReader and JsonWriter offer the same functions, so that one list of fields serves both.
 // A name is a path: "beam.length" is the member length of the object beam. Units are a member of their own,
 // {"beam.length": "m", …}: one for each real number, "1" for a number without unit.
 // Nothing is skipped, guessed or converted. A member that is missing, unknown, of another type or unit, or out of the
-// scalar's range throws ModelFileError with its name, value, unit and permitted values.
+// scalar's range throws ModelFileError with its name, value, unit and permitted values; text that is no JSON, with line and column.
 // Offline: allocates, throws.
 #pragma once
 
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -17,6 +20,61 @@
 #include <hapbeam/rom/file/json.hpp>
 
 namespace hapbeam::detail {
+
+/// Largest file that is read.  As a model it holds more than a million numbers, too many for a tick.
+inline constexpr std::size_t largest_json_file = std::size_t(1) << 25;
+
+[[gnu::cold]] inline void check_size(std::size_t size, const std::string& source) {
+  if (size > largest_json_file)
+    fail(source, "size = %lu bytes: must be at most %lu", static_cast<unsigned long>(size),
+         static_cast<unsigned long>(largest_json_file));
+}
+
+/// About what the parser may take, by what each part of a text costs it: so many times its size, and what a header takes.
+/// A test measures that 20 times and 64 kB are never exceeded.
+inline constexpr std::size_t memory_per_byte = 16, memory_to_begin = 1 << 15;
+
+/// Text that would take more memory is rejected before it is parsed: three bytes can make an empty object of 250.
+/// What stands in strings counts as well; a model has few.   @param line  of the file, where the text begins
+[[gnu::cold]] inline Json parse_json(const char* text, std::size_t size, const std::string& source,
+                                     int line) {
+  std::size_t needed = 0;
+  for (std::size_t k = 0; k < size; ++k) switch (text[k]) {
+      case '{':
+      case '[': needed += 320; break;
+      case ':': needed += 112; break;
+      case ',': needed += 48; break;
+      case '"': needed += 24; break;
+      default: break;
+    }
+  const std::size_t most = memory_per_byte * size + memory_to_begin;
+  if (needed > most)
+    fail(source, "line %d takes about %lu bytes of memory to read: must be at most %lu for its size", line,
+         static_cast<unsigned long>(needed), static_cast<unsigned long>(most));
+  json_error_t error;
+  Json root(json_loadb(text, size, JSON_REJECT_DUPLICATES, &error));
+  if (!root.get())
+    fail(source, "line %d, column %d is no JSON: %s", line + error.line - 1, error.column, error.text);
+  return root;
+}
+
+[[gnu::cold]] inline std::string read_file(const std::string& path) {
+  errno = 0;
+  const auto reject = [&path](const char* what) {
+    fail(path, "%s: %s", what, errno ? std::strerror(errno) : "unknown reason");
+  };
+  std::FILE* const file = std::fopen(path.c_str(), "rb");
+  if (!file) reject("cannot be opened");
+  std::string text;
+  char part[1 << 12];
+  // One byte beyond the limit is enough to reject the file.
+  for (std::size_t size = 1; size > 0 && text.size() <= largest_json_file; text.append(part, size))
+    size = std::fread(part, 1, sizeof part, file);
+  const bool failed = std::ferror(file);
+  std::fclose(file);
+  if (failed) reject("cannot be read");
+  return text;
+}
 
 /// A member that has been read is removed from the object: what remains at the end is unknown.
 class JsonReader {
@@ -40,14 +98,10 @@ class JsonReader {
     units_ = own_units_.get();
   }
 
-  template <typename Scalar>
-  [[gnu::cold, gnu::noinline]] void real(const char* name, const char* unit, Scalar& value) {
-    real(name, unit, value, -largest(value), largest(value));
-  }
   /// @param low, high  limits of the value
   template <typename Scalar>
-  [[gnu::cold, gnu::noinline]] void real(const char* name, const char* unit, Scalar& value, double low,
-                                         double high) {
+  [[gnu::cold, gnu::noinline]] void real(const char* name, const char* unit, Scalar& value,
+                                         double low = -largest(Scalar()), double high = largest(Scalar())) {
     check_unit(name, unit);
     const Json found = take(name);
     value = static_cast<Scalar>(number(name, alone, unit, found.get(), low, high));
@@ -199,7 +253,7 @@ class JsonReader {
 
   const std::string& source_;
   json_t* root_;
-  Json own_units_{nullptr};
+  Json own_units_;
   json_t* units_ = nullptr;
   // Of an object within another: "errors.regions[2]." and "errors.regions.".
   char path_[96] = "", unit_path_[96] = "";

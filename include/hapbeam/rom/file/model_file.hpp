@@ -24,8 +24,8 @@
 #include <utility>
 
 #include <hapbeam/rom/file/json.hpp>
-#include <hapbeam/rom/file/json_file.hpp>
 #include <hapbeam/rom/file/json_reader.hpp>
+#include <hapbeam/rom/file/replaced_file.hpp>
 #include <hapbeam/rom/trained/galerkin_model.hpp>
 #include <hapbeam/rom/trained/pod_model.hpp>
 
@@ -180,8 +180,8 @@ template <class Fields, class Data>
 
 }  // namespace detail
 
-/// The text of a model's file.
-/// @tparam Model  PodModel | GalerkinModel   @throws ModelFileError where an error of its report is not finite
+/// The text of a model's file.   @tparam Model  PodModel | GalerkinModel
+/// @throws ModelFileError where an error of its report is not finite
 template <class Model>
 [[gnu::cold]] std::string write_model(const Model& model, const std::string& source = "model") {
   using Scalar = typename Model::Scalar;
@@ -215,7 +215,14 @@ template <class Model>
 /// @tparam Model  PodModel | GalerkinModel   @throws ModelFileError
 template <class Model>
 [[gnu::cold]] void save_model(const Model& model, const std::string& path) {
-  detail::write_file(path, write_model(model, path));
+  const std::string text = write_model(model, path);
+  try {
+    detail::ReplacedFile file(path);
+    file.write(text);
+    file.replace();
+  } catch (const std::runtime_error& error) {
+    throw ModelFileError(error.what());
+  }
 }
 
 /// Reads a model's file.   @tparam Model  of the kind, scalar and nodes in the file   @throws ModelFileError

@@ -6,8 +6,7 @@
 //   file.replace();
 //
 // What is written stands beside the file, under a name that no other program has, until it is whole.  Without replace() it is removed.
-// Regular files and new ones are replaced, with the permissions that the old one has.  A symbolic link stays, and the file to which it
-// leads is replaced.  Folders, devices, pipes and sockets are rejected.
+// Permissions stay, and so does a symbolic link to the file.  Folders, devices, pipes and sockets are rejected.
 // Offline: allocates and throws.
 #pragma once
 

@@ -26,12 +26,8 @@ struct BeamData {
   /// @tparam AnyBeam  Beam; a template, so that a program that only loads a model need not include it
   template <class AnyBeam>
   static BeamData of(const AnyBeam& beam) noexcept {
-    return {Scalar(beam.length()),
-            Scalar(beam.axial_stiffness()),
-            Scalar(beam.bending_stiffness()),
-            Scalar(beam.thickness()),
-            beam.left(),
-            beam.right()};
+    const auto EA = Scalar(beam.axial_stiffness()), EI = Scalar(beam.bending_stiffness());
+    return {Scalar(beam.length()), EA, EI, Scalar(beam.thickness()), beam.left(), beam.right()};
   }
 };
 
@@ -116,17 +112,13 @@ template <typename Scalar>
 class TensionCoordinate {
  public:
   explicit TensionCoordinate(const BeamData<Scalar>& beam) noexcept
-      : unit_((is_half(beam) ? Scalar(2.5) : Scalar(10)) * beam.bending_stiffness /
-              (beam.length * beam.length)) {}
+      : unit_((beam.left == Support::guided || beam.right == Support::guided ? Scalar(2.5) : Scalar(10)) *
+              beam.bending_stiffness / (beam.length * beam.length)) {}
   Scalar operator()(Scalar tension) const noexcept { return std::log1p(tension / unit_); }
   Scalar inverse(Scalar z) const noexcept { return unit_ * std::expm1(z); }
   Scalar unit() const noexcept { return unit_; }  ///< N0 [N]
 
  private:
-  static bool is_half(const BeamData<Scalar>& beam) noexcept {
-    return beam.left == Support::guided || beam.right == Support::guided;
-  }
-
   Scalar unit_;
 };
 

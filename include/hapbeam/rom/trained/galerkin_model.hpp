@@ -60,7 +60,6 @@ class GalerkinModel : public detail::TrainedModel<detail::GalerkinTable<ScalarTy
   using Data = GalerkinModelData<Scalar>;
   static constexpr int max_iterations = 40;
 
-  /// @throws std::invalid_argument where the data do not make a model
   [[gnu::cold]] explicit GalerkinModel(Data data) : Base(std::move(data)) {}
 
   /// The force alone; shape() stays.  @return as press()
@@ -102,8 +101,7 @@ class GalerkinModel : public detail::TrainedModel<detail::GalerkinTable<ScalarTy
     const int m = trained_->data.tensions;
     trained_->z.weights(z, at.lz);
     Eigen::Array<Scalar, 4, 1> sum = Eigen::Array<Scalar, 4, 1>::Zero();
-    for (int j = 0; j < m; ++j)
-      sum += at.lz[j] * Eigen::Map<const Eigen::Array<Scalar, 4, 1>>(at.column + 4 * j);
+    for (int j = 0; j < m; ++j) sum += at.lz[j] * Eigen::Map<const decltype(sum)>(at.column + 4 * j);
     at.f = sum[0], at.by_z = sum[1], at.by_zz = sum[2], at.by_xz = sum[3];
   }
 
@@ -122,25 +120,23 @@ class GalerkinModel : public detail::TrainedModel<detail::GalerkinTable<ScalarTy
   /// @param by_x  df/dx
   Scalar rotation(const Point& at, Scalar by_x) const noexcept;
 
-  /// Deflection under a unit force of a string under unit tension with these ends [m].
-  Scalar string_compliance(Scalar s) const noexcept {
-    const Scalar L = trained_->data.beam.length;
-    if (!fixes_w(trained_->data.beam.left)) return L - s;
-    return fixes_w(trained_->data.beam.right) ? s * (L - s) / L : s;
-  }
-
-  Scalar string_compliance_by_s(Scalar s) const noexcept {
-    const Scalar L = trained_->data.beam.length;
-    if (!fixes_w(trained_->data.beam.left)) return -1;
-    return fixes_w(trained_->data.beam.right) ? (L - 2 * s) / L : Scalar(1);
+  /// 1/A, stiffness of a string under unit tension with these ends [1/m], and its derivative by s.
+  struct String {
+    Scalar stiffness, by_s;
+  };
+  String string_at(Scalar s) const noexcept {
+    const auto& beam = trained_->data.beam;
+    const Scalar L = beam.length, right = L - s;
+    if (!fixes_w(beam.left)) return {1 / right, 1 / (right * right)};
+    if (!fixes_w(beam.right)) return {1 / s, -1 / (s * s)};
+    return {L / (s * right), L * (2 * s - L) / (s * s * right * right)};
   }
 
   Scalar last_ = 0;  // z of the last press
   int iterations_ = 0;
 };
 
-// Long functions are defined outside of the class: only then does "extern template class GalerkinModel<>;" compile them in one
-// file alone.
+// Long functions are defined outside of the class: only then does "extern template class GalerkinModel<>;" compile them in one file alone.
 template <typename Scalar, class Nodes>
 Response<Scalar> GalerkinModel<Scalar, Nodes>::press(const Press<Scalar>& request) noexcept {
   Point at;
@@ -211,7 +207,7 @@ Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
   if (low != z_max) return k;
 
   // N = Nm r²:  k' = 1/A + b/r,  hence r³ - P r - Q = 0, convex where r > 0; Newton comes down to its only root there.
-  const Scalar Nm = trained_->data.tension, string = 1 / string_compliance(at.press.s);
+  const Scalar Nm = trained_->data.tension, string = string_at(at.press.s).stiffness;
   const Scalar b = k * at.by_z / (N0 + Nm) - string, half = d * d / (2 * flexibility * Nm);
   const Scalar P = half * string, Q = half * b;
   Scalar r = (std::max)(sqrt(P) + std::cbrt((std::max)(Q, Scalar(0))), Scalar(1));
@@ -231,7 +227,7 @@ Scalar GalerkinModel<Scalar, Nodes>::rotation(const Point& at, Scalar by_x) cons
   const Scalar log_by_s = by_x * x_by_s - trained_->position.log_scale_derivative(s);  // of k, or of k at Nm
   if (!(at.beyond > 1)) return at.press.d / 2 * log_by_s;
   const Scalar k = std::exp(at.f) / trained_->position.scale(s), k_by_s = k * log_by_s;
-  const Scalar string = 1 / string_compliance(s), string_by_s = -string * string * string_compliance_by_s(s);
+  const auto [string, string_by_s] = string_at(s);
   const Scalar span = trained_->tension.unit() + trained_->data.tension;  // N0 + Nm
   const Scalar b = k * at.by_z / span - string;
   const Scalar b_by_s = (k_by_s * at.by_z + k * at.by_xz * x_by_s) / span - string_by_s;

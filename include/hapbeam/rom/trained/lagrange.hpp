@@ -5,7 +5,6 @@
 //
 // The weights l_k depend on x alone: one set serves every quantity at the same nodes, and on a grid the products of two sets.
 // With 50 ChebyshevNodes an error in the values grows by at most Σ|l_k| = 3.5, with the thesis' EquispacedNodes by 2e12.
-//
 // Nodes of your own are a class N of static functions:
 //
 //   N::node(k, n)    double        x_k of n nodes, 0 ≤ k < n, in [-1, 1], ascending
@@ -21,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <type_traits>
 
 #include <Eigen/Core>
@@ -32,7 +32,6 @@ namespace hapbeam {
 /// Chebyshev nodes of the first kind: none at the ends of the interval.
 struct ChebyshevNodes {
   static constexpr const char* name() noexcept { return "chebyshev"; }
-  /// Node k of n in [-1, 1], ascending.
   static double node(int k, int n) { return n == 2 * k + 1 ? 0 : -std::cos(angle(k, n)); }
   static double weight(int k, int n) { return (k % 2 ? -1 : 1) * std::sin(angle(k, n)); }
 
@@ -58,6 +57,38 @@ auto as_nodes(N*) -> std::bool_constant<std::is_convertible_v<decltype(N::node(0
                                         std::is_convertible_v<decltype(N::name()), const char*>>;
 template <typename>
 std::false_type as_nodes(...);
+
+template <int Rows, typename Scalar>
+[[gnu::always_inline]] inline void combine_rows(const Scalar* a, int stride, const Scalar* x, int columns,
+                                                Scalar* y) noexcept {
+  using Column = Eigen::Array<Scalar, Rows, 1>;
+  Column sum = Column::Zero();
+  for (int k = 0; k < columns; ++k, a += stride) sum += x[k] * Eigen::Map<const Column>(a);
+  Eigen::Map<Column>{y} = sum;
+}
+
+/// y = Σ_k x_k a_k with a_k the first `rows` of the k-th run of `stride` numbers of A.  So many rows at a time as registers
+/// hold, through all columns: A is read once and y is written once.  Quickest where rows is a multiple of eight.
+/// @param y  out, rows values
+template <typename Scalar>
+[[gnu::noinline]] void combine(const Scalar* A, int stride, int rows, const Scalar* x, int columns,
+                               Scalar* y) noexcept {
+  constexpr int wide = 32, half = 16, narrow = 8;
+  int r = 0;
+  for (; r + wide <= rows; r += wide) combine_rows<wide>(A + r, stride, x, columns, y + r);
+  for (; r + half <= rows; r += half) combine_rows<half>(A + r, stride, x, columns, y + r);
+  for (; r + narrow <= rows; r += narrow) combine_rows<narrow>(A + r, stride, x, columns, y + r);
+  for (; r < rows; ++r) combine_rows<1>(A + r, stride, x, columns, y + r);
+}
+
+/// The next multiple of eight.
+constexpr int padded(int rows) noexcept { return (rows + 7) / 8 * 8; }
+
+/// Σ x_k y_k
+template <typename Scalar>
+Scalar dot(const Scalar* x, const Scalar* y, int size) noexcept {
+  return std::inner_product(x, x + size, y, Scalar(0));
+}
 
 }  // namespace detail
 
@@ -109,7 +140,10 @@ class Lagrange {
     for (; k + block <= size_; k += block) sum += Eigen::Map<Block>{l + k} = term(k);
     const Block rest = k < size_ ? term(k) : Block(Block::Zero());
     const Scalar inverse = 1 / (sum + rest).sum();
-    if (!(std::abs(inverse) > 0)) return at_node(x, l);
+    if (!(std::abs(inverse) > 0)) {  // a term of the barycentric form is infinite
+      for (k = 0; k < size_; ++k) l[k] = size_ == 1 || x == nodes_[k] ? Scalar(1) : Scalar(0);
+      return;
+    }
     for (k = 0; k + block <= size_; k += block) Eigen::Map<Block>{l + k} *= inverse;
     for (int i = k; i < size_; ++i) l[i] = rest[i - k] * inverse;
   }
@@ -128,52 +162,10 @@ class Lagrange {
   }
 
  private:
-  /// Where a term of the barycentric form is infinite.
-  [[gnu::cold]] void at_node(Scalar x, Scalar* l) const noexcept {
-    for (int k = 0; k < size_; ++k) l[k] = size_ == 1 || x == nodes_[k] ? Scalar(1) : Scalar(0);
-  }
-
   int size_;
   Scalar low_, high_;
   // Beyond size_ there are weights of zero, and nodes that nothing is near.
   Scalar nodes_[max_size], weights_[max_size];
 };
 
-namespace detail {
-
-template <int Rows, typename Scalar>
-[[gnu::always_inline]] inline void combine_rows(const Scalar* a, int stride, const Scalar* x, int columns,
-                                                Scalar* y) noexcept {
-  using Column = Eigen::Array<Scalar, Rows, 1>;
-  Column sum = Column::Zero();
-  for (int k = 0; k < columns; ++k, a += stride) sum += x[k] * Eigen::Map<const Column>(a);
-  Eigen::Map<Column>{y} = sum;
-}
-
-/// y = Σ_k x_k a_k with a_k the first `rows` of the k-th run of `stride` numbers of A.  So many rows at a time as registers
-/// hold, through all columns: A is read once and y is written once.  Quickest where rows is a multiple of eight.
-/// @param y  out, rows values
-template <typename Scalar>
-[[gnu::noinline]] void combine(const Scalar* A, int stride, int rows, const Scalar* x, int columns,
-                               Scalar* y) noexcept {
-  constexpr int wide = 32, half = 16, narrow = 8;
-  int r = 0;
-  for (; r + wide <= rows; r += wide) combine_rows<wide>(A + r, stride, x, columns, y + r);
-  for (; r + half <= rows; r += half) combine_rows<half>(A + r, stride, x, columns, y + r);
-  for (; r + narrow <= rows; r += narrow) combine_rows<narrow>(A + r, stride, x, columns, y + r);
-  for (; r < rows; ++r) combine_rows<1>(A + r, stride, x, columns, y + r);
-}
-
-/// The next multiple of eight.
-constexpr int padded(int rows) noexcept { return (rows + 7) / 8 * 8; }
-
-/// Σ x_k y_k
-template <typename Scalar>
-Scalar dot(const Scalar* x, const Scalar* y, int size) noexcept {
-  Scalar sum = 0;
-  for (int k = 0; k < size; ++k) sum += x[k] * y[k];
-  return sum;
-}
-
-}  // namespace detail
 }  // namespace hapbeam

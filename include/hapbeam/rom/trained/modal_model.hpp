@@ -53,14 +53,8 @@ class ModalModel {
         thickness_(static_cast<Scalar>(modes.thickness)),
         shapes_(modes.shapes.cast<Scalar>()),
         omega_(modes.frequencies.cast<Scalar>()),
-        decay_(modes.decays.cast<Scalar>()),
-        q_(Row::Zero(omega_.size())),
-        v_(q_),
-        along_(q_),
-        cosine_(q_),
-        sine_(q_),
-        by_force_(q_),
-        speeds_(q_) {
+        decay_(modes.decays.cast<Scalar>()) {
+    for (Row* row : {&q_, &v_, &along_, &cosine_, &sine_, &by_force_, &speeds_}) row->setZero(omega_.size());
     if (parts < 1) detail::reject("parts", parts, "", "1 or more");
     for (const auto& node : modes.rest)
       rest_.push_back({Scalar(node.s), Scalar(node.u), Scalar(node.w), Scalar(node.theta)});
@@ -71,7 +65,6 @@ class ModalModel {
       held_[k] = modes.held[k].cast<Scalar>(), holds_[k] = modes.holds[k].cast<Scalar>();
   }
 
-  /// Back to rest.
   void reset() noexcept {
     q_.setZero(), v_.setZero();
     hand_ = Seen::never, deep_ = 0;

@@ -17,11 +17,9 @@
 
 namespace hapbeam {
 
-/// Errors over a sample of presses, against the full model.  The force's is relative; the shape's is the largest |Δw| over
-/// the largest |w| of the beam.
-///
-/// The force is zero in the shape to which dead loads bend the beam. A press by less than a thousandth of the depth
-/// from there is therefore compared with the force of a thousandth.
+/// Errors over a sample of presses, against the full model.  The force's is relative; the shape's is the largest |Δw| over the largest
+/// |w| of the beam.  A press by less than a thousandth of the depth from where dead loads bend the beam, at which the force is zero, is
+/// compared with the force of a thousandth.
 struct ErrorSummary {
   int presses = 0;
   double force_median = 0;
@@ -44,9 +42,8 @@ struct ErrorReport {
   std::vector<RegionError> regions;
   /// Bound on the relative error of the force of every press in range(). It is 1.1 times the largest difference to the
   /// full model that a search from the worst presses found, plus reference_error, and at least 1e-8 for round-off.
-  /// Within a thousandth of the length from an end that is free to move, finite elements are no reference; the bound is
-  /// that of the places beside.
-  /// The search is no proof; none of 250 000 random presses of 50 beams exceeded the bound.
+  /// The search is no proof.  Within a thousandth of the length from an end that is free to move, finite elements are no reference; the
+  /// bound is that of the places beside.
   double force_bound = 0;
   /// Largest relative error of the full model's force, by one with twice its elements.
   double reference_error = 0;
@@ -101,13 +98,12 @@ template <typename Scalar>
   for (const Scalar value : values)
     if (!(value > low && value <= high)) reject(field, static_cast<double>(value), "", allowed);
 }
-/// What has no unit, or is a length of a beam: products of a few of them are finite in float, too.
+/// What has no unit, or is a length: products of a few of them are finite in float, too.
 template <typename Scalar>
 [[gnu::cold]] void check_table(const char* field, const std::vector<Scalar>& values, std::size_t wanted) {
   check_table(field, values, wanted, Scalar(-1e9), Scalar(1e9), "within 1e9 in every entry");
 }
 
-/// A length that a beam may have.
 [[gnu::cold]] inline void check_length(const char* field, double value) {
   if (!(value >= 1e-12 && value <= 1e12))
     reject(field, positive(field, value, "m"), "m", "from 1e-12 to 1e12");
@@ -151,9 +147,26 @@ template <typename Scalar>
   check_table("rest_shape", shape.rest, 3 * (segments + 1));
 }
 
+template <typename To, typename From>
+std::vector<To> cast(const std::vector<From>& values) {
+  return {values.begin(), values.end()};
+}
+template <typename To, typename From>
+BeamData<To> cast(const BeamData<From>& b) {
+  return {To(b.length), To(b.axial_stiffness), To(b.bending_stiffness), To(b.thickness), b.left, b.right};
+}
+template <typename To, typename From>
+ShapeData<To> cast(const ShapeData<From>& s) {
+  return {s.segments, s.contact_node, s.modes, cast<To>(s.basis), cast<To>(s.coefficients), cast<To>(s.rest)};
+}
+
+template <typename To, typename From>
+TrainedData<To> cast(const TrainedData<From>& d) {
+  return {cast<To>(d.beam), To(d.s_min), To(d.s_max), To(d.depth), d.positions, cast<To>(d.shape), d.errors};
+}
+
 }  // namespace detail
 
-/// @throws std::invalid_argument
 template <typename Scalar>
 [[gnu::cold]] const PodModelData<Scalar>& check(const PodModelData<Scalar>& data) {
   using namespace detail;
@@ -179,7 +192,6 @@ template <typename Scalar>
   return data;
 }
 
-/// @throws std::invalid_argument
 template <typename Scalar>
 [[gnu::cold]] const GalerkinModelData<Scalar>& check(const GalerkinModelData<Scalar>& data) {
   using namespace detail;
@@ -193,38 +205,11 @@ template <typename Scalar>
   return data;
 }
 
-namespace detail {
-
-template <typename To, typename From>
-std::vector<To> cast(const std::vector<From>& values) {
-  return {values.begin(), values.end()};
-}
-template <typename To, typename From>
-BeamData<To> cast(const BeamData<From>& b) {
-  return {To(b.length), To(b.axial_stiffness), To(b.bending_stiffness), To(b.thickness), b.left, b.right};
-}
-template <typename To, typename From>
-ShapeData<To> cast(const ShapeData<From>& s) {
-  return {s.segments, s.contact_node, s.modes, cast<To>(s.basis), cast<To>(s.coefficients), cast<To>(s.rest)};
-}
-
-template <typename To, typename From>
-TrainedData<To> cast(const TrainedData<From>& d) {
-  return {cast<To>(d.beam), To(d.s_min), To(d.s_max), To(d.depth), d.positions, cast<To>(d.shape), d.errors};
-}
-
-}  // namespace detail
-
 /// The same model in another scalar: cast<float>(data).  The error report stays; measure again if it matters.
 template <typename To, typename From>
 PodModelData<To> cast(const PodModelData<From>& d) {
-  return {detail::cast<To>(d),
-          d.symmetric,
-          d.depths,
-          To(d.y_low),
-          To(d.y_high),
-          detail::cast<To>(d.potential),
-          detail::cast<To>(d.rest)};
+  const auto potential = detail::cast<To>(d.potential), rest = detail::cast<To>(d.rest);
+  return {detail::cast<To>(d), d.symmetric, d.depths, To(d.y_low), To(d.y_high), potential, rest};
 }
 template <typename To, typename From>
 GalerkinModelData<To> cast(const GalerkinModelData<From>& d) {

@@ -57,7 +57,6 @@ class PodModel : public detail::TrainedModel<detail::PodTable<ScalarType, NodePo
   using Nodes = NodePolicy;
   using Data = PodModelData<Scalar>;
 
-  /// @throws std::invalid_argument where the data do not make a model
   [[gnu::cold]] explicit PodModel(Data data) : Base(std::move(data)) {}
 
   /// The force alone; shape() stays.  @return as press()
@@ -87,13 +86,7 @@ class PodModel : public detail::TrainedModel<detail::PodTable<ScalarType, NodePo
 
   Response<Scalar> respond(const Press<Scalar>& request, Point& at) const noexcept;
 
-  void locate(Point& at) const noexcept {
-    this->weigh(at.press.s, at.lx);
-    at.scale = trained_->position.scale(at.press.s);
-    descend(at);
-  }
-
-  /// The rest of locate(), for another depth at the same position.
+  /// Interpolates at the depth of a point, whose weights by position are known.
   [[gnu::noinline]] void descend(Point& at) const noexcept;
 
   /// θ at the contact: (∂V/∂s at constant d)/F [rad].
@@ -101,8 +94,7 @@ class PodModel : public detail::TrainedModel<detail::PodTable<ScalarType, NodePo
   Scalar rotation(const Point& at, Scalar by_x) const noexcept;
 };
 
-// Long functions are defined outside of the class: only then does "extern template class PodModel<>;" compile them in one
-// file alone.
+// Long functions are defined outside of the class: only then does "extern template class PodModel<>;" compile them in one file alone.
 template <typename Scalar, class Nodes>
 Response<Scalar> PodModel<Scalar, Nodes>::press(const Press<Scalar>& request) noexcept {
   Point at;
@@ -120,7 +112,9 @@ Response<Scalar> PodModel<Scalar, Nodes>::respond(const Press<Scalar>& request, 
   using std::isfinite;
   if (!this->valid(request)) return {0, Status::invalid_request};
   at.press = this->range().nearest(request);
-  locate(at);
+  this->weigh(at.press.s, at.lx);
+  at.scale = trained_->position.scale(at.press.s);
+  descend(at);
   Scalar force = at.force();
   if (at.press.d == request.d) {
     if (!isfinite(force)) return {0, Status::non_finite};

@@ -34,6 +34,7 @@ class ContactFrame {
 
   int segments() const noexcept { return segments_; }
   int contact_node() const noexcept { return contact_node_; }
+  Scalar length() const noexcept { return length_; }
 
   /// Arc position of the contact's node for a contact at s: s, but at least a thousandth of the length away from an
   /// end, unless it is that end's node.
@@ -94,7 +95,6 @@ class ShapeTable {
   [[gnu::cold]] ShapeTable(const BeamData<Scalar>& beam, const ShapeData<Scalar>& data, int positions,
                            int others)
       : frame_(beam, data.segments, data.contact_node),
-        length_(beam.length),
         positions_(positions),
         others_(others),
         weights_(index(positions + others)),
@@ -121,9 +121,8 @@ class ShapeTable {
   void reset(const ShapeData<Scalar>& data) noexcept {
     const Scalar* rest = data.rest.data();
     for (int i = 0; i <= data.segments; ++i, rest += 3)
-      nodes_[static_cast<std::size_t>(i)] = {length_ * Scalar(i) / Scalar(data.segments), rest[0], rest[1],
-                                             rest[2]};
-    nodes_.back().s = length_;
+      nodes_[index(i)] = {frame_.length() * Scalar(i) / Scalar(data.segments), rest[0], rest[1], rest[2]};
+    nodes_.back().s = frame_.length();
     first_ = 0, last_ = data.segments;
   }
 
@@ -145,7 +144,7 @@ class ShapeTable {
     nodes_[index(middle)] = {s, nearby[3] * unit * (unit / frame_.side(middle, s)), d, *theta};
     if (first_ < middle) place(first_, middle, nearby, frame_.left_spacing(s) * Scalar(first_), Scalar(0));
     if (last_ > middle) place(last_, last_ + 1, nearby + 4, s + frame_.right_spacing(s), Scalar(0));
-    nodes_.back().s = length_;
+    nodes_.back().s = frame_.length();
   }
 
   /// All of it.   O(modes (grid + nodes)) after a press, O(1) from then on
@@ -181,7 +180,7 @@ class ShapeTable {
       const Scalar spacing = frame_.right_spacing(s_);
       place(middle + 1, last + 1, row + 3 * middle + 3, (std::min)(s_, contact) + spacing, spacing);
     }
-    nodes_.back().s = length_;
+    nodes_.back().s = frame_.length();
     // The contact itself is known better than its modes; where it is too near to an end for its node, the end is straight.
     Node& node = nodes_[index(middle)];
     if (theta_) node.theta = *theta_;
@@ -208,7 +207,6 @@ class ShapeTable {
   }
 
   ContactFrame<Scalar> frame_;
-  Scalar length_;
   int positions_, others_;
   std::vector<Scalar> weights_;  // of the last press, along both axes
   std::vector<Scalar> work_;     // displacements of the last shape, freed of units; its modes; these by depth

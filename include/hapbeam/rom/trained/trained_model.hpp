@@ -44,12 +44,9 @@ class TrainedModel {
   Range<Scalar> range() const noexcept {
     constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
     const Data& d = data();
-    return {d.s_min,
-            d.s_max,
-            d.depth,
-            (std::numeric_limits<Scalar>::max)(),
-            fixes_w(d.beam.left) ? Scalar(0) : -infinity,
-            fixes_w(d.beam.right) ? d.beam.length : infinity};
+    const Scalar left = fixes_w(d.beam.left) ? Scalar(0) : -infinity,
+                 right = fixes_w(d.beam.right) ? d.beam.length : infinity;
+    return {d.s_min, d.s_max, d.depth, (std::numeric_limits<Scalar>::max)(), left, right};
   }
   Scalar thickness() const noexcept { return trained_->data.beam.thickness; }
   void reset() noexcept { shape_.reset(trained_->data.shape); }

@@ -6,8 +6,6 @@
 // Offline: allocates and throws.
 #pragma once
 
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -56,14 +54,12 @@ namespace hapbeam {
   for (int k = 0; k < all; ++k)
     if (!held(k)) free.push_back(k);
   const auto size = static_cast<Eigen::Index>(free.size());
-  if (modes < 1 || modes > size)
-    throw std::invalid_argument("modes = " + std::to_string(modes) + ": must be 1 to " +
-                                std::to_string(size));
+  if (modes < 1 || modes > size) detail::refuse("modes = %d: must be 1 to %d", modes, static_cast<int>(size));
   const Eigen::MatrixXd k = K(free, free), m = M(free, free);
   const Eigen::LLT<Eigen::MatrixXd> stiff(k);
   if (stiff.info() != Eigen::Success)
-    throw std::invalid_argument("supports = " + std::string(name(beam.left())) + "-" + name(beam.right()) +
-                                ": must hold the beam, stable at rest, for its modes");
+    detail::refuse("supports = %s-%s: must hold the beam, stable at rest, for its modes", name(beam.left()),
+                   name(beam.right()));
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> found(k, m);
 
   Modes result;
@@ -73,8 +69,7 @@ namespace hapbeam {
   result.decays = (beam.damping().drag + beam.damping().viscosity * result.frequencies.array().square()) / 2;
   for (int i = 0; i < modes; ++i)
     if (!(result.decays[i] < result.frequencies[i]))
-      throw std::invalid_argument("modes = " + std::to_string(modes) + ": must be at most " +
-                                  std::to_string(i) + ", those beyond are overdamped");
+      detail::refuse("modes = %d: must be at most %d, those beyond are overdamped", modes, i);
   result.shapes = Eigen::MatrixXd::Zero(modes, all);
   Eigen::MatrixXd lacks = Eigen::MatrixXd::Zero(all, all);
   const Eigen::MatrixXd some = found.eigenvectors().leftCols(modes);

@@ -125,9 +125,8 @@ class SnapshotTaker {
     }
     if (needed > reach)
       refuse<TrainingError>(
-          "depth = %g m: its tension, %g N, must be one that the full model reaches within its range "
-          "everywhere, "
-          "at s = %g m too: %g m would be",
+          "depth = %g m: its tension, %g N, must be one that the full model reaches everywhere within its "
+          "range, at s = %g m too: %g m would be",
           plan.depth, needed, nearest_limit, 0.99 * plan.depth * std::sqrt(reach / needed));
     // A plan so shallow that it stretches nothing gets the tensions where bending still outweighs them.
     out_.tension = reach > 0 ? (std::min)((std::max)(out_.tension, coordinate.unit()), reach) : 0;
@@ -191,9 +190,8 @@ class SnapshotTaker {
       next *= std::exp(-now * power);
     }
     refuse<TrainingError>(
-        "no press at s = %g m has a tension of %g N; the full model's solver may be too loose, or its range "
-        "too "
-        "small",
+        "no press at s = %g m has a tension of %g N; the full model's solver may be too loose, or its "
+        "range too small",
         s, N);
   }
 

@@ -97,8 +97,8 @@ void check_growth(const Lagrange<Nodes>& y, const DepthCoordinate<double>& coord
                  stiffness = value + coordinate.half_log_derivative(e, at) * slope, force = e * stiffness;
     if (!(value > 0 && stiffness > 0 && force > before))
       refuse(
-          "depths = %d: must be more, or the plan less deep: at s = %g m the force between them is not a "
-          "beam's",
+          "depths = %d: must be more, or the plan less deep: at s = %g m the force between them is not "
+          "a beam's",
           n, s);
     before = force;
   }
@@ -116,13 +116,8 @@ PodModelData<double> train_pod(const Snapshots& snapshots,
   const PositionCoordinate<double> position(snapshots.beam);
   const DepthCoordinate<double> coordinate(snapshots.beam, plan.symmetric);
   const Lagrange<Nodes> y(plan.depths, snapshots.y_low, snapshots.y_high);
-  PodModelData<double> data{detail::trained<Reducer>(snapshots, truncation),
-                            plan.symmetric,
-                            plan.depths,
-                            snapshots.y_low,
-                            snapshots.y_high,
-                            {},
-                            snapshots.rest};
+  const auto trained = detail::trained<Reducer>(snapshots, truncation);
+  PodModelData<double> data{trained, plan.symmetric, plan.depths, y.low(), y.high(), {}, snapshots.rest};
   std::vector<double> K(static_cast<std::size_t>(plan.depths));
   for (auto snapshot = snapshots.grid.begin(); snapshot != snapshots.grid.end();) {
     const double s = snapshot->s;

@@ -38,7 +38,6 @@ struct TrainingPlan {
     return {fixes_w(beam.left()) ? 0.05 * L : 0, fixes_w(beam.right()) ? 0.95 * L : L, positions, depth,
             depths};
   }
-  /// At one place.
   static TrainingPlan at(double s, double depth, int depths = 14) { return {s, s, 1, depth, depths}; }
 
   /// The node of the shape that follows the contact.
@@ -48,7 +47,6 @@ struct TrainingPlan {
     return std::clamp(static_cast<int>(std::lround(s_min / beam.length() * segments)), 1, segments - 1);
   }
 
-  /// @return the plan   @throws std::invalid_argument
   const TrainingPlan& check(const Beam& beam) const {
     detail::check_count("positions", positions, 1, 64);
     detail::check_count("depths", depths, 2, 64);
@@ -56,8 +54,8 @@ struct TrainingPlan {
     if (positions > 1 && segments % 2 != 0) detail::reject("segments", segments, "", "even");
     if (!beam.straight())
       detail::refuse(
-          "beam: must be straight, with its ends where they are in the straight beam, to train a model of "
-          "it");
+          "beam: must be straight, with its ends where they are in the straight beam, "
+          "to train a model of it");
     detail::check_range(BeamData<double>::of(beam), s_min, s_max, depth, positions);
     if (!(depth < beam.length())) detail::reject("depth", depth, "m", "less than the beam's length");
     return *this;
@@ -174,8 +172,8 @@ void check_same_beam(const Beam& beam, const Model& full, const TrainingPlan& pl
     }
     if (off > 1e-3 * size)
       refuse(
-          "full model: must be of the beam that is trained; pressed at s = %g m forces are %.3g N apart of "
-          "%.3g N",
+          "full model: must be of the beam that is trained; pressed at s = %g m forces are %.3g N "
+          "apart of %.3g N",
           s, off, size);
   }
 }

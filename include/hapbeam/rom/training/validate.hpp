@@ -43,12 +43,9 @@ inline ErrorSummary summarize(const std::vector<PressError>& errors) {
   if (errors.empty()) return {};
   std::vector<double> force, shape;
   for (const PressError& error : errors) force.push_back(error.force), shape.push_back(error.shape);
-  return {static_cast<int>(errors.size()),
-          quantile(force, 0.5),
-          quantile(force, 0.95),
-          quantile(force, 1),
-          quantile(shape, 0.5),
-          quantile(shape, 1)};
+  const int presses = static_cast<int>(errors.size());
+  const double half = quantile(force, 0.5), most = quantile(force, 0.95), all = quantile(force, 1);
+  return {presses, half, most, all, quantile(shape, 0.5), quantile(shape, 1)};
 }
 
 }  // namespace detail
@@ -95,12 +92,9 @@ ErrorReport report_errors(const Fast& fast, const Full& full, const std::vector<
       reference, detail::summarize(sample), {}, (std::max)(1.1 * worst + own, detail::least_bound), own};
   for (int i = 0; i < options.s_regions; ++i)
     for (int j = 0; j < options.depth_regions; ++j) {
-      const auto part = [](double low, double high, int k, int n) { return low + (high - low) * k / n; };
-      RegionError region{part(s_min, s_max, i, options.s_regions),
-                         part(s_min, s_max, i + 1, options.s_regions),
-                         part(0, depth, j, options.depth_regions),
-                         part(0, depth, j + 1, options.depth_regions),
-                         {}};
+      const auto along = [&](int k) { return s_min + (s_max - s_min) * k / options.s_regions; };
+      const auto deep = [&](int k) { return depth * k / options.depth_regions; };
+      RegionError region{along(i), along(i + 1), deep(j), deep(j + 1), {}};
       std::vector<PressError> inside;
       for (const PressError& error : sample)
         if (error.s >= region.s_min && (error.s < region.s_max || i + 1 == options.s_regions) &&

@@ -2,8 +2,8 @@
 // Largest difference of two models: a climb from the worst presses of a sample.
 //
 // The error of an interpolation has a local maximum, a hill, between any four nodes of its grid, and a sample hardly hits them.
-// From the worst presses steps go up and down in position and depth, and are shortened where none increases the error.
-// Steps are fractions of the distance to the nearer end and of the depth, in which the maxima are about equally wide.
+// From the worst presses steps go up and down in position and depth, by fractions of the distance to the nearer end and of the depth, and
+// are shortened where none increases the error.
 // Offline: allocates; throws TrainingError where the full model does not answer.
 #pragma once
 
@@ -19,7 +19,6 @@
 
 namespace hapbeam {
 
-/// Of one press.
 struct PressError {
   double s;      ///< [m]
   double depth;  ///< [m] |d|
