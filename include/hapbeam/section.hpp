@@ -43,6 +43,7 @@ struct Damping {
     return viscosity > 0 ||
            std::any_of(branches.begin(), branches.end(), [](const Relaxation& b) { return b.share > 0; });
   }
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   const Damping& check() const {
     detail::not_negative("damping viscosity", viscosity, "s");
     detail::not_negative("damping drag", drag, "1/s");

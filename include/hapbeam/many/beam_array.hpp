@@ -154,6 +154,7 @@ class BeamArray {
       : BeamArray(std::vector<Model>{model}, places, most_touched) {}
 
   /// @param kinds  one or more; their present shapes are those of the untouched beams
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   BeamArray(const std::vector<Model>& kinds, const std::vector<BeamPlace>& places, int most_touched = 64)
       : most_touched_(most_touched),
         kinds_(make_kinds(kinds, places, most_touched)),

@@ -61,6 +61,7 @@ struct RodScene {
     return deep * (cosine * x + sine * y) / std::hypot(x, y);
   }
 
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   const RodScene& check() const {
     const Range<double> range = this->range();
     detail::check_scene(*this, 0.999999 * range.s_min, range.s_max + 1e-6 * range.s_min, "rod");

@@ -57,6 +57,7 @@ struct Scene {
 
   bool one_place() const noexcept { return s_min == s_max; }
 
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   const Scene& check() const {
     const double margin = 0.999999 * beam.length() / 1000;
     detail::check_scene(*this, fixes_w(beam.left()) ? margin : 0,

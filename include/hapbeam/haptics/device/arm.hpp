@@ -113,6 +113,7 @@ struct ArmOptions {
   ArmAxisParameters axis(const HandOptions& hand) const noexcept {
     return {apparent_mass + hand.grip_mass, damping + hand.damping, hand.stiffness, friction};
   }
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   void check(const HandOptions& hand) const {
     detail::positive("apparent_mass", apparent_mass, "kg");
     detail::not_negative("arm damping", damping, "N·s/m");

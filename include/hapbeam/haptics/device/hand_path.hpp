@@ -93,7 +93,8 @@ class HandPath {
     const Vector2<double> way = b.position - a.position, position = a.position + way * share;
     const Eigen::Vector3d turn = b.turn - a.turn;
     HandTarget target{{position.x(), position.y(), 0}, {way.x() * rate, way.y() * rate, 0}};
-    return target.turn = a.turn + turn * share, target.spin = turn * rate, target;
+    target.turn = a.turn + turn * share, target.spin = turn * rate;
+    return target;
   }
 
  private:

@@ -30,6 +30,7 @@ struct VirtualPhantomOptions {
   HandOptions hand;
   GimbalOptions gimbal = {};
 
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   const VirtualPhantomOptions& check() const {
     arm.check(hand);
     gimbal.check(arm.period);

@@ -46,6 +46,7 @@ struct HdapiOptions {
   double gimbal_damping = 0;     ///< [N·m·s/rad] viscous, of the gimbal
   double gimbal_inertia = 0;     ///< [kg·m²] of gimbal and stylus
 
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   const HdapiOptions& check() const {
     if (rate < 100 || rate > 10000)
       detail::reject("rate", rate, "Hz", "one that the device knows, 100 to 10000");

@@ -134,6 +134,7 @@ inline constexpr bool is_coupling =
 /// The hand presses the beam itself.  A beam that is stiffer than the device can render is unstable: steel buzzes near a support.
 class Direct {
  public:
+  /// @throws std::invalid_argument as DeviceInfo::check()
   static Direct for_device(const DeviceInfo& device, int) {
     device.check();
     return {};

@@ -60,6 +60,7 @@ class GalerkinModel : public detail::TrainedModel<detail::GalerkinTable<ScalarTy
   using Data = GalerkinModelData<Scalar>;
   static constexpr int max_iterations = 40;
 
+  /// @throws std::invalid_argument where the data do not make a model
   [[gnu::cold]] explicit GalerkinModel(Data data) : Base(std::move(data)) {}
 
   /// The force alone; shape() stays.  @return as press()

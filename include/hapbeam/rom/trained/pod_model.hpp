@@ -57,6 +57,7 @@ class PodModel : public detail::TrainedModel<detail::PodTable<ScalarType, NodePo
   using Nodes = NodePolicy;
   using Data = PodModelData<Scalar>;
 
+  /// @throws std::invalid_argument where the data do not make a model
   [[gnu::cold]] explicit PodModel(Data data) : Base(std::move(data)) {}
 
   /// The force alone; shape() stays.  @return as press()

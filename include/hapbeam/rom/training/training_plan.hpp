@@ -47,6 +47,7 @@ struct TrainingPlan {
     return std::clamp(static_cast<int>(std::lround(s_min / beam.length() * segments)), 1, segments - 1);
   }
 
+  /// @throws std::invalid_argument naming field, value, unit and what is allowed
   const TrainingPlan& check(const Beam& beam) const {
     detail::check_count("positions", positions, 1, 64);
     detail::check_count("depths", depths, 2, 64);
