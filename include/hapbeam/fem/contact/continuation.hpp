@@ -8,7 +8,7 @@
 // Such an answer is sought again in halves and quarters of the hand's way, each from the one before.  The trapezoids' error falls by eight with each half.
 // A rod slips off the top of a ball to either side with the same energy.  So an answer whose normal has turned far is sought in parts, too.  So is one whose
 // force is far from a straight line over the way: a shank that is pushed along itself may have buckled to either side.  What is still so in a quarter stays.
-// What is off in a quarter still has snapped.  Where most of its energy has come from nowhere no snap leads there, and the beam falls from where it was (Descent).
+// What is off in a quarter still has snapped.
 // Real-time: noexcept, no allocation, O(1) but for the answers that are sought again: at most eight times, and the linear solves of AllDisplacements in all.
 #pragma once
 
@@ -24,8 +24,7 @@ namespace hapbeam::detail {
 enum class Branch {
   same,    ///< the last one's
   unsure,  ///< the last one's, or another one with much the same energy
-  other,   ///< another one
-  risen    ///< another one, and most of its energy has come from nowhere
+  other    ///< another one
 };
 
 /// An answer, as it is judged.
@@ -119,14 +118,14 @@ class Continuation {
     const Branch beside = unsure ? Branch::unsure : Branch::same;
     if (off <= now.change / 2 + now.size / 40) return beside;
     if (how_far() <= along * now.way + now.length / 1000) return beside;
-    return rest > stored_ && rest > now.strain / 2 ? Branch::risen : Branch::other;
+    return Branch::other;
   }
 
   /// Goes from the last request to the next.  A snap on the way to where there is no answer is told with the next one.
   /// @param go  t in (0, 1] of the way -> an answer with a status   @param judge  answer -> Branch   @param keep  (): the answer is to be continued
-  /// @param back  (): to where go() began   @param descend  (): down from there in the next go()
-  template <class Go, class Judge, class Keep, class Back, class Descend>
-  auto follow(Go&& go, Judge&& judge, Keep&& keep, Back&& back, Descend&& descend) noexcept {
+  /// @param back  (): to where go() began
+  template <class Go, class Judge, class Keep, class Back>
+  auto follow(Go&& go, Judge&& judge, Keep&& keep, Back&& back) noexcept {
     bool snapped = snapped_;
     snapped_ = false;
     Scalar t = 0, step = 1;
@@ -137,11 +136,6 @@ class Continuation {
         back();
         step /= 2;
         continue;
-      }
-      if (branch == Branch::risen) {
-        back(), descend();
-        answer = go(1);
-        step = 1 - t;
       }
       snapped = snapped || branch == Branch::other || answer.status == Status::snapped;
       keep(answer);

@@ -67,7 +67,7 @@ class PlacePush {
       system.go_back(before_, force);
       system.draw();
     };
-    return continuation_.follow(go, judge, keep, back, [&] { way.descend(); });
+    return continuation_.follow(go, judge, keep, back);
   }
 
  private:

@@ -143,7 +143,7 @@ class RowPush : private RowContacts<Element, System> {
       }
       work_ = before.work, balance_ = before.balance;
     };
-    return continuation_.follow(go, judge, keep, back, [&] { way.descend(); }).status;
+    return continuation_.follow(go, judge, keep, back).status;
   }
 
  private:
