@@ -175,36 +175,15 @@ class RodEnd {
     Matrix axes;
     Scalar places, turns;  ///< against places, and against turns
   };
-  // Written out: expressions of 3 x 3 matrices took a tenth of the time that a rod compiles.
-
-  /// to += f a bᵀ
-  static void add_outer(Scalar f, const Vector3& a, const Vector3& b, Matrix& to) noexcept {
-    for (int j = 0; j < 3; ++j)
-      for (int i = 0; i < 3; ++i) to(i, j) += f * a[i] * b[j];
-  }
-  template <class Residual, class Block>
-  static void add_at(int at, const Vector3& force, const Matrix& tangent, Residual& r, Block& K) noexcept {
-    for (int j = 0; j < 3; ++j) {
-      r[at + j] += force[j];
-      for (int i = 0; i < 3; ++i) K(at + i, at + j) += tangent(i, j);
-    }
-  }
   template <class Residual, class Block>
   Scalar add(const Springs& of, const Node& node, Residual& r, Block& K) const noexcept {
     using std::sqrt;
     constexpr bool has_twist = std::decay_t<Residual>::RowsAtCompileTime == 7;
-    Scalar energy = 0;
-    const Vector3 away = node.r - of.at.r;
-    Vector3 force = Vector3::Zero();
-    Matrix tangent = Matrix::Zero();
-    for (int k = 0; k < 3; ++k) {
-      const Vector3 axis = of.axes.col(k);
-      const Scalar spring = of.places * place_[k], x = axis.dot(away);
-      force += spring * x * axis;
-      add_outer(spring, axis, axis, tangent);
-      energy += spring * x * x / 2;
-    }
-    add_at(0, force, tangent, r, K);
+    const Vector3 x = of.axes.transpose() * (node.r - of.at.r), springs = of.places * place_,
+                  force = springs.cwiseProduct(x);
+    r.template segment<3>(0) += of.axes * force;
+    K.template block<3, 3>(0, 0) += of.axes * springs.asDiagonal() * of.axes.transpose();
+    Scalar energy = force.dot(x) / 2;
     const Scalar i = 1 / sqrt(node.tangent.squaredNorm());
     const Vector3 u = i * node.tangent, d3 = of.axes.col(2);
     if (across_[0] > 0 || across_[1] > 0) {
@@ -214,35 +193,31 @@ class RodEnd {
       Matrix H = Matrix::Zero();
       for (int k = 0; k < 2; ++k) {
         const Scalar stiffness = of.turns * across_[k];
-        const Vector3 axis = of.axes.col(k);
-        m += stiffness * axis.dot(u) * axis;
-        add_outer(2 * q * stiffness, axis, axis, H);
+        m += stiffness * of.axes.col(k).dot(u) * of.axes.col(k);
+        H += 2 * q * stiffness * of.axes.col(k) * of.axes.col(k).transpose();
       }
       const Scalar s = m.dot(u);
       const Vector3 by_u = 2 * q * m - s * q * q * d3;
-      add_outer(2 * s * q * q * q, d3, d3, H);
-      add_outer(-2 * q * q, m, d3, H), add_outer(-2 * q * q, d3, m, H);
-      Matrix P = Matrix::Identity();
-      add_outer(-1, u, u, P);
+      H += 2 * s * q * q * q * d3 * d3.transpose() - 2 * q * q * (m * d3.transpose() + d3 * m.transpose());
+      const Matrix P = Matrix::Identity() - u * u.transpose();
       const Vector3 g = P * by_u;
-      const Matrix PH = P * H;
-      Matrix by_tangent = PH * P;
-      by_tangent -= u.dot(by_u) * P;
-      add_outer(-1, g, u, by_tangent), add_outer(-1, u, g, by_tangent);
       energy += s * q;
-      add_at(3, i * g, i * i * by_tangent, r, K);
+      r.template segment<3>(3) += i * g;
+      K.template block<3, 3>(3, 3) +=
+          i * i * (P * H * P - u.dot(by_u) * P - (g * u.transpose() + u * g.transpose()));
     }
     if constexpr (has_twist)
       if (torsion_ > 0) {
         const Scalar twist = -angle_about(u, node.director, across(carry(of.at.director, d3, u), u)),
                      stiffness = of.turns * torsion_, moment = stiffness * twist;
         const Vector3 k = holonomy(of.at.tangent, node.tangent);
-        Matrix bow = -moment * holonomy_change(of.at.tangent, node.tangent);
-        add_outer(stiffness, k, k, bow);
         energy += moment * twist / 2;
-        add_at(3, moment * k, bow, r, K);
+        r.template segment<3>(3) += moment * k;
         r[6] += moment;
-        for (int j = 0; j < 3; ++j) K(3 + j, 6) += stiffness * k[j], K(6, 3 + j) += stiffness * k[j];
+        K.template block<3, 3>(3, 3) +=
+            stiffness * k * k.transpose() - moment * holonomy_change(of.at.tangent, node.tangent);
+        K.template block<3, 1>(3, 6) += stiffness * k;
+        K.template block<1, 3>(6, 3) += stiffness * k.transpose();
         K(6, 6) += stiffness;
       }
     return energy;
