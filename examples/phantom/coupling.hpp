@@ -10,7 +10,7 @@
 
 namespace phantom {
 
-/// Whether a touch is that of a tool in the hand, which has the coupling's springs itself.
+/// Whether a touch takes the coupling: of a tool in the hand, which has the coupling's springs itself, or of any model.
 template <typename Touch, typename = void>
 inline constexpr bool is_led = false;
 template <typename Touch>
@@ -36,7 +36,7 @@ class Coupling {
   [[nodiscard]] auto tick(Touch& touch, const hapbeam::VectorOf<double, hapbeam::dimension_of<Touch>>& hand,
                           double dt) noexcept {
     // A beam with mass has no other coupling.
-    if constexpr (is_led<Touch>) return touch.lead(hand, dt);
+    if constexpr (is_led<Touch>) return touch.lead(*this, hand, dt);
     else if constexpr (hapbeam::detail::offers<hapbeam::detail::Stored, Touch>)
       return std::get_if<hapbeam::VirtualCoupling>(&kind_)->tick(touch, hand, dt);
     else return std::visit([&](auto& kind) { return kind.tick(touch, hand, dt); }, kind_);

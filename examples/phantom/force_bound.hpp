@@ -12,48 +12,61 @@
 
 namespace phantom {
 
-/// Of a model that is no FemModel.
+/// What the mesh leaves [N].  Of a model that does not tell: not a number.
 template <typename Model>
-class ForceBound {
- public:
-  explicit ForceBound(const Parts& parts) {
-    if (parts.trained) stated_ = parts.trained->errors.force_bound;
-  }
-  void tick(const Model&, const hapbeam::ServoRecord&) noexcept {}
-  double relative() const noexcept { return stated_; }
-
- private:
-  double stated_ = std::numeric_limits<double>::quiet_NaN();
+struct MeshError {
+  explicit MeshError(const Parts&) {}
+  double operator()(Model&) noexcept { return std::numeric_limits<double>::quiet_NaN(); }
 };
 
 #ifdef HAPBEAM_EXAMPLES_WINDOW
-/// Nothing but the window shows it: a press on a finer mesh, ten times a second.  More elements than the window has leave nothing to show,
-/// and a finer mesh would take longer than a tick.
+constexpr bool shows_mesh_error = true;
+
+/// A press on a finer mesh.  More elements than the window has leave nothing to show, and a finer mesh would take longer than a tick.
 template <typename Element>
-class ForceBound<hapbeam::FemModel<Element>> {
+class MeshError<hapbeam::FemModel<Element>> {
   using Model = hapbeam::FemModel<Element>;
 
  public:
-  explicit ForceBound(const Parts& parts) {
+  explicit MeshError(const Parts& parts) {
     constexpr int most = 64;
     if (const int elements = parts.options.elements; elements <= most)
       force_error_.emplace(std::get<typename Model::Body>(parts.slender), elements);
   }
-  /// From the servo's thread.   Real-time: as ForceError
-  void tick(const Model& model, const hapbeam::ServoRecord& record) noexcept {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    if (!force_error_) return;
+  /// Real-time: as ForceError
+  double operator()(const Model& model) noexcept {
+    return force_error_ ? (*force_error_)(model) : std::numeric_limits<double>::quiet_NaN();
+  }
+
+ private:
+  std::optional<hapbeam::ForceError<Element>> force_error_;
+};
+#else
+constexpr bool shows_mesh_error = false;  // nothing but the window does
+#endif
+
+/// Ten times a second.
+class ForceBound {
+ public:
+  explicit ForceBound(const Parts& parts) : stated_(parts.trained != nullptr) {
+    if (stated_) relative_.store(parts.trained->errors.force_bound, std::memory_order_relaxed);
+  }
+  /// From the servo's thread.   @param error [N]() noexcept
+  template <typename Error>
+  void tick(const hapbeam::ServoRecord& record, Error&& error) noexcept {
+    if (!shows_mesh_error || stated_) return;
     if (!record.pressing) return relative_.store(none, std::memory_order_relaxed);
     if (record.ticks % 100 != 0) return;
     const double force = record.force.norm();
-    relative_.store(force > 0 ? (*force_error_)(model) / force : none, std::memory_order_relaxed);
+    relative_.store(force > 0 ? error() / force : none, std::memory_order_relaxed);
   }
   double relative() const noexcept { return relative_.load(std::memory_order_relaxed); }
 
  private:
-  std::optional<hapbeam::ForceError<Element>> force_error_;
-  std::atomic<double> relative_{std::numeric_limits<double>::quiet_NaN()};
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  bool stated_;
+  std::atomic<double> relative_{none};
 };
-#endif
 
 }  // namespace phantom

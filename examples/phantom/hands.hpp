@@ -91,11 +91,18 @@ Model make_model(const Parts& parts) {
   return Model(std::get<typename Model::Body>(parts.slender), parts.options.elements);
 }
 
+template <typename Model>
+std::unique_ptr<Body> couple_any(Model model, Parts parts) {
+  constexpr bool asked = hapbeam::Drawn<Model>::for_who_looks;
+  AnyModel<hapbeam::dimension_of<Model>, asked> any(std::move(model), parts);
+  return couple<OneHand>(std::move(any), std::move(parts));
+}
+
 template <class Element>
 std::unique_ptr<Body> couple_hands(Parts parts) {
   auto model = make_model<Touchable<Element>>(parts);
   if (parts.options.hands == 2) return couple<BothHands>(std::move(model), std::move(parts));
-  return couple<OneHand>(std::move(model), std::move(parts));
+  return couple_any(std::move(model), std::move(parts));
 }
 
 }  // namespace phantom

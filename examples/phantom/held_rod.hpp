@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "body.hpp"
+#include "coupling.hpp"
 #include <hapbeam/element/rod.hpp>
 #include <hapbeam/haptics/held/grip.hpp>
 #include <hapbeam/haptics/servo/servo.hpp>
@@ -104,7 +105,8 @@ class Touch<phantom::HeldRod> {
   }
 
   /// Once a period.   @param hand  [m]   @param dt  [s]   @return with the place of the first rod that is pressed most
-  [[nodiscard]] CoupledForce<double, 3> lead(const Eigen::Vector3d& hand, double dt) noexcept {
+  [[nodiscard]] CoupledForce<double, 3> lead(const phantom::Coupling&, const Eigen::Vector3d& hand,
+                                             double dt) noexcept {
     HandPose pose;
     pose.place = hand;
     CoupledForce<double, 3> felt = coupling_.tick(held_, pose, dt);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "any_model.hpp"
 #include "couple.hpp"
 #include "force_bound.hpp"
 #include "heard.hpp"
@@ -66,6 +67,7 @@ class Live final : public Body {
         servo_options_(servo_options(parts_.options, rest_.shape(), parts_.options.place)),
         loop_(std::move(model), parts_, servo_options_),
         heard_(loop_.model(), parts_.options),
+        mesh_error_(parts_),
         bound_(parts_) {
     for (int i = 0; i < parts_.options.beams; ++i)
       drawn_.beams.push_back({rest(), -parts_.options.pitch * i});
@@ -77,10 +79,9 @@ class Live final : public Body {
     const Eigen::Vector3d force = loop_.tick(state);
     dissipated_ += taken(record(), before) + (second ? taken(*second, others) : 0);
     if constexpr (dimension == 3) deepest_ = std::max(deepest_, depth(record()));
-    if constexpr (hapbeam::has_internal_forces<Model>)
-      if (record().pressing && record().ticks % 8 == 0)
-        if (const auto peak = hapbeam::peak_strain(loop_.model()); peak.strain > peak_.strain) peak_ = peak;
-    bound_.tick(loop_.model(), record());
+    if (record().pressing && record().ticks % 8 == 0)
+      if (const auto peak = strain_of(loop_.model()); peak.strain > peak_.strain) peak_ = peak;
+    bound_.tick(record(), [this] { return mesh_error_(loop_.model()); });
     return force;
   }
   const hapbeam::ServoRecord& record() const noexcept override { return loop_.servo().record(); }
@@ -136,7 +137,8 @@ class Live final : public Body {
   hapbeam::ServoOptions servo_options_;
   Loop loop_;
   Heard<Model> heard_;
-  ForceBound<Model> bound_;
+  MeshError<Model> mesh_error_;
+  ForceBound bound_;
   DrawnBody drawn_;
   double deepest_ = 0;  // [m] of a rod
   hapbeam::PeakStrain<double> peak_{0, 0};

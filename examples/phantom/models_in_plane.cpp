@@ -7,9 +7,13 @@
 #include "counted.hpp"
 #include "couple.hpp"
 #include "hands.hpp"
+#ifdef HAPBEAM_EXAMPLES_WINDOW
+#include "window/press_curve.hpp"
+#endif
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/linear.hpp>
 #include <hapbeam/element/tapered.hpp>
+#include <hapbeam/fem/dynamic_model.hpp>
 #include <hapbeam/fem/fem_model.hpp>
 
 namespace phantom {
@@ -19,7 +23,7 @@ namespace {
 template <typename Element>
 std::unique_ptr<Body> couple_full(Parts parts) {
   auto model = make_model<hapbeam::FemModel<Element>>(parts);
-  return couple<OneHand>(std::move(model), std::move(parts));
+  return couple_any(std::move(model), std::move(parts));
 }
 
 }  // namespace
@@ -49,18 +53,37 @@ std::unique_ptr<Body> couple_many(Parts parts) {
   return couple<OneHand>(std::move(array), std::move(parts));
 }
 
+// In this unit it shares what its loop is made of.
+std::unique_ptr<Body> couple_with_mass(Parts parts) {
+  using namespace hapbeam;
+  constexpr int parts_of_a_tick = 48;  // of 21 µs: they are heard
+  DynamicModel<> model(std::get<Beam>(parts.slender), parts.options.elements, parts_of_a_tick);
+  return couple<OneHand>(std::move(model), std::move(parts));
+}
+
 std::unique_ptr<Body> couple_trained(Parts parts) {
   using Full = hapbeam::FemModel<>;
   const std::shared_ptr<const Trained> trained = parts.trained;
   return std::visit(
       [&](const auto& fast) {
         using Fast = std::decay_t<decltype(fast)>;
-        if (!parts.options.guarded) return couple<OneHand>(fast, std::move(parts));
+        if (!parts.options.guarded) return couple_any(fast, std::move(parts));
         parts.full_answers = std::make_unique<Count>(0);
         Counted<Fast, Full> guarded(fast, make_model<Full>(parts), *parts.full_answers);
-        return couple<OneHand>(std::move(guarded), std::move(parts));
+        return couple_any(std::move(guarded), std::move(parts));
       },
       trained->model);
 }
+
+#ifdef HAPBEAM_EXAMPLES_WINDOW
+std::vector<Curve> curves_in_plane(const hapbeam::Beam& beam, const PressLine& line) {
+  using namespace hapbeam;
+  std::vector<Curve> curves;
+  add_curve<FemModel<Linear>>(curves, "linear", beam, line);
+  add_curve<FemModel<>>(curves, "von Karman", beam, line);
+  add_curve<Touchable<Corotational<>>>(curves, "corotational", beam, line);
+  return curves;
+}
+#endif
 
 }  // namespace phantom

@@ -6,6 +6,9 @@
 #include "couple.hpp"
 #include "hands.hpp"
 #include "held_rod.hpp"
+#ifdef HAPBEAM_EXAMPLES_WINDOW
+#include "window/press_curve.hpp"
+#endif
 #include <hapbeam/element/rod.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/rod_system.hpp>
@@ -44,5 +47,14 @@ std::unique_ptr<Body> couple_held(Parts parts) {
   HeldRod held(rods, vessel(o), coupling);
   return couple<OneHand>(std::move(held), std::move(parts));
 }
+
+#ifdef HAPBEAM_EXAMPLES_WINDOW
+std::vector<Curve> curves_in_space(const hapbeam::Rod& rod, const PressLine& line) {
+  std::vector<Curve> curves;
+  add_curve<Touchable<hapbeam::TwistedRod>>(curves, "twisted rod", rod, line);
+  add_curve<Touchable<hapbeam::RoundRod>>(curves, "round rod", rod, line);
+  return curves;
+}
+#endif
 
 }  // namespace phantom

@@ -13,11 +13,6 @@ namespace {
 
 using cli::count, cli::figure, cli::file, cli::flag, cli::one_of;
 
-constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice::full,
-                                      ElementChoice::reduced,      ElementChoice::stability_functions,
-                                      ElementChoice::corotational, ElementChoice::tapered,
-                                      ElementChoice::round_rod,    ElementChoice::twisted_rod,
-                                      ElementChoice::with_mass};
 constexpr Script scripts[] = {Script::slide,  Script::press, Script::tap,
                               Script::around, Script::pluck, Script::push};
 constexpr CouplingChoice couplings[] = {CouplingChoice::direct, CouplingChoice::virtual_coupling};
@@ -40,7 +35,7 @@ cli::Entries entries(Options& o) {
        "twists (its default where it is straight), "
        "or twisted-rod.  with-mass: as corotational, and it swings, twangs and is heard, touched by one hand "
        "without friction",
-       [&o](const std::string& v) { o.element = one_of(elements, "--element", v); }},
+       [&o](const std::string& v) { o.element = one_of(element_choices, "--element", v); }},
       file("--model",
            "a model that train has made takes the place of finite elements; the beam is the file's", o.model),
       flag("--guarded", "with --model: finite elements answer what is out of the trained range", o.guarded),

@@ -20,6 +20,12 @@ enum class ElementChoice {
   twisted_rod,
   with_mass
 };
+inline constexpr ElementChoice element_choices[] = {
+    ElementChoice::linear,       ElementChoice::full,
+    ElementChoice::reduced,      ElementChoice::stability_functions,
+    ElementChoice::corotational, ElementChoice::tapered,
+    ElementChoice::round_rod,    ElementChoice::twisted_rod,
+    ElementChoice::with_mass};
 enum class Script { slide, press, tap, around, pluck, push };
 enum class CouplingChoice { direct, virtual_coupling };
 enum class ModelChoice { finite_elements, pod, galerkin };

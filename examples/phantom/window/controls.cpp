@@ -15,11 +15,6 @@ namespace {
 
 constexpr const char* scene_labels[] = {"thesis", "ruler", "strip",       "string", "arch",     "comb",
                                         "needle", "hook",  "fishing-rod", "probe",  "catheter", "knot"};
-constexpr ElementChoice elements[] = {ElementChoice::linear,       ElementChoice::full,
-                                      ElementChoice::reduced,      ElementChoice::stability_functions,
-                                      ElementChoice::corotational, ElementChoice::tapered,
-                                      ElementChoice::round_rod,    ElementChoice::twisted_rod,
-                                      ElementChoice::with_mass};
 constexpr const char* element_labels[] = {
     "linear",  "von Karman, full",    "von Karman, reduced", "von Karman", "corotational",
     "tapered", "round rod, no twist", "twisted rod",         "with mass"};
@@ -83,9 +78,9 @@ void choose_model(Running& running, const Options* own, Wish& wish) {
       elements_answer ? element_labels[static_cast<int>(felt.element)] : label_of(felt.model_choice);
   if (begin_choice("model", "##model", now)) {
     for (int i = 0; i < 9; ++i)
-      if (bends_in_space(elements[i]) == felt.beam.in_space() &&
-          ImGui::Selectable(element_labels[i], elements_answer && felt.element == elements[i])) {
-        wish.options.element = elements[i], wish.options.model_choice = ModelChoice::finite_elements;
+      if (bends_in_space(element_choices[i]) == felt.beam.in_space() &&
+          ImGui::Selectable(element_labels[i], elements_answer && felt.element == element_choices[i])) {
+        wish.options.element = element_choices[i], wish.options.model_choice = ModelChoice::finite_elements;
         wish.options.guarded = false;
         wish.change = true;
       }

@@ -12,10 +12,20 @@ struct Curve {
   std::vector<float> depth, force;  ///< [m] down from rest, [N] up on the hand
 };
 
-/// Of a beam linear, von Karman and corotational, pressed straight down; of a rod in space what it would be if it stayed as stiff
-/// as at first, and each element, pressed along a direction.  One that cannot answer ends where it could.
-/// @param place  [m] along the beam   @param along  unit   @param depth  [m] how far
-std::vector<Curve> force_curves(const Slender& slender, int elements, double place,
-                                const Eigen::Vector3d& along, double depth);
+/// Where and how far a beam is pressed.
+struct PressLine {
+  int elements;
+  double place;           ///< [m] along it
+  Eigen::Vector3d along;  ///< unit, of a rod in space; a beam is pressed straight down
+  double depth;           ///< [m]
+};
+
+/// Of a beam linear, von Karman and corotational; of a rod in space what it would be if it stayed as stiff as at first, and each element.
+/// One that cannot answer ends where it could.
+std::vector<Curve> force_curves(const Slender& slender, const PressLine& line);
+
+// Of the models alone, in the units that compile them.
+std::vector<Curve> curves_in_plane(const hapbeam::Beam& beam, const PressLine& line);
+std::vector<Curve> curves_in_space(const hapbeam::Rod& rod, const PressLine& line);
 
 }  // namespace phantom

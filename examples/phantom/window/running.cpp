@@ -97,7 +97,7 @@ double Running::first_depth() {
   // What is in the hand gives way, too.
   if (o.avatar != Avatar::ball) return 1e-4;
   const auto curves =
-      force_curves(session_.body().slender(), o.elements, place_of_curves(), curve_along_, press);
+      force_curves(session_.body().slender(), {o.elements, place_of_curves(), curve_along_, press});
   const double k = curves.empty() ? 0 : std::abs(static_cast<double>(curves[0].force.back())) / press;
   const double hand = hapbeam::HandOptions{}.stiffness;
   return std::max({0.5 * hand * o.depth / (k + hand / o.scale), o.beam.rise, 1e-4});
@@ -124,7 +124,7 @@ void Running::refresh_curves() {
   curve_depth_ = depth;
   curve_place_ = place;
   if (options().beams > 1 || holds_end(options().avatar)) curves_.clear();
-  else curves_ = force_curves(session_.body().slender(), options().elements, place, curve_along_, depth);
+  else curves_ = force_curves(session_.body().slender(), {options().elements, place, curve_along_, depth});
 }
 
 }  // namespace phantom

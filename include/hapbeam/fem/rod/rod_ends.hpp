@@ -116,19 +116,27 @@ class RodEnds {
   /// The same of a row of the system, of what that has of an end's node.   @param b  in and out   @param residual  in and out
   template <class Part, class Node>
   void hold_row(std::size_t k, const Node& at, Part&& b, Scalar& residual) const noexcept {
+    const auto dot = [&b](int from, const auto& v) {
+      return v[0] * b[from] + v[1] * b[from + 1] + v[2] * b[from + 2];
+    };
     if (is_clamped(k)) {
-      const Scalar along = ends_[k].direction().dot(b.template segment<3>(3));
+      const Scalar along = dot(3, ends_[k].direction());
       residual += b.dot(prescribed_[k]);
       b.setZero();
       b[5] = along;
       return;
     }
     if constexpr (has_twist)
-      if (ends_[k].is_joint()) b.template segment<3>(3) -= b[6] * ends_[k].arm(at);
-    if (const Matrix* const R = ends_[k].place_axes())
-      b.template segment<3>(0) = (R->transpose() * b.template segment<3>(0)).eval();
-    if (const Matrix* const T = ends_[k].tangent_axes())
-      b.template segment<3>(3) = (T->transpose() * b.template segment<3>(3)).eval();
+      if (ends_[k].is_joint()) {
+        const Vector3 arm = ends_[k].arm(at);
+        for (int c = 0; c < 3; ++c) b[3 + c] -= b[6] * arm[c];
+      }
+    const auto turn = [&b, &dot](int from, const Matrix& Q) {
+      const Vector3 turned(dot(from, Q.col(0)), dot(from, Q.col(1)), dot(from, Q.col(2)));
+      for (int c = 0; c < 3; ++c) b[from + c] = turned[c];
+    };
+    if (const Matrix* const R = ends_[k].place_axes()) turn(0, *R);
+    if (const Matrix* const T = ends_[k].tangent_axes()) turn(3, *T);
     ends_[k].template visit<has_twist>(at, [&](int component, Scalar increment) {
       residual += b[component] * increment;
       b[component] = 0;

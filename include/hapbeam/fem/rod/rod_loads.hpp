@@ -114,10 +114,11 @@ class RodBed {
         const Scalar s = a + static_cast<Scalar>(detail::gauss_points[g]) * (b - a),
                      weight = static_cast<Scalar>(detail::gauss_weights[g]) * (b - a);
         const RodNode<Scalar> home = natural.at(s);
-        visit(s,
-              Eigen::Matrix<Scalar, 3, 3>(weight * (across * Eigen::Matrix<Scalar, 3, 3>::Identity() +
-                                                    more * home.tangent * home.tangent.transpose())),
-              home.r);
+        Eigen::Matrix<Scalar, 3, 3> k;
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            k(i, j) = weight * (more * home.tangent[i] * home.tangent[j] + (i == j ? across : 0));
+        visit(s, k, home.r);
       }
     }
   }
@@ -125,21 +126,21 @@ class RodBed {
   Scalar energy(int e, const RodNode<Scalar>& a, const RodNode<Scalar>& b) const noexcept {
     const Spring& spring = springs_[static_cast<std::size_t>(e)];
     const Vector12 x = unknowns(a, b) - spring.home, Kx = spring.K * x;
-    return spring.energy + x.dot(Kx / 2 + spring.force);
+    return spring.energy + x.dot(Kx) / 2 + x.dot(spring.force);
   }
   /// Adds its residual and tangent.   @tparam Unknowns  of a node   @return [J]
   template <int Unknowns, class Residual, class Tangent>
   Scalar add(int e, const RodNode<Scalar>& a, const RodNode<Scalar>& b, Residual& r,
              Tangent& K) const noexcept {
     const Spring& spring = springs_[static_cast<std::size_t>(e)];
-    const Vector12 x = unknowns(a, b) - spring.home, Kx = spring.K * x;
+    const Vector12 x = unknowns(a, b) - spring.home, Kx = spring.K * x, force = Kx + spring.force;
     for (int i = 0; i < 12; i += 6) {
       const int row = i == 0 ? 0 : Unknowns;
-      r.template segment<6>(row) += (Kx + spring.force).template segment<6>(i);
+      r.template segment<6>(row) += force.template segment<6>(i);
       for (int j = 0; j < 12; j += 6)
         K.template block<6, 6>(row, j == 0 ? 0 : Unknowns) += spring.K.template block<6, 6>(i, j);
     }
-    return spring.energy + x.dot(Kx / 2 + spring.force);
+    return spring.energy + x.dot(Kx) / 2 + x.dot(spring.force);
   }
 
  private:
