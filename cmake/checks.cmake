@@ -7,7 +7,7 @@ if(MSVC)
   target_compile_options(hapbeam_checks INTERFACE /W4 /permissive- /utf-8 /bigobj $<$<BOOL:${HAPBEAM_WARNINGS_AS_ERRORS}>:/WX>)
   target_compile_definitions(hapbeam_checks INTERFACE _USE_MATH_DEFINES)
 elseif(HAPBEAM_BUILD_TESTS OR HAPBEAM_WARNINGS_AS_ERRORS)
-  # They take an eighth of the time of g++, and who builds no tests runs the programs and does not change them.
+  # They take time to compile, and who builds no tests runs the programs and does not change them.
   set(hapbeam_warnings -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
   target_compile_options(hapbeam_checks INTERFACE ${hapbeam_warnings} $<$<BOOL:${HAPBEAM_WARNINGS_AS_ERRORS}>:-Werror>)
 endif()
