@@ -45,8 +45,8 @@ class PairFriction {
     begin();
   }
   bool none() const noexcept { return !(state_.sticking > 0); }
-  /// A step begins, or anew.   @param softer  a part of q, where another has led nowhere
-  void begin(double softer = 1) noexcept { mode_ = Mode::begins, lends_ = softer * element_; }
+  /// A step begins, or anew.   @param scale  of q, where another has led nowhere
+  void begin(double scale = 1) noexcept { mode_ = Mode::begins, lends_ = scale * element_; }
   /// No friction until there is an equilibrium.
   void let_go() noexcept { state_.let_go(), begin(); }
 

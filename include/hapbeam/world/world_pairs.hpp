@@ -121,9 +121,9 @@ class WorldPairs : public JointedRods<Element> {
 
   // Friction.
 
-  /// @param softer  as of PairFriction
-  void begin_friction(double softer) noexcept {
-    each_rough([softer](RodPair& pair) { pair.friction.begin(softer); });
+  /// @param scale  as of PairFriction::begin()
+  void begin_friction(double scale) noexcept {
+    each_rough([scale](RodPair& pair) { pair.friction.begin(scale); });
   }
   /// All that moves slides without friction until it has come to an equilibrium.
   void let_go() noexcept {
