@@ -44,11 +44,11 @@ class PairEquilibrium {
   void begin(int share = 1) noexcept {
     solves_ = 0, most_solves_ = share * solver_.max_solves, changed_ = false,
     failure_ = Status::iteration_limit;
-    kind_ = 0;
+    kind_ = 0, scale_ = 1;
   }
   /// Begins a stage, 0 or 1, of a step of time.   @param known  whether that of the step before tells how linear it is
   void begin_stage(int stage, bool known) noexcept {
-    kind_ = 1 + stage, changed_ = false;
+    kind_ = 1 + stage, changed_ = false, scale_ = 1;
     if (!known) curvature_[std::size_t(kind_)] = {};
   }
   int solves() const noexcept { return solves_; }
@@ -63,8 +63,7 @@ class PairEquilibrium {
     Curvature<double> unknown;
     int leaves = 0, tries = 0;
     let_go_ = {-1, -1};
-    auto start = PairFriction::Start::goes_on;
-    system_.begin_friction();
+    system_.begin_friction(scale_);
     for (int k = system_.joints(); k < system_.pairs(); ++k) {
       RodPair& pair = system_.pair(k);
       if (has_left_row(k)) pair.held[0] = false;
@@ -81,18 +80,18 @@ class PairEquilibrium {
       solves_ += report.solves;
       if (report.status != Status::ok) {
         system_.restore();
-        // What has not rubbed yet is found from where it slides freely, what turns back from where it sticks.
-        const auto begins = [&](PairFriction::Start another) {
-          return start < another && system_.begin_friction(start = another);
-        };
-        if (begins(PairFriction::Start::waits) || begins(PairFriction::Start::sticks)) continue;
+        // Another stiffness finds friction elsewhere: by turns softer and stiffer.
+        scale_ = scale_ < 1 ? 1 / scale_ : 1 / (30 * scale_);
         return failure_ = report.status, Outcome::lost;
       }
       const Look look = look_around(system_);
       // What leaps as it begins to slide does so in steps of any length.
       if (!look.close) return tries > 0 ? Outcome::lost : Outcome::too_far;
       // What pulls as it sticks may press as it slides.
-      if (sticks_and_pulls() && !system_.settled() && tries++ < most_tries) continue;
+      if (!system_.settled()) {
+        if (tries++ < most_tries) continue;
+        return failure_ = Status::iteration_limit, Outcome::lost;
+      }
       if (release(pulling()) || release(needless())) continue;
       // One that comes back to its end has left it for a place that gives way.
       if (leave_end()) {
@@ -104,10 +103,6 @@ class PairEquilibrium {
         continue;
       }
       if (look.least < closest) return Outcome::full;
-      if (!system_.settled()) {
-        if (tries++ < most_tries) continue;
-        return failure_ = Status::iteration_limit, Outcome::lost;
-      }
       // What is in motion may be on its way down.
       return kind_ == 0 && gives_way() ? (failure_ = Status::iteration_limit, Outcome::lost)
                                        : Outcome::settled;
@@ -178,14 +173,6 @@ class PairEquilibrium {
                                                              : system_.pair(k).leaves_end(side)))
           return system_.pair(k).held[side] = false, true;
     return false;
-  }
-  bool sticks_and_pulls() const noexcept {
-    bool any = false;
-    for (int k = 0; k < system_.pairs(); ++k) {
-      const RodPair& pair = system_.pair(k);
-      any = any || (system_.moves(pair) && pair.rough() && !pair.friction.slides() && !(pair.force > 0));
-    }
-    return any;
   }
   /// The pair that pulls most.   @return -1: there is none
   int pulling() const noexcept {
@@ -261,6 +248,7 @@ class PairEquilibrium {
   std::array<Curvature<double>, 3> curvature_;   // of equilibria, and of both stages of a step of time
   int solves_ = 0, most_solves_ = 0, kind_ = 0;  // the last: which of them
   std::array<int, 2> let_go_{};                  // of which rods a pair has in this solution
+  double scale_ = 1;                             // times the stiffness by which friction is found
   bool changed_ = false, on_ridge_ = false;
   Status failure_ = Status::iteration_limit;
 };
