@@ -44,11 +44,11 @@ class PairEquilibrium {
   void begin(int share = 1) noexcept {
     solves_ = 0, most_solves_ = share * solver_.max_solves, changed_ = false,
     failure_ = Status::iteration_limit;
-    kind_ = 0, scale_ = 1;
+    kind_ = 0, lost_ = 0;
   }
   /// Begins a stage, 0 or 1, of a step of time.   @param known  whether that of the step before tells how linear it is
   void begin_stage(int stage, bool known) noexcept {
-    kind_ = 1 + stage, changed_ = false, scale_ = 1;
+    kind_ = 1 + stage, changed_ = false, lost_ = 0;
     if (!known) curvature_[std::size_t(kind_)] = {};
   }
   int solves() const noexcept { return solves_; }
@@ -63,7 +63,7 @@ class PairEquilibrium {
     Curvature<double> unknown;
     int leaves = 0, tries = 0;
     let_go_ = {-1, -1};
-    system_.begin_friction(scale_);
+    system_.begin_friction(guesses[std::size_t(lost_) % guesses.size()]);
     for (int k = system_.joints(); k < system_.pairs(); ++k) {
       RodPair& pair = system_.pair(k);
       if (has_left_row(k)) pair.held[0] = false;
@@ -79,9 +79,7 @@ class PairEquilibrium {
           solver.solve(system_, 1, pass == 0 ? &curvature_[std::size_t(kind_)] : &unknown);
       solves_ += report.solves;
       if (report.status != Status::ok) {
-        system_.restore();
-        // Another stiffness finds friction elsewhere: by turns softer and stiffer.
-        scale_ = scale_ < 1 ? 1 / scale_ : 1 / (30 * scale_);
+        system_.restore(), ++lost_;
         return failure_ = report.status, Outcome::lost;
       }
       const Look look = look_around(system_);
@@ -153,6 +151,8 @@ class PairEquilibrium {
   }
 
  private:
+  // Of the stiffness by which friction is found, one after the other has led nowhere: by turns softer and stiffer leads somewhere soonest.
+  static constexpr std::array<double, 4> guesses{1, 1. / 30, 3, 1e-3};
   static constexpr double nothing = 1e-6, apart = 1e-3;  // of a reach
   static constexpr double in_time = 1e-9;                // of the force: errors of steps add up
   static constexpr int most_tries = 7;                   // of friction to settle
@@ -248,7 +248,7 @@ class PairEquilibrium {
   std::array<Curvature<double>, 3> curvature_;   // of equilibria, and of both stages of a step of time
   int solves_ = 0, most_solves_ = 0, kind_ = 0;  // the last: which of them
   std::array<int, 2> let_go_{};                  // of which rods a pair has in this solution
-  double scale_ = 1;                             // times the stiffness by which friction is found
+  int lost_ = 0;                                 // times that friction has led nowhere in this step
   bool changed_ = false, on_ridge_ = false;
   Status failure_ = Status::iteration_limit;
 };
