@@ -39,6 +39,7 @@ struct RodArc {
   }
 };
 
+/// A part of the rod with a section of its own, which may change along it, and a material: a taper, a step, a soft tip.
 using RodPart = detail::PartOf<RodSection, RodMaterial>;
 
 /// Springs along a part of the rod that pull each point back to where it is in the natural shape: a needle in tissue.
@@ -48,6 +49,7 @@ struct RodFoundation {
   double along;     ///< [N/m²] along it
 };
 
+/// A dead force at one point of the rod.
 struct RodForce {
   double s;                   ///< [m] arc position
   VectorOf<double, 3> force;  ///< [N]
@@ -92,6 +94,7 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
     detail::positive("torsion stiffness", stiffness.torsion, "N·m²");
   }
 
+  /// Lays a part of the rod in an elastic foundation.
   Rod& add(const RodFoundation& foundation) {
     if (!(foundation.from >= 0 && foundation.from < length_))
       detail::reject("foundation from", foundation.from, "m", "on the rod, 0 to its length");
@@ -136,6 +139,7 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
   const RodStiffness& stiffness() const noexcept { return stiffness_; }
   /// Of the section that it was built with; a rod that is given by its stiffness has a round one of its thickness.
   const RodOutline& outline() const noexcept { return outline_; }
+  /// Whether its ends hold it.
   bool held() const noexcept { return detail::hold_rod(left_, right_); }
   /// @throws std::invalid_argument unless they do
   void check_held() const { detail::check_supports(left_, right_); }

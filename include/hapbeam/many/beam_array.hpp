@@ -25,6 +25,7 @@
 
 namespace hapbeam {
 
+/// Where one beam of an array lies.
 struct BeamPlace {
   Vector2<double> origin{0, 0};  ///< [m] of its left end, s = 0, w = 0, in the plane of the array
   double angle = 0;              ///< [rad] of its x axis, counterclockwise from the array's
