@@ -35,6 +35,7 @@ class ServoLoop {
     if (!running()) stop(), servo_.reset();
     device_.start(servo_);
   }
+  /// Blocks until the last tick has returned.
   void stop() noexcept { device_.stop(); }
   bool running() const noexcept { return device_.running(); }  ///< wait-free; false where the device ended it
 
