@@ -63,7 +63,7 @@ void watch(World<Element>& world, const std::vector<RodPose>& path, const Lead& 
   CHECK(use == HeapUse{});
   CHECK(not_finite == 0);
   CHECK(most <= 48 + 2);
-  CHECK(answered > 395);
+  CHECK(answered > 380);
   CHECK(touching > 300);
 }
 
@@ -114,7 +114,7 @@ void check_step() {
   CHECK(use == HeapUse{});
   CHECK(not_finite == 0);
   CHECK(most <= 6 * 48);
-  CHECK(answered > 395);
+  CHECK(answered > 380);
   CHECK(touching > 300);
   CHECK(noexcept(world.step(1e-3)));
   CHECK(noexcept(world.energy()));

@@ -246,7 +246,8 @@ class TouchedElement : private PieceChain<Element, S, Most> {
             q = piece.at_tip, N = piece.tension, alpha = l * p - root.theta;
     const Density D = density(k);
     energy_ += l * D.D;
-    if (properties_.straight) contact.wraps = contact.reach * std::abs(D.q) / properties_.EI;
+    if (!properties_.shape)
+      contact.wraps = contact.reach * (std::abs(D.q) / properties_.EI + std::abs(properties_.curvature));
     Record& record = records_[of(k)];
     record.side = side;
 

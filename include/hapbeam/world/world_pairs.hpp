@@ -121,9 +121,11 @@ class WorldPairs : public JointedRods<Element> {
 
   // Friction.
 
-  /// @param scale  as of PairFriction::begin()
-  void begin_friction(double scale) noexcept {
-    each_rough([scale](RodPair& pair) { pair.friction.begin(scale); });
+  /// As PairFriction::begin().   @return whether any begins another way than it went on
+  bool begin_friction(PairFriction::Start start = PairFriction::Start::goes_on) noexcept {
+    bool any = false;
+    each_rough([&](RodPair& pair) { any = pair.friction.begin(start) || any; });
+    return any;
   }
   /// All that moves slides without friction until it has come to an equilibrium.
   void let_go() noexcept {
@@ -134,7 +136,7 @@ class WorldPairs : public JointedRods<Element> {
     bool all = true;
     each_rough([&](RodPair& pair) {
       look(pair);
-      all = pair.friction.settled(pair.force) && all;
+      all = pair.friction.settled(pair.axes, pair.force) && all;
     });
     return all;
   }
@@ -194,14 +196,11 @@ class WorldPairs : public JointedRods<Element> {
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
     if (friction.none()) return;
     const Body &a = this->body(pair.rod[0]), &b = this->rigid(pair.rod[1]) ? a : this->body(pair.rod[1]);
-    // n² EI/L³
-    const auto stiffness = [](const Body& of, int n) {
-      const double root = n * of.system().unit() / of.length();
-      return root * root;
-    };
-    const double k = (std::min)(stiffness(a, 1), stiffness(b, 1)),
-                 q = (std::min)(stiffness(a, a.elements()), stiffness(b, b.elements()));
-    pair.friction.take(friction, pair.reach, k / std::sqrt(std::numeric_limits<double>::epsilon()), q);
+    const auto skin = [](const Body& of) { return of.system().unit() / of.length(); };
+    const double least = (std::min)(skin(a), skin(b));
+    pair.friction.take(friction, pair.reach,
+                       least * least / std::sqrt(std::numeric_limits<double>::epsilon()),
+                       (std::min)(a.length(), b.length()));
   }
 
   std::vector<Friction> frictions_;  // of each rod and body

@@ -15,7 +15,8 @@ namespace {
 template <class Model>
 double worst_gain(Model&& model) {
   double worst = 0;
-  for (std::uint64_t seed = 1; seed <= (sanitized ? 1 : 4); ++seed) worst = std::max(worst, gain(feel_of(model), seed));
+  for (std::uint64_t seed = 1; seed <= (sanitized ? 1 : 4); ++seed)
+    worst = std::max(worst, gain(feel_of(model), seed));
   return worst;
 }
 
