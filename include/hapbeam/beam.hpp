@@ -37,6 +37,7 @@ struct Section {
   static Section of(const RodSection& section) { return {section.area, section.inertia1, section.thickness}; }
 };
 
+/// Material of a beam.
 struct Material {
   double young;          ///< Young's modulus E [Pa]
   double density = 0;    ///< [kg/m³]; 0: not known, and the beam has no mass
@@ -101,6 +102,7 @@ class Beam : public detail::Slender<Beam, Section, Material, Arc> {
     detail::check_supports(left, right);
   }
 
+  /// Adds a force and moment at one point.
   Beam& add(const PointLoad& load) {
     if (!(load.s >= 0 && load.s <= length_))
       detail::reject("point load s", load.s, "m", "on the beam, 0 to its length");
@@ -133,7 +135,8 @@ class Beam : public detail::Slender<Beam, Section, Material, Arc> {
     return specific_weight_ = density * gravity, weigh(), *this;
   }
 
-  /// As Slender's.  Elements of Tapered<Local> take them; a FemModel of other elements rejects the beam.
+  /// Parts with sections and materials of their own, as Slender's.  Elements of Tapered<Local> take them; a FemModel of other elements rejects the beam.
+  /// @throws std::invalid_argument unless the ends increase, up to the length, and the beam was built of a material
   Beam& sections(std::vector<BeamPart> parts) { return Slender::sections(std::move(parts)), weigh(), *this; }
   /// Lets it shear, as Timoshenko's: elements of Tapered<Local> take it; a FemModel of other elements rejects the beam.
   /// @param stiffness  κGA [N] of the section that it was built with; that of other sections is as their area

@@ -88,6 +88,7 @@ bool is_far(const Vector& middle, Scalar reach, Scalar d) noexcept {
 template <class M>
 inline constexpr int dimension_of = detail::Dimension<M>::value;
 
+/// Whether all numbers of a node are finite.
 template <typename Scalar>
 bool is_finite(const CentrelineNode<Scalar>& node) noexcept {
   return std::isfinite(node.s) && std::isfinite(node.u) && std::isfinite(node.w) && std::isfinite(node.theta);
@@ -102,6 +103,7 @@ VectorOf<Scalar, D> control_point(const Eigen::Matrix<Scalar, D, 4>& b, int k) n
   return detail::vector_of<Scalar, D>([&](int i) { return b(i, k); });
 }
 
+/// Displacements at one arc position.
 template <typename Scalar>
 struct Displacement {
   Scalar u;      ///< [m]

@@ -141,6 +141,7 @@ bool is_finite(const Capsule<Scalar>& capsule) noexcept {
          std::isfinite(capsule.reach);
 }
 
+/// The result of a press.
 template <typename Scalar>
 struct Response {
   Scalar force;   ///< [N] force on the beam along the direction of d; the hand feels -force.  Always finite.

@@ -95,9 +95,10 @@ TEST_CASE("a hand that a beam with mass touches again is told of it", "[push][dy
   const Beam bar(1, Section::rectangle(0.02, height), steel, Support::pinned, Support::pinned);
   DynamicModel<Corotational<>> model(bar, 32, 4);
   int again = 0, wrong = 0;
+  DynamicModel<Corotational<>>::Felt felt{0, Status::ok};
   for (int k = 0; k < 500; ++k) {
     const Vector hand(0.5, reach - 5e-4 * k);
-    const auto felt = model.step(1e-3, {{0.5, hand, reach, 1}, 1e8, 1e4});
+    felt = model.step(1e-3, {{0.5, hand, reach, 1}, 1e8, 1e4});
     REQUIRE(is_answer(felt.status));
     if (!(felt.force < 0)) continue;
     // Where the avatar is, and how deep the beam lies in it beside where it touches.
@@ -110,4 +111,8 @@ TEST_CASE("a hand that a beam with mass touches again is told of it", "[push][dy
   }
   CHECK(again > 50);
   CHECK(wrong == 0);
+  // No time has passed: it is told the same, whatever hand asks.
+  const auto still = model.step(0, {{0.1, {0.1, 1}, reach, 1}, 1e8, 1e4});
+  CHECK(still.status == felt.status);
+  CHECK(still.force == felt.force);
 }

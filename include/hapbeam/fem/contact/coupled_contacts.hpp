@@ -54,7 +54,7 @@ class CoupledContacts {
 
   /// No hand has ever been there.
   void reset() noexcept { slots_ = {}, count_ = 0; }
-  /// To be called where a step begins.   @param hands  where they go to; kept until pushed()
+  /// To be called where a step begins.   @param hands  where they go to; kept until end()
   void begin(const System& system, const Hand* hands, int count) noexcept {
     hands_ = hands;
     for (int i = 0; i < count; ++i) {
@@ -81,9 +81,8 @@ class CoupledContacts {
   Pushed<Scalar, dimension> pushed(System& system, int i) const noexcept {
     const Slot& now = slot(i);
     if (!now.touches()) return {0, Status::ok};
-    Round avatar = hands_[i].hand;
-    place_of(avatar) +=
-        now.place - avatar.reach * now.normal - RoundContact{hands_[i].hand}.centre(now.place);
+    Round avatar = now.from;
+    place_of(avatar) += now.place - avatar.reach * now.normal - RoundContact{now.from}.centre(now.place);
     const bool again = touches_again(system, avatar, now.at.s, now.wraps);
     return {-now.at.force, again ? Status::out_of_range : Status::ok, false, now.at.s, now.place,
             -now.normal};
