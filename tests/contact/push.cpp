@@ -321,3 +321,22 @@ TEST_CASE("in float the ruler answers to four digits", "[push][float]") {
   CHECK(not_ok == 0);
   CHECK(worst <= 1e-3);
 }
+
+// To second order of the last increment, which moves the beam by some 10⁻⁵ m: a look from before it is off by 5·10⁻⁸ and 10⁻⁷ m.
+TEST_CASE("the point that is touched lies on the avatar, and where the beam was looked at it", "[push]") {
+  const double radius = 0.005, reach = radius + ruler_thickness / 2;
+  Turning model(steel_ruler(), 8);
+  Touch<Turning> touch(model, radius);
+  double off = 0, beside = 0;
+  for (int k = 0; k <= 1000; ++k) {
+    const Vector at(0.22 - 0.05 * k / 1000, 0.007 - 0.08 * k / 1000);
+    const TouchResult<double> r = touch.tick(at);
+    REQUIRE(r.status == Status::ok);
+    if (!r.pressing) continue;
+    off = std::max(off, std::abs((r.contact.foot - at).norm() - reach));
+    beside = std::max(beside, (model.shape().position(r.contact.s) - r.contact.foot).norm());
+  }
+  CAPTURE(off, beside);
+  CHECK(off <= 1e-9);
+  CHECK(beside <= 1e-9);
+}
