@@ -302,6 +302,47 @@ TEST_CASE("a rod that is drawn round a rod is a capstan", "[world][friction][ver
   }
 }
 
+// A rod on a rod on a wire, which stick and slide on each other as two hands press and turn back.
+TEST_CASE("three rods that stick and slide have an answer", "[world][friction]") {
+  const Rod wire(0.25, RodSection::circle(0.0015), spring_steel, RodSupport::clamped, RodSupport::clamped);
+  const std::array<RodPose, 2> start{{{{0.02, -0.06, 0.0042}, detail::unit(Point(1, 0.55, 0)), {0, 0, 1}},
+                                      {{0.12, -0.12, 0.0021}, {0, 1, 0}, {0, 0, 1}}}};
+  int ticks = 0, unanswered = 0, most = 0;
+  for (int seed = 0; seed < 10; ++seed) {
+    Random random(static_cast<std::uint64_t>(100 + seed));
+    const Friction friction = random(0.2, 0.6);
+    std::vector<WorldRod> rods;
+    for (RodPose pose : start) {
+      Rod rod(0.2, RodSection::circle(0.002), spring_steel, RodSupport::clamped, RodSupport::free);
+      rods.push_back({rod.place_left(pose), 8, friction});
+    }
+    rods.push_back({wire, 8, friction});
+    World<RoundRod> world(rods);
+    std::array<Point, 2> off{Point(0, 0, 0), Point(0, 0, 0)}, way = off;
+    int row = 0;
+    for (int k = 0; k < 1000; ++k) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (k % 40 == 0) way[i] = 5e-5 * Point(random(1.0), random(1.0), random(1.0));
+        if (k < 100) way[i].z() = i == 0 ? -5e-5 : -2.5e-5;
+        for (int c = 0; c < 2; ++c)
+          if (std::abs(off[i][c]) > 0.03) way[i][c] = -std::copysign(way[i][c], off[i][c]);
+        const double high = i == 0 ? -0.003 : -0.002, low = i == 0 ? -0.014 : -0.01;
+        if (off[i].z() > high || off[i].z() < low)
+          way[i].z() = std::copysign(way[i].z(), off[i].z() > high ? -1.0 : 1.0);
+        off[i] += way[i];
+        RodPose pose = start[i];
+        pose.at += off[i];
+        REQUIRE(world.hold(int(i), RodSide::left, pose) == Status::ok);
+      }
+      const bool found = is_answer(world.tick());
+      ++ticks, unanswered += !found, row = found ? 0 : row + 1, most = std::max(most, row);
+    }
+  }
+  INFO(unanswered << " of " << ticks << " unanswered, " << most << " in a row");
+  CHECK(unanswered <= 0.005 * ticks);
+  CHECK(most <= 3);
+}
+
 TEST_CASE("the rougher of two rods decides, and a world rejects what is no friction", "[world][friction]") {
   const auto make = [](const Friction& first, const Friction& second) {
     Crossing at;

@@ -131,6 +131,7 @@ class RodChain {
   }
 
   detail::RodEnds<Scalar, unknowns>& ends() noexcept { return ends_; }
+  const detail::RodEnds<Scalar, unknowns>& ends() const noexcept { return ends_; }
   /// They belong where they do at rest.
   void go_home() noexcept {
     for (std::size_t k = 0; k < 2; ++k) ends_[k].go_home();

@@ -32,6 +32,7 @@ class PairEquilibrium {
   using Body = typename System::Body;
   /// Of the distance of rods to their reach, that keeps them on their sides.
   static constexpr double closest = 0.5;
+  static constexpr double nothing = 1e-6;  ///< of a reach
 
   /// @throws std::invalid_argument as PairSystem
   PairEquilibrium(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid,
@@ -44,11 +45,11 @@ class PairEquilibrium {
   void begin(int share = 1) noexcept {
     solves_ = 0, most_solves_ = share * solver_.max_solves, changed_ = false,
     failure_ = Status::iteration_limit;
-    kind_ = 0;
+    kind_ = 0, lost_ = 0;
   }
   /// Begins a stage, 0 or 1, of a step of time.   @param known  whether that of the step before tells how linear it is
   void begin_stage(int stage, bool known) noexcept {
-    kind_ = 1 + stage, changed_ = false;
+    kind_ = 1 + stage, changed_ = false, lost_ = 0;
     if (!known) curvature_[std::size_t(kind_)] = {};
   }
   int solves() const noexcept { return solves_; }
@@ -63,8 +64,7 @@ class PairEquilibrium {
     Curvature<double> unknown;
     int leaves = 0, tries = 0;
     let_go_ = {-1, -1};
-    auto start = PairFriction::Start::goes_on;
-    system_.begin_friction();
+    system_.begin_friction(guesses[std::size_t(lost_) % guesses.size()]);
     for (int k = system_.joints(); k < system_.pairs(); ++k) {
       RodPair& pair = system_.pair(k);
       if (has_left_row(k)) pair.held[0] = false;
@@ -80,19 +80,17 @@ class PairEquilibrium {
           solver.solve(system_, 1, pass == 0 ? &curvature_[std::size_t(kind_)] : &unknown);
       solves_ += report.solves;
       if (report.status != Status::ok) {
-        system_.restore();
-        // What has not rubbed yet is found from where it slides freely, what turns back from where it sticks.
-        const auto begins = [&](PairFriction::Start another) {
-          return start < another && system_.begin_friction(start = another);
-        };
-        if (begins(PairFriction::Start::waits) || begins(PairFriction::Start::sticks)) continue;
+        system_.restore(), ++lost_;
         return failure_ = report.status, Outcome::lost;
       }
       const Look look = look_around(system_);
       // What leaps as it begins to slide does so in steps of any length.
       if (!look.close) return tries > 0 ? Outcome::lost : Outcome::too_far;
       // What pulls as it sticks may press as it slides.
-      if (sticks_and_pulls() && !system_.settled() && tries++ < most_tries) continue;
+      if (!system_.settled()) {
+        if (tries++ < most_tries) continue;
+        return failure_ = Status::iteration_limit, Outcome::lost;
+      }
       if (release(pulling()) || release(needless())) continue;
       // One that comes back to its end has left it for a place that gives way.
       if (leave_end()) {
@@ -104,10 +102,6 @@ class PairEquilibrium {
         continue;
       }
       if (look.least < closest) return Outcome::full;
-      if (!system_.settled()) {
-        if (tries++ < most_tries) continue;
-        return failure_ = Status::iteration_limit, Outcome::lost;
-      }
       // What is in motion may be on its way down.
       return kind_ == 0 && gives_way() ? (failure_ = Status::iteration_limit, Outcome::lost)
                                        : Outcome::settled;
@@ -158,9 +152,12 @@ class PairEquilibrium {
   }
 
  private:
-  static constexpr double nothing = 1e-6, apart = 1e-3;  // of a reach
-  static constexpr double in_time = 1e-9;                // of the force: errors of steps add up
-  static constexpr int most_tries = 7;                   // of friction to settle
+  // Of the stiffness by which friction is found, one after the other has led nowhere: by turns softer and stiffer leads somewhere soonest.
+  static constexpr std::array<RubGuess, 4> guesses{
+      {{1, RubGuess::slips}, {1. / 30, RubGuess::sticks}, {3, RubGuess::slips}, {1e-3, RubGuess::sticks}}};
+  static constexpr double apart = 1e-3;    // of a reach
+  static constexpr double in_time = 1e-9;  // of the force: errors of steps add up
+  static constexpr int most_tries = 7;     // of friction to settle
 
   bool gives_way() noexcept {
     on_ridge_ = false;
@@ -178,14 +175,6 @@ class PairEquilibrium {
                                                              : system_.pair(k).leaves_end(side)))
           return system_.pair(k).held[side] = false, true;
     return false;
-  }
-  bool sticks_and_pulls() const noexcept {
-    bool any = false;
-    for (int k = 0; k < system_.pairs(); ++k) {
-      const RodPair& pair = system_.pair(k);
-      any = any || (system_.moves(pair) && pair.rough() && !pair.friction.slides() && !(pair.force > 0));
-    }
-    return any;
   }
   /// The pair that pulls most.   @return -1: there is none
   int pulling() const noexcept {
@@ -261,6 +250,7 @@ class PairEquilibrium {
   std::array<Curvature<double>, 3> curvature_;   // of equilibria, and of both stages of a step of time
   int solves_ = 0, most_solves_ = 0, kind_ = 0;  // the last: which of them
   std::array<int, 2> let_go_{};                  // of which rods a pair has in this solution
+  int lost_ = 0;                                 // times that friction has led nowhere in this step
   bool changed_ = false, on_ridge_ = false;
   Status failure_ = Status::iteration_limit;
 };

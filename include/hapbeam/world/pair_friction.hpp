@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Coulomb friction of a pair: the law of the other contacts (friction_law.hpp), and what it makes of the pair's equations.
+// Coulomb friction of a pair, and what it makes of the pair's equations.
 //
 //   f = λ n + t,   t = T(e),   e = e₀ + t₁ Δs₁ - t₂ Δs₂ - Δ(∂h/∂f) across n       t₁, t₂: r' of the true curves, Δ: since the last equilibrium
 //
@@ -7,12 +7,15 @@
 //
 //   δn = G (δf - S (t₁ δs₁ - t₂ δs₂) - m δλ),   G = (λ - S H)⁻¹,   δλ = δf · n + t · δn
 //
+// Sticks: T = k e while that is within the bound B = μλ.  Slides: T = B d, S = B/l (1 - d dᵀ).  T and e of the last answer say which, before each linear solve:
+// t + q (e - t/k) has the size B + q l and the direction d.  Any stiffness q leads to the same; one of the rods, as contacts feel it, does so soonest.
 // What sticks has the t of the last answer; what the law has it more is taken from δf in that.
 // H = R between rods, and large where a body is flat: H δn is how the rod goes over it.  H G is symmetric.
 // A body that has turned has taken all of the last equilibrium along.
 // All but m is symmetric, and that T goes along with the places.  Both are of rank one a pair or a place, and put in after the symmetric equations
 // are solved (pair_bounds.hpp).
-// Real-time: noexcept, no allocation, O(1).   Source: derived here from the stationarity of V - f · (w - ∂h/∂f) + ∫T·de.
+// Real-time: noexcept, no allocation, O(1).   Source: derived here from the stationarity of V - f · (w - ∂h/∂f) + ∫T·de;  T: Alart and Curnier, Comput.
+// Methods Appl. Mech. Eng. 92 (1991).
 #pragma once
 
 #include <algorithm>
@@ -20,7 +23,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <hapbeam/fem/contact/friction_law.hpp>
+#include <hapbeam/friction.hpp>
 
 namespace hapbeam::detail {
 
@@ -29,44 +32,37 @@ inline Friction friction_of(const Friction& a, const Friction& b) noexcept {
   return {(std::max)(a.sticking, b.sticking), (std::max)(a.sliding, b.sliding)};
 }
 
+/// How a pair is taken to rub until a solve tells more.
+struct RubGuess {
+  double scale;                     // of q
+  enum { slips, sticks } at_first;  // what has not rubbed yet; it slips freely
+};
+
 class PairFriction {
  public:
   using Vector = VectorOf<double, 3>;
-  enum class Start {
-    none,      ///< it has begun
-    goes_on,   ///< as in the last equilibrium
-    waits,     ///< without friction until the next equilibrium
-    sticks,    ///< whatever it did in the last equilibrium
-    has_slid,  ///< from where it has waited
-  };
   using Plane = VectorOf<double, 2>;  // across n, along the axes of the pair
   using Matrix = Eigen::Matrix<double, 2, 2>;
 
-  /// @param stiffest  of the skin [N/m]   @param length  of the shorter rod [m]
-  void take(const Friction& friction, double reach, double stiffest, double length) noexcept {
+  /// @param stiffness  k of the skin   @param element  of what rods give way by [N/m]
+  void take(const Friction& friction, double reach, double stiffness, double element) noexcept {
     state_.sticking = friction.sticking, state_.sliding = friction.sliding;
-    reach_ = reach, stiffest_ = stiffest, length_ = length;
-    start_ = Start::goes_on;
+    reach_ = reach, stiffness_ = stiffness, element_ = element;
+    begin();
   }
   bool none() const noexcept { return !(state_.sticking > 0); }
-  /// A step begins, or anew, where only what has not rubbed yet waits.   @return whether another way than it went on
-  bool begin(Start start = Start::goes_on) noexcept {
-    const bool is_new = state_.known && !state_.slides && state_.skin.isZero(0);
-    start_ = start == Start::waits && !is_new ? Start::goes_on : start;
-    return start == Start::sticks ? state_.slides : start_ == Start::waits;
-  }
-  /// What follows is without friction until there is an equilibrium.
-  void let_go() noexcept {
-    state_.let_go();
-    start_ = Start::goes_on;
-  }
+  /// A step begins, or anew.   @param guess  another where one has led nowhere
+  void begin(const RubGuess& guess = {1, RubGuess::slips}) noexcept { mode_ = Mode::begins, guess_ = guess; }
+  /// No friction until there is an equilibrium.
+  void let_go() noexcept { state_.let_go(), begin(); }
 
-  /// Whether it slides, or has slid, freely since the last equilibrium.
+  /// Whether it slides freely in the next linear solve: until a first equilibrium, and in the first solve of what has not rubbed yet.
   bool is_free() const noexcept {
-    return none() || !state_.known || start_ == Start::waits || start_ == Start::has_slid;
+    const bool is_new = !state_.slides && state_.skin.isZero(0);
+    return none() || !state_.known || (is_new && begins() && guess_.at_first == RubGuess::slips);
   }
   /// Whether look() begins it.
-  bool begins() const noexcept { return start_ != Start::none && start_ != Start::waits; }
+  bool begins() const noexcept { return mode_ == Mode::begins; }
   /// To be called then, where a body has turned.   @param turn  (vector &)
   template <class Turn>
   void carry(Turn&& turn) noexcept {
@@ -77,36 +73,57 @@ class PairFriction {
   /// To be called where rods have moved.   @param normal  n   @param off  o [m]   @param along  r' of both true curves   @param force  λ [N]
   void look(const Vector& normal, const Vector& off, const std::array<double, 2>& s,
             const std::array<Vector, 2>& along, double force) noexcept {
-    Law::Place place;
-    place.s = s[0], place.place = s[1];
-    place.normal = -normal, place.off = off;
-    place.along = along[0], place.axis = along[1];
-    if (start_ == Start::waits) return;
-    if (begins()) {
-      law_.begin(state_, true, place, 1, reach_, stiffest_, start_ == Start::has_slid ? 0 : length_ / 1000,
-                 last_);
-      if (start_ == Start::sticks && law_.slides()) (void)law_.turn();
-      felt_ = state_.force, turned_ = 0, start_ = Start::none;
+    now_.s = s[0], now_.place = s[1], now_.normal = -normal, now_.off = off;
+    now_.along = along[0], now_.axis = along[1], tangents_ = along;
+    constexpr double more = 1e-6;  // of a bound, is round-off
+    const bool first = begins(), free = is_free();
+    if (first) {
+      before_ = state_.known ? state_ : now_;
+      felt_ = state_.force, most_ = state_.slides ? state_.sliding : state_.sticking;
     }
-    tangents_ = along, felt_ -= normal.dot(felt_) * normal;
-    law_.look(place, force);
+    if (mode_ = Mode::free; free) return acts_on_.setZero(), void();
+    felt_ -= normal.dot(felt_) * normal;
+    shear_ = now_.carried(state_.skin, before_) + now_.slip(before_, 1, reach_);
+    bound_ = most_ * (std::max)(force, 0.0);
+    const double lends = guess_.scale * element_;
+    const Vector more_shear = lends * (shear_ - felt_ / stiffness_), lent = felt_ + more_shear;
+    const double size = std::sqrt(lent.squaredNorm()), felt = std::sqrt(felt_.squaredNorm());
+    // What slid goes on as far.
+    const bool goes_on = first && state_.slides && felt > 0;
+    if (!goes_on && !(size > (1 + more) * bound_)) {
+      mode_ = Mode::sticks, acts_on_ = felt_, lacks_on_ = stiffness_ * shear_ - felt_;
+      return void(off_ = more_shear.squaredNorm());
+    }
+    mode_ = Mode::slides;
+    way_ = goes_on ? Vector(felt_ / felt) : Vector(lent / size);
+    const double slip = goes_on ? state_.slip : (size - bound_) / lends;
+    aside_ = bound_ < stiffness_ * slip ? bound_ / slip : stiffness_;
+    acts_on_ = bound_ * way_;
+    off_ = (felt_ - acts_on_).squaredNorm();
   }
   /// Whether it is more than a place that slides without friction.
-  bool acts() const noexcept { return !none() && start_ == Start::none && !law_.falls(); }
+  bool acts() const noexcept { return !none() && (mode_ == Mode::sticks || mode_ == Mode::slides); }
   /// T, on the first rod [N].  A skin that sticks is so stiff that its T says more of what increments have left than of the answer.
-  const Vector& force() const noexcept { return law_.slides() ? law_.force() : felt_; }
+  const Vector& force() const noexcept { return acts_on_; }
 
   /// Puts in its own entries.   @param axes  of the pair   @param bends  H   @param row  of its equations   @param force  λ [N]
   template <class Equations>
   void add(const std::array<Vector, 3>& axes, const Matrix& bends, double force, int row,
            Equations& dense) noexcept {
     const auto in_plane = [&](const Vector& v) { return Plane(v.dot(axes[1]), v.dot(axes[2])); };
-    const auto tangent = law_.tangent();
-    stiff_ << in_plane(tangent * axes[1]), in_plane(tangent * axes[2]);
+    acts_ = in_plane(acts_on_);
+    if (mode_ == Mode::sticks) {
+      stiff_ = stiffness_ * Matrix::Identity();
+      lacks_ = in_plane(lacks_on_), follows_.setZero();
+    } else {
+      // Round-off along the way would be felt where a body is flat.
+      const Plane way = in_plane(way_), aside(-way[1], way[0]);
+      stiff_ = aside_ * aside * aside.transpose();
+      lacks_ = aside_ * aside.dot(in_plane(shear_)) * aside;
+      follows_ = force > 0 ? Plane(most_ * way) : Plane(0, 0);
+    }
     bends_ = bends;
     invert(force);
-    follows_ = in_plane(law_.by_normal_force()), acts_ = in_plane(this->force());
-    lacks_ = in_plane(law_.force() - this->force());
     along_ = {in_plane(tangents_[0]), in_plane(-tangents_[1])};
     const Plane lacking = turns_ * lacks_, moved = bends_ * lacking;
     const Matrix yields = bends_ * turns_;
@@ -155,28 +172,38 @@ class PairFriction {
     return {more, turn[0], turn[1]};
   }
 
-  /// To be called where an equilibrium was found, after look().   @param axes  of its last equations   @return whether it is one of Coulomb's law, too
-  bool settled(const std::array<Vector, 3>& axes, double force) noexcept {
-    constexpr int most = 3;
-    if (start_ == Start::waits) return start_ = Start::has_slid, false;
-    if (acts() && !is_exact(axes, force) && turned_++ < most) return false;
-    if (law_.settled(force)) return true;
-    turned_ = 0;
-    return false;
+  /// To be called where an equilibrium was found, after look().   @return whether it is one of Coulomb's law, too
+  bool settled(double force) noexcept {
+    constexpr double exact = 1e-7;  // where slips are short T changes by more than increments tell
+    if (!acts()) return true;
+    if (off_ > exact * exact * force * force) return false;
+    if (mode_ == Mode::sticks || !(most_ > state_.sliding)) return true;
+    return most_ = state_.sliding, false;
   }
   /// To be called where that is kept.   @return what it has dissipated [J]
   double leave(double force) noexcept {
-    const double before = state_.dissipated;
-    const Vector off = state_.off;
-    law_.leave(state_, force);
-    gone_ = state_.off - off;
-    if (acts() && !law_.slides()) {
-      const double most = state_.sticking * force, size = std::sqrt(felt_.squaredNorm());
-      state_.force = size > most ? Vector(felt_ * (most / size)) : felt_;
+    const Vector off = state_.off, before = now_.carried(state_.force, before_);
+    const bool went_on = state_.slides || state_.sticking > state_.sliding;
+    double dissipated = 0;
+    state_.slides = mode_ == Mode::slides;
+    if (acts()) {
+      state_.slip = std::sqrt(shear_.squaredNorm());
+      const double most = most_ * (std::max)(force, 0.0), size = std::sqrt(felt_.squaredNorm());
+      state_.force = state_.slides ? Vector(most * way_)
+                     : size > most ? Vector(felt_ * (most / size))
+                                   : felt_;
+      state_.skin = state_.slides ? Vector(state_.force / stiffness_) : shear_;
+      // The sum of ½ (T before + T) · slip of all contacts is the work of the hands by trapezoids less the energy of the rods, where that is
+      // quadratic.  What turns back slides with all of its force.
+      const Vector mean =
+          went_on && before.dot(state_.force) > 0 ? Vector((before + state_.force) / 2) : state_.force;
+      dissipated = mean.dot(shear_ - state_.skin);
     }
-    last_ = force;
-    start_ = Start::goes_on;
-    return state_.dissipated - before;
+    state_.known = true;
+    static_cast<Place&>(state_) = now_;
+    gone_ = state_.off - off;
+    begin();
+    return dissipated;
   }
   /// Of the last equilibrium: T, no more than its share of λ [N].
   const Vector& kept() const noexcept { return state_.force; }
@@ -184,23 +211,13 @@ class PairFriction {
   /// How o has changed in the last step [m].
   const Vector& gone() const noexcept { return gone_; }
   /// Energy of the skin [J].
-  double stored() const noexcept {
-    return state_.known ? (std::min)(state_.stiffness, stiffest_) / 2 * state_.skin.squaredNorm() : 0.0;
-  }
+  double stored() const noexcept { return stiffness_ / 2 * state_.skin.squaredNorm(); }
 
  private:
-  using Law = FrictionLaw<double, 3>;
+  using Place = FrictionPlace<double, 3>;
+  enum class Mode { begins, free, sticks, slides };
 
   static double determinant(const Matrix& A) noexcept { return A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0); }
-  /// Where slips are short T changes by more than increments tell, and not below round-off.  What sticks has to be known to stick.
-  bool is_exact(const std::array<Vector, 3>& axes, double force) const noexcept {
-    constexpr double exact = 1e-7;
-    const Vector &acts = law_.force(), off = acts - felt_;
-    const double off1 = off.dot(axes[1]), off2 = off.dot(axes[2]);
-    if (law_.slides()) return off1 * off1 + off2 * off2 <= exact * exact * force * force;
-    const double most = state_.sticking * force * state_.sticking * force;
-    return (acts.squaredNorm() > most) == (felt_.squaredNorm() > most);
-  }
   /// G, which has a pole where the slip of a step is about μR.
   void invert(double force) noexcept {
     constexpr double least = 1e-6, aside = 1.01;
@@ -213,16 +230,20 @@ class PairFriction {
   }
 
   FrictionState<double, 3> state_;
-  Law law_;
-  double reach_ = 0, stiffest_ = 0, length_ = 0, last_ = 0;  // [m], [N/m], [m], λ of the last equilibrium [N]
+  Mode mode_ = Mode::begins;
+  RubGuess guess_{1, RubGuess::slips};
+  Place before_, now_;
+  double reach_ = 0, stiffness_ = 0, element_ = 0;  // [m], k, of an element [N/m]
+  double most_ = 0, bound_ = 0, aside_ = 0,
+         off_ = 0;  // μ, B [N], B/l [N/m], square of what T is off the law [N²]
   Matrix stiff_ = Matrix::Zero(), bends_ = stiff_, turns_ = stiff_;     // S, H and G
   Plane follows_ = Plane::Zero(), acts_ = follows_, lacks_ = follows_;  // m, t, and what the law has it more
   std::array<Plane, 2> along_{follows_, follows_};                      // t₁, -t₂
   Vector felt_ = Vector::Zero();                                        // T of the last answer
+  Vector shear_ = felt_, way_ = felt_, acts_on_ = felt_, lacks_on_ = felt_;
   Vector gone_ = Vector::Zero();
   std::array<Vector, 2> tangents_;  // r'
-  int negative_ = 0, turned_ = 0;
-  Start start_ = Start::goes_on;
+  int negative_ = 0;
 };
 
 }  // namespace hapbeam::detail

@@ -78,6 +78,10 @@ class PlacedBody {
     goal_ = to;
     return true;
   }
+  /// From the core to a place, where it is led [m].
+  double distance_at_goal(const Vector& x) const noexcept {
+    return body_.from_core(goal_.local(x, begin_)).distance;
+  }
   void begin_path() noexcept { start_ = now_; }
   void set_target(double t) noexcept {
     const Node &from = start_.node, &to = goal_.node;

@@ -64,16 +64,16 @@ class World {
     return at(body) < all.size() && all[at(body)].place(pose) ? Status::ok : Status::invalid_request;
   }
   /// Once a period.
-  /// @return ok | snapped | out_of_range, where there are more contacts than most_contacts, or
-  ///         one bends an element by half of its reach, or a rod that has no tension of its own is drawn too taut for its elements | iteration_limit, where the ends or a fall are on their
-  ///         way: the next tick goes on | singular | non_finite.  No rod has passed another.  After 32 ticks that have led
-  ///         nowhere all rods begin anew at rest.
+  /// @return ok | snapped | out_of_range, where there are more contacts than most_contacts, one bends an element by half of its reach or beside an end that
+  ///         is held by a tenth of the distance, or a rod that has no tension of its own is drawn too taut for its elements, and where such an end would
+  ///         come into a body, and nothing has moved | iteration_limit, where the ends or a fall are on their way: the next tick goes on | singular |
+  ///         non_finite.  No rod has passed another.  After 32 ticks that have led nowhere all rods begin anew at rest.
   Status tick() noexcept {
     const bool moving = begin();
     // A fall goes on to where ends and bodies have come; one that has found nothing there, to where they go.
     double t = 0, step = course_ == Course::falls && unmoved_ < 2 ? 0 : step_, farthest = 1;
-    Outcome outcome = Outcome::settled;
-    while (t < 1 && moving) {
+    Outcome outcome = leads_into_body() ? Outcome::full : Outcome::settled;
+    while (t < 1 && moving && outcome != Outcome::full) {
       const double to = (std::min)(t + step, 1.0);
       system().aim(to);
       outcome = course_ == Course::falls ? equilibrium_.fall(t, to) : equilibrium_.settle();
@@ -180,9 +180,8 @@ class World {
     if (!(dt > 0)) return Status::ok;
     restart_path();
     const bool found = equilibrium_.step((std::min)(dt, longest_step), parts);
-    return status_ = !found                 ? Status::iteration_limit
-                     : system().overdrawn() ? Status::out_of_range
-                                            : Status::ok;
+    const bool off = found ? system().overdrawn() : leads_into_body();
+    return status_ = off ? Status::out_of_range : found ? Status::ok : Status::iteration_limit;
   }
   /// Gives a rod with mass a velocity.   @param velocity  (s) -> that of the centreline there, and how that changes along it, below each other [m/s, 1/s]
   template <class Velocity>
@@ -236,6 +235,23 @@ class World {
     for (detail::PlacedBody& body : system().rigid()) begin_path(body);
     foresee(along, square, before);
     return moving;
+  }
+  /// Whether an end is led where a body keeps it out.
+  bool leads_into_body() noexcept {
+    constexpr double touches = 1 - Equilibrium::nothing;
+    for (int i = 0; i < rods(); ++i) {
+      Body& body = system().body(i);
+      for (std::size_t k = 0; k < 2; ++k) {
+        const auto& end = body.chain().ends()[k];
+        for (int j = rods(); end.holds_place() && j < rods() + int(system().rigid().size()); ++j) {
+          const detail::PlacedBody& core = *system().rigid(j);
+          if (!system().joined(i, j) &&
+              core.distance_at_goal(end.goal().r) < touches * core.reach(body.radius()))
+            return true;
+        }
+      }
+    }
+    return false;
   }
   /// Where hands go on as they went, so does all that moves.   @param along  product of both steps   @param square, before  of each
   void foresee(double along, double square, double before) noexcept {

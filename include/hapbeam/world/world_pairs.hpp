@@ -56,13 +56,15 @@ class WorldPairs : public JointedRods<Element> {
   void remove(int k) noexcept {
     for (--number_; k < number_; ++k) pairs_[at(k)] = pairs_[at(k + 1)];
   }
-  /// Whether a rod is drawn so taut where it touches that its cubics may be off by 1 %: it has no tension of its own, or touches on its stiffer side.
+  /// Whether a rod is drawn so taut where it touches that its cubics may be off by 1 %: it has no tension of its own, or touches on its stiffer side.  Or it is
+  /// bent so much beside where it is held, by a tenth of the distance to that, that forces may be off by 7 %.
   bool overdrawn() const noexcept {
     return std::any_of(pairs_.begin(), pairs_.begin() + number_, [this](const RodPair& pair) {
       bool is = false;
       if (pair.kind == RodPair::Kind::rotation) return is;
       each_rod(pair, [&](std::size_t side) {
-        is = is || this->body(pair.rod[side]).system().overdrawn(pair.s[side], pair.normal);
+        is = is || this->body(pair.rod[side]).system().overdrawn(pair.s[side], pair.normal) ||
+             bent_beside_end(pair, side);
       });
       return is;
     });
@@ -121,11 +123,8 @@ class WorldPairs : public JointedRods<Element> {
 
   // Friction.
 
-  /// As PairFriction::begin().   @return whether any begins another way than it went on
-  bool begin_friction(PairFriction::Start start = PairFriction::Start::goes_on) noexcept {
-    bool any = false;
-    each_rough([&](RodPair& pair) { any = pair.friction.begin(start) || any; });
-    return any;
+  void begin_friction(const RubGuess& guess) noexcept {
+    each_rough([&guess](RodPair& pair) { pair.friction.begin(guess); });
   }
   /// All that moves slides without friction until it has come to an equilibrium.
   void let_go() noexcept {
@@ -136,7 +135,7 @@ class WorldPairs : public JointedRods<Element> {
     bool all = true;
     each_rough([&](RodPair& pair) {
       look(pair);
-      all = pair.friction.settled(pair.axes, pair.force) && all;
+      all = pair.friction.settled(pair.force) && all;
     });
     return all;
   }
@@ -192,15 +191,29 @@ class WorldPairs : public JointedRods<Element> {
   auto point(const RodPair& pair, std::size_t side) const noexcept {
     return this->body(pair.rod[side]).point(pair.s[side], sign(side) * pair.force * pair.normal);
   }
+  bool bent_beside_end(const RodPair& pair, std::size_t side) const noexcept {
+    constexpr double most = 0.1;
+    const Body& body = this->body(pair.rod[side]);
+    const double s = pair.s[side],
+                 square = (point(pair, side).r - body.line().at(s).r).squaredNorm() / (most * most);
+    const auto& ends = body.system().chain().ends();
+    const auto beside = [&](std::size_t k, double off) {
+      return ends[k].holds_place() && square > off * off;
+    };
+    return beside(0, s) || beside(1, body.length() - s);
+  }
   void give_friction(RodPair& pair) noexcept {
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
     if (friction.none()) return;
     const Body &a = this->body(pair.rod[0]), &b = this->rigid(pair.rod[1]) ? a : this->body(pair.rod[1]);
-    const auto skin = [](const Body& of) { return of.system().unit() / of.length(); };
-    const double least = (std::min)(skin(a), skin(b));
-    pair.friction.take(friction, pair.reach,
-                       least * least / std::sqrt(std::numeric_limits<double>::epsilon()),
-                       (std::min)(a.length(), b.length()));
+    // n² EI/L³
+    const auto stiffness = [](const Body& of, int n) {
+      const double root = n * of.system().unit() / of.length();
+      return root * root;
+    };
+    const double k = (std::min)(stiffness(a, 1), stiffness(b, 1)),
+                 q = (std::min)(stiffness(a, a.elements()), stiffness(b, b.elements()));
+    pair.friction.take(friction, pair.reach, k / std::sqrt(std::numeric_limits<double>::epsilon()), q);
   }
 
   std::vector<Friction> frictions_;  // of each rod and body

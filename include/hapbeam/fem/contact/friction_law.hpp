@@ -93,14 +93,6 @@ class FrictionLaw {
     shear();
     act();
   }
-  /// The same where the solve took the bound along: B = μN again, and the way is as long as it has become.
-  void look(const Place& now, Scalar normal_force) noexcept {
-    if (mode_ == Mode::slides) bound_.set(sliding_ * (std::max)(normal_force, Scalar(0)));
-    now_ = now;
-    shear();
-    lengthen();
-    act();
-  }
   /// T [N]
   const Vector& force() const noexcept { return force_; }
   /// ∂T/∂e [N/m], across the normal.
@@ -123,11 +115,6 @@ class FrictionLaw {
   void feel(Scalar normal_force) noexcept {
     bound_.use();
     if (mode_ == Mode::slides) bound_.follow(normal_force);
-  }
-
-  /// ∂T/∂N, where the bound is taken along.
-  Vector by_normal_force() const noexcept {
-    return mode_ == Mode::slides ? Vector(sliding_ * across(direction_)) : Vector(Vector::Zero());
   }
 
   /// The beam falls.  What slides does that without friction, and the touch begins anew where it arrives; what sticks goes along.
