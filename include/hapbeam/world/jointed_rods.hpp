@@ -107,6 +107,17 @@ class JointedRods {
       held_[at(k)].apart =
           pair(k).kind == RodPair::Kind::place ? between(pair(k)) : look_at_rotation(pair(k));
   }
+  /// Whether a joint has not come together after a solution: something else holds its place.
+  bool is_open() const noexcept {
+    constexpr double round_off = 1e-6;  // of the length
+    for (int k = 0; k < joints(); ++k)
+      if (pair(k).kind == RodPair::Kind::place) {
+        const double length = body(pair(k).rod[0]).length();
+        if ((between(pair(k)) - pair(k).on).squaredNorm() > round_off * round_off * length * length)
+          return true;
+      }
+    return false;
+  }
   /// The moment of a joint; null: it has none.
   const RodPair* rotation_of(int joint) const noexcept {
     for (int k = 0; k < joints(); ++k)

@@ -102,6 +102,7 @@ class PairEquilibrium {
         continue;
       }
       if (look.least < closest) return Outcome::full;
+      if (system_.is_open()) return failure_ = Status::singular, Outcome::lost;
       // What is in motion may be on its way down.
       return kind_ == 0 && gives_way() ? (failure_ = Status::iteration_limit, Outcome::lost)
                                        : Outcome::settled;

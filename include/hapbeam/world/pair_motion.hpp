@@ -103,13 +103,18 @@ class PairMotion : public PairEquilibrium<Element> {
     bool found = true;
     for (int k = 0; k < parts && found; ++k)
       found = detail::go_on(*this, part, double(k) / parts, double(k + 1) / parts, 0);
-    each([&](Body& body) {
-      if (!found) body.motion->stop(body.system()), body.motion->ends.stop(body.chain());
-      body.chain().move_with(nullptr, nullptr);
-    });
-    if (!found) course_ = Course::starts;
-    for (PlacedBody& body : system().rigid()) body.moves = !found;
+    if (!found) stop();
+    else
+      for (PlacedBody& body : system().rigid()) body.moves = false;
+    each([](Body& body) { body.chain().move_with(nullptr, nullptr); });
     return found;
+  }
+  /// All velocity is gone, and ends and bodies are where they have come.
+  void stop() noexcept {
+    if (course_ == Course::rests) return;
+    each([](Body& body) { body.motion->stop(body.system()), body.motion->ends.stop(body.chain()); });
+    for (PlacedBody& body : system().rigid()) body.moves = true;
+    course_ = Course::starts;
   }
 
  private:

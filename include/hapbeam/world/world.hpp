@@ -64,8 +64,8 @@ class World {
     return at(body) < all.size() && all[at(body)].place(pose) ? Status::ok : Status::invalid_request;
   }
   /// Once a period.
-  /// @return ok | snapped | out_of_range, where there are more contacts than most_contacts, one bends an element by half of its reach or beside an end that
-  ///         is held by a tenth of the distance, or a rod that has no tension of its own is drawn too taut for its elements, and where such an end would
+  /// @return ok | snapped | out_of_range, where there are more contacts than most_contacts, one bends an element by half of its reach, or
+  ///         too sharply beside an end that is held, or a rod that has no tension of its own is drawn too taut for its elements, and where such an end would
   ///         come into a body, and nothing has moved | iteration_limit, where the ends or a fall are on their way: the next tick goes on | singular |
   ///         non_finite.  No rod has passed another.  After 32 ticks that have led nowhere all rods begin anew at rest.
   Status tick() noexcept {
@@ -178,10 +178,12 @@ class World {
     if (!equilibrium_.has_mass() || !(dt >= 0) || !std::isfinite(dt) || parts < 1)
       return Status::invalid_request;
     if (!(dt > 0)) return Status::ok;
+    if (leads_into_body()) return equilibrium_.stop(), status_ = Status::out_of_range;
     restart_path();
     const bool found = equilibrium_.step((std::min)(dt, longest_step), parts);
-    const bool off = found ? system().overdrawn() : leads_into_body();
-    return status_ = off ? Status::out_of_range : found ? Status::ok : Status::iteration_limit;
+    return status_ = !found                 ? Status::iteration_limit
+                     : system().overdrawn() ? Status::out_of_range
+                                            : Status::ok;
   }
   /// Gives a rod with mass a velocity.   @param velocity  (s) -> that of the centreline there, and how that changes along it, below each other [m/s, 1/s]
   template <class Velocity>

@@ -57,14 +57,14 @@ class WorldPairs : public JointedRods<Element> {
     for (--number_; k < number_; ++k) pairs_[at(k)] = pairs_[at(k + 1)];
   }
   /// Whether a rod is drawn so taut where it touches that its cubics may be off by 1 %: it has no tension of its own, or touches on its stiffer side.  Or it is
-  /// bent so much beside where it is held, by a tenth of the distance to that, that forces may be off by 7 %.
+  /// bent so sharply in the element beside an end that is held, F s²/EI > ½, that F may be off by 7 %, or touches closer to that than its own radius.
   bool overdrawn() const noexcept {
     return std::any_of(pairs_.begin(), pairs_.begin() + number_, [this](const RodPair& pair) {
       bool is = false;
       if (pair.kind == RodPair::Kind::rotation) return is;
       each_rod(pair, [&](std::size_t side) {
         is = is || this->body(pair.rod[side]).system().overdrawn(pair.s[side], pair.normal) ||
-             bent_beside_end(pair, side);
+             (pair.kind == RodPair::Kind::contact && bent_beside_end(pair, side));
       });
       return is;
     });
@@ -192,15 +192,16 @@ class WorldPairs : public JointedRods<Element> {
     return this->body(pair.rod[side]).point(pair.s[side], sign(side) * pair.force * pair.normal);
   }
   bool bent_beside_end(const RodPair& pair, std::size_t side) const noexcept {
-    constexpr double most = 0.1;
-    const Body& body = this->body(pair.rod[side]);
-    const double s = pair.s[side],
-                 square = (point(pair, side).r - body.line().at(s).r).squaredNorm() / (most * most);
-    const auto& ends = body.system().chain().ends();
+    constexpr double most = 0.5;
+    const auto& system = this->body(pair.rod[side]).system();
+    const int e = system.centreline().segment_at(pair.s[side]);
     const auto beside = [&](std::size_t k, double off) {
-      return ends[k].holds_place() && square > off * off;
+      return system.chain().ends()[k].holds_place() &&
+             (off < this->body(pair.rod[side]).radius() ||
+              pair.force * system.parts().properties(e).softest() * off * off > most);
     };
-    return beside(0, s) || beside(1, body.length() - s);
+    return (e == 0 && beside(0, pair.s[side])) ||
+           (e == system.elements() - 1 && beside(1, system.length() - pair.s[side]));
   }
   void give_friction(RodPair& pair) noexcept {
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
