@@ -64,7 +64,7 @@ class WorldPairs : public JointedRods<Element> {
       if (pair.kind == RodPair::Kind::rotation) return is;
       each_rod(pair, [&](std::size_t side) {
         is = is || this->body(pair.rod[side]).system().overdrawn(pair.s[side], pair.normal) ||
-             (pair.kind == RodPair::Kind::contact && bent_beside_end(pair, side));
+             (pair.kind == RodPair::Kind::contact && (bent_beside_end(pair, side) || pinched(pair, side)));
       });
       return is;
     });
@@ -202,6 +202,19 @@ class WorldPairs : public JointedRods<Element> {
     };
     return (e == 0 && beside(0, pair.s[side])) ||
            (e == system.elements() - 1 && beside(1, system.length() - pair.s[side]));
+  }
+  /// Whether another contact presses its element from the other side: each bends it as if it were alone.
+  bool pinched(const RodPair& pair, std::size_t side) const noexcept {
+    const auto line = this->body(pair.rod[side]).line();
+    const int e = line.segment_at(pair.s[side]);
+    for (int k = this->joints(); k < number_; ++k) {
+      const RodPair& other = this->pair(k);
+      for (std::size_t i = 0; i < 2; ++i)
+        if (other.rod[i] == pair.rod[side] && line.segment_at(other.s[i]) == e &&
+            sign(i) * sign(side) * other.normal.dot(pair.normal) < 0)
+          return true;
+    }
+    return false;
   }
   void give_friction(RodPair& pair) noexcept {
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
