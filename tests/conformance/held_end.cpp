@@ -128,7 +128,7 @@ TEST_CASE("a rod that is held by an end keeps the laws of one", "[contract][rod]
     rod.naturally({{length, 2, 5, 3}});
     const NaturalRod<double> natural(rod);
     const RodNode<double> end = natural.at(length);
-    check_held(FemModel<TwistedRod>(rod, 8), RodSide::right, {end.r, end.tangent, end.director});
+    check_held(FemModel<TwistedRod>(rod, 24), RodSide::right, {end.r, end.tangent, end.director});
   }
   SECTION("without twist") {
     const Rod wire(length, RodSection::circle(0.003), spring_steel, c, c);

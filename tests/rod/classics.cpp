@@ -79,7 +79,7 @@ TEST_CASE("a rod that is led around a loop gives back the work that it took", "[
   Rod rod(0.3, RodSection::rectangle(0.003, 0.002), spring_steel, RodSupport::clamped, RodSupport::free);
   rod.naturally({{0.3, 1, 2, 1}}).add(RodFoundation{0, 0.1, 500, 100});
   rod.section([](double s) { return RodSection::rectangle(0.003, 0.002 - 0.003 * s); });
-  FemModel<TwistedRod> model(rod, 8);
+  FemModel<TwistedRod> model(rod, 16);
   const int steps = 120;
   const double s = 0.21;
   const Point start = model.shape().at(s).r;

@@ -291,3 +291,40 @@ TEST_CASE("a flat strip between clamps is followed wherever a bar presses it", "
       CHECK(lost == 0);
     }
 }
+
+// Bent by nature by 3/L and clamped where it then ends, its ends drawn apart.  Half of it: θ'² of a first integral, the chord by quadrature.
+TEST_CASE("a rod that is bent by nature and drawn straight is in range where its force is right", "[rod]") {
+  constexpr double length = 0.2;
+  Rod rod(length, RodSection::circle(0.002), {200e9, 77e9}, RodSupport::clamped, RodSupport::clamped);
+  rod.naturally({{length, 0, 3 / length, 0}});
+  const auto drawn = [&](int elements) {
+    FemModel<TwistedRod> model(rod, elements);
+    const RodNode<double> end = model.shape()[model.shape().segments()];
+    const double chord = end.r.norm(), farthest = 1.001 * length;
+    double worst = 0;
+    int in_range = 0;
+    for (int k = 1; k <= 360; ++k) {
+      const RodPose pose{end.r * ((chord + (farthest - chord) * k / 400) / chord), detail::unit(end.tangent),
+                         end.director};
+      const HeldEnd<double> held = model.hold(RodSide::right, pose);
+      REQUIRE(is_answer(held.status));
+      if (held.status != Status::ok) continue;
+      ++in_range;
+      // At these chords, in lengths: 0.8330, 0.9002, 0.9338, 0.9674.
+      const double exact = k == 200   ? 154.455
+                           : k == 280 ? 447.982
+                           : k == 320 ? 988.278
+                           : k == 360 ? 3216.25
+                                      : 0;
+      if (exact > 0) worst = std::max(worst, std::abs(held.force.norm() / exact - 1));
+    }
+    CAPTURE(elements, in_range, worst);
+    CHECK(worst <= 0.01);
+    return in_range;
+  };
+  const int coarse = drawn(8), fine = drawn(32);
+  CHECK(coarse > 100);
+  CHECK(coarse < 200);
+  CHECK(fine > 300);
+  CHECK(fine < 360);
+}

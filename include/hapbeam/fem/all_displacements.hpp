@@ -76,7 +76,8 @@ class AllDisplacements {
     const auto k = static_cast<std::size_t>(side);
     const auto take = [&] {
       HeldEnd<Scalar> held = system_.reaction(k);
-      held.status = report_.status;
+      held.status =
+          report_.status == Status::ok && system_.parts().overdrawn() ? Status::out_of_range : report_.status;
       return held;
     };
     report_ = {Status::invalid_request, 0, 0, 0, 0, report_.step};

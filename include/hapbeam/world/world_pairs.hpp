@@ -59,6 +59,8 @@ class WorldPairs : public JointedRods<Element> {
   /// Whether a rod is drawn so taut where it touches that its cubics may be off by 1 %: it has no tension of its own, or touches on its stiffer side.  Or it is
   /// bent so sharply in the element beside an end that is held, F s²/EI > ½, that F may be off by 7 %, or touches closer to that than its own radius.
   bool overdrawn() const noexcept {
+    for (const Body& body : this->bodies())
+      if (body.parts().overdrawn()) return true;
     return std::any_of(pairs_.begin(), pairs_.begin() + number_, [this](const RodPair& pair) {
       bool is = false;
       if (pair.kind == RodPair::Kind::rotation) return is;

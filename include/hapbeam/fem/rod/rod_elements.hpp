@@ -92,26 +92,25 @@ class RodElements {
     const RodProperties<Scalar>& p = properties_[e];
     return taut() ? inner_[e] * (1 + inner_[e] / p.axial) * p.softest() : Scalar(0);
   }
-  /// Whether an element is drawn so taut that its curve is no cubic any more, N l²/EI above 4, and does not know that: it has no tension of its own, swings, or
-  /// is bent about its stiffer axis.  The error of a press within it may exceed 1 %.   @param s  of the press [m]   @param normal  along which
+  /// Whether an element is drawn so taut that its curve is no cubic any more, and does not know that: it has no tension of its own, swings, or is bent about
+  /// its stiffer axis.  The error of a press within it may exceed 1 %.   @param s  of the press [m]   @param normal  along which
   bool overdrawn(int e, Scalar s, const VectorOf<Scalar, 3>& normal) const noexcept {
-    constexpr Scalar most = 4, aside = Scalar(0.01);
+    constexpr Scalar aside = Scalar(0.01);
     const RodProperties<Scalar>& p = properties_[e];
     const bool exact = taut() && !p.swings;
-    if (exact && p.soft[0] == p.soft[1]) return false;
-    Scalar tension = inner_[e];
-    if (!taut()) {
-      const detail::EndsAndMiddle<Scalar> at(p, nodes_[e], nodes_[e + 1]);
-      const auto strain = [&](int k) { return at.n[k] - 1 - p.natural_strain[k]; };
-      tension = p.axial * (strain(0) + 4 * strain(1) + strain(2)) / 6;
-    }
-    if (!(tension * p.length * p.length * p.softest() > most)) return false;
+    if ((exact && p.soft[0] == p.soft[1]) || !overdrawn(e)) return false;
     if (!exact) return true;
     const Node there = node_within(e, s);
     const VectorOf<Scalar, 3> u = detail::unit(there.tangent), across = normal - u * u.dot(normal),
                               stiffer = p.soft[0] > p.soft[1] ? detail::cross3(u, there.director)
                                                               : VectorOf<Scalar, 3>(there.director);
     return stiffer.dot(across) * stiffer.dot(across) > aside * across.squaredNorm();
+  }
+  /// Whether it is bent by nature and an element drawn so straight that forces may be off by 1 %, wherever they act.
+  bool overdrawn() const noexcept {
+    for (int e = 0; e < size() && !natural_.straight(); ++e)
+      if (overdrawn(e)) return true;
+    return false;
   }
   /// What an element is made of.
   const RodProperties<Scalar>& properties(int e) const noexcept { return properties_[e]; }
@@ -369,6 +368,17 @@ class RodElements {
   using WideInner = typename Element::template Inner<Wide>;
   using Stiffness = RodTangent<Wide, unknowns - 3>;
 
+  /// N l²/EI above 4, of what is bent by nature above 0.4.
+  bool overdrawn(int e) const noexcept {
+    const RodProperties<Scalar>& p = properties_[e];
+    Scalar tension = inner_[e];
+    if (!taut()) {
+      const detail::EndsAndMiddle<Scalar> at(p, nodes_[e], nodes_[e + 1]);
+      const auto strain = [&](int k) { return at.n[k] - 1 - p.natural_strain[k]; };
+      tension = p.axial * (strain(0) + 4 * strain(1) + strain(2)) / 6;
+    }
+    return tension * p.length * p.length * p.softest() > (natural_.straight() ? Scalar(4) : Scalar(0.4));
+  }
   void make(int e) noexcept {
     const Scalar from = nodes_[e].s, to = nodes_[e + 1].s;
     RodProperties<Scalar>& p = properties_[e];
