@@ -3,7 +3,6 @@
 
 #include "support/catch.hpp"
 #include <hapbeam/fem/contact/contact_work.hpp>
-#include <hapbeam/fem/contact/several_friction.hpp>
 
 using namespace hapbeam;
 
@@ -11,17 +10,7 @@ namespace {
 
 using Vector = Vector2<double>;
 
-/// Of a push, with the work of its hands.
-struct Balance {
-  detail::ContactWork<Circle<double>, double, 2, 2> work;
-  detail::FrictionBalance<double> balance;
-
-  template <class Potential>
-  double factor(Potential&& potential, double taken, bool slides) {
-    return balance.factor(work, potential, taken, slides);
-  }
-  void forget() { work.forget(), balance.forget(); }
-};
+using Work = detail::ContactWork<double, 2, 2>;
 
 /// The hand is at x, and its force on the beam is f along x.
 struct Touched {
@@ -29,11 +18,11 @@ struct Touched {
   bool held = false;  // a place of the beam is, too
   double led = 0;     // and how far [m]
 };
-void touch(Balance& balance, const Touched& t) {
-  balance.work.begin();
-  balance.work.touches(0, {0, Vector(t.x, 0), t.reach, 1},
-                       {0, Status::ok, false, 0, Vector(0, 0), Vector(0, 1)}, Vector(t.f, 0));
-  if (t.held) balance.work.holds(1, {0.3, t.led, Vector(0, 1)}, 0);
+void touch(Work& work, const Touched& t) {
+  work.begin();
+  work.touches(0, {0, Vector(t.x, 0), t.reach, 1}, {0, Status::ok, false, 0, Vector(0, 0), Vector(0, 1)},
+               Vector(t.f, 0));
+  if (t.held) work.holds(1, {0.3, t.led, Vector(0, 1)}, 0);
 }
 
 constexpr double millijoule = 1e-3;
@@ -41,28 +30,28 @@ constexpr double millijoule = 1e-3;
 }  // namespace
 
 TEST_CASE("what leads a held place along gives the mean of its force times its way", "[friction]") {
-  Balance balance;
+  Work work;
   const auto lead = [&](double s, double d, double force) {
-    balance.work.begin();
-    balance.work.holds(1, {s, d, Vector(0, 1)}, force);
+    work.begin();
+    work.holds(1, {s, d, Vector(0, 1)}, force);
   };
   lead(0.3, 0, 2);
   lead(0.3, 0.01, 4);
-  CHECK(balance.work.done() == Approx(0.03));
-  CHECK(balance.work.way() == Approx(0.01));
-  CHECK_FALSE(balance.work.strange());
+  CHECK(work.done() == Approx(0.03));
+  CHECK(work.way() == Approx(0.01));
+  CHECK_FALSE(work.strange());
   lead(0.4, 0.01, 4);  // another place: what that gives is not known
-  CHECK(balance.work.done() == 0);
-  CHECK(balance.work.strange());
+  CHECK(work.done() == 0);
+  CHECK(work.strange());
 }
 
 TEST_CASE("what the hands gave is stored or was dissipated", "[friction]") {
   const auto tick = [](double stored, double taken, bool slides = true) {
-    Balance balance;
-    touch(balance, {0, 2});
-    CHECK(balance.factor([] { return 100 * millijoule; }, 1, true) == 1);  // nothing is known before
-    touch(balance, {1e-3, 4});
-    return balance.factor([&] { return stored * millijoule; }, taken * millijoule, slides);
+    Work work;
+    touch(work, {0, 2});
+    CHECK(work.factor([] { return 100 * millijoule; }, 1, true) == 1);  // nothing is known before
+    touch(work, {1e-3, 4});
+    return work.factor([&] { return stored * millijoule; }, taken * millijoule, slides);
   };
   CHECK(std::abs(tick(101, 2) - 1) <= 1e-12);
   CHECK(std::abs(tick(101.2, 2) - 0.9) <= 1e-12);
@@ -80,29 +69,29 @@ TEST_CASE("what the hands gave is stored or was dissipated", "[friction]") {
 }
 
 TEST_CASE("what a tick cannot dissipate is left for the next one", "[friction]") {
-  Balance balance;
-  touch(balance, {0, 2});
-  (void)balance.factor([] { return 100 * millijoule; }, 0, true);
-  touch(balance, {1e-3, 4});
+  Work work;
+  touch(work, {0, 2});
+  (void)work.factor([] { return 100 * millijoule; }, 0, true);
+  touch(work, {1e-3, 4});
   // 3 mJ are given and stored, so nothing was dissipated: 1.5 of 2 mJ are counted.
-  CHECK(std::abs(balance.factor([] { return 103 * millijoule; }, 2 * millijoule, true) - 0.75) <= 1e-12);
-  touch(balance, {1e-3, 4});
-  CHECK(std::abs(balance.factor([] { return 97 * millijoule; }, 4 * millijoule, true) - 1.125) <= 1e-12);
+  CHECK(std::abs(work.factor([] { return 103 * millijoule; }, 2 * millijoule, true) - 0.75) <= 1e-12);
+  touch(work, {1e-3, 4});
+  CHECK(std::abs(work.factor([] { return 97 * millijoule; }, 4 * millijoule, true) - 1.125) <= 1e-12);
 }
 
 TEST_CASE("while all contacts stick the potential is what the hands give", "[friction]") {
-  Balance balance;
-  touch(balance, {0, 2});
-  (void)balance.factor([] { return 100 * millijoule; }, 0, true);
+  Work work;
+  touch(work, {0, 2});
+  (void)work.factor([] { return 100 * millijoule; }, 0, true);
   int computed = 0;
   for (int k = 1; k <= 10; ++k) {
-    touch(balance, {k * 1e-3, 2});
-    CHECK(balance.factor([&] { return ++computed; }, 0, false) == 1);
+    touch(work, {k * 1e-3, 2});
+    CHECK(work.factor([&] { return ++computed; }, 0, false) == 1);
   }
   CHECK(computed == 0);
-  touch(balance, {0.011, 2});
+  touch(work, {0.011, 2});
   // 22 mJ were given.
-  CHECK(std::abs(balance.factor([] { return 120.1 * millijoule; }, 2 * millijoule, true) - 0.95) <= 1e-12);
+  CHECK(std::abs(work.factor([] { return 120.1 * millijoule; }, 2 * millijoule, true) - 0.95) <= 1e-12);
 }
 
 TEST_CASE("what begins, ends, damps or is led besides breaks the balance of friction", "[friction]") {
@@ -110,18 +99,18 @@ TEST_CASE("what begins, ends, damps or is led besides breaks the balance of fric
       wider{1e-3, 4, 0.011}, led{1e-3, 4, 0.01, true, 1e-3};
   enum { none, forgotten, damped };
   const auto breaks = [](const Touched& before, const Touched& after, int how = none) {
-    Balance balance;
-    touch(balance, before);
-    (void)balance.factor([] { return 100 * millijoule; }, 0, true);
-    if (how == forgotten) balance.forget();
+    Work work;
+    touch(work, before);
+    (void)work.factor([] { return 100 * millijoule; }, 0, true);
+    if (how == forgotten) work.forget();
     if (how == damped) {
-      touch(balance, before);
-      CHECK(balance.factor([] { return 100 * millijoule; }, 1 * millijoule, false) == 1);
+      touch(work, before);
+      CHECK(work.factor([] { return 100 * millijoule; }, 1 * millijoule, false) == 1);
     }
-    touch(balance, after);
-    const bool broken = balance.factor([] { return 101.2 * millijoule; }, 2 * millijoule, true) == 1;
-    touch(balance, after);
-    CHECK(std::abs(balance.factor([] { return 99 * millijoule; }, 2 * millijoule, true) - 1.1) <= 1e-12);
+    touch(work, after);
+    const bool broken = work.factor([] { return 101.2 * millijoule; }, 2 * millijoule, true) == 1;
+    touch(work, after);
+    CHECK(std::abs(work.factor([] { return 99 * millijoule; }, 2 * millijoule, true) - 1.1) <= 1e-12);
     return broken;
   };
   CHECK_FALSE(breaks(from, to));
@@ -137,14 +126,14 @@ TEST_CASE("what begins, ends, damps or is led besides breaks the balance of fric
 TEST_CASE("a hand that lets go has gone as far as one that holds, and its last force over that way",
           "[friction]") {
   for (const bool lets_go : {false, true}) {
-    Balance balance;
-    touch(balance, {0.1, 2});
-    touch(balance, {0.101, 3});
-    if (lets_go) balance.work.begin(), balance.work.apart(0, {0, Vector(0.105, 0), 0.01, 1});
-    else touch(balance, {0.105, 1});
+    Work work;
+    touch(work, {0.1, 2});
+    touch(work, {0.101, 3});
+    if (lets_go) work.begin(), work.apart(0, {0, Vector(0.105, 0), 0.01, 1});
+    else touch(work, {0.105, 1});
     CAPTURE(lets_go);
-    CHECK(balance.work.way() == Approx(0.004));
-    CHECK(balance.work.ahead() == Approx(3 * 0.004));
-    CHECK(balance.work.done() == Approx((lets_go ? 1.5 : 2) * 0.004));
+    CHECK(work.way() == Approx(0.004));
+    CHECK(work.ahead() == Approx(3 * 0.004));
+    CHECK(work.done() == Approx((lets_go ? 1.5 : 2) * 0.004));
   }
 }

@@ -10,7 +10,6 @@
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/fem/beam_elements.hpp>
-#include <hapbeam/fem/contact/contact_friction.hpp>
 #include <hapbeam/fem/contact/round_contact.hpp>
 #include <hapbeam/fem/dynamics.hpp>
 #include <hapbeam/fem/laid_beam.hpp>

@@ -255,7 +255,7 @@ class DynamicModel {
   int substeps_, solves_ = 0;
   bool starts_ = true;
   Scalar thickness_;
-  detail::CoupledContacts<System, contacts> contacts_;
+  detail::CoupledContacts<System> contacts_;
   void* listens_ = nullptr;
   Listener listener_ = nullptr;
 };

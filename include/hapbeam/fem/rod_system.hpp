@@ -12,7 +12,6 @@
 
 #include <hapbeam/body/touched_rod.hpp>
 #include <hapbeam/fem/beam_system.hpp>
-#include <hapbeam/fem/contact/rod_round_contact.hpp>
 #include <hapbeam/fem/rod/led_ends.hpp>
 #include <hapbeam/fem/rod/rod_elements.hpp>
 #include <hapbeam/fem/rod/rod_ends.hpp>

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: MIT
-// What hands give to a beam from one answer to the next: the work of its contacts, by trapezoids.
+// What hands give to a beam from one answer to the next: the work of its contacts, by trapezoids.  And what of it friction takes.
 //
 //   W = Σ ½ (F before + F) · Δx        F: on the beam, friction included; x: centre of a circle, or of the axis of a capsule what is beside the contact
 //
 // A body that grows by Δr gives -½ (f before + f) Δr, f < 0 its force along the normal.  A place that is led along its normal by Δd gives
 // ½ (f before + f) Δd.  W is the change of the beam's energy and of what friction has taken, to third order of the step.
-// Real-time: noexcept, no allocation, O(1) for each body.
+//
+// FrictionLaw::leave() takes a trapezoid for each contact, D = ½ (T before + T) · slip.  Their sum is
+//
+//   Σ D = W - ΔV        V: energy of the beam and of sheared skins
+//
+// to third order of the step where nothing happens within the tick.  A contact that gives way or turns back makes forces fall at once, and nodes of a
+// rod that follow contacts change V by more or less than friction takes.  All of them then take by the same factor more or less, so that what the
+// hands give, by trapezoids, is in V or was dissipated.  While all of them stick V is what they give, and need not be computed.
+// Real-time: noexcept, no allocation, O(1) for each body; O(elements) where something slides.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +24,17 @@
 
 namespace hapbeam::detail {
 
-/// @tparam Round  Circle<Scalar> | Capsule<Scalar>   @tparam Most  bodies
-template <class Round, typename Scalar, int D, int Most>
+/// @tparam Most  bodies
+template <typename Scalar, int D, int Most>
 class ContactWork {
  public:
+  using Round = RoundOf<Scalar, D>;
   using Vector = VectorOf<Scalar, D>;
 
   /// To be called where the beam moves otherwise.
-  void forget() noexcept { known_ = false; }
+  void forget() noexcept { known_ = balanced_ = false; }
+  /// What is stored is known no more.
+  void forget_stored() noexcept { balanced_ = false; }
   /// To be called where a push was answered, before what follows.
   void begin() noexcept {
     work_ = size_ = change_ = ahead_ = way_ = turned_ = 0;
@@ -113,7 +124,32 @@ class ContactWork {
   /// How far any of them has gone [m].
   Scalar way() const noexcept { return std::sqrt(way_); }
 
+  /// To be called where a push was answered, after that.  No factor is farther than a quarter from one: what is beyond is left for the next tick.  So is
+  /// a tick in which all turns back, whose force is zero in the mean and whose slip is not.  Where more than 0.003 of V is missing besides, the beam
+  /// fell or the step is too long for trapezoids: it is not counted.
+  /// @param potential  () -> V of the answer [J]   @param taken  Σ D [J]   @param slides  whether any of them slides now, or did before
+  /// @return by which friction takes; 1 where what touches is not what touched before
+  template <class Potential>
+  Scalar factor(Potential&& potential, Scalar taken, bool slides) noexcept {
+    const bool known = balanced_ && same();
+    const Scalar given = stored_ + work_ - taken;
+    balanced_ = true;
+    if (known && !slides) {
+      balanced_ = !(taken > 0);  // what damps a skin that sticks
+      stored_ = given;
+      return 1;
+    }
+    stored_ = potential();
+    const Scalar rest = given - stored_;
+    if (!known || !(std::abs(rest) <= taken + loose * std::abs(stored_))) return 1;
+    const Scalar more = std::clamp(rest, -part * taken, part * taken);
+    stored_ += rest - more;  // left for the next tick
+    return taken > 0 ? 1 + more / taken : Scalar(1);
+  }
+
  private:
+  static constexpr Scalar part = Scalar(0.25), loose = Scalar(3e-3);
+
   static Round nowhere() noexcept {
     if constexpr (D == 2) return {0, Vector::Zero(), 0, 1};
     else return {0, {Vector::Zero(), Vector::Zero()}, 0, Vector::Zero()};
@@ -150,6 +186,8 @@ class ContactWork {
   Scalar work_ = 0, size_ = 0, change_ = 0, ahead_ = 0, way_ = 0, turned_ = 0;  // [J], [m²], of normals: [1]
   static constexpr Scalar most_turned = Scalar(0.03);                           // square of 10 degrees
   bool known_ = false, same_ = false, strange_ = false;
+  Scalar stored_ = 0;      // V, and what is left for the next tick [J]
+  bool balanced_ = false;  // it is known
 };
 
 }  // namespace hapbeam::detail

@@ -15,10 +15,9 @@
 #include <cmath>
 
 #include <hapbeam/body/inner_contact.hpp>
+#include <hapbeam/fem/contact/active_set.hpp>
 #include <hapbeam/fem/contact/continuation.hpp>
 #include <hapbeam/fem/contact/obstacle_gap.hpp>
-#include <hapbeam/fem/contact/round_contact.hpp>
-#include <hapbeam/fem/contact/several_friction.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/support.hpp>
 
@@ -30,23 +29,21 @@ inline bool anchored(const RodSupport& support) noexcept {
   return std::isinf(support.place1) && std::isinf(support.place2) && std::isinf(support.along);
 }
 
-/// @tparam Most  hands
-template <class System, int Most>
+template <class System>
 class CoupledContacts {
   using Scalar = typename System::Scalar;
-  static constexpr int dimension = System::dimension;
+  static constexpr int most = System::Rows::most, dimension = System::dimension;
   using Vector = typename System::Vector;
   using Contact = typename System::Contact;
   using RoundContact = typename System::RoundContact;
   using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
-  using Friction = SeveralFriction<System, Obstacle, RoundContact, Most>;
   using State = InnerState<Scalar, dimension>;
   using Hand = Coupled<Scalar, dimension>;
   using Round = decltype(Hand::hand);
   using View = RoundBeside<Scalar, dimension>;
 
  public:
-  static constexpr int most_passes = 2 + 2 * Most;
+  static constexpr int most_passes = 2 + 2 * most;
 
   /// @param range  where the beam may be pressed   @param left, right  whether that end can move neither along nor across
   CoupledContacts(const Range<Scalar>& range, bool left, bool right) noexcept
@@ -121,29 +118,25 @@ class CoupledContacts {
       if (now.stages > 1) now.next.go_on(now.at, now.before, onward);
       now.friction.stiffness = hands_[i].stiffness, now.friction.damping = by_time;
       if (now.touches() && comes_to_rigid(now)) now.seen = touches(system, now);
-      Obstacle& obstacle = all_[i];
-      obstacle.touching = now.seen == Seen::touching, obstacle.round = now.round;
-      obstacle.pushed.force = -now.at.force;
-      obstacle.friction = rough(i) ? &now.friction : nullptr;
+      all_[i].round = now.round, all_[i].friction = rough(i) ? &now.friction : nullptr;
+      set(i, now.at.force);
     }
-    friction_.begin(system, all_, count_);
+    active_.take(all_, count_);
+    active_.begin(system);
     bool found = false;
     for (int pass = 0; pass < most_passes && !found; ++pass) {
-      system.set_goal();
-      int goals = 0;
-      for (int i = 0; i < count_; ++i) {
-        slot(i).goal = all_[i].touching ? goals++ : -1;
-        if (slot(i).goal >= 0) system.add_goal(contact(system, i), friction_.of(i));
-      }
+      const bool any = active_.number() > 0;
+      active_.aim(
+          system, [&](int i) { return contact(system, i); }, [](int) { return false; });
       do
-        if (!newton(goals > 0)) return system.forget_friction(), false;
-      while (friction_.any() && !friction_.settled(system, [this](int i) { return slot(i).goal; }));
+        if (!newton(any)) return system.forget_friction(), false;
+      while (!active_.settled(system));
       take(system);
       found = !review(system);
     }
     for (int i = 0; i < count_; ++i) {
       Slot& now = slot(i);
-      if (now.goal >= 0 && friction_.of(i)) friction_.of(i)->leave(now.friction, now.next.force);
+      if (active_.goal(i) >= 0 && active_.of(i)) active_.of(i)->leave(now.friction, now.next.force);
       else now.friction.let_go();
       now.before = now.at, now.at = now.next;
       now.stages = now.touches() ? now.stages + 1 : 0;
@@ -163,12 +156,12 @@ class CoupledContacts {
   };
   struct Slot {
     Seen seen = Seen::never;
-    bool hard = false;          // its spring is stiffer than the beam
-    int goal = -1, stages = 0;  // its contact in the system, and stages in which it has touched
-    Round from{};               // the hand at the end of the last step
-    Scalar penetration = 0;     // of the hand in the beam, as it lasts in the damper [m]
-    Scalar foot = 0;            // place that is nearest to the hand, of the beam as it is drawn [m]
-    State at, before, next;     // after the last stage, the one before, and in this one
+    bool hard = false;       // its spring is stiffer than the beam
+    int stages = 0;          // in which it has touched
+    Round from{};            // the hand at the end of the last step
+    Scalar penetration = 0;  // of the hand in the beam, as it lasts in the damper [m]
+    Scalar foot = 0;         // place that is nearest to the hand, of the beam as it is drawn [m]
+    State at, before, next;  // after the last stage, the one before, and in this one
     Vector place = Vector::Zero(), normal = Vector::Zero();
     Scalar wraps = 0;  // as of its contact
     FrictionState<Scalar, dimension> friction;
@@ -205,26 +198,28 @@ class CoupledContacts {
   void take(System& system) noexcept {
     for (int i = 0; i < count_; ++i) {
       Slot& now = slot(i);
-      if (now.goal >= 0) {
-        system.look(now.goal);
-        const Contact& found = system.rows()[now.goal];
-        now.hard = system.rows().share(now.goal) < Scalar(0.5);
-        now.next = found, now.next.force = -system.linear_reaction(now.goal);
+      if (const int goal = active_.goal(i); goal >= 0) {
+        system.look(goal);
+        const Contact& found = system.rows()[goal];
+        now.hard = system.rows().share(goal) < Scalar(0.5);
+        now.next = found, now.next.force = -system.linear_reaction(goal);
         now.place = found.place, now.normal = found.normal, now.wraps = found.moves ? found.wraps : Scalar(0);
       } else if (now.touches()) {
         const View view = look(system, now);
         now.next = {}, now.next.s = now.foot, now.next.force = now.whole * depth(now, view);
         now.normal = -view.normal, now.place = view.place, now.wraps = 0;
       }
+      set(i, now.next.force);
     }
+  }
+  /// As the active set has it.   @param force  of the beam on it [N]
+  void set(int i, Scalar force) noexcept {
+    all_[i].valid = slot(i).seen != Seen::rigid;
+    all_[i].touching = slot(i).touches(), all_[i].pushed.force = -force;
   }
   /// @return whether another one touches now, or one does not any more
   bool review(const System& system) noexcept {
-    int changes = -1;
-    for (int i = 0; i < count_; ++i)
-      if (slot(i).touches() && !(slot(i).next.force > 0) &&
-          (changes < 0 || slot(i).next.force < slot(changes).next.force))
-        changes = i;
+    int changes = active_.worst();
     const bool pulls = changes >= 0;
     Scalar most = 0;
     for (int i = 0; i < count_ && !pulls; ++i) {
@@ -234,11 +229,10 @@ class CoupledContacts {
     }
     if (changes < 0) return false;
     Slot& now = slot(changes);
-    Obstacle& obstacle = all_[changes];
     now.seen = pulls ? Seen::let_go : touches(system, now);
     now.next = {}, now.next.s = now.foot, now.stages = 0;
-    obstacle.touching = now.seen == Seen::touching, obstacle.pushed.force = 0;
-    if (obstacle.touching) friction_.meet(system, changes);
+    set(changes, 0);
+    if (now.seen == Seen::touching) active_.meet(system, changes);
     return true;
   }
   /// As what something touches.
@@ -262,9 +256,9 @@ class CoupledContacts {
   bool rigid_[2];
   const Hand* hands_ = nullptr;
   int count_ = 0;
-  std::array<Slot, std::size_t(Most)> slots_{};
-  Obstacle all_[Most] = {};
-  Friction friction_;
+  std::array<Slot, std::size_t(most)> slots_{};
+  Obstacle all_[most] = {};
+  ActiveSet<System> active_;
 };
 
 }  // namespace hapbeam::detail

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Which obstacles touch a beam or rod, and where: what a push knows of each, and what an equilibrium says of it.
 //
-// By an active set: of those that would have to pull the worst lets go; where none would, the one that the beam lies deepest in is added.
+// By an active set (active_set.hpp): where none of it would have to pull, the one that the beam lies deepest in is added.
 // Two that are beside each other bend the beam with forces a thousand times their difference, so a new one takes the place of the one beside it, which
 // comes back if the beam lies in it then.  An obstacle that has let go in this push is taken back only where it is deeper than the mesh can be wrong.
-// Real-time: noexcept, no allocation, O(contacts · elements).   Source: Nocedal and Wright, Numerical Optimization, 16.5.
+// Real-time: noexcept, no allocation, O(contacts · elements).
 #pragma once
 
 #include <algorithm>
@@ -15,27 +15,27 @@
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/body/rod_inner_contact.hpp>
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/element/element.hpp>
+#include <hapbeam/fem/contact/active_set.hpp>
 #include <hapbeam/fem/contact/obstacle_gap.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
 
-template <class Element, class System>
+template <class System>
 class RowContacts {
- protected:
   using Scalar = typename System::Scalar;
   using Contact = typename System::Contact;
   using RoundContact = typename System::RoundContact;
-  static constexpr int most = contacts_of<Element>, dimension = dimension_of<Element>;
+  static constexpr int most = System::Rows::most, dimension = System::dimension;
   using Round = RoundOf<Scalar, dimension>;
   using Vector = VectorOf<Scalar, dimension>;
   using State = InnerState<Scalar, dimension>;
+
+ public:
   using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
 
   /// Of an obstacle during a push.
   struct Slot : State {
-    int goal = -1;                  ///< number of its contact in the system, -1: none
     bool let_go = false;            ///< in this push
     bool crowded = false;           ///< too near another contact, or past an end that is held
     Vector place = Vector::Zero();  ///< of the curve, as it was seen last [m]
@@ -50,7 +50,7 @@ class RowContacts {
   /// To be called where a push begins.  @param all  in: where they are and whether they touched
   template <class Extent>
   void begin(const System& system, Obstacle* all, int count, const Extent& range) noexcept {
-    all_ = all, count_ = count;
+    active.take(all, count);
     const auto where = range.range();
     least_ = (std::max)(where.s_min, Scalar(0)), most_ = (std::min)(where.s_max, range.length());
     for (int i = 0; i < count; ++i) {
@@ -58,7 +58,7 @@ class RowContacts {
       // What had no answer at an end that has been pushed past it slips off.
       const bool off = round && all[i].pushed.past_end && !is_answer(all[i].pushed.status);
       all[i].touching = all[i].valid && !off && (all[i].touching || all[i].kind == ObstacleKind::support);
-      Slot& now = slots_[i];
+      Slot& now = slots[i];
       if (!all[i].touching) static_cast<State&>(now) = {};
       now.force = force_of(all[i]);
       now.sharp = round && now.force != 0 && now.sharp;
@@ -66,7 +66,7 @@ class RowContacts {
       // One that jumps touches where it is nearest now: the way along the beam from where it was is long.
       const bool lasts = round && now.force != 0 && (now.sharp || !now.held) &&
                          jumped(i, all[i].round) <= all[i].round.reach;
-      now.moves = true, now.crowded = off, now.held = now.let_go = false, now.goal = -1;
+      now.moves = true, now.crowded = off, now.held = now.let_go = false;
       if (!round) now.s = std::clamp(all[i].place.s, Scalar(0), range.length()), now.moves = false;
       else if (was_held) hold(system, i);
       else this->place(system, i, lasts ? now.s : all[i].round.s);
@@ -95,15 +95,15 @@ class RowContacts {
   /// Where the beam has been set to rest.
   void begin_at_rest(System& system) noexcept {
     system.draw();
-    for (int i = 0; i < count_; ++i) {
-      slots_[i].force = 0;
-      if (all_[i].kind == ObstacleKind::round)
-        place(system, i, foot(system, all_[i].round, all_[i].round.s, system.length()));
+    for (int i = 0; i < active.size(); ++i) {
+      slots[i].force = 0;
+      if (active[i].kind == ObstacleKind::round)
+        place(system, i, foot(system, active[i].round, active[i].round.s, system.length()));
     }
   }
   /// Where an obstacle is touched first.
   void place(const System& system, int i, Scalar s) noexcept {
-    Slot& now = slots_[i];
+    Slot& now = slots[i];
     now.s = std::clamp(s, least_, most_);
     now.moves = now.s > least_ && now.s < most_, now.held = false;
     // Nearer to a support the last place has the displacement that this one should have.
@@ -112,15 +112,15 @@ class RowContacts {
   /// Holds each that touches where the beam is too sharp for its place to be sought.   @return whether there is any
   bool hold_sharp(const System& system) noexcept {
     bool any = false;
-    for (int i = 0; i < count_; ++i)
-      if (all_[i].touching && slots_[i].sharp && !slots_[i].held) hold(system, i), any = true;
+    for (int i = 0; i < active.size(); ++i)
+      if (active[i].touching && slots[i].sharp && !slots[i].held) hold(system, i), any = true;
     return any;
   }
   /// Where no place is nearest, the one that was goes with the hand, along the normal that the beam had there.
   void hold(const System& system, int i) noexcept {
-    const RoundContact round{all_[i].round};
-    const Scalar s = all_[i].round.s;
-    Slot& now = slots_[i];
+    const RoundContact round{active[i].round};
+    const Scalar s = active[i].round.s;
+    Slot& now = slots[i];
     const auto node = round.node_at(system.drawn(), s);
     const Vector at = round.place_of(node), centre = round.centre(at), way = centre - centre_before(i, at);
     place(system, i, s + round.along(node, Vector(way + returns * (centre - at))));
@@ -130,33 +130,33 @@ class RowContacts {
   }
   /// How far what is round has come since the push before [m].
   Scalar jumped(int i, const Round& round) noexcept {
-    const Vector& at = slots_[i].place;
+    const Vector& at = slots[i].place;
     return std::sqrt((RoundContact{round}.centre(at) - centre_before(i, at)).squaredNorm());
   }
   /// Where it is, along the normal that the beam has there.
   void hold_along(const System& system, int i, Scalar there) noexcept {
-    const RoundContact round{all_[i].round};
-    Slot& now = slots_[i];
+    const RoundContact round{active[i].round};
+    Slot& now = slots[i];
     const auto node = round.node_at(system.drawn(), there);
     now.normal = -round.facing(round.tangent(node));
     now.place = round.place_of(node);
     now.held = true, now.moves = false, now.of = there;
   }
   Contact contact(int i) noexcept {
-    const Slot& now = slots_[i];
+    const Slot& now = slots[i];
     Contact contact;
     static_cast<State&>(contact) = now;
     contact.least = least_, contact.most = most_;
     // Between places of one body the beam is nearly as sharp as that: they are sought where the gaps are closed.  So they are where a hand has jumped: the circle
     // that has passed the beam says nothing of the place.
-    const bool is_round = all_[i].kind == ObstacleKind::round;
-    const bool jumps = is_round && now.force != 0 && jumped(i, all_[i].round) > all_[i].round.reach / 2;
+    const bool is_round = active[i].kind == ObstacleKind::round;
+    const bool jumps = is_round && now.force != 0 && jumped(i, active[i].round) > active[i].round.reach / 2;
     contact.waits = now.moves && ((jumps && dimension == 2) || twin(i) >= 0);
     if constexpr (dimension == 3) contact.seeks = twin(i) < 0;
     if (is_round) {
-      const RoundContact round{all_[i].round};
+      const RoundContact round{active[i].round};
       round.set(contact);
-      contact.reach = all_[i].round.reach;
+      contact.reach = active[i].round.reach;
       if (now.held) {
         contact.kind = Contact::Kind::along;
         contact.normal = now.normal, contact.curvature = 1 / contact.reach;
@@ -164,24 +164,25 @@ class RowContacts {
       }
     } else {
       contact.kind = Contact::Kind::along;
-      contact.normal = all_[i].place.normal, contact.reach = all_[i].place.d;
+      contact.normal = active[i].place.normal, contact.reach = active[i].place.d;
     }
     return contact;
   }
   /// What the system has found of those that touch.
   void take(System& system) noexcept {
-    for (int i = 0; i < count_; ++i) {
-      Slot& now = slots_[i];
-      if (now.goal < 0) continue;
-      system.look(now.goal);
-      const Contact& found = system.rows()[now.goal];
+    for (int i = 0; i < active.size(); ++i) {
+      Slot& now = slots[i];
+      const int goal = active.goal(i);
+      if (goal < 0) continue;
+      system.look(goal);
+      const Contact& found = system.rows()[goal];
       static_cast<State&>(now) = found;
       now.place = found.place;
-      auto& pushed = all_[i].pushed;
-      pushed.force = now.held ? -system.linear_reaction(now.goal) : system.linear_reaction(now.goal);
+      auto& pushed = active[i].pushed;
+      pushed.force = now.held ? -system.linear_reaction(goal) : system.linear_reaction(goal);
       pushed.point = found.place;
-      if (all_[i].kind != ObstacleKind::round) continue;
-      const Scalar beyond = now.moves || now.held ? Scalar(0) : outward(all_[i].round, found);
+      if (active[i].kind != ObstacleKind::round) continue;
+      const Scalar beyond = now.moves || now.held ? Scalar(0) : outward(active[i].round, found);
       pushed.past_end = beyond > 0 && (now.s == 0 || now.s == system.length());
       pushed.normal = -found.normal;
       pushed.s = beyond > 0 ? std::clamp(now.s == least_ ? now.s - beyond : now.s + beyond, Scalar(0),
@@ -194,12 +195,12 @@ class RowContacts {
   /// Where there is no equilibrium, what was at an end has been pushed past it, and what has touched first feels the last one.
   void lose(System& system) noexcept {
     const Scalar length = system.length(), close_by = length / 1000;
-    for (int i = 0; i < count_; ++i) {
-      if (!all_[i].touching || all_[i].kind != ObstacleKind::round) continue;
-      auto& pushed = all_[i].pushed;
+    for (int i = 0; i < active.size(); ++i) {
+      if (!active[i].touching || active[i].kind != ObstacleKind::round) continue;
+      auto& pushed = active[i].pushed;
       pushed.past_end =
-          (least_ == 0 && slots_[i].s < close_by) || (most_ == length && slots_[i].s > length - close_by);
-      const int goal = slots_[i].goal;
+          (least_ == 0 && slots[i].s < close_by) || (most_ == length && slots[i].s > length - close_by);
+      const int goal = active.goal(i);
       if (pushed.force != 0 || goal < 0 || !(system.linear_reaction(goal) < 0)) continue;
       system.look(goal);
       const Contact& found = system.rows()[goal];
@@ -208,16 +209,16 @@ class RowContacts {
     }
   }
   /// What the equilibrium says of all of them, after take().   @return whether there has to be another one
-  template <class Extent, class Friction>
-  bool review(System& system, const Extent& range, Friction& friction) noexcept {
-    if (any_pulls()) return true;
+  template <class Extent>
+  bool review(System& system, const Extent& range) noexcept {
+    if (const int worst = active.worst(); worst >= 0) return let_go(worst), true;
     bool again = false;
-    for (int i = 0; i < count_; ++i) {
-      Slot& now = slots_[i];
-      if (now.goal < 0 || all_[i].kind != ObstacleKind::round) continue;
+    for (int i = 0; i < active.size(); ++i) {
+      Slot& now = slots[i];
+      if (active.goal(i) < 0 || active[i].kind != ObstacleKind::round) continue;
       // What lies beyond an end comes back where the end turns away.
-      const Contact& found = system.rows()[now.goal];
-      if (!now.moves && !now.held && outward(all_[i].round, found) < 0) now.moves = again = true;
+      const Contact& found = system.rows()[active.goal(i)];
+      if (!now.moves && !now.held && outward(active[i].round, found) < 0) now.moves = again = true;
     }
     if (again) return true;
     if (slip_off(system, range)) return true;
@@ -225,108 +226,97 @@ class RowContacts {
     const auto touches = [](const Obstacle& obstacle) {
       return obstacle.touching && obstacle.kind == ObstacleKind::round;
     };
-    if (!std::all_of(all_, all_ + count_, touches)) system.draw();
+    if (!std::all_of(&active[0], &active[0] + active.size(), touches)) system.draw();
     int deepest = -1;
     const Scalar length = system.length(), round_off = 16 * std::numeric_limits<Scalar>::epsilon();
-    for (int i = 0; i < count_; ++i) {
-      Slot& now = slots_[i];
-      if (all_[i].touching || now.crowded || !all_[i].valid) continue;
-      if (all_[i].kind == ObstacleKind::round) seek(system, i);
+    for (int i = 0; i < active.size(); ++i) {
+      Slot& now = slots[i];
+      if (active[i].touching || now.crowded || !active[i].valid) continue;
+      if (active[i].kind == ObstacleKind::round) seek(system, i);
       else
-        now.depth = all_[i].place.normal.dot(system.beside_drawn(now.s)) +
-                    system.displacement(now.s, all_[i].place.normal) - all_[i].place.d;
-      const Scalar fine = Scalar(1e-9) * length + round_off * (length + all_[i].round.reach);
+        now.depth = active[i].place.normal.dot(system.beside_drawn(now.s)) +
+                    system.displacement(now.s, active[i].place.normal) - active[i].place.d;
+      const Scalar fine = Scalar(1e-9) * length + round_off * (length + active[i].round.reach);
       const Scalar slack = now.let_go || twin(i) >= 0 ? (std::max)(Scalar(1e-5) * length, fine) : fine;
-      if (now.depth > slack && (deepest < 0 || now.depth > slots_[deepest].depth)) deepest = i;
+      if (now.depth > slack && (deepest < 0 || now.depth > slots[deepest].depth)) deepest = i;
     }
     if (deepest < 0) return false;
-    all_[deepest].touching = true;
-    slots_[deepest].force = 0;
-    slots_[deepest].forget();
-    slots_[deepest].begins = slots_[deepest];
+    active[deepest].touching = true;
+    slots[deepest].force = 0;
+    slots[deepest].forget();
+    slots[deepest].begins = slots[deepest];
     const int other = twin(deepest);
-    if (other >= 0) friction.meet_beside(system, deepest, other, slots_[deepest].s);
-    else friction.meet(system, deepest);
+    if (other >= 0) active.meet_beside(system, deepest, other, slots[deepest].s);
+    else active.meet(system, deepest);
     if constexpr (most > 1) spread(system, deepest);
-    for (int i = 0; i < count_ && !slots_[deepest].let_go; ++i)
-      if (all_[i].touching && beside(i, deepest)) let_go(i);
+    for (int i = 0; i < active.size() && !slots[deepest].let_go; ++i)
+      if (active[i].touching && beside(i, deepest)) let_go(i);
     return true;
   }
   /// Two that are nearer than that are one: those of one body between them, else the one with the larger force.
   void part(const System& system) noexcept {
     const Scalar apart = shortest_element<Scalar>(most_);
-    for (int i = 0; i < count_; ++i)
+    for (int i = 0; i < active.size(); ++i)
       for (int k = 0; k < i; ++k) {
-        const bool twins = all_[i].body == all_[k].body;
-        if (!all_[i].touching || !all_[k].touching ||
-            std::abs(slots_[i].s - slots_[k].s) >= (twins ? 2 : 1) * apart)
+        const bool twins = active[i].body == active[k].body;
+        if (!active[i].touching || !active[k].touching ||
+            std::abs(slots[i].s - slots[k].s) >= (twins ? 2 : 1) * apart)
           continue;
         if (twins) {
-          place(system, k, (slots_[i].s + slots_[k].s) / 2);
-          slots_[k].force += slots_[i].force, slots_[k].forget(), slots_[k].begins = slots_[k];
+          place(system, k, (slots[i].s + slots[k].s) / 2);
+          slots[k].force += slots[i].force, slots[k].forget(), slots[k].begins = slots[k];
           let_go(i);
           continue;
         }
-        const int away = all_[k].pushed.force <= all_[i].pushed.force ? i : k;
-        all_[away].touching = false;
-        slots_[away].crowded = true;
+        const int away = active[k].pushed.force <= active[i].pushed.force ? i : k;
+        active[away].touching = false;
+        slots[away].crowded = true;
       }
   }
   void end(System& system, int i, Status status) noexcept {
-    auto& pushed = all_[i].pushed;
-    before_[i] = all_[i].round;
+    auto& pushed = active[i].pushed;
+    before_[i] = active[i].round;
     pushed.status =
-        !all_[i].valid ? Status::invalid_request
-        : slots_[i].crowded || (status == Status::ok && (slots_[i].held || touches_again(system, i)))
+        !active[i].valid ? Status::invalid_request
+        : slots[i].crowded || (status == Status::ok && (slots[i].held || touches_again(system, i)))
             ? Status::out_of_range
             : status;
     // Of round-off: the place of what does not press may be anywhere.
     const Scalar nothing =
         std::numeric_limits<Scalar>::epsilon() * system.unit() * system.unit() / system.length();
-    if (!all_[i].touching || std::abs(pushed.force) < nothing ||
-        (pushed.force > 0 && all_[i].kind != ObstacleKind::support))
+    if (!active[i].touching || std::abs(pushed.force) < nothing ||
+        (pushed.force > 0 && active[i].kind != ObstacleKind::support))
       pushed.force = 0;
-    if (all_[i].kind == ObstacleKind::round) return;
-    const auto node = RoundContact::node_at(system.drawn(), slots_[i].s);
-    pushed.s = slots_[i].s;
+    if (active[i].kind == ObstacleKind::round) return;
+    const auto node = RoundContact::node_at(system.drawn(), slots[i].s);
+    pushed.s = slots[i].s;
     pushed.point = RoundContact::place_of(node);
-    pushed.normal = all_[i].place.normal;
+    pushed.normal = active[i].place.normal;
   }
 
   /// Whether the beam is pressed by another body beside this one.
   bool beside_a_touch(int i) noexcept {
-    for (int k = 0; k < count_; ++k)
-      if (all_[k].touching && all_[k].pushed.force < 0 && beside(i, k)) return true;
+    for (int k = 0; k < active.size(); ++k)
+      if (active[k].touching && active[k].pushed.force < 0 && beside(i, k)) return true;
     return false;
   }
 
   /// To be called where something else moves the beam.
   void forget_pieces() noexcept {
-    for (Slot& slot : slots_) slot.forget(), slot.sharp = slot.held = false;
+    for (Slot& slot : slots) slot.forget(), slot.sharp = slot.held = false;
   }
 
   /// Whether a place has run to an end in the equilibrium that was reviewed last: the beam is far from where it was.
   bool ran_away() noexcept { return std::exchange(ran_away_, false); }
 
-  Obstacle* all_ = nullptr;
-  int count_ = 0;
-  Slot slots_[most] = {};
+  ActiveSet<System> active;
+  Slot slots[most] = {};
 
  private:
-  /// The worst of those that pull lets go.  What is touched by nothing pulls the least.
-  bool any_pulls() noexcept {
-    int worst = -1;
-    for (int i = 0; i < count_; ++i) {
-      if (!all_[i].touching || all_[i].kind == ObstacleKind::support || all_[i].pushed.force < 0) continue;
-      if (worst < 0 || all_[i].pushed.force > all_[worst].pushed.force) worst = i;
-    }
-    if (worst >= 0) let_go(worst);
-    return worst >= 0;
-  }
   void let_go(int i) noexcept {
-    all_[i].touching = false;
-    all_[i].pushed.force = 0;
-    slots_[i].let_go = true;
+    active[i].touching = false;
+    active[i].pushed.force = 0;
+    slots[i].let_go = true;
   }
   /// How far a centre lies beyond the end of what can be touched, negative: beside it [m].
   Scalar outward(const Round& round, const Contact& found) const noexcept {
@@ -339,47 +329,47 @@ class RowContacts {
   bool slip_off(const System& system, const Extent& range) noexcept {
     const auto where = range.range();
     bool any = false;
-    for (int i = 0; i < count_; ++i) {
-      const Slot& now = slots_[i];
-      if (now.goal < 0 || now.moves || all_[i].kind != ObstacleKind::round) continue;
+    for (int i = 0; i < active.size(); ++i) {
+      const Slot& now = slots[i];
+      if (active.goal(i) < 0 || now.moves || active[i].kind != ObstacleKind::round) continue;
       const bool right = now.s >= most_;
       if (!std::isfinite(right ? where.right_support : where.left_support)) continue;
       // An end that holds w takes any force: what was beside it, and has run there, stays where it was.
       const Scalar began = now.begins.s;
       if (now.held && now.of > least_ && now.of < most_) continue;
-      if (!now.held && (right ? most_ - began : began - least_) > all_[i].round.reach / 4) {
-        static_cast<State&>(slots_[i]) = now.begins;
+      if (!now.held && (right ? most_ - began : began - least_) > active[i].round.reach / 4) {
+        static_cast<State&>(slots[i]) = now.begins;
         hold_along(system, i, began);
         ran_away_ = any = true;
         continue;
       }
       const auto view =
-          RoundContact{all_[i].round}.look(system.node(right ? system.elements() : 0), right ? 1 : -1);
+          RoundContact{active[i].round}.look(system.node(right ? system.elements() : 0), right ? 1 : -1);
       if (!view.past_end) continue;
       any = true;
-      all_[i].touching = false;
-      slots_[i].crowded = true;
+      active[i].touching = false;
+      slots[i].crowded = true;
     }
     return any;
   }
   /// Of what may touch at one place alone.
   bool touches_again(System& system, int i) noexcept {
-    const Slot& now = slots_[i];
-    for (int k = 0; k < count_; ++k)
-      if (k != i && all_[k].body == all_[i].body) return false;
-    return now.goal >= 0 && now.moves &&
-           detail::touches_again(system, all_[i].round, now.s, system.rows()[now.goal].wraps);
+    const Slot& now = slots[i];
+    for (int k = 0; k < active.size(); ++k)
+      if (k != i && active[k].body == active[i].body) return false;
+    return active.goal(i) >= 0 && now.moves &&
+           detail::touches_again(system, active[i].round, now.s, system.rows()[active.goal(i)].wraps);
   }
   /// Whether two bodies lie on the beam side by side.
   bool beside(int i, int k) noexcept {
-    const auto &a = all_[i], &b = all_[k];
+    const auto &a = active[i], &b = active[k];
     return a.body != b.body && a.kind == ObstacleKind::round && b.kind == ObstacleKind::round &&
-           std::abs(slots_[i].s - slots_[k].s) < (std::max)(a.round.reach, b.round.reach);
+           std::abs(slots[i].s - slots[k].s) < (std::max)(a.round.reach, b.round.reach);
   }
   /// Another obstacle of the same body that touches, -1: none.
   int twin(int i) const noexcept {
-    for (int k = 0; k < count_; ++k)
-      if (k != i && all_[k].body == all_[i].body && all_[k].touching) return k;
+    for (int k = 0; k < active.size(); ++k)
+      if (k != i && active[k].body == active[i].body && active[k].touching) return k;
     return -1;
   }
   /// Where the beam is bent more sharply than a body, that touches it at more places.
@@ -391,13 +381,13 @@ class RowContacts {
     int order[most] = {};
     int n = 0;
     Scalar force = 0;
-    for (int i = 0; i < count_; ++i) {
-      if (!all_[i].touching || all_[i].body != all_[last].body) continue;
+    for (int i = 0; i < active.size(); ++i) {
+      if (!active[i].touching || active[i].body != active[last].body) continue;
       int k = n++;
-      for (; k > 0 && slots_[i].s < slots_[order[k - 1]].s; --k) order[k] = order[k - 1];
-      order[k] = i, force += slots_[i].force;
+      for (; k > 0 && slots[i].s < slots[order[k - 1]].s; --k) order[k] = order[k - 1];
+      order[k] = i, force += slots[i].force;
     }
-    const auto at = [&](int k) -> Slot& { return slots_[order[k]]; };
+    const auto at = [&](int k) -> Slot& { return slots[order[k]]; };
     bool sharp = false;
     for (int k = 0; k < n; ++k) sharp = sharp || (order[k] != last && at(k).sharp);
     if (!sharp) return;
@@ -417,13 +407,13 @@ class RowContacts {
     using Line = decltype(system.drawn());
     using Gap = ObstacleGap<Line, RoundContact>;
     const Line line = system.drawn();
-    const RoundContact round{all_[i].round};
+    const RoundContact round{active[i].round};
     const int other = twin(i);
     const Scalar length = system.length();
     const Gap gap = other < 0 ? Gap(line, round)
-                              : Gap(line, round, line.node_near(slots_[other].s), slots_[other].s,
+                              : Gap(line, round, line.node_near(slots[other].s), slots[other].s,
                                     2 * shortest_element<Scalar>(length));
-    Slot& now = slots_[i];
+    Slot& now = slots[i];
     now.depth = gap.depth;
     if (!std::isfinite(gap.depth)) return;
     now.depth += round.facing(round.tangent(round.node_at(line, gap.s))).dot(system.beside_drawn(gap.s));

@@ -30,16 +30,16 @@ VectorOf<Scalar, 6> hand_of(const Capsule<Scalar>& capsule) noexcept {
   return ends;
 }
 
-/// @tparam Most  contacts   @tparam D  dimension
-template <class System, int Most, int D>
+template <class System>
 class RowForesight {
   using Scalar = typename System::Scalar;
   using State = typename System::State;
+  static constexpr int most = System::Rows::most, dimension = System::dimension;
 
  public:
-  using Contact = InnerState<Scalar, D>;
-  static constexpr int each = D == 2 ? 2 : 6;  ///< numbers of a hand
-  using Hands = VectorOf<Scalar, each * Most>;
+  using Contact = InnerState<Scalar, dimension>;
+  static constexpr int each = dimension == 2 ? 2 : 6;  ///< numbers of a hand
+  using Hands = VectorOf<Scalar, each * most>;
 
   explicit RowForesight(const System& system)
       : RowForesight(system.elements(), std::make_index_sequence<like_most>()) {}
@@ -111,7 +111,7 @@ class RowForesight {
  private:
   template <std::size_t... K>
   RowForesight(int elements, std::index_sequence<K...>) : before_{((void)K, State(elements))...} {}
-  static constexpr int like_most = Most > 1 ? 2 : 1;  // pushes before, of those that may go on
+  static constexpr int like_most = most > 1 ? 2 : 1;  // pushes before, of those that may go on
   static constexpr Scalar fastest = 2,
                           aside = Scalar(0.1);  // of a step, in units of the one before and of itself
 
@@ -119,7 +119,7 @@ class RowForesight {
   int newest_ = 0;
   Hands hands_ = Hands::Zero();  // in the last push [m]
   Hands step_[2] = {Hands::Zero(), Hands::Zero()};
-  Contact all_[like_most + 1][Most] = {};  // after the last pushes
+  Contact all_[like_most + 1][most] = {};  // after the last pushes
   Scalar ratio_ = 0;
   bool forth_ = false;
   int like_ = 0;   // the push that goes on: the last one or the one before; 0: none

@@ -15,36 +15,27 @@
 #include <stdexcept>
 #include <string>
 
+#include <hapbeam/fem/contact/active_set.hpp>
 #include <hapbeam/fem/contact/contact_work.hpp>
 #include <hapbeam/fem/contact/continuation.hpp>
 #include <hapbeam/fem/contact/row_contacts.hpp>
 #include <hapbeam/fem/contact/row_foresight.hpp>
-#include <hapbeam/fem/contact/several_friction.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
 
-template <class Element, class System>
-class RowPush : private RowContacts<Element, System> {
-  using Base = RowContacts<Element, System>;
-  using Base::all_;
-  using Base::count_;
-  using Base::dimension;
-  using Base::most;
-  using Base::slots_;
-  using typename Base::Contact;
-  using typename Base::Obstacle;
-  using typename Base::Round;
-  using typename Base::RoundContact;
-  using typename Base::Scalar;
-  using typename Base::Slot;
-  using typename Base::State;
-  using typename Base::Vector;
+template <class System>
+class RowPush {
+  using Scalar = typename System::Scalar;
+  using RoundContact = typename System::RoundContact;
+  static constexpr int most = System::Rows::most, dimension = System::dimension;
+  using Round = RoundOf<Scalar, dimension>;
+  using State = InnerState<Scalar, dimension>;
+  using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
   using FrictionState = hapbeam::FrictionState<Scalar, dimension>;
-  using Friction = SeveralFriction<System, Obstacle, RoundContact, most>;
-  using Work = ContactWork<Round, Scalar, dimension, most>;
-  using Foresight = RowForesight<System, most, dimension>;
+  using Work = ContactWork<Scalar, dimension, most>;
+  using Foresight = RowForesight<System>;
 
  public:
   /// Forces are exact to so many times the solver's tolerance.  Where normal forces are no unknowns the next increment is smaller than it is taken for.
@@ -67,12 +58,12 @@ class RowPush : private RowContacts<Element, System> {
   void forget() noexcept {
     foresight_.reset();
     last_count_ = 0;
-    this->forget_pieces();
+    contacts_.forget_pieces();
     forget_shape();
   }
   /// The same where what the hands did goes on.
   void forget_shape() noexcept {
-    work_.forget(), balance_.forget(), continuation_.forget();
+    work_.forget(), continuation_.forget();
     let_go_.known = false;
   }
   /// Lets go of the beam.   @return as AllDisplacements::let_go(); snapped where it falls farther than its last forces led it
@@ -92,7 +83,7 @@ class RowPush : private RowContacts<Element, System> {
     let_go_.known = false;
     for (int i = 0; i < count; ++i) {
       auto& pushed = all[i].pushed;
-      const bool elsewhere = this->elsewhere(system, all[i]);
+      const bool elsewhere = contacts_.elsewhere(system, all[i]);
       if (elsewhere) continuation_.forget();
       if (elsewhere || (!is_answer(pushed.status) && !pushed.past_end))
         pushed = {0, Status::ok}, pushed.s = all[i].round.s;
@@ -111,13 +102,11 @@ class RowPush : private RowContacts<Element, System> {
     bool whole = true;  // the first answer, for all of the way
     const auto go = [&](Scalar t) {
       for (int i = 0; i < count; ++i) {
-        before.pushed[i] = all[i].pushed, before.touching[i] = all[i].touching;
-        before.state[i] = slots_[i];
+        before.obstacle[i] = all[i], before.state[i] = contacts_.slots[i];
         if (all[i].friction) before.friction[i] = *all[i].friction;
         if (!whole) all[i].round = from_.knows(i) ? between(from_.round(i), to_[i], t) : to_[i];
       }
-      before.work = work_, before.balance = balance_, before.force = system.linear_reaction();
-      before.potential = continuation_.potential(), before.known = continuation_.known();
+      before.work = work_, before.continuation = continuation_, before.force = system.linear_reaction();
       return Answer{answer(way, all, count, range)};
     };
     const auto judge = [&](const Answer&) {
@@ -137,11 +126,11 @@ class RowPush : private RowContacts<Element, System> {
       foresight_.go_back(system, before.force);
       system.draw();
       for (int i = 0; i < count; ++i) {
-        all[i].pushed = before.pushed[i], all[i].touching = before.touching[i];
-        static_cast<State&>(slots_[i]) = before.state[i];
+        all[i] = before.obstacle[i];
+        static_cast<State&>(contacts_.slots[i]) = before.state[i];
         if (all[i].friction) *all[i].friction = before.friction[i];
       }
-      work_ = before.work, balance_ = before.balance;
+      work_ = before.work;
     };
     return continuation_.follow(go, judge, keep, back).status;
   }
@@ -149,49 +138,47 @@ class RowPush : private RowContacts<Element, System> {
  private:
   /// What answer() changes.
   struct Before {
-    Pushed<Scalar, dimension> pushed[most] = {};
-    bool touching[most] = {};
+    Obstacle obstacle[most] = {};
     FrictionState friction[most];
     State state[most];
     Work work;
-    FrictionBalance<Scalar> balance;
-    Scalar force = 0, potential = 0;
-    bool known = false;
+    Continuation<Scalar> continuation;
+    Scalar force = 0;
   };
 
   template <class Way, class Extent>
   Status answer(Way& way, Obstacle* all, int count, const Extent& range) noexcept {
     System& system = way.system_;
-    this->begin(system, all, count, range);
+    contacts_.begin(system, all, count, range);
     const bool goes_on = look_ahead(system);
     for (int i = 0; i < count; ++i)
-      if (all[i].touching && !(all[i].pushed.force < 0) && this->beside_a_touch(i)) all[i].touching = false;
-    friction_.begin(system, all, count);
-    if (foresight_.forth()) friction_.go_on();
+      if (all[i].touching && !(all[i].pushed.force < 0) && contacts_.beside_a_touch(i))
+        all[i].touching = false;
+    active().begin(system);
+    if (foresight_.forth()) active().go_on();
     began_ = false;
     Status status = Status::ok;
     bool snapped = false;
     for (int pass = 1;; ++pass) {
       if constexpr (most > 1)
-        if (count > 1) this->part(system);
+        if (count > 1) contacts_.part(system);
       status = solve(way, pass == 1, goes_on);
       snapped = snapped || status == Status::snapped;
       if (!is_answer(status)) {
-        this->lose(system);
+        contacts_.lose(system);
         break;
       }
-      this->take(system);
-      if (!this->review(system, range, friction_)) break;
-      if (this->ran_away()) foresight_.begin_again(system), system.draw();
+      contacts_.take(system);
+      if (!contacts_.review(system, range)) break;
+      if (contacts_.ran_away()) foresight_.begin_again(system), system.draw();
       if (pass == most_passes) {
         status = Status::iteration_limit;
         break;
       }
     }
     if (snapped && status == Status::ok) status = Status::snapped;
-    for (int i = 0; i < count; ++i) this->end(system, i, status);
-    const auto left =
-        friction_.leave(system, status, work_, balance_, [this](int i) { return slots_[i].goal; });
+    for (int i = 0; i < count; ++i) contacts_.end(system, i, status);
+    const auto left = active().leave(system, status, work_);
     taken_ = left.taken;
     potential_ = system.foreseen_potential() + left.stored;
     remember(status == Status::ok);
@@ -199,53 +186,52 @@ class RowPush : private RowContacts<Element, System> {
   }
 
   /// Those that touched before answer() do not touch any more.
-  LetGo<Scalar> lets_go(const System& system) const noexcept {
+  LetGo<Scalar> lets_go(const System& system) noexcept {
     Work work = before_.work;
     work.begin();
-    for (int i = 0; i < count_; ++i)
-      if (all_[i].kind == ObstacleKind::round) work.apart(i, all_[i].round);
+    for (int i = 0; i < active().size(); ++i)
+      if (active()[i].kind == ObstacleKind::round) work.apart(i, active()[i].round);
     Scalar rubbed = 0;
-    for (int i = 0; i < count_; ++i)
-      if (all_[i].friction)
+    for (int i = 0; i < active().size(); ++i)
+      if (active()[i].friction)
         rubbed += before_.friction[i].force.norm() * (work.way() + before_.friction[i].skin.norm());
-    return {before_.potential, work.ahead(), rubbed, system.strain(), before_.known};
+    const auto& last = before_.continuation;
+    return {last.potential(), work.ahead(), rubbed, system.strain(), last.known()};
   }
   /// @return whether the hands go on as they went
   bool look_ahead(const System& system) noexcept {
     typename Foresight::Hands hands = Foresight::Hands::Zero();
-    bool same = count_ == last_count_;
-    for (int i = 0; i < count_; ++i) {
-      hands.template segment<Foresight::each>(Foresight::each * i) = hand_of(all_[i].round);
-      same = same && all_[i].touching == touched_[i] && all_[i].kind == kind_[i];
+    bool same = active().size() == last_count_;
+    for (int i = 0; i < active().size(); ++i) {
+      hands.template segment<Foresight::each>(Foresight::each * i) = hand_of(active()[i].round);
+      same = same && active()[i].touching == touched_[i] && active()[i].kind == kind_[i];
     }
     const bool goes_on = foresight_.look(hands, same);
-    for (int i = 0; i < count_; ++i) {
-      Slot& now = slots_[i];
-      if (!all_[i].touching) continue;
+    for (int i = 0; i < active().size(); ++i) {
+      auto& now = contacts_.slots[i];
+      if (!active()[i].touching) continue;
       now.begins = now;
       if (!goes_on) continue;
       const State ahead = foresight_.ahead(i);
       now.force = ahead.force, now.take_curve(ahead);
-      if (all_[i].kind == ObstacleKind::round && !now.held) this->place(system, i, ahead.s);
+      if (active()[i].kind == ObstacleKind::round && !now.held) contacts_.place(system, i, ahead.s);
     }
     return goes_on;
   }
   void remember(bool found) noexcept {
-    for (int i = 0; i < count_; ++i) {
-      found = found && (count_ != last_count_ || all_[i].touching == touched_[i]);
-      touched_[i] = all_[i].touching, kind_[i] = all_[i].kind;
-      slots_[i].force = this->force_of(all_[i]);
+    for (int i = 0; i < active().size(); ++i) {
+      found = found && (active().size() != last_count_ || active()[i].touching == touched_[i]);
+      touched_[i] = active()[i].touching, kind_[i] = active()[i].kind;
+      contacts_.slots[i].force = contacts_.force_of(active()[i]);
     }
-    last_count_ = count_;
-    foresight_.know(found, count_, [this](int i) -> const State& { return slots_[i]; });
+    last_count_ = active().size();
+    foresight_.know(found, active().size(), [this](int i) -> const State& { return contacts_.slots[i]; });
   }
 
   template <class Way>
   Status solve(Way& way, bool first, bool goes_on) noexcept {
     System& system = way.system_;
-    int contacts = 0;
-    for (int i = 0; i < count_; ++i) slots_[i].goal = all_[i].touching ? contacts++ : -1;
-    if (contacts == 0) {
+    if (active().number() == 0) {
       if (!way.single_valued_) {
         let_go_ = lets_go(system);
         return release(way);
@@ -254,53 +240,51 @@ class RowPush : private RowContacts<Element, System> {
       return Status::ok;
     }
     // With friction what is near is tried first; all of the way may be a fall.
-    const bool rough = friction_.any();
+    const bool rough = active().any_rough();
     // Places in space stay in that where they hardly slide, and all do where there was none: else there may be none.
     bool stay = dimension == 2;
     const auto stays = [&](int i) {
-      return dimension == 3 && friction_.hardly_slides(i, system.length() / 100000);
+      return dimension == 3 && active().hardly_slides(i, system.length() / 100000);
     };
     int moves = 0;
     const auto aim = [&] {
-      system.set_goal();
-      for (int i = 0; i < count_; ++i)
-        if (slots_[i].goal >= 0) system.add_goal(this->contact(i), friction_.of(i), stay || stays(i));
+      active().aim(
+          system, [this](int i) { return contacts_.contact(i); }, [&](int i) { return stay || stays(i); });
     };
     // Where some stay, all may have to, and the solves of a push are for both ways.
     bool some = false;
-    for (int i = 0; i < count_; ++i) some = some || (slots_[i].goal >= 0 && stays(i));
+    for (int i = 0; i < active().size(); ++i) some = some || (active().goal(i) >= 0 && stays(i));
     const auto few = [&] {
       return !rough || (most == 1 && dimension == 2) ? close_by
              : most == 1                             ? near_in_space
              : some && !stay                         ? near_with_friction * 3 / 4
                                                      : near_with_friction;
     };
-    bool all = !rough || way.descends() || friction_.falls();
+    bool all = !rough || way.descends() || active().falls();
     const auto begin_again = [&] {
-      for (int i = 0; i < count_; ++i)
-        if (slots_[i].goal >= 0) static_cast<State&>(slots_[i]) = slots_[i].begins;
+      for (int i = 0; i < active().size(); ++i)
+        if (active().goal(i) >= 0) static_cast<State&>(contacts_.slots[i]) = contacts_.slots[i].begins;
     };
     // Whether Coulomb's law holds, and the places are those of the equilibrium.
     const auto agrees = [&](Status found) {
       if (!rough) return true;
       if (is_answer(found)) {
-        const bool settled = friction_.settled(system, [this](int i) { return slots_[i].goal; }),
-                   moved = system.places_go_on();
+        const bool settled = active().settled(system), moved = system.places_go_on();
         if (settled && (!moved || ++moves > most_moves)) return true;
-        this->take(system);
+        contacts_.take(system);
       } else {
         if (all) return true;
         // What two hold between them turns late, what one holds before its place stays.
-        const bool turns = (stay || most == 1) && friction_.turn();
+        const bool turns = (stay || most == 1) && active().turn();
         if (!turns && !stay) {
           stay = true;
-          friction_.begin_again(system);
+          active().begin_again(system);
           if (began_) foresight_.begin_again(system), begin_again();
           return false;
         }
         all = !turns;
       }
-      if (friction_.torn() && began_) {
+      if (active().torn() && began_) {
         foresight_.begin_again(system);
         begin_again();
       }
@@ -319,7 +303,7 @@ class RowPush : private RowContacts<Element, System> {
         if (status == Status::ok) return status;
         foresight_.go_back(system, last);
         begin_again();
-        if (!rough && this->hold_sharp(system)) {
+        if (!rough && contacts_.hold_sharp(system)) {
           status = way.settle_at_once(slack, aim, few());
           if (status == Status::ok) return status;
           foresight_.go_back(system, last);
@@ -328,7 +312,7 @@ class RowPush : private RowContacts<Element, System> {
       }
       if (way.single_valued_ && nearer_at_rest(way)) {
         way.to_rest();
-        this->begin_at_rest(system);
+        contacts_.begin_at_rest(system);
       }
     }
     Status status;
@@ -342,12 +326,12 @@ class RowPush : private RowContacts<Element, System> {
   bool nearer_at_rest(const Way& way) noexcept {
     const System& system = way.system_;
     Scalar jump = 0, from_rest = 0;
-    for (int i = 0; i < count_; ++i) {
-      if (slots_[i].goal < 0 || all_[i].kind != ObstacleKind::round) continue;
-      const Scalar s = slots_[i].s;
-      const RoundContact round{all_[i].round};
+    for (int i = 0; i < active().size(); ++i) {
+      if (active().goal(i) < 0 || active()[i].kind != ObstacleKind::round) continue;
+      const Scalar s = contacts_.slots[i].s;
+      const RoundContact round{active()[i].round};
       const auto off = [&](const auto& line) {
-        return std::abs(round.clearance(round.node_at(line, s)) - all_[i].round.reach);
+        return std::abs(round.clearance(round.node_at(line, s)) - active()[i].round.reach);
       };
       jump = (std::max)(jump, off(system.centreline()));
       from_rest = (std::max)(from_rest, off(system.view(way.rest_state_)));
@@ -355,18 +339,19 @@ class RowPush : private RowContacts<Element, System> {
     return jump > system.length() / 1000 && from_rest < jump;
   }
 
+  ActiveSet<System>& active() noexcept { return contacts_.active; }
+
+  RowContacts<System> contacts_;
   Foresight foresight_;
   Curvature<Scalar> curvature_;
   bool began_ = false;  // foresight_ has the state before this push
   int last_count_ = 0;
   bool touched_[most] = {};
   ObstacleKind kind_[most] = {};
-  Friction friction_;
   Work work_, from_;
   Before before_;
   Round to_[most] = {};
   Continuation<Scalar> continuation_;
-  FrictionBalance<Scalar> balance_;
   LetGo<Scalar> let_go_;
   Scalar potential_ = 0, taken_ = 0;  // of the last answer, and by friction [J]
 };

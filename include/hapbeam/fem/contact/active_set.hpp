@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Friction at each of several contacts of a push (friction_law.hpp).
+// The bodies that may touch a beam or rod: which of them do, the numbers of their contacts in its equations, and their friction.
 //
-// Each has a law of its own, with a bound that follows its own normal force.  An equilibrium is one of Coulomb's where all of them have settled.
-// Real-time: noexcept, no allocation, O(contacts).
+// A push has one (row_push.hpp), and so has a step with mass (coupled_contacts.hpp).  Each of its equilibria is one of those that touch: of those that
+// would have to pull the worst lets go.
+// Each that is rough has a law of friction of its own (friction_law.hpp), with a bound that follows its own normal force.  An equilibrium is one of
+// Coulomb's where all of them have settled.
+// Real-time: noexcept, no allocation, O(contacts).   Source: Nocedal and Wright, Numerical Optimization, 16.5.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include <hapbeam/force_model.hpp>
@@ -14,68 +16,59 @@
 
 namespace hapbeam::detail {
 
-/// What contacts dissipate in a tick, so that the energy is balanced.
-///
-/// FrictionLaw::leave() takes a trapezoid for each contact, D = ½ (T before + T) · slip.  Their sum is
-///
-///   Σ D = W - ΔV        W: what the hands give (contact_work.hpp), V: energy of the beam and of sheared skins
-///
-/// to third order of the step where nothing happens within the tick.  A contact that gives way or turns back makes forces fall at once, and nodes of a
-/// rod that follow contacts change V by more or less than friction takes.  All of them then take by the same factor more or less, so that what the
-/// hands give, by trapezoids, is in V or was dissipated.  While all of them stick V is what they give, and need not be computed.
-///
-/// No factor is farther than a quarter from one: what is beyond is left for the next tick.  So is a tick in which all turns back, whose force is zero in the
-/// mean and whose slip is not.  Where more than 0.003 of V is missing besides, the beam fell or the step is too long for trapezoids: it is not counted.
-/// Real-time: noexcept, no allocation, O(elements) where something slides, else O(1).
-template <typename Scalar>
-class FrictionBalance {
- public:
-  /// To be called where the beam moves otherwise.
-  void forget() noexcept { known_ = false; }
-
-  /// To be called where a push was answered.  @param work  its ContactWork
-  /// @param potential  () -> V of the answer [J]   @param taken  Σ D [J]   @param slides  whether any of them slides now, or did before
-  /// @return the factor; 1 where what touches is not what touched before
-  template <class Work, class Potential>
-  Scalar factor(const Work& work, Potential&& potential, Scalar taken, bool slides) noexcept {
-    const bool known = known_ && work.same();
-    const Scalar given = stored_ + work.done() - taken;
-    known_ = true;
-    if (known && !slides) {
-      known_ = !(taken > 0);  // what damps a skin that sticks
-      stored_ = given;
-      return 1;
-    }
-    stored_ = potential();
-    const Scalar rest = given - stored_;
-    if (!known || !(std::abs(rest) <= taken + loose * std::abs(stored_))) return 1;
-    const Scalar more = std::clamp(rest, -part * taken, part * taken);
-    stored_ += rest - more;  // left for the next tick
-    return taken > 0 ? 1 + more / taken : Scalar(1);
-  }
-
- private:
-  static constexpr Scalar part = Scalar(0.25), loose = Scalar(3e-3);
-
-  Scalar stored_ = 0;
-  bool known_ = false;
-};
-
-/// @tparam RoundContact  RoundContact<Scalar> | RodRoundContact<Scalar>   @tparam Most  obstacles
-template <class System, class Obstacle, class RoundContact, int Most>
-class SeveralFriction {
+template <class System>
+class ActiveSet {
   using Scalar = typename System::Scalar;
+  using RoundContact = typename System::RoundContact;
+  static constexpr int most = System::Rows::most;
 
  public:
+  using Obstacle = hapbeam::Obstacle<Scalar, System::dimension>;
   using Friction = typename System::Friction;
   using Vector = typename Friction::Vector;
 
-  /// To be called where a push begins.   @param all  those that touch and have friction go on as they did
-  void begin(const System& system, Obstacle* all, int count) noexcept {
-    all_ = all, count_ = count, any_ = false;
-    for (int i = 0; i < count; ++i) {
+  /// To be called where a push begins.   @param all  kept until it ends
+  void take(Obstacle* all, int count) noexcept {
+    all_ = all, count_ = count;
+    std::fill(goals_, goals_ + most, -1);
+  }
+  int size() const noexcept { return count_; }
+  Obstacle& operator[](int i) noexcept { return all_[i]; }
+  const Obstacle& operator[](int i) const noexcept { return all_[i]; }
+  /// Number of a contact in the system, -1: there was none in the last equilibrium.
+  int goal(int i) const noexcept { return goals_[i]; }
+
+  /// Gives all that touch and are the beam's to feel their numbers.   @return how many there are
+  int number() noexcept {
+    int contacts = 0;
+    for (int i = 0; i < count_; ++i) goals_[i] = all_[i].touching && all_[i].valid ? contacts++ : -1;
+    return contacts;
+  }
+  /// After that: they are the goal of the system.   @param contact  (i) -> as the system takes it   @param stays  (i) -> whether its place does
+  template <class EachContact, class Stays>
+  void aim(System& system, EachContact&& contact, Stays&& stays) noexcept {
+    system.set_goal();
+    for (int i = 0; i < count_; ++i)
+      if (goals_[i] >= 0) system.add_goal(contact(i), of(i), stays(i));
+  }
+  /// The one that pulls most, which a support may; what is touched by nothing pulls the least.   @return -1: none
+  int worst() const noexcept {
+    int worst = -1;
+    for (int i = 0; i < count_; ++i) {
+      if (!all_[i].touching || all_[i].kind == ObstacleKind::support || all_[i].pushed.force < 0) continue;
+      if (worst < 0 || all_[i].pushed.force > all_[worst].pushed.force) worst = i;
+    }
+    return worst;
+  }
+
+  // Friction.
+
+  /// To be called where a push begins: that of those that touch goes on as it did.
+  void begin(const System& system) noexcept {
+    any_ = false;
+    for (int i = 0; i < count_; ++i) {
       laws_[i].reset();
-      if (all[i].touching) meet(system, i);
+      if (all_[i].touching && all_[i].valid) meet(system, i);
     }
   }
   /// An obstacle has a contact now.
@@ -106,23 +99,19 @@ class SeveralFriction {
     each([](int, Friction& friction) { friction.go_on(); });
   }
 
-  /// Of an obstacle, null: none.
-  Friction* of(int i) noexcept { return laws_[i] ? &*laws_[i] : nullptr; }
-  bool any() const noexcept { return any_; }
+  bool any_rough() const noexcept { return any_; }
   /// Whether all that touches slides without friction.
   bool falls() noexcept {
     bool all = true;
     each([&](int, Friction& friction) { all = friction.falls() && all; });
     return all;
   }
-  /// To be called where an equilibrium was found.  @param goal  i -> number of its contact in the system
-  /// @return whether it is one of Coulomb's law, too
-  template <class Goal>
-  bool settled(System& system, Goal&& goal) noexcept {
-    const auto normal_force = [&](int i) { return -system.linear_reaction(goal(i)); };
+  /// To be called where an equilibrium was found.   @return whether it is one of Coulomb's law, too
+  bool settled(System& system) noexcept {
+    const auto normal_force = [&](int i) { return -system.linear_reaction(goals_[i]); };
     int first = -1;
     each([&](int i, Friction& friction) {
-      system.look_at_friction(goal(i));
+      system.look_at_friction(goals_[i]);
       if (friction.holds_too_much(normal_force(i)) &&
           (first < 0 || friction.last_bound() < of(first)->last_bound()))
         first = i;
@@ -145,18 +134,19 @@ class SeveralFriction {
     each([&](int, Friction& friction) { any = friction.torn() || any; });
     return any;
   }
+  /// Of an obstacle, null: none.
+  Friction* of(int i) noexcept { return laws_[i] ? &*laws_[i] : nullptr; }
+
   /// What a push leaves behind [J].
   struct Left {
     Scalar taken = 0;   ///< by friction
     Scalar stored = 0;  ///< in sheared skins, less what the system's foreseen_potential() has of friction
   };
-  /// To be called where a push ends: what has no answer begins anew.
-  /// @param work  a ContactWork   @param goal  as above, -1: none
-  template <class Work, class Goal>
-  Left leave(System& system, Status status, Work& work, FrictionBalance<Scalar>& balance,
-             Goal&& goal) noexcept {
+  /// To be called where a push ends: what has no answer begins anew.   @param work  a ContactWork
+  template <class Work>
+  Left leave(System& system, Status status, Work& work) noexcept {
     const bool answered = is_answer(status);
-    Scalar before[Most] = {};
+    Scalar before[most] = {};
     Left left;
     Scalar skins = 0;
     bool slides = false, on_its_way = status == Status::ok && any_;
@@ -165,8 +155,8 @@ class SeveralFriction {
       auto* state = all_[i].friction;
       const bool touches = answered && all_[i].touching;
       if (state) before[i] = state->dissipated;
-      if (state && of(i) && touches && goal(i) >= 0 && all_[i].pushed.force < 0) {
-        system.look_at_friction(goal(i));
+      if (state && of(i) && touches && goals_[i] >= 0 && all_[i].pushed.force < 0) {
+        system.look_at_friction(goals_[i]);
         slides = slides || state->slides;
         of(i)->leave(*state, -all_[i].pushed.force);
         slides = slides || state->slides;
@@ -187,15 +177,14 @@ class SeveralFriction {
       else work.holds(i, all_[i].place, all_[i].pushed.force);
     }
     if (any_ && on_its_way) {
-      const Scalar factor = balance.factor(
-          work, [&] { return system.total_potential() + skins; }, left.taken, slides);
+      const Scalar factor = work.factor([&] { return system.total_potential() + skins; }, left.taken, slides);
       each([&](int i, const Friction&) {
         Scalar& dissipated = all_[i].friction->dissipated;
         dissipated = before[i] + factor * (dissipated - before[i]);
       });
       left.taken *= factor;
     } else {
-      balance.forget();
+      work.forget_stored();
     }
     system.forget_friction();
     return left;
@@ -214,8 +203,9 @@ class SeveralFriction {
 
   Obstacle* all_ = nullptr;
   int count_ = 0;
-  bool any_ = false;
-  std::optional<Friction> laws_[Most];
+  int goals_[most] = {};
+  bool any_ = false;  // of them is rough
+  std::optional<Friction> laws_[most];
 };
 
 }  // namespace hapbeam::detail
