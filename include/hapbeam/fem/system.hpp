@@ -19,7 +19,6 @@
 #include <hapbeam/element/tensioned_curve.hpp>
 #include <hapbeam/fem/contact/contact_rows.hpp>
 #include <hapbeam/fem/contact/drawn_mesh.hpp>
-#include <hapbeam/fem/contact/system_contacts.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/internal_forces.hpp>
@@ -62,9 +61,7 @@ void each_touched(const Rows& rows, F&& f) noexcept {
 
 /// @tparam ChainType  BeamChain | RodChain
 template <class ChainType>
-class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typename ChainType::Scalar,
-                                                  typename ChainType::Friction, detail::RowsOf<ChainType>> {
-  using Contacts = typename ChainSystem::SystemContacts;
+class ChainSystem {
   using Parts = typename ChainType::Parts;
 
  public:
@@ -74,8 +71,8 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   using Node = typename Chain::Node;
   using RoundContact = typename Chain::RoundContact;
   using Friction = typename Chain::Friction;
-  using typename Contacts::Contact;
-  using typename Contacts::Rows;
+  using Rows = detail::RowsOf<ChainType>;
+  using Contact = typename Rows::Contact;
   static constexpr int dimension = Rows::dimension, unknowns = Rows::unknowns;
   using Vector = VectorOf<Scalar, dimension>;
   using Increment = VectorOf<Scalar, unknowns>;
@@ -90,9 +87,9 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
 
   /// @param number  of elements   @throws std::invalid_argument as the elements, and where the number does not fit the type
   ChainSystem(const Body& body, int number)
-      : Contacts(number),
-        chain_(body, number),
+      : chain_(body, number),
         assembler_(number),
+        rows_(number),
         saved_(number),
         length_(static_cast<Scalar>(body.length())),
         unit_(static_cast<Scalar>(std::sqrt(Chain::bending(body) / body.length()))) {
@@ -128,23 +125,49 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   /// Back to an equilibrium that was left.  @param force  of its first contact [N]
   void go_back(const State& state, Scalar force) noexcept {
     set(state);
-    Contacts::let_go(force);
+    rows_.let_go(force);
   }
   /// The state of the same system in another scalar, on the same mesh.
   template <class Other>
   void take_state(const Other& other) noexcept {
     for (int i = 0; i <= elements(); ++i) Chain::take_node(other.node(i), nodes()[i]);
     each_inner([&](int e) { inners()[e] = static_cast<Scalar>(other.parts().inners()[e]); });
-    Contacts::let_go(0);
+    rows_.let_go(0);
   }
   /// The shape of the same body on another mesh, without a contact.
   void take_shape(const ChainSystem& other) noexcept {
     chain_.take_shape(other.chain_);
-    Contacts::let_go(0);
+    rows_.let_go(0);
+  }
+
+  // The goal of a path: all of the dead loads, the ends where they are placed, and contacts.
+
+  /// Without a contact.
+  void set_goal() noexcept {
+    rows_.clear();
+    start_load_ = load_;
+    chain_.ends().begin_path(nodes());
+  }
+  /// One contact more.   @param friction  null: none   @param stays  its place, until an equilibrium is found
+  void add_goal(const Contact& goal, Friction* friction, bool stays = false) noexcept {
+    rows_.add(goal, element_at(goal.s, goal.element()), friction, stays);
+  }
+  /// With a place that is held.   @param force  along its normal, about [N]
+  void set_goal(const Push<Scalar, dimension>& place, Scalar force = 0) noexcept {
+    Contact contact;
+    const bool same = rows_.size() == 1 && rows_[0].kind == Contact::Kind::along && rows_[0].s == place.s;
+    if (same) contact = rows_[0];
+    contact.kind = Contact::Kind::along;
+    contact.s = place.s, contact.normal = place.normal, contact.reach = place.d;
+    // What an element of a rod yields by is found from its force: that of another place says nothing of it.
+    contact.force = dimension == 2 || same ? force : Scalar(0);
+    contact.moves = false;
+    set_goal();
+    add_goal(contact, nullptr);
   }
   /// The goal is the contacts of another mesh, each at its place and held along its force.
   void set_goal_of(const ChainSystem& other) noexcept {
-    Contacts::set_goal();
+    set_goal();
     for (int k = 0; k < other.rows_.size(); ++k) {
       const Vector force = other.contact_force(k);
       const Scalar size = std::sqrt(force.squaredNorm());
@@ -153,13 +176,13 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
       contact.s = other.rows_[k].s, contact.force = size;
       contact.normal = size > 0 ? Vector(force / size) : other.rows_[k].normal;
       contact.reach = contact.normal.dot(other.rows_[k].displacement());
-      Contacts::add_goal(contact, nullptr);
+      add_goal(contact, nullptr);
     }
   }
   /// On the body [N].
   Vector contact_force(int k) const noexcept {
     const Contact& contact = rows_[k];
-    const Scalar reaction = this->linear_reaction(k);
+    const Scalar reaction = linear_reaction(k);
     return (contact.kind == Contact::Kind::round ? -reaction : reaction) * contact.normal + contact.friction;
   }
   /// Extrapolates from a state before, times a ratio.   @param before  out: the present state
@@ -200,26 +223,46 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
       if (Chain::folds(node(e), node(e + 1)) && !Chain::folds(rest.nodes[e], rest.nodes[e + 1])) return true;
     return false;
   }
+  /// Contacts as they are, after look().
+  const Rows& rows() const noexcept { return rows_; }
   /// To be called where the beam has moved.
   void look(int k) noexcept { look_in(rows_.element(k)); }
+  void look_at_friction(int k) noexcept {
+    look(k);
+    rows_.friction(k)->look(rows_[k]);
+  }
+  /// To be called in an equilibrium where they have stayed.   @return whether the places of contacts are those of another one
+  bool places_go_on() noexcept {
+    if constexpr (dimension == 2) return false;
+    else return rows_.go_on_to_tangent([this](Scalar s, int e) { return element_at(s, e); }, length_);
+  }
+  /// Of no contact any more.
+  void forget_friction() noexcept { rows_.forget_friction(); }
+  /// As of ContactRows [N].
+  Scalar linear_reaction(int k = 0) const noexcept { return rows_.reached(k); }
+  /// V - λ f · x after the last iterate(), friction's included, to third order of its increment [J].
+  Scalar foreseen_potential() const noexcept { return foreseen_potential_; }
 
   // Required by NewtonRaphson.
 
   static constexpr bool in_pairs = Parts::has_tensions;
 
   void set_target(Scalar t) noexcept {
-    Contacts::aim(t);
+    load_ = t < 1 ? start_load_ + t * (1 - start_load_) : Scalar(1);
+    rows_.aim(t, [this](int k) { look(k); });
     chain_.ends().set_target(t);
     set_turning(1);
     last_size_ = std::numeric_limits<Scalar>::infinity();
   }
   void save() noexcept {
     keep(saved_);
-    Contacts::save_contacts();
+    rows_.save();
+    saved_load_ = load_;
   }
   void restore() noexcept {
     set(saved_);
-    Contacts::restore_contacts();
+    rows_.restore();
+    load_ = saved_load_;
   }
   Scalar size() const noexcept { return weight_; }
   /// Strain energy before the last increment, at least that of a bend by 10⁻⁴ rad, below which no snap is detected [J].
@@ -230,8 +273,10 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   Iteration<Scalar> iterate() noexcept {
     const Status status = factor(0);
     if (status != Status::ok) return {status, 0};
-    Contacts::feel(potential_, assembler_.energy(), inner_energy_);
-    weight_ = Contacts::weight(size_);
+    rows_.feel();
+    const Scalar change = rows_.any() ? rows_.foreseen_change() : -assembler_.energy() / 2;
+    foreseen_potential_ = potential_ - inner_energy_ / 2 + change;
+    weight_ = rows_.weight(size_);
     advance();
     const Scalar size = increment();
     // Where the last increment has blown the state up, this one is small beside it.
@@ -346,11 +391,9 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   Line drawn() const noexcept { return parts().view(drawn_); }
 
  protected:
-  using Contacts::load_;
+  Scalar load_ = 0;  // of the dead loads
 
  private:
-  friend Contacts;
-  using Contacts::rows_;
   typename Parts::Nodes& nodes() noexcept { return chain_.parts().nodes(); }
   typename Parts::Inners& inners() noexcept { return chain_.parts().inners(); }
   void set(const State& state) noexcept {
@@ -361,7 +404,6 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   void each_inner(F&& f) const noexcept {
     for (int e = 0; Parts::has_inners && e < Parts::own_unknowns * elements(); ++e) f(e);
   }
-  void begin_path() noexcept { chain_.ends().begin_path(nodes()); }
   void look_in(int e) noexcept {
     rows_.look(parts(), e, [&]([[maybe_unused]] Scalar tension) {
       if constexpr (dimension == 2) chain_.parts().set_tension(e, tension);
@@ -406,10 +448,13 @@ class ChainSystem : public detail::SystemContacts<ChainSystem<ChainType>, typena
   }
   Chain chain_;
   typename Chain::Assembler assembler_;
+  Rows rows_;
   State saved_;
   Scalar length_, unit_;
   static constexpr Scalar near_ = Scalar(0.05);  // to an equilibrium: an increment in units of the state
-  Scalar size_ = 0, last_size_ = 0, weight_ = 0, potential_ = 0, inner_energy_ = 0, longer_ = 0;
+  Scalar size_ = 0, last_size_ = 0, weight_ = 0, potential_ = 0, inner_energy_ = 0, longer_ = 0,
+         foreseen_potential_ = 0;
+  Scalar saved_load_ = 0, start_load_ = 0;
   bool no_mechanism_ = false;  // its ends and springs hold it
   typename Chain::Drawn drawn_{elements()};
 };

@@ -59,6 +59,11 @@ class ContactRows {
   }
 
   void clear() noexcept { size_ = 0; }
+  /// The same where the beam goes elsewhere.   @param force  of the first one there [N]
+  void let_go(Scalar force) noexcept {
+    clear();
+    reached_ = {force};
+  }
   /// @param goal  its reach is where the path ends; its piece, where that is of this element, goes on   @param element  that holds it
   /// @param friction  null: none
   /// @param stays  s, until an equilibrium is found
@@ -72,14 +77,14 @@ class ContactRows {
     row.goal = goal.reach, row.centre = row.contact.centre_or_tip(), row.by = 0, row.from = -1;
     starts_known_ = false;
   }
-  /// So far along the path.  @param now  (k) -> reach at which contact k is where it is
-  template <class Now>
-  void aim(Scalar t, Now&& now) noexcept {
+  /// So far along the path.  @param look  (k) looks at contact k as it is
+  template <class Look>
+  void aim(Scalar t, Look&& look) noexcept {
     const bool starts = t < 1 && !starts_known_;
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[k];
       Contact& contact = row.contact;
-      if (starts) row.start = now(k);
+      if (starts) look(k), row.start = contact.normal.dot(contact.displacement());
       contact.seen = false;
       if (!takes_bodies || contact.kind == Contact::Kind::along) {
         contact.reach = t < 1 ? row.start + t * (row.goal - row.start) : row.goal;
@@ -93,9 +98,11 @@ class ContactRows {
     starts_known_ = starts_known_ || starts;
   }
   void save() noexcept {
+    saved_ = reached_;
     for (int k = 0; k < size_; ++k) rows_[k].saved = rows_[k].contact, rows_[k].saved_in = rows_[k].element;
   }
   void restore() noexcept {
+    reached_ = saved_;
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[k];
       const Scalar reach = row.contact.reach;
@@ -269,9 +276,10 @@ class ContactRows {
   /// ΔᵀKΔ of the last solve(), that of the forces included [J].
   Scalar energy() const noexcept { return energy_; }
   int negative_pivots() const noexcept { return negative_; }
-  /// After solve(), of several: what the weakest force is worth where the other contacts stay, λ²/(S⁻¹)ₖₖ [J].  S = c + bᵀK⁻¹b, and an increment Δ
-  /// changes λ by no more than √(ΔᵀKΔ (S⁻¹)ₖₖ).
-  Scalar weakest() const noexcept {
+  /// After solve(): √(2V), or of several what the weakest force, which has to be exact, too, is worth where the other contacts stay, λ²/(S⁻¹)ₖₖ [√J].
+  /// S = c + bᵀK⁻¹b, and an increment Δ changes λ by no more than √(ΔᵀKΔ (S⁻¹)ₖₖ).
+  Scalar weight(Scalar size) const noexcept {
+    if (size_ < 2) return size;
     Scalar least = std::numeric_limits<Scalar>::infinity();
     for (int k = 0; k < size_; ++k) {
       // Row k of S⁻¹ by its factors.
@@ -285,7 +293,7 @@ class ContactRows {
       const Scalar force = reaction(k);
       if (stiff > 0) least = (std::min)(least, force * force / stiff);
     }
-    return least;
+    return std::clamp(std::sqrt(least), least_weight * size, size);
   }
   /// After solve(): the part of a contact's flexibility that is its compliance, 0 to 1, where those before it yield.
   Scalar share(int k) const noexcept { return rows_[k].contact.compliance / pivot_[k]; }
@@ -295,12 +303,18 @@ class ContactRows {
     const Scalar next = row.contact.force + row.by;
     return row.contact.kind == Contact::Kind::round ? -next : next;
   }
-  /// To be called after solve(): the normal forces that friction feels.
-  void feel_friction() noexcept {
-    if constexpr (takes_bodies)
-      for (int k = 0; k < size_; ++k)
+  /// To be called after solve() on the way to an equilibrium: the normal forces, which friction feels.
+  void feel() noexcept {
+    if (size_ == 0) reached_[0] = 0;
+    for (int k = 0; k < size_; ++k) {
+      reached_[static_cast<std::size_t>(k)] = reaction(k);
+      if constexpr (takes_bodies)
         if (Friction* const friction = rows_[k].friction) friction->feel(-reaction(k));
+    }
   }
+  /// Of contact k when it was felt last.  It is accurate to what Newton's next increment would change, and stays where a descent is on its way: that of the
+  /// last equilibrium [N].
+  Scalar reached(int k) const noexcept { return reached_[static_cast<std::size_t>(k)]; }
   /// What contacts add to V at the last look: -λ g - λ² c/2 [J].
   Scalar potential() const noexcept {
     Scalar sum = 0;
@@ -342,7 +356,8 @@ class ContactRows {
   }
 
  private:
-  static constexpr Scalar close_by = Scalar(1e-4);  // of a length
+  static constexpr Scalar close_by = Scalar(1e-4);     // of a length
+  static constexpr Scalar least_weight = Scalar(0.1);  // of a contact that may let go
   struct Row {
     explicit Row(int elements) : column(elements) {}
     Contact contact, saved;
@@ -415,6 +430,7 @@ class ContactRows {
   }
 
   Row rows_[Most];
+  std::array<Scalar, std::size_t(Most)> reached_{}, saved_{};  // [N]
   int size_ = 0;
   bool starts_known_ = false;
   Scalar stiff_[Most][Most] = {};  // S, then its factor L
