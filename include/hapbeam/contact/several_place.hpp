@@ -89,10 +89,20 @@ struct SeveralPlace {
     at.obstacle.place = stands.template place<Scalar>();
     at.friction.take(stands.friction());
   }
+  /// @param as  checked
+  void take(const RoundAvatar& as) noexcept {
+    avatar.radius = static_cast<Scalar>(as.radius);
+    at.friction.take(as.friction);
+  }
   /// A hand moves it.
   void move(const Vector& position, const Vector& shaft) noexcept {
     who = hand;
     avatar = avatar_at(position, avatar.radius, shaft);
+  }
+  /// It is nowhere, until a hand moves it.
+  void lift() noexcept {
+    forget();
+    who = lifted;
   }
   /// Whether an end holds it.
   bool at_end() const noexcept { return at.mode > Mode::pushed; }

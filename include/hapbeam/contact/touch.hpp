@@ -56,7 +56,7 @@ class Touch {
   using Result = TouchResult<Scalar, dimension>;
 
   /// @param model   kept by reference   @param avatar_radius  [m]   @param friction  none unless it is given
-  /// Allocates.   @throws std::invalid_argument unless avatar_radius is 0 to most_radius lengths of the beam, and the
+  /// Allocates.   @throws std::invalid_argument unless avatar_radius is 0 to a thousand lengths of the beam, and the
   /// friction one that the model offers
   Touch(Model& model, Scalar avatar_radius, const Friction& friction = {})
       : model_(model), avatar_radius_(avatar_radius), volumes_(model.shape().segments()) {
@@ -85,8 +85,7 @@ class Touch {
   /// Real-time: noexcept, no allocation, bounded: at most one press or push and one release; nothing without contact but for a
   /// beam that falls to rest.  With FemModel that is 96 linear solves, and two looks more for each of the four meshes of a push and
   /// for the release: with 64 elements at 0.1 µs an element and solve 0.68 ms.
-  [[nodiscard]] Result tick(const Vector& position) noexcept { return tick(position, Vector::Zero()); }
-  [[nodiscard]] Result tick(const Vector& position, const Vector& shaft) noexcept;
+  [[nodiscard]] Result tick(const Vector& position, const Vector& shaft = Vector::Zero()) noexcept;
 
   [[nodiscard]] bool pressing() const noexcept { return at_.mode > Mode::inside; }
   /// Whether there is friction.
@@ -99,19 +98,14 @@ class Touch {
 
   /// The contact of the beam as it lies now with the avatar, gone straight to a place from that of the last tick.
   /// @param position, shaft [m] as of tick()   Real-time: noexcept, no allocation, bounded; no press.
-  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position) noexcept {
-    return contact_at(position, Vector::Zero());
-  }
-  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position,
-                                                               const Vector& shaft) noexcept {
+  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
+      const Vector& position, const Vector& shaft = Vector::Zero()) noexcept {
     if (at_.mode == Mode::inside) return {};
     auto memory = at_.memory;
     return find_contact(detail::avatar_at(position, avatar_radius_, shaft), model_.shape(), volumes(),
                         model_.thickness(), memory);
   }
 
-  /// Of the avatar's radius, in lengths of the beam.
-  static constexpr double most_radius = detail::most_radius;
   /// Ticks since the last answer in which the model may have no force either.  After them the touch is over.
   static constexpr int patience = 20;
 

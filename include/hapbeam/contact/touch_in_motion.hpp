@@ -68,11 +68,9 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
     side_ = result.contact.side;
     if (!pressing_) friction_.dissipated = 0;
     Coupled<Scalar, dimension> coupled{};
-    if constexpr (dimension == 2) {
-      coupled.hand = {result.contact.s, hand, reach, static_cast<Scalar>(side_)};
-    } else {
-      coupled.hand = {result.contact.s, avatar.place(), reach, pressing_ ? normal_ : result.contact.normal};
-    }
+    auto there = result.contact;
+    if (pressing_) there.normal = normal_;
+    coupled.hand = detail::LastingContact<Model>::round(avatar, there.s, reach, there);
     coupled.stiffness = stiffness, coupled.damping = damping;
     if (rough()) coupled.friction = &friction_;
     const auto pushed = model_.step(dt, coupled);

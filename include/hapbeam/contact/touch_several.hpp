@@ -27,6 +27,9 @@
 
 namespace hapbeam {
 
+template <class Model>
+class TwoHands;
+
 /// Several avatars and props on one beam.  Between ticks the model may be read by others but pressed by nobody else.
 template <class Model>
 class TouchSeveral {
@@ -52,8 +55,7 @@ class TouchSeveral {
       avatar.check(length());
       for (int k = 0; k < avatar.touches; ++k) {
         Place& place = add(avatars_);
-        place.avatar.radius = static_cast<Scalar>(avatar.radius);
-        place.at.friction.take(avatar.friction);
+        place.take(avatar);
         place.again = k > 0, place.several = avatar.touches > 1;
       }
       ++avatars_;
@@ -103,38 +105,16 @@ class TouchSeveral {
   }
   /// An avatar leaves the scene, until it is moved again.
   void lift(int avatar) noexcept {
-    each_of(avatar, [](Place& place) {
-      place.forget();
-      place.who = Place::lifted;
-    });
+    each_of(avatar, [](Place& place) { place.lift(); });
   }
-  /// Nobody moves.
-  [[nodiscard]] Result tick_still() noexcept { return solve(); }
   /// Whether a tick takes it, else invalid_request.
   [[nodiscard]] static bool is_place(const Vector& position, const Vector& shaft) noexcept {
     return std::isfinite(position.squaredNorm()) && std::isfinite(shaft.squaredNorm());
-  }
-  /// Whether an avatar touched in the last tick.
-  [[nodiscard]] bool touching(int avatar) noexcept {
-    return any_of(avatar, [](const Place& place) { return place.at.obstacle.touching; });
-  }
-  /// @param radius [m]   @throws std::invalid_argument
-  void set_radius(int avatar, double radius) {
-    RoundAvatar(radius).check(length());
-    each_of(avatar, [&](Place& place) { place.avatar.radius = static_cast<Scalar>(radius); });
   }
   /// @throws std::invalid_argument naming what makes no sense
   void set_friction(int avatar, const Friction& friction) {
     friction.check();
     each_of(avatar, [&](Place& place) { place.at.friction.take(friction); });
-  }
-  /// Whether an avatar has friction.
-  [[nodiscard]] bool rough(int avatar) noexcept {
-    return any_of(avatar, [](const Place& place) { return place.at.friction.rough(); });
-  }
-  /// As Touch::soften().
-  void soften(int avatar, Scalar stiffness, Scalar damping) noexcept {
-    each_of(avatar, [&](Place& place) { place.at.friction.soften(stiffness, damping); });
   }
   /// The contact of the beam as it lies now with an avatar, gone straight to a place from that of its last tick.
   [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
@@ -152,13 +132,12 @@ class TouchSeveral {
   /// Nobody touches the beam, and it is at rest.
   [[nodiscard]] bool resting() const noexcept { return !moving_; }
 
-  /// As Touch::most_radius.
-  static constexpr double most_radius = detail::most_radius;
   /// As Touch::patience.
   static constexpr int patience = 20;
 
  private:
   using Place = detail::SeveralPlace<Model>;
+  friend class TwoHands<Model>;
 
   Result solve() noexcept;
   Result invalid() const noexcept {
@@ -185,12 +164,6 @@ class TouchSeveral {
   void each_of(int avatar, Use&& use) {
     for (Place& place : *this)
       if (place.at.obstacle.body == avatar && place.who != Place::prop) use(place);
-  }
-  template <class Is>
-  bool any_of(int avatar, Is&& is) {
-    bool any = false;
-    each_of(avatar, [&](const Place& place) { any = any || is(place); });
-    return any;
   }
 
   /// To be called where the beam is at rest.

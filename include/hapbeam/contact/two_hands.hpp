@@ -109,7 +109,7 @@ class TwoHands {
     const int other = 1 - hand;
     Side &own = side(hand), &others = side(other);
     own.be(own.presence == Presence::away ? Presence::here : own.presence);
-    const Result result = here(hand) ? touch_.tick(hand, position, shaft) : touch_.tick_still();
+    const Result result = here(hand) ? touch_.tick(hand, position, shaft) : touch_.solve();
     if (is_answer(result.status)) others.meanwhile = result.force(other) - result.friction(other);
     if (here(other) && ++others.silent == patience) take_off(other, Presence::away);
     // Without those who wait the beam lies as the other one holds it, if that one is there.
@@ -127,11 +127,11 @@ class TwoHands {
   }
   bool here(int hand) const noexcept { return side(hand).presence == Presence::here; }
   void take_off(int hand, Presence presence) noexcept {
-    touch_.lift(hand);
+    place(hand).lift();
     side(hand).be(presence);
   }
   /// It touches, or does so but for its avatar.
-  bool leans(int hand) noexcept { return touch_.touching(hand) || side(hand).missed; }
+  bool leans(int hand) noexcept { return place(hand).at.obstacle.touching || side(hand).missed; }
 
   /// From any thread: wait-free.
   void reset(int hand) noexcept { side(hand).reset.store(true, std::memory_order_release); }
@@ -154,6 +154,8 @@ class TwoHands {
       side.meanwhile.reset();
     }
   }
+  /// Each has one, in their order.
+  auto& place(int hand) noexcept { return touch_.places_[static_cast<std::size_t>(hand)]; }
   Side& side(int hand) noexcept { return sides_[static_cast<std::size_t>(hand)]; }
   const Side& side(int hand) const noexcept { return sides_[static_cast<std::size_t>(hand)]; }
 
@@ -180,8 +182,9 @@ class Touch<Hand<Model>> {
   /// @param hand  kept by reference   @param avatar_radius [m]   @throws std::invalid_argument as TouchSeveral
   Touch(Hand<Model>& hand, Scalar avatar_radius, const Friction& friction = {})
       : hands_(hand.hands_), index_(hand.index_) {
-    hands_.touch_.set_radius(index_, static_cast<double>(avatar_radius));
-    hands_.touch_.set_friction(index_, friction);
+    const RoundAvatar avatar(static_cast<double>(avatar_radius), 1, friction);
+    avatar.check(static_cast<double>(hand.shape().length()));
+    hands_.place(index_).take(avatar);
     reset();
   }
 
@@ -195,8 +198,10 @@ class Touch<Hand<Model>> {
   /// Whether ticks of the other hand have taken it off the beam that it pressed.
   bool lifted() const noexcept { return pressing_ && !hands_.here(index_); }
   /// As Touch.
-  bool rough() const noexcept { return hands_.touch_.rough(index_); }
-  void soften(Scalar stiffness, Scalar damping) noexcept { hands_.touch_.soften(index_, stiffness, damping); }
+  bool rough() const noexcept { return hands_.place(index_).at.friction.rough(); }
+  void soften(Scalar stiffness, Scalar damping) noexcept {
+    hands_.place(index_).at.friction.soften(stiffness, damping);
+  }
   /// The normal force on a hand that presses, at the place of its last tick, as ticks of the other one have left the beam [N].  Null where
   /// there were none.
   const Vector* meanwhile() const noexcept {
@@ -210,13 +215,11 @@ class Touch<Hand<Model>> {
     const auto felt = hands_.tick(index_, position, shaft);
     Result result;
     result.status = felt.status;
-    for (const auto& place : felt) {
-      if (place.body != index_) continue;
-      if (felt.status != Status::invalid_request) result.status = place.status;
-      result.pressing = place.touching;
-      result.force = place.force;
-      if (place.touching) describe(place, result);
-    }
+    const auto& place = felt.places[static_cast<std::size_t>(index_)];
+    if (felt.status != Status::invalid_request) result.status = place.status;
+    result.pressing = place.touching;
+    result.force = place.force;
+    if (place.touching) describe(place, result);
     pressing_ = result.pressing;
     return result;
   }

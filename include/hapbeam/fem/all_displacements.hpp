@@ -174,7 +174,7 @@ class AllDisplacements {
   template <typename S>
   using SystemIn = typename detail::SystemOf<Element>::template System<S, Elements, MaxElements>;
   using System = SystemIn<Scalar>;
-  using Pushes = std::conditional_t<any_rotation<Element>, detail::RowPush<System>, detail::NoPush>;
+  using Pushes = detail::RowPush<System>;
   friend Pushes;
   using Places = detail::PlacePush<Element, System>;
   friend Places;

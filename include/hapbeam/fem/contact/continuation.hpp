@@ -122,32 +122,29 @@ class Continuation {
   }
 
   /// Goes from the last request to the next.  A snap on the way to where there is no answer is told with the next one.
-  /// @param go  t in (0, 1] of the way -> an answer with a status   @param judge  answer -> Branch   @param keep  (): the answer is to be continued
-  /// @param back  (): to where go() began
+  /// @param go  t in (0, 1] of the way -> status of its answer   @param judge  () -> Branch   @param keep  (status): the answer is to be continued
+  /// @param back  (): to where go() began   @return status of the last answer
   template <class Go, class Judge, class Keep, class Back>
-  auto follow(Go&& go, Judge&& judge, Keep&& keep, Back&& back) noexcept {
+  Status follow(Go&& go, Judge&& judge, Keep&& keep, Back&& back) noexcept {
     bool snapped = snapped_;
     snapped_ = false;
     Scalar t = 0, step = 1;
     for (;;) {
-      auto answer = go(t + step);
-      const Branch branch = answer.status == Status::ok ? judge(answer) : Branch::same;
+      const Status status = go(t + step);
+      const Branch branch = status == Status::ok ? judge() : Branch::same;
       if (branch != Branch::same && step > shortest) {
         back();
         step /= 2;
         continue;
       }
-      snapped = snapped || branch == Branch::other || answer.status == Status::snapped;
-      keep(answer);
+      snapped = snapped || branch == Branch::other || status == Status::snapped;
+      keep(status);
       t += step;
-      if (!is_answer(answer.status)) {
+      if (!is_answer(status)) {
         snapped_ = snapped;
-        return answer;
+        return status;
       }
-      if (t >= 1) {
-        if (snapped && answer.status == Status::ok) answer.status = Status::snapped;
-        return answer;
-      }
+      if (t >= 1) return snapped && status == Status::ok ? Status::snapped : status;
       step = (std::min)(2 * step, 1 - t);
     }
   }

@@ -41,6 +41,7 @@ class PlacePush {
     if (!(last_.normal.dot(request.normal) > 0)) continuation_.forget();
     const Request from = last_;
     Request next;
+    Response<Scalar> found{};
     Scalar force = 0, ahead = 0;
     bool stays = false;  // at its place, along its direction
     const auto go = [&](Scalar t) {
@@ -48,9 +49,10 @@ class PlacePush {
       system.keep(before_), force = system.linear_reaction();
       stays = continuation_.known() && next.s == last_.s && next.normal == last_.normal;
       ahead = next.d - (stays ? last_.d : system.displacement(next.s, next.normal));
-      return answer(way, next);
+      found = answer(way, next);
+      return found.status;
     };
-    const auto judge = [&](const Response<Scalar>& found) {
+    const auto judge = [&] {
       const Scalar behind = stays ? ahead : system.displacement(last_.s, last_.normal) - last_.d;
       const Scalar before = force * ahead, now = found.force * behind;
       return continuation_.judge({system.foreseen_potential(), (before + now) / 2,
@@ -58,8 +60,8 @@ class PlacePush {
                                   system.length(), std::abs(ahead) + std::abs(next.s - last_.s)},
                                  [&] { return farthest(system.view(before_), system.centreline()); });
     };
-    const auto keep = [&](const Response<Scalar>& found) {
-      if (!is_answer(found.status)) return continuation_.forget();
+    const auto keep = [&](Status status) {
+      if (!is_answer(status)) return continuation_.forget();
       continuation_.know(system.foreseen_potential());
       last_ = next;
     };
@@ -67,7 +69,8 @@ class PlacePush {
       system.go_back(before_, force);
       system.draw();
     };
-    return continuation_.follow(go, judge, keep, back);
+    found.status = continuation_.follow(go, judge, keep, back);
+    return found;
   }
 
  private:

@@ -52,6 +52,7 @@ class RowContacts {
   void begin(const System& system, Obstacle* all, int count, const Extent& range) noexcept {
     active.take(all, count);
     const auto where = range.range();
+    left_support_ = where.left_support, right_support_ = where.right_support;
     least_ = (std::max)(where.s_min, Scalar(0)), most_ = (std::min)(where.s_max, range.length());
     for (int i = 0; i < count; ++i) {
       const bool round = all[i].kind == ObstacleKind::round;
@@ -209,8 +210,7 @@ class RowContacts {
     }
   }
   /// What the equilibrium says of all of them, after take().   @return whether there has to be another one
-  template <class Extent>
-  bool review(System& system, const Extent& range) noexcept {
+  bool review(System& system) noexcept {
     if (const int worst = active.worst(); worst >= 0) return let_go(worst), true;
     bool again = false;
     for (int i = 0; i < active.size(); ++i) {
@@ -221,7 +221,7 @@ class RowContacts {
       if (!now.moves && !now.held && outward(active[i].round, found) < 0) now.moves = again = true;
     }
     if (again) return true;
-    if (slip_off(system, range)) return true;
+    if (slip_off(system)) return true;
     // What is seen of it is asked for by all but the bodies that touch.
     const auto touches = [](const Obstacle& obstacle) {
       return obstacle.touching && obstacle.kind == ObstacleKind::round;
@@ -325,15 +325,13 @@ class RowContacts {
     return found.s <= least_ ? -along : found.s >= most_ ? along : Scalar(-1);
   }
   /// An end that holds w may slide away under an obstacle.   @return whether one has
-  template <class Extent>
-  bool slip_off(const System& system, const Extent& range) noexcept {
-    const auto where = range.range();
+  bool slip_off(const System& system) noexcept {
     bool any = false;
     for (int i = 0; i < active.size(); ++i) {
       const Slot& now = slots[i];
       if (active.goal(i) < 0 || now.moves || active[i].kind != ObstacleKind::round) continue;
       const bool right = now.s >= most_;
-      if (!std::isfinite(right ? where.right_support : where.left_support)) continue;
+      if (!std::isfinite(right ? right_support_ : left_support_)) continue;
       // An end that holds w takes any force: what was beside it, and has run there, stays where it was.
       const Scalar began = now.begins.s;
       if (now.held && now.of > least_ && now.of < most_) continue;
@@ -431,8 +429,8 @@ class RowContacts {
   Vector centre_before(int i, const Vector& at) const noexcept { return RoundContact{before_[i]}.centre(at); }
 
   bool ran_away_ = false;  // a place, to an end that it was not at
-  Scalar least_ = 0, most_ = 0;
-  Round before_[most] = {};  // in the push before
+  Scalar least_ = 0, most_ = 0, left_support_ = 0, right_support_ = 0;  // [m]
+  Round before_[most] = {};                                             // in the push before
 };
 
 }  // namespace hapbeam::detail

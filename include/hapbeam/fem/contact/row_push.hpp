@@ -93,9 +93,6 @@ class RowPush {
       continuation_.forget();
       return answer(way, all, count, range);
     }
-    struct Answer {
-      Status status;
-    };
     Before& before = before_;
     bool rough = false;
     for (int i = 0; i < count; ++i) to_[i] = all[i].round, rough = rough || all[i].friction;
@@ -107,17 +104,17 @@ class RowPush {
         if (!whole) all[i].round = from_.knows(i) ? between(from_.round(i), to_[i], t) : to_[i];
       }
       before.work = work_, before.continuation = continuation_, before.force = system.linear_reaction();
-      return Answer{answer(way, all, count, range)};
+      return answer(way, all, count, range);
     };
-    const auto judge = [&](const Answer&) {
+    const auto judge = [&] {
       if (!began_ || work_.strange()) return Branch::same;
       return continuation_.judge(
           {potential_, work_.done() - taken_, work_.size(), work_.change(), system.strain(), system.length(),
            work_.way(), rough, dimension == 3 && work_.turned()},
           [&] { return farthest(system.view(foresight_.before()), system.centreline()); });
     };
-    const auto keep = [&](const Answer& found) {
-      if (is_answer(found.status) && work_.any()) continuation_.know(potential_);
+    const auto keep = [&](Status status) {
+      if (is_answer(status) && work_.any()) continuation_.know(potential_);
       else continuation_.forget();
     };
     const auto back = [&] {
@@ -132,7 +129,7 @@ class RowPush {
       }
       work_ = before.work;
     };
-    return continuation_.follow(go, judge, keep, back).status;
+    return continuation_.follow(go, judge, keep, back);
   }
 
  private:
@@ -169,7 +166,7 @@ class RowPush {
         break;
       }
       contacts_.take(system);
-      if (!contacts_.review(system, range)) break;
+      if (!contacts_.review(system)) break;
       if (contacts_.ran_away()) foresight_.begin_again(system), system.draw();
       if (pass == most_passes) {
         status = Status::iteration_limit;
@@ -354,18 +351,6 @@ class RowPush {
   Continuation<Scalar> continuation_;
   LetGo<Scalar> let_go_;
   Scalar potential_ = 0, taken_ = 0;  // of the last answer, and by friction [J]
-};
-
-/// Of a beam that nothing round pushes.
-struct NoPush {
-  template <class System>
-  explicit NoPush(const System&) noexcept {}
-  template <class Way>
-  Status release(Way& way) noexcept {
-    return way.let_go();
-  }
-  void forget() noexcept {}
-  void forget_shape() noexcept {}
 };
 
 }  // namespace hapbeam::detail
