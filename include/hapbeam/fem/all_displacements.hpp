@@ -53,7 +53,7 @@ class AllDisplacements {
   /// @return force [N], not always finite, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
   Response<Scalar> press(const Push<Scalar, dimension>& request, bool valid) noexcept {
     if (!begins(valid)) return {0, report_.status};
-    pushes_.forget();
+    if constexpr (any_rotation<Element>) pushes_.forget();
     return place_.push(*this, request);
   }
 

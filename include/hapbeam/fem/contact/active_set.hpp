@@ -45,8 +45,9 @@ class ActiveSet {
     return contacts;
   }
   /// After that: they are the goal of the system.   @param contact  (i) -> as the system takes it   @param stays  (i) -> whether its place does
+  /// Not inlined: it is called from several places, and each would have a copy of what a contact is made of.
   template <class EachContact, class Stays>
-  void aim(System& system, EachContact&& contact, Stays&& stays) noexcept {
+  [[gnu::noinline]] void aim(System& system, EachContact&& contact, Stays&& stays) noexcept {
     system.set_goal();
     for (int i = 0; i < count_; ++i)
       if (goals_[i] >= 0) system.add_goal(contact(i), of(i), stays(i));

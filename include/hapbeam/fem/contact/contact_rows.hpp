@@ -49,7 +49,7 @@ class ContactRows {
   int size() const noexcept { return size_; }
   bool any() const noexcept { return size_ > 0; }
   const Contact& operator[](int k) const noexcept { return rows_[k].contact; }
-  Friction* friction(int k) const noexcept { return rows_[k].friction; }
+  Friction* friction(int k) const noexcept { return takes_bodies ? rows_[k].friction : nullptr; }
   int element(int k) const noexcept { return rows_[k].element; }
   /// Whether an element is touched.
   bool in(int e) const noexcept {
@@ -86,14 +86,12 @@ class ContactRows {
       Contact& contact = row.contact;
       if (starts) look(k), row.start = contact.normal.dot(contact.displacement());
       contact.seen = false;
-      if (!takes_bodies || contact.kind == Contact::Kind::along) {
+      if (contact.kind == Contact::Kind::along) {
         contact.reach = t < 1 ? row.start + t * (row.goal - row.start) : row.goal;
         continue;
       }
-      if constexpr (takes_bodies) {
-        if (starts) row.way = contact.way_to_curve();
-        contact.centre_or_tip() = t < 1 ? Vector(row.centre + (1 - t) * row.way) : row.centre;
-      }
+      if (starts) row.way = contact.way_to_curve();
+      contact.centre_or_tip() = t < 1 ? Vector(row.centre + (1 - t) * row.way) : row.centre;
     }
     starts_known_ = starts_known_ || starts;
   }
@@ -116,8 +114,7 @@ class ContactRows {
   void fall() noexcept {
     for (int k = 0; k < size_; ++k) {
       rows_[k].contact.force = 0, rows_[k].contact.seen = false;
-      if constexpr (takes_bodies)
-        if (Friction* const friction = rows_[k].friction) friction->fall();
+      if (friction(k)) friction(k)->fall();
     }
   }
   void forget_friction() noexcept {
@@ -126,9 +123,8 @@ class ContactRows {
   /// What friction stores [J].
   Scalar friction_potential() const noexcept {
     Scalar sum = 0;
-    if constexpr (takes_bodies)
-      for (int k = 0; k < size_; ++k)
-        if (const Friction* const friction = rows_[k].friction) sum += friction->potential();
+    for (int k = 0; k < size_; ++k)
+      if (friction(k)) sum += friction(k)->potential();
     return sum;
   }
 
@@ -207,10 +203,8 @@ class ContactRows {
       row.first = first, row.number = number++, row.contact.seen = false;
       if (!sought) touched->add(row.contact, k);
     });
-    const Scalar energy = touched->condense(r, K, [&]([[maybe_unused]] int k) {
-      if constexpr (takes_bodies)
-        if (Row& row = rows_[k]; row.friction)
-          row.friction->look(row.contact), row.friction->give(row.contact);
+    const Scalar energy = touched->condense(r, K, [&](int k) {
+      if (friction(k)) friction(k)->look(rows_[k].contact), friction(k)->give(rows_[k].contact);
     });
     each_in(e, [&](int k) {
       Row& row = rows_[k];
@@ -308,8 +302,7 @@ class ContactRows {
     if (size_ == 0) reached_[0] = 0;
     for (int k = 0; k < size_; ++k) {
       reached_[static_cast<std::size_t>(k)] = reaction(k);
-      if constexpr (takes_bodies)
-        if (Friction* const friction = rows_[k].friction) friction->feel(-reaction(k));
+      if (friction(k)) friction(k)->feel(-reaction(k));
     }
   }
   /// Of contact k when it was felt last.  It is accurate to what Newton's next increment would change, and stays where a descent is on its way: that of the
@@ -349,8 +342,7 @@ class ContactRows {
     for (int k = 0; k < size_; ++k) {
       Row& row = rows_[k];
       row.by = 0;
-      if constexpr (takes_bodies)
-        if (row.contact.kind == Contact::Kind::round) stay_on_beam(row, element_at);
+      if (takes_bodies && row.contact.kind == Contact::Kind::round) stay_on_beam(row, element_at);
     }
     return longer;
   }

@@ -41,20 +41,20 @@ class PlacePush {
     if (!(last_.normal.dot(request.normal) > 0)) continuation_.forget();
     const Request from = last_;
     Request next;
-    Response<Scalar> found{};
-    Scalar force = 0, ahead = 0;
+    Scalar force = 0, ahead = 0, reached = 0;
     bool stays = false;  // at its place, along its direction
     const auto go = [&](Scalar t) {
       next = between(from, request, t);
       system.keep(before_), force = system.linear_reaction();
       stays = continuation_.known() && next.s == last_.s && next.normal == last_.normal;
       ahead = next.d - (stays ? last_.d : system.displacement(next.s, next.normal));
-      found = answer(way, next);
+      const Response<Scalar> found = answer(way, next);
+      reached = found.force;
       return found.status;
     };
     const auto judge = [&] {
       const Scalar behind = stays ? ahead : system.displacement(last_.s, last_.normal) - last_.d;
-      const Scalar before = force * ahead, now = found.force * behind;
+      const Scalar before = force * ahead, now = reached * behind;
       return continuation_.judge({system.foreseen_potential(), (before + now) / 2,
                                   std::abs(before) + std::abs(now), std::abs(now - before), system.strain(),
                                   system.length(), std::abs(ahead) + std::abs(next.s - last_.s)},
@@ -69,8 +69,8 @@ class PlacePush {
       system.go_back(before_, force);
       system.draw();
     };
-    found.status = continuation_.follow(go, judge, keep, back);
-    return found;
+    const Status status = continuation_.follow(go, judge, keep, back);
+    return {reached, status};
   }
 
  private:
