@@ -14,6 +14,7 @@
 
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/fem/contact/active_set.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {
@@ -38,15 +39,18 @@ class RowForesight {
 
  public:
   using Contact = InnerState<Scalar, dimension>;
-  static constexpr int each = dimension == 2 ? 2 : 6;  ///< numbers of a hand
-  using Hands = VectorOf<Scalar, each * most>;
 
   explicit RowForesight(const System& system)
       : RowForesight(system.elements(), std::make_index_sequence<like_most>()) {}
 
-  /// To be called before each push.  @param hands  of all, 0 where there is none [m]   @param same  whether what touched then touches now
-  /// @return whether the hands go on as they went
-  bool look(const Hands& hands, bool same) noexcept {
+  /// To be called before each push.   @return whether the hands go on as they went, and touch what they touched
+  bool look(const ActiveSet<System>& active) noexcept {
+    Hands hands = Hands::Zero();
+    bool same = active.size() == count_;
+    for (int i = 0; i < active.size(); ++i) {
+      hands.template segment<each>(each * i) = hand_of(active[i].round);
+      same = same && active[i].touching == touched_[i] && active[i].kind == kind_[i];
+    }
     const Hands step = hands - hands_;
     hands_ = hands;
     like_ = 0;
@@ -81,34 +85,34 @@ class RowForesight {
     else if (like_most > 1) newer = older;
     system.go_on(newer, ratio_);
   }
-  /// Back to where the system was before go_on().  @param force  of its first contact then [N]
-  void go_back(System& system, Scalar force) noexcept {
-    system.go_back(before_[newest_], force);
-    forget();
-  }
   /// Where the system was before the push.
   const State& before() const noexcept { return before_[newest_]; }
-  /// To where the system was before the push.
-  void begin_again(System& system) const noexcept { system.go_back(before(), 0); }
-  /// To be called after each push.   @param found  whether it was answered on the branch on which the beam was, by the same contacts
+  /// To be called after each push.   @param found  whether it was answered on the branch on which the beam was
   /// @param contact  (i) -> what is left of contact i
   template <class EachContact>
-  void know(bool found, int count, EachContact&& contact) noexcept {
-    for (int i = 0; i < count; ++i) {
+  void know(bool found, const ActiveSet<System>& active, EachContact&& contact) noexcept {
+    for (int i = 0; i < active.size(); ++i) {
+      found = found && (active.size() != count_ || active[i].touching == touched_[i]);
+      touched_[i] = active[i].touching, kind_[i] = active[i].kind;
       for (int k = like_most; k > 0; --k) all_[k][i] = all_[k - 1][i];
       all_[0][i] = contact(i);
     }
+    count_ = active.size();
     known_ = found ? (std::min)(known_ + 1, 3) : 0;
   }
   void forget() noexcept { known_ = 0; }
   /// Of hands that have never been anywhere.
   void reset() noexcept {
     forget();
+    count_ = 0;
     hands_.setZero();
     for (Hands& step : step_) step.setZero();
   }
 
  private:
+  static constexpr int each = dimension == 2 ? 2 : 6;  // numbers of a hand
+  using Hands = VectorOf<Scalar, each * most>;
+
   template <std::size_t... K>
   RowForesight(int elements, std::index_sequence<K...>) : before_{((void)K, State(elements))...} {}
   static constexpr int like_most = most > 1 ? 2 : 1;  // pushes before, of those that may go on
@@ -117,7 +121,10 @@ class RowForesight {
 
   State before_[like_most];  // the last push, and the one before
   int newest_ = 0;
-  Hands hands_ = Hands::Zero();  // in the last push [m]
+  int count_ = 0;  // of bodies in the last push, and what touched
+  bool touched_[most] = {};
+  ObstacleKind kind_[most] = {};
+  Hands hands_ = Hands::Zero();  // 0 where there is none [m]
   Hands step_[2] = {Hands::Zero(), Hands::Zero()};
   Contact all_[like_most + 1][most] = {};  // after the last pushes
   Scalar ratio_ = 0;

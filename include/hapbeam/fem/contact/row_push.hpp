@@ -35,7 +35,6 @@ class RowPush {
   using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
   using FrictionState = hapbeam::FrictionState<Scalar, dimension>;
   using Work = ContactWork<Scalar, dimension, most>;
-  using Foresight = RowForesight<System>;
 
  public:
   /// Forces are exact to so many times the solver's tolerance.  Where normal forces are no unknowns the next increment is smaller than it is taken for.
@@ -57,7 +56,6 @@ class RowPush {
   /// To be called where something else moves the beam.
   void forget() noexcept {
     foresight_.reset();
-    last_count_ = 0;
     contacts_.forget_pieces();
     forget_shape();
   }
@@ -120,7 +118,8 @@ class RowPush {
     const auto back = [&] {
       if (whole) from_ = before.work;
       whole = false;
-      foresight_.go_back(system, before.force);
+      system.go_back(foresight_.before(), before.force);
+      foresight_.forget();
       system.draw();
       for (int i = 0; i < count; ++i) {
         all[i] = before.obstacle[i];
@@ -167,7 +166,7 @@ class RowPush {
       }
       contacts_.take(system);
       if (!contacts_.review(system)) break;
-      if (contacts_.ran_away()) foresight_.begin_again(system), system.draw();
+      if (contacts_.ran_away()) system.go_back(foresight_.before(), 0), system.draw();
       if (pass == most_passes) {
         status = Status::iteration_limit;
         break;
@@ -178,7 +177,10 @@ class RowPush {
     const auto left = active().leave(system, status, work_);
     taken_ = left.taken;
     potential_ = system.foreseen_potential() + left.stored;
-    remember(status == Status::ok);
+    foresight_.know(status == Status::ok, active(), [this](int i) -> const State& {
+      contacts_.slots[i].force = contacts_.force_of(active()[i]);
+      return contacts_.slots[i];
+    });
     return status;
   }
 
@@ -197,13 +199,7 @@ class RowPush {
   }
   /// @return whether the hands go on as they went
   bool look_ahead(const System& system) noexcept {
-    typename Foresight::Hands hands = Foresight::Hands::Zero();
-    bool same = active().size() == last_count_;
-    for (int i = 0; i < active().size(); ++i) {
-      hands.template segment<Foresight::each>(Foresight::each * i) = hand_of(active()[i].round);
-      same = same && active()[i].touching == touched_[i] && active()[i].kind == kind_[i];
-    }
-    const bool goes_on = foresight_.look(hands, same);
+    const bool goes_on = foresight_.look(active());
     for (int i = 0; i < active().size(); ++i) {
       auto& now = contacts_.slots[i];
       if (!active()[i].touching) continue;
@@ -214,15 +210,6 @@ class RowPush {
       if (active()[i].kind == ObstacleKind::round && !now.held) contacts_.place(system, i, ahead.s);
     }
     return goes_on;
-  }
-  void remember(bool found) noexcept {
-    for (int i = 0; i < active().size(); ++i) {
-      found = found && (active().size() != last_count_ || active()[i].touching == touched_[i]);
-      touched_[i] = active()[i].touching, kind_[i] = active()[i].kind;
-      contacts_.slots[i].force = contacts_.force_of(active()[i]);
-    }
-    last_count_ = active().size();
-    foresight_.know(found, active().size(), [this](int i) -> const State& { return contacts_.slots[i]; });
   }
 
   template <class Way>
@@ -258,7 +245,8 @@ class RowPush {
                                                      : near_with_friction;
     };
     bool all = !rough || way.descends() || active().falls();
-    const auto begin_again = [&] {
+    const auto begin_again = [&](Scalar force) {
+      system.go_back(foresight_.before(), force);
       for (int i = 0; i < active().size(); ++i)
         if (active().goal(i) >= 0) static_cast<State&>(contacts_.slots[i]) = contacts_.slots[i].begins;
     };
@@ -276,15 +264,12 @@ class RowPush {
         if (!turns && !stay) {
           stay = true;
           active().begin_again(system);
-          if (began_) foresight_.begin_again(system), begin_again();
+          if (began_) begin_again(0);
           return false;
         }
         all = !turns;
       }
-      if (active().torn() && began_) {
-        foresight_.begin_again(system);
-        begin_again();
-      }
+      if (active().torn() && began_) begin_again(0);
       return false;
     };
     const Scalar last = system.linear_reaction();
@@ -298,13 +283,12 @@ class RowPush {
         do status = way.settle_at_once(slack, aim, few(), rough ? nullptr : &curvature_);
         while (!agrees(status) && !all);
         if (status == Status::ok) return status;
-        foresight_.go_back(system, last);
-        begin_again();
+        foresight_.forget();
+        begin_again(last);
         if (!rough && contacts_.hold_sharp(system)) {
           status = way.settle_at_once(slack, aim, few());
           if (status == Status::ok) return status;
-          foresight_.go_back(system, last);
-          begin_again();
+          begin_again(last);
         }
       }
       if (way.single_valued_ && nearer_at_rest(way)) {
@@ -339,12 +323,9 @@ class RowPush {
   ActiveSet<System>& active() noexcept { return contacts_.active; }
 
   RowContacts<System> contacts_;
-  Foresight foresight_;
+  RowForesight<System> foresight_;
   Curvature<Scalar> curvature_;
   bool began_ = false;  // foresight_ has the state before this push
-  int last_count_ = 0;
-  bool touched_[most] = {};
-  ObstacleKind kind_[most] = {};
   Work work_, from_;
   Before before_;
   Round to_[most] = {};
