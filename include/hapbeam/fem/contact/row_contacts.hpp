@@ -82,24 +82,20 @@ class RowContacts {
   static Scalar force_of(const Obstacle& obstacle) noexcept {
     return obstacle.kind == ObstacleKind::round ? -obstacle.pushed.force : obstacle.pushed.force;
   }
-  /// The place of the beam that is nearest to what is round, from where that is sought, no farther than that [m].
-  static Scalar foot(const System& system, const Round& request, Scalar from, Scalar farthest) noexcept {
-    const auto line = system.drawn();
-    const RoundContact round{request};
-    Scalar s = from;
-    for (int k = 0; k < 4; ++k) {
-      s = std::clamp(s, Scalar(0), system.length());
-      s += round.look(round.node_at(line, s), 0).ahead;
-    }
-    return std::abs(s - from) < farthest ? s : from;
-  }
-  /// Where the beam has been set to rest.
+  /// Where the beam has been set to rest, at the place that is nearest there.
   void begin_at_rest(System& system) noexcept {
     system.draw();
+    const auto line = system.drawn();
     for (int i = 0; i < active.size(); ++i) {
       slots[i].force = 0;
-      if (active[i].kind == ObstacleKind::round)
-        place(system, i, foot(system, active[i].round, active[i].round.s, system.length()));
+      if (active[i].kind != ObstacleKind::round) continue;
+      const RoundContact round{active[i].round};
+      Scalar s = round.request().s;
+      for (int k = 0; k < 4; ++k) {
+        s = std::clamp(s, Scalar(0), system.length());
+        s += round.look(round.node_at(line, s), 0).ahead;
+      }
+      place(system, i, std::abs(s - round.request().s) < system.length() ? s : round.request().s);
     }
   }
   /// Where an obstacle is touched first.
@@ -287,11 +283,7 @@ class RowContacts {
     if (!active[i].touching || std::abs(pushed.force) < nothing ||
         (pushed.force > 0 && active[i].kind != ObstacleKind::support))
       pushed.force = 0;
-    if (active[i].kind == ObstacleKind::round) return;
-    const auto node = RoundContact::node_at(system.drawn(), slots[i].s);
-    pushed.s = slots[i].s;
-    pushed.point = RoundContact::place_of(node);
-    pushed.normal = active[i].place.normal;
+    if (active[i].kind != ObstacleKind::round) pushed.s = slots[i].s, pushed.normal = active[i].place.normal;
   }
 
   /// Whether the beam is pressed by another body beside this one.
