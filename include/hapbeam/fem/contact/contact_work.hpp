@@ -55,14 +55,23 @@ class ContactWork {
       body.take(round, force, pushed);
       return;
     }
-    go(body, round, force, pushed.point, pushed.force);
+    const Scalar grown = round.reach - body.round.reach;
+    const Vector way = moved(body.round, round, pushed.point);
+    add(body.force.dot(moved(body.round, round, body.point)) - body.push * grown,
+        force.dot(way) - pushed.force * grown);
+    way_ = (std::max)(way_, way.squaredNorm() + grown * grown);
     if (body.push != 0) turned_ = (std::max)(turned_, (pushed.normal - body.normal).squaredNorm());
     body.take(round, force, pushed);
   }
   /// With each body that does not touch, or not any more.
   void apart(int i, const Round& round) noexcept {
     Body& body = bodies_[i];
-    if (body.touched && body.placed) go(body, round, Vector::Zero(), body.point, 0);
+    if (body.touched && body.placed) {
+      const Scalar grown = round.reach - body.round.reach;
+      const Vector way = moved(body.round, round, body.point);
+      add(body.force.dot(way) - body.push * grown, 0);
+      way_ = (std::max)(way_, way.squaredNorm() + grown * grown);
+    }
     body.round = round, body.force.setZero(), body.push = 0;
     body.placed = true;
   }
@@ -160,15 +169,6 @@ class ContactWork {
     Push<Scalar, D> place{0, 0, Vector::Zero()};
     Scalar force = 0;  // along its normal [N]
   };
-  /// @param force, push  now, all of it and along the normal [N]   @param point  where they touch [m]
-  void go(const Body& body, const Round& round, const Vector& force, const Vector& point,
-          Scalar push) noexcept {
-    const Scalar grown = round.reach - body.round.reach;
-    const Vector way = moved(body.round, round, point);
-    add(body.force.dot(moved(body.round, round, body.point)) - body.push * grown,
-        force.dot(way) - push * grown);
-    way_ = (std::max)(way_, way.squaredNorm() + grown * grown);
-  }
   void add(Scalar before, Scalar now) noexcept {
     work_ += (before + now) / 2;
     ahead_ += before;

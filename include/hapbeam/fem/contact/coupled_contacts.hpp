@@ -221,11 +221,11 @@ class CoupledContacts {
   bool review(const System& system) noexcept {
     int changes = active_.worst();
     const bool pulls = changes >= 0;
-    Scalar most = 0;
+    Scalar deepest = 0;
     for (int i = 0; i < count_ && !pulls; ++i) {
       if (slot(i).seen != Seen::apart) continue;
       const Scalar deep = depth(slot(i), look(system, slot(i)));
-      if (deep > most) most = deep, changes = i;
+      if (deep > deepest) deepest = deep, changes = i;
     }
     if (changes < 0) return false;
     Slot& now = slot(changes);
