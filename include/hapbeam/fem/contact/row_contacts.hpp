@@ -34,10 +34,15 @@ class RowContacts {
  public:
   using Obstacle = hapbeam::Obstacle<Scalar, dimension>;
 
+  /// Whether an obstacle has left the beam in a push.
+  enum class Left {
+    no,
+    let_go,   ///< it would have had to pull, or another one took its place: it may come back
+    crowded,  ///< too near another contact, or past an end that is held
+  };
   /// Of an obstacle during a push.
   struct Slot : State {
-    bool let_go = false;            ///< in this push
-    bool crowded = false;           ///< too near another contact, or past an end that is held
+    Left left = Left::no;
     Vector place = Vector::Zero();  ///< of the curve, as it was seen last [m]
     bool held =
         false;  ///< along its normal, where its place cannot be sought: the beam is bent too sharply, or a support is too near
@@ -67,7 +72,7 @@ class RowContacts {
       // One that jumps touches where it is nearest now: the way along the beam from where it was is long.
       const bool lasts = round && now.force != 0 && (now.sharp || !now.held) &&
                          jumped(i, all[i].round) <= all[i].round.reach;
-      now.moves = true, now.crowded = off, now.held = now.let_go = false;
+      now.moves = true, now.held = false, now.left = off ? Left::crowded : Left::no;
       if (!round) now.s = std::clamp(all[i].place.s, Scalar(0), range.length()), now.moves = false;
       else if (was_held) hold(system, i);
       else this->place(system, i, lasts ? now.s : all[i].round.s);
@@ -227,13 +232,14 @@ class RowContacts {
     const Scalar length = system.length(), round_off = 16 * std::numeric_limits<Scalar>::epsilon();
     for (int i = 0; i < active.size(); ++i) {
       Slot& now = slots[i];
-      if (active[i].touching || now.crowded || !active[i].valid) continue;
+      if (active[i].touching || now.left == Left::crowded || !active[i].valid) continue;
       if (active[i].kind == ObstacleKind::round) seek(system, i);
       else
         now.depth = active[i].place.normal.dot(system.beside_drawn(now.s)) +
                     system.displacement(now.s, active[i].place.normal) - active[i].place.d;
       const Scalar fine = Scalar(1e-9) * length + round_off * (length + active[i].round.reach);
-      const Scalar slack = now.let_go || twin(i) >= 0 ? (std::max)(Scalar(1e-5) * length, fine) : fine;
+      const Scalar slack =
+          now.left == Left::let_go || twin(i) >= 0 ? (std::max)(Scalar(1e-5) * length, fine) : fine;
       if (now.depth > slack && (deepest < 0 || now.depth > slots[deepest].depth)) deepest = i;
     }
     if (deepest < 0) return false;
@@ -245,7 +251,7 @@ class RowContacts {
     if (other >= 0) active.meet_beside(system, deepest, other, slots[deepest].s);
     else active.meet(system, deepest);
     if constexpr (most > 1) spread(system, deepest);
-    for (int i = 0; i < active.size() && !slots[deepest].let_go; ++i)
+    for (int i = 0; i < active.size() && slots[deepest].left == Left::no; ++i)
       if (active[i].touching && beside(i, deepest)) let_go(i);
     return true;
   }
@@ -266,17 +272,17 @@ class RowContacts {
         }
         const int away = active[k].pushed.force <= active[i].pushed.force ? i : k;
         active[away].touching = false;
-        slots[away].crowded = true;
+        slots[away].left = Left::crowded;
       }
   }
   void end(System& system, int i, Status status) noexcept {
     auto& pushed = active[i].pushed;
     before_[i] = active[i].round;
-    pushed.status =
-        !active[i].valid ? Status::invalid_request
-        : slots[i].crowded || (status == Status::ok && (slots[i].held || touches_again(system, i)))
-            ? Status::out_of_range
-            : status;
+    pushed.status = !active[i].valid ? Status::invalid_request
+                    : slots[i].left == Left::crowded ||
+                            (status == Status::ok && (slots[i].held || touches_again(system, i)))
+                        ? Status::out_of_range
+                        : status;
     // Of round-off: the place of what does not press may be anywhere.
     const Scalar nothing =
         std::numeric_limits<Scalar>::epsilon() * system.unit() * system.unit() / system.length();
@@ -308,7 +314,7 @@ class RowContacts {
   void let_go(int i) noexcept {
     active[i].touching = false;
     active[i].pushed.force = 0;
-    slots[i].let_go = true;
+    slots[i].left = Left::let_go;
   }
   /// How far a centre lies beyond the end of what can be touched, negative: beside it [m].
   Scalar outward(const Round& round, const Contact& found) const noexcept {
@@ -338,7 +344,7 @@ class RowContacts {
       if (!view.past_end) continue;
       any = true;
       active[i].touching = false;
-      slots[i].crowded = true;
+      slots[i].left = Left::crowded;
     }
     return any;
   }
