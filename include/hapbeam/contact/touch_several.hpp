@@ -116,6 +116,10 @@ class TouchSeveral {
     friction.check();
     each_of(avatar, [&](Place& place) { place.at.friction.take(friction); });
   }
+  /// As Touch::soften().
+  void soften(int avatar, Scalar stiffness, Scalar damping) noexcept {
+    each_of(avatar, [&](Place& place) { place.at.friction.soften(stiffness, damping); });
+  }
   /// The contact of the beam as it lies now with an avatar, gone straight to a place from that of its last tick.
   [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
       int avatar, const Vector& position, const Vector& shaft = Vector::Zero()) noexcept {

@@ -199,9 +199,7 @@ class Touch<Hand<Model>> {
   bool lifted() const noexcept { return pressing_ && !hands_.here(index_); }
   /// As Touch.
   bool rough() const noexcept { return hands_.place(index_).at.friction.rough(); }
-  void soften(Scalar stiffness, Scalar damping) noexcept {
-    hands_.place(index_).at.friction.soften(stiffness, damping);
-  }
+  void soften(Scalar stiffness, Scalar damping) noexcept { hands_.touch_.soften(index_, stiffness, damping); }
   /// The normal force on a hand that presses, at the place of its last tick, as ticks of the other one have left the beam [N].  Null where
   /// there were none.
   const Vector* meanwhile() const noexcept {
