@@ -69,10 +69,15 @@ function(hapbeam_link_instantiated target)
   target_link_options(${target} PRIVATE -Wl,--gc-sections)
 endfunction()
 
-# Small programs, of the same flags, read Eigen precompiled for the first of them: other headers would hide what they forget to include.
-# Where another build looks at that, they read all that is precompiled, for tests if these are built, which differs in __OPTIMIZE__ alone.
-function(hapbeam_precompile_eigen target)
-  get_property(first GLOBAL PROPERTY hapbeam_precompiled_eigen)
+# Small programs, of the same flags, read Eigen precompiled for the first of them, and hapbeam.hpp where they include it: other headers would hide
+# what they forget to include.  Where another build looks at that, they read all that is precompiled, for tests if these are built, which differs in
+# __OPTIMIZE__ alone.
+function(hapbeam_precompile_included target text)
+  set(header <Eigen/Core>)
+  if(text MATCHES "#include <hapbeam/hapbeam.hpp>")
+    set(header <hapbeam/hapbeam.hpp>)
+  endif()
+  get_property(first GLOBAL PROPERTY hapbeam_precompiled_${header})
   if(NOT HAPBEAM_CHECK_INCLUDES AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     if(hapbeam_instantiated)
       get_target_property(files ${target} SOURCES)
@@ -84,7 +89,7 @@ function(hapbeam_precompile_eigen target)
   elseif(first)
     target_precompile_headers(${target} REUSE_FROM ${first})
   else()
-    set_property(GLOBAL PROPERTY hapbeam_precompiled_eigen ${target})
-    target_precompile_headers(${target} PRIVATE <Eigen/Core>)
+    set_property(GLOBAL PROPERTY hapbeam_precompiled_${header} ${target})
+    target_precompile_headers(${target} PRIVATE ${header})
   endif()
 endfunction()
