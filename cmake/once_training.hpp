@@ -2,12 +2,14 @@
 #pragma once
 
 #include "once.hpp"
+#include <hapbeam/rom/training/modes.hpp>
 #include <hapbeam/rom/training/train.hpp>
 #include <hapbeam/rom/training/validate.hpp>
 #include <hapbeam/scene/build.hpp>
 #include <hapbeam/scene/pilot.hpp>
 
 #define HAPBEAM_ONCE extern
+#include "once/modes.inc"
 #include "once/scene.inc"
 #include "once/training.inc"
 #undef HAPBEAM_ONCE

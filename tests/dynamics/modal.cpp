@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "once_training.hpp"
 #include "support/catch.hpp"
 #include "support/csv.hpp"
 #include "support/pi.hpp"

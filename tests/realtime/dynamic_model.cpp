@@ -5,6 +5,7 @@
 #include <realtime/heap_watch.hpp>
 #include <realtime/lock_watch.hpp>
 
+#include "once_training.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include <hapbeam/element/rod.hpp>

@@ -18,8 +18,9 @@ namespace hapbeam {
 
 /// @param modes  how many   @param elements  of the beam that has them
 /// @throws std::invalid_argument where the beam has no density, relaxes, is not held, or has fewer modes, or a mode is overdamped; as DynamicModel
-[[gnu::cold]] inline Modes modes_of(const Beam& beam, int modes, int elements = 64) {
-  using Element = Corotational<VonKarman<AssumedStrain>>;
+/// @tparam Element  whose cubic the mass has, as of DynamicModel<>
+template <class Element = Corotational<VonKarman<AssumedStrain>>>
+[[gnu::cold]] Modes modes_of(const Beam& beam, int modes, int elements = 64) {
   const DynamicModel<Element> still(beam, elements);
   if (!(beam.mass_per_length(beam.length() / 2) > 0))
     detail::reject("density", 0, "kg/m³", "known for a beam that moves");
@@ -88,7 +89,7 @@ namespace hapbeam {
       M * result.shapes.transpose() * result.frequencies.array().square().matrix().asDiagonal();
   for (int side = 0; side < 2; ++side) {
     const int first = side == 0 ? 0 : all - 3;
-    result.held[side] = still.reaction(side).head<2>();
+    result.held[side] = still.reaction(side).template head<2>();
     result.holds[side] = off.middleRows<2>(first);
   }
   return result;
