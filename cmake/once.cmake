@@ -7,6 +7,16 @@ if(HAPBEAM_SANITIZE)
   set(in_release 1)  # what is compiled once is optimised there, too
 endif()
 set(quick_to_compile $<${in_release}:-O$<IF:$<CXX_COMPILER_ID:Clang,AppleClang>,0,1>>)
+# hapbeam_once_header(VARIABLE TEXT): the header that declares what a program with this text takes of it.
+function(hapbeam_once_header variable text)
+  set(header once.hpp)
+  if(text MATCHES "hapbeam/(scene|rom/training)/")
+    set(header once_training.hpp)
+  elseif(text MATCHES "hapbeam/world/|held_rod.hpp")
+    set(header once_world.hpp)
+  endif()
+  set(${variable} ${header} PARENT_SCOPE)
+endfunction()
 # hapbeam_once_unit(VARIABLE HEADER LIST...): lists that instantiate the same, in one unit, do so once: all rods take half of their sum.
 function(hapbeam_once_unit variable header)
   list(GET ARGN 0 name)
@@ -23,7 +33,7 @@ if(HAPBEAM_SANITIZE STREQUAL "thread")
   set(rare)  # no program that starts threads has them
   set(modes)
 endif()
-hapbeam_once_unit(models once.hpp rods)
+hapbeam_once_unit(models once_world.hpp rods world)
 if(HAPBEAM_SANITIZE STREQUAL "thread")
   # What is pressed there for an instant.  What is precompiled differs in __OPTIMIZE__ alone.
   set_source_files_properties(${models} PROPERTIES COMPILE_OPTIONS "-O0;-Xclang;-fno-validate-pch")

@@ -3,6 +3,7 @@
 #include <realtime/heap_watch.hpp>
 #include <vector>
 
+#include "once_world.hpp"
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"

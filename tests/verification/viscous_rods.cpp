@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "once_world.hpp"
 #include "support/catch.hpp"
 #include "support/pi.hpp"
 #include <hapbeam/element/twisted_rod.hpp>

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "crossed.hpp"
+#include "once_world.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "crossed.hpp"
+#include "once_world.hpp"
 #include "sliding_reference.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "once_world.hpp"
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
 #include <hapbeam/world/world.hpp>

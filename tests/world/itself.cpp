@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "once_world.hpp"
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
 #include "support/csv.hpp"

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "once_world.hpp"
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
 #include "support/error.hpp"

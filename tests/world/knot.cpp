@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knots.hpp"
+#include "once_world.hpp"
 #include "support/random.hpp"
 
 using namespace hapbeam;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "once_world.hpp"
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
 #include "support/error.hpp"

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "crossed.hpp"
+#include "once_world.hpp"
 #include "support/catch.hpp"
 #include "support/csv.hpp"
 #include "support/push_round.hpp"

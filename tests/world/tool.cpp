@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "crossed.hpp"
+#include "once_world.hpp"
 #include "support/catch.hpp"
 #include <hapbeam/haptics/device/virtual_phantom.hpp>
 #include <hapbeam/haptics/held/grip.hpp>

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "once_world.hpp"
 #include "rod/rods.hpp"
 #include "support/catch.hpp"
 #include "support/error.hpp"

@@ -35,14 +35,7 @@ class World {
   /// @throws std::invalid_argument where there is no rod, a rod, a body or a joint makes no sense, a rod has no shape at rest, or lies in another or in a body
   /// there, or they do not come to rest together
   explicit World(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& bodies = {},
-                 const std::vector<Joint>& joints = {}, const NewtonRaphson& solver = {})
-      : equilibrium_(rods, bodies, joints, solver) {
-    look_at_rest();
-    const bool bent =
-        std::any_of(rods.begin(), rods.end(), [](const WorldRod& rod) { return !rod.through.empty(); });
-    if (bent) course_ = Course::falls, unmoved_ = 2;
-    if (bent || !joints.empty()) come_to_rest();
-  }
+                 const std::vector<Joint>& joints = {}, const NewtonRaphson& solver = {});
 
   int rods() const noexcept { return static_cast<int>(system().bodies().size()); }
   /// As it lies.
@@ -68,53 +61,7 @@ class World {
   ///         too sharply beside an end that is held, or a rod that has no tension of its own is drawn too taut for its elements, and where such an end would
   ///         come into a body, and nothing has moved | iteration_limit, where the ends or a fall are on their way: the next tick goes on | singular |
   ///         non_finite.  No rod has passed another.  After 32 ticks that have led nowhere all rods begin anew at rest.
-  Status tick() noexcept {
-    const bool moving = begin();
-    // A fall goes on to where ends and bodies have come; one that has found nothing there, to where they go.
-    double t = 0, step = course_ == Course::falls && unmoved_ < 2 ? 0 : step_, farthest = 1;
-    Outcome outcome = leads_into_body() ? Outcome::full : Outcome::settled;
-    while (t < 1 && moving && outcome != Outcome::full) {
-      const double to = (std::min)(t + step, 1.0);
-      system().aim(to);
-      outcome = course_ == Course::falls ? equilibrium_.fall(t, to) : equilibrium_.settle();
-      if (outcome == Outcome::settled) {
-        t = to, step = step > 0 ? (std::min)(4 * step, farthest) : 1.0, unmoved_ = 0;
-        if (course_ == Course::falls) course_ = Course::has_fallen;
-        equilibrium_.accept();
-        continue;
-      }
-      // A fall stays where it has come.
-      if (course_ == Course::falls) {
-        if (outcome != Outcome::too_far) course_ = Course::has_fallen;
-        break;
-      }
-      system().restore();
-      known_ = 0;
-      if (outcome == Outcome::full || equilibrium_.left() <= 0) break;
-      step = (to - t) / 8;
-      if (outcome == Outcome::too_far) farthest = 4 * step;
-      // What has fallen halfway is close to no equilibrium, however short the step.
-      if (step < (outcome == Outcome::lost ? shortest : nothing)) course_ = Course::falls, step = to - t;
-    }
-    if (equilibrium_.changed()) known_ = 0;
-    if (outcome == Outcome::settled) {
-      rest();
-      status_ = course_ == Course::has_fallen ? Status::snapped
-                : system().overdrawn()        ? Status::out_of_range
-                                              : Status::ok;
-      course_ = Course::follows, step_ = 1;
-      return status_;
-    }
-    known_ = 0, step_ = (std::min)(4 * step, 1.0);
-    // The next path begins where this one has come.
-    if (course_ != Course::falls) {
-      system().aim(t);
-      system().set_target(1);
-    }
-    unmoved_ = outcome == Outcome::full ? 0 : unmoved_ + 1;
-    if (unmoved_ == patience) restart();
-    return status_ = outcome == Outcome::full ? Status::out_of_range : equilibrium_.failure();
-  }
+  Status tick() noexcept;
   /// What holds an end.
   HeldEnd<double> held(int rod, RodSide side) const noexcept {
     const auto& [force, moment] = equilibrium_.held(at(rod), static_cast<std::size_t>(side));
@@ -130,43 +77,15 @@ class World {
     return pair ? Vector(pair->force * pair->normal) : Vector::Zero();
   }
   int contacts() const noexcept { return system().pairs() - system().joints(); }
-  RodContact contact(int k) const noexcept {
-    const detail::RodPair& pair = system().pair(system().joints() + k);
-    const Vector at = shape(pair.rod[0]).at(pair.s[0]).r;
-    const bool rigid = system().rigid(pair.rod[1]) != nullptr;
-    return {pair.rod,
-            pair.s,
-            pair.force * pair.normal + pair.friction.kept(),
-            pair.friction.kept(),
-            pair.friction.slid(),
-            {at, at - (rigid ? Vector(system().body(pair.rod[0]).radius() * pair.normal)
-                             : system().between(pair))}};
-  }
+  RodContact contact(int k) const noexcept;
   /// Of all rods, the springs that hold them, what contacts bend beside nodes, and their skins [J].
-  double strain_energy() const noexcept {
-    double energy = 0;
-    for (const Body& body : system().bodies())
-      energy += body.system().strain_energy() + (body.motion ? body.motion->stored() : 0);
-    for (int k = system().joints(); k < system().pairs(); ++k) {
-      const detail::RodPair& pair = system().pair(k);
-      const Vector w = system().between(pair);
-      energy += (pair.force * (pair.reach - pair.distance(w)) - pair.friction.kept().dot(w - pair.on)) / 2 +
-                pair.friction.stored();
-    }
-    return energy;
-  }
+  double strain_energy() const noexcept;
   /// What friction has taken since the start or reset() [J].
   double dissipated() const noexcept { return equilibrium_.dissipated(); }
   /// Linear solves of the last tick.
   int solves() const noexcept { return equilibrium_.solves(); }
   /// Everything is as after construction.
-  void reset() noexcept {
-    restart();
-    for (Body& body : system().bodies()) body.reset();
-    for (detail::PlacedBody& body : system().rigid()) body.reset();
-    status_ = Status::ok;
-    equilibrium_.reset();
-  }
+  void reset() noexcept;
 
   // Rods with mass.
 
@@ -174,17 +93,7 @@ class World {
   /// @param dt [s], not negative   @param parts  of the step, each of two stages
   /// @return ok | out_of_range, as of tick() | iteration_limit: all has stopped where a part had no answer | invalid_request: rods have no density, or an argument makes no
   /// sense, and nothing has changed
-  Status step(double dt, int parts = 4) noexcept {
-    if (!equilibrium_.has_mass() || !(dt >= 0) || !std::isfinite(dt) || parts < 1)
-      return Status::invalid_request;
-    if (!(dt > 0)) return Status::ok;
-    if (leads_into_body()) return equilibrium_.stop(), status_ = Status::out_of_range;
-    restart_path();
-    const bool found = equilibrium_.step((std::min)(dt, longest_step), parts);
-    return status_ = !found                 ? Status::iteration_limit
-                     : system().overdrawn() ? Status::out_of_range
-                                            : Status::ok;
-  }
+  Status step(double dt, int parts = 4) noexcept;
   /// Gives a rod with mass a velocity.   @param velocity  (s) -> that of the centreline there, and how that changes along it, below each other [m/s, 1/s]
   template <class Velocity>
   void throw_rod(int rod, Velocity&& velocity) noexcept {
@@ -320,5 +229,116 @@ class World {
   Course course_ = Course::follows;
   Status status_ = Status::ok;
 };
+
+// Outside of the class: only so does "extern template class World<…>;" keep a compiler from it.
+template <class Element>
+World<Element>::World(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& bodies,
+                      const std::vector<Joint>& joints, const NewtonRaphson& solver)
+    : equilibrium_(rods, bodies, joints, solver) {
+  look_at_rest();
+  const bool bent =
+      std::any_of(rods.begin(), rods.end(), [](const WorldRod& rod) { return !rod.through.empty(); });
+  if (bent) course_ = Course::falls, unmoved_ = 2;
+  if (bent || !joints.empty()) come_to_rest();
+}
+
+template <class Element>
+Status World<Element>::tick() noexcept {
+  const bool moving = begin();
+  // A fall goes on to where ends and bodies have come; one that has found nothing there, to where they go.
+  double t = 0, step = course_ == Course::falls && unmoved_ < 2 ? 0 : step_, farthest = 1;
+  Outcome outcome = leads_into_body() ? Outcome::full : Outcome::settled;
+  while (t < 1 && moving && outcome != Outcome::full) {
+    const double to = (std::min)(t + step, 1.0);
+    system().aim(to);
+    outcome = course_ == Course::falls ? equilibrium_.fall(t, to) : equilibrium_.settle();
+    if (outcome == Outcome::settled) {
+      t = to, step = step > 0 ? (std::min)(4 * step, farthest) : 1.0, unmoved_ = 0;
+      if (course_ == Course::falls) course_ = Course::has_fallen;
+      equilibrium_.accept();
+      continue;
+    }
+    // A fall stays where it has come.
+    if (course_ == Course::falls) {
+      if (outcome != Outcome::too_far) course_ = Course::has_fallen;
+      break;
+    }
+    system().restore();
+    known_ = 0;
+    if (outcome == Outcome::full || equilibrium_.left() <= 0) break;
+    step = (to - t) / 8;
+    if (outcome == Outcome::too_far) farthest = 4 * step;
+    // What has fallen halfway is close to no equilibrium, however short the step.
+    if (step < (outcome == Outcome::lost ? shortest : nothing)) course_ = Course::falls, step = to - t;
+  }
+  if (equilibrium_.changed()) known_ = 0;
+  if (outcome == Outcome::settled) {
+    rest();
+    status_ = course_ == Course::has_fallen ? Status::snapped
+              : system().overdrawn()        ? Status::out_of_range
+                                            : Status::ok;
+    course_ = Course::follows, step_ = 1;
+    return status_;
+  }
+  known_ = 0, step_ = (std::min)(4 * step, 1.0);
+  // The next path begins where this one has come.
+  if (course_ != Course::falls) {
+    system().aim(t);
+    system().set_target(1);
+  }
+  unmoved_ = outcome == Outcome::full ? 0 : unmoved_ + 1;
+  if (unmoved_ == patience) restart();
+  return status_ = outcome == Outcome::full ? Status::out_of_range : equilibrium_.failure();
+}
+
+template <class Element>
+RodContact World<Element>::contact(int k) const noexcept {
+  const detail::RodPair& pair = system().pair(system().joints() + k);
+  const Vector at = shape(pair.rod[0]).at(pair.s[0]).r;
+  const bool rigid = system().rigid(pair.rod[1]) != nullptr;
+  return {pair.rod,
+          pair.s,
+          pair.force * pair.normal + pair.friction.kept(),
+          pair.friction.kept(),
+          pair.friction.slid(),
+          {at, at - (rigid ? Vector(system().body(pair.rod[0]).radius() * pair.normal)
+                           : system().between(pair))}};
+}
+
+template <class Element>
+double World<Element>::strain_energy() const noexcept {
+  double energy = 0;
+  for (const Body& body : system().bodies())
+    energy += body.system().strain_energy() + (body.motion ? body.motion->stored() : 0);
+  for (int k = system().joints(); k < system().pairs(); ++k) {
+    const detail::RodPair& pair = system().pair(k);
+    const Vector w = system().between(pair);
+    energy += (pair.force * (pair.reach - pair.distance(w)) - pair.friction.kept().dot(w - pair.on)) / 2 +
+              pair.friction.stored();
+  }
+  return energy;
+}
+
+template <class Element>
+void World<Element>::reset() noexcept {
+  restart();
+  for (Body& body : system().bodies()) body.reset();
+  for (detail::PlacedBody& body : system().rigid()) body.reset();
+  status_ = Status::ok;
+  equilibrium_.reset();
+}
+
+template <class Element>
+Status World<Element>::step(double dt, int parts) noexcept {
+  if (!equilibrium_.has_mass() || !(dt >= 0) || !std::isfinite(dt) || parts < 1)
+    return Status::invalid_request;
+  if (!(dt > 0)) return Status::ok;
+  if (leads_into_body()) return equilibrium_.stop(), status_ = Status::out_of_range;
+  restart_path();
+  const bool found = equilibrium_.step((std::min)(dt, longest_step), parts);
+  return status_ = !found                 ? Status::iteration_limit
+                   : system().overdrawn() ? Status::out_of_range
+                                          : Status::ok;
+}
 
 }  // namespace hapbeam
