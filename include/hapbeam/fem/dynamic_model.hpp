@@ -46,30 +46,7 @@ class DynamicModel {
   /// At rest under its dead loads.
   /// @param substeps  parts of a step, each of two solves
   /// @throws std::invalid_argument where the beam has no density and is not viscous, or shears, or as FemModel
-  DynamicModel(const Body& beam, int elements, int substeps = 4)
-      : system_(beam, elements),
-        motion_(beam, elements, system_),
-        rest_(elements),
-        shape_(elements),
-        substeps_(substeps),
-        thickness_(static_cast<Scalar>(beam.thickness())),
-        contacts_(PressRange<Scalar>(beam).range(), detail::anchored(beam.left()),
-                  detail::anchored(beam.right())) {
-    if (substeps < 1) detail::reject("substeps", substeps, "", "1 or more");
-    if (motion_.massless() && !motion_.viscosity())
-      detail::reject("density", 0, "kg/m³", "known for a beam that moves: Material{young, density}");
-    // Its sections would turn with a mass of their own.
-    if constexpr (dimension == 2)
-      if (beam.shear_stiffness() > 0)
-        detail::reject("beam shear stiffness", beam.shear_stiffness(), "N", "none for a beam that moves");
-    if constexpr (dimension == 3) system_.chain().parts().swing();
-    let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
-    // Of elements that swing it is not quite that.
-    if constexpr (dimension == 3) (void)NewtonRaphson().solve(system_);
-    system_.keep(rest_);
-    reset();
-    if constexpr (dimension == 2) motion_.draw(system_);
-  }
+  DynamicModel(const Body& beam, int elements, int substeps = 4);
 
   /// Back to rest.
   void reset() noexcept { begin(rest_); }
@@ -151,56 +128,13 @@ class DynamicModel {
   template <class Moving, typename S>
   friend bool detail::start(Moving&, S, S, int) noexcept;
 
-  void begin(const typename System::State& state) noexcept {
-    system_.set_state(state);
-    motion_.begin(system_);
-    contacts_.reset();
-    motion_.ends.stay(system_.chain());
-    system_.set_goal();
-    system_.set_target(1);  // all of the dead loads
-    motion_.curvature = {};
-    starts_ = true;
-    system_.draw();
-  }
+  void begin(const typename System::State& state) noexcept;
   bool start(Scalar part, Scalar end, int halvings) noexcept {
     starts_ = false;
     return detail::start(*this, part, end, halvings);
   }
 
-  Status go(Scalar dt, const Hand* hands, int count) noexcept {
-    solves_ = 0;
-    bool valid = dt >= 0 && std::isfinite(dt) && count >= 0 && count <= contacts;
-    for (int i = 0; valid && i < count; ++i)
-      valid = is_finite(hands[i].hand) && hands[i].stiffness > 0 && hands[i].damping >= 0;
-    if (!valid) return Status::invalid_request;
-    if (!(dt > 0)) return Status::ok;
-    system_.chain().move_with(motion_.inertia(), motion_.viscosity());
-    const bool massless = motion_.massless();
-    const Scalar all = massless ? dt : (std::min)(dt, longest), part = all / Scalar(substeps_);
-    const bool stood = starts_ && !massless;
-    if (stood) contacts_.begin(system_, nullptr, 0), (void)start(part, 1, detail::most_halvings);
-    contacts_.begin(system_, hands, count);
-    motion_.ends.begin(all);
-    // Without mass it takes its load at once, and creeps on.
-    bool found = !starts_ || (go_on(part / 1000000, 0, 0) && (motion_.stop(system_), start(part, 0, 0)));
-    int parts = 0;
-    const auto go_far = [&] {
-      for (; parts < substeps_ && found; parts += found) {
-        found = go_on(part, Scalar(parts) / Scalar(substeps_), Scalar(parts + 1) / Scalar(substeps_));
-        if (found && listener_) listener_(listens_, *this, part);
-      }
-    };
-    go_far();
-    const Status status = found ? Status::ok : Status::iteration_limit;
-    contacts_.end();
-    // The next one begins as after a reset, where the beam has stopped.  Where one has begun so it goes on without hands, away from there.
-    if (!found) contacts_.reset();
-    if (!found && stood && count > 0) found = true, contacts_.begin(system_, nullptr, 0), go_far();
-    if (!found) motion_.stop(system_), starts_ = true, motion_.ends.stop(system_.chain());
-    system_.chain().move_with(nullptr, nullptr);
-    system_.draw();
-    return status;
-  }
+  Status go(Scalar dt, const Hand* hands, int count) noexcept;
   bool go_on(Scalar dt, Scalar begin, Scalar end) noexcept { return detail::go_on(*this, dt, begin, end, 0); }
 
   // Of its parts.
@@ -259,5 +193,84 @@ class DynamicModel {
   void* listens_ = nullptr;
   Listener listener_ = nullptr;
 };
+
+// Outside of the class: only so does "extern template class DynamicModel<>;" keep a compiler from it.
+template <class Element, typename ScalarType, int Elements, int MaxElements>
+DynamicModel<Element, ScalarType, Elements, MaxElements>::DynamicModel(const Body& beam, int elements,
+                                                                       int substeps)
+    : system_(beam, elements),
+      motion_(beam, elements, system_),
+      rest_(elements),
+      shape_(elements),
+      substeps_(substeps),
+      thickness_(static_cast<Scalar>(beam.thickness())),
+      contacts_(PressRange<Scalar>(beam).range(), detail::anchored(beam.left()),
+                detail::anchored(beam.right())) {
+  if (substeps < 1) detail::reject("substeps", substeps, "", "1 or more");
+  if (motion_.massless() && !motion_.viscosity())
+    detail::reject("density", 0, "kg/m³", "known for a beam that moves: Material{young, density}");
+  // Its sections would turn with a mass of their own.
+  if constexpr (dimension == 2)
+    if (beam.shear_stiffness() > 0)
+      detail::reject("beam shear stiffness", beam.shear_stiffness(), "N", "none for a beam that moves");
+  if constexpr (dimension == 3) system_.chain().parts().swing();
+  let_go_from(FemModel<Element, Scalar, Elements, MaxElements>(beam, elements).shape());
+  // Of elements that swing it is not quite that.
+  if constexpr (dimension == 3) (void)NewtonRaphson().solve(system_);
+  system_.keep(rest_);
+  reset();
+  if constexpr (dimension == 2) motion_.draw(system_);
+}
+
+template <class Element, typename ScalarType, int Elements, int MaxElements>
+Status DynamicModel<Element, ScalarType, Elements, MaxElements>::go(Scalar dt, const Hand* hands,
+                                                                    int count) noexcept {
+  solves_ = 0;
+  bool valid = dt >= 0 && std::isfinite(dt) && count >= 0 && count <= contacts;
+  for (int i = 0; valid && i < count; ++i)
+    valid = is_finite(hands[i].hand) && hands[i].stiffness > 0 && hands[i].damping >= 0;
+  if (!valid) return Status::invalid_request;
+  if (!(dt > 0)) return Status::ok;
+  system_.chain().move_with(motion_.inertia(), motion_.viscosity());
+  const bool massless = motion_.massless();
+  const Scalar all = massless ? dt : (std::min)(dt, longest), part = all / Scalar(substeps_);
+  const bool stood = starts_ && !massless;
+  if (stood) contacts_.begin(system_, nullptr, 0), (void)start(part, 1, detail::most_halvings);
+  contacts_.begin(system_, hands, count);
+  motion_.ends.begin(all);
+  // Without mass it takes its load at once, and creeps on.
+  bool found = !starts_ || (go_on(part / 1000000, 0, 0) && (motion_.stop(system_), start(part, 0, 0)));
+  int parts = 0;
+  const auto go_far = [&] {
+    for (; parts < substeps_ && found; parts += found) {
+      found = go_on(part, Scalar(parts) / Scalar(substeps_), Scalar(parts + 1) / Scalar(substeps_));
+      if (found && listener_) listener_(listens_, *this, part);
+    }
+  };
+  go_far();
+  const Status status = found ? Status::ok : Status::iteration_limit;
+  contacts_.end();
+  // The next one begins as after a reset, where the beam has stopped.  Where one has begun so it goes on without hands, away from there.
+  if (!found) contacts_.reset();
+  if (!found && stood && count > 0) found = true, contacts_.begin(system_, nullptr, 0), go_far();
+  if (!found) motion_.stop(system_), starts_ = true, motion_.ends.stop(system_.chain());
+  system_.chain().move_with(nullptr, nullptr);
+  system_.draw();
+  return status;
+}
+
+template <class Element, typename ScalarType, int Elements, int MaxElements>
+void DynamicModel<Element, ScalarType, Elements, MaxElements>::begin(
+    const typename System::State& state) noexcept {
+  system_.set_state(state);
+  motion_.begin(system_);
+  contacts_.reset();
+  motion_.ends.stay(system_.chain());
+  system_.set_goal();
+  system_.set_target(1);  // all of the dead loads
+  motion_.curvature = {};
+  starts_ = true;
+  system_.draw();
+}
 
 }  // namespace hapbeam
