@@ -107,14 +107,7 @@ struct TwistedRod {
   /// The same, each derivative once.
   template <typename S>
   static S tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
-                   RodTangent<S, 4>& all) noexcept {
-    if (p.round) return round_tangent(p, n1, n2, inner, all);
-    const Frame<S> f(p, n1, n2);
-    detail::TwistedCore<S> core;
-    const S energy = detail::respond(p, f, inner.twist.value, core);
-    detail::expand(f, core, p.inverse_length, inner.twist, all);
-    return p.taut ? S(energy + add_tension(p, n1, n2, inner.tension, all)) : energy;
-  }
+                   RodTangent<S, 4>& all) noexcept;
 
  private:
   static constexpr int points = 2;
@@ -156,5 +149,17 @@ struct TwistedRod {
   template <typename S>
   using Point = detail::CarriedPoint<S>;
 };
+
+// Outside of the class: only so does "extern template" keep a compiler from it.
+template <typename S>
+S TwistedRod::tangent(const RodProperties<S>& p, const RodNode<S>& n1, const RodNode<S>& n2, Inner<S>& inner,
+                      RodTangent<S, 4>& all) noexcept {
+  if (p.round) return round_tangent(p, n1, n2, inner, all);
+  const Frame<S> f(p, n1, n2);
+  detail::TwistedCore<S> core;
+  const S energy = detail::respond(p, f, inner.twist.value, core);
+  detail::expand(f, core, p.inverse_length, inner.twist, all);
+  return p.taut ? S(energy + add_tension(p, n1, n2, inner.tension, all)) : energy;
+}
 
 }  // namespace hapbeam
